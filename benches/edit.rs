@@ -1,8 +1,8 @@
-//! How long an edit takes until its picture. `cargo bench --bench edit [PRESET]`.
+//! Measures the time from an edit to its picture. `cargo bench --bench edit [PRESET]`.
 //!
-//! Changes a number in the text of Image, builds the program and draws a frame, again and again; prints the medians of
-//! building, of the time until the picture, and of a further frame, which is drawn in any case. Every edit is another
-//! text, so that no driver's cache on disk holds its pipeline.
+//! Changes a number in the text of Image, builds the program and draws a frame, repeatedly; prints the medians of
+//! building, of the time until the picture, and of another frame, which is drawn in any case. Every edit has a
+//! different text, so that no driver's cache on disk contains its pipeline.
 
 use eddy::{
     engine::{BuildOptions, Builder, Engine, FrameInputs},
@@ -52,7 +52,7 @@ fn main() {
     );
 }
 
-/// The project with another number in what Image computes.
+/// Returns the project with another number in the computation of Image.
 fn edited(project: &Project, n: usize, salt: u32) -> Project {
     let mut project = project.clone();
     let source = &mut project.pass_mut(&PassId::Image).expect("an Image").source;

@@ -1,9 +1,10 @@
-//! Does encoding slow drawing down? `cargo bench --bench encoders [PRESET] [WxH] [FRAMES]`.
+//! Measures whether encoding slows drawing down. `cargo bench --bench encoders [PRESET] [WxH] [FRAMES]`.
 //!
-//! Draws frames alone, and again while each encoder takes them, in rounds: every round has each of them once, so that a machine
-//! that becomes slower does so for all. Prints the median of the time for all frames against that of drawing alone, and how
-//! long a frame waited for the encoder: the median and the most. The end of an encoder, after the last frame, is told beside that.
-//! Encoders that share the processor with a software driver slow it down in any case; the waits tell whether they stall it.
+//! Draws frames alone, and again while each encoder takes them, in rounds: every round includes each of them once, so
+//! that a machine that becomes slower affects all. Prints the median of the time for all frames relative to that of
+//! drawing alone, and how long a frame waited for the encoder: the median and the maximum. The time of an encoder after
+//! the last frame is printed separately. Encoders that share the CPU with a software driver always slow it down; the
+//! waits show whether they stall it.
 
 use eddy::{
     engine::{BuildOptions, Pixels},
@@ -19,7 +20,7 @@ use std::{path::Path, time::Instant};
 const ROUNDS: usize = 5;
 const FPS: f64 = 30.0;
 
-/// The encoders, by a name and what writes with them.
+/// The encoders, by a name and their format.
 const ENCODERS: [(&str, Format, Option<Codec>); 13] = [
     ("png", Format::Png, None),
     ("exr", Format::Exr, None),
@@ -41,9 +42,9 @@ const ENCODERS: [(&str, Format, Option<Codec>); 13] = [
 struct Times {
     /// All frames, drawn and handed over.
     drawing: f64,
-    /// Each frame, from drawn to taken by the encoder.
+    /// Each frame, from the end of drawing until the encoder has taken it.
     waits: Vec<f64>,
-    /// The end of the file, after the last frame.
+    /// Finishing the file after the last frame.
     end: f64,
 }
 
@@ -97,7 +98,7 @@ fn main() {
     }
 }
 
-/// Returns what draws the next frame of a preset and reads its picture.
+/// Returns a function that draws the next frame of a preset and reads its picture.
 fn drawing(gpu: &Gpu, preset: &str, size: (u32, u32)) -> impl FnMut() -> Pixels + use<> {
     let project = project::load(preset).expect("a project").project;
     let (media, _) = media::gather(&project, None);
@@ -109,7 +110,7 @@ fn drawing(gpu: &Gpu, preset: &str, size: (u32, u32)) -> impl FnMut() -> Pixels 
     }
 }
 
-/// Draws so many frames, which an encoder takes if there is one.
+/// Draws a number of frames, which an encoder takes if there is one.
 fn run(draw: &mut impl FnMut() -> Pixels, frames: u32, encoder: Option<(&Encoding, (u32, u32), &Path)>) -> Times {
     let rate = Rate::of(FPS).expect("a rate");
     let mut writer = encoder.map(|(encoding, (width, height), folder)| {

@@ -1,8 +1,8 @@
-//! How long the front end takes: `cargo bench --bench front_end`.
+//! Measures the front end: `cargo bench --bench front_end`.
 //!
-//! Measures every pass of the presets, or of the projects named in the file that `EDDY_CORPUS` points to (one a line,
-//! as on the command line: folders, Shadertoy JSON files). One thread, each pass the best of a few runs, so that what
-//! else the machine does counts little.
+//! Measures every pass of the presets, or of the projects named in the file that `EDDY_CORPUS` points to (one per line,
+//! as on the command line: folders, Shadertoy JSON files). Single-threaded, with the best of a few runs per pass, so
+//! that other load on the machine has little effect.
 
 use eddy::{
     diag::SourceId,
@@ -14,17 +14,17 @@ use std::time::{Duration, Instant};
 
 const RUNS: usize = 3;
 
-/// One pass's times.
+/// The times of one pass.
 struct Row {
     name: String,
     lines: usize,
-    /// Preprocessing, parsing and checking: what an editor waits for.
+    /// Preprocessing, parsing and checking: an editor waits for this.
     check: Duration,
-    /// The same with all that an editor needs: what it makes anew after each keystroke.
+    /// The same with everything that an editor needs: repeated after each keystroke.
     analyse: Duration,
-    /// Completion in the last line of code, where most is in scope, and every colour.
+    /// Completion in the last line of code, where most names are in scope, and every colour.
     ask: Duration,
-    /// All of it, to the validated module; `None` where the pass has errors.
+    /// All stages up to the validated module; `None` if the pass has errors.
     compile: Option<Duration>,
 }
 
@@ -73,7 +73,7 @@ fn say(what: &str, times: &[(Duration, &Row)]) {
     );
 }
 
-/// A shader of two thousand lines: what an editor must keep up with.
+/// Measures a shader of two thousand lines: an editor must keep up with it.
 fn measure_long() -> Row {
     let function = |i: usize| {
         let callee = i.saturating_sub(1);
@@ -120,7 +120,7 @@ fn measure(spec: &str, project: &Project, index: usize) -> Row {
     }
 }
 
-/// The shortest of a few runs; `None` if one gave nothing.
+/// Returns the shortest of a few runs; `None` if one returned nothing.
 fn best<T>(mut run: impl FnMut() -> Option<T>) -> Option<Duration> {
     (0..RUNS)
         .map(|_| {

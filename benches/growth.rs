@@ -1,5 +1,5 @@
-//! Measures how the time of reading a file of one kind grows, at one, two and four times a size: `cargo bench --bench growth`. A
-//! ratio near the size's is linear; four times the text in sixteen times the time is quadratic.
+//! Measures how the time of reading a file grows with its size, at one, two and four times a size: `cargo bench --bench
+//! growth`. A ratio near that of the sizes is linear; sixteen times the time for four times the text is quadratic.
 
 use eddy::{
     diag::{SourceMap, render_all},
@@ -8,19 +8,19 @@ use eddy::{
 };
 use std::{fs, path::Path, time::Instant};
 
-/// Bytes of the smallest text of a kind, about.
+/// The approximate number of bytes in the smallest text of a kind.
 const BYTES: usize = 100_000;
 
 type Text = fn(usize) -> String;
 
-/// How a text is read.
+/// The reader of a text.
 #[derive(Clone, Copy)]
 enum Reader {
-    /// By the front end, its messages rendered.
+    /// Read by the front end, with its messages rendered.
     Pass,
-    /// As a project, in a file of this name, its messages rendered.
+    /// Read as a project, in a file of this name, with its messages rendered.
     Project(&'static str),
-    /// As a project that is exported as JSON.
+    /// Read as a project that is exported as JSON.
     Exported(&'static str),
 }
 
@@ -72,7 +72,7 @@ fn main() {
     }
 }
 
-/// Returns the seconds that reading takes.
+/// Returns the seconds of reading.
 fn timed(reader: Reader, text: &str, folder: &Path) -> f64 {
     let (Reader::Project(name) | Reader::Exported(name)) = reader else {
         let mut sources = SourceMap::default();

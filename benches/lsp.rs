@@ -1,7 +1,8 @@
-//! Measures the time that `eddy lsp` takes for a key in a shader of 2,000 lines: `cargo bench --bench lsp`.
+//! Measures the time that `eddy lsp` needs for a keystroke in a shader of 2,000 lines: `cargo bench --bench lsp`.
 //!
-//! A key is a change of one character, the diagnostics that it leads to, and what editors ask at once: a completion, the
-//! colours and the hints of the whole text. Each is timed from the message to the answer, JSON included, without a stream.
+//! A keystroke is a change of one character, the resulting diagnostics, and the immediate requests of editors: a
+//! completion, the colours and the hints of the whole text. Each is timed from the message to the answer, including
+//! JSON, without a stream.
 
 use eddy::lsp::Server;
 use serde_json::{Value, json};
@@ -18,7 +19,8 @@ fn main() {
     while_reading();
 }
 
-/// Measures the time to any answer while a text of 4 MB is read that takes seconds: an answer, or that it is still being read.
+/// Measures the time to any answer while a text of 4 MB is read, which takes seconds: either the result, or the answer
+/// that reading is in progress.
 fn while_reading() {
     let body: String = (0..100_000).map(|i| format!("color.x = nam_of_functio_{i}x(1.0);\n")).collect();
     let text = format!("void mainImage(out vec4 color, in vec2 at) {{\n{body}}}\n");
@@ -121,7 +123,7 @@ fn measure(title: &str, lines: usize, text: &str, common_lines: usize) {
         let at = json!({"textDocument": {"uri": uri}, "position": {"line": line, "character": 5}});
         let range = json!({"start": {"line": 0, "character": 0}, "end": {"line": lines, "character": 0}});
         let whole = json!({"textDocument": {"uri": uri}, "range": range});
-        // A letter is typed, a completion is asked for before anything is told, and the letter is taken back.
+        // A letter is typed, a completion is requested before diagnostics are published, and the letter is deleted.
         timed(0, &[change("x", 4)], true);
         timed(0, &[change("", 5)], true);
         let completion = json!({"id": 1, "method": "textDocument/completion", "params": at});

@@ -1,9 +1,9 @@
-//! What the checks cost that naga adds to a shader unless it is told not to: bounds of indices, turns of loops,
+//! Measures the cost of the checks that naga adds to a shader by default: bounds of indices, iterations of loops,
 //! divisors of integers. `cargo bench --bench runtime_checks`.
 //!
-//! Draws the presets, or the projects named in the file that `EDDY_CORPUS` points to (one a line), with and without
-//! them, in turn, and prints the ratio of the frames' medians. Eddy draws without: the front end keeps indices in range
-//! where it cannot prove that they are, and loops and divisions need no check on any device (see
+//! Draws the presets, or the projects named in the file that `EDDY_CORPUS` points to (one per line), alternately with
+//! and without the checks, and prints the ratio of the frames' medians. Eddy draws without: the front end clamps
+//! indices unless it can prove that they are in range, and loops and divisions need no check on any device (see
 //! `gpu::GpuOptions::runtime_checks`).
 
 use eddy::{
@@ -57,7 +57,7 @@ fn main() {
 }
 
 fn engine(gpu: &Gpu, project: &Project) -> Option<Engine> {
-    // Every pass in every frame: what is left out costs nothing either way.
+    // Every pass in every frame: skipped passes cost nothing either way.
     let options = BuildOptions { skip: false, ..BuildOptions::default() };
     let built = Program::build(gpu, project, &MediaSet::new(), &options).ok()?;
     let mut engine = Engine::new(gpu.clone(), SIZE.0, SIZE.1).ok()?;
@@ -67,7 +67,7 @@ fn engine(gpu: &Gpu, project: &Project) -> Option<Engine> {
     Some(engine)
 }
 
-/// How long a frame takes, until the device has drawn it.
+/// Returns the time until the device has drawn a frame.
 fn millis(engine: &mut Engine, frame: usize) -> Option<f64> {
     let begin = Instant::now();
     engine.draw(&FrameInputs::at_fixed_step(frame as i32, 60.0)).ok()?;

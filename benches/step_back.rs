@@ -1,7 +1,7 @@
-//! How long one waits for an earlier frame. `cargo bench --bench step_back [PRESET]`.
+//! Measures the wait for an earlier frame. `cargo bench --bench step_back [PRESET]`.
 //!
-//! Draws 1,000 frames, goes back 300, on again by as many, and so on; prints the median and the slowest. What snapshots
-//! take of the device is bounded by `session/drawing/history`, 256 MiB.
+//! Draws 1,000 frames, goes back by 300, forward by the same number, and so on; prints the median and the slowest. The
+//! device memory of snapshots is bounded by `session/drawing/history`, 256 MiB.
 
 use eddy::{
     gpu::{Gpu, GpuOptions},
@@ -35,7 +35,7 @@ fn main() {
     println!("{preset}, {}x{}, {described}: {frame:.2} ms a frame", SIZE.0, SIZE.1);
     let mut times = Vec::new();
     for n in 0..REPEATS {
-        // Not always the same distance from a snapshot.
+        // Vary the distance from a snapshot.
         let back = BACK - 7 * n as u32;
         let wanted = session.transport().frame - back as i32;
         let began = Instant::now();

@@ -1,9 +1,9 @@
-//! How long the walker takes for a pixel. `cargo bench --bench walk PROJECT...`, else of `marcher.glsl`, a ray marcher
+//! Measures the walker's time for a pixel. `cargo bench --bench walk PROJECT...`, or of `marcher.glsl`, a ray marcher
 //! of some 500 lines.
 //!
-//! For each project's Image at 640x360, in its second frame: the walk alone, in both precisions, with every value written
-//! down (`eddy trace`), and the way that the window's panel steps through, compiled, walked in both precisions
-//! and recorded; medians over a few pixels.
+//! For each project's Image at 640x360, in its second frame: the walk alone, in both precisions, with every value
+//! recorded (`eddy trace`), and everything that the window's panel needs: compiled, walked in both precisions and
+//! recorded; medians over a few pixels.
 
 use eddy::{
     debugger::trace::{self, Extent, Traced},

@@ -1,26 +1,26 @@
-//! The analyser of the Web Audio API (`AnalyserNode`, <https://www.w3.org/TR/webaudio/#AnalyserNode>) with the settings
-//! that it has when nobody touches it: 2,048 samples, smoothing .8, -100 to -30 dB. Shadertoy uploads the first 512
-//! entries of its two arrays as the two rows of a texture.
+//! The analyser of the Web Audio API (`AnalyserNode`, <https://www.w3.org/TR/webaudio/#AnalyserNode>) with its default
+//! settings: 2,048 samples, smoothing .8, -100 to -30 dB. Shadertoy uploads the first 512 entries of its two arrays as
+//! the two rows of a texture.
 
 use eddy_signal::{self as signal, Complex, RealToComplex};
 use std::{collections::HashMap, f64::consts::TAU, sync::Arc};
 
-/// Entries of a row of the texture.
+/// The number of entries in a row of the texture.
 pub const BINS: usize = 512;
 
-/// Samples that one transform looks at.
+/// The number of samples of one transform.
 const SIZE: usize = 2048;
 
-/// Share of the smoothed magnitude of the call before that stays.
+/// The weight of the smoothed magnitude of the previous call.
 const SMOOTHING: f64 = 0.8;
 
-/// Decibels that become byte 0 and byte 255.
+/// The decibels that map to byte 0 and byte 255.
 const DECIBELS: (f64, f64) = (-100.0, -30.0);
 
-/// The two rows of the texture: the spectrum, then the wave, one byte an entry.
+/// The two rows of the texture: the spectrum, then the wave, one byte per entry.
 pub type Spectrum = [u8; 2 * BINS];
 
-/// The texture of silence: no spectrum, and a wave at rest.
+/// The texture of silence: no spectrum, and a constant wave.
 const SILENCE: Spectrum = {
     let mut bytes = [128; 2 * BINS];
     let mut i = 0;
@@ -31,15 +31,15 @@ const SILENCE: Spectrum = {
     bytes
 };
 
-/// Calls whose magnitudes are summed: those before have less than -120 dB of their weight left.
+/// The number of calls whose magnitudes are summed: earlier ones have a weight of less than -120 dB.
 const CALLS: usize = 64;
 
 /// Magnitudes of the bins that reach the texture.
 type Magnitudes = [f64; BINS];
 
-/// One input's analyser. What it gives depends on the sound and on where the calls lie and on nothing else: a frame has
-/// the same bytes whichever frames were drawn before it. Magnitudes are kept so that a frame after a frame costs one
-/// transform.
+/// The analyser of one input. Its result depends only on the sound and on the positions of the calls: a frame has the
+/// same bytes whichever frames were drawn before it. Magnitudes are cached, so that a frame that follows another costs
+/// one transform.
 pub struct Analyser {
     fft: Arc<dyn RealToComplex<f64>>,
     window: Box<[f64]>,
@@ -53,8 +53,8 @@ impl Default for Analyser {
 }
 
 impl Analyser {
-    /// The texture after calls at the samples `calls`, the newest first, of which those before sample 1 hear silence.
-    /// `sample` gives each sample of the sound.
+    /// Returns the texture after calls at the samples `calls`, the newest first; calls before sample 1 hear silence.
+    /// `sample` returns each sample of the sound.
     pub fn texture(&mut self, calls: impl Iterator<Item = i64>, sample: impl Fn(i64) -> f32) -> Spectrum {
         let calls: Vec<i64> = calls.take(CALLS).take_while(|call| *call > 0).collect();
         self.known.retain(|call, _| calls.contains(call));
@@ -91,13 +91,13 @@ impl Analyser {
         self.fft.process(&mut windowed, &mut bins).expect("both buffers have the transform's size");
         std::array::from_fn(|bin| {
             let magnitude = bins[bin].norm() / SIZE as f64;
-            // A file of floats may hold infinities.
+            // A file of floats may contain infinities.
             if magnitude.is_finite() { magnitude } else { 0.0 }
         })
     }
 }
 
-/// The Blackman window with alpha .16 at sample `i`.
+/// Returns the Blackman window with alpha .16 at sample `i`.
 fn blackman(i: usize) -> f64 {
     let alpha = 0.16;
     let x = i as f64 / SIZE as f64;
@@ -123,7 +123,7 @@ mod tests {
         move |n| if n < 0 { 0.0 } else { (amplitude * (TAU * hertz * n as f64 / f64::from(SAMPLE_RATE)).sin()) as f32 }
     }
 
-    /// Calls at 60 a second, the newest at sample `now`.
+    /// Returns calls at 60 per second, the newest at sample `now`.
     fn each_frame(now: i64) -> impl Iterator<Item = i64> {
         (0..).map(move |k| now - 735 * k)
     }

@@ -1,4 +1,4 @@
-//! The devices of the machine, by cpal.
+//! The machine's audio devices, by cpal.
 
 use crate::{
     SAMPLE_RATE,
@@ -11,19 +11,19 @@ use cpal::{
 };
 use std::time::{Duration, Instant};
 
-/// Samples that are converted at a time.
+/// The number of samples that are converted at a time.
 const CONVERTED: usize = 4096;
-/// A device that takes sound so much faster than it is heard is none that anybody hears (ALSA's "null"): it is held back,
-/// so that it does not take a whole processor.
+/// A device that consumes sound this far ahead of real time is not audible (ALSA's "null"): it is throttled, so that it
+/// does not use a whole CPU core.
 const AHEAD: Duration = Duration::from_secs(3);
-/// Buffers of a device in a second, of which two are filled ahead.
+/// The buffers of a device per second; two are filled ahead.
 const BUFFERS_A_SECOND: u32 = 20;
-/// Errors that go on for so long end a stream.
+/// Errors that continue for this long end a stream.
 const TROUBLE: Duration = Duration::from_secs(2);
-/// ALSA's device that discards everything, which nobody chooses.
+/// ALSA's device that discards everything; it is never useful to choose it.
 const NULL: &str = "null";
 
-/// The sound of this machine.
+/// The audio devices of this machine.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Machine;
 
@@ -56,8 +56,8 @@ impl AudioOut for Machine {
         let refused = |error: cpal::Error| refused(&device, &error);
         let supported = device.default_output_config().map_err(refused)?;
         let (format, config) = format(&supported);
-        // Long buffers are no delay: what is in them is what is to be heard then. They keep the sound going while the
-        // picture takes every processor.
+        // Long buffers add no visible delay: their content is timed for the moment when it is heard. They keep the
+        // sound going while drawing uses every CPU core.
         let long = match supported.buffer_size() {
             SupportedBufferSize::Range { min, max } => (format.rate / BUFFERS_A_SECOND).clamp(*min, (*max).max(*min)),
             SupportedBufferSize::Unknown => format.rate / BUFFERS_A_SECOND,
@@ -73,7 +73,7 @@ impl AudioOut for Machine {
     }
 }
 
-/// Builds a stream of the device's own sample format.
+/// Builds a stream in the device's own sample format.
 fn output(
     device: &cpal::Device,
     samples: SampleFormat,
@@ -114,7 +114,7 @@ impl AudioIn for Machine {
         let device = find(name, all, host.default_input_device(), "input")?;
         let refused = |error: cpal::Error| refused(&device, &error);
         let usual = device.default_input_config().map_err(refused)?;
-        // At the analyser's own rate where the device has that.
+        // Prefer the analyser's own rate if the device supports it.
         let ranges = device.supported_input_configs().ok().into_iter().flatten();
         let ours = ranges
             .filter(|range| range.channels() == usual.channels() && range.sample_format() == usual.sample_format())
@@ -139,7 +139,7 @@ impl AudioIn for Machine {
     }
 }
 
-/// Keeps what ALSA says of devices that are not there from the terminal: it is told in a notice.
+/// Keeps ALSA's messages about missing devices off the terminal: a notice reports them.
 fn quiet() {
     #[cfg(any(target_os = "linux", target_os = "dragonfly", target_os = "freebsd", target_os = "netbsd"))]
     let _ = alsa::Output::local_error_handler();
@@ -201,17 +201,17 @@ fn opened(
     Ok(Opened { name: device.to_string(), format, stream: Box::new(stream) })
 }
 
-/// Returns what takes the errors of a stream. Only the first that ends it is passed on.
+/// Returns a callback for the errors of a stream. Only the first error that ends it is passed on.
 ///
-/// ALSA's plugin for PulseAudio fails with EIO until the server has told it of its delay, and plays on. So an error ends a
-/// stream only where it says so, or where errors follow each other for [`TROUBLE`].
+/// ALSA's plugin for PulseAudio fails with EIO until the server has reported its delay, and continues to play. So an
+/// error ends a stream only if its kind is fatal, or if errors follow each other for [`TROUBLE`].
 fn report_errors(events: Events) -> impl FnMut(cpal::Error) + Send + 'static {
     let mut is_gone = false;
     let mut trouble: Option<(Instant, Instant)> = None;
     move |error| {
         let is_end = match error.kind() {
             ErrorKind::Xrun => return events.underrun(),
-            // The stream goes on, on another device or at another priority.
+            // The stream continues, on another device or at another priority.
             ErrorKind::DeviceChanged | ErrorKind::RealtimeDenied => return,
             ErrorKind::DeviceNotAvailable | ErrorKind::StreamInvalidated | ErrorKind::HostUnavailable => true,
             _ => {
@@ -228,7 +228,7 @@ fn report_errors(events: Events) -> impl FnMut(cpal::Error) + Send + 'static {
     }
 }
 
-/// Holds back a device that takes sound faster than it can be heard.
+/// Throttles a device that consumes sound faster than real time.
 fn held_back(mut fill: Fill, format: Format) -> Fill {
     let mut since: Option<Instant> = None;
     let mut frames = 0_u64;
@@ -243,21 +243,21 @@ fn held_back(mut fill: Fill, format: Format) -> Fill {
     })
 }
 
-/// The clock of a stream against ours.
+/// Maps the clock of a stream to the system's clock.
 ///
-/// A callback may begin long after the moment that its times are of, where other threads take the processor: the shortest
-/// such wait of the last while is what both clocks differ by.
+/// A callback may start long after the moment that its times refer to, if other threads use the CPU: the shortest such
+/// wait of the recent past is the difference between both clocks.
 #[derive(Default)]
 struct StreamClock {
-    /// Moments of both that belong together, but for the wait.
+    /// Corresponding moments of both clocks, apart from the wait.
     base: Option<(Instant, StreamInstant)>,
-    /// Seconds of the shortest wait, and the time of the newest callback by the stream's clock.
+    /// The shortest wait in seconds, and the time of the newest callback by the stream's clock.
     wait: f64,
     callback_secs: f64,
 }
 
 impl StreamClock {
-    /// The clocks may drift apart by so many seconds in a second.
+    /// The maximum drift between the clocks, in seconds per second.
     const DRIFT: f64 = 2e-4;
 
     fn heard_at(&mut self, times: OutputStreamTimestamp, now: Instant) -> Instant {
@@ -279,7 +279,7 @@ fn played<T: SizedSample + FromSample<f32> + Send + 'static>(
     mut fill: Fill,
     on_error: impl FnMut(cpal::Error) + Send + 'static,
 ) -> Result<cpal::Stream, cpal::Error> {
-    // Whole frames.
+    // A multiple of whole frames.
     let mut scratch = vec![0.0_f32; (CONVERTED / format.channels).max(1) * format.channels];
     let mut clock = StreamClock::default();
     let callback = move |out: &mut Data, info: &cpal::OutputCallbackInfo| {
@@ -328,14 +328,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_callback_that_comes_late_is_no_other_time() {
+    fn a_late_callback_does_not_change_the_time() {
         let start = Instant::now();
         let mut clock = StreamClock::default();
         let mut worst = Duration::ZERO;
         for n in 0..200_u64 {
             let theirs = StreamInstant::from_millis(5000 + 50 * n);
             let playback = theirs + Duration::from_millis(100);
-            // A wait of 1 ms, and of 40 ms each third time.
+            // A wait of 1 ms, and of 40 ms for every third buffer.
             let wait = Duration::from_millis(if n % 3 == 0 { 40 } else { 1 });
             let at = start + Duration::from_millis(50 * n);
             let heard_at = clock.heard_at(OutputStreamTimestamp { callback: theirs, playback }, at + wait);

@@ -1,4 +1,4 @@
-//! A machine's sound for tests: an output and an input that run when the test says so, by the test's own clock.
+//! Audio devices for tests: an output and an input that run when the test tells them to, by the test's own clock.
 
 use crate::host::{AudioHost, AudioIn, AudioOut, DeviceError, Events, Fill, Format, Opened, Take};
 use std::{
@@ -6,7 +6,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The output and the input of a machine that is made up.
+/// The output and the input of a simulated machine.
 #[derive(Clone, Debug, Default)]
 pub struct FakeHost {
     pub out: FakeOut,
@@ -23,16 +23,16 @@ impl AudioHost for FakeHost {
     }
 }
 
-/// An output that keeps what it plays.
+/// An output that stores what it plays.
 #[derive(Clone, Debug)]
 pub struct FakeOut(Arc<Mutex<Out>>);
 
 struct Out {
     names: Vec<String>,
     format: Format,
-    /// Frames of a buffer.
+    /// The frames per buffer.
     buffer: usize,
-    /// The clock of the device runs so much faster than real time: 1e-4 is 100 ppm.
+    /// The device's clock is faster than real time by this share: 1e-4 is 100 ppm.
     drift: f64,
     open: Option<Playing>,
     /// Everything that was played, with the moment at which it is heard.
@@ -43,7 +43,7 @@ struct Out {
 struct Playing {
     fill: Fill,
     events: Events,
-    /// The moment at which it began to run, and the frames since.
+    /// The moment at which it started, and the frames since then.
     since: Option<Instant>,
     frames: u64,
 }
@@ -61,7 +61,7 @@ impl Default for FakeOut {
 }
 
 impl FakeOut {
-    /// A device "speakers" that plays buffers of so many frames.
+    /// Creates a device "speakers" that plays buffers of this number of frames.
     pub fn new(format: Format, buffer: usize) -> Self {
         let names = vec!["speakers".into()];
         let (open, heard) = (None, Vec::new());
@@ -72,12 +72,12 @@ impl FakeOut {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Has the device's clock run faster than real time by a share.
+    /// Makes the device's clock run faster than real time by a share.
     pub fn set_drift(&self, share: f64) {
         self.lock().drift = share;
     }
 
-    /// Says which devices there are. One that is open and no longer among them vanishes.
+    /// Sets the available devices. An open device that is missing from the list vanishes.
     pub fn set_names(&self, names: &[&str]) {
         let mut out = self.lock();
         out.names = names.iter().map(|name| (*name).to_owned()).collect();
@@ -92,12 +92,12 @@ impl FakeOut {
         self.lock().open.is_some()
     }
 
-    /// The number of times that somebody tried to open a device.
+    /// Returns the number of attempts to open a device.
     pub fn attempts(&self) -> usize {
         self.lock().attempts
     }
 
-    /// Plays all buffers that begin before a moment.
+    /// Plays all buffers that start before a moment.
     pub fn run_until(&self, now: Instant) {
         let mut out = self.lock();
         let (format, buffer, drift) = (out.format, out.buffer, out.drift);
@@ -117,8 +117,8 @@ impl FakeOut {
         out.open = Some(playing);
     }
 
-    /// Takes what was played, as frames of all channels one after the other, with the moment of the first one as the last
-    /// buffer has it: where the device was opened again meanwhile, only what it has played since lies where it seems.
+    /// Takes what was played, as interleaved frames of all channels, with the moment of the first frame, computed from
+    /// the last buffer. If the device was reopened meanwhile, that moment is correct only for the frames since then.
     pub fn take_heard(&self) -> (Option<Instant>, Vec<f32>) {
         let mut out = self.lock();
         let format = out.format;
@@ -133,7 +133,7 @@ impl FakeOut {
     }
 }
 
-/// Closes a device of a test when it is dropped.
+/// Closes a test's device when it is dropped.
 struct CloseOnDrop(Arc<Mutex<Out>>, u64);
 
 impl Drop for CloseOnDrop {
@@ -170,7 +170,7 @@ impl AudioOut for FakeOut {
     }
 }
 
-/// An input that hears what a test says.
+/// An input that hears the samples that a test provides.
 #[derive(Clone, Debug, Default)]
 pub struct FakeIn(Arc<Mutex<In>>);
 
@@ -191,7 +191,7 @@ impl FakeIn {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Plugs in a microphone of one channel at 44,100 samples a second.
+    /// Plugs in a microphone with one channel at 44,100 samples per second.
     pub fn plug_in(&self) {
         self.lock().is_there = true;
     }
@@ -200,7 +200,7 @@ impl FakeIn {
         self.lock().take.is_some()
     }
 
-    /// The microphone hears something, if it is open.
+    /// Passes samples to the microphone, if it is open.
     pub fn hear(&self, samples: &[f32]) {
         if let Some(take) = &mut self.lock().take {
             take(samples);

@@ -1,16 +1,16 @@
-//! FLAC files (RFC 9639): 16 bits, stereo, without loss.
+//! FLAC files (RFC 9639): 16 bits, stereo, lossless.
 
 use crate::SAMPLE_RATE;
 use flacenc::{bitsink::ByteSink, component::BitRepr, config::Encoder, error::Verify, source::MemSource};
 
-/// Returns a whole file of `frames`, left and right. The error is a sentence, and a bug in Eddy.
+/// Returns a whole file of `frames`, left and right. An error is a message, and a bug in Eddy.
 pub fn flac(frames: &[[i16; 2]]) -> Result<Vec<u8>, String> {
     let config = Encoder::default().into_verified().map_err(|(_, error)| error.to_string())?;
     let samples: Vec<i32> = frames.iter().flatten().map(|sample| i32::from(*sample)).collect();
     let source = MemSource::from_samples(&samples, 2, 16, SAMPLE_RATE as usize);
     let stream = flacenc::encode_with_fixed_block_size(&config, source, config.block_size);
     let mut stream = stream.map_err(|error| error.to_string())?;
-    // The last block is shorter, and not counted (section 8.2): readers know blocks of one size by this.
+    // The last block is shorter and is not counted (section 8.2): readers recognise a fixed block size by this.
     let block = config.block_size;
     stream.stream_info_mut().set_block_sizes(block, block).map_err(|error| error.to_string())?;
     let mut sink = ByteSink::new();

@@ -1,4 +1,4 @@
-//! Devices that sound comes from and goes to, in our words: [`AudioHost`] is the machine's sound, or a test's.
+//! An abstraction of audio devices: [`AudioHost`] is the machine's audio, or a test's.
 
 use std::{
     any::Any,
@@ -10,25 +10,25 @@ use std::{
     time::Instant,
 };
 
-/// The sound of a machine.
+/// The audio devices of a machine.
 pub trait AudioHost: Send + Sync + Debug {
     fn output(&self) -> Box<dyn AudioOut>;
     fn input(&self) -> Box<dyn AudioIn>;
 }
 
-/// The form in which a device plays or records.
+/// The format in which a device plays or records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Format {
-    /// Samples a second.
+    /// Samples per second.
     pub rate: u32,
     pub channels: usize,
 }
 
-/// Fills a buffer of interleaved frames, whose first one is heard at a moment. It is called on a thread of the device and
-/// must not wait.
+/// Fills a buffer of interleaved frames, the first of which is heard at a moment. It is called on the device's thread
+/// and must not block.
 pub type Fill = Box<dyn FnMut(&mut [f32], Instant) + Send>;
 
-/// Takes interleaved frames that were recorded. It is called on a thread of the device and must not wait.
+/// Takes recorded interleaved frames. It is called on the device's thread and must not block.
 pub type Take = Box<dyn FnMut(&[f32]) + Send>;
 
 /// A device that plays or records until this is dropped.
@@ -39,13 +39,13 @@ pub struct Opened {
     pub stream: Box<dyn Any + Send>,
 }
 
-/// Outputs of a machine.
+/// The outputs of a machine.
 pub trait AudioOut: Send {
     /// Returns the names of the devices.
     fn names(&mut self) -> Vec<String>;
 
-    /// Opens the device of a name, or the system's default one. `fill` gives what fills its buffers once its format is
-    /// known.
+    /// Opens the device of this name, or the system's default one. Once its format is known, `fill` returns the
+    /// callback that fills its buffers.
     fn open(
         &mut self,
         name: Option<&str>,
@@ -54,12 +54,12 @@ pub trait AudioOut: Send {
     ) -> Result<Opened, DeviceError>;
 }
 
-/// Inputs of a machine.
+/// The inputs of a machine.
 pub trait AudioIn: Send {
     /// Returns the names of the devices.
     fn names(&mut self) -> Vec<String>;
 
-    /// Opens the device of a name, or the system's default one.
+    /// Opens the device of this name, or the system's default one.
     fn open(
         &mut self,
         name: Option<&str>,
@@ -68,7 +68,7 @@ pub trait AudioIn: Send {
     ) -> Result<Opened, DeviceError>;
 }
 
-/// A device that cannot be opened, in words that people read.
+/// The reason why a device cannot be opened, as shown to users.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DeviceError {
     #[error("this machine has no {0} device")]
@@ -79,7 +79,7 @@ pub enum DeviceError {
     Refused { name: String, why: String },
 }
 
-/// Takes what a device tells while it is open. A device that vanishes is told of once.
+/// Callbacks for the events of an open device. A device that vanishes is reported once.
 #[derive(Clone)]
 pub struct Events {
     pub(crate) underruns: Arc<AtomicU64>,
@@ -87,12 +87,12 @@ pub struct Events {
 }
 
 impl Events {
-    /// A buffer came too late: a part of the sound was silence.
+    /// Reports an underrun: a buffer was late, so a part of the sound was silent.
     pub fn underrun(&self) {
         self.underruns.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// The device plays or records no more.
+    /// Reports that the device no longer plays or records.
     pub fn gone(&self, why: impl Into<String>) {
         (self.gone)(why.into());
     }

@@ -1,4 +1,4 @@
-//! A device is kept open while it is needed: opened on a thread of its own, and again when it has vanished.
+//! Keeps a device open while it is needed: it is opened on a separate thread, and reopened when it has vanished.
 
 use crate::host::{DeviceError, Events, Opened};
 use std::{
@@ -11,24 +11,24 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The time between two attempts to open a device that could not be opened.
+/// The time between two attempts to open a device.
 const RETRY: Duration = Duration::from_secs(3);
-/// A device that is not needed for so long is closed.
+/// The time after which an unneeded device is closed.
 const IDLE: Duration = Duration::from_secs(20);
-/// An order that a device did not take is given again after this.
+/// The time after which an order that a device did not accept is repeated.
 const AGAIN: Duration = Duration::from_millis(30);
 
-/// Says what is known of a device.
+/// The state of a device.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum DeviceState {
-    /// Nothing needs it.
+    /// No device is needed.
     #[default]
     Closed,
     Open {
         name: String,
         rate: u32,
     },
-    /// It could not be opened, or has vanished. It is tried again.
+    /// It could not be opened, or has vanished. Opening is retried.
     Missing(String),
 }
 
@@ -39,9 +39,9 @@ struct Status {
     names: Option<Vec<String>>,
 }
 
-/// A thing that is done with a device: playing or recording.
+/// A use of a device: playing or recording.
 pub(crate) trait Work: Send {
-    /// An order of its owner.
+    /// An order from the owner.
     type Order: Send;
 
     /// Takes an order.
@@ -57,10 +57,10 @@ pub(crate) trait Work: Send {
 
     fn open(&mut self, name: Option<&str>, events: Events) -> Result<Opened, DeviceError>;
 
-    /// Passes on what is new to the device. False: it took it not, and is asked again.
+    /// Passes pending changes to the device. Returns false if the device did not accept them; they are retried.
     fn feed(&mut self) -> bool;
 
-    /// The device is closed.
+    /// Called when the device is closed.
     fn closed(&mut self);
 
     fn names(&mut self) -> Vec<String>;
@@ -70,12 +70,12 @@ enum Message<O> {
     Order(O),
     Device(Option<String>),
     Names,
-    /// With the number of the opening that it is about.
+    /// The device has vanished; contains the number of the opening that this is about.
     Gone(u64, String),
     End,
 }
 
-/// The owner's end.
+/// The owner's end of a kept device.
 pub(crate) struct Keeper<W: Work> {
     link: Link<W>,
     status: Arc<Mutex<Status>>,
@@ -87,7 +87,7 @@ enum Link<W: Work> {
         to: Sender<Message<W::Order>>,
         thread: Option<JoinHandle<()>>,
     },
-    /// Everything is done where it is asked for: a test says what time it is.
+    /// Everything runs on the caller's thread: a test controls the time.
     Here {
         worker: Box<Worker<W>>,
         from: Receiver<Message<W::Order>>,
@@ -95,7 +95,7 @@ enum Link<W: Work> {
 }
 
 impl<W: Work + 'static> Keeper<W> {
-    /// `wake` is called when the state of the device has changed.
+    /// Starts a thread. `wake` is called when the state of the device has changed.
     pub fn on_thread(name: &str, work: W, wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
         let (to, from) = channel();
         let mut worker = Worker::new(work, to.clone(), wake);
@@ -104,7 +104,7 @@ impl<W: Work + 'static> Keeper<W> {
         Ok(Self { link: Link::Thread { to, thread: Some(thread) }, status, underruns })
     }
 
-    /// Without a thread: [`Keeper::step`] does the work.
+    /// Creates a keeper without a thread: [`Keeper::step`] does the work.
     pub fn here(work: W) -> Self {
         let (to, from) = channel();
         let worker = Box::new(Worker::new(work, to, Arc::new(|| {})));
@@ -116,25 +116,25 @@ impl<W: Work + 'static> Keeper<W> {
         self.send(Message::Order(order));
     }
 
-    /// Asks for a device by its name, or for the system's default one.
+    /// Requests a device by its name, or the system's default one.
     pub fn choose(&mut self, device: Option<String>) {
         self.send(Message::Device(device));
     }
 
-    /// Asks for the names of the devices, which come with the status.
+    /// Requests the names of the devices, which become part of the status.
     pub fn ask_names(&mut self) {
         self.send(Message::Names);
     }
 
     fn send(&mut self, message: Message<W::Order>) {
         match &mut self.link {
-            // A thread that has ended by a panic plays nothing; the picture goes on.
+            // A thread that has panicked plays nothing; drawing continues.
             Link::Thread { to, .. } => drop(to.send(message)),
             Link::Here { worker, .. } => worker.take(message),
         }
     }
 
-    /// Does what is due, where there is no thread.
+    /// Does pending work if there is no thread.
     pub fn step(&mut self, now: Instant) {
         if let Link::Here { worker, from } = &mut self.link {
             while let Ok(message) = from.try_recv() {
@@ -152,7 +152,7 @@ impl<W: Work + 'static> Keeper<W> {
         self.status.lock().unwrap_or_else(PoisonError::into_inner).names.clone()
     }
 
-    /// Buffers that came too late since the start.
+    /// Returns the number of late buffers since the start.
     pub fn underruns(&self) -> u64 {
         self.underruns.load(Ordering::Relaxed)
     }
@@ -162,7 +162,7 @@ impl<W: Work> Drop for Keeper<W> {
     fn drop(&mut self) {
         if let Link::Thread { to, thread } = &mut self.link {
             let _ = to.send(Message::End);
-            // A driver that hangs must not keep the window from closing: the thread ends with the process.
+            // A hanging driver must not keep the window from closing: the thread ends with the process.
             drop(thread.take());
         }
     }
@@ -172,11 +172,11 @@ struct Worker<W: Work> {
     work: W,
     device: Option<String>,
     opened: Option<Opened>,
-    /// Counts openings: what an earlier device tells is no news.
+    /// Counts openings: events of an earlier device are ignored.
     openings: u64,
-    /// The moment at which a device that could not be opened is tried again.
+    /// The time of the next attempt to open the device.
     retry_at: Option<Instant>,
-    /// Since when it is not needed.
+    /// The time since which the device is not needed.
     idle_since: Option<Instant>,
     is_fed: bool,
     to: Sender<Message<W::Order>>,
@@ -246,14 +246,14 @@ impl<W: Work + 'static> Worker<W> {
             Message::Gone(opening, why) if opening == self.openings && self.opened.is_some() => {
                 self.close();
                 self.tell(|status| status.state = DeviceState::Missing(why));
-                // At once: the default may be another device by now.
+                // Retry at once: the default device may have changed.
                 self.retry_at = None;
             }
             Message::Gone(..) | Message::End => {}
         }
     }
 
-    /// Opens and closes the device as it is needed, and passes on what is new.
+    /// Opens and closes the device as needed, and passes on changes.
     fn step(&mut self, now: Instant) {
         if self.work.needs_device() {
             self.idle_since = None;
@@ -274,7 +274,7 @@ impl<W: Work + 'static> Worker<W> {
         }
     }
 
-    /// Returns how long the next step can wait if nothing is heard before.
+    /// Returns how long the next step can wait if no message arrives.
     fn due(&self, now: Instant) -> Option<Duration> {
         let retry = self.retry_at.filter(|_| self.opened.is_none());
         let idle = self.idle_since.filter(|_| self.opened.is_some()).map(|since| since + IDLE);

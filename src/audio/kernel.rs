@@ -1,17 +1,17 @@
-//! Sound read between its samples, at any rate: a windowed sinc.
+//! Sound interpolated between its samples, at any rate, by a windowed sinc.
 //!
-//! A position is exact, so that sound that is read at a time is the sound of that time: the kernel is symmetric and has
-//! no delay. Fixed-ratio converters (`rubato`) have one, and work in blocks; this one follows a ratio that changes with
-//! each sample. See Smith, "Digital Audio Resampling" (<https://ccrma.stanford.edu/~jos/resample/>).
+//! Positions are exact, so that sound read at a time is the sound of that time: the kernel is symmetric and has no
+//! delay. Fixed-ratio converters (`rubato`) have a delay and work in blocks; this one supports a ratio that changes
+//! with each sample. See Smith, "Digital Audio Resampling" (<https://ccrma.stanford.edu/~jos/resample/>).
 
-/// Samples on each side of a position that are looked at, where nothing is read faster than it was recorded.
+/// The number of samples on each side of a position, unless sound is read faster than it was recorded.
 const HALF: usize = 16;
-/// Entries of the table for each sample. Between two of them it is interpolated linearly, -116 dB off at most.
+/// Table entries per sample. Linear interpolation between them has an error of at most -116 dB.
 const STEPS: usize = 512;
-/// Shape of the Kaiser window: -80 dB of stop band.
+/// The shape of the Kaiser window: -80 dB of stop band.
 const BETA: f64 = 8.0;
 
-/// The kernel, as a table over half of it.
+/// The kernel, as a table of one half of it.
 pub(crate) struct Kernel {
     table: Box<[f32]>,
 }
@@ -28,7 +28,7 @@ impl Default for Kernel {
             let pi_x = std::f64::consts::PI * x;
             let sinc = match i {
                 0 => 1.0,
-                // A whole sample away it is zero to the last bit, so that sound at its own rate stays as it is.
+                // At whole samples it is exactly zero, so that sound at its own rate is unchanged.
                 _ if i.is_multiple_of(STEPS) => 0.0,
                 _ => pi_x.sin() / pi_x,
             };
@@ -39,13 +39,13 @@ impl Default for Kernel {
 }
 
 impl Kernel {
-    /// Returns how many samples on each side of a position are looked at where `ratio` samples go by with each that is
-    /// read.
+    /// Returns the number of samples on each side of a position that are used if each sample that is read advances by
+    /// `ratio` samples.
     pub fn reach(ratio: f64) -> i64 {
         (HALF as f64 * ratio.max(1.0)).ceil() as i64
     }
 
-    /// Reads stereo sound at a position, in samples. What would be above half the rate that it is read at is left out.
+    /// Reads stereo sound at a position, in samples. Frequencies above half the rate of reading are removed.
     pub fn read(&self, position: f64, ratio: f64, mut frame: impl FnMut(i64) -> [f32; 2]) -> [f32; 2] {
         let base = position.floor();
         let part = (position - base) as f32;
@@ -93,7 +93,7 @@ mod tests {
         (TAU * hertz * at / 44_100.0).sin() as f32
     }
 
-    /// Decibels of what differs from a sine of this frequency that is read at a ratio.
+    /// Returns the error in decibels of a sine of this frequency that is read at a ratio.
     fn error_decibels(hertz: f64, ratio: f64) -> f64 {
         let kernel = Kernel::default();
         let errors = (0..2000).map(|n| {
@@ -116,9 +116,9 @@ mod tests {
     }
 
     #[test]
-    fn what_is_above_half_the_rate_is_left_out() {
+    fn resampling_removes_aliases() {
         let kernel = Kernel::default();
-        // 15 kHz read at four times the speed would be 60 kHz, and fold down.
+        // 15 kHz read at four times the speed would be 60 kHz, and would alias.
         let loudest = (0..500).map(|n| kernel.read(500.0 + 4.0 * f64::from(n), 4.0, |n| [sine(15_000.0, n as f64); 2]));
         let loudest = loudest.map(|[left, _]| left.abs()).fold(0.0, f32::max);
         assert!(loudest < 1e-3, "{loudest}");

@@ -1,12 +1,12 @@
-//! Sound: files decoded to stereo at 44.1 kHz, the analyser that makes a channel's texture of them, tracks that sound
-//! passes fill, the files that these are written to, and what is heard and recorded.
+//! Sound: files decoded to stereo at 44.1 kHz, the analyser that turns them into a channel's texture, tracks filled by
+//! sound passes, writers of sound files, playback and recording.
 //!
-//! Bytes come in, and time is a number of samples. Browsers smooth a spectrum once for each frame that asks for it; here
-//! the frames before are those that lie a frame's step apart, so that a frame does not depend on how it was reached.
+//! Input is bytes, and time is a number of samples. Browsers smooth a spectrum once for each frame that requests it;
+//! here the previous frames are taken at fixed steps, so that a frame does not depend on how it was reached.
 //!
-//! [`mixer`] mixes what is heard; it knows no device and is told what time it is. Only [`player`] and
-//! [`microphone`] open devices, on threads of their own, through the traits of [`host`]; `device` has those of the machine
-//! and [`fake`] those of a test.
+//! [`mixer`] mixes the output; it knows no device and is passed the time. Only [`player`] and [`microphone`] open
+//! devices, on threads of their own, through the traits of [`host`]; `device` implements those for the machine and
+//! [`fake`] for tests.
 
 mod analyser;
 mod decode;
@@ -38,27 +38,27 @@ pub use synthetic::synthetic;
 pub use track::Track;
 pub use wav::wav;
 
-/// Samples a second of everything behind the decoder; `iSampleRate`.
+/// Samples per second of all decoded sound; `iSampleRate`.
 pub const SAMPLE_RATE: u32 = 44_100;
 
-/// A decoded file: stereo frames at [`SAMPLE_RATE`], in -1 to 1 unless the file goes beyond.
+/// A decoded file: stereo frames at [`SAMPLE_RATE`], in -1 to 1 unless the file exceeds that.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sound {
     pub frames: Vec<[f32; 2]>,
-    /// The file is longer than [`Limits::seconds`], and the rest was left out.
+    /// The file is longer than [`Limits::seconds`], and the rest was dropped.
     pub truncated: bool,
 }
 
 impl Sound {
-    /// Length in seconds.
+    /// Returns the length in seconds.
     pub fn seconds(&self) -> f64 {
         self.frames.len() as f64 / f64::from(SAMPLE_RATE)
     }
 
-    /// Returns the largest sample of each of so many stretches of the same length, from 0 to 1, of both channels.
+    /// Returns the largest sample, from 0 to 1, of both channels in each of `stretches` intervals of equal length.
     pub fn outline(&self, stretches: usize) -> Vec<f32> {
         let count = self.frames.len();
-        // Of a long file every so many samples are looked at: an outline shows no more.
+        // In a long file only every `stride`-th sample is read: an outline shows no more.
         let stride = (count / stretches.max(1) / 512).max(1);
         let stretch = |n: usize| {
             let frames = &self.frames[n * count / stretches..(n + 1) * count / stretches];
@@ -67,7 +67,7 @@ impl Sound {
         (0..stretches).map(stretch).collect()
     }
 
-    /// The mono sample `n` of the sound played in a loop from sample 0 on; silence before.
+    /// Returns the mono sample `n` of the sound played in a loop from sample 0; silence before.
     pub fn looped(&self, n: i64) -> f32 {
         if n < 0 || self.frames.is_empty() {
             return 0.0;

@@ -1,4 +1,4 @@
-//! The input: samples of a microphone, brought to [`SAMPLE_RATE`] and kept for as long as an analyser looks back.
+//! The input: samples of a microphone, resampled to [`SAMPLE_RATE`] and stored for as long as the analyser looks back.
 
 use crate::{
     Analyser, SAMPLE_RATE, Spectrum,
@@ -13,14 +13,14 @@ use std::{
     time::Instant,
 };
 
-/// Seconds of sound that may wait between a device and who reads it.
+/// Seconds of sound that may be buffered between a device and the reader.
 const WAITING_SECS: usize = 4;
-/// Samples that are kept for the analyser: 10 s.
+/// The number of samples that are kept for the analyser: 10 s.
 const KEPT: usize = 10 * SAMPLE_RATE as usize;
-/// Calls of the analyser that are kept: it looks at no more.
+/// The number of calls of the analyser that are kept: it uses no more.
 const CALLS: usize = 64;
 
-/// Samples that come from the device, mono, at its own rate.
+/// Samples from the device, mono, at its own rate.
 struct InputStream {
     rate: u32,
     samples: Consumer<f32>,
@@ -36,35 +36,35 @@ pub struct Microphone {
 }
 
 impl Microphone {
-    /// `wake` is called from another thread when the state of the device has changed. Nothing is recorded yet.
+    /// Starts a thread. `wake` is called from it when the state of the device has changed. Recording is off initially.
     pub fn on_thread(host: &dyn AudioHost, wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
         let (recording, line) = Recording::new(host);
         Ok(Self { keeper: Keeper::on_thread("microphone", recording, wake)?, line, heard: RecordedSamples::default() })
     }
 
-    /// Without a thread: the device is opened by [`Microphone::step`].
+    /// Creates a microphone without a thread: [`Microphone::step`] opens the device.
     pub fn here(host: &dyn AudioHost) -> Self {
         let (recording, line) = Recording::new(host);
         Self { keeper: Keeper::here(recording), line, heard: RecordedSamples::default() }
     }
 
-    /// Switches it on or off. What was recorded is forgotten.
+    /// Switches it on or off, and discards what was recorded.
     pub fn switch(&mut self, on: bool) {
         self.keeper.order(on);
         self.heard = RecordedSamples::default();
     }
 
-    /// Asks for a device by its name, or for the system's default one.
+    /// Requests a device by its name, or the system's default one.
     pub fn choose(&mut self, device: Option<String>) {
         self.keeper.choose(device);
     }
 
-    /// Asks for the names of the devices.
+    /// Requests the names of the devices.
     pub fn ask_names(&mut self) {
         self.keeper.ask_names();
     }
 
-    /// Returns the names of the devices, once they have been asked for.
+    /// Returns the names of the devices, once requested.
     pub fn names(&self) -> Option<Vec<String>> {
         self.keeper.names()
     }
@@ -73,7 +73,7 @@ impl Microphone {
         self.keeper.state()
     }
 
-    /// Takes what was recorded since the last call, and does what is due where there is no thread.
+    /// Takes what was recorded since the last call, and does pending work if there is no thread.
     pub fn step(&mut self, now: Instant) {
         self.keeper.step(now);
         if let Some(line) = &mut *self.line.lock().unwrap_or_else(PoisonError::into_inner) {
@@ -84,26 +84,26 @@ impl Microphone {
         }
     }
 
-    /// Calls the analyser, as the site does once for each frame. `None`: nothing has been recorded yet.
+    /// Calls the analyser, as Shadertoy does once per frame. `None` if nothing has been recorded yet.
     pub fn frame(&mut self) -> Option<Arc<Spectrum>> {
         self.heard.frame()
     }
 
-    /// The largest sample of the last 50 ms, from 0 to 1.
+    /// Returns the largest sample of the last 50 ms, from 0 to 1.
     pub fn level(&self) -> f32 {
         self.heard.level()
     }
 }
 
-/// Samples that were recorded, and the frames that looked at them.
+/// Recorded samples, and the frames that analysed them.
 #[derive(Default)]
 pub struct RecordedSamples {
     kernel: Kernel,
-    /// Samples of the device that are not brought to our rate yet, and the position of the next sample of ours among them.
+    /// Samples of the device that are not resampled yet, and the position of the next output sample among them.
     raw: VecDeque<f32>,
     position: f64,
     samples: VecDeque<f32>,
-    /// The number of samples that came before the first of `samples`.
+    /// The number of samples before the first of `samples`.
     forgotten: i64,
     /// The positions at which the analyser was called, the newest first.
     calls: VecDeque<i64>,
@@ -112,7 +112,7 @@ pub struct RecordedSamples {
 }
 
 impl RecordedSamples {
-    /// Adds a sample of a device that has `ratio` samples for each of ours.
+    /// Adds a sample of a device with `ratio` samples per output sample.
     pub fn add(&mut self, sample: f32, ratio: f64) {
         let sample = if sample.is_finite() { sample } else { 0.0 };
         if ratio == 1.0 {
@@ -120,7 +120,7 @@ impl RecordedSamples {
         }
         let reach = Kernel::reach(ratio);
         if self.raw.is_empty() && self.samples.is_empty() {
-            // Silence came before.
+            // Silence precedes the first sample.
             self.raw.extend(std::iter::repeat_n(0.0, reach as usize));
             self.position = reach as f64;
         }
@@ -145,7 +145,7 @@ impl RecordedSamples {
         self.samples.push_back(sample);
     }
 
-    /// Calls the analyser if there is something new.
+    /// Calls the analyser if there are new samples.
     pub fn frame(&mut self) -> Option<Arc<Spectrum>> {
         let now = self.forgotten + self.samples.len() as i64;
         if now == 0 {
@@ -186,7 +186,7 @@ impl Recording {
     }
 }
 
-/// Takes frames of so many channels, as their mean. What does not fit is left out: nobody reads.
+/// Returns a callback that stores the mean of each frame's channels. Samples that do not fit are dropped.
 fn into_ring(mut to: Producer<f32>, channels: usize) -> Take {
     Box::new(move |frames: &[f32]| {
         for frame in frames.chunks_exact(channels.max(1)) {
@@ -209,7 +209,7 @@ impl Work for Recording {
         self.is_on
     }
 
-    /// A microphone that is switched off is closed at once, so that the system's own light goes out.
+    /// A microphone that is switched off is closed at once, so that the system's indicator turns off.
     fn lingers(&self) -> bool {
         false
     }
@@ -277,7 +277,7 @@ mod tests {
         (0..735).for_each(|n| heard.add((n as f32 * 0.3).sin() * 0.1, 1.0));
         let second = heard.frame().unwrap();
         assert!(second.iter().zip(&first[..BINS]).any(|(now, before)| now > before), "it rises by the smoothing");
-        // Far longer than what is kept.
+        // Far more than is kept.
         (0..2 * KEPT).for_each(|_| heard.add(0.0, 1.0));
         assert_eq!(heard.samples.len(), KEPT);
         assert_eq!(heard.frame().unwrap()[BINS], 128);

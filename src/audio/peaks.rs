@@ -1,13 +1,12 @@
-//! The outline of a track: the smallest and the largest sample of stretches of it, for a waveform that is drawn at any
-//! scale.
+//! The outline of a track: the minimum and maximum sample of intervals, for a waveform that can be drawn at any scale.
 
 use crate::Track;
 use std::{ops::Range, sync::Arc};
 
-/// Frames of a stretch of the finest level, as a power of two.
+/// The frames of an interval at the finest level, as a power of two.
 const FINEST: u32 = 8;
 
-/// The smallest and the largest sample of a stretch, left and right.
+/// The minimum and maximum sample of an interval, left and right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Peak {
     pub low: [i16; 2],
@@ -27,21 +26,21 @@ impl Peak {
     }
 }
 
-/// A pyramid over a track: entry `i` of level `k` is of 2^(8 + k) frames from frame i 2^(8 + k) on. It grows with the
+/// A pyramid over a track: entry `i` of level `k` covers 2^(8 + k) frames from frame i 2^(8 + k). It grows with the
 /// track.
 pub struct Peaks {
     track: Arc<Track>,
-    /// Stretches that are not made yet, or not whole, have no entry.
+    /// Intervals that are not written yet, or only partly, have no entry.
     levels: Vec<Vec<Option<Peak>>>,
     /// The blocks that are in the pyramid.
     known: Vec<bool>,
 }
 
 impl Peaks {
-    /// Frames of a stretch of the finest level.
+    /// The frames of an interval at the finest level.
     pub const STRETCH: i64 = 1 << FINEST;
 
-    /// A pyramid with what is made of the track so far.
+    /// Creates a pyramid of the blocks that the track has so far.
     pub fn new(track: Arc<Track>) -> Self {
         let mut levels = Vec::new();
         let mut length = track.frames().div_ceil(1 << FINEST);
@@ -59,7 +58,7 @@ impl Peaks {
         &self.track
     }
 
-    /// Takes in the blocks that were made since. Returns whether there were any.
+    /// Adds the blocks that were written since. Returns whether there were any.
     pub fn update(&mut self) -> bool {
         let is_new = |block: &usize| !self.known[*block] && self.track.has_block(*block);
         let new: Vec<usize> = (0..self.known.len()).filter(is_new).collect();
@@ -76,7 +75,7 @@ impl Peaks {
                 for entry in first..end {
                     let below = &self.levels[level - 1];
                     let (left, right) = (below[2 * entry], below.get(2 * entry + 1).copied());
-                    // Beyond the end there is nothing to wait for.
+                    // There is nothing beyond the end, so the left half is the whole.
                     self.levels[level][entry] = match right {
                         None => left,
                         Some(right) => left.zip(right).map(|(left, right)| left.with(right)),
@@ -87,7 +86,7 @@ impl Peaks {
         !new.is_empty()
     }
 
-    /// The peak of frames that are all made, one by one.
+    /// Returns the peak of single frames; `None` if some are not written.
     fn raw(&self, frames: Range<usize>) -> Option<Peak> {
         let mut peak: Option<Peak> = None;
         for n in frames {
@@ -97,8 +96,8 @@ impl Peaks {
         peak
     }
 
-    /// The exact peak of a stretch, by the coarsest entries that fit. `None` where some of it is not made yet, for an
-    /// empty stretch, and outside of the track.
+    /// Returns the exact peak of an interval, by the coarsest entries that fit. `None` if some of it is not written
+    /// yet, for an empty interval, and outside of the track.
     pub fn of(&self, frames: Range<i64>) -> Option<Peak> {
         let inside = |n: i64| usize::try_from(n).unwrap_or(0).min(self.track.frames());
         let (mut at, end) = (inside(frames.start), inside(frames.end));
@@ -142,9 +141,9 @@ mod tests {
         frames.iter().map(|frame| Peak::of(*frame)).reduce(Peak::with)
     }
 
-    /// Blocks whose length is no multiple of a stretch, written in any order.
+    /// Blocks whose length is not a multiple of an interval, written in any order.
     #[test]
-    fn every_stretch_has_its_exact_peak_once_it_is_made() {
+    fn every_interval_has_its_exact_peak_once_it_is_written() {
         let frames = noise(5000);
         let track = Arc::new(Track::new(5000, 700));
         let mut peaks = Peaks::new(track.clone());

@@ -1,4 +1,4 @@
-//! The output: a mixer on a device that is opened while something is to be heard.
+//! The output: a mixer on a device that is open while there is sound to play.
 
 use crate::{
     host::{AudioHost, AudioOut, DeviceError, Events, Opened},
@@ -11,46 +11,46 @@ use std::{
     time::Instant,
 };
 
-/// Plays what it is told on a device of the machine.
+/// Plays the desired output on a device of the machine.
 pub struct Player {
     keeper: Keeper<Playing>,
     mixed: Mixed,
 }
 
 impl Player {
-    /// `wake` is called from another thread when the state of the device has changed.
+    /// Starts a thread. `wake` is called from it when the state of the device has changed.
     pub fn on_thread(host: &dyn AudioHost, wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
         let (playing, mixed) = Playing::new(host);
         Ok(Self { keeper: Keeper::on_thread("sound", playing, wake)?, mixed })
     }
 
-    /// Without a thread: the device is opened and told by [`Player::step`].
+    /// Creates a player without a thread: [`Player::step`] opens and controls the device.
     pub fn here(host: &dyn AudioHost) -> Self {
         let (playing, mixed) = Playing::new(host);
         Self { keeper: Keeper::here(playing), mixed }
     }
 
-    /// Says what is to be played from now on.
+    /// Sets what is played from now on.
     pub fn play(&mut self, desired: OutputState) {
         self.keeper.order(desired);
     }
 
-    /// Asks for a device by its name, or for the system's default one.
+    /// Requests a device by its name, or the system's default one.
     pub fn choose(&mut self, device: Option<String>) {
         self.keeper.choose(device);
     }
 
-    /// Asks for the names of the devices.
+    /// Requests the names of the devices.
     pub fn ask_names(&mut self) {
         self.keeper.ask_names();
     }
 
-    /// Returns the names of the devices, once they have been asked for.
+    /// Returns the names of the devices, once requested.
     pub fn names(&self) -> Option<Vec<String>> {
         self.keeper.names()
     }
 
-    /// Does what is due, where there is no thread.
+    /// Does pending work if there is no thread.
     pub fn step(&mut self, now: Instant) {
         self.keeper.step(now);
     }
@@ -59,18 +59,18 @@ impl Player {
         self.keeper.state()
     }
 
-    /// Buffers that came too late since the start.
+    /// Returns the number of late buffers since the start.
     pub fn underruns(&self) -> u64 {
         self.keeper.underruns()
     }
 
-    /// Returns what the mixer of the device that is open has done.
+    /// Returns the counters of the open device's mixer.
     pub fn mixed(&self) -> Option<Arc<MixerState>> {
         self.mixed.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }
 
-/// The state of the mixer of the device that is open.
+/// The counters of the open device's mixer.
 type Mixed = Arc<Mutex<Option<Arc<MixerState>>>>;
 
 struct Playing {

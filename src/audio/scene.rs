@@ -1,22 +1,22 @@
-//! Sources that are heard, and the time at which they are.
+//! The sources that are played, and their time.
 
 use crate::{SAMPLE_RATE, Sound, Track, kernel::Kernel};
 use std::{sync::Arc, time::Instant};
 
-/// The most sources that are mixed: four channels of four passes.
+/// The maximum number of sources that are mixed: four channels of four passes.
 pub const MOST_SOURCES: usize = 16;
 
-/// Something that is heard from time 0 on.
+/// A source that starts at time 0.
 #[derive(Clone)]
 pub enum Source {
     /// A file that is played in a loop.
     Loop(Arc<Sound>),
-    /// The sound pass: played once, as far as it is made.
+    /// The sound pass: played once, as far as it is drawn.
     Track(Arc<Track>),
 }
 
 impl Source {
-    /// Returns frame `n`; `None` where it is not made yet.
+    /// Returns frame `n`; `None` if it is not written yet.
     pub(crate) fn frame(&self, n: i64) -> Option<[f32; 2]> {
         match self {
             Source::Loop(sound) if n < 0 || sound.frames.is_empty() => Some([0.0; 2]),
@@ -35,12 +35,12 @@ impl Source {
     }
 }
 
-/// A file of floats may hold anything.
+/// Makes a sample finite: a file of floats may contain any value.
 fn finite(sample: f32) -> f32 {
     if sample.is_finite() { sample.clamp(-8.0, 8.0) } else { 0.0 }
 }
 
-/// Sources that are heard together. The first [`MOST_SOURCES`] are mixed.
+/// Sources that are played together. The first [`MOST_SOURCES`] are mixed.
 #[derive(Clone, Default)]
 pub struct Scene {
     pub sources: Vec<Source>,
@@ -55,8 +55,8 @@ impl Scene {
 }
 
 impl Scene {
-    /// Mixes frames `from` to before `to` at full volume, as a player does at the speed of 1: sums that go beyond full scale
-    /// are cut off, and what is not made yet is silent.
+    /// Mixes frames `from..to` at full volume, as a player does at speed 1: sums beyond full scale are clipped, and
+    /// missing blocks are silent.
     pub fn mixed(&self, from: u64, to: u64) -> Vec<[i16; 2]> {
         let frame = |n: u64| {
             let mut sum = [0.0f32; 2];
@@ -75,13 +75,13 @@ impl Scene {
 pub struct Resampler(Kernel);
 
 impl Resampler {
-    /// Returns how many samples before and after what is read are looked at, at a speed.
+    /// Returns the number of samples needed before and after a read range, at a speed.
     pub fn reach(speed: f64) -> i64 {
         Kernel::reach(speed) + 1
     }
 
-    /// Reads so many frames at full volume, the first one at a position and each `speed` samples after the one before. 1 is
-    /// full scale, which sums may go beyond. What is not made yet is silent.
+    /// Reads `count` frames at full volume, the first one at `position` and each `speed` samples after the previous
+    /// one. Full scale is 1, which sums may exceed. Missing blocks are silent.
     pub fn read(&self, scene: &Scene, position: f64, speed: f64, count: usize) -> Vec<[f32; 2]> {
         let frame = |n: usize| {
             let mut sum = [0.0f32; 2];
@@ -96,13 +96,13 @@ impl Resampler {
     }
 }
 
-/// Time that runs at a constant speed: `secs` at the moment `at`.
+/// A time that runs at a constant speed: `secs` at the moment `at`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timeline {
     pub at: Instant,
     /// `iTime`, in seconds.
     pub secs: f64,
-    /// Seconds of `iTime` in a second, above 0.
+    /// Seconds of `iTime` per second, above 0.
     pub speed: f64,
 }
 
@@ -113,19 +113,19 @@ impl Timeline {
         self.secs + self.speed * (since - before)
     }
 
-    /// The position in samples of [`SAMPLE_RATE`] at a moment.
+    /// Returns the position in samples of [`SAMPLE_RATE`] at a moment.
     pub(crate) fn position_at(&self, at: Instant) -> f64 {
         self.secs_at(at) * f64::from(SAMPLE_RATE)
     }
 }
 
-/// Everything that a device is to play.
+/// The complete desired output of a device.
 #[derive(Clone)]
 pub struct OutputState {
     pub scene: Arc<Scene>,
-    /// Says how time runs; `None` while it stands.
+    /// The course of time; `None` while paused.
     pub line: Option<Timeline>,
-    /// The factor of each sample: 0 for mute, 1 for the files' own loudness.
+    /// The factor for each sample: 0 for mute, 1 for the files' own loudness.
     pub gain: f32,
 }
 

@@ -1,8 +1,8 @@
-//! The spectrum and wave that the site shows in place of music that it may not play.
+//! The spectrum and wave that Shadertoy shows in place of music that it may not play.
 
 use crate::{BINS, Spectrum};
 
-/// The texture at time `t` in seconds: formulas of the time alone, as the site's script has them.
+/// Returns the texture at time `t` in seconds: formulas of the time alone, as in Shadertoy's script.
 #[expect(clippy::approx_constant, reason = "the site has 6.2831 for a full turn")]
 pub fn synthetic(t: f64) -> Spectrum {
     let mut texture = [0; 2 * BINS];
@@ -27,7 +27,7 @@ mod tests {
     #[test]
     fn at_the_start_and_a_quarter_of_a_second_later() {
         let start = synthetic(0.0);
-        // (.5)^4 of the first bin, and two thirds of that; the wave rests.
+        // (.5)^4 of the first bin, and two thirds of that; the wave is flat.
         assert_eq!((start[0], start[1], start[BINS]), (15, 10, 127));
         let beat = synthetic(0.25);
         assert_eq!(beat[0], 254);

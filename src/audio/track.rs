@@ -1,12 +1,12 @@
-//! A sound that is heard while the rest of it is still being made.
+//! A sound that is played while the rest of it is still being drawn.
 
 use std::{ops::Range, sync::OnceLock};
 
 /// Left and right of each frame.
 type Block = Box<[[i16; 2]]>;
 
-/// Stereo frames of 16 bits in blocks of equal length. A block is written once, as a whole; blocks may come in any order.
-/// Reading takes no lock, so that a device's callback can do it.
+/// Stereo frames of 16 bits in blocks of equal length. A block is written once, as a whole; blocks may be written in
+/// any order. Reading takes no lock, so that a device's callback can do it.
 pub struct Track {
     blocks: Box<[OnceLock<Block>]>,
     block_frames: usize,
@@ -14,14 +14,14 @@ pub struct Track {
 }
 
 impl Track {
-    /// A track of `frames` frames, none of which are there yet.
+    /// Creates a track of `frames` frames, none of which are written yet.
     pub fn new(frames: usize, block_frames: usize) -> Self {
         assert!(block_frames > 0, "a block has at least one frame");
         let blocks = (0..frames.div_ceil(block_frames)).map(|_| OnceLock::new()).collect();
         Self { blocks, block_frames, frames }
     }
 
-    /// Its length when all is made.
+    /// Returns the length of the complete track.
     pub fn frames(&self) -> usize {
         self.frames
     }
@@ -30,35 +30,35 @@ impl Track {
         self.blocks.len()
     }
 
-    /// Returns whether a block is made.
+    /// Returns whether a block is written.
     pub fn has_block(&self, index: usize) -> bool {
         self.blocks.get(index).is_some_and(|block| block.get().is_some())
     }
 
-    /// The number of blocks that are made.
+    /// Returns the number of blocks that are written.
     pub fn made(&self) -> usize {
         self.blocks.iter().filter(|block| block.get().is_some()).count()
     }
 
-    /// The frames of a block.
+    /// Returns the range of frames of a block.
     pub fn block_range(&self, index: usize) -> Range<usize> {
         let start = (index * self.block_frames).min(self.frames);
         start..(start + self.block_frames).min(self.frames)
     }
 
-    /// The first block that is not made yet.
+    /// Returns the first block that is not written yet.
     pub fn first_missing(&self) -> Option<usize> {
         self.blocks.iter().position(|block| block.get().is_none())
     }
 
-    /// Writes block `index`, whose frames beyond the track's end are dropped. A block that is there stays.
+    /// Writes block `index`; frames beyond the track's end are dropped. A block that is already written stays.
     pub fn write(&self, index: usize, mut frames: Vec<[i16; 2]>) {
         let Some(block) = self.blocks.get(index) else { return };
         frames.resize(self.block_frames.min(self.frames - index * self.block_frames), [0; 2]);
         let _ = block.set(frames.into());
     }
 
-    /// Frame `n`: silence before the beginning and after the end, `None` where it is not made yet.
+    /// Returns frame `n`: silence before the start and after the end, `None` if it is not written yet.
     pub fn frame(&self, n: i64) -> Option<[i16; 2]> {
         let Ok(n) = usize::try_from(n) else { return Some([0; 2]) };
         if n >= self.frames {
@@ -67,7 +67,7 @@ impl Track {
         self.blocks[n / self.block_frames].get().map(|block| block[n % self.block_frames])
     }
 
-    /// The mean of left and right at frame `n`, in -1 to 1; silence where it is not made yet.
+    /// Returns the mean of left and right at frame `n`, in -1 to 1; silence if it is not written yet.
     pub fn mono(&self, n: i64) -> f32 {
         let [left, right] = self.frame(n).unwrap_or_default();
         (f32::from(left) + f32::from(right)) / 65536.0
@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn blocks_come_in_any_order_and_what_is_missing_is_told_from_silence() {
+    fn blocks_are_written_in_any_order_and_missing_ones_differ_from_silence() {
         let track = Track::new(5, 2);
         assert_eq!((track.blocks(), track.first_missing(), track.frame(0)), (3, Some(0), None));
         track.write(2, vec![[5, -5], [9, 9]]);

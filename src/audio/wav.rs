@@ -5,7 +5,7 @@ use crate::SAMPLE_RATE;
 /// Returns a whole file of `frames`, left and right.
 ///
 /// # Panics
-/// Beyond 4 GiB, which is more than six hours.
+/// Panics beyond 4 GiB, which is more than six hours.
 pub fn wav(frames: &[[i16; 2]]) -> Vec<u8> {
     let data = u32::try_from(frames.len() * 4).expect("a WAV file holds at most 4 GiB");
     let mut file = Vec::with_capacity(44 + data as usize);

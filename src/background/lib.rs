@@ -1,7 +1,8 @@
-//! Work on a thread of its own, while its owner does something else: the newest job counts.
+//! Background work on a thread: the newest job wins.
 //!
-//! Owns the hand-over: jobs that a newer one has overtaken are not started, results that a newer job or a cancel has made
-//! stale are not handed out, and a panic in a job is its error and does not end the program. Does not know what a job is.
+//! Owns the hand-over: superseded jobs are not started, stale results (of a superseded or cancelled job) are not
+//! returned, and a panic in a job becomes its error and does not end the program. This package does not know the
+//! content of jobs.
 //!
 //! A job's progress is a value that it replaces ([`Control::report`]) or adds to ([`Control::update`]). Where every event
 //! counts, it is a list of events, which [`Background::take_progress`] empties.
@@ -19,13 +20,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Called on another thread when there is something to poll.
+/// A callback that is called on another thread when there is something to poll.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
-/// Work that takes an `In`, reports `Progress` and gives an `Out`, or says in words why it gives none.
+/// A thread that turns an `In` into an `Out` or an error message, and reports `Progress`.
 pub struct Background<In, Progress, Out> {
     wake: Wake,
-    /// `None` when no more will come.
+    /// `None` when no more jobs will follow.
     jobs: Option<Sender<Job<In, Progress>>>,
     results: Receiver<(u64, Result<Out, String>)>,
     thread: Option<JoinHandle<()>>,
@@ -34,7 +35,7 @@ pub struct Background<In, Progress, Out> {
     input: Input,
     is_busy: bool,
     control: Control<Progress>,
-    /// The progress that [`Background::poll`] has told of.
+    /// The progress that [`Background::poll`] has already reported.
     polled: Progress,
     result: Option<Result<Out, String>>,
 }
@@ -45,31 +46,31 @@ struct Job<In, Progress> {
     control: Control<Progress>,
 }
 
-/// The input of a job that was requested and is not started yet.
+/// The input of a job that was requested and has not started yet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Input {
     #[default]
     None,
     Requested,
-    /// It is being made.
+    /// The input is being prepared.
     InProgress,
 }
 
-/// Work as a front end shows it.
+/// The state of the work, as shown by a front end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Status<'w, Progress, Out> {
     UnderWay(Progress),
     Ended(Result<&'w Out, &'w str>),
 }
 
-/// So many things are done, of so many.
+/// Progress as a number of items out of a total.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
     pub done: usize,
     pub of: usize,
 }
 
-/// The work's view of its job: reports progress, and hears when nobody wants the result any more.
+/// The job's handle for reporting progress, and for checking whether the job is cancelled.
 pub struct Control<Progress> {
     shared: Arc<Shared<Progress>>,
     wake: Wake,
@@ -92,7 +93,7 @@ impl<Progress: Clone + Default> Control<Progress> {
         Self { shared: Arc::default(), wake }
     }
 
-    /// Tells how far the work is.
+    /// Reports progress.
     pub fn report(&self, progress: Progress) {
         self.update(|shared| *shared = progress);
     }
@@ -108,12 +109,12 @@ impl<Progress: Clone + Default> Control<Progress> {
         self.shared.is_cancelled.clone()
     }
 
-    /// Returns whether the work is to end: its result is not wanted any more, or what it has by now is enough.
+    /// Returns whether the job is cancelled: its result will be dropped.
     pub fn is_cancelled(&self) -> bool {
         self.shared.is_cancelled.load(Ordering::Relaxed)
     }
 
-    /// Ends work that returns with `?` where it is cancelled.
+    /// Returns an error if the job is cancelled, to leave it with `?`.
     pub fn check(&self) -> Result<(), String> {
         if self.is_cancelled() { Err("cancelled".to_owned()) } else { Ok(()) }
     }
@@ -133,8 +134,8 @@ where
     Progress: Clone + Default + PartialEq + Send + 'static,
     Out: Send + 'static,
 {
-    /// Starts a thread of this name. `what` is the subject of the sentence that tells of a panic, as in "the search
-    /// failed"; `wake` is called on the thread after each job and each report.
+    /// Starts a thread of this name. `what` is the subject of the message about a panic, as in "the search failed";
+    /// `wake` is called on the thread after each job and each report.
     pub fn new(
         name: &str,
         what: &'static str,
@@ -170,13 +171,13 @@ where
         })
     }
 
-    /// Asks for a newer result whose input is yet to be had. The last result stays until then, and so does the job that
-    /// is under way.
+    /// Requests a newer result, whose input does not exist yet. The last result stays until then, and so does the job
+    /// in progress.
     pub fn request(&mut self) {
         self.input = Input::Requested;
     }
 
-    /// Returns whether an input is to be had now, once for each request.
+    /// Returns whether an input should be prepared now, once per request.
     pub fn take_request(&mut self) -> bool {
         let is_requested = self.input == Input::Requested;
         if is_requested {
@@ -185,14 +186,14 @@ where
         is_requested
     }
 
-    /// Requests the input again that was on its way and will not come.
+    /// Repeats the request if its input was in preparation and will not arrive.
     pub fn renew_request(&mut self) {
         if self.input == Input::InProgress {
             self.input = Input::Requested;
         }
     }
 
-    /// Gives the thread something newer to do. The job before it is cancelled.
+    /// Starts a newer job. The previous one is cancelled.
     pub fn start(&mut self, input: In) {
         self.control.cancel();
         self.control = Control::new(self.wake.clone());
@@ -203,7 +204,7 @@ where
         }
     }
 
-    /// Ends what was requested with an error, as its input cannot be had.
+    /// Ends a request with an error, because its input cannot be prepared.
     pub fn fail(&mut self, why: impl Into<String>) {
         self.input_has_come();
         self.result = Some(Err(why.into()));
@@ -215,7 +216,7 @@ where
         }
     }
 
-    /// Ends what was requested and what is under way without a result. The last result stays.
+    /// Ends the request and the job in progress without a result. The last result stays.
     pub fn cancel(&mut self) {
         self.control.cancel();
         self.newest += 1;
@@ -237,13 +238,13 @@ where
         mem::take(&mut self.control.shared.progress.lock().unwrap_or_else(|e| e.into_inner()))
     }
 
-    /// Cancels, and forgets the last result too.
+    /// Cancels, and drops the last result too.
     pub fn clear(&mut self) {
         self.cancel();
         self.result = None;
     }
 
-    /// Takes what has come of the newest job. Returns whether its result or its progress is new.
+    /// Receives results and progress of the newest job. Returns whether there are any new ones.
     pub fn poll(&mut self) -> bool {
         let newest = self.newest;
         if let Some((_, result)) = self.results.try_iter().filter(|(number, _)| *number == newest).last() {
@@ -260,12 +261,12 @@ where
         self.result.take()
     }
 
-    /// Returns the last result, while a newer one is under way too.
+    /// Returns the last result, even while a newer one is in progress.
     pub fn result(&self) -> Option<&Result<Out, String>> {
         self.result.as_ref()
     }
 
-    /// Returns `None` where nothing was requested since the last [`Background::clear`].
+    /// Returns `None` if nothing was requested since the last [`Background::clear`].
     pub fn status(&self) -> Option<Status<'_, Progress, Out>> {
         if self.is_under_way() {
             return Some(Status::UnderWay(self.control.progress()));
@@ -283,7 +284,7 @@ where
         self.is_busy
     }
 
-    /// Lets go of the thread: it ends when it has ended its job, and nobody waits for that.
+    /// Detaches the thread: it ends after its job, without anyone waiting for it.
     pub fn leave(&mut self) {
         self.jobs = None;
         self.thread = None;
@@ -296,8 +297,8 @@ where
         self
     }
 
-    /// Cancels, and waits for the thread's end, but not for long. Returns false where it goes on: then nobody waits for it
-    /// any more.
+    /// Cancels, and waits up to `patience` for the thread to end. Returns false if it is still running; it is then
+    /// detached.
     pub fn end(&mut self, patience: Duration) -> bool {
         self.cancel();
         self.jobs = None;
@@ -337,7 +338,7 @@ where
 }
 
 impl<In, Progress, Out> Drop for Background<In, Progress, Out> {
-    /// Lets the job under way end: a thread inside the graphics driver must not outlive the device.
+    /// Waits for the job in progress: a thread inside the graphics driver must not outlive the device.
     fn drop(&mut self) {
         self.control.shared.is_cancelled.store(true, Ordering::Relaxed);
         self.jobs = None;

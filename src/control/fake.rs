@@ -1,4 +1,4 @@
-//! MIDI devices and gamepads for tests: they come, go and send when the test says so.
+//! MIDI devices and gamepads for tests: they are plugged in, unplugged and send when the test tells them to.
 
 use crate::{
     midi::host::{MidiError, MidiHost, MidiIn, Opened, Take},
@@ -10,10 +10,10 @@ use std::{
     time::Duration,
 };
 
-/// The devices by their names, each with who takes what it sends.
+/// The devices by name, each with the callback that takes what it sends, if open.
 type Devices = BTreeMap<String, Option<Take>>;
 
-/// The MIDI of a machine that is made up.
+/// The MIDI devices of a simulated machine.
 #[derive(Clone, Default)]
 pub struct FakeMidi(Arc<Mutex<Devices>>);
 
@@ -40,7 +40,7 @@ impl FakeMidi {
         self.lock().get(name).is_some_and(Option::is_some)
     }
 
-    /// A device sends something to who has opened it.
+    /// Sends bytes from a device to the callback that was passed to `open`, if any.
     pub fn send(&self, name: &str, bytes: &[u8]) {
         if let Some(Some(take)) = self.lock().get_mut(name) {
             take(bytes);
@@ -78,12 +78,12 @@ impl MidiIn for FakeMidi {
     }
 }
 
-/// Gamepads that are made up.
+/// Simulated gamepads.
 #[derive(Clone, Debug, Default)]
 pub struct FakePads(Arc<Mutex<VecDeque<PadEvent>>>);
 
 impl FakePads {
-    /// Something happens, for who listens.
+    /// Queues an event for the listener.
     pub fn happens(&self, event: PadEvent) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).push_back(event);
     }

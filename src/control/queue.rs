@@ -1,4 +1,4 @@
-//! Movements of controls between the threads that read devices and whoever draws.
+//! Movements of controls between the threads that read devices and the one that draws.
 
 use crate::{ControlEvent, Wake};
 use eddy_project::limits;
@@ -7,7 +7,7 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 
-/// Movements in the order in which they came, from all devices. When it is full, the oldest are dropped.
+/// Movements in the order of their arrival, from all devices. When it is full, the oldest are dropped.
 #[derive(Clone)]
 pub struct ControlQueue {
     waiting: Arc<Mutex<VecDeque<ControlEvent>>>,
@@ -15,7 +15,7 @@ pub struct ControlQueue {
 }
 
 impl ControlQueue {
-    /// `wake` is called from another thread when there is something after there was nothing.
+    /// `wake` is called from another thread when an event arrives in an empty queue.
     pub fn new(wake: Wake) -> Self {
         Self { waiting: Arc::default(), wake }
     }
@@ -36,7 +36,7 @@ impl ControlQueue {
         }
     }
 
-    /// Takes everything.
+    /// Takes all events.
     pub fn take(&self) -> Vec<ControlEvent> {
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner).drain(..).collect()
     }

@@ -1,59 +1,58 @@
-//! Soft takeover: a knob whose position differs from the value that it moves takes over when it passes the value.
+//! Soft takeover: a knob whose position differs from the value takes control when it passes the value.
 //!
-//! A knob stays where a hand has left it, and a value is also moved by the mouse, by undo and by opening a project. If the knob
-//! moved the value at once it would jump. So until the knob meets the value, its movements are only noted. The musical keyboards
-//! and mixers that do so call it soft takeover or pickup.
+//! A knob keeps its position, but the value is also changed by the mouse, by undo and by opening a project. If the knob
+//! always set the value, the value would jump. So until the knob reaches the value, its movements are only recorded.
+//! Musical keyboards and mixers call this soft takeover or pickup.
 
-/// The side of the value on which a knob is that does not move it yet.
+/// The side of the value on which a knob is that does not control it yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PickupSide {
-    /// The knob is to be turned up.
+    /// The knob has to be turned up.
     Below,
-    /// The knob is to be turned down.
+    /// The knob has to be turned down.
     Above,
 }
 
-/// The value that a knob is to move, and a movement of the knob.
+/// A movement of a knob, and the value that it should set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Movement {
     /// The position of the knob, from 0 to 1.
     pub knob: f64,
-    /// The place of the value in the range of its slider, from 0 to 1.
+    /// The position of the value in the range of its slider, from 0 to 1.
     pub slider: f64,
-    /// The value.
     pub value: f64,
-    /// The value that the knob's position stands for.
+    /// The value at the knob's position.
     pub target: f64,
 }
 
-/// The state of a knob and the value that it moves.
+/// The state of a knob and its value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Takeover {
-    /// The knob's position before.
+    /// The previous position of the knob.
     knob: Option<f64>,
-    /// The value that the knob has set. Another one by now: something else has moved it.
+    /// The value that the knob has set. If it differs from the current one, something else has changed it.
     held: Option<f64>,
     waits: Option<PickupSide>,
-    /// The next movement takes over wherever the knob is.
+    /// The next movement takes control wherever the knob is.
     is_learned: bool,
 }
 
-/// The distance at which a knob of 7 bits counts as being there: one step. A fast turn may also leave out steps, but it passes the
-/// value.
+/// The distance within which a knob of 7 bits has reached the value: one step. A fast turn may skip steps, but it
+/// passes the value.
 const NEAR: f64 = 1.0 / 127.0;
 
 impl Takeover {
-    /// A knob that a hand has just chosen for the value: it moves the value at once.
+    /// Creates the state of a knob that was just assigned to the value: it takes control at once.
     pub fn learned() -> Self {
         Self { is_learned: true, ..Self::default() }
     }
 
-    /// Returns the side on which the knob waits, as its last movement left it. `None`: it moves the value.
+    /// Returns the side on which the knob waits, as of its last movement. `None` if it controls the value.
     pub fn waits(&self) -> Option<PickupSide> {
         self.waits
     }
 
-    /// Takes a movement of the knob. Returns whether it moves the value.
+    /// Takes a movement of the knob. Returns whether it sets the value.
     pub fn moves(&mut self, movement: Movement) -> bool {
         let Movement { knob, slider, value, target } = movement;
         let before = self.knob.replace(knob);
@@ -101,7 +100,7 @@ mod tests {
         assert_eq!(slider.turn(40), (0.5, Some(PickupSide::Below)));
         assert_eq!(slider.turn(100), (100.0 / 127.0, None), "a fast turn over the value");
         assert_eq!(slider.turn(3), (3.0 / 127.0, None), "and from then on every movement");
-        // From above, one step after the other.
+        // From above, step by step.
         let mut slider = Slider::at(0.5);
         assert_eq!(slider.turn(70), (0.5, Some(PickupSide::Above)));
         for step in (66..70).rev() {
@@ -111,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_that_something_else_has_moved_is_waited_for_again() {
+    fn a_knob_waits_again_after_something_else_changed_the_value() {
         let mut slider = Slider { value: 0.25, takeover: Takeover::learned() };
         assert_eq!(slider.turn(127), (1.0, None), "a hand has just chosen it");
         slider.value = 0.25;
@@ -125,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_of_an_integer_are_where_they_are_rounded_to() {
+    fn integer_values_are_matched_after_rounding() {
         let mut takeover = Takeover::default();
         let at = |knob: f64| Movement { knob, slider: 0.5, value: 5.0, target: (1.0 + 8.0 * knob).round() };
         assert!(!takeover.moves(at(0.2)));

@@ -1,4 +1,4 @@
-//! The value that a uniform has after a control has moved.
+//! The value of a uniform after a control has moved.
 
 use crate::ControlEvent;
 use eddy_project::{ControlAddress, ControlTarget, CustomUniform, CustomUniformType, CustomUniformValue};
@@ -6,18 +6,18 @@ use eddy_project::{ControlAddress, ControlTarget, CustomUniform, CustomUniformTy
 /// OSC addresses below this one name a uniform and have values in the units of its slider.
 pub const OWN_UNITS: &str = "/eddy/";
 
-/// The greatest value of an `int` without a range, as of a 7-bit control.
+/// The maximum of an `int` without a range, as for a 7-bit control.
 const INT_WITHOUT_RANGE: f64 = 127.0;
 
-/// A uniform that an OSC address names, and which of its numbers.
+/// A uniform that an OSC address names, and the index of its component.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Moved<'a> {
     pub uniform: &'a str,
     pub index: usize,
 }
 
-/// Returns the uniform that an address below [`OWN_UNITS`] names: `/eddy/speed`, `/eddy/center/x`, and by its argument a
-/// component of `/eddy/center`. `None`: the address is another one.
+/// Returns the uniform that an address below [`OWN_UNITS`] names: `/eddy/speed`, `/eddy/center/x`, and by its argument
+/// a component of `/eddy/center`. `None` for other addresses.
 pub fn direct(source: &ControlAddress) -> Option<Moved<'_>> {
     let ControlAddress::Osc { path, argument } = source else { return None };
     let rest = path.strip_prefix(OWN_UNITS)?;
@@ -31,9 +31,9 @@ pub fn direct(source: &ControlAddress) -> Option<Moved<'_>> {
     }
 }
 
-/// Returns what a uniform is after a control has moved that drives its number `index`. `is_own_units`: the event's value is in
-/// the units of the slider, else 0 to 1 stand for its range. `None`: the uniform has no such number, or the event leaves it as
-/// it is.
+/// Returns the value of a uniform after a control has moved that drives its component `index`. `is_own_units`: the
+/// event's value is in the units of the slider, otherwise 0 to 1 is mapped to its range. `None` if the uniform has no
+/// such component, or if the event does not change it.
 pub fn moved(
     uniform: &CustomUniform,
     now: &CustomUniformValue,
@@ -45,7 +45,7 @@ pub fn moved(
     let is_note = matches!(event.source, ControlAddress::Note { .. });
     let number = all.get_mut(index)?;
     *number = match uniform.ty {
-        // A key switches over when it is pressed; anything else is on from the middle of its way on.
+        // A key toggles it when pressed; any other control switches it on from half of its range.
         CustomUniformType::Bool if is_note && event.value > 0.0 => 1.0 - *number,
         CustomUniformType::Bool if is_note => return None,
         CustomUniformType::Bool => f64::from(u8::from(event.value >= 0.5)),
@@ -56,7 +56,7 @@ pub fn moved(
             if uniform.ty == CustomUniformType::Int { value.clamp(-2_147_483_648.0, 2_147_483_647.0) } else { value }
         }
     };
-    // A number that is none in single precision is not a value of a uniform.
+    // A number that is not finite in single precision is not a value of a uniform.
     if !(all[index] as f32).is_finite() {
         return None;
     }
@@ -64,8 +64,8 @@ pub fn moved(
     (value != *now).then_some(value)
 }
 
-/// Returns the place of a uniform's number in its range, from 0 to 1 where it is within. `None`: the uniform is a switch or has no
-/// such number, so nothing stands between its values.
+/// Returns the position of a uniform's component in its range, from 0 to 1 if it is within. `None` if the uniform is a
+/// switch, which has no values in between, or has no such component.
 pub fn place_of(uniform: &CustomUniform, index: usize, value: f64) -> Option<f64> {
     let (min, max) = match uniform.ty {
         CustomUniformType::Bool => return None,
@@ -79,7 +79,7 @@ fn range_of(uniform: &CustomUniform, ty: CustomUniformType, index: usize) -> (f6
     uniform.range.map_or((0.0, usual), |range| (range.min[index], range.max[index]))
 }
 
-/// Returns the value at a part of the range, on the author's steps where there are steps.
+/// Returns the value at a part of the range, rounded to the author's steps if there are any.
 fn in_range(uniform: &CustomUniform, index: usize, part: f64) -> f64 {
     let (min, max) = range_of(uniform, uniform.ty, index);
     // Exact at both ends.
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn a_part_of_the_way_is_a_part_of_the_range() {
+    fn control_positions_map_to_the_range() {
         let at = |name: &str, value: f64| set(name, 0, &osc("/a", 0, value), false);
         assert_eq!(at("speed", 0.0), Some(vec![-2.0]));
         assert_eq!(at("speed", 0.5), Some(vec![0.0]));
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn a_switch_follows_a_knob_and_is_switched_over_by_a_key() {
+    fn a_switch_follows_a_knob_and_is_toggled_by_a_key() {
         let at = |event: &ControlEvent| set("on", 0, event, false);
         assert_eq!((at(&osc("/a", 0, 1.0)), at(&osc("/a", 0, 0.4))), (Some(vec![1.0]), None));
         let key = |value| ControlEvent { source: ControlAddress::Note { channel: 0, key: 60 }, value };
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn an_address_of_eddy_has_the_units_of_the_slider() {
+    fn direct_addresses_use_the_units_of_the_slider() {
         assert_eq!(set("speed", 0, &osc("/eddy/speed", 0, -1.5), true), Some(vec![-1.5]));
         assert_eq!(set("speed", 0, &osc("/eddy/speed", 0, 99.0), true), Some(vec![2.0]));
         assert_eq!(set("free", 0, &osc("/eddy/free", 0, 1e30), true), Some(vec![1e30]));

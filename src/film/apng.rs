@@ -8,9 +8,9 @@ use super::{
 use eddy_engine::Pixels;
 use std::io::Write;
 
-/// A film of which each frame is a picture of its own.
+/// A film in which every frame is a separate picture.
 pub struct Apng<W: Write> {
-    /// Taken when the film is complete.
+    /// `None` once the film is complete.
     writer: Option<png::Writer<W>>,
     depth: u32,
     bytes: Vec<u8>,
@@ -18,7 +18,7 @@ pub struct Apng<W: Write> {
 }
 
 impl<W: Write> Apng<W> {
-    /// `failed` names the place in errors.
+    /// `failed` maps an I/O error to one that names the output.
     pub fn new(
         out: W,
         shape: Shape,
@@ -28,7 +28,7 @@ impl<W: Write> Apng<W> {
         let mut encoder = png::Encoder::new(out, shape.width, shape.height);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(if depth == 8 { png::BitDepth::Eight } else { png::BitDepth::Sixteen });
-        // For ever.
+        // Loop forever.
         let frames = shape.frames.ok_or(FilmError::NoLength { format: "apng" })?;
         let animated = encoder.set_animated(frames, 0);
         let (seconds, parts) = (shape.rate.denominator as u16, shape.rate.numerator as u16);

@@ -1,10 +1,10 @@
-//! A picture or a film could not be written.
+//! The errors of writing a picture or a film.
 
 use eddy_project::rename_temporary;
 use eddy_video::VideoError;
 use std::{io, path::PathBuf};
 
-/// Nothing that was there has been touched.
+/// An error of writing a picture or a film. An existing file is left as it was.
 #[derive(Debug, thiserror::Error)]
 pub enum FilmError {
     #[error("{error}; {}", error.hint())]
@@ -22,7 +22,7 @@ pub enum FilmError {
     Pipe(io::Error),
     #[error("a film is written to one file, and none was named")]
     NoFile,
-    /// Whoever reads the pipe has seen enough.
+    /// The reader closed the pipe.
     #[error("the pipe was closed")]
     Closed,
     #[error("a frame of {}x{} pixels cannot be added to a film of {}x{}: all frames have one size", of.0, of.1, film.0, film.1)]
@@ -60,7 +60,7 @@ impl FilmError {
         move |source| FilmError::Io { path, source }
     }
 
-    /// Names the film in the place of the temporary file in which it is written, whose name is random.
+    /// Replaces the temporary file, whose name is random, with the film in the error.
     pub(super) fn of_film(self, film: &std::path::Path) -> FilmError {
         match self {
             FilmError::Io { source, .. } => FilmError::Io { path: film.to_owned(), source },
@@ -73,7 +73,7 @@ impl FilmError {
         }
     }
 
-    /// An error of writing to a pipe.
+    /// Converts an error of writing to a pipe.
     pub(super) fn pipe(error: io::Error) -> FilmError {
         if error.kind() == io::ErrorKind::BrokenPipe { FilmError::Closed } else { FilmError::Pipe(error) }
     }

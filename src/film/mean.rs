@@ -1,12 +1,12 @@
-//! Several pictures, or several texels of one, as one: supersampling and motion blur.
+//! Averages of several pictures, or of several texels: supersampling and motion blur.
 //!
-//! The mean is that of the values as they are. Those of Image are display values, so this is what a browser does with a canvas
-//! that is shown smaller, and not the mean of light: an edge of black and white becomes .5. Sums have 64 bits.
+//! Values are averaged as they are. Those of Image are display values, so the result is what a browser shows for a
+//! canvas that is scaled down, and not an average of light: an edge of black and white becomes .5. Sums have 64 bits.
 
 use eddy_engine::Pixels;
 
-/// Returns a picture of which each texel is the mean of `factor` x `factor` texels. What is left over at the right and at the
-/// top, where the size is no multiple, is dropped.
+/// Returns a picture in which each texel is the mean of `factor` x `factor` texels. Where the size is not a multiple of
+/// `factor`, the remaining texels at the right and at the top are dropped.
 pub fn shrunk(pixels: &Pixels, factor: u32) -> Pixels {
     let factor = factor.max(1);
     let (width, height) = (pixels.width / factor, pixels.height / factor);
@@ -31,7 +31,7 @@ fn add(sum: [f64; 4], texel: [f32; 4]) -> [f64; 4] {
     std::array::from_fn(|n| sum[n] + f64::from(texel[n]))
 }
 
-/// The mean of pictures of one size.
+/// The running mean of pictures of one size.
 #[derive(Debug, Default)]
 pub struct Mean {
     size: (u32, u32),
@@ -40,7 +40,7 @@ pub struct Mean {
 }
 
 impl Mean {
-    /// Adds a picture. One of another size begins a new mean.
+    /// Adds a picture. A picture of another size starts a new mean.
     pub fn add(&mut self, pixels: &Pixels) {
         if self.size != (pixels.width, pixels.height) {
             *self = Mean { size: (pixels.width, pixels.height), sums: vec![[0.0; 4]; pixels.texels.len()], count: 0 };
@@ -49,7 +49,7 @@ impl Mean {
         self.count += 1;
     }
 
-    /// Returns the mean of what was added since the last call.
+    /// Returns the mean of the pictures that were added since the last call.
     pub fn take(&mut self) -> Pixels {
         let Mean { size: (width, height), sums, count } = std::mem::take(self);
         let weight = 1.0 / f64::from(count.max(1));

@@ -1,10 +1,10 @@
-//! The names of the pictures of a run.
+//! The file names of a run's pictures.
 
-/// Digits of a frame's number in a name, more where the last frame needs more.
+/// The minimum number of digits of a frame number in a name.
 const LEAST_DIGITS: usize = 4;
 
-/// Returns the name of a picture of a run whose last picture is of the frame `last`. Names in their order are frames in
-/// theirs: numbers have as many digits as the last one needs.
+/// Returns the file name of a picture in a run whose last frame is `last`. Numbers are padded to the digits of the last
+/// one, so that names sort in the order of frames.
 pub fn picture_name(stem: &str, frame: u32, last: u32, extension: &str) -> String {
     let digits = last.to_string().len().max(LEAST_DIGITS);
     format!("{stem}_{frame:0digits$}.{extension}")
@@ -15,7 +15,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_have_the_order_of_their_frames() {
+    fn names_sort_in_frame_order() {
         assert_eq!(picture_name("a", 7, 60, "png"), "a_0007.png");
         assert_eq!(picture_name("a", 7, 123_456, "exr"), "a_000007.exr");
     }

@@ -1,7 +1,7 @@
-//! Frames without compression: raw, and YUV4MPEG2.
+//! Uncompressed frames: raw, and YUV4MPEG2.
 //!
-//! The header of YUV4MPEG2 is that of the MJPEG tools (`man yuv4mpeg`), with `XCOLORRANGE` as ffmpeg reads and writes it. It has
-//! no place for the matrix, which is that of BT.709.
+//! The header of YUV4MPEG2 follows the MJPEG tools (`man yuv4mpeg`), with `XCOLORRANGE` as ffmpeg reads and writes it.
+//! It has no field for the matrix, which is that of BT.709.
 
 use super::{
     FilmError,
@@ -13,17 +13,18 @@ use super::{
 use eddy_engine::Pixels;
 use std::io::{self, Write};
 
-/// A film that is written frame after frame.
+/// A film that is written frame by frame.
 pub struct Plain<W: Write> {
     out: W,
-    /// `None` for RGBA of so many bits.
+    /// `Err` for RGBA with this many bits per component.
     yuv: Result<YuvFormat, u32>,
     bytes: Vec<u8>,
     failed: fn(io::Error) -> FilmError,
 }
 
 impl<W: Write> Plain<W> {
-    /// `yuv`: a film of YUV4MPEG2, or of raw RGBA with so many bits. `failed` names the place in errors.
+    /// `yuv` is `Ok` for a film of YUV4MPEG2 and `Err` for raw RGBA with this many bits. `failed` maps an I/O error to
+    /// one that names the output.
     pub fn new(
         mut out: W,
         shape: Shape,

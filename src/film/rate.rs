@@ -1,4 +1,4 @@
-//! Frames per second as a ratio of whole numbers, which is how files hold them.
+//! Frames per second as a ratio of integers, which is how files store them.
 
 /// The largest number of a ratio: APNG has 16 bits for each.
 const MOST: u64 = 65_535;
@@ -11,9 +11,9 @@ pub struct Rate {
 }
 
 impl Rate {
-    /// Returns the simplest ratio within a billionth of a rate, or the nearest of numbers up to 65,535 where none is: the
-    /// convergents of its continued fraction (Hardy and Wright, An Introduction to the Theory of Numbers, chapter X). `None`
-    /// for rates that are not between 1/65,535 and 65,535.
+    /// Returns the simplest ratio within a billionth of a rate, or the nearest one with numbers up to 65,535 if there
+    /// is none: the convergents of its continued fraction (Hardy and Wright, An Introduction to the Theory of Numbers,
+    /// chapter X). `None` for rates that are not between 1/65,535 and 65,535.
     pub fn of(fps: f64) -> Option<Rate> {
         if !(1.0 / MOST as f64..=MOST as f64).contains(&fps) {
             return None;
@@ -39,8 +39,8 @@ impl Rate {
         (last.0 > 0 && last.1 > 0).then_some(Rate { numerator: last.0 as u32, denominator: last.1 as u32 })
     }
 
-    /// Reads frames per second as a number or as a ratio, as in `24000/1001`. The rounded numbers by which the rates of NTSC
-    /// are known, such as 23.976 and 29.97, mean those rates.
+    /// Parses frames per second from a number or a ratio, as in `24000/1001`. The rounded numbers by which the rates of
+    /// NTSC are known, such as 23.976 and 29.97, mean the exact rates.
     pub fn parse(text: &str) -> Option<f64> {
         let number = |text: &str| text.trim().parse::<f64>().ok();
         let fps = match text.split_once('/') {
@@ -62,7 +62,7 @@ impl Rate {
         f64::from(self.numerator) / f64::from(self.denominator)
     }
 
-    /// Writes the ratio as ffmpeg and Y4M read it, with this sign between the numbers.
+    /// Formats the ratio for ffmpeg and Y4M, with `sign` between the numbers.
     pub(super) fn text(self, sign: char) -> String {
         format!("{}{sign}{}", self.numerator, self.denominator)
     }

@@ -1,7 +1,8 @@
-//! A film whose end goes over into its beginning.
+//! A film whose end fades into its start.
 //!
-//! The first frames are faded with those that would follow the last one: the first frame is the one after the last, and at the end
-//! of the fade the film's own frames remain. A second engine draws the frames after the last one, so that none is kept.
+//! The first frames are faded with those that would follow the last one: the first frame is the one after the last, and
+//! at the end of the fade only the film's own frames remain. A second engine draws the frames after the last one, so
+//! that none is stored.
 
 use super::{Rate, shrunk};
 use eddy_engine::Pixels;
@@ -11,37 +12,38 @@ use eddy_playback::{
 };
 use eddy_project::PassId;
 
-/// The joint of a film, while its frames are drawn.
+/// The joint of a looping film, while its frames are drawn.
 pub struct Seam {
     /// Draws the frames that follow the film; `None` without a fade.
     later: Option<Offline>,
-    /// It is nothing to `later` which frames were drawn.
+    /// `later` does not depend on which frames were drawn before.
     jumps: bool,
-    /// Frames that are faded, and frames of the run for each of the film.
+    /// The number of faded frames, and frames of the run per frame of the film.
     fade: u32,
     step: u32,
-    /// Frames of the film that are done.
+    /// The number of the film's frames that are done.
     done: u32,
     first: Option<Pixels>,
     last: Option<Pixels>,
-    /// The distances of neighbours.
+    /// The distances between neighbouring frames.
     distances: Vec<f64>,
-    /// The verdict's words on the project's period.
+    /// The text of the verdict about the project's period.
     period: String,
 }
 
-/// The fade of a film's beginning, given how long the film is.
+/// The fade at a film's start, for the film's length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fade {
-    /// 0 in a film of whole periods: it has no seam.
+    /// 0 for a film of whole periods: it has no seam.
     pub secs: f64,
     frames: u32,
     period: String,
 }
 
 impl Fade {
-    /// Gives the fade of a film of `count` frames that is to be faded for `secs`. A film of one or more whole periods of
-    /// the project, to half a frame, is not faded. Err: the fade is longer than the film.
+    /// Returns the fade for a film of `count` frames that is to be faded for `secs`. A film of one or more whole
+    /// periods of the project, to within half a frame, is not faded. Returns an error if the fade is longer than the
+    /// film.
     pub fn new(secs: f64, period: Option<f64>, rate: Rate, count: u32) -> Result<Fade, String> {
         if let Some(period) = period {
             let frames = period * rate.per_second();
@@ -69,14 +71,14 @@ impl Fade {
 #[derive(Clone, Debug)]
 pub struct ShownPass {
     pub pass: PassId,
-    /// The target of a pass that has several, or the face of a cubemap.
+    /// The target of a pass with several targets, or the face of a cubemap.
     pub layer: usize,
-    /// It is drawn so many times as wide and high.
+    /// The supersampling factor: the picture is drawn this many times as wide and high.
     pub factor: u32,
 }
 
 impl ShownPass {
-    /// Reads the newest frame's picture.
+    /// Reads the picture of the newest frame.
     pub fn read(&self, offline: &mut Offline) -> Result<Pixels, OfflineError> {
         let pixels = offline.read(&self.pass, self.layer)?;
         Ok(if self.factor == 1 { pixels } else { shrunk(&pixels, self.factor) })
@@ -84,8 +86,8 @@ impl ShownPass {
 }
 
 impl Seam {
-    /// Begins with no frame of a film of these frames, which are evenly spaced. `open` sets up a second run of the project,
-    /// and `goes_on` is asked before each frame that comes before the film's end.
+    /// Starts a film of these frames, which are evenly spaced. `open` sets up a second run of the project, and
+    /// `goes_on` is called before each frame that precedes the end of the film.
     pub fn open<E: From<OfflineError>>(
         fade: Fade,
         frames: &[u32],
@@ -109,7 +111,7 @@ impl Seam {
         Ok(seam)
     }
 
-    /// Goes on by a frame of the run that is not shown.
+    /// Skips a frame of the run that is not shown.
     fn pass_over(&mut self) -> Result<(), OfflineError> {
         let Some(later) = &mut self.later else { return Ok(()) };
         if self.jumps {
@@ -120,7 +122,8 @@ impl Seam {
         Ok(())
     }
 
-    /// Returns the next frame of the film, of which `own` is the picture. `read` reads that of another run's newest frame.
+    /// Returns the next frame of the film; `own` is its picture. `read` reads the picture of another run's newest
+    /// frame.
     pub fn join<E: From<OfflineError>>(
         &mut self,
         own: Pixels,
@@ -147,8 +150,8 @@ impl Seam {
         Ok(frame)
     }
 
-    /// Says how far the last frame is from the first one, now that all are there, and whether the film jumps there. `None`
-    /// for a film of one frame.
+    /// Returns whether the film jumps from the last frame to the first, and a text about how far they are apart. Called
+    /// after all frames were joined. `None` for a film of one frame.
     pub fn verdict(self) -> Option<(bool, String)> {
         let (Some(first), Some(last), Some(usual)) = (self.first, self.last, median(self.distances)) else {
             return None;
@@ -167,14 +170,14 @@ impl Seam {
     }
 }
 
-/// Mixes a picture into another one, of which `part` remains.
+/// Mixes `other` into `own`, of which `part` remains.
 fn fade(own: &mut Pixels, other: &Pixels, part: f32) {
     for (own, other) in own.texels.iter_mut().zip(&other.texels) {
         *own = std::array::from_fn(|n| other[n] * (1.0 - part) + own[n] * part);
     }
 }
 
-/// The mean distance of red, green and blue as a screen shows them, from 0 to 1.
+/// Returns the mean distance of red, green and blue as displayed, from 0 to 1.
 fn distance(one: &Pixels, other: &Pixels) -> f64 {
     let shown = |v: f32| f64::from(if v > 0.0 { v.min(1.0) } else { 0.0 });
     let pairs = one.texels.iter().zip(&other.texels);
@@ -197,7 +200,7 @@ mod tests {
             // Twice pi is 376.99 frames.
             (std::f64::consts::TAU, 60.0, 377, "is one period of the project"),
         ] {
-            // The film may be shorter than the fade that it does not need.
+            // The film may be shorter than a fade that it does not need.
             let fade = fade(100.0, Some(period), fps, count).unwrap();
             assert!((fade.secs, fade.frames) == (0.0, 0) && fade.period.contains(said), "{fade:?}");
         }
@@ -209,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fade_goes_from_one_to_the_other_and_distances_are_those_of_a_screen() {
+    fn fades_interpolate_and_distances_use_display_values() {
         let picture = |value: f32| Pixels { width: 2, height: 1, texels: vec![[value, value, value, 1.0]; 2] };
         let mut own = picture(1.0);
         fade(&mut own, &picture(0.0), 0.25);

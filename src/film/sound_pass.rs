@@ -1,4 +1,4 @@
-//! A sound pass with one after another of the values that its uniforms have.
+//! A sound pass with the successive values of its uniforms.
 
 use eddy_audio::{SAMPLE_RATE, Track};
 use eddy_engine::{BLOCK_FRAMES, SOUND_FRAMES};
@@ -6,23 +6,25 @@ use eddy_playback::offline::{Offline, OfflineError};
 use eddy_project::CustomUniformValues;
 use std::{collections::VecDeque, ops::Range, sync::Arc};
 
-/// Tracks that are kept. A block of one takes 1 MiB, and a hand on a slider makes 60 of them in a second.
+/// The number of tracks that are cached. A block of a track takes 1 MiB, and moving a slider makes 60 tracks per
+/// second.
 const KEPT: usize = 4;
 
-/// Draws blocks of a sound pass as they are needed.
+/// Draws blocks of a sound pass on demand.
 pub struct SoundPass {
     offline: Offline,
-    /// By the values that the pass reads, the newest last.
+    /// Keyed by the values that the pass reads, the newest last.
     tracks: VecDeque<(Vec<[u32; 4]>, Arc<Track>)>,
 }
 
 impl SoundPass {
-    /// `offline` has a program of the sound pass.
+    /// `offline` has a program for the sound pass.
     pub fn new(offline: Offline) -> Self {
         Self { offline, tracks: VecDeque::new() }
     }
 
-    /// Returns the track of values of uniforms, with what lies between two times. `goes_on` is asked before each block.
+    /// Returns the track for these values of uniforms, with the samples between two times. `goes_on` is called before
+    /// each block.
     pub fn track<E: From<OfflineError>>(
         &mut self,
         values: &CustomUniformValues,

@@ -8,10 +8,10 @@ use eddy_playback::offline::{Offline, OfflineError};
 use eddy_project::{PassId, Project};
 use std::{ops::Range, sync::Arc};
 
-/// Samples that are mixed at once: ten seconds.
+/// The number of samples that are mixed at once: ten seconds.
 pub(super) const PIECE: usize = 10 * SAMPLE_RATE as usize;
 
-/// Returns whether anything of a project can be heard.
+/// Returns whether a project has any sound.
 pub fn has_sound(project: &Project, media: &MediaSet) -> bool {
     project.pass(&PassId::Sound).is_some() || !sounds(project, media).is_empty()
 }
@@ -28,8 +28,8 @@ pub fn music(project: &Project, media: &MediaSet) -> Vec<Source> {
     sources
 }
 
-/// Returns the samples of a film; `None` where nothing is heard. `open` sets up the sound pass, if there is one, and
-/// `goes_on` is asked before each of its blocks and each part that is mixed.
+/// Returns the samples of a film; `None` if it is silent. `open` sets up the sound pass, if there is one, and `goes_on`
+/// is called before each of its blocks and each piece that is mixed.
 pub fn soundtrack<E: From<OfflineError>>(
     (project, media): (&Project, &MediaSet),
     film: &FilmTime,
@@ -84,15 +84,15 @@ pub struct FilmTime {
     /// The first frame of the run that is shown, and frames per second of the run.
     pub first: u32,
     pub fps: f64,
-    /// Frames of the film, and how many of them are shown in a second.
+    /// The number of frames of the film, and how many of them are shown per second.
     pub count: u32,
     pub rate: Rate,
-    /// Seconds after the end that are faded into the beginning.
+    /// Seconds after the end that are faded into the start.
     pub fade_secs: f64,
 }
 
 impl FilmTime {
-    /// Returns the samples that are heard in the time.
+    /// Returns the range of samples that are heard during the film.
     fn samples(&self) -> Range<u64> {
         let at = |secs: f64| (secs * f64::from(SAMPLE_RATE)).round() as u64;
         let first = f64::from(self.first) / self.fps;
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn the_sound_after_the_end_fades_into_the_beginning() {
+    fn the_sound_after_the_end_fades_into_the_start() {
         let all = vec![[0, 8], [0, 8], [50, 8], [100, -8], [100, -8]];
         assert_eq!(faded(all.clone(), 2), [[100, -8], [50, 0], [50, 8]]);
         assert_eq!(faded(all.clone(), 0), all);

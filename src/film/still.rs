@@ -14,16 +14,16 @@ use exr::prelude::{
 use half::f16;
 use std::io::{self, Cursor, Seek, Write};
 
-/// The form of a picture.
+/// The file format of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Still {
-    /// RGBA with 8 or 16 bits of a component, as a screen shows them.
+    /// RGBA with 8 or 16 bits per component, as displayed.
     Png { depth: u32 },
-    /// OpenEXR with the values of the texels as they are, compressed without loss (ZIP): channels R, G, B and A, or as many of
-    /// them as the texels have. Texels of 16-bit floats are written as such, all others as 32-bit floats. The top row is the
-    /// first, as everywhere in OpenEXR, so that other programs show the picture upright.
+    /// OpenEXR with the unmodified values of the texels, losslessly compressed (ZIP): channels R, G, B and A, or as
+    /// many of them as the texels have. Texels of 16-bit floats are written as such, all others as 32-bit floats. The
+    /// top row is the first, as everywhere in OpenEXR, so that other programs show the picture upright.
     Exr,
-    /// The array of NumPy: 32-bit floats, height x width x 4, row 0 at the bottom.
+    /// A NumPy array: 32-bit floats, height x width x 4, row 0 at the bottom.
     Npy,
 }
 
@@ -48,7 +48,7 @@ impl Still {
 }
 
 impl Still {
-    /// Does the same with the scene in the file, where its format has a place for it.
+    /// Does the same and embeds the scene, if the format supports it.
     pub fn write_scene(
         self,
         out: &mut (impl Write + Seek),
@@ -91,7 +91,7 @@ fn exr(out: &mut (impl Write + Seek), pixels: &Pixels, texels: TexelFormat, scen
     };
     let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = (0..texels.components()).map(channel).collect();
     let size = (pixels.width as usize, pixels.height as usize);
-    // Blocks of 16 lines by ZIP.
+    // ZIP compresses blocks of 16 lines.
     let layer = Layer::new(size, exr_attributes(scene), Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
     Image::from_layer(layer).write().non_parallel().to_buffered(out).map_err(exr_failed)
 }

@@ -1,4 +1,4 @@
-//! The writer of a run's pictures, whatever is made of them.
+//! The writer of a run's pictures, as single files or as a film.
 
 use super::{Cancel, Encoding, Film, FilmError, Output, Shape, Stills};
 use eddy_engine::Pixels;
@@ -19,15 +19,15 @@ pub enum FilmSound<'s> {
     None,
     /// Samples of the film's length, at [`eddy_audio::SAMPLE_RATE`].
     Known(&'s [[i16; 2]]),
-    /// It comes after the frames, if there is any: see [`Film::sound`].
+    /// It follows after the frames, if there is any: see [`Film::sound`].
     Later,
 }
 
-/// Says where a writer writes to.
+/// The destination of a writer.
 pub enum Destination {
-    /// Pictures go to the files that they are pushed with, which the person at the machine named.
+    /// Pictures go to the files that they are pushed with, which the user named.
     Pictures,
-    /// The same, into a folder and under names that Eddy gives them: no link leads out of it.
+    /// The same, in a folder and under names that Eddy chooses: links out of it are not followed.
     PicturesWithin,
     /// All bytes go to a pipe.
     Pipe(Box<dyn Write + Send>),
@@ -36,7 +36,7 @@ pub enum Destination {
 }
 
 impl Writer {
-    /// Begins to write pictures of `texels`. `sound` is that of a film.
+    /// Starts writing pictures of `texels`. `sound` is that of a film.
     pub fn start(
         encoding: &Encoding,
         shape: Shape,
@@ -62,8 +62,8 @@ impl Writer {
         Film::start_with(film, shape, sound, output, (&Tools::default(), cancel)).map(Writer::Film)
     }
 
-    /// Writes a picture, and waits while too many are waiting. `path` and `scene` are for pictures that are files of their
-    /// own; without a path they go to the pipe.
+    /// Writes a picture, and blocks while the queue is full. `path` and `scene` are for pictures in files of their own;
+    /// without a path they go to the pipe.
     pub fn push(&mut self, path: Option<PathBuf>, pixels: Pixels, scene: Option<Scene>) -> Result<(), FilmError> {
         match (self, path) {
             (Writer::Film(film), _) => film.push(pixels),
@@ -72,7 +72,7 @@ impl Writer {
         }
     }
 
-    /// Writes a picture to a file, or gives it back where too many are waiting.
+    /// Writes a picture to a file, or returns it if the queue is full.
     pub fn try_push(&mut self, path: PathBuf, pixels: Pixels) -> Result<Option<Pixels>, FilmError> {
         match self {
             Writer::Film(film) => film.try_push(pixels),
@@ -80,7 +80,7 @@ impl Writer {
         }
     }
 
-    /// Adds the sound of a film that was begun with [`FilmSound::Later`].
+    /// Adds the sound of a film that was started with [`FilmSound::Later`].
     pub fn sound(&mut self, sound: Vec<[i16; 2]>) -> Result<(), FilmError> {
         match self {
             Writer::Stills(_) => Ok(()),

@@ -1,19 +1,20 @@
-//! Pictures as planes of brightness and colour differences, by ITU-R BT.709-6: matrix of section 3.2 and 3.3, codes of section
-//! 4.6; for the full range the same with the codes of ITU-T H.273, section 8.3.
+//! Pictures as luma and chroma planes, by ITU-R BT.709-6: matrix of section 3.2 and 3.3, codes of section 4.6; for the
+//! full range the codes of ITU-T H.273, section 8.3.
 //!
-//! A pass's values are taken as R', G' and B', as a screen shows them: nothing is made linear. They are converted from their
-//! floats, so there is one rounding. Chroma of 4:2:0 and 4:2:2 lies at the left of two pixels and, of 4:2:0, between two rows,
-//! as decoders expect by default (H.264, figure E-1, type 0): it is filtered by (1 2 1)/4 across and (1 1)/2 down.
+//! A pass's values are taken as R', G' and B', as displayed: they are not linearised. They are converted from floats,
+//! so they are rounded once. Chroma of 4:2:0 and 4:2:2 is sited at the left of two pixels and, for 4:2:0, between two
+//! rows, as decoders expect by default (H.264, figure E-1, type 0): it is filtered by (1 2 1)/4 across and (1 1)/2
+//! down.
 
 use super::values::{Chroma, ColorRange};
 use eddy_engine::Pixels;
 
-/// The form of the planes. Planes lie one after the other, the top row first, without padding; codes of more than 8 bits are
-/// 16-bit words, little endian.
+/// The layout of the planes. Planes follow each other, the top row first, without padding; codes of more than 8 bits
+/// are 16-bit words, little endian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct YuvFormat {
     pub chroma: Chroma,
-    /// Bits of a code: 8 or 10.
+    /// Bits per code: 8 or 10.
     pub depth: u32,
     pub range: ColorRange,
 }
@@ -34,7 +35,7 @@ impl YuvFormat {
         (self.chroma != Chroma::C444, self.chroma == Chroma::C420)
     }
 
-    /// Writes a picture behind what is in `out`.
+    /// Appends a picture to `out`.
     pub fn write(self, pixels: &Pixels, out: &mut Vec<u8>) {
         let (width, height) = (pixels.width as usize, pixels.height as usize);
         let codes = Codes::new(self);
@@ -129,13 +130,13 @@ mod tests {
     }
 
     #[test]
-    fn chroma_lies_at_the_left_and_rows_begin_at_the_top() {
-        // Row 0 is the bottom. Three columns and rows, so that there are odd ends.
+    fn chroma_is_sited_left_and_the_top_row_is_first() {
+        // Row 0 is the bottom. Three columns and rows, so that the sides are odd.
         let texels = (0..9).map(|n| if n == 8 { [0.0, 0.0, 1.0, 1.0] } else { [0.0, 0.0, 0.0, 1.0] }).collect();
         let out = planes(Chroma::C420, 8, ColorRange::Limited, 3, texels);
         assert_eq!(out.len(), 9 + 4 + 4);
         assert_eq!(out[..9], [16, 16, 32, 16, 16, 16, 16, 16, 16], "blue is at the right of the top row");
-        // Cb of blue is 112 more than 128. The last column stands for the one that is missing: 1/2 + 1/4, of two rows.
+        // Cb of blue is 112 more than 128. The last column is repeated for the missing one: 1/2 + 1/4, of two rows.
         assert_eq!(out[9..13], [128, 128 + 42, 128, 128]);
         let texels = vec![[0.0, 0.0, 1.0, 1.0], [0.0; 4], [0.0; 4], [0.0; 4]];
         let out = planes(Chroma::C422, 8, ColorRange::Limited, 4, texels);

@@ -5,13 +5,13 @@ use super::Gpu;
 /// One slot of a bind group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Binding {
-    /// A uniform buffer of at least so many bytes.
+    /// A uniform buffer of at least this many bytes.
     Uniform { bytes: u64 },
     /// A storage buffer that is only read.
     Storage,
     /// A sampled float texture.
     Texture { dimension: wgpu::TextureViewDimension, filterable: bool },
-    /// `filtering`: may filter, and so only read filterable textures.
+    /// `filtering`: the sampler may filter, and is then limited to filterable textures.
     Sampler { filtering: bool },
 }
 
@@ -40,7 +40,7 @@ impl Binding {
             }),
         };
         let visibility = match self {
-            // Not every device lets a vertex shader read one.
+            // Not every device supports storage buffers in vertex shaders.
             Binding::Storage => wgpu::ShaderStages::FRAGMENT,
             _ => visibility,
         };

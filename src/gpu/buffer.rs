@@ -2,7 +2,7 @@
 
 use super::{Gpu, GpuError};
 
-/// A buffer for `usage` with the given content, a multiple of 4 bytes.
+/// Returns a buffer for `usage` with the given content, a multiple of 4 bytes.
 pub fn constant_buffer(
     gpu: &Gpu,
     label: &str,

@@ -1,4 +1,4 @@
-//! Any colour format to 32-bit floats, texel for texel, for reading back.
+//! Conversion of any colour format to 32-bit floats, texel for texel, for reading back.
 
 use super::{Gpu, GpuError, Texture, TextureDescriptor, full_screen::PictureShader, texture_format};
 use eddy_texture::{TexelFormat, TextureShape};
@@ -13,7 +13,7 @@ const SHADER: &str = "
 }
 ";
 
-/// Copies textures of any format to floats. Made once, as making a pipeline takes far longer than drawing with it.
+/// Copies textures of any format to floats. Created once, as creating a pipeline takes far longer than drawing with it.
 pub struct FloatConverter {
     shader: PictureShader,
     pipeline: wgpu::RenderPipeline,
@@ -25,8 +25,8 @@ impl FloatConverter {
         Self { pipeline: shader.pipeline(gpu, texture_format(FORMAT)), shader }
     }
 
-    /// Level 0 of a texture as a new rgba32float texture: what a shader reads of it, missing components as 0, alpha as
-    /// 1.
+    /// Converts level 0 of a texture to a new rgba32float texture: the values that a shader reads, missing components
+    /// as 0, alpha as 1.
     pub fn convert(&self, gpu: &Gpu, picture: &Texture) -> Result<Texture, GpuError> {
         self.convert_level(gpu, picture, (0, 0))
     }

@@ -1,4 +1,4 @@
-//! The device and what was found out about it, and the place of a thread among others where a processor draws.
+//! The device with its known properties, and the priority of threads where the CPU draws.
 
 use super::loss;
 use std::sync::{
@@ -6,16 +6,16 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-/// The features that are asked of the machine.
+/// The requested device features.
 #[derive(Clone, Debug)]
 pub struct GpuOptions {
-    /// Use filtering of 32-bit float textures where the adapter has it. Off, every such read is written by hand: how
-    /// the fallback is tested on a device that needs none.
+    /// Use filtering of 32-bit float textures if the adapter supports it. Otherwise every such read is emulated: this
+    /// is used to test the fallback on a device that does not need it.
     pub use_float32_filtering: bool,
-    /// Use timestamp queries where the adapter has them.
+    /// Use timestamp queries if the adapter supports them.
     pub use_timestamps: bool,
     /// Let naga add its own checks to shaders (indices, loops, integer division), which Eddy's front end makes
-    /// needless: how their cost is measured.
+    /// unnecessary: this is used to measure their cost.
     pub runtime_checks: bool,
 }
 
@@ -25,7 +25,7 @@ impl Default for GpuOptions {
     }
 }
 
-/// The machine cannot do what was asked.
+/// The errors of the graphics device.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
     #[error(
@@ -55,53 +55,55 @@ pub enum GpuError {
     NoAnswer { secs: u64 },
     #[error("the graphics device was lost: {0}")]
     Lost(String),
-    /// wgpu refused something Eddy made: Eddy's own bug.
+    /// wgpu rejected something that Eddy created: Eddy's own bug.
     #[error("this is a bug in Eddy: the graphics layer refused {what}: {reason}")]
     Refused { what: String, reason: String },
 }
 
-/// A choice: 1,000 times the rounds of a long ray march, and few enough to end. What counting them costs is not measured.
+/// An arbitrary limit: 1,000 times the iterations of a long ray march, and few enough to end. The cost of counting them
+/// is not measured.
 const MOST_ROUNDS: u32 = 1 << 22;
 
-/// One device and its queue. Cheap to clone; every clone is the same device.
+/// A device and its queue. Cheap to clone; every clone is the same device.
 #[derive(Clone)]
 pub struct Gpu {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     pub info: wgpu::AdapterInfo,
-    /// A linear sampler may read an rgba32f texture.
+    /// Linear samplers support rgba32f textures.
     pub filters_float32: bool,
     /// Fragment shaders can read storage buffers.
     pub has_storage_buffers: bool,
-    /// A program is compiled anew for every frame if one of its branches depends on uniforms alone: lavapipe, Mesa's
-    /// Vulkan on the processor, tries how much shorter it becomes with their values in it (`lvp_inline_uniforms.c`).
+    /// A program is recompiled for every frame if one of its branches depends on uniforms alone: lavapipe, Mesa's
+    /// Vulkan on the CPU, tries how much shorter it becomes with their values inlined (`lvp_inline_uniforms.c`).
     pub recompiles_for_uniforms: bool,
-    /// Once a fragment that fails the depth test was meant for a target of 16-bit floats, the thread that met it no
-    /// longer takes denormal numbers for zeros, and which texels it draws is chance: llvmpipe lets them through to
-    /// convert to 16 bits, and returns on a way past the end of that (`generate_unswizzled_blend` in `lp_state_fs.c`).
-    /// Programs that may discard test depth on another way.
+    /// Denormals are kept nondeterministically. After a fragment that fails the depth test was meant for a target of
+    /// 16-bit floats, the thread that processed it no longer flushes denormal numbers to zero, and which texels that
+    /// thread draws is chance: llvmpipe enables denormals for the conversion to 16 bits, and returns early without
+    /// resetting that (`generate_unswizzled_blend` in `lp_state_fs.c`). Programs that may discard do the depth test on
+    /// another path.
     pub keeps_denormals: bool,
-    /// `atan2(0, 0)` may be NaN, as Direct3D has it; on the site, which then asks for another angle, it is 0.
+    /// `atan2(0, 0)` may be NaN, as in Direct3D; on Shadertoy, which then computes another angle, it is 0.
     pub nan_angle: bool,
-    /// Long arrays are to be filled and copied by loops, and initialisers of their zeros left out: lavapipe makes one
-    /// store a scalar of each, for which LLVM takes time that grows faster than their square.
+    /// Long arrays must be filled and copied by loops, and their zero initialisers omitted: lavapipe turns them into
+    /// one store per scalar, for which LLVM takes more than quadratic time.
     pub wants_array_loops: bool,
-    /// A value that a loop computes before its first exit may be wrong after it, for pixels that leave before others
-    /// do: gallivm, the compiler of llvmpipe and lavapipe, does not bring loops into loop-closed SSA form.
+    /// A value that a loop computes before its first exit may be wrong after the loop, for pixels that leave earlier
+    /// than others: gallivm, the compiler of llvmpipe and lavapipe, does not convert loops to loop-closed SSA form.
     pub keeps_loops_open: bool,
-    /// A fragment that is discarded runs on to the end of the program: gallivm only keeps it from being written.
+    /// A discarded fragment runs on to the end of the program: gallivm only masks its writes.
     pub runs_discarded: bool,
-    /// Arrays that are indexed lie in memory, and are stored to pixel by pixel: gallivm does so.
+    /// Indexed arrays are in memory, and are stored to pixel by pixel: gallivm does so.
     pub scatters_arrays: bool,
-    /// A loop that counts down to `min(c, x)` ends at `c`: Mesa's compiler takes the one for the other.
+    /// A loop that counts down to `min(c, x)` ends at `c`: Mesa's compiler confuses the two.
     pub misjudges_limits: bool,
-    /// A loop over an array by its counter is written out whatever it costs: Mesa's compiler does so.
+    /// A loop over an array by its counter is always unrolled, regardless of the cost: Mesa's compiler does so.
     pub unrolls_whole_arrays: bool,
-    /// Shaders are compiled on the processor by a compiler that takes time and memory out of proportion for large ones,
-    /// in this process: LLVM, in lavapipe.
+    /// Shaders are compiled on the CPU in this process, by a compiler whose time and memory grow out of proportion for
+    /// large shaders: LLVM, in lavapipe.
     pub compiles_here: bool,
-    /// Rounds after which a shader leaves loops that may never end: it would keep every program from the device, until it
-    /// is reset or longer. `None`: on a processor, which has time for others.
+    /// The number of iterations after which a shader leaves loops that may be endless: they would block the device for
+    /// all programs until a reset or longer. `None` on a CPU, which can be shared.
     pub most_rounds: Option<u32>,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
@@ -113,12 +115,12 @@ pub struct Gpu {
 #[derive(Default)]
 struct State {
     lost: AtomicBool,
-    /// The first error nobody asked for, kept until somebody takes it.
+    /// The first uncaptured error, stored until it is taken.
     uncaptured: Mutex<Option<String>>,
 }
 
 impl Gpu {
-    /// A device of its own, for use without a window.
+    /// Opens a separate device, for use without a window.
     pub fn new(options: &GpuOptions) -> Result<Gpu, GpuError> {
         let mut reasons = Vec::new();
         for descriptor in Self::instance_descriptors() {
@@ -135,9 +137,9 @@ impl Gpu {
         Err(GpuError::NoAdapter(reasons.join("; ")))
     }
 
-    /// Another device on the adapter that `info` is of, from an instance of its own: neither waits in the other's
-    /// queue. Threads that a driver starts for it are those of the calling thread. An adapter that is not
-    /// found again is chosen as by [`Gpu::new`].
+    /// Opens another device on the adapter of `info`, from a separate instance, so that neither waits in the other's
+    /// queue. Threads that a driver starts for it inherit from the calling thread. If the adapter is not found again,
+    /// one is chosen as by [`Gpu::new`].
     pub fn another(info: &wgpu::AdapterInfo, options: &GpuOptions) -> Result<Gpu, GpuError> {
         let is_same = |other: &wgpu::AdapterInfo| {
             (&other.name, other.backend, other.vendor, other.device, &other.device_pci_bus_id)
@@ -153,21 +155,21 @@ impl Gpu {
         Self::new(options)
     }
 
-    /// Returns how to make the instance, best first, also where a window's surface must be made from it: Vulkan, Metal
-    /// or DX12, and OpenGL only where none of them has a device, since merely opening it costs start-up time.
-    /// `WGPU_BACKEND` overrides both.
+    /// Returns the instance descriptors to try, in order of preference, also for an instance that a window's surface is
+    /// created from: Vulkan, Metal or DX12, and OpenGL only if none of them has a device, since merely opening it costs
+    /// start-up time. `WGPU_BACKEND` overrides both.
     pub fn instance_descriptors() -> [wgpu::InstanceDescriptor; 2] {
         [wgpu::Backends::PRIMARY, wgpu::Backends::GL].map(|backends| {
             let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
-            // Validation layers cost a start-up second and are for people who debug Eddy itself: WGPU_VALIDATION turns
-            // them on.
+            // Validation layers add a second to the start and are meant for debugging Eddy itself: WGPU_VALIDATION
+            // turns them on.
             descriptor.flags = wgpu::InstanceFlags::empty();
             descriptor.backends = backends;
             descriptor.with_env()
         })
     }
 
-    /// A device of the given adapter: the window's, for example.
+    /// Opens a device of the given adapter, for example the window's.
     pub fn from_adapter(adapter: &wgpu::Adapter, options: &GpuOptions) -> Result<Gpu, GpuError> {
         let info = adapter.get_info();
         let offered = adapter.features();
@@ -191,8 +193,8 @@ impl Gpu {
             label: Some("eddy"),
             required_features: features,
             required_limits: adapter.limits(),
-            // Large textures get memory of their own, which is given back when the canvas becomes smaller. Blocks of
-            // hundreds of megabytes, as the other hint has them, stay for the sake of one small buffer in each.
+            // Large textures get dedicated memory, which is released when the canvas becomes smaller. With the other
+            // hint, blocks of hundreds of megabytes stay allocated as long as each contains a small buffer.
             memory_hints: wgpu::MemoryHints::MemoryUsage,
             ..Default::default()
         }))
@@ -200,7 +202,7 @@ impl Gpu {
         if !features.contains(wgpu::Features::FLOAT32_FILTERABLE) {
             log::warn!("{} cannot filter 32-bit float textures: filtered reads use four fetches", info.name);
         }
-        // A report about a panic names the newest one.
+        // A report about a panic names the newest device.
         log::info!(target: "eddy::device", "{} ({}, {})", info.name, info.backend, info.driver_info);
         let state = Arc::new(State::default());
         let lost = state.clone();
@@ -239,17 +241,17 @@ impl Gpu {
         })
     }
 
-    /// The device is a processor that draws: its time is the machine's.
+    /// Returns whether the device is a CPU, which shares its time with the machine.
     pub fn is_cpu(&self) -> bool {
         self.info.device_type == wgpu::DeviceType::Cpu
     }
 
-    /// One line for people: the adapter's name, the backend and the driver.
+    /// Returns a description for users: the adapter's name, the backend and the driver.
     pub fn describe(&self) -> String {
         format!("{} ({}, {})", self.info.name, self.info.backend, self.info.driver_info)
     }
 
-    /// Refuses a size that no target can have, before the graphics layer does it with less grace.
+    /// Rejects a size that no target can have, with a better error than the graphics layer's.
     pub fn check_size(&self, what: &str, width: u32, height: u32) -> Result<(), GpuError> {
         if width == 0 || height == 0 {
             return Err(GpuError::Empty { what: what.into(), width, height });
@@ -261,8 +263,7 @@ impl Gpu {
         Ok(())
     }
 
-    /// Runs code that makes graphics objects and turns what the graphics layer says of it into an error, instead of
-    /// leaving a broken object behind.
+    /// Runs code that creates graphics objects, and returns an error of the graphics layer instead of a broken object.
     pub(super) fn guarded<T>(&self, what: &str, make: impl FnOnce() -> T) -> Result<T, GpuError> {
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
@@ -288,13 +289,13 @@ impl Gpu {
         self.state.lost.load(Ordering::Relaxed)
     }
 
-    /// Waits until the device has done everything it was given.
+    /// Waits until the device has finished all submitted work.
     pub fn wait(&self) -> Result<(), GpuError> {
         loss::poll(&self.device, wgpu::PollType::wait_indefinitely()).map_err(GpuError::Lost)?;
         self.take_trouble("a frame")
     }
 
-    /// Returns what went wrong since the last call as an error, if anything did.
+    /// Returns the uncaptured error since the last call, if there was one.
     pub fn take_trouble(&self, what: &str) -> Result<(), GpuError> {
         if self.is_lost() {
             return Err(GpuError::Lost("the driver gave up, often because a shader ran too long".into()));
@@ -306,8 +307,8 @@ impl Gpu {
     }
 }
 
-/// Lets other threads go before the calling one. On Linux this is a thread's own, and the threads that a driver starts
-/// for it have it from it.
+/// Lowers the priority of the calling thread. On Linux the priority is per thread, and threads that a driver starts for
+/// it inherit it.
 pub fn step_back(steps: i32) {
     #[cfg(target_os = "linux")]
     if let Err(error) = rustix::process::nice(steps) {

@@ -1,16 +1,16 @@
-//! One triangle over the whole target.
+//! Drawing one triangle over the whole target.
 
 use super::{Binding, Gpu, bindings};
 use bindings::pipeline_layout;
 
-/// The triangle's corners lie at (-1, -1), (3, -1) and (-1, 3).
+/// The corners of the triangle are at (-1, -1), (3, -1) and (-1, 3).
 const TRIANGLE: &str = "
 @vertex fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
     return vec4(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }
 ";
 
-/// Targets without blending, and whether a fragment's colours reach each.
+/// Returns the states of targets without blending; the flag enables writing.
 pub(super) fn color_targets(targets: &[(wgpu::TextureFormat, bool)]) -> Vec<Option<wgpu::ColorTargetState>> {
     let state = |&(format, is_written): &(wgpu::TextureFormat, bool)| {
         let write_mask = if is_written { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() };
@@ -19,7 +19,7 @@ pub(super) fn color_targets(targets: &[(wgpu::TextureFormat, bool)]) -> Vec<Opti
     targets.iter().map(state).collect()
 }
 
-/// Makes a pipeline that draws the triangle with the entry point of a fragment shader; no blending, no depth.
+/// Creates a pipeline that draws the triangle with a fragment shader's entry point; no blending, no depth.
 pub(super) fn pipeline(
     gpu: &Gpu,
     label: &str,
@@ -47,7 +47,7 @@ pub(super) fn pipeline(
         fragment: Some(wgpu::FragmentState {
             module: fragment,
             entry_point: Some(entry_point),
-            // Textures and private variables start as zeros without this; workgroup memory there is none.
+            // Without this, textures and private variables start as zeros; workgroup memory is not used.
             compilation_options: Default::default(),
             targets: &targets,
         }),
@@ -86,12 +86,12 @@ impl ValuesShader {
         Self { label, layout, pipeline, uniform }
     }
 
-    /// Sets the uniform from the next drawing on.
+    /// Sets the uniform for all following draws.
     pub fn set<T: bytemuck::NoUninit>(&self, gpu: &Gpu, words: [T; 8]) {
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::cast_slice(&words));
     }
 
-    /// Binds the values that are read.
+    /// Binds the values to read.
     pub fn bind(&self, gpu: &Gpu, values: &wgpu::TextureView) -> wgpu::BindGroup {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(self.label),
@@ -103,7 +103,7 @@ impl ValuesShader {
         })
     }
 
-    /// Draws into a target; `draw` says which values into which part of it.
+    /// Draws into a target; `draw` selects values and parts of the target.
     pub fn draw(
         &self,
         gpu: &Gpu,
@@ -155,12 +155,12 @@ impl PictureShader {
         Self { label, fragment, layout, pipeline_layout }
     }
 
-    /// Makes the pipeline that draws into targets of a format.
+    /// Creates the pipeline for targets of a format.
     pub fn pipeline(&self, gpu: &Gpu, target: wgpu::TextureFormat) -> wgpu::RenderPipeline {
         pipeline(gpu, self.label, &self.pipeline_layout, (&self.fragment, "fragment"), &[(target, true)])
     }
 
-    /// Binds the picture that is read.
+    /// Binds the picture to read.
     pub fn bind(&self, gpu: &Gpu, picture: &wgpu::TextureView) -> wgpu::BindGroup {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(self.label),

@@ -1,6 +1,6 @@
 //! A thin layer over wgpu: one device, its textures and pipelines, readback, timestamps.
 //!
-//! Every object carries a label. Knows nothing of shaders' languages, of projects or of who draws what.
+//! Every object has a label. This package knows nothing about shading languages, projects or the callers' purposes.
 
 mod bindings;
 mod buffer;

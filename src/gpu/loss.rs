@@ -1,4 +1,4 @@
-//! A device that is lost or hangs: what wgpu makes of it, and another in its place.
+//! A device that is lost or hangs: wgpu's behaviour in that case, and reopening.
 
 use crate::GpuError;
 use std::{
@@ -7,20 +7,21 @@ use std::{
     time::Duration,
 };
 
-/// Time for which another device is asked for while the driver resets the lost one. An H100 (driver 580.159) answered with
-/// `DEVICE_LOST` after a hang; how long a reset takes was not measured.
+/// Time for which opening a device is retried while the driver resets the lost one. An H100 (driver 580.159) returned
+/// `DEVICE_LOST` after a hang; the duration of a reset was not measured.
 pub const RESET: Duration = Duration::from_secs(5);
-/// The time between two tries.
+/// The time between two attempts.
 const PAUSE: Duration = Duration::from_millis(250);
 
-/// Time after which a driver that opens a device is taken to hang. The first start of a driver compiles shaders of its own.
+/// The time after which a driver that opens a device is considered hung. The first start of a driver compiles shaders
+/// of its own.
 const OPENS: Duration = Duration::from_secs(60);
 
 /// The name of the thread that opens a device.
 pub const OPENER: &str = "open device";
 
-/// Opens a device on a thread that is left behind where the driver hangs, as that of an H200 (580.159) did while a shader of
-/// another process ran without end.
+/// Opens a device on a thread that is abandoned if the driver hangs, as that of an H200 (580.159) did while a shader of
+/// another process ran endlessly.
 pub fn open_in_time<T: Send + 'static>(
     open: impl FnOnce() -> Result<T, GpuError> + Send + 'static,
 ) -> Result<T, GpuError> {
@@ -37,7 +38,7 @@ fn open_within<T: Send + 'static>(
     match receiver.recv_timeout(limit) {
         Ok(opened) => opened,
         Err(RecvTimeoutError::Timeout) => Err(GpuError::NoAnswer { secs: limit.as_secs() }),
-        // The driver brought the thread down.
+        // The driver crashed the thread.
         Err(RecvTimeoutError::Disconnected) => match thread.join() {
             Err(panic) => resume_unwind(panic),
             Ok(()) => Err(GpuError::NoAdapter("the driver ended the thread that opened it".into())),
@@ -45,13 +46,13 @@ fn open_within<T: Send + 'static>(
     }
 }
 
-/// Returns whether a panic is wgpu's way to say that the device was lost: wgpu 30 returns errors of a poll, but for this
-/// one (`wgpu_core.rs`, `Device::poll`, whose other errors are fatal).
+/// Returns whether a panic is wgpu's report of a lost device: wgpu 30 returns errors of a poll, except this one
+/// (`wgpu_core.rs`, `Device::poll`, whose other errors are fatal).
 pub fn is_loss(panic: &str) -> bool {
     panic.starts_with("Error in Device::poll") && panic.contains("device is lost")
 }
 
-/// Polls a device. Err: it was lost.
+/// Polls a device. Returns an error if it was lost.
 pub(crate) fn poll(device: &wgpu::Device, how: wgpu::PollType) -> Result<(), String> {
     caught(|| device.poll(how).map(drop).map_err(|error| error.to_string()))
 }
@@ -63,8 +64,8 @@ fn caught(poll: impl FnOnce() -> Result<(), String>) -> Result<(), String> {
     })
 }
 
-/// Opens another device in the place of a lost one: again and again until it is there or `patience` is over, which the
-/// tries themselves may exceed. A driver that does not answer is not asked again.
+/// Reopens a device after a loss, with retries until it succeeds or `patience` has elapsed; the attempts themselves may
+/// exceed that. A driver that does not answer is not retried.
 pub fn reopen<T>(patience: Duration, mut open: impl FnMut() -> Result<T, GpuError>) -> Result<T, GpuError> {
     for _ in 0..patience.as_millis() / PAUSE.as_millis() {
         match open() {
@@ -80,11 +81,11 @@ pub fn reopen<T>(patience: Duration, mut open: impl FnMut() -> Result<T, GpuErro
 mod tests {
     use super::*;
 
-    /// The text as an H100 brought it up, with driver 580.159.
+    /// The text as observed on an H100 with driver 580.159.
     const LOST: &str = "Error in Device::poll: Validation Error\n\nCaused by:\n  Parent device is lost\n";
 
     #[test]
-    fn a_poll_of_a_lost_device_is_an_error_and_any_other_panic_goes_on() {
+    fn polling_a_lost_device_is_an_error_and_other_panics_are_resumed() {
         assert!(caught(|| panic!("{LOST}")).unwrap_err().contains("reset"));
         assert_eq!(caught(|| Ok(())), Ok(()));
         for other in ["Error in Device::poll: Validation Error\n\nCaused by:\n  out of memory\n", "device is lost"] {
@@ -94,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn a_device_is_opened_again_while_the_driver_resets_it() {
+    fn opening_a_device_is_retried_during_a_driver_reset() {
         let mut tries = 0;
         let opened = reopen(RESET, || {
             tries += 1;
@@ -115,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn a_driver_that_hangs_is_left_behind() {
+    fn a_driver_that_hangs_is_abandoned() {
         let (_never, waits) = channel::<()>();
         let opened = open_within(Duration::from_millis(20), move || {
             let _ = waits.recv();

@@ -1,4 +1,4 @@
-//! Pipelines that draw meshes, their buffers and the depth they are drawn over.
+//! Pipelines that draw meshes, and their vertex, index and depth buffers.
 
 use super::{
     Binding, Gpu, GpuError, Pipeline, Shader,
@@ -9,27 +9,27 @@ use super::{
 
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// A vertex and a fragment shader over triangles.
+/// A vertex and a fragment shader for triangles.
 pub struct MeshPipelineDescriptor<'a> {
     pub label: &'a str,
     pub vertex: Shader<'a>,
     pub fragment: Shader<'a>,
     pub entry_point: &'a str,
-    /// Bind groups from 0 on, as both shaders see them.
+    /// Bind groups from 0, visible to both shaders.
     pub groups: &'a [Vec<(u32, Binding)>],
-    /// Bytes of a vertex, and what is read of it: location, floats, offset in bytes.
+    /// Bytes per vertex, and the attributes: location, number of floats, offset in bytes.
     pub stride: u64,
     pub attributes: &'a [(u32, u8, u64)],
-    /// Formats, and whether the fragment shader's colours reach the target.
+    /// Formats, and whether the fragment shader writes to the target.
     pub targets: &'a [(wgpu::TextureFormat, bool)],
-    /// Counter-clockwise in GL's terms is the front.
+    /// The front is counter-clockwise in GL's terms.
     pub cull: Option<wgpu::Face>,
     pub depth: wgpu::CompareFunction,
     pub depth_write: bool,
 }
 
 impl Pipeline {
-    /// Compiles a program for meshes; as with [`Pipeline::new`], the modules must be valid.
+    /// Creates a pipeline for meshes; as with [`Pipeline::new`], the modules must be valid.
     pub fn for_meshes(gpu: &Gpu, descriptor: MeshPipelineDescriptor<'_>) -> Result<Pipeline, GpuError> {
         let d = descriptor;
         let layouts = layouts(gpu, d.label, d.groups, wgpu::ShaderStages::VERTEX_FRAGMENT);
@@ -64,7 +64,7 @@ impl Pipeline {
                     })],
                 },
                 primitive: wgpu::PrimitiveState {
-                    // Row 0 is the bottom, so the shader has y turned, and with it every triangle.
+                    // Row 0 is the bottom, so the shader flips y, and with it the winding of every triangle.
                     front_face: wgpu::FrontFace::Cw,
                     cull_mode: d.cull,
                     ..Default::default()
@@ -125,7 +125,7 @@ impl MeshBuffers {
     }
 }
 
-/// A depth buffer of 32-bit floats.
+/// Creates a depth buffer of 32-bit floats.
 pub fn depth_buffer(gpu: &Gpu, label: &str, width: u32, height: u32) -> Result<wgpu::TextureView, GpuError> {
     gpu.check_size(label, width, height)?;
     let texture = gpu.guarded(label, || {
@@ -143,7 +143,7 @@ pub fn depth_buffer(gpu: &Gpu, label: &str, width: u32, height: u32) -> Result<w
     Ok(texture.create_view(&Default::default()))
 }
 
-/// Returns an error if the device cannot draw into targets of these formats at once; by the rule of WebGPU,
+/// Returns an error if the device does not support targets of these formats together, by the rule of WebGPU,
 /// "calculating color attachment bytes per sample".
 pub fn check_targets(gpu: &Gpu, what: &str, formats: &[wgpu::TextureFormat]) -> Result<(), GpuError> {
     let limits = gpu.device.limits();
@@ -171,12 +171,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bytes_of_targets_are_counted_as_webgpu_counts_them() {
+    fn bytes_of_targets_are_counted_by_the_rules_of_webgpu() {
         use wgpu::TextureFormat as F;
         assert_eq!(bytes_a_sample(&[F::Rgba32Float; 4]), 64);
-        // Eight bits a component count twice.
+        // Eight bits per component count twice.
         assert_eq!(bytes_a_sample(&[F::Rgba8Unorm; 4]), 32);
-        // The byte is rounded up for what comes behind it.
+        // The byte is rounded up for the alignment of the next format.
         assert_eq!(bytes_a_sample(&[F::R8Unorm, F::R32Float]), 8);
     }
 }

@@ -1,15 +1,15 @@
-//! Small pictures of float textures, for panels that show many of them.
+//! Thumbnails of float textures, for panels that show many of them.
 
 use super::{Gpu, GpuError, Texture, TextureDescriptor, full_screen::PictureShader, texture_format};
 use eddy_texture::{TexelFormat, TextureShape};
 
-/// Texels of each, whatever the shape of what it shows.
+/// The size of each in texels, regardless of the texture's aspect ratio.
 pub const SIZE: (u32, u32) = (160, 90);
 
 const FORMAT: TexelFormat = TexelFormat::Rgba8;
 
-/// Colours are those of four texels of each place, so that a row of thin lines is not all light or all dark. Alpha is 0
-/// where any texel of the place is NaN or infinite.
+/// Each texel averages four texels of its area, so that a row of thin lines is not all light or all dark. Alpha is 0
+/// where any texel of the area is NaN or infinite.
 fn shader() -> String {
     let (width, height) = SIZE;
     format!(
@@ -46,7 +46,7 @@ fn has_nonfinite(low: vec2<u32>, high: vec2<u32>) -> bool {{
     )
 }
 
-/// Draws them.
+/// Draws thumbnails.
 pub struct Miniatures {
     shader: PictureShader,
     pipeline: wgpu::RenderPipeline,
@@ -66,7 +66,7 @@ impl Miniatures {
         })
     }
 
-    /// Draws one, its first row the top. The next takes its place.
+    /// Draws a thumbnail, top row first. The next one replaces it.
     pub fn draw(&self, gpu: &Gpu, picture: &wgpu::TextureView) -> &Texture {
         let bound = self.shader.bind(gpu, picture);
         let mut encoder =

@@ -1,5 +1,5 @@
-//! Mip chains, level by level: each texel is the bilinear read of the finer level at its centre, which is what GL
-//! drivers' `glGenerateMipmap` does. Read by hand, so it works where 32-bit floats cannot be filtered, too.
+//! Mip chains, level by level: each texel is the bilinear read of the finer level at its centre, as by GL drivers'
+//! `glGenerateMipmap`. The filter is part of the shader, so it also works where 32-bit floats cannot be filtered.
 
 use super::{Gpu, Texture, full_screen::PictureShader};
 use std::collections::HashMap;
@@ -22,13 +22,13 @@ const SHADER: &str = "
 }
 ";
 
-/// Builds mip chains of colour formats. One for each engine.
+/// Builds mip chains of colour formats. One per engine.
 pub struct MipMaker {
     shader: PictureShader,
     pipelines: HashMap<wgpu::TextureFormat, wgpu::RenderPipeline>,
 }
 
-/// The draws that fill one texture's chain: views and bind groups, made once.
+/// The draws that fill one texture's chain: views and bind groups, created once.
 pub struct MipChain {
     steps: Vec<(wgpu::TextureView, wgpu::BindGroup)>,
     format: wgpu::TextureFormat,
@@ -39,7 +39,7 @@ impl MipMaker {
         Self { shader: PictureShader::new(gpu, "mips", SHADER), pipelines: HashMap::new() }
     }
 
-    /// Prepares the chain of a texture, of a cube one for each face. Levels of a volume are written: see
+    /// Prepares the chain of a texture; for a cube, one per face. Levels of a volume are written instead: see
     /// [`Texture::write_level`].
     pub fn chain(&mut self, gpu: &Gpu, texture: &Texture) -> MipChain {
         let format = texture.raw.format();
@@ -62,7 +62,7 @@ impl MipMaker {
         MipChain { steps, format }
     }
 
-    /// Encodes the draws that make every level anew from level 0.
+    /// Encodes the draws that rebuild every level from level 0.
     pub fn build(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, chain: &MipChain) {
         for (level, finer) in &chain.steps {
             let target = wgpu::RenderPassColorAttachment {

@@ -1,15 +1,15 @@
-//! Encoding a render pass: the one way, because of a fault of one driver.
+//! Encoding of render passes. All passes use this, because of a driver bug.
 
 use super::Gpu;
 
 impl Gpu {
-    /// Returns how a colour target begins of which a pass writes every texel. It is cleared, which costs nothing where
-    /// the device draws tile by tile; lavapipe, which draws a clearing by itself, begins with what was there.
+    /// Returns the load operation for a colour target that a pass overwrites completely. It is cleared, which is free
+    /// on devices that draw tile by tile; on lavapipe, where a clear is a separate draw, it is loaded.
     pub fn load_what_is_overwritten(&self) -> wgpu::LoadOp<wgpu::Color> {
         if self.fences.is_some() { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) }
     }
 
-    /// Encodes a render pass of what `draw` draws; it has no occlusion queries for itself.
+    /// Encodes a render pass with the commands of `draw`, which must not use occlusion queries.
     pub fn pass(
         &self,
         encoder: &mut wgpu::CommandEncoder,

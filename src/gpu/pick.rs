@@ -1,4 +1,4 @@
-//! The texels of many textures at one place, read together.
+//! Reads the texels of many textures at one place together.
 
 use super::{Gpu, GpuError, Readback, Texture, TextureDescriptor, full_screen::ValuesShader, texture_format};
 use eddy_texture::{TexelFormat, TextureShape};
@@ -7,7 +7,7 @@ const FORMAT: TexelFormat = TexelFormat::Rgba32f;
 
 const LABEL: &str = "texels at a place";
 
-/// The place is a part of the texture's width and height, as textures may differ in size.
+/// The place is relative to the texture's width and height, as textures may differ in size.
 const SHADER: &str = "
 @group(0) @binding(0) var values: texture_2d<f32>;
 @group(0) @binding(1) var<uniform> place: vec4<f32>;
@@ -19,7 +19,7 @@ const SHADER: &str = "
 }
 ";
 
-/// Reads one texel of each of several textures, of any formats and sizes.
+/// Reads one texel from each of several textures, of any formats and sizes.
 pub struct TexelPicker {
     shader: ValuesShader,
     readback: Readback,
@@ -52,7 +52,7 @@ impl TexelPicker {
         self.shader.draw(gpu, &mut encoder, target, |pass| {
             for (index, bound) in bound.iter().enumerate() {
                 pass.set_bind_group(0, bound, &[]);
-                // The triangle covers everything: only this texel of it is drawn.
+                // The triangle covers the whole target: the scissor rectangle restricts it to this texel.
                 pass.set_scissor_rect(index as u32, 0, 1, 1);
                 pass.draw(0..3, 0..1);
             }

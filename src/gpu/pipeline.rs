@@ -6,35 +6,35 @@ use super::{
     full_screen, spirv,
 };
 
-/// A shader of the front end.
+/// A shader from the front end.
 #[derive(Clone, Copy)]
 pub struct Shader<'a> {
     pub module: &'a naga::Module,
-    /// Arrays of at least so many scalars that the module's own variables hold are written before anything reads them,
-    /// if their variables have no initialiser.
+    /// Arrays of at least this many scalars in the module's own variables are written before they are read, if their
+    /// variables have no initialiser.
     pub initialized_arrays: Option<u32>,
 }
 
-/// A fragment shader over the whole target.
+/// A fragment shader for the whole target.
 pub struct FragmentPipelineDescriptor<'a> {
     pub label: &'a str,
     pub shader: Shader<'a>,
     pub entry_point: &'a str,
-    /// Bind groups from 0 on: binding number and what lies there.
+    /// Bind groups from 0: binding numbers and their resources.
     pub groups: &'a [Vec<(u32, Binding)>],
     /// The format of each target, and whether the shader has an output for it.
     pub targets: &'a [(wgpu::TextureFormat, bool)],
 }
 
-/// A compiled pipeline and the layouts its bind groups are made with.
+/// A compiled pipeline and the layouts of its bind groups.
 pub struct Pipeline {
     pub raw: wgpu::RenderPipeline,
     pub layouts: Vec<wgpu::BindGroupLayout>,
 }
 
 impl Pipeline {
-    /// Compiles. The module must be valid and clamp its indices itself; what the graphics layer refuses all the same is
-    /// Eddy's bug and comes back as [`GpuError::Refused`].
+    /// Compiles a pipeline. The module must be valid and clamp its indices itself; if the graphics layer rejects it
+    /// nevertheless, that is a bug in Eddy, which is returned as [`GpuError::Refused`].
     pub fn new(gpu: &Gpu, descriptor: FragmentPipelineDescriptor<'_>) -> Result<Pipeline, GpuError> {
         let FragmentPipelineDescriptor { label, shader, entry_point, groups, targets } = descriptor;
         let layouts = layouts(gpu, label, groups, wgpu::ShaderStages::FRAGMENT);
@@ -47,7 +47,7 @@ impl Pipeline {
     }
 }
 
-/// A module of the front end, for a pass or a stage of a mesh, in a pipeline with these bind groups.
+/// Creates a module of the front end, for a pass or a stage of a mesh, in a pipeline with these bind groups.
 pub(super) fn shader_module(
     gpu: &Gpu,
     label: &str,
@@ -61,23 +61,22 @@ pub(super) fn shader_module(
         return made;
     }
     let mut checks = wgpu::ShaderRuntimeChecks::checked();
-    // Counting every loop's turns up to 2^64 costs time in each and keeps no shader from running for hours.
+    // Counting every loop's iterations up to 2^64 costs time in each and does not keep a shader from running for hours.
     checks.force_loop_bounding = gpu.runtime_checks;
-    // Divisors of integers come guarded from the front end (`glsl/lower/divide.rs`): x86 traps on a division by zero,
-    // and Mesa on that of the least int by -1 already when it folds constants.
+    // The front end guards divisors of integers (`glsl/lower/divide.rs`): x86 traps on a division by zero, and Mesa
+    // traps on the division of the smallest int by -1 even when it folds constants.
     checks.int_div_checks = gpu.runtime_checks;
-    // Indices come clamped from the front end (`glsl/lower/access.rs`) but where they are known to be in range
-    // (`glsl/opt/ranges`). Fetches outside a texture give zeros by the hardware or the driver's image robustness
-    // everywhere but on Metal.
+    // The front end clamps indices (`glsl/lower/access.rs`) unless they are known to be in range (`glsl/opt/ranges`).
+    // Fetches outside a texture return zeros by the hardware or the driver's image robustness everywhere except on
+    // Metal.
     checks.bounds_checks = gpu.runtime_checks || gpu.info.backend == wgpu::Backend::Metal;
-    // SAFETY: `module` comes from the front end's lowering and nowhere else, and wgpu validates it; what the checks
-    // leave out is done there:
-    // - No index reaches past what it goes into. `opt/ranges` says what that rests on: a bound holds where it is
-    //   used. `tests/it/glsl_bounds.rs` has each way in which
-    //   that happens, and `tests/it/random_programs` holds random programs against ones with every index clamped in
-    //   their text.
+    // SAFETY: `module` always comes from the front end's lowering, and wgpu validates it; the omitted checks are done
+    // there:
+    // - Every index is in bounds. `opt/ranges` documents the reasoning: a bound is valid where it is used.
+    //   `tests/it/glsl_bounds.rs` covers each of its cases, and `tests/it/random_programs` compares random programs
+    //   with versions of them in which every index is clamped in the text.
     // - No division of integers traps: `tests/it/glsl_division.rs`, and the same random programs.
-    // - Loops that may never end are left after some million rounds where the device may hang
+    // - Endless loops are left after some million iterations if the device may hang
     //   (`glsl/emit/work_arounds/endless_loops.rs`).
     unsafe {
         gpu.device.create_shader_module_trusted(

@@ -1,4 +1,4 @@
-//! A float picture whose row 0 is the bottom becomes one of 8 bits whose row 0 is the top, for a window.
+//! Conversion of a float picture whose row 0 is the bottom to 8 bits with row 0 at the top, for a window.
 
 use super::{Gpu, GpuError, Texture, TextureDescriptor, full_screen::PictureShader, texture_format};
 use eddy_texture::{TexelFormat, TextureShape};
@@ -30,8 +30,8 @@ impl Presenter {
         Self { pipeline: shader.pipeline(gpu, texture_format(FORMAT)), shader }
     }
 
-    /// A display texture of the given size, opaque and black: whoever shows it sees nothing through it before its first
-    /// picture either.
+    /// Returns a display texture of the given size, opaque and black, so that nothing shines through before the first
+    /// picture.
     pub fn texture(gpu: &Gpu, width: u32, height: u32) -> Result<Texture, GpuError> {
         let descriptor =
             TextureDescriptor { label: "display", shape: TextureShape::flat(width, height, FORMAT), is_target: true };
@@ -40,12 +40,12 @@ impl Presenter {
         Ok(texture)
     }
 
-    /// Makes what [`Presenter::present`] needs to show one picture again and again.
+    /// Creates the bind group with which [`Presenter::present`] shows one picture repeatedly.
     pub fn bind(&self, gpu: &Gpu, picture: &Texture) -> wgpu::BindGroup {
         self.shader.bind(gpu, &picture.level_0)
     }
 
-    /// Draws the picture into `display`, which has its size.
+    /// Draws the picture into `display`, which must have the same size.
     pub fn present(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, picture: &wgpu::BindGroup, display: &Texture) {
         let target = display.attachment(gpu.load_what_is_overwritten());
         self.shader.draw(gpu, encoder, &self.pipeline, picture, target);

@@ -1,8 +1,8 @@
-//! Texels back from the device.
+//! Reading texels back from the device.
 
 use super::{Gpu, GpuError, Texture};
 
-/// Reads textures back. The buffer that the texels go through is kept for the next texture of that size.
+/// Reads textures back. The staging buffer is kept for the next texture of that size.
 #[derive(Default)]
 pub struct Readback {
     buffer: Option<wgpu::Buffer>,
@@ -18,7 +18,7 @@ impl Readback {
         Ok(texels)
     }
 
-    /// Reads level 0 of an rgba8unorm texture likewise.
+    /// Reads level 0 of an rgba8unorm texture in the same way.
     pub fn rgba8(&mut self, gpu: &Gpu, texture: &Texture) -> Result<Vec<u8>, GpuError> {
         let mut bytes = Vec::with_capacity(texture.width() as usize * texture.height() as usize * 4);
         self.rows(gpu, texture, (0, 4), |row| bytes.extend_from_slice(row))?;
@@ -35,7 +35,7 @@ impl Readback {
         Ok(bytes)
     }
 
-    /// Gives each row of a layer of a texture whose texels have so many bytes.
+    /// Passes each row of a layer to a callback; texels have this many bytes.
     fn rows(
         &mut self,
         gpu: &Gpu,
@@ -52,7 +52,7 @@ impl Readback {
             let what = format!("reading back {width}x{height} texels ({size} bytes of {limit})");
             return Err(GpuError::OutOfMemory(what));
         }
-        // It comes back when all has gone well: one whose mapping failed is not used again.
+        // It is stored again on success; a buffer whose mapping failed is not reused.
         let buffer = match self.buffer.take().filter(|buffer| buffer.size() == size) {
             Some(buffer) => buffer,
             None => gpu.guarded("readback", || {

@@ -1,36 +1,36 @@
-//! The devices of a machine in words, for a report that somebody sends.
+//! A description of the machine's devices, for bug reports.
 
 use super::{Gpu, GpuError, GpuOptions, loss};
 
-/// The properties of an adapter, as its driver tells them.
+/// The properties of an adapter, as reported by its driver.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdapterReport {
     pub name: String,
     /// `vulkan`, `metal`, `dx12` or `gl`.
     pub backend: String,
-    /// As wgpu names it: `Cpu`, `DiscreteGpu`.
+    /// In wgpu's terms: `Cpu`, `DiscreteGpu`.
     pub device_type: String,
     pub driver: String,
     pub driver_info: String,
-    /// PCI ids, 0 where there are none.
+    /// PCI ids, 0 if there are none.
     pub vendor: u32,
     pub device: u32,
-    /// Names of features of WebGPU and wgpu that it offers.
+    /// The names of the features of WebGPU and wgpu that it supports.
     pub features: Vec<String>,
 }
 
-/// A device that was opened, and what Eddy knows of it.
+/// An open device, and its properties known to Eddy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DeviceReport {
     pub adapter: String,
     pub backend: String,
-    /// Those that Eddy has turned on.
+    /// The features that Eddy has enabled.
     pub features: Vec<String>,
     pub limits: Vec<(&'static str, u64)>,
     pub faults: Vec<Fault>,
 }
 
-/// A fault of the driver that Eddy works around.
+/// A driver bug that Eddy works around.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// The name in `gpu/device.rs`.
@@ -53,8 +53,8 @@ impl AdapterReport {
         }
     }
 
-    /// Lists the adapters of the machine, without opening a device. OpenGL's are listed where there are no others, as
-    /// [`Gpu::new`] looks for them. Err: the driver hangs.
+    /// Lists the adapters of the machine without opening a device. Those of OpenGL are listed if there are no others,
+    /// like in [`Gpu::new`].
     pub fn all() -> Result<Vec<Self>, GpuError> {
         loss::open_in_time(|| Ok(Self::found()))
     }
@@ -77,7 +77,7 @@ fn names(features: wgpu::Features) -> Vec<String> {
 }
 
 impl DeviceReport {
-    /// Describes the device that Eddy draws with on this machine. Err: the reason why there is none.
+    /// Describes the device that Eddy draws with on this machine. Returns an error if there is none.
     pub fn of_default() -> Result<Self, GpuError> {
         loss::open_in_time(|| Gpu::new(&GpuOptions::default())).map(|gpu| Self::of(&gpu))
     }
@@ -109,7 +109,7 @@ impl DeviceReport {
     }
 }
 
-/// Returns what [`Gpu`] was found to have of the faults that Eddy knows.
+/// Returns the known driver bugs that [`Gpu`] has found.
 fn faults(gpu: &Gpu) -> Vec<Fault> {
     let all = [
         (!gpu.filters_float32, "no_float32_filtering", "textures of 32-bit floats are filtered by four fetches"),

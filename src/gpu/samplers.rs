@@ -1,27 +1,27 @@
-//! The handful of samplers there are.
+//! The set of all samplers.
 
 use super::Gpu;
 
-/// The way in which texels are mixed.
+/// The filtering of texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Filtering {
     Nearest,
     /// Bilinear in level 0; other levels are never read.
     Linear,
-    /// Bilinear, and between levels.
+    /// Bilinear, and interpolated between levels.
     Trilinear,
-    /// The nearest texel of the level that is asked for.
+    /// The nearest texel of the requested level.
     NearestOfLevel,
 }
 
-/// The texels beyond the edge.
+/// The addressing of texels beyond the edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Address {
     Clamp,
     Repeat,
 }
 
-/// Every sampler a pass can ask for.
+/// Every sampler that a pass can use.
 #[derive(Clone, Debug)]
 pub struct Samplers([wgpu::Sampler; 8]);
 
@@ -46,7 +46,7 @@ impl Samplers {
                 min_filter: mode,
                 mipmap_filter: if trilinear { wgpu::MipmapFilterMode::Linear } else { wgpu::MipmapFilterMode::Nearest },
                 lod_min_clamp: 0.0,
-                // A GL minification filter without MIPMAP in its name reads level 0, whatever level is asked for.
+                // A GL minification filter without MIPMAP in its name reads level 0, whatever level is requested.
                 lod_max_clamp: match filtering {
                     Filtering::Nearest | Filtering::Linear => 0.0,
                     Filtering::Trilinear | Filtering::NearestOfLevel => 32.0,

@@ -1,8 +1,8 @@
-//! SPIR-V without the zeros that long arrays begin with.
+//! SPIR-V without the zero initialisers of long arrays.
 //!
-//! naga's writer gives every variable an initialiser of zeros. lavapipe makes one store a scalar of it in one block,
-//! for which LLVM takes time that grows with about the cube of their number. The front end has such arrays filled by
-//! loops, and here their initialisers are left out.
+//! naga's writer gives every variable an initialiser of zeros. lavapipe turns it into one store per scalar in one
+//! block, for which LLVM takes time that grows with about the cube of their number. The front end fills such arrays by
+//! loops, and here their initialisers are removed.
 
 use std::{borrow::Cow, collections::HashMap};
 
@@ -14,8 +14,9 @@ use naga::{
 
 use super::{Binding, Gpu};
 
-/// A Vulkan shader module of a module of the front end whose arrays of so many scalars are filled before anything reads
-/// them. The bind groups are those of the pipeline. `None` if naga refuses the module or has no SPIR-V for it.
+/// Creates a Vulkan shader module from a module of the front end whose arrays of at least this many scalars are filled
+/// before they are read. The bind groups are those of the pipeline. `None` if naga rejects the module or has no SPIR-V
+/// for it.
 pub(super) fn shader_module(
     gpu: &Gpu,
     label: &str,
@@ -26,15 +27,15 @@ pub(super) fn shader_module(
     let entry = module.entry_points.first()?;
     let words = without_zeros(&words(module, groups)?, initialized_arrays);
     let entry_point = wgpu::PassthroughShaderEntryPoint { name: Cow::Borrowed(&entry.name), workgroup_size: (0, 0, 0) };
-    // SAFETY: the driver gets what wgpu would give it, less some initialisers:
-    // - `words` validates the module as wgpu does and writes it with the writer and the options of wgpu's Vulkan
-    //   backend that `pipeline::shader_module` asks for; what the checks leave out is said there.
-    // - The resources are those of the pipeline's layout: `binding_map` numbers them as wgpu does.
-    // - A variable without an initialiser holds anything until it is written. `without_zeros` drops that of arrays of
-    //   `initialized_arrays` scalars alone, which the front end has filled before anything reads them, at the start of
+    // SAFETY: the driver gets the same SPIR-V as from wgpu, without some initialisers:
+    // - `words` validates the module like wgpu and writes it with the writer and the options of wgpu's Vulkan backend
+    //   that `pipeline::shader_module` uses; the omitted checks are documented there.
+    // - The resources are those of the pipeline's layout: `binding_map` numbers them like wgpu.
+    // - A variable without an initialiser is undefined until it is written. `without_zeros` removes only those of
+    //   arrays of `initialized_arrays` scalars, which the front end fills before they are read, at the start of
     //   the variable's function or of the program (`glsl/emit/long_arrays`), or by the program itself
     //   (`glsl::ir::Var::init` and `GlobalKind::Private`).
-    //   `tests/it/long_arrays.rs` reads such arrays where nothing was written.
+    //   `tests/it/long_arrays.rs` reads such arrays without writing to them.
     let module = unsafe {
         gpu.device.create_shader_module_passthrough(wgpu::ShaderModuleDescriptorPassthrough {
             label: Some(label),
@@ -46,7 +47,7 @@ pub(super) fn shader_module(
     Some(module)
 }
 
-/// The module as wgpu's Vulkan backend writes it without runtime checks (`compile_stage` in wgpu-hal's
+/// Returns the module as wgpu's Vulkan backend writes it without runtime checks (`compile_stage` in wgpu-hal's
 /// `vulkan/device.rs`).
 fn words(module: &naga::Module, groups: &[Vec<(u32, Binding)>]) -> Option<Vec<u32>> {
     use spv::Capability as C;
@@ -55,10 +56,10 @@ fn words(module: &naga::Module, groups: &[Vec<(u32, Binding)>]) -> Option<Vec<u3
     let entry = module.entry_points.first()?;
     let unchecked = BoundsCheckPolicy::Unchecked;
     let options = spv::Options {
-        // Any lavapipe takes it, and naga's writer makes nothing else of what Eddy needs with a later one.
+        // Every lavapipe accepts it, and naga's writer does not use later versions for Eddy's features.
         lang_version: (1, 3),
         flags: spv::WriterFlags::LABEL_VARYINGS | spv::WriterFlags::FORCE_POINT_SIZE,
-        // Those that every Vulkan device has.
+        // The capabilities that every Vulkan device has.
         capabilities: Some(
             [C::Shader, C::Matrix, C::Sampled1D, C::Image1D, C::ImageQuery, C::DerivativeControl].into_iter().collect(),
         ),
@@ -77,7 +78,7 @@ fn words(module: &naga::Module, groups: &[Vec<(u32, Binding)>]) -> Option<Vec<u3
     spv::write_vec(module, &info, &options, Some(&pipeline)).ok()
 }
 
-/// wgpu numbers the bindings of each Vulkan set from 0 on, in their order.
+/// wgpu numbers the bindings of each Vulkan set from 0, in order.
 fn binding_map(groups: &[Vec<(u32, Binding)>]) -> spv::BindingMap {
     let mut map = spv::BindingMap::new();
     for (group, bindings) in (0..).zip(groups) {
@@ -105,13 +106,13 @@ mod op {
     pub const FUNCTION: u32 = 7;
 }
 
-/// Words before the first instruction.
+/// The number of words before the first instruction.
 const HEADER: usize = 5;
 
-/// Leaves out initialisers of zeros of the invocation's own variables that hold an array of at least so many scalars.
+/// Removes zero initialisers of the invocation's own variables that contain an array of at least this many scalars.
 fn without_zeros(words: &[u32], least_array: u32) -> Vec<u32> {
     let mut out = words[..HEADER].to_vec();
-    // By id: scalars, and those of the longest array within.
+    // By id: the number of scalars, and that of the longest array inside.
     let mut types: HashMap<u32, (u32, u32)> = HashMap::new();
     let mut pointees: HashMap<u32, u32> = HashMap::new();
     let mut constants: HashMap<u32, u32> = HashMap::new();
@@ -192,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn only_zeros_of_long_arrays_are_left_out() {
+    fn only_zero_initialisers_of_long_arrays_are_removed() {
         let words = written();
         let initialised = |words: &[u32]| instructions(words, op::VARIABLE).iter().filter(|v| v.len() == 5).count();
         assert_eq!(initialised(&words), 5);
@@ -205,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn bindings_are_numbered_as_wgpu_numbers_them() {
+    fn bindings_are_numbered_as_in_wgpu() {
         const DECORATE: u32 = 71;
         const BINDING: u32 = 33;
         let decorations = instructions(&written(), DECORATE);

@@ -1,14 +1,15 @@
-//! The device that tests draw on, and how they say that there is none.
+//! The device for tests, and the reporting of skipped tests.
 
 use crate::{Gpu, GpuOptions};
 use std::{fs::OpenOptions, io::Write};
 
-/// Returns a device, or `None` after saying so. Where `EDDY_REQUIRE_GPU` is set a missing device is a failure.
+/// Returns a device, or reports a skipped test and returns `None`. If `EDDY_REQUIRE_GPU` is set, a missing device is a
+/// failure.
 pub fn gpu() -> Option<Gpu> {
     gpu_with(&GpuOptions::default())
 }
 
-/// As [`gpu`], with other options.
+/// Does the same as [`gpu`], with other options.
 pub fn gpu_with(options: &GpuOptions) -> Option<Gpu> {
     let error = match Gpu::new(options) {
         Ok(gpu) => return Some(gpu),
@@ -25,14 +26,14 @@ pub fn lose(gpu: &Gpu) {
     gpu.mark_lost();
 }
 
-/// Says that a test is left out as a program is not installed. Where `EDDY_REQUIRE_GPU` is set that is a failure:
+/// Reports a test that is skipped because a program is not installed. If `EDDY_REQUIRE_GPU` is set, that is a failure:
 /// `scripts/test` installs the program.
 pub fn missing(program: &str) {
     assert!(std::env::var_os("EDDY_REQUIRE_GPU").is_none(), "{program} is required here");
     skipped(&format!("{program} is not installed"));
 }
 
-/// Says that a test, or a part of it, is left out: on standard error, past the harness, and in the file that
+/// Reports a test, or a part of it, as skipped: on standard error, bypassing the harness, and in the file that
 /// `EDDY_SKIPS` names, whose lines `scripts/test` counts.
 pub fn skipped(why: &str) {
     let line = format!("{}: {why}\n", std::thread::current().name().unwrap_or("a test"));

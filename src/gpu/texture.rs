@@ -1,14 +1,14 @@
-//! Textures with the views a multipass renderer needs.
+//! Textures with the views that a multipass renderer needs.
 
 use super::{Gpu, GpuError};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
 
-/// The texture that is to be made.
+/// The description of a texture to create.
 #[derive(Clone, Copy, Debug)]
 pub struct TextureDescriptor<'a> {
     pub label: &'a str,
     pub shape: TextureShape,
-    /// Passes draw into it. Mips and readback need this too.
+    /// Passes draw into it. Mips and readback require this too.
     pub is_target: bool,
 }
 
@@ -17,15 +17,15 @@ pub struct TextureDescriptor<'a> {
 pub struct Texture {
     pub raw: wgpu::Texture,
     pub shape: TextureShape,
-    /// Every level and layer: what shaders read.
+    /// All levels and layers, for reading by shaders.
     pub all_levels: wgpu::TextureView,
-    /// Level 0 alone, of the first layer: what passes draw into.
+    /// Level 0 of the first layer, for drawing by passes.
     pub level_0: wgpu::TextureView,
-    /// The same of the other faces of a cube.
+    /// Level 0 of the other faces of a cube.
     other_faces: Vec<wgpu::TextureView>,
 }
 
-/// Returns what wgpu calls a format.
+/// Returns wgpu's name of a format.
 pub fn texture_format(format: TexelFormat) -> wgpu::TextureFormat {
     use wgpu::TextureFormat as T;
     match format {
@@ -41,7 +41,7 @@ pub fn texture_format(format: TexelFormat) -> wgpu::TextureFormat {
     }
 }
 
-/// Returns what wgpu calls the dimension of a view of a whole texture.
+/// Returns wgpu's view dimension for a whole texture.
 pub fn view_dimension(dimension: Dimension) -> wgpu::TextureViewDimension {
     match dimension {
         Dimension::D2 => wgpu::TextureViewDimension::D2,
@@ -57,7 +57,7 @@ fn extent(shape: TextureShape) -> wgpu::Extent3d {
 }
 
 impl Texture {
-    /// Makes a texture; an error for a size no target can have and for memory that is not there.
+    /// Creates a texture. Returns an error for a size that no target can have, and if memory is exhausted.
     pub fn new(gpu: &Gpu, descriptor: &TextureDescriptor<'_>) -> Result<Texture, GpuError> {
         let TextureDescriptor { label, shape, is_target } = *descriptor;
         gpu.check_size(label, shape.width, shape.height)?;
@@ -98,7 +98,7 @@ impl Texture {
         Ok(Texture { level_0: level_0(0), other_faces, all_levels, shape, raw })
     }
 
-    /// Level 0 of a layer.
+    /// Returns level 0 of a layer.
     pub fn layer(&self, layer: u32) -> &wgpu::TextureView {
         match layer {
             0 => &self.level_0,
@@ -106,12 +106,12 @@ impl Texture {
         }
     }
 
-    /// Returns level 0 as a pass draws into it and keeps it.
+    /// Returns level 0 as an attachment that is stored.
     pub fn attachment(&self, load: wgpu::LoadOp<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'_> {
         self.layer_attachment(0, load)
     }
 
-    /// Returns the same of a layer.
+    /// Does the same for a layer.
     pub fn layer_attachment(&self, layer: u32, load: wgpu::LoadOp<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'_> {
         wgpu::RenderPassColorAttachment {
             view: self.layer(layer),
@@ -129,7 +129,7 @@ impl Texture {
         self.shape.height
     }
 
-    /// Writes level 0. `bytes` holds the rows of each layer or slice without padding, row 0 first.
+    /// Writes level 0. `bytes` contains the rows of each layer or slice without padding, row 0 first.
     pub fn write(&self, gpu: &Gpu, bytes: &[u8]) {
         self.write_level(gpu, 0, bytes);
     }
@@ -147,7 +147,7 @@ impl Texture {
         gpu.queue.write_texture(to, bytes, layout, size);
     }
 
-    /// Writes one texel of level 0. `bytes`: as many as a texel of the format has.
+    /// Writes one texel of level 0. `bytes` contains one texel of the format.
     pub fn write_texel(&self, gpu: &Gpu, (x, y): (u32, u32), bytes: &[u8]) {
         let mut place = self.raw.as_image_copy();
         place.origin = wgpu::Origin3d { x, y, z: 0 };

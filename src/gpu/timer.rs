@@ -1,4 +1,4 @@
-//! Device time of each pass by timestamp queries, read without waiting.
+//! Device time of each pass by timestamp queries, read without blocking.
 
 use super::{Gpu, loss};
 use std::sync::{
@@ -6,10 +6,10 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-/// Frames whose times may be on their way at once. A frame that finds no free slot is not timed.
+/// The number of frames whose times may be in flight. A frame that finds no free slot is not timed.
 const SLOTS: usize = 4;
 
-/// Begin and end stamps of the first `capacity` passes of a frame.
+/// The start and end timestamps of the first `capacity` passes of a frame.
 pub struct PassTimer {
     capacity: u32,
     period_nanos: f64,
@@ -24,7 +24,7 @@ struct Slot {
     mapped: wgpu::Buffer,
     state: State,
     frame: u64,
-    /// The draw of each pair of stamps.
+    /// The draw for each pair of timestamps.
     draws: Vec<usize>,
 }
 
@@ -35,8 +35,8 @@ enum State {
 }
 
 impl PassTimer {
-    /// `None` where the device has no timestamps, or none is to be timed. More passes than a query set holds
-    /// are not all timed.
+    /// Returns `None` if the device has no timestamps, or the capacity is 0. Passes beyond the size of a query set are
+    /// not timed.
     pub fn new(gpu: &Gpu, capacity: u32) -> Option<Self> {
         if !gpu.has_timestamps || capacity == 0 {
             return None;
@@ -77,7 +77,7 @@ impl PassTimer {
         })
     }
 
-    /// Begins a frame.
+    /// Starts a frame.
     pub fn begin(&mut self) {
         self.recording = self.slots.iter().position(|s| matches!(s.state, State::Free));
         if let Some(i) = self.recording {
@@ -87,7 +87,7 @@ impl PassTimer {
         }
     }
 
-    /// Returns where the frame's next pass writes its stamps; `draw` is what its time is added to. `None` past the
+    /// Returns where the frame's next pass writes its timestamps; its time is added to `draw`. `None` beyond the
     /// capacity.
     pub fn writes(&mut self, draw: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
         let slot = &mut self.slots[self.recording?];
@@ -103,7 +103,7 @@ impl PassTimer {
         })
     }
 
-    /// After the frame's last pass, in the same encoder.
+    /// Called after the frame's last pass, with the same encoder.
     pub fn resolve(&mut self, encoder: &mut wgpu::CommandEncoder) {
         let Some(i) = self.recording else { return };
         let slot = &mut self.slots[i];
@@ -115,7 +115,7 @@ impl PassTimer {
         slot.state = State::Recorded;
     }
 
-    /// After the frame was submitted.
+    /// Called after the frame was submitted.
     pub fn submitted(&mut self) {
         let Some(i) = self.recording.take() else { return };
         let slot = &mut self.slots[i];
@@ -127,10 +127,10 @@ impl PassTimer {
         slot.state = State::Mapping(done);
     }
 
-    /// Milliseconds of each of so many draws in the newest frame the device has finished since the last call; 0 for one
-    /// that was left out. Does not wait.
+    /// Returns the milliseconds of each of `draws` draws in the newest frame that the device has finished since the
+    /// last call; 0 for a draw that was skipped. Does not block.
     pub fn newest(&mut self, gpu: &Gpu, draws: usize) -> Option<Vec<f64>> {
-        // The error is the device's loss, which drawing reports.
+        // The error is a device loss, which drawing reports.
         let _ = loss::poll(&gpu.device, wgpu::PollType::Poll);
         let mut best: Option<(u64, Vec<f64>)> = None;
         for slot in &mut self.slots {
@@ -143,7 +143,7 @@ impl PassTimer {
                     bytes.chunks_exact(8).take(slot.draws.len() * 2).map(bytemuck::pod_read_unaligned).collect();
                 let mut millis = vec![0.0; draws];
                 for (draw, s) in slot.draws.iter().zip(stamps.chunks_exact(2)) {
-                    // A program of fewer passes may have come since.
+                    // A program of fewer passes may have been installed since.
                     if let Some(sum) = millis.get_mut(*draw) {
                         *sum += s[1].saturating_sub(s[0]) as f64 * self.period_nanos / 1e6;
                     }

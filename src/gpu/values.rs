@@ -1,30 +1,30 @@
-//! Float values become 8 bits for a window: a number is shown whatever its range.
+//! Conversion of float values to 8 bits for a window, for any range of values.
 
 use super::{Gpu, Texture, full_screen::ValuesShader};
 
-/// Says how numbers become colours.
+/// The mapping of numbers to colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Paint {
-    /// Shades from black, the range's begin, to white, its end.
+    /// Shades from black, the start of the range, to white, its end.
     #[default]
     Range,
-    /// Red above zero, blue below, the brighter the farther.
+    /// Red above zero, blue below, brighter with the distance.
     Sign,
     /// Colours from dark blue through green and yellow to red.
     FalseColour,
 }
 
-/// Says which part of a value is shown, and how.
+/// The part of a value that is shown, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueLook {
     pub low: f32,
     pub high: f32,
     pub paint: Paint,
-    /// One component alone; none: all that there are.
+    /// A single component; `None` for all.
     pub channel: Option<u8>,
-    /// The number of components that mean something, 1 to 4.
+    /// The number of components in use, 1 to 4.
     pub components: u8,
-    /// Four NaN are a pixel that never had the value, as a probe leaves them, and no NaN of the author's.
+    /// Four NaN mark a pixel that never had the value, as a probe leaves them, rather than a NaN of the author's.
     pub has_gaps: bool,
 }
 
@@ -34,7 +34,7 @@ impl Default for ValueLook {
     }
 }
 
-/// A pixel that never had the value is striped. One NaN is violet, an infinity yellow.
+/// Pixels that never had the value are striped. One NaN is violet, an infinity yellow.
 const SHADER: &str = "
 struct Look { low: f32, high: f32, paint: u32, channel: u32, components: u32, has_gaps: u32 }
 @group(0) @binding(0) var values: texture_2d<f32>;
@@ -102,7 +102,7 @@ impl ValuePainter {
         Self(ValuesShader::new(gpu, "values", SHADER, FORMAT))
     }
 
-    /// Sets what is shown and how, from the next drawing on.
+    /// Sets the displayed part and its mapping for all following draws.
     pub fn set(&self, gpu: &Gpu, look: &ValueLook) {
         let paint: u32 = match look.paint {
             Paint::Range => 0,
@@ -123,12 +123,12 @@ impl ValuePainter {
         self.0.set(gpu, words);
     }
 
-    /// Makes what [`ValuePainter::present`] needs to show one picture again and again.
+    /// Creates the bind group with which [`ValuePainter::present`] shows one picture repeatedly.
     pub fn bind(&self, gpu: &Gpu, values: &wgpu::TextureView) -> wgpu::BindGroup {
         self.0.bind(gpu, values)
     }
 
-    /// Draws the values into `display`, which has their size.
+    /// Draws the values into `display`, which must have the same size.
     pub fn present(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, values: &wgpu::BindGroup, display: &Texture) {
         let target = display.attachment(gpu.load_what_is_overwritten());
         self.0.draw(gpu, encoder, target, |pass| {

@@ -1,27 +1,28 @@
-//! Owns the questions of what one frame leaves to the next, which draws the frames to come depend on, and which draw of a
-//! frame may be done in pieces, with anything between them.
+//! Determines what one frame leaves to the next, which draws later frames depend on, and which draw of a frame may be
+//! split into parts with other work in between.
 
 use super::{Draw, FramePlan, ReadTiming, TexelSource};
 use eddy_texture::Dimension;
 
-/// The part of a target that the frames to come depend on.
+/// The part of a target that later frames depend on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Carried {
-    /// A frame overwrites the target before anything reads it.
+    /// A frame overwrites the target before it is read.
     Nothing,
     /// The texels that were drawn last.
     Newest,
-    /// Both of two textures that take turns: a `discard` shows what lay there two frames before.
+    /// Both of two alternating textures: a `discard` shows the texels of two frames before.
     All,
 }
 
 impl FramePlan {
-    /// Returns what of a target a frame needs that draws everything. What no pass draws holds zeros for good.
+    /// Returns which part of a target is needed by a frame that draws everything. A target without a pass always
+    /// contains zeros.
     pub fn carried(&self, target: usize) -> Carried {
         let Some(draw) = self.draws.iter().find(|draw| draw.targets.contains(&target)) else {
             return Carried::Nothing;
         };
-        // Of a region, what lies around it is copied from the newest texels; it may also lie outside of the canvas.
+        // For a region, the texels around it are copied from the newest ones; it may also be outside of the canvas.
         if draw.keeps_content && draw.region.is_none() && self.targets[target].doubled {
             return Carried::All;
         }
@@ -31,12 +32,12 @@ impl FramePlan {
         if is_read || draw.keeps_content || draw.region.is_some() { Carried::Newest } else { Carried::Nothing }
     }
 
-    /// Returns of each draw whether frames to come depend on it: on what it leaves to the next one, or on what another such
-    /// draw of its own frame reads of it.
+    /// Returns for each draw whether later frames depend on it: on what it leaves to the next one, or on what another
+    /// such draw reads of it in its own frame.
     pub fn lasting_draws(&self) -> Vec<bool> {
         let leaves = |draw: &Draw| draw.targets.clone().any(|target| self.carried(target) != Carried::Nothing);
         let mut lasting: Vec<bool> = self.draws.iter().map(leaves).collect();
-        // What a draw reads of its own frame was drawn before it.
+        // A draw reads its own frame only from earlier draws.
         for reader in (0..self.draws.len()).rev() {
             if !lasting[reader] {
                 continue;
@@ -51,9 +52,9 @@ impl FramePlan {
         lasting
     }
 
-    /// Returns the last draw of a frame if nobody can tell in how many pieces it was done, nor, until the next frame
-    /// is drawn, whether all of them were: no pass reads its picture, and every texel of it depends on what other
-    /// passes drew and on nothing that was in its place.
+    /// Returns the last draw of a frame if it may be split without a visible difference, even if parts of it are
+    /// missing until the next frame: no pass reads its picture, and every texel depends only on other passes, not on
+    /// the previous content.
     pub fn divisible_draw(&self) -> Option<usize> {
         let last = self.runs.last().filter(|run| run.steps == 1)?;
         let index = last.draws.clone().last()?;

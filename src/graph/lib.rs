@@ -1,11 +1,11 @@
 //! The plan of a frame: what it draws, reads and keeps, decided without a device.
 //!
 //! Owns [`FramePlan`]: which passes are drawn and in what order, whether a read sees this frame or the last, which
-//! buffers are doubled, where mips exist, which sampler counts, how often a pass is drawn, when its picture of before
-//! will do ([`Changes`]), what a frame leaves to the next ([`Carried`]), whether its last draw may be done in pieces,
-//! which pass can be drawn in tiles ([`Undivided`]), and the operations of each frame ([`Schedule`]).
-//! Knows neither GLSL nor wgpu: what a pass really reads comes in as [`PassFacts`], and a plan is data that an engine
-//! executes in a loop.
+//! buffers are double-buffered, where mips exist, which sampler applies, how often a pass is drawn, when its previous
+//! picture can be reused ([`Changes`]), what a frame leaves to the next ([`Carried`]), whether its last draw may be
+//! split into parts, which pass can be drawn in tiles ([`Undivided`]), and the operations of each frame ([`Schedule`]).
+//! Knows neither GLSL nor wgpu: what a pass actually reads is passed in as [`PassFacts`], and a plan is data that an
+//! engine executes in a loop.
 
 mod carried;
 mod changes;

@@ -1,29 +1,29 @@
-//! The plan of a frame, and the sampler that counts where several channels read one buffer (`shadertoy.md`, section 7).
+//! The plan of a frame, and the sampler that applies if several channels read one buffer (`shadertoy.md`, section 7).
 
 use super::tiles::TiledDraw;
 use eddy_project::{Condition, Filter, Input, PassId, PassSize, Project, Region, Sampler, SamplerRules, Wrap};
 use eddy_texture::{Dimension, TexelFormat};
 use std::{collections::BTreeSet, ops::Range};
 
-/// The use that a compiled pass makes of one channel.
+/// The use of one channel by a compiled pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ChannelFacts {
-    /// Some read of it can be reached.
+    /// Some read of it is reachable.
     pub is_read: bool,
-    /// Some read can reach a mip level other than 0.
+    /// Some read may access a mip level other than 0.
     pub reaches_mips: bool,
 }
 
-/// The facts of a compiled pass that the planner needs. Conservative: what may happen counts as happening.
+/// The facts about a compiled pass that the planner needs. Conservative: whatever may happen is assumed to happen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PassFacts {
     pub channels: [ChannelFacts; 4],
-    /// `discard` can be reached, so what the target held before can stay visible.
+    /// `discard` is reachable, so the previous content of the target can stay visible.
     pub discards: bool,
 }
 
 impl PassFacts {
-    /// Reads every channel at every level and discards: what to assume of a pass of which nothing is known.
+    /// Reads every channel at every level and discards: the assumption for an unknown pass.
     pub const ANYTHING: PassFacts =
         PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; 4], discards: true };
 }
@@ -31,10 +31,10 @@ impl PassFacts {
 /// The frame whose picture of a target a read sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ReadTiming {
-    /// The one that has been drawn in this frame already.
+    /// The picture that has already been drawn in this frame.
     ThisFrame,
-    /// The one that was drawn last before that: the reader is the target itself, or is drawn before it. In a group that
-    /// is the step before, at its first step the frame before.
+    /// The picture before that: the reader is the target itself, or is drawn before it. Within a group that is the
+    /// previous step, and for its first step the previous frame.
     LastFrame,
 }
 
@@ -43,18 +43,18 @@ pub enum ReadTiming {
 pub enum TexelSource {
     /// An index into [`FramePlan::targets`].
     Target { index: usize, when: ReadTiming },
-    /// A texture that something else than a pass fills.
+    /// A texture that is not filled by a pass.
     External,
-    /// No input, or one that no texture can be had for: opaque black, of size 0.
+    /// No input, or one whose texture is unavailable: opaque black, of size 0.
     Nothing,
 }
 
-/// A channel of a draw: what it reads and how.
+/// A channel of a draw: its source and sampler.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Read {
     pub source: TexelSource,
     pub sampler: Sampler,
-    /// Levels beyond 0 may be sampled: the sampler asks for them and the source has them.
+    /// Levels beyond 0 may be sampled: the sampler uses them and the source has them.
     pub mips: bool,
 }
 
@@ -62,12 +62,12 @@ pub struct Read {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     pub id: PassId,
-    /// The place among the pass's targets, from 0.
+    /// The index among the pass's targets, from 0.
     pub index: usize,
     pub dimension: Dimension,
     pub size: PassSize,
     pub format: TexelFormat,
-    /// Two textures that take turns: somebody reads last frame's picture, or a `discard` can show the one before it.
+    /// Two alternating textures: the last frame's picture is read, or a `discard` can show the previous one.
     pub doubled: bool,
     /// A mip chain is built after each draw.
     pub mips: bool,
@@ -78,26 +78,26 @@ pub struct Target {
 pub struct Draw {
     /// Index into [`Project::passes`].
     pub pass: usize,
-    /// Indices into [`FramePlan::targets`]; several only where meshes are drawn.
+    /// Indices into [`FramePlan::targets`]; several only if meshes are drawn.
     pub targets: Range<usize>,
-    /// The index of one more, behind these, for what [`FramePlan::draw_beside`] asks for.
+    /// The index of an additional target, after these, for [`FramePlan::draw_beside`].
     pub beside: Option<usize>,
-    /// `None` where the compiled pass does not read the channel.
+    /// `None` if the compiled pass does not read the channel.
     pub reads: [Option<Read>; 4],
     /// It rasterizes meshes into targets that are cleared first.
     pub draws_meshes: bool,
-    /// The pass begins with the texels that the target held.
+    /// The pass starts with the previous texels of the target.
     pub keeps_content: bool,
-    /// Only these texels are drawn; the others are as they were drawn last.
+    /// Only these texels are drawn; the others are kept.
     pub region: Option<Region>,
-    /// Before frame 0, and after a reset, its target holds what the project says and no zeros.
+    /// Before frame 0, and after a reset, its target contains the project's initial values instead of zeros.
     pub has_initial: bool,
-    /// So many of the outermost texels are overwritten after it is drawn.
+    /// This number of outermost texels are overwritten after it is drawn.
     pub boundary: Option<u32>,
-    /// While it is false the draw is left out, and its targets hold what they hold before frame 0.
+    /// While it is false, the draw is skipped, and its targets contain what they contain before frame 0.
     pub when: Option<Condition>,
-    /// Its picture of before will do while nothing it reads has changed: what it draws depends on nothing else, and on
-    /// its own picture of before it does not depend.
+    /// Its previous picture can be reused while nothing it reads has changed: it depends on nothing else, including its
+    /// own previous picture.
     pub is_cacheable: bool,
 }
 
@@ -105,20 +105,21 @@ pub struct Draw {
 const FILL_SAMPLER: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
 
 impl Draw {
-    /// Indices into [`FramePlan::targets`] of all that is drawn into, in the order of the locations of a fragment.
+    /// Returns the indices into [`FramePlan::targets`] of all targets it draws into, in the order of fragment
+    /// locations.
     pub fn all_targets(&self) -> impl Iterator<Item = usize> + use<> {
         self.targets.clone().chain(self.beside)
     }
 
-    /// Returns what a fill of the pass is drawn as. It reads nothing of what the pass reads, but its own picture if it
-    /// is one.
+    /// Returns the draw for a fill of the pass. It reads none of the pass's inputs, only its own picture if the fill is
+    /// one.
     pub fn of_fill(&self, is_picture: bool) -> Draw {
         let read = is_picture.then_some(Read { source: TexelSource::External, sampler: FILL_SAMPLER, mips: false });
         Draw { reads: [read, None, None, None], keeps_content: true, is_cacheable: false, ..self.clone() }
     }
 }
 
-/// Draws that follow each other, all done once in order, then again.
+/// Consecutive draws that are executed in order, `steps` times.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Run {
     /// Indices into [`FramePlan::draws`].
@@ -127,28 +128,29 @@ pub struct Run {
     pub steps: u32,
 }
 
-/// Everything about a frame that can be known before it is drawn.
+/// Everything about a frame that can be determined before it is drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FramePlan {
     pub targets: Vec<Target>,
     /// In drawing order.
     pub draws: Vec<Draw>,
-    /// The order in which draws are repeated: every draw is in one run.
+    /// The repetition of draws: every draw is in exactly one run.
     pub runs: Vec<Run>,
-    /// Passes of the project that no wanted picture needs, as indices into [`Project::passes`].
+    /// Passes of the project that no requested picture needs, as indices into [`Project::passes`].
     pub skipped: Vec<usize>,
-    /// The draw that [`FramePlan::tile`] has made one of tiles.
+    /// The draw that [`FramePlan::tile`] has turned into tiles.
     pub tiled: Option<TiledDraw>,
 }
 
 impl FramePlan {
-    /// Returns whether a pass draws the target. One that none draws stands for a pass that the project does not have.
+    /// Returns whether a pass draws the target. A target that is not drawn represents a pass that the project does not
+    /// have.
     pub fn is_drawn(&self, target: usize) -> bool {
         self.draws.iter().any(|draw| draw.all_targets().any(|drawn| drawn == target))
     }
 
-    /// Adds a target of 32-bit floats, with a name of its own, for a value that the pass of a draw gives beside its
-    /// picture. Nobody reads it, and what the pass reads and draws is as before.
+    /// Adds a target of 32-bit floats, with a name of its own, for a value that the pass of a draw outputs in addition
+    /// to its picture. No pass reads it, and the pass's other reads and outputs do not change.
     pub fn draw_beside(&mut self, pass: usize, id: PassId) {
         let Some(draw) = self.draws.iter_mut().find(|draw| draw.pass == pass) else { return };
         draw.beside = Some(self.targets.len());
@@ -159,8 +161,8 @@ impl FramePlan {
     }
 
     /// Plans a frame of `project`. `facts[i]` belongs to `project.passes[i]`. `wanted` are the passes whose pictures
-    /// somebody will look at; empty means Image. Without `skip` everything is drawn, doubled and mipped as the site
-    /// would.
+    /// are requested; empty means Image. Without `skip` everything is drawn, double-buffered and mipped as on
+    /// Shadertoy.
     ///
     /// # Panics
     /// If `facts` and the project's passes differ in length.
@@ -195,7 +197,7 @@ impl FramePlan {
                 used.then(|| plan.read(project, &drawn, place, channel)).flatten()
             });
             let region = project.passes[pass].settings.region;
-            // Where meshes are drawn everything is cleared first, on the site's terms or not.
+            // Targets of meshes are always cleared first, with any rules.
             let is_cleared = project.passes[pass].settings.meshes().is_some();
             plan.draws.push(Draw {
                 pass,
@@ -216,7 +218,7 @@ impl FramePlan {
         plan
     }
 
-    /// Indices of the targets of `id`, made if there are none.
+    /// Returns the indices of the targets of `id`, which are created if necessary.
     fn targets(&mut self, project: &Project, id: &PassId) -> Range<usize> {
         let settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();
         let formats = id.formats(&settings);
@@ -237,31 +239,32 @@ impl FramePlan {
         first..first + formats.len()
     }
 
-    /// Groups of the project, and each other draw by itself. What nobody reaches is left out of a group.
+    /// Creates runs for the groups of the project, and one for each other draw. Unreachable passes are omitted from a
+    /// group.
     fn runs(&mut self, project: &Project) {
         let group_of = |draw: &Draw| {
             let id = &project.passes[draw.pass].id;
             project.groups.iter().position(|g| g.passes.contains(id))
         };
-        let mut begin = 0;
-        while begin < self.draws.len() {
-            let group = group_of(&self.draws[begin]);
+        let mut first = 0;
+        while first < self.draws.len() {
+            let group = group_of(&self.draws[first]);
             let same = |draw: &&Draw| group.is_some() && group_of(draw) == group;
-            let end = begin + self.draws[begin..].iter().take_while(same).count().max(1);
+            let end = first + self.draws[first..].iter().take_while(same).count().max(1);
             let steps = group.map_or(1, |g| project.groups[g].steps.max(1));
-            self.runs.push(Run { draws: begin..end, steps });
-            begin = end;
+            self.runs.push(Run { draws: first..end, steps });
+            first = end;
         }
     }
 
-    /// Returns the number of draws of a frame in which everything has changed, each step and each face of a cube
-    /// counted.
+    /// Returns the number of draws of a frame in which everything has changed, counting each step and each face of a
+    /// cube.
     pub fn draws_a_frame(&self) -> u64 {
         let draws = |run: &Run| run.draws.clone().map(|draw| u64::from(self.layers(draw))).sum::<u64>();
         self.runs.iter().map(|run| draws(run) * u64::from(run.steps)).sum()
     }
 
-    /// Returns how many times the pass of a draw is drawn for one picture: once, and for each face of a cube.
+    /// Returns how often the pass of a draw is drawn for one picture: once, or once per face of a cube.
     pub fn layers(&self, draw: usize) -> u32 {
         self.targets[self.draws[draw].targets.start].dimension.layers()
     }
@@ -285,7 +288,7 @@ impl FramePlan {
         id: &PassId,
         index: usize,
     ) -> TexelSource {
-        // A buffer without a pass holds zeros. A cube of them would take 48 MiB to say less than an empty channel.
+        // A buffer without a pass contains zeros. A cube of them would use 48 MiB for no more than an empty channel.
         if *id == PassId::Cubemap && project.pass(id).is_none() {
             return TexelSource::Nothing;
         }
@@ -294,7 +297,7 @@ impl FramePlan {
         TexelSource::Target { index, when: if earlier { ReadTiming::ThisFrame } else { ReadTiming::LastFrame } }
     }
 
-    /// Decides what each target needs, now that every read is known.
+    /// Determines the properties of each target, now that every read is known.
     fn settle(&mut self, project: &Project, facts: &[PassFacts], skip: bool) {
         for index in 0..self.targets.len() {
             let (id, own_index) = (self.targets[index].id.clone(), self.targets[index].index);
@@ -310,13 +313,13 @@ impl FramePlan {
                     .collect::<Vec<_>>()
             };
             let drawn_by = self.draws.iter().find(|d| d.targets.contains(&index)).map(|d| d.pass);
-            // What a cleared target held before cannot show.
+            // The previous content of a cleared target cannot be visible.
             let is_cleared = |p: usize| project.passes[p].settings.meshes().is_some();
             let discards = drawn_by.is_some_and(|p| facts[p].discards && !is_cleared(p));
-            // Image keeps the canvas of one frame before, and Sound its block before; only buffers take turns.
+            // Image keeps the canvas of the previous frame, and Sound its previous block; only buffers alternate.
             let takes_turns = id.is_picture() && id != PassId::Image && drawn_by.is_some();
             let doubled = takes_turns && (!skip || discards || !reads_of(Some(ReadTiming::LastFrame)).is_empty());
-            // The site asks every pass of the project, also one that nobody looks at.
+            // Shadertoy considers every pass of the project, including those that are not shown.
             let sampler_asks = (0..project.passes.len()).any(|p| {
                 (0..4).any(|c| {
                     project.passes[p].channels[c].as_ref().is_some_and(|ch| ch.input.target() == Some((&id, own_index)))
@@ -349,8 +352,8 @@ impl FramePlan {
     }
 }
 
-/// Buffers in the project's order, then the cubemap, then Image. Sound makes no picture, and is drawn only for who wants
-/// a block of its samples.
+/// Buffers in the project's order, then the cubemap, then Image. Sound has no picture, and is drawn only if a block of
+/// its samples is requested.
 fn drawing_order(project: &Project, wanted: &[PassId]) -> Vec<usize> {
     let id = |i: usize| &project.passes[i].id;
     let is_drawn = |i: &usize| id(*i).is_picture() || wanted.contains(id(*i));
@@ -359,7 +362,7 @@ fn drawing_order(project: &Project, wanted: &[PassId]) -> Vec<usize> {
     order
 }
 
-/// Passes that some wanted picture needs, now or in a frame to come.
+/// Returns the passes that some requested picture needs, now or in a later frame.
 fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassId]) -> BTreeSet<usize> {
     let index_of = |id: &PassId| project.passes.iter().position(|p| p.id == *id);
     let image = [PassId::Image];
@@ -378,12 +381,12 @@ fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassId]) -> BT
     reached
 }
 
-/// Returns the sampler with which `pass`'s channel `index` is really read; `None` where the channel is empty.
+/// Returns the sampler with which `pass`'s channel `index` is actually read; `None` if the channel is empty.
 ///
-/// Some kinds of input, such as the keyboard, are always read in one way. Under [`SamplerRules::Site`] a buffer's filter
-/// is that of the last channel of the same pass that reads it, because the site sets it on the texture just before the
-/// pass draws, and its wrap that of the last channel of the whole project, because the site sets it once as channels
-/// load.
+/// Some kinds of input, such as the keyboard, always have the same sampler. Under [`SamplerRules::Site`] a buffer's
+/// filter is that of the last channel of the same pass that reads it, because Shadertoy sets it on the texture just
+/// before the pass draws, and its wrap is that of the last channel of the whole project, because Shadertoy sets it once
+/// when channels load.
 pub fn effective_sampler(project: &Project, pass: usize, index: usize) -> Option<Sampler> {
     let pass = &project.passes[pass];
     let channel = pass.channels[index].as_ref()?;

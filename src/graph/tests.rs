@@ -1,4 +1,4 @@
-//! The plan's rules, with no device.
+//! Tests of the planner's rules, without a device.
 
 use super::{
     Carried, Changes, ChannelFacts, FramePlan, PassFacts, ReadTiming, Target, TexelSource, Undivided, effective_sampler,
@@ -39,7 +39,7 @@ fn plan(project: &Project) -> FramePlan {
     FramePlan::new(project, &vec![reads_all(); project.passes.len()], &[], true)
 }
 
-/// Returns what `reader`'s channel `c` sees in `plan`: the target's title and the frame.
+/// Returns what `reader`'s channel `c` reads in `plan`: the target's title and the frame.
 fn seen(project: &Project, plan: &FramePlan, reader: &PassId, c: usize) -> Option<(String, ReadTiming)> {
     let draw = plan.draws.iter().find(|d| project.passes[d.pass].id == *reader)?;
     match &draw.reads[c].as_ref()?.source {
@@ -50,7 +50,7 @@ fn seen(project: &Project, plan: &FramePlan, reader: &PassId, c: usize) -> Optio
 
 #[test]
 fn truth_table_of_reads() {
-    // Every buffer and Image read all four buffers; the buffers are listed in an order that is not the alphabet's.
+    // Every buffer and Image read all four buffers; the buffers are not listed in alphabetical order.
     for order in [[0, 1, 2, 3], [3, 1, 0, 2], [2, 3, 0, 1]] {
         let everything = || LETTERS.map(buffer);
         let mut passes: Vec<_> =
@@ -180,7 +180,7 @@ fn keyboard_is_nearest_and_clamped_whatever_the_project_says() {
 }
 
 #[test]
-fn a_buffer_without_a_pass_is_a_target_nobody_draws() {
+fn a_buffer_without_a_pass_is_a_target_without_a_draw() {
     let project = project(vec![pass(PassId::Image, [buffer("C"), None, None, None])]);
     let plan = plan(&project);
     let place = plan.targets.iter().position(|t| t.id == PassId::Buffer("C".into())).unwrap();
@@ -233,7 +233,7 @@ fn targets_have_their_passes_sizes_formats_and_regions() {
 }
 
 #[test]
-fn only_what_depends_on_nothing_of_its_own_may_rest() {
+fn only_draws_that_do_not_read_themselves_are_cached() {
     let project = project(vec![
         pass(id("A"), Default::default()),
         pass(id("B"), [buffer("B"), None, None, None]),
@@ -249,8 +249,8 @@ fn only_what_depends_on_nothing_of_its_own_may_rest() {
 }
 
 #[test]
-fn a_draw_is_left_out_until_something_it_reads_has_changed_however_far_away() {
-    // A -> B -> Image, and C reads Image's sources of the frame before.
+fn a_draw_is_skipped_until_one_of_its_transitive_inputs_changes() {
+    // A -> B -> Image, and C reads the same sources as Image, but of the previous frame.
     let project = project(vec![
         pass(id("C"), [buffer("B"), None, None, None]),
         pass(id("A"), Default::default()),
@@ -276,7 +276,7 @@ fn a_draw_is_left_out_until_something_it_reads_has_changed_however_far_away() {
     assert_eq!(frame(&mut changes, [0, 1, 0, 7]), "CABe");
 }
 
-/// `scene` draws meshes into two targets and may discard; A reads its second, Image A and its first.
+/// `scene` draws meshes into two targets and may discard; A reads its second, Image reads A and its first.
 fn with_scene() -> (Project, Vec<PassFacts>) {
     let id = PassId::Buffer("scene".into());
     let mut scene = pass(id, Default::default());
@@ -300,7 +300,7 @@ fn a_scene_has_a_target_for_each_of_its_pictures() {
     let plan = FramePlan::new(&project, &facts, &[], true);
     let targets: Vec<_> = plan.targets.iter().map(|t| (t.id.key(), t.index, t.format, t.mips, t.doubled)).collect();
     let scene = || "buffer_scene".to_owned();
-    // Cleared first, so that a `discard` shows nothing of before; mips only of the target that a sampler asks for.
+    // Cleared first, so that a `discard` never shows older texels; mips only for the target whose sampler uses them.
     assert_eq!(
         targets[..2],
         [(scene(), 0, TexelFormat::Rgba8, false, false), (scene(), 1, TexelFormat::Rgba16f, true, false)]
@@ -310,7 +310,7 @@ fn a_scene_has_a_target_for_each_of_its_pictures() {
     let read = |draw: usize, c: usize| plan.draws[draw].reads[c].as_ref().unwrap().source.clone();
     assert_eq!(read(1, 0), TexelSource::Target { index: 1, when: ReadTiming::ThisFrame });
     assert_eq!(read(2, 0), TexelSource::Target { index: 0, when: ReadTiming::ThisFrame });
-    // Without skipping it is drawn each frame, and cleared all the same.
+    // Without skipping it is drawn each frame, and still cleared.
     let full = FramePlan::new(&project, &facts, &[], false);
     assert!(!full.draws[0].keeps_content && !full.draws[0].is_cacheable);
 }
@@ -330,7 +330,7 @@ fn readers_of_any_target_follow_a_scene_that_was_drawn() {
 }
 
 #[test]
-fn a_target_that_is_not_there_reads_as_nothing() {
+fn a_missing_target_reads_as_nothing() {
     let (mut project, facts) = with_scene();
     project.passes[1].channels[0] =
         channel(Input::Pass { id: PassId::Buffer("scene".into()), target: 3 }, Filter::Linear, Wrap::Clamp);
@@ -339,7 +339,7 @@ fn a_target_that_is_not_there_reads_as_nothing() {
 }
 
 #[test]
-fn a_frame_moves_at_least_what_it_writes_and_each_source_once_a_draw() {
+fn traffic_counts_writes_and_each_source_once_per_draw() {
     let frame = |change: &dyn Fn(&mut Project)| {
         let a = pass(id("A"), [buffer("A"), buffer("A"), buffer("B"), None]);
         let b = pass(id("B"), [buffer("A"), None, None, None]);
@@ -359,7 +359,7 @@ fn a_frame_moves_at_least_what_it_writes_and_each_source_once_a_draw() {
 }
 
 #[test]
-fn what_is_drawn_beside_a_picture_changes_no_other_target() {
+fn an_additional_output_changes_no_other_target() {
     let project = project(vec![
         pass(PassId::Buffer("A".into()), [buffer("A"), None, None, None]),
         pass(PassId::Image, [buffer("A"), None, None, None]),
@@ -378,8 +378,9 @@ fn what_is_drawn_beside_a_picture_changes_no_other_target() {
 }
 
 #[test]
-fn a_frame_leaves_to_the_next_what_is_read_before_it_is_overwritten() {
-    // A reads C of the frame before, B reads A, C reads B and what it drew itself; D shows what it drew before.
+fn targets_that_are_read_before_being_overwritten_are_carried_to_the_next_frame() {
+    // A reads C of the previous frame, B reads A, C reads B and its own previous picture; D shows its own previous
+    // picture.
     let project = project(vec![
         pass(id("A"), [buffer("C"), None, None, None]),
         pass(id("B"), [buffer("A"), None, None, None]),
@@ -399,13 +400,13 @@ fn a_frame_leaves_to_the_next_what_is_read_before_it_is_overwritten() {
         ids.map(|id| id.title()).zip(entries).collect::<std::collections::BTreeMap<_, _>>()
     };
     let (nothing, newest, all) = (Carried::Nothing, Carried::Newest, Carried::All);
-    // Nobody draws E.
+    // E is not drawn.
     assert_eq!(carried(&project, &facts, true), expect([nothing, nothing, newest, all, nothing, nothing]));
     assert_eq!(carried(&project, &facts, false), expect([all, all, all, all, nothing, newest]));
     // Image has one texture, which a `discard` shows.
     facts[4].discards = true;
     assert_eq!(carried(&project, &facts, true)[&PassId::Image.title()], newest);
-    // What lies around a region is the same for good.
+    // The texels around a region never change.
     let mut project = project;
     project.passes[0].settings.region = Some(Region { x: 0, y: 0, width: 3, height: 3 });
     project.passes[3].settings.region = project.passes[0].settings.region;
@@ -413,7 +414,7 @@ fn a_frame_leaves_to_the_next_what_is_read_before_it_is_overwritten() {
 }
 
 #[test]
-fn frames_to_come_depend_on_what_leads_to_what_they_read() {
+fn later_frames_depend_on_their_transitive_inputs() {
     // A is read by B in its own frame, B by itself in the next; C shows B, and Image shows C.
     let mut project = project(vec![
         pass(id("A"), [None, None, None, None]),
@@ -424,21 +425,21 @@ fn frames_to_come_depend_on_what_leads_to_what_they_read() {
     let mut facts = vec![reads_all(); 4];
     let lasting = |project: &Project, facts: &[PassFacts]| FramePlan::new(project, facts, &[], true).lasting_draws();
     assert_eq!(lasting(&project, &facts), [true, true, false, false]);
-    // A `discard` shows what was there before.
+    // A `discard` shows the previous content.
     facts[2].discards = true;
     assert_eq!(lasting(&project, &facts), [true, true, true, false]);
     facts[2].discards = false;
     // A reads what C left.
     project.passes[0].channels[0] = buffer("C");
     assert_eq!(lasting(&project, &facts), [true, true, true, false]);
-    // Nothing is read of a frame before.
+    // Nothing is read from a previous frame.
     project.passes[0].channels[0] = None;
     project.passes[1].channels[1] = None;
     assert_eq!(lasting(&project, &facts), [false; 4]);
 }
 
 #[test]
-fn a_last_draw_may_be_done_in_pieces_where_nobody_can_tell() {
+fn the_last_draw_may_be_split_if_the_result_is_the_same() {
     let mut project = project(vec![
         pass(id("A"), [buffer("B"), None, None, None]),
         pass(id("B"), [buffer("A"), None, None, None]),
@@ -466,7 +467,7 @@ fn a_last_draw_may_be_done_in_pieces_where_nobody_can_tell() {
 }
 
 #[test]
-fn a_pass_is_drawn_in_tiles_where_its_picture_cannot_tell() {
+fn a_pass_is_drawn_in_tiles_if_its_picture_is_the_same() {
     let image = || pass(PassId::Image, [buffer("A"), None, None, None]);
     let a = || pass(PassId::Buffer("A".into()), Default::default());
     let project = project(vec![a(), image()]);
@@ -478,7 +479,7 @@ fn a_pass_is_drawn_in_tiles_where_its_picture_cannot_tell() {
     let target = tiled.draws[1].targets.start;
     assert_eq!(tiled.targets[target].size.of((9000, 9000)), (64, 32));
     assert_eq!(tiled.target_bytes((100, 10)), 16 * (100 * 10 + 64 * 32));
-    // All else is as before.
+    // Everything else is unchanged.
     assert_eq!(FramePlan { tiled: None, targets: whole.targets.clone(), ..tiled }, whole);
     // Buffer A is read by Image.
     let mut refused = whole.clone();
@@ -487,7 +488,7 @@ fn a_pass_is_drawn_in_tiles_where_its_picture_cannot_tell() {
 }
 
 #[test]
-fn a_pass_whose_picture_could_tell_is_not_drawn_in_tiles() {
+fn a_pass_whose_picture_would_differ_is_not_drawn_in_tiles() {
     let why = |passes: Vec<Pass>, facts: PassFacts, of: usize| {
         let project = project(passes);
         let wanted = [project.passes[of].id.clone()];

@@ -1,27 +1,27 @@
-//! A pass that is drawn in tiles, into a target that is smaller than its picture: whether it can be, and why another one
-//! cannot.
+//! Drawing a pass in tiles, into a target that is smaller than its picture: whether that is possible, and the reasons
+//! why it is not.
 
 use super::{Draw, FramePlan, TexelSource};
 use eddy_project::{PassSize, Project};
 use eddy_texture::Dimension;
 use std::fmt;
 
-/// The draw of a plan that is done tile by tile.
+/// The draw of a plan that is executed tile by tile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TiledDraw {
     /// Index into [`FramePlan::draws`].
     pub draw: usize,
-    /// The size of the whole picture. That of its target is a tile's.
+    /// The size of the whole picture. Its target has the size of a tile.
     pub size: PassSize,
 }
 
-/// The reason why a pass cannot be drawn in tiles. Its text says what to do about it.
+/// The reason why a pass cannot be drawn in tiles. Its text includes the fix.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Undivided {
     Meshes,
     Cube,
     Targets,
-    /// The pass of this title reads it.
+    /// The pass with this title reads it.
     Read(String),
     Itself,
     Discards,
@@ -61,9 +61,9 @@ impl fmt::Display for Undivided {
 }
 
 impl FramePlan {
-    /// Makes the target of a pass as small as a tile, and leaves the draw to who draws it tile by tile. The picture is the
-    /// same as in one piece: every texel depends on its position and on what other passes drew, on nothing that was in its
-    /// place before, and nobody reads it. On an error nothing is changed.
+    /// Shrinks the target of a pass to the size of a tile, and leaves the draw to the caller, tile by tile. The picture
+    /// is the same as in one piece: every texel depends on its position and on other passes, not on the previous
+    /// content, and no pass reads it. On an error nothing is changed.
     ///
     /// # Panics
     /// If no draw is of this pass.

@@ -1,21 +1,21 @@
-//! Bytes that a frame cannot do without, from its plan alone.
+//! Bytes that a frame must move at least, from its plan alone.
 
 use super::{FramePlan, Target, TexelSource};
 use eddy_texture::TextureShape;
 
-/// The least that is moved if everything is drawn.
+/// The minimum that is moved if everything is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Traffic {
-    /// Bytes of texels written, and of texels read, each texel of each source once a draw: neighbours come from a
-    /// cache.
+    /// The bytes of texels written, and of texels read, each texel of each source once per draw: neighbours are served
+    /// by a cache.
     pub bytes: u64,
-    /// Texels drawn, every step of a group counted.
+    /// The number of texels drawn, counting every step of a group.
     pub texels: u64,
 }
 
 impl FramePlan {
-    /// Returns the least that a frame on a canvas moves. Pictures and the keyboard are not counted, which are read and
-    /// never written.
+    /// Returns the minimum that a frame on a canvas moves. Pictures and the keyboard are not counted, as they are read
+    /// but never written.
     pub fn traffic(&self, canvas: (u32, u32)) -> Traffic {
         let mut sum = Traffic::default();
         for run in &self.runs {
@@ -28,7 +28,7 @@ impl FramePlan {
         sum
     }
 
-    /// Returns the part of one draw, done once.
+    /// Returns the share of one execution of a draw.
     ///
     /// # Panics
     /// If there is no such draw.
@@ -42,7 +42,7 @@ impl FramePlan {
         };
         let mut bytes = 0;
         for target in &self.targets[draw.targets.clone()] {
-            // Each level is made of the one before, of four times its texels: 4/3 are read, 1/3 written.
+            // Each level is computed from the previous one, which has four times its texels: 4/3 are read, 1/3 written.
             let mips = if target.mips { count(size) * target.format.bytes() * 5 / 3 } else { 0 };
             bytes += texels * target.format.bytes() + mips;
         }
@@ -52,19 +52,19 @@ impl FramePlan {
         for source in sources {
             let source = &self.targets[source];
             let all = count(source.size.of(canvas));
-            // A part of a pass may do with a part of what it reads.
+            // A part of a pass may need only a part of its inputs.
             let read = if draw.region.is_some() { all.min(texels) } else { all };
             bytes += read * source.format.bytes();
         }
         Traffic { bytes, texels }
     }
 
-    /// Returns the number of times that a frame does a draw.
+    /// Returns how often a frame executes a draw.
     pub fn steps_of(&self, draw: usize) -> u32 {
         self.runs.iter().find(|run| run.draws.contains(&draw)).map_or(1, |run| run.steps)
     }
 
-    /// Returns the bytes that the targets take on the device.
+    /// Returns the memory of the targets on the device in bytes.
     pub fn target_bytes(&self, canvas: (u32, u32)) -> u64 {
         self.targets.iter().map(|target| target.bytes(canvas)).sum()
     }
@@ -83,7 +83,7 @@ impl Target {
         if self.doubled { 2 } else { 1 }
     }
 
-    /// Returns the bytes that its textures take on the device, mip levels and the second one of a pair among them.
+    /// Returns the memory of its textures on the device in bytes, including mip levels and the second one of a pair.
     pub fn bytes(&self, canvas: (u32, u32)) -> u64 {
         self.shape(canvas).bytes() * self.textures() as u64
     }

@@ -1,32 +1,33 @@
-//! Measures what a frame costs, fairly: methods take turns, so that what else the machine does falls on all of them
-//! alike; the median of at least seven turns counts, with the least and the most; and a pass that only copies, and one
-//! that draws a single texel, take part as the roofline and the floor.
+//! Fair measurement of the cost of a frame: methods take turns, so that other load on the machine affects all of them
+//! equally; the median of at least seven turns is used, with the minimum and the maximum; and a pass that only copies,
+//! and one that draws a single texel, are measured as the roofline and the floor.
 //!
-//! A device that is no processor gives timestamps, and a frame costs the sum of its passes' times. A processor that
-//! draws has only one clock, the wall's: a turn draws a batch of frames without waiting, then waits for the queue, and
-//! a frame costs the time of that divided by the frames.
+//! A GPU has timestamps, and the cost of a frame is the sum of its passes' times. A CPU that draws has only the wall
+//! clock: a turn draws a batch of frames without waiting, then waits for the queue, and the cost of a frame is the
+//! elapsed time divided by the number of frames.
 
 use super::{LabError, Rig, Running, Setup};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
-/// Fewest turns of a method.
+/// The minimum number of turns per method.
 pub const MIN_REPEATS: u32 = 7;
 
-/// Most frames of a turn.
+/// The maximum number of frames per turn.
 const MAX_BATCH: u32 = 512;
 
-/// Passes that a frame of the floor's projects draws, so that what a frame costs beside its passes is not taken for
-/// theirs.
+/// The number of passes in a frame of the floor's projects, so that the cost of a frame apart from its passes is not
+/// attributed to them.
 const FLOOR_STEPS: u32 = 16;
 
-/// Bytes a texel that the copying pass moves: it reads and writes rgba32f.
+/// The bytes per texel that the copying pass moves: it reads and writes rgba32f.
 const COPY_BYTES: f64 = 32.0;
 
-/// A copying pass that takes fewer times what a pass of one texel takes is busy with being a pass, and not with texels.
+/// If the copying pass takes less than this many times the time of a pass of one texel, the overhead of the pass
+/// dominates.
 const COPY_OVER_EMPTY: f64 = 4.0;
 
-/// Says how a time was taken.
+/// The clock of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Clock {
@@ -40,7 +41,7 @@ impl Clock {
     }
 }
 
-/// Times of one method, in milliseconds a frame.
+/// Times of one method, in milliseconds per frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Times {
     pub median: f64,
@@ -49,14 +50,14 @@ pub struct Times {
 }
 
 impl Times {
-    /// Each times a factor.
+    /// Returns all times multiplied by a factor.
     #[must_use]
     pub fn by(self, factor: f64) -> Times {
         Times { median: self.median * factor, min: self.min * factor, max: self.max * factor }
     }
 
     /// # Panics
-    /// If there are none.
+    /// If there are no samples.
     fn of(mut samples: Vec<f64>) -> Times {
         samples.sort_by(f64::total_cmp);
         let (first, last) = (samples[0], samples[samples.len() - 1]);
@@ -70,50 +71,50 @@ impl Times {
     }
 }
 
-/// Holds what a frame of a method costs.
+/// The cost of a frame of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
     pub frame: Times,
     /// The times of one copying pass and of one that draws a single texel, in the same turns.
     pub copy: Times,
     pub empty: Times,
-    /// Fewest bytes a frame moves for a texel of the study's grid, by its plan.
+    /// The minimum number of bytes that a frame moves per texel of the study's grid, by its plan.
     pub bytes_per_texel: f64,
-    /// Texels a frame draws, for one of the study's grid.
+    /// The number of texels that a frame draws per texel of the study's grid.
     pub texels_per_texel: f64,
     pub canvas_texels: f64,
     pub repeats: u32,
-    /// Frames of a turn.
+    /// The number of frames per turn.
     pub batch: u32,
     pub clock: Clock,
 }
 
 impl Cost {
-    /// Millions of texels drawn in a second.
+    /// Returns the millions of texels drawn per second.
     pub fn megatexels_per_second(&self) -> f64 {
         self.canvas_texels * self.texels_per_texel / self.frame.median / 1e3
     }
 
-    /// Returns the bytes a second over those of the copying pass. `None` on a grid so small that the copying pass takes
-    /// hardly longer than one of a single texel: how fast it copies is no limit then.
+    /// Returns the bytes per second relative to those of the copying pass. `None` on a grid so small that the copying
+    /// pass takes hardly longer than a pass of a single texel: its speed is then not a limit.
     pub fn roofline(&self) -> Option<f64> {
         let is_of_texels = self.copy.median >= COPY_OVER_EMPTY * self.empty.median;
         is_of_texels.then(|| (self.bytes_per_texel / self.frame.median) / (COPY_BYTES / self.copy.median))
     }
 }
 
-/// Says how carefully to measure.
+/// The accuracy of a measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct MeasureSettings {
     /// At least [`MIN_REPEATS`].
     pub repeats: u32,
-    /// Milliseconds that a turn shall take at least.
+    /// The minimum duration of a turn in milliseconds.
     pub turn_millis: f64,
 }
 
-/// Measures setups against each other. `size` is that of the studied grid, by whose texels costs are told; a setup's
-/// canvas may be larger, as that of a preset which solves on a coarser grid than it paints. `turned` gets the turns that
-/// each has had, how many there are, and the costs by these: none before the first.
+/// Measures setups against each other. `size` is that of the studied grid, whose texels costs refer to; a setup's
+/// canvas may be larger, as for a preset that solves on a coarser grid than it paints. `turned` is called with the
+/// number of turns that each has had, their total number, and the costs so far: none before the first.
 pub fn interleaved(
     rig: &Rig,
     setups: &[Setup],
@@ -125,7 +126,7 @@ pub fn interleaved(
     let floor = ["copy", "empty"].map(|name| Setup::new("floor", size).wants(&[name]).steps(name, FLOOR_STEPS));
     let mut turns = Vec::new();
     for setup in floor.iter().chain(setups) {
-        turns.push(TimedBatch::begin(rig, setup, care.turn_millis, clock)?);
+        turns.push(TimedBatch::open(rig, setup, care.turn_millis, clock)?);
     }
     let repeats = care.repeats.max(MIN_REPEATS);
     let mut costs = Vec::new();
@@ -140,7 +141,7 @@ pub fn interleaved(
     Ok(costs)
 }
 
-/// The costs by the turns that there have been. The first `floor` are the copying pass and the one of a texel.
+/// Returns the costs after the turns so far. The first `floor` setups are the copying pass and the one of a texel.
 fn so_far(turns: &mut [TimedBatch], floor: usize, size: (u32, u32), clock: Clock) -> Vec<Cost> {
     let times: Vec<Times> = turns.iter().map(|t| Times::of(t.samples.clone())).collect();
     let canvas_texels = f64::from(size.0) * f64::from(size.1);
@@ -161,11 +162,11 @@ fn so_far(turns: &mut [TimedBatch], floor: usize, size: (u32, u32), clock: Clock
     turns.iter_mut().zip(&times).skip(floor).map(cost).collect()
 }
 
-/// Milliseconds a frame of one setup by itself, in a single turn: what it will cost about, long before all have taken
-/// turns.
+/// Returns the milliseconds per frame of a single setup, in a single turn: an estimate of its cost, long before all
+/// have taken turns.
 pub fn estimate(rig: &Rig, setup: &Setup, turn_millis: f64) -> Result<f64, LabError> {
     let clock = Clock::of(rig);
-    TimedBatch::begin(rig, setup, turn_millis, clock)?.take(clock)
+    TimedBatch::open(rig, setup, turn_millis, clock)?.take(clock)
 }
 
 struct TimedBatch {
@@ -176,7 +177,7 @@ struct TimedBatch {
 
 impl TimedBatch {
     /// Opens a setup and warms it up.
-    fn begin(rig: &Rig, setup: &Setup, turn_millis: f64, clock: Clock) -> Result<TimedBatch, LabError> {
+    fn open(rig: &Rig, setup: &Setup, turn_millis: f64, clock: Clock) -> Result<TimedBatch, LabError> {
         let mut running = rig.open(setup)?;
         if clock == Clock::Timestamps {
             running.engine().set_timing(true);
@@ -185,7 +186,7 @@ impl TimedBatch {
         Ok(TimedBatch { running, batch, samples: Vec::new() })
     }
 
-    /// Milliseconds a frame.
+    /// Returns the milliseconds per frame of one turn.
     fn take(&mut self, clock: Clock) -> Result<f64, LabError> {
         match clock {
             Clock::Wall => Ok(batch_millis(&mut self.running, self.batch)? / f64::from(self.batch)),
@@ -205,7 +206,7 @@ impl TimedBatch {
     }
 }
 
-/// Milliseconds of a batch of frames, from the first call to the empty queue.
+/// Returns the milliseconds of a batch of frames, from the first call to the empty queue.
 fn batch_millis(running: &mut Running, frames: u32) -> Result<f64, LabError> {
     let began = Instant::now();
     for _ in 0..frames {
@@ -215,7 +216,7 @@ fn batch_millis(running: &mut Running, frames: u32) -> Result<f64, LabError> {
     Ok(began.elapsed().as_secs_f64() * 1e3)
 }
 
-/// Draws until the driver has compiled and a batch takes long enough; gives the frames of one.
+/// Draws until the driver has compiled and a batch takes long enough; returns the number of frames in a batch.
 fn warm_up(running: &mut Running, turn_millis: f64) -> Result<u32, LabError> {
     batch_millis(running, 2)?;
     let mut batch = 1;
@@ -234,7 +235,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_median_is_the_middle_and_an_outlier_is_only_the_most() {
+    fn outliers_affect_the_maximum_but_not_the_median() {
         let times = Times::of(vec![3.0, 1.0, 2.0, 100.0, 2.5]);
         assert_eq!((times.min, times.median, times.max), (1.0, 2.5, 100.0));
         assert_eq!(Times::of(vec![1.0, 3.0]).median, 2.0);

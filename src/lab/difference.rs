@@ -1,4 +1,4 @@
-//! Says how far two pictures are apart, and how the times of what draws them compare.
+//! The difference of two pictures, and the comparison of their drawing times.
 
 use super::{
     flip,
@@ -6,34 +6,34 @@ use super::{
 };
 use eddy_engine::Pixels;
 
-/// The least side that the window of structural similarity fits into.
+/// The minimum side that the window of structural similarity fits into.
 const SSIM_SIDE: u32 = 11;
 
-/// Says how far a picture is from a reference.
+/// The difference of a picture from a reference.
 #[derive(Clone, Debug)]
 pub struct PictureDifference {
-    /// Texels that differ in any bit.
+    /// The number of texels that differ in any bit.
     pub texels_apart: usize,
-    /// Largest difference of a component; NaN where a NaN is on one side only.
+    /// The largest difference of a component; NaN where only one side is NaN.
     pub largest: f64,
-    /// Root of the mean square of the components' differences; 1 is the range of a screen.
+    /// The root mean square of the components' differences; 1 is the range of a screen.
     pub rmse: f64,
-    /// The ratio of the components as a screen shows them, in dB.
+    /// The peak signal-to-noise ratio of the components as displayed, in dB.
     pub psnr: f64,
     /// Structural similarity of luma; `None` for pictures of less than 11 pixels a side.
     pub ssim: Option<f64>,
-    /// FLIP of each pixel as a screen shows it, the top row first.
+    /// FLIP of each pixel as displayed, the top row first.
     pub flip: Vec<f64>,
 }
 
 impl PictureDifference {
-    /// `None`: pictures of two sizes cannot be compared.
+    /// Returns `None` for pictures of different sizes.
     pub fn new(a: &Pixels, b: &Pixels) -> Option<PictureDifference> {
         if (a.width, a.height) != (b.width, b.height) {
             return None;
         }
         let pairs = || a.texels.iter().flatten().zip(b.texels.iter().flatten());
-        // Equal bits are no difference, whatever they stand for.
+        // Equal bits are equal values, including NaN.
         let differences =
             || pairs().map(|(a, b)| if a.to_bits() == b.to_bits() { 0.0 } else { f64::from(*a) - f64::from(*b) });
         let bits = |texel: &[f32; 4]| texel.map(f32::to_bits);
@@ -50,33 +50,33 @@ impl PictureDifference {
         })
     }
 
-    /// The mean of the FLIP map.
+    /// Returns the mean of the FLIP map.
     pub fn mean_flip(&self) -> f64 {
         super::metrics::mean(&self.flip)
     }
 }
 
-/// A picture as a screen shows it: in 8 bits, the top row first.
+/// Returns a picture as displayed: in 8 bits, the top row first.
 fn screen(pixels: &Pixels) -> Picture {
     let bytes = pixels.to_rgba8();
     let rgb = bytes.chunks_exact(4).map(|p| [0, 1, 2].map(|i| f64::from(p[i]) / 255.0)).collect();
     Picture::new(pixels.width as usize, rgb)
 }
 
-/// The differences of two pictures of one size, so many times as large; opaque.
+/// Returns the differences of two pictures of one size, multiplied by `gain`; opaque.
 pub fn difference(a: &Pixels, b: &Pixels, gain: f32) -> Pixels {
     let texel =
         |(a, b): (&[f32; 4], &[f32; 4])| [0, 1, 2, 3].map(|i| if i == 3 { 1.0 } else { (a[i] - b[i]).abs() * gain });
     Pixels { width: a.width, height: a.height, texels: a.texels.iter().zip(&b.texels).map(texel).collect() }
 }
 
-/// Milliseconds a frame, and the one's over the other's.
+/// Milliseconds per frame, and the ratio of one program to the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Times {
     /// Medians.
     pub ours: f64,
     pub theirs: f64,
-    /// Median over the turns, and the quartiles.
+    /// The median over the turns, and the quartiles.
     pub ratio: f64,
     pub ratio_low: f64,
     pub ratio_high: f64,
@@ -84,7 +84,7 @@ pub struct Times {
 }
 
 impl Times {
-    /// Returns the times of turns that two programs took one after the other, in milliseconds a frame. `None` for none.
+    /// Returns the times of turns that two programs took alternately, in milliseconds per frame. `None` for none.
     pub fn new(turns: &[(f64, f64)]) -> Option<Times> {
         let sorted = |values: Vec<f64>| {
             let mut values = values;
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn what_differs_is_measured() {
+    fn differences_are_measured() {
         let (a, b) = (flat(0.25), flat(0.75));
         let apart = PictureDifference::new(&a, &b).unwrap();
         assert_eq!((apart.texels_apart, apart.largest), (132, 0.5));
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ratio_is_that_of_turns_beside_each_other() {
+    fn ratios_compare_adjacent_turns() {
         let times = Times::new(&[(2.0, 1.0), (30.0, 10.0), (4.0, 4.0), (8.0, 2.0), (10.0, 2.0)]).unwrap();
         assert_eq!((times.ratio_low, times.ratio, times.ratio_high), (2.0, 3.0, 4.0));
         assert_eq!((times.ours, times.theirs, times.turns), (8.0, 2.0, 5));

@@ -1,4 +1,4 @@
-//! Says why the lab could not measure or report.
+//! The errors of measuring and reporting.
 
 use eddy_diag::render_all;
 use eddy_engine::{BuildError, EngineError};
@@ -19,7 +19,7 @@ pub enum LabError {
     /// A method that does not compile: a bug of ours.
     #[error("the method {method} does not compile\n{said}")]
     Method { method: String, said: String },
-    /// A setup that names what its project does not have: a bug of ours.
+    /// A setup that refers to something that its project lacks: a bug of ours.
     #[error("the method {method} has no {what}")]
     Setup { method: String, what: String },
     #[error("cannot {action} {}: {source}", path.display())]
@@ -53,7 +53,7 @@ pub enum LabError {
     Plot(String),
 }
 
-/// Makes a folder, unless it is there.
+/// Creates a folder, unless it exists.
 pub(super) fn make_folder(folder: &Path) -> Result<(), LabError> {
     let made = match fs::create_dir_all(folder) {
         Err(_) if folder.exists() && !folder.is_dir() => Err(io::Error::other("this is a file; give a folder")),

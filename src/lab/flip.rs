@@ -1,26 +1,26 @@
-//! FLIP: how different two pictures look to a person who flips between them.
+//! FLIP: the difference that a viewer perceives when flipping between two pictures.
 //!
 //! P. Andersson, J. Nilsson, T. Akenine-Möller, M. Oskarsson, K. Åström, M. Fairchild, "FLIP: A Difference Evaluator
-//! for Alternating Images", Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2), 2020. The form
-//! for pictures of a screen.
+//! for Alternating Images", Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2), 2020. The
+//! variant for low dynamic range.
 
 use super::picture::{Picture, separable};
 use std::f64::consts::PI;
 
-/// Pixels in a degree of sight: a screen .7 m wide of 3840 pixels, seen from .7 m.
+/// Pixels per degree of the visual field: a screen .7 m wide with 3840 pixels, seen from .7 m.
 pub const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
 
 /// The contrast sensitivity of each channel, as Gaussians (a1, b1, a2, b2): table 1 of the paper.
 const SENSITIVITY: [[f64; 4]; 3] = [[1.0, 0.0047, 0.0, 1e-5], [1.0, 0.0053, 0.0, 1e-5], [34.1, 0.04, 13.5, 0.025]];
-/// Exponent of the colour differences, and where the largest part of them is mapped to what.
+/// The exponent of the colour differences, and the mapping of their largest part.
 const QC: f64 = 0.7;
 const PC: f64 = 0.4;
 const PT: f64 = 0.95;
-/// Exponent of the feature differences, and the width of a feature in degrees.
+/// The exponent of the feature differences, and the width of a feature in degrees.
 const QF: f64 = 0.5;
 const FEATURE: f64 = 0.082;
 
-/// Linear sRGB to XYZ, of white (1, 1, 1).
+/// Linear sRGB to XYZ, with white at (1, 1, 1).
 const XYZ: [[f64; 3]; 3] = [
     [10135552.0 / 24577794.0, 8788810.0 / 24577794.0, 4435075.0 / 24577794.0],
     [2613072.0 / 12288897.0, 8788810.0 / 12288897.0, 887015.0 / 12288897.0],
@@ -31,7 +31,7 @@ fn times(m: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|i| m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2])
 }
 
-/// By Cramer's rule.
+/// Solves a linear system by Cramer's rule.
 fn solved(m: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     let column = |j: usize| [0, 1, 2].map(|i| m[i][j]);
     let det = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| {
@@ -42,7 +42,7 @@ fn solved(m: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     [det(v, b, c) / all, det(a, v, c) / all, det(a, b, v) / all]
 }
 
-/// XYZ over that of white.
+/// Returns XYZ relative to white.
 fn relative_xyz(linear: [f64; 3]) -> [f64; 3] {
     let (white, xyz) = (times(&XYZ, [1.0; 3]), times(&XYZ, linear));
     [0, 1, 2].map(|i| xyz[i] / white[i])
@@ -52,7 +52,7 @@ fn linear(coded: f64) -> f64 {
     if coded <= 0.04045 { coded / 12.92 } else { ((coded + 0.055) / 1.055).powf(2.4) }
 }
 
-/// Luma and two opponent colours, linear in light.
+/// Returns luma and two opponent colours, linear in light.
 fn opponent(coded: [f64; 3]) -> [f64; 3] {
     let [x, y, z] = relative_xyz(coded.map(|v| linear(v.clamp(0.0, 1.0))));
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
@@ -64,7 +64,7 @@ fn from_opponent([l, cx, cz]: [f64; 3]) -> [f64; 3] {
     solved(&XYZ, [0, 1, 2].map(|i| relative[i] * white[i]))
 }
 
-/// L*a*b* with the Hunt effect: colours count more where there is more light.
+/// Returns L*a*b* with the Hunt effect: colours weigh more at higher luminance.
 fn hunt_lab(linear: [f64; 3]) -> [f64; 3] {
     let delta: f64 = 6.0 / 29.0;
     let f =
@@ -77,7 +77,7 @@ fn hyab(a: [f64; 3], b: [f64; 3]) -> f64 {
     (a[0] - b[0]).abs() + (a[1] - b[1]).hypot(a[2] - b[2])
 }
 
-/// Returns what an eye's optics and nerves leave of a channel.
+/// Filters a channel by the contrast sensitivity of the eye.
 fn seen(channel: &[f64], width: usize, [a1, b1, a2, b2]: [f64; 4]) -> Vec<f64> {
     let widest = SENSITIVITY.iter().flat_map(|s| [s[1], s[3]]).fold(0.0, f64::max);
     let reach = (3.0 * (widest / (2.0 * PI * PI)).sqrt() * PIXELS_PER_DEGREE).ceil() as i32;
@@ -97,7 +97,7 @@ fn seen(channel: &[f64], width: usize, [a1, b1, a2, b2]: [f64; 4]) -> Vec<f64> {
     f1.iter().zip(&f2).map(|(u, v)| (s1 * u + s2 * v) / (w1 + w2)).collect()
 }
 
-/// Strengths of edges and of points in luma.
+/// Returns the strengths of edges and of points in luma.
 fn features(luma: &[f64], width: usize) -> [Vec<f64>; 2] {
     let sd = 0.5 * FEATURE * PIXELS_PER_DEGREE;
     let reach = (3.0 * sd).ceil() as i32;
@@ -116,7 +116,7 @@ fn features(luma: &[f64], width: usize) -> [Vec<f64>; 2] {
     [strength(edge), strength(point)]
 }
 
-/// The difference at every pixel, 0 to 1.
+/// Returns the difference at every pixel, 0 to 1.
 ///
 /// # Panics
 /// If the sizes differ.
@@ -147,7 +147,7 @@ pub fn map(picture: &Picture, reference: &Picture) -> Vec<f64> {
         .collect()
 }
 
-/// The mean difference, 0 for equal pictures.
+/// Returns the mean difference, 0 for equal pictures.
 pub fn mean(picture: &Picture, reference: &Picture) -> f64 {
     super::metrics::mean(&map(picture, reference))
 }
@@ -157,9 +157,9 @@ mod tests {
     use super::*;
     use crate::picture::tests::scene;
 
-    /// The figures are those of the authors' own evaluator, flip-evaluator 1.7, for the same pictures.
+    /// Expected values from the authors' own evaluator, flip-evaluator 1.7, for the same pictures.
     #[test]
-    fn it_is_the_authors_own() {
+    fn matches_reference_flip_values() {
         let truth = scene(48, 32, 0.0);
         assert!(mean(&truth, &truth) == 0.0);
         let bright = Picture { rgb: truth.rgb.iter().map(|c| c.map(|v| v + 0.03)).collect(), ..truth.clone() };

@@ -1,10 +1,10 @@
-//! Speed against error: what a numerical method costs, and how far it is from the truth.
+//! Speed against error: the cost of a numerical method, and its distance from the truth.
 //!
-//! A [`Study`] names methods (projects that the engine runs, in `assets/lab/`), the settings of each, grids, and a
+//! A [`Study`] lists methods (projects that the engine runs, in `assets/lab/`), the settings of each, grids, and a
 //! reference that is exact or an f64 solver, written here and not in GLSL. [`run`] measures every point (a method at a
-//! setting on a grid) and appends it to a file of results at once; [`report`] makes tables and plots of such a file.
-//! Owns no window, no argument and no environment variable: the command line hands them in. Reads the clock only to
-//! measure what a frame costs ([`cost`]).
+//! setting on a grid) and immediately appends it to a file of results; [`report`] makes tables and plots from such a
+//! file. Has no window, and reads neither arguments nor environment variables: the command line passes them in. Reads
+//! the clock only to measure the cost of a frame ([`cost`]).
 
 pub mod background_run;
 pub mod cost;

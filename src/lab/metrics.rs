@@ -1,9 +1,9 @@
-//! Says how wrong a field is. Every measure is over f64 values; fields of one study have the same number of texels.
+//! Error measures of fields. All are over f64 values; fields of one study have the same number of texels.
 
 use serde::{Deserialize, Serialize};
 
-/// Norms of the difference from a reference, each relative to the same norm of the reference. Infinite where the field
-/// holds something that is no number.
+/// Norms of the difference from a reference, each relative to the same norm of the reference. Infinite if the field
+/// contains a value that is not a number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Norms {
     #[serde(with = "as_number")]
@@ -45,7 +45,8 @@ impl Norms {
     }
 }
 
-/// Observed order of convergence between two grids, the second `ratio` times as fine: log(coarse / fine) / log(ratio).
+/// Returns the observed order of convergence between two grids, the second `ratio` times as fine: log(coarse / fine) /
+/// log(ratio).
 pub fn order(coarse_error: f64, fine_error: f64, ratio: f64) -> f64 {
     (coarse_error / fine_error).ln() / ratio.ln()
 }
@@ -54,20 +55,20 @@ pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Relative change of the sum.
+/// Returns the relative change of the sum.
 pub fn drift(before: &[f64], after: &[f64]) -> f64 {
     let (a, b): (f64, f64) = (before.iter().sum(), after.iter().sum());
     (b - a) / a
 }
 
-/// Relative change of the sum of squares: of the kinetic energy, for components of a velocity.
+/// Returns the relative change of the sum of squares: of the kinetic energy, for components of a velocity.
 pub fn square_drift(before: &[f64], after: &[f64]) -> f64 {
     let squares = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
     squares(after) / squares(before) - 1.0
 }
 
-/// Returns how far values go above and below the range of the reference, relative to that range. Infinite for what is
-/// no number.
+/// Returns how far values exceed the range of the reference above and below, relative to that range. Infinite for
+/// values that are not numbers.
 pub fn overshoot(values: &[f64], reference: &[f64]) -> (f64, f64) {
     let range = |v: &[f64]| v.iter().fold((f64::MAX, f64::MIN), |(lo, hi), &x| (lo.min(x), hi.max(x)));
     if values.iter().any(|v| !v.is_finite()) {
@@ -77,32 +78,31 @@ pub fn overshoot(values: &[f64], reference: &[f64]) -> (f64, f64) {
     ((hi - high).max(0.0) / (high - low), (low - lo).max(0.0) / (high - low))
 }
 
-/// Fraction of texels above a threshold.
+/// Returns the fraction of texels above a threshold.
 pub fn area_above(values: &[f64], threshold: f64) -> f64 {
     values.iter().filter(|v| **v > threshold).count() as f64 / values.len() as f64
 }
 
-/// Peak signal to noise ratio in dB, for a peak of 1; infinite for equal fields.
+/// Returns the peak signal-to-noise ratio in dB, for a peak of 1; infinite for equal fields.
 pub fn psnr(values: &[f64], reference: &[f64]) -> f64 {
     let square: f64 = values.iter().zip(reference).map(|(v, r)| (v - r) * (v - r)).sum();
     -10.0 * (square / values.len() as f64).log10()
 }
 
-/// Effective viscosity over the true one, from how the kinetic energy of a Taylor-Green vortex of wave number `k`
-/// falls: KE(t) = KE(0) exp(-4 nu k^2 t).
+/// Returns the effective viscosity relative to the true one, from the decay of the kinetic energy of a Taylor-Green
+/// vortex of wave number `k`: KE(t) = KE(0) exp(-4 nu k^2 t).
 pub fn viscosity_ratio(energy_before: f64, energy_after: f64, nu: f64, k: f64, time: f64) -> f64 {
     (energy_before / energy_after).ln() / (4.0 * k * k * time) / nu
 }
 
-/// Amplitude of the checkerboard (-1)^(x + y) in a field.
+/// Returns the amplitude of the checkerboard (-1)^(x + y) in a field.
 pub fn checkerboard(values: &[f64], width: usize) -> f64 {
     let sign = |i: usize| if (i % width + i / width).is_multiple_of(2) { 1.0 } else { -1.0 };
     values.iter().enumerate().map(|(i, v)| sign(i) * v).sum::<f64>() / values.len() as f64
 }
 
-/// Returns where a curve of points, a setting and an error each, first reaches `target`: x is interpolated in the
-/// logarithms of both.
-/// `None`: it never does. Points that are no numbers are left out.
+/// Returns where a curve of points, each a setting and an error, first reaches `target`: x is interpolated in the
+/// logarithms of both. `None` if it never does. Points that are not numbers are skipped.
 pub fn first_reach(points: &[(f64, f64)], target: f64) -> Option<f64> {
     let mut points: Vec<(f64, f64)> =
         points.iter().copied().filter(|(x, y)| x.is_finite() && y.is_finite() && *x > 0.0 && *y > 0.0).collect();
@@ -127,12 +127,12 @@ mod tests {
     const REFERENCE: [f64; 4] = [1.0, 2.0, 3.0, 4.0];
 
     #[test]
-    fn norms_call_a_bad_field_bad() {
+    fn norms_of_bad_fields_are_large() {
         assert_eq!(Norms::of(&REFERENCE, &REFERENCE), Norms::default());
         let shifted = Norms::of(&[2.0, 3.0, 4.0, 5.0], &REFERENCE);
         assert!((shifted.l1 - 0.4).abs() < 1e-12 && (shifted.linf - 0.25).abs() < 1e-12);
         assert!((shifted.l2 - (4.0f64 / 30.0).sqrt()).abs() < 1e-12);
-        // One bad texel shows in the maximum.
+        // A single bad texel affects the maximum.
         let spike = Norms::of(&[1.0, 2.0, 3.0, 8.0], &REFERENCE);
         assert!(spike.linf == 1.0 && spike.linf > spike.l2 && spike.l2 > spike.l1);
         for bad in [f64::NAN, f64::INFINITY] {
@@ -141,23 +141,23 @@ mod tests {
     }
 
     #[test]
-    fn order_tells_first_from_second_and_none() {
+    fn observed_order_distinguishes_first_second_and_none() {
         assert!((order(0.4, 0.1, 2.0) - 2.0).abs() < 1e-12);
         assert!((order(0.4, 0.2, 2.0) - 1.0).abs() < 1e-12);
         assert!(order(0.4, 0.4, 2.0) < 0.1 && order(0.1, 0.4, 2.0) < 0.0);
     }
 
     #[test]
-    fn drifts_see_what_is_lost() {
+    fn drifts_measure_losses() {
         assert_eq!(drift(&REFERENCE, &[4.0, 3.0, 2.0, 1.0]), 0.0);
         assert!((drift(&REFERENCE, &[1.0, 2.0, 3.0, 3.0]) + 0.1).abs() < 1e-12);
-        // The sum alone does not see that a field is smoothed; the squares do.
+        // The sum alone does not detect smoothing; the squares do.
         let smooth = [2.5; 4];
         assert!(drift(&REFERENCE, &smooth).abs() < 1e-12 && square_drift(&REFERENCE, &smooth) < -0.1);
     }
 
     #[test]
-    fn overshoot_sees_both_sides_and_no_numbers() {
+    fn overshoot_covers_both_sides_and_nan() {
         assert_eq!(overshoot(&[1.0, 4.0], &REFERENCE), (0.0, 0.0));
         assert_eq!(overshoot(&[-0.5, 7.0], &REFERENCE), (1.0, 0.5));
         assert_eq!(overshoot(&[f64::NAN], &REFERENCE).0, f64::INFINITY);
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_reach_is_interpolated_and_may_not_be() {
+    fn the_first_reach_is_interpolated_or_none() {
         let points = [(1.0, 0.1), (10.0, 0.001), (100.0, 0.002)];
         let x = first_reach(&points, 0.01).unwrap();
         assert!((x - 10f64.sqrt()).abs() < 1e-9, "{x}");

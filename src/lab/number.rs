@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_number_comes_back() {
+    fn every_number_round_trips() {
         for x in [0.0, -1.5, 0.16, 1e10, f64::INFINITY, f64::NEG_INFINITY] {
             let text = serde_json::to_string(&Number(x)).unwrap();
             assert_eq!(serde_json::from_str::<Number>(&text).unwrap(), Number(x), "{text}");

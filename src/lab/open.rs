@@ -1,13 +1,13 @@
-//! A point of a study as a project that stands by itself: to be looked at, turned, and saved.
+//! A point of a study as an independent project: for viewing, editing, and saving.
 
 use super::{LabError, Point, Study};
 use eddy_media as media;
 use eddy_project::{FillKind, FillValue, PassId, Project};
 
-/// A point's project.
+/// The project of a point.
 pub struct Opened {
-    /// With the point's settings in it. What the study gives its passes in memory goes with the project, and is written
-    /// with it.
+    /// The project with the point's settings. Texels that the study sets in memory are part of the project, and are
+    /// saved with it.
     pub project: Project,
     /// The size of its canvas.
     pub size: (u32, u32),
@@ -15,7 +15,7 @@ pub struct Opened {
     pub pass: PassId,
 }
 
-/// The project of a point of a study.
+/// Returns the project of a point of a study.
 pub fn project(study: &Study, point: &Point) -> Result<Opened, LabError> {
     let setup = (study.setup)(point);
     let (mut project, media) = setup.project()?;
@@ -27,7 +27,7 @@ pub fn project(study: &Study, point: &Point) -> Result<Opened, LabError> {
             fill.value = FillValue::InMemory { name: name.clone(), npy: media::npy_bytes(texels).into() };
         }
     }
-    // As a person's hand leaves them, which is how they are read again.
+    // Rounded as if set by hand, which is how they are parsed again.
     for custom_uniform in project.custom_uniforms().list {
         if project.custom_uniform_values.contains_key(&custom_uniform.name) {
             let value = custom_uniform.value(&project.custom_uniform_values);

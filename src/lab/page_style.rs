@@ -1,8 +1,8 @@
-//! Colours and measures that all pages of the lab share: light and dark, on wide and on narrow screens. What is wider than
-//! the screen scrolls by itself.
+//! The style that all pages of the lab share: light and dark, on wide and on narrow screens. Content that is wider than
+//! the screen scrolls separately.
 
-/// The style that the style of a page is put behind. Plots are drawn for white paper; in the dark they are turned over, with
-/// their hues kept.
+/// The style that precedes the style of a page. Plots are drawn for white paper; in dark mode they are inverted,
+/// keeping their hues.
 pub(crate) const PAGE: &str = "
 :root { color-scheme: light dark; --ink: #23262d; --paper: #fff; --quiet: #646a75; --line: #d8dbe0; --rule: #e6e8ec; --head: #f4f5f7; --group: #fafbfc;
  --bad: #a3131f; --wrong: #fdecee; --best: #fff3c9; --link: #0b57c2 }

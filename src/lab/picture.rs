@@ -1,6 +1,6 @@
-//! Says how far a picture is from another, as a screen shows them: colours in sRGB's own values, 0 to 1.
+//! The difference of a picture from another as displayed: colours in sRGB's encoded values, 0 to 1.
 
-/// Colours from the bottom left, row 0 first.
+/// Colours in rows from the bottom left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     pub width: usize,
@@ -12,7 +12,7 @@ impl Picture {
         Picture { width, rgb }
     }
 
-    /// The colours of a pass, without its alpha.
+    /// Returns the colours of a pass, without its alpha.
     pub fn of(field: &super::Field) -> Picture {
         let rgb = field.texels().iter().map(|t| [0, 1, 2].map(|i| f64::from(t[i]))).collect();
         Picture { width: field.width(), rgb }
@@ -22,23 +22,23 @@ impl Picture {
         self.rgb.len() / self.width
     }
 
-    /// Every component, one after the other.
+    /// Returns all components in sequence.
     pub fn values(&self) -> Vec<f64> {
         self.rgb.iter().flatten().copied().collect()
     }
 
-    /// Rec. 601's luma.
+    /// Returns the luma of Rec. 601.
     pub fn luma(&self) -> Vec<f64> {
         self.rgb.iter().map(|[r, g, b]| 0.299 * r + 0.587 * g + 0.114 * b).collect()
     }
 }
 
-/// Peak signal to noise ratio of all three components in dB, for a peak of 1.
+/// Returns the peak signal-to-noise ratio of all three components in dB, for a peak of 1.
 pub fn psnr(picture: &Picture, reference: &Picture) -> f64 {
     super::metrics::psnr(&picture.values(), &reference.values())
 }
 
-/// Filters a field along its rows and columns; the field goes on as its edge is.
+/// Filters a field along its rows and columns; the field is extended by its edge.
 pub(super) fn separable(field: &[f64], width: usize, across: &[f64], up: &[f64]) -> Vec<f64> {
     let height = field.len() / width;
     let (rx, ry) = ((across.len() / 2) as isize, (up.len() / 2) as isize);
@@ -90,7 +90,7 @@ pub fn ssim(picture: &Picture, reference: &Picture) -> f64 {
 pub(super) mod tests {
     use super::*;
 
-    /// A disc of three colours on a ramp, so large; moved to the right by so much.
+    /// A disc of three colours on a ramp, in a picture of this size, shifted to the right by `moved`.
     pub(crate) fn scene(width: usize, height: usize, moved: f64) -> Picture {
         let rgb = (0..width * height).map(|i| {
             let (x, y) = ((i % width) as f64 - moved, (i / width) as f64);
@@ -102,10 +102,10 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn pictures_that_differ_are_called_so() {
+    fn different_pictures_have_low_scores() {
         let truth = scene(48, 32, 0.0);
         assert!((ssim(&truth, &truth) - 1.0).abs() < 1e-12 && psnr(&truth, &truth) == f64::INFINITY);
-        // A grey that is a little off everywhere keeps its structure; noise of the same PSNR does not.
+        // A grey with a constant offset keeps its structure; noise of the same PSNR does not.
         let bright = Picture { rgb: truth.rgb.iter().map(|c| c.map(|v| v + 0.03)).collect(), ..truth.clone() };
         let noise = |i: usize| if (i * 7919).is_multiple_of(2) { 0.03 } else { -0.03 };
         let noisy = truth.rgb.iter().enumerate().map(|(i, c)| c.map(|v| v + noise(i + i / 48)));

@@ -1,4 +1,4 @@
-//! A project in 16 bits against itself in 32: what is lost where every float format is half as wide.
+//! Compares a project in 16 bits with itself in 32: the loss when every float format has half its width.
 
 use super::{
     LabError, Rig, Setup,
@@ -11,13 +11,13 @@ use eddy_media::MediaSet;
 use eddy_project::{PassId, Project, TexelFormat};
 use serde::Serialize;
 
-/// A difference of the picture that a screen of 8 bits shows.
+/// The smallest difference that a screen of 8 bits shows.
 pub const VISIBLE: f64 = 1.0 / 255.0;
 
 /// A pass in a frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// As `--pass` calls it.
+    /// The name for `--pass`.
     pub pass: String,
     /// The formats of the target in each run.
     pub formats: [&'static str; 2],
@@ -25,17 +25,17 @@ pub struct Row {
     pub frame: u32,
     /// The norms of all components, relative to the 32-bit run.
     pub norms: Norms,
-    /// The sum of all components less that of the 32-bit run, over the sum of the sizes there.
+    /// The sum of all components minus that of the 32-bit run, relative to the sum of the absolute values there.
     pub mass_drift: f64,
 }
 
-/// Both runs side by side.
+/// A comparison of both runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Drawn.
+    /// The number of frames drawn.
     #[serde(skip)]
     pub frames: u32,
-    /// Pass by pass, each in the frames that were asked for.
+    /// For each pass, the frames that were requested.
     pub rows: Vec<Row>,
     /// The first frame in which a colour of the picture, from 0 to 1, differs by more than [`VISIBLE`].
     pub first_visible: Option<u32>,
@@ -44,12 +44,12 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// The last row of the picture, or of a pass.
+    /// Returns the last row of the picture, or of a pass.
     pub fn last(&self, pass: &str) -> Option<&Row> {
         self.rows.iter().rfind(|row| row.pass == pass)
     }
 
-    /// Returns what the buffers come to in the last frame: the largest L2, and the mass drift that is largest in size.
+    /// Returns the largest L2 and the mass drift of the largest absolute value among the buffers in the last frame.
     pub fn worst(&self) -> (f64, f64) {
         let last = self.rows.iter().filter(|r| r.frame + 1 == self.frames && r.formats[0] != r.formats[1]);
         last.fold((0.0, 0.0), |(l2, drift): (f64, f64), row| {
@@ -58,10 +58,10 @@ impl Comparison {
     }
 }
 
-/// Says why a project could not be compared.
+/// The reason why a project could not be compared.
 #[derive(Debug, thiserror::Error)]
 pub enum PrecisionError {
-    /// The author's to mend, or the machine's.
+    /// An error that the author or the machine causes.
     #[error("{0}")]
     Build(BuildError),
     #[error(transparent)]
@@ -70,7 +70,7 @@ pub enum PrecisionError {
     NoFloats,
 }
 
-/// Frames at which passes are compared: 0, 1, 3, 7 … and the last.
+/// Returns the frames in which passes are compared: 0, 1, 3, 7 … and the last.
 pub fn moments(frames: u32) -> Vec<u32> {
     let mut at: Vec<u32> = (0..31).map(|n| (1u32 << n) - 1).take_while(|f| *f + 1 < frames).collect();
     at.push(frames.saturating_sub(1));
@@ -78,8 +78,7 @@ pub fn moments(frames: u32) -> Vec<u32> {
 }
 
 /// Draws `frames` frames of a project with its formats and with `other`'s, which has the same passes; passes are
-/// compared in the
-/// frames `at`, the picture in all.
+/// compared in the frames `at`, the picture in all frames.
 pub fn compare(
     gpu: &Gpu,
     [project, other]: [&Project; 2],
@@ -91,7 +90,7 @@ pub fn compare(
     compare_run(gpu, [project, other], media, size, (frames, at), |_| Ok(inputs()))
 }
 
-/// [`compare`] where `inputs` may change the engines before each frame.
+/// Does the same as [`compare`], where `inputs` may change the engines before each frame.
 fn compare_run(
     gpu: &Gpu,
     [project, other]: [&Project; 2],
@@ -117,7 +116,7 @@ fn compare_run(
             continue;
         }
         for (pass, other) in project.passes.iter().zip(&other.passes) {
-            // A pass that nothing reaches is not drawn.
+            // An unreachable pass is not drawn.
             let Ok([a, b]) = both(&mut engines, &pass.id) else { continue };
             let formats = [pass, other].map(|p| p.formats()[0].name());
             let (reference, values) = (values(&a), values(&b));
@@ -131,7 +130,7 @@ fn compare_run(
     Ok(result)
 }
 
-/// [`compare`] with 16 bits for 32.
+/// Does the same as [`compare`], with 16 bits instead of 32.
 pub fn halved(
     gpu: &Gpu,
     project: &Project,
@@ -143,7 +142,7 @@ pub fn halved(
     halved_by(gpu, project, media, size, frames, |_| Ok(inputs()))
 }
 
-/// [`halved`] where `inputs` may change the engines before each frame, as a recording does.
+/// Does the same as [`halved`], where `inputs` may change the engines before each frame, as a recording does.
 pub fn halved_by(
     gpu: &Gpu,
     project: &Project,
@@ -155,14 +154,14 @@ pub fn halved_by(
     let mut half = project.clone();
     halve(&mut half);
     if half.passes.iter().zip(&project.passes).all(|(a, b)| a.formats() == b.formats()) {
-        // What does not compile says that first.
+        // A compile error is reported first.
         open(gpu, project, media, size)?;
         return Err(PrecisionError::NoFloats);
     }
     compare_run(gpu, [project, &half], media, size, (frames, &moments(frames)), inputs)
 }
 
-/// Returns whether the device cuts off what a 16-bit store has no room for, instead of rounding to the nearest.
+/// Returns whether the device truncates values when storing 16 bits, instead of rounding to the nearest.
 pub fn cuts_off(rig: &Rig) -> Result<bool, LabError> {
     let probe =
         Setup::new("floor", (1, 1)).wants(&["empty"]).steps("empty", 1).storage(Storage::Half).built(|project| {
@@ -192,7 +191,7 @@ fn values(pixels: &Pixels) -> Vec<f64> {
     pixels.texels.iter().flatten().map(|v| f64::from(*v)).collect()
 }
 
-/// The largest difference of two pictures' colours as a screen shows them.
+/// Returns the largest difference of two pictures' colours as displayed.
 fn largest(a: &Pixels, b: &Pixels) -> f64 {
     let shown = |v: f32| if v.is_nan() { 0.0 } else { f64::from(v.clamp(0.0, 1.0)) };
     let of = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).map(|i| (shown(a[i]) - shown(b[i])).abs()).fold(0.0, f64::max);
@@ -208,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_that_differs_is_seen_and_brighter_than_white_is_not() {
+    fn only_displayed_differences_count() {
         assert_eq!(largest(&pixels(0.25), &pixels(0.25)), 0.0);
         assert!((largest(&pixels(0.25), &pixels(0.35)) - 0.1).abs() < 1e-6);
         assert_eq!(largest(&pixels(1.5), &pixels(2.0)), 0.0);

@@ -1,16 +1,16 @@
-//! Fingerprints tell which records are of what this build would measure.
+//! Determines by fingerprints which records match what this build would measure.
 
 use crate::{Point, Record, stability::CheckedProject, studies};
 use std::collections::HashMap;
 
-/// The fingerprints of this build's presets, each computed once when it is asked for, and of its studies.
+/// The fingerprints of this build's presets, each computed once on demand, and of its studies.
 #[derive(Default)]
 pub struct PresentFingerprints {
     projects: HashMap<String, Option<String>>,
 }
 
 impl PresentFingerprints {
-    /// Returns whether a record was measured of this build's texts and settings. Of projects on disk nothing is known.
+    /// Returns whether a record was measured with this build's texts and settings. Projects on disk are unknown.
     pub fn has(&mut self, record: &Record) -> bool {
         match record {
             Record::Run(_) => true,
@@ -29,7 +29,7 @@ impl PresentFingerprints {
 
 fn is_present(point: &Point, setup: Option<&str>) -> bool {
     let study = studies::all().into_iter().find(|study| study.name == point.study);
-    // A method that this build does not have has no setup here.
+    // A method that this build lacks has no setup here.
     let known = study.filter(|study| study.methods.iter().any(|method| method.name == point.method));
     known.and_then(|study| (study.setup)(point).fingerprint().ok()).is_some_and(|print| setup == Some(print.as_str()))
 }

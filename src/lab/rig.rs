@@ -1,13 +1,13 @@
-//! A method on the device: set up, drawn for so many frames, read back.
+//! A method on the device: set up, drawn for a number of frames, read back.
 
 use super::{LabError, Setup, Stop, setup::pass};
 use eddy_engine::{BuildOptions, Engine, FrameInputs, Pixels, Program};
 use eddy_gpu::Gpu;
 
-/// Frames that may wait on the device at once.
+/// The maximum number of frames in flight.
 const FRAMES_IN_FLIGHT: u32 = 8;
 
-/// Holds the device that measures.
+/// The device for measurements.
 pub struct Rig {
     gpu: Gpu,
     stop: Stop,
@@ -21,7 +21,7 @@ pub struct Running {
     stop: Stop,
 }
 
-/// Texels of a pass.
+/// The texels of a pass.
 pub struct Field(Pixels);
 
 impl Rig {
@@ -29,7 +29,7 @@ impl Rig {
         Rig::stoppable(gpu, Stop::default())
     }
 
-    /// Returns a rig whose drawing ends with [`LabError::Stopped`] once `stop` is given.
+    /// Returns a rig whose drawing ends with [`LabError::Stopped`] once `stop` is requested.
     pub fn stoppable(gpu: Gpu, stop: Stop) -> Rig {
         Rig { gpu, stop }
     }
@@ -38,7 +38,7 @@ impl Rig {
         &self.gpu
     }
 
-    /// A setup's project as it is before frame 0.
+    /// Opens a setup's project in its state before frame 0.
     pub fn open(&self, setup: &Setup) -> Result<Running, LabError> {
         let (project, media) = setup.project()?;
         let (width, height) = setup.size();
@@ -53,7 +53,7 @@ impl Rig {
         Ok(Running { engine, name: setup.folder().into(), frame: 0, stop: self.stop.clone() })
     }
 
-    /// A setup's pass after so many frames.
+    /// Returns a setup's pass after a number of frames.
     pub fn after(&self, setup: &Setup, frames: u32, pass: &str) -> Result<Field, LabError> {
         let mut running = self.open(setup)?;
         running.frames(frames)?;
@@ -62,7 +62,7 @@ impl Rig {
 }
 
 impl Running {
-    /// Draws so many frames at 60 a second.
+    /// Draws a number of frames at 60 per second.
     pub fn frames(&mut self, count: u32) -> Result<(), LabError> {
         for n in 1..=count {
             self.draw()?;
@@ -73,7 +73,7 @@ impl Running {
         Ok(self.engine.gpu().wait()?)
     }
 
-    /// Draws a frame; does not wait.
+    /// Draws a frame without waiting.
     pub(super) fn draw(&mut self) -> Result<(), LabError> {
         self.stop.check()?;
         self.engine.draw(&FrameInputs::at_fixed_step(self.frame, 60.0))?;
@@ -81,7 +81,7 @@ impl Running {
         Ok(())
     }
 
-    /// The value that the setup looks at ([`Setup::wants_value`]), NaN where it never was.
+    /// Reads the value that the setup requests ([`Setup::wants_value`]), NaN where it was never computed.
     pub fn read_value(&mut self) -> Result<Field, LabError> {
         let lacks = |_| LabError::Setup { method: self.name.clone(), what: "value that is looked at".into() };
         self.engine.read_target(&BuildOptions::probed(), 0).map(Field).map_err(lacks)
@@ -91,7 +91,7 @@ impl Running {
         self.read_target(name, 0)
     }
 
-    /// One of the targets of a geometry pass.
+    /// Reads one of the targets of a geometry pass.
     pub fn read_target(&mut self, name: &str, target: usize) -> Result<Field, LabError> {
         let lacks = |_| LabError::Setup { method: self.name.clone(), what: format!("pass {name}") };
         self.engine.read_target(&pass(name), target).map(Field).map_err(lacks)
@@ -107,12 +107,12 @@ impl Field {
         self.0.width as usize
     }
 
-    /// One component of every texel, row 0 first.
+    /// Returns one component of every texel, row 0 first.
     pub fn component(&self, index: usize) -> Vec<f64> {
         self.0.texels.iter().map(|t| f64::from(t[index])).collect()
     }
 
-    /// Two components, one field behind the other.
+    /// Returns two components, one field after the other.
     pub fn components(&self, first: usize, second: usize) -> Vec<f64> {
         let mut both = self.component(first);
         both.extend(self.component(second));

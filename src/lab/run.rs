@@ -1,4 +1,4 @@
-//! Measures studies: errors point by point, then the costs of each study's points against each other, which are kept
+//! Measures studies: errors point by point, then the costs of each study's points against each other, which are saved
 //! after each turn.
 
 use super::{
@@ -15,50 +15,50 @@ use std::{
     },
 };
 
-/// Seed of every random field.
+/// The seed of every random field.
 pub const SEED: u64 = 20_240_501;
 
-/// Says how to run.
+/// The options of a run.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The folder of the results.
+    /// The folder for the results.
     pub out: PathBuf,
     pub extent: Extent,
-    /// Turns of each method; at least [`cost::MIN_REPEATS`].
+    /// The number of turns per method; at least [`cost::MIN_REPEATS`].
     pub repeats: u32,
     pub shard: Shard,
 }
 
-/// Says where a run stands.
+/// The progress of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step<'a> {
-    /// Says what the folder holds already.
+    /// The results that the folder already contains.
     Resumed(&'a Results),
-    /// This point is measured next; `done` of `all` are, of all studies together.
+    /// This point is measured next; `done` of `all` points of all studies are done.
     Error { point: &'a Point, done: usize, all: usize },
-    /// Says what came of it.
+    /// The result of a point.
     Measured(&'a ErrorRecord),
-    /// About what a frame of it costs, where [`Control::estimates`] asks for that.
+    /// The approximate cost of a frame, if [`Control::estimates`] requests it.
     Estimate { point: &'a Point, millis: f64 },
-    /// Costs of a study's points are measured next, all together.
+    /// The costs of a study's points are measured next, all together.
     Cost { study: &'a str, points: usize },
-    /// So many turns of them are done.
+    /// This number of turns are done.
     Turn { done: u32, all: u32 },
-    /// Says what a point costs.
+    /// The cost of a point.
     Costed(&'a CostRecord),
 }
 
-/// Says how a run is looked at and ended.
+/// Controls for observing and stopping a run.
 #[derive(Clone, Debug, Default)]
 pub struct Control {
     pub stop: Stop,
     /// Estimate the cost of each point as soon as its error is known.
     pub estimates: bool,
-    /// A window draws at the same time: kept with the results, as costs are not those of a quiet machine.
+    /// A window draws at the same time: recorded with the results, as costs differ from those of an idle machine.
     pub beside_window: bool,
 }
 
-/// Returns who measures, and with what care.
+/// Returns the device and the conditions of the measurement.
 pub fn provenance(gpu: &Gpu, options: &Options) -> Provenance {
     Provenance {
         device: gpu.info.name.clone(),
@@ -71,13 +71,13 @@ pub fn provenance(gpu: &Gpu, options: &Options) -> Provenance {
     }
 }
 
-/// Measures what is not among the results of `options.out` yet, and gives all of them. A method that fails is a record
-/// of its own and stops no other.
+/// Measures everything that is not among the results of `options.out` yet, and returns all results. A method that fails
+/// is recorded and does not stop the others.
 pub fn run(gpu: &Gpu, studies: &[&Study], options: &Options, tell: impl FnMut(Step<'_>)) -> Result<Results, LabError> {
     controlled(gpu, studies, options, &Control::default(), tell)
 }
 
-/// As [`run`], until it is stopped: what is known by then is kept and given.
+/// Does the same as [`run`] until it is stopped: the results so far are saved and returned.
 pub fn controlled(
     gpu: &Gpu,
     studies: &[&Study],
@@ -87,7 +87,7 @@ pub fn controlled(
 ) -> Result<Results, LabError> {
     let provenance = Provenance { beside_window: control.beside_window, ..provenance(gpu, options) };
     let (journal, mut results) = Journal::open(&options.out, &provenance)?;
-    // What was measured of another setup is not known any more.
+    // Results of changed setups are dropped.
     for (study, point) in all_points(studies, options.extent) {
         if let Some(setup) = fingerprint(study, &point) {
             results.keep_of(&point, &setup);
@@ -105,12 +105,12 @@ fn all_points<'s>(studies: &[&'s Study], extent: Extent) -> Vec<(&'s Study, Poin
     studies.iter().flat_map(|s| s.points(extent).into_iter().map(|p| (*s, p))).collect()
 }
 
-/// `None` where the setup has a fault, which measuring will tell.
+/// Returns `None` for a faulty setup, which measuring will report.
 fn fingerprint(study: &Study, point: &Point) -> Option<String> {
     (study.setup)(point).fingerprint().ok()
 }
 
-/// A run under way.
+/// A run in progress.
 struct Work<T> {
     rig: Rig,
     journal: Journal,
@@ -123,7 +123,7 @@ impl<T: FnMut(Step<'_>)> Work<T> {
         let points = all_points(studies, options.extent);
         let own: Vec<_> = points.iter().enumerate().filter(|(n, _)| options.shard.owns(*n)).map(|(_, p)| p).collect();
         self.errors(&own, options, control)?;
-        // Costs are comparable only where they were measured in turns: a study's belong to one machine.
+        // Costs are comparable only if measured in turns, so those of a study belong to one machine.
         for (_, study) in studies.iter().enumerate().filter(|(n, _)| options.shard.owns(*n)) {
             self.costs(study, options)?;
         }
@@ -141,7 +141,7 @@ impl<T: FnMut(Step<'_>)> Work<T> {
         Ok(())
     }
 
-    /// Measures the errors of points that are not known yet, on as many devices as [`rigs`] gives.
+    /// Measures the errors of points that are not known yet, on as many devices as [`rigs`] returns.
     fn errors(&mut self, points: &[&(&Study, Point)], options: &Options, control: &Control) -> Result<(), LabError> {
         let (known, missing): (Vec<_>, Vec<_>) =
             points.iter().copied().partition(|(_, point)| self.results.error(point).is_some());
@@ -158,7 +158,7 @@ impl<T: FnMut(Step<'_>)> Work<T> {
         std::thread::scope(|scope| {
             for rig in &rigs {
                 let (sender, missing, next) = (sender.clone(), &missing, &next);
-                // Ends where nobody listens any more: the run has ended.
+                // Ends when the receiver is dropped: the run has ended.
                 scope.spawn(move || {
                     while let Some((study, point)) = missing.get(next.fetch_add(1, Ordering::Relaxed)) {
                         let ends = sender.send((point, None)).is_err()
@@ -219,11 +219,11 @@ impl<T: FnMut(Step<'_>)> Work<T> {
     }
 }
 
-/// Most devices at once: a driver that draws on the processor starts threads of its own for each.
+/// The maximum number of devices: a driver that draws on the CPU starts threads of its own for each.
 const MOST_RIGS: usize = 4;
 
-/// The devices that measure errors. A processor that draws small grids mostly waits for its own threads, so that it has
-/// a device for each core; costs, and what is measured beside a window, have one alone.
+/// Returns the devices that measure errors. A CPU that draws small grids mostly waits for its own threads, so there is
+/// one device per core; costs, and measurements next to a window, use a single one.
 fn rigs(first: &Rig, points: usize, control: &Control) -> Vec<Rig> {
     let gpu = first.gpu();
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
@@ -232,7 +232,7 @@ fn rigs(first: &Rig, points: usize, control: &Control) -> Vec<Rig> {
     std::iter::once(gpu.clone()).chain(others).map(|gpu| Rig::stoppable(gpu, control.stop.clone())).collect()
 }
 
-/// The error of a point, and about what a frame of it costs where that is asked for. A method that fails is a record as
+/// Measures the error of a point, and estimates the cost of a frame on request. A method that fails is recorded as
 /// well.
 fn measure(
     rig: &Rig,
@@ -243,7 +243,7 @@ fn measure(
 ) -> Result<(ErrorRecord, Option<f64>), LabError> {
     let (measured, trouble) = match (study.measure)(rig, point) {
         Ok(measured) => (Some(measured), None),
-        // No fault of the method's.
+        // This is not an error of the method.
         Err(LabError::Stopped) => return Err(LabError::Stopped),
         Err(trouble) => (None, Some(trouble.to_string())),
     };
@@ -255,7 +255,7 @@ fn measure(
     Ok((ErrorRecord { point: point.clone(), setup, measured, trouble }, estimate))
 }
 
-/// About what a frame of a point costs, if it is one whose cost will be measured and estimates are asked for.
+/// Returns the approximate cost of a frame of a point whose cost will be measured, if estimates are requested.
 fn estimate(
     rig: &Rig,
     study: &Study,
@@ -269,7 +269,7 @@ fn estimate(
     cost::estimate(rig, &(study.setup)(point), turn_millis(options.extent)).map(Some)
 }
 
-/// Milliseconds that a turn takes at least.
+/// Returns the minimum duration of a turn in milliseconds.
 fn turn_millis(extent: Extent) -> f64 {
     if extent == Extent::Quick { 4.0 } else { 30.0 }
 }

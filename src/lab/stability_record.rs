@@ -1,27 +1,27 @@
-//! Says what a case of stability came to: a line of the file of results.
+//! The result of a stability case: a line of the file of results.
 
 use super::Number;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Says why a case is there.
+/// The purpose of a case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// Defaults, nobody near.
+    /// Defaults, without interaction.
     #[default]
     Untouched,
-    /// So many cells a step.
+    /// A number of cells per step.
     Courant,
     /// A slider at an end, all others at their defaults.
     End,
-    /// A slider of few whole values at one between its ends.
+    /// A slider of few integer values at one between its ends.
     Inner,
     Drag,
     /// Frames that are long, uneven, or take no time.
     Step,
     Resize,
-    /// A texel that is no number.
+    /// A texel that is not a number.
     Broken,
     /// Canvases of odd and extreme sizes.
     Size,
@@ -55,41 +55,40 @@ impl Kind {
     }
 }
 
-/// Outside of a bound.
+/// A value outside of a bound.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Violation {
     /// The first frame after which a value was outside.
     pub frame: u32,
     pub pass: String,
     pub quantity: String,
-    /// The texel that is furthest outside in that frame, from the bottom left; `None`: the quantity is of the whole
-    /// picture.
+    /// The texel that is furthest outside in that frame, from the bottom left; `None` if the quantity belongs to the
+    /// whole picture.
     pub texel: Option<(u32, u32)>,
     pub value: Number,
     pub low: Number,
     pub high: Number,
-    /// Says how many values of that frame are outside.
+    /// The number of values of that frame that are outside.
     pub count: u64,
 }
 
-/// Says what was measured.
+/// The outcome of a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// Everything stayed within its bounds.
     Held,
-    /// A range was left that theory expects to be left in this case; all stayed finite.
+    /// A range was left as theory predicts for this case; all values stayed finite.
     LeftAsExpected(Violation),
     Left(Violation),
 }
 
-/// Says how long it took, after what was done had ended, until everything was within its bounds and no livelier than it
-/// is without.
+/// The time after the end of a disturbance until everything was within its bounds and no livelier than without it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Recovery {
     Frames(u32),
-    /// Not within the frames that were drawn after it.
+    /// It did not recover within the frames that were drawn after the disturbance.
     NotWithin(u32),
 }
 
@@ -103,28 +102,28 @@ pub struct StabilityRecord {
     pub case: String,
     pub size: (u32, u32),
     pub frames: u32,
-    /// The sliders that were turned.
+    /// The sliders that are not at their defaults.
     pub settings: String,
-    /// Says why a bound may be left; empty: none may.
+    /// The reasons why a bound may be left; empty if none may.
     pub excuses: Vec<String>,
-    /// `None`: it could not be drawn.
+    /// `None` if it could not be drawn.
     pub outcome: Option<Outcome>,
     pub trouble: Option<String>,
-    /// The recovery from what was done for a while.
+    /// The recovery from a temporary disturbance.
     pub recovery: Option<Recovery>,
-    /// Least and largest value by quantity.
+    /// The minimum and maximum value by quantity.
     pub extremes: BTreeMap<String, (Number, Number)>,
-    /// Cells a step, at the largest speed there was.
+    /// Cells per step, at the largest speed of the run.
     pub courant: Option<Number>,
 }
 
 impl StabilityRecord {
-    /// The same case, of whatever texts and settings.
+    /// Returns whether both are the same case, regardless of texts and settings.
     pub fn is_same_case(&self, other: &StabilityRecord) -> bool {
         (&self.project, &self.case, self.size, self.frames) == (&other.project, &other.case, other.size, other.frames)
     }
 
-    /// Nothing was left that ought to be kept.
+    /// Returns whether all required bounds were kept.
     pub fn is_right(&self) -> bool {
         matches!(self.outcome, Some(Outcome::Held | Outcome::LeftAsExpected(_)))
     }
@@ -138,7 +137,7 @@ impl StabilityRecord {
 }
 
 impl Violation {
-    /// In words: where, what, and what would have been right.
+    /// Describes where and what was violated, and the allowed range.
     pub fn describe(&self) -> String {
         let place = self.texel.map_or(String::new(), |(x, y)| format!(" texel ({x}, {y})"));
         let others = if self.count > 1 { format!(", {} values outside", self.count) } else { String::new() };
@@ -155,7 +154,7 @@ impl Violation {
     }
 }
 
-/// Four digits that count.
+/// Formats four significant digits.
 pub fn short(x: f64) -> String {
     match x.abs() {
         _ if !x.is_finite() => x.to_string(),

@@ -1,4 +1,4 @@
-//! Ending a run from another thread.
+//! Stopping a run from another thread.
 
 use super::LabError;
 use std::sync::{
@@ -6,7 +6,7 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-/// Cheap to clone; every clone is the same.
+/// A request to stop. Cheap to clone; all clones are the same request.
 #[derive(Clone, Debug, Default)]
 pub struct Stop(Arc<AtomicBool>);
 
@@ -16,7 +16,7 @@ impl Stop {
         Stop(flag)
     }
 
-    /// The run ends at its next frame.
+    /// Requests that the run ends at its next frame.
     pub fn now(&self) {
         self.0.store(true, Ordering::Relaxed);
     }

@@ -1,10 +1,10 @@
-//! Says what a study is: a question, methods that answer it, and a way to say how wrong an answer is.
+//! The definition of a study: a question, methods that answer it, and a measure of their error.
 
 use super::{LabError, Number, Rig, Setup, metrics::Norms};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Says what a cost is divided by.
+/// The unit of a cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// The simulated time of the study's scene, from start to end.
@@ -25,12 +25,13 @@ impl Unit {
     }
 }
 
-/// Four grids, each twice the one before: a quick run measures on the first three, a full run on the last three.
+/// Splits four grids, each twice the previous one: a quick run measures on the first three, a full run on the last
+/// three.
 pub const fn three_of([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
     [[a, b, c], [b, c, d]]
 }
 
-/// Says how much to measure.
+/// The extent of the measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Extent {
@@ -38,10 +39,10 @@ pub enum Extent {
     Full,
 }
 
-/// One way to compute the answer, with the settings that trade cost for error.
+/// A method of computing the answer, with the settings that trade cost for error.
 #[derive(Clone, Copy, Debug)]
 pub struct Method {
-    /// A word without spaces: in CSV, JSON and on the command line.
+    /// A word without spaces: for CSV, JSON and the command line.
     pub name: &'static str,
     pub title: &'static str,
     /// In the order of the line that joins them.
@@ -50,7 +51,7 @@ pub struct Method {
     pub usual: f64,
 }
 
-/// A method at a setting on a grid: what is measured at once.
+/// A method at a setting on a grid: a unit of measurement.
 #[derive(Clone, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
 pub struct Point {
     pub study: String,
@@ -67,31 +68,31 @@ impl Point {
     }
 }
 
-/// A case in which many a method fails.
+/// A case in which many methods fail.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HardCase {
     pub name: String,
     pub passed: bool,
-    /// Says what was measured, and the bound.
+    /// The measured value, and the bound.
     pub detail: String,
 }
 
 impl HardCase {
-    /// Passes if `value` is finite and at most `bound`.
+    /// Creates a case that passes if `value` is finite and at most `bound`.
     pub fn at_most(name: &str, value: f64, bound: f64) -> HardCase {
         let passed = value <= bound;
         HardCase { name: name.into(), passed, detail: format!("{value:.3e}, at most {bound:.3e}") }
     }
 }
 
-/// Holds what a point came to.
+/// The results of a point.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     pub norms: Norms,
     /// Further figures by name (`mass_drift`, `nu_eff/nu` …).
     pub values: BTreeMap<String, Number>,
     pub hard: Vec<HardCase>,
-    /// Frames of the setup that make the study's [`Unit`].
+    /// The number of frames of the setup in the study's [`Unit`].
     pub frames_per_unit: f64,
 }
 
@@ -115,49 +116,49 @@ impl Measured {
 pub struct SpeedComparison {
     pub method: &'static str,
     pub peers: &'static [&'static str],
-    /// Says what the peers' points are called together.
+    /// A collective name for the peers' points.
     pub peers_are: &'static str,
 }
 
 /// A question about numerical methods. One file of `studies/` each.
 #[derive(Clone, Copy, Debug)]
 pub struct Study {
-    /// As the command line spells it.
+    /// The name on the command line.
     pub name: &'static str,
     pub title: &'static str,
-    /// The scene and its reference, one or two sentences.
+    /// The scene and its reference, in one or two sentences.
     pub text: &'static str,
-    /// Says what a method's settings are.
+    /// The meaning of a method's settings.
     pub parameter: &'static str,
     pub unit: Unit,
-    /// Says what the error is relative to, for the plot's axis.
+    /// The quantity that the error is relative to, for the plot's axis.
     pub error: &'static str,
-    /// The error is a part of a norm of the truth, which the plot's axis says.
+    /// The error is relative to a norm of the truth, which the plot's axis states.
     pub is_relative: bool,
     pub methods: &'static [Method],
-    /// Grids of a quick run and of a full one, from coarse to fine, each twice the one before.
+    /// The grids of a quick run and of a full one, from coarse to fine, each twice the previous one.
     pub grids: [[u32; 3]; 2],
-    /// The grid of the plot, and of every cost, where it is not the finest.
+    /// The grid of the plot, and of every cost, if it is not the finest.
     pub main_grid: Option<u32>,
     /// A finer grid is a finer answer to the same question, so that an order can be observed.
     pub has_order: bool,
-    /// Names a further figure whose sign tells on which side of the truth a method is, where a smaller setting is a
-    /// finer answer: where it turns from one setting to the next, two errors cancel between them, and the report takes
-    /// for the best error what finer settings keep.
+    /// A further figure whose sign indicates the side of the truth on which a method is, where a smaller setting is a
+    /// finer answer: if it changes its sign from one setting to the next, two errors cancel in between, and the report
+    /// takes as the best error only what finer settings keep.
     pub signed: Option<&'static str>,
-    /// The methods do the same thing, so that one of them can be the best. If not, no winner, frontier or method that
-    /// another beats is named.
+    /// The methods do the same thing, so that one of them can be the best. Otherwise no winner, frontier or dominated
+    /// method is named.
     pub is_contest: bool,
     /// The report compares these by the time to an error of 1 %.
     pub race: Option<SpeedComparison>,
-    /// The project that draws the point, as it is at time 0.
+    /// The project that draws the point, in its state at time 0.
     pub setup: fn(&Point) -> Setup,
     /// Runs the point and compares it with the reference.
     pub measure: fn(&Rig, &Point) -> Result<Measured, LabError>,
 }
 
 impl Study {
-    /// A study of relative errors with an order, whose words, methods and grids are yet to be given.
+    /// Returns a study of relative errors with an order, without texts, methods and grids.
     pub const fn of(setup: fn(&Point) -> Setup, measure: fn(&Rig, &Point) -> Result<Measured, LabError>) -> Study {
         Study {
             name: "",
@@ -179,7 +180,7 @@ impl Study {
         }
     }
 
-    /// Returns what a plot's y axis is called.
+    /// Returns the label of a plot's y axis.
     pub fn error_label(&self) -> String {
         if self.is_relative { format!("relative L2 error {}", self.error) } else { self.error.into() }
     }
@@ -193,8 +194,9 @@ impl Study {
         self.main_grid.unwrap_or(self.grids(extent)[2])
     }
 
-    /// Everything to measure: every setting on the main grid, and, where an order can be observed, the usual one on the
-    /// others. A quick run has the usual setting and each second one of the others: the second, the fourth and so on.
+    /// Returns everything to measure: every setting on the main grid, and, if an order can be observed, the usual one
+    /// on the others. A quick run has the usual setting and every second one of the others: the second, the fourth and
+    /// so on.
     pub fn points(&self, extent: Extent) -> Vec<Point> {
         let main = self.main_grid(extent);
         let step = if extent == Extent::Quick { 2 } else { 1 };

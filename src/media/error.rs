@@ -1,4 +1,4 @@
-//! Errors of loading a picture, with how to mend them.
+//! The errors of loading a picture, with hints for fixing them.
 
 use super::{builtin, played::Played};
 use eddy_audio::AudioError;
@@ -8,7 +8,7 @@ use eddy_video::VideoError;
 use image::ImageError;
 use std::{io, path::PathBuf};
 
-/// An error of loading a picture. Its text is complete but for the pass and the channel.
+/// An error of loading a picture. Its text is complete except for the pass and the channel.
 #[derive(Debug, thiserror::Error)]
 pub enum MediaError {
     #[error(transparent)]
@@ -83,7 +83,7 @@ fn reason(error: &ImageError) -> String {
 const KNOWN: [&str; 11] = ["PNG", "JPEG", "WebP", "BMP", "TGA", "GIF", "HDR", "EXR", "NPY", "KTX2", "DDS"];
 
 impl MediaError {
-    /// Returns how to mend it.
+    /// Returns a hint for fixing it.
     pub fn hint(&self) -> String {
         match self {
             MediaError::File(error) => error.hint(),

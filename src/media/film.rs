@@ -1,4 +1,4 @@
-//! Videos that a channel names: the project's own files, and stand-ins for those of the site.
+//! Videos of a channel: the project's own files, and replacements for those of Shadertoy.
 
 use super::{MediaError, Texels};
 use eddy_project::{FileError, Media, confine, limits, next_numbered};
@@ -11,10 +11,10 @@ use std::{
     sync::Arc,
 };
 
-/// Endings that are tried for a file of the site, after the one that it has there.
+/// File extensions that are tried for a file of Shadertoy, after its own.
 const ENDINGS: [&str; 6] = ["mp4", "webm", "ogv", "mov", "mkv", "gif"];
 
-/// Starts a video. Frames of all videos of a project share the memory of `pool`.
+/// Opens a video. The frames of all videos of a project share the memory of `pool`.
 pub(super) fn load(
     media: &Media,
     base: Option<&Path>,
@@ -39,8 +39,8 @@ pub(super) fn load(
         None => confine::open_own(&path, limits::VIDEO_FILE)?,
     };
     let failed = |source| MediaError::Video { path: shown.clone(), source };
-    let begin = beginning(&file, &shown)?;
-    if image::guess_format(&begin).is_err() {
+    let head = file_head(&file, &shown)?;
+    if image::guess_format(&head).is_err() {
         return Video::of_file(&shown, file, real, &Tools::default(), pool).map_err(failed);
     }
     let read = move |path: &Path| match &folder {
@@ -62,26 +62,26 @@ pub(super) fn load(
     Err(failed(VideoError::NoPicture))
 }
 
-/// Loads the first frame of a video, for people to look at.
+/// Loads the first frame of a video, for a preview.
 pub fn first_frame(media: &Media, base: Option<&Path>) -> Result<Texels, MediaError> {
     let video = load(media, base, None, &Pool::default())?;
     let (info, shown) = (video.info(), video.frame_at(0.0, Pace::Exact));
     let row = info.width as usize * 4;
-    // The top row comes first there, and last here.
+    // Video frames have the top row first, textures have it last.
     let turned = |frame: Frame| frame.texels.rchunks_exact(row).flatten().copied().collect();
     let bytes = shown.frame.map_or_else(|| vec![0; info.frame_bytes()], turned);
     Ok(Texels::flat(info.width, info.height, TexelFormat::Rgba8, bytes))
 }
 
-/// The first bytes of a file, which say what it is.
-fn beginning(file: &File, shown: &Path) -> Result<Vec<u8>, FileError> {
-    let mut begin = Vec::new();
-    let read = file.try_clone().and_then(|file| file.take(64).read_to_end(&mut begin));
+/// Returns the first bytes of a file, which identify its format.
+fn file_head(file: &File, shown: &Path) -> Result<Vec<u8>, FileError> {
+    let mut head = Vec::new();
+    let read = file.try_clone().and_then(|file| file.take(64).read_to_end(&mut head));
     read.map_err(|e| FileError::of_machine(shown, &e))?;
-    Ok(begin)
+    Ok(head)
 }
 
-/// The file that stands in for one of the site: of the same name, or with another ending.
+/// Returns the local file that replaces one of Shadertoy: with the same name, or with another extension.
 fn stand_in(folder: &Path, path: &str) -> Option<PathBuf> {
     let name = path.rsplit('/').next().filter(|name| !name.is_empty())?;
     let own = folder.join(name);

@@ -1,4 +1,4 @@
-//! Cubemaps and volumes as flat pictures, for people to look at.
+//! Cubemaps and volumes as flat pictures, for previews.
 
 use super::Texels;
 use eddy_texture::{Dimension, TextureShape};

@@ -1,18 +1,18 @@
 //! Gamepads as a texture of 17x12 floats: three rows for each of four pads.
 //!
-//! Row 3p has the axes of pad p: left x, left y, right x, right y, from -1 to 1, to the right and up; its column 16 is 1 while the
-//! pad is connected. Row 3p + 1 has the buttons in the order of [`PAD_BUTTONS`], triggers from 0 to 1. Row 3p + 2 is 1 for each
-//! button that was pressed in this frame. What is not there is 0.
+//! Row 3p contains the axes of pad p: left x, left y, right x, right y, from -1 to 1, to the right and up; its column
+//! 16 is 1 while the pad is connected. Row 3p + 1 contains the buttons in the order of [`PAD_BUTTONS`], triggers from 0
+//! to 1. Row 3p + 2 is 1 for each button that was pressed in this frame. Missing parts are 0.
 
 use eddy_project::{PAD_AXES, PAD_BUTTONS, PADS, PadPart};
 use eddy_texture::{TexelFormat, TextureShape};
 use std::sync::Arc;
 
 const ROWS: usize = 3;
-/// A button is pressed from here on.
+/// The value from which a button counts as pressed.
 const PRESSED: f32 = 0.5;
 
-/// State of all gamepads. Clones share it until something moves: a run keeps one for each frame.
+/// The state of all gamepads. Clones share it until something moves: a run keeps one per frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gamepads {
     texels: Arc<[f32; Self::TEXELS]>,
@@ -28,23 +28,24 @@ impl Gamepads {
     pub const WIDTH: usize = PAD_BUTTONS.len();
     pub const HEIGHT: usize = ROWS * PADS;
     pub const TEXELS: usize = Self::WIDTH * Self::HEIGHT;
-    /// The texture of [`Gamepads::texels`].
+    /// The shape of [`Gamepads::texels`].
     pub const SHAPE: TextureShape = TextureShape::flat(Self::WIDTH as u32, Self::HEIGHT as u32, TexelFormat::R32f);
-    /// The column of the row of axes that says whether a pad is connected.
+    /// The column that is 1 in the row of axes while a pad is connected.
     pub const CONNECTED: usize = Self::WIDTH - 1;
 
     fn at(pad: usize, row: usize, column: usize) -> Option<usize> {
         (pad < PADS && column < Self::WIDTH).then(|| (pad * ROWS + row) * Self::WIDTH + column)
     }
 
-    /// Sets a texel by its number, the columns of row 0 first. What is no number from -1 to 1 and no texel is passed over.
+    /// Sets a texel by its index, the columns of row 0 first. Indices out of range and values outside of -1 to 1 are
+    /// ignored.
     pub fn set(&mut self, index: usize, value: f32) {
         if index < Self::TEXELS && (-1.0..=1.0).contains(&value) && self.texels[index].to_bits() != value.to_bits() {
             Arc::make_mut(&mut self.texels)[index] = value;
         }
     }
 
-    /// A part of a pad has moved. Returns whether a button went down or up.
+    /// Sets a part of a pad. Returns whether a button went down or up.
     pub fn move_to(&mut self, pad: usize, part: PadPart, value: f32) -> bool {
         let (row, column) = match part {
             PadPart::Axis(place) if usize::from(place) < PAD_AXES.len() => (0, usize::from(place)),
@@ -53,7 +54,7 @@ impl Gamepads {
         };
         let Some(index) = Self::at(pad, row, column) else { return false };
         let before = self.texels[index];
-        // Adding zero makes 0 of -0.
+        // Adding zero turns -0 into 0.
         self.set(index, value.clamp(if row == 0 { -1.0 } else { 0.0 }, 1.0) + 0.0);
         let is_down = self.texels[index] >= PRESSED;
         let turned = row == 1 && is_down != (before >= PRESSED);
@@ -63,7 +64,7 @@ impl Gamepads {
         turned
     }
 
-    /// A pad was plugged in, or is gone with all that was held on it.
+    /// Connects a pad, or disconnects it and releases all its parts.
     pub fn connect(&mut self, pad: usize, is_there: bool) {
         if pad >= PADS {
             return;
@@ -76,7 +77,7 @@ impl Gamepads {
         }
     }
 
-    /// After every drawn frame: "pressed" lasts one frame.
+    /// Called after every drawn frame: "pressed" lasts one frame.
     pub fn frame_painted(&mut self) {
         for pad in 0..PADS {
             (0..Self::WIDTH).filter_map(|column| Self::at(pad, 2, column)).for_each(|index| self.set(index, 0.0));
@@ -117,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_part_of_a_pad_changes_nothing() {
+    fn unknown_parts_and_pads_are_ignored() {
         let mut pads = Gamepads::default();
         for (pad, part) in [(4, PadPart::Button(0)), (0, PadPart::Button(17)), (0, PadPart::Axis(4))] {
             assert!(!pads.move_to(pad, part, 1.0));

@@ -1,4 +1,4 @@
-//! All the pictures of a project at once.
+//! Loads all media of a project.
 
 use super::{MediaKey, MediaSet, MeshKey, film, load::load_within, sound};
 use eddy_audio::{SAMPLE_RATE, Sound};
@@ -7,9 +7,9 @@ use eddy_project::{Channel, FillValue, Input, InputKind, Media, Pass, Project, l
 use eddy_video::Pool;
 use std::{collections::HashMap, path::Path, sync::Arc};
 
-/// Loads every picture that a drawn pass of the project names. `media_dir` holds the user's own copies of the site's
-/// textures. What cannot be had is left out, which reads as the site's unloaded channel (opaque black, of size 0), with
-/// a warning that names pass, channel and mend.
+/// Loads every picture that a drawn pass of the project names. `media_dir` contains the user's own copies of
+/// Shadertoy's textures. A picture that cannot be loaded is omitted, so that its channel reads as an unloaded one on
+/// Shadertoy (opaque black, of size 0), and a warning names the pass, the channel and the fix.
 pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Diagnostic>) {
     let mut set = MediaSet::new();
     let mut warnings = pictures(project, media_dir, &mut set, |_| true);
@@ -19,12 +19,12 @@ pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Dia
     (set, warnings)
 }
 
-/// Loads the picture files of the project's own folder alone, with the warnings of [`gather`].
+/// Loads only the picture files in the project's own folder, with the warnings of [`gather`].
 pub fn files(project: &Project, set: &mut MediaSet) -> Vec<Diagnostic> {
     pictures(project, None, set, |input| matches!(input.media(), Some(Media::File(_))))
 }
 
-/// Returns what is wrong with the files that a project names: pictures of its folder, fills and models.
+/// Returns the problems of the files that a project names: pictures of its folder, fills and models.
 pub fn diagnose(project: &Project) -> Vec<Diagnostic> {
     let mut set = MediaSet::new();
     let mut found = files(project, &mut set);
@@ -36,10 +36,10 @@ pub fn diagnose(project: &Project) -> Vec<Diagnostic> {
     found
 }
 
-/// Says what a channel shows whose file is not there.
+/// The text for a channel whose file is missing.
 const BLACK: &str = "the channel is black and of size 0";
 
-/// Returns a warning for each channel that reads the microphone, where nobody can switch it on.
+/// Returns a warning for each channel that reads the microphone, for callers that cannot switch it on.
 pub fn unrecorded(project: &Project) -> Vec<Diagnostic> {
     let warning = |(pass, n, _): (&Pass, usize, &Channel)| {
         let place = format!("iChannel{n} of {}", pass.id.title());
@@ -105,7 +105,7 @@ fn pictures(
     warnings
 }
 
-/// Loads every file that fills texels of a drawn pass. Why one cannot be had is kept: see [`MediaSet::fill_errors`].
+/// Loads every file that fills texels of a drawn pass. Errors are stored: see [`MediaSet::fill_errors`].
 pub fn fills(project: &Project, set: &mut MediaSet) {
     let base = project.origin.base_dir();
     for (.., fill) in project.fills() {
@@ -121,8 +121,8 @@ pub fn fills(project: &Project, set: &mut MediaSet) {
     }
 }
 
-/// Loads every mesh that a pass of the project draws. What is wrong with one is kept in its place: see
-/// [`MediaSet::mesh_errors`]. What of one is not drawn: see [`MediaSet::mesh_warnings`].
+/// Loads every mesh that a pass of the project draws. An error is stored in place of the mesh: see
+/// [`MediaSet::mesh_errors`]. Parts that are not drawn are listed by [`MediaSet::mesh_warnings`].
 pub fn meshes(project: &Project, set: &mut MediaSet) {
     let base = project.origin.base_dir();
     for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
@@ -134,21 +134,21 @@ pub fn meshes(project: &Project, set: &mut MediaSet) {
     }
 }
 
-/// Bytes of a frame of sound, left and right.
+/// The bytes of a frame of sound, left and right.
 const SOUND_BYTES: u64 = 8;
 
-/// Seconds of sound for which there is room. While it is resampled there are two of it.
+/// Returns the seconds of sound that fit into this memory. Resampling needs two copies.
 pub(super) fn room_of(bytes: u64) -> u64 {
     bytes / (2 * SOUND_BYTES * u64::from(SAMPLE_RATE))
 }
 
-/// Bytes that so many seconds of sound need.
+/// Returns the bytes that this many seconds of sound need.
 pub(super) fn bytes_of(seconds: u32) -> u64 {
     u64::from(seconds) * 2 * SOUND_BYTES * u64::from(SAMPLE_RATE)
 }
 
 impl MediaSet {
-    /// Bytes that more pictures and models may take.
+    /// Returns the bytes that further pictures and models may take.
     fn room(&self) -> u64 {
         let pictures = self.pictures.values().map(|texels| texels.bytes.len() as u64).sum::<u64>();
         let sounds = self.sounds.values().map(|sound| sound.frames.len() as u64 * SOUND_BYTES).sum::<u64>();
@@ -156,7 +156,7 @@ impl MediaSet {
         limits::MEDIA_BYTES.saturating_sub(pictures + sounds + meshes)
     }
 
-    /// One warning for each channel that reads a webcam while no camera is on.
+    /// Returns one warning for each channel that reads a webcam while no camera is on.
     pub fn camera_warnings(&self, project: &Project) -> Vec<Diagnostic> {
         let reads = |channel: &Channel| channel.input.kind() == InputKind::Webcam && self.camera.is_none();
         let warning = |(pass, n, _): (&Pass, usize, &Channel)| {
@@ -182,7 +182,7 @@ fn channels(project: &Project) -> impl Iterator<Item = (&Pass, usize, &Channel)>
             .enumerate()
             .filter_map(move |(n, c)| c.as_ref().map(|c| (pass, n, c)))
             .filter(|(.., channel)| channel.input.target().is_none())
-            // What a sound pass cannot read is told by the project's advice.
+            // Channels that a sound pass cannot read are reported by the project's advice.
             .filter(|(pass, _, channel)| pass.id.is_picture() || channel.input.kind().is_in_sound())
     })
 }
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_there_is_loaded_once_and_what_is_not_is_a_warning() {
+    fn files_are_loaded_once_and_missing_ones_are_warnings() {
         let missing = Input::texture(Media::Picked("/nowhere/pic.png".into()));
         let noise = || Some(Input::texture(Media::Builtin("noise-rgba-64".into())));
         let (set, warnings) =
@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn a_project_without_pictures_warns_of_nothing() {
+    fn a_project_without_pictures_has_no_warnings() {
         let p = project([Some(Input::KEYBOARD), Some(Input::buffer("A")), None, Some(Input::pass(PassId::Cubemap))]);
         assert_eq!(gather(&p, None), (MediaSet::new(), vec![]));
     }

@@ -1,4 +1,4 @@
-//! Texels as numbers, and the next level of a volume's mip chain.
+//! Texels as floats, and the next level of a volume's mip chain.
 
 use super::Texels;
 use eddy_texture::{TexelFormat, TextureShape};
@@ -6,7 +6,7 @@ use half::f16;
 
 impl Texels {
     /// Returns the next coarser level: each texel is the trilinear read of this one at its centre, which is the mean of
-    /// eight where the sides are even. That is what GL drivers' `glGenerateMipmap` does.
+    /// eight for even sides. GL drivers' `glGenerateMipmap` does the same.
     #[must_use]
     pub fn halved(&self) -> Texels {
         let [width, height, depth] = self.shape.level(1);
@@ -38,7 +38,7 @@ impl Texels {
         Texels { shape, bytes }
     }
 
-    /// The texels as a shader reads them: bytes as their 255th parts, missing components as 0, alpha as 1.
+    /// Returns the texels as a shader reads them: bytes divided by 255, missing components as 0, alpha as 1.
     pub fn floats(&self) -> Vec<[f32; 4]> {
         let TextureShape { width, height, format, .. } = self.shape;
         let is_bytes = matches!(format, TexelFormat::R8 | TexelFormat::Rg8 | TexelFormat::Rgba8);
@@ -55,7 +55,7 @@ impl Texels {
         (0..count).map(texel).collect()
     }
 
-    /// A component of a texel, as stored.
+    /// Returns a component of a texel, as stored.
     fn component(&self, [x, y, z]: [u32; 3], component: usize) -> f32 {
         let TextureShape { width, height, format, .. } = self.shape;
         let index = ((z * height + y) * width + x) as usize * format.components() + component;

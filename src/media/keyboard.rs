@@ -3,7 +3,7 @@
 use eddy_texture::{TexelFormat, TextureShape};
 use std::sync::Arc;
 
-/// State of every key by JavaScript `keyCode`. Clones share it until a key changes: a run keeps one for each frame.
+/// The state of every key by JavaScript `keyCode`. Clones share it until a key changes: a run keeps one per frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Keyboard {
     texels: Arc<[u8; Self::WIDTH * 3]>,
@@ -18,10 +18,10 @@ impl Default for Keyboard {
 impl Keyboard {
     pub const WIDTH: usize = 256;
     pub const HEIGHT: usize = 3;
-    /// The texture of [`Keyboard::bytes`].
+    /// The shape of [`Keyboard::bytes`].
     pub const SHAPE: TextureShape = TextureShape::flat(Self::WIDTH as u32, Self::HEIGHT as u32, TexelFormat::R8);
 
-    /// A key went down. Auto-repeat (already held) does nothing, as on the site.
+    /// Handles a key press. Auto-repeat (already held) is ignored, as on Shadertoy.
     pub fn press(&mut self, code: u8) {
         let (held, pressed, toggle) = Self::columns(code);
         if self.texels[held] != 0 {
@@ -33,19 +33,19 @@ impl Keyboard {
         texels[toggle] = 255 - texels[toggle];
     }
 
-    /// A key went up.
+    /// Handles a key release.
     pub fn release(&mut self, code: u8) {
         let (held, pressed, _) = Self::columns(code);
         let texels = Arc::make_mut(&mut self.texels);
         (texels[held], texels[pressed]) = (0, 0);
     }
 
-    /// The window lost focus: nothing is held any more. Toggles stay.
+    /// Releases all keys when the window loses focus. Toggles stay.
     pub fn release_all(&mut self) {
         Arc::make_mut(&mut self.texels)[..2 * Self::WIDTH].fill(0);
     }
 
-    /// After every painted frame: "pressed" lasts one frame.
+    /// Called after every painted frame: "pressed" lasts one frame.
     pub fn frame_painted(&mut self) {
         let pressed = Self::WIDTH..2 * Self::WIDTH;
         if self.texels[pressed.clone()].iter().any(|byte| *byte != 0) {
@@ -57,14 +57,14 @@ impl Keyboard {
         self.texels[usize::from(code)] != 0
     }
 
-    /// Sets a whole row to these codes and no others.
+    /// Sets a whole row to exactly these codes.
     pub fn set_row(&mut self, row: usize, codes: &[u8]) {
         let row = &mut Arc::make_mut(&mut self.texels)[row * Self::WIDTH..][..Self::WIDTH];
         row.fill(0);
         codes.iter().for_each(|code| row[usize::from(*code)] = 255);
     }
 
-    /// 256x3 bytes, row 0 first.
+    /// Returns 256x3 bytes, row 0 first.
     pub fn bytes(&self) -> &[u8] {
         &self.texels[..]
     }

@@ -1,7 +1,7 @@
-//! Media feed a channel besides buffers: pictures, cubemaps, volumes, the keyboard, Eddy's own textures.
+//! The media of channels, except buffers: pictures, cubemaps, volumes, sounds, the keyboard, Eddy's own textures.
 //!
-//! Owns decoded texels and where they come from. Touches no GPU. Row 0 is the bottom: `vflip` has been applied to
-//! whatever leaves this module.
+//! Decodes files to texels, without access to the GPU. Row 0 is the bottom: `vflip` has already been applied to all
+//! results.
 
 pub mod builtin;
 mod error;
@@ -43,8 +43,8 @@ use std::{
     sync::Arc,
 };
 
-/// A decoded texture of one level, alpha not premultiplied. `bytes` holds face by face, or slice by slice, `height` rows
-/// of `width` texels, row 0 at v = 0, no padding.
+/// A decoded texture of one level, alpha not premultiplied. `bytes` contains, face by face or slice by slice, `height`
+/// rows of `width` texels, row 0 at v = 0, without padding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texels {
     pub shape: TextureShape,
@@ -52,34 +52,34 @@ pub struct Texels {
 }
 
 impl Texels {
-    /// A 2D picture.
+    /// Returns a 2D picture.
     pub fn flat(width: u32, height: u32, format: TexelFormat, bytes: Vec<u8>) -> Self {
         Self { shape: TextureShape::flat(width, height, format), bytes }
     }
 
-    /// Bytes of each texel.
+    /// Returns the bytes per texel.
     pub fn texel_bytes(&self) -> usize {
         self.shape.format.bytes() as usize
     }
 
-    /// Bytes of each row.
+    /// Returns the bytes per row.
     pub fn row_bytes(&self) -> usize {
         self.shape.width as usize * self.texel_bytes()
     }
 }
 
-/// The loaded files that a project needs besides its texts.
+/// The loaded files that a project needs in addition to its texts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MediaSet {
-    /// By what the channel names and whether it is flipped.
+    /// Keyed by the channel's source, its dimension and whether it is flipped.
     pictures: HashMap<MediaKey, Arc<Texels>>,
     sounds: HashMap<Media, Arc<Sound>>,
     videos: HashMap<Media, Arc<Video>>,
-    /// A camera that a person has turned on.
+    /// The camera, if the user has turned one on.
     camera: Option<Camera>,
-    /// The wait of a picture for a frame of a video.
+    /// The time that drawing waits for a frame of a video.
     pace: Pace,
-    /// The reason why the picture that a fill names is not there, and how to mend it.
+    /// The reason why the picture of a fill is missing, and a hint for fixing it.
     missing_fills: HashMap<PathBuf, (String, String)>,
     meshes: HashMap<MeshKey, Result<Arc<Mesh>, MeshError>>,
     mesh_warnings: HashMap<MeshKey, Vec<MeshWarning>>,
@@ -98,7 +98,7 @@ impl MediaSet {
         self.pictures.insert(key, texels);
     }
 
-    /// Returns a number of all texels and sounds, by which two sets are told apart. Videos are not read for it.
+    /// Returns a checksum of all texels and sounds, to tell two sets apart. Videos are not read for it.
     pub fn checksum(&self) -> u32 {
         let pictures = self.pictures.iter().map(|(key, texels)| (format!("{key:?}"), texels.bytes.as_slice()));
         let sounds = self.sounds.iter().map(|(key, sound)| (format!("{key:?}"), bytemuck::cast_slice(&sound.frames)));
@@ -112,17 +112,17 @@ impl MediaSet {
         crc.sum()
     }
 
-    /// The sound that a channel of music names.
+    /// Returns the sound of a music channel.
     pub fn sound(&self, media: &Media) -> Option<&Arc<Sound>> {
         self.sounds.get(media)
     }
 
-    /// The video that a channel names.
+    /// Returns the video of a channel.
     pub fn video(&self, media: &Media) -> Option<&Arc<Video>> {
         self.videos.get(media)
     }
 
-    /// The camera that channels of a webcam read, while one is on.
+    /// Returns the camera for webcam channels, if one is on.
     pub fn camera(&self) -> Option<&Camera> {
         self.camera.as_ref()
     }
@@ -131,12 +131,13 @@ impl MediaSet {
         self.camera = camera;
     }
 
-    /// Has channels of a webcam read one picture: what another engine showed in the frame that is drawn again. `None`: black.
+    /// Makes webcam channels read one picture: that of another engine in the frame that is drawn again. `None` reads as
+    /// black.
     pub fn set_camera_picture(&mut self, picture: Option<CameraFrame>) {
         self.camera = picture.map(Camera::still);
     }
 
-    /// Returns how long a picture waits for a frame of a video.
+    /// Returns how long drawing waits for a frame of a video.
     pub fn pace(&self) -> Pace {
         self.pace
     }
@@ -145,17 +146,17 @@ impl MediaSet {
         self.pace = pace;
     }
 
-    /// The texels of a file that fills a pass, as [`fills`] loaded it.
+    /// Returns the texels of a file that fills a pass, as loaded by [`fills`].
     pub fn fill(&self, path: &Path) -> Option<&Arc<Texels>> {
         self.get(&MediaKey::of_fill(path))
     }
 
-    /// Gives the texels that a fill's file has.
+    /// Sets the texels of a fill's file.
     pub fn insert_fill(&mut self, path: &Path, texels: Arc<Texels>) {
         self.insert(MediaKey::of_fill(path), texels);
     }
 
-    /// One error for each file of the project's fills that is not there.
+    /// Returns one error for each missing file of the project's fills.
     pub fn fill_errors(&self, project: &Project) -> Vec<Diagnostic> {
         let error = |(pass, kind, fill): (usize, FillKind, &Fill)| {
             let path = fill.value.path()?;
@@ -171,7 +172,7 @@ impl MediaSet {
         project.fills().filter_map(error).collect()
     }
 
-    /// Number of pictures.
+    /// Returns the number of pictures.
     pub fn len(&self) -> usize {
         self.pictures.len()
     }
@@ -180,7 +181,7 @@ impl MediaSet {
         self.pictures.is_empty()
     }
 
-    /// A mesh that was gathered, or one of Eddy's own; else why there is none.
+    /// Returns a mesh that was gathered, or one of Eddy's own; otherwise the error.
     pub fn mesh(&self, draw: &MeshDraw) -> Result<Arc<Mesh>, MeshError> {
         let make = || mesh::load(&draw.mesh, draw.normals, None).map(Arc::new);
         self.meshes.get(&MeshKey::of(draw)).cloned().unwrap_or_else(make)
@@ -194,7 +195,7 @@ impl MediaSet {
         self.meshes.insert(key, mesh);
     }
 
-    /// One error for each model of the project that cannot be drawn.
+    /// Returns one error for each model of the project that cannot be drawn.
     pub fn mesh_errors(&self, project: &Project) -> Vec<Diagnostic> {
         let error = |(pass, n, draw): (&Pass, usize, &MeshDraw)| {
             let error = self.mesh(draw).err()?;
@@ -204,7 +205,7 @@ impl MediaSet {
         first_draws(project).filter_map(error).collect()
     }
 
-    /// One warning for each thing that a model of the project holds and that is not drawn as its author may think.
+    /// Returns one warning for each part of the project's models that is not drawn as its author may expect.
     pub fn mesh_warnings(&self, project: &Project) -> Vec<Diagnostic> {
         let warnings = |(pass, n, draw): (&Pass, usize, &MeshDraw)| {
             let place = format!("draw {n} of {}: {}", pass.id.title(), draw.mesh.name());
@@ -218,7 +219,7 @@ impl MediaSet {
     }
 }
 
-/// The first draw of each model of the project, with its pass and its number there.
+/// Returns the first draw of each model of the project, with its pass and its index there.
 fn first_draws(project: &Project) -> impl Iterator<Item = (&Pass, usize, &MeshDraw)> {
     let mut seen: HashSet<&MeshSource> = HashSet::new();
     let all = project.passes.iter().flat_map(|pass| {
@@ -228,7 +229,7 @@ fn first_draws(project: &Project) -> impl Iterator<Item = (&Pass, usize, &MeshDr
     all.filter(move |(.., draw)| seen.insert(&draw.mesh))
 }
 
-/// The key that tells one loaded mesh from another.
+/// The key of a loaded mesh.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct MeshKey {
     source: MeshSource,
@@ -241,24 +242,24 @@ impl MeshKey {
     }
 }
 
-/// The key that tells one loaded picture from another.
+/// The key of a loaded picture.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MediaKey {
     pub media: eddy_project::Media,
-    /// One file may be read as a picture and as a cubemap.
+    /// The same file may be read as a picture and as a cubemap.
     pub dimension: Dimension,
     pub vflip: bool,
 }
 
 impl MediaKey {
-    /// Returns the key of a channel; `None` where it reads nothing that is loaded.
+    /// Returns the key of a channel; `None` if it reads nothing that is loaded.
     pub fn of_channel(channel: &Channel) -> Option<MediaKey> {
         let Channel { input, sampler } = channel;
         let vflip = sampler.vflip && input.row().has_vflip;
         Some(MediaKey { media: input.media()?.clone(), dimension: input.row().dimension, vflip })
     }
 
-    /// A fill's picture stands upright.
+    /// A fill's picture is upright.
     pub fn of_fill(path: &Path) -> MediaKey {
         MediaKey { media: Media::File(path.to_owned()), dimension: Dimension::D2, vflip: true }
     }

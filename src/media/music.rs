@@ -1,4 +1,4 @@
-//! The music that a project's channels name.
+//! The music of a project's channels.
 
 use super::MediaSet;
 use eddy_audio::Sound;
@@ -12,7 +12,7 @@ pub struct ChannelSound {
     pub sound: Arc<Sound>,
 }
 
-/// Returns the music that the channels of a project name, each once.
+/// Returns the music of the channels of a project, without duplicates.
 pub fn sounds(project: &Project, media: &MediaSet) -> Vec<ChannelSound> {
     let mut found: Vec<ChannelSound> = Vec::new();
     let channels = project.passes.iter().filter(|pass| pass.id.is_picture()).flat_map(|pass| &pass.channels);

@@ -1,7 +1,7 @@
 //! NumPy's `.npy` as texels: an array of shape (height, width) or (height, width, components), row 0 at the bottom.
 //!
-//! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, versions 1 to 3, C order. What an
-//! array lacks of four components is 0, alpha 1. Bytes (uint8) count as 0 to 255 of 1, as in a picture.
+//! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, versions 1 to 3, C order. Missing
+//! components are 0, a missing alpha is 1. Bytes (uint8) are divided by 255, as in a picture.
 
 use super::{MediaError, Texels};
 use eddy_project::limits;
@@ -10,13 +10,13 @@ use std::path::Path;
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// Texels of the array in the file `path`, which may take `room` bytes.
+/// Returns the texels of the array in the file `path`, which may take `room` bytes.
 pub(super) fn read(bytes: &[u8], path: &Path, room: u64) -> Result<Texels, MediaError> {
     decode(bytes, room).map_err(|reason| MediaError::Npy { path: path.to_owned(), reason })
 }
 
-/// Returns what an `.npy` file of version 1.0 begins with, for rows of numbers of the type `descr` in C order. The data
-/// that follows starts at a multiple of 64.
+/// Returns the header of an `.npy` file of version 1.0 for rows of numbers of the type `descr` in C order. The data
+/// that follow start at a multiple of 64.
 pub fn header(descr: &str, shape: &[u32]) -> Vec<u8> {
     let shape: String = shape.iter().map(|n| format!("{n}, ")).collect();
     let shape = shape.trim_end_matches(", ");
@@ -28,7 +28,7 @@ pub fn header(descr: &str, shape: &[u32]) -> Vec<u8> {
     [MAGIC, b"\x01\x00", &(text.len() as u16).to_le_bytes(), text.as_bytes()].concat()
 }
 
-/// 2D texels as a whole file, of shape (height, width, components): uint8, float16 or float32 as their format is.
+/// Returns 2D texels as a whole file, of shape (height, width, components): uint8, float16 or float32 by their format.
 pub fn bytes(texels: &Texels) -> Vec<u8> {
     let TextureShape { width, height, format, .. } = texels.shape;
     let components = format.components();
@@ -105,7 +105,7 @@ fn decode(bytes: &[u8], room: u64) -> Result<Texels, String> {
     Ok(Texels::flat(width as u32, height as u32, TexelFormat::Rgba32f, out))
 }
 
-/// Returns what stands behind a key of the header, which is a Python dictionary.
+/// Returns the text after a key of the header, which is a Python dictionary.
 fn entry<'h>(header: &'h str, key: &str) -> Option<&'h str> {
     let at = [format!("'{key}'"), format!("\"{key}\"")].iter().find_map(|k| Some(header.find(k)? + k.len()))?;
     Some(header[at..].trim_start().strip_prefix(':')?.trim_start())
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_array_of_texels_is_a_clear_error() {
+    fn unsupported_arrays_are_errors() {
         let good = "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2), }";
         let f4 = [0u8; 8];
         for (bytes, expected) in [

@@ -1,15 +1,15 @@
-//! Files of channels as they are on disk, for who hands them to another program.
+//! The unmodified files of channels, for passing them to another program.
 
 use super::MediaError;
 use eddy_project::{InputKind, Media, confine, limits};
 use std::path::{Path, PathBuf};
 
-/// Endings that are tried for a sound or a video of Shadertoy, after the one that it has there.
+/// File extensions that are tried for a sound or a video of Shadertoy, after its own.
 const SOUNDS: [&str; 6] = ["wav", "mp3", "ogg", "flac", "m4a", "aac"];
 const VIDEOS: [&str; 3] = ["mp4", "webm", "ogv"];
 
-/// Reads the file that a channel names, and returns its bytes and its name. A file of the project lies in its folder
-/// `base`, see [`confine`]; one of Shadertoy is looked for in `media_dir`. Eddy's own textures have no file.
+/// Reads the file of a channel, and returns its bytes and its name. A file of the project is in its folder `base`, see
+/// [`confine`]; one of Shadertoy is looked up in `media_dir`. Eddy's own textures have no file.
 pub fn original(
     media: &Media,
     kind: InputKind,

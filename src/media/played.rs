@@ -1,8 +1,8 @@
-//! Sounds and films where an image is wanted: known, so that nobody is told to mend a file that is in order.
+//! Recognises sounds and films in place of an image, so that errors do not suggest to repair an intact file.
 
 use std::{fmt, path::Path};
 
-/// A file that is played over time.
+/// A file with a duration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Played {
     Sound,
@@ -25,7 +25,8 @@ const SOUNDS: [&str; 17] = [
 const FILMS: [&str; 12] = ["mp4", "m4v", "webm", "mov", "mkv", "avi", "ogv", "wmv", "flv", "mpg", "mpeg", "3gp"];
 
 impl Played {
-    /// Returns what a file is by its first bytes, else by its ending where these are no picture's.
+    /// Returns the type of a file by its first bytes, otherwise by its extension if the bytes are not those of a
+    /// picture.
     pub fn of(bytes: &[u8], path: &Path) -> Option<Played> {
         by_content(bytes, path).or_else(|| by_ending(path).filter(|_| image::guess_format(bytes).is_err()))
     }
@@ -43,14 +44,14 @@ fn by_ending(path: &Path) -> Option<Played> {
     }
 }
 
-/// By the marks that the containers begin with. Those that hold either are a film where nothing says a sound.
+/// Recognises the signatures of containers. Those for both count as a film unless something indicates a sound.
 fn by_content(bytes: &[u8], path: &Path) -> Option<Played> {
-    let at = |begin: usize, mark: &[u8]| bytes.get(begin..begin + mark.len()) == Some(mark);
+    let at = |start: usize, mark: &[u8]| bytes.get(start..start + mark.len()) == Some(mark);
     let either = || Some(by_ending(path).unwrap_or(Played::Film));
     if at(0, b"ID3") || at(0, b"fLaC") || at(0, b"MThd") || at(0, b"caff") {
         return Some(Played::Sound);
     }
-    // A frame of MPEG audio (ISO 11172-3, 2.4.2.3) or of AAC in ADTS: eleven ones, and a layer that there is.
+    // A frame of MPEG audio (ISO 11172-3, 2.4.2.3) or of AAC in ADTS: eleven one bits, and a valid layer.
     if let [0xff, second, third, ..] = bytes
         && matches!(second, 0xe2..=0xe7 | 0xf0..=0xf7 | 0xf8..=0xff)
         && *third != 0xff
@@ -58,8 +59,8 @@ fn by_content(bytes: &[u8], path: &Path) -> Option<Played> {
         return Some(Played::Sound);
     }
     if at(0, b"OggS") {
-        let begin = &bytes[..bytes.len().min(4096)];
-        let is_film = begin.windows(7).any(|w| w == b"\x80theora" || w == b"\x01video\0");
+        let head = &bytes[..bytes.len().min(4096)];
+        let is_film = head.windows(7).any(|w| w == b"\x80theora" || w == b"\x01video\0");
         return Some(if is_film { Played::Film } else { Played::Sound });
     }
     if at(0, b"RIFF") || at(0, b"FORM") {
@@ -94,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn sounds_and_films_are_known_by_content_and_by_ending() {
+    fn sounds_and_films_are_recognised_by_content_and_extension() {
         let (sound, film) = (Some(Played::Sound), Some(Played::Film));
         for (bytes, is) in [
             (&b"ID3\x03\0\0\0\0\0\0"[..], sound),
@@ -120,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_are_none_whatever_they_are_called() {
+    fn pictures_are_not_recognised_whatever_their_names() {
         for (bytes, name) in [
             (&b"\x89PNG\r\n\x1a\n"[..], "a.mp3"),
             (b"\xff\xd8\xff\xe0", "a.wav"),

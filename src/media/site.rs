@@ -1,13 +1,13 @@
-//! The site's own textures, cubemaps and volumes, by id, each with the built-in texture that Eddy falls back to.
+//! Shadertoy's own textures, cubemaps and volumes, by id, each with the built-in texture that is Eddy's fallback.
 //!
-//! Sizes and channels are facts of the site; the pictures themselves are its own and not here. A fallback has the same
-//! size and channels and something of the same kind to see, so that a shader looks as meant if not as it was.
+//! Sizes and channels are facts about Shadertoy; its pictures themselves are not included. A fallback has the same size
+//! and channels and a similar kind of content, so that a shader looks as intended if not identical.
 
-/// A file of the site.
+/// A file of Shadertoy.
 #[derive(Clone, Copy, Debug)]
 pub struct SiteFile {
     pub id: &'static str,
-    /// First characters of the file's name, which is a hash; for JSON without ids.
+    /// The first characters of the file's name, which is a hash; for JSON without ids.
     pub hash: &'static str,
     /// The name of the built-in texture.
     pub fallback: &'static str,
@@ -23,7 +23,7 @@ const fn grey(id: &'static str, hash: &'static str, fallback: &'static str) -> S
     SiteFile { id, hash, fallback, is_grey: true }
 }
 
-/// Its 22 textures, six cubemaps and two volumes, each kind by how often it is read.
+/// Its 22 textures, six cubemaps and two volumes, each kind ordered by how often it is used.
 pub const SITE_FILES: [SiteFile; 30] = [
     rgba("4dXGzr", "08b42b43ae9d", "font"),
     rgba("4dfGRn", "8de3a3924cb9", "street"),
@@ -57,7 +57,7 @@ pub const SITE_FILES: [SiteFile; 30] = [
     rgba("XdX3Rr", "aea6b99da1d5", "noise-rgba-3d"),
 ];
 
-/// Returns the file of an id, or of a path that ends in its name.
+/// Returns the file with an id, or with a path that ends in its name.
 pub fn site_file(id: &str, path: &str) -> Option<&'static SiteFile> {
     let name = path.rsplit('/').next().unwrap_or_default();
     SITE_FILES.iter().find(|s| s.id == id).or_else(|| SITE_FILES.iter().find(|s| name.starts_with(s.hash)))
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_picture_is_known_by_id_or_by_path() {
+    fn pictures_are_found_by_id_or_path() {
         assert_eq!(site_file("XsfGRn", "").unwrap().fallback, "wood");
         assert_eq!(site_file("", "/media/a/1f7dca9c22f324751f2a.jpg").unwrap().fallback, "wood");
         assert!(site_file("", "/media/a/").is_none() && site_file("", "").is_none());

@@ -1,4 +1,4 @@
-//! Music that a channel names: the project's own files, and stand-ins for those of the site.
+//! The music of a channel: the project's own files, and replacements for those of Shadertoy.
 
 use super::{
     MediaError,
@@ -12,16 +12,16 @@ use std::{
     time::Duration,
 };
 
-/// Endings that are tried for a file of the site, after the one that it has there.
+/// File extensions that are tried for a file of Shadertoy, after its own.
 const ENDINGS: [&str; 7] = ["wav", "mp3", "ogg", "flac", "m4a", "aac", "opus"];
 
-/// Loads at most so many seconds of a sound, for people to look at.
+/// Loads at most this many seconds of a sound, for a preview.
 pub fn begin_of_sound(media: &Media, base: Option<&Path>, seconds: u32) -> Result<Sound, MediaError> {
     load(media, base, None, bytes_of(seconds))
 }
 
-/// Loads a sound that may take `room` bytes. What is not decoded here, and the sound of videos, is decoded by ffmpeg where that
-/// is installed.
+/// Loads a sound that may take `room` bytes. Formats that are not decoded here, and the sound of videos, are decoded by
+/// ffmpeg if it is installed.
 pub(super) fn load(
     media: &Media,
     base: Option<&Path>,
@@ -74,7 +74,7 @@ pub(super) fn load(
     })
 }
 
-/// The file that stands in for one of the site: of the same name, or with another ending.
+/// Returns the local file that replaces one of Shadertoy: with the same name, or with another extension.
 fn stand_in(folder: &Path, path: &str) -> Option<PathBuf> {
     let name = path.rsplit('/').next().filter(|name| !name.is_empty())?;
     let own = folder.join(name);

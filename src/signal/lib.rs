@@ -1,7 +1,7 @@
 //! Fourier transforms and the resampling of sound, by `rustfft`, `realfft` and `rubato`.
 //!
 //! These libraries are generic, so their code is compiled in each package that uses it, for up to a minute. Here it is
-//! compiled once: nothing that this package offers has type parameters.
+//! compiled once: the public items of this package have no type parameters.
 
 pub use realfft::{RealToComplex, num_complex::Complex};
 pub use rustfft::Fft;
@@ -11,7 +11,7 @@ use rubato::{FixedSync, Resampler, WindowFunction, audioadapter_buffers::direct:
 use rustfft::FftPlanner;
 use std::{fmt::Display, sync::Arc};
 
-/// Reason why sound cannot be resampled.
+/// The reason why sound cannot be resampled.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("cannot be resampled: {0}")]
 pub struct ResampleError(String);
@@ -21,18 +21,18 @@ pub fn real_forward(len: usize) -> Arc<dyn RealToComplex<f64>> {
     RealFftPlanner::new().plan_fft_forward(len)
 }
 
-/// Returns the transform of `len` values and its inverse. Neither is scaled: one after the other multiplies by `len`.
+/// Returns the transform of `len` values and its inverse. Neither is scaled: applying both multiplies by `len`.
 pub fn forward_and_inverse(len: usize) -> [Arc<dyn Fft<f64>>; 2] {
     let mut planner = FftPlanner::new();
     [planner.plan_fft_forward(len), planner.plan_fft_inverse(len)]
 }
 
-/// Resamples interleaved stereo from one number of samples a second to another, without a delay.
+/// Resamples interleaved stereo from one sample rate to another, without a delay.
 pub fn resample_stereo(frames: &[f32], from: u32, to: u32) -> Result<Vec<f32>, ResampleError> {
     let refused = |error: &dyn Display| ResampleError(error.to_string());
     let count = frames.len() / 2;
     let input = InterleavedSlice::new(frames, 2, count).map_err(|e| refused(&e))?;
-    // Blocks of an even number of output frames: half of one is the delay that is cut off, and half a frame is not.
+    // Blocks have an even number of output frames: the delay to cut off is half a block, which must be whole frames.
     let period = 2 * (from / gcd(from, to)) as usize;
     let block = 1024usize.next_multiple_of(period);
     let window = WindowFunction::BlackmanHarris2;

@@ -1,6 +1,6 @@
-//! The faces of a cube, and which of them a direction meets: OpenGL ES 3.0, table 3.21.
+//! The faces of a cube, and the face for a direction: OpenGL ES 3.0, table 3.21.
 
-/// A face of a cube. Its first row is at t = -1; seen from inside the cube the sides stand upright.
+/// A face of a cube. Its first row is at t = -1; seen from inside the cube the sides are upright.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Face {
     PlusX,
@@ -12,7 +12,7 @@ pub enum Face {
 }
 
 impl Face {
-    /// In the order in which a texture has them.
+    /// In the order of a texture's layers.
     pub const ALL: [Face; 6] = [Face::PlusX, Face::MinusX, Face::PlusY, Face::MinusY, Face::PlusZ, Face::MinusZ];
 
     /// The name on the command line and in the window.
@@ -27,7 +27,7 @@ impl Face {
         }
     }
 
-    /// The direction through the face at `s` and `t`, each in -1 to 1, not normalised.
+    /// Returns the direction through the face at `s` and `t`, each in -1 to 1, not normalised.
     pub const fn direction(self, s: f64, t: f64) -> [f64; 3] {
         match self {
             Face::PlusX => [1.0, -t, -s],
@@ -39,7 +39,7 @@ impl Face {
         }
     }
 
-    /// The face that a direction meets: that of the axis along which it is longest, of equal ones the first.
+    /// Returns the face that a direction points to: that of its longest axis, or the first of equal ones.
     pub fn of(direction: [f64; 3]) -> Face {
         let [x, y, z] = direction.map(f64::abs);
         let (axis, positive, negative) = if x >= y && x >= z {
@@ -52,7 +52,7 @@ impl Face {
         if axis >= 0.0 { positive } else { negative }
     }
 
-    /// The components of a vector along s, along t and along the axis of the face.
+    /// Returns the components of a vector along s, along t and along the axis of the face.
     pub const fn components(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         match self {
             Face::PlusX => [-z, -y, x],
@@ -70,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_direction_meets_the_face_that_it_was_made_for() {
+    fn directions_point_to_their_face() {
         for face in Face::ALL {
             for (s, t) in [(0.0, 0.0), (0.9, -0.8), (-0.7, 0.95)] {
                 let direction = face.direction(s, t);

@@ -1,7 +1,7 @@
 //! The formats of texels.
 
-/// The format of a texture's texels. Components a format lacks are read as 0, alpha as 1; a byte reads as its 255th part,
-/// never decoded from sRGB.
+/// The format of a texture's texels. Missing components are read as 0, alpha as 1; bytes are divided by 255, without
+/// sRGB decoding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum TexelFormat {
     R8,
@@ -44,7 +44,7 @@ impl TexelFormat {
         }
     }
 
-    /// Components of a texel; what is missing reads as 0, alpha as 1.
+    /// Returns the number of components; missing ones read as 0, alpha as 1.
     pub fn components(self) -> usize {
         match self {
             TexelFormat::R8 | TexelFormat::R16f | TexelFormat::R32f => 1,
@@ -53,12 +53,12 @@ impl TexelFormat {
         }
     }
 
-    /// Floats of 16 bits.
+    /// Returns whether the components are 16-bit floats.
     pub fn is_small_float(self) -> bool {
         matches!(self, TexelFormat::R16f | TexelFormat::Rg16f | TexelFormat::Rgba16f)
     }
 
-    /// Bytes of a texel.
+    /// Returns the bytes per texel.
     pub fn bytes(self) -> u64 {
         match self {
             TexelFormat::R8 => 1,
@@ -69,7 +69,7 @@ impl TexelFormat {
         }
     }
 
-    /// Holds 32-bit floats, which not every device filters.
+    /// Returns whether the components are 32-bit floats, which not every device filters.
     pub fn is_32_bit(self) -> bool {
         matches!(self, TexelFormat::R32f | TexelFormat::Rg32f | TexelFormat::Rgba32f)
     }

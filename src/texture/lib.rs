@@ -1,7 +1,7 @@
-//! The shapes of textures, in words that projects, decoded pictures, plans and devices share.
+//! The shapes of textures, as a vocabulary for projects, decoded pictures, plans and devices.
 //!
-//! Owns [`TextureShape`] with its parts. A package of its own, because what uses it stands side by side: `gpu` knows no
-//! project, and `graph` neither pictures nor a device. Holds no texels and touches no device.
+//! Owns [`TextureShape`] and its parts. A separate package, because its users do not depend on each other: `gpu` knows
+//! no project, and `graph` neither pictures nor a device. Contains no texels and accesses no device.
 
 mod face;
 mod format;

@@ -1,8 +1,8 @@
-//! Dimension, size and mip levels of a texture.
+//! The dimension, size and mip levels of a texture.
 
 use super::TexelFormat;
 
-/// The coordinates that a texture is read by.
+/// The coordinates by which a texture is read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Dimension {
     /// u and v.
@@ -10,12 +10,12 @@ pub enum Dimension {
     D2,
     /// u, v and w.
     D3,
-    /// A direction, which meets one of six square faces: +x, -x, +y, -y, +z, -z.
+    /// A direction, which points to one of six square faces: +x, -x, +y, -y, +z, -z.
     Cube,
 }
 
 impl Dimension {
-    /// Pictures side by side: the faces of a cube.
+    /// Returns the number of pictures per level: the faces of a cube.
     pub const fn layers(self) -> u32 {
         match self {
             Dimension::D2 | Dimension::D3 => 1,
@@ -24,65 +24,65 @@ impl Dimension {
     }
 }
 
-/// Everything about a texture but its texels.
+/// The description of a texture without its texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TextureShape {
     pub dimension: Dimension,
-    /// Texels of level 0, across and up; of each face of a cube.
+    /// The size of level 0 in texels; of each face for a cube.
     pub width: u32,
     pub height: u32,
-    /// Texels of level 0 of a 3D texture in its third direction; 1 for any other.
+    /// The depth of level 0 of a 3D texture in texels; otherwise 1.
     pub depth: u32,
-    /// Levels of the mip chain, at least 1.
+    /// The number of levels in the mip chain, at least 1.
     pub levels: u32,
     pub format: TexelFormat,
 }
 
 impl TextureShape {
-    /// A 2D texture of one level.
+    /// Returns a 2D texture of one level.
     pub const fn flat(width: u32, height: u32, format: TexelFormat) -> Self {
         Self { dimension: Dimension::D2, width, height, depth: 1, levels: 1, format }
     }
 
-    /// A 3D texture of one level.
+    /// Returns a 3D texture of one level.
     pub const fn volume(width: u32, height: u32, depth: u32, format: TexelFormat) -> Self {
         Self { dimension: Dimension::D3, width, height, depth, levels: 1, format }
     }
 
-    /// Six faces of one level.
+    /// Returns a cube of one level.
     pub const fn cube(side: u32, format: TexelFormat) -> Self {
         Self { dimension: Dimension::Cube, ..Self::flat(side, side, format) }
     }
 
-    /// The same with every level down to one texel: floor(log2(longest side)) + 1 of them.
+    /// Returns the same shape with all levels down to one texel: floor(log2(longest side)) + 1 of them.
     #[must_use]
     pub fn with_mips(self) -> Self {
         Self { levels: self.width.max(self.height).max(self.depth).max(1).ilog2() + 1, ..self }
     }
 
-    /// The same with level 0 alone.
+    /// Returns the same shape with only level 0.
     #[must_use]
     pub fn without_mips(self) -> Self {
         Self { levels: 1, ..self }
     }
 
-    /// Pictures side by side that each level has.
+    /// Returns the number of pictures per level.
     pub const fn layers(self) -> u32 {
         self.dimension.layers()
     }
 
-    /// Width, height and depth of a level in texels.
+    /// Returns the width, height and depth of a level in texels.
     pub fn level(self, level: u32) -> [u32; 3] {
         [self.width, self.height, self.depth].map(|side| (side >> level).max(1))
     }
 
-    /// Bytes of a level with all its layers, without padding.
+    /// Returns the bytes of a level with all its layers, without padding.
     pub fn level_bytes(self, level: u32) -> u64 {
         let [width, height, depth] = self.level(level).map(u64::from);
         width * height * depth * u64::from(self.layers()) * self.format.bytes()
     }
 
-    /// Bytes of all levels and layers.
+    /// Returns the bytes of all levels and layers.
     pub fn bytes(self) -> u64 {
         (0..self.levels).map(|level| self.level_bytes(level)).sum()
     }

@@ -1,4 +1,5 @@
-//! Animated GIF, PNG and WebP files: their frames by the `image` crate, their times by a look at the file's blocks.
+//! Animated GIF, PNG and WebP files: frames are decoded by the `image` crate, their times are read from the file's
+//! blocks.
 //!
 //! A delay of 10 ms or less counts as 100 ms, as in browsers (Blink, `BitmapImage` and `DeferredImageDecoder`).
 
@@ -10,22 +11,22 @@ use image::{
 };
 use std::{io::Cursor, sync::Arc};
 
-/// Returns whether a file is of a format that may hold an animation, by its first bytes.
+/// Returns whether a file has a format that supports animation, by its first bytes.
 pub fn is_animation(bytes: &[u8]) -> bool {
     matches!(image::guess_format(bytes), Ok(ImageFormat::Gif | ImageFormat::WebP))
         || matches!(image::guess_format(bytes), Ok(ImageFormat::Png)) && chunks(bytes).any(|(kind, _)| kind == b"acTL")
 }
 
-/// Returns whether a file holds more than one frame.
+/// Returns whether a file contains more than one frame.
 pub fn is_animated(bytes: &[u8]) -> bool {
     is_animation(bytes) && delays(bytes).len() > 1
 }
 
-/// A file with its frames' times.
+/// A file with the times of its frames.
 pub struct Animation {
     bytes: Arc<[u8]>,
     format: ImageFormat,
-    /// The time at which each frame begins.
+    /// The start time of each frame.
     times: Arc<[f64]>,
     info: VideoInfo,
 }
@@ -43,11 +44,11 @@ impl Animation {
             return Err(VideoError::TooMany);
         }
         let mut end = 0.0;
-        let begin = |delay: &f64| {
+        let start = |delay: &f64| {
             end += delay;
             end - delay
         };
-        let times: Arc<[f64]> = delays.iter().map(begin).collect();
+        let times: Arc<[f64]> = delays.iter().map(start).collect();
         if end > f64::from(limits::VIDEO_SECONDS) {
             return Err(VideoError::TooLong { seconds: end });
         }
@@ -62,7 +63,7 @@ impl Animation {
 
 fn allowed() -> Limits {
     let mut allowed = Limits::no_limits();
-    // A canvas, a frame and what a decoder needs beside them.
+    // A canvas, a frame and the working memory of a decoder.
     allowed.max_alloc = Some(4 * limits::VIDEO_FRAME_BYTES);
     allowed
 }
@@ -81,7 +82,7 @@ impl Film for Animation {
         &self.info
     }
 
-    /// Frames are made of those before them, so that each run begins with the first.
+    /// Frames depend on the previous ones, so each run starts with the first.
     fn start(&self, _: f64, _: &Stop) -> Result<Box<dyn Decode>, VideoError> {
         let bytes = Cursor::new(self.bytes.clone());
         let frames = match self.format {
@@ -113,7 +114,7 @@ impl Film for Animation {
     }
 }
 
-/// A run through the frames of a file.
+/// A pass over the frames of a file.
 struct Run {
     frames: Option<Frames<'static>>,
     /// The only frame of a file that is not animated.
@@ -131,7 +132,7 @@ impl Decode for Run {
         };
         let texels = match frame {
             None => return Ok(None),
-            // A file that is cut off plays as far as it goes.
+            // A truncated file plays up to the point where it ends.
             Some(Err(_)) if self.next > 0 => return Ok(None),
             Some(Err(error)) => return Err(damaged(error)),
             Some(Ok(texels)) if texels.len() != self.frame_bytes => {
@@ -139,7 +140,7 @@ impl Decode for Run {
             }
             Some(Ok(texels)) => texels,
         };
-        // A frame more than the blocks say has no time.
+        // A frame beyond those of the blocks has no time.
         let Some(&seconds) = self.times.get(self.next).or(self.times.first().filter(|_| self.next == 0)) else {
             return if self.next == 0 { Ok(Some((0.0, texels))) } else { Ok(None) };
         };
@@ -148,7 +149,7 @@ impl Decode for Run {
     }
 }
 
-/// The seconds that each frame is shown for.
+/// Returns how long each frame is shown, in seconds.
 fn delays(bytes: &[u8]) -> Vec<f64> {
     let millis = match image::guess_format(bytes) {
         Ok(ImageFormat::Gif) => gif_delays(bytes),
@@ -159,14 +160,14 @@ fn delays(bytes: &[u8]) -> Vec<f64> {
     millis.into_iter().map(|millis| if millis <= 10.0 { 0.1 } else { millis / 1e3 }).collect()
 }
 
-/// Milliseconds of each frame of a GIF (GIF89a specification, sections 17 to 26).
+/// Returns the milliseconds of each frame of a GIF (GIF89a specification, sections 17 to 26).
 fn gif_delays(bytes: &[u8]) -> Vec<f64> {
     let mut delays = Vec::new();
     let mut at = 13;
     let table = |packed: u8| if packed & 0x80 != 0 { 3 << ((packed & 7) + 1) } else { 0_usize };
     at += table(bytes.get(10).copied().unwrap_or(0));
     let mut delay = 0.0;
-    // The place after a chain of sub-blocks.
+    // Returns the position after a chain of sub-blocks.
     let after_blocks = |mut at: usize| {
         while let Some(&length) = bytes.get(at) {
             at += 1 + usize::from(length);
@@ -195,7 +196,7 @@ fn gif_delays(bytes: &[u8]) -> Vec<f64> {
     delays
 }
 
-/// The chunks of a PNG, as far as they are whole: their kinds and contents.
+/// Returns the complete chunks of a PNG: their kinds and contents.
 fn chunks(bytes: &[u8]) -> impl Iterator<Item = (&[u8], &[u8])> {
     let mut at = 8;
     std::iter::from_fn(move || {
@@ -208,7 +209,7 @@ fn chunks(bytes: &[u8]) -> impl Iterator<Item = (&[u8], &[u8])> {
     })
 }
 
-/// Milliseconds of each frame of an animated PNG (PNG specification, third edition, section 11.3.6.2).
+/// Returns the milliseconds of each frame of an animated PNG (PNG specification, third edition, section 11.3.6.2).
 fn png_delays(bytes: &[u8]) -> Vec<f64> {
     let delay = |content: &[u8]| {
         let &[a, b, c, d] = content.get(20..24)?.first_chunk()?;
@@ -219,7 +220,7 @@ fn png_delays(bytes: &[u8]) -> Vec<f64> {
     controls.filter_map(|(_, content)| delay(content)).take(limits::VIDEO_IMAGES + 1).collect()
 }
 
-/// Milliseconds of each frame of an animated WebP (WebP container specification, section "Animation").
+/// Returns the milliseconds of each frame of an animated WebP (WebP container specification, section "Animation").
 fn webp_delays(bytes: &[u8]) -> Vec<f64> {
     let mut delays = Vec::new();
     let mut at = 12;

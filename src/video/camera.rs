@@ -1,7 +1,7 @@
-//! Cameras: the newest picture of one, by ffmpeg.
+//! Cameras: the newest picture of a camera, by ffmpeg.
 //!
-//! Pictures are read as fast as the camera gives them, and each replaces the one before: none is queued. A camera that ends or
-//! is unplugged leaves its last picture.
+//! Pictures are read as fast as the camera delivers them, and each replaces the previous one: there is no queue. When a
+//! camera ends or is unplugged, its last picture stays.
 
 use super::{
     Frame, Tools, VideoError, check_size,
@@ -18,24 +18,24 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The size of a channel before a camera is on, as on the site.
+/// The size of a channel before its camera is on, as on Shadertoy.
 pub const PLACEHOLDER: (u32, u32) = (320, 240);
-/// The size that a camera is asked for, as on the site: it may give another.
+/// The size that is requested from a camera, as on Shadertoy: it may deliver another.
 const ASKED: [&str; 4] = ["-framerate", "30", "-video_size", "1280x720"];
 
-/// The choice of a camera.
+/// The selection of a camera.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum CameraSource {
-    /// The first one that the system has.
+    /// The first camera of the system.
     First,
-    /// One by the system's name: `/dev/video0`, `0`, `HD Webcam`.
+    /// A camera by its name in the system: `/dev/video0`, `0`, `HD Webcam`.
     Device(String),
-    /// A graph of ffmpeg's filters that makes pictures: `lavfi:testsrc`. Stands in for a camera.
+    /// A graph of ffmpeg's filters that produces pictures in place of a camera: `lavfi:testsrc`.
     Filters(String),
 }
 
 impl CameraSource {
-    /// Reads what the command line says.
+    /// Parses the value of the command line's option.
     pub fn of_text(text: &str) -> CameraSource {
         match text.strip_prefix("lavfi:") {
             Some(filters) => CameraSource::Filters(filters.to_owned()),
@@ -55,7 +55,7 @@ impl fmt::Display for CameraSource {
     }
 }
 
-/// A picture of a camera.
+/// A picture from a camera.
 #[derive(Clone, Debug)]
 pub struct CameraFrame {
     pub width: u32,
@@ -63,7 +63,7 @@ pub struct CameraFrame {
     pub frame: Frame,
 }
 
-/// A camera that is on. It goes off when its last handle is dropped.
+/// A camera that is on. It is turned off when its last handle is dropped.
 #[derive(Clone)]
 pub struct Camera(Arc<Owner>);
 
@@ -113,15 +113,15 @@ impl fmt::Debug for Camera {
 }
 
 impl Camera {
-    /// Turns a camera on. Returns at once; pictures come later. `came` is called for the first one, and where there will be
-    /// none.
+    /// Turns a camera on. Returns at once; pictures arrive later. `came` is called when the first one arrives, or when
+    /// the camera fails.
     pub fn open(source: CameraSource, tools: &Tools, came: impl Fn() + Send + 'static) -> Camera {
         let shared = Arc::new(Shared::default());
         let worker = shared.clone();
         let (tools, wanted) = (tools.clone(), source.clone());
         let started = thread::Builder::new().name("camera".into()).spawn(move || {
             let mut ended = Err(VideoError::Camera("there is none".into()));
-            // Some cameras refuse the size that is asked for.
+            // Some cameras refuse the requested size.
             for asked in [&ASKED[..], &[]] {
                 ended = worker.read(&wanted, asked, &tools, &came);
                 let state = worker.lock();
@@ -143,14 +143,14 @@ impl Camera {
         Camera(Arc::new(Owner { source, shared }))
     }
 
-    /// A camera that shows one picture: what another one showed in a frame that is drawn again.
+    /// A camera that shows one picture: that of another camera in a frame that is drawn again.
     pub fn still(picture: CameraFrame) -> Camera {
         let state = State { newest: Some(picture), ..State::default() };
         let shared = Arc::new(Shared { state: Mutex::new(state), ..Shared::default() });
         Camera(Arc::new(Owner { source: CameraSource::First, shared }))
     }
 
-    /// Turns it off, whoever else has a handle: a picture that is drawn by another thread may have one for a while.
+    /// Turns it off even if other handles remain: the drawing thread may keep one for a while.
     pub fn turn_off(&self) {
         self.0.shared.lock().is_closed = true;
         self.0.shared.stop.stop();
@@ -160,17 +160,17 @@ impl Camera {
         &self.0.source
     }
 
-    /// Returns the newest picture, if there is one yet.
+    /// Returns the newest picture, if one has arrived.
     pub fn newest(&self) -> Option<CameraFrame> {
         self.0.shared.lock().newest.clone()
     }
 
-    /// Returns why no more pictures come, where that is so.
+    /// Returns the error if no more pictures will arrive.
     pub fn error(&self) -> Option<VideoError> {
         self.0.shared.lock().error.clone()
     }
 
-    /// Returns the cameras that the machine has besides; empty until this one has begun, and beside filters.
+    /// Returns the cameras of the machine; empty until this one has started, and for filters.
     pub fn found(&self) -> Vec<CameraDevice> {
         self.0.shared.lock().found.clone()
     }
@@ -241,7 +241,7 @@ impl Shared {
             if stdout.read_exact(&mut texels).is_err() {
                 break;
             }
-            // Lines of pictures that are read are of no more use.
+            // Log lines of pictures that were read are no longer needed.
             while messages.try_recv().is_ok_and(|message| matches!(message, Message::Line(_))) {}
             let mut state = self.lock();
             if state.is_closed {
@@ -269,16 +269,16 @@ fn device<'c>(command: &'c mut Command, name: &str, asked: &[&str]) -> &'c mut C
     }
 }
 
-/// A camera that the system has.
+/// A camera of the system.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CameraDevice {
-    /// For [`CameraSource::Device`].
+    /// The identifier for [`CameraSource::Device`].
     pub id: String,
-    /// For people.
+    /// The display name.
     pub name: String,
 }
 
-/// Returns the cameras of the machine. None is opened.
+/// Returns the cameras of the machine, without opening any.
 pub fn cameras(tools: &Tools) -> Vec<CameraDevice> {
     if cfg!(target_os = "linux") {
         return of_folder(Path::new("/sys/class/video4linux"));
@@ -294,7 +294,7 @@ pub fn cameras(tools: &Tools) -> Vec<CameraDevice> {
     if cfg!(target_os = "macos") { of_avfoundation(&said) } else { of_dshow(&said) }
 }
 
-/// Cameras by what Linux says of them. Of a camera's nodes only the first gives pictures.
+/// Returns the cameras that Linux lists. Of a camera's nodes only the first delivers pictures.
 fn of_folder(folder: &Path) -> Vec<CameraDevice> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut found: Vec<(u32, CameraDevice)> = entries
@@ -311,7 +311,7 @@ fn of_folder(folder: &Path) -> Vec<CameraDevice> {
     found.into_iter().map(|(_, device)| device).collect()
 }
 
-/// Cameras by ffmpeg's list on macOS: `[AVFoundation indev @ 0x7f] [0] FaceTime HD Camera`.
+/// Parses the cameras in ffmpeg's list on macOS: `[AVFoundation indev @ 0x7f] [0] FaceTime HD Camera`.
 fn of_avfoundation(said: &[String]) -> Vec<CameraDevice> {
     let lines = said.iter().skip_while(|line| !line.contains("video devices")).skip(1);
     let lines = lines.take_while(|line| !line.contains("audio devices"));
@@ -322,7 +322,7 @@ fn of_avfoundation(said: &[String]) -> Vec<CameraDevice> {
     lines.filter_map(device).collect()
 }
 
-/// Cameras by ffmpeg's list on Windows: `[dshow @ 000001] "HD Webcam" (video)`.
+/// Parses the cameras in ffmpeg's list on Windows: `[dshow @ 000001] "HD Webcam" (video)`.
 fn of_dshow(said: &[String]) -> Vec<CameraDevice> {
     let device = |line: &String| {
         let name = line.strip_suffix(" (video)")?.split_once("] \"")?.1.strip_suffix('"')?;

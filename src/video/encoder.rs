@@ -1,4 +1,4 @@
-//! ffmpeg as a program that encodes: raw frames go in by its standard input, and it writes a file.
+//! ffmpeg as an encoder: it reads raw frames from its standard input and writes a file.
 
 use super::{
     VideoError,
@@ -13,10 +13,10 @@ use std::{
     thread::JoinHandle,
 };
 
-/// Lines of messages that are kept: the last ones.
+/// The number of message lines that are kept: the last ones.
 const MESSAGES: usize = 12;
 
-/// ffmpeg at work. Dropped before [`Encoder::finish`], it is ended.
+/// A running ffmpeg process. It is killed if this is dropped before [`Encoder::finish`].
 pub struct Encoder {
     program: String,
     stdin: Option<ChildStdin>,
@@ -24,8 +24,8 @@ pub struct Encoder {
     stop: Stop,
 }
 
-/// Returns the name by which ffmpeg opens a file, whatever characters the file's own name has: its absolute path after the
-/// name of the protocol.
+/// Returns the name by which ffmpeg opens a file, whatever characters the file's own name contains: its absolute path
+/// after the name of the protocol.
 pub fn file_name(path: &Path) -> io::Result<OsString> {
     let mut name = OsString::from("file:");
     name.push(path::absolute(path)?);
@@ -33,8 +33,8 @@ pub fn file_name(path: &Path) -> io::Result<OsString> {
 }
 
 impl Encoder {
-    /// Starts ffmpeg with these arguments. No shell reads them. Its standard input is a pipe, of which protocols other than
-    /// that and files are refused; it asks nothing and writes messages about errors alone.
+    /// Starts ffmpeg with these arguments, without a shell. Its standard input is a pipe; protocols other than pipes
+    /// and files are refused. It asks no questions and prints only error messages.
     pub fn start<S: AsRef<OsStr>>(
         tools: &Tools,
         arguments: impl IntoIterator<Item = S>,
@@ -56,20 +56,21 @@ impl Encoder {
         Ok(Encoder { program, stdin, messages: Some(messages), stop: stop.clone() })
     }
 
-    /// Hands it bytes, and waits while it takes no more. An error says what ffmpeg said.
+    /// Writes bytes to its standard input, and blocks while ffmpeg does not read them. An error contains ffmpeg's
+    /// message.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), VideoError> {
         let written = match &mut self.stdin {
             Some(stdin) => stdin.write_all(bytes),
             None => Err(io::ErrorKind::BrokenPipe.into()),
         };
         written.map_err(|error| match error.kind() {
-            // It has ended by itself.
+            // ffmpeg has exited by itself.
             io::ErrorKind::BrokenPipe => self.failure(),
             _ => VideoError::Encoder { program: self.program.clone(), said: error.to_string() },
         })
     }
 
-    /// Says that there are no more bytes, and waits until the file is complete.
+    /// Closes the input, and waits until the file is complete.
     pub fn finish(mut self) -> Result<(), VideoError> {
         self.stdin = None;
         match self.stop.wait() {
@@ -78,7 +79,7 @@ impl Encoder {
         }
     }
 
-    /// Says why it has ended.
+    /// Returns the error with which it ended.
     fn failure(&mut self) -> VideoError {
         self.stdin = None;
         let status = self.stop.wait();
@@ -109,7 +110,7 @@ impl Tools {
     }
 }
 
-/// Reads the list of `ffmpeg -encoders`: after a line of dashes, six letters of abilities, a name and its title.
+/// Parses the output of `ffmpeg -encoders`: after a line of dashes, six letters of capabilities, a name and a title.
 fn encoders_of(said: &str) -> Vec<String> {
     let lines = said.lines().skip_while(|line| line.trim() != "------").skip(1);
     lines.filter_map(|line| line.split_whitespace().nth(1)).map(str::to_owned).collect()
@@ -137,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_program_that_is_not_there_is_told_with_the_fix() {
+    fn a_missing_program_is_an_error_with_a_hint() {
         let tools = Tools { ffmpeg: "no-such-program-of-that-name".into(), ..Tools::default() };
         let error = Encoder::start(&tools, [""; 0], &Stop::default()).err().unwrap();
         assert!(matches!(error, VideoError::NoProgram { .. }) && error.hint().contains("install"), "{error}");

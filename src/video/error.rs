@@ -1,8 +1,8 @@
-//! Errors of opening and playing a video, with how to fix them.
+//! The errors of opening and playing a video, with hints for fixing them.
 
 use eddy_project::limits;
 
-/// A video that cannot be played. Its text is complete but for the file.
+/// An error of playing a video. Its text is complete except for the file name.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum VideoError {
     #[error("the program {program} is not installed, and Eddy needs it for videos, films and cameras")]
@@ -35,7 +35,7 @@ pub enum VideoError {
 }
 
 impl VideoError {
-    /// Returns how to fix it.
+    /// Returns a hint for fixing it.
     pub fn hint(&self) -> &'static str {
         match self {
             VideoError::NoProgram { .. } if cfg!(target_os = "macos") => "install it: brew install ffmpeg",

@@ -1,12 +1,13 @@
-//! Video files, decoded by ffmpeg in a process of its own.
+//! Video files, decoded by ffmpeg in a child process.
 //!
-//! Pixels come through its standard output, and their times by the messages of the filter `showinfo`, one line a frame. It
-//! is the last filter, so a line stands for each frame that is written: after edit lists, dropped frames and rotation, which
-//! the times of packets know nothing of. `-fps_mode passthrough` neither repeats nor drops frames.
+//! Pixels are read from its standard output, and their times from the messages of the filter `showinfo`, one line per
+//! frame. As the last filter it prints one line per written frame, after edit lists, dropped frames and rotation; the
+//! times of packets do not reflect those. `-fps_mode passthrough` neither repeats nor drops frames.
 //!
-//! ffmpeg gets the file that we opened. On Linux that is its standard input, which it opens once more by `/dev/stdin`; elsewhere
-//! it is named by its absolute path. So no name of a project reaches it. `-protocol_whitelist` and `-format_whitelist` keep files
-//! from leading it to others: playlists, patterns and scripts are no formats that it may read.
+//! ffmpeg gets the file that we opened. On Linux it is the standard input, which ffmpeg opens again as `/dev/stdin`;
+//! elsewhere it is passed by its absolute path. So no name from a project reaches ffmpeg. `-protocol_whitelist` and
+//! `-format_whitelist` prevent files from referring to others: playlists, patterns and scripts are not among the
+//! allowed formats.
 
 use super::{
     Decode, Film, Tools, VideoError, VideoInfo,
@@ -24,15 +25,15 @@ use std::{
     time::Duration,
 };
 
-/// The way to the file that a child has as its standard input.
+/// The path by which a child process opens the file on its standard input.
 pub const INPUT: &str = "file:/dev/stdin";
-/// Containers that hold their frames themselves. Those that name other files are not among them.
+/// Containers that contain their frames themselves. Those that refer to other files are excluded.
 pub const FORMATS: &str = "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,ogg,flv,mpeg,mpegts,asf,ivf,nut,yuv4mpegpipe,\
     m4v,mpegvideo,h264,hevc,mxf,rm,dv";
-/// Frames before a position are decoded from so many seconds before it on: the one that is shown may begin that early.
+/// Decoding starts this many seconds before a position: the frame shown there may start that early.
 const BEFORE: f64 = 1.0;
 
-/// Begins a command line that reads a video file. Returns what `-i` names with it.
+/// Creates a command line that reads a video file. Returns it with the argument for `-i`.
 pub fn command(program: &Path, file: &File, real: &Path) -> Result<(Command, String), VideoError> {
     command_of(program, file, real, FORMATS)
 }
@@ -51,7 +52,7 @@ pub fn command_of(program: &Path, file: &File, real: &Path, formats: &str) -> Re
     Ok((command, format!("file:{path}")))
 }
 
-/// A file that ffprobe has read.
+/// A file that was probed by ffprobe.
 pub struct FilmFile {
     file: File,
     real: PathBuf,
@@ -65,14 +66,14 @@ impl FilmFile {
         Ok(Self { file, real, tools: tools.clone(), probed })
     }
 
-    /// The command line that decodes from a position on. `skips`: frames long before it are left out.
+    /// Returns the command line that decodes from a position. `skips`: frames long before it are skipped.
     fn decoder(&self, from: f64, skips: bool) -> Result<Command, VideoError> {
         let Probed { info, start, matrix, decoder, is_old, .. } = &self.probed;
         let (mut command, input) = command(&self.tools.ffmpeg, &self.file, &self.real)?;
         command.args(["-nostdin", "-nostats", "-loglevel", "info", "-copyts"]);
         command.args(["-max_pixels", &(limits::VIDEO_FRAME_BYTES / 4).to_string()]);
         if from > 0.0 {
-            // From the frame on that can be decoded alone; the seek counts from the file's own start.
+            // Decode from the last key frame; the seek position is relative to the file's own start.
             command.args(["-noaccurate_seek", "-ss", &format!("{from:.6}")]);
         }
         if let Some(decoder) = decoder {
@@ -82,7 +83,7 @@ impl FilmFile {
         let select =
             if from > 0.0 && skips { format!("select='gte(t,{:.6})',", start + from - BEFORE) } else { String::new() };
         let matrix = matrix.map(|matrix| format!(":in_color_matrix={matrix}")).unwrap_or_default();
-        // Chroma is interpolated and sums are rounded, as Chromium does it: measured, equal but for 1/255.
+        // Chroma is interpolated and sums are rounded, as in Chromium: by measurement, equal to within 1/255.
         let scale = format!("scale={}:{}:flags=bilinear+full_chroma_int+accurate_rnd{matrix}", info.width, info.height);
         command.args(["-vf", &format!("{select}{scale},format=rgba,showinfo=checksum=0")]);
         command.args(if *is_old { ["-vsync", "passthrough"] } else { ["-fps_mode", "passthrough"] });
@@ -103,26 +104,26 @@ impl Film for FilmFile {
     }
 
     fn start(&self, from: f64, stop: &Stop) -> Result<Box<dyn Decode>, VideoError> {
-        // A frame that is longer than what is decoded before the position, or a seek that came out behind it: then from
-        // earlier on, at last from the beginning.
+        // If a frame is longer than the interval that is decoded before the position, or the seek ended after it, try
+        // again from an earlier position, and finally from the start.
         for (from, skips) in [(from, true), ((from - 10.0).max(0.0), false)] {
             let mut run = self.run(from, skips, stop)?;
             let first = run.next()?;
             if from <= 0.0 || first.as_ref().is_some_and(|(seconds, _)| *seconds <= from) {
-                return Ok(Box::new(Begun { first, run }));
+                return Ok(Box::new(PeekedRun { first, run }));
             }
         }
         Ok(Box::new(self.run(0.0, false, stop)?))
     }
 }
 
-/// A run of which the first frame was looked at.
-struct Begun {
+/// A run whose first frame was read ahead.
+struct PeekedRun {
     first: Option<(f64, Vec<u8>)>,
     run: Run,
 }
 
-impl Decode for Begun {
+impl Decode for PeekedRun {
     fn next(&mut self) -> Result<Option<(f64, Vec<u8>)>, VideoError> {
         match self.first.take() {
             Some(first) => Ok(Some(first)),
@@ -131,17 +132,17 @@ impl Decode for Begun {
     }
 }
 
-/// The content of a line of messages.
+/// The content of a log line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LogLine {
-    /// Seconds of a tick of the filter's clock.
+    /// Seconds per tick of the filter's clock.
     Tick(f64),
     /// The time of a frame in ticks, if it has one, and its size.
     Frame(Option<i64>, Option<(u32, u32)>),
     Other,
 }
 
-/// Reads a line of `showinfo`; see `config_props` and `filter_frame` in ffmpeg's `libavfilter/vf_showinfo.c`.
+/// Parses a line of `showinfo`; see `config_props` and `filter_frame` in ffmpeg's `libavfilter/vf_showinfo.c`.
 pub fn read_line(line: &str) -> LogLine {
     let Some((_, said)) = line.strip_prefix("[Parsed_showinfo_").and_then(|rest| rest.split_once("] ")) else {
         return LogLine::Other;
@@ -160,14 +161,14 @@ pub fn read_line(line: &str) -> LogLine {
     LogLine::Frame(pts.parse().ok(), size.and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?))))
 }
 
-/// Messages of a decoder, as they come.
+/// A message of a decoder, as it arrives.
 pub enum Message {
     Line(LogLine),
-    /// The last one that says something else than the time of a frame.
+    /// The last message that is not about the time of a frame.
     End(String),
 }
 
-/// Reads the messages of a decoder on a thread of its own.
+/// Reads the messages of a decoder on a separate thread.
 pub fn messages(stderr: std::process::ChildStderr) -> Receiver<Message> {
     let (sender, messages) = mpsc::channel();
     thread::spawn(move || {
@@ -182,7 +183,7 @@ pub fn messages(stderr: std::process::ChildStderr) -> Receiver<Message> {
     messages
 }
 
-/// A decoder at work.
+/// A running decoder.
 struct Run {
     stdout: ChildStdout,
     messages: Receiver<Message>,
@@ -218,7 +219,7 @@ impl Run {
         ticks.map_or(next, |ticks| ticks as f64 * self.tick - self.start)
     }
 
-    /// The program's last message.
+    /// Returns the program's last message.
     fn reason(&self) -> String {
         let reason = loop {
             match self.messages.recv_timeout(self.patience) {
@@ -240,7 +241,7 @@ impl Decode for Run {
                 self.last = Some(seconds);
                 Ok(Some((seconds, texels)))
             }
-            // A frame that is cut off is none.
+            // A truncated frame is dropped.
             Err(e) if e.kind() == ErrorKind::UnexpectedEof && self.last.is_some() => Ok(None),
             Err(_) => Err(VideoError::Damaged(self.reason())),
         }
@@ -252,7 +253,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_of_showinfo_are_read_and_others_are_not() {
+    fn only_lines_of_showinfo_are_parsed() {
         let config = "[Parsed_showinfo_2 @ 0x55d0a8e0c280] config in time_base: 1/12800, frame_rate: 25/1";
         assert_eq!(read_line(config), LogLine::Tick(1.0 / 12800.0));
         let frame = "[Parsed_showinfo_2 @ 0x5f] n:   3 pts:   1536 pts_time:0.12    duration:    512 fmt:rgba sar:1/1 s:160x96 i:P";

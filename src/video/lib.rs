@@ -1,8 +1,9 @@
 //! Videos: files, animated image files, image sequences and cameras as frames with their times.
 //!
-//! A [`Video`] says how large its frames are and how long it plays; [`FrameSource::frame_at`] gives the frame at a position.
-//! What cannot be decoded here is decoded by the programs ffmpeg and ffprobe, which get an opened file and never a name that
-//! a project says. [`Encoder`] is ffmpeg as a program that encodes. Frames have 4 bytes a texel (RGBA, 8 bits each, alpha not premultiplied), top row first.
+//! A [`Video`] provides the size of its frames and its length; [`FrameSource::frame_at`] returns the frame at a
+//! position. Formats that are not decoded here are decoded by the programs ffmpeg and ffprobe, which get an opened file
+//! and never a name from a project. [`Encoder`] runs ffmpeg as an encoder. Frames have 4 bytes per texel (RGBA, 8 bits
+//! each, alpha not premultiplied), top row first.
 
 mod animation;
 mod camera;
@@ -35,31 +36,31 @@ use std::{
     time::Duration,
 };
 
-/// The facts of a video that are known before it is played.
+/// The properties of a video that are known before it is played.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VideoInfo {
-    /// Texels across, as it is shown: after rotation, with square pixels.
+    /// The width in texels as shown: after rotation, with square pixels.
     pub width: u32,
     pub height: u32,
-    /// Seconds after which it starts again.
+    /// The length of the loop in seconds.
     pub seconds: f64,
-    /// Frames a second, roughly: for how much memory all of them take.
+    /// The approximate number of frames per second, to estimate how much memory all of them take.
     pub frame_rate: f64,
-    /// A frame is shown so many seconds early: its time is rounded to the clock of the file. At most .5 ms.
+    /// A frame is shown up to this many seconds early: its time is rounded to the clock of the file. At most .5 ms.
     pub tolerance: f64,
 }
 
 impl VideoInfo {
-    /// Bytes of a frame.
+    /// Returns the number of bytes of a frame.
     pub fn frame_bytes(&self) -> usize {
         self.width as usize * self.height as usize * 4
     }
 }
 
-/// A frame. Two are the same where they share their texels.
+/// A frame. Two are the same if they share their texels.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// Rows of RGBA, the top one first.
+    /// Rows of RGBA, the top row first.
     pub texels: Arc<Vec<u8>>,
 }
 
@@ -69,39 +70,39 @@ impl Frame {
     }
 }
 
-/// The answer of [`FrameSource::frame_at`].
+/// The result of [`FrameSource::frame_at`].
 #[derive(Clone, Debug)]
 pub struct FrameLookup {
-    /// The frame of the position; the newest that is there where that is late; none where there was never one.
+    /// The frame of the position; the newest available one if that is late; `None` if there was never one.
     pub frame: Option<Frame>,
     /// The frame of the position is not decoded yet.
     pub is_late: bool,
 }
 
-/// The time that may be waited for a frame.
+/// The time to wait for a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Pace {
-    /// Until it is there: pictures depend on the position alone.
+    /// Until it is decoded: pictures depend on the position alone.
     #[default]
     Exact,
-    /// Not for long: while the position moves on less than where it jumps.
+    /// Briefly: less while the position advances than after a jump.
     Live,
 }
 
-/// A source of frames with their times, played in a loop from position 0 on.
+/// A source of frames with their times, played in a loop from position 0.
 pub trait FrameSource: Send + Sync {
     fn info(&self) -> VideoInfo;
 
-    /// Returns the last frame whose time is at most a position, in seconds; the first one where there is none. Positions
-    /// beyond the end are of later rounds. Waits as `pace` allows, and for a decoder that gives nothing at most
-    /// [`VIDEO_DECODE_SECONDS`](eddy_project::limits::VIDEO_DECODE_SECONDS).
+    /// Returns the last frame whose time is at most a position, in seconds; the first one if there is none. Positions
+    /// beyond the end belong to later rounds. Waits as `pace` allows, and at most
+    /// [`VIDEO_DECODE_SECONDS`](eddy_project::limits::VIDEO_DECODE_SECONDS) for a decoder that returns nothing.
     fn frame_at(&self, seconds: f64, pace: Pace) -> FrameLookup;
 }
 
-/// The way to a file, and to those beside it.
+/// The path of a file, and access to files next to it.
 pub struct FileLocation<'a> {
     pub path: &'a Path,
-    /// Reads a file beside it: of a sequence each image, whenever its turn comes.
+    /// Reads a file next to it: each image of a sequence, when it is needed.
     pub read: ReadFile,
 }
 
@@ -116,17 +117,17 @@ pub struct Video {
 }
 
 impl Video {
-    /// Plays a file by ffmpeg. `real` is its path after links.
+    /// Opens a file with ffmpeg. `real` is its path after resolving links.
     pub fn of_file(path: &Path, file: File, real: PathBuf, tools: &Tools, pool: &Pool) -> Result<Video, VideoError> {
         Self::start(path, Arc::new(ffmpeg::FilmFile::open(file, real, tools)?), pool, tools.patience)
     }
 
-    /// Plays the content of an animated GIF, PNG or WebP; see [`is_animation`].
+    /// Opens the content of an animated GIF, PNG or WebP; see [`is_animation`].
     pub fn of_animation(path: &Path, bytes: Vec<u8>, pool: &Pool) -> Result<Video, VideoError> {
         Self::start(path, Arc::new(animation::Animation::open(bytes)?), pool, Tools::default().patience)
     }
 
-    /// Plays numbered image files, of which `place` is the first and `first` its content.
+    /// Opens numbered image files; `place` is the first and `first` its content.
     pub fn of_sequence(place: &FileLocation<'_>, first: &[u8], pool: &Pool) -> Result<Video, VideoError> {
         Self::start(place.path, Arc::new(numbered::Sequence::open(place, first)?), pool, Tools::default().patience)
     }
@@ -134,7 +135,7 @@ impl Video {
     fn start(path: &Path, film: Arc<dyn Film>, pool: &Pool, patience: Duration) -> Result<Video, VideoError> {
         let info = *film.info();
         let mut reader = Reader::new(film, pool.clone(), patience);
-        // What cannot be decoded is told of now.
+        // Errors of decoding are reported now.
         reader.first()?;
         Ok(Video { path: path.to_owned(), info, reader: Mutex::new(reader) })
     }
@@ -162,24 +163,24 @@ impl std::fmt::Debug for Video {
     }
 }
 
-/// A video that can be decoded from any position on, as often as wanted.
+/// A video that can be decoded repeatedly from any position.
 trait Film: Send + Sync {
     fn info(&self) -> &VideoInfo;
 
-    /// Begins a run through its frames. The first one lies at or before a position, or is the first of all.
+    /// Starts a run through its frames. The first one is at or before a position, or is the first of all.
     fn start(&self, from: f64, stop: &process::Stop) -> Result<Box<dyn Decode>, VideoError>;
 }
 
-/// A run through the frames of a video.
+/// A pass over the frames of a video.
 trait Decode {
-    /// Returns the next frame with its time in seconds; none after the last.
+    /// Returns the next frame with its time in seconds; `None` after the last.
     fn next(&mut self) -> Result<Option<(f64, Vec<u8>)>, VideoError>;
 }
 
-/// The longest wait for a frame of a live picture: while it moves on, and after a jump.
+/// The longest wait for a frame of a live picture: while the position advances, and after a jump.
 const PATIENCE: (Duration, Duration) = (Duration::from_millis(8), Duration::from_millis(150));
 
-/// Says whether frames of a size may be decoded.
+/// Fails if frames of this size may not be decoded.
 fn check_size(width: u32, height: u32) -> Result<(), VideoError> {
     use eddy_project::limits;
     if width == 0 || height == 0 {

@@ -8,16 +8,16 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Frames a second of a sequence that says nothing else.
+/// The default frames per second of a sequence.
 const FRAME_RATE: f64 = 25.0;
 
-/// Returns the frames a second that the folder of a sequence says at the end of its name: `walk-12fps`, `walk_29.97fps`. Others
-/// have 25.
+/// Returns the frames per second from the end of the name of a sequence's folder: `walk-12fps`, `walk_29.97fps`. Other
+/// folders have 25.
 pub fn frame_rate_of(path: &Path) -> f64 {
     let folder = path.parent().and_then(Path::file_name).and_then(|name| name.to_str()).unwrap_or_default();
     let number = folder.strip_suffix("fps").map(|rest| {
-        let begin = rest.rfind(|c: char| !c.is_ascii_digit() && c != '.').map_or(0, |at| at + 1);
-        &rest[begin..]
+        let start = rest.rfind(|c: char| !c.is_ascii_digit() && c != '.').map_or(0, |at| at + 1);
+        &rest[start..]
     });
     let rate = number.and_then(|number| number.parse::<f64>().ok());
     rate.filter(|rate| (0.01..=1000.0).contains(rate)).unwrap_or(FRAME_RATE)
@@ -70,13 +70,13 @@ impl Film for Sequence {
     }
 
     fn start(&self, from: f64, _: &Stop) -> Result<Box<dyn Decode>, VideoError> {
-        let begin = ((from * self.info.frame_rate + 1e-6) as usize).min(self.count - 1);
+        let start = ((from * self.info.frame_rate + 1e-6) as usize).min(self.count - 1);
         let mut path = self.first.clone();
-        for _ in 0..begin {
+        for _ in 0..start {
             path = next_numbered(&path).ok_or(VideoError::NoPicture)?;
         }
         let Self { read, info, count, .. } = self;
-        Ok(Box::new(Run { path: Some(path), read: read.clone(), info: *info, next: begin, count: *count, last: None }))
+        Ok(Box::new(Run { path: Some(path), read: read.clone(), info: *info, next: start, count: *count, last: None }))
     }
 }
 
@@ -104,7 +104,7 @@ impl Run {
 impl Decode for Run {
     fn next(&mut self) -> Result<Option<(f64, Vec<u8>)>, VideoError> {
         let Some(path) = self.path.take().filter(|_| self.next < self.count) else { return Ok(None) };
-        // An image that cannot be read leaves the one before it.
+        // An image that cannot be read is replaced by the previous one.
         let texels = match (self.decode(&path), self.last.take()) {
             (Ok(texels), _) => texels,
             (Err(error), Some(last)) => {

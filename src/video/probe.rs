@@ -1,23 +1,23 @@
-//! The answer of ffprobe about a file: sizes, rotation, length, colours.
+//! The output of ffprobe about a file: size, rotation, length, colours.
 
 use super::{Tools, VideoError, VideoInfo, check_size, ffmpeg, process};
 use eddy_project::limits;
 use serde::Deserialize;
 use std::{fs::File, path::Path};
 
-/// The facts of a file that decoding it needs.
+/// The properties of a file that are needed to decode it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probed {
     pub info: VideoInfo,
     /// The time of the file's clock at position 0.
     pub start: f64,
-    /// Seconds of a tick of the clock that frames have.
+    /// Seconds per tick of the clock of its frames.
     pub tick: f64,
-    /// The matrix that makes RGB of it, for a file that does not say.
+    /// The matrix for the conversion to RGB, for a file without a tag.
     pub matrix: Option<&'static str>,
-    /// A decoder other than ffmpeg's choice.
+    /// A decoder to use instead of ffmpeg's default.
     pub decoder: Option<&'static str>,
-    /// ffmpeg is older than 5.1, which calls an option otherwise.
+    /// ffmpeg is older than 5.1, which names an option differently.
     pub is_old: bool,
 }
 
@@ -73,13 +73,13 @@ struct SideData {
     rotation: Option<f64>,
 }
 
-/// Asks ffprobe of an opened file.
+/// Runs ffprobe on an opened file.
 pub fn probe(file: &File, real: &Path, tools: &Tools) -> Result<Probed, VideoError> {
     const ENTRIES: &str = "program_version=version:format=start_time,duration:stream=codec_name,width,height,\
         sample_aspect_ratio,color_space,avg_frame_rate,r_frame_rate,time_base,duration:stream_tags=alpha_mode,rotate:\
         stream_side_data=rotation";
     let (mut command, input) = ffmpeg::command(&tools.ffprobe, file, real)?;
-    // V: no pictures that a sound file has for its cover.
+    // V: ignores the cover pictures of sound files.
     command.args([
         "-v",
         "error",
@@ -95,7 +95,7 @@ pub fn probe(file: &File, real: &Path, tools: &Tools) -> Result<Probed, VideoErr
     let (json, said) = process::output(&mut command, 1 << 20, tools)?;
     let mut probed = read(&json, &said)?;
     if probed.info.seconds <= 0.0 {
-        // Some recorders write no length: the end of the last packet is.
+        // Some recorders write no length: take the end of the last packet.
         let (mut command, input) = ffmpeg::command(&tools.ffprobe, file, real)?;
         let packets = "packet=pts_time,duration_time";
         command.args(["-v", "error", "-select_streams", "V:0", "-show_entries", packets, "-of", "csv=p=0"]);
@@ -108,13 +108,13 @@ pub fn probe(file: &File, real: &Path, tools: &Tools) -> Result<Probed, VideoErr
         return Err(VideoError::TooLong { seconds });
     }
     if seconds <= 0.0 || seconds.is_nan() {
-        // A single frame.
+        // The file contains a single frame.
         probed.info.seconds = 1.0 / probed.info.frame_rate;
     }
     Ok(probed)
 }
 
-/// Reads the answer; `said` is the last line of messages.
+/// Parses the output; `said` is the last line of messages.
 fn read(json: &[u8], said: &str) -> Result<Probed, VideoError> {
     let answer: Answer =
         serde_json::from_slice(json).map_err(|_| VideoError::Damaged(or(said, "ffprobe says nothing of it")))?;
@@ -128,15 +128,15 @@ fn read(json: &[u8], said: &str) -> Result<Probed, VideoError> {
     let by_tag: Option<f64> = by_tag;
     let rotation = stream.side_data_list.iter().find_map(|s| s.rotation).or(by_tag).unwrap_or(0.0);
     let is_on_side = (rotation / 90.0).round().rem_euclid(2.0) == 1.0;
-    // What ffmpeg turns by other angles it does not turn upright.
+    // ffmpeg does not turn a picture upright for other angles.
     let is_on_side = is_on_side && (rotation / 90.0).fract().abs() < 1e-3;
     let (width, height) = if is_on_side { (height, width) } else { (width, height) };
     check_size(width, height)?;
     let rate = [stream.avg_frame_rate, stream.r_frame_rate].into_iter().flatten().find_map(|r| ratio(&r));
     let tick = stream.time_base.as_deref().and_then(ratio).unwrap_or(1e-3);
     let seconds = answer.format.duration.or(stream.duration).and_then(|d| d.parse().ok()).unwrap_or(0.0);
-    // As Chromium guesses it (media/ffmpeg/ffmpeg_common.cc): high definition is BT.709, the rest BT.601; VP9 and AV1 are
-    // BT.709 unless they have an alpha channel. Measured for each of these.
+    // The same guess as in Chromium (media/ffmpeg/ffmpeg_common.cc): high definition is BT.709, the rest BT.601; VP9
+    // and AV1 are BT.709 unless they have an alpha channel. Measured for each of these.
     let is_told = stream.color_space.as_deref().is_some_and(|c| !matches!(c, "unknown" | "reserved" | ""));
     let has_alpha = stream.tags.alpha_mode.is_some_and(|mode| mode == "1");
     let codec = stream.codec_name.as_deref();
@@ -167,7 +167,7 @@ fn or(said: &str, other: &str) -> String {
     if said.is_empty() { other.to_owned() } else { said.to_owned() }
 }
 
-/// A size with square pixels: the side is stretched that is too short, as browsers do it.
+/// Returns a size with square pixels: the shorter side is stretched, as in browsers.
 fn square(width: u32, height: u32, aspect: Option<&str>) -> (u32, u32) {
     match aspect.map(|a| a.replace(':', "/")).as_deref().and_then(ratio) {
         Some(aspect) if aspect > 1.0 => ((f64::from(width) * aspect).round() as u32, height),
@@ -176,7 +176,7 @@ fn square(width: u32, height: u32, aspect: Option<&str>) -> (u32, u32) {
     }
 }
 
-/// A positive fraction: `30000/1001`.
+/// Parses a positive fraction: `30000/1001`.
 fn ratio(text: &str) -> Option<f64> {
     let (a, b) = text.split_once('/')?;
     let (a, b): (f64, f64) = (a.parse().ok()?, b.parse().ok()?);
@@ -187,13 +187,13 @@ fn ratio(text: &str) -> Option<f64> {
 fn end_of_packets(csv: &str) -> f64 {
     let end = |line: &str| {
         let mut numbers = line.split(',').map(|n| n.trim().parse::<f64>().ok());
-        let begin = numbers.next()??;
-        Some(begin + numbers.next().flatten().unwrap_or(0.0))
+        let start = numbers.next()??;
+        Some(start + numbers.next().flatten().unwrap_or(0.0))
     };
     csv.lines().filter_map(end).fold(0.0, f64::max)
 }
 
-/// Returns whether a version lies before 5.1. Builds between releases have no number and are new.
+/// Returns whether a version is older than 5.1. Builds between releases have no number and are new.
 pub fn is_old(version: &str) -> bool {
     let mut numbers = version.split(['.', '-']).map(|n| n.parse::<u32>().ok());
     match (numbers.next().flatten(), numbers.next().flatten()) {
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_are_those_of_the_picture_that_is_shown() {
+    fn sizes_are_those_of_the_displayed_picture() {
         let plain = stream("").unwrap();
         assert_eq!((plain.info.width, plain.info.height, plain.info.seconds, plain.start), (160, 96, 2.5, 0.021));
         assert_eq!((plain.matrix, plain.is_old, plain.decoder), (Some("bt709"), false, None));
@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_video_is_told_apart_from_what_is_damaged() {
+    fn files_without_video_and_damaged_files_have_different_errors() {
         assert_eq!(read(br#"{"streams":[],"format":{}}"#, ""), Err(VideoError::NoPicture));
         assert_eq!(read(b"{}", "Invalid data"), Err(VideoError::Damaged("Invalid data".into())));
         assert!(read(b"", "").is_err());

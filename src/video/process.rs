@@ -1,4 +1,4 @@
-//! Child processes that end with us, give up after a while, and whose every output is read.
+//! Child processes that end with Eddy, that time out, and whose output is always drained.
 
 use super::VideoError;
 use std::{
@@ -10,12 +10,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The programs that decode: names that are looked up as the system does, or paths.
+/// The programs for decoding: names that are looked up in the system's search path, or paths.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tools {
     pub ffmpeg: PathBuf,
     pub ffprobe: PathBuf,
-    /// A program that gives nothing for so long is stopped.
+    /// The time after which a program without output is stopped.
     pub patience: Duration,
 }
 
@@ -26,7 +26,7 @@ impl Default for Tools {
     }
 }
 
-/// Stops the child process that it holds: when it is told to, and when it is dropped.
+/// Stops its child process, on request and when it is dropped.
 #[derive(Clone, Debug, Default)]
 pub struct Stop(Arc<ChildProcess>);
 
@@ -41,7 +41,7 @@ impl Drop for ChildProcess {
     }
 }
 
-/// Kills a child, and does not wait for one that not even that ends.
+/// Kills a child, and does not wait for one that survives that.
 fn end(child: &mut Child) {
     let _ = child.kill();
     let give_up = Instant::now() + Duration::from_millis(500);
@@ -57,14 +57,14 @@ impl Stop {
         }
     }
 
-    /// Ends the process. Whoever reads its output comes to an end.
+    /// Ends the process. Readers of its output reach the end of the stream.
     pub fn stop(&self) {
         if let Some(child) = self.0.0.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
             end(child);
         }
     }
 
-    /// Waits for the process to end, however long it takes. `None`: there was none.
+    /// Waits for the process to end, however long it takes. `None` if there was none.
     pub fn wait(&self) -> Option<io::Result<ExitStatus>> {
         loop {
             let ended = self.0.0.lock().unwrap_or_else(PoisonError::into_inner).as_mut()?.try_wait();
@@ -77,21 +77,21 @@ impl Stop {
     }
 }
 
-/// Output of a child process, and its input where that is a pipe.
+/// The outputs of a child process, and its input if that is a pipe.
 pub(crate) struct Pipes {
     pub stdin: Option<ChildStdin>,
     pub stdout: ChildStdout,
     pub stderr: ChildStderr,
 }
 
-/// Starts a program whose outputs are read, and gives it to a stop.
+/// Starts a program with piped outputs, and hands it to `stop`.
 pub(crate) fn spawn(command: &mut Command, stop: &Stop) -> Result<Pipes, VideoError> {
     let program = command.get_program().to_string_lossy().into_owned();
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     #[cfg(windows)]
     {
         use std::os::windows::process::CommandExt;
-        // No console appears beside the window (CREATE_NO_WINDOW).
+        // Opens no console next to the window (CREATE_NO_WINDOW).
         command.creation_flags(0x0800_0000);
     }
     let mut child = command.spawn().map_err(|e| match e.kind() {
@@ -107,7 +107,7 @@ pub(crate) fn spawn(command: &mut Command, stop: &Stop) -> Result<Pipes, VideoEr
     }
 }
 
-/// Lines of a program's messages, of which an endless one is cut.
+/// Passes the lines of a program's messages to `each`. Overlong lines are cut.
 pub(crate) fn lines(stderr: ChildStderr, mut each: impl FnMut(&str)) {
     const LONGEST: u64 = 1 << 16;
     let mut reader = BufReader::new(stderr);
@@ -130,7 +130,7 @@ pub(crate) fn read_messages<T: Default + Send + 'static>(
     })
 }
 
-/// Runs a program to its end. Returns what it wrote, at most `most` bytes, and the last line of its messages.
+/// Runs a program to its end. Returns its output, at most `most` bytes, and the last line of its messages.
 pub(crate) fn output(command: &mut Command, most: u64, tools: &Tools) -> Result<(Vec<u8>, String), VideoError> {
     let program = command.get_program().to_string_lossy().into_owned();
     let stop = Stop::default();
@@ -148,7 +148,7 @@ pub(crate) fn output(command: &mut Command, most: u64, tools: &Tools) -> Result<
     let give_up = Instant::now() + tools.patience;
     while !(reader.is_finished() && messages.is_finished()) {
         if Instant::now() >= give_up {
-            // Its threads end with it, or are left where a grandchild holds the pipe.
+            // Its threads end with it, or are abandoned if a grandchild keeps the pipe open.
             stop.stop();
             return Err(VideoError::Hangs { program });
         }
@@ -178,7 +178,7 @@ pub(crate) fn messages_of(command: &mut Command, tools: &Tools) -> Result<Vec<St
 }
 
 impl Tools {
-    /// Returns whether ffmpeg is older than 5.1, which calls an option otherwise.
+    /// Returns whether ffmpeg is older than 5.1, which names an option differently.
     pub(crate) fn is_old(&self) -> bool {
         let mut command = Command::new(&self.ffmpeg);
         command.arg("-version").stdin(Stdio::null());
@@ -189,7 +189,7 @@ impl Tools {
     }
 }
 
-/// Returns a message without what names the part of the program and our own way to the file.
+/// Strips the name of the component and our own path to the file from a message.
 pub(crate) fn reason(line: &str) -> String {
     let line = line.trim();
     let line = match line.strip_prefix('[').and_then(|rest| rest.split_once("] ")) {

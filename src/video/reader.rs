@@ -1,8 +1,8 @@
-//! Frames that are decoded ahead on a thread, as many as memory allows.
+//! Frames that are decoded ahead on a thread, within a memory budget.
 //!
-//! A short video is decoded once and kept whole. Of a longer one a window is kept: the frame of the position that was asked for
-//! last, and some after it, over the end and on from the beginning. A position that lies before the window, or far behind its end,
-//! starts another run of the decoder there.
+//! A short video is decoded once and kept as a whole. Of a longer one a window is kept: the frame of the last requested
+//! position, and some after it, wrapping around at the end. A position before the window, or far after its end, starts
+//! another run of the decoder there.
 
 use super::{Decode, Film, Frame, FrameLookup, PATIENCE, Pace, VideoError, VideoInfo, process::Stop};
 use eddy_project::limits;
@@ -16,14 +16,14 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// A position that lies so many seconds behind the last frame is decoded up to; a later one is jumped to.
+/// A position up to this many seconds after the last frame is reached by decoding; a later one by a jump.
 const AHEAD: f64 = 2.0;
-/// Before this position it is decoded from the beginning.
+/// For positions before this one, decoding starts at the beginning of the file.
 const FROM_BEGINNING: f64 = 1.0;
-/// Frames of a window after the one that is shown.
+/// The number of frames in a window after the one that is shown.
 const WINDOW: usize = 12;
 
-/// Memory for frames that several videos share.
+/// A memory budget for frames that several videos share.
 #[derive(Clone, Debug)]
 pub struct Pool(Arc<MemoryBudget>);
 
@@ -40,17 +40,17 @@ impl Default for Pool {
 }
 
 impl Pool {
-    /// A pool of so many bytes.
+    /// Creates a pool of this number of bytes.
     pub fn new(most: u64) -> Self {
         Self(Arc::new(MemoryBudget { most, taken: AtomicU64::new(0) }))
     }
 
-    /// Bytes that frames take now.
+    /// Returns the number of bytes that frames use now.
     pub fn taken(&self) -> u64 {
         self.0.taken.load(Ordering::Relaxed)
     }
 
-    /// Takes bytes if there are so many, or in any case.
+    /// Takes bytes if they are available, or in any case.
     fn take(&self, bytes: u64, in_any_case: bool) -> bool {
         let room = |taken: u64| (in_any_case || taken + bytes <= self.0.most).then_some(taken + bytes);
         self.0.taken.fetch_update(Ordering::Relaxed, Ordering::Relaxed, room).is_ok()
@@ -61,7 +61,7 @@ impl Pool {
     }
 }
 
-/// A frame with its position: of a window from position 0 of the first round on, else within a round.
+/// A frame with its position: in a window from position 0 of the first round, otherwise within a round.
 struct Kept {
     seconds: f64,
     frame: Frame,
@@ -69,22 +69,22 @@ struct Kept {
 
 struct State {
     frames: VecDeque<Kept>,
-    /// The position that was asked for last.
+    /// The last requested position.
     wanted: f64,
-    /// The first position that the run of the decoder has the frame of.
+    /// The first position that the current run covers.
     began: f64,
-    /// The decoder shall begin again, at `began`.
+    /// The decoder has to restart at `began`.
     is_jump: bool,
-    /// All frames of a round are there.
+    /// All frames of a round are decoded.
     is_complete: bool,
-    /// Frames have been left out since the run began, or it did not begin at the beginning.
+    /// Frames have been dropped since the run started, or it did not start at the beginning.
     has_gaps: bool,
-    /// There is no room for more than the frame that is shown and the next.
+    /// There is only room for the frame that is shown and the next.
     is_tight: bool,
-    /// Since when the decoder is waited for.
+    /// The time since which the decoder has been working on a frame.
     since: Option<Instant>,
     error: Option<VideoError>,
-    /// The newest frame that was handed out.
+    /// The frame that was returned last.
     shown: Option<Frame>,
     is_closed: bool,
 }
@@ -92,17 +92,17 @@ struct State {
 struct Shared {
     film: Arc<dyn Film>,
     pool: Pool,
-    /// All of it is likely to fit.
+    /// The whole video is likely to fit.
     is_short: bool,
     state: Mutex<State>,
-    /// Frames have come, or there will be none.
+    /// Signals that frames have arrived, or that there will be none.
     came: Condvar,
-    /// Another position is wanted.
+    /// Signals that another position is requested.
     moved: Condvar,
     stop: Stop,
 }
 
-/// Reads one video; see the module's page.
+/// Reads one video; see the module documentation.
 pub struct Reader {
     shared: Arc<Shared>,
     patience: Duration,
@@ -110,7 +110,7 @@ pub struct Reader {
 }
 
 impl Reader {
-    /// Starts to decode from the beginning.
+    /// Starts decoding from the beginning.
     pub fn new(film: Arc<dyn Film>, pool: Pool, patience: Duration) -> Self {
         let info = *film.info();
         let all = info.seconds * info.frame_rate * info.frame_bytes() as f64;
@@ -138,7 +138,7 @@ impl Reader {
             stop: Stop::default(),
         });
         let worker = shared.clone();
-        // It is left behind where a decoder cannot be ended.
+        // The thread is abandoned if a decoder cannot be stopped.
         let started = thread::Builder::new().name("video".into()).spawn(move || worker.work());
         if let Err(e) = started {
             shared.lock().error = Some(VideoError::Start { program: "a thread".into(), reason: e.to_string() });
@@ -176,14 +176,15 @@ impl Reader {
             if state.error.is_none() && state.since.is_some_and(|since| now >= since + self.patience) {
                 log::warn!("a video decoder gave nothing for {} s and was stopped", self.patience.as_secs());
                 state.error = Some(VideoError::Hangs { program: "ffmpeg".into() });
-                // Its thread may hold nothing while it is ended.
+                // The lock must not be held while the decoder is stopped.
                 drop(state);
                 shared.stop.stop();
                 state = shared.lock();
             }
             let is_late = state.error.is_none();
             if !is_late || give_up.is_some_and(|give_up| now >= give_up) {
-                // The newest that there is: of a run that has caught up nearly, else what was shown last.
+                // The newest available frame: of a run that has almost caught up, otherwise the one that was shown
+                // last.
                 let newest = state.frames.iter().rev().find(|kept| kept.seconds <= wanted || state.is_complete);
                 let frame = newest.map(|kept| kept.frame.clone()).or_else(|| state.shown.clone());
                 state.shown = frame.clone();
@@ -209,7 +210,7 @@ impl Drop for Reader {
 }
 
 impl State {
-    /// Notes what is wanted, and jumps there if the present run does not come to it soon.
+    /// Records the requested position, and jumps there if the current run does not reach it soon.
     fn ask(&mut self, wanted: f64) {
         self.wanted = wanted;
         if self.is_complete || self.error.is_some() {
@@ -221,7 +222,7 @@ impl State {
         }
     }
 
-    /// Returns the frame of a position, if it is known which one that is.
+    /// Returns the frame of a position, if it is already known which frame that is.
     fn find(&self, wanted: f64, info: &VideoInfo) -> Option<Frame> {
         if self.is_jump {
             return None;
@@ -231,12 +232,12 @@ impl State {
             let within = wanted.rem_euclid(info.seconds);
             return self.frames.get(at(within).max(1) - 1).map(|kept| kept.frame.clone());
         }
-        // It is the last one only if the next is there.
+        // A frame is known to be the last one at a position only once the next is decoded.
         let next = at(wanted);
         (next > 0 && next < self.frames.len()).then(|| self.frames[next - 1].frame.clone())
     }
 
-    /// Returns whether the decoder shall go on.
+    /// Returns whether the decoder should continue.
     fn wants_more(&self, is_short: bool) -> bool {
         let after = self.frames.iter().rev().take_while(|kept| kept.seconds > self.wanted).count();
         let most = if self.is_tight { 1 } else { WINDOW };
@@ -249,11 +250,11 @@ impl Shared {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Decodes what is wanted until the reader is dropped.
+    /// Decodes frames on request until the reader is dropped.
     fn work(&self) {
         let length = self.film.info().seconds;
         let mut decoder: Option<Box<dyn Decode>> = None;
-        // The round that is decoded, and the frames of it so far.
+        // The current round, and the number of its frames so far.
         let (mut round, mut count) = (0.0, 0_u64);
         let mut from = 0.0;
         loop {
@@ -280,7 +281,7 @@ impl Shared {
             drop(state);
             let next = match &mut decoder {
                 Some(decoder) => decoder.next(),
-                none => self.film.start(from, &self.stop).and_then(|begun| none.insert(begun).next()),
+                none => self.film.start(from, &self.stop).and_then(|started| none.insert(started).next()),
             };
             let mut state = self.lock();
             state.since = None;
@@ -293,8 +294,8 @@ impl Shared {
             }
             match next {
                 Ok(Some((seconds, texels))) => {
-                    // A run begins at or before its position, or with the first frame of all, which is shown from the
-                    // beginning on, as a browser does it.
+                    // A run starts at or before its position, or with the first frame of all, which is shown from
+                    // position 0, as in browsers.
                     let seconds = if count == 0 { seconds.min(from) } else { seconds };
                     let seconds = round * length + seconds.max(0.0);
                     count += 1;
@@ -302,7 +303,7 @@ impl Shared {
                 }
                 Ok(None) if count == 0 => {
                     let text = "it has no frames from here on".to_owned();
-                    // Behind the last frame of a file whose length says more.
+                    // The position is after the last frame of a file whose declared length is longer.
                     if from > 0.0 {
                         (from, decoder) = (0.0, None);
                         state.has_gaps = true;
@@ -315,7 +316,7 @@ impl Shared {
                     state.is_complete = is_whole;
                     (decoder, from, count, round) = (None, 0.0, 0, round + 1.0);
                 }
-                // What was decoded before stays.
+                // The frames that were decoded before stay.
                 Err(error) => {
                     log::info!("a video is not decoded further: {error}");
                     state.error = Some(error);
@@ -326,9 +327,9 @@ impl Shared {
         }
     }
 
-    /// Keeps a frame, and drops those before the one that is shown where there is no room.
+    /// Stores a frame, and drops those before the one that is shown if there is no room.
     fn keep(&self, state: &mut State, seconds: f64, end: f64, texels: Vec<u8>) {
-        // No position leads to it.
+        // No position shows it.
         if seconds >= end {
             return;
         }

@@ -1,14 +1,15 @@
-//! The sound of a file, decoded by ffmpeg: of videos, and of kinds such as Opus that are not decoded here.
+//! The sound of a file, decoded by ffmpeg: of videos, and of formats such as Opus that are not decoded here.
 
 use super::{Tools, VideoError, ffmpeg, process};
 use eddy_project::limits;
 use std::{fs::File, path::Path, time::Duration};
 
-/// Containers of sound alone, beside those of videos.
+/// Sound-only containers, in addition to those of videos.
 const FORMATS: &str = "wav,w64,aiff,au,caf,mp3,aac,flac,ac3,eac3,dts,amr,wv,ape,tta,voc";
 
-/// Decodes at most so many seconds of the first sound of an opened file, and one more where the file goes on. Frames are left
-/// and right, at `rate` frames a second; other layouts of channels are mixed down, and other rates resampled, by ffmpeg.
+/// Decodes at most this many seconds of the first sound of an opened file, and one second more if the file continues.
+/// Frames are left and right, at `rate` frames per second; ffmpeg mixes down other channel layouts and resamples other
+/// rates.
 pub fn sound_of(
     file: &File,
     real: &Path,

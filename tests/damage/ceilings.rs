@@ -1,5 +1,5 @@
-//! Files made to take much: the memory that reading each of them takes at once stays below the row of its reader in the table
-//! "Memory and time of each reader" of SECURITY.md.
+//! Malicious files: the peak memory of reading each of them stays below the row of its reader in the table "Memory and
+//! time of each reader" of SECURITY.md.
 
 use super::{MEMORY, mutate::Random};
 use eddy::{
@@ -22,21 +22,21 @@ use std::{
 };
 
 pub const MIB: usize = 1 << 20;
-/// Inputs of each kind.
+/// The number of inputs of each kind.
 const INPUTS: u64 = 300;
 
-/// What the inputs of one kind came to.
+/// The results for the inputs of one kind.
 pub struct Row {
     name: &'static str,
     inputs: u64,
     read: u64,
     peak: usize,
     longest: Duration,
-    /// The most bytes for a byte of a file of 64 KiB or more.
+    /// The maximum number of bytes per byte of a file of 64 KiB or more.
     ratio: usize,
 }
 
-/// Reads `INPUTS` files that `make` makes, and fails where one takes more than `most` bytes at once for its length.
+/// Reads `INPUTS` files made by `make`, and fails if one uses more than `most` bytes at once for its length.
 pub fn measure(
     name: &'static str,
     file: &str,
@@ -65,7 +65,8 @@ pub fn measure(
     row
 }
 
-/// Compares every reader with its row. Part of the one test of this program, as the memory is that of the process.
+/// Compares every reader with its row. Part of the only test of this program, as memory is measured for the whole
+/// process.
 pub fn check() {
     let mut rows = vec![pictures(), scenes(), checkpoints(), models()];
     rows.extend(super::readers::rows());
@@ -74,12 +75,12 @@ pub fn check() {
     for row in &rows {
         let (peak, millis) = (row.peak >> 10, row.longest.as_millis());
         println!("{:8} {:7} {peak:5} KiB {millis:5} ms {:6}  {}", row.inputs, row.read, row.ratio, row.name);
-        // A generator of which nothing is read tests the first lines of a reader only.
+        // If nothing of a generator's files is read, it tests only the first lines of a reader.
         assert!(row.read * 20 > row.inputs && row.read < row.inputs, "{}: {} read", row.name, row.read);
     }
 }
 
-/// PNG files of 1 to 4 channels, whose texels are there or not: a decoded picture is in memory once.
+/// PNG files of 1 to 4 channels, whose texels may be missing: a decoded picture is in memory once.
 fn pictures() -> Row {
     let make = |random: &mut Random| {
         let side = 256 + random.below(768) as u32;
@@ -96,7 +97,7 @@ fn pictures() -> Row {
         let mut png = Cursor::new(Vec::new());
         image.write_to(&mut png, ImageFormat::Png).unwrap();
         let mut png = png.into_inner();
-        // Some say that they are larger than they are, up to what no machine has.
+        // Some claim to be larger than they are, beyond the memory of any machine.
         if random.below(3) == 0 {
             let width = [1025u32, 32_768, 40_000, u32::MAX >> 1][random.below(4)];
             png[16..20].copy_from_slice(&width.to_be_bytes());
@@ -108,13 +109,13 @@ fn pictures() -> Row {
         let key = MediaKey { media: Media::Picked(path.into()), dimension: Dimension::D2, vflip: true };
         media::load(&key, None, None).is_ok()
     };
-    // The texels once, as the header says how many, where that is within the limits; else nothing is decoded.
+    // One copy of the texels, of the size in the header, if it is within the limits; otherwise nothing is decoded.
     let most = |png: &[u8]| {
         let side = |at: usize| u64::from(u32::from_be_bytes([png[at], png[at + 1], png[at + 2], png[at + 3]]));
         let (width, height) = (side(16), side(20));
         let is_decoded = width <= u64::from(limits::PICTURE_SIDE);
         // The decoder has a few rows of its own.
-        // Depth and kind of colour (PNG, third edition, section 11.2.1): channels of 16 bits are decoded as such.
+        // Depth and colour type (PNG, third edition, section 11.2.1): channels of 16 bits are decoded as such.
         let channels = match png[25] {
             0 => 1,
             4 => 2,
@@ -128,7 +129,7 @@ fn pictures() -> Row {
     measure("PNG", "a.png", make, read, most)
 }
 
-/// Image files whose project has many values, a large manifest, or a frame far on.
+/// Image files whose project has many values, a large manifest, or a late frame.
 fn scenes() -> Row {
     let project = r#"{\"eddy_snapshot\":1,\"name\":\"p\",\"origin\":\"unsaved\",\"manifest\":\"eddy = 1\\n[passes.image]\\n\",\"texts\":[{\"pass\":\"image\",\"stage\":null,\"name\":\"image.glsl\",\"path\":null,\"text\":\"x\"}],\"picked\":[]}"#;
     let make = move |random: &mut Random| {
@@ -156,7 +157,7 @@ fn scenes() -> Row {
     measure("project in an image", "a.png", make, read, |file| 48 * MIB + 2 * file.len())
 }
 
-/// Checkpoints that list targets which the program does not have, or has smaller.
+/// Checkpoints that list targets that are missing or smaller in the program.
 fn checkpoints() -> Row {
     let moment = || Moment {
         eddy: "1".into(),
@@ -189,11 +190,11 @@ fn checkpoints() -> Row {
         file
     };
     let read = move |path: &Path| checkpoint::read(path, &moment(), std::slice::from_ref(&form)).is_ok();
-    // Two textures of the program, a first line of at most 1 MiB, and what unpacking takes.
+    // Two textures of the program, a first line of at most 1 MiB, and the memory for decompression.
     measure("checkpoint", "a.eddystate", make, read, move |_| 2 * shape.bytes() as usize + 4 * MIB)
 }
 
-/// glTF files whose accessors count more elements than the file has.
+/// glTF files whose accessors count more elements than the file contains.
 fn models() -> Row {
     let make = |random: &mut Random| {
         let count = 1u64 << random.below(40);

@@ -1,10 +1,10 @@
-//! Damaged files: projects, pictures, sounds, videos and models with bits turned, parts cut out, doubled and mixed,
-//! numbers and lengths changed. Each is opened, checked, and its media read, and some are drawn, as `eddy check` and
-//! `eddy render` do: none may panic, nor take more than 2 s or 1 GiB.
+//! Damaged files: projects, pictures, sounds, videos and models with flipped bits, removed, duplicated and mixed parts,
+//! changed numbers and lengths. Each is opened and checked, its media are read, and some are drawn, as by `eddy check`
+//! and `eddy render`: none may panic, nor take more than 2 s or 1 GiB.
 //!
-//! Every run has the same cases. `EDDY_DAMAGE_CASES=50000` makes it a long one, `EDDY_DAMAGE_FIRST=1234` begins at a
-//! case, `EDDY_DAMAGE_DRAW_EVERY=1` draws all of them and not one of 40; what fails is kept in a folder that the message
-//! names.
+//! Every run has the same cases. `EDDY_DAMAGE_CASES=50000` makes it a long one, `EDDY_DAMAGE_FIRST=1234` starts at a
+//! case, `EDDY_DAMAGE_DRAW_EVERY=1` draws all of them instead of one in 40; failing cases are saved in a folder that
+//! the message names.
 
 mod ceilings;
 mod media_seeds;
@@ -42,19 +42,19 @@ static MEMORY: memory::Counting = memory::Counting::new();
 
 static PANICS: AtomicUsize = AtomicUsize::new(0);
 
-/// On the processor, on the thread that opens; what is decoded on other threads and by ffmpeg is waited for.
+/// CPU time of the opening thread; work on other threads and by ffmpeg is waited for.
 const MOST_TIME: Duration = Duration::from_secs(2);
-/// By the wall's clock, with room for a machine that does much else.
+/// Wall-clock time, with a margin for a busy machine.
 const MOST_WAITING: Duration = Duration::from_secs(15);
 const MOST_BYTES: usize = 1 << 30;
-/// One of so many cases is drawn: a device takes a hundred times as long as the rest.
+/// One in this number of cases is drawn: a device takes a hundred times as long as the rest.
 const DRAW_EVERY: u64 = 40;
 
-/// What the cases of one kind of file came to.
+/// The results for the cases of one kind of file.
 #[derive(Default)]
 struct Tally {
     cases: u64,
-    /// Projects that were opened, and those of them whose pictures and models were all whole.
+    /// The number of projects that were opened, and of those whose pictures and models were all intact.
     opened: u64,
     whole: u64,
     drawn: u64,
@@ -83,7 +83,7 @@ fn damaged_files_neither_panic_nor_take_long_nor_take_much() {
     let mut tallies: BTreeMap<&str, Tally> = BTreeMap::new();
     let mut wrong = Vec::new();
     let loud = std::panic::take_hook();
-    // Decoders work on threads of their own, whose panics reach nobody here.
+    // Decoders work on threads of their own, whose panics are not propagated.
     std::panic::set_hook(Box::new(|_| {
         PANICS.fetch_add(1, Ordering::Relaxed);
     }));
@@ -130,13 +130,13 @@ fn damaged_files_neither_panic_nor_take_long_nor_take_much() {
         println!("{cases:7} {opened:7} {whole:7} {drawn:7} {millis:5} ms {waited:5} ms {mebibytes:4} MiB  {name}");
     }
     assert!(wrong.is_empty(), "{} of {cases}:\n{}", wrong.len(), wrong.join("\n"));
-    // A generator that leaves nothing standing tests the first lines of the readers only.
+    // A generator that destroys everything tests only the first lines of the readers.
     let opened: u64 = tallies.values().map(|t| t.opened).sum();
     let whole: u64 = tallies.values().map(|t| t.whole).sum();
     assert!(opened * 3 > cases && whole * 20 > cases && whole < opened, "{opened} opened and {whole} whole of {cases}");
 }
 
-/// The seed's files with one of them damaged.
+/// Returns the seed's files with one of them damaged.
 fn damaged(seed: &Seed, seeds: &[Seed], case: u64) -> Vec<File> {
     let mut random = Random::new(case);
     let mut files = seed.files.clone();
@@ -149,7 +149,7 @@ fn damaged(seed: &Seed, seeds: &[Seed], case: u64) -> Vec<File> {
     for _ in 0..1 + random.below(3) {
         mutate::mutate(bytes, other, &mut random);
     }
-    // Checksums are made right, else nothing of a PNG but its checksums would ever be reached.
+    // Checksums are corrected, otherwise nothing of a PNG beyond its checksums would be reached.
     if random.below(4) > 0 {
         mutate::mend_png(bytes);
     }
@@ -162,7 +162,7 @@ fn write(home: &Path, file: &File) {
     fs::write(path, &file.bytes).unwrap();
 }
 
-/// What `eddy check` does, then what `eddy render` does: without a device, as far as that goes.
+/// Does the same as `eddy check`, then as `eddy render`: without a device as far as possible.
 fn open(path: &Path, gpu: Option<&Gpu>, tally: &mut Tally) {
     let Ok(loaded) = project::load(path.to_str().unwrap()) else { return };
     let project = &loaded.project;
@@ -178,7 +178,7 @@ fn open(path: &Path, gpu: Option<&Gpu>, tally: &mut Tally) {
     let (media, warnings) = media::gather(project, None);
     tally.opened += 1;
     tally.whole += u64::from(errors.is_empty() && warnings.is_empty());
-    // Frames behind the first, which a video has decoded when it is loaded.
+    // Frames after the first, which a video decodes when it is loaded.
     let channels = project.passes.iter().flat_map(|pass| &pass.channels).flatten();
     for video in channels.filter_map(|channel| media.video(channel.input.media()?)) {
         let _ = video.frame_at(0.2, Pace::Exact);

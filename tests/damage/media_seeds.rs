@@ -1,5 +1,5 @@
-//! Sounds, videos, cubemaps and volumes to be damaged. What Eddy does not write itself is made by ffmpeg, where that is
-//! installed.
+//! Sounds, videos, cubemaps and volumes to be damaged. Formats that Eddy does not write itself are made by ffmpeg, if
+//! it is installed.
 
 use super::seeds::{File, IMAGE, Seed, fixed, target};
 use exr::prelude::{SpecificChannels, Vec2, WritableImage};
@@ -54,7 +54,7 @@ fn seed(name: &'static str, file: &'static str, kind: &str, bytes: Vec<u8>) -> S
     Seed { name, files, entry: "" }
 }
 
-/// Has ffmpeg make a file; `None` where it is not there or lacks the codec.
+/// Makes a file by ffmpeg; `None` if it is not installed or lacks the codec.
 fn ffmpeg(source: &[&str], codec: &[&str], file: &str) -> Option<Vec<u8>> {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join(file);
@@ -95,12 +95,12 @@ fn textures() -> Vec<Seed> {
         seed("ktx2", "pic.ktx2", "", ktx2(37, [4, 6, 0], 1, &texels(4 * 6 * 4))),
         seed("ktx2 cubemap", "sky.ktx2", "cubemap", ktx2(37, [2, 2, 0], 6, &texels(2 * 2 * 6 * 4))),
         seed("dds", "pic.dds", "", dds(28, [8, 8], &texels(8 * 8 * 4))),
-        // BC1: 8 bytes for each 4x4 texels.
+        // BC1: 8 bytes per 4x4 texels.
         seed("dds of blocks", "pic.dds", "", dds(71, [8, 8], &texels(4 * 8))),
     ]
 }
 
-/// A KTX2 file of one level, not compressed. `format`: VkFormat. KTX 2.0 specification, section 3.
+/// Returns a KTX2 file of one level, not compressed. `format` is a VkFormat. KTX 2.0 specification, section 3.
 fn ktx2(format: u32, [width, height, depth]: [u32; 3], faces: u32, level: &[u8]) -> Vec<u8> {
     const DESCRIPTOR: u64 = 104;
     let mut file = b"\xabKTX 20\xbb\r\n\x1a\n".to_vec();
@@ -116,7 +116,7 @@ fn ktx2(format: u32, [width, height, depth]: [u32; 3], faces: u32, level: &[u8])
     file
 }
 
-/// A DDS file with the header for DXGI formats, of one level.
+/// Returns a DDS file with the header for DXGI formats, of one level.
 fn dds(format: u32, [width, height]: [u32; 2], texels: &[u8]) -> Vec<u8> {
     let mut words = vec![u32::from_le_bytes(*b"DDS "), 124, 0x1007, height, width, 0, 0, 1];
     words.extend([0; 11]);

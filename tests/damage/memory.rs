@@ -1,4 +1,4 @@
-//! An allocator that counts what is taken and not given back.
+//! An allocator that counts the allocated bytes.
 
 use std::{
     alloc::{GlobalAlloc, Layout, System},
@@ -15,14 +15,14 @@ impl Counting {
         Counting { live: AtomicUsize::new(0), peak: AtomicUsize::new(0) }
     }
 
-    /// Begins to measure; what is taken now.
+    /// Starts to measure; returns the number of bytes that are allocated now.
     pub fn start(&self) -> usize {
         let live = self.live.load(Relaxed);
         self.peak.store(live, Relaxed);
         live
     }
 
-    /// The most that was taken at once since.
+    /// Returns the peak of allocated bytes since then.
     pub fn peak(&self) -> usize {
         self.peak.load(Relaxed)
     }
@@ -33,7 +33,7 @@ impl Counting {
     }
 }
 
-// Every call is handed to the system's allocator as it is; only numbers are kept besides.
+// Every call is forwarded unchanged to the system's allocator; only the counters are updated.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         self.took(layout.size());
@@ -55,7 +55,7 @@ unsafe impl GlobalAlloc for Counting {
             // Shrunk in place.
             self.live.fetch_sub(layout.size() - size, Relaxed);
         } else {
-            // Both may be there for a while.
+            // Both blocks may exist for a while.
             self.took(size);
             self.live.fetch_sub(layout.size(), Relaxed);
         }

@@ -1,6 +1,6 @@
-//! Ways to damage a file.
+//! Mutations that damage a file.
 
-/// Numbers from a seed, the same everywhere (xorshift64*).
+/// Reproducible numbers from a seed (xorshift64*).
 pub struct Random(u64);
 
 impl Random {
@@ -15,12 +15,12 @@ impl Random {
         self.0.wrapping_mul(0x2545_f491_4f6c_dd1d)
     }
 
-    /// From 0 to `end` exclusive; 0 for an `end` of 0.
+    /// Returns a number from 0 to `end` exclusive; 0 for an `end` of 0.
     pub fn below(&mut self, end: usize) -> usize {
         (self.next() >> 33) as usize % end.max(1)
     }
 
-    /// A piece of `length` bytes, most often a short one.
+    /// Returns a part of `length` bytes, usually a short one.
     fn range(&mut self, length: usize) -> std::ops::Range<usize> {
         let from = self.below(length + 1);
         let most = if self.below(3) == 0 { length - from } else { (length - from).min(64) };
@@ -78,7 +78,7 @@ pub fn mutate(bytes: &mut Vec<u8>, other: &[u8], random: &mut Random) {
         }
         4 | 5 => number(bytes, random),
         6 => {
-            // Whether bytes that are a length or a count: mostly where the headers are.
+            // Bytes that may be a length or a count: mostly in the headers.
             let value = LENGTHS[random.below(LENGTHS.len())];
             let at = if random.below(2) == 0 { random.below(length.min(64)) } else { random.below(length) };
             let width = [1, 2, 4][random.below(3)];
@@ -98,7 +98,7 @@ pub fn mutate(bytes: &mut Vec<u8>, other: &[u8], random: &mut Random) {
     }
 }
 
-/// Another number in a text, or a digit where there is none.
+/// Replaces a number in a text, or inserts a digit if there is none.
 fn number(bytes: &mut Vec<u8>, random: &mut Random) {
     let is_start = |n: &usize| bytes[*n].is_ascii_digit() && (*n == 0 || !bytes[*n - 1].is_ascii_digit());
     let starts: Vec<usize> = (0..bytes.len()).filter(is_start).collect();
@@ -107,7 +107,7 @@ fn number(bytes: &mut Vec<u8>, random: &mut Random) {
     bytes.splice(from..to, NUMBERS[random.below(NUMBERS.len())].bytes());
 }
 
-/// Makes the checksums of a PNG's chunks right, as far as there are chunks.
+/// Corrects the checksums of a PNG's chunks, as far as there are chunks.
 pub fn mend_png(bytes: &mut [u8]) {
     if !bytes.starts_with(b"\x89PNG") {
         return;

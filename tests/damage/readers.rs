@@ -1,4 +1,4 @@
-//! Texts, sounds, pictures and packets made to take much, for the rows of the table in SECURITY.md whose bound is a multiple of
+//! Malicious texts, sounds, pictures and packets, for the rows of the table in SECURITY.md whose bound is a multiple of
 //! the file.
 
 use super::{
@@ -33,7 +33,7 @@ pub fn rows() -> Vec<Row> {
     ]
 }
 
-/// Returns one of these, so that a generator makes each kind about as often.
+/// Returns one of the texts, so that a generator makes each kind about equally often.
 fn one<'t>(random: &mut Random, all: &[&'t str]) -> &'t str {
     all[random.below(all.len())]
 }
@@ -43,7 +43,7 @@ fn read_picture(path: &Path) -> bool {
     media::load(&key, None, None).is_ok()
 }
 
-/// Images of all other formats, with numbers of their headers changed.
+/// Images of all other formats, with changed numbers in their headers.
 fn images() -> Row {
     let make = |random: &mut Random| {
         let side = 16 + random.below(300) as u32;
@@ -60,7 +60,7 @@ fn images() -> Row {
         }
         bytes
     };
-    // As many bytes as the decoder's texels and Eddy's take together, for the size that the file says.
+    // The bytes of the decoder's and of Eddy's texels together, for the size in the file.
     let most = |bytes: &[u8]| {
         let size =
             ImageReader::new(Cursor::new(bytes)).with_guessed_format().ok().and_then(|r| r.into_dimensions().ok());
@@ -70,7 +70,7 @@ fn images() -> Row {
     measure("JPEG, GIF, WebP, BMP, HDR", "a.png", make, read_picture, most)
 }
 
-/// DDS files that say that they are larger than they are.
+/// DDS files that claim to be larger than they are.
 fn textures() -> Row {
     let make = |random: &mut Random| {
         let side = [4u32, 64, 65, 512][random.below(4)];
@@ -91,7 +91,7 @@ fn textures() -> Row {
         file.extend(vec![7; (side * side * bits / 8) as usize]);
         file
     };
-    // What the file has, as it stores it and as it is kept: at most 4 bytes for each of its own, turned once.
+    // The texels as stored and as decoded: at most 4 bytes for each byte of the file, flipped once.
     measure("DDS", "a.dds", make, read_picture, |file| 12 * file.len() + MIB)
 }
 
@@ -111,7 +111,7 @@ fn arrays() -> Row {
     measure("NPY", "a.npy", make, read_picture, |file| 20 * file.len() + MIB)
 }
 
-/// WAV files of few samples a second, and with sizes that are wrong.
+/// WAV files with few samples per second, and with wrong sizes.
 fn sounds() -> Row {
     let make = |random: &mut Random| {
         let rate = [1_000u32, 8_000, 44_100, 768_000, 1, u32::MAX][random.below(6)];
@@ -132,7 +132,8 @@ fn sounds() -> Row {
         let (name, base) = (path.file_name().unwrap(), path.parent());
         media::begin_of_sound(&Media::File(name.into()), base, 1_200).is_ok()
     };
-    // 44.1 frames of 8 bytes for a byte at 1,000 samples a second, while they are resampled twice; at most for 20 minutes.
+    // 44.1 frames of 8 bytes per byte at 1,000 samples per second, and two copies while they are resampled; at most for
+    // 20 minutes.
     measure("WAV", "a.wav", make, read, |file| 3 * 8 * 45 * file.len() + 16 * MIB)
 }
 
@@ -154,11 +155,11 @@ fn objects() -> Row {
         let name = path.file_name().unwrap();
         mesh::load(&MeshSource::File(name.into()), None, path.parent()).is_ok()
     };
-    // `f 1 2 3` has 8 bytes, and makes three vertices of 64 bytes with what finds them again.
+    // `f 1 2 3` has 8 bytes, and makes three vertices of 64 bytes and the entries of a lookup table.
     measure("OBJ", "a.obj", make, read, |file| 160 * file.len() + MIB)
 }
 
-/// Repeats a text about so often that a file has up to a few 100 kB.
+/// Repeats a text so often that a file has up to a few 100 kB.
 fn repeated(random: &mut Random, text: &str) -> String {
     text.repeat(1 + (1 << random.below(18)) / text.len())
 }
@@ -246,11 +247,11 @@ fn isf() -> Row {
         format!("/*{{\"ISFVSN\":\"2\",{header}}}*/\nvoid main() {{ gl_FragColor = vec4(1.0); }}\n").into_bytes()
     };
     let read = |path: &Path| project::load(path.to_str().unwrap()).is_ok();
-    // Each pass of the file has a text of 2 kB around it.
+    // Each pass of the file is wrapped in a text of 2 kB.
     measure("ISF", "a.fs", make, read, |file| 200 * file.len() + 4 * MIB)
 }
 
-/// The front end, which reads a pass and says what is wrong with it.
+/// The front end, which parses a pass and reports its errors.
 fn shaders() -> Row {
     let make = |random: &mut Random| {
         let main = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n";
@@ -273,7 +274,7 @@ fn shaders() -> Row {
         let source = PassSource::new(PassKind::Image, Text { id: SourceId(0), text: &text });
         !diagnose(&source).iter().any(eddy_diag::Diagnostic::is_error)
     };
-    // A token, its place, its expression and its type; a macro may make 2^20 tokens of a few bytes.
+    // A token, its place, its expression and its type; a macro may expand to 2^20 tokens of a few bytes.
     measure("GLSL", "a.glsl", make, read, |file| 64 * file.len() + 128 * MIB)
 }
 

@@ -1,4 +1,4 @@
-//! Whole projects, small and made in code, to be damaged.
+//! Small intact projects, made in code, to be damaged.
 
 use image::{DynamicImage, ImageFormat, Rgb, Rgb32FImage, Rgba, RgbaImage};
 use std::io::Cursor;
@@ -7,14 +7,14 @@ use std::io::Cursor;
 pub struct File {
     pub name: &'static str,
     pub bytes: Vec<u8>,
-    /// May be damaged.
+    /// The file may be damaged.
     pub is_target: bool,
 }
 
 pub struct Seed {
     pub name: &'static str,
     pub files: Vec<File>,
-    /// What is opened, from the folder of the files.
+    /// The file to open, relative to the folder of the files.
     pub entry: &'static str,
 }
 

@@ -1,5 +1,5 @@
-//! Packed textures, what MIDI devices send, and messages to the language server, made to take much, for the rows of the table in
-//! SECURITY.md whose bound is a multiple of what comes.
+//! Malicious compressed textures, MIDI streams, and messages to the language server, for the rows of the table in
+//! SECURITY.md whose bound is a multiple of the input.
 
 use super::{
     ceilings::{MIB, Row, measure},
@@ -38,7 +38,7 @@ fn repeated_byte(size: usize) -> Vec<u8> {
     frame
 }
 
-/// KTX2 files whose level is packed or not, and that say other sizes than they have.
+/// KTX2 files whose level may be compressed, and with sizes that differ from the actual ones.
 fn khronos_textures() -> Row {
     const SIDES: [u32; 4] = [4, 64, 65, 512];
     let make = |random: &mut Random| {
@@ -70,7 +70,7 @@ fn khronos_textures() -> Row {
             .iter()
             .any(|d| media::load(&MediaKey { media: media.clone(), dimension: *d, vflip: true }, None, None).is_ok())
     };
-    // The texels of all faces and layers that the file says, as long as they are within the limit.
+    // The texels of all faces and layers declared in the file, as long as they are within the limit.
     let most = |file: &[u8]| {
         let field = |at: usize| u64::from(u32::from_le_bytes(file[at..at + 4].try_into().unwrap()));
         let count = field(32).max(1).saturating_mul(field(36));
@@ -81,7 +81,7 @@ fn khronos_textures() -> Row {
     measure("KTX2", "a.ktx2", make, read, most)
 }
 
-/// What devices send: controllers with running status, messages in one another, and bytes by chance.
+/// MIDI streams: controllers with running status, interleaved messages, and random bytes.
 fn midi() -> Row {
     let make = |random: &mut Random| match random.below(5) {
         0 => [&[0xb0u8][..], &[7, 64].repeat(1 << random.below(15))].concat(),
@@ -98,11 +98,11 @@ fn midi() -> Row {
         decoder.feed(&bytes[..bytes.len() / 2], now + Duration::from_millis(1), &mut events);
         !events.is_empty()
     };
-    // Two bytes are an event, and a list that grows is there twice for a moment.
+    // Two bytes are an event, and a growing list exists twice for a moment.
     measure("MIDI", "a.midi", make, read, |bytes| 160 * bytes.len() + MIB)
 }
 
-/// A session with an editor that opens a text and sends a message more.
+/// A session with an editor that opens a text and sends another message.
 fn language_server() -> Row {
     let framed = |text: &str| format!("Content-Length: {}\r\n\r\n{text}", text.len());
     let make = move |random: &mut Random| {
@@ -131,6 +131,6 @@ fn language_server() -> Row {
         (start + &more + &end).into_bytes()
     };
     let read = |path: &Path| matches!(lsp::serve(Cursor::new(fs::read(path).unwrap()), std::io::sink()), Ok(0));
-    // A number of two bytes becomes a value of 32, in a list that grows; a text is read by the front end.
+    // A number of two bytes becomes a value of 32, in a growing list; a text is read by the front end.
     measure("messages to eddy lsp", "a.lsp", make, read, |stream| 100 * stream.len() + 16 * MIB)
 }

@@ -1,4 +1,4 @@
-//! Sound files of all common kinds, decoded as a whole.
+//! Sound files of all common formats, decoded as a whole.
 
 mod pcm;
 mod wave;
@@ -25,15 +25,15 @@ use symphonia::core::{
 };
 use wave::{Format, Wave};
 
-/// Bounds of one file, held before memory is taken.
+/// The limits for one file, checked before memory is allocated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Length that is decoded; the rest of a longer file is left out.
+    /// The length that is decoded; the rest of a longer file is dropped.
     pub seconds: u32,
     pub channels: usize,
-    /// Lowest and highest number of samples a second.
+    /// The lowest and highest number of samples per second.
     pub rate: (u32, u32),
-    /// Time for which a file is decoded.
+    /// The time after which decoding is given up.
     pub patience: Duration,
 }
 
@@ -43,12 +43,12 @@ impl Default for Limits {
     }
 }
 
-/// Reason why a file gives no sound.
+/// The reason why a file cannot be decoded.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AudioError {
     #[error("no sound file that Eddy reads ({0})")]
     Unknown(String),
-    /// A file that is in order, of a kind that is not read here. ffmpeg may read it.
+    /// A valid file of a format that is not read here. ffmpeg may read it.
     #[error("{0} are not supported")]
     Unsupported(String),
     #[error("no sound in the file")]
@@ -66,7 +66,7 @@ pub enum AudioError {
 }
 
 impl AudioError {
-    /// Returns what to do about it.
+    /// Returns a hint for fixing it.
     pub fn hint(&self) -> &'static str {
         match self {
             AudioError::Unknown(_) | AudioError::Unsupported(_) => {
@@ -82,8 +82,8 @@ impl AudioError {
     }
 }
 
-/// Decodes a file. `extension` helps where the content does not tell its kind. A decoder that does not end in time is
-/// left behind on its thread.
+/// Decodes a file. `extension` is a hint if the content does not identify the format. A decoder that does not end in
+/// time is abandoned on its thread.
 pub fn decode(file: Arc<[u8]>, extension: Option<&str>, limits: &Limits) -> Result<Sound, AudioError> {
     let (limits, extension) = (*limits, extension.map(str::to_owned));
     within(limits.patience, move |give_up| {
@@ -91,13 +91,13 @@ pub fn decode(file: Arc<[u8]>, extension: Option<&str>, limits: &Limits) -> Resu
     })
 }
 
-/// Runs `work` on a thread of its own, and returns when it ends, or when it should have. It is given the time at which
-/// it should end by itself.
+/// Runs `work` on a separate thread, and returns when it ends or times out. `work` is passed the time at which it
+/// should end by itself.
 fn within<T: Send + 'static>(
     patience: Duration,
     work: impl FnOnce(Instant) -> Result<T, AudioError> + Send + 'static,
 ) -> Result<T, AudioError> {
-    /// Time after that for work that sees by itself that it is late.
+    /// The extra time for work that notices by itself that it is late.
     const GRACE: Duration = Duration::from_millis(500);
     let (send, receive) = sync_channel(1);
     let give_up = Instant::now() + patience;
@@ -126,7 +126,7 @@ fn decode_packets(
     let mut format = open(file, extension)?;
     let mut track = Track::of(&*format)?;
     let mut stereo = Stereo::new(limits);
-    // Of a damaged file some readers give the same error for ever.
+    // For damaged files some readers return the same error forever.
     let mut silent = 0;
     while silent < MOST_SILENT {
         if !go_on() {
@@ -135,7 +135,7 @@ fn decode_packets(
         silent += 1;
         let packet = match format.next_packet() {
             Ok(Some(packet)) => packet,
-            // A file that was cut off plays up to there, as in browsers.
+            // A truncated file plays up to the point where it ends, as in browsers.
             Ok(None) | Err(Error::IoError(_)) => break,
             Err(Error::ResetRequired) => break,
             Err(Error::DecodeError(_)) => continue,
@@ -167,11 +167,11 @@ fn decode_packets(
     stereo.finish()
 }
 
-/// Packets in a row that are damaged or empty, after which a file is at its end. A second of an MP3 file at 44,100 Hz
-/// has 38.
+/// The number of consecutive damaged or empty packets that end a file. A second of an MP3 file at 44,100 Hz has 38
+/// packets.
 const MOST_SILENT: u32 = 10_000;
 
-/// Decodes a WAV file without compression.
+/// Decodes an uncompressed WAV file.
 fn decode_pcm(
     wave: &Wave,
     file: &[u8],
@@ -193,9 +193,10 @@ fn decode_pcm(
     stereo.finish()
 }
 
-/// Returns what the readers of a codec take of a WAV file: MP3 without the file around it, ADPCM in one with right sizes.
+/// Returns the part of a WAV file that the reader of its codec accepts: MP3 without the container, ADPCM in one with
+/// correct sizes.
 fn other_codec(wave: &Wave, file: &[u8], limits: &Limits) -> Result<Arc<[u8]>, AudioError> {
-    // symphonia-format-riff 0.6.1 shifts a word by the number of channels, however many that are.
+    // symphonia-format-riff 0.6.1 shifts a word by the number of channels without checking it.
     if wave.format.channels == 0 || wave.format.channels > limits.channels {
         return Err(AudioError::Channels(wave.format.channels, limits.channels));
     }
@@ -220,7 +221,7 @@ fn open(file: Arc<[u8]>, extension: Option<&str>) -> Result<Box<dyn FormatReader
 /// The track to play.
 struct Track {
     id: u32,
-    /// Bits of a sample in the file, where it says so.
+    /// Bits per sample in the file, if specified.
     bits: Option<u32>,
     decoder: Box<dyn AudioDecoder>,
 }
@@ -236,10 +237,10 @@ impl Track {
     }
 }
 
-/// The factor of samples above zero. In Chromium the least integer becomes -1 and the largest 1
-/// (media/base/audio_sample_types.h, `FixedSampleTypeTraits::ToFloat`), here -1 and 1 less one step. The difference is an
-/// offset, which the first bins of the analyser show in 16 bits. FFmpeg, which decodes there, has integers of 8 (only in
-/// WAV files), 16 and 32 bits.
+/// Returns the scale factor of samples above zero. In Chromium the smallest integer becomes -1 and the largest 1
+/// (media/base/audio_sample_types.h, `FixedSampleTypeTraits::ToFloat`), here -1 and 1 less one step. The difference is
+/// an offset, which the first bins of the analyser show in 16 bits. FFmpeg, which decodes there, has integers of 8
+/// (only in WAV files), 16 and 32 bits.
 fn scale_above_zero(audio: &GenericAudioBufferRef<'_>, bits: Option<u32>) -> f32 {
     match (audio, bits) {
         (GenericAudioBufferRef::F32(_) | GenericAudioBufferRef::F64(_), _) => 1.0,
@@ -249,12 +250,12 @@ fn scale_above_zero(audio: &GenericAudioBufferRef<'_>, bits: Option<u32>) -> f32
     }
 }
 
-/// Returns that factor for integers with so many steps on either side of zero.
+/// Returns that factor for integers with this number of steps on either side of zero.
 fn factor(steps: f32) -> f32 {
     steps / (steps - 1.0)
 }
 
-/// Frames that have been decoded, mixed to two channels, at the file's rate.
+/// The frames decoded so far, mixed to two channels, at the file's rate.
 struct Stereo<'a> {
     limits: &'a Limits,
     rate: u32,
@@ -268,7 +269,7 @@ impl<'a> Stereo<'a> {
         Stereo { limits, rate: 0, channels: 0, frames: Vec::new(), truncated: false }
     }
 
-    /// Checks what a packet holds. A stream that changes its rate or channels within is damaged.
+    /// Checks the format of a packet. A stream that changes its rate or channels is damaged.
     fn expect(&mut self, rate: u32, channels: usize, frames: usize) -> Result<(), AudioError> {
         if frames == 0 {
             return Ok(());
@@ -287,7 +288,7 @@ impl<'a> Stereo<'a> {
         Ok(())
     }
 
-    /// Takes a packet's interleaved samples; whether more are wanted.
+    /// Takes a packet's interleaved samples. Returns whether more are needed.
     fn push(&mut self, samples: &[f32]) -> bool {
         if self.channels == 0 {
             return true;
@@ -313,8 +314,8 @@ impl<'a> Stereo<'a> {
     }
 }
 
-/// Left and right of a frame in the channel order of WAV files, mixed as the Web Audio API does ("Up-mixing and
-/// down-mixing": mono to both, 4 and 5.1 channels by their rules, of all else the first two).
+/// Returns left and right of a frame in the channel order of WAV files, mixed as in the Web Audio API ("Up-mixing and
+/// down-mixing": mono to both, 4 and 5.1 channels by their rules, the first two of all others).
 fn mix(frame: &[f32]) -> [f32; 2] {
     const HALF: f32 = std::f32::consts::FRAC_1_SQRT_2;
     match *frame {

@@ -1,22 +1,22 @@
-//! Samples without compression, and those of G.711 (ITU-T G.711, tables 1a to 2b), as floats.
+//! Uncompressed samples, and those of G.711 (ITU-T G.711, tables 1a to 2b), as floats.
 
 use super::{
     AudioError,
     wave::{Format, Wave},
 };
 
-/// Numbers of codecs (Microsoft, `mmreg.h`).
+/// Codec numbers (Microsoft, `mmreg.h`).
 const PCM: u16 = 1;
 const FLOAT: u16 = 3;
 const A_LAW: u16 = 6;
 const MU_LAW: u16 = 7;
 
-/// A form of samples.
+/// A sample format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Samples {
-    /// Unsigned numbers of 8 bits or fewer, with silence at 128.
+    /// Unsigned integers of 8 bits or fewer, with silence at 128.
     Unsigned,
-    /// Whole numbers of this many bytes. Fewer bits than these hold are the most significant ones.
+    /// Signed integers of this number of bytes. If the samples have fewer bits, those are the most significant ones.
     Signed(usize),
     Float32,
     Float64,
@@ -25,13 +25,13 @@ pub(super) enum Samples {
 }
 
 impl Samples {
-    /// Returns the form of the samples of a format; `None` for a codec that is not read here.
+    /// Returns the sample format of a WAV format; `None` for a codec that is not read here.
     pub fn of(format: &Format) -> Option<Result<Samples, AudioError>> {
         let unsupported = || Err(AudioError::Unsupported(format!("samples of {} bits", format.bits)));
         Some(match (format.tag, format.bits) {
             (PCM, 1..=8) => Ok(Samples::Unsigned),
             (PCM, bits @ 9..=32) => Ok(Samples::Signed(bits.div_ceil(8) as usize)),
-            // Programs differ in how many bytes they keep such samples in.
+            // Programs store such samples in different numbers of bytes.
             (PCM, bits @ 33..=64) => {
                 let own = format.align / format.channels.max(1);
                 let least = bits.div_ceil(8) as usize;
@@ -46,7 +46,7 @@ impl Samples {
         })
     }
 
-    /// Returns the bytes of a sample.
+    /// Returns the number of bytes per sample.
     pub fn bytes(self) -> usize {
         match self {
             Samples::Unsigned | Samples::ALaw | Samples::MuLaw => 1,
@@ -56,10 +56,11 @@ impl Samples {
         }
     }
 
-    /// Returns a sample from -1 to 1; floats may lie beyond. Both ends of the range of whole numbers up to 16 bits are those
+    /// Returns a sample in -1 to 1; floats may be outside. Both ends of the range of integers up to 16 bits are those
     /// of Chromium: see [`super::scale_above_zero`].
     pub fn value(self, bytes: &[u8], is_big: bool) -> f32 {
-        // The same operations as for other files, so that a FLAC file of the same samples is the same sound bit for bit.
+        // The same operations as for other files, so that a FLAC file of the same samples decodes to the same sound bit
+        // for bit.
         let scaled = |value: i16, steps: f32| {
             let value = f32::from(value) / steps;
             if value > 0.0 { value * super::factor(steps) } else { value }
@@ -77,7 +78,7 @@ impl Samples {
     }
 }
 
-/// The bytes of a sample as the most significant ones of a number.
+/// Returns the bytes of a sample as the most significant ones of an integer.
 fn top(bytes: &[u8], is_big: bool) -> i64 {
     let mut all = [0; 8];
     let length = bytes.len().min(8);
@@ -104,7 +105,7 @@ fn mu_law(code: u8) -> i16 {
     if code & 0x80 == 0 { size } else { -size }
 }
 
-/// Returns the sound's frames as interleaved floats, so many frames at a time.
+/// Returns the sound's frames as interleaved floats, in blocks of `FRAMES`.
 pub(super) fn blocks<'f>(wave: &Wave, file: &'f [u8], samples: Samples) -> impl Iterator<Item = Vec<f32>> + use<'f> {
     const FRAMES: usize = 4096;
     let (frame, is_big) = (samples.bytes() * wave.format.channels.max(1), wave.is_big);
@@ -119,7 +120,7 @@ pub(super) fn blocks<'f>(wave: &Wave, file: &'f [u8], samples: Samples) -> impl 
 mod tests {
     use super::*;
 
-    /// The ends of the tables of G.711, scaled to 16 bits: A-law has 13 bits with their sign, mu-law 14.
+    /// The ends of the tables of G.711, scaled to 16 bits: A-law has 13 bits including the sign, mu-law 14.
     #[test]
     fn g711_codes_are_those_of_its_tables() {
         assert_eq!([0xaa, 0x2a, 0xd5, 0x55].map(a_law), [32_256, -32_256, 8, -8]);

@@ -10,9 +10,9 @@ fn sine(count: usize, rate: f64) -> Vec<[i16; 2]> {
     (0..count).map(|n| [value(n), -value(n)]).collect()
 }
 
-/// Integers become floats as in Chromium: both ends of their range are ends of that from -1 to 1.
+/// Integers become floats as in Chromium: both ends of their range map to -1 and 1.
 #[test]
-fn a_wav_file_comes_back() {
+fn a_wav_file_round_trips() {
     let mut frames = sine(5000, 44_100.0);
     frames[7] = [i16::MIN, i16::MAX];
     let sound = read(&wav(&frames)).unwrap();
@@ -25,7 +25,7 @@ fn a_wav_file_comes_back() {
 }
 
 #[test]
-fn samples_of_8_bits_and_floats_come_back() {
+fn samples_of_8_bits_and_floats_round_trip() {
     let with = |format: u16, bits: u16, data: &[u8]| {
         let mut file = wav(&vec![[0; 2]; data.len() / 4]);
         file[20..22].copy_from_slice(&format.to_le_bytes());
@@ -41,7 +41,8 @@ fn samples_of_8_bits_and_floats_come_back() {
     assert_eq!(with(3, 32, &floats), [[0.25, -0.25], [1.0, 0.75]]);
 }
 
-/// The header says another rate, so the sound is resampled: a 440 Hz sine stays one, and its opposite on the right too.
+/// The header contains another rate, so the sound is resampled: a 440 Hz sine stays one, and so does its negative on
+/// the right.
 #[test]
 fn another_rate_is_resampled() {
     let mut file = wav(&sine(48_000, 48_000.0));
@@ -59,14 +60,14 @@ fn another_rate_is_resampled() {
 }
 
 #[test]
-fn a_long_file_is_cut_and_says_so() {
+fn a_long_file_is_truncated_and_marked() {
     let limits = Limits { seconds: 1, ..Limits::default() };
     let sound = decode(wav(&sine(50_000, 44_100.0)).into(), None, &limits).unwrap();
     assert_eq!((sound.frames.len(), sound.truncated), (44_100, true));
 }
 
 #[test]
-fn what_is_no_sound_is_refused() {
+fn other_files_are_rejected() {
     assert!(matches!(read(b"\x89PNG\r\n\x1a\n0000000000"), Err(AudioError::Unknown(_))));
     assert!(matches!(read(b""), Err(AudioError::Unknown(_))));
     assert_eq!(read(&wav(&[])), Err(AudioError::NoTrack));
@@ -79,7 +80,7 @@ fn what_is_no_sound_is_refused() {
 }
 
 #[test]
-fn a_decoder_that_is_late_is_left_behind() {
+fn a_decoder_that_times_out_is_abandoned() {
     let none = Limits { patience: Duration::ZERO, ..Limits::default() };
     assert_eq!(decode(wav(&sine(9, 1.0)).into(), None, &none), Err(AudioError::Late(Duration::ZERO)));
     let patience = Duration::from_millis(20);
@@ -94,7 +95,7 @@ fn a_decoder_that_is_late_is_left_behind() {
 }
 
 #[test]
-fn a_file_that_was_cut_off_plays_up_to_there() {
+fn a_truncated_file_plays_to_its_end() {
     let file = wav(&sine(50_000, 44_100.0));
     let sound = read(&file[..file.len() / 2]).unwrap();
     assert!((20_000..=25_000).contains(&sound.frames.len()), "{}", sound.frames.len());
@@ -129,9 +130,9 @@ fn left(file: &[u8]) -> Vec<f32> {
     read(file).unwrap().frames.iter().map(|frame| frame[0]).collect()
 }
 
-/// As a recorder leaves a file that was cut off, and as Chromium plays it.
+/// A file as a recorder leaves it when interrupted, which Chromium plays.
 #[test]
-fn wrong_sizes_of_a_wav_file_change_nothing() {
+fn wrong_sizes_in_a_wav_file_are_ignored() {
     let data: Vec<u8> = (0..200i16).flat_map(|n| (n * 100).to_le_bytes()).collect();
     let good = wav_of(1, 16, &[], &data);
     let right = left(&good);
@@ -177,9 +178,9 @@ fn sizes_of_64_bits_are_read() {
 }
 
 #[test]
-fn samples_without_compression_are_read_in_every_form() {
+fn uncompressed_samples_of_every_format_are_read() {
     for (tag, bits, data, right) in [
-        // 12 bits are the upper ones of 16.
+        // 12 bits are stored in the upper bits of 16.
         (1, 12, &[0x00, 0x40, 0x00, 0x80][..], [0.5 * 32_768.0 / 32_767.0, -1.0]),
         (1, 24, &[0, 0, 0x40, 0, 0, 0x80], [0.5, -1.0]),
         (1, 20, &[0, 0, 0x40, 0, 0, 0x80], [0.5, -1.0]),
@@ -197,7 +198,7 @@ fn samples_without_compression_are_read_in_every_form() {
         file[field].reverse();
     }
     assert_eq!(left(&file), [0.5 * 32_768.0 / 32_767.0, -1.0]);
-    // An extensible format, whose subformat says what its samples are.
+    // An extensible format, whose subformat defines its samples.
     let floats: Vec<u8> = [0.25f32, -2.0].iter().flat_map(|value| value.to_le_bytes()).collect();
     let plain = wav_of(3, 32, &[], &floats);
     let extension = [&[22, 0, 32, 0, 4, 0, 0, 0, 3, 0][..], &[0; 14]].concat();
@@ -205,7 +206,7 @@ fn samples_without_compression_are_read_in_every_form() {
     file[16] = 40;
     file[20..22].copy_from_slice(&[0xfe, 0xff]);
     assert_eq!(left(&file), [0.25, -2.0]);
-    // That too, with the most significant byte first: the identifier begins with a number of 32 bits.
+    // The same with the most significant byte first: the identifier starts with a number of 32 bits.
     file[..4].copy_from_slice(b"RIFX");
     for field in [4..8, 16..20, 20..22, 22..24, 24..28, 28..32, 32..34, 34..36, 36..38, 38..40, 40..44, 44..48, 64..68]
     {
@@ -232,7 +233,7 @@ fn a_wav_file_of_another_codec_is_called_unsupported_and_not_damaged() {
     assert!(matches!(read(b"RIFF\0\0\0\0WAVE"), Err(AudioError::Damaged(_))));
 }
 
-/// Every cut and every changed byte of a file ends in a sound or an error.
+/// Every truncation and every changed byte of a file results in a sound or an error.
 #[test]
 fn malformed_wav_files_do_not_panic() {
     let file = wav_of(1, 16, b"LIST\x05\0\0\0INFOx\0", &[1; 64]);

@@ -1,18 +1,18 @@
-//! WAV files, found by their chunks (Microsoft, Multimedia Programming Interface and Data Specifications 1.0, 1991; RF64 and
+//! WAV files, parsed by chunks (Microsoft, Multimedia Programming Interface and Data Specifications 1.0, 1991; RF64 and
 //! BW64: EBU Tech 3306, ITU-R BS.2088; RIFX is the same with the most significant byte first).
 //!
-//! Browsers and ffmpeg play a file whose sizes are wrong, as a recorder leaves it that was cut off. So this reader does not
-//! use the size of the whole, ends the sound where the file ends, and takes a size of zero as "up to the end", as ffmpeg's
-//! `libavformat/wavdec.c` does. Lists of titles and the like are not read, so they cannot be damaged.
+//! Browsers and ffmpeg play a file with wrong sizes, as an interrupted recorder leaves it. So this reader ignores the
+//! size of the whole, ends the sound at the end of the file, and treats a size of zero as "up to the end", like
+//! ffmpeg's `libavformat/wavdec.c`. Lists of titles and other metadata are not read, so damage there is harmless.
 
 use super::AudioError;
 use std::ops::Range;
 
-/// The bytes of a WAV file that make its sound.
+/// The parts of a WAV file that define its sound.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Wave {
     pub format: Format,
-    /// The format chunk, as it is in the file.
+    /// The format chunk, as stored in the file.
     pub header: Range<usize>,
     pub data: Range<usize>,
     /// Numbers have their most significant byte first.
@@ -22,18 +22,18 @@ pub(super) struct Wave {
 /// The content of a format chunk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Format {
-    /// The number of the codec (`wFormatTag`); of an extensible format that of its subformat.
+    /// The number of the codec (`wFormatTag`); for an extensible format that of its subformat.
     pub tag: u16,
     pub channels: usize,
-    /// Samples a second.
+    /// Samples per second.
     pub rate: u32,
-    /// Bytes of a frame, as the file says.
+    /// Bytes per frame, according to the file.
     pub align: usize,
-    /// Bits of a sample, as the file says.
+    /// Bits per sample, according to the file.
     pub bits: u32,
 }
 
-/// A reader of numbers in the order of a file.
+/// A reader of numbers in the file's byte order.
 #[derive(Clone, Copy)]
 struct Numbers<'f> {
     file: &'f [u8],
@@ -63,7 +63,7 @@ impl Numbers<'_> {
     }
 }
 
-/// Returns the sound of a WAV file; `None` for a file of another kind.
+/// Returns the sound of a WAV file; `None` for a file of another format.
 pub(super) fn find(file: &[u8]) -> Option<Result<Wave, AudioError>> {
     let is_big = match file.get(..4)? {
         b"RIFF" | b"RF64" | b"BW64" => false,
@@ -74,7 +74,7 @@ pub(super) fn find(file: &[u8]) -> Option<Result<Wave, AudioError>> {
 }
 
 fn chunks(file: &[u8], is_big: bool) -> Result<Wave, AudioError> {
-    /// Bytes of the name and the size of a chunk.
+    /// The bytes of the name and the size of a chunk.
     const HEAD: usize = 8;
     let numbers = Numbers { file, is_big };
     let damaged = |reason: &str| AudioError::Damaged(reason.into());
@@ -82,7 +82,7 @@ fn chunks(file: &[u8], is_big: bool) -> Result<Wave, AudioError> {
     while let (Some(name), Some(size)) = (file.get(at..at + 4), numbers.u32(at + 4)) {
         let start = at + HEAD;
         match name {
-            // The size of the data, where 32 bits are too few.
+            // The size of the data if it does not fit into 32 bits.
             b"ds64" => long_data = numbers.u64(start + 8),
             b"fmt " => format = Some((read_format(numbers, start, size)?, start..end(file, start, u64::from(size)))),
             b"data" => {
@@ -110,8 +110,8 @@ fn end(file: &[u8], start: usize, size: u64) -> usize {
     start + usize::try_from(size).map_or(left, |size| size.min(left))
 }
 
-/// Returns where the chunk after another starts. A chunk of an odd size is followed by a byte of padding, which some programs
-/// leave out.
+/// Returns the start of the following chunk. A chunk of an odd size is followed by a byte of padding, which some
+/// programs omit.
 fn next_chunk(file: &[u8], start: usize, size: u32) -> usize {
     let end = start.saturating_add(size as usize);
     let padded = end.saturating_add(size as usize % 2);
@@ -129,13 +129,13 @@ fn read_format(numbers: Numbers<'_>, at: usize, size: u32) -> Result<Format, Aud
     let (tag, channels) = (numbers.u16(at).ok_or_else(damaged)?, numbers.u16(at + 2).ok_or_else(damaged)?);
     let (rate, align) = (numbers.u32(at + 4).ok_or_else(damaged)?, numbers.u16(at + 12).ok_or_else(damaged)?);
     let bits = numbers.u16(at + 14).filter(|_| size >= 16).unwrap_or(8);
-    // A subformat's identifier begins with the number of the codec, in 32 bits.
+    // The identifier of a subformat starts with the number of the codec, in 32 bits.
     let tag = if tag == EXTENSIBLE && size >= 40 { numbers.u32(at + 24).ok_or_else(damaged)? as u16 } else { tag };
     Ok(Format { tag, channels: channels.into(), rate, align: align.into(), bits: bits.into() })
 }
 
 impl Wave {
-    /// Returns the same sound as a file with right sizes and nothing else, for a reader that insists on them.
+    /// Returns the same sound as a minimal file with correct sizes, for a reader that depends on them.
     pub fn plain(&self, file: &[u8]) -> Vec<u8> {
         let (header, data) = (&file[self.header.clone()], &file[self.data.clone()]);
         let chunk = |name: &[u8; 4], bytes: &[u8]| {

@@ -1,7 +1,7 @@
-//! Sources are mixed for a device's callback at the time that the picture has, faded where that time changes.
+//! Mixes sources in a device's callback at the time of the picture, with fades where that time changes.
 //!
-//! Works on memory alone and knows no device. [`Mixer::fill`] takes no lock and allocates and frees nothing: what it is
-//! to play comes through a ring, and what it no longer plays goes back through another.
+//! Works on memory alone and knows no device. [`Mixer::fill`] takes no lock and neither allocates nor frees memory:
+//! orders arrive through a ring buffer, and scenes that are no longer played are returned through another.
 
 mod deck;
 #[cfg(test)]
@@ -22,49 +22,49 @@ use std::{
     time::Instant,
 };
 
-/// Seconds in which sound fades in and out.
+/// The length of fades in seconds.
 const FADE_SECS: f64 = 0.005;
-/// Seconds in which the volume goes from none to full.
+/// The seconds in which the volume goes from zero to full.
 const VOLUME_SECS: f64 = 0.02;
-/// A sound that is so many seconds away from the picture's time jumps there.
+/// Seconds from the picture's time above which the sound jumps there.
 const JUMP_SECS: f64 = 0.02;
-/// Below that it is played faster or slower until it is there: so many times the seconds it is away, in each second.
+/// Below that distance, the speed changes by this factor times the distance in seconds.
 const PULL: f64 = 0.5;
-/// But not by more than this share, 5 cents, which nobody hears.
+/// The maximum change of speed: 5 cents, which is inaudible.
 const MOST_PULL: f64 = 0.003;
-/// Seconds over which the distance is averaged: what a device says of its delay is uncertain by a part of its buffer, and
-/// more while other programs keep its thread waiting.
+/// The seconds over which the distance is averaged: the delay that a device reports is uncertain by a part of its
+/// buffer, and more while other programs delay its thread.
 const AVERAGED_SECS: f64 = 1.0;
-/// Sounds that fade out beside the one that plays.
+/// The number of scenes that play at once: the current one and those that fade out.
 const DECKS: usize = 4;
-/// Orders that may wait, and sources that may wait to be freed.
+/// The capacities of the rings for orders, and for sources that wait to be freed.
 const ORDERS: usize = 16;
 const FREED: usize = 64;
 
-/// Mixes what is desired into the buffers of one device.
+/// Mixes the desired output into the buffers of one device.
 pub struct Mixer {
     rate: f64,
     orders: Consumer<OutputState>,
     freed: Producer<Arc<Scene>>,
     desired: OutputState,
-    /// The line of the last buffer.
+    /// The timeline of the last buffer.
     line: Option<Timeline>,
     decks: [Option<Deck>; DECKS],
     kernel: Kernel,
     gain: f32,
-    /// Seconds that the sound is behind the picture's time, averaged.
+    /// Seconds that the sound lags behind the picture, averaged.
     behind: f64,
     state: Arc<MixerState>,
 }
 
-/// The other end of a mixer.
+/// The controlling end of a mixer.
 pub struct Remote {
     orders: Producer<OutputState>,
     freed: Consumer<Arc<Scene>>,
     pub state: Arc<MixerState>,
 }
 
-/// Counts what a mixer has done.
+/// Counters of a mixer.
 #[derive(Default)]
 pub struct MixerState {
     buffers: AtomicU64,
@@ -73,23 +73,23 @@ pub struct MixerState {
 }
 
 impl MixerState {
-    /// Buffers that were filled.
+    /// Returns the number of buffers that were filled.
     pub fn buffers(&self) -> u64 {
         self.buffers.load(Ordering::Relaxed)
     }
 
-    /// The number of times that the sound jumped to the picture's time.
+    /// Returns how often the sound jumped to the picture's time.
     pub fn jumps(&self) -> u64 {
         self.jumps.load(Ordering::Relaxed)
     }
 
-    /// Seconds that the sound is behind the picture's time, averaged.
+    /// Returns the seconds that the sound lags behind the picture, averaged.
     pub fn behind_secs(&self) -> f64 {
         f64::from_bits(self.behind.load(Ordering::Relaxed))
     }
 }
 
-/// A mixer for a device of `rate` samples a second, which plays nothing yet.
+/// Creates a mixer for a device of `rate` samples per second, which initially plays nothing.
 pub fn mixer(rate: u32) -> (Mixer, Remote) {
     let (to, orders) = RingBuffer::new(ORDERS);
     let (freed, back) = RingBuffer::new(FREED);
@@ -110,21 +110,22 @@ pub fn mixer(rate: u32) -> (Mixer, Remote) {
 }
 
 impl Remote {
-    /// Says what is to be played from the next buffer on. False: the device takes nothing at present, try it again.
+    /// Sets what is played from the next buffer on. Returns false if the mixer cannot take an order now; the caller
+    /// retries.
     pub fn send(&mut self, desired: &OutputState) -> bool {
         self.free();
         self.orders.push(desired.clone()).is_ok()
     }
 
-    /// Frees what the mixer no longer plays.
+    /// Frees scenes that the mixer no longer plays.
     pub fn free(&mut self) {
         while self.freed.pop().is_ok() {}
     }
 }
 
 impl Mixer {
-    /// Fills a buffer of interleaved frames whose first one is heard at a moment. The first two channels are left and
-    /// right, one alone is the mean of both, further ones are silent.
+    /// Fills a buffer of interleaved frames, the first of which is heard at a moment. The first two channels are left
+    /// and right, a single channel is the mean of both, and further ones are silent.
     pub fn fill(&mut self, out: &mut [f32], channels: usize, heard_at: Instant) {
         let channels = channels.max(1);
         let frames = out.len() / channels;
@@ -153,7 +154,7 @@ impl Mixer {
         }
         for place in decks {
             let Some(mut deck) = place.take_if(|deck| deck.is_over()) else { continue };
-            // Dropped here it might be freed here. It waits for room.
+            // Dropping it here might free memory here. It waits for room.
             if let Err(rtrb::PushError::Full(scene)) = self.freed.push(deck.scene) {
                 deck.scene = scene;
                 *place = Some(deck);
@@ -168,12 +169,12 @@ impl Mixer {
             && let Ok(desired) = self.orders.pop()
         {
             let before = std::mem::replace(&mut self.desired, desired);
-            // There is room for it.
+            // The ring has room for it.
             let _ = self.freed.push(before.scene);
         }
     }
 
-    /// Brings the sound to the picture's time. Returns the samples of a source for each sample of the device.
+    /// Aligns the sound with the picture's time. Returns the samples of a source per sample of the device.
     fn steer(&mut self, frames: usize, heard_at: Instant) -> f64 {
         let before = std::mem::replace(&mut self.line, self.desired.line);
         let Some(line) = self.desired.line else {
@@ -202,7 +203,7 @@ impl Mixer {
                 self.behind = 0.0;
                 self.state.jumps.fetch_add(1, Ordering::Relaxed);
             } else {
-                // It is tried again with the next buffer.
+                // Retry with the next buffer.
                 self.line = before;
             }
         } else if is_other {
@@ -211,7 +212,8 @@ impl Mixer {
         ratio * (1.0 + (PULL * self.behind / line.speed).clamp(-MOST_PULL, MOST_PULL))
     }
 
-    /// Begins to play what is desired at a position, and fades out what is played. False while there is no room.
+    /// Starts to play the desired scene at a position, and fades out the current one. Returns false if there is no
+    /// room.
     fn start(&mut self, position: f64, ratio: f64) -> bool {
         let Some(place) = self.decks.iter().position(Option::is_none) else { return false };
         self.decks.iter_mut().flatten().for_each(|deck| deck.target = 0.0);

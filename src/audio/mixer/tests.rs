@@ -4,7 +4,7 @@ use std::time::Duration;
 
 const RATE: f64 = 44_100.0;
 
-/// A sound whose sample `n` is `n` thousandths of a per mille on the left, and its negative on the right.
+/// Returns a sound whose sample `n` is `n` thousandths of a per mille on the left, and its negative on the right.
 fn ramp(frames: usize) -> Arc<Sound> {
     let frames = (0..frames).map(|n| [n as f32 * 1e-6, n as f32 * -1e-6]).collect();
     Arc::new(Sound { frames, truncated: false })
@@ -27,13 +27,13 @@ fn scene(sources: &[Source]) -> Arc<Scene> {
     Arc::new(Scene { sources: sources.to_vec() })
 }
 
-/// A device that plays buffers of 10 ms, with the clock that the picture runs by.
+/// A device that plays buffers of 10 ms, with the clock of the picture.
 struct Bench {
     mixer: Mixer,
     remote: Remote,
     start: Instant,
     rate: f64,
-    /// The clock of the device to real time.
+    /// The rate of the device's clock relative to real time.
     drift: f64,
     frames: u64,
     desired: OutputState,
@@ -63,7 +63,7 @@ impl Bench {
         self.order(|desired| desired.line = Some(Timeline { at, secs, speed }));
     }
 
-    /// The left channel of so many seconds.
+    /// Returns the left channel of this number of seconds.
     fn play(&mut self, secs: f64) -> Vec<f32> {
         let buffer = (self.rate / 100.0) as usize;
         let mut left = Vec::new();
@@ -84,11 +84,11 @@ fn largest_step(samples: &[f32]) -> f32 {
 }
 
 #[test]
-fn at_its_own_rate_a_sound_is_the_file_at_the_pictures_time() {
+fn a_sound_at_its_own_rate_plays_unchanged_samples_at_the_pictures_time() {
     let mut bench = Bench::new(44_100, scene(&[Source::Loop(ramp(400_000))]));
     bench.line(2.0, 1.0);
     let left = bench.play(1.0);
-    // After the fade, each sample is the one of its time to the last bit.
+    // After the fade, each sample is exactly the one of its time.
     for n in (0..44_100).filter(|n| *n > 1000) {
         assert_eq!(left[n], (88_200 + n) as f32 * 1e-6, "sample {n}");
     }
@@ -96,7 +96,7 @@ fn at_its_own_rate_a_sound_is_the_file_at_the_pictures_time() {
 }
 
 #[test]
-fn a_loop_goes_on_at_its_beginning() {
+fn a_loop_wraps_to_its_start() {
     let mut bench = Bench::new(44_100, scene(&[Source::Loop(ramp(10_000))]));
     bench.line(1.0, 1.0);
     let left = bench.play(0.5);
@@ -104,7 +104,7 @@ fn a_loop_goes_on_at_its_beginning() {
 }
 
 #[test]
-fn another_rate_and_another_speed_read_the_sound_at_the_right_place() {
+fn other_rates_and_speeds_read_the_right_positions() {
     for (rate, speed) in [(48_000, 1.0), (96_000, 1.0), (22_050, 1.0), (44_100, 0.25), (48_000, 4.0), (48_000, 0.5)] {
         let mut bench = Bench::new(rate, scene(&[Source::Loop(ramp(900_000))]));
         bench.line(2.0, speed);
@@ -112,18 +112,18 @@ fn another_rate_and_another_speed_read_the_sound_at_the_right_place() {
         for n in (rate as usize / 10..left.len()).step_by(97) {
             let secs = 2.0 + speed * n as f64 / f64::from(rate);
             let error = f64::from(left[n]) * 1e6 - secs * RATE;
-            // A thousandth of what is read: the kernel's gain.
+            // The tolerance is a thousandth of what is read: the kernel's gain.
             assert!(error.abs() < 1.0 + 2e-3 * secs * RATE, "{rate} at {speed}: {error} samples off");
         }
     }
 }
 
 #[test]
-fn a_pause_fades_and_what_follows_begins_at_its_time() {
+fn a_pause_fades_out_and_playback_resumes_at_its_time() {
     let mut bench = Bench::new(48_000, scene(&[Source::Loop(sine(220.0, 10.0))]));
     bench.line(0.0, 1.0);
     let playing = bench.play(0.3);
-    // A sine's steps are 2 pi 220 / 48000 of its height at most; a fade of 5 ms adds 1/240 of it.
+    // The steps of a sine are at most 2 pi 220 / 48000 of its height; a fade of 5 ms adds 1/240 of it.
     let most = 0.5 * (std::f32::consts::TAU * 220.0 / 48_000.0) + 0.5 / 240.0 + 1e-3;
     bench.order(|desired| desired.line = None);
     let paused = bench.play(0.1);
@@ -142,7 +142,7 @@ fn a_seek_a_reset_and_a_scrub_jump_without_a_click() {
     let mut all = bench.play(0.2);
     for secs in [5.0, 0.0, 3.0, 3.1, 2.9, 8.0] {
         bench.line(secs, 1.0);
-        // Faster than a fade: no place is free, and the last one counts.
+        // Faster than a fade: no deck is free, and the last order wins.
         all.extend(bench.play(0.01));
     }
     let wanted = bench.desired.line.unwrap();
@@ -170,7 +170,7 @@ fn an_edit_cross_fades_at_the_same_place() {
     let all = [&before[1000..], &after[..]].concat();
     assert!(largest_step(&all) < 0.60 / 200.0, "{}", largest_step(&all));
     assert_eq!(bench.remote.state.jumps(), 0);
-    // The same sound again is not heard at all.
+    // The same sound again makes no audible difference.
     let same = match &bench.desired.scene.sources[0] {
         Source::Track(track) => track.clone(),
         Source::Loop(_) => unreachable!(),
@@ -181,7 +181,7 @@ fn an_edit_cross_fades_at_the_same_place() {
 }
 
 #[test]
-fn a_block_that_is_not_made_yet_is_silence_without_a_click_until_it_is_there() {
+fn a_missing_block_is_silence_without_a_click_until_it_is_written() {
     let made = track(|_| 16_384, 40_960, 4096, &[0, 1, 3, 4, 5, 6]);
     let mut bench = Bench::new(48_000, scene(&[Source::Track(made.clone())]));
     bench.line(0.0, 1.0);
@@ -190,7 +190,7 @@ fn a_block_that_is_not_made_yet_is_silence_without_a_click_until_it_is_there() {
     assert!((left[at(1.5)] - 0.5).abs() < 1e-3 && (left[at(3.5)] - 0.5).abs() < 1e-3);
     assert!(left[at(2.01)..at(2.99)].iter().all(|sample| *sample == 0.0));
     assert!(largest_step(&left) < 0.5 / 200.0, "{}", largest_step(&left));
-    // It waits in the gap, and the block is made meanwhile.
+    // Playback pauses in the gap, and the block is written meanwhile.
     bench.line(2.2 * 4096.0 / RATE, 1.0);
     let waiting = bench.play(0.02);
     made.write(2, vec![[16_384; 2]; 4096]);
@@ -201,11 +201,11 @@ fn a_block_that_is_not_made_yet_is_silence_without_a_click_until_it_is_there() {
 }
 
 #[test]
-fn a_device_that_drifts_is_followed() {
-    // A sample says where it is among 2,000, 45 ms.
+fn clock_drift_of_a_device_is_corrected() {
+    // A sample encodes its position within 2,000 samples, 45 ms.
     let frames = (0..1_500_000).map(|n| [((n % 2000) as f32 - 1000.0) * 1e-4; 2]).collect();
     let saw = Arc::new(Sound { frames, truncated: false });
-    // 100 ppm is what crystals differ by; 1000 ppm is a bad one.
+    // Crystals differ by up to 100 ppm; 1000 ppm is a bad one.
     for drift in [1e-4, -1e-4, 1e-3] {
         let mut bench = Bench::new(48_000, scene(&[Source::Loop(saw.clone())]));
         bench.drift = drift;
@@ -221,14 +221,14 @@ fn a_device_that_drifts_is_followed() {
                 worst = worst.max((f64::from(left[n]) * 1e4 + 1000.0 - place).abs() / RATE);
             }
         }
-        // Without it the sound would be 3 ms and 30 ms off by now.
+        // Without correction the sound would be 3 ms and 30 ms off by now.
         assert!(worst < 2.0 * drift.abs() + 3e-4, "{worst} s off at {drift}");
         assert_eq!(bench.remote.state.jumps(), 0);
     }
 }
 
 #[test]
-fn a_device_that_stalls_is_caught_up_with() {
+fn sound_catches_up_after_a_device_stalls() {
     let mut bench = Bench::new(44_100, scene(&[Source::Loop(ramp(900_000))]));
     bench.line(0.0, 1.0);
     bench.play(1.0);
@@ -263,7 +263,7 @@ fn sources_are_summed_clipped_and_turned_down() {
 }
 
 #[test]
-fn what_is_not_played_any_more_is_freed_by_who_sent_it() {
+fn finished_scenes_are_freed_by_the_sender() {
     let sound = ramp(1000);
     let mut bench = Bench::new(44_100, scene(&[Source::Loop(sound.clone())]));
     bench.line(0.0, 1.0);
@@ -273,7 +273,7 @@ fn what_is_not_played_any_more_is_freed_by_who_sent_it() {
     bench.order(|_| {});
     bench.play(0.1);
     assert_eq!(Arc::strong_count(&sound), 1);
-    // Orders that nobody takes are given up, not waited for.
+    // Orders that are not taken are dropped; the sender does not block.
     let taken = (0..100).filter(|_| bench.remote.send(&bench.desired)).count();
     assert_eq!(taken, ORDERS);
     bench.play(0.01);
@@ -281,7 +281,7 @@ fn what_is_not_played_any_more_is_freed_by_who_sent_it() {
 }
 
 #[test]
-fn a_file_of_anything_is_played_as_numbers() {
+fn files_with_nan_and_infinities_are_played_as_finite_samples() {
     let frames = vec![[f32::NAN, f32::INFINITY], [f32::NEG_INFINITY, 1e30]];
     let mut bench = Bench::new(48_000, scene(&[Source::Loop(Arc::new(Sound { frames, truncated: false }))]));
     bench.line(0.0, 1.7);

@@ -1,25 +1,26 @@
-//! The bytes of MIDI 1.0 to events.
+//! Decodes the bytes of MIDI 1.0 to events.
 //!
-//! Status bytes, running status and system messages are those of the "MIDI 1.0 Detailed Specification" (MIDI Manufacturers
-//! Association, 4.2); controllers 0 to 31 are the coarse and 32 to 63 the fine parts of 14-bit controllers there. Controllers 99
-//! and 98 select a non-registered parameter, 101 and 100 a registered one, and 6 with 38 ("data entry") set its value.
+//! Status bytes, running status and system messages follow the "MIDI 1.0 Detailed Specification" (MIDI Manufacturers
+//! Association, 4.2); there, controllers 0 to 31 are the coarse and 32 to 63 the fine parts of 14-bit controllers.
+//! Controllers 99 and 98 select a non-registered parameter, 101 and 100 a registered one, and 6 with 38 ("data entry")
+//! set its value.
 
 use crate::ControlEvent;
 use eddy_project::ControlAddress;
 use std::time::{Duration, Instant};
 
-/// The fine part of a 14-bit controller follows the coarse one within this.
+/// The maximum time between the coarse and the fine part of a 14-bit controller.
 const PAIR: Duration = Duration::from_millis(50);
 
-/// Controllers that set the parameter that is selected, coarse and fine.
+/// The controllers that set the selected parameter, coarse and fine.
 const DATA_ENTRY: u8 = 6;
 const DATA_ENTRY_FINE: u8 = 38;
-/// Controllers that select a parameter.
+/// The controllers that select a parameter.
 const NRPN_FINE: u8 = 98;
 const NRPN_COARSE: u8 = 99;
 const RPN_FINE: u8 = 100;
 const RPN_COARSE: u8 = 101;
-/// The parameter number that stands for none: 127 in both parts.
+/// The parameter number for "none": 127 in both parts.
 const NO_PARAMETER: u16 = 16_383;
 
 const NOTE_OFF: u8 = 0x80;
@@ -30,29 +31,29 @@ const PROGRAM_CHANGE: u8 = 0xc0;
 const CHANNEL_PRESSURE: u8 = 0xd0;
 const PITCH_BEND: u8 = 0xe0;
 const SYSTEM: u8 = 0xf0;
-/// From here on bytes may stand within another message.
+/// The first of the bytes that may occur within another message.
 const REAL_TIME: u8 = 0xf8;
 
-/// Reads what one device sends.
+/// A decoder for the bytes of one device.
 #[derive(Debug, Default)]
 pub struct MidiDecoder {
-    /// The status of the message under way; 0: none, and data bytes mean nothing.
+    /// The status of the current message; 0 if there is none, so that data bytes are ignored.
     status: u8,
     first: Option<u8>,
     /// The newest coarse part of each channel's controllers 0 to 31.
     coarse: [[Option<CoarseValue>; 32]; 16],
-    /// The parameter that is selected on each channel.
+    /// The selected parameter of each channel.
     parameters: [Parameter; 16],
 }
 
-/// The non-registered parameter that is selected on a channel, as far as its number has come.
+/// The selected non-registered parameter of a channel, as far as its number has been received.
 #[derive(Clone, Copy, Debug, Default)]
 struct Parameter {
     coarse: Option<u8>,
     fine: Option<u8>,
     /// The coarse part of its newest value.
     value: Option<u8>,
-    /// A fine part of a value has come: the next coarse part waits for its own.
+    /// A fine part of a value was received: the next coarse part waits for its own.
     is_fine: bool,
 }
 
@@ -62,17 +63,17 @@ impl Parameter {
         (number != NO_PARAMETER).then_some(number)
     }
 
-    /// Takes a controller. Returns the parameter that it sets with its position, once that is known.
+    /// Takes a controller. Returns the parameter that it sets and its position, once that is complete.
     fn take(&mut self, controller: u8, data: u8) -> Option<(u16, f64)> {
         match controller {
             NRPN_COARSE => self.select(|it| it.coarse = Some(data)),
             NRPN_FINE => self.select(|it| it.fine = Some(data)),
-            // What is set from now on is a registered parameter, such as the range of the pitch bend.
+            // From now on a registered parameter is set, such as the range of the pitch bend.
             RPN_COARSE | RPN_FINE => *self = Self::default(),
             DATA_ENTRY => {
                 let number = self.number()?;
                 self.value = Some(data);
-                // Many senders have no fine part.
+                // Many senders do not send the fine part.
                 return (!self.is_fine).then(|| (number, f64::from(data) / 127.0));
             }
             DATA_ENTRY_FINE => {
@@ -85,7 +86,7 @@ impl Parameter {
         None
     }
 
-    /// Takes a part of the number. The value of another parameter is forgotten.
+    /// Takes a part of the number. The value of another parameter is discarded.
     fn select(&mut self, part: impl FnOnce(&mut Self)) {
         let before = self.number();
         part(self);
@@ -99,12 +100,12 @@ impl Parameter {
 struct CoarseValue {
     value: u8,
     at: Instant,
-    /// A fine part has followed one before.
+    /// A fine part has followed an earlier one.
     is_pair: bool,
 }
 
 impl MidiDecoder {
-    /// Reads bytes that came at a moment. They may begin or end within a message.
+    /// Decodes bytes that were received at `now`. They may start or end within a message.
     pub fn feed(&mut self, bytes: &[u8], now: Instant, events: &mut Vec<ControlEvent>) {
         for byte in bytes {
             match *byte {
@@ -143,7 +144,7 @@ impl MidiDecoder {
         }
     }
 
-    /// Notes a part of a 14-bit controller. Returns its position once it is whole.
+    /// Takes a part of a 14-bit controller. Returns its position once it is complete.
     fn pair(&mut self, channel: u8, number: u8, value: u8, now: Instant) -> Option<f64> {
         let of_channel = &mut self.coarse[usize::from(channel)];
         match number {
@@ -163,13 +164,13 @@ impl MidiDecoder {
     }
 }
 
-/// Returns the position that two parts of 7 bits say.
+/// Returns the position of two parts of 7 bits.
 fn fourteen(coarse: u8, fine: u8) -> f64 {
     f64::from((u16::from(coarse) << 7) | u16::from(fine)) / 16_383.0
 }
 
-/// Returns the position of a pitch bend: 0 at one end, 1 at the other, and exactly a half at rest (8192), which is not the middle
-/// of 0 to 16,383.
+/// Returns the position of a pitch bend: 0 at one end, 1 at the other, and exactly a half at rest (8192), which is not
+/// the middle of 0 to 16,383.
 fn bend(fine: u8, coarse: u8) -> f64 {
     let whole = f64::from((u16::from(coarse) << 7) | u16::from(fine));
     if whole <= 8192.0 { whole / 16_384.0 } else { 0.5 + (whole - 8192.0) / 16_382.0 }

@@ -1,4 +1,4 @@
-//! The devices that are listened to: opened when they come, and again when they have vanished.
+//! The selected MIDI devices: opened when they are plugged in, and reopened when they have vanished.
 
 use super::{
     MidiDecoder,
@@ -16,10 +16,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The time between two looks at which devices there are.
+/// The interval at which the list of devices is polled.
 const LOOK: Duration = Duration::from_secs(2);
 
-/// The devices that are listened to.
+/// The selection of devices.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum MidiChoice {
     #[default]
@@ -29,14 +29,14 @@ pub enum MidiChoice {
     Named(String),
 }
 
-/// Says what is known of the devices.
+/// The state of the devices.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MidiState {
-    /// The names of those that are open.
+    /// The names of the open devices.
     pub open: Vec<String>,
-    /// The reason why none is open, or not the one that was chosen. Devices are looked for again.
+    /// The reason why no device is open, or not the selected one. Devices are polled again.
     pub missing: Option<String>,
-    /// All there are, as the last look has found them; `None`: nobody has looked.
+    /// All connected devices, as of the last poll; `None` before the first one.
     pub names: Option<Vec<String>>,
 }
 
@@ -57,12 +57,12 @@ enum Link {
         to: Sender<Message>,
         thread: Option<JoinHandle<()>>,
     },
-    /// Everything is done where it is asked for: a test says what time it is.
+    /// Everything runs on the caller's thread: a test controls the time.
     Here(Box<Worker>),
 }
 
 impl MidiInputs {
-    /// `wake` is called when the state has changed; what comes goes into `queue`. Nothing is opened yet.
+    /// Starts a thread. `wake` is called when the state has changed; events go into `queue`. Nothing is opened yet.
     pub fn on_thread(host: &dyn MidiHost, queue: ControlQueue, wake: Wake) -> std::io::Result<Self> {
         let (to, from) = channel();
         let mut worker = Worker::new(host.input(), queue, wake);
@@ -71,7 +71,7 @@ impl MidiInputs {
         Ok(Self { link: Link::Thread { to, thread: Some(thread) }, state })
     }
 
-    /// Without a thread: [`MidiInputs::step`] does the work.
+    /// Creates it without a thread: [`MidiInputs::step`] does the work.
     pub fn here(host: &dyn MidiHost, queue: ControlQueue) -> Self {
         let worker = Box::new(Worker::new(host.input(), queue, Arc::new(|| {})));
         let state = worker.state.clone();
@@ -82,7 +82,7 @@ impl MidiInputs {
         self.send(Message::Choose(choice));
     }
 
-    /// Asks for the names of the devices, which come with the state.
+    /// Requests the names of the devices, which become part of the state.
     pub fn ask_names(&mut self) {
         self.send(Message::Names);
     }
@@ -91,7 +91,7 @@ impl MidiInputs {
         self.state.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Does what is due, where there is no thread.
+    /// Does pending work if there is no thread.
     pub fn step(&mut self, now: Instant) {
         if let Link::Here(worker) = &mut self.link {
             worker.step(now);
@@ -100,7 +100,7 @@ impl MidiInputs {
 
     fn send(&mut self, message: Message) {
         match &mut self.link {
-            // A thread that has ended by a panic hears nothing; the picture goes on.
+            // A thread that has panicked receives nothing; drawing continues.
             Link::Thread { to, .. } => drop(to.send(message)),
             Link::Here(worker) => worker.take(message),
         }
@@ -154,7 +154,7 @@ impl Worker {
         match message {
             Message::Choose(choice) if choice != self.choice => {
                 self.choice = choice;
-                // The devices of the choice before are closed, so that other programs can have them.
+                // The previously selected devices are closed, so that other programs can use them.
                 self.open.clear();
                 self.looked_at = None;
                 self.tell(|state| *state = MidiState { names: state.names.take(), ..MidiState::default() });
@@ -167,7 +167,7 @@ impl Worker {
         }
     }
 
-    /// Looks which devices there are, opens those that are wanted, and closes those that are gone.
+    /// Polls the devices, opens the selected ones, and closes those that have vanished.
     fn step(&mut self, now: Instant) {
         let is_due = self.looked_at.is_none_or(|at| now.saturating_duration_since(at) >= LOOK);
         if self.choice == MidiChoice::Off || !is_due {
@@ -217,7 +217,7 @@ impl Worker {
     }
 }
 
-/// Decodes what a device sends into the queue.
+/// Returns a callback that decodes a device's bytes into the queue.
 fn taker(queue: ControlQueue) -> super::host::Take {
     let (mut decoder, mut events) = (MidiDecoder::default(), Vec::new());
     Box::new(move |bytes: &[u8]| {
@@ -232,7 +232,7 @@ mod tests {
     use crate::fake::FakeMidi;
 
     #[test]
-    fn devices_are_opened_closed_and_opened_again_when_they_come_back() {
+    fn devices_are_reopened_when_they_are_plugged_in_again() {
         let (host, queue) = (FakeMidi::default(), ControlQueue::new(Arc::new(|| {})));
         let mut inputs = MidiInputs::here(&host, queue.clone());
         let mut now = Instant::now();
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn one_device_is_chosen_by_its_name_and_waited_for() {
+    fn a_named_device_is_opened_once_it_is_plugged_in() {
         let (host, queue) = (FakeMidi::default(), ControlQueue::new(Arc::new(|| {})));
         host.plug_in("Keys");
         let mut inputs = MidiInputs::here(&host, queue);
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn a_thread_does_the_same() {
+    fn devices_are_opened_on_a_thread_too() {
         let (host, queue) = (FakeMidi::default(), ControlQueue::new(Arc::new(|| {})));
         host.plug_in("Knobs");
         let mut inputs = MidiInputs::on_thread(&host, queue, Arc::new(|| {})).unwrap();

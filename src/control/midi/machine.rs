@@ -1,12 +1,12 @@
-//! The MIDI devices of the machine, by midir: ALSA's sequencer, CoreMIDI, or the multimedia library of Windows.
+//! The machine's MIDI devices, by midir: ALSA's sequencer, CoreMIDI, or the multimedia library of Windows.
 
 use super::host::{MidiError, MidiHost, MidiIn, Opened, Take};
 use midir::{Ignore, MidiInput, MidiInputPort};
 
-/// The name under which other programs see Eddy.
+/// Eddy's name as shown to other programs.
 const CLIENT: &str = "Eddy";
 
-/// The MIDI of this machine.
+/// The MIDI devices of this machine.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Machine;
 
@@ -35,7 +35,7 @@ impl MidiIn for Machine {
 }
 
 fn client() -> Result<MidiInput, MidiError> {
-    // The library writes to the terminal where there is no sequencer.
+    // ALSA prints to the terminal if there is no sequencer.
     #[cfg(any(target_os = "linux", target_os = "dragonfly", target_os = "freebsd", target_os = "netbsd"))]
     let _ = alsa::Output::local_error_handler();
     let mut client = MidiInput::new(CLIENT).map_err(|_| MidiError::NoMidi)?;
@@ -43,7 +43,7 @@ fn client() -> Result<MidiInput, MidiError> {
     Ok(client)
 }
 
-/// Returns the devices under names that stay the same when they are plugged in again, each name once.
+/// Returns the devices under names that do not change when they are plugged in again, without duplicates.
 fn named(client: &MidiInput) -> Vec<(String, MidiInputPort)> {
     let ports = client.ports();
     let names = ports.iter().map(|port| client.port_name(port).ok());
@@ -60,7 +60,7 @@ fn named(client: &MidiInput) -> Vec<(String, MidiInputPort)> {
     found
 }
 
-/// Leaves out the numbers of ALSA's client and port, which differ each time.
+/// Strips the numbers of ALSA's client and port, which differ each time.
 fn without_numbers(name: &str) -> &str {
     let is_numbers = |text: &str| {
         let number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
@@ -74,15 +74,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_has_no_numbers_that_change() {
+    fn changing_numbers_are_stripped_from_names() {
         assert_eq!(without_numbers("nanoKONTROL2:nanoKONTROL2 MIDI 1 20:0"), "nanoKONTROL2:nanoKONTROL2 MIDI 1");
         assert_eq!(without_numbers("Launch Control XL"), "Launch Control XL");
         assert_eq!(without_numbers("A 1:2b"), "A 1:2b");
     }
 
-    /// There is no panic and no such device, on a machine with MIDI and on one without.
+    /// No panic and no such device, on machines with and without MIDI.
     #[test]
-    fn a_device_that_is_not_there_is_an_error() {
+    fn a_missing_device_is_an_error() {
         let mut machine = Machine;
         let _ = machine.names();
         assert!(machine.open("no such device", Box::new(|_| {})).is_err());

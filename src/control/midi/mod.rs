@@ -1,4 +1,4 @@
-//! MIDI: messages decoded to events, and the devices that send them.
+//! MIDI: messages decoded to events, and the input devices.
 
 mod decode;
 pub mod host;

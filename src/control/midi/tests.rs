@@ -1,4 +1,4 @@
-//! Bytes of MIDI devices, whole, in parts, and at random.
+//! Bytes of MIDI devices: whole messages, parts, and random bytes.
 
 use super::MidiDecoder;
 use eddy_project::ControlAddress;
@@ -10,31 +10,31 @@ fn read(bytes: &[u8]) -> Vec<(String, f64)> {
     events.into_iter().map(|event| (event.source.to_string(), event.value)).collect()
 }
 
-fn is(bytes: &[u8], wanted: &[(&str, f64)]) {
+fn assert_events(bytes: &[u8], wanted: &[(&str, f64)]) {
     let wanted: Vec<(String, f64)> = wanted.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
     assert_eq!(read(bytes), wanted, "{bytes:x?}");
 }
 
 #[test]
 fn controls_notes_and_bends_are_positions() {
-    is(&[0xb0, 70, 127], &[("midi 1 cc 70", 1.0)]);
-    is(&[0xbf, 70, 0], &[("midi 16 cc 70", 0.0)]);
-    is(
+    assert_events(&[0xb0, 70, 127], &[("midi 1 cc 70", 1.0)]);
+    assert_events(&[0xbf, 70, 0], &[("midi 16 cc 70", 0.0)]);
+    assert_events(
         &[0x90, 60, 127, 0x80, 60, 64, 0x90, 60, 0],
         &[("midi 1 note 60", 1.0), ("midi 1 note 60", 0.0), ("midi 1 note 60", 0.0)],
     );
-    is(&[0xe1, 0, 64], &[("midi 2 bend", 0.5)]);
-    is(&[0xe0, 0, 0, 0xe0, 127, 127], &[("midi 1 bend", 0.0), ("midi 1 bend", 1.0)]);
-    is(&[0xc0, 5, 0xd0, 90, 0xa0, 60, 90], &[]);
+    assert_events(&[0xe1, 0, 64], &[("midi 2 bend", 0.5)]);
+    assert_events(&[0xe0, 0, 0, 0xe0, 127, 127], &[("midi 1 bend", 0.0), ("midi 1 bend", 1.0)]);
+    assert_events(&[0xc0, 5, 0xd0, 90, 0xa0, 60, 90], &[]);
 }
 
 #[test]
-fn running_status_and_what_stands_within_a_message_are_understood() {
-    is(&[0xb0, 70, 127, 71, 0], &[("midi 1 cc 70", 1.0), ("midi 1 cc 71", 0.0)]);
-    is(&[0xb0, 70, 0xf8, 127], &[("midi 1 cc 70", 1.0)]);
+fn running_status_and_interleaved_messages_are_decoded() {
+    assert_events(&[0xb0, 70, 127, 71, 0], &[("midi 1 cc 70", 1.0), ("midi 1 cc 71", 0.0)]);
+    assert_events(&[0xb0, 70, 0xf8, 127], &[("midi 1 cc 70", 1.0)]);
     // A system exclusive message, which ends running status.
-    is(&[0xb0, 0xf0, 1, 2, 3, 0xf7, 70, 127, 0xb0, 70, 127], &[("midi 1 cc 70", 1.0)]);
-    is(&[70, 127], &[]);
+    assert_events(&[0xb0, 0xf0, 1, 2, 3, 0xf7, 70, 127, 0xb0, 70, 127], &[("midi 1 cc 70", 1.0)]);
+    assert_events(&[70, 127], &[]);
     // A message in two parts.
     let (mut decoder, mut events) = (MidiDecoder::default(), Vec::new());
     for part in [&[0xb0_u8][..], &[70], &[127]] {
@@ -44,7 +44,7 @@ fn running_status_and_what_stands_within_a_message_are_understood() {
 }
 
 #[test]
-fn two_controllers_are_a_pair_where_one_follows_the_other_at_once() {
+fn coarse_and_fine_controllers_form_a_pair_if_sent_together() {
     let begin = Instant::now();
     let (mut decoder, mut events) = (MidiDecoder::default(), Vec::new());
     let mut send = |millis: u64, number: u8, value: u8| {
@@ -63,7 +63,7 @@ fn two_controllers_are_a_pair_where_one_follows_the_other_at_once() {
     assert_eq!(send(901, 64, 1), None, "no part of a pair");
 }
 
-/// Returns the parameters that some bytes set, without the controllers by which they do.
+/// Returns the parameters that `bytes` set, without the events of the controllers themselves.
 fn parameters(bytes: &[u8]) -> Vec<(String, f64)> {
     read(bytes).into_iter().filter(|(name, _)| name.contains("nrpn")).collect()
 }
@@ -77,7 +77,7 @@ fn a_parameter_is_selected_by_two_controllers_and_set_by_one_or_two() {
     let cases: [(&[u8], &[f64]); 8] = [
         (&[], &[]),
         (&[6, 127], &[1.0]),
-        // Coarse and fine: the first coarse part may be all there is, and later ones wait.
+        // Coarse and fine: the first coarse part may be the whole value, and later ones wait.
         (&[6, 64, 38, 1], &[64.0 / 127.0, fine(64, 1)]),
         (&[6, 64, 38, 1, 6, 65, 38, 2], &[64.0 / 127.0, fine(64, 1), fine(65, 2)]),
         (&[38, 5], &[]),
@@ -93,13 +93,13 @@ fn a_parameter_is_selected_by_two_controllers_and_set_by_one_or_two() {
     assert_eq!(parameters(&[0xb0, 6, 1, 99, 2, 6, 1]), [], "nothing is selected yet");
     let other = parameters(&[0xb0, 99, 2, 98, 44, 6, 1, 38, 1, 98, 45, 6, 127]);
     assert_eq!(other.last(), Some(&("midi 1 nrpn 301".to_owned(), 1.0)), "another parameter has no fine part yet");
-    // Channels have a selection each, and the controllers themselves are still there.
+    // Each channel has its own selection, and the controllers themselves still make events.
     assert_eq!(parameters(&[0xb0, 99, 0, 98, 1, 0xb1, 6, 1]), []);
-    is(&[0xb0, 6, 127], &[("midi 1 cc 6", 1.0)]);
+    assert_events(&[0xb0, 6, 127], &[("midi 1 cc 6", 1.0)]);
 }
 
 #[test]
-fn any_bytes_give_positions_or_nothing() {
+fn random_bytes_decode_to_valid_positions_or_nothing() {
     let (mut decoder, mut events, mut state) = (MidiDecoder::default(), Vec::new(), 1_u32);
     for _ in 0..5_000 {
         let mut bytes = [0; 16];

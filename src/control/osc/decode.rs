@@ -1,4 +1,4 @@
-//! The bytes of a packet to events.
+//! Decodes the bytes of a packet to events.
 
 use super::pattern::{Pattern, is_pattern};
 use crate::ControlEvent;
@@ -9,7 +9,7 @@ use rosc::{OscPacket, OscType};
 const BUNDLE: &[u8] = b"#bundle\0";
 const TIME_TAG: usize = 8;
 
-/// A packet that cannot be read. What came before the damage counts for nothing.
+/// The error of an unreadable packet. Events before the damage are discarded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum OscError {
     #[error("the packet is damaged")]
@@ -22,14 +22,14 @@ pub enum OscError {
     Deep,
 }
 
-/// Returns an event for each number in a packet, in their order. Time tags count for nothing: everything is now.
+/// Returns an event for each number in a packet, in order. Time tags are ignored: everything happens now.
 pub fn decode(packet: &[u8]) -> Result<Vec<ControlEvent>, OscError> {
     if packet.len() as u64 > limits::OSC_PACKET.bytes {
         return Err(OscError::Large);
     }
     let mut events = Vec::new();
     let mut messages = 0;
-    // Parts that are left, the next one last, each with the bundles around it.
+    // The remaining parts, the next one last, each with the number of bundles around it.
     let mut left = vec![(packet, 0)];
     while let Some((part, depth)) = left.pop() {
         let Some(contents) = part.strip_prefix(BUNDLE) else {
@@ -60,13 +60,13 @@ pub fn decode(packet: &[u8]) -> Result<Vec<ControlEvent>, OscError> {
     Ok(events)
 }
 
-/// Adds the numbers of a message. One whose address no control can have and that is no pattern is skipped.
+/// Adds the numbers of a message. A message whose address is neither valid for a control nor a pattern is skipped.
 fn message(bytes: &[u8], events: &mut Vec<ControlEvent>) -> Result<(), OscError> {
     let address = bytes.split(|byte| *byte == 0).next().unwrap_or_default();
     if address.first() != Some(&b'/') {
         return Err(OscError::Damaged);
     }
-    // The type tags begin at the next multiple of four bytes after the address and its zero.
+    // The type tags start at the next multiple of four bytes after the address and its zero.
     let tags = bytes.get((address.len() / 4 + 1) * 4..).unwrap_or_default();
     let tags = tags.split(|byte| *byte == 0).next().unwrap_or_default();
     if tags.len() > limits::OSC_ARGUMENTS + 1 {
@@ -85,7 +85,7 @@ fn message(bytes: &[u8], events: &mut Vec<ControlEvent>) -> Result<(), OscError>
     Ok(())
 }
 
-/// Returns the number that an argument is, if it is one.
+/// Returns the number of an argument, if it is one.
 fn number(value: &OscType) -> Option<f64> {
     let number = match value {
         OscType::Int(n) => f64::from(*n),

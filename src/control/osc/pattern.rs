@@ -1,14 +1,14 @@
 //! Address patterns of OSC 1.0 ("OSC Message Dispatching and Pattern Matching").
 //!
-//! A pattern is matched part by part between slashes, so `*` does not go over a slash. In a part, `?` is any character, `*` any
-//! characters or none, `[a-cx]` one of a list or a range, `[!a]` any other one, and `{one,two}` one of several texts. The time
-//! grows with the product of both lengths, whatever the pattern.
+//! A pattern is matched part by part between slashes, so `*` does not match a slash. In a part, `?` is any character,
+//! `*` any number of characters, `[a-cx]` one of a list or a range, `[!a]` any other character, and `{one,two}` one of
+//! several texts. The time is proportional to the product of both lengths for any pattern.
 
 use crate::ControlEvent;
 use eddy_project::{ControlAddress, limits};
 use std::collections::{HashMap, HashSet};
 
-/// An address pattern that is well formed.
+/// A well-formed address pattern.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Pattern {
     parts: Vec<Vec<Token>>,
@@ -27,24 +27,24 @@ enum Token {
     OneOf(Vec<Vec<u8>>),
 }
 
-/// Returns whether an address has a character that makes it a pattern.
+/// Returns whether an address contains a character that makes it a pattern.
 pub fn is_pattern(address: &str) -> bool {
     address.contains(['*', '?', '[', ']', '{', '}'])
 }
 
-/// An OSC address that moves something, with the number of arguments that do.
+/// An OSC address that moves something, with the number of its arguments that do.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Listener {
     pub path: String,
     pub arguments: usize,
 }
 
-/// Returns the events with each pattern replaced by the addresses that it matches, of all that somebody listens to. A pattern is
-/// no address of a control itself. No more than [`limits::OSC_PATTERNS`] different ones are followed, and no more than
+/// Returns the events with each pattern replaced by the addresses that it matches among all listeners. A pattern itself
+/// is not the address of a control. At most [`limits::OSC_PATTERNS`] different patterns are expanded, and at most
 /// [`limits::OSC_STEPS`] steps are spent on matching; later ones are dropped.
 ///
-/// It keeps the newest of the events that patterns make for one argument of an address, so that there are never more of them than
-/// `listeners` have arguments, whatever is sent.
+/// For each argument of an address only the newest event from patterns is kept, so that their number never exceeds the
+/// number of arguments in `listeners`, whatever is sent.
 pub fn dispatched(events: Vec<ControlEvent>, listeners: impl FnOnce() -> Vec<Listener>) -> Vec<ControlEvent> {
     let pattern_of = |event: &ControlEvent| match &event.source {
         ControlAddress::Osc { path, argument } if is_pattern(path) => Some((path.clone(), *argument)),
@@ -87,7 +87,7 @@ pub fn dispatched(events: Vec<ControlEvent>, listeners: impl FnOnce() -> Vec<Lis
 }
 
 impl Pattern {
-    /// Reads a pattern. `None`: it is none, or a bracket or a brace is not closed.
+    /// Parses a pattern. `None` if it is not a pattern, or if a bracket or a brace is not closed.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let is_allowed = |byte: u8| byte.is_ascii_graphic() && byte != b'#';
         if text.len() > limits::OSC_PATH || !text.bytes().all(is_allowed) {
@@ -102,7 +102,7 @@ impl Pattern {
         self.matches_within(address, &mut u64::MAX.clone()) == Some(true)
     }
 
-    /// Compares an address with the pattern, and takes what that costs off `steps`. `None`: there are not enough of them.
+    /// Compares an address with the pattern, and subtracts the cost from `steps`. `None` if there are not enough steps.
     fn matches_within(&self, address: &str, steps: &mut u64) -> Option<bool> {
         let Some(rest) = address.strip_prefix('/') else { return Some(false) };
         let mut parts = rest.split('/');
@@ -117,22 +117,22 @@ impl Pattern {
     }
 }
 
-/// Reads a part between two slashes.
+/// Parses a part between two slashes.
 fn tokens(mut rest: &[u8]) -> Option<Vec<Token>> {
     let mut tokens = Vec::new();
-    while let Some((first, behind)) = rest.split_first() {
-        rest = behind;
+    while let Some((first, tail)) = rest.split_first() {
+        rest = tail;
         tokens.push(match first {
             b'?' => Token::Any,
             b'*' => Token::AnySequence,
             b'[' => {
-                let (list, behind) = until(rest, b']')?;
-                rest = behind;
+                let (list, tail) = until(rest, b']')?;
+                rest = tail;
                 set(list)
             }
             b'{' => {
-                let (list, behind) = until(rest, b'}')?;
-                rest = behind;
+                let (list, tail) = until(rest, b'}')?;
+                rest = tail;
                 Token::OneOf(list.split(|byte| *byte == b',').map(<[u8]>::to_vec).collect())
             }
             b']' | b'}' | b',' => return None,
@@ -142,7 +142,7 @@ fn tokens(mut rest: &[u8]) -> Option<Vec<Token>> {
     Some(tokens)
 }
 
-/// Splits what stands before a closing character from what stands after it.
+/// Splits a text at a closing character.
 fn until(text: &[u8], end: u8) -> Option<(&[u8], &[u8])> {
     let at = text.iter().position(|byte| *byte == end)?;
     let list = &text[..at];
@@ -150,7 +150,7 @@ fn until(text: &[u8], end: u8) -> Option<(&[u8], &[u8])> {
     (!list.iter().any(|byte| b"[]{}".contains(byte))).then(|| (list, &text[at + 1..]))
 }
 
-/// Reads the contents of brackets. A minus sign at an end and a `!` that is not the first one stand for themselves.
+/// Parses the contents of brackets. A minus sign at an end and a `!` that is not the first character are literal.
 fn set(list: &[u8]) -> Token {
     let (is_negated, mut list) = match list.strip_prefix(b"!") {
         Some(rest) => (true, rest),
@@ -172,7 +172,7 @@ fn set(list: &[u8]) -> Token {
     }
 }
 
-/// Follows all ways at once: `reached[n]` says that the tokens so far can match the first `n` bytes.
+/// Matches all alternatives at once: `reached[n]` is set if the tokens so far can match the first `n` bytes.
 fn part_matches(tokens: &[Token], part: &[u8]) -> bool {
     let mut reached = vec![false; part.len() + 1];
     reached[0] = true;
@@ -216,9 +216,9 @@ fn is_one(token: &Token, byte: u8) -> bool {
 mod tests {
     use super::*;
 
-    /// The rules of the specification, one after the other, with the addresses that each matches and does not.
+    /// The rules of the specification, each with addresses that match and addresses that do not.
     #[test]
-    fn patterns_match_as_osc_1_0_says() {
+    fn patterns_match_by_the_rules_of_osc_1_0() {
         let table: [(&str, &[&str], &[&str]); 20] = [
             ("/a/b", &["/a/b"], &["/a", "/a/b/c", "/a/c", "/A/b", "a/b", ""]),
             ("/?", &["/a", "/1"], &["/ab", "/", "/a/b"]),
@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pattern_stands_for_the_addresses_that_it_matches() {
+    fn a_pattern_is_replaced_by_the_addresses_that_it_matches() {
         let event = |path: &str, argument, value| ControlEvent {
             source: ControlAddress::Osc { path: path.into(), argument },
             value,
@@ -279,11 +279,11 @@ mod tests {
 
     /// 32 patterns, 4,096 events and 20,000 addresses: neither the events nor the steps are their product.
     #[test]
-    fn patterns_make_no_more_events_than_are_listened_to() {
+    fn pattern_events_are_limited_by_the_listeners() {
         let event =
             |path: String, argument, value| ControlEvent { source: ControlAddress::Osc { path, argument }, value };
         let known = || ["/1/a", "/1/b"].map(|path| Listener { path: path.into(), arguments: 2 }).to_vec();
-        // Of more different patterns than the limit the first ones are followed; arguments that move nothing are not.
+        // Beyond the limit of different patterns only the first ones are expanded; arguments that move nothing are not.
         let number = |n: usize| event(format!("/1/{{a,{n}}}"), n % 3, n as f64);
         let many: Vec<ControlEvent> = (0..limits::OSC_PATTERNS + 5).map(number).collect();
         let values: Vec<f64> = dispatched(many, known).iter().map(|event| event.value).collect();
@@ -299,9 +299,9 @@ mod tests {
         assert!((500..5_000).contains(&compared), "{compared}");
     }
 
-    /// These take exponential time where one way is tried after the other.
+    /// These take exponential time if alternatives are tried one after the other.
     #[test]
-    fn a_pattern_made_to_take_long_takes_little() {
+    fn matching_takes_no_exponential_time() {
         let pattern = Pattern::parse(&format!("/{}b", "*a".repeat(120))).unwrap();
         let address = format!("/{}", "a".repeat(250));
         let begun = std::time::Instant::now();

@@ -1,4 +1,4 @@
-//! The socket that packets come through, on a thread of its own.
+//! The socket that receives packets, on a separate thread.
 
 use super::decode;
 use crate::{ControlQueue, Wake};
@@ -14,18 +14,18 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The longest time after which the thread hears that it is to end.
+/// The receive timeout: the longest time until the thread notices that it should end.
 const PATIENCE: Duration = Duration::from_millis(100);
-/// The time between two attempts to listen where another program does.
+/// The time between two attempts to bind a port that another program uses.
 const RETRY: Duration = Duration::from_secs(3);
 
-/// Says what is known of the socket.
+/// The state of the socket.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum OscState {
     #[default]
     Starting,
     Listening(SocketAddr),
-    /// It cannot listen, in words that people read. It is tried again.
+    /// It cannot listen; contains the reason as shown to users. Binding is retried.
     Missing(String),
 }
 
@@ -38,7 +38,8 @@ pub struct OscInput {
 }
 
 impl OscInput {
-    /// Listens at an address. `wake` is called when the state has changed; what comes goes into `queue`, which wakes by itself.
+    /// Listens at an address. `wake` is called when the state has changed; events go into `queue`, which wakes its
+    /// reader itself.
     pub fn listen(address: SocketAddr, queue: ControlQueue, wake: Wake) -> std::io::Result<Self> {
         let state = Arc::new(Mutex::new(OscState::Starting));
         let is_over = Arc::new(AtomicBool::new(false));
@@ -47,7 +48,7 @@ impl OscInput {
         Ok(Self { asked: address, state, is_over, thread: Some(thread) })
     }
 
-    /// Returns the address that it was asked to listen at.
+    /// Returns the requested address.
     pub fn asked(&self) -> SocketAddr {
         self.asked
     }
@@ -61,7 +62,7 @@ impl Drop for OscInput {
     fn drop(&mut self) {
         self.is_over.store(true, Ordering::Relaxed);
         if let Some(thread) = self.thread.take() {
-            // It has nothing to say if it panicked.
+            // If it panicked, there is nothing to report.
             let _ = thread.join();
         }
     }
@@ -106,13 +107,13 @@ impl Worker {
     }
 
     fn listen(&self, socket: &UdpSocket) -> std::io::Result<()> {
-        // With one byte more than a packet may have, a longer one is seen.
+        // With one byte more than the limit, an oversized packet is recognised.
         let mut buffer = vec![0; limits::OSC_PACKET.bytes as usize + 1];
         while !self.is_over() {
             match socket.recv_from(&mut buffer) {
-                // A damaged packet is somebody else's fault, and there may be thousands of it: nothing is said.
+                // A damaged packet is the sender's fault, and there may be thousands of them: they are not reported.
                 Ok((size, _)) => self.queue.push(decode(&buffer[..size]).unwrap_or_default()),
-                // The last two: an earlier answer of ours was refused, or a packet was longer than the buffer (Windows).
+                // The last two: an earlier reply of ours was refused, or a packet was larger than the buffer (Windows).
                 Err(error)
                     if matches!(
                         error.kind(),
@@ -169,9 +170,9 @@ mod tests {
         })
     }
 
-    /// Through a real socket of the loopback interface, damaged packets among whole ones.
+    /// Sends through a real socket of the loopback interface, with damaged packets among valid ones.
     #[test]
-    fn what_is_sent_over_the_loopback_address_comes_out_of_the_queue() {
+    fn packets_from_the_loopback_interface_arrive_in_the_queue() {
         let queue = ControlQueue::new(Arc::new(|| {}));
         let free = SocketAddr::from(([127, 0, 0, 1], 0));
         let input = OscInput::listen(free, queue.clone(), Arc::new(|| {})).unwrap();
@@ -187,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn a_port_that_is_taken_is_told_of_and_listened_at_once_it_is_free() {
+    fn a_port_in_use_is_reported_and_bound_once_it_is_free() {
         let taken = UdpSocket::bind("127.0.0.1:0").unwrap();
         let address = taken.local_addr().unwrap();
         let queue = ControlQueue::new(Arc::new(|| {}));

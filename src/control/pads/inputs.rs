@@ -13,22 +13,22 @@ use std::{
     time::Duration,
 };
 
-/// The longest time after which the thread hears that it is to end.
+/// The poll timeout: the longest time until the thread notices that it should end.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// Says what is known of the gamepads.
+/// The state of the gamepads.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PadState {
-    /// The names of those that are connected, by their numbers.
+    /// The names of the connected gamepads, by number.
     pub connected: BTreeMap<usize, String>,
-    /// The reason why none can be read.
+    /// The reason why gamepads cannot be read.
     pub trouble: Option<String>,
 }
 
 #[derive(Default)]
 struct Shared {
     state: PadState,
-    /// Events that are not taken yet.
+    /// Events that have not been taken yet.
     waiting: VecDeque<PadEvent>,
 }
 
@@ -40,7 +40,8 @@ pub struct PadInputs {
 }
 
 impl PadInputs {
-    /// `wake` is called when something has happened. Movements also go into `queue`, as those of other controls.
+    /// Starts the thread. `wake` is called after each event. Movements also go into `queue`, as those of other
+    /// controls.
     pub fn listen(host: Arc<dyn PadHost>, queue: ControlQueue, wake: Wake) -> std::io::Result<Self> {
         let shared: Arc<Mutex<Shared>> = Arc::default();
         let is_over = Arc::new(AtomicBool::new(false));
@@ -53,7 +54,7 @@ impl PadInputs {
         lock(&self.shared).state.clone()
     }
 
-    /// Takes what has happened since the last call, in order.
+    /// Takes the events since the last call, in order.
     pub fn take(&self) -> Vec<PadEvent> {
         lock(&self.shared).waiting.drain(..).collect()
     }
@@ -129,7 +130,7 @@ mod tests {
     use std::time::Instant;
 
     #[test]
-    fn what_happens_to_a_gamepad_is_taken_in_order_and_moves_controls() {
+    fn gamepad_events_are_taken_in_order_and_move_controls() {
         let (host, queue) = (FakePads::default(), ControlQueue::new(Arc::new(|| {})));
         let events = [
             PadEvent::Connected { pad: 0, name: "Pad".into() },

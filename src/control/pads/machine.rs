@@ -1,4 +1,4 @@
-//! The gamepads of the machine, by gilrs: evdev and udev, IOKit, or Windows.Gaming.Input.
+//! The machine's gamepads, by gilrs: evdev and udev, IOKit, or Windows.Gaming.Input.
 
 use super::{PadEvent, PadHost, PadIn};
 use eddy_project::{PADS, PadPart};
@@ -13,7 +13,7 @@ impl PadHost for Machine {
     fn open(&self) -> Result<Box<dyn PadIn>, String> {
         let pads = Gilrs::new().map_err(|error| error.to_string())?;
         let mut open = Open { pads, slots: [None; PADS], waiting: VecDeque::new() };
-        // Those that are plugged in already.
+        // The gamepads that are already plugged in.
         let ids: Vec<GamepadId> = open.pads.gamepads().map(|(id, _)| id).collect();
         ids.into_iter().for_each(|id| open.connect(id));
         Ok(Box::new(open))
@@ -32,7 +32,8 @@ impl Open {
         self.slots.iter().position(|slot| *slot == Some(id))
     }
 
-    /// Gives a pad the number that it had, else a free one, else that of one that is gone. A fifth one has none.
+    /// Gives a pad its previous number, otherwise a free one, otherwise that of a disconnected one. A fifth pad gets
+    /// none.
     fn connect(&mut self, id: GamepadId) {
         let is_gone = |slot: &Option<GamepadId>| slot.is_none_or(|id| self.pads.connected_gamepad(id).is_none());
         let free = self.slots.iter().position(Option::is_none).or_else(|| self.slots.iter().position(is_gone));
@@ -104,7 +105,7 @@ fn part_of_button(button: Button) -> Option<PadPart> {
 mod tests {
     use super::*;
 
-    /// There is no panic, on a machine with gamepads and on one without.
+    /// No panic, on machines with and without gamepads.
     #[test]
     fn a_machine_without_gamepads_is_silent() {
         if let Ok(mut pads) = Machine.open() {

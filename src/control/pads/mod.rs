@@ -1,5 +1,5 @@
-//! Gamepads: what they send, and the thread that reads them. [`PadHost`] is the machine's gamepads, or a test's; `machine`
-//! (feature `gamepad`) has those of the machine.
+//! Gamepads: their events, and the thread that reads them. [`PadHost`] is the machine's gamepads, or a test's;
+//! `machine` (feature `gamepad`) implements it for the machine.
 
 mod inputs;
 #[cfg(feature = "gamepad")]
@@ -12,17 +12,17 @@ use std::{fmt::Debug, time::Duration};
 
 /// The gamepads of a machine.
 pub trait PadHost: Send + Sync + Debug {
-    /// Begins to listen to all of them, on the thread that asks. Err: why it cannot, in words that people read.
+    /// Starts to listen to all of them, on the calling thread. The error is a message for users.
     fn open(&self) -> Result<Box<dyn PadIn>, String>;
 }
 
 /// Gamepads that are listened to until this is dropped.
 pub trait PadIn {
-    /// Waits for something to happen, at most for so long. `None`: nothing has.
+    /// Waits at most `patience` for an event. `None` if there was none.
     fn next(&mut self, patience: Duration) -> Option<PadEvent>;
 }
 
-/// Something that has happened to a gamepad. Pads are counted from 0, and one that comes back has its number again.
+/// An event of a gamepad. Pads are numbered from 0, and a pad that is plugged in again keeps its number.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PadEvent {
     Connected {

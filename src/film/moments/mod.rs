@@ -1,20 +1,20 @@
-//! The sound of frames whose times are not evenly spaced: of a recording that is drawn again, and of what somebody plays.
+//! The sound of frames whose times are not evenly spaced: of a recording that is replayed, and of live playing.
 //!
-//! While the time of the run goes on at one speed, the sound does, too. Where it jumps or stands still, another part of the sound
-//! begins, or silence, with a short fade.
+//! While the time of the run advances at a constant speed, so does the sound. Where it jumps or stops, another part of
+//! the sound or silence starts, with a short fade.
 
 use super::{Rate, soundtrack::PIECE};
 use eddy_audio::{Resampler, SAMPLE_RATE, Scene};
 use std::ops::Range;
 
-/// Steps of the run that the sound may be away from the picture.
+/// The maximum distance between sound and picture, in steps of the run.
 const MOST_OFF: f64 = 0.5;
-/// Speeds at which something is heard, as parts of the sound's own: three octaves down and up.
+/// The speeds at which sound is audible, relative to its own: three octaves down and up.
 const SPEEDS: std::ops::RangeInclusive<f64> = 0.125..=8.0;
-/// Samples of a fade between two parts: 5 ms.
+/// The samples of a fade between two parts: 5 ms.
 const FADE: usize = SAMPLE_RATE as usize / 200;
 
-/// Says which time of the run a frame of a film shows, and which of several sounds is heard with it.
+/// The time of the run that a frame of a film shows, and the sound that is heard with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moment {
     /// `iTime`.
@@ -22,17 +22,18 @@ pub struct Moment {
     pub sound: usize,
 }
 
-/// Frames during which the time of the run goes on at one speed.
+/// A range of frames during which the time of the run advances at a constant speed.
 #[derive(Clone, Debug, PartialEq)]
 struct Part {
     frames: Range<usize>,
-    /// The time of its first frame, and seconds of the run in a second of the film.
+    /// The time of its first frame, and seconds of the run per second of the film.
     secs: f64,
     speed: f64,
     sound: usize,
 }
 
-/// Returns the samples of a film with these frames. `scene` gives one of the sounds, with what is heard of it between two times.
+/// Returns the samples of a film with these frames. `scene` returns one of the sounds, with the samples heard between
+/// two times.
 pub fn soundtrack_of<E>(
     moments: &[Moment],
     rate: Rate,
@@ -45,17 +46,17 @@ pub fn soundtrack_of<E>(
         if !SPEEDS.contains(&part.speed) || count == 0 {
             return Ok(vec![[0.0; 2]; count]);
         }
-        let begin = part.secs * f64::from(SAMPLE_RATE);
-        // At its own speed a sound keeps its samples.
-        let begin = if part.speed == 1.0 { begin.round() } else { begin };
-        let position = begin + part.speed * from as f64;
+        let start_sample = part.secs * f64::from(SAMPLE_RATE);
+        // At its own speed a sound keeps its samples unchanged.
+        let start_sample = if part.speed == 1.0 { start_sample.round() } else { start_sample };
+        let position = start_sample + part.speed * from as f64;
         let reach = Resampler::reach(part.speed) as f64;
         let range = [position - reach, position + part.speed * count as f64 + reach];
         let [from, to] = range.map(|sample| sample / f64::from(SAMPLE_RATE));
         Ok(resampler.read(&scene(part.sound, from..to)?, position, part.speed, count))
     };
     let mut out = Vec::with_capacity(at(moments.len()));
-    // The end of the part before, which fades out.
+    // The end of the previous part, which fades out.
     let mut tail: Vec<[f32; 2]> = Vec::new();
     for (n, part) in parts.iter().enumerate() {
         let (start, end) = (at(part.frames.start), at(part.frames.end));
@@ -68,7 +69,7 @@ pub fn soundtrack_of<E>(
             for (sample, end) in samples.iter_mut().zip(tail.drain(..faded)) {
                 *sample = sum(*sample, end);
             }
-            // A conversion from float to integer cuts off what is beyond full scale.
+            // The conversion from float to integer clamps samples beyond full scale.
             out.extend(samples.iter().map(|sample| sample.map(|side| (side * 32_768.0).round() as i16)));
         }
         if n + 1 < parts.len() {
@@ -85,7 +86,7 @@ fn sum(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {
     [a[0] + b[0], a[1] + b[1]]
 }
 
-/// Gives the first samples a gain by the part of the fade that is over.
+/// Multiplies the first samples by a gain that depends on the progress of the fade.
 fn faded(samples: &mut [[f32; 2]], gain: impl Fn(f32) -> f32) {
     for (n, sample) in samples.iter_mut().take(FADE).enumerate() {
         let gain = gain(n as f32 / FADE as f32);
@@ -93,7 +94,7 @@ fn faded(samples: &mut [[f32; 2]], gain: impl Fn(f32) -> f32) {
     }
 }
 
-/// Returns the typical step of time between two frames; `None` where time never goes on.
+/// Returns the typical time between two frames; `None` if time never advances.
 fn step(moments: &[Moment]) -> Option<f64> {
     let steps = moments.windows(2).map(|pair| pair[1].secs - pair[0].secs);
     let mut steps: Vec<f64> = steps.filter(|step| step.is_finite() && *step > 0.0).collect();
@@ -101,15 +102,15 @@ fn step(moments: &[Moment]) -> Option<f64> {
     (!steps.is_empty()).then(|| *steps.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
-/// Returns the typical speed of the run in a film of these frames: seconds of it in a second of the film.
+/// Returns the typical speed of the run in a film of these frames: seconds of the run per second of the film.
 pub fn speed(moments: &[Moment], rate: Rate) -> Option<f64> {
     step(moments).map(|step| step * rate.per_second())
 }
 
-/// Returns as few parts as can be that are nowhere further away from the times than [`MOST_OFF`]: the swing filter of
-/// Elmeleegy et al., "Online Piece-wise Linear Approximation of Numerical Streams with Precision Guarantees" (VLDB 2009).
-/// Of the speeds that are possible it takes the one that is nearest to 1, and 1 itself where that makes a part not less than half
-/// as long: a pause must not change the pitch of what was before it.
+/// Returns the fewest parts that stay within [`MOST_OFF`] of the times: the swing filter of Elmeleegy et al., "Online
+/// Piece-wise Linear Approximation of Numerical Streams with Precision Guarantees" (VLDB 2009). Among the possible
+/// speeds it takes the one nearest to 1, and 1 itself if the part is then at least half as long: a pause must not
+/// change the pitch of the sound before it.
 fn parts(moments: &[Moment], per_second: f64) -> Vec<Part> {
     let most_off = MOST_OFF * step(moments).unwrap_or(1.0 / per_second);
     let mut parts = Vec::new();
@@ -136,13 +137,13 @@ fn parts(moments: &[Moment], per_second: f64) -> Vec<Part> {
         } else {
             low..=high
         };
-        // Time that may stand still does, unless it may be as fast as usual.
+        // If time may be paused, it is, unless the usual speed is possible too.
         let speed = if possible.contains(&0.0) && !possible.contains(&1.0) {
             0.0
         } else {
             1.0f64.clamp(*possible.start(), *possible.end())
         };
-        // The same line with other sounds.
+        // The same line, split where the sound changes.
         let mut from = start;
         for group in moments[start..end].chunk_by(|a, b| a.sound == b.sound) {
             let secs = first.secs + speed * (from - start) as f64 / per_second;

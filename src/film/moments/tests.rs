@@ -1,4 +1,4 @@
-//! Tests of the sound of uneven times.
+//! Tests of the sound of unevenly spaced frames.
 
 use super::*;
 use eddy_audio::{Sound, Source};
@@ -8,7 +8,7 @@ fn moments(secs: impl IntoIterator<Item = f64>) -> Vec<Moment> {
     secs.into_iter().map(|secs| Moment { secs, sound: 0 }).collect()
 }
 
-/// A sound whose samples are their numbers, and which is silent before it.
+/// A sound whose samples are their numbers, preceded by silence.
 fn counted() -> Scene {
     let frames = (0..44_100 * 3).map(|n| [n as f32 / 4e5, -(n as f32) / 4e5]).collect();
     Scene { sources: vec![Source::Loop(Arc::new(Sound { frames, ..Sound::default() }))] }
@@ -27,7 +27,7 @@ fn speeds(moments: &[Moment], fps: f64) -> Vec<(Range<usize>, f64)> {
 fn even_frames_have_the_samples_of_their_time() {
     let all = sound(&moments((30..90).map(|n| f64::from(n) / 60.0)), 60.0);
     assert_eq!(all, counted().mixed(22_050, 66_150));
-    // Uneven by less than half a frame: as if they were even.
+    // Jitter of less than half a frame is treated as even spacing.
     let shaken = moments((0..60).map(|n| (f64::from(n) + 0.4 * f64::from(n % 3 - 1).abs()) / 60.0));
     assert_eq!(speeds(&shaken, 60.0), [(0..60, 1.0)]);
     assert!(sound(&[], 60.0).is_empty());
@@ -41,16 +41,16 @@ fn jumps_pauses_and_other_speeds_are_followed() {
     let all = sound(&jump, 60.0);
     assert_eq!((all.len(), &all[..44_100]), (88_200, &counted().mixed(0, 44_100)[..]));
     assert_eq!(all[44_100 + FADE..], counted().mixed(66_150 + FADE as u64, 110_250)[..]);
-    // In the fade one goes down as the other comes up.
+    // During the fade one sound decreases as the other increases.
     let (half, mean) = (all[44_100 + FADE / 2][0], (44_100 + FADE / 2 + 11_025) as f32 / 4e5 * 32_768.0);
     assert!((f32::from(half) - mean).abs() < 2.0, "{half} {mean}");
-    // Time stands still for half a second, and goes back.
+    // Time pauses for half a second, and jumps back.
     let still = moments(second(0.5).chain([1.5 - 1.0 / 60.0; 30]).chain(second(0.0)));
     assert_eq!(speeds(&still, 60.0), [(0..60, 1.0), (60..90, 0.0), (90..150, 1.0)]);
     let all = sound(&still, 60.0);
     assert!(all[44_100 + FADE..66_150].iter().all(|sample| *sample == [0, 0]));
     assert_eq!(all[66_150 + FADE..], counted().mixed(FADE as u64, 44_100)[..]);
-    // Of a screen with 120 frames per second, shown at 60: an octave down.
+    // A screen with 120 frames per second, shown at 60: an octave down.
     let slow = moments((0..120).map(|n| f64::from(n) / 120.0));
     assert_eq!(speeds(&slow, 60.0), [(0..120, 0.5)]);
     assert_eq!(speed(&slow, Rate::of(60.0).unwrap()).map(|speed| (speed * 1e6).round()), Some(5e5));
@@ -60,8 +60,8 @@ fn jumps_pauses_and_other_speeds_are_followed() {
 }
 
 #[test]
-fn the_sound_is_never_further_away_than_a_step() {
-    // A slow clock with noise, pauses and jumps, from a simple generator of numbers.
+fn sound_stays_within_one_step_of_the_picture() {
+    // A slow clock with noise, pauses and jumps, from a simple random number generator.
     let mut state = 7u32;
     let mut random = move || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -89,14 +89,14 @@ fn the_sound_is_never_further_away_than_a_step() {
 }
 
 #[test]
-fn another_sound_begins_in_its_frame() {
+fn another_sound_starts_at_its_frame() {
     let mut all = moments((0..60).map(|n| f64::from(n) / 60.0));
     all[30..].iter_mut().for_each(|moment| moment.sound = 1);
     let silent = |n| if n == 0 { counted() } else { Scene::default() };
     let mixed = soundtrack_of(&all, Rate::of(60.0).unwrap(), |n, _| Ok::<_, Infallible>(silent(n))).unwrap();
     assert_eq!(mixed[..22_050], counted().mixed(0, 22_050)[..]);
     assert!(mixed[22_050 + FADE..].iter().all(|sample| *sample == [0, 0]));
-    // The times that are asked for hold what is read.
+    // The requested time range contains the samples that are read.
     let mut asked = Vec::new();
     soundtrack_of(&all, Rate::of(60.0).unwrap(), |n, secs| {
         asked.push((n, secs));

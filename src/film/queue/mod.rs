@@ -1,4 +1,4 @@
-//! Encoding on a thread of its own, behind a queue that holds a bounded number of frames.
+//! Encoding on a separate thread, fed by a queue with a bounded number of frames.
 
 use super::{
     FilmError, FilmSound, apng::Apng, coded::CodedFilm, gif::Gif, pipe::Plain, rate::Rate, still::Still,
@@ -22,40 +22,40 @@ use std::{
     thread::{Builder, JoinHandle},
 };
 
-/// The most frames that wait, however small they are.
+/// The maximum number of queued frames, however small they are.
 const MOST: u64 = 16;
 
-/// The facts of a film that are known before its first frame.
+/// The properties of a film that are known before its first frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
     pub width: u32,
     pub height: u32,
     pub rate: Rate,
-    /// `None` where nobody knows yet.
+    /// `None` if it is not known yet.
     pub frames: Option<u32>,
 }
 
-/// The place that a film is written to.
+/// The destination of a film.
 pub enum Output {
-    /// A file that the person at the machine named. Where it is a link, what it leads to is written.
+    /// A file that the user named. If it is a link, its target is written.
     File(PathBuf),
-    /// A file of a folder that the person at the machine named, under a name that Eddy gives it: no link leads out of the
-    /// folder.
+    /// A file in a folder that the user named, under a name that Eddy chooses: links out of the folder are not
+    /// followed.
     Within(PathBuf),
-    /// A place where nothing is. What comes there meanwhile is not replaced.
+    /// A new file. A file that appears there meanwhile is not replaced.
     NewFile(PathBuf),
-    /// Standard output, or anything else that takes bytes.
+    /// Standard output, or any other writer.
     Pipe(Box<dyn Write + Send>),
 }
 
-/// A writer of one film, on the thread that encodes.
+/// A writer of one film, on the encoding thread.
 pub(super) trait Sink: Send {
     fn frame(&mut self, pixels: &Pixels) -> Result<(), FilmError>;
 
-    /// Takes the sound of a film for which it comes after the frames.
+    /// Takes the sound of a film if it arrives after the frames.
     fn sound(&mut self, _: Vec<[i16; 2]>) {}
 
-    /// Completes the file that is staged.
+    /// Completes the staged file.
     fn finish(&mut self) -> Result<(), FilmError>;
 }
 
@@ -64,14 +64,15 @@ pub(super) enum Job<T> {
     Finish,
 }
 
-/// A thread that does jobs in their order.
+/// A thread that runs jobs in order.
 pub(super) struct Queue<T> {
     jobs: Option<SyncSender<Job<T>>>,
     thread: Option<JoinHandle<Result<(), FilmError>>>,
 }
 
 impl<T: Send + 'static> Queue<T> {
-    /// `work` takes jobs until there are no more. It ends with [`FilmError::Stopped`] where no [`Job::Finish`] came.
+    /// `work` receives jobs until there are no more. It ends with [`FilmError::Stopped`] if no [`Job::Finish`] was
+    /// received.
     pub fn start(
         capacity: usize,
         work: impl FnOnce(Receiver<Job<T>>) -> Result<(), FilmError> + Send + 'static,
@@ -81,21 +82,21 @@ impl<T: Send + 'static> Queue<T> {
         Ok(Queue { jobs: Some(jobs), thread: Some(thread) })
     }
 
-    /// Waits while the queue is full.
+    /// Blocks while the queue is full.
     pub fn push(&mut self, job: Job<T>) -> Result<(), FilmError> {
         match &self.jobs {
             Some(jobs) if jobs.send(job).is_ok() => Ok(()),
-            // It has ended, and says why.
+            // The thread has ended; `end` returns its error.
             _ => self.end().and(Err(FilmError::Stopped)),
         }
     }
 
-    /// Returns the job where the queue is full.
+    /// Returns the job if the queue is full.
     fn try_push(&mut self, job: Job<T>) -> Result<Option<Job<T>>, FilmError> {
         match self.jobs.as_ref().map(|jobs| jobs.try_send(job)) {
             Some(Ok(())) => Ok(None),
             Some(Err(TrySendError::Full(job))) => Ok(Some(job)),
-            // It has ended, and says why.
+            // The thread has ended; `end` returns its error.
             Some(Err(TrySendError::Disconnected(_))) | None => self.end().and(Err(FilmError::Stopped)),
         }
     }
@@ -124,7 +125,7 @@ impl<T> Drop for Queue<T> {
     }
 }
 
-/// Frames of this many pixels that may wait.
+/// Returns the number of frames of this size that may be queued.
 fn capacity(width: u32, height: u32) -> usize {
     let bytes = u64::from(width) * u64::from(height) * 16;
     (limits::FILM_QUEUE_BYTES / bytes.max(1)).clamp(1, MOST) as usize
@@ -136,7 +137,7 @@ pub(super) enum Part {
     Sound(Vec<[i16; 2]>),
 }
 
-/// A film that is being written. Dropped before [`Film::finish`], it is given up and nothing is left of it.
+/// A film that is being written. If it is dropped before [`Film::finish`], it is abandoned and no file is left.
 pub struct Film {
     queue: Queue<Part>,
     shape: Shape,
@@ -145,7 +146,8 @@ pub struct Film {
 }
 
 impl Film {
-    /// Begins a film. `sound` is of its length, at [`eddy_audio::SAMPLE_RATE`]; left out where the encoding holds none.
+    /// Starts a film. `sound` has the film's length, at [`eddy_audio::SAMPLE_RATE`]; it is ignored if the encoding has
+    /// no sound.
     pub fn start(
         encoding: &FilmEncoding,
         shape: Shape,
@@ -157,7 +159,7 @@ impl Film {
         Self::start_with(encoding, shape, sound, output, (tools, &Cancel::default()))
     }
 
-    /// Does the same for a film that somebody else may cancel.
+    /// Does the same for a film that another thread may cancel.
     pub fn start_with(
         encoding: &FilmEncoding,
         shape: Shape,
@@ -172,7 +174,7 @@ impl Film {
         Ok(Film { queue, shape, pushed: 0, cancel: cancel.clone() })
     }
 
-    /// Adds the next frame, and waits while too many are waiting to be encoded.
+    /// Adds the next frame, and blocks while the queue is full.
     pub fn push(&mut self, frame: Pixels) -> Result<(), FilmError> {
         self.check_size(&frame)?;
         self.queue.push(Job::Next(Part::Frame(frame)))?;
@@ -180,7 +182,7 @@ impl Film {
         Ok(())
     }
 
-    /// Adds the next frame, or gives it back where too many are waiting to be encoded.
+    /// Adds the next frame, or returns it if the queue is full.
     pub fn try_push(&mut self, frame: Pixels) -> Result<Option<Pixels>, FilmError> {
         self.check_size(&frame)?;
         match self.queue.try_push(Job::Next(Part::Frame(frame)))? {
@@ -197,12 +199,13 @@ impl Film {
         if of == film { Ok(()) } else { Err(FilmError::Size { of, film }) }
     }
 
-    /// Adds the sound of a film that was begun with [`FilmSound::Later`]: of its length, after its last frame.
+    /// Adds the sound of a film that was started with [`FilmSound::Later`]. It has the film's length and follows its
+    /// last frame.
     pub fn sound(&mut self, sound: Vec<[i16; 2]>) -> Result<(), FilmError> {
         self.queue.push(Job::Next(Part::Sound(sound)))
     }
 
-    /// Waits until the file is complete and has taken its place.
+    /// Waits until the file is complete and in its place.
     pub fn finish(mut self) -> Result<(), FilmError> {
         if let Some(wanted) = self.shape.frames.filter(|wanted| *wanted != self.pushed) {
             return Err(FilmError::Frames { got: self.pushed, wanted });
@@ -218,7 +221,7 @@ impl Drop for Film {
     }
 }
 
-/// Ends films from another thread. Every clone ends the same ones.
+/// Cancels films from another thread. All clones cancel the same films.
 #[derive(Clone, Debug, Default)]
 pub struct Cancel {
     is_cancelled: Arc<AtomicBool>,
@@ -226,7 +229,7 @@ pub struct Cancel {
 }
 
 impl Cancel {
-    /// Nothing is left of a film that is not complete yet.
+    /// Cancels the films. Incomplete films leave no file.
     pub fn cancel(&self) {
         self.is_cancelled.store(true, Ordering::Relaxed);
         self.stop.stop();
@@ -241,11 +244,11 @@ impl Cancel {
     }
 }
 
-/// A file that is staged, with its place.
+/// A staged file with its destination.
 struct StagedFile {
     staged: Staged,
     path: PathBuf,
-    /// A file that is there may be replaced.
+    /// An existing file may be replaced.
     replaces: bool,
 }
 
@@ -287,7 +290,7 @@ fn sink(
     Ok((sink, Some(StagedFile { staged, path, replaces })))
 }
 
-/// Returns a writer of a film that needs no program.
+/// Returns a writer for a film that needs no external program.
 fn plain<W: Write + Send + 'static>(
     encoding: &FilmEncoding,
     shape: Shape,
@@ -306,9 +309,9 @@ fn plain<W: Write + Send + 'static>(
     })
 }
 
-/// Writes a sound to a temporary file beside the film.
+/// Writes a sound to a temporary file next to the film.
 pub(super) fn stage_sound(film: &Path, sound: &[[i16; 2]]) -> Result<Staged, FilmError> {
-    // What a WAV file holds.
+    // The limit of a WAV file.
     if sound.len() >= (u32::MAX / 4 - 16) as usize {
         return Err(FilmError::LongSound);
     }
@@ -325,7 +328,7 @@ fn encode(
     cancel: &Cancel,
 ) -> Result<(), FilmError> {
     let path = staged.as_ref().map(|staged| staged.path.clone());
-    // Errors of files name them.
+    // Errors of files name the file.
     let named = |error: FilmError| match (error, &path) {
         (FilmError::Pipe(source), Some(path)) => FilmError::Io { path: path.clone(), source },
         (error, Some(path)) => error.of_film(path),
@@ -364,20 +367,20 @@ fn write_still(
     out.flush()
 }
 
-/// Pictures that are written one by one, each to a place of its own.
+/// Pictures that are written one by one, each to its own destination.
 pub struct Stills {
     queue: Queue<(FrameDestination, Pixels)>,
 }
 
 enum FrameDestination {
-    /// With what is saved in the file besides the picture.
+    /// A file, with the scene that is saved in it.
     File(PathBuf, Option<Box<Scene>>),
     Pipe,
 }
 
 impl Stills {
-    /// Begins with pictures of `texels`, the first of which is about as large as given here. `pipe` takes those that are not
-    /// written to files. `is_within`: the files are those of a folder, whose names the person at the machine did not choose.
+    /// Starts writing pictures of `texels`, the first of which has about the given size. `pipe` takes those that are
+    /// not written to files. `is_within`: the files are in a folder, under names that the user did not choose.
     pub fn start(
         still: Still,
         texels: TexelFormat,
@@ -413,12 +416,12 @@ impl Stills {
         Ok(Stills { queue: Queue::start(capacity(width, height), work)? })
     }
 
-    /// Writes a picture whole or not at all: what was there stays until then. An error may be that of an earlier picture.
+    /// Writes a picture atomically: an existing file stays until then. The error may be that of an earlier picture.
     pub fn push(&mut self, path: PathBuf, pixels: Pixels, scene: Option<Scene>) -> Result<(), FilmError> {
         self.queue.push(Job::Next((FrameDestination::File(path, scene.map(Box::new)), pixels)))
     }
 
-    /// Does the same, or gives the picture back where too many are waiting.
+    /// Does the same, or returns the picture if the queue is full.
     pub fn try_push(&mut self, path: PathBuf, pixels: Pixels) -> Result<Option<Pixels>, FilmError> {
         match self.queue.try_push(Job::Next((FrameDestination::File(path, None), pixels)))? {
             Some(Job::Next((_, pixels))) => Ok(Some(pixels)),

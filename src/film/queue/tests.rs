@@ -40,7 +40,7 @@ fn frames_are_piped_in_their_order() {
 }
 
 #[test]
-fn a_film_that_is_given_up_or_too_short_leaves_what_was_there() {
+fn an_abandoned_or_short_film_leaves_the_existing_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.apng");
     fs::write(&path, "mine").unwrap();
@@ -61,7 +61,7 @@ fn a_film_that_is_given_up_or_too_short_leaves_what_was_there() {
 }
 
 #[test]
-fn a_reader_that_has_seen_enough_ends_the_film() {
+fn a_closed_pipe_ends_the_film() {
     struct Full;
     impl Write for Full {
         fn write(&mut self, _: &[u8]) -> io::Result<usize> {

@@ -1,4 +1,4 @@
-//! One picture that is written while it is drawn, in strips of whole rows, so that its texels are never all in memory.
+//! A picture that is written while it is drawn, in strips of whole rows, so that it is never in memory as a whole.
 
 use super::{
     FilmError,
@@ -21,15 +21,16 @@ use std::{
     sync::mpsc::Receiver,
 };
 
-/// Strips that wait for the encoder.
+/// The number of strips that wait for the encoder.
 const WAITING: usize = 1;
 
-/// A picture that is being written. Dropped before [`StripWriter::finish`], it is given up and nothing is left of it.
+/// A picture that is being written. If it is dropped before [`StripWriter::finish`], it is abandoned and no file is
+/// left.
 pub struct StripWriter {
     queue: Queue<Pixels>,
 }
 
-/// A picture besides its texels.
+/// The properties of a picture without its texels.
 struct Picture {
     still: Still,
     /// The format of the texels that are read.
@@ -39,7 +40,7 @@ struct Picture {
 }
 
 impl Still {
-    /// Returns whether strips come from the top; otherwise from the bottom.
+    /// Returns whether strips are written from the top; otherwise from the bottom.
     pub fn is_top_first(self) -> bool {
         !matches!(self, Still::Npy)
     }
@@ -51,8 +52,8 @@ impl Still {
 }
 
 impl StripWriter {
-    /// Begins a picture of `size`, with the scene in the file where its format has a place for it. A file has its place once
-    /// it is complete; what was there stays until then.
+    /// Starts a picture of `size`, and embeds the scene if the format supports it. The file is moved to its place once
+    /// it is complete; an existing file stays until then.
     pub fn start(
         still: Still,
         texels: TexelFormat,
@@ -83,18 +84,18 @@ impl StripWriter {
         Ok(StripWriter { queue: Queue::start(WAITING, work)? })
     }
 
-    /// Adds the next strip, in the order of [`Still::is_top_first`], and waits while others wait to be encoded.
+    /// Adds the next strip, in the order of [`Still::is_top_first`], and blocks while the queue is full.
     pub fn push(&mut self, strip: Pixels) -> Result<(), FilmError> {
         self.queue.push(Job::Next(strip))
     }
 
-    /// Waits until the picture is complete and has taken its place.
+    /// Waits until the picture is complete and in its place.
     pub fn finish(mut self) -> Result<(), FilmError> {
         self.queue.finish()
     }
 }
 
-/// The strips as they come.
+/// The strips as they arrive.
 struct Strips {
     jobs: Receiver<Job<Pixels>>,
     is_stopped: bool,
@@ -114,7 +115,7 @@ impl Strips {
         }
     }
 
-    /// Fails where the picture is not to be kept.
+    /// Fails if the picture was abandoned.
     fn finish(&mut self) -> io::Result<()> {
         match self.jobs.recv() {
             Ok(Job::Finish) => Ok(()),
@@ -123,7 +124,7 @@ impl Strips {
         }
     }
 
-    /// Gives all strips of a picture.
+    /// Passes all strips of a picture to `take`.
     fn each(&mut self, height: u32, mut take: impl FnMut(&Pixels) -> io::Result<()>) -> io::Result<()> {
         let mut rows = 0;
         while rows < height {
@@ -136,7 +137,7 @@ impl Strips {
 }
 
 impl Picture {
-    /// Writes a file beside its place, which it takes by `commit` once it is complete.
+    /// Writes a file next to its destination, where `commit` moves it once it is complete.
     fn write_file(
         &self,
         staged: io::Result<Staged>,
@@ -194,7 +195,7 @@ impl Picture {
     fn exr(&self, out: &mut (impl Write + Seek), strips: &mut Strips) -> io::Result<()> {
         let is_half = self.texels.is_small_float();
         let sample = if is_half { SampleType::F16 } else { SampleType::F32 };
-        // By their names, as the file has them.
+        // Sorted by name, as the file requires.
         let mut components: Vec<(&str, usize)> =
             ["R", "G", "B", "A"].into_iter().zip(0..self.texels.components()).collect();
         components.sort_unstable();

@@ -1,4 +1,4 @@
-//! Pictures in strips are those in one piece.
+//! Tests that a picture in strips equals the picture in one piece.
 
 use super::*;
 use std::{fs, path::Path};
@@ -8,7 +8,7 @@ fn pixels(width: u32, height: u32) -> Pixels {
     Pixels { width, height, texels }
 }
 
-/// Writes a picture in strips of so many rows.
+/// Writes a picture in strips of this number of rows.
 fn write(path: &Path, still: Still, texels: TexelFormat, picture: &Pixels, rows: usize) -> Result<(), FilmError> {
     let size = (picture.width, picture.height);
     let mut writer = StripWriter::start(still, texels, size, Output::File(path.into()), None)?;
@@ -52,7 +52,7 @@ fn a_picture_in_strips_is_the_picture_in_one_piece() {
 }
 
 #[test]
-fn a_picture_that_is_given_up_leaves_nothing() {
+fn an_abandoned_picture_leaves_no_file() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.png");
     let output = || Output::File(path.clone());

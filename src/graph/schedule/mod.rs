@@ -3,20 +3,20 @@
 use super::{Changes, Draw, FramePlan};
 use eddy_project::Region;
 
-/// The purpose of drawing a frame, which decides its operations.
+/// The purpose of drawing a frame, which determines its operations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// To show it: everything in one submission.
     Frame,
-    /// To time each draw by the caller's clock: each in its own submission, which is waited for.
+    /// To time each draw by the caller's clock: each in a separate submission that is waited for.
     Timed,
-    /// To read back what a draw (an index into [`FramePlan::draws`]) reads, before each of its steps.
+    /// To read back the inputs of a draw (an index into [`FramePlan::draws`]) before each of its steps.
     Inspect(usize),
-    /// For the frames after it: only draws that those depend on, and no picture.
+    /// For later frames: only the draws that they depend on, and no picture.
     Advance,
-    /// To show it, with the last draw in bands of rows where [`FramePlan::divisible_draw`] allows that.
+    /// To show it, with the last draw in bands of rows if [`FramePlan::divisible_draw`] allows that.
     Bands,
-    /// For the samples of a sound pass: as [`Purpose::Bands`], and nothing is shown.
+    /// For the samples of a sound pass: like [`Purpose::Bands`], but nothing is shown.
     Sound,
 }
 
@@ -27,11 +27,11 @@ pub enum FrameOp {
     StartTimestamps,
     /// Encodes one layer of a draw.
     Encode { draw: usize, layer: u32 },
-    /// Encodes `area` of a draw, as many rows at a time as the caller answers, rounded up to a multiple of `align`. Each
-    /// part but the last is submitted and waited for. The caller is asked before each part, and may stop there; the frame
-    /// can be continued later.
+    /// Encodes `area` of a draw, in parts of as many rows as the caller returns, rounded up to a multiple of `align`.
+    /// Each part but the last is submitted and waited for. The caller is asked before each part, and may stop there;
+    /// the frame can be continued later.
     EncodeRows { draw: usize, area: Region, align: u32 },
-    /// The targets of a draw hold its texels from here on: double buffers are swapped, mip levels are built.
+    /// The texels of a draw become visible to readers: double buffers are swapped, mip levels are built.
     Publish { draw: usize },
     /// Reads back everything that a draw is about to read.
     Capture { draw: usize },
@@ -39,54 +39,56 @@ pub enum FrameOp {
     Clock(Lap),
     /// Draws the shown pass into the display's texture.
     Present,
-    /// Ends the device's timestamps and copies them to where they can be read.
+    /// Ends the device's timestamps and copies them to a readable buffer.
     ResolveTimestamps,
-    /// Submits what is encoded.
+    /// Submits the encoded commands.
     Submit,
-    /// Submits what is encoded and waits until the device has done it.
+    /// Submits the encoded commands and waits until the device has executed them.
     SubmitAndWait,
 }
 
 /// The use of a reading of the caller's clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lap {
-    /// Time starts here.
+    /// Measurement starts here.
     Start,
-    /// The time since the start is that of an empty submission, which is part of the time of every draw.
+    /// The time since the start is that of an empty submission, which is included in the time of every draw.
     Overhead,
     /// The time since the start is that of a draw.
     Draw(usize),
 }
 
-/// The state of a frame that is scheduled, besides its plan.
+/// The inputs for scheduling a frame, in addition to its plan.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameState<'a> {
     /// The size of the picture in pixels.
     pub canvas: (u32, u32),
     /// For each draw, whether its condition ([`Draw::when`]) is false.
     pub off: &'a [bool],
-    /// For each draw, what it reads besides targets, in any form that is equal exactly when that is.
+    /// For each draw, what it reads besides targets, in any form for which equality means equal inputs.
     pub inputs: &'a [Vec<u8>],
-    /// For each draw, whether the frames after this one depend on it ([`FramePlan::lasting_draws`]).
+    /// For each draw, whether later frames depend on it ([`FramePlan::lasting_draws`]).
     pub lasting: &'a [bool],
 }
 
-/// The operations of a frame in their order, and what they amount to.
+/// The operations of a frame in order, with their counts.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Schedule {
     pub ops: Vec<FrameOp>,
-    /// For each draw, how often it is done.
+    /// For each draw, how often it is executed.
     pub steps: Vec<u32>,
-    /// Draws in the frame, each step of a group counted. A draw that is done in tiles counts, though its tiles are
-    /// scheduled by [`FramePlan::schedule_tile`].
+    /// The number of draws in the frame, counting each step of a group. A draw in tiles is counted, though its tiles
+    /// are scheduled by [`FramePlan::schedule_tile`].
     pub drawn: u64,
-    /// Draws left out because nothing that they read has changed, and the bytes of texels that are not written for it.
+    /// The number of draws skipped because their inputs have not changed, and the bytes of texels that are therefore
+    /// not written.
     pub cached: u64,
     pub cached_bytes: u64,
 }
 
 impl FramePlan {
-    /// Schedules a frame. `changes` knows what was drawn before; the draws of the schedule count as done afterwards.
+    /// Schedules a frame. `changes` tracks what was drawn before; the draws of the schedule count as executed
+    /// afterwards.
     ///
     /// # Panics
     /// If the lists in `state` are shorter than the plan's draws.
@@ -100,7 +102,7 @@ impl FramePlan {
         let has_timestamps = matches!(purpose, Purpose::Frame | Purpose::Inspect(_) | Purpose::Advance);
         match purpose {
             _ if has_timestamps => schedule.ops.push(FrameOp::StartTimestamps),
-            // The first submission takes in what was encoded before this frame.
+            // The first submission includes the commands that were encoded before this frame.
             Purpose::Timed => schedule.ops.extend([
                 FrameOp::SubmitAndWait,
                 FrameOp::Clock(Lap::Start),
@@ -177,17 +179,17 @@ impl FramePlan {
     }
 
     /// Schedules a tile of the picture of [`FramePlan::tiled`], of `size` texels, into the corner of its target. A plan
-    /// without such a draw has no operations for it.
+    /// without such a draw returns no operations.
     pub fn schedule_tile(&self, size: (u32, u32)) -> Vec<FrameOp> {
         let Some(tiled) = self.tiled else { return Vec::new() };
         let area = Region { x: 0, y: 0, width: size.0, height: size.1 };
-        // Derivatives are differences within blocks of pixels, which a part must not cut.
+        // Derivatives are differences within blocks of pixels, which must not be split.
         let align = 4;
         let draw = tiled.draw;
         vec![FrameOp::EncodeRows { draw, area, align }, FrameOp::Publish { draw }, FrameOp::SubmitAndWait]
     }
 
-    /// Returns the texels that one step of a draw covers, all layers together.
+    /// Returns the number of texels that one step of a draw covers in all layers.
     fn texels(&self, index: usize, canvas: (u32, u32)) -> u64 {
         let draw: &Draw = &self.draws[index];
         let size = self.targets[draw.targets.start].size.of(canvas);

@@ -1,4 +1,4 @@
-//! Schedules of small plans, with no device.
+//! Schedules of small plans, without a device.
 
 use super::*;
 use crate::{ChannelFacts, PassFacts};
@@ -25,7 +25,7 @@ fn plan(project: &Project) -> FramePlan {
     FramePlan::new(project, &vec![reads; project.passes.len()], &[], true)
 }
 
-/// Schedules one frame of 8 x 4 pixels after another.
+/// Schedules consecutive frames of 8 x 4 pixels.
 struct Frames {
     plan: FramePlan,
     changes: Changes,
@@ -63,7 +63,7 @@ fn a_frame_is_one_submission_and_repeats_only_what_changed() {
     let first = frames.next(Purpose::Frame);
     let all = [&[FrameOp::StartTimestamps][..], &draw(a), &draw(b), &draw(image), &end].concat();
     assert_eq!((first.ops, first.steps, first.drawn, first.cached), (all, vec![1, 1, 1], 3, 0));
-    // B reads nothing: its 32 texels of 16 bytes are kept. A reads itself, so that it and Image change.
+    // B reads nothing: its 32 texels of 16 bytes are kept. A reads itself, so A and Image change.
     let second = frames.next(Purpose::Frame);
     assert_eq!(encoded(&second), [a, image]);
     assert_eq!((second.steps, second.drawn, second.cached, second.cached_bytes), (vec![1, 0, 1], 2, 1, 512));
@@ -79,7 +79,7 @@ fn advancing_draws_what_later_frames_read_and_shows_nothing() {
     let schedule = frames.next(Purpose::Advance);
     assert_eq!(encoded(&schedule), [0, 1]);
     assert!(!schedule.ops.contains(&FrameOp::Present));
-    // Image was left out, so it is due.
+    // Image was skipped, so it is due.
     assert_eq!(encoded(&frames.next(Purpose::Frame)), [0, 2]);
 }
 
@@ -99,7 +99,7 @@ fn bands_come_last_and_are_preceded_by_everything_that_later_frames_read() {
     assert_eq!(encoded(&bands), [0, 1, 2]);
     let sound = frames.next(Purpose::Sound);
     assert!(!sound.ops.contains(&FrameOp::Present));
-    // Where a pass reads the picture, it is drawn in one piece.
+    // If a pass reads the picture, it is drawn in one piece.
     let mut read = project();
     read.passes[0].channels[2] = read.passes[2].channels[0].clone();
     read.passes[0].channels[2].as_mut().unwrap().input = Input::pass(PassId::Image);

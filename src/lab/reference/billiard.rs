@@ -1,4 +1,4 @@
-//! A ball among walls and bricks in whole numbers: every impact is a fraction, and nothing is rounded.
+//! A ball between walls and bricks in integers: every impact is a fraction, and nothing is rounded.
 
 use std::cmp::Ordering;
 
@@ -21,16 +21,16 @@ impl Moment {
     }
 }
 
-/// Holds what stands in the ball's way. The ball is a point; whatever it meets is as much larger as the ball is.
+/// The obstacles of the ball. The ball is a point; obstacles are enlarged by its size instead.
 #[derive(Clone, Debug)]
 pub struct Billiard {
     pub low: [i64; 2],
     pub high: [i64; 2],
-    /// Centres, and the half size of all. The first of two that are met at once counts.
+    /// The centres, and the half size of all. If two are hit at once, the first counts.
     pub bricks: Vec<[i64; 2]>,
     pub half: [i64; 2],
     pub at: [i64; 2],
-    /// The way of a step, with its direction.
+    /// The displacement per step, with its direction.
     pub way: [i64; 2],
 }
 
@@ -41,13 +41,12 @@ enum Hit {
 }
 
 impl Billiard {
-    /// Goes a whole step, or up to the last brick. Gives the centres of the bricks met, in that order; they are gone.
-    /// A vertex met
-    /// dead on is a face across y.
+    /// Moves by a whole step, or up to the last brick. Returns the centres of the bricks that were hit, in order; they
+    /// are removed. A vertex that is hit exactly counts as a face across y.
     pub fn step(&mut self) -> Vec<[i64; 2]> {
         let (mut from, mut now, mut gone) = (self.at, Moment(0, 1), Vec::new());
         let place = |from: [i64; 2], way: [i64; 2], when: Moment| {
-            // A fraction of a tick is left out only where the last brick ends the step.
+            // The fraction of a tick is dropped only if the last brick ends the step.
             [0, 1].map(|k| from[k] + (i128::from(way[k]) * when.0).div_euclid(when.1) as i64)
         };
         while let Some((when, hit)) = self.next(from, now) {
@@ -64,7 +63,7 @@ impl Billiard {
                 self.at = place(from, self.way, now);
                 return gone;
             }
-            // The straight path, mirrored in the face.
+            // The straight path, reflected at the face.
             from[axis] = 2 * face - from[axis];
             self.way[axis] = -self.way[axis];
         }
@@ -72,7 +71,7 @@ impl Billiard {
         gone
     }
 
-    /// The next thing met on the straight path, not before `now` and before the end of the step.
+    /// Returns the next hit on the straight path, not before `now` and before the end of the step.
     fn next(&self, from: [i64; 2], now: Moment) -> Option<(Moment, Hit)> {
         let mut first = (Moment(1, 1), None);
         for axis in (0..2).filter(|k| self.way[*k] != 0) {
@@ -97,7 +96,7 @@ impl Billiard {
     fn entry(&self, from: [i64; 2], centre: [i64; 2]) -> Option<(Moment, usize)> {
         let mut enters: Option<(Moment, usize)> = None;
         let mut leaves: Option<Moment> = None;
-        // y first: of two faces met at once it counts.
+        // y first: it wins if two faces are hit at once.
         for k in [1, 0] {
             let (low, high) = (centre[k] - self.half[k] - from[k], centre[k] + self.half[k] - from[k]);
             let (near, far) = if self.way[k] > 0 { (low, high) } else { (high, low) };
@@ -128,7 +127,7 @@ mod tests {
         Billiard { low: [3, 5], high: [100, 77], bricks: Vec::new(), half: [6, 4], at, way }
     }
 
-    /// Returns where a straight path is in a plane tiled with mirrored fields.
+    /// Returns the position of a straight path in a plane tiled with mirrored fields.
     fn folded(along: i64, low: i64, high: i64) -> i64 {
         let length = high - low;
         high - (length - (along - low).rem_euclid(2 * length)).abs()
@@ -147,20 +146,20 @@ mod tests {
     }
 
     #[test]
-    fn bricks_are_met_in_their_order_and_from_the_right_side() {
-        // Two in a row: the nearer one sends the ball back.
+    fn bricks_are_hit_in_order_and_from_the_right_side() {
+        // Two in a row: the nearer one reflects the ball.
         let mut ball = empty([10, 40], [60, 0]);
         ball.bricks = vec![[60, 40], [40, 40]];
         assert_eq!(ball.step(), [[40, 40]]);
         assert_eq!((ball.at, ball.way), ([34 - 36, 40].map(|x: i64| folded(x, 3, 100)), [60, 0]));
         assert_eq!(ball.step(), [[60, 40]]);
-        // From below, beside the edge; and past it.
+        // From below, beyond the edge; and missing it.
         for (x, met) in [(36, 1), (34, 0), (33, 0)] {
             let mut ball = empty([x, 20], [0, 30]);
             ball.bricks = vec![[40, 40], [90, 70]];
             assert_eq!(ball.step().len(), met, "{x}");
         }
-        // A vertex, dead on: up and down turn, left and right do not.
+        // A vertex, hit exactly: up and down are reversed, left and right are not.
         let mut ball = empty([24, 26], [20, 20]);
         ball.bricks = vec![[40, 46], [90, 70]];
         assert_eq!((ball.step().len(), ball.way), (1, [20, -20]));

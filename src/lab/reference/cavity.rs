@@ -1,9 +1,9 @@
-//! The lid-driven cavity of side 1 whose lid has speed 1: what others found.
+//! Published results for the lid-driven cavity of side 1 whose lid has speed 1.
 //!
 //! Tables of U. Ghia, K. Ghia and C. Shin, J. Comput. Phys. 48 (1982), on 129 x 129 points, which differ from
-//! high-order methods by up to .0063 in u and .0185 in v at Re = 1000: agreement beyond 1 % (u) and 2 % (v) says
-//! nothing. So methods are ranked by the extrema of high-order methods: of O. Botella and R. Peyret, Comput. Fluids 27
-//! (1998), for Re = 1000, and of C. Marchi, R. Suero and L. Araki, J. Braz. Soc. Mech. Sci. Eng. 31 (2009), for Re =
+//! high-order methods by up to .0063 in u and .0185 in v at Re = 1000: agreement beyond 1 % (u) and 2 % (v) is
+//! meaningless. So methods are ranked by the extrema of high-order methods: of O. Botella and R. Peyret, Comput. Fluids
+//! 27 (1998), for Re = 1000, and of C. Marchi, R. Suero and L. Araki, J. Braz. Soc. Mech. Sci. Eng. 31 (2009), for Re =
 //! 100.
 
 /// Reynolds numbers of the tables, in the order of their columns.
@@ -47,8 +47,8 @@ pub const V: [(f64, [f64; 3]); 15] = [
     (0.0625, [0.09233, 0.1836, 0.27485]),
 ];
 
-/// (x, Reynolds number) of the entry of [`V`] that is a misprint, -.23827: it lies between -.44993 and -.22847, where
-/// independent solvers find -.38. It is told and not scored.
+/// (x, Reynolds number) of the entry of [`V`] that is a misprint, -.23827: it is between -.44993 and -.22847, where
+/// independent solvers find -.38. It is reported but not scored.
 pub const SUSPECT: (f64, f64) = (0.9063, 400.0);
 
 /// y, and u at x = 1/2, for Re = 1000 by a high-order method.
@@ -89,7 +89,8 @@ pub const V_HIGH: [(f64, f64); 15] = [
     (0.9688, -0.2279225),
 ];
 
-/// The least u at x = 1/2, the largest and the least v at y = 1/2, by high-order methods; `None` where none is at hand.
+/// Returns the minimum u at x = 1/2, and the maximum and the minimum v at y = 1/2, by high-order methods; `None` where
+/// none are available.
 pub fn extrema(reynolds: f64) -> Option<[f64; 3]> {
     match reynolds {
         100.0 => Some([-0.2140424, 0.1795728, -0.2538030]),
@@ -102,7 +103,7 @@ pub fn extrema(reynolds: f64) -> Option<[f64; 3]> {
 mod tests {
     use super::*;
 
-    /// Largest difference of a column from what a high-order method has at the same places.
+    /// Returns the largest difference of a column from a high-order method at the same places.
     fn apart(table: &[(f64, [f64; 3])], high: &[(f64, f64)]) -> f64 {
         let far = |(at, value): &(f64, f64)| {
             let row = table.iter().find(|(place, _)| place == at).unwrap();
@@ -112,10 +113,10 @@ mod tests {
     }
 
     #[test]
-    fn the_tables_are_as_far_from_high_order_methods_as_is_known() {
+    fn the_tables_differ_from_high_order_methods_by_the_published_amounts() {
         let (u, v) = (apart(&U, &U_HIGH), apart(&V, &V_HIGH));
         assert!((u - 0.0063).abs() < 1e-4 && (v - 0.0185).abs() < 1e-4, "{u} {v}");
-        // The sampled extrema lie within the true ones.
+        // The sampled extrema are within the true ones.
         for (n, reynolds) in REYNOLDS.into_iter().enumerate() {
             let Some([u_least, v_most, v_least]) = extrema(reynolds) else { continue };
             assert!(U.iter().all(|(_, u)| u[n] > u_least - 1e-4));

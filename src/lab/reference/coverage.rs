@@ -1,14 +1,14 @@
-//! Means over the area of a pixel: the picture that supersampling converges to.
+//! Means over the area of a pixel: the limit of supersampling.
 
 use std::f64::consts::PI;
 
 /// A place in pixels.
 type P = [f64; 2];
 
-/// Samples along a pixel's height of what has no closed form.
+/// The number of samples along a pixel's height where there is no closed form.
 const FINE: u32 = 2048;
 
-/// The corners of a rectangle of these halves about a centre, turned, counter-clockwise.
+/// Returns the corners of a rectangle with these half sizes around a centre, rotated, counter-clockwise.
 pub fn rectangle(centre: P, halves: P, angle: f64) -> Vec<P> {
     let (s, c) = angle.sin_cos();
     let corner = |[x, y]: P| [centre[0] + c * x - s * y, centre[1] + s * x + c * y];
@@ -16,8 +16,8 @@ pub fn rectangle(centre: P, halves: P, angle: f64) -> Vec<P> {
     [[-x, -y], [x, -y], [x, y], [-x, y]].map(corner).to_vec()
 }
 
-/// The part of pixel (x, y) that a convex polygon covers: what is left of it by Sutherland's and Hodgman's clipping at the
-/// four sides (CACM 17, 1974), and the area of that.
+/// Returns the part of pixel (x, y) that a convex polygon covers: the polygon is clipped at the four sides (Sutherland
+/// and Hodgman, CACM 17, 1974), and the area of the rest is computed.
 pub fn covered(polygon: &[P], x: u32, y: u32) -> f64 {
     let (x, y) = (f64::from(x), f64::from(y));
     let sides: [(usize, f64, f64); 4] = [(0, 1.0, x), (0, -1.0, x + 1.0), (1, 1.0, y), (1, -1.0, y + 1.0)];
@@ -45,14 +45,14 @@ pub fn covered(polygon: &[P], x: u32, y: u32) -> f64 {
     0.5 * left.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
 }
 
-/// The integral of the wave that is 1 from 0 to 1, -1 from 1 to 2, and so on.
+/// Returns the integral of the wave that is 1 from 0 to 1, -1 from 1 to 2, and so on.
 fn triangle(at: f64) -> f64 {
     let within = at.rem_euclid(2.0);
     within.min(2.0 - within)
 }
 
-/// A chessboard that goes to a horizon at the top of a picture of side `h`: the mean over pixel (x, y), exact along x, of
-/// `fine` rows along y.
+/// Returns the mean over pixel (x, y) of a chessboard with its horizon at the top of a picture of side `h`, exact along
+/// x, of `fine` rows along y.
 pub fn chessboard(h: f64, x: u32, y: u32, fine: u32) -> f64 {
     let (left, bottom) = (f64::from(x) - 0.5 * h, f64::from(y));
     let row = |i: u32| {
@@ -64,7 +64,7 @@ pub fn chessboard(h: f64, x: u32, y: u32, fine: u32) -> f64 {
     0.5 + 0.5 * (0..fine).map(row).sum::<f64>() / f64::from(fine)
 }
 
-/// The integrals of cos k x² and of sin k x² over each of `h` pixels, by Simpson's rule.
+/// Returns the integrals of cos k x² and of sin k x² over each of `h` pixels, by Simpson's rule.
 fn fresnel(k: f64, h: usize) -> Vec<P> {
     const PARTS: u32 = 128;
     let weight = |i: u32| if i == 0 || i == PARTS { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
@@ -79,7 +79,7 @@ fn fresnel(k: f64, h: usize) -> Vec<P> {
     (0..h).map(pixel).collect()
 }
 
-/// The picture of the study `supersampling`, n x n: edges, lines of .4 pixels, a chessboard and a zone plate.
+/// Returns the picture of the study `supersampling`, n x n: edges, lines of .4 pixels, a chessboard and a zone plate.
 pub fn picture(n: usize) -> Vec<f64> {
     let h = n / 2;
     let side = h as f64;
@@ -153,7 +153,7 @@ mod tests {
             (chessboard(32.0, x, y, FINE) - chessboard(32.0, x, y, 16 * FINE)).abs()
         };
         let worst = (0..32 * 32).map(change).fold(0.0, f64::max);
-        // A colour changes within one row of 2048 and not at its edge.
+        // A colour changes within one row of 2048 rather than at its edge.
         assert!(worst < 1e-3, "{worst}");
     }
 }

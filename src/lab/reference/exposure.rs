@@ -1,11 +1,11 @@
-//! Means over the time for which a shutter is open: the picture that motion blur by sub-frames converges to.
+//! Means over the exposure time of a shutter: the limit of motion blur by sub-frames.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A place in pixels.
 type P = [f64; 2];
 
-/// The part of the time from 0 to 1 for which a disc that goes evenly from `from` to `to` covers a place.
+/// Returns the part of the time from 0 to 1 in which a disc that moves uniformly from `from` to `to` covers a place.
 pub fn disc(at: P, (from, to): (P, P), radius: f64) -> f64 {
     let [[dx, dy], [vx, vy]] = [[at[0] - from[0], at[1] - from[1]], [to[0] - from[0], to[1] - from[1]]];
     let (speed, along) = (vx * vx + vy * vy, dx * vx + dy * vy);
@@ -18,8 +18,9 @@ pub fn disc(at: P, (from, to): (P, P), radius: f64) -> f64 {
     within((along + square.sqrt()) / speed) - within((along - square.sqrt()) / speed)
 }
 
-/// The part of the time for which a bar about the origin covers a place: it goes from the origin to `length`, is `half` wide
-/// to either side, and turns evenly from one angle to another, less than half a turn.
+/// Returns the part of the time in which a bar that rotates around the origin covers a place: it extends from the
+/// origin to `length`, is `half` wide to either side, and rotates uniformly from one angle to another, less than half a
+/// turn.
 pub fn bar([x, y]: P, (length, half): (f64, f64), (from, to): (f64, f64)) -> f64 {
     let distance = x.hypot(y);
     if distance >= length {
@@ -34,7 +35,7 @@ pub fn bar([x, y]: P, (length, half): (f64, f64), (from, to): (f64, f64)) -> f64
     (part(-1.0) + part(0.0) + part(1.0)) / (to - from)
 }
 
-/// The mean over time of a Gaussian of peak 1 that goes evenly from `from` to `to`, by Simpson's rule.
+/// Returns the mean over time of a Gaussian of peak 1 that moves uniformly from `from` to `to`, by Simpson's rule.
 pub fn gaussian(at: P, (from, to): (P, P), sigma: f64) -> f64 {
     const PARTS: u32 = 256;
     let value = |i: u32| {
@@ -46,12 +47,12 @@ pub fn gaussian(at: P, (from, to): (P, P), sigma: f64) -> f64 {
     (0..=PARTS).map(value).sum::<f64>() / f64::from(3 * PARTS)
 }
 
-/// The way of the disc and of the soft spot in a picture of side `h`.
+/// Returns the path of the disc and of the soft spot in a picture of side `h`.
 pub fn way(h: f64) -> (P, P) {
     ([0.25 * h, 0.4 * h], [0.75 * h, 0.6 * h])
 }
 
-/// The picture of the study `shutter`, n x n: a disc, a turning bar, a soft spot and a spark.
+/// Returns the picture of the study `shutter`, n x n: a disc, a rotating bar, a soft spot and a spark.
 pub fn picture(n: usize) -> Vec<f64> {
     let h = n / 2;
     let side = h as f64;
@@ -99,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn a_disc_leaves_its_area() {
+    fn a_moving_disc_keeps_its_total_light() {
         let picture = picture(256);
         let sum: f64 = (0..128 * 128).map(|i| picture[i / 128 * 256 + i % 128]).sum();
         assert!((sum / (std::f64::consts::PI * 12.8 * 12.8) - 1.0).abs() < 2e-3, "{sum}");

@@ -8,13 +8,13 @@ pub type Complex = signal::Complex<f64>;
 /// Transforms of one size.
 pub struct Fft {
     n: usize,
-    /// Transforms of a line: there and back.
+    /// The transforms of a line: forward and inverse.
     lines: [Arc<dyn signal::Fft<f64>>; 2],
 }
 
 impl Fft {
     /// # Panics
-    /// If `n` is no power of two.
+    /// If `n` is not a power of two.
     pub fn new(n: usize) -> Fft {
         assert!(n.is_power_of_two(), "{n} is no power of two");
         Fft { n, lines: signal::forward_and_inverse(n) }
@@ -27,14 +27,14 @@ impl Fft {
         all
     }
 
-    /// The real part of the inverse, divided by n^2.
+    /// Returns the real part of the inverse, divided by n^2.
     pub fn inverse(&self, mut all: Vec<Complex>) -> Vec<f64> {
         self.both(&mut all, true);
         let scale = 1.0 / (self.n * self.n) as f64;
         all.iter().map(|c| c.re * scale).collect()
     }
 
-    /// Two inverses in one, of transforms of real values.
+    /// Computes two inverses in one, for transforms of real values.
     pub fn inverse_pair(&self, a: &[Complex], b: &[Complex]) -> [Vec<f64>; 2] {
         let sum = |(a, b): (&Complex, &Complex)| Complex { re: a.re - b.im, im: a.im + b.re };
         let mut all: Vec<Complex> = a.iter().zip(b).map(sum).collect();
@@ -60,7 +60,7 @@ impl Fft {
         }
     }
 
-    /// The wave number of index `i` in radians a texel, from -pi to pi.
+    /// Returns the wave number of index `i` in radians per texel, from -pi to pi.
     pub fn wave(&self, i: usize) -> f64 {
         let signed = if i > self.n / 2 { i as f64 - self.n as f64 } else { i as f64 };
         2.0 * PI * signed / self.n as f64
@@ -83,7 +83,7 @@ mod tests {
     use crate::reference::sampled;
 
     #[test]
-    fn a_field_comes_back_and_a_wave_is_one_number() {
+    fn fields_round_trip_and_a_wave_has_one_coefficient() {
         let fft = Fft::new(16);
         let field = sampled(16, |x, y| (x * 1.3).sin() + y * y * 0.01 - (x * y * 0.2).cos());
         let back = fft.inverse(fft.forward(&field));

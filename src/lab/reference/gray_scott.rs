@@ -7,17 +7,18 @@ use std::f64::consts::TAU;
 /// The coral pattern of the projects in `assets/lab`.
 pub const FEED: f64 = 0.0545;
 pub const KILL: f64 = 0.062;
-/// Diffusion of u and v, texels^2 for a unit of time.
+/// Diffusion of u and v, texels^2 per unit of time.
 pub const DIFFUSION: [f64; 2] = [0.16, 0.08];
 
-/// The state of rest with v > 0 and the larger v: u = (1 - sqrt(1 - 4 (F + k)^2 / F)) / 2, v = F (1 - u) / (F + k).
+/// Returns the steady state with v > 0 and the larger v: u = (1 - sqrt(1 - 4 (F + k)^2 / F)) / 2, v = F (1 - u) / (F +
+/// k).
 pub fn rest() -> [f64; 2] {
     let u = 0.5 * (1.0 - (1.0 - 4.0 * (FEED + KILL).powi(2) / FEED).sqrt());
     [u, FEED * (1.0 - u) / (FEED + KILL)]
 }
 
-/// Growth of a wave about [`rest`] whose Laplacian is -`laplacian` times itself, and the direction (u, v) that grows
-/// so: the larger eigenvalue of the linear form, where it is real.
+/// Returns the growth rate of a wave around [`rest`] whose Laplacian is -`laplacian` times itself, and the direction
+/// (u, v) of that growth: the larger eigenvalue of the linear form, where it is real.
 pub fn growth(laplacian: f64) -> (f64, [f64; 2]) {
     let [u, v] = rest();
     let (a, b) = (-v * v - FEED - DIFFUSION[0] * laplacian, -2.0 * u * v);
@@ -27,12 +28,12 @@ pub fn growth(laplacian: f64) -> (f64, [f64; 2]) {
     (sigma, [b, sigma - a])
 }
 
-/// The symbol of the 5-point Laplacian of a wave along x.
+/// Returns the symbol of the 5-point Laplacian for a wave along x.
 pub fn five_point(k: f64) -> f64 {
     4.0 * (k / 2.0).sin().powi(2)
 }
 
-/// Smooth spots in a sea of u = 1: (u, v).
+/// Returns smooth spots on a background of u = 1: (u, v).
 pub fn seeded(n: usize) -> [Vec<f64>; 2] {
     let side = n as f64;
     let spots = [(0.3, 0.35, 4.0), (0.62, 0.44, 5.0), (0.45, 0.7, 6.0f64)];
@@ -45,13 +46,13 @@ pub fn seeded(n: usize) -> [Vec<f64>; 2] {
     [v.iter().map(|v| 1.0 - v).collect(), v.iter().map(|v| 0.5 * v).collect()]
 }
 
-/// The pattern after `time` by `steps` steps of Strang's splitting: half a step of the reaction by the classical
+/// Returns the pattern after `time` by `steps` steps of Strang splitting: half a step of the reaction by the classical
 /// Runge-Kutta method, the diffusion exactly by Fourier transform, half a step of the reaction.
 pub fn pattern(n: usize, time: f64, steps: u32) -> [Vec<f64>; 2] {
     evolved(n, seeded(n), DIFFUSION, time, steps)
 }
 
-/// The same between walls that nothing goes through, at other rates of diffusion: a quarter of a torus that is twice as
+/// Returns the same between impermeable walls, with other rates of diffusion: a quarter of a torus that is twice as
 /// wide and symmetric about them.
 pub fn pattern_in_walls(n: usize, diffusion: [f64; 2], time: f64, steps: u32) -> [Vec<f64>; 2] {
     let mirrored = |field: Vec<f64>| -> Vec<f64> {
@@ -62,7 +63,7 @@ pub fn pattern_in_walls(n: usize, diffusion: [f64; 2], time: f64, steps: u32) ->
     whole.map(|field| (0..n * n).map(|i| field[i / n * 2 * n + i % n]).collect())
 }
 
-/// Steps of the reference for a unit of time: of second order, it is sixteen times closer than by steps of 1.
+/// Steps of the reference per unit of time: being of second order, it is sixteen times as accurate as with steps of 1.
 const STEPS_OF_REFERENCE: f64 = 4.0;
 
 /// Returns v of the pattern on a grid of n after a time, on a torus or between walls with other rates of diffusion.
@@ -75,19 +76,20 @@ pub fn known(n: usize, walls: Option<[f64; 2]>, time: f64) -> Vec<f64> {
     v
 }
 
-/// Figures of a pattern that do not depend on where its stripes are, which small errors decide in a long run.
+/// Statistics of a pattern that do not depend on the position of its stripes, which small errors determine in a long
+/// run.
 #[derive(Clone, Copy, Debug)]
 pub struct Statistics {
     pub mean: f64,
-    /// The part of the texels with v above .2.
+    /// The fraction of texels with v above .2.
     pub area: f64,
-    /// The wavelength, in texels, of the mean wave number |k| weighted by the power spectrum; without the mean of v.
+    /// The wavelength, in texels, of the mean wave number |k| weighted by the power spectrum, excluding the mean of v.
     pub wavelength: f64,
 }
 
 impl Statistics {
     /// # Panics
-    /// If `v` is not n x n, n a power of two.
+    /// If `v` is not n x n, with n a power of two.
     pub fn of(v: &[f64], n: usize) -> Statistics {
         let fft = Fft::new(n);
         let waves = fft.forward(v).into_iter().enumerate().skip(1);
@@ -133,7 +135,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_state_of_rest_and_its_growth_are_the_known_ones() {
+    fn the_steady_state_and_its_growth_have_the_known_values() {
         let [u, v] = rest();
         assert!((u - 0.468889).abs() < 1e-6 && (v - 0.248460).abs() < 1e-6, "{u} {v}");
         // The largest growth of the continuum is .01001 at q = .521.
@@ -150,13 +152,13 @@ mod tests {
         let of_axis = Statistics::of(&sampled(n, |x, _| 0.2 + 0.1 * (k * x).sin()), n);
         assert!((of_axis.wavelength - 12.8).abs() < 1e-9 && (of_axis.mean - 0.2).abs() < 1e-12, "{of_axis:?}");
         assert!((of_axis.area - 0.5).abs() < 0.04, "{of_axis:?}");
-        // A wave that does not fit the box has a broad spectrum about its own.
+        // A wave that does not fit the box has a broad spectrum around its own.
         assert!((Statistics::of(&v, n).wavelength / 12.8 - 1.0).abs() < 0.15);
     }
 
     #[test]
-    fn walls_keep_what_a_torus_lets_through() {
-        // Far from the edges both are the same; at them one has no slope and the other goes on.
+    fn walls_are_impermeable() {
+        // Far from the edges both are equal; at the edges one has zero slope and the other is periodic.
         let (n, time) = (32, 10.0);
         let [_, torus] = pattern(n, time, 20);
         let [_, walls] = pattern_in_walls(n, DIFFUSION, time, 20);

@@ -1,4 +1,4 @@
-//! Holds what is true: closed forms and f64 solvers, written independently of any GLSL.
+//! References: closed forms and f64 solvers, written independently of any GLSL.
 //!
 //! Fields are n x n values, row 0 first; texel (x, y) is the point (x + 1/2, y + 1/2).
 
@@ -19,13 +19,13 @@ pub mod still_life;
 
 use std::f64::consts::TAU;
 
-/// Values of a function of texel centres.
+/// Returns the values of a function at texel centres.
 pub fn sampled(n: usize, f: impl Fn(f64, f64) -> f64) -> Vec<f64> {
     (0..n * n).map(|i| f((i % n) as f64 + 0.5, (i / n) as f64 + 0.5)).collect()
 }
 
-/// A Gaussian of peak 1 and standard deviation `start`, in the middle of a torus of n x n, after its variance has
-/// become `variance`: by the heat kernel, the sum over its images of start^2 / variance exp(-r^2 / (2 variance)).
+/// Returns a Gaussian of peak 1 and standard deviation `start`, in the middle of a torus of n x n, after its variance
+/// has become `variance`: by the heat kernel, the sum over its images of start^2 / variance exp(-r^2 / (2 variance)).
 pub fn gaussian_on_torus(n: usize, start: f64, variance: f64) -> Vec<f64> {
     let side = n as f64;
     let line: Vec<f64> = (0..n)
@@ -38,15 +38,15 @@ pub fn gaussian_on_torus(n: usize, start: f64, variance: f64) -> Vec<f64> {
     (0..n * n).map(|i| peak * line[i % n] * line[i / n]).collect()
 }
 
-/// A Gaussian of peak 1, sizes as parts of the width.
+/// Returns a Gaussian of peak 1; sizes are parts of the width.
 pub fn gaussian_spot(n: usize, sigma: f64, (x0, y0): (f64, f64)) -> Vec<f64> {
     let side = n as f64;
     sampled(n, |x, y| (-0.5 * ((x / side - x0).powi(2) + (y / side - y0).powi(2)) / (sigma * sigma)).exp())
 }
 
-/// Zalesak's disk: radius .15 about (.5, .75), with a slot .05 wide and .25 deep from below (J. Comput. Phys. 31,
-/// 1979). A texel holds the mean of 4 x 4 places in it: sampled at its centre alone, a slot of 3.2 texels would be one
-/// of 4.
+/// Returns Zalesak's disk: radius .15 around (.5, .75), with a slot .05 wide and .25 deep from below (J. Comput. Phys.
+/// 31, 1979). A texel contains the mean of 4 x 4 places in it: sampled only at its centre, a slot of 3.2 texels would
+/// become one of 4.
 pub fn zalesak_disk(n: usize) -> Vec<f64> {
     let side = n as f64;
     let is_inside = |x: f64, y: f64| {
@@ -60,8 +60,8 @@ pub fn zalesak_disk(n: usize) -> Vec<f64> {
     })
 }
 
-/// The Taylor-Green vortex of one wave in the box, after the factor `decay`: all of u, then all of v.
-/// u = U sin kx cos ky exp(-2 nu k^2 t), v = -U cos kx sin ky exp(-2 nu k^2 t).
+/// Returns the Taylor-Green vortex of one wave in the box, scaled by `decay`: all of u, then all of v. u = U sin kx cos
+/// ky exp(-2 nu k^2 t), v = -U cos kx sin ky exp(-2 nu k^2 t).
 pub fn taylor_green(n: usize, speed: f64, decay: f64) -> Vec<f64> {
     let k = TAU / n as f64;
     let mut both = sampled(n, |x, y| speed * decay * (k * x).sin() * (k * y).cos());
@@ -83,7 +83,7 @@ mod tests {
             moment / sum(v)
         };
         assert!((second(&a) - 9.0).abs() < 1e-6);
-        // In the end it is even, whatever the kernel.
+        // In the limit it is uniform for any kernel.
         let even = gaussian_on_torus(16, 2.0, 600.0);
         assert!(even.iter().all(|v| (v - even[0]).abs() < 1e-3 * even[0]));
     }
@@ -92,7 +92,7 @@ mod tests {
     fn the_slotted_disk_has_its_area() {
         let n = 512;
         let area = zalesak_disk(n).iter().sum::<f64>() / (n * n) as f64;
-        // The disk less a slot of .05 from y = .6 to .85, whose bottom is the disk's round edge.
+        // The disk without a slot of .05 from y = .6 to .85, whose bottom is the disk's round edge.
         let disk = std::f64::consts::PI * 0.15f64.powi(2);
         assert!((area - (disk - 0.05 * 0.25)).abs() < 3e-4, "{area}");
     }

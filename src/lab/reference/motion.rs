@@ -1,24 +1,23 @@
-//! Says where a particle is: a flight with drag and an orbit, in closed form.
+//! Positions of particles: a flight with drag and an orbit, in closed form.
 
-/// Place and velocity: x, y, u, v.
+/// Position and velocity: x, y, u, v.
 pub type Particle = [f64; 4];
 
-/// A flight of `t` under the pull of `gravity` downwards and a drag of `drag` times the velocity; without drag, the
+/// Returns a flight of duration `t` under downward `gravity` and a drag of `drag` times the velocity; without drag, the
 /// parabola.
 pub fn flight([x, y, u, v]: Particle, gravity: f64, drag: f64, t: f64) -> Particle {
     if drag == 0.0 {
         return [x + u * t, y + v * t - 0.5 * gravity * t * t, u, v - gravity * t];
     }
-    // What is left of a velocity, and how far a velocity of 1 has gone.
+    // The remaining part of a velocity, and the distance for a velocity of 1.
     let left = (-drag * t).exp();
     let gone = -(-drag * t).exp_m1() / drag;
     let terminal = gravity / drag;
     [x + u * gone, y + (v + terminal) * gone - terminal * t, u * left, (v + terminal) * left - terminal]
 }
 
-/// A particle on an ellipse of semi-major axis 1 about the origin, which pulls by 1 / r^2: `anomaly` (the mean one) is
-/// the angle that
-/// grows evenly in time, by 2 pi each turn. The ellipse is turned by `turn`.
+/// Returns a particle on an ellipse of semi-major axis 1 around the origin, which attracts by 1 / r^2: `anomaly` (the
+/// mean one) is the angle that grows uniformly in time, by 2 pi per orbit. The ellipse is rotated by `turn`.
 pub fn orbit(eccentricity: f64, turn: f64, anomaly: f64) -> Particle {
     // Kepler's equation, by Newton's method.
     let mut e = anomaly;
@@ -34,7 +33,7 @@ pub fn orbit(eccentricity: f64, turn: f64, anomaly: f64) -> Particle {
     [x, y, u, v]
 }
 
-/// Energy of a particle in that pull: -1/2 for a semi-major axis of 1.
+/// Returns the energy of a particle in that field: -1/2 for a semi-major axis of 1.
 pub fn orbit_energy([x, y, u, v]: Particle) -> f64 {
     0.5 * (u * u + v * v) - 1.0 / x.hypot(y)
 }
@@ -43,8 +42,7 @@ pub fn orbit_energy([x, y, u, v]: Particle) -> f64 {
 mod tests {
     use super::*;
 
-    /// Largest difference between a path's derivative, by central differences, and what the equation of motion says of
-    /// it.
+    /// Returns the largest difference between a path's derivative, by central differences, and the equation of motion.
     fn residual(path: impl Fn(f64) -> Particle, force: impl Fn(Particle) -> [f64; 2], t: f64) -> f64 {
         let h = 1e-4;
         let (before, now, after) = (path(t - h), path(t), path(t + h));

@@ -1,8 +1,8 @@
-//! Poisson's equation on a torus, solved exactly for its 5-point form.
+//! Poisson's equation on a torus, solved exactly in its 5-point form.
 
 use super::fft::{Complex, Fft};
 
-/// Numbers that are the same everywhere: SplitMix64 (Steele, Lea and Flood 2014).
+/// Reproducible random numbers: SplitMix64 (Steele, Lea and Flood 2014).
 pub struct Random(pub u64);
 
 impl Random {
@@ -18,13 +18,13 @@ impl Random {
         (self.next() % limit.max(1) as u64) as usize
     }
 
-    /// From -1 to 1.
+    /// Returns a number from -1 to 1.
     pub fn number(&mut self) -> f64 {
         self.next() as f64 / u64::MAX as f64 * 2.0 - 1.0
     }
 }
 
-/// A random source of mean 0 whose waves fall off as 1 / k, of root mean square 1.
+/// Returns a random source of mean 0 and root mean square 1 whose waves decay as 1 / k.
 pub fn source(n: usize, seed: u64) -> Vec<f64> {
     let mut random = Random(seed);
     let noise: Vec<f64> = (0..n * n).map(|_| random.number()).collect();
@@ -34,7 +34,7 @@ pub fn source(n: usize, seed: u64) -> Vec<f64> {
     source.iter().map(|v| v / rms).collect()
 }
 
-/// The p of mean 0 with p(x+1) + p(x-1) + p(y+1) + p(y-1) - 4 p = f.
+/// Returns the p of mean 0 with p(x+1) + p(x-1) + p(y+1) + p(y-1) - 4 p = f.
 pub fn solution(n: usize, f: &[f64]) -> Vec<f64> {
     let fft = Fft::new(n);
     let mut all: Vec<Complex> = fft.forward(f);
@@ -46,7 +46,7 @@ pub fn solution(n: usize, f: &[f64]) -> Vec<f64> {
     fft.inverse(all)
 }
 
-/// f - lap p, where the mean of f counts as 0.
+/// Returns f - lap p, without the mean of f.
 pub fn residual(n: usize, p: &[f64], f: &[f64]) -> Vec<f64> {
     let mean = f.iter().sum::<f64>() / f.len() as f64;
     let at = |x: usize, y: usize| p[(y % n) * n + x % n];
@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_solution_leaves_nothing_and_another_field_does() {
+    fn only_the_solution_has_no_residual() {
         let n = 32;
         let f = source(n, 7);
         assert!(f.iter().sum::<f64>().abs() < 1e-9);

@@ -1,4 +1,4 @@
-//! Ambient occlusion by rays, in f64, with its closed forms, and meshes for rays to meet.
+//! Ambient occlusion by ray casting in f64, with closed forms, and meshes for the rays to hit.
 
 use eddy_media::mesh::{self, MeshError};
 use eddy_project::MeshDraw;
@@ -21,12 +21,12 @@ pub fn unit(a: V) -> V {
     a.map(|x| x / dot(a, a).sqrt())
 }
 
-/// The part of the cosine-weighted sky over a surface that is hidden: the mean over `side` x `side` stratified rays of
-/// `falloff` at the distance at which `hit` says that a ray meets something.
+/// Returns the part of the cosine-weighted hemisphere over a surface that is hidden: the mean over `side` x `side`
+/// stratified rays of `falloff` at the distance returned by `hit`.
 pub fn hidden(from: V, normal: V, side: u32, hit: impl Fn(V, V) -> Option<f64>, falloff: impl Fn(f64) -> f64) -> f64 {
     let along = unit(cross(if normal[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] }, normal));
     let across = cross(normal, along);
-    // A stratum's own place, other for other points: P. L'Ecuyer's multiplier, seeded by the place.
+    // A jittered position in each stratum that differs between points: P. L'Ecuyer's multiplier, seeded by the place.
     let mut seed = (from[0].to_bits() ^ from[1].to_bits().rotate_left(21) ^ from[2].to_bits().rotate_left(42)) | 1;
     let mut random = || {
         seed = seed.wrapping_mul(3_935_559_000_370_003_845).wrapping_add(2_691_343_689_449_507_681);
@@ -43,15 +43,15 @@ pub fn hidden(from: V, normal: V, side: u32, hit: impl Fn(V, V) -> Option<f64>, 
     sum / f64::from(side * side)
 }
 
-/// Returns what a wall without ends, of a height and a distance, hides of a floor's cosine-weighted sky: (1 - cos t) /
-/// 2, t = atan(height / distance).
+/// Returns the part of a floor's cosine-weighted hemisphere that an infinite wall of a height and a distance hides: (1
+/// - cos t) / 2, t = atan(height / distance).
 pub fn behind_wall(height: f64, distance: f64) -> f64 {
     0.5 * (1.0 - (height / distance).atan().cos())
 }
 
-/// Returns what a wall higher than the samples reach hides, where samples have the lengths radius (.1 + .9 u u), u
-/// uniform, and directions weighted by the cosine: the mean over them of the segment of a disc, (acos c - c sqrt(1 - c
-/// c)) / pi, c = distance / length.
+/// Returns the part that a wall hides which is higher than the reach of the samples, where samples have the lengths
+/// radius (.1 + .9 u u), u uniform, and directions weighted by the cosine: the mean over them of the segment of a disc,
+/// (acos c - c sqrt(1 - c c)) / pi, c = distance / length.
 pub fn behind_high_wall(radius: f64, distance: f64) -> f64 {
     const N: u32 = 1000;
     let segment = |c: f64| if c < 1.0 { (c.acos() - c * (1.0 - c * c).sqrt()) / std::f64::consts::PI } else { 0.0 };
@@ -59,13 +59,13 @@ pub fn behind_high_wall(radius: f64, distance: f64) -> f64 {
     (0..N).map(|i| segment(distance / length(i))).sum::<f64>() / f64::from(N)
 }
 
-/// Returns what a sphere hides of a floor's cosine-weighted sky, where its middle is `height` above the floor, at least
-/// a radius, and `beside` to the side: R^2 h / (r^2 + h^2)^(3/2).
+/// Returns the part of a floor's cosine-weighted hemisphere that a sphere hides whose centre is `height` above the
+/// floor, at least a radius, and `beside` to the side: R^2 h / (r^2 + h^2)^(3/2).
 pub fn under_sphere(radius: f64, height: f64, beside: f64) -> f64 {
     radius * radius * height / (beside * beside + height * height).powf(1.5)
 }
 
-/// Returns where a ray of length 1 meets a sphere first.
+/// Returns the first intersection of a ray of length 1 with a sphere.
 pub fn meets_sphere(centre: V, radius: f64, from: V, ray: V) -> Option<f64> {
     let q = add(from, centre, -1.0);
     let (b, c) = (dot(q, ray), dot(q, q) - radius * radius);
@@ -73,7 +73,7 @@ pub fn meets_sphere(centre: V, radius: f64, from: V, ray: V) -> Option<f64> {
     (root > 0.0 && -b - root.sqrt() > 0.0).then(|| -b - root.sqrt())
 }
 
-/// Root mean square, mean and largest size of differences, and how many there are.
+/// The root mean square, the mean and the largest absolute value of differences, and their number.
 #[derive(Clone, Copy, Debug)]
 pub struct Errors {
     pub rms: f64,
@@ -83,7 +83,7 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Sums up what is measured less what is expected.
+    /// Summarises measured minus expected values.
     pub fn of(pairs: impl Iterator<Item = (f64, f64)>) -> Errors {
         let (mut square, mut sum, mut most, mut count) = (0.0, 0.0, 0.0f64, 0);
         for (measured, expected) in pairs {
@@ -95,7 +95,7 @@ impl Errors {
     }
 }
 
-/// Does `work` for every item, on all cores.
+/// Runs `work` for every item, on all cores.
 pub fn on_all_cores<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
     let share = items.len().div_ceil(cores).max(1);
@@ -106,7 +106,7 @@ pub fn on_all_cores<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync
     })
 }
 
-/// Triangles in a tree of boxes.
+/// Triangles in a bounding volume hierarchy.
 pub struct Meshes {
     triangles: Vec<[V; 3]>,
     nodes: Vec<Node>,
@@ -115,12 +115,12 @@ pub struct Meshes {
 struct Node {
     low: V,
     high: V,
-    /// A leaf holds its triangles; a fork holds its second child, the first being the next node.
+    /// A leaf contains its triangles; an inner node contains its second child, the first being the next node.
     content: Result<std::ops::Range<usize>, usize>,
 }
 
 impl Meshes {
-    /// Returns what a geometry pass draws, in the world. The meshes are builtin ones.
+    /// Returns the triangles that a geometry pass draws, in world space. Only built-in meshes are supported.
     pub fn of(draws: &[MeshDraw]) -> Result<Meshes, MeshError> {
         let mut triangles = Vec::new();
         for draw in draws {
@@ -161,7 +161,7 @@ impl Meshes {
         self.split(range.start + half..range.end);
     }
 
-    /// Returns how far along a ray of length 1 the first triangle is, if it is nearer than `limit`.
+    /// Returns the distance of the first triangle along a ray of length 1, if it is less than `limit`.
     pub fn hit(&self, from: V, ray: V, limit: f64) -> Option<f64> {
         let mut nearest = limit;
         let inverse = ray.map(|x| 1.0 / x);
@@ -190,7 +190,7 @@ impl Meshes {
     }
 }
 
-/// T. Möller, B. Trumbore, "Fast, Minimum Storage Ray-Triangle Intersection", 1997.
+/// Implements T. Möller, B. Trumbore, "Fast, Minimum Storage Ray-Triangle Intersection", 1997.
 fn meets([a, b, c]: &[V; 3], from: V, ray: V) -> Option<f64> {
     let (e, f) = (add(*b, *a, -1.0), add(*c, *a, -1.0));
     let p = cross(ray, f);
@@ -213,7 +213,7 @@ mod tests {
     const UP: V = [0.0, 1.0, 0.0];
 
     #[test]
-    fn rays_find_the_closed_forms() {
+    fn rays_agree_with_the_closed_forms() {
         for (height, distance) in [(1.0, 4.0), (1.0, 1.0), (4.0, 1.0)] {
             let wall = |from: V, ray: V| {
                 let t = (distance - from[0]) / ray[0];
@@ -227,19 +227,19 @@ mod tests {
             let found = hidden([0.0; 3], UP, 64, |from, ray| meets_sphere(centre, 0.8, from, ray), |_| 1.0);
             assert!((found - under_sphere(0.8, height, beside)).abs() < 4e-3, "{height}, {beside}: {found}");
         }
-        // Of a short reach, by the falloff that its lengths make: a ray that meets something at d is blocked for those
-        // that are longer.
+        // With a short reach, by the falloff that results from the sample lengths: a ray that hits something at d is
+        // blocked for longer samples.
         let (radius, distance) = (0.6, 0.2);
         let wall = |from: V, ray: V| Some((distance - from[0]) / ray[0]).filter(|t| *t > 0.0);
         let falloff = |d: f64| 1.0 - ((d / radius - 0.1).max(0.0) / 0.9).sqrt().min(1.0);
         let found = hidden([0.0; 3], UP, 64, wall, falloff);
         assert!((found - behind_high_wall(radius, distance)).abs() < 4e-3, "{found}");
-        // The uniform hemisphere, which a wrong kernel would measure, is t / pi: far off.
+        // A uniform hemisphere, which a wrong kernel would measure, results in t / pi: far off.
         assert!((std::f64::consts::FRAC_1_PI * 0.25f64.atan() - behind_wall(1.0, 4.0)).abs() > 0.05);
     }
 
     #[test]
-    fn a_ray_meets_a_mesh_where_it_is() {
+    fn rays_hit_meshes_at_the_right_distance() {
         let ssao = eddy_project::presets::load("ssao").unwrap().project;
         let geometry = ssao.passes.iter().find_map(|p| p.settings.meshes()).unwrap();
         let draw = MeshDraw { mesh: MeshSource::parse("builtin:cube"), ..geometry.draws[0].clone() };
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_have_a_size_and_a_side() {
+    fn errors_have_magnitude_and_sign() {
         let off = Errors::of([(1.0, 0.5), (0.0, 0.5), (0.5, 0.5)].into_iter());
         assert!((off.rms - (0.5f64 / 3.0).sqrt()).abs() < 1e-12 && off.mean == 0.0 && off.most == 0.5);
         assert!(Errors::of([(0.4, 0.5)].into_iter()).mean < -0.09);

@@ -1,4 +1,4 @@
-//! Spheres, boxes and tori: where a ray is inside of them, and the lines that they show to an eye.
+//! Spheres, boxes and tori: the intervals of a ray inside of them, and their visible lines.
 
 pub type V = [f64; 3];
 
@@ -6,7 +6,7 @@ pub fn dot(a: V, b: V) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// a + by * b.
+/// Returns a + by * b.
 pub fn along(a: V, b: V, by: f64) -> V {
     [0, 1, 2].map(|i| a[i] + by * b[i])
 }
@@ -15,35 +15,35 @@ pub fn length(a: V) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// A shape about the origin.
+/// A shape centred at the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     /// Its radius.
     Sphere(f64),
     /// Half of its sides.
     Cuboid(V),
-    /// Radius of the ring about the y axis, and of the tube.
+    /// The radius of the ring around the y axis, and of the tube.
     Torus(f64, f64),
 }
 
-/// A shape somewhere.
+/// A shape with a position and orientation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedShape {
     pub shape: Shape,
     pub centre: V,
-    /// Its own x, y and z in the scene.
+    /// Its own x, y and z axes in the scene.
     pub axes: [V; 3],
 }
 
-/// A point of a line: of a silhouette, or of a crease between two faces that are both seen.
+/// A point of a line: of a silhouette, or of a crease between two visible faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinePoint {
     pub at: V,
-    /// Away from the shape.
+    /// The direction away from the shape.
     pub out: V,
 }
 
-/// Axes turned by degrees about x, then about y.
+/// Returns axes rotated by degrees around x, then around y.
 pub fn turned(x: f64, y: f64) -> [V; 3] {
     let ((sx, cx), (sy, cy)) = (x.to_radians().sin_cos(), y.to_radians().sin_cos());
     let about_x = [[1.0, 0.0, 0.0], [0.0, cx, sx], [0.0, -sx, cx]];
@@ -59,7 +59,8 @@ impl PlacedShape {
         (0..3).fold([0.0; 3], |sum, i| along(sum, self.axes[i], own[i]))
     }
 
-    /// Returns where the ray from + t d, d of any length, is inside: pairs of t, rising, those before the eye left out.
+    /// Returns the intervals of the ray from + t d, d of any length, that are inside: increasing pairs of t, without
+    /// those before the eye.
     pub fn spans(&self, from: V, d: V) -> Vec<(f64, f64)> {
         let (o, d) = (self.own(along(from, self.centre, -1.0)), self.own(d));
         let mut spans = match self.shape {
@@ -71,7 +72,7 @@ impl PlacedShape {
         spans
     }
 
-    /// The outward normal at a point of the surface.
+    /// Returns the outward normal at a point of the surface.
     pub fn normal(&self, at: V) -> V {
         let p = self.own(along(at, self.centre, -1.0));
         let own = match self.shape {
@@ -92,7 +93,7 @@ impl PlacedShape {
         self.scene(own)
     }
 
-    /// Points of its lines as seen from `eye`, about `count` a line, hidden ones too.
+    /// Returns points of its lines as seen from `eye`, about `count` per line, including hidden ones.
     pub fn lines(&self, eye: V, count: usize) -> Vec<LinePoint> {
         let e = self.own(along(eye, self.centre, -1.0));
         let own: Vec<(V, V)> = match self.shape {
@@ -108,15 +109,15 @@ impl PlacedShape {
     }
 }
 
-/// The first surface that a ray meets, and the shape's number.
+/// Returns the first surface that a ray hits, and the shape's index.
 pub fn first_hit(shapes: &[PlacedShape], from: V, d: V) -> Option<(f64, usize)> {
     let hits = shapes.iter().enumerate().filter_map(|(i, s)| Some((s.spans(from, d).first()?.0, i)));
     hits.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// Returns whether nothing is between the eye and a point of a line.
+/// Returns whether a point of a line is visible from the eye.
 pub fn is_seen(shapes: &[PlacedShape], eye: V, point: LinePoint) -> bool {
-    // A hair beside the surface, so that the shape's own rim does not count.
+    // Slightly off the surface, so that the shape's own rim does not count.
     let to = along(along(point.at, point.out, 1e-4), eye, -1.0);
     first_hit(shapes, eye, to).is_none_or(|(t, _)| t > 1.0 - 1e-6)
 }
@@ -136,7 +137,8 @@ fn slabs(o: V, d: V, half: V) -> Option<(f64, f64)> {
     (enters < leaves).then_some((enters, leaves))
 }
 
-/// By samples and bisection: a chord of less than 1 % of the torus may be missed, which is 1e-5 of it beside its rim.
+/// By sampling and bisection: a chord of less than 1 % of the torus may be missed, which is within 1e-5 of its size
+/// from the rim.
 fn torus(o: V, d: V, ring: f64, tube: f64) -> Vec<(f64, f64)> {
     const SAMPLES: usize = 200;
     let Some((low, high)) = ball(o, d, 1.0001 * (ring + tube)) else { return Vec::new() };
@@ -162,7 +164,7 @@ fn torus(o: V, d: V, ring: f64, tube: f64) -> Vec<(f64, f64)> {
     roots.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
 }
 
-/// The circle in which a cone from `e` touches a sphere.
+/// Returns the circle in which a cone from `e` touches a sphere.
 fn rim(e: V, r: f64, count: usize) -> Vec<V> {
     let far = length(e);
     let axis = e.map(|x| x / far);
@@ -178,7 +180,7 @@ fn rim(e: V, r: f64, count: usize) -> Vec<V> {
     (0..count).map(point).collect()
 }
 
-/// Edges of which at least one face is turned to `e`.
+/// Returns the edges of which at least one face is turned towards `e`.
 fn edges(e: V, half: V, count: usize) -> Vec<V> {
     let mut points = Vec::new();
     for axis in 0..3 {
@@ -198,9 +200,8 @@ fn edges(e: V, half: V, count: usize) -> Vec<V> {
     points
 }
 
-/// Points of a torus whose normal is at right angles to the way from `e`, with that normal. For each angle of the ring
-/// the angle f of
-/// the tube obeys A cos f + B sin f + r = 0.
+/// Returns points of a torus whose normal is perpendicular to the direction from `e`, with that normal. For each angle
+/// of the ring the angle f of the tube satisfies A cos f + B sin f + r = 0.
 fn contour(e: V, ring: f64, tube: f64, count: usize) -> Vec<(V, V)> {
     let mut points = Vec::new();
     for i in 0..count {
@@ -236,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn rays_beside_a_silhouette_part_in_those_that_meet_and_those_that_do_not() {
+    fn silhouettes_separate_rays_that_hit_from_rays_that_miss() {
         for shape in each() {
             let lines = shape.lines([0.0; 3], 40);
             let seen: Vec<_> = lines.iter().filter(|p| is_seen(&[shape], [0.0; 3], **p)).collect();
@@ -252,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_behind_is_hidden() {
+    fn occluded_points_are_hidden() {
         let [sphere, ..] = each();
         let behind = PlacedShape { centre: [0.4, -0.2, -10.0], ..sphere };
         let hidden = |p: &LinePoint| !is_seen(&[sphere, behind], [0.0; 3], *p);
@@ -261,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn normals_stand_on_the_surface() {
+    fn normals_are_perpendicular_to_the_surface() {
         for shape in each() {
             let d = [0.06, -0.03, -1.0];
             let Some((t, _)) = first_hit(&[shape], [0.0; 3], d) else { continue };
@@ -274,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn turns_are_right_handed() {
+    fn rotations_are_right_handed() {
         let near = |a: V, b: V| length(along(a, b, -1.0)) < 1e-12;
         assert!(near(turned(90.0, 0.0)[1], [0.0, 0.0, 1.0]), "y goes to z about x");
         assert!(near(turned(0.0, 90.0)[2], [1.0, 0.0, 0.0]), "z goes to x about y");

@@ -1,11 +1,11 @@
 //! Incompressible flow on a torus of side 1 by a pseudo-spectral method: vorticity in Fourier space, products at the
-//! points, the upper third of the waves cut (S. Orszag, J. Atmos. Sci. 28, 1971), viscosity exactly, the classical
+//! points, the upper third of the waves removed (S. Orszag, J. Atmos. Sci. 28, 1971), exact viscosity, the classical
 //! Runge-Kutta method in time.
 
 use super::fft::{Complex, Fft};
 use std::f64::consts::TAU;
 
-/// A flow of no mean velocity.
+/// A flow without mean velocity.
 pub struct Spectral {
     fft: Fft,
     n: usize,
@@ -13,11 +13,11 @@ pub struct Spectral {
 }
 
 impl Spectral {
-    /// From a velocity of x and y, sampled at the middles of n x n cells. What it has of divergence and of mean is left
-    /// out.
+    /// Creates a flow from a velocity as a function of x and y, sampled at the centres of n x n cells. Its divergence
+    /// and its mean are dropped.
     ///
     /// # Panics
-    /// If `n` is no power of two.
+    /// If `n` is not a power of two.
     pub fn new(n: usize, velocity: impl Fn(f64, f64) -> [f64; 2]) -> Spectral {
         let at = |i: usize| velocity(((i % n) as f64 + 0.5) / n as f64, ((i / n) as f64 + 0.5) / n as f64);
         let both: Vec<[f64; 2]> = (0..n * n).map(at).collect();
@@ -34,10 +34,11 @@ impl Spectral {
         flow
     }
 
-    /// From a vorticity of x and y, sampled as in [`Spectral::new`]. Its mean, which no torus has, is left out.
+    /// Creates a flow from a vorticity as a function of x and y, sampled as in [`Spectral::new`]. Its mean, which is
+    /// always 0 on a torus, is dropped.
     ///
     /// # Panics
-    /// If `n` is no power of two.
+    /// If `n` is not a power of two.
     pub fn of_vorticity(n: usize, vorticity: impl Fn(f64, f64) -> f64) -> Spectral {
         let at = |i: usize| vorticity(((i % n) as f64 + 0.5) / n as f64, ((i / n) as f64 + 0.5) / n as f64);
         let fft = Fft::new(n);
@@ -45,13 +46,13 @@ impl Spectral {
         Spectral { fft, n, vorticity }
     }
 
-    /// Wave numbers of an index, radians a side.
+    /// Returns the wave numbers of an index, in radians per side.
     fn waves(&self, i: usize) -> (f64, f64) {
         let side = self.n as f64;
         (self.fft.wave(i % self.n) * side, self.fft.wave(i / self.n) * side)
     }
 
-    /// The velocity that a vorticity has: psi = w / k^2, u = psi_y, v = -psi_x.
+    /// Returns the velocity of a vorticity: psi = w / k^2, u = psi_y, v = -psi_x.
     fn velocity_of(&self, vorticity: &[Complex]) -> [Vec<Complex>; 2] {
         let mut both = [Vec::with_capacity(vorticity.len()), Vec::with_capacity(vorticity.len())];
         for (i, w) in vorticity.iter().enumerate() {
@@ -64,7 +65,7 @@ impl Spectral {
         both
     }
 
-    /// -(u w_x + v w_y), without the waves that the products fold back.
+    /// Returns -(u w_x + v w_y), without the aliased waves of the products.
     fn carried(&self, vorticity: &[Complex]) -> Vec<Complex> {
         let [u, v] = self.velocity_of(vorticity);
         let slope = |pick: fn((f64, f64)) -> f64| -> Vec<Complex> {
@@ -88,18 +89,18 @@ impl Spectral {
         all
     }
 
-    /// Goes on for `time` in so many steps.
+    /// Advances by `time` in `steps` steps.
     pub fn run(&mut self, viscosity: f64, time: f64, steps: u32) {
         let h = time / f64::from(steps);
         let decay = |i: usize| {
             let (kx, ky) = self.waves(i);
             (-viscosity * (kx * kx + ky * ky) * h / 2.0).exp()
         };
-        // Of no half of a step, one and two.
+        // The decay over zero, one and two half steps.
         let half: Vec<[f64; 3]> = (0..self.n * self.n).map(|i| [0, 1, 2].map(|halves| decay(i).powi(halves))).collect();
         for _ in 0..steps {
             let w = &self.vorticity;
-            // a + h b, where each is carried on by so many halves of the viscosity.
+            // a + h b, each decayed by a number of half steps of viscosity.
             let sum = |a: &[Complex], (m, by): (usize, f64), b: &[Complex], p: usize| -> Vec<Complex> {
                 let one = |i: usize| {
                     let (e, f) = (half[i][m], by * half[i][p]);
@@ -118,7 +119,7 @@ impl Spectral {
         }
     }
 
-    /// Mean of (u^2 + v^2) / 2.
+    /// Returns the mean of (u^2 + v^2) / 2.
     pub fn energy(&self) -> f64 {
         let of = |(i, w): (usize, &Complex)| {
             let (kx, ky) = self.waves(i);
@@ -128,8 +129,8 @@ impl Spectral {
         0.5 * self.vorticity.iter().enumerate().map(of).sum::<f64>() / (self.n as f64).powi(4)
     }
 
-    /// u at one place of each of m x m cells and v at another, as parts of a cell from its lower left corner: all of u,
-    /// then all of v.
+    /// Returns u at one place of each of m x m cells and v at another, as parts of a cell from its lower left corner:
+    /// all of u, then all of v.
     ///
     /// # Panics
     /// If `m` does not divide n.
@@ -138,7 +139,8 @@ impl Spectral {
         both.into_iter().zip(places).flat_map(|(all, place)| self.sampled(all, m, place)).collect()
     }
 
-    /// The pressure of unit density and mean 0 in the middle of each of m x m cells: of -lap p = (u_i u_j)_ij.
+    /// Returns the pressure of unit density and mean 0 at the centre of each of m x m cells: from -lap p = (u_i
+    /// u_j)_ij.
     ///
     /// # Panics
     /// If `m` does not divide n.
@@ -159,7 +161,7 @@ impl Spectral {
         self.sampled((0..u.len()).map(solved).collect(), m, (0.5, 0.5))
     }
 
-    /// A field, by its waves, at one place of each of m x m cells.
+    /// Evaluates a field, given by its waves, at one place of each of m x m cells.
     fn sampled(&self, mut waves: Vec<Complex>, m: usize, (x, y): (f64, f64)) -> Vec<f64> {
         assert!(self.n.is_multiple_of(m), "{m} does not divide {}", self.n);
         let (n, every) = (self.n, self.n / m);
@@ -173,9 +175,9 @@ impl Spectral {
     }
 }
 
-/// The vortex of Lamb and Oseen in the middle of a torus of side 1, of circulation 1: w = exp(-r^2 / c^2) / (pi c^2)
-/// with c^2 = 4 nu t. Its images leave it round where the side is many times `core`, which is c. Its greatest speed is
-/// .63817 / (2 pi c), at r = 1.12091 c.
+/// Returns the Lamb-Oseen vortex in the middle of a torus of side 1, with circulation 1: w = exp(-r^2 / c^2) / (pi c^2)
+/// with c^2 = 4 nu t. It stays round despite its images if the side is many times `core`, which is c. Its greatest
+/// speed is .63817 / (2 pi c), at r = 1.12091 c.
 pub fn lamb_oseen(n: usize, core: f64) -> Spectral {
     let square = core * core;
     let vortex =
@@ -183,8 +185,8 @@ pub fn lamb_oseen(n: usize, core: f64) -> Spectral {
     Spectral::of_vorticity(n, vortex)
 }
 
-/// Two shear layers that roll up, on a torus of side 1 (D. Brown, M. Minion, J. Comput. Phys. 122, 1995), of thickness
-/// 1 / `rho`.
+/// Returns two shear layers that roll up, on a torus of side 1 (D. Brown, M. Minion, J. Comput. Phys. 122, 1995), of
+/// thickness 1 / `rho`.
 pub fn shear_layers(rho: f64, x: f64, y: f64) -> [f64; 2] {
     let from_layer = if y < 0.5 { y - 0.25 } else { 0.75 - y };
     [(rho * from_layer).tanh(), 0.05 * (TAU * x).sin()]
@@ -199,10 +201,10 @@ mod tests {
         (a.iter().zip(b).map(|(a, b)| square(a - b)).sum::<f64>() / b.iter().copied().map(square).sum::<f64>()).sqrt()
     }
 
-    /// In a wind along neither axis an error of a sign or of a shift would show; the mean is left out, so the wind is a
-    /// wave.
+    /// A wind in a direction off both axes would reveal an error of a sign or of a shift; as the mean is dropped, the
+    /// wind is a wave.
     #[test]
-    fn eddies_decay_exactly_and_are_read_where_they_are_asked_for() {
+    fn eddies_decay_exactly_and_are_evaluated_at_the_requested_places() {
         let vortex = |x: f64, y: f64| [(TAU * x).sin() * (TAU * y).cos(), -(TAU * x).cos() * (TAU * y).sin()];
         let mut flow = Spectral::new(32, vortex);
         assert!((flow.energy() - 0.25).abs() < 1e-12);
@@ -222,7 +224,7 @@ mod tests {
         }
     }
 
-    /// Eddies have (cos 2x + cos 2y) / 4, and a round vortex the radial balance p_r = u^2 / r.
+    /// Eddies have (cos 2x + cos 2y) / 4, and a round vortex has the radial balance p_r = u^2 / r.
     #[test]
     fn pressures_balance() {
         let flow = Spectral::new(32, |x, y| [(TAU * x).sin() * (TAU * y).cos(), -(TAU * x).cos() * (TAU * y).sin()]);
@@ -235,7 +237,7 @@ mod tests {
         let n = 128;
         let vortex = lamb_oseen(n, 0.05);
         let (p, v) = (vortex.pressure(n), vortex.velocity(n, [(0.0, 0.5); 2]).split_off(n * n));
-        // From the middle of a cell to that of the next, at the height of the vortex's middle, nearly.
+        // From the centre of a cell to that of the next, approximately at the height of the vortex's centre.
         for x in n / 2 + 2..n / 2 + 12 {
             let (i, r) = (n / 2 * n + x, (x - n / 2) as f64 / n as f64);
             let (slope, expected) = ((p[i] - p[i - 1]) * n as f64, v[i] * v[i] / r);
@@ -244,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn the_vortex_of_lamb_and_oseen_spreads_by_its_closed_form_and_peaks_where_it_should() {
+    fn the_lamb_oseen_vortex_agrees_with_its_closed_form() {
         let (viscosity, core) = (4e-4, 0.04f64);
         let mut flow = lamb_oseen(64, core);
         flow.run(viscosity, 0.25, 32);
@@ -252,7 +254,7 @@ mod tests {
         let places = [(0.5, 0.0); 2];
         assert!(far(&flow.velocity(64, places), &exact.velocity(64, places)) < 1e-3);
         assert!(far(&lamb_oseen(64, core).velocity(64, places), &exact.velocity(64, places)) > 0.05);
-        // Along the middle line to the right of the middle.
+        // Along the middle line to the right of the centre.
         let n = 256;
         let line = &lamb_oseen(n, core).velocity(n, [(0.0, 0.0); 2])[n * n + n / 2 * n + n / 2..][..n / 2];
         let top = (0..n / 2).max_by(|a, b| line[*a].total_cmp(&line[*b])).unwrap();
@@ -276,7 +278,7 @@ mod tests {
         assert!(far(&still.velocity(32, [(0.5, 0.5); 2]), &best) > 0.04);
     }
 
-    /// Energies at t = 1 and 1.2 over that at first, for the scenes that go by this name.
+    /// Energies at t = 1 and 1.2 relative to the initial one, for the scenes of this name.
     #[test]
     #[ignore = "takes minutes; prints figures of the documentation"]
     fn energies_of_shear_layers() {

@@ -1,31 +1,32 @@
-//! A Siemens star, a hairline and a moving disc, sampled as finely as one likes.
+//! A Siemens star, a hairline and a moving disc, sampled at any resolution.
 
 use crate::picture::Picture;
 use std::ops::RangeInclusive;
 
-/// Side of the canvas in pixels.
+/// The side of the canvas in pixels.
 pub const SIDE: usize = 192;
 
-/// Pixels that the disc moves in a frame, to the right: fast, and so slowly that its edge is in a pixel for three frames.
+/// The pixels per frame by which the disc moves to the right: fast, and so slow that its edge stays in a pixel for
+/// three frames.
 pub const SPEED: f64 = 2.37;
 pub const SLOW: f64 = 0.35;
 
 const RADIUS: f64 = 20.0;
 pub const DISC: [f64; 3] = [0.95, 0.90, 0.80];
 
-/// The scene at a frame; without the disc for `None`.
+/// The scene in a frame; `None` for no disc.
 #[derive(Clone, Copy, Debug)]
 pub struct Star {
     pub frame: Option<u32>,
-    /// Pixels that the disc moves in a frame.
+    /// The pixels per frame by which the disc moves.
     pub speed: f64,
 }
 
 impl Star {
-    /// Without the disc.
+    /// The scene without the disc.
     pub const STILL: Star = Star { frame: None, speed: SPEED };
 
-    /// Returns where the disc's middle is, in pixels from the canvas's.
+    /// Returns the position of the disc's centre, in pixels from the centre of the canvas.
     fn disc(frame: u32, speed: f64) -> [f64; 2] {
         [-60.0 + speed * f64::from(frame), -20.0]
     }
@@ -35,7 +36,7 @@ impl Star {
         (x - cx).powi(2) + (y - cy).powi(2) < RADIUS * RADIUS
     }
 
-    /// The colour at a place, in pixels from the canvas's middle.
+    /// Returns the colour at a place, in pixels from the centre of the canvas.
     fn colour(self, [x, y]: [f64; 2]) -> [f64; 3] {
         if self.frame.is_some_and(|frame| Star::is_disc((frame, self.speed), [x, y])) {
             return DISC;
@@ -47,7 +48,7 @@ impl Star {
         [if is_ray || is_hair { 0.64 } else { 0.36 }; 3]
     }
 
-    /// The mean of 8 x 8 samples in each pixel.
+    /// Returns the mean of 8 x 8 samples in each pixel.
     pub fn picture(self) -> Picture {
         let middle = SIDE as f64 / 2.0;
         let pixel = |i: usize| {
@@ -63,9 +64,10 @@ impl Star {
         Picture::new(SIDE, (0..SIDE * SIDE).map(pixel).collect())
     }
 
-    /// The pixels that a disc of this speed covered wholly at `frame` and touched in none of the frames `since`.
+    /// Returns the pixels that a disc of this speed covered completely at `frame` and touched in none of the frames
+    /// `since`.
     pub fn vacated(speed: f64, frame: u32, since: RangeInclusive<u32>) -> Vec<usize> {
-        // Rows that the disc never comes to are left out.
+        // Rows that the disc never reaches are skipped.
         let middle = SIDE as f64 / 2.0;
         let rows = (middle - 20.0 - RADIUS) as usize - 1..(middle - 20.0 + RADIUS) as usize + 2;
         (rows.start * SIDE..rows.end * SIDE)
@@ -76,11 +78,11 @@ impl Star {
             .collect()
     }
 
-    /// The pixels that a disc of this speed, having covered them wholly, touches in no frame from so many before `frame`
-    /// on, but touched in the one before those.
+    /// Returns the pixels that a disc of this speed covered completely earlier, touched in frame `frame - ago`, and has
+    /// not touched since.
     pub fn left_ago(speed: f64, frame: u32, ago: u32) -> Vec<usize> {
         let last = frame - ago;
-        // The edge crosses a pixel's diagonal.
+        // The number of frames in which the edge crosses a pixel's diagonal.
         let crosses = (2f64.sqrt() / speed).ceil() as u32;
         let gone = Star::vacated(speed, last - crosses, last + 1..=frame);
         gone.into_iter().filter(|i| Star::touches(speed, last..=last, *i)).collect()
@@ -91,7 +93,7 @@ impl Star {
     }
 }
 
-/// The corners of a pixel, from the canvas's middle.
+/// Returns the corners of a pixel, relative to the centre of the canvas.
 fn corners(i: usize) -> [[f64; 2]; 4] {
     let middle = SIDE as f64 / 2.0;
     [0, 1, 2, 3].map(|c| [((i % SIDE) + c % 2) as f64 - middle, ((i / SIDE) + c / 2) as f64 - middle])
@@ -102,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn half_of_the_star_is_light_and_the_disc_has_its_area() {
+    fn half_of_the_star_is_white_and_the_disc_has_its_area() {
         let still = Star::STILL.picture();
         let middle = SIDE as f64 / 2.0;
         let (mut sum, mut n) = (0.0, 0.0);
@@ -120,14 +122,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_vacated_lies_behind_the_disc() {
+    fn vacated_pixels_are_behind_the_disc() {
         let all = Star::vacated(SPEED, 34, 40..=40);
         let right = Star::disc(40, SPEED)[0] - RADIUS * 0.2 + SIDE as f64 / 2.0;
         assert!(all.len() > 300 && all.iter().all(|i| ((i % SIDE) as f64) < right), "{}", all.len());
-        // A strip of what one frame uncovers.
+        // A strip that one frame uncovers.
         let strip = Star::vacated(SPEED, 34, 35..=40);
         assert!(strip.len() > 10 && strip.len() < all.len() / 3 && strip.iter().all(|i| all.contains(i)));
-        // What a slow disc left four frames ago is a thin strip behind it.
+        // A slow disc uncovered only a thin strip behind it four frames ago.
         let slow = Star::left_ago(SLOW, 40, 4);
         let back = |i: &usize| Star::disc(40, SLOW)[0] + SIDE as f64 / 2.0 - (i % SIDE) as f64;
         assert!(

@@ -1,18 +1,18 @@
-//! The still life of the presets with a G-buffer, as distances in f64: what rays meet there, and where the camera sees
-//! it.
+//! The still life of the presets with a G-buffer, as distances in f64: the intersections of rays, and the projection to
+//! the camera.
 //!
-//! Sizes and places are those that the scene's description gives; nothing is read from the G-buffer.
+//! Sizes and places are those of the scene's description; nothing is read from the G-buffer.
 
 use super::rays::{V, add, cross, dot, unit};
 
-/// Says what a ray met, as the G-buffer numbers it.
+/// The material of a hit, as numbered in the G-buffer.
 pub const TABLE: u32 = 1;
 pub const DIE: u32 = 3;
 
-/// Says how far the table goes.
+/// The size of the table.
 pub const FAR: f64 = 14.0;
 
-/// As near as this to a surface a ray has met it.
+/// A ray that is nearer to a surface than this has hit it.
 const NEAR: f64 = 2e-5;
 
 fn cylinder(p: V, radius: f64, half: f64) -> f64 {
@@ -20,7 +20,7 @@ fn cylinder(p: V, radius: f64, half: f64) -> f64 {
     q[0].max(q[1]).min(0.0) + q[0].max(0.0).hypot(q[1].max(0.0))
 }
 
-/// The distance to the things on the table: a mug, a die, a ball, a ring.
+/// Returns the distance to the things on the table: a mug, a die, a ball, a ring.
 pub fn things(p: V) -> f64 {
     let q = add(p, [-0.80, 0.56, -0.25], -1.0);
     let inside = cylinder(add(q, [0.0, 0.12, 0.0], -1.0), 0.39, 0.52);
@@ -37,12 +37,12 @@ pub fn things(p: V) -> f64 {
     mug.min(die).min(ball).min(ring)
 }
 
-/// Returns how far along a ray of length 1 the first of the things is, if it is nearer than `limit`.
+/// Returns the distance of the first of the things along a ray of length 1, if it is less than `limit`.
 pub fn march(from: V, ray: V, limit: f64) -> Option<f64> {
     let mut t = 0.0;
     while t < limit {
         let p = add(from, ray, t);
-        // Above all things, and never again among them.
+        // Above all things, without returning to them.
         if p[1] > 1.2 && ray[1] >= 0.0 {
             return None;
         }
@@ -55,7 +55,7 @@ pub fn march(from: V, ray: V, limit: f64) -> Option<f64> {
     None
 }
 
-/// The same of the things and the table.
+/// Does the same for the things and the table.
 pub fn first(from: V, ray: V, limit: f64) -> Option<f64> {
     let table = if ray[1] < 0.0 { -from[1] / ray[1] } else { f64::INFINITY };
     march(from, ray, limit.min(table)).or((table < limit).then_some(table))
@@ -65,7 +65,7 @@ pub fn is_table(at: V) -> bool {
     at[1] < 1e-9
 }
 
-/// The normal at a place that a ray has met.
+/// Returns the normal at a place that a ray has hit.
 pub fn normal(at: V) -> V {
     if is_table(at) {
         return [0.0, 1.0, 0.0];
@@ -85,7 +85,7 @@ pub struct View {
     up: V,
     back: V,
     size: [f64; 2],
-    /// Pixels in one unit at distance 1.
+    /// Pixels per unit at distance 1.
     focal: f64,
 }
 
@@ -99,14 +99,13 @@ impl View {
         View { eye: add([0.0, 0.42, 0.05], back, 5.2), right, up: cross(back, right), back, size, focal }
     }
 
-    /// The direction in which a place of the picture is seen, of length 1.
+    /// Returns the direction towards a place of the picture, of length 1.
     pub fn ray(&self, pixel: [f64; 2]) -> V {
         let q = [0, 1].map(|i| (pixel[i] - 0.5 * self.size[i]) / self.focal);
         unit(add(add(self.right.map(|v| v * q[0]), self.up, q[1]), self.back, -1.0))
     }
 
-    /// Returns where a point before the camera is seen, in pixels; `None` beyond the picture's edge or behind the
-    /// camera.
+    /// Returns the projection of a point in pixels; `None` outside of the picture or behind the camera.
     pub fn pixel(&self, point: V) -> Option<[f64; 2]> {
         let d = add(point, self.eye, -1.0);
         let depth = -dot(d, self.back);
@@ -117,7 +116,7 @@ impl View {
         (depth > 0.0 && (0..2).all(|i| at[i] >= 0.0 && at[i] < self.size[i])).then_some(at)
     }
 
-    /// Returns whether nothing is between the camera and a point on a surface.
+    /// Returns whether a point on a surface is visible from the camera.
     pub fn sees(&self, point: V) -> bool {
         let d = add(point, self.eye, -1.0);
         let distance = dot(d, d).sqrt();
@@ -130,7 +129,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_pixel_is_where_its_ray_goes() {
+    fn rays_and_projections_agree() {
         let view = View::new(320, 180);
         for pixel in [[10.5, 20.5], [160.0, 90.0], [300.25, 170.0]] {
             let point = add(view.eye, view.ray(pixel), 3.0);
@@ -141,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_before_something_hides_it() {
+    fn nearer_things_hide_those_behind_them() {
         let view = View::new(320, 180);
         let ball = [0.05, 0.36, 0.62];
         let towards = unit(add(ball, view.eye, -1.0));

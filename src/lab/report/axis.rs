@@ -1,6 +1,6 @@
-//! Logarithmic axes: which decades are shown, and what stands at their ticks.
+//! Logarithmic axes: the decades that are shown, and the labels of their ticks.
 
-/// Whole decades around positive values; `None` of none.
+/// Returns whole decades around positive values; `None` if there are none.
 pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let (low, high) = values.fold((f64::MAX, 0.0f64), |(lo, hi), v| (lo.min(v), hi.max(v)));
     (high > 0.0).then(|| {
@@ -9,7 +9,7 @@ pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
-/// A power of ten as people write it; empty for anything else.
+/// Formats a power of ten for display; empty for other numbers.
 pub fn tick(value: f64) -> String {
     let power = value.log10().round();
     if (value / 10f64.powf(power) - 1.0).abs() > 1e-6 {
@@ -18,13 +18,13 @@ pub fn tick(value: f64) -> String {
     if (-3.0..=4.0).contains(&power) { format!("{}", 10f64.powf(power)) } else { format!("1e{power}") }
 }
 
-/// Decades of an axis that has no room for labels between the powers of ten, and for all of these.
+/// The largest number of decades with labels between the powers of ten, if there is room.
 const FEW: usize = 3;
 const MANY: usize = 10;
 
 /// The lines of an axis.
 pub struct Marks {
-    /// With a label: powers of ten, on a short axis 2 and 5 times each too, on a very long one not every power.
+    /// Lines with a label: powers of ten, on a short axis 2 and 5 times each too, on a very long one not every power.
     pub labelled: Vec<f64>,
     pub others: Vec<f64>,
 }
@@ -51,9 +51,9 @@ pub fn marks((low, high): (f64, f64)) -> Marks {
     marks
 }
 
-/// Returns what stands at a line: 1 to 9 times a power of ten as people write it.
+/// Returns the label of a line: 1 to 9 times a power of ten.
 pub fn label(value: f64) -> String {
-    // Not a little less than a power for one that is rounded.
+    // Rounding must not turn a power into slightly less than that power.
     let power = (value.log10() + 1e-9).floor();
     let leading = (value / 10f64.powf(power)).round();
     if (-3.0..=4.0).contains(&power) {
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_of_any_length_can_be_read() {
+    fn axes_of_any_length_have_enough_labels() {
         let labels = |ends| marks(ends).labelled.into_iter().map(label).collect::<Vec<_>>();
         assert_eq!(labels((0.01, 0.1)), ["0.01", "0.02", "0.05", "0.1"]);
         assert_eq!(labels((1.0, 100.0)), ["1", "2", "5", "10", "20", "50", "100"]);
@@ -85,7 +85,7 @@ mod tests {
         assert_eq!(labels((1e3, 1e5)), ["1000", "2000", "5000", "10000", "20000", "50000", "1e5"]);
         assert_eq!(labels((1e-2, 10.0)), ["0.01", "0.1", "1", "10"]);
         assert_eq!(labels((1e-30, 1.0)).len(), 11);
-        // Every other line is there, and none twice.
+        // All other lines are present exactly once.
         let Marks { labelled, others } = marks((0.01, 10.0));
         assert_eq!((labelled.len(), others.len()), (4, 3 * 8));
     }

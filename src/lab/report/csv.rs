@@ -1,4 +1,4 @@
-//! A study as comma-separated values (RFC 4180), one line a point.
+//! A study as comma-separated values (RFC 4180), one line per point.
 
 use super::table::Table;
 use std::fmt::Write;
@@ -59,7 +59,7 @@ mod tests {
     use super::quoted;
 
     #[test]
-    fn what_holds_a_comma_or_a_quote_is_quoted() {
+    fn texts_with_commas_or_quotes_are_quoted() {
         assert_eq!(quoted("plain"), "plain");
         assert_eq!(quoted("a, \"b\""), "\"a, \"\"b\"\"\"");
     }

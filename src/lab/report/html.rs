@@ -1,4 +1,4 @@
-//! One page of all studies, which needs no other file and no network.
+//! A page of all studies that needs no other file and no network.
 
 use super::table::{Reach, Row, Table};
 use crate::{
@@ -157,7 +157,7 @@ fn cells(out: &mut String, table: &Table, row: &Row, last: &str) {
     );
 }
 
-/// The cell of a method's share of the roofline, and why there is none.
+/// Returns the cell of a method's share of the roofline, or the reason why there is none.
 fn roofline(cost: Cost) -> String {
     match cost.roofline() {
         None => format!(
@@ -245,7 +245,7 @@ fn section(out: &mut String, table: &Table, svg: Option<&str>) {
     out.push_str("</details>\n");
 }
 
-/// Three digits that count.
+/// Formats three significant digits.
 fn number(x: f64) -> String {
     let size = x.abs();
     match size {
@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn a_roofline_of_few_texels_or_above_its_roof_says_so() {
+    fn unusable_rooflines_are_explained() {
         let times = |median: f64| Times { median, min: median, max: median };
         let cost = |copy: f64, frame: f64| Cost {
             frame: times(frame),

@@ -1,4 +1,4 @@
-//! Writes what was measured, for people: a CSV and a plot a study, and one page of all.
+//! Reports of the results: a CSV and a plot per study, and one page of all.
 
 mod axis;
 mod csv;
@@ -13,7 +13,7 @@ use eddy_project as project;
 use std::{io::Write, path::Path};
 pub use table::{Best, COLOURS, Look, Row, TARGET, Table, sign};
 
-/// Writes `index.html` and, of each study with any result, `NAME.csv`, `NAME.svg` and `NAME.png`. Gives the names of
+/// Writes `index.html` and, for each study with any result, `NAME.csv`, `NAME.svg` and `NAME.png`. Returns the names of
 /// the files.
 pub fn write(out: &Path, studies: &[&'static Study], results: &Results) -> Result<Vec<String>, LabError> {
     make_folder(out)?;

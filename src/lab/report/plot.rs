@@ -1,4 +1,4 @@
-//! The plot of a study: cost across, error up, both in logarithms, a line a method along its settings.
+//! The plot of a study: cost across, error up, both logarithmic, with a line per method through its settings.
 
 use super::{
     axis::{Marks, decades, label, marks},
@@ -13,13 +13,13 @@ use plotters::{
 };
 
 const WIDTH: u32 = 1240;
-/// Least height; a long legend makes the plot higher.
+/// The minimum height; a long legend makes the plot higher.
 const HEIGHT: u32 = 720;
 /// Width of the legend.
 const LEGEND: u32 = 380;
 const FONT: &str = "sans-serif";
 
-/// Colours that are told apart by people who see fewer (Okabe and Ito 2008), and further ones that differ in
+/// Colours that are distinguishable with colour vision deficiency (Okabe and Ito 2008), and further ones that differ in
 /// brightness.
 const COLOURS: [RGBColor; super::COLOURS] = [
     RGBColor(0, 114, 178),
@@ -38,12 +38,12 @@ const COLOURS: [RGBColor; super::COLOURS] = [
 const GREY: RGBColor = RGBColor(165, 168, 172);
 const INK: RGBColor = RGBColor(40, 44, 52);
 
-/// Errors above this are drawn on the upper edge, where there are smaller ones.
+/// Errors above this are drawn on the upper edge, if there are smaller ones.
 const BLOWN_UP: f64 = 9.0;
 
 type Area<B> = DrawingArea<B, Shift>;
 
-/// `None` where no point has both a cost and an error.
+/// Returns `None` if no point has both a cost and an error.
 pub fn svg(table: &Table) -> Result<Option<String>, LabError> {
     let mut text = String::new();
     let drawn = {
@@ -53,7 +53,7 @@ pub fn svg(table: &Table) -> Result<Option<String>, LabError> {
     Ok(drawn.then_some(text))
 }
 
-/// As [`svg`], as a PNG file.
+/// Does the same as [`svg`], as a PNG file.
 pub fn png(table: &Table) -> Result<Option<Vec<u8>>, LabError> {
     let size = (WIDTH, height(table));
     let mut rgb = vec![255; (size.0 * size.1 * 3) as usize];
@@ -81,11 +81,11 @@ fn axis((low, high): (f64, f64)) -> WithKeyPoints<LogCoord<f64>> {
 }
 
 fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabError> {
-    // The fonts of the machine are not asked for: the same picture everywhere.
+    // The machine's fonts are not used, so that the picture is the same everywhere.
     register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
         .map_err(|_| LabError::Plot("the font cannot be read".into()))?;
     let places = || table.rows.iter().filter_map(Row::place);
-    // What has blown up would leave no room for the others.
+    // Diverged results would leave no room for the others.
     let least = places().map(|p| p.1).fold(f64::INFINITY, f64::min);
     let errors = places().map(|p| p.1.min(BLOWN_UP.max(least)));
     let (Some((x0, x1)), Some((y0, y1))) = (decades(places().map(|p| p.0)), decades(errors)) else {
@@ -128,7 +128,7 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
         );
         chart.draw_series([label]).map_err(trouble)?;
     }
-    // Under the methods, wide and light.
+    // Wide and light, under the methods.
     let mut steps = Vec::new();
     for pair in frontier.windows(2) {
         steps.extend([pair[0], (pair[1].0, pair[0].1), pair[1]]);
@@ -162,7 +162,7 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
     Ok(true)
 }
 
-/// The numbers of methods beside the ends of their lines, after all signs: `ends` are methods and places in pixels.
+/// Draws the numbers of methods at the ends of their lines, after all markers: `ends` are methods and places in pixels.
 fn numbers<B: DrawingBackend>(
     area: &Area<B>,
     ends: &[(usize, (i32, i32))],
@@ -191,16 +191,16 @@ impl Look {
     }
 }
 
-/// The nth method's sign in whole pixels.
+/// Returns the corners of the nth method's marker in whole pixels.
 fn corners(n: usize) -> Vec<(i32, i32)> {
     sign(n).into_iter().map(|[x, y]| (x.round() as i32, y.round() as i32)).collect()
 }
 
 const LEGEND_TOP: i32 = 62;
-/// The height of what the legend says below the methods.
+/// The height of the legend's text below the methods.
 const LEGEND_FOOT: i32 = 205;
 
-/// Returns the height of a method in the legend, with its settings below it where there are several.
+/// Returns the height of a method in the legend, including its settings if there are several.
 fn entry_height(settings: usize) -> i32 {
     if settings > 1 { 38 } else { 27 }
 }
@@ -211,7 +211,7 @@ fn height(table: &Table) -> u32 {
     HEIGHT.max((LEGEND_TOP + entries + LEGEND_FOOT) as u32)
 }
 
-/// `cut`: the upper edge of the plot, on which lie points that are above it.
+/// `cut`: the upper edge of the plot, where points above it are drawn.
 fn legend<B: DrawingBackend>(
     area: &Area<B>,
     table: &Table,
@@ -261,7 +261,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colour_and_sign_tell_methods_apart() {
+    fn methods_differ_in_colour_or_marker() {
         let signs: Vec<_> = (0..24).map(|n| (n % COLOURS.len(), corners(n))).collect();
         assert!((0..24).all(|n| !signs[..n].contains(&signs[n])));
     }

@@ -1,9 +1,9 @@
-//! Keeps what was measured, as JSON lines: each record is written when it is known, so that whoever stops a run loses
-//! one point, or one turn of a study's costs.
+//! Stores results as JSON lines: each record is written as soon as it is known, so that an interrupted run loses one
+//! point, or one turn of a study's costs.
 //!
-//! A record has the fingerprint of what was measured. A run measures anew what has another one now. Records of before
-//! there were fingerprints are read, merged and reported as they are; a run of their study measures them anew too, as
-//! nobody can say what they were measured of.
+//! A record contains the fingerprint of what was measured. A run repeats measurements whose fingerprint has changed.
+//! Older records without fingerprints are read, merged and reported unchanged; a run of their study measures them again
+//! too, as their origin is unknown.
 
 use super::{Extent, LabError, Measured, Point, cost::Cost, error::make_folder, stability_record::StabilityRecord};
 use eddy_project::{self as project, ProjectError, confine, limits};
@@ -14,10 +14,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Name of the file in the folder of a run.
+/// The name of the file in the folder of a run.
 pub const FILE: &str = "results.jsonl";
 
-/// Holds what has to be known to measure the same again.
+/// The conditions of a measurement.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Provenance {
     pub device: String,
@@ -35,7 +35,7 @@ fn is_false(flag: &bool) -> bool {
     !flag
 }
 
-/// Holds what two runs differ in, and what it is in the one and in the other.
+/// A difference between two runs, with both values.
 struct Difference {
     what: &'static str,
     theirs: String,
@@ -43,7 +43,7 @@ struct Difference {
 }
 
 impl Provenance {
-    /// Returns the first thing that keeps results of the two apart; `None`: they may stand side by side.
+    /// Returns the first difference that makes results of the two incomparable; `None` if they are comparable.
     fn difference(&self, ours: &Provenance) -> Option<Difference> {
         let extent = |e: Extent| if e == Extent::Quick { "--quick" } else { "a full run" };
         let beside = |window| if window { "measured beside a window" } else { "measured by eddy lab" };
@@ -60,12 +60,12 @@ impl Provenance {
     }
 }
 
-/// Says how wrong a point is, or why that is not known.
+/// The error of a point, or why it is unknown.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorRecord {
     #[serde(flatten)]
     pub point: Point,
-    /// See [`Setup::fingerprint`](super::Setup::fingerprint); `None`: the record is older than that.
+    /// See [`Setup::fingerprint`](super::Setup::fingerprint); `None` for an older record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub setup: Option<String>,
     pub measured: Option<Measured>,
@@ -76,10 +76,10 @@ pub struct ErrorRecord {
 pub struct CostRecord {
     #[serde(flatten)]
     pub point: Point,
-    /// As an error's.
+    /// As for an error.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub setup: Option<String>,
-    /// Has fewer than [`MIN_REPEATS`](super::cost::MIN_REPEATS) turns where the run was stopped between them.
+    /// Has fewer than [`MIN_REPEATS`](super::cost::MIN_REPEATS) turns if the run was stopped in between.
     pub cost: Cost,
 }
 
@@ -93,7 +93,7 @@ pub enum Record {
     Stability(StabilityRecord),
 }
 
-/// Everything that is known.
+/// All results.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Results {
     pub runs: Vec<Provenance>,
@@ -110,7 +110,7 @@ impl Results {
                     self.runs.push(run);
                 }
             }
-            // What was measured last counts.
+            // The last measurement counts.
             Record::Error(error) => {
                 self.errors.retain(|e| e.point != error.point);
                 self.errors.push(error);
@@ -126,13 +126,13 @@ impl Results {
         }
     }
 
-    /// Leaves out what is known of a study.
+    /// Removes the results of a study.
     pub fn forget(&mut self, study: &str) {
         self.errors.retain(|e| e.point.study != study);
         self.costs.retain(|c| c.point.study != study);
     }
 
-    /// Leaves out what is known of a point, but of this very setup.
+    /// Removes the results of a point, except those of this setup.
     pub fn keep_of(&mut self, point: &Point, setup: &str) {
         self.errors.retain(|e| e.point != *point || e.setup.as_deref() == Some(setup));
         self.costs.retain(|c| c.point != *point || c.setup.as_deref() == Some(setup));
@@ -150,7 +150,7 @@ impl Results {
         self.error(point)?.measured.as_ref()
     }
 
-    /// The record that another one would replace, where the two were measured of different texts or settings.
+    /// Returns the record that a new one would replace, if they were measured with different texts or settings.
     fn of_other_texts(&self, new: &Record) -> Option<Record> {
         match new {
             Record::Run(_) => None,
@@ -176,7 +176,7 @@ impl Results {
         runs.chain(errors).chain(costs).chain(self.cases.iter().cloned().map(Record::Stability))
     }
 
-    /// The records of a folder; none where there is no file yet. A last line that was cut short is left out.
+    /// Reads the records of a folder; empty if there is no file. A truncated last line is skipped.
     pub fn read(folder: &Path) -> Result<Results, LabError> {
         let path = folder.join(FILE);
         if path.symlink_metadata().is_err_and(|e| e.kind() == io::ErrorKind::NotFound) {
@@ -196,10 +196,11 @@ impl Results {
         Ok(results)
     }
 
-    /// The records of several folders together, which must be of one device, driver, version and extent: a report has
-    /// the grids of one extent, and puts costs side by side. Where two folders have measured the same, the record that
-    /// `is_present` (see [`PresentFingerprints`](super::PresentFingerprints)) counts: a folder that began as a copy of
-    /// another has records of texts that were changed since. Otherwise that of the later folder does.
+    /// Reads the records of several folders, which must be of one device, driver, version and extent: a report has the
+    /// grids of one extent, and compares costs. If two folders have measured the same, the record for which
+    /// `is_present` (see [`PresentFingerprints`](super::PresentFingerprints)) returns true counts: a folder that was
+    /// started as a copy of another has records of texts that have changed since. Otherwise the record of the later
+    /// folder counts.
     pub fn merge(folders: &[PathBuf], mut is_present: impl FnMut(&Record) -> bool) -> Result<Results, LabError> {
         let mut all = Results::default();
         let mut first: Option<(&Path, Provenance)> = None;
@@ -224,7 +225,7 @@ impl Results {
         Ok(all)
     }
 
-    /// Writes all of them anew.
+    /// Rewrites the file with all of them.
     pub fn write(&self, folder: &Path) -> Result<(), LabError> {
         let path = folder.join(FILE);
         let lines: String = self.records().map(|r| line(&r)).collect();
@@ -234,19 +235,19 @@ impl Results {
 }
 
 fn line(record: &Record) -> String {
-    // A record holds texts and numbers alone.
+    // Serialisation of texts and numbers cannot fail.
     serde_json::to_string(record).unwrap_or_default() + "\n"
 }
 
-/// The file of a run, open at its end.
+/// The file of a run, opened for appending.
 pub struct Journal {
     path: PathBuf,
     file: File,
 }
 
 impl Journal {
-    /// Opens the file of a folder, makes both if need be, and gives what it holds. What another device, version or
-    /// extent measured is not mixed with this run's.
+    /// Opens the file of a folder, creates both if necessary, and returns its contents. Results of another device,
+    /// version or extent are an error.
     pub fn open(folder: &Path, run: &Provenance) -> Result<(Journal, Results), LabError> {
         make_folder(folder)?;
         let path = folder.join(FILE);
@@ -256,7 +257,7 @@ impl Journal {
         }
         project::check_within(folder, FILE).map_err(LabError::io("open", &path))?;
         let file = OpenOptions::new().append(true).create(true).open(&path).map_err(LabError::io("open", &path))?;
-        // A line that was cut short, whose record is not among the results, makes way for the next.
+        // A truncated line, whose record is not among the results, is replaced by the next.
         let bytes = fs::read(&path).map_err(LabError::io("read", &path))?;
         let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |last| last + 1);
         if whole < bytes.len() {
@@ -270,7 +271,7 @@ impl Journal {
         Ok((journal, results))
     }
 
-    /// Writes a record, whole, at once.
+    /// Writes a whole record immediately.
     pub fn append(&mut self, record: &Record) -> Result<(), LabError> {
         self.file.write_all(line(record).as_bytes()).map_err(LabError::io("write", &self.path))
     }

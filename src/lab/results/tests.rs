@@ -24,7 +24,7 @@ fn error(setting: f64) -> Record {
 }
 
 #[test]
-fn a_run_that_was_cut_short_goes_on() {
+fn an_interrupted_run_continues() {
     let dir = tempfile::tempdir().unwrap();
     let (mut journal, none) = Journal::open(dir.path(), &run()).unwrap();
     assert_eq!(none.errors.len(), 0);
@@ -42,7 +42,7 @@ fn a_run_that_was_cut_short_goes_on() {
 }
 
 #[test]
-fn another_runs_results_are_neither_gone_on_with_nor_merged() {
+fn results_of_incompatible_runs_are_neither_continued_nor_merged() {
     let (one, two) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     Journal::open(one.path(), &run()).unwrap().0.append(&error(1.0)).unwrap();
     let both = [one.path().to_owned(), two.path().to_owned()];
@@ -59,14 +59,14 @@ fn another_runs_results_are_neither_gone_on_with_nor_merged() {
         let refused = Results::merge(&both, |_| false).unwrap_err().to_string();
         assert!(refused.contains(difference), "{refused}");
         assert!(both.iter().all(|folder| refused.contains(&*folder.to_string_lossy())), "{refused}");
-        // Neither order hides it.
+        // It is detected in either order.
         assert!(Results::merge(&[both[1].clone(), both[0].clone()], |_| false).is_err());
     }
     assert!(Results::merge(&[one.path().join("none")], |_| false).is_err());
 }
 
 #[test]
-fn parts_of_a_run_are_merged_whatever_their_turns() {
+fn parts_of_a_run_are_merged_in_any_order() {
     let (one, two) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     Journal::open(one.path(), &run()).unwrap().0.append(&error(1.0)).unwrap();
     let more = Provenance { repeats: 9, ..run() };
@@ -75,10 +75,10 @@ fn parts_of_a_run_are_merged_whatever_their_turns() {
     assert_eq!((all.runs.len(), all.errors.len()), (2, 2));
 }
 
-/// A task of a farm begins with a copy of what is known and measures its part anew; the other tasks' copies of that
-/// part, in whatever order they are merged, do not count.
+/// A task of a farm starts with a copy of all results and repeats its part; the other tasks' copies of that part are
+/// ignored, whatever the order of merging.
 #[test]
-fn a_record_of_the_present_texts_counts_whatever_the_order_of_the_folders() {
+fn records_of_the_present_texts_win_in_any_order_of_folders() {
     let folders: Vec<_> = (0..3).map(|_| tempfile::tempdir().unwrap()).collect();
     let paths: Vec<PathBuf> = folders.iter().map(|folder| folder.path().to_owned()).collect();
     let point = |setting| Point { study: "s".into(), method: "m".into(), setting, grid: 64 };
@@ -141,13 +141,13 @@ fn a_record_of_the_present_texts_counts_whatever_the_order_of_the_folders() {
         assert_eq!(cases, [("0", "new"), ("1", "new"), ("2", "old")], "{order:?}");
         assert_eq!(merged.costs.iter().map(|c| c.setup.as_deref()).collect::<Vec<_>>(), [Some("new")], "{order:?}");
     }
-    // Of texts that this build does not have, the later folder counts, as it did.
+    // For texts that this build does not have, the later folder counts, as before.
     let later = Results::merge(&[paths[0].clone(), paths[2].clone()], |_| false).unwrap();
     assert!(later.errors.iter().all(|e| e.setup.as_deref() == Some("old")));
 }
 
 #[test]
-fn a_record_without_a_fingerprint_is_read_and_gives_way_to_one_with_it() {
+fn records_with_a_fingerprint_replace_those_without() {
     let dir = tempfile::tempdir().unwrap();
     let older = "{\"record\":\"error\",\"study\":\"s\",\"method\":\"m\",\"setting\":0.5,\"grid\":64,\
                  \"measured\":null,\"trouble\":\"none\"}\n";
@@ -171,7 +171,7 @@ fn a_record_without_a_fingerprint_is_read_and_gives_way_to_one_with_it() {
 }
 
 #[test]
-fn a_line_that_is_no_record_is_named() {
+fn errors_name_the_malformed_line() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join(FILE), "{}\nnonsense\n").unwrap();
     let said = Results::read(dir.path()).unwrap_err().to_string();

@@ -1,4 +1,4 @@
-//! A method's project, with everything set for one point.
+//! A method's project, configured for one point.
 
 use super::LabError;
 use eddy_diag::SourceId;
@@ -15,25 +15,25 @@ static METHODS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/../../assets/la
 
 static LIBRARY: Library = Library::new(&METHODS);
 
-/// Says how the texels of all passes are to be stored, where that is asked.
+/// The storage of the texels of all passes, if specified.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Storage {
     #[default]
     AsWritten,
-    /// Every 32-bit float format becomes the 16-bit one of as many components.
+    /// Every 32-bit float format becomes the 16-bit one with the same number of components.
     Half,
 }
 
-/// In a pass's text, or Common's, `old` becomes `new`.
+/// Replaces `old` by `new` in the text of a pass or of Common.
 #[derive(Clone)]
 struct Edit {
-    /// `None`: Common's.
+    /// `None` for Common.
     pass: Option<PassId>,
     old: String,
     new: String,
 }
 
-/// Adds passes to a project.
+/// A function that adds passes to a project.
 type Build = Arc<dyn Fn(&mut Project) + Send + Sync>;
 
 /// A project of `assets/lab` or a preset, at a size and with its settings.
@@ -57,8 +57,8 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// `folder`: of `assets/lab`, or a preset's name. The pass `field` is what is looked at, unless [`Setup::wants`]
-    /// says.
+    /// `folder` is a folder of `assets/lab`, or a preset's name. The pass `field` is measured, unless [`Setup::wants`]
+    /// specifies another.
     pub fn new(folder: &'static str, size: (u32, u32)) -> Setup {
         Setup { folder, size, wanted: vec![pass("field")], skip: true, ..Setup::default() }
     }
@@ -75,63 +75,63 @@ impl Setup {
         &self.wanted
     }
 
-    /// Returns whether a pass rests while nothing that it reads has changed.
+    /// Returns whether passes whose inputs have not changed are skipped.
     pub fn skips(&self) -> bool {
         self.skip
     }
 
-    /// Every pass is drawn in every frame: what a picture costs while its camera moves.
+    /// Draws every pass in every frame: the cost of a picture while its camera moves.
     #[must_use]
     pub fn restless(mut self) -> Self {
         self.skip = false;
         self
     }
 
-    /// Value of an `#iUniform` that is a float, an int, or a bool (1 for true). A value that the custom uniform cannot
-    /// take, one beyond its range among them, is an error of [`Setup::project`].
+    /// Sets an `#iUniform` that is a float, an int, or a bool (1 for true). A value that the custom uniform cannot
+    /// take, including one outside of its range, is an error of [`Setup::project`].
     #[must_use]
     pub fn uniform(mut self, name: &str, value: f64) -> Self {
         self.custom_uniforms.push((name.into(), CustomUniformValue::Float(value)));
         self
     }
 
-    /// A switch: the value of an `#iUniform bool`.
+    /// Sets an `#iUniform bool`.
     #[must_use]
     pub fn flag(mut self, name: &str, value: bool) -> Self {
         self.custom_uniforms.push((name.into(), CustomUniformValue::Bool(value)));
         self
     }
 
-    /// Values of an `#iUniform` of several components.
+    /// Sets an `#iUniform` of several components.
     #[must_use]
     pub fn uniforms(mut self, name: &str, values: &[f64]) -> Self {
         self.custom_uniforms.push((name.into(), CustomUniformValue::Vector(values.to_vec())));
         self
     }
 
-    /// A macro that stands before Common: what differs between methods of one project.
+    /// Defines a macro before Common: the difference between methods of one project.
     #[must_use]
     pub fn define(mut self, name: &'static str, value: impl ToString) -> Self {
         self.defines.push((name, value.to_string()));
         self
     }
 
-    /// Steps of a group in a frame.
+    /// Sets the steps of a group per frame.
     #[must_use]
     pub fn steps(mut self, group: &'static str, steps: u32) -> Self {
         self.steps.push((group, steps));
         self
     }
 
-    /// Gives a pass another text: another scene for a filter that reads it.
+    /// Replaces the text of a pass: another scene for a filter that reads it.
     #[must_use]
     pub fn text(mut self, name: &str, text: impl Into<String>) -> Self {
         self.texts.push((pass(name), text.into()));
         self
     }
 
-    /// Puts `new` in place of `old` in a pass's text or in `common`, which must have it. For what a preset gives no
-    /// custom uniform: its scene.
+    /// Replaces `old` by `new` in a pass's text or in `common`, which must contain it. Used for parts of a preset
+    /// without a custom uniform: its scene.
     #[must_use]
     pub fn edit(mut self, name: &str, old: &str, new: impl Into<String>) -> Self {
         let pass = (name != "common").then(|| pass(name));
@@ -139,21 +139,21 @@ impl Setup {
         self
     }
 
-    /// Sets what a pass holds before frame 0, as a GLSL expression, in place of what the project says.
+    /// Sets the content of a pass before frame 0 by a GLSL expression, in place of the project's.
     #[must_use]
     pub fn initial(mut self, name: &str, expression: &str) -> Self {
         self.initial.push((pass(name), Fill::expression(expression)));
         self
     }
 
-    /// Sets what a pass of the canvas's size holds before frame 0, texel for texel from the bottom left.
+    /// Sets the content of a pass of the canvas's size before frame 0, texel by texel from the bottom left.
     #[must_use]
     pub fn state(self, name: &str, texels: &[[f32; 4]]) -> Self {
         let size = self.size;
         self.state_sized(name, size, texels)
     }
 
-    /// As [`Setup::state`], of a pass of any size.
+    /// Does the same as [`Setup::state`] for a pass of any size.
     #[must_use]
     pub fn state_sized(mut self, name: &str, (width, height): (u32, u32), texels: &[[f32; 4]]) -> Self {
         let path = PathBuf::from(format!("{name}.npy"));
@@ -163,17 +163,17 @@ impl Setup {
         self
     }
 
-    /// A pass of the canvas's size gives these texels in every frame, from the bottom left, whatever its text says: what
-    /// a filter is held against. It is drawn in every frame, as a scene is.
+    /// Makes a pass of the canvas's size output these texels in every frame, from the bottom left, in place of its
+    /// text: the input for testing a filter. It is drawn in every frame, like a scene.
     #[must_use]
     pub fn given(mut self, name: &str, texels: &[[f32; 4]]) -> Self {
         self.given.push(pass(name));
         self.state(name, texels)
     }
 
-    /// Looks at a value of a pass instead of at its picture: the first that the variable gets which the pass declares
-    /// by the words `declaration`, as in `vec3 light`. So what a preset makes is seen before the curve that a screen
-    /// needs, and its text stays as it is; `eddy probe` does the same for any project.
+    /// Measures a value of a pass instead of its picture: the first value of the variable that the pass declares with
+    /// the words `declaration`, as in `vec3 light`. So the output of a preset is seen before tone mapping, and its text
+    /// is unchanged; `eddy probe` does the same for any project.
     #[must_use]
     pub fn wants_value(mut self, name: &str, declaration: &'static str) -> Self {
         self.value = Some((pass(name), declaration));
@@ -187,28 +187,28 @@ impl Setup {
         self
     }
 
-    /// The passes whose texels are looked at.
+    /// Selects the passes whose texels are measured.
     #[must_use]
     pub fn wants(mut self, passes: &[&str]) -> Self {
         self.wanted = passes.iter().map(|name| pass(name)).collect();
         self
     }
 
-    /// The picture is looked at.
+    /// Measures the picture.
     #[must_use]
     pub fn wants_picture(mut self) -> Self {
         self.wanted = vec![PassId::Image];
         self
     }
 
-    /// Passes that depend on the size or the setting are added in code.
+    /// Adds passes in code that depend on the size or the setting.
     #[must_use]
     pub fn built(mut self, build: impl Fn(&mut Project) + Send + Sync + 'static) -> Self {
         self.built = Some(Arc::new(build));
         self
     }
 
-    /// The project as the engine gets it.
+    /// Returns the project as passed to the engine.
     pub fn project(&self) -> Result<(Project, MediaSet), LabError> {
         let lacks = |what: String| LabError::Setup { method: self.folder.into(), what };
         let mut project = match LIBRARY.has(self.folder) {
@@ -274,8 +274,8 @@ impl Setup {
         Ok((project, media))
     }
 
-    /// A number for all that decides what is drawn: the texts as they are after all edits, their settings, the initial
-    /// texels, the canvas and what is looked at.
+    /// Returns a fingerprint of everything that determines the result: the texts after all edits, their settings, the
+    /// initial texels, the canvas and what is measured.
     pub fn fingerprint(&self) -> Result<String, LabError> {
         let (project, _) = self.project()?;
         let mut print = project::Fingerprint::of(&project);
@@ -288,8 +288,8 @@ impl Setup {
         Ok(print.text())
     }
 
-    /// The value that is looked at, in this setup's project: its pass and its place in a text. `None` where a picture
-    /// is.
+    /// Returns the position of the measured value in this setup's project: its pass and its place in a text. `None` if
+    /// a picture is measured.
     pub(super) fn value_at(&self, project: &Project) -> Result<Option<(PassId, SourceId, u32)>, LabError> {
         let Some((id, declaration)) = &self.value else { return Ok(None) };
         let lacks = || LabError::Setup { method: self.folder.into(), what: format!("declaration `{declaration}`") };
@@ -304,13 +304,13 @@ impl Setup {
     }
 }
 
-/// Text of a pass that gives what it is given.
+/// The text of a pass that outputs its input.
 const GIVEN: &str = "void mainImage(out vec4 texel, in vec2 fragCoord) {
     texel = texelFetch(iChannel0, ivec2(fragCoord), 0);
 }
 ";
 
-/// A buffer by the name its file has, or `image`.
+/// Returns the buffer with this file name, or `image`.
 pub fn pass(name: &str) -> PassId {
     if name == "image" {
         return PassId::Image;
@@ -318,11 +318,11 @@ pub fn pass(name: &str) -> PassId {
     PassId::parse(&format!("buffer_{name}")).unwrap_or(PassId::Image)
 }
 
-/// Text of a pass whose value a 16-bit float has no room for: 1 and three quarters of its last bit.
+/// The text of a pass whose value a 16-bit float cannot represent: 1 and three quarters of its last bit.
 pub(super) const PROBE: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0 + 0.75 / 1024.0); }";
 
-/// Makes every 32-bit float format of a buffer the 16-bit one of as many components. The picture itself is not stored
-/// between frames, and is shown in 8 bits.
+/// Replaces every 32-bit float format of a buffer by the 16-bit one with the same number of components. The picture
+/// itself is not stored between frames, and is shown in 8 bits.
 pub(super) fn halve(project: &mut Project) {
     for settings in project.passes.iter_mut().filter(|p| p.id != PassId::Image).map(|p| &mut p.settings) {
         settings.format = half(settings.format);
@@ -340,8 +340,8 @@ fn half(format: TexelFormat) -> TexelFormat {
     }
 }
 
-/// A count of steps as frames of equally many: (frames, steps a frame), as many a frame as divide it and are at most
-/// `most`.
+/// Splits a number of steps into frames of equal size: (frames, steps per frame), with the largest divisor that is at
+/// most `most`.
 pub fn frames_of(total: u32, most: u32) -> (u32, u32) {
     let steps = (1..=most.max(1)).rev().find(|n| total.is_multiple_of(*n)).unwrap_or(1);
     (total / steps, steps)

@@ -18,7 +18,7 @@ fn every_method_has_all_its_files() {
 }
 
 #[test]
-fn steps_are_shared_out_exactly() {
+fn steps_are_split_exactly() {
     for (total, most) in [(2000, 32), (625, 32), (157, 32), (1, 1), (7, 0)] {
         let (frames, steps) = frames_of(total, most);
         assert_eq!(frames * steps, total);
@@ -28,7 +28,7 @@ fn steps_are_shared_out_exactly() {
 }
 
 #[test]
-fn a_fingerprint_is_of_texts_settings_texels_and_size() {
+fn fingerprints_depend_on_texts_settings_texels_and_size() {
     let base = || Setup::new("gray_scott_stencil", (8, 8)).define("STENCIL", 5);
     let print = |setup: Setup| setup.fingerprint().unwrap();
     assert_eq!(print(base()), print(base()));
@@ -56,7 +56,7 @@ fn a_fingerprint_is_of_texts_settings_texels_and_size() {
 }
 
 #[test]
-fn what_a_project_does_not_have_is_named() {
+fn errors_name_missing_parts_of_a_project() {
     let said = |setup: Setup| setup.project().unwrap_err().to_string();
     assert!(said(Setup::new("floor", (8, 8)).uniform("nope", 1.0)).contains("has no uniform nope"));
     let beyond = said(Setup::new("fluid_guay", (8, 8)).uniform("dt", 5.0));

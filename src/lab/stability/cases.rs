@@ -1,4 +1,4 @@
-//! Lists the cases of what is done to a project, from what it is by itself to what is unlikely.
+//! Lists the test cases of a project, from undisturbed runs to unlikely disturbances.
 
 use super::{
     CheckedProject,
@@ -9,35 +9,35 @@ use crate::{Extent, stability_record::Kind};
 use eddy_project::{CustomUniform, CustomUniformType, CustomUniformValue, CustomUniformValues};
 use std::collections::BTreeSet;
 
-/// Seed of the rows of pairs.
+/// The seed of the rows of pairs.
 const SEED: u64 = 20_240_501;
 
-/// Says what a texel is that is no number.
+/// The non-finite value of a broken texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Broken {
     NotANumber,
     Infinite,
 }
 
-/// One thing that is done.
+/// A test case.
 #[derive(Clone, Debug, Default)]
 pub struct Case {
     pub kind: Kind,
-    /// Unlike that of any other case of the project.
+    /// A name that is unique within the project.
     pub name: String,
     pub size: (u32, u32),
     pub frames: u32,
-    /// Texels are looked at after every so many frames, and after each frame of a disturbance.
+    /// Texels are checked after every this number of frames, and after each frame of a disturbance.
     pub every: u32,
     /// Sliders that are not at their defaults.
     pub values: CustomUniformValues,
     pub hand: MouseGesture,
     pub steps: Steps,
-    /// New sizes, each before a frame.
+    /// New sizes, each with the frame that it precedes.
     pub resizes: Vec<(u32, (u32, u32))>,
-    /// The frame before which a texel of every state breaks, and what becomes of it.
+    /// The frame before which a texel of every state is broken, and its new value.
     pub poison: Option<(u32, Broken)>,
-    /// Frames in which something is done, from the first to before the last.
+    /// The frames of the disturbance, from the first to before the last.
     pub disturbed: Option<(u32, u32)>,
 }
 
@@ -51,13 +51,13 @@ impl Case {
         self
     }
 
-    /// Returns whether texels are looked at after this frame.
+    /// Returns whether texels are checked after this frame.
     pub fn is_checked(&self, frame: u32) -> bool {
         let is_near = self.disturbed.is_some_and(|(from, to)| (from..to + 2).contains(&frame));
         is_near || (frame + 1).is_multiple_of(self.every) || frame + 1 == self.frames
     }
 
-    /// The sliders as the command line sets them.
+    /// Returns the sliders as options of the command line.
     pub fn settings(&self) -> String {
         let all: Vec<String> = self.values.iter().map(|(name, value)| format!("{name}={}", written(value))).collect();
         all.join(" ")
@@ -72,11 +72,11 @@ fn written(value: &CustomUniformValue) -> String {
     }
 }
 
-/// Says how long and how large cases are.
+/// The length and size of cases.
 struct Measure {
     base: (u32, u32),
     untouched: u32,
-    /// Frames before a disturbance, and the longest time to recover that is waited for.
+    /// The frames before a disturbance, and the maximum number of frames to wait for recovery.
     calm: u32,
     recover: u32,
     drag: u32,
@@ -85,7 +85,7 @@ struct Measure {
     courant: &'static [f64],
     sizes: &'static [(u32, u32)],
     size_frames: u32,
-    /// Sliders that a row of pairs turns.
+    /// The number of sliders that a row of pairs turns.
     most: usize,
     resized: &'static [(u32, u32)],
     large: &'static [((u32, u32), u32)],
@@ -126,13 +126,13 @@ const FULL: Measure = Measure {
     long: Some(((48, 27), 100_000)),
 };
 
-/// The canvas of the cases that are about no size.
+/// Returns the canvas of the cases that are not about sizes.
 pub fn base(extent: Extent) -> (u32, u32) {
     if extent == Extent::Quick { QUICK.base } else { FULL.base }
 }
 
-/// Everything that is done to a project on a canvas of this size, in the order in which it is done. A project without a
-/// state has neither recovery nor drift: it is drawn for fewer frames, and left out of what is done to a state.
+/// Returns all cases for a project on a canvas of this size, in the order of their execution. A project without a state
+/// has neither recovery nor drift: it is drawn for fewer frames, and cases that disturb a state are omitted.
 pub fn list(subject: &CheckedProject, extent: Extent, base: (u32, u32)) -> Vec<Case> {
     let mut m = Measure { base, ..if extent == Extent::Quick { QUICK } else { FULL } };
     let has_state = !subject.stateful().is_empty();
@@ -193,8 +193,7 @@ pub fn list(subject: &CheckedProject, extent: Extent, base: (u32, u32)) -> Vec<C
     cases
 }
 
-/// Counts the pairs of ends of a project's sliders: those that the drawn cases have among what they turn, and all there
-/// are.
+/// Counts the pairs of slider ends of a project: those that the drawn cases cover, and all.
 pub fn coverage(subject: &CheckedProject, drawn: &[Case]) -> (usize, usize) {
     let sliders = subject.sliders();
     let row = |case: &Case| -> Vec<pairs::End> {
@@ -218,7 +217,7 @@ fn courant(subject: &CheckedProject, sliders: &[CustomUniform], m: &Measure, cas
 }
 
 impl Measure {
-    /// A case in which something is done for so many frames.
+    /// Returns a case with a disturbance of this number of frames.
     fn disturbance(&self, kind: Kind, name: &str, lasts: u32) -> Case {
         let frames = self.calm + lasts + self.recover;
         Case::new(kind, name, self.base, frames, self.every).disturbed(self.calm, self.calm + lasts)
@@ -231,7 +230,7 @@ fn drags(m: &Measure, cases: &mut Vec<Case>) {
     }
 }
 
-/// Adds what is done to a state.
+/// Adds the disturbances of a state.
 fn disturbances(m: &Measure, cases: &mut Vec<Case>) {
     let case = |kind, name: &str, lasts: u32| m.disturbance(kind, name, lasts);
     for (steps, name, lasts) in [
@@ -263,10 +262,10 @@ fn end(slider: &CustomUniform, is_high: bool) -> CustomUniformValue {
     }
 }
 
-/// The most whole values of a slider that are all drawn.
+/// The maximum number of integer values of a slider that are all drawn.
 const FEW: i32 = 8;
 
-/// Whole numbers between the ends of a slider that has few of them, its default left out.
+/// Returns the integers between the ends of a slider that has few of them, without its default.
 fn between(slider: &CustomUniform) -> Vec<CustomUniformValue> {
     let (Some(range), CustomUniformType::Int) = (slider.range, slider.ty) else { return Vec::new() };
     let (low, high) = (range.min[0].round() as i32, range.max[0].round() as i32);
@@ -281,7 +280,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cases_have_names_of_their_own_and_every_slider_is_at_both_ends() {
+    fn case_names_are_unique_and_every_slider_is_at_both_ends() {
         for name in super::super::presets::NAMES {
             let subject = CheckedProject::load(name, &[]).unwrap();
             for extent in [Extent::Quick, Extent::Full] {
@@ -300,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_numbers_between_the_ends_are_drawn_where_they_are_few() {
+    fn integers_between_the_ends_are_drawn_if_they_are_few() {
         let inner = |name: &str| -> Vec<String> {
             let subject = CheckedProject::load(name, &[]).unwrap();
             let cases = list(&subject, Extent::Full, base(Extent::Full));
@@ -328,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn a_filter_is_not_asked_for_what_only_a_state_can_do() {
+    fn filters_have_no_cases_about_a_state() {
         let subject = CheckedProject::load("gaussian-blur", &[]).unwrap();
         let cases = list(&subject, Extent::Full, base(Extent::Full));
         let has = |kind| cases.iter().any(|c| c.kind == kind);

@@ -1,5 +1,5 @@
-//! A case on the device: drawn from its first frame, looked at every few frames, and where a bound was left drawn again
-//! to find the frame in which that happened.
+//! Runs a case on the device: it is drawn from its first frame and checked every few frames; after a violation it is
+//! drawn again to find the first frame of that.
 
 use super::{
     Case, CheckedProject,
@@ -17,10 +17,10 @@ use eddy_gpu::Gpu;
 use eddy_project::PassId;
 use std::collections::BTreeMap;
 
-/// Frames that may wait on the device at once.
+/// The maximum number of frames in flight.
 const FRAMES_IN_FLIGHT: u32 = 8;
 
-/// Says how much livelier than undisturbed (as a root mean square) a project may be that has recovered.
+/// A recovered project may be livelier than undisturbed by this factor (as a root mean square).
 const RECOVERED: f64 = 1.1;
 
 /// A subject that is compiled once, and drawn case by case.
@@ -28,7 +28,7 @@ pub struct Driver<'s> {
     subject: &'s CheckedProject,
     engine: Engine,
     state: Vec<PassId>,
-    /// Largest root mean square of each check without any disturbance, by size and frames.
+    /// The largest root mean square of each check without any disturbance, by size and frames.
     calm: BTreeMap<((u32, u32), u32), Vec<f64>>,
 }
 
@@ -41,7 +41,7 @@ struct Run<'d, 's, 'c> {
 }
 
 impl<'s> Driver<'s> {
-    /// Compiles. Fails with the author's diagnostics.
+    /// Compiles the project. Fails with the author's diagnostics.
     pub fn new(gpu: &Gpu, subject: &'s CheckedProject, size: (u32, u32)) -> Result<Driver<'s>, LabError> {
         let mut wanted: Vec<PassId> = vec![PassId::Image];
         wanted.extend(subject.checks.iter().map(|c| c.pass.clone()));
@@ -55,8 +55,8 @@ impl<'s> Driver<'s> {
         Ok(Driver { subject, engine, state: subject.stateful().into_iter().collect(), calm: BTreeMap::new() })
     }
 
-    /// Draws a case and says what came of it. What the device refuses, as a canvas that is too large, is told in the
-    /// record.
+    /// Draws a case and returns its result. Errors of the device, such as for a canvas that is too large, are stored in
+    /// the record.
     pub fn measure(&mut self, case: &Case) -> StabilityRecord {
         let conditions = judge::conditions(self.subject, case);
         let excuses = self.subject.excuses(&conditions);
@@ -84,7 +84,7 @@ impl<'s> Driver<'s> {
             None => Vec::new(),
         };
         let mut seen = Seen::default();
-        let mut run = self.begin(case)?;
+        let mut run = self.start(case)?;
         while run.frame < case.frames {
             let frame = run.draw(case.is_checked(run.frame))?;
             if !case.is_checked(frame) {
@@ -95,7 +95,7 @@ impl<'s> Driver<'s> {
         }
         let subject = self.subject;
         record.outcome = Some(match (seen.left, seen.excused) {
-            // What was outside after the frame before is known; when it left lies in between.
+            // The values after the previous frame are known to be inside; the violation started in between.
             (Some(at), _) => Outcome::Left(self.first(case, conditions, at, |l| l.is_left)?),
             (None, Some(at)) => Outcome::LeftAsExpected(self.first(case, conditions, at, |_| true)?),
             (None, None) => Outcome::Held,
@@ -120,7 +120,8 @@ impl<'s> Driver<'s> {
         Ok(())
     }
 
-    /// The first frame after `at.0`, which was seen within all bounds, in which one is left; `at.1` is known to be one.
+    /// Returns the first frame after `at.0`, which was within all bounds, in which one is left; `at.1` is known to be
+    /// such a frame.
     fn first(
         &mut self,
         case: &Case,
@@ -128,7 +129,7 @@ impl<'s> Driver<'s> {
         at: (u32, u32),
         counts: impl Fn(&FrameCheck) -> bool,
     ) -> Result<Violation, LabError> {
-        let mut run = self.begin(case)?;
+        let mut run = self.start(case)?;
         let mut last = None;
         while run.frame <= at.1 {
             let frame = run.draw(run.frame >= at.0)?;
@@ -155,7 +156,7 @@ impl<'s> Driver<'s> {
         last.ok_or_else(|| LabError::NotRepeated { project: self.subject.name.clone(), case: case.name.clone() })
     }
 
-    /// The liveliest moment of each check where nothing is done in the same number of frames.
+    /// Returns the largest value of each check in the same number of undisturbed frames.
     fn calm(&mut self, case: &Case) -> Result<Vec<f64>, LabError> {
         let key = (case.size, case.frames);
         if let Some(known) = self.calm.get(&key) {
@@ -164,7 +165,7 @@ impl<'s> Driver<'s> {
         let twin = Case { disturbed: None, poison: None, resizes: Vec::new(), ..case.clone() };
         let conditions = judge::conditions(self.subject, &twin);
         let mut most = vec![0.0f64; self.subject.checks.len()];
-        let mut run = self.begin(&twin)?;
+        let mut run = self.start(&twin)?;
         while run.frame < twin.frames {
             let frame = run.draw(twin.is_checked(run.frame))?;
             if twin.is_checked(frame) {
@@ -177,7 +178,7 @@ impl<'s> Driver<'s> {
         Ok(most)
     }
 
-    fn begin<'d, 'c>(&'d mut self, case: &'c Case) -> Result<Run<'d, 's, 'c>, LabError> {
+    fn start<'d, 'c>(&'d mut self, case: &'c Case) -> Result<Run<'d, 's, 'c>, LabError> {
         self.engine.resize(case.size.0, case.size.1)?;
         let mut values = self.subject.project.custom_uniform_values.clone();
         values.extend(case.values.clone());
@@ -191,14 +192,15 @@ impl<'s> Driver<'s> {
 struct FrameCheck {
     found: Found,
     allowed: Allowed,
-    /// Outside of the range, or, where that may be left, of what everything must keep.
+    /// The value outside of the range, or, if that may be left, of the hard limit.
     offence: Option<check::WorstTexel>,
-    /// It ought to have been kept.
+    /// The range should have been kept.
     is_left: bool,
 }
 
 impl Run<'_, '_, '_> {
-    /// Draws the next frame and gives its number. Of one that is not looked at only what later ones read.
+    /// Draws the next frame and returns its number. For a frame that is not checked, only the passes that later frames
+    /// read are drawn.
     fn draw(&mut self, is_seen: bool) -> Result<u32, LabError> {
         let engine = &mut self.driver.engine;
         let frame = self.frame;
@@ -225,7 +227,7 @@ impl Run<'_, '_, '_> {
         Ok(frame)
     }
 
-    /// Every check, of the newest texels.
+    /// Runs every check on the newest texels.
     fn look(&mut self, conditions: &CaseConditions) -> Result<Vec<FrameCheck>, LabError> {
         let engine = &mut self.driver.engine;
         let conditions = CaseConditions { size: engine.size(), ..conditions.clone() };
@@ -249,16 +251,16 @@ fn look(check: &Check, pixels: &Pixels, conditions: &CaseConditions) -> FrameChe
     FrameCheck { found, allowed, offence: found.worst, is_left: found.worst.is_some() && (!is_excused || is_wild) }
 }
 
-/// Holds what the checked frames of a run came to.
+/// The results of the checked frames of a run.
 #[derive(Default)]
 struct Seen {
     extremes: Vec<(f64, f64)>,
-    /// The last frame seen within its bounds and the first that was not: of what ought to be kept, and of what may be
-    /// left.
+    /// The last frame within its bounds and the first outside: of the bounds that must be kept, and of those that may
+    /// be left.
     left: Option<(u32, u32)>,
     excused: Option<(u32, u32)>,
     before: u32,
-    /// The last frame after the disturbance in which something was livelier than without it or outside of its bounds.
+    /// The last frame after the disturbance with values that were livelier than without it, or outside of their bounds.
     restless: Option<u32>,
     /// The first checked frame after that.
     calm_since: Option<u32>,

@@ -1,24 +1,23 @@
-//! Says what the hand and the clock do in a case, frame by frame. Nothing here is random: the same case has the same
-//! inputs.
+//! The mouse and the clock in a case, frame by frame. Nothing is random: the same case has the same inputs.
 
 use eddy_engine::FrameInputs;
 
-/// The rate of the usual step.
+/// The rate of the default time step.
 const FRAMES_A_SECOND: f64 = 60.0;
 
-/// Says what the mouse does while a disturbance lasts. It is pressed in the first frame of it and released in the first
-/// frame after.
+/// The movement of the mouse during a disturbance. It is pressed in its first frame and released in the first frame
+/// after it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MouseGesture {
     #[default]
     Away,
-    /// Half of the canvas, in one even stroke.
+    /// Half of the canvas, in one uniform stroke.
     Slow,
-    /// To and fro across most of the canvas, eight frames each way.
+    /// Back and forth across most of the canvas, eight frames each way.
     Fast,
-    /// Pulled out past the left edge and held there, moving along it.
+    /// Pulled past the left edge and held there, moving along it.
     Edge,
-    /// From corner to corner, another one each frame: the whole picture in one frame.
+    /// To another corner in each frame: across the whole picture in one frame.
     Across,
 }
 
@@ -30,7 +29,7 @@ impl MouseGesture {
         (MouseGesture::Across, "drag across the whole picture in a frame"),
     ];
 
-    /// Returns where the mouse is `t` frames after the press of a drag of so many frames, in whole canvas pixels from
+    /// Returns the position of the mouse `t` frames after the press in a drag of `frames`, in whole canvas pixels from
     /// the bottom left.
     fn at(self, t: u32, frames: u32, size: (u32, u32)) -> [f32; 2] {
         let (w, h) = (f64::from(size.0), f64::from(size.1));
@@ -54,24 +53,24 @@ impl MouseGesture {
     }
 }
 
-/// Says how long frames are.
+/// The duration of frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Steps {
     /// A sixtieth of a second.
     #[default]
     Usual,
-    /// So many times that, while the disturbance lasts.
+    /// Multiples of that, during the disturbance.
     Times(f64),
-    /// Frames of the disturbance take so many seconds, as when a program was stopped for that long.
+    /// Frames of the disturbance take this number of seconds, as when a program was suspended for that long.
     Seconds(f64),
-    /// No time passes while the disturbance lasts: frames drawn during a pause.
+    /// No time passes during the disturbance: frames drawn during a pause.
     Still,
-    /// From a 240th to a 15th of a second in turn, while the disturbance lasts.
+    /// Alternating from a 240th to a 15th of a second, during the disturbance.
     Uneven,
 }
 
 impl Steps {
-    /// Seconds of a frame, `t` frames after the disturbance began; `None`: it has not, or is over.
+    /// Returns the seconds of a frame, `t` frames after the disturbance started; `t` is `None` outside of it.
     fn seconds(self, t: Option<u32>) -> f64 {
         let usual = 1.0 / FRAMES_A_SECOND;
         let Some(t) = t else { return usual };
@@ -89,11 +88,11 @@ impl Steps {
     }
 }
 
-/// The inputs of one frame after the other.
+/// The inputs of consecutive frames.
 pub struct Inputs {
     hand: MouseGesture,
     steps: Steps,
-    /// Frames from the first to before the last.
+    /// The frames from the first to before the last.
     disturbed: Option<(u32, u32)>,
     frame: u32,
     seconds: f64,
@@ -126,7 +125,7 @@ impl Inputs {
             }
             _ => (self.mouse[2], self.mouse[3]) = (-self.mouse[2].abs(), -self.mouse[3].abs()),
         }
-        // As in the window: `iTime` is that of the frame's beginning.
+        // As in the window: `iTime` is the time at the start of the frame.
         let inputs = FrameInputs {
             frame: self.frame as i32,
             time_secs: self.seconds,

@@ -1,5 +1,5 @@
-//! Says whether a record still says what it said, now that ranges may be others: a record has the extremes of every
-//! quantity, so that a case need not be drawn again for a range that has been mended.
+//! Re-evaluates a record after ranges have changed: a record contains the extremes of every quantity, so that a case
+//! need not be drawn again for a corrected range.
 
 use super::{
     Area, Case, CaseConditions, Check, CheckedProject, Outcome, StabilityRecord,
@@ -9,12 +9,12 @@ use super::{
 use crate::Number;
 use std::collections::BTreeMap;
 
-/// Returns what a case is drawn with, as far as bounds depend on it.
+/// Returns the conditions of a case on which bounds depend.
 pub fn conditions(subject: &CheckedProject, case: &Case) -> CaseConditions {
     subject.conditions(&case.values, case.size, case.steps.longest(), case.hand != MouseGesture::Away)
 }
 
-/// Returns whether today's ranges give the recorded extremes the recorded outcome.
+/// Returns whether the current ranges result in the recorded outcome for the recorded extremes.
 pub fn still_holds(subject: &CheckedProject, case: &Case, record: &StabilityRecord) -> bool {
     let Some(outcome) = &record.outcome else { return true };
     let sizes: Vec<(u32, u32)> = case.resizes.iter().map(|(_, size)| *size).chain([case.size]).collect();
@@ -23,7 +23,7 @@ pub fn still_holds(subject: &CheckedProject, case: &Case, record: &StabilityReco
     for check in subject.checks.iter().filter(|c| can_be_judged(c, case)) {
         for &size in &sizes {
             let allowed = check.allowed(&CaseConditions { size, ..usual.clone() });
-            // Several checks of one name have their extremes together.
+            // Several checks with the same name share their extremes.
             let range = ranges.entry(check.name()).or_insert(allowed);
             range.low = range.low.min(allowed.low);
             range.high = range.high.max(allowed.high);
@@ -38,7 +38,8 @@ pub fn still_holds(subject: &CheckedProject, case: &Case, record: &StabilityReco
     is_left == matches!(outcome, Outcome::Left(_))
 }
 
-/// On the way through several sizes an area may have no texels for a while, whose extremes are told as 0.
+/// While a canvas goes through several sizes, an area may temporarily have no texels; its extremes are then recorded as
+/// 0.
 fn can_be_judged(check: &Check, case: &Case) -> bool {
     case.resizes.is_empty() || check.area == Area::All
 }

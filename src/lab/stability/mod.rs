@@ -1,13 +1,12 @@
-//! Stability: whether a simulation stays within the bounds of what it simulates, whatever is done to it.
+//! Stability: whether a simulation stays within the bounds of what it simulates, under all kinds of disturbances.
 //!
-//! A [`CheckedProject`] is a project with [`Check`]s: for a quantity of a pass (a component, a length, a mean, an energy, how
-//! jagged it is) the range that physics or the method's theory allows. The presets' are declared in [`presets`], each
-//! with its reason; any other project is held to be finite and within [`ANY_BOUND`]. [`cases`] lists what is done: left
-//! alone for long, run past its Courant number, every slider at both ends and every pair of sliders at theirs, the
-//! mouse dragged, odd sizes, long and uneven time steps, a resize, a texel that is no number. Presets add cases of their
-//! own. [`run`] draws each case
-//! and records what came of it, with the first frame and texel outside of a bound, and how many frames the project
-//! takes to recover. Draws nothing itself and knows no window.
+//! A [`CheckedProject`] is a project with [`Check`]s: for a quantity of a pass (a component, a length, a mean, an
+//! energy, its roughness) the range that physics or the method's theory allows. The presets' are declared in
+//! [`presets`], each with its justification; any other project must be finite and within [`ANY_BOUND`]. [`cases`] lists
+//! the tests: long undisturbed runs, beyond the Courant number, every slider at both ends and every pair of sliders at
+//! theirs, mouse drags, odd sizes, long and uneven time steps, a resize, a texel that is not a number. Presets add
+//! cases of their own. [`run`] draws each case and records the result, with the first frame and texel outside of a
+//! bound, and the number of frames until the project recovers. Draws nothing itself and knows no window.
 
 pub mod cases;
 mod check;

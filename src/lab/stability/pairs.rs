@@ -1,20 +1,21 @@
-//! Every pair of sliders at both ends, with several pairs in a run: a covering array of strength two.
+//! Every pair of sliders at both ends, with several pairs per run: a covering array of strength two.
 //!
 //! With n sliders there are 2 n (n - 1) pairs of a slider's end with another one's. A run that turns k sliders covers k
 //! (k - 1) / 2 of them. Rows are built one after the other, each greedily from a pair that is still missing, as in AETG
 //! (D. Cohen, S. Dalal, M. Fredman, G. Patton, "The AETG System", IEEE TSE 23(7), 1997). Sliders that a row does not
-//! turn stay at their defaults, so that one that quiets everything cannot hide what the others do in every row.
+//! turn stay at their defaults, so that a slider that damps everything cannot mask the effects of the others in every
+//! row.
 
 use crate::reference::poisson::Random;
 use std::collections::BTreeSet;
 
-/// A slider by its number, and whether it stands at its upper end.
+/// A slider by its index, and whether it is at its upper end.
 pub type End = (usize, bool);
 
-/// Two ends of two sliders, the lower number first.
+/// Two ends of two sliders, the lower index first.
 pub type Pair = (End, End);
 
-/// Every pair of ends of `count` sliders: 2 n (n - 1) of them.
+/// Returns every pair of ends of `count` sliders: 2 n (n - 1) of them.
 pub fn all(count: usize) -> BTreeSet<Pair> {
     let ends = |n| [(n, false), (n, true)];
     let of = |a: usize| {
@@ -24,15 +25,15 @@ pub fn all(count: usize) -> BTreeSet<Pair> {
     (0..count).flat_map(of).collect()
 }
 
-/// The pairs that a row covers.
+/// Returns the pairs that a row covers.
 pub fn covered(row: &[End]) -> impl Iterator<Item = Pair> + '_ {
     row.iter()
         .enumerate()
         .flat_map(|(n, &a)| row[n + 1..].iter().map(move |&b| if a.0 < b.0 { (a, b) } else { (b, a) }))
 }
 
-/// Rows that together cover every pair of ends, each of at most `most` sliders (two at least) in rising order. The same
-/// seed gives the same rows. One slider gives its two ends, none gives nothing.
+/// Returns rows that together cover every pair of ends, each of at most `most` sliders (two at least) in increasing
+/// order. The same seed returns the same rows. For one slider its two ends are returned, for none nothing.
 pub fn rows(count: usize, most: usize, seed: u64) -> Vec<Vec<End>> {
     if count == 1 {
         return vec![vec![(0, false)], vec![(0, true)]];
@@ -91,7 +92,7 @@ mod tests {
 
     #[test]
     fn several_pairs_share_a_row_and_the_seed_decides() {
-        // Twelve sliders have 264 pairs: a row of four covers six of them at most, a row of all twelve 66.
+        // Twelve sliders have 264 pairs: a row of four covers at most six of them, a row of all twelve 66.
         assert_eq!(all(12).len(), 264);
         assert!(rows(12, 4, 1).len() < 75, "{}", rows(12, 4, 1).len());
         assert!(rows(12, 12, 1).len() < 20, "{}", rows(12, 12, 1).len());
@@ -100,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn few_sliders_are_no_special_case_for_who_asks() {
+    fn zero_or_one_slider_is_supported() {
         assert_eq!(rows(0, 4, 1), Vec::<Vec<End>>::new());
         assert_eq!(rows(1, 4, 1), [[(0, false)], [(0, true)]]);
         assert_eq!(rows(2, 4, 1).len(), 4);

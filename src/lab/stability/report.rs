@@ -1,4 +1,4 @@
-//! Writes what came of the cases, for people: a table for the terminal, a CSV, a page.
+//! Reports of the results: a table for the terminal, a CSV, a page.
 
 use super::{CheckedProject, check::Rule};
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
 use eddy_project as project;
 use std::{collections::BTreeMap, fmt::Write, io::Write as _, path::Path};
 
-/// A line for each project and kind, then every case that left what it should keep.
+/// Returns a line for each project and kind, followed by every case that left a required range.
 pub fn table(records: &[StabilityRecord]) -> String {
     let mut out = format!(
         "{:20} {:38} {:>6} {:>6} {:>10} {:>6}  {:20} {}\n",
@@ -37,14 +37,14 @@ pub fn table(records: &[StabilityRecord]) -> String {
     out
 }
 
-/// Writes `stability.csv` and `stability.html`; nothing where no case has been drawn. Gives the names of the files. The
-/// page has the bounds of presets: see [`write_of`].
+/// Writes `stability.csv` and `stability.html`; nothing if no case has been drawn. Returns the names of the files. The
+/// page contains the bounds of presets: see [`write_of`].
 pub fn write(out: &Path, results: &Results) -> Result<Vec<String>, LabError> {
     write_of(out, results, &[])
 }
 
-/// As [`write`]. The page also has the bounds of `subjects`. Other projects are named by the results alone, which may be a
-/// stranger's, and are not opened.
+/// Does the same as [`write`], and the page also contains the bounds of `subjects`. Other projects are known only by
+/// name from the results, which may be untrusted, and are not opened.
 pub fn write_of(out: &Path, results: &Results, subjects: &[CheckedProject]) -> Result<Vec<String>, LabError> {
     if results.cases.is_empty() {
         return Ok(Vec::new());
@@ -75,7 +75,7 @@ fn slowest(rows: &[&StabilityRecord]) -> String {
     .map_or(String::new(), recovery_text)
 }
 
-/// The measured cells a step: of each case that is about them, else the most there were.
+/// Returns the measured cells per step: of each case about them, otherwise the maximum.
 fn cells(rows: &[&StabilityRecord]) -> String {
     let all = rows.iter().filter_map(|r| Some((r.kind, r.courant?.0)));
     let (about, others): (Vec<_>, Vec<_>) = all.partition(|(kind, _)| *kind == Kind::Courant);
@@ -94,7 +94,7 @@ fn recovery_text(recovery: Recovery) -> String {
     }
 }
 
-/// Returns what was measured, in words.
+/// Describes the violation.
 fn what(record: &StabilityRecord) -> String {
     match (&record.trouble, record.offence()) {
         (Some(trouble), _) => trouble.clone(),
@@ -258,7 +258,7 @@ fn section(out: &mut String, project: &str, records: &[StabilityRecord], subject
     out.push_str("</tbody></table></div>\n");
 }
 
-/// The ranges at the sliders' defaults, and their reasons.
+/// Returns the ranges at the sliders' defaults, and their justifications.
 fn bounds(out: &mut String, subject: &CheckedProject) {
     let usual = subject.conditions(&Default::default(), (640, 360), 1.0 / 60.0, true);
     out.push_str("<details><summary>Bounds</summary><div class=\"wide\"><table><thead><tr><th>quantity</th><th class=\"n\">from</th><th class=\"n\">to</th><th>reason</th></tr></thead><tbody>\n");

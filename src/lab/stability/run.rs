@@ -1,4 +1,4 @@
-//! Draws the cases of projects, each recorded when it is known.
+//! Draws the cases of projects, and records each result as soon as it is known.
 
 use super::{Case, CheckedProject, Driver, StabilityRecord, cases, judge};
 use crate::{
@@ -9,20 +9,20 @@ use crate::{
 use eddy_gpu::Gpu;
 use std::path::PathBuf;
 
-/// Says how to run.
+/// The options of a run.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The folder of the results; `None`: they are kept in memory alone.
+    /// The folder of the results; `None` to keep them only in memory.
     pub out: Option<PathBuf>,
     pub extent: Extent,
-    /// The canvas of the cases that are about no size; `None`: [`cases::base`].
+    /// The canvas of the cases that are not about sizes; `None` for [`cases::base`].
     pub size: Option<(u32, u32)>,
     pub shard: Shard,
-    /// Only cases whose name, or whose kind's title, holds this text.
+    /// Only cases whose name, or whose kind's title, contains this text.
     pub only: Option<String>,
 }
 
-/// The case that is drawn next; `done` of `all` are, of all projects together.
+/// The case that is drawn next; `done` of `all` cases of all projects are done.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<'a> {
     pub project: &'a str,
@@ -31,8 +31,9 @@ pub struct Step<'a> {
     pub all: usize,
 }
 
-/// Draws what is not among the results of `options.out` yet, and gives the records of these projects, those that were
-/// known among them. A project that does not compile is an error; one whose case fails goes on with the next.
+/// Draws the cases that are not among the results of `options.out` yet, and returns the records of these projects,
+/// including those known before. A project that does not compile is an error; after a case that fails, the next one is
+/// drawn.
 pub fn run(
     gpu: &Gpu,
     subjects: &[CheckedProject],
@@ -58,7 +59,7 @@ pub fn run(
         .iter()
         .map(|s| (s, cases::list(s, options.extent, size).into_iter().filter(is_asked).collect()))
         .collect();
-    // Cases are dealt out in turn, so that every shard gets its part of the slow ones.
+    // Cases are distributed in turn, so that every shard gets its share of the slow ones.
     let own = |n: usize| options.shard.owns(n);
     let all = (0..listed.iter().map(|(_, cases)| cases.len()).sum()).filter(|n| own(*n)).count();
     let (mut number, mut done) = (0, 0);
@@ -72,7 +73,7 @@ pub fn run(
             }
             done += 1;
             if let Some(known) = results.cases.iter().find(|r| is_known(r, subject, case, &fingerprint)) {
-                // Theory may have been mended since.
+                // Theory may have been corrected since.
                 let excuses = subject.excuses(&judge::conditions(subject, case));
                 if known.excuses != excuses {
                     let record = Record::Stability(StabilityRecord { excuses, ..known.clone() });
@@ -100,7 +101,7 @@ fn keep(journal: &mut Option<Journal>, results: &mut Results, record: Record) ->
     Ok(())
 }
 
-/// For each project a line that says how many pairs of its sliders' ends were drawn.
+/// Returns a line for each project with the number of covered pairs of its sliders' ends.
 pub fn coverage(subjects: &[CheckedProject], options: &Options, results: &Results) -> String {
     let size = options.size.unwrap_or(cases::base(options.extent));
     let row = |subject: &CheckedProject| {
@@ -131,8 +132,8 @@ mod tests {
     };
     use std::path::Path;
 
-    /// Cases that have been drawn of the present texts, in docs/stability, are accepted as they are: a bound or a list
-    /// that has been changed must not cost hours.
+    /// Recorded cases of the current texts, in docs/stability, are accepted without drawing them: a changed bound or
+    /// list must not cost hours.
     #[test]
     fn recorded_cases_of_the_present_texts_are_accepted() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/stability");
@@ -174,7 +175,7 @@ mod tests {
             ..StabilityRecord::default()
         };
         assert!(judge::still_holds(&subject, &case, &record));
-        // A picture of 1.5 where 1 is all there may be: it is drawn again, and told.
+        // A picture of 1.5 where 1 is the maximum: it is drawn again, and reported.
         let bound = |text: &str| BoundArgument::parse(text).unwrap();
         subject.bound(&[bound("image=0..1")]);
         assert!(!judge::still_holds(&subject, &case, &record));

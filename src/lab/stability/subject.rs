@@ -1,4 +1,4 @@
-//! A project whose stability is asked for, and what it is held to.
+//! A project whose stability is tested, with its bounds.
 
 use super::{
     check::{Allowed, Area, CaseConditions, Check, Quantity, Rule},
@@ -9,11 +9,11 @@ use eddy_media::{self as media, MediaSet};
 use eddy_project::{self as project, CustomUniform, CustomUniformValues, Origin, PassId, Project};
 use std::collections::BTreeSet;
 
-/// Says what a number of a project that declares nothing may come to: what is larger is no colour, and no state that a
+/// The maximum absolute value in a project without declarations: larger values are neither colours nor states that a
 /// picture needs.
 pub const ANY_BOUND: f64 = 1e4;
 
-/// A range for all components of a pass, as `--bound buffer_a=-2..2` says it.
+/// A range for all components of a pass, as in `--bound buffer_a=-2..2`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundArgument {
     pub pass: PassId,
@@ -22,7 +22,7 @@ pub struct BoundArgument {
 }
 
 impl BoundArgument {
-    /// Reads `PASS=LOW..HIGH`. Err: one line that says what is wrong.
+    /// Parses `PASS=LOW..HIGH`. The error is a single line.
     pub fn parse(text: &str) -> Result<BoundArgument, String> {
         let form = || format!("{text}: a bound is written PASS=LOW..HIGH, as in buffer_a=-2..2");
         let (pass, range) = text.split_once('=').ok_or_else(form)?;
@@ -40,19 +40,19 @@ impl BoundArgument {
 /// A project with its checks.
 #[derive(Clone)]
 pub struct CheckedProject {
-    /// As it was named.
+    /// As passed by the user.
     pub name: String,
     pub project: Project,
     pub media: MediaSet,
     pub checks: Vec<Check>,
-    /// Says how its Courant number is set and measured, where it has one.
+    /// The way in which its Courant number is set and measured, if it has one.
     pub courant: Option<presets::Courant>,
-    /// Cases of its own.
+    /// Additional cases.
     pub extras: Vec<presets::PresetCase>,
 }
 
 impl CheckedProject {
-    /// A preset by its name, else a project on disk. `bounds` come before what is declared for the pass.
+    /// Loads a preset by its name, otherwise a project from disk. `bounds` override the declaration of their passes.
     pub fn load(spec: &str, bounds: &[BoundArgument]) -> Result<CheckedProject, LabError> {
         let loaded = project::load(spec)?;
         let (media, _) = media::gather(&loaded.project, None);
@@ -61,15 +61,15 @@ impl CheckedProject {
         Ok(subject)
     }
 
-    /// Reads a preset of this build, and nothing of the disk.
+    /// Loads a preset of this build, without reading from disk.
     pub fn preset(name: &str) -> Result<CheckedProject, LabError> {
         let loaded = project::presets::load(name)?;
         let (media, _) = media::gather(&loaded.project, None);
         Ok(CheckedProject::of(name, loaded.project, media))
     }
 
-    /// A project as it is. A preset has its checks, and so has a copy of it on disk that still has its name and its
-    /// passes.
+    /// Creates the subject for a project. A preset has its checks, and so has a copy of it on disk that still has its
+    /// name and its passes.
     pub fn of(name: &str, project: Project, media: MediaSet) -> CheckedProject {
         let declared = match &project.origin {
             Origin::Preset(preset) => presets::declared(preset),
@@ -94,23 +94,23 @@ impl CheckedProject {
         subject
     }
 
-    /// Puts these ranges in place of what is declared for their passes. Passes that the project does not have are
-    /// passed over: one call may name projects that do not all have them.
+    /// Replaces the declared ranges of these passes. Passes that the project does not have are ignored: one call may
+    /// name several projects, not all of which have them.
     pub fn bound(&mut self, bounds: &[BoundArgument]) {
         for bound in bounds.iter().filter(|b| self.project.pass(&b.pass).is_some()) {
             self.checks.retain(|c| c.pass != bound.pass);
             self.checks.push(any(bound.pass.clone(), bound.low, bound.high, "--bound"));
-            // The check of the speed may be gone, or have another place.
+            // The check of the speed may have been removed or moved.
             self.courant = None;
         }
     }
 
-    /// Buffers of which a pass reads what the last frame left in them: the project's state.
+    /// Returns the buffers that a pass reads from the last frame: the project's state.
     pub fn stateful(&self) -> BTreeSet<PassId> {
         self.project.stateful_passes()
     }
 
-    /// Sliders that have two ends.
+    /// Returns the sliders that have two ends.
     pub fn sliders(&self) -> Vec<CustomUniform> {
         self.project
             .custom_uniforms()
@@ -120,8 +120,8 @@ impl CheckedProject {
             .collect()
     }
 
-    /// Returns what a case is drawn with: sliders that are not at their defaults, canvas, longest step in seconds, and
-    /// whether a hand drags.
+    /// Returns the conditions of a case: sliders that are not at their defaults, canvas, longest step in seconds, and
+    /// whether the mouse drags.
     pub fn conditions(
         &self,
         values: &CustomUniformValues,
@@ -136,9 +136,9 @@ impl CheckedProject {
         CaseConditions { size, longest_step, is_dragged, sliders }
     }
 
-    /// A number for all the texts, what is looked at, and the ranges of states at the defaults: what was measured of
-    /// others says nothing about these. The range of the picture is not in it: as a record has the picture's extremes,
-    /// [`judge`](super::judge) holds it to the range that there is now.
+    /// Returns a fingerprint of all the texts, the checked quantities, and the ranges of states at the defaults:
+    /// results for others do not apply to these. The range of the picture is excluded: as a record contains the
+    /// picture's extremes, [`judge`](super::judge) compares them with the current range.
     pub fn fingerprint(&self) -> String {
         let mut print = project::Fingerprint::of(&self.project);
         let usual = self.conditions(&CustomUniformValues::new(), (640, 360), 1.0 / 60.0, true);
@@ -152,7 +152,7 @@ impl CheckedProject {
         print.text()
     }
 
-    /// Returns why theory lets a bound be left in a situation; empty: it does not.
+    /// Returns why theory allows a bound to be left in a situation; empty if it does not.
     pub fn excuses(&self, conditions: &CaseConditions) -> Vec<String> {
         let mut excuses: Vec<String> =
             self.checks.iter().filter_map(|c| c.allowed(conditions).excuse).map(str::to_owned).collect();
@@ -178,7 +178,7 @@ mod tests {
     use eddy_project::presets as library;
 
     #[test]
-    fn a_bound_is_read_or_refused_with_the_mend() {
+    fn bounds_are_parsed_or_rejected_with_a_hint() {
         let bound = BoundArgument::parse("buffer_a=-2..2.5").unwrap();
         assert_eq!((bound.pass, bound.low, bound.high), (PassId::Buffer("A".into()), -2.0, 2.5));
         for (text, hint) in [
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_shader_says_is_part_of_the_fingerprint() {
+    fn the_text_of_a_shader_is_part_of_the_fingerprint() {
         let one = CheckedProject::load("feedback", &[]).unwrap();
         let mut other = one.clone();
         assert_eq!(one.fingerprint(), other.fingerprint());

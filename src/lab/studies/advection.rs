@@ -1,4 +1,4 @@
-//! Advection by a rotation: the interpolation alone errs, as the path is exact.
+//! Advection by a rotation: only the interpolation has an error, as the path is exact.
 
 use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
@@ -9,7 +9,7 @@ use crate::{
 };
 use std::f64::consts::TAU;
 
-/// Texels a step at .25 of the width from the centre, over the .25 N texels there: published errors are at 1.
+/// Texels per step at .25 of the width from the centre, over the .25 N texels there: published errors are at 1.
 const COURANT: &[f64] = &[1.0, 2.0, 4.0, 8.0];
 
 const METHODS: &[Method] = &[
@@ -20,7 +20,7 @@ const METHODS: &[Method] = &[
     Method { name: "catmull-rom", title: "semi-Lagrangian, Catmull-Rom", settings: COURANT, usual: 1.0 },
 ];
 
-/// Steps of one turn: at setting 1 a texel at distance r N from the centre moves r texels a step.
+/// Returns the steps of one rotation: at setting 1 a texel at distance r N from the centre moves r texels per step.
 fn steps(point: &Point) -> u32 {
     (TAU * f64::from(point.grid) / point.setting).round() as u32
 }

@@ -1,4 +1,4 @@
-//! Ambient occlusion in the picture's space against 1,024 rays a point in the scene itself.
+//! Screen-space ambient occlusion, compared with 1,024 rays per point in the scene itself.
 
 use super::{
     ao_closed::{closed, closed_of_meshes},
@@ -14,14 +14,14 @@ use crate::{
     three_of,
 };
 
-/// Rays a point along either side of the square of strata.
+/// The number of rays per point along either side of the square of strata.
 const SIDE: u32 = 32;
 
-/// Points of a picture that are held against rays.
+/// The number of a picture's points that are compared with rays.
 const POINTS: f64 = 900.0;
 
-/// Off the plane of a point by more, or with a normal of which less is along the point's, a point of the room's meshes is
-/// another surface's.
+/// The maximum distance from the plane of a point: with a larger one, or with a normal whose component along the
+/// point's is smaller, a point of the room's meshes belongs to another surface.
 const STEP: f64 = 0.05 * ROOM_RADIUS;
 const BENT: f64 = 0.7;
 
@@ -45,14 +45,14 @@ const METHODS: &[Method] = &[
     Method { name: "sphere", title: "ssao, method 2: points of the sphere", settings: SAMPLES, usual: 64.0 },
 ];
 
-/// A point of a picture: what the method says is hidden of its sky, and what rays say.
+/// A point of a picture: the hidden part of its sky by the method, and by rays.
 #[derive(Clone, Copy, Debug)]
 pub struct Occluded {
     pub measured: f64,
     pub expected: f64,
-    /// It lies on the table, or on the room's floor.
+    /// It is on the table, or on the room's floor.
     pub is_plane: bool,
-    /// It lies within two pixels of another surface in the picture.
+    /// It is within two pixels of another surface in the picture.
     pub is_edge: bool,
 }
 
@@ -72,13 +72,13 @@ impl ByEdge {
         ByEdge { all: errors(&|_| true), edges: errors(&|o| o.is_edge), inside: errors(&|o| !o.is_edge) }
     }
 
-    /// The part of the points that lies at edges.
+    /// Returns the share of the points at edges.
     pub fn edge_share(&self) -> f64 {
         self.edges.count as f64 / self.all.count.max(1) as f64
     }
 }
 
-/// The pixel itself and eight around it, two pixels away, inside the canvas.
+/// Returns the pixel itself and eight around it, two pixels away, inside the canvas.
 fn around((x, y): (u32, u32), (width, height): (u32, u32)) -> impl Iterator<Item = (u32, u32)> {
     (0..9u32).map(move |i| {
         let [column, row] = [x + i % 3 * 2, y + i / 3 * 2].map(|n| n.saturating_sub(2));
@@ -86,7 +86,7 @@ fn around((x, y): (u32, u32), (width, height): (u32, u32)) -> impl Iterator<Item
     })
 }
 
-/// The most that a method hides where nothing does, on the scene's plane.
+/// Returns the maximum that a method hides where nothing is hidden, on the scene's plane.
 pub fn open_most(found: &[Occluded]) -> f64 {
     found.iter().filter(|o| o.is_plane && o.expected == 0.0).map(|o| o.measured).fold(0.0, f64::max)
 }
@@ -97,8 +97,8 @@ fn spots((width, height): (u32, u32)) -> Vec<(u32, u32)> {
     along(height).flat_map(|y| along(width).map(move |x| (x, y))).collect()
 }
 
-/// The still life. Points are found by rays from the camera; only where edges are is read from the G-buffer, whose pixel
-/// may there be the other side's.
+/// Compares in the still life. Points are found by rays from the camera; only the edges are read from the G-buffer,
+/// whose pixel there may belong to the other side.
 fn on_the_table(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
     let size = setup.size();
     let mut running = rig.open(setup)?;
@@ -119,7 +119,7 @@ fn on_the_table(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
     Ok(found.into_iter().flatten().collect())
 }
 
-/// The meshes in a room. A point and its smooth normal are what the geometry pass has there.
+/// Compares with the meshes in a room. Points and their smooth normals are those of the geometry pass.
 fn in_the_room(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
     let lacks = || LabError::Setup { method: setup.folder().into(), what: "meshes that are its own".into() };
     let mut running = rig.open(setup)?;
@@ -137,7 +137,7 @@ fn in_the_room(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
             return None;
         }
         let [at, normal] = [place, normal].map(|t| [t[0], t[1], t[2]]);
-        // Positions have 11 bits, and meshes facets.
+        // Positions have 11 bits, and meshes have facets.
         let from = add(at, normal, 2.5e-3);
         let hit = |from, ray| meshes.hit(from, ray, ROOM_RADIUS);
         let expected = hidden(from, unit(normal), SIDE, hit, falloff);
@@ -152,7 +152,7 @@ fn in_the_room(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
     Ok(found.into_iter().flatten().collect())
 }
 
-/// Returns what a method finds in its own scene.
+/// Returns the result of a method in its own scene.
 pub fn occlusion(rig: &Rig, method: &str, samples: f64, size: (u32, u32)) -> Result<Vec<Occluded>, LabError> {
     let setup = setup(method, samples, size);
     if is_sliced(method) { on_the_table(rig, &setup) } else { in_the_room(rig, &setup) }
@@ -178,7 +178,7 @@ pub static STUDY: Study = Study {
     error: "of the hidden part of the sky, of which 1 is all",
     methods: METHODS,
     grids: three_of([80, 160, 320, 640]),
-    // The radius is as many times the scene on every grid, and so are the errors.
+    // The radius scales with the scene on every grid, and so do the errors.
     has_order: false,
     ..Study::of(|point| setup(&point.method, point.setting, (point.grid, point.grid)), measure)
 };

@@ -1,4 +1,4 @@
-//! Ambient occlusion where it is known: on an open floor, beside a wall, and below a sphere.
+//! Ambient occlusion with a closed form: on an open floor, next to a wall, and below a sphere.
 
 use super::ao_setup::{ROOM_RADIUS, room_falloff, setup, texel};
 use crate::{
@@ -8,7 +8,7 @@ use crate::{
 };
 use eddy_project::{Camera, MeshDraw, MeshSource, Project};
 
-/// A floor with a wall (SHAPE 1) or a sphere (2) on it, or with nothing (0), as the G-buffer has it.
+/// A floor with a wall (SHAPE 1) or a sphere (2) on it, or with nothing (0), as a G-buffer.
 const SHAPES: &str = "
 void mainImage(out vec4 texel, in vec2 fragCoord) {
     const float C = 0.9358968, S = 0.3522742; // of 0.36 radians down
@@ -33,7 +33,7 @@ void mainImage(out vec4 texel, in vec2 fragCoord) {
     texel = t < FAR ? vec4(packNormal(n * axes), t, n.y == 1.0 ? 1.5 : 2.5) : vec4(packNormal(vec3(0.0, 0.0, 1.0)), FAR, 0.999);
 }";
 
-/// The pixel of a point of the floor in the scenes of [`SHAPES`].
+/// Returns the pixel of a point of the floor in the scenes of [`SHAPES`].
 fn floor_pixel(x: f64, z: f64, side: u32) -> (u32, u32) {
     let (s, c) = 0.36f64.sin_cos();
     let q = [x, -2.0, z - 2.0];
@@ -43,7 +43,8 @@ fn floor_pixel(x: f64, z: f64, side: u32) -> (u32, u32) {
     ((0.5 * n + scale * q[0]) as u32, (0.5 * n + scale * up) as u32)
 }
 
-/// Signed errors against closed forms, largest by size: on an open floor, beside a wall, and below a sphere.
+/// Signed errors relative to closed forms, the largest by absolute value: on an open floor, next to a wall, and below a
+/// sphere.
 #[derive(Clone, Copy, Debug)]
 pub struct Closed {
     pub open: f64,
@@ -51,7 +52,7 @@ pub struct Closed {
     pub sphere: f64,
 }
 
-/// A method of slices in scenes whose occlusion is known; things are as thick as the sphere is.
+/// Runs a method of slices in scenes with known occlusion; things are as thick as the sphere.
 pub fn closed(rig: &Rig, method: &str, samples: f64, side: u32) -> Result<Closed, LabError> {
     let field = |shape: u32| {
         let setup = setup(method, samples, (side, side)).text("a", SHAPES).define("SHAPE", shape);
@@ -75,14 +76,14 @@ pub fn closed(rig: &Rig, method: &str, samples: f64, side: u32) -> Result<Closed
             (-4..=4).map(|i| (0.25 * f64::from(i)).sin_cos()).map(|(s, c)| (r * s, -1.0 + r * c)).collect();
         (mean(&sphere, &arc), under_sphere(0.5, 0.6, r))
     });
-    // Within the 4 x 4 texels that share their directions the picture's edge is not whole.
+    // Near the picture's edge the 4 x 4 texels that share their directions are incomplete.
     let inside = |n: u32| 8..n - 8;
     let all = inside(side / 2).flat_map(|y| inside(side).map(move |x| (x, y)));
     let open = all.map(|(x, y)| texel(&open, x, y)[0]).fold(0.0, f64::max);
     Ok(Closed { open, wall: worst(beside.to_vec()), sphere: worst(below.to_vec()) })
 }
 
-/// The sphere over the floor of [`Scene::Sphere`], and how far behind the middle the wall of [`Scene::Wall`] is.
+/// The sphere over the floor of [`Scene::Sphere`], and the distance of the wall of [`Scene::Wall`] behind the centre.
 const SPHERE: ([f64; 3], f64) = ([0.0, 0.3, 0.0], 0.25);
 const WALL_Z: f64 = -2.0;
 const WALL_HEIGHT: f64 = 2.0;
@@ -94,7 +95,7 @@ enum Scene {
     Sphere,
 }
 
-/// Puts a scene in place of what the preset with meshes shows.
+/// Replaces the scene of the preset with meshes.
 fn show(project: &mut Project, scene: Scene) {
     let target = if scene == Scene::Wall { [0.0, 0.1, -1.5] } else { [0.0, 0.1, 0.3] };
     let camera = Camera { yaw: 0.0, pitch: 35.0, distance: 5.0, target, fov: 30.0, ..Camera::default() };
@@ -111,7 +112,7 @@ fn show(project: &mut Project, scene: Scene) {
             position,
             ..meshes.draws[0].clone()
         };
-        // Of a plane there is no back, so the pass that draws backs draws nothing of it.
+        // A plane has no back, so the pass that draws backs draws nothing of it.
         let floor = if scene == Scene::Wall { WALL_Z + 8.0 } else { 0.0 };
         let floor = draw("builtin:plane", 8.0, [0.0; 3], [0.0, 0.0, floor]);
         let thing = match scene {
@@ -123,10 +124,10 @@ fn show(project: &mut Project, scene: Scene) {
     }
 }
 
-/// A method of the preset with meshes, at its own radius. A wall that is higher than the samples reach has a closed
-/// form; a sphere is met by rays in f64, with the falloff that the samples' lengths make.
+/// Runs a method of the preset with meshes, at its own radius. A wall that is higher than the reach of the samples has
+/// a closed form; for a sphere, rays are cast in f64, with the falloff that results from the sample lengths.
 pub fn closed_of_meshes(rig: &Rig, method: &str, samples: f64, side: u32) -> Result<Closed, LabError> {
-    // Places on the floor before the middle, and what is hidden there.
+    // Returns places on the floor in front of the centre, and the hidden part there.
     let floor = |scene: Scene| {
         let setup = setup(method, samples, (side, side)).built(move |project| show(project, scene));
         let mut running = rig.open(&setup)?;
@@ -140,7 +141,7 @@ pub fn closed_of_meshes(rig: &Rig, method: &str, samples: f64, side: u32) -> Res
         });
         Ok::<_, LabError>(found.collect::<Vec<_>>())
     };
-    // The mean of what is measured less what is expected, where `distance` is about one of these.
+    // The mean of measured minus expected values around each of these distances.
     let worst = |found: &[([f64; 3], f64)],
                  about: &[f64],
                  distance: &dyn Fn([f64; 3]) -> f64,
@@ -158,7 +159,7 @@ pub fn closed_of_meshes(rig: &Rig, method: &str, samples: f64, side: u32) -> Res
         behind_high_wall(ROOM_RADIUS, from_wall(at))
     });
     let (centre, radius) = SPHERE;
-    // On the side of the camera: behind the sphere the floor is not seen.
+    // On the side of the camera: behind the sphere the floor is not visible.
     let beside = |at: [f64; 3]| if at[2] > 0.0 { at[0].hypot(at[2]) } else { f64::INFINITY };
     let hit = |from, ray| meets_sphere(centre, radius, from, ray).filter(|d| *d < ROOM_RADIUS);
     let under = |at: [f64; 3]| {
@@ -173,8 +174,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_floors_points_are_where_the_camera_sees_them() {
-        // The middle of the picture looks 0.36 radians down from (0, 2, 2).
+    fn points_of_the_floor_project_to_their_pixels() {
+        // The centre of the picture looks 0.36 radians down from (0, 2, 2).
         let z = 2.0 - 2.0 / 0.36f64.tan();
         assert_eq!(floor_pixel(1e-9, z - 0.01, 320), (160, 160));
         assert!(floor_pixel(0.1, z, 320).0 > 160 && floor_pixel(0.0, z + 0.3, 320).1 < 160);

@@ -1,17 +1,17 @@
-//! Owns what measures of ambient occlusion share: the two presets at so many samples, and their radii and falloff.
+//! Shared parts of the ambient occlusion studies: the two presets at a number of samples, with their radii and falloff.
 
 use crate::{Field, Setup};
 
-/// Radii of the two presets, in units of their scenes.
+/// The radii of the two presets, in units of their scenes.
 pub(super) const TABLE_RADIUS: f64 = 0.8;
 pub(super) const ROOM_RADIUS: f64 = 0.6;
 
-/// The lines that [`HIGHEST_HORIZON`] takes the place of, from the first to the last.
+/// The first and the last line that [`HIGHEST_HORIZON`] replaces.
 const SECTORS: [&str; 2] = ["        uint mask = 0u;", "        hidden += share * s.all * part / 32.0;"];
 
-/// Ground-truth ambient occlusion as J. Jimenez, X. Wu, A. Pesce and A. Jarabo published it in 2016, and Intel as
-/// XeGTAO in 2021: all below the highest horizon of a side is hidden. A horizon sinks to the surface's plane as what
-/// makes it gets farther away.
+/// Ground-truth ambient occlusion as published by J. Jimenez, X. Wu, A. Pesce and A. Jarabo in 2016, and by Intel as
+/// XeGTAO in 2021: everything below the highest horizon of a side is hidden. A horizon sinks to the surface's plane as
+/// its cause gets farther away.
 const HIGHEST_HORIZON: &str = "
         float open = 0.0;
         for (int side = -1; side <= 1; side += 2) {
@@ -30,7 +30,7 @@ const HIGHEST_HORIZON: &str = "
         }
         hidden += share * (s.all - open);";
 
-/// Slices and steps on either side of one, for so many samples.
+/// Returns the slices and steps on either side of one, for a number of samples.
 pub(super) fn slices(samples: f64) -> (f64, f64) {
     match samples as u32 {
         8 => (1.0, 4.0),
@@ -46,7 +46,7 @@ pub(super) fn is_sliced(method: &str) -> bool {
     matches!(method, "horizons" | "gtao")
 }
 
-/// The project of a method with so many samples, every pass drawn in every frame.
+/// Returns the project of a method with a number of samples, every pass drawn in every frame.
 pub(super) fn setup(method: &str, samples: f64, size: (u32, u32)) -> Setup {
     let ssao = |method| {
         let setup = Setup::new("ssao", size).wants(&["geometry", "blur"]).restless();
@@ -70,13 +70,13 @@ pub(super) fn setup(method: &str, samples: f64, size: (u32, u32)) -> Setup {
     }
 }
 
-/// A texel of a pass.
+/// Returns a texel of a pass.
 pub(super) fn texel(field: &Field, x: u32, y: u32) -> [f64; 4] {
     field.texels()[y as usize * field.width() + x as usize].map(f64::from)
 }
 
-/// The part of the samples that something at a distance blocks: a sample of the length s = radius (0.1 + 0.9 u u), u
-/// uniform, finds what is no farther than s.
+/// Returns the part of the samples that something at a distance blocks: a sample of length s = radius (0.1 + 0.9 u u),
+/// u uniform, detects things no farther than s.
 pub(super) fn room_falloff(radius: f64, distance: f64) -> f64 {
     1.0 - ((distance / radius - 0.1).max(0.0) / 0.9).sqrt().min(1.0)
 }

@@ -1,4 +1,5 @@
-//! Bloom by pyramids: a bright texel's light and place at every phase of the pyramid, in the middle and at the edges.
+//! Bloom by pyramids: the light and place of a bright texel at every phase of the pyramid, in the middle and at the
+//! edges.
 
 use super::blur::pyramid;
 use crate::{
@@ -7,11 +8,11 @@ use crate::{
     three_of,
 };
 
-/// Texels of the canvas that a texel of the widest level stands for: a pyramid of five levels repeats its phases so
-/// often.
+/// The number of the canvas's texels per texel of the widest level: the period of the phases of a pyramid of five
+/// levels.
 pub const PERIOD: u32 = 32;
 
-/// Pictures that are compared texel by texel: two of each column of phases.
+/// The number of pictures that are compared texel by texel: two of each column of phases.
 const COMPARED: u32 = 2 * PERIOD;
 
 const LEVELS: &[f64] = &[2.0, 3.0, 4.0, 5.0];
@@ -24,7 +25,7 @@ const METHODS: &[Method] = &[
     Method { name: "tent-pyramid", title: "13 reads down, tent up", settings: LEVELS, usual: 4.0 },
 ];
 
-/// A method at a setting and a size, as it ships.
+/// Returns a method at a setting and a size, as it ships.
 fn whole(method: &str, setting: f64, size: (u32, u32)) -> Setup {
     let preset = |name| Setup::new(name, size).wants_picture().uniform("strength", 1.0).uniform("spread", setting);
     let levels = setting as u32;
@@ -38,7 +39,7 @@ fn whole(method: &str, setting: f64, size: (u32, u32)) -> Setup {
     }
 }
 
-/// The same, of which the light that is spread is looked at, without what stays sharp and before any curve.
+/// Does the same, and measures the spread light, without the sharp part and before tone mapping.
 pub fn setup(method: &str, setting: f64, size: (u32, u32)) -> Setup {
     let setup = whole(method, setting, size);
     match method {
@@ -48,25 +49,25 @@ pub fn setup(method: &str, setting: f64, size: (u32, u32)) -> Setup {
     }
 }
 
-/// The pass that a method reads its picture from.
+/// Returns the pass from which a method reads its picture.
 fn source(setup: &Setup) -> &'static str {
     if setup.folder() == "blur_pyramid" { "source" } else { "a" }
 }
 
-/// The light that is spread.
+/// Reads the spread light.
 fn light(setup: &Setup, running: &mut Running) -> Result<Field, LabError> {
     if setup.folder() == "blur_pyramid" { running.read("field") } else { running.read_value() }
 }
 
-/// Holds what became of a bright texel of 1.
+/// The result for a bright texel of 1.
 #[derive(Clone, Debug)]
 pub struct Spot {
     pub at: [u32; 2],
     /// The sum of all texels.
     pub total: f64,
-    /// From the bright texel to the centroid, in pixels.
+    /// The distance from the bright texel to the centroid, in pixels.
     pub shift: f64,
-    /// Second moment about the bright texel along one axis, in square pixels: the mean of both.
+    /// The second moment about the bright texel along one axis, in square pixels: the mean of both axes.
     pub variance: f64,
     /// The picture itself, row 0 first.
     pub light: Vec<f64>,
@@ -86,13 +87,14 @@ impl Spot {
     }
 }
 
-/// The nth of all phases about the middle of a canvas. The first [`PERIOD`] have every phase of either axis once.
+/// Returns the nth of all phases around the middle of a canvas. The first [`PERIOD`] contain every phase of either axis
+/// once.
 pub fn phase(n: u32, (width, height): (u32, u32)) -> [u32; 2] {
     let x = n % PERIOD;
     [width / 2 - PERIOD / 2 + x, height / 2 - PERIOD / 2 + (n / PERIOD + 11 * x) % PERIOD]
 }
 
-/// Draws a bright texel at each place, each in a component of its own, three in a frame.
+/// Draws a bright texel at each place, each in a separate component, three per frame.
 pub fn spots(rig: &Rig, setup: &Setup, places: &[[u32; 2]], mut each: impl FnMut(Spot)) -> Result<(), LabError> {
     for part in places.chunks(96) {
         let list: Vec<String> = part.iter().map(|[x, y]| format!("ivec2({x}, {y})")).collect();
@@ -120,7 +122,7 @@ pub fn spots(rig: &Rig, setup: &Setup, places: &[[u32; 2]], mut each: impl FnMut
     Ok(())
 }
 
-/// The worst of many spots.
+/// The worst values of many spots.
 #[derive(Clone, Copy, Debug)]
 pub struct SpotExtremes {
     pub low: f64,
@@ -136,13 +138,13 @@ impl SpotExtremes {
         self.shift = self.shift.max(spot.shift);
     }
 
-    /// The largest part of a spot's light that came or went.
+    /// Returns the largest part of a spot's light that was gained or lost.
     pub fn gain(&self) -> f64 {
         (self.high - 1.0).abs().max((self.low - 1.0).abs())
     }
 }
 
-/// Places at which a kernel goes over an edge or a corner.
+/// Returns places at which a kernel extends over an edge or a corner.
 pub fn edges((width, height): (u32, u32)) -> Vec<[u32; 2]> {
     let (right, top, x, y) = (width - 1, height - 1, width / 2, height / 2);
     vec![
@@ -161,14 +163,14 @@ pub fn edges((width, height): (u32, u32)) -> Vec<[u32; 2]> {
     ]
 }
 
-/// A canvas of a like size whose sides no pyramid divides.
+/// Returns a canvas of similar size whose sides are not divisible by any pyramid.
 fn odd(grid: u32) -> (u32, u32) {
     ((grid + grid / 3) | 1, (grid - grid / 4) | 1)
 }
 
-/// Spots about the middle, each moved to it, one behind the other; and as many times their mean.
+/// Returns spots that are shifted to the middle, one after the other; and the same number of copies of their mean.
 fn moved_to_the_middle(spots: &[Spot], n: usize) -> (Vec<f64>, Vec<f64>) {
-    // As far as every one of them goes.
+    // As far as every spot extends.
     let reach = n / 2 - PERIOD as usize;
     let side = 2 * reach + 1;
     let all: Vec<f64> = spots
@@ -184,7 +186,7 @@ fn moved_to_the_middle(spots: &[Spot], n: usize) -> (Vec<f64>, Vec<f64>) {
     (all, repeated)
 }
 
-/// Returns how much brighter a wall of 0.05 is in the mean for a texel of a million in it.
+/// Returns the mean increase of brightness of a wall of 0.05 caused by a texel of a million in it.
 fn firefly(rig: &Rig, setup: &Setup) -> Result<f64, LabError> {
     let wall = |hot: &str| {
         let (width, height) = setup.size();
@@ -216,7 +218,7 @@ pub static STUDY: Study = Study {
     error: "of a spot's glow from its mean over the phases",
     methods: METHODS,
     grids: three_of([64, 128, 256, 512]),
-    // A pyramid's kernel is as wide in texels on every canvas.
+    // A pyramid's kernel has the same width in texels on every canvas.
     has_order: false,
     ..Study::of(drawn, measure)
 };
@@ -224,8 +226,8 @@ pub static STUDY: Study = Study {
 fn drawn(point: &Point) -> Setup {
     let setup = whole(&point.method, point.setting, (point.grid, point.grid));
     let source = source(&setup);
-    // Something to draw in every frame, as a scene has.
-    // Integers alone (M. Jarzynski, M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: pcg3d).
+    // Something to draw in every frame, like a scene. Only integers (M. Jarzynski, M. Olano, "Hash Functions for GPU
+    // Rendering", JCGT 9(3), 2020: pcg3d).
     let scene = "void mainImage(out vec4 light, in vec2 fragCoord) {
         uvec3 v = uvec3(ivec3(ivec2(fragCoord) / 8, iFrame)) * 1664525u + 1013904223u;
         v.x += v.y * v.z;
@@ -276,7 +278,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_phase_comes_once() {
+    fn every_phase_occurs_once() {
         let size = (256, 192);
         let mut all: Vec<[u32; 2]> = (0..PERIOD * PERIOD).map(|n| phase(n, size)).collect();
         for axis in 0..2 {
@@ -290,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn what_moves_or_loses_light_is_seen() {
+    fn shifts_and_losses_of_light_are_detected() {
         let mut light = vec![0.0; 64 * 64];
         light[20 * 64 + 31] = 0.5;
         light[20 * 64 + 33] = 0.45;

@@ -1,5 +1,5 @@
-//! Blurs against the Gaussian that was asked for: of single texels at many places, which is the whole of a linear
-//! filter.
+//! Blurs compared with the requested Gaussian: for single texels at many places, which characterises a linear filter
+//! completely.
 
 use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
@@ -9,12 +9,12 @@ use crate::{
 use eddy_project::{Channel, Filter, Input, Pass, PassId, PassSize, Project, Sampler, Source, Wrap};
 use std::f64::consts::TAU;
 
-/// The blur that is asked for has the standard deviation of the nine taps; and the widest that the preset's slider has,
-/// of the methods that take one.
+/// The requested blur has the standard deviation of the nine taps; and the widest of the preset's slider, for methods
+/// that take a standard deviation.
 const SIGMA: f64 = 2.138;
 const WIDE_SIGMA: f64 = 2.5;
 
-/// Texels between the single bright ones.
+/// The distance between the single bright texels.
 const SPACING: usize = 32;
 
 const REACHES: &[f64] = &[1.0, 1.5, 2.0, 2.5, 3.0, 4.0];
@@ -70,7 +70,7 @@ pub(super) fn pyramid(project: &mut Project, levels: u32) {
     project.passes.splice(place..place, passes);
 }
 
-/// Returns where the single bright texels lie: one in each square of [`SPACING`], at as many phases as there are.
+/// Returns the places of the single bright texels: one in each square of [`SPACING`], at as many phases as possible.
 fn places(n: usize) -> Vec<(usize, usize)> {
     let cells = n / SPACING;
     let middle = SPACING / 2;
@@ -88,17 +88,17 @@ fn spots(n: usize) -> Vec<f64> {
     field
 }
 
-/// Returns whether a method blurs by the standard deviation that it is given.
+/// Returns whether a method takes a standard deviation.
 fn takes_sigma(method: &str) -> bool {
     matches!(method, "gaussian" | "gaussian-paired" | "gaussian-blur")
 }
 
-/// The pass that a method reads its picture from, and the one that has the result.
+/// Returns the pass from which a method reads its picture, and the one with the result.
 fn ends(method: &str) -> (&'static str, &'static str) {
     if method == "gaussian-blur" { ("a", "c") } else { ("source", "field") }
 }
 
-/// A point's project that blurs by a standard deviation, if it takes one.
+/// Returns a point's project that blurs by a standard deviation, if it takes one.
 fn setup(point: &Point, sigma: f64) -> Setup {
     let size = (point.grid, point.grid);
     let texels: Vec<[f32; 4]> = spots(point.grid as usize).iter().map(|&v| [v as f32; 4]).collect();
@@ -136,13 +136,13 @@ fn exact(n: usize, sigma: f64) -> Vec<f64> {
     (0..n * n).map(value).collect()
 }
 
-/// Holds what became of bright texels.
+/// The results for bright texels.
 struct Phases {
-    /// The largest distance from one to its centroid.
+    /// The largest distance from a texel to its centroid.
     shift: f64,
-    /// The spread of the peaks over their mean.
+    /// The spread of the peaks relative to their mean.
     spread: f64,
-    /// The standard deviation along an axis about the centroid: of the mean variance of both axes and all texels.
+    /// The standard deviation along an axis around the centroid: of the mean variance of both axes and all texels.
     sigma: f64,
 }
 
@@ -181,7 +181,7 @@ pub static STUDY: Study = Study {
     error: "of the blurred texels",
     methods: METHODS,
     grids: three_of([64, 128, 256, 512]),
-    // The Gaussian is asked for in texels.
+    // The Gaussian is specified in texels.
     has_order: false,
     ..Study::of(|point| setup(point, SIGMA), measure)
 };
@@ -213,13 +213,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_blot_is_as_wide_as_it_is_and_where_it_is() {
+    fn width_and_shift_of_a_spot_are_measured() {
         let n = 2 * SPACING;
         for sigma in [1.5, 2.5] {
             let found = phases(n, &exact(n, sigma));
             assert!((found.sigma / sigma - 1.0).abs() < 1e-3 && found.shift < 1e-3, "{sigma}: {}", found.sigma);
         }
-        // Two texels for one, side by side: moved by a half, and a half wide along one axis.
+        // Two adjacent texels instead of one: shifted by a half, and a half wide along one axis.
         let mut field = vec![0.0; n * n];
         places(n).into_iter().for_each(|(x, y)| field[y * n + x..y * n + x + 2].fill(0.5));
         let found = phases(n, &field);

@@ -1,11 +1,11 @@
-//! The ball of a game of bricks against one that is computed in fractions.
+//! The ball of a brick-breaking game compared with one that is computed in fractions.
 
 use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit, metrics::Norms,
     reference::billiard::Billiard,
 };
 
-/// Units a frame; the preset's ball does 3 in its first level.
+/// Units per frame; the preset's ball moves by 3 in its first level.
 const SPEEDS: &[f64] = &[1.0, 3.0, 10.0, 30.0, 100.0, 300.0];
 
 const METHODS: &[Method] = &[
@@ -14,15 +14,15 @@ const METHODS: &[Method] = &[
     Method { name: "overlap-16", title: "tested for overlap, 16 times a frame", settings: SPEEDS, usual: 3.0 },
 ];
 
-/// Units of the path.
+/// The length of the path in units.
 const PATH: f64 = 1200.0;
-/// The direction in which the ball sets out, from the vertical.
+/// The initial direction of the ball, relative to the vertical.
 const ANGLE: f64 = 0.42;
 const COLUMNS: usize = 16;
 const ROWS: usize = 6;
-/// The grid of the preset's places.
+/// The grid of the preset's positions.
 const TICKS: f64 = 32768.0;
-/// Units a frame of the long flight without bricks.
+/// Units per frame of the long flight without bricks.
 const FASTEST: f64 = 1e4;
 
 fn ticks(units: f64) -> i64 {
@@ -33,7 +33,7 @@ fn velocity(speed: f64) -> [f32; 2] {
     [ANGLE.sin(), ANGLE.cos()].map(|along| (60.0 * speed * along) as f32)
 }
 
-/// The preset without its paddle, over a floor that bounces, with the ball at a speed.
+/// Returns the preset without its paddle, over a floor that reflects, with the ball at a speed.
 fn practice(side: u32, speed: f64) -> Setup {
     let [u, v] = velocity(speed);
     Setup::new("brick-breaker", (side, side))
@@ -58,12 +58,12 @@ fn steps_of(name: &str) -> u32 {
     if name == "overlap" { 1 } else { 16 }
 }
 
-/// Returns the way of a step, as the shader has it.
+/// Returns the displacement per step, as in the shader.
 fn peers_way(name: &str, speed: f64) -> [f64; 2] {
     [ANGLE.sin(), ANGLE.cos()].map(|along| f64::from((speed / f64::from(steps_of(name)) * along) as f32))
 }
 
-/// The sum of a ball's state: place, velocity, and which bricks stand.
+/// The state of a game: position, velocity, and the remaining bricks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
     pub at: [f64; 2],
@@ -84,9 +84,10 @@ fn centre(index: usize) -> [i64; 2] {
     [at(index % COLUMNS, 20.0, 0.0), at(index / COLUMNS, 9.0, 92.0)]
 }
 
-/// The exact ball: where it begins, on the preset's grid, and the way of a frame.
+/// Returns the exact ball: its start, on the preset's grid, and the displacement per frame.
 fn exact(at: [f64; 2], speed: f64, bricks: bool) -> Billiard {
-    // The one rounding that the game is defined by: what a frame's way is, of a 32-bit velocity and a 32-bit step.
+    // The only rounding in the definition of the game: the displacement per frame from a 32-bit velocity and a 32-bit
+    // step.
     let way = velocity(speed).map(|v| ticks(f64::from(v * (1.0f32 / 60.0))));
     Billiard {
         low: [ticks(2.4); 2],
@@ -98,37 +99,37 @@ fn exact(at: [f64; 2], speed: f64, bricks: bool) -> Billiard {
     }
 }
 
-/// A game beside the exact one.
+/// A game compared with the exact one.
 #[derive(Clone, Debug, Default)]
 pub struct Played {
     pub norms: Norms,
-    /// Bricks that stand in one game and not in the other, at the end.
+    /// The number of bricks that remain in only one of the games at the end.
     pub bricks_wrong: usize,
     pub bricks_hit: usize,
-    /// Frames in which a brick came back.
+    /// The number of frames in which a brick reappeared.
     pub came_back: usize,
-    /// Units that the ball was beyond a wall.
+    /// The distance in units by which the ball was beyond a wall.
     pub outside: f64,
-    /// Change of a component's size, as a part of the speed.
+    /// The change of a component's absolute value, relative to the speed.
     pub speed_drift: f64,
     /// The largest distance between the two balls, in units.
     pub off: f64,
 }
 
-/// Plays `frames` at `speed` units a frame.
+/// Plays `frames` at `speed` units per frame.
 pub fn played(rig: &Rig, name: &str, side: u32, speed: f64, frames: u32) -> Result<Played, LabError> {
     let mut running = rig.open(&playing(name, side, speed))?;
-    let begin = if is_preset(name) {
-        // Its first frame sets the game up.
+    let start = if is_preset(name) {
+        // Its first frame initialises the game.
         running.frames(1)?;
         seen(&mut running, name)?
     } else {
         Seen { at: [160.0, 17.0], velocity: peers_way(name, speed), bricks: vec![true; COLUMNS * ROWS] }
     };
-    let mut oracle = exact(begin.at, speed, true);
+    let mut oracle = exact(start.at, speed, true);
     let (mut measured, mut expected) = (Vec::new(), Vec::new());
     let mut result = Played::default();
-    let mut before = begin.bricks.clone();
+    let mut before = start.bricks.clone();
     let [low, high] = [[2.4; 2], [317.6, 159.6]];
     for _ in 0..frames {
         running.frames(1)?;
@@ -139,7 +140,7 @@ pub fn played(rig: &Rig, name: &str, side: u32, speed: f64, frames: u32) -> Resu
         for k in 0..2 {
             let outside = (low[k] - now.at[k]).max(now.at[k] - high[k]).max(0.0);
             result.outside = result.outside.max(if outside.is_nan() { f64::INFINITY } else { outside });
-            let drift = (now.velocity[k].abs() / begin.velocity[k].abs() - 1.0).abs();
+            let drift = (now.velocity[k].abs() / start.velocity[k].abs() - 1.0).abs();
             result.speed_drift = result.speed_drift.max(drift);
             result.off = result.off.max((now.at[k] - at[k]).abs());
         }
@@ -147,19 +148,20 @@ pub fn played(rig: &Rig, name: &str, side: u32, speed: f64, frames: u32) -> Resu
         expected.extend(at);
         before = now.bricks;
     }
-    let stands = |i: usize| oracle.bricks.contains(&centre(i));
-    result.bricks_wrong = (0..COLUMNS * ROWS).filter(|&i| stands(i) != before[i]).count();
+    let remains = |i: usize| oracle.bricks.contains(&centre(i));
+    result.bricks_wrong = (0..COLUMNS * ROWS).filter(|&i| remains(i) != before[i]).count();
     result.norms = Norms::of(&measured, &expected);
     Ok(result)
 }
 
-/// The preset's ball without bricks at 10,000 units a frame: (bounces, units off the unfolded path at most).
+/// Returns the flight of the preset's ball without bricks at 10,000 units per frame: (bounces, maximum distance in
+/// units from the unfolded path).
 pub fn unfolded(rig: &Rig, side: u32, frames: u32) -> Result<(f64, f64), LabError> {
     let setup = practice(side, FASTEST).edit("a", "if (brickInLevel(c, r, level))", "if (c < 0)");
     let mut running = rig.open(&setup)?;
     running.frames(1)?;
-    let begin = seen(&mut running, "preset")?;
-    let oracle = exact(begin.at, FASTEST, false);
+    let start = seen(&mut running, "preset")?;
+    let oracle = exact(start.at, FASTEST, false);
     let mut off = 0.0f64;
     for part in 1..=4 {
         running.frames(frames / 4)?;
@@ -191,7 +193,7 @@ pub static STUDY: Study = Study {
     error: "of the ball's place",
     methods: METHODS,
     grids: [[16, 32, 64]; 2],
-    // The state has one size.
+    // The state has a fixed size.
     main_grid: Some(16),
     has_order: false,
     ..Study::of(|point| playing(&point.method, point.grid, point.setting), measure)

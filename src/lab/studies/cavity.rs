@@ -1,4 +1,4 @@
-//! The lid-driven cavity: how close its steady state comes to the tables, and how quiet it is under the lid.
+//! The lid-driven cavity: how close its steady state is to the tables, and how little noise there is under the lid.
 
 use super::flow::{Flow, Solver, Watched, largest};
 use crate::{
@@ -23,13 +23,13 @@ const METHODS: &[Method] = &[
     Method { name: "guay", title: "Guay, one pass", settings: &[0.1, 0.15], usual: 0.15 },
 ];
 
-/// Times, in sides of the box over the speed of the lid, after which a flow of each Reynolds number stands still.
+/// The times, in sides of the box over the speed of the lid, after which a flow of each Reynolds number is steady.
 const TIMES: [f64; 3] = [12.0, 40.0, 70.0];
 
-/// From this grid on the bounds of the hard cases hold.
+/// The bounds of the hard cases apply from this grid on.
 const FINE: u32 = 128;
 
-/// A method's project at a Courant number of the lid, which crosses a texel in a unit of time.
+/// Returns a method's project at a Courant number of the lid, which crosses a texel per unit of time.
 pub fn solver(name: &str, n: u32, courant: f64, reynolds: f64) -> Solver {
     let flow = Flow { n, dt: courant, viscosity: f64::from(n) / reynolds };
     let solver = Solver::new(name, flow);
@@ -45,14 +45,15 @@ pub struct Lines {
     u: Vec<(f64, f64)>,
     /// (x, v) at y = 1/2.
     v: Vec<(f64, f64)>,
-    /// Largest fourth difference of u along x, in the middle three quarters of it: what alternates from texel to texel.
+    /// The largest fourth difference of u along x, in the middle three quarters: the part that alternates from texel to
+    /// texel.
     pub noise: f64,
-    /// Holds what else was seen of the run.
+    /// The other observations of the run.
     pub watched: Watched,
 }
 
 impl Lines {
-    /// Reads the lines of velocities over that of the lid.
+    /// Reads the lines of velocities relative to that of the lid.
     pub fn of(solver: &Solver, n: usize, watched: Watched) -> Lines {
         let (u, v) = watched.velocity.split_at(n * n);
         let middle = n / 2;
@@ -78,7 +79,8 @@ impl Lines {
         }
     }
 
-    /// Largest differences of u and v from the tables' column of a Reynolds number, without the suspect entry.
+    /// Returns the largest differences of u and v from the tables' column of a Reynolds number, without the suspect
+    /// entry.
     pub fn off_tables(&self, column: usize) -> (f64, f64) {
         let is_suspect = |at: f64| (at, REYNOLDS[column]) == SUSPECT;
         let u = U.iter().map(|(y, all)| between(&self.u, *y) - all[column]);
@@ -86,7 +88,7 @@ impl Lines {
         (worst(u), worst(v))
     }
 
-    /// Largest differences of u and v from the high-order solution of Re = 1000.
+    /// Returns the largest differences of u and v from the high-order solution of Re = 1000.
     pub fn off_high(&self) -> (f64, f64) {
         let far = |line: &[(f64, f64)], table: &[(f64, f64)]| {
             worst(table.iter().map(|(at, value)| between(line, *at) - value))
@@ -94,23 +96,23 @@ impl Lines {
         (far(&self.u, &U_HIGH), far(&self.v, &V_HIGH))
     }
 
-    /// v where the tables have their misprint.
+    /// Returns v at the tables' misprint.
     pub fn at_suspect(&self) -> f64 {
         between(&self.v, SUSPECT.0)
     }
 
-    /// The least u, the largest and the least v.
+    /// Returns the minimum u, and the maximum and the minimum v.
     pub fn extrema(&self) -> [f64; 3] {
         [-peak(&self.u, -1.0), peak(&self.v, 1.0), -peak(&self.v, -1.0)]
     }
 }
 
-/// The largest size of some numbers; infinite where one is none.
+/// Returns the largest absolute value; infinite if a value is not a number.
 fn worst(numbers: impl Iterator<Item = f64>) -> f64 {
     largest(&numbers.collect::<Vec<_>>())
 }
 
-/// A line between its nodes: by the cubic through the four about `at`.
+/// Interpolates a line between its nodes: by the cubic through the four around `at`.
 fn between(line: &[(f64, f64)], at: f64) -> f64 {
     let next = line.partition_point(|(x, _)| *x < at);
     let first = next.saturating_sub(2).min(line.len() - 4);
@@ -122,7 +124,7 @@ fn between(line: &[(f64, f64)], at: f64) -> f64 {
     (0..4).map(|i| weight(i) * nodes[i].1).sum()
 }
 
-/// The largest of a line's inner values times `sign`, by the parabola through it and its neighbours.
+/// Returns the maximum of a line's inner values times `sign`, by the parabola through it and its neighbours.
 fn peak(line: &[(f64, f64)], sign: f64) -> f64 {
     let inner = 2..line.len() - 2;
     let top = inner.max_by(|a, b| (sign * line[*a].1).total_cmp(&(sign * line[*b].1))).unwrap_or(2);
@@ -131,7 +133,7 @@ fn peak(line: &[(f64, f64)], sign: f64) -> f64 {
     if bend < 0.0 { b - (c - a).powi(2) / (8.0 * bend) } else { b }
 }
 
-/// The lines of a method's flow after it has come to stand still, and the frames of that.
+/// Returns the lines of a method's steady flow, and the number of frames.
 pub fn lines(rig: &Rig, name: &str, n: u32, courant: f64, reynolds: f64, time: f64) -> Result<(Lines, u32), LabError> {
     let solver = solver(name, n, courant, reynolds);
     let (frames, _) = solver.frames(time * f64::from(n));
@@ -162,7 +164,7 @@ pub static STUDY: Study = Study {
     unit: Unit::Scene,
     error: "of the extrema at Re = 100",
     methods: METHODS,
-    // Two texels a step on fewer would be beyond the slider of `fluid-accurate`.
+    // With two texels per step, fewer texels would be outside of the slider of `fluid-accurate`.
     grids: [[12, 24, 48], [32, 64, 128]],
     ..Study::of(|point| solver(&point.method, point.grid, point.setting, REYNOLDS[0]).setup, measure)
 };
@@ -218,7 +220,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_is_read_between_its_nodes_and_at_its_peaks() {
+    fn lines_are_interpolated_between_nodes_and_at_peaks() {
         let f = |x: f64| x * x * x - 2.0 * x * x + 0.3;
         let line: Vec<(f64, f64)> = [0.0, 0.05, 0.15, 0.25, 0.35, 0.8, 1.0].into_iter().map(|x| (x, f(x))).collect();
         for at in [0.01, 0.1, 0.2, 0.5, 0.93] {

@@ -1,16 +1,16 @@
-//! Conjugate gradients as passes of a project: the chain of sums that a dot product is, and a V-cycle as the
-//! preconditioner (Saad, Iterative Methods for Sparse Linear Systems, algorithms 6.18 and 9.1; Tatebe 1993).
+//! Conjugate gradients as passes of a project: the chain of sums of a dot product, and a V-cycle as the preconditioner
+//! (Saad, Iterative Methods for Sparse Linear Systems, algorithms 6.18 and 9.1; Tatebe 1993).
 
 use super::cycle::{self, Component, Cycle};
 use eddy_project::{PassId, PassSize, Project, TexelFormat};
 
 const SUMS: &str = include_str!("../../../assets/lab/poisson_cg/sums.glsl");
 
-/// Texels along each side of a block that a pass sums up.
+/// The texels along each side of a block that a pass sums up.
 const BLOCK: u32 = 4;
 
-/// Puts sums over blocks of 4 x 4 between `dots`, which has a quarter of the `n` texels a side, and the `totals` in one
-/// texel.
+/// Inserts sums over blocks of 4 x 4 between `dots`, which has a quarter of the `n` texels per side, and the `totals`
+/// in one texel.
 ///
 /// # Panics
 /// If the project is not that of `poisson_cg`.
@@ -34,7 +34,7 @@ pub fn chain(project: &mut Project, n: u32) {
     }
 }
 
-/// As [`chain`], with a symmetric V-cycle of what is left as the preconditioner. A frame is an iteration.
+/// Does the same as [`chain`], with a symmetric V-cycle of the residual as the preconditioner. A frame is an iteration.
 ///
 /// # Panics
 /// If the project is not that of `poisson_cg`.

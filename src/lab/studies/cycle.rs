@@ -1,5 +1,5 @@
-//! Multigrid cycles on a torus, or in a box with walls, as passes of a project: one for every thing that is done on a
-//! grid. The names of cycles and their parts are those of Trottenberg, Oosterlee and Schüller, Multigrid (2001), chapter 2.
+//! Multigrid cycles on a torus, or in a box with walls, as passes of a project: one for every operation on a grid. The
+//! names of cycles and their parts are those of Trottenberg, Oosterlee and Schüller, Multigrid (2001), chapter 2.
 
 use eddy_project::{Channel, Filter, Input, Pass, PassId, PassSize, Project, Sampler, Source, TexelFormat, Wrap};
 
@@ -19,7 +19,7 @@ const ADDED: &str = part!("added.glsl");
 const GATHERED: &str = part!("gathered.glsl");
 const INTERPOLATED: &str = part!("interpolated.glsl");
 
-/// A texel of what a cycle begins with: where its pass is called, and the component that counts.
+/// The input texel of a cycle: the pass that contains it, and the component that is used.
 #[derive(Clone, Copy, Debug)]
 pub struct Component {
     pub pass: &'static str,
@@ -33,7 +33,7 @@ pub enum Cycle {
     Jacobi,
     /// V(1,1): one red-black sweep of Gauss and Seidel before the correction and one after it.
     RedBlack,
-    /// As [`Cycle::RedBlack`], with black first after the correction, and a restriction that is the transpose of the
+    /// Like [`Cycle::RedBlack`], with black first after the correction, and a restriction that is the transpose of the
     /// interpolation. The cycle is a symmetric operator, as a preconditioner of conjugate gradients must be (Tatebe,
     /// The multigrid preconditioned conjugate gradient method, 1993).
     Symmetric,
@@ -59,8 +59,8 @@ impl Cycle {
         if self == Cycle::Symmetric { REST_TRANSPOSED } else { REST }
     }
 
-    /// The passes of a cycle on a grid of `n` texels a side, but for the last. It begins with p of the pass `guess`, or
-    /// with 0, and the component of `source`. Names begin with `prefix`.
+    /// Returns the passes of a cycle on a grid of `n` texels per side, without the last. It starts with p of the pass
+    /// `guess`, or with 0, and the component of `source`. Names start with `prefix`.
     fn passes(self, prefix: &str, n: u32, guess: Option<&str>, (source, component): (&str, char)) -> Vec<Pass> {
         let levels = levels(n);
         let size = |level: u32| PassSize::Fixed(n >> level, n >> level);
@@ -87,15 +87,15 @@ impl Cycle {
         passes
     }
 
-    /// Makes a pass the last of a cycle whose others [`Cycle::passes`] gave.
+    /// Makes a pass the last of a cycle whose others were returned by [`Cycle::passes`].
     fn end(self, prefix: &str, end: &mut Pass) {
         let added = format!("{prefix}add0");
         (end.channels, end.source.text) = (channels(&[&added, &added]), self.after().into());
     }
 
-    /// Adds a cycle that ends in the pass `result` of the project: (p, f). It begins with p of `guess`, or with 0, and
-    /// f of `source`, which `result` may be, drawn in the frame before. The passes stand right before `result`, by whose
-    /// name theirs begin. `n` texels a side, a power of two.
+    /// Adds a cycle that ends in the pass `result` of the project: (p, f). It starts with p of `guess`, or with 0, and
+    /// f of `source`, which may be `result` itself, drawn in the previous frame. The passes are inserted right before
+    /// `result`, whose name is their prefix. `n` texels per side, a power of two.
     ///
     /// # Panics
     /// If the project has no such pass.
@@ -105,7 +105,7 @@ impl Cycle {
     }
 
     /// Adds full multigrid that ends in the pass `field` of the project, whose f it solves for: nested iteration, which
-    /// begins each grid with the solution of the coarser one, interpolated by cubics, and draws so many cycles on it
+    /// starts each grid with the solution of the coarser one, interpolated by cubics, and draws `cycles` cycles on it
     /// (Trottenberg, Oosterlee and Schüller, section 2.6).
     ///
     /// # Panics
@@ -128,10 +128,10 @@ impl Cycle {
         let mut last = String::new();
         for grid in (0..coarsest).rev() {
             let (right, component) = f(grid);
-            let begun = format!("begun{grid}");
+            let initial = format!("begun{grid}");
             let text = format!("#define F {component}\n{INTERPOLATED}");
-            passes.push(pass(&begun, &text, size(grid), &[&solved(grid + 1), &right]));
-            let mut guess = begun;
+            passes.push(pass(&initial, &text, size(grid), &[&solved(grid + 1), &right]));
+            let mut guess = initial;
             for cycle in 1..=cycles {
                 last = format!("grid{grid}cycle{cycle}");
                 passes.extend(self.passes(&last, n >> grid, Some(&guess), (&guess, 'y')));
@@ -147,12 +147,12 @@ impl Cycle {
     }
 }
 
-/// Grids below one of `n` texels a side, down to one of two.
+/// Returns the number of grids below one of `n` texels per side, down to one of two.
 fn levels(n: u32) -> u32 {
     n.ilog2().max(2) - 1
 }
 
-/// Puts passes right before another, which is given back.
+/// Inserts passes right before another, which is returned.
 pub fn insert<'p>(project: &'p mut Project, passes: Vec<Pass>, before: &str) -> &'p mut Pass {
     let id = super::super::setup::pass(before);
     let place = project.passes.iter().position(|p| p.id == id).expect("the project has the pass a cycle ends in");
@@ -161,7 +161,7 @@ pub fn insert<'p>(project: &'p mut Project, passes: Vec<Pass>, before: &str) -> 
     &mut project.passes[end]
 }
 
-/// A buffer of a grid, of (p, f) unless its name says that it holds a right-hand side alone.
+/// Returns a buffer of a grid, of (p, f) unless its name indicates that it contains only a right-hand side.
 pub fn pass(name: &str, text: &str, size: PassSize, reads: &[&str]) -> Pass {
     let mut pass = Pass {
         id: PassId::Buffer(name.to_owned()),
@@ -174,7 +174,7 @@ pub fn pass(name: &str, text: &str, size: PassSize, reads: &[&str]) -> Pass {
     pass
 }
 
-/// Channels that read buffers texel by texel.
+/// Returns channels that read buffers texel by texel.
 pub fn channels(reads: &[&str]) -> [Option<Channel>; 4] {
     let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Repeat, vflip: true };
     std::array::from_fn(|n| reads.get(n).map(|name| Channel { input: Input::buffer(*name), sampler }))

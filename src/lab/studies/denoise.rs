@@ -1,8 +1,8 @@
-//! Filters of noise against the picture that the noise was added to.
+//! Noise filters compared with the picture before the noise was added.
 
 use crate::{HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit, metrics::Norms, three_of};
 
-/// The standard deviation of the noise, of 1.
+/// The standard deviation of the noise, relative to 1.
 const NOISE: f64 = 0.1;
 
 const METHODS: &[Method] = &[

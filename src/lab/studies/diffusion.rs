@@ -1,4 +1,4 @@
-//! Diffusion of a Gaussian on a torus: how the length of a step, the stencil and the format of a texel show in the
+//! Diffusion of a Gaussian on a torus: the effect of the length of a step, the stencil and the format of a texel on the
 //! error.
 
 use crate::{
@@ -9,7 +9,7 @@ use crate::{
     three_of,
 };
 
-/// Standard deviation at first, as a part of the width, and how much the variance grows in units of its square.
+/// The initial standard deviation, as a part of the width, and the growth of the variance in units of its square.
 const START: f64 = 1.0 / 32.0;
 const GROWTH: f64 = 12.5;
 
@@ -27,7 +27,7 @@ const METHODS: &[Method] = &[
     Method { name: "blur", title: "separable Gaussian blur", settings: &[0.5, 1.0, 2.0, 5.0, 10.0, 25.0], usual: 2.0 },
 ];
 
-/// Steps of a point, and D t / h^2 after them.
+/// Returns the steps of a point, and D t / h^2 after them.
 fn steps(point: &Point) -> (u32, f64) {
     let start = START * f64::from(point.grid);
     let steps = (GROWTH * start * start / 2.0 / point.setting).round().max(1.0);
@@ -45,7 +45,7 @@ pub static STUDY: Study = Study {
     error: "of the concentration",
     methods: METHODS,
     grids: three_of([32, 64, 128, 256]),
-    // Too large where it has spread too little. The error of the step and that of the stencil cancel near 1/6.
+    // Too large if it has spread too little. The error of the step and that of the stencil cancel near 1/6.
     signed: Some("square_error"),
     ..Study::of(setup, measure)
 };
@@ -73,7 +73,7 @@ fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
     let start = START * n as f64;
     let exact = gaussian_on_torus(n, start, start * start + 2.0 * time);
     let noisy = rig.after(&setup(point).uniform("noise", 0.01), frames, "field")?.component(0);
-    // What is left of a wave that explicit Euler keeps stable is at most what there was.
+    // The rest of a wave that explicit Euler keeps stable is at most its initial value.
     let left = checkerboard(&noisy, n).abs();
     Ok(Measured { norms: Norms::of(&after, &exact), frames_per_unit: f64::from(frames), ..Measured::default() }
         .value("mass_drift", drift(&before, &after))

@@ -1,4 +1,4 @@
-//! Lines found in a G-buffer, against the silhouettes and creases of what is in it.
+//! Lines detected in a G-buffer, compared with the silhouettes and creases of its content.
 
 use super::silhouettes::Found;
 use crate::{
@@ -17,20 +17,21 @@ const METHODS: &[Method] = &[
     Method { name: "laplacian", title: "Laplacian", settings: SENSITIVITIES, usual: 1.0 },
 ];
 
-/// The preset's camera has this focal length: the picture's unit, 0.8 of the width of a square canvas, at distance 1.8
-/// is 1 long.
+/// The focal length of the preset's camera: the picture's unit, 0.8 of the width of a square canvas, at distance 1.8 is
+/// 1 long.
 const FOCAL: f64 = 0.8 * 1.8;
 const EYE: V = [0.0; 3];
 /// The floor is seen at 8 to 20 degrees.
 const FLOOR: f64 = -1.2;
 const WALL: f64 = -8.0;
-/// Texels between a line and the centres of what is found of it: an operator of 3 x 3 texels marks both sides.
+/// The distance in texels between a line and the centres of its detected texels: an operator of 3 x 3 texels marks both
+/// sides.
 const REACH: f64 = 1.5;
 const BORDER: usize = 3;
-/// Texels of the floor that are this far from every line may not be lines.
+/// Texels of the floor that are this far from every line must not be lines.
 const FAR: f64 = 4.0;
 
-/// In space as the camera sees it.
+/// Returns the shapes in camera space.
 fn scene() -> [PlacedShape; 3] {
     [
         PlacedShape { shape: Shape::Sphere(0.55), centre: [-1.05, -0.25, -6.0], axes: turned(0.0, 0.0) },
@@ -39,7 +40,7 @@ fn scene() -> [PlacedShape; 3] {
     ]
 }
 
-/// Through a place in texels, of depth 1.
+/// Returns the ray through a place in texels, of depth 1.
 fn ray(n: f64, x: f64, y: f64) -> V {
     [(x - 0.5 * n) / (n * FOCAL), (y - 0.5 * n) / (n * FOCAL), -1.0]
 }
@@ -48,7 +49,7 @@ fn texel_of(n: f64, p: V) -> [f64; 2] {
     [0, 1].map(|i| 0.5 * n - n * FOCAL * p[i] / p[2])
 }
 
-/// Floor and wall: how deep, and which way they face.
+/// Returns the depth and the direction of floor and wall.
 fn room(d: V) -> (f64, V) {
     let floor = if d[1] < 0.0 { FLOOR / d[1] } else { f64::INFINITY };
     if floor < -WALL { (floor, [0.0, 1.0, 0.0]) } else { (-WALL, [0.0, 0.0, 1.0]) }
@@ -77,16 +78,16 @@ fn seen_surfaces(n: u32) -> Vec<(V, f64)> {
     let side = f64::from(n);
     let surface = |i: u32| {
         let d = ray(side, f64::from(i % n) + 0.5, f64::from(i / n) + 0.5);
-        let (behind, facing) = room(d);
+        let (room_depth, facing) = room(d);
         match first_hit(&shapes, EYE, d) {
-            Some((t, index)) if t < behind => (shapes[index].normal(along(EYE, d, t)), t),
-            _ => (facing, behind),
+            Some((t, index)) if t < room_depth => (shapes[index].normal(along(EYE, d, t)), t),
+            _ => (facing, room_depth),
         }
     };
     (0..n * n).map(surface).collect()
 }
 
-/// Points of all lines that are seen, in texels, four or more a texel.
+/// Returns points of all visible lines, in texels, four or more per texel.
 fn lines(n: u32) -> Vec<[f64; 2]> {
     let (shapes, side) = (scene(), f64::from(n));
     let count = 8 * n as usize;
@@ -96,14 +97,14 @@ fn lines(n: u32) -> Vec<[f64; 2]> {
         .filter(|point| is_seen(&shapes, EYE, *point))
         .map(|point| texel_of(side, point.at))
         .collect();
-    // Where the floor meets the wall.
+    // The line where the floor touches the wall.
     let y = texel_of(side, [0.0, FLOOR, WALL])[1];
     let corner = (0..4 * n).map(|i| [f64::from(i) / 4.0, y]);
     points.extend(corner.filter(|[x, y]| first_hit(&shapes, EYE, ray(side, *x, *y)).is_none()));
     points
 }
 
-/// The preset's map of a normal: Lambert's, of equal areas.
+/// Returns the preset's map of a normal: Lambert's equal-area projection.
 fn packed([x, y, z]: V) -> [f64; 2] {
     let by = 1.0 / (8.0 * z + 8.0).max(1e-6).sqrt();
     [x * by, y * by]
@@ -130,14 +131,14 @@ fn setup(name: &str, n: u32, sensitivity: f64) -> Setup {
     Setup::new("edges", (n, n)).define("METHOD", method).uniform("sensitivity", sensitivity).state("source", &texels)
 }
 
-/// Returns which texels a method calls a line.
+/// Returns which texels a method detects as a line.
 pub fn found(rig: &Rig, name: &str, n: u32, sensitivity: f64) -> Result<Vec<bool>, LabError> {
     let pass = if name == "preset" { "b" } else { "field" };
     let field = rig.after(&setup(name, n, sensitivity), 1, pass)?;
     Ok(field.texels().iter().map(|t| t[0].max(if name == "preset" { t[1] } else { 0.0 }) > 0.5).collect())
 }
 
-/// Returns how right a method is, and the part of the open floor that it calls a line.
+/// Returns the accuracy of a method, and the part of the open floor that it detects as a line.
 pub fn judged(found: &[bool], n: u32) -> (Found, f64) {
     let lines = lines(n);
     let all = Found::of_lines(found, n as usize, &lines, REACH, BORDER);
@@ -176,7 +177,7 @@ pub static STUDY: Study = Study {
     error: "1 - F1 of the lines found",
     methods: METHODS,
     grids: three_of(GRIDS),
-    // A line is as many texels wide on each.
+    // A line has the same width in texels on each grid.
     has_order: false,
     is_relative: false,
     ..Study::of(|point| setup(&point.method, point.grid, point.setting), measure)
@@ -184,7 +185,7 @@ pub static STUDY: Study = Study {
 
 fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
     let (all, floor) = judged(&found(rig, &point.method, point.grid, point.setting)?, point.grid);
-    // Less than half of a point of the lines is not told from nothing.
+    // Less than half of a point of the lines cannot be distinguished from nothing.
     let least = 0.5 / lines(point.grid).len() as f64;
     let mut norms = all.norms();
     (norms.l1, norms.l2, norms.linf) = (norms.l1 + least, norms.l2 + least, norms.linf + least);

@@ -6,8 +6,8 @@ use eddy_project::{Pass, PassSize, Project, TexelFormat};
 
 const STAGE: &str = include_str!("../../../assets/lab/poisson_fft/stage.glsl");
 
-/// Puts the transform along both axes, the division by the symbol of lap p and the inverse transform between `source`
-/// and `field` of `poisson_fft`. `n` texels a side, a power of two.
+/// Inserts the transform along both axes, the division by the symbol of lap p and the inverse transform between
+/// `source` and `field` of `poisson_fft`. `n` texels per side, a power of two.
 ///
 /// # Panics
 /// If the project is not that of `poisson_fft`.
@@ -24,14 +24,14 @@ pub fn add(project: &mut Project, n: u32) {
     (field.source.text, field.channels) = (end.into(), cycle::channels(&[&last]));
 }
 
-/// The way of a transform: from a picture to its waves, or back.
+/// The direction of a transform: from a picture to its waves, or back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     There,
     Back,
 }
 
-/// Returns for each pass of a transform along both axes the macros that stand before the text of `stage.glsl`. A side is
+/// Returns for each pass of a transform along both axes the macros that precede the text of `stage.glsl`. Each side is
 /// a power of two.
 pub fn stages(size: (u32, u32), direction: Direction) -> Vec<String> {
     let sign = if direction == Direction::There { "-1.0" } else { "1.0" };
@@ -39,7 +39,7 @@ pub fn stages(size: (u32, u32), direction: Direction) -> Vec<String> {
     for (along, n) in [("x", size.0), ("y", size.1)] {
         let mut span = 1;
         while span < n {
-            // Radix 4, and 2 once where the size is no power of four.
+            // Radix 4, and 2 once if the size is not a power of four.
             let radix = if (n / span).is_multiple_of(4) { 4 } else { 2 };
             stages.push(format!(
                 "#define RADIX {radix}\n#define SPAN {span}\n#define ALONG {along}\n#define SIGN {sign}\n"
@@ -50,7 +50,8 @@ pub fn stages(size: (u32, u32), direction: Direction) -> Vec<String> {
     stages
 }
 
-/// Returns buffers of these texts, each of which reads the one before, and the first `from`; and the name of the last.
+/// Returns buffers with these texts, each of which reads the previous one, and the first `from`; and the name of the
+/// last.
 pub fn chain(name: &str, texts: &[String], from: &str, format: TexelFormat) -> (Vec<Pass>, String) {
     let (mut passes, mut last) = (Vec::new(), from.to_owned());
     for (number, text) in texts.iter().enumerate() {

@@ -1,19 +1,19 @@
-//! Solvers of a flow on a torus or in a box, each a project: set up for a flow in texels and units of time, begun from
-//! any velocity, and read back in the same units.
+//! Flow solvers on a torus or in a box, each a project: set up for a flow in texels and units of time, started from any
+//! velocity, and read back in the same units.
 
 use super::cycle::{Component, Cycle};
 use crate::{LabError, Measured, Running, Setup, metrics::mean, setup::Storage};
 use eddy_project::{PassId, Project, TexelFormat};
 use std::f64::consts::TAU;
 
-/// Holds what is to be computed.
+/// The flow to compute.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow {
     /// Texels from edge to edge.
     pub n: u32,
-    /// The time of a step.
+    /// The time per step.
     pub dt: f64,
-    /// Texels^2 for a unit of time.
+    /// Texels^2 per unit of time.
     pub viscosity: f64,
 }
 
@@ -21,36 +21,36 @@ pub struct Flow {
 #[derive(Clone)]
 pub struct Solver {
     pub setup: Setup,
-    /// Steps that a frame makes.
+    /// The number of steps per frame.
     pub steps: u32,
     flow: Flow,
     kind: Kind,
-    /// Texels for a unit of time, of a velocity of 1 of the project.
+    /// Texels per unit of time, for a velocity of 1 of the project.
     scale: f64,
-    /// The stiffness of the pressure, where density is what pushes.
+    /// The stiffness of the pressure, if it is caused by density.
     stiffness: f64,
-    /// Passes that begin with the velocity and with the pressure too.
-    begun: Begun,
+    /// Additional passes that start with the velocity and with the pressure.
+    initial_passes: InitialPasses,
 }
 
-/// Names passes beside `field` that a projected fluid begins with.
+/// The names of the passes, in addition to `field`, in which a projected fluid starts.
 #[derive(Clone, Copy, Debug, Default)]
-struct Begun {
-    /// Holds the velocity of two frames.
+struct InitialPasses {
+    /// Contains the velocity of two frames.
     drift: Option<&'static str>,
-    /// Holds the pressure times half of the step, which a step begins with.
+    /// Contains the pressure times half of the step, with which a step starts.
     held: Option<&'static str>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// `field` holds the velocity and, of Guay's, the density.
+    /// `field` contains the velocity and, for Guay's fluid, the density.
     Centred { is_compressible: bool },
-    /// `field` holds the velocity through the left and the lower face of a texel.
+    /// `field` contains the velocity through the left and the lower face of a texel.
     OnFaces,
-    /// `velocity` holds that through the left and the lower face of a texel.
+    /// `velocity` contains that through the left and the lower face of a texel.
     Staggered,
-    /// `velocity` holds it at the centres.
+    /// `velocity` contains it at the centres.
     Mips,
     /// Populations of D2Q9 in `axes`, `corners` and `rest`.
     Lattice,
@@ -58,19 +58,27 @@ enum Kind {
 
 const CENTRED: Kind = Kind::Centred { is_compressible: false };
 
-/// The viscosity that the slider of fluid-accurate ends with, in canvas heights squared a second.
+/// The maximum of the viscosity slider of fluid-accurate, in canvas heights squared per second.
 const MOST_VISCOSITY: f64 = 0.01;
 
-/// Guay's stiffness where none is said.
+/// Guay's default stiffness.
 pub const STIFFNESS: f64 = 0.2;
 
 impl Solver {
-    /// A solver by the name that the studies call it.
+    /// Returns a solver by its name in the studies.
     pub fn new(name: &str, flow: Flow) -> Solver {
         let Flow { n, dt, viscosity } = flow;
         let plain = |setup: Setup, steps, kind| {
             let setup = setup.uniform("dt", dt).uniform("viscosity", viscosity);
-            Solver { setup, steps, flow, kind, scale: 1.0, stiffness: STIFFNESS, begun: Begun::default() }
+            Solver {
+                setup,
+                steps,
+                flow,
+                kind,
+                scale: 1.0,
+                stiffness: STIFFNESS,
+                initial_passes: InitialPasses::default(),
+            }
         };
         let size = (n, n);
         let guay = |which, steps| {
@@ -97,23 +105,32 @@ impl Solver {
             }
             "maccormack-strang" => {
                 let setup = solved_by_cycles(Setup::new("fluid_strang", size), n, &[("divergence", "pressure")]);
-                let begun = Begun { drift: Some("drift"), held: Some("held") };
-                Solver { begun, ..plain(setup, 1, CENTRED) }
+                let initial_passes = InitialPasses { drift: Some("drift"), held: Some("held") };
+                Solver { initial_passes, ..plain(setup, 1, CENTRED) }
             }
             "reflection" => {
                 let halves = &[("halfdivergence", "halfpressure"), ("divergence", "pressure")];
                 let setup = solved_by_cycles(Setup::new("fluid_reflection", size), n, halves);
-                Solver { begun: Begun { drift: Some("drift"), held: None }, ..plain(setup, 1, CENTRED) }
+                Solver {
+                    initial_passes: InitialPasses { drift: Some("drift"), held: None },
+                    ..plain(setup, 1, CENTRED)
+                }
             }
             "covector" => {
                 let setup = solved_by_cycles(Setup::new("fluid_covector", size), n, &[("divergence", "pressure")]);
-                Solver { begun: Begun { drift: Some("drift"), held: None }, ..plain(setup, 1, Kind::OnFaces) }
+                Solver {
+                    initial_passes: InitialPasses { drift: Some("drift"), held: None },
+                    ..plain(setup, 1, Kind::OnFaces)
+                }
             }
             "apic" | "flip" => {
                 let method = if name == "apic" { "APIC" } else { "FLIP" };
                 let setup = Setup::new("fluid_particles", size).define("METHOD", method);
                 let setup = solved_by_cycles(setup, n, &[("divergence", "pressure")]);
-                Solver { begun: Begun { drift: Some("drift"), held: Some("held") }, ..plain(setup, 1, CENTRED) }
+                Solver {
+                    initial_passes: InitialPasses { drift: Some("drift"), held: Some("held") },
+                    ..plain(setup, 1, CENTRED)
+                }
             }
             "weno" => {
                 let stages = &[
@@ -133,20 +150,20 @@ impl Solver {
         Solver { setup: solver.setup.storage(storage), ..solver }
     }
 
-    /// Returns whether it takes the pressure, or the density, that it is begun with.
+    /// Returns whether the initial pressure, or density, is used.
     pub fn keeps_pressure(&self) -> bool {
         let is_kept = matches!(self.kind, Kind::Centred { is_compressible: true } | Kind::Staggered | Kind::Lattice);
-        is_kept || self.begun.held.is_some()
+        is_kept || self.initial_passes.held.is_some()
     }
 
-    /// Value of an `#iUniform` of the project.
+    /// Sets an `#iUniform` of the project.
     #[must_use]
     pub fn uniform(mut self, name: &str, value: f64) -> Solver {
         self.setup = self.setup.uniform(name, value);
         self
     }
 
-    /// In a box whose walls hold the fluid and whose upper one moves at `lid` texels for a unit of time. Begins at
+    /// Places the fluid in a box with no-slip walls whose upper one moves at `lid` texels per unit of time. Starts at
     /// rest.
     #[must_use]
     pub fn cavity(self, lid: f64) -> Solver {
@@ -160,7 +177,7 @@ impl Solver {
         solver.begin(|_, _| [0.0; 2], |_, _| 0.0)
     }
 
-    /// Guay's stiffness of the pressure.
+    /// Sets Guay's stiffness of the pressure.
     #[must_use]
     pub fn stiffness(mut self, stiffness: f64) -> Solver {
         self.setup = self.setup.uniform("stiffness", stiffness);
@@ -168,7 +185,7 @@ impl Solver {
         self
     }
 
-    /// Texels that sound goes in a unit of time; `None` of a method that has no sound.
+    /// Returns the speed of sound in texels per unit of time; `None` for a method without sound.
     pub fn sound(&self) -> Option<f64> {
         match self.kind {
             Kind::Centred { is_compressible: true } => Some((self.stiffness / self.flow.dt).sqrt()),
@@ -177,7 +194,7 @@ impl Solver {
         }
     }
 
-    /// A velocity of texel coordinates at the places where the solver has its components: all of u, then all of v.
+    /// Samples a velocity of texel coordinates at the places of the solver's components: all of u, then all of v.
     pub fn sampled(&self, velocity: impl Fn(f64, f64) -> [f64; 2]) -> Vec<f64> {
         let n = self.flow.n as usize;
         let place = |c: usize, i: usize| {
@@ -195,13 +212,13 @@ impl Solver {
         (0..2).flat_map(|c| (0..n * n).map(move |i| (c, i))).map(|(c, i)| at(c, i)).collect()
     }
 
-    /// Returns whether u is on the left faces of texels and v on their lower ones; else both are at the centres.
+    /// Returns whether u is on the left faces of texels and v on their lower ones; otherwise both are at the centres.
     pub fn is_staggered(&self) -> bool {
         matches!(self.kind, Kind::Staggered | Kind::OnFaces)
     }
 
-    /// Begins with a velocity of texel coordinates, and the pressure of unit density that balances it; 0 where it is
-    /// not known. A solver that keeps no pressure takes none.
+    /// Starts with a velocity of texel coordinates, and the pressure of unit density that balances it; 0 if it is not
+    /// known. A solver without a stored pressure ignores it.
     #[must_use]
     pub fn begin(self, velocity: impl Fn(f64, f64) -> [f64; 2], pressure: impl Fn(f64, f64) -> f64) -> Solver {
         let (both, pressures) = (self.sampled(velocity), self.at_centres(pressure));
@@ -213,8 +230,8 @@ impl Solver {
         (0..n * n).map(|i| value((i % n) as f64 + 0.5, (i / n) as f64 + 0.5)).collect()
     }
 
-    /// Begins at rest with something in the field that pushes, whichever that is and in its own units: the density less
-    /// 1, or the pressure that is kept from step to step.
+    /// Starts at rest with values in the field that causes pressure, in its own units: the density minus 1, or the
+    /// pressure that is kept from step to step.
     #[must_use]
     pub fn begin_with_pressure(self, pressure: impl Fn(f64, f64) -> f64) -> Solver {
         let Flow { n, dt, .. } = self.flow;
@@ -224,7 +241,7 @@ impl Solver {
             Kind::Centred { is_compressible: true } => self.stiffness / dt,
             Kind::Lattice => 1.0 / (3.0 * dt * dt),
             Kind::Centred { .. } | Kind::OnFaces => {
-                let pass = self.begun.held.unwrap_or("pressure");
+                let pass = self.initial_passes.held.unwrap_or("pressure");
                 let mut solver = self.begin(|_, _| [0.0; 2], |_, _| 0.0);
                 solver.setup = solver.setup.state(pass, &texels(values, &|p| [p, 0.0, 0.0, 1.0]));
                 return solver;
@@ -240,13 +257,16 @@ impl Solver {
         self.begin(|_, _| [0.0; 2], |x, y| scale * pressure(x, y))
     }
 
-    /// The density less 1, or the pressure that is kept from step to step, in its own units. `None` where neither is.
+    /// Returns the density minus 1, or the pressure that is kept from step to step, in its own units. `None` if there
+    /// is neither.
     pub fn pressure(&self, running: &mut Running) -> Result<Option<Vec<f64>>, LabError> {
         let field = match self.kind {
             Kind::Centred { is_compressible: true } => {
                 running.read("field")?.component(2).iter().map(|rho| rho - 1.0).collect()
             }
-            Kind::Centred { .. } | Kind::OnFaces => running.read(self.begun.held.unwrap_or("pressure"))?.component(0),
+            Kind::Centred { .. } | Kind::OnFaces => {
+                running.read(self.initial_passes.held.unwrap_or("pressure"))?.component(0)
+            }
             Kind::Staggered => running.read("velocity")?.component(2),
             Kind::Mips => return Ok(None),
             Kind::Lattice => density(running)?.into_iter().map(|rho| rho - 1.0).collect(),
@@ -254,8 +274,8 @@ impl Solver {
         Ok(Some(field))
     }
 
-    /// As [`Solver::begin`], from values where the solver has them: all of u, then all of v; the pressure at the
-    /// centres.
+    /// Does the same as [`Solver::begin`], with values at the places of the solver: all of u, then all of v; the
+    /// pressure at the centres.
     #[must_use]
     pub fn begin_from(mut self, velocity: &[f64], pressure: &[f64]) -> Solver {
         let Flow { n, dt, .. } = self.flow;
@@ -264,10 +284,10 @@ impl Solver {
         let texels =
             |f: &dyn Fn(usize) -> [f64; 4]| -> Vec<[f32; 4]> { (0..u.len()).map(|i| f(i).map(|x| x as f32)).collect() };
         let (scale, stiffness) = (self.scale, self.stiffness);
-        if let Some(drift) = self.begun.drift {
+        if let Some(drift) = self.initial_passes.drift {
             self.setup = self.setup.state(drift, &texels(&|i| [u[i], v[i], u[i], v[i]]));
         }
-        if let Some(held) = self.begun.held {
+        if let Some(held) = self.initial_passes.held {
             self.setup = self.setup.state(held, &texels(&|i| [0.5 * dt * pressure[i], 0.0, 0.0, 1.0]));
         }
         self.setup = match self.kind {
@@ -277,7 +297,7 @@ impl Solver {
             }
             Kind::OnFaces => self.setup.state("field", &texels(&|i| [u[i], v[i], 0.0, 1.0])),
             Kind::Staggered => {
-                // The pressure times the step, and the step in seconds; and the same velocity in the frame before.
+                // The pressure times the step, and the step in seconds; and the same velocity in the previous frame.
                 let seconds = scale / f64::from(n) * dt;
                 let state = texels(&|i| [u[i] / scale, v[i] / scale, pressure[i] * dt / scale, seconds]);
                 let drift = texels(&|i| [u[i] / scale, v[i] / scale, u[i] / scale, v[i] / scale]);
@@ -299,7 +319,7 @@ impl Solver {
         self
     }
 
-    /// Mean density less 1, which it is at first, of a fluid that has one.
+    /// Returns the mean density minus 1, which is 0 initially, of a fluid that has one.
     pub fn mass_drift(&self, running: &mut Running) -> Result<Option<f64>, LabError> {
         match self.kind {
             Kind::Centred { is_compressible: true } => Ok(Some(mean(&running.read("field")?.component(2)) - 1.0)),
@@ -308,7 +328,7 @@ impl Solver {
         }
     }
 
-    /// Draws so many frames and gives what is seen on the way.
+    /// Draws a number of frames and returns the observations.
     pub fn watched(&self, running: &mut Running, frames: u32) -> Result<Watched, LabError> {
         let Some(sound) = self.sound() else {
             running.frames(frames)?;
@@ -326,7 +346,7 @@ impl Solver {
         Ok(Watched { velocity, mach: Some(speed / sound), mass_drift: self.mass_drift(running)? })
     }
 
-    /// The velocity in texels for a unit of time: all of u, then all of v.
+    /// Returns the velocity in texels per unit of time: all of u, then all of v.
     pub fn velocity(&self, running: &mut Running) -> Result<Vec<f64>, LabError> {
         match self.kind {
             Kind::Centred { .. } | Kind::OnFaces => Ok(running.read("field")?.components(0, 1)),
@@ -338,7 +358,7 @@ impl Solver {
         }
     }
 
-    /// Frames that come closest to `time`, at least one, and the time they make.
+    /// Returns the number of frames that is closest to `time`, at least one, and their duration.
     pub fn frames(&self, time: f64) -> (u32, f64) {
         let frame = self.flow.dt * f64::from(self.steps);
         let frames = (time / frame).round().max(1.0);
@@ -346,22 +366,21 @@ impl Solver {
     }
 }
 
-/// Moments of a run at which the speed of a fluid with sound is looked at.
+/// The number of moments in a run at which the speed of a fluid with sound is observed.
 const MOMENTS: u32 = 8;
 
-/// Holds what a run of a fluid comes to.
+/// The observations of a fluid's run.
 #[derive(Clone, Debug)]
 pub struct Watched {
     /// At the end.
     pub velocity: Vec<f64>,
-    /// The greatest speed that was met over that of sound, and the mean density less 1 at the end; `None` without
-    /// sound.
+    /// The greatest speed relative to that of sound, and the mean density minus 1 at the end; `None` without sound.
     pub mach: Option<f64>,
     pub mass_drift: Option<f64>,
 }
 
 impl Watched {
-    /// Adds what it has to a point's figures.
+    /// Adds its figures to those of a point.
     pub fn add_to(&self, mut measured: Measured) -> Measured {
         for (name, value) in [("mach", self.mach), ("mass_drift", self.mass_drift)] {
             if let Some(value) = value {
@@ -372,18 +391,19 @@ impl Watched {
     }
 }
 
-/// The greatest length of a velocity of texels; infinite where one is no number.
+/// Returns the greatest length of a velocity per texel; infinite if a value is not a number.
 fn greatest_speed(velocity: &[f64]) -> f64 {
     let (u, v) = velocity.split_at(velocity.len() / 2);
     largest(&u.iter().zip(v).map(|(u, v)| u.hypot(*v)).collect::<Vec<_>>())
 }
 
-/// A method's name less the format that its texels have.
+/// Returns a method's name without the format of its texels.
 pub fn without_format(name: &str) -> &str {
     name.trim_end_matches("-16f").trim_end_matches("-rgba16f")
 }
 
-/// Puts a multigrid cycle a frame in place of Jacobi's iteration: for each pass of a pressure, and that of the divergence.
+/// Replaces Jacobi's iteration by one multigrid cycle per frame: for each pass of a pressure, and that of the
+/// divergence.
 fn solved_by_cycles(setup: Setup, n: u32, pressures: &'static [(&'static str, &'static str)]) -> Setup {
     setup.built(move |project: &mut Project| {
         project.groups.clear();
@@ -397,8 +417,8 @@ fn solved_by_cycles(setup: Setup, n: u32, pressures: &'static [(&'static str, &'
     })
 }
 
-/// The preset, whose unit of length is the height of the canvas and whose grid has half of the canvas's texels each
-/// way. The seconds of a unit of time are as few as the slider of the viscosity allows.
+/// Sets up the preset, whose unit of length is the height of the canvas and whose grid has half of the canvas's texels
+/// in each direction. The seconds per unit of time are as few as the slider of the viscosity allows.
 fn accurate(flow: Flow) -> Solver {
     let Flow { n, dt, viscosity } = flow;
     let side = f64::from(n);
@@ -416,11 +436,11 @@ fn accurate(flow: Flow) -> Solver {
         kind: Kind::Staggered,
         scale: side * seconds,
         stiffness: STIFFNESS,
-        begun: Begun::default(),
+        initial_passes: InitialPasses::default(),
     }
 }
 
-/// The preset with nothing that drives it. It has no viscosity; of one wave in the box its drag does the same.
+/// Sets up the preset without any forces. It has no viscosity; for one wave in the box its drag has the same effect.
 fn mips(flow: Flow) -> Solver {
     let Flow { n, dt, viscosity } = flow;
     let side = f64::from(n);
@@ -440,12 +460,12 @@ fn mips(flow: Flow) -> Solver {
         kind: Kind::Mips,
         scale: side * seconds,
         stiffness: STIFFNESS,
-        begun: Begun::default(),
+        initial_passes: InitialPasses::default(),
     }
 }
 
-/// D2Q9 in the order rest, axes, corners, less their weights, of a density less 1 and a velocity in texels a step
-/// (Qian, d'Humieres and Lallemand 1992).
+/// Returns D2Q9 in the order rest, axes, corners, minus their weights, for a density minus 1 and a velocity in texels
+/// per step (Qian, d'Humieres and Lallemand 1992).
 fn equilibrium(density: f64, u: f64, v: f64) -> [f64; 9] {
     const X: [f64; 9] = [0.0, 1.0, 0.0, -1.0, 0.0, 1.0, -1.0, -1.0, 1.0];
     const Y: [f64; 9] = [0.0, 0.0, 1.0, 0.0, -1.0, 1.0, 1.0, -1.0, -1.0];
@@ -457,7 +477,7 @@ fn equilibrium(density: f64, u: f64, v: f64) -> [f64; 9] {
     })
 }
 
-/// Density and momentum in texels a step, of the populations of each texel.
+/// Returns density and momentum in texels per step, from the populations of each texel.
 fn moments(running: &mut Running) -> Result<Vec<[f64; 3]>, LabError> {
     let (axes, corners, rest) = (running.read("axes")?, running.read("corners")?, running.read("rest")?);
     let of = |i: usize| {
@@ -472,14 +492,14 @@ fn density(running: &mut Running) -> Result<Vec<f64>, LabError> {
     Ok(moments(running)?.iter().map(|m| m[0]).collect())
 }
 
-/// Velocity of the populations, in texels for a unit of time.
+/// Returns the velocity of the populations, in texels per unit of time.
 fn lattice_velocity(running: &mut Running, dt: f64) -> Result<Vec<f64>, LabError> {
     let all = moments(running)?;
     Ok((1..3).flat_map(|c| all.iter().map(move |m| m[c] / m[0] / dt)).collect())
 }
 
-/// Root mean square of the divergence, in units of `speed` over a texel: of faces where those are what there is, else
-/// by central differences.
+/// Returns the root mean square of the divergence, in units of `speed` over a texel: of faces if the solver has those,
+/// otherwise by central differences.
 pub fn divergence(solver: &Solver, velocity: &[f64], speed: f64) -> f64 {
     let n = solver.flow.n as usize;
     let at = |c: usize, x: usize, y: usize| velocity[c * n * n + (y % n) * n + x % n];
@@ -495,7 +515,7 @@ pub fn divergence(solver: &Solver, velocity: &[f64], speed: f64) -> f64 {
     ((0..n * n).map(square).sum::<f64>() / (n * n) as f64).sqrt()
 }
 
-/// The largest component; infinite of what is no number.
+/// Returns the largest absolute component; infinite if a value is not a number.
 pub fn largest(velocity: &[f64]) -> f64 {
     velocity.iter().fold(0.0, |a: f64, b| if b.is_finite() { a.max(b.abs()) } else { f64::INFINITY })
 }

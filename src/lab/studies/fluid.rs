@@ -1,4 +1,4 @@
-//! A Taylor-Green vortex on a torus by every way to move a fluid that a fragment shader has.
+//! A Taylor-Green vortex on a torus, by every method of moving a fluid that a fragment shader can implement.
 
 use super::{
     flow::{Flow, STIFFNESS, Solver, divergence, largest, without_format},
@@ -49,7 +49,7 @@ const METHODS: &[Method] = &[
     Method { name: "mip-fluid-16f", title: "mip-fluid, 16 bits", settings: &[0.6], usual: 0.6 },
 ];
 
-/// A method whose texels are of 16 bits, at the usual step; the two with several show what others make of that.
+/// A method whose texels have 16 bits, at the usual step; the two with several steps show the effect for the others.
 const fn half(name: &'static str, title: &'static str) -> Method {
     Method { name, title, settings: &[0.15], usual: 0.15 }
 }
@@ -57,33 +57,33 @@ const fn half(name: &'static str, title: &'static str) -> Method {
 /// The grids of a quick run and a full one.
 const MAIN_GRIDS: [u32; 2] = [64, 128];
 
-/// Grid of the hard cases; and of those with a step so long that on a smaller one it is beyond the slider of the
-/// presets.
+/// The grid of the hard cases; and the one for those with a step so long that a smaller grid would exceed the presets'
+/// slider.
 const HARD_GRID: u32 = 32;
 const HARD_GRID_OF_LONG_STEPS: u32 = 64;
 const LONG_STEP: f64 = 1.2;
 
-/// Units of time of the hard cases: in rest, and from four times the speed.
+/// The duration of the hard cases: at rest, and from four times the speed.
 const REST_TIME: f64 = 90.0;
 const FAST_TIME: f64 = 54.0;
-/// For which a shear wave decays.
+/// The duration for the decay of a shear wave.
 const WAVE_TIME: f64 = 19.2;
 
-/// Says how the vortex begins.
+/// The initial state of the vortex.
 #[derive(Clone, Copy, Debug)]
 pub struct Begin {
     pub speed: f64,
-    /// Amplitude of noise in the velocity.
+    /// The amplitude of noise in the velocity.
     pub noise: f64,
     pub viscosity: f64,
 }
 
 impl Begin {
-    /// The beginning for the study's plot.
+    /// The initial state for the study's plot.
     pub const USUAL: Begin = Begin { speed: SPEED, noise: 0.0, viscosity: NU };
 }
 
-/// The project of a method that is another begun otherwise, and Guay's stiffness.
+/// Returns the project for a method that is a variant of another, and Guay's stiffness.
 fn base(name: &str) -> (&str, f64) {
     match name {
         "guay-balanced" => ("guay", STIFFNESS),
@@ -93,7 +93,7 @@ fn base(name: &str) -> (&str, f64) {
     }
 }
 
-/// A method at a step of `dt` with the vortex in it.
+/// Returns a method at a step of `dt` with the vortex in it.
 pub fn solver(name: &str, n: u32, dt: f64, begin: Begin) -> Solver {
     let flow = Flow { n, dt, viscosity: begin.viscosity };
     let (base, stiffness) = base(name);
@@ -120,13 +120,13 @@ fn is_preset(name: &str) -> bool {
     matches!(without_format(name), "fluid-accurate" | "mip-fluid")
 }
 
-/// Frames until the velocity has halved, and the time that is.
+/// Returns the number of frames until the velocity has halved, and that time.
 fn frames(solver: &Solver, n: u32) -> (u32, f64) {
     let k = TAU / f64::from(n);
     solver.frames(LN_2 / (2.0 * NU * k * k))
 }
 
-/// The velocity of the vortex where the solver has it, times `decay`.
+/// Returns the velocity of the vortex at the solver's places, times `decay`.
 fn exact(solver: &Solver, n: u32, decay: f64) -> Vec<f64> {
     if !solver.is_staggered() {
         return taylor_green(n as usize, SPEED, decay);
@@ -136,7 +136,7 @@ fn exact(solver: &Solver, n: u32, decay: f64) -> Vec<f64> {
     solver.sampled(|x, y| vortex(x, y).map(|u| SPEED * decay * u))
 }
 
-/// The largest velocity of noise of .001 in a fluid at rest without viscosity, after [`REST_TIME`].
+/// Returns the largest velocity of noise of .001 in a fluid at rest without viscosity, after [`REST_TIME`].
 fn at_rest(rig: &Rig, name: &str, n: u32, dt: f64) -> Result<f64, LabError> {
     let solver = solver(name, n, dt, Begin { speed: 0.0, noise: 0.001, viscosity: 0.0 });
     let mut running = rig.open(&solver.setup)?;
@@ -144,7 +144,7 @@ fn at_rest(rig: &Rig, name: &str, n: u32, dt: f64) -> Result<f64, LabError> {
     Ok(largest(&solver.velocity(&mut running)?))
 }
 
-/// The largest velocity within [`FAST_TIME`] from four times the speed.
+/// Returns the largest velocity within [`FAST_TIME`] from four times the speed.
 fn fastest(rig: &Rig, name: &str, n: u32, dt: f64) -> Result<f64, LabError> {
     let solver = solver(name, n, dt, Begin { speed: 4.0 * SPEED, ..Begin::USUAL });
     let mut running = rig.open(&solver.setup)?;
@@ -184,8 +184,8 @@ pub static STUDY: Study = Study {
     error: "of the velocity",
     methods: METHODS,
     grids: [[16, 32, MAIN_GRIDS[0]], [32, 64, MAIN_GRIDS[1]]],
-    // Too much energy is left where steps are short, as a viscosity of second differences falls short of the fluid's,
-    // and too little where they are long.
+    // Too much energy remains for short steps, as a viscosity by second differences is lower than the fluid's, and too
+    // little for long ones.
     signed: Some("energy_error"),
     race: Some(SpeedComparison {
         method: "fluid-accurate",

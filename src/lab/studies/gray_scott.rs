@@ -1,5 +1,5 @@
-//! Gray-Scott's reaction and diffusion: stencils, steps, formats, Euler against Strang's splitting and exponential time
-//! differencing, and the preset.
+//! Gray-Scott's reaction and diffusion: stencils, steps, formats, Euler compared with Strang splitting and exponential
+//! time differencing, and the preset.
 
 use super::{
     cycle,
@@ -46,11 +46,11 @@ const METHODS: &[Method] = &[
     },
 ];
 
-/// The preset's rates of diffusion are Pearson's: so many times those of the other methods.
+/// The preset's rates of diffusion are Pearson's: this multiple of those of the other methods.
 const FASTER: f64 = 0.209_715_2 / DIFFUSION[0];
 
-/// Returns the width of the strip on which growth is measured, and the waves across it: .52 and .54 radians a texel are close
-/// to what grows fastest. A transform has sides that are powers of two.
+/// Returns the width of the strip on which growth is measured, and the waves across it: .52 and .54 radians per texel
+/// are close to the fastest growth. The sides of a transform are powers of two.
 fn strip(name: &str) -> (u32, f64) {
     if name == "etd" { (128, 11.0) } else { (96, 8.0) }
 }
@@ -66,7 +66,7 @@ fn transformed(project: &mut Project, size: (u32, u32)) {
     let (passes, last) = fft::chain("back", &back, "step", TexelFormat::Rg32f);
     let field = cycle::insert(project, passes, "field");
     (field.source.text, field.channels) = (end.into(), cycle::channels(&[&last]));
-    // The waves of the terms are there before both passes that read them.
+    // The waves of the terms are drawn before both passes that read them.
     let (passes, waves) = fft::chain("there", &texts(Direction::There), "terms", TexelFormat::Rgba32f);
     let step = cycle::insert(project, passes, "step");
     step.channels = cycle::channels(&[&waves, "history"]);
@@ -81,7 +81,7 @@ fn transformed(project: &mut Project, size: (u32, u32)) {
 const LATE_GRID: u32 = 64;
 const LATE: f64 = 3000.0;
 
-/// Statistics of the reference then: on a torus, and within walls at the preset's rates.
+/// Statistics of the reference at that time: on a torus, and within walls at the preset's rates.
 static LATE_TORUS: LazyLock<Statistics> = LazyLock::new(|| late_reference(None));
 static LATE_WALLS: LazyLock<Statistics> = LazyLock::new(|| late_reference(Some(DIFFUSION.map(|d| FASTER * d))));
 
@@ -89,7 +89,7 @@ fn late_reference(walls: Option<[f64; 2]>) -> Statistics {
     Statistics::of(&known(LATE_GRID as usize, walls, LATE), LATE_GRID as usize)
 }
 
-/// The statistics of a method's developed pattern at a step of `dt`, and those of the reference.
+/// Returns the statistics of a method's developed pattern at a step of `dt`, and those of the reference.
 pub fn late(rig: &Rig, name: &str, dt: f64) -> Result<[Statistics; 2], LabError> {
     let (field, group) = parts(name);
     let (frames, steps) = frames_of((LATE / dt) as u32, 20);
@@ -111,17 +111,17 @@ fn is_preset(name: &str) -> bool {
     name.starts_with("reaction-diffusion")
 }
 
-/// The pass with the state, and the group of passes that make a step.
+/// Returns the pass with the state, and the group of passes that form a step.
 fn parts(name: &str) -> (&'static str, &'static str) {
     if is_preset(name) { ("a", "reaction") } else { ("field", "solver") }
 }
 
-/// A texel of the state: the preset keeps 1 - u.
+/// Returns a texel of the state: the preset stores 1 - u.
 fn texel(name: &str, u: f64, v: f64) -> [f32; 4] {
     if is_preset(name) { [(1.0 - u) as f32, v as f32, 0.0, 0.0] } else { [u as f32, v as f32, 0.0, 1.0] }
 }
 
-/// u and v of every texel.
+/// Returns u and v of every texel.
 fn state(running: &mut Running, name: &str) -> Result<[Vec<f64>; 2], LabError> {
     let field = running.read(parts(name).0)?;
     let first = field.component(0);
@@ -129,7 +129,7 @@ fn state(running: &mut Running, name: &str) -> Result<[Vec<f64>; 2], LabError> {
     Ok([u, field.component(1)])
 }
 
-/// A method's project at a step of `dt`, on any size.
+/// Returns a method's project at a step of `dt`, for any size.
 fn method(name: &str, size: (u32, u32), dt: f64) -> Setup {
     let storage = if name.ends_with("16f") { Storage::Half } else { Storage::AsWritten };
     let stencil = |points: u32| Setup::new("gray_scott_stencil", size).define("STENCIL", points);
@@ -143,7 +143,7 @@ fn method(name: &str, size: (u32, u32), dt: f64) -> Setup {
                 field.settings.format = TexelFormat::Rgba32f;
             }
         }),
-        // Of one recipe, and nobody sows.
+        // With a single recipe, and without seeding.
         name if is_preset(name) => Setup::new("reaction-diffusion", size)
             .wants(&["a"])
             .uniform("sway", 0.0)
@@ -156,12 +156,12 @@ fn method(name: &str, size: (u32, u32), dt: f64) -> Setup {
     setup.storage(storage).uniform("dt", dt)
 }
 
-/// Growth of the wave that grows almost fastest, for a unit of time: measured, of theory in steps of the method, and of
-/// the continuum. Begins with 1e-4 of the growing direction about the state of rest.
+/// Returns the growth of the wave that grows almost fastest, per unit of time: measured, of theory in steps of the
+/// method, and of the continuum. Starts with 1e-4 of the growing direction around the steady state.
 pub fn grown(rig: &Rig, name: &str, dt: f64) -> Result<(f64, f64, f64), LabError> {
     let (strip, waves) = strip(name);
     let q = TAU * waves / f64::from(strip);
-    // Where diffusion is faster a wave is as one that is as much shorter.
+    // With faster diffusion a wave behaves like a correspondingly shorter one.
     let faster = if is_preset(name) { FASTER } else { 1.0 };
     let ([u, v], (continuum, [du, dv])) = (rest(), growth(faster * q * q));
     let scale = 1e-4 / du.hypot(dv);
@@ -183,19 +183,19 @@ pub fn grown(rig: &Rig, name: &str, dt: f64) -> Result<(f64, f64, f64), LabError
         let along = |c: &[f64]| c.iter().enumerate().map(|(i, w)| w * wave(i % strip as usize)).sum::<f64>();
         Ok::<f64, LabError>(along(&u) * du + along(&v) * dv)
     };
-    // The other direction of the two dies out before.
+    // The other direction of the two decays before.
     let (first, last) = (amplitude(frames / 2)?, amplitude(frames - frames / 2)?);
     let span = f64::from((frames - frames / 2) * steps) * dt;
     let theory = (1.0 + dt * growth(faster * five_point(q)).0).ln() / dt;
     Ok(((last / first).ln() / span, theory, continuum))
 }
 
-/// Returns where u comes to rest in a sea without v: 1, unless a texel cannot hold what a step adds.
+/// Returns where u comes to rest on a background without v: 1, unless a texel cannot represent the increment of a step.
 pub fn stalled(rig: &Rig, storage: Storage, feed: f64) -> Result<f64, LabError> {
     fed(rig, if storage == Storage::Half { "five-point-rg16f" } else { "five-point" }, feed)
 }
 
-/// As [`stalled`], of a method.
+/// Does the same as [`stalled`], for a method.
 fn fed(rig: &Rig, name: &str, feed: f64) -> Result<f64, LabError> {
     let (field, group) = parts(name);
     let sea = vec![texel(name, 0.9, 0.0); 64];
@@ -253,7 +253,7 @@ fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
     let stall = fed(rig, &point.method, 0.037)?;
     let mut measured =
         Measured { norms: Norms::of(&v, &exact), frames_per_unit: f64::from(frames), ..Measured::default() };
-    // On the finest grid of a full run alone: the reference is 12,000 steps of a spectral method.
+    // Only on the finest grid of a full run: the reference takes 12,000 steps of a spectral method.
     if point.is_usual(METHODS) && point.grid == 128 {
         let [found, known] = late(rig, &point.method, point.setting)?;
         measured = measured

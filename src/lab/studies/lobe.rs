@@ -1,4 +1,4 @@
-//! Reflections of a rough metal by reads of a cubemap pass, against importance sampling in double precision.
+//! Reflections of a rough metal by reads of a cubemap pass, compared with importance sampling in double precision.
 
 use crate::{HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit, metrics::Norms, three_of};
 use std::f64::consts::TAU;
@@ -6,10 +6,10 @@ use std::f64::consts::TAU;
 /// The square of the roughness .4.
 const ALPHA: f64 = 0.16;
 
-/// Directions of the reference: with four times as many its values move by .00023 of their norm.
+/// The number of directions of the reference: with four times as many its values move by .00023 of their norm.
 const DIRECTIONS: usize = 16_384;
 
-/// A buffer reads the cubemap of the frame before.
+/// A buffer reads the cubemap of the previous frame.
 const FRAMES: u32 = 2;
 
 const COUNTS: &[f64] = &[4.0, 8.0, 16.0, 32.0, 64.0];
@@ -35,12 +35,12 @@ fn normalize(v: Vector) -> Vector {
     v.map(|c| c / length)
 }
 
-/// The sky of `assets/lab/lobe/cube_a.glsl`.
+/// Returns the sky of `assets/lab/lobe/cube_a.glsl`.
 fn sky(direction: Vector) -> f64 {
     0.4 + 0.3 * direction[1] + 8.0 * (400.0 * (dot(direction, normalize([0.4, 0.5, 0.75])) - 1.0)).exp()
 }
 
-/// Returns what the lobe about a normal reflects, by so many directions of Hammersley's points.
+/// Returns the reflection of the lobe around a normal, by a number of directions from Hammersley's points.
 fn reflected(normal: Vector, eye: Vector, directions: usize) -> f64 {
     let side = normalize(cross(normal, [0.0, 1.0, 0.0]));
     let up = cross(normal, side);
@@ -86,7 +86,7 @@ pub static STUDY: Study = Study {
     error: "of the light",
     methods: METHODS,
     grids: three_of([8, 16, 32, 64]),
-    // More texels ask about more normals.
+    // More texels have more normals.
     has_order: false,
     ..Study::of(setup, measure)
 };
@@ -118,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_reference_has_settled_and_sees_the_sun() {
+    fn the_reference_has_converged_and_includes_the_sun() {
         let (few, many) = (exact(4, DIRECTIONS), exact(4, 4 * DIRECTIONS));
         let moved = Norms::of(&few, &many);
         assert!(moved.linf < 1e-3 && moved.l2 < 4e-4, "{moved:?}");

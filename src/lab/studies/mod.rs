@@ -1,4 +1,4 @@
-//! The studies. A new one is a file here with its [`Study`], and its projects in `assets/lab`.
+//! The studies. A new study is a file here with its [`Study`], and its projects in `assets/lab`.
 
 mod advection;
 pub mod ao;
@@ -34,7 +34,7 @@ pub mod waves;
 use super::{LabError, Study};
 use eddy_project::{listed, nearest};
 
-/// Every study, in the order of the report.
+/// Returns every study, in the order of the report.
 pub fn all() -> Vec<&'static Study> {
     vec![
         &diffusion::STUDY,
@@ -64,7 +64,7 @@ pub fn all() -> Vec<&'static Study> {
     ]
 }
 
-/// The studies of these names; all for none.
+/// Returns the studies with these names; all if there are no names.
 pub fn named(names: &[String]) -> Result<Vec<&'static Study>, LabError> {
     if names.is_empty() {
         return Ok(all());
@@ -86,7 +86,7 @@ mod tests {
     use crate::Extent;
 
     #[test]
-    fn every_study_keeps_the_form() {
+    fn every_study_is_well_formed() {
         for study in all() {
             assert!(study.name.chars().all(|c| c.is_ascii_lowercase() || c == '-'), "{}", study.name);
             for extent in [Extent::Quick, Extent::Full] {
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slip_in_a_name_is_helped() {
+    fn misspelt_study_suggests_name() {
         let said = named(&["difusion".into()]).err().unwrap().to_string();
         assert!(said.contains("did you mean diffusion?") && said.contains("poisson"), "{said}");
         assert_eq!(named(&[]).unwrap().len(), all().len());

@@ -1,4 +1,4 @@
-//! Outlines by inverted hulls, against the region that the hull of an exact shape covers.
+//! Outlines by inverted hulls, compared with the region that the hull of an exact shape covers.
 
 use super::silhouettes::Found;
 use crate::{
@@ -8,7 +8,7 @@ use crate::{
 };
 use eddy_project::{Camera, MeshDraw, MeshSource, Project};
 
-/// Units of the scene.
+/// In units of the scene.
 const WIDTHS: &[f64] = &[0.02, 0.04, 0.08, 0.16];
 
 const METHODS: &[Method] = &[
@@ -20,12 +20,12 @@ const METHODS: &[Method] = &[
 const DISTANCE: f64 = 13.0;
 const PITCH: f64 = 20.0;
 const FOV: f64 = 30.0;
-/// The fade of a line with distance: whole up to the first, gone from the second.
+/// The fade of a line with distance: opaque up to the first, invisible from the second.
 const FADE: [f64; 2] = [4.0, 36.0];
 /// The preset fits its scene, 3 : 2, into a square.
 const FIT: f64 = 1.0 / 1.5;
 
-/// A mesh of the preset: which of its pages it is drawn with, and where and how it is turned (degrees about one axis).
+/// A mesh of the preset: the page with which it is drawn, its position and its rotation (degrees around one axis).
 struct MeshPlacement {
     page: usize,
     mesh: &'static str,
@@ -57,14 +57,14 @@ impl MeshPlacement {
         PlacedShape { shape, centre: self.at, axes: turned(self.turn[0], self.turn[1]) }
     }
 
-    /// The shape whose vertices have moved by the line's width.
+    /// Returns the shape whose vertices are moved by the line's width.
     fn hull(&self, method: &str, width: f64) -> PlacedShape {
         let t = ((length(along(eye(), self.at, -1.0)) - FADE[0]) / (FADE[1] - FADE[0])).clamp(0.0, 1.0);
         let w = width * (1.0 - t * t * (3.0 - 2.0 * t));
         self.placed(match self.shape {
             Shape::Sphere(r) => Shape::Sphere(r + w),
             Shape::Torus(ring, tube) => Shape::Torus(ring, tube + w),
-            // Along its faces' normals, or, at a corner, away from the middle.
+            // Along its faces' normals, or, at a corner, away from the centre.
             Shape::Cuboid(half) if method == "normals" => Shape::Cuboid(half.map(|h| h + w)),
             Shape::Cuboid(half) => Shape::Cuboid(half.map(|h| h + w / 3f64.sqrt())),
         })
@@ -80,7 +80,7 @@ fn eye() -> V {
     back().map(|x| x * DISTANCE)
 }
 
-/// Through the middle of a texel of a square picture.
+/// Returns the ray through the centre of a texel of a square picture.
 fn ray(n: usize, i: usize) -> V {
     let half = (0.5 * FOV).to_radians().tan() / FIT;
     let at = |k: usize| half * (2.0 * (k as f64 + 0.5) / n as f64 - 1.0);
@@ -88,7 +88,7 @@ fn ray(n: usize, i: usize) -> V {
     along([at(i % n), c * at(i / n), -s * at(i / n)], back(), -1.0)
 }
 
-/// Returns which texels are a line: those of which a hull's far side is seen, of each thing.
+/// Returns which texels are a line: those in which a hull's far side is visible, for each thing.
 fn exact(n: usize, method: &str, width: f64) -> [Vec<bool>; 3] {
     let shapes: Vec<PlacedShape> = THINGS.iter().map(|t| t.placed(t.shape)).collect();
     let hulls = THINGS.each_ref().map(|t| t.hull(method, width));
@@ -144,7 +144,7 @@ fn staged(project: &mut Project, method: &str, width: f64) {
         rotation: thing.turn,
         ..draw.clone()
     };
-    // The mesh and its line; the third draw of each is for depth alone.
+    // The mesh and its line; the third draw of each is only for depth.
     geometry.draws =
         THINGS.iter().flat_map(|t| draws[3 * t.page..3 * t.page + 2].iter().map(move |d| place(t, d))).collect();
     geometry.drop_unused_stages();
@@ -155,15 +155,15 @@ fn setup(name: &str, n: u32, width: f64) -> Setup {
     Setup::new("toon-outline", (n, n)).wants(&["scene"]).built(move |project| staged(project, &method, width))
 }
 
-/// Returns what a method's lines come to: all of them, each thing's, and the sphere's width over the exact one, by
-/// areas.
+/// Returns the result for a method's lines: all of them, each thing's, and the sphere's width relative to the exact
+/// one, by areas.
 pub fn judged(rig: &Rig, name: &str, n: u32, width: f64) -> Result<(Found, [Found; 3], f64), LabError> {
     let field = rig.after(&setup(name, n, width), 1, "scene")?;
     let found: Vec<bool> = field.texels().iter().map(|t| t[0] == 0.0 && t[1] == 1.0 && t[2] == 0.0).collect();
     let side = field.width();
     let regions = exact(side, name, width);
     let whole: Vec<bool> = (0..found.len()).map(|i| regions.iter().any(|r| r[i])).collect();
-    // A texel belongs to the thing whose middle is nearest across the picture.
+    // A texel belongs to the thing whose centre is nearest across the picture.
     let middles = THINGS.map(|t| {
         let q = along(t.at, eye(), -1.0);
         q[0] / -dot(q, back())
@@ -208,8 +208,8 @@ pub static STUDY: Study = Study {
 
 fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
     let (all, each, width) = judged(rig, &point.method, point.grid, point.setting)?;
-    // Texels in a unit, about, at the sphere's distance in the picture, which is drawn twice as large as the
-    // canvas.
+    // The approximate number of texels per unit, at the sphere's distance in the picture, which is drawn twice as large
+    // as the canvas.
     let texels = f64::from(2 * point.grid) * FIT / (2.0 * (0.5 * FOV).to_radians().tan() * DISTANCE) * point.setting;
     let mut measured = Measured { norms: all.norms(), frames_per_unit: 1.0, ..Measured::default() }
         .value("precision", all.precision)

@@ -1,4 +1,4 @@
-//! Particles in flight and in orbit: the order of their time steps, and what becomes of their energy.
+//! Particles in flight and in orbit: the order of their time steps, and the drift of their energy.
 
 use crate::{
     Field, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
@@ -8,7 +8,7 @@ use crate::{
 };
 use std::f64::consts::TAU;
 
-/// Steps a second: 60 is what people see.
+/// Steps per second: 60 is the usual frame rate.
 const RATES: &[f64] = &[15.0, 30.0, 60.0, 120.0, 240.0];
 
 const METHODS: &[Method] = &[
@@ -19,28 +19,29 @@ const METHODS: &[Method] = &[
     Method { name: "runge-kutta", title: "Runge-Kutta, fourth order", settings: RATES, usual: 60.0 },
 ];
 
-/// Seconds of the flight: a whole number of steps of every setting, and of half of it.
+/// The seconds of the flight: an integer number of steps of every setting, and of half of it.
 const FLIGHT: f64 = 0.8;
-/// The preset's own.
+/// The preset's own value.
 const GRAVITY: f64 = 0.45;
 const DRAG: f64 = 0.15;
 const FLOOR: f64 = -0.36;
-/// Texels of the preset's buffers a side.
+/// Texels of the preset's buffers per side.
 const SIDE: u32 = 32;
 const SPARK: f64 = 1.0;
 
 const ECCENTRICITY: f64 = 0.5;
-/// Steps on an orbit, and in one turn of it where the setting is 60.
+/// The number of steps on an orbit, and in one revolution at the setting 60.
 const ORBIT_STEPS: u32 = 10_000;
 const STEPS_A_TURN: f64 = 200.0;
-/// Energy that may be gained or lost on the orbit, as a part of what there was.
+/// The part of the energy that may be gained or lost on the orbit.
 const ENERGY_BOUND: f64 = 0.01;
 
 fn particle(texel: &[f32; 4]) -> Particle {
     texel.map(f64::from)
 }
 
-/// Numbers that have no pattern, from 0 to 1: the fractional parts of multiples of the golden ratio and of its square.
+/// Returns numbers without a pattern, from 0 to 1: the fractional parts of multiples of the golden ratio and of its
+/// square.
 fn scattered(n: u32) -> [f64; 2] {
     [0.618_033_988_749_894_9, 0.754_877_666_246_692_7].map(|by| (f64::from(n) * by).fract())
 }
@@ -53,11 +54,15 @@ fn peer(name: &str, side: u32, scene: &str, dt: f64) -> Setup {
         _ => "RUNGE_KUTTA",
     };
     let setup = Setup::new("particle_steps", (side, side)).define("METHOD", method).define("SCENE", scene);
-    setup.uniform("dt", dt).uniform("gravity", GRAVITY).uniform("drag", DRAG).state("field", &begun(side, scene))
+    setup
+        .uniform("dt", dt)
+        .uniform("gravity", GRAVITY)
+        .uniform("drag", DRAG)
+        .state("field", &initial_states(side, scene))
 }
 
-/// Returns where the peers' particles begin.
-fn begun(side: u32, scene: &str) -> Vec<[f32; 4]> {
+/// Returns the initial states of the peers' particles.
+fn initial_states(side: u32, scene: &str) -> Vec<[f32; 4]> {
     let start = |n| {
         let [a, b] = scattered(n);
         if scene == "ORBIT" {
@@ -76,14 +81,14 @@ fn flying(name: &str, side: u32, dt: f64) -> Setup {
     peer(name, side, "FLIGHT", dt)
 }
 
-/// Returns how far the particles have gone, and how far they should have: all of x, then all of y.
+/// Returns the actual and the expected displacements of the particles: all of x, then all of y.
 fn displaced(starts: &[Particle], ends: &[Particle]) -> (Vec<f64>, Vec<f64>) {
     let exact: Vec<Particle> = starts.iter().map(|q| flight(*q, GRAVITY, DRAG, FLIGHT)).collect();
     let along = |of: &[Particle]| (0..2).flat_map(|i| starts.iter().zip(of).map(move |(a, b)| b[i] - a[i])).collect();
     (along(ends), along(&exact))
 }
 
-/// The particles of the preset that fly all the time: sparks that neither die nor meet the floor.
+/// Returns whether a particle of the preset flies all the time: a spark that neither dies nor hits the floor.
 fn flies(start: Particle, life: Particle) -> bool {
     let [age, lifetime, kind, _] = life;
     let end = flight(start, GRAVITY, DRAG, FLIGHT);
@@ -91,13 +96,13 @@ fn flies(start: Particle, life: Particle) -> bool {
     kind == SPARK && age + FLIGHT < lifetime - 0.2 && is_free
 }
 
-/// Error of the place after the flight.
+/// Returns the error of the position after the flight.
 pub fn flown(rig: &Rig, name: &str, side: u32, dt: f64) -> Result<Norms, LabError> {
     let steps = (FLIGHT / dt).round() as u32;
     let all = |field: &Field| field.texels().iter().map(particle).collect::<Vec<_>>();
     let (starts, ends): (Vec<Particle>, Vec<Particle>) = if name == "preset" {
         let mut running = rig.open(&flying(name, side, dt))?;
-        // The first frame is everybody's birth.
+        // All particles are created in the first frame.
         running.frames(1)?;
         let (starts, lives) = (all(&running.read("motion")?), all(&running.read("life")?));
         running.frames(steps)?;
@@ -107,14 +112,14 @@ pub fn flown(rig: &Rig, name: &str, side: u32, dt: f64) -> Result<Norms, LabErro
     } else {
         let (frames, steps) = frames_of(steps, 16);
         let after = rig.after(&flying(name, side, dt).steps("solver", steps), frames, "field")?;
-        (begun(side, "FLIGHT").iter().map(particle).collect(), all(&after))
+        (initial_states(side, "FLIGHT").iter().map(particle).collect(), all(&after))
     };
     let (measured, exact) = displaced(&starts, &ends);
     Ok(Norms::of(&measured, &exact))
 }
 
-/// Returns what became of the energy in 10,000 steps on orbits, as a part of what there was; the mean of particles that
-/// are evenly spread in time, so that what an orbit takes and gives back is not counted.
+/// Returns the relative change of the energy in 10,000 steps on orbits; the mean of particles that are evenly spread in
+/// time, so that periodic changes within an orbit cancel.
 pub fn energy_drift(rig: &Rig, name: &str, side: u32, dt: f64) -> Result<f64, LabError> {
     let (frames, steps) = frames_of(ORBIT_STEPS, 100);
     let setup = peer(name, side, "ORBIT", dt * 60.0 * TAU / STEPS_A_TURN).steps("solver", steps);
@@ -123,7 +128,7 @@ pub fn energy_drift(rig: &Rig, name: &str, side: u32, dt: f64) -> Result<f64, La
     Ok(mean(&energies) / -0.5 - 1.0)
 }
 
-/// The deepest fall below the floor and the greatest speed of the preset's particles in 600 frames.
+/// Returns the deepest fall below the floor and the greatest speed of the preset's particles in 600 frames.
 fn bounds(rig: &Rig, side: u32, dt: f64) -> Result<[f64; 2], LabError> {
     let mut running = rig.open(&flying("preset", side, dt))?;
     let mut worst = [0.0f64; 2];
@@ -151,7 +156,7 @@ pub static STUDY: Study = Study {
     error: "of the way gone",
     methods: METHODS,
     grids: [[8, 16, SIDE]; 2],
-    // A larger grid is more particles.
+    // A larger grid has more particles.
     has_order: false,
     ..Study::of(|point| flying(&point.method, point.grid, 1.0 / point.setting), measure)
 };

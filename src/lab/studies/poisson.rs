@@ -1,5 +1,5 @@
-//! Poisson's equation on a torus: what sweeps, sums over mip levels, Krylov spaces, multigrid and a Fourier transform are
-//! worth.
+//! Poisson's equation on a torus: a comparison of sweeps, sums over mip levels, Krylov spaces, multigrid and a Fourier
+//! transform.
 
 use super::{
     conjugate_gradients,
@@ -16,7 +16,7 @@ use crate::{
 };
 use std::f64::consts::PI;
 
-/// Iterations of methods that gather what an optimal polynomial can.
+/// Iterations of methods that gain as much as an optimal polynomial.
 const ITERATIONS: &[f64] = &[25.0, 50.0, 100.0, 150.0, 200.0, 300.0, 400.0, 600.0];
 const CYCLES: &[f64] = &[1.0, 2.0, 3.0, 4.0, 5.0];
 
@@ -38,7 +38,7 @@ const METHODS: &[Method] = &[
     Method { name: "fft", title: "FFT", settings: &[1.0], usual: 1.0 },
 ];
 
-/// A method's project that begins with p = 0, and the frames of so many sweeps or cycles.
+/// Returns a method's project that starts with p = 0, and the frames for a number of sweeps or cycles.
 pub fn solver(method: &str, n: u32, f: &[f64], count: u32) -> (Setup, u32) {
     let size = (n, n);
     let texels = |of: &dyn Fn(f32) -> [f32; 4]| f.iter().map(|&f| of(f as f32)).collect::<Vec<_>>();
@@ -83,8 +83,8 @@ pub fn solver(method: &str, n: u32, f: &[f64], count: u32) -> (Setup, u32) {
     }
 }
 
-/// p of mean 0 after so many sweeps, iterations or cycles. The mip sum, whose one weight is arbitrary, is
-/// multiplied so that it comes closest to `exact`.
+/// Returns p of mean 0 after a number of sweeps, iterations or cycles. The mip sum, whose only weight is arbitrary, is
+/// scaled to be as close as possible to `exact`.
 pub fn solved(rig: &Rig, method: &str, n: u32, f: &[f64], count: u32, exact: &[f64]) -> Result<Vec<f64>, LabError> {
     let (setup, frames) = solver(method, n, f, count);
     let p = rig.after(&setup, frames, "field")?.component(0);
@@ -112,7 +112,7 @@ pub static STUDY: Study = Study {
     error: "of p",
     methods: METHODS,
     grids: three_of([32, 64, 128, 256]),
-    // The equation is solved as it stands on a grid.
+    // The discrete equation on each grid is solved.
     has_order: false,
     ..Study::of(setup, measure)
 };

@@ -1,4 +1,4 @@
-//! Simulations stored in 16 bits against themselves in 32.
+//! Simulations stored in 16 bits, compared with themselves in 32.
 
 use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
@@ -7,7 +7,7 @@ use crate::{
 };
 use eddy_engine::FrameInputs;
 
-/// Bits of a component.
+/// Bits per component.
 const BITS: &[f64] = &[16.0, 32.0];
 
 const fn of(name: &'static str) -> Method {

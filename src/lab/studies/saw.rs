@@ -1,4 +1,4 @@
-//! Oscillators of a sound pass: how much of a sawtooth is no harmonic of it.
+//! Oscillators of a sound pass: the inharmonic part of a sawtooth.
 
 use crate::{HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit, metrics::Norms, three_of};
 use std::f64::consts::TAU;
@@ -15,13 +15,14 @@ const METHODS: &[Method] = &[
     Method { name: "additive", title: "a sum of harmonics", settings: &[0.25, 0.5, 1.0], usual: 1.0 },
 ];
 
-/// Periods in a field: 2,480 Hz in 65,536 samples at 44,100 Hz. A prime, so that what aliases meets no harmonic.
+/// Returns the periods in a field: 2,480 Hz in 65,536 samples at 44,100 Hz. A prime, so that aliases do not coincide
+/// with harmonics.
 fn periods(samples: usize) -> usize {
     let wanted = samples * 2480 / 44_100;
     (0..=wanted).rev().map(|n| n.max(2)).find(|n| (2..*n).take_while(|d| d * d <= *n).all(|d| n % d != 0)).unwrap_or(2)
 }
 
-/// The part of a signal of so many periods that consists of their harmonics, each by its own sums.
+/// Returns the part of a signal with this number of periods that consists of their harmonics, each by its own sums.
 fn harmonic_part(signal: &[f64], periods: usize) -> Vec<f64> {
     let n = signal.len();
     let mut part = vec![signal.iter().sum::<f64>() / n as f64; n];
@@ -41,7 +42,7 @@ fn harmonic_part(signal: &[f64], periods: usize) -> Vec<f64> {
     part
 }
 
-/// Returns how loud a harmonic is, over what a sawtooth has of it.
+/// Returns the loudness of a harmonic, relative to that of a sawtooth.
 fn loudness(signal: &[f64], bin: usize, harmonic: usize) -> f64 {
     let n = signal.len();
     let (mut sin_sum, mut cos_sum) = (0.0, 0.0);
@@ -96,7 +97,7 @@ mod tests {
 
     /// A sum of harmonics has no other part, and a tone between them has nothing else.
     #[test]
-    fn parts_are_told_apart() {
+    fn harmonic_and_other_parts_are_separated() {
         let (n, periods) = (1024usize, 37usize);
         let tone = |bin: usize| move |i: usize| (TAU * (i * bin % n) as f64 / n as f64).sin();
         let own: Vec<f64> = (0..n).map(|i| tone(periods)(i) + 0.3 * tone(5 * periods)(i)).collect();

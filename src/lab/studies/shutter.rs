@@ -1,4 +1,4 @@
-//! Several moments of a frame, as `eddy render --shutter` takes them, against the mean over the time of the open shutter.
+//! Several moments of a frame, as by `eddy render --shutter`, compared with the mean over the exposure time.
 
 use super::supersampling::{quarter, rms};
 use crate::{
@@ -31,25 +31,25 @@ pub struct Errors {
     pub norms: Norms,
     /// The root mean squares in the pictures of a disc, a bar, a soft spot and a spark.
     pub rms: [f64; 4],
-    /// The distance of the soft spot's trail from where it should be, along its way, in pixels.
+    /// The distance of the soft spot's trail from its exact position, along its path, in pixels.
     pub shift: f64,
-    /// The part of the spark's way, of the pixels that are lit for at least half as long as the most, that stays dark.
+    /// The dark part of the spark's path, among the pixels that are lit for at least half as long as the maximum.
     pub gaps: f64,
 }
 
-/// The length of the way of disc and spot on a canvas, in pixels.
+/// Returns the length of the path of disc and spot on a canvas, in pixels.
 pub fn way_length(n: u32) -> f64 {
     let (from, to) = exposure::way(f64::from(n / 2));
     (to[0] - from[0]).hypot(to[1] - from[1])
 }
 
-/// Draws a method and compares it.
+/// Draws a method and compares it with the exact pictures.
 pub fn errors(rig: &Rig, method: &str, parts: u32, n: u32) -> Result<Errors, LabError> {
     let drawn = rig.after(&setup(method, parts, n), 1, "field")?.component(0);
     Ok(compared(&drawn, n as usize))
 }
 
-/// The centroid of a picture of side h along the way, in pixels.
+/// Returns the centroid of a picture of side h along the path, in pixels.
 fn along_the_way(values: &[f64], h: usize) -> f64 {
     let (from, to) = exposure::way(h as f64);
     let way = [to[0] - from[0], to[1] - from[1]];
@@ -89,7 +89,7 @@ pub static STUDY: Study = Study {
     error: "of the mean over the time",
     methods: METHODS,
     grids: three_of([32, 64, 128, 256]),
-    // Things go further, in pixels, on a larger canvas.
+    // Things move farther, in pixels, on a larger canvas.
     has_order: false,
     ..Study::of(|point| setup(&point.method, point.setting as u32, point.grid), measure)
 };
@@ -112,18 +112,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_wrong_picture_is_told() {
+    fn wrong_pictures_are_detected() {
         let n = 64;
         let truth = exposure::picture(n);
         let none = compared(&truth, n);
         assert!(none.norms.l2 == 0.0 && none.rms == [0.0; 4] && none.shift == 0.0 && none.gaps == 0.0);
-        // Everything a pixel to the left, and every second column of the spark's dark.
+        // Everything a pixel to the left, and every second column of the spark dark.
         let wrong = |i: usize| {
             if i % n > n / 2 && i / n >= n / 2 && i.is_multiple_of(2) { 0.0 } else { truth[(i + 1) % (n * n)] }
         };
         let found = compared(&(0..n * n).map(wrong).collect::<Vec<_>>(), n);
         assert!((0.3..0.7).contains(&found.gaps), "{found:?}");
-        // A step of one column is cos 21.8 degrees along the way.
+        // A step of one column is cos 21.8 degrees along the path.
         assert!((found.shift + 0.928).abs() < 0.02, "{found:?}");
     }
 }

@@ -1,8 +1,8 @@
-//! Lines found in a picture against the lines there are.
+//! Detected lines compared with the exact ones.
 
 use crate::metrics::Norms;
 
-/// Says how many found texels are right, and how much of what there is was found, each from 0 to 1.
+/// The precision and the recall of a detection, each from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
     pub precision: f64,
@@ -10,27 +10,27 @@ pub struct Found {
 }
 
 impl Found {
-    /// The harmonic mean of both: 1 if all is found and nothing else.
+    /// Returns the harmonic mean of both: 1 if everything is detected and nothing else.
     pub fn f1(self) -> f64 {
         let sum = self.precision + self.recall;
         if sum > 0.0 { 2.0 * self.precision * self.recall / sum } else { 0.0 }
     }
 
-    /// As an error: L1 and L2 are 1 - F1, Linf is the larger of 1 - precision and 1 - recall.
+    /// Returns it as an error: L1 and L2 are 1 - F1, Linf is the larger of 1 - precision and 1 - recall.
     pub fn norms(self) -> Norms {
         let worst = 1.0 - self.precision.min(self.recall);
         Norms { l1: 1.0 - self.f1(), l2: 1.0 - self.f1(), linf: worst }
     }
 
-    /// Compares regions by the texels that are in the one found and in the exact one.
+    /// Compares regions by the texels in the detected and in the exact one.
     pub fn of_regions(found: &[bool], exact: &[bool]) -> Found {
         let both = found.iter().zip(exact).filter(|(a, b)| **a && **b).count() as f64;
         let count = |of: &[bool]| of.iter().filter(|x| **x).count() as f64;
         Found { precision: part(both, count(found)), recall: part(both, count(exact)) }
     }
 
-    /// Compares lines: texels found, and points of the exact lines in texels; `reach` texels may lie between. What is
-    /// within `border` texels of the picture's end is left out.
+    /// Compares lines: detected texels, and points of the exact lines in texels, which may be up to `reach` texels
+    /// apart. Everything within `border` texels of the picture's edge is ignored.
     pub fn of_lines(found: &[bool], width: usize, lines: &[[f64; 2]], reach: f64, border: usize) -> Found {
         let height = found.len() / width;
         let is_inside = |x: f64, y: f64| {
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_missed_and_what_is_too_much_are_told_apart() {
+    fn precision_and_recall_are_separate() {
         // A line up the middle of 20 x 20, at x = 10.
         let lines: Vec<[f64; 2]> = (0..80).map(|i| [10.0, f64::from(i) / 4.0]).collect();
         let of = |is: &dyn Fn(usize, usize) -> bool| {

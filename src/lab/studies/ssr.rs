@@ -1,4 +1,4 @@
-//! Reflections by marching through the picture: how far from the exactly reflected ray's end they look.
+//! Screen-space reflections: the distance between the reflected place and the end of the exactly reflected ray.
 
 use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
@@ -10,10 +10,10 @@ use crate::{
     three_of,
 };
 
-/// Says how far a reflected ray goes, in units of the scene.
+/// The length of a reflected ray, in units of the scene.
 const REACH: f64 = 7.0;
 
-/// A hit that the preset believes in by less than this is as good as none.
+/// A hit with a confidence below this in the preset counts as none.
 const BELIEVED: f64 = 0.5;
 
 const STRIDES: &[f64] = &[8.0, 16.0, 24.0, 48.0, 128.0];
@@ -35,28 +35,28 @@ fn setup(method: &str, strides: f64, size: (u32, u32)) -> Setup {
     setup.uniform("strides", strides)
 }
 
-/// Says where a table's pixel must look, and where it does.
+/// The expected and the actual reflection of a table's pixel.
 #[derive(Clone, Copy, Debug)]
 struct Reflection {
-    /// The place of the exact ray's end, in pixels; `None` where it meets nothing or what the camera does not see.
+    /// The end of the exact ray, in pixels; `None` if it hits nothing, or a place that the camera does not see.
     exact: Option<[f64; 2]>,
     found: Option<[f64; 2]>,
 }
 
-/// Says how well reflections are found.
+/// The quality of the reflections.
 #[derive(Clone, Debug)]
 pub struct Hits {
-    /// Distances from the exact place in pixels, from the least.
+    /// Distances from the exact place in pixels, in increasing order.
     pub off: Vec<f64>,
-    /// Pixels whose reflection the camera sees, and how many of those found one.
+    /// The number of pixels whose reflection is visible to the camera, and how many of them have one.
     pub wanted: usize,
-    /// Pixels that can have no reflection, and how many of those show one.
+    /// The number of pixels that cannot have a reflection, and how many of them show one.
     pub empty: usize,
     pub wrong: usize,
 }
 
 impl Hits {
-    /// The distance that a part of all is within.
+    /// Returns the distance that a share of all is within.
     pub fn within(&self, part: f64) -> f64 {
         let last = self.off.len().saturating_sub(1);
         self.off.get((part * last as f64).round() as usize).copied().unwrap_or(f64::INFINITY)
@@ -89,7 +89,7 @@ impl Hits {
     }
 }
 
-/// Returns where the ray that a table's pixel mirrors ends, if the camera sees that.
+/// Returns the end of the ray that a table's pixel reflects, if it is visible to the camera.
 fn mirrored(view: &View, pixel: [f64; 2]) -> Option<Option<[f64; 2]>> {
     let ray = view.ray(pixel);
     let table = add(view.eye, ray, first(view.eye, ray, FAR)?);
@@ -104,7 +104,7 @@ fn mirrored(view: &View, pixel: [f64; 2]) -> Option<Option<[f64; 2]>> {
 pub fn hits(rig: &Rig, method: &str, strides: f64, size: (u32, u32)) -> Result<Hits, LabError> {
     let field = rig.after(&setup(method, strides, size), 1, "d")?;
     let view = View::new(size.0, size.1);
-    // Some 6,000 of a picture's pixels, in all phases of the march's dither.
+    // About 6,000 of a picture's pixels, in all phases of the march's dither.
     let step = ((f64::from(size.0) * f64::from(size.1) / 6000.0).sqrt() as u32).max(1) | 1;
     let spots: Vec<(u32, u32)> = (0..size.1)
         .step_by(step as usize)
@@ -134,7 +134,7 @@ pub static STUDY: Study = Study {
     error: "of the place, over the picture's height",
     methods: METHODS,
     grids: three_of([80, 160, 320, 640]),
-    // Steps are a part of the ray, whatever the grid.
+    // Steps are a part of the ray on every grid.
     has_order: false,
     ..Study::of(|point| setup(&point.method, point.setting, (point.grid, point.grid)), measure)
 };
@@ -162,7 +162,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn misses_and_inventions_are_counted() {
+    fn missing_and_false_reflections_are_counted() {
         let at = |x: f64| Some([x, 0.0]);
         let all = [(at(1.0), at(1.5)), (at(1.0), at(5.0)), (at(1.0), None), (None, at(2.0)), (None, None)];
         let hits = Hits::of(&all.map(|(exact, found)| Reflection { exact, found }));
@@ -174,7 +174,7 @@ mod tests {
     #[test]
     fn the_balls_mirror_image_is_below_it() {
         let view = View::new(320, 180);
-        // The ball's front, and the place on the table where a ray comes down to be mirrored towards it.
+        // The ball's front, and the place on the table from where a ray is reflected towards it.
         let (mut found, mut higher) = (0, 0);
         for (x, y) in (0..180).step_by(4).flat_map(|y| (0..320).step_by(4).map(move |x| (x, y))) {
             let pixel = [f64::from(x) + 0.5, f64::from(y) + 0.5];

@@ -1,12 +1,12 @@
-//! Several samples a pixel, as `eddy render --supersample` takes them, and filters that smooth the edges of one sample,
-//! against the mean over the pixel's area.
+//! Several samples per pixel, as by `eddy render --supersample`, and filters that smooth the edges of one sample,
+//! compared with the mean over the pixel's area.
 
 use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit, metrics::Norms, reference::coverage, three_of,
 };
 
 const SIDES: &[f64] = &[1.0, 2.0, 3.0, 4.0, 6.0, 8.0];
-/// Pixels that a filter follows an edge for.
+/// The number of pixels along which a filter follows an edge.
 const REACHES: &[f64] = &[4.0, 8.0, 16.0, 32.0, 64.0];
 
 const METHODS: &[Method] = &[
@@ -31,10 +31,10 @@ void mainImage(out vec4 source, in vec2 fragCoord) {
 }
 ";
 
-/// The four pictures, and what they show.
+/// The four pictures, and their content.
 const PARTS: [&str; 4] = ["edges", "lines", "chessboard", "zone_plate"];
 
-/// A canvas of n x n pixels by a method with its setting.
+/// Returns a canvas of n x n pixels by a method with its setting.
 pub fn setup(method: &str, setting: u32, n: u32) -> Setup {
     let filter = match method {
         "fxaa" => "FXAA",
@@ -45,7 +45,7 @@ pub fn setup(method: &str, setting: u32, n: u32) -> Setup {
     setup.define("METHOD", filter).define("REACH", setting).restless()
 }
 
-/// Side x side samples a pixel. `zoom` texels of the canvas are one of the scene's.
+/// Returns side x side samples per pixel. `zoom` texels of the canvas correspond to one of the scene.
 pub fn samples(method: &str, side: u32, n: u32, zoom: u32) -> Setup {
     let name = match method {
         "grid" => "GRID",
@@ -57,33 +57,33 @@ pub fn samples(method: &str, side: u32, n: u32, zoom: u32) -> Setup {
     setup.define("ZOOM", format!("{zoom}.0")).restless()
 }
 
-/// The values of one of four pictures that lie in a square of n x n, in their order.
+/// Returns the values of one of the four pictures in a square of n x n, in order.
 pub(super) fn quarter(values: &[f64], n: usize, part: usize) -> Vec<f64> {
     let h = n / 2;
     let first = (part / 2 * n + part % 2) * h;
     (0..h * h).map(|i| values[first + i / h * n + i % h]).collect()
 }
 
-/// The root of the mean square of differences.
+/// Returns the root mean square of differences.
 pub(super) fn rms(values: &[f64], truth: &[f64]) -> f64 {
     (values.iter().zip(truth).map(|(v, t)| (v - t) * (v - t)).sum::<f64>() / values.len() as f64).sqrt()
 }
 
-/// The errors of a method, of white over black.
+/// The errors of a method, relative to white over black.
 #[derive(Clone, Debug)]
 pub struct Errors {
     pub norms: Norms,
     /// The root mean squares in the pictures of edges, lines, the chessboard and the zone plate.
     pub rms: [f64; 4],
-    /// The light that the thin lines have more than they should, as a part of theirs.
+    /// The excess light of the thin lines, as a part of theirs.
     pub lines_gain: f64,
     /// The largest error at the edges of squares.
     pub worst_edge: f64,
-    /// The root mean square in the rows below the horizon, where a pixel has a square of the chessboard or more.
+    /// The root mean square in the rows below the horizon, where a pixel contains a square of the chessboard or more.
     pub horizon: f64,
 }
 
-/// Draws a method and compares it.
+/// Draws a method and compares it with the exact pictures.
 pub fn errors(rig: &Rig, method: &str, setting: u32, n: u32) -> Result<Errors, LabError> {
     let drawn = rig.after(&setup(method, setting, n), 1, "field")?.component(0);
     Ok(compared(&drawn, n as usize))
@@ -100,13 +100,13 @@ fn compared(drawn: &[f64], n: usize) -> Errors {
     let light = |values: &[f64]| values.iter().sum::<f64>();
     // A square is 1/3 of the distance below the horizon wide, and d²/3h high.
     let rows = ((3.0 * (n / 2) as f64).sqrt() as usize).min(n / 4);
-    let begin = board.len() - rows * (n / 2);
+    let first = board.len() - rows * (n / 2);
     Errors {
         norms: Norms::of(drawn, &truth),
         rms: [0, 1, 2, 3].map(rms_of),
         lines_gain: light(&lines) / light(&true_lines) - 1.0,
         worst_edge: edges.iter().zip(&true_edges).map(|(v, t)| (v - t).abs()).fold(0.0, f64::max),
-        horizon: rms(&board[begin..], &true_board[begin..]),
+        horizon: rms(&board[first..], &true_board[first..]),
     }
 }
 
@@ -147,12 +147,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_wrong_picture_is_told() {
+    fn wrong_pictures_are_detected() {
         let n = 32;
         let truth = coverage::picture(n);
         let none = compared(&truth, n);
         assert!(none.norms.l2 == 0.0 && none.rms == [0.0; 4] && none.worst_edge == 0.0 && none.horizon == 0.0);
-        // Lines that are lost, and a horizon of moiré.
+        // Missing lines, and a horizon of moiré.
         let wrong = |i: usize| match (i % n < n / 2, i / n < n / 2) {
             (false, true) => 0.0,
             (true, false) if i / n == n - 1 => (i % 2) as f64,

@@ -1,5 +1,5 @@
-//! Temporal anti-aliasing against plain supersampling: how much of a resting picture it resolves, what a moving thing
-//! leaves behind, and how much it flickers.
+//! Temporal anti-aliasing compared with plain supersampling: its resolution of a still picture, the ghosts of a moving
+//! thing, and its flicker.
 
 use crate::{
     HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit, flip,
@@ -12,11 +12,11 @@ use crate::{
 };
 use std::sync::LazyLock;
 
-/// Frames until the picture is looked at: four rounds of the jitter.
+/// The number of frames until the picture is measured: four rounds of the jitter.
 const REST: u32 = 64;
-/// The frame of the moving scene that is looked at.
+/// The frame of the moving scene that is measured.
 const NOW: u32 = 40;
-/// Frames of a round of the jitter.
+/// The frames in a round of the jitter.
 const ROUND: u32 = 16;
 
 /// The star at rest, and with the disc in each frame from [`NOW`] on for a round. Every point is compared with these.
@@ -29,7 +29,7 @@ fn passing(speed: f64) -> Vec<Picture> {
     on_all_cores(&frames, |frame| Star { frame: Some(*frame), speed }.picture())
 }
 
-/// Less of the disc than this is no ghost.
+/// A smaller part of the disc is not a ghost.
 const FAINT: f64 = 0.01;
 
 const METHODS: &[Method] = &[
@@ -58,7 +58,7 @@ const METHODS: &[Method] = &[
 
 const SCENE: &str = include_str!("../../../assets/lab/supersampling/scene.glsl");
 
-/// In place of the preset's own scene. Alpha tells the object.
+/// Replaces the preset's own scene. Alpha identifies the object.
 const SAMPLED: &str = "
 void mainImage(out vec4 sampled, in vec2 fragCoord) {
     vec2 q = fragCoord + jitter(iFrame) - 0.5 * iResolution.xy;
@@ -66,7 +66,8 @@ void mainImage(out vec4 sampled, in vec2 fragCoord) {
 }
 ";
 
-/// A method's project with the star in it, at rest or with the disc moving before it by so many pixels a frame.
+/// Returns a method's project with the star in it, at rest or with the disc moving in front of it by this number of
+/// pixels per frame.
 fn scene(method: &str, setting: f64, side: u32, speed: Option<f64>) -> Setup {
     let size = (side, side);
     let (moving, speed) = (u32::from(speed.is_some()), speed.unwrap_or(SPEED));
@@ -76,7 +77,7 @@ fn scene(method: &str, setting: f64, side: u32, speed: Option<f64>) -> Setup {
             .define("MOVES", moving)
             .define("DISC_SPEED", speed);
     }
-    // As the scene has it: pixels over the preset's unit, which is .7 of the width here.
+    // In the units of the scene: pixels over the preset's unit, which is .7 of the width here.
     let disc = format!("vec2 cogAt(float t) {{ return vec2(-60.0 + {speed:?} * 60.0 * t, -20.0) / (0.7 * 192.0); }}");
     let setup = Setup::new("taa", size)
         .wants(&["b"])
@@ -88,7 +89,7 @@ fn scene(method: &str, setting: f64, side: u32, speed: Option<f64>) -> Setup {
         .edit("common", "return q - vec2(0.06 * t, 0.0);", "return q;");
     match method {
         "taa" => setup.uniform("gamma", setting),
-        // No wider than gamma, whatever the history.
+        // No wider than gamma, for any history.
         "taa-narrow" => setup.uniform("gamma", setting).uniform("relaxed", 0.25),
         "taa-linear" => setup.uniform("gamma", setting).flag("catmullRom", false),
         "taa-blind" => setup.uniform("gamma", setting).flag("motionVectors", false),
@@ -100,15 +101,15 @@ fn result(method: &str) -> &'static str {
     if method == "supersampling" { "field" } else { "b" }
 }
 
-/// A resting picture.
+/// A still picture.
 #[derive(Clone, Debug)]
 pub struct Still {
     pub picture: Picture,
-    /// Root mean square over all pixels of the deviation in time, over a round of the jitter.
+    /// The root mean square over all pixels of the deviation in time, over a round of the jitter.
     pub flicker: f64,
 }
 
-/// The star at rest, after [`REST`] frames and a round more.
+/// Returns the star at rest, after [`REST`] frames and another round.
 pub fn rest(rig: &Rig, method: &str, setting: f64) -> Result<Still, LabError> {
     let mut running = rig.open(&scene(method, setting, SIDE as u32, None))?;
     running.frames(REST + 1)?;
@@ -127,28 +128,28 @@ pub fn rest(rig: &Rig, method: &str, setting: f64) -> Result<Still, LabError> {
     Ok(Still { picture: frames.swap_remove(0), flicker: mean(&variances).sqrt() })
 }
 
-/// Holds what a moving disc leaves.
+/// The traces of a moving disc.
 #[derive(Clone, Debug)]
 pub struct Moving {
     /// At frame [`NOW`].
     pub picture: Picture,
-    /// The part that is left of its colour in the pixels that it left so many frames ago (1, 2 …): 1 is all. The mean
-    /// over a round of the jitter, which takes most of the noise.
+    /// The remaining part of its colour in the pixels that it left this number of frames ago (1, 2 …): 1 is all. The
+    /// mean over a round of the jitter, which removes most of the noise.
     pub ghost: Vec<f64>,
-    /// Mean distance from the truth of what it left within the last six frames.
+    /// The mean distance from the truth in the pixels that it left within the last six frames.
     pub beside: f64,
 }
 
 impl Moving {
-    /// Returns how long the tail is in pixels: what lies before the first place with less than [`FAINT`] of the disc's
-    /// colour. At most as long as what is looked at.
+    /// Returns the length of the tail in pixels: up to the first place with less than [`FAINT`] of the disc's colour.
+    /// At most the measured length.
     pub fn tail(&self) -> f64 {
         let end = self.ghost.iter().position(|g| g.abs() < FAINT).unwrap_or(self.ghost.len());
         end as f64 * SPEED
     }
 }
 
-/// Frames after which a tail's end is no longer looked for.
+/// The number of frames after which the end of a tail is no longer searched.
 const LONGEST: u32 = 30;
 
 pub fn moving(rig: &Rig, method: &str, setting: f64) -> Result<Moving, LabError> {
@@ -176,7 +177,7 @@ pub fn moving(rig: &Rig, method: &str, setting: f64) -> Result<Moving, LabError>
     Ok(Moving { picture, ghost, beside: mean(&off) })
 }
 
-/// The part that is left of a slow disc's colour in the pixels that its edge left [`SLOW_AGO`] frames ago, as in
+/// Returns the remaining part of a slow disc's colour in the pixels that its edge left [`SLOW_AGO`] frames ago, as in
 /// [`Moving::ghost`].
 pub fn slow_ghost(rig: &Rig, method: &str, setting: f64) -> Result<f64, LabError> {
     let mut running = rig.open(&scene(method, setting, SIDE as u32, Some(SLOW)))?;
@@ -195,7 +196,7 @@ pub fn slow_ghost(rig: &Rig, method: &str, setting: f64) -> Result<f64, LabError
     Ok(left / all)
 }
 
-/// Frames after which an edge that creeps should have taken its colour along.
+/// The number of frames after which a slow edge should have taken its colour along.
 const SLOW_AGO: u32 = 4;
 
 pub static STUDY: Study = Study {

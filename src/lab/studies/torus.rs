@@ -15,11 +15,11 @@ use std::{f64::consts::TAU, sync::LazyLock};
 /// A scene of unit speed in a box of side 1, for one unit of time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Torus {
-    /// Taylor's and Green's eddies without viscosity, which stand still.
+    /// Taylor-Green eddies without viscosity, which are steady.
     TaylorGreen,
     /// Two shear layers that roll up.
     ShearLayer,
-    /// The vortex of Lamb and Oseen, which spreads.
+    /// The Lamb-Oseen vortex, which spreads.
     LambOseen,
 }
 
@@ -54,20 +54,20 @@ const METHODS: &[Method] = &[
 const RHO: f64 = 30.0;
 const VISCOSITY: f64 = 1e-4;
 
-/// The size of the vortex: its core at first and at the end as parts of the side, so that the side is 18 times the
-/// radius of its greatest speed at the end; and its circulation, for a greatest speed of 1 at first.
+/// The size of the vortex: its initial and final core as parts of the side, so that the side is 18 times the radius of
+/// its greatest speed at the end; and its circulation, for an initial greatest speed of 1.
 const CORES: [f64; 2] = [0.03, 0.05];
 const CIRCULATION: f64 = TAU * CORES[0] / 0.63817;
 
-/// Waves of the spectral reference of the shear layers, and its steps. The velocity differs from that of 640 steps by
-/// 5e-7; with 128 waves and 192 steps it differs by 6e-4 (an independent program in f64).
+/// The waves of the spectral reference of the shear layers, and its steps. The velocity differs from that of 640 steps
+/// by 5e-7; with 128 waves and 192 steps it differs by 6e-4 (an independent program in f64).
 const WAVES: usize = 256;
 const STEPS: u32 = 320;
 
-/// Waves of the vortex, whose spectrum exp(-(k core)^2 / 4) is 2e-16 at the last of them.
+/// The waves of the vortex, whose spectrum exp(-(k core)^2 / 4) is 2e-16 at the last of them.
 const VORTEX_WAVES: usize = 128;
 
-/// The shear layers at t = 1, and their energy then over that at first.
+/// The shear layers at t = 1, and their energy at that time relative to the initial one.
 static ROLLED_UP: LazyLock<(Spectral, f64)> = LazyLock::new(|| {
     let mut flow = Spectral::new(WAVES, |x, y| shear_layers(RHO, x, y));
     let first = flow.energy();
@@ -76,13 +76,13 @@ static ROLLED_UP: LazyLock<(Spectral, f64)> = LazyLock::new(|| {
     (flow, kept)
 });
 
-/// The energy that the shear layers have at t = 1 over that at first, by a spectral method.
+/// Returns the energy of the shear layers at t = 1 relative to the initial one, by a spectral method.
 pub fn energy_kept() -> f64 {
     ROLLED_UP.1
 }
 
 impl Torus {
-    /// Texels^2 for a unit of time, in which the speed of 1 crosses a texel of a grid of n.
+    /// Returns the viscosity in texels^2 per unit of time, in which the speed of 1 crosses a texel of a grid of n.
     fn viscosity(self, n: u32) -> f64 {
         let of_side = match self {
             Torus::TaylorGreen => 0.0,
@@ -92,7 +92,7 @@ impl Torus {
         of_side * f64::from(n)
     }
 
-    /// At first, where the solver has it.
+    /// Returns the initial velocity at the solver's places.
     fn velocity(self, solver: &Solver, n: u32) -> Vec<f64> {
         let side = f64::from(n);
         let eddies = |x: f64, y: f64| [(TAU * x).sin() * (TAU * y).cos(), -(TAU * x).cos() * (TAU * y).sin()];
@@ -103,13 +103,13 @@ impl Torus {
         }
     }
 
-    /// A method with the scene in it: the eddies in balance, the others with the velocity alone.
+    /// Returns a method with the scene in it: the eddies in balance, the others only with the velocity.
     pub fn solver(self, name: &str, n: u32, courant: f64) -> Solver {
-        self.begun(name, n, courant, self == Torus::TaylorGreen)
+        self.started(name, n, courant, self == Torus::TaylorGreen)
     }
 
-    /// As [`Torus::solver`]; without balance a pressure that is kept begins with 0, a density even.
-    fn begun(self, name: &str, n: u32, courant: f64, in_balance: bool) -> Solver {
+    /// Does the same as [`Torus::solver`]; without balance a stored pressure starts with 0, a density uniformly.
+    fn started(self, name: &str, n: u32, courant: f64, in_balance: bool) -> Solver {
         let solver = Solver::new(name, Flow { n, dt: courant, viscosity: self.viscosity(n) });
         let solver = if name.starts_with("guay") { solver.stiffness(1.0) } else { solver };
         let side = f64::from(n);
@@ -129,7 +129,7 @@ impl Torus {
         solver.begin_from(&velocity, &pressure)
     }
 
-    /// The exact velocity at the end, where the solver has it.
+    /// Returns the exact final velocity at the solver's places.
     pub fn exact(self, solver: &Solver, n: u32) -> Vec<f64> {
         match self {
             Torus::TaylorGreen => self.velocity(solver, n),
@@ -138,13 +138,13 @@ impl Torus {
         }
     }
 
-    /// The velocity of a method at first and at the end, with its solver and the frames between.
+    /// Returns the initial and final velocity of a method, with its solver and the frames in between.
     pub fn run(self, rig: &Rig, name: &str, n: u32, courant: f64) -> Result<(Solver, [Vec<f64>; 2], u32), LabError> {
         let (solver, before, watched, frames) = self.watched(rig, name, n, courant)?;
         Ok((solver, [before, watched.velocity], frames))
     }
 
-    /// As [`Torus::run`], with what else is seen of the run.
+    /// Does the same as [`Torus::run`], with the other observations of the run.
     fn watched(
         self,
         rig: &Rig,
@@ -161,18 +161,19 @@ impl Torus {
     }
 }
 
-/// Returns where in a texel a solver has u and v.
+/// Returns the places of u and v within a texel of a solver.
 fn places(solver: &Solver) -> [(f64, f64); 2] {
     if solver.is_staggered() { [(0.0, 0.5), (0.5, 0.0)] } else { [(0.5, 0.5); 2] }
 }
 
-/// The vortex of Lamb and Oseen where the solver has its velocity.
+/// Returns the Lamb-Oseen vortex at the solver's places.
 fn vortex(solver: &Solver, n: u32, core: f64) -> Vec<f64> {
     let velocity = lamb_oseen(VORTEX_WAVES, core).velocity(n as usize, places(solver));
     velocity.into_iter().map(|u| CIRCULATION * u).collect()
 }
 
-/// Distance from the middle in texels, and size, of the greatest v on the horizontal line through the middle.
+/// Returns the distance from the centre in texels, and the value, of the greatest v on the horizontal line through the
+/// centre.
 fn peak(solver: &Solver, n: usize, velocity: &[f64]) -> (f64, f64) {
     let v = &velocity[n * n..];
     let row = |i: usize| match solver.is_staggered() {
@@ -188,7 +189,7 @@ fn peak(solver: &Solver, n: usize, velocity: &[f64]) -> (f64, f64) {
     (top as f64 + 0.5 + shift, b - 0.25 * (a - c) * shift)
 }
 
-/// A scene as a study.
+/// Returns a scene as a study.
 const fn of(setup: fn(&Point) -> Setup, measure: fn(&Rig, &Point) -> Result<Measured, LabError>) -> Study {
     Study {
         parameter: "Courant number",
@@ -208,7 +209,7 @@ pub static TAYLOR_GREEN: Study = Study {
            method's, as far as 32-bit floats let it be seen. Methods that keep a pressure or a density begin in \
            balance; l2_from_velocity is their error where they are given the velocity alone. The hard case is \
            that the energy never exceeds that at first by .001 of it.",
-    // Without viscosity a lattice with one relaxation time has no relaxation.
+    // Without viscosity, a lattice with one relaxation time has no relaxation.
     methods: METHODS.split_at(METHODS.len() - 1).0,
     signed: Some("energy_error"),
     ..of(|point| Torus::TaylorGreen.setup(point), |rig, point| Torus::TaylorGreen.measure(rig, point))
@@ -261,7 +262,7 @@ impl Torus {
         );
         if solver.keeps_pressure() {
             let is_cold = *self != Torus::TaylorGreen;
-            let other = self.begun(&point.method, point.grid, point.setting, is_cold);
+            let other = self.started(&point.method, point.grid, point.setting, is_cold);
             let mut running = rig.open(&other.setup)?;
             running.frames(frames)?;
             let name = if is_cold { "l2_in_balance" } else { "l2_from_velocity" };

@@ -1,13 +1,13 @@
-//! Single waves in a fluid at rest, whose fate linear theory knows: shear, sound, and the checkerboard that a grid may
-//! not see.
+//! Single waves in a fluid at rest, whose development is known from linear theory: shear, sound, and the checkerboard
+//! that a grid may not see.
 
 use super::flow::{Flow, Solver, without_format};
 use crate::{LabError, Rig, metrics::checkerboard, reference::linear::one_pass_growth};
 use std::f64::consts::TAU;
 
-/// The amplitude of u = sin(k y), one wave in the box, after `time`, over what its exact decay leaves: 1 - 4 nu dt
-/// sin^2(k / 2) a step of explicit viscosity, its limit for short steps where viscosity is exact on the grid, exp(-nu
-/// k^2 t) of a lattice and of `fluid-accurate`.
+/// Returns the amplitude of u = sin(k y), one wave in the box, after `time`, relative to its exact decay: 1 - 4 nu dt
+/// sin^2(k / 2) per step of explicit viscosity, its limit for short steps if viscosity is exact on the grid, exp(-nu
+/// k^2 t) for a lattice and for `fluid-accurate`.
 pub fn shear_wave(rig: &Rig, name: &str, flow: Flow, time: f64) -> Result<f64, LabError> {
     let Flow { n, dt, viscosity } = flow;
     let k = TAU / f64::from(n);
@@ -27,8 +27,8 @@ pub fn shear_wave(rig: &Rig, name: &str, flow: Flow, time: f64) -> Result<f64, L
     Ok(dot(&velocity, &shape) / dot(&shape, &shape) / exact)
 }
 
-/// Returns what is left of a checkerboard in the pressure or density after so many steps, over what there was. `None`
-/// of a method that keeps neither.
+/// Returns the remaining part of a checkerboard in the pressure or density after a number of steps. `None` for a method
+/// that keeps neither.
 pub fn checkerboard_left(rig: &Rig, name: &str, flow: Flow, steps: u32) -> Result<Option<f64>, LabError> {
     let (solver, n) = (Solver::new(name, flow), flow.n as usize);
     let sign = |x: f64, y: f64| if (x.floor() + y.floor()) % 2.0 == 0.0 { 0.01 } else { -0.01 };
@@ -43,8 +43,8 @@ pub fn checkerboard_left(rig: &Rig, name: &str, flow: Flow, steps: u32) -> Resul
     Ok(Some((checkerboard(&after, n) / checkerboard(&before, n)).abs()))
 }
 
-/// The growth of sound of wave number pi / 2 along both axes in the one-pass fluid of a viscosity below K, over that of
-/// linear theory. Logarithms of the factor a step, over so many steps.
+/// Returns the growth of sound of wave number pi / 2 along both axes in the one-pass fluid of a viscosity below K,
+/// relative to linear theory. Logarithms of the factor per step, over a number of steps.
 pub fn growth_of_sound(rig: &Rig, flow: Flow, stiffness: f64, steps: u32) -> Result<f64, LabError> {
     let quarter = TAU / 4.0;
     let wave = move |x: f64, y: f64| 1e-4 * (quarter * (x + y)).sin();
@@ -52,7 +52,7 @@ pub fn growth_of_sound(rig: &Rig, flow: Flow, stiffness: f64, steps: u32) -> Res
     let solver = Solver::new("guay", flow).stiffness(stiffness);
     let solver = solver.begin(|x, y| [wave(x, y); 2], |_, _| 0.0);
     let mut running = rig.open(&solver.setup)?;
-    // Weighted so that the energy of a wave without viscosity grows evenly, though its phase turns.
+    // Weighted so that the energy of a wave without viscosity grows uniformly, although its phase rotates.
     let mut amplitude = |frames| {
         running.frames(frames)?;
         let square = |v: Vec<f64>, about: f64| v.iter().map(|x| (x - about).powi(2)).sum::<f64>();

@@ -1,12 +1,12 @@
-//! Surroundings as cubemaps: a gallery, a hall and a forest, each sharp and blurred as a matt surface would mirror it.
+//! Environments as cubemaps: a gallery, a hall and a forest, each sharp and blurred as a matt surface would reflect it.
 //!
-//! Each is a function of the direction, seen from where the camera stands.
+//! Each is a function of the direction as seen from the camera.
 
 use super::noise::hash2;
 use crate::{Texels, load::cube::of_directions};
 use eddy_texture::{Face, TexelFormat};
 
-/// Texels along a face of the sharp and of the blurred ones.
+/// The texels along a face of the sharp and of the blurred cubemaps.
 const SIDES: (u32, u32) = (256, 64);
 
 type Color = [f32; 3];
@@ -36,7 +36,7 @@ pub fn forest_blurred() -> Texels {
 }
 
 fn sharp(color: fn([f32; 3]) -> Color) -> Texels {
-    // Two by two directions a texel, for smooth edges.
+    // Two by two directions per texel, for smooth edges.
     let step = 0.5 / SIDES.0 as f32;
     of_directions(SIDES.0, TexelFormat::Rgba8, |[x, y, z], bytes| {
         let sum = [(-step, -step), (step, -step), (-step, step), (step, step)].map(|(a, b)| match () {
@@ -48,7 +48,8 @@ fn sharp(color: fn([f32; 3]) -> Color) -> Texels {
     })
 }
 
-/// The light that a matt surface gets, by direction of its normal: the mean over the hemisphere, weighted with the cosine.
+/// The irradiance of a matt surface, by direction of its normal: the mean over the hemisphere, weighted with the
+/// cosine.
 fn blurred(color: fn([f32; 3]) -> Color) -> Texels {
     const COARSE: u32 = 12;
     let lights: Vec<([f32; 3], Color)> = Face::ALL
@@ -58,7 +59,7 @@ fn blurred(color: fn([f32; 3]) -> Color) -> Texels {
             let center = |n: u32| f64::from(2 * n + 1) / f64::from(COARSE) - 1.0;
             let [x, y, z] = face.direction(center(x), center(y)).map(|c| c as f32);
             let length = (x * x + y * y + z * z).sqrt();
-            // A texel's solid angle goes with the third power of the distance to it.
+            // A texel's solid angle is inversely proportional to the third power of its distance.
             let weight = 1.0 / (length * length * length);
             ([x / length * weight, y / length * weight, z / length * weight], color([x, y, z]))
         })
@@ -90,7 +91,7 @@ fn mixed(a: Color, b: Color, by: f32) -> Color {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * by)
 }
 
-/// The point where the direction leaves a box around the camera, and the axis of the side that it meets.
+/// Returns the point where the direction leaves a box around the camera, and the axis of the side that it hits.
 fn leave_box([x, y, z]: [f32; 3], low: [f32; 3], high: [f32; 3]) -> ([f32; 3], usize) {
     let distance = |d: f32, low: f32, high: f32| match () {
         () if d > 0.0 => high / d,
@@ -102,17 +103,17 @@ fn leave_box([x, y, z]: [f32; 3], low: [f32; 3], high: [f32; 3]) -> ([f32; 3], u
     ([x * t[axis], y * t[axis], z * t[axis]], axis)
 }
 
-/// A square's number in a grid, and the place in it, in 0 to 1.
+/// Returns the index of a grid cell, and the position in it, in 0 to 1.
 fn cell(x: f32) -> (i32, f32) {
     (x.floor() as i32, x - x.floor())
 }
 
-/// A random number in 0 to 1 of a cell.
+/// Returns a random number in 0 to 1 for a cell.
 fn random(x: i32, y: i32, seed: u32) -> f32 {
     (hash2(x as u32, y as u32, seed) >> 8) as f32 / (1 << 24) as f32
 }
 
-/// Value noise: random numbers at whole coordinates, smooth between.
+/// Value noise: random numbers at integer coordinates, smoothly interpolated.
 fn smooth_noise(x: f32, y: f32, seed: u32) -> f32 {
     periodic_noise(x, y, i32::MAX, seed)
 }
@@ -126,7 +127,7 @@ fn periodic_noise(x: f32, y: f32, period: i32, seed: u32) -> f32 {
     between(between(at(0, 0), at(1, 0), s), between(at(0, 1), at(1, 1), s), t)
 }
 
-/// A long room with pictures on its walls under a roof of glass.
+/// A long room with pictures on its walls under a glass roof.
 fn gallery_color(direction: [f32; 3]) -> Color {
     let ([x, y, z], axis) = leave_box(direction, [-3.0, -1.5, -7.0], [3.0, 2.5, 7.0]);
     let far = 1.0 / (1.0 + 0.02 * (x * x + z * z));
@@ -140,7 +141,7 @@ fn gallery_color(direction: [f32; 3]) -> Color {
             let ((column, s), (row, t)) = (cell(x), cell(z));
             let tile = if (column + row) % 2 == 0 { [0.62, 0.5, 0.38] } else { [0.3, 0.22, 0.17] };
             let is_joint = s < 0.02 || t < 0.02;
-            // The roof mirrored in the polish.
+            // The reflection of the roof in the polished floor.
             let shine = if x.abs() < 1.4 { 0.16 } else { 0.0 };
             let color = scaled(tile, if is_joint { 0.5 } else { 0.7 + 0.3 * random(column, row, 11) });
             scaled(mixed(color, [1.0; 3], shine), 0.6 + 0.4 * far)
@@ -184,7 +185,7 @@ fn hall_color(direction: [f32; 3]) -> Color {
         0 => {
             let (n, s) = cell(z / 3.0);
             let across = 2.0 * s - 1.0;
-            // An opening with half a circle above it.
+            // An opening with a half circle above it.
             let above = (y - 1.5).max(0.0) / 1.5;
             let is_opening = across * across / 0.49 + above * above < 1.0 && y < 3.1;
             let dark = 0.16 + 0.1 * random(n, 0, 31);
@@ -210,7 +211,8 @@ fn hall_color(direction: [f32; 3]) -> Color {
 fn forest_color([x, y, z]: [f32; 3]) -> Color {
     let flat = (x * x + z * z).sqrt();
     let up = y / (flat + y.abs());
-    // The way around the horizon, in 0 to 8, by the diamond's edge instead of the circle's: no arc tangent.
+    // The position along the horizon, in 0 to 8, on the edge of a diamond instead of a circle: this needs no arc
+    // tangent.
     let diamond = x.abs() + z.abs();
     let around = if diamond == 0.0 {
         0.0
@@ -223,7 +225,7 @@ fn forest_color([x, y, z]: [f32; 3]) -> Color {
         let grass = smooth_noise(s, t, 51) * 0.6 + smooth_noise(4.0 * s, 4.0 * t, 52) * 0.4;
         return scaled(mixed([0.2, 0.16, 0.08], [0.3, 0.4, 0.12], grass), 0.8 + 0.4 * grass);
     }
-    // Eight times the scale is once around.
+    // A circuit around the horizon is eight times the scale.
     let leaves = |scale: f32, seed: u32| {
         let octave = |by: f32, seed: u32| {
             let scale = by * scale;
@@ -233,7 +235,7 @@ fn forest_color([x, y, z]: [f32; 3]) -> Color {
     };
     let sky = mixed([0.85, 0.9, 0.95], [0.4, 0.6, 0.9], up);
     let mut color = mixed(sky, [0.16, 0.24, 0.1], 3.0 * (0.75 - up - 0.5 * leaves(6.0, 61)));
-    // Far trunks first, near ones over them.
+    // Far trunks first, near ones on top.
     for (layer, (count, width, dark)) in [(6.0, 0.16, 0.55), (3.0, 0.2, 0.4), (1.5, 0.17, 0.28)].into_iter().enumerate()
     {
         let (n, s) = cell(around * count);

@@ -1,4 +1,4 @@
-//! Functions over the unit square that materials are made of. All of them are periodic, and exact on every machine.
+//! Functions over the unit square from which materials are made. All of them are periodic, and exact on every machine.
 
 use super::noise::hash2;
 use crate::Texels;
@@ -6,7 +6,7 @@ use eddy_texture::TexelFormat;
 
 pub type Colour = [f32; 3];
 
-/// Gradient noise after Perlin ("Improving Noise", SIGGRAPH 2002) on a lattice of `columns` x `rows` that repeats.
+/// Gradient noise after Perlin ("Improving Noise", SIGGRAPH 2002) on a periodic lattice of `columns` x `rows`.
 pub struct Noise {
     columns: u32,
     rows: u32,
@@ -27,7 +27,7 @@ impl Noise {
         Noise { columns, rows, gradients }
     }
 
-    /// About -1..1.
+    /// Returns a value in about -1..1.
     pub fn at(&self, u: f32, v: f32) -> f32 {
         let (x, y) = (u * self.columns as f32, v * self.rows as f32);
         let (x0, y0) = (floor(x), floor(y));
@@ -47,7 +47,7 @@ impl Noise {
     }
 }
 
-/// `f32::floor` calls the C library where a build may not count on SSE4.1, and costs more than the rest of the noise.
+/// `f32::floor` calls the C library in builds without SSE4.1, which would cost more than the rest of the noise.
 #[inline(always)]
 fn floor(x: f32) -> i32 {
     let whole = x as i32;
@@ -56,12 +56,12 @@ fn floor(x: f32) -> i32 {
 
 #[inline(always)]
 fn wrapped(cell: i32, count: u32) -> u32 {
-    // Places lie in the unit square or little outside of it; the division is for the rest.
+    // Places are in the unit square or slightly outside; the division covers the rest.
     let count = count as i32;
     (if cell < 0 || cell >= count { cell.rem_euclid(count) } else { cell }) as u32
 }
 
-/// Octaves of noise, each twice as fine and half as strong as the one before.
+/// Octaves of noise, each twice as fine and half as strong as the previous one.
 pub struct Fractal(Vec<Noise>);
 
 impl Fractal {
@@ -69,7 +69,7 @@ impl Fractal {
         Fractal((0..octaves).map(|i| Noise::new(columns << i, rows << i, seed + i)).collect())
     }
 
-    /// About -1..1.
+    /// Returns a value in about -1..1.
     pub fn at(&self, u: f32, v: f32) -> f32 {
         let mut weight = 0.5;
         let mut sum = 0.0;
@@ -80,7 +80,7 @@ impl Fractal {
         sum * 1.2
     }
 
-    /// Sharp crests: 1 on a crest, towards 0 between them (Musgrave's ridges).
+    /// Returns sharp crests: 1 on a crest, towards 0 between them (Musgrave's ridges).
     pub fn ridged(&self, u: f32, v: f32) -> f32 {
         let mut weight = 0.5;
         let mut sum = 0.0;
@@ -93,7 +93,7 @@ impl Fractal {
     }
 }
 
-/// One point in every cell of a grid that repeats (Worley, "A Cellular Texture Basis Function", SIGGRAPH 1996).
+/// One point in every cell of a periodic grid (Worley, "A Cellular Texture Basis Function", SIGGRAPH 1996).
 pub struct Cells {
     count: u32,
     points: Vec<[f32; 2]>,
@@ -104,7 +104,7 @@ pub struct Cells {
 pub struct Nearest {
     pub first: f32,
     pub second: f32,
-    /// Evenly distributed over 0..1, one for each point.
+    /// A number per point, evenly distributed over 0..1.
     pub random: f32,
 }
 
@@ -142,7 +142,7 @@ impl Cells {
     }
 }
 
-/// A number from 0 up to 1 that belongs to a place.
+/// Returns a random number from 0 up to 1 for a place.
 pub fn random(x: u32, y: u32, seed: u32) -> f32 {
     (hash2(x, y, seed) >> 8) as f32 / 16_777_216.0
 }
@@ -165,14 +165,14 @@ pub fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// A wave of period 1 between 0 and 1, smooth as a sine and made without one.
+/// Returns a wave of period 1 between 0 and 1, as smooth as a sine but made without one.
 pub fn wave(x: f32) -> f32 {
     let t = (x - x.floor()) * 2.0;
     let t = if t > 1.0 { 2.0 - t } else { t };
     t * t * (3.0 - 2.0 * t)
 }
 
-/// A colour from evenly spaced ones.
+/// Interpolates between evenly spaced colours.
 pub fn ramp(t: f32, colours: &[Colour]) -> Colour {
     let last = colours.len() - 1;
     let x = t.clamp(0.0, 1.0) * last as f32;
@@ -180,7 +180,7 @@ pub fn ramp(t: f32, colours: &[Colour]) -> Colour {
     mix3(colours[i], colours[i + 1], x - i as f32)
 }
 
-/// A colour written as in a style sheet.
+/// Returns a colour from hexadecimal digits as in a style sheet.
 pub const fn rgb(hex: u32) -> Colour {
     [(hex >> 16) as f32 / 255.0, (hex >> 8 & 255) as f32 / 255.0, (hex & 255) as f32 / 255.0]
 }
@@ -189,8 +189,8 @@ pub fn byte(value: f32) -> u8 {
     (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
 }
 
-/// An opaque picture of a surface, lit from the top left. `surface` gives height and colour of a place; `depth` is how
-/// far a height of 1 reaches, in parts of the picture's width.
+/// Renders an opaque picture of a surface, lit from the top left. `surface` returns height and colour of a place;
+/// `depth` is the size of a height of 1, in parts of the picture's width.
 pub fn lit(size: usize, depth: f32, surface: impl Fn(f32, f32) -> (f32, Colour) + Sync) -> Texels {
     let mut surfaces = vec![(0.0, [0.0; 3]); size * size];
     rows(&mut surfaces, size, |y, row| {
@@ -205,7 +205,7 @@ pub fn lit(size: usize, depth: f32, surface: impl Fn(f32, f32) -> (f32, Colour) 
         for (x, out) in row.chunks_exact_mut(4).enumerate() {
             let dx = (height(x + 1, y) - height(x + size - 1, y)) * steep;
             let dy = (height(x, y + 1) - height(x, y + size - 1)) * steep;
-            // Lambert's law, the light 50 degrees up; level ground keeps its colour.
+            // Lambert's law with the light 50 degrees up; level ground keeps its colour.
             let light = (0.77 - 0.45 * dx - 0.45 * dy) / (1.0 + dx * dx + dy * dy).sqrt() / 0.77;
             let colour = scale(surfaces[y * size + x].1, 0.25 + 0.75 * light.clamp(0.0, 1.9));
             out.copy_from_slice(&[byte(colour[0]), byte(colour[1]), byte(colour[2]), 255]);
@@ -214,13 +214,13 @@ pub fn lit(size: usize, depth: f32, surface: impl Fn(f32, f32) -> (f32, Colour) 
     Texels::flat(size as u32, size as u32, TexelFormat::Rgba8, bytes)
 }
 
-/// Middle of texel `x` of `size`.
+/// Returns the centre of texel `x` of `size`.
 fn place(x: usize, size: usize) -> f32 {
     (x as f32 + 0.5) / size as f32
 }
 
-/// Fills rows of `width` items on every core there is. Rows do not know of each other, so the result is the same on
-/// one.
+/// Fills rows of `width` items on all CPU cores. Rows are independent, so the result does not depend on the number of
+/// cores.
 fn rows<T: Send>(items: &mut [T], width: usize, fill: impl Fn(usize, &mut [T]) + Sync) {
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     let share = (items.len() / width).div_ceil(workers).max(1);

@@ -1,17 +1,17 @@
 //! A font as a picture: 16x16 cells of 64 texels, the character of code c in column c mod 16 and row c / 16 from the
 //! top.
 //!
-//! The layout is the site's, so that shaders which print find their letters: red is how much of a texel the letter
-//! covers, green and blue are the gradient of the distance to its outline (128 is none), alpha is that distance in
-//! cells, 0.5 on the outline and less inside. The letters are drawn here, as strokes on a grid.
+//! The layout is that of Shadertoy, so that shaders which print find their letters: red is the coverage of a texel by
+//! the letter, green and blue are the gradient of the distance to its outline (128 is none), and alpha is that distance
+//! in cells, 0.5 on the outline and less inside. The letters are drawn here, as strokes on a grid.
 
 use super::field::byte;
 use crate::Texels;
 use eddy_texture::TexelFormat;
 
-/// Strokes of the printable ASCII characters, from the space on. A stroke is a row of points, two digits each: x, 1 to
-/// 5, and y, where 2 is the base line, 6 the height of an x, 8 that of a capital and 0 the lowest descender. `~` rounds
-/// its corners.
+/// Strokes of the printable ASCII characters, starting with the space. A stroke is a row of points, two digits each: x,
+/// 1 to 5, and y, where 2 is the base line, 6 the x-height, 8 the height of a capital and 0 the lowest descender. `~`
+/// rounds its corners.
 const STROKES: [&str; 95] = [
     "",
     "3834 3232",
@@ -112,7 +112,7 @@ const STROKES: [&str; 95] = [
 
 const CELL: usize = 64;
 const SIZE: usize = 16 * CELL;
-/// Half the width of a stroke and the length of a unit of the grid, in texels.
+/// Half the width of a stroke and the length of a grid unit, in texels.
 const HALF_WIDTH: f32 = 2.9;
 const UNIT: f32 = 6.0;
 
@@ -135,14 +135,14 @@ pub fn atlas() -> Texels {
 
 type Point = [f32; 2];
 
-/// Straight pieces of a letter, in texels of its cell, y down.
+/// Returns the straight segments of a letter, in texels of its cell, y down.
 fn segments(strokes: &str) -> Vec<[Point; 2]> {
     let mut found = Vec::new();
     for stroke in strokes.split(' ') {
         let digits: Vec<f32> = stroke.bytes().filter(u8::is_ascii_digit).map(|d| f32::from(d - b'0')).collect();
         let mut points: Vec<Point> =
             digits.chunks_exact(2).map(|p| [32.0 + (p[0] - 3.0) * UNIT, 48.0 - (p[1] - 2.0) * UNIT]).collect();
-        // A dot is drawn as a small square, so that it is somewhat thicker than a stroke.
+        // A dot is drawn as a small square, so that it is slightly thicker than a stroke.
         if let [a, b] = points[..]
             && a == b
         {
@@ -158,7 +158,7 @@ fn segments(strokes: &str) -> Vec<[Point; 2]> {
     found
 }
 
-/// One round of Chaikin's corner cutting (1974). A stroke that ends where it began is rounded there too.
+/// One round of Chaikin's corner cutting (1974). A closed stroke is rounded at its start too.
 fn rounded(points: &[Point]) -> Vec<Point> {
     let between = |a: Point, b: Point, t: f32| [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t];
     let cut: Vec<Point> =
@@ -169,7 +169,7 @@ fn rounded(points: &[Point]) -> Vec<Point> {
         cut.extend(cut.first().copied());
         return cut;
     }
-    // The ends stay where they are.
+    // The end points are kept.
     let inner = cut.get(1..cut.len().saturating_sub(1)).unwrap_or_default();
     std::iter::once(first).chain(inner.iter().copied()).chain([last]).collect()
 }
@@ -184,7 +184,7 @@ fn draw(segments: &[[Point; 2]], band: &mut [u8], column: usize) {
             texel.copy_from_slice(&[
                 byte(0.5 - distance),
                 byte(0.5 + 0.5 * away[0]),
-                // v grows upwards.
+                // v points upwards.
                 byte(0.5 - 0.5 * away[1]),
                 byte(0.5 + distance / CELL as f32),
             ]);
@@ -192,7 +192,7 @@ fn draw(segments: &[[Point; 2]], band: &mut [u8], column: usize) {
     }
 }
 
-/// Distance to the nearest segment, and the direction away from it.
+/// Returns the distance to the nearest segment, and the direction away from it.
 fn nearest(segments: &[[Point; 2]], at: Point) -> (f32, Point) {
     let mut best = (f32::MAX, [0.0; 2]);
     for [a, b] in segments {

@@ -1,10 +1,10 @@
-//! Materials that grew, and what is made of them.
+//! Organic materials, and products made of them.
 
 use super::field::{Cells, Colour, Fractal, Noise, byte, lit, mix3, ramp, random, rgb, scale, smoothstep, wave};
 use crate::Texels;
 use eddy_texture::TexelFormat;
 
-/// Boards side by side, their grain along them.
+/// Boards side by side, with their grain along them.
 pub fn wood() -> Texels {
     let (grain, fibre) = (Fractal::new(6, 2, 4, 501), Fractal::new(160, 6, 3, 511));
     let (sway, tone) = (Fractal::new(4, 3, 3, 521), Fractal::new(8, 4, 4, 531));
@@ -28,18 +28,18 @@ pub fn wood() -> Texels {
     })
 }
 
-/// Blades of grass over one another.
+/// Overlapping blades of grass.
 pub fn grass() -> Texels {
     const SIZE: i32 = 1024;
     const BLADES: u32 = 9_000;
     let mut pixels = vec![scale(rgb(0x1d2410), 0.6); (SIZE * SIZE) as usize];
     for blade in 0..BLADES {
         let r = |n: u32| random(blade, n, 541);
-        // Later blades lie higher and are lighter.
+        // Later blades are higher and lighter.
         let height = blade as f32 / BLADES as f32;
         let (mut x, mut y) = (r(0) * SIZE as f32, r(1) * SIZE as f32);
         let length = 50.0 + 70.0 * r(2);
-        // A direction out of the unit square, made length 1; and a slow turn.
+        // A direction from the unit square, normalised; and a slow turn.
         let (mut dx, mut dy) = (r(3) - 0.5, r(4) - 0.5);
         let turn = (r(5) - 0.5) * 0.035;
         let tint = ramp(r(6), &[rgb(0x3f5a1c), rgb(0x587a26), rgb(0x7d9438), rgb(0x9c9a4e), rgb(0x4d6b2c)]);

@@ -1,9 +1,9 @@
-//! Eddy's own textures, computed when asked for.
+//! Eddy's own textures, computed on demand.
 //!
-//! Owns noises, patterns and procedural materials: all made here, none copied. Only whole numbers and the operations
-//! that IEEE 754 rounds correctly (+ - * / and the square root) go into a texel, so every machine makes the same bytes.
-//! Every texture but `gradient`, `font`, `street` and `sprites` is seamless. Sizes and channels are those of the site's
-//! textures that they stand in for.
+//! Noises, patterns and procedural materials: all made here, none copied. Texels are computed only with integers and
+//! the operations that IEEE 754 rounds correctly (+ - * / and the square root), so every machine makes the same bytes.
+//! Every texture but `gradient`, `font`, `street` and `sprites` is seamless. Sizes and channels are those of the
+//! Shadertoy textures that they replace.
 
 mod cubes;
 mod field;
@@ -58,7 +58,7 @@ const ALL: [(&str, Maker); 33] = [
     ("noise-rgba-3d", || noise::white_volume(32, TexelFormat::Rgba8, 6)),
 ];
 
-/// Says how each is read.
+/// Returns the dimension of a texture.
 fn dimension(name: &str) -> Dimension {
     match name {
         _ if name.ends_with("-3d") => Dimension::D3,
@@ -67,12 +67,12 @@ fn dimension(name: &str) -> Dimension {
     }
 }
 
-/// Names of the built-in textures of a dimension, in the order a list shows them.
+/// Returns the names of the built-in textures of a dimension, in the order in which a list shows them.
 pub fn names(wanted: Dimension) -> impl Iterator<Item = &'static str> {
     ALL.into_iter().map(|(name, _)| name).filter(move |name| dimension(name) == wanted)
 }
 
-/// Makes a texture by name. With `vflip` a picture's top row lies at v = 1; a cubemap is turned as the site turns its own.
+/// Makes a texture by name. With `vflip` a picture's top row is at v = 1; a cubemap is turned as on Shadertoy.
 pub fn make(name: &str, wanted: Dimension, vflip: bool) -> Option<Texels> {
     let (_, maker) = ALL.iter().find(|(n, _)| *n == name && dimension(n) == wanted)?;
     let texels = maker();

@@ -1,4 +1,4 @@
-//! Noises and ordered patterns: values without a picture in them.
+//! Noises and ordered patterns: textures of values rather than images.
 
 use crate::Texels;
 use eddy_texture::{TexelFormat, TextureShape};
@@ -11,12 +11,12 @@ pub fn hash(x: u32) -> u32 {
     (word >> 22) ^ word
 }
 
-/// A hash of a place and a seed.
+/// Returns a hash of a place and a seed.
 pub fn hash2(x: u32, y: u32, seed: u32) -> u32 {
     hash(x.wrapping_add(hash(y.wrapping_add(hash(seed)))))
 }
 
-/// Independent bytes, evenly distributed.
+/// Returns independent, evenly distributed bytes.
 pub fn white(size: u32, format: TexelFormat, seed: u32) -> Texels {
     let count = size * size * format.bytes() as u32;
     let bytes = (0..count).map(|i| (hash2(i, 0, seed) >> 24) as u8).collect();
@@ -30,7 +30,8 @@ pub fn white_volume(side: u32, format: TexelFormat, seed: u32) -> Texels {
     Texels { shape, bytes }
 }
 
-/// Bayer's 8x8 matrix of thresholds (1973): the bits of column and row interleaved, the lowest bit counting most.
+/// Bayer's 8x8 matrix of thresholds (1973): the interleaved bits of column and row, the lowest bit being the most
+/// significant.
 pub fn bayer() -> Texels {
     let bytes = (0..64u32)
         .map(|i| {
@@ -39,7 +40,7 @@ pub fn bayer() -> Texels {
                 let (xb, yb) = (x >> bit & 1, y >> bit & 1);
                 rank << 2 | (xb ^ yb) << 1 | yb
             });
-            // The middle of one of 64 equal steps.
+            // The centre of one of 64 equal steps.
             ((2 * rank + 1) * 255 / 128) as u8
         })
         .collect();
@@ -53,12 +54,12 @@ pub fn blue_tile() -> Texels {
     repeat_tile(TILE)
 }
 
-/// The 64x64 tile repeated to the 1024x1024 of the site's: as free of low frequencies, but of period 64.
+/// The 64x64 tile repeated to 1024x1024 as on Shadertoy: equally free of low frequencies, but of period 64.
 pub fn blue() -> Texels {
     repeat_tile(1024)
 }
 
-/// Each channel has the same ranks at other places: turned, mirrored and shifted, which keeps them blue.
+/// Each channel has the same ranks at other places: rotated, mirrored and shifted, which keeps them blue.
 fn repeat_tile(size: usize) -> Texels {
     let ranks = void_and_cluster();
     let at = |x: usize, y: usize| (ranks[(y % TILE) * TILE + x % TILE] * 256 / (TILE * TILE)) as u8;
@@ -73,11 +74,10 @@ fn repeat_tile(size: usize) -> Texels {
 }
 
 /// Ranks 0..4096 of a 64x64 torus by Ulichney's method ("The void-and-cluster method for dither array generation", SPIE
-/// 1993), with energies in whole numbers so that every machine breaks ties alike.
+/// 1993), with integer energies so that every machine breaks ties the same way.
 fn void_and_cluster() -> Vec<usize> {
     let mut field = Energy::new();
-    // A tenth of the places at random, then the tightest cluster moved into the largest void until that changes
-    // nothing.
+    // A tenth of the places at random; then the tightest cluster is moved into the largest void until nothing changes.
     let mut seed = 0;
     while field.count < TILE * TILE / 10 {
         let at = hash2(seed, 0, 77) as usize % (TILE * TILE);
@@ -111,7 +111,7 @@ fn void_and_cluster() -> Vec<usize> {
     ranks
 }
 
-/// Holds the places that are set, and how crowded every place is by them.
+/// The places that are set, and the energy of every place: how crowded it is by them.
 #[derive(Clone)]
 struct Energy {
     is_set: Vec<bool>,
@@ -124,7 +124,7 @@ impl Energy {
     const REACH: usize = 9;
 
     fn new() -> Energy {
-        // exp(-r²/2σ²) with σ = 1.5, by powers of exp(-1/4.5) in 2^-32, rounded down alike everywhere.
+        // exp(-r²/2σ²) with σ = 1.5, by powers of exp(-1/4.5) in 2^-32, rounded down so that all machines agree.
         let step: i64 = 3_439_140_958;
         let mut powers = vec![1i64 << 32];
         for i in 0..2 * Self::REACH * Self::REACH {
@@ -155,7 +155,7 @@ impl Energy {
         }
     }
 
-    /// The tightest cluster among the set places, or the largest void among the others.
+    /// Returns the tightest cluster among the set places, or the largest void among the others.
     fn extreme(&self, of_set: bool) -> usize {
         let places = (0..TILE * TILE).filter(|&i| self.is_set[i] == of_set);
         let found = if of_set {

@@ -1,4 +1,4 @@
-//! Pictures with an up and a down, which do not repeat.
+//! Pictures with a top and a bottom, which are not periodic.
 
 use super::{
     field::{Colour, Fractal, lit, mix, mix3, ramp, rgb, scale, smoothstep, wave},
@@ -7,20 +7,20 @@ use super::{
 use crate::Texels;
 use eddy_texture::TexelFormat;
 
-/// Red grows to the right and green upwards, so that a place can be read off its colour; blue is one half.
+/// Red increases to the right and green upwards, so that the colour encodes the position; blue is one half.
 pub fn gradient() -> Texels {
     let size = 256u32;
     let bytes = (0..size * size).flat_map(|i| [(i % size) as u8, (255 - i / size) as u8, 128, 255]).collect();
     Texels::flat(size, size, TexelFormat::Rgba8, bytes)
 }
 
-/// A figure in six steps of a walk, 40 texels apart, with nothing around it.
+/// A figure in six steps of a walk, 40 texels apart, on a transparent background.
 pub fn sprites() -> Texels {
     const WIDTH: i32 = 256;
     const HEIGHT: i32 = 32;
     let mut bytes = vec![0u8; (WIDTH * HEIGHT * 4) as usize];
     for frame in 0..6 {
-        // It rises in the middle of a stride, and its feet change over.
+        // It rises in the middle of a stride, and its feet alternate.
         let rise = [0, 1, 2, 2, 1, 0][frame as usize];
         let step = [-4, -2, 0, 2, 4, 0][frame as usize];
         for y in 0..HEIGHT {
@@ -63,10 +63,10 @@ pub fn sprites() -> Texels {
     Texels::flat(WIDTH as u32, HEIGHT as u32, TexelFormat::Rgba8, bytes)
 }
 
-/// A street at dusk, seen along it.
+/// A street at dusk, seen along its length.
 pub fn street() -> Texels {
     let (cloud, rough) = (Fractal::new(3, 6, 5, 691), Fractal::new(32, 32, 4, 701));
-    // Four samples a texel: edges that run to the vanishing point would show every step.
+    // Four samples per texel: edges that run to the vanishing point would show aliasing.
     let shift = 0.25 / 512.0;
     lit(512, 0.0, |u, v| {
         let (cloud, rough) = (cloud.at(u, v * 1.4), rough.at(u, v));
@@ -83,11 +83,12 @@ fn street_at(u: f32, v: f32, cloud: f32, rough: f32) -> Colour {
     let side = u - vanish_u;
     let is_right = side > 0.0;
     let grain = 1.0 + 0.25 * rough;
-    // A house front at the street's edge is as far away as its place is near the vanishing point.
+    // The depth of a house front at the street's edge is inversely proportional to its distance from the vanishing
+    // point.
     let depth = 0.06 / side.abs().max(0.008);
     let near = 0.9 / depth;
     let hazy = |c: Colour| mix3(c, rgb(0xd9b193), smoothstep(0.5, 6.0, depth));
-    // Along the fronts, in windows; four or five of them make a house.
+    // Along the fronts, in windows; four or five of them form a house.
     let along = depth * 22.0 + if is_right { 1.4 } else { 0.0 };
     let house = (along / 5.0).floor();
     let number = hash2(house as u32, u32::from(is_right), 711);

@@ -48,7 +48,7 @@ pub fn pebbles() -> Texels {
     let lit = lit(512, 0.05, |u, v| {
         let grain = grain.at(u, v);
         let near = stones.at(u + 0.016 * bend_x.at(u, v), v + 0.016 * bend_y.at(u, v));
-        // Steep at the rim and flat on top, as a stone that water has rolled.
+        // Steep at the rim and flat on top, like a stone rounded by water.
         let rim = ((near.second - near.first - 0.04) / 0.46).clamp(0.0, 1.0);
         let dome = (rim * (2.0 - rim)).sqrt();
         let sand = 0.1 + 0.05 * grain;
@@ -77,7 +77,7 @@ pub fn granite() -> Texels {
     })
 }
 
-/// Brushed steel that rust has got at.
+/// Brushed steel with patches of rust.
 pub fn rust() -> Texels {
     let (brush, patch) = (Fractal::new(4, 96, 3, 251), Fractal::new(4, 4, 6, 261));
     let (grit, bloom) = (Fractal::new(40, 40, 3, 271), Fractal::new(9, 9, 5, 281));
@@ -91,7 +91,7 @@ pub fn rust() -> Texels {
     })
 }
 
-/// Rock with crusts of lichen over it, two kinds that keep apart.
+/// Rock with crusts of lichen, of two separate kinds.
 pub fn lichen() -> Texels {
     let (rock, crack) = (Fractal::new(6, 6, 5, 291), Fractal::new(5, 5, 5, 301));
     let (spread, frill) = (Fractal::new(7, 7, 5, 311), Fractal::new(28, 28, 4, 321));
@@ -117,13 +117,13 @@ pub fn lichen() -> Texels {
     })
 }
 
-/// Sand that wind has combed.
+/// Sand rippled by wind.
 pub fn dunes() -> Texels {
     let (bend, body, grain) = (Fractal::new(3, 3, 4, 331), Fractal::new(4, 4, 5, 341), Fractal::new(96, 96, 2, 351));
     lit(1024, 0.035, |u, v| {
         let (body, grain) = (body.at(u, v), grain.at(u, v));
         let along = v * 14.0 + u * 3.0 + 1.6 * bend.at(u, v);
-        // A slow rise and a steep fall, as of a ripple in the wind.
+        // A slow rise and a steep fall, like a wind ripple.
         let t = along - along.floor();
         let ripple = if t < 0.72 { smoothstep(0.0, 0.72, t) } else { 1.0 - smoothstep(0.72, 1.0, t) };
         let height = ripple * (0.35 + 0.3 * body) + 0.6 * body + 0.015 * grain;
@@ -154,7 +154,7 @@ pub fn stars() -> Texels {
     })
 }
 
-/// Dark and light squares, eight a side.
+/// Dark and light squares, eight per side.
 pub fn checkers() -> Texels {
     let size = 256u32;
     let bytes = (0..size * size)

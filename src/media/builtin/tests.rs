@@ -1,4 +1,4 @@
-//! Tests of the built-in pictures: sizes, ranges, spectra, and the same bytes each time.
+//! Tests of the built-in pictures: sizes, ranges, spectra, and reproducible bytes.
 
 use super::*;
 use crate::site::SITE_FILES;
@@ -10,7 +10,7 @@ static MADE: LazyLock<BTreeMap<&str, Texels>> = LazyLock::new(|| {
     all.map(|(n, d)| (n, make(n, d, true).unwrap())).collect()
 });
 
-/// FNV-1a: enough to see that bytes changed.
+/// FNV-1a: sufficient to detect changed bytes.
 fn checksum(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(*b)).wrapping_mul(0x0000_0100_0000_01b3))
 }
@@ -81,8 +81,8 @@ fn fallbacks_have_the_sizes_and_channels_of_the_sites_textures() {
     assert_eq!((size("Xdf3zn"), size("Xsf3Rn")), ((8, 8), (256, 32)));
 }
 
-/// Mean step between neighbouring columns and between neighbouring rows: the largest inside, and the larger of the two
-/// where the picture meets itself.
+/// Returns the mean steps between neighbouring columns and between neighbouring rows: the largest inside, and the
+/// larger of the two across the seams.
 fn steps(texels: &Texels) -> (f64, f64) {
     let (w, h, n) = (texels.shape.width as usize, texels.shape.height as usize, texels.texel_bytes());
     let at = |x: usize, y: usize| f64::from(texels.bytes[((y % h) * w + x % w) * n]);
@@ -94,7 +94,7 @@ fn steps(texels: &Texels) -> (f64, f64) {
 }
 
 #[test]
-fn textures_that_say_so_are_seamless() {
+fn seamless_textures_have_no_seams() {
     for (name, texels) in MADE.iter().filter(|(_, texels)| texels.shape.dimension == Dimension::D2) {
         let (inside, edge) = steps(texels);
         match *name {
@@ -106,8 +106,8 @@ fn textures_that_say_so_are_seamless() {
 }
 
 #[test]
-fn blue_noise_has_every_value_as_often_and_no_low_frequencies() {
-    // Mean square of what is left of a channel after averaging over 8x8 texels: the low frequencies' part.
+fn blue_noise_is_uniform_without_low_frequencies() {
+    // The mean square of a channel after averaging over 8x8 texels: the share of low frequencies.
     let low = |texels: &Texels, channel: usize| {
         let w = texels.shape.width as usize;
         let mut sum = 0.0;
@@ -137,10 +137,10 @@ fn bayer_has_every_threshold_once() {
 }
 
 #[test]
-fn the_font_has_its_letters_where_shaders_look_for_them() {
+fn the_font_has_the_layout_of_shadertoy() {
     let font = &MADE["font"];
     let texel = |code: usize, x: usize, y: usize| {
-        // From the bottom of the picture, as a shader counts: row 15 - code / 16 of cells.
+        // Counted from the bottom of the picture, as in a shader: row 15 - code / 16 of cells.
         let (px, py) = (code % 16 * 64 + x, (15 - code / 16) * 64 + y);
         let at = (py * 1024 + px) * 4;
         [0, 1, 2, 3].map(|i| font.bytes[at + i])
@@ -151,7 +151,7 @@ fn the_font_has_its_letters_where_shaders_look_for_them() {
     }
     assert_eq!((covered(32), covered(127), covered(200)), (0, 0, 0));
     assert!(covered(usize::from(b'M')) > covered(usize::from(b'i')));
-    // A bar: inside it the distance is below one half, far away above.
+    // A bar: inside it the distance is below one half, far away it is above.
     let (inside, outside) = (texel(124, 32, 34), texel(124, 2, 34));
     assert!(inside[0] == 255 && inside[3] < 128 && outside[0] == 0 && outside[3] > 160, "{inside:?} {outside:?}");
     assert!(outside[1] < 128 && (120..136).contains(&outside[2]), "left of the bar, away is to the left: {outside:?}");
@@ -160,7 +160,7 @@ fn the_font_has_its_letters_where_shaders_look_for_them() {
 }
 
 #[test]
-fn an_unknown_name_makes_nothing() {
+fn unknown_names_return_none() {
     assert!(make("no such texture", Dimension::D2, true).is_none());
     assert!(make("wood", Dimension::Cube, true).is_none() && make("hall", Dimension::D2, true).is_none());
 }

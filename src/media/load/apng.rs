@@ -1,10 +1,10 @@
-//! Animated PNGs whose first frame is another picture than the one for readers that know no animations.
+//! Animated PNGs whose first frame differs from the default image for readers without support for animations.
 
 use image::{AnimationDecoder, DynamicImage, ImageError, ImageResult, Limits, codecs::png::PngDecoder};
 use std::io::Cursor;
 
-/// Returns whether the animation of a PNG begins behind its own picture: it has one, and no frame control before the
-/// picture (PNG specification, third edition, section 11.3.6.2).
+/// Returns whether the default image of an animated PNG is not part of its animation: it has one, but there is no frame
+/// control before it (PNG specification, third edition, section 11.3.6.2).
 pub(super) fn begins_behind(png: &[u8]) -> bool {
     const SIGNATURE: usize = 8;
     let (mut at, mut is_animated) = (SIGNATURE, false);
@@ -15,13 +15,13 @@ pub(super) fn begins_behind(png: &[u8]) -> bool {
             b"IDAT" => return is_animated,
             _ => {}
         }
-        // Its length, its kind, what it holds and a checksum.
+        // Its length, its type, its content and a checksum.
         at = at.saturating_add(u32::from_be_bytes([*a, *b, *c, *d]) as usize).saturating_add(12);
     }
     false
 }
 
-/// Returns the first frame of an animation, which is what a browser uploads to a texture.
+/// Returns the first frame of an animation, which a browser uploads to a texture.
 pub(super) fn first_frame(png: &[u8], limits: Limits) -> ImageResult<DynamicImage> {
     let frames = PngDecoder::with_limits(Cursor::new(png), limits)?.apng()?.into_frames();
     let cut = || ImageError::IoError(std::io::ErrorKind::UnexpectedEof.into());

@@ -1,12 +1,12 @@
-//! Cubemaps: six pictures, or one picture in which six are laid out.
+//! Cubemaps: six pictures, or one picture with the layout of six.
 //!
-//! Seen from inside the cube the pictures of the sides stand upright.
+//! Seen from inside the cube, the pictures of the sides are upright.
 
 use crate::Texels;
 use eddy_texture::{Face, TexelFormat, TextureShape};
 use half::f16;
 
-/// Makes a cubemap of a function of the direction, which need not be normalised.
+/// Makes a cubemap from a function of the direction, which is not normalised.
 pub fn of_directions(side: u32, format: TexelFormat, mut texel: impl FnMut([f32; 3], &mut Vec<u8>)) -> Texels {
     let shape = TextureShape::cube(side, format);
     let mut bytes = Vec::with_capacity(shape.bytes() as usize);
@@ -37,13 +37,13 @@ pub fn of_faces(faces: [Texels; 6], vflip: bool) -> Result<Texels, String> {
     }
     let shape = TextureShape::cube(first.width, first.format);
     let mut bytes = Vec::with_capacity(6 * faces[0].bytes.len());
-    // Each face is dropped once it is copied.
+    // Each face is freed once it is copied.
     faces.into_iter().for_each(|face| bytes.extend_from_slice(&face.bytes));
     let cube = small_floats(Texels { shape, bytes });
     Ok(if vflip { turned(cube) } else { cube })
 }
 
-/// Turns a cubemap as the site does: each face upside down, and the top and the bottom change places.
+/// Turns a cubemap as Shadertoy does: each face is upside down, and the top and the bottom are swapped.
 pub fn turned(cube: Texels) -> Texels {
     let (row, face) = (cube.row_bytes(), cube.bytes.len() / 6);
     let faces: Vec<&[u8]> = cube.bytes.chunks_exact(face).collect();
@@ -53,9 +53,9 @@ pub fn turned(cube: Texels) -> Texels {
     Texels { shape: cube.shape, bytes }
 }
 
-/// Cuts a picture, first row at the top, into a cubemap; its sides tell the layout:
-/// 4:3 and 3:4 are crosses with the front, +Z, in the middle, 6:1 and 1:6 strips in the order of [`Face::ALL`], and 2:1
-/// is a panorama in latitude and longitude with +X in its middle and +Z a quarter to the right.
+/// Cuts a picture, first row at the top, into a cubemap. Its aspect ratio determines the layout: 4:3 and 3:4 are
+/// crosses with the front, +Z, in the middle, 6:1 and 1:6 strips in the order of [`Face::ALL`], and 2:1 is a panorama
+/// in latitude and longitude with +X in its middle and +Z a quarter to the right.
 pub fn of_picture(picture: Texels, vflip: bool) -> Result<Texels, String> {
     let (width, height) = (picture.shape.width, picture.shape.height);
     let is = |across: u32, up: u32| width.is_multiple_of(across) && width / across * up == height;
@@ -65,7 +65,7 @@ pub fn of_picture(picture: Texels, vflip: bool) -> Result<Texels, String> {
         of_faces(cut(width / 4, horizontal), vflip)
     } else if is(3, 4) {
         let mut faces = cut(width / 3, [(2, 1), (0, 1), (1, 0), (1, 2), (1, 1), (1, 3)]);
-        // The back hangs below the bottom, so it stands upside down.
+        // The back is attached below the bottom, so it is upside down.
         turn(&mut faces[Face::MinusZ as usize]);
         of_faces(faces, vflip)
     } else if is(6, 1) {
@@ -83,16 +83,16 @@ pub fn of_picture(picture: Texels, vflip: bool) -> Result<Texels, String> {
     }
 }
 
-/// A square of a picture.
+/// Returns a square part of a picture.
 fn part(picture: &Texels, (left, top): (u32, u32), side: u32) -> Texels {
     let (texel, row) = (picture.texel_bytes(), picture.row_bytes());
-    let begin = left as usize * texel;
+    let start = left as usize * texel;
     let rows = picture.bytes.chunks_exact(row).skip(top as usize).take(side as usize);
-    let bytes = rows.flat_map(|row| &row[begin..begin + side as usize * texel]).copied().collect();
+    let bytes = rows.flat_map(|row| &row[start..start + side as usize * texel]).copied().collect();
     Texels::flat(side, side, picture.shape.format, bytes)
 }
 
-/// Turns a picture by half a turn.
+/// Rotates a picture by half a turn.
 fn turn(picture: &mut Texels) {
     let texel = picture.texel_bytes();
     let mut bytes = Vec::with_capacity(picture.bytes.len());
@@ -100,7 +100,7 @@ fn turn(picture: &mut Texels) {
     picture.bytes = bytes;
 }
 
-/// Reads a panorama by direction, bilinearly. A face gets the texels of a quarter of the horizon.
+/// Samples a panorama by direction, bilinearly. A face gets the texels of a quarter of the horizon.
 fn panorama(picture: &Texels) -> Texels {
     use std::f32::consts::{PI, TAU};
     let (width, height) = (picture.shape.width, picture.shape.height);
@@ -108,8 +108,8 @@ fn panorama(picture: &Texels) -> Texels {
     let is_float = picture.shape.format == TexelFormat::Rgba32f;
     let texel = |x: i64, y: i64| -> [f32; 4] {
         let (x, y) = (x.rem_euclid(width.into()) as usize, y.clamp(0, i64::from(height) - 1) as usize);
-        let begin = (y * width as usize + x) * picture.texel_bytes();
-        let bytes = &picture.bytes[begin..begin + picture.texel_bytes()];
+        let start = (y * width as usize + x) * picture.texel_bytes();
+        let bytes = &picture.bytes[start..start + picture.texel_bytes()];
         match is_float {
             true => bytemuck::pod_read_unaligned(bytes),
             false => std::array::from_fn(|i| bytes.get(i).map_or(0.0, |b| f32::from(*b))),
@@ -133,7 +133,7 @@ fn panorama(picture: &Texels) -> Texels {
     })
 }
 
-/// Floats of 16 bits, as the cubemap pass has them: not every device filters those of 32.
+/// Converts to 16-bit floats, as in the cubemap pass: not every device filters 32-bit floats.
 pub(super) fn small_floats(texels: Texels) -> Texels {
     let format = match texels.shape.format {
         TexelFormat::Rgba32f => TexelFormat::Rgba16f,
@@ -150,7 +150,7 @@ pub(super) fn small_floats(texels: Texels) -> Texels {
     Texels { shape: TextureShape { format, ..texels.shape }, bytes }
 }
 
-/// The face's texels of a cubemap.
+/// Returns the texels of a cubemap's face.
 #[cfg(test)]
 fn face(cube: &Texels, face: Face) -> &[u8] {
     assert_eq!(cube.shape.dimension, eddy_texture::Dimension::Cube);
@@ -166,7 +166,7 @@ mod tests {
         Texels::flat(side, side, TexelFormat::R8, vec![value; (side * side) as usize])
     }
 
-    /// A picture whose texels name the cell of a grid that they lie in.
+    /// Returns a picture whose texels name the grid cell that contains them.
     fn cells(side: u32, across: u32, up: u32) -> Texels {
         let cell = |x: u32, y: u32| (10 * (y / side) + x / side) as u8;
         let (width, height) = (across * side, up * side);
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn layouts_are_cut_where_the_faces_lie() {
+    fn layouts_are_cut_into_their_faces() {
         let of = |across, up| {
             let cube = of_picture(cells(2, across, up), false).unwrap();
             Face::ALL.map(|f| face(&cube, f)[0])
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn faces_of_other_sizes_are_refused() {
+    fn faces_of_different_sizes_are_rejected() {
         let mut faces = [0; 6].map(|i| plain(2, i));
         faces[3] = plain(4, 0);
         assert!(of_faces(faces, false).unwrap_err().contains("face -y has 4x4"));
@@ -205,7 +205,7 @@ mod tests {
         assert!(of_faces([0; 6].map(|_| wide.clone()), false).unwrap_err().contains("square"));
     }
 
-    /// A panorama that holds the direction itself comes back by direction, within a texel's bend.
+    /// A panorama of the direction itself reads back as the direction, within the curvature of a texel.
     #[test]
     fn a_panorama_is_read_by_direction() {
         let (width, height) = (256u32, 128u32);
@@ -236,7 +236,7 @@ mod tests {
                 }
             }
         }
-        // The poles' last rows are half a texel away from them.
+        // The last rows at the poles are half a texel away from them.
         assert!(worst < 0.015, "{worst}");
     }
 }

@@ -1,8 +1,8 @@
-//! Recognises kinds of pictures that are not read, so that an error can name them.
+//! Recognises picture formats that are not supported, so that an error can name them.
 
-/// Returns the kind of picture that a file is by its first bytes, if it is one that Eddy does not read.
+/// Returns the picture format of a file by its first bytes, if Eddy does not support it.
 pub(super) fn unread(bytes: &[u8]) -> Option<&'static str> {
-    const BEGINNINGS: [(&[u8], &str); 15] = [
+    const SIGNATURES: [(&[u8], &str); 15] = [
         (b"II*\0", "TIFF"),
         (b"MM\0*", "TIFF"),
         (b"II+\0", "TIFF"),
@@ -19,11 +19,11 @@ pub(super) fn unread(bytes: &[u8]) -> Option<&'static str> {
         (b"%PDF-", "PDF"),
         (b"SIMPLE  =", "FITS"),
     ];
-    let by_beginning = BEGINNINGS.iter().find(|(beginning, _)| bytes.starts_with(beginning)).map(|(_, kind)| *kind);
-    by_beginning.or_else(|| iso_media(bytes)).or_else(|| netpbm(bytes)).or_else(|| svg(bytes))
+    let by_magic = SIGNATURES.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, kind)| *kind);
+    by_magic.or_else(|| iso_media(bytes)).or_else(|| netpbm(bytes)).or_else(|| svg(bytes))
 }
 
-/// The picture formats in boxes of ISO/IEC 14496-12, by their brands.
+/// Returns the picture formats in boxes of ISO/IEC 14496-12, by brand.
 fn iso_media(bytes: &[u8]) -> Option<&'static str> {
     let [_, _, _, _, b'f', b't', b'y', b'p', brand @ ..] = bytes else { return None };
     match brand.get(..4)? {
@@ -41,12 +41,12 @@ fn netpbm(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// A text whose first element is an `svg`.
+/// Recognises a text whose first element is an `svg`.
 fn svg(bytes: &[u8]) -> Option<&'static str> {
     const FAR: usize = 4096;
     let text = String::from_utf8_lossy(&bytes[..bytes.len().min(FAR)]);
     let text = text.trim_start_matches('\u{feff}').trim_start();
-    let is_markup = ["<?xml", "<!--", "<!DOCTYPE svg", "<svg"].iter().any(|begin| text.starts_with(begin));
+    let is_markup = ["<?xml", "<!--", "<!DOCTYPE svg", "<svg"].iter().any(|start| text.starts_with(start));
     (is_markup && text.contains("<svg")).then_some("SVG")
 }
 
@@ -55,7 +55,7 @@ mod tests {
     use super::unread;
 
     #[test]
-    fn kinds_are_told_apart_by_their_first_bytes() {
+    fn formats_are_recognised_by_their_first_bytes() {
         for (bytes, kind) in [
             (&b"MM\0*\0\0\0\x08"[..], Some("TIFF")),
             (b"8BPS\0\x01", Some("PSD")),

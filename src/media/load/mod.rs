@@ -1,4 +1,4 @@
-//! One picture, cubemap or volume, from its files or its generator to texels.
+//! Loads one picture, cubemap or volume from its files, or generates it.
 
 mod apng;
 pub(crate) mod cube;
@@ -18,13 +18,13 @@ use eddy_texture::TexelFormat;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, metadata::Orientation};
 use std::{io::Cursor, path::Path};
 
-/// Loads what a key names. A file lies in the project's folder `base`, see [`confine`]. For a file of the site, one of the
-/// same name in `media_dir` wins over the built-in fallback.
+/// Loads the media of a key. A file is in the project's folder `base`, see [`confine`]. For a file of Shadertoy, one of
+/// the same name in `media_dir` takes precedence over the built-in fallback.
 pub fn load(key: &MediaKey, base: Option<&Path>, media_dir: Option<&Path>) -> Result<Texels, MediaError> {
     load_within(key, base, media_dir, limits::MEDIA_BYTES)
 }
 
-/// The same, where pictures and models may take `room` bytes more.
+/// Does the same, but pictures and models may take `room` bytes more.
 pub(super) fn load_within(
     key: &MediaKey,
     base: Option<&Path>,
@@ -62,7 +62,7 @@ fn read_own(path: &Path) -> Result<Vec<u8>, FileError> {
     confine::read_own(path, limits::MEDIA_FILE)
 }
 
-/// A file that is to be loaded, and the way to it and to those beside it.
+/// A file to load, and access to it and to the files next to it.
 struct Source<'a> {
     path: &'a Path,
     /// The path that messages show.
@@ -85,7 +85,8 @@ impl Source<'_> {
         }
     }
 
-    /// A file of the site's kind, or the first of a stack of pictures whose names count up.
+    /// Loads a volume in Shadertoy's format, or a stack of pictures with consecutive numbers, of which this is the
+    /// first.
     fn volume(&self, first: Vec<u8>) -> Result<Texels, MediaError> {
         let failed = |reason| MediaError::Volume { path: self.shown.to_owned(), reason };
         if image::guess_format(&first).is_err() {
@@ -109,8 +110,8 @@ impl Source<'_> {
         volume::of_slices(slices, self.room / 2).map_err(failed)
     }
 
-    /// Six files where there is one beside this with `_1` before its ending, as the site names them; else the layout
-    /// of this one.
+    /// Loads six files if there is one next to this with `_1` before its extension, as Shadertoy names them; otherwise
+    /// the layout of this one.
     fn cube(&self, first: Vec<u8>, vflip: bool) -> Result<Texels, MediaError> {
         let failed = |reason| MediaError::Cubemap { path: self.shown.to_owned(), reason };
         let picture = |bytes, shown: &Path| decoded(bytes, shown, false, self.room / 2);
@@ -128,7 +129,7 @@ impl Source<'_> {
     }
 }
 
-/// The same with the rows of each layer in the other order.
+/// Reverses the order of the rows in each layer.
 pub(crate) fn flipped(mut texels: Texels) -> Texels {
     let row = texels.row_bytes();
     let rows = texels.shape.height as usize;
@@ -139,7 +140,7 @@ pub(crate) fn flipped(mut texels: Texels) -> Texels {
     texels
 }
 
-/// Returns the red channel alone, as the site uploads its four grey pictures.
+/// Returns only the red channel, as Shadertoy uploads its four grey pictures.
 fn red_only(texels: Texels) -> Texels {
     match texels.shape.format {
         TexelFormat::Rgba8 => {
@@ -150,7 +151,7 @@ fn red_only(texels: Texels) -> Texels {
     }
 }
 
-/// Decodes the picture file `path`, whose size is looked at first: a few kilobytes can ask for gigabytes.
+/// Decodes the picture file `path`. Its size is checked first: a few kilobytes may decode to gigabytes.
 fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels, MediaError> {
     if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("npy")) {
         return npy::read(&bytes, path, room);
@@ -170,7 +171,7 @@ fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels
     let radiance = radiance.map_err(|reason| MediaError::Radiance { path: path.to_owned(), reason })?;
     let bytes = radiance.as_ref().map(|header| header.plain(&bytes)).unwrap_or(bytes);
     let mut reader = ImageReader::new(Cursor::new(&*bytes));
-    // The ending counts where the content says nothing, as with TGA. The others begin with bytes of their own.
+    // The extension counts if the content is ambiguous, as with TGA. The other formats start with bytes of their own.
     if let Ok(format) = ImageFormat::from_path(path) {
         if format != ImageFormat::Tga && !bytes.is_empty() && image::guess_format(&bytes).is_err() {
             return Err(MediaError::OtherContent { path: path.to_owned() });
@@ -185,7 +186,7 @@ fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels
     let mut decoder = reader.into_decoder().map_err(failed)?;
     let orientation = match (radiance, format) {
         (Some(header), _) => header.orientation,
-        // As Chromium has it, which leaves that of a WebP aside.
+        // As in Chromium, which ignores the orientation of a WebP.
         (None, Some(ImageFormat::Jpeg | ImageFormat::Png)) => decoder.orientation().map_err(failed)?,
         (None, _) => Orientation::NoTransforms,
     };
@@ -196,7 +197,7 @@ fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels
     let is_other_animation = format == Some(ImageFormat::Png) && apng::begins_behind(&bytes);
     let is_float = matches!(decoder.color_type(), ColorType::Rgb32F | ColorType::Rgba32F);
     let texel_format = if is_float { TexelFormat::Rgba32f } else { TexelFormat::Rgba8 };
-    // A decoded texel of 16 bits a channel takes more than the one that Eddy keeps.
+    // A decoded texel of 16 bits per channel takes more memory than the final one.
     let needed = decoder.total_bytes().max(u64::from(width) * u64::from(height) * texel_format.bytes());
     let too_large = |excess| Err(MediaError::TooLarge { path: path.to_owned(), width, height, excess });
     if width.max(height) > limits::PICTURE_SIDE {
@@ -219,8 +220,8 @@ fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels
     Ok(if vflip { flipped(texels) } else { texels })
 }
 
-/// Texels in the picture's own order of rows. Values as stored: no colour space is undone and alpha is not multiplied
-/// in.
+/// Returns the texels in the picture's own order of rows. Values are as stored: they are neither linearised nor
+/// multiplied by alpha.
 fn texels(image: DynamicImage) -> Texels {
     let (width, height) = (image.width(), image.height());
     match image {

@@ -1,23 +1,24 @@
-//! Radiance pictures (`.hdr`), whose header the image crate reads in one spelling only.
+//! Radiance pictures (`.hdr`), whose header the image crate reads in only one spelling.
 //!
 //! The format: <https://radsite.lbl.gov/radiance/refer/filefmts.pdf>, "Picture File Format". A picture's scanlines may
-//! run in any of eight ways; EXPOSURE and the like say what was done to the values and are left aside, as elsewhere.
+//! have any of eight orientations; EXPOSURE and similar fields describe how the values were processed and are ignored,
+//! as elsewhere.
 
 use image::metadata::Orientation;
 
 /// The header of a Radiance picture.
 #[derive(Debug, PartialEq)]
 pub(super) struct Header {
-    /// Its bytes, up to the first scanline.
+    /// The number of its bytes, up to the first scanline.
     length: usize,
     scanlines: u32,
-    /// Texels of a scanline.
+    /// The number of texels per scanline.
     texels: u32,
-    /// Turns the picture upright, whose scanlines are taken to run from the left, the first at the top.
+    /// The transform that makes the picture upright, for scanlines read from the left, the first at the top.
     pub orientation: Orientation,
 }
 
-/// Reads the header of a picture that begins with the signature of one; says what is wrong with it.
+/// Parses the header of a picture that starts with the signature. The error is a message.
 pub(super) fn header(bytes: &[u8]) -> Option<Result<Header, String>> {
     bytes.starts_with(b"#?").then(|| read(bytes))
 }
@@ -49,11 +50,11 @@ fn read(bytes: &[u8]) -> Result<Header, String> {
     Ok(Header { length, scanlines, texels, orientation })
 }
 
-/// Reads the numbers of scanlines and of texels in one, and the ways in which they run.
+/// Parses the number of scanlines, the number of texels per scanline, and their directions.
 fn axes(resolution: &str) -> Option<(u32, u32, Orientation)> {
     let words: Vec<&str> = resolution.split_whitespace().collect();
     let [lines, scanlines, along, texels] = words[..] else { return None };
-    // Y runs upward and X to the right.
+    // Y points upward and X to the right.
     let orientation = match (lines, along) {
         ("-Y", "+X") => Orientation::NoTransforms,
         ("-Y", "-X") => Orientation::FlipHorizontal,
@@ -68,13 +69,13 @@ fn axes(resolution: &str) -> Option<(u32, u32, Orientation)> {
     Some((scanlines.parse().ok()?, texels.parse().ok()?, orientation))
 }
 
-/// Returns the beginning of what may be long.
+/// Returns the start of a text that may be long.
 fn brief(text: &str) -> String {
     text.chars().take(40).collect()
 }
 
 impl Header {
-    /// Returns the picture with the one header that the image crate reads, and its scanlines as they are.
+    /// Returns the picture with the only header that the image crate reads, and its scanlines unchanged.
     pub fn plain(&self, bytes: &[u8]) -> Vec<u8> {
         let head = format!("#?RADIANCE\n\n-Y {} +X {}\n", self.scanlines, self.texels);
         [head.as_bytes(), &bytes[self.length..]].concat()

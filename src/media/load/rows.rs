@@ -1,26 +1,26 @@
-//! Decoded texels of 1 to 4 components of 8 or 16 bits become four bytes each in the buffer that they were decoded into, so
-//! that a picture is in memory once.
+//! Widens or narrows decoded texels of 1 to 4 components of 8 or 16 bits to four bytes each, in the buffer that they
+//! were decoded into, so that a picture is in memory only once.
 
 use crate::Texels;
 use eddy_texture::TexelFormat;
 use image::{ColorType, ImageDecoder, ImageResult};
 
-/// Returns whether [`read`] reads texels of a kind.
+/// Returns whether [`read`] supports this colour type.
 pub(super) fn fits(color: ColorType) -> bool {
     use ColorType as C;
     matches!(color, C::L8 | C::La8 | C::Rgb8 | C::Rgba8 | C::L16 | C::La16 | C::Rgb16 | C::Rgba16)
 }
 
-/// Decodes a picture whose texels [`fits`] says are read. The memory is that of the decoded picture, at least 4 bytes a texel,
-/// and what the decoder itself takes.
+/// Decodes a picture whose colour type [`fits`]. It takes the memory of the decoded picture, at least 4 bytes per
+/// texel, in addition to the decoder's own memory.
 pub(super) fn read(decoder: impl ImageDecoder) -> ImageResult<Texels> {
     let (width, height) = decoder.dimensions();
     let color = decoder.color_type();
     let stored = usize::from(color.bytes_per_pixel());
     let count = width as usize * height as usize;
     let mut bytes = vec![0; stored.max(4) * count];
-    // At the end of the buffer, and texels are widened from the first on; larger ones are narrowed likewise. So none is
-    // written over one that is still to be read.
+    // Narrow texels are read to the end of the buffer and widened from the first one on; larger ones are narrowed in
+    // the same order. So no texel is overwritten before it is read.
     let from = bytes.len() - stored * count;
     decoder.read_image(&mut bytes[from..])?;
     let components = usize::from(color.channel_count());
@@ -66,10 +66,10 @@ mod tests {
     use std::io::Cursor;
 
     #[test]
-    fn every_number_of_components_gives_the_texels_of_the_image_crate() {
+    fn conversions_equal_those_of_the_image_crate() {
         let rgba = image::RgbaImage::from_fn(7, 5, |x, y| image::Rgba([x as u8 * 9, y as u8 * 31, 200, 255 - x as u8]));
         let rgba = DynamicImage::from(rgba);
-        // All values of 16 bits are somewhere in it.
+        // It contains every 16-bit value.
         let deep = image::ImageBuffer::<image::Rgba<u16>, _>::from_fn(256, 64, |x, y| {
             image::Rgba([0u16, 1, 2, 3].map(|n| 4 * (256 * y as u16 + x as u16) + n))
         });

@@ -10,7 +10,7 @@ fn load_file(path: &Path, vflip: bool) -> Result<Texels, MediaError> {
 }
 
 #[test]
-fn vflip_puts_the_top_row_at_v_one_and_no_value_is_changed() {
+fn vflip_puts_the_top_row_at_v_one_and_keeps_all_values() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.png");
     let pixels = vec![1, 2, 3, 4, 128, 129, 130, 0, 250, 251, 252, 253, 9, 8, 7, 6];
@@ -41,7 +41,7 @@ fn a_high_dynamic_range_picture_keeps_values_above_one() {
 }
 
 #[test]
-fn broken_pictures_are_clear_errors() {
+fn broken_pictures_are_errors() {
     let dir = tempfile::tempdir().unwrap();
     let write = |name: &str, bytes: &[u8]| {
         let path = dir.path().join(name);
@@ -52,7 +52,7 @@ fn broken_pictures_are_clear_errors() {
     let good = dir.path().join("good.png");
     ImageBuffer::<Rgba<u8>, _>::from_pixel(64, 64, Rgba([1u8, 2, 3, 4])).save(&good).unwrap();
     let whole = std::fs::read(&good).unwrap();
-    // Width 0 and width 2^31-1 in the header, with its checksum made right.
+    // Width 0 and width 2^31-1 in the header, with a correct checksum.
     let with_size = |width: u32, height: u32| {
         let mut bytes = whole.clone();
         bytes[16..20].copy_from_slice(&width.to_be_bytes());
@@ -90,7 +90,7 @@ fn crc32(bytes: &[u8]) -> u32 {
 }
 
 #[test]
-fn a_file_of_the_sites_name_wins_over_the_fallback_and_grey_ids_are_one_channel() {
+fn files_in_the_media_folder_replace_fallbacks_and_grey_ids_have_one_channel() {
     let dir = tempfile::tempdir().unwrap();
     let grey = Media::Site { id: "4sf3Rn".into(), path: "/media/a/0a40.png".into() };
     let fallback = picture(&grey, true, None, None).unwrap();
@@ -112,7 +112,7 @@ fn an_unknown_built_in_names_the_nearest() {
     assert!(matches!(picture(&Media::File("a.png".into()), true, None, None), Err(MediaError::NoFolder { .. })));
 }
 
-/// Red, green, blue and white at the corners, in reading order.
+/// Returns the letters of the corners' colours (red, green, blue and white), in reading order.
 fn corners(texels: &Texels) -> String {
     let (w, h) = (texels.shape.width as usize, texels.shape.height as usize);
     let name = |[x, y]: [usize; 2]| {
@@ -128,7 +128,7 @@ fn corners(texels: &Texels) -> String {
     [[0, 0], [w - 1, 0], [0, h - 1], [w - 1, h - 1]].map(name).iter().collect()
 }
 
-/// A picture of 32 x 16 texels of these corners.
+/// Returns a picture of 32 x 16 texels with these corners.
 fn quarters() -> image::RgbImage {
     ImageBuffer::from_fn(32, 16, |x, y| match (x < 16, y < 8) {
         (true, true) => Rgb([255, 0, 0]),
@@ -138,7 +138,7 @@ fn quarters() -> image::RgbImage {
     })
 }
 
-/// EXIF data with an orientation, as TIFF of either order of bytes.
+/// Returns EXIF data with an orientation, as TIFF of either byte order.
 fn exif(orientation: u16, big_end_first: bool) -> Vec<u8> {
     let short = |n: u16| if big_end_first { n.to_be_bytes() } else { n.to_le_bytes() };
     let long = |n: u32| if big_end_first { n.to_be_bytes() } else { n.to_le_bytes() };
@@ -153,7 +153,7 @@ fn encoded(format: ImageFormat) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// A JPEG with an APP1 segment behind its first marker.
+/// Returns a JPEG with an APP1 segment after its first marker.
 fn jpeg_with(segment: &[u8]) -> Vec<u8> {
     let plain = encoded(ImageFormat::Jpeg);
     let length = (segment.len() as u16 + 2).to_be_bytes();
@@ -167,7 +167,7 @@ fn png_with(exif: &[u8]) -> Vec<u8> {
     [&plain[..33], &length, &chunk, &crc32(&chunk).to_be_bytes(), &plain[33..]].concat()
 }
 
-/// Chromium 156 uploads each kind to a texture of WebGL 2 like that.
+/// Chromium 156 uploads each format to a texture of WebGL 2 like this.
 #[test]
 fn a_picture_is_turned_by_its_exif_orientation_where_a_browser_does_so() {
     let dir = tempfile::tempdir().unwrap();
@@ -197,7 +197,7 @@ fn a_picture_is_turned_by_its_exif_orientation_where_a_browser_does_so() {
             assert_eq!(read("a.webp", webp), as_stored, "WebP {orientation}");
         }
     }
-    // What says nothing changes nothing: no orientation, one that there is not, one that is cut short, other data.
+    // Segments that are ignored: no orientation, an invalid one, a truncated one, other data.
     for segment in [
         &b"Exif\0\0"[..],
         &[b"Exif\0\0", &exif(9, true)[..]].concat(),
@@ -207,12 +207,12 @@ fn a_picture_is_turned_by_its_exif_orientation_where_a_browser_does_so() {
         assert_eq!(read("a.jpg", jpeg_with(segment)), as_stored);
     }
     assert_eq!(read("a.png", png_with(&exif(0, false))), as_stored);
-    // The content counts, and not the ending.
+    // The content decides, not the extension.
     assert_eq!(read("a.gif", jpeg_with(&[b"Exif\0\0", &exif(3, true)[..]].concat())).2, "wbgr");
 }
 
 #[test]
-fn a_radiance_picture_is_upright_however_its_scanlines_run() {
+fn radiance_pictures_of_every_orientation_are_upright() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.hdr");
     let read = |bytes: &[u8]| {
@@ -244,7 +244,7 @@ fn a_radiance_picture_is_upright_however_its_scanlines_run() {
         assert_eq!(reds, [0.0, 1.0, 2.0, 10.0, 11.0, 12.0], "{axes}");
         assert_eq!(numbers[1..4], [64.0, 0.0, 1.0], "{axes}");
     }
-    // The three ways in which a scanline is stored: texels, runs of texels, and runs of each component.
+    // The three encodings of a scanline: texels, runs of texels, and runs of each component.
     let head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n".as_bytes();
     let flat = [1, 2, 3, 136].repeat(8);
     let old = [1, 2, 3, 136, 1, 1, 1, 7];
@@ -259,7 +259,7 @@ fn a_radiance_picture_is_upright_however_its_scanlines_run() {
 }
 
 #[test]
-fn a_kind_of_picture_that_is_not_read_is_named() {
+fn errors_name_the_unsupported_format() {
     let dir = tempfile::tempdir().unwrap();
     for (name, bytes, kind) in [
         ("a.tif", &b"II*\0\x08\0\0\0"[..], "TIFF"),
@@ -276,7 +276,7 @@ fn a_kind_of_picture_that_is_not_read_is_named() {
 }
 
 #[test]
-fn of_an_animated_picture_the_first_frame_is_read() {
+fn the_first_frame_of_an_animation_is_loaded() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.png");
     let chunk = |kind: &[u8; 4], data: &[u8]| {
@@ -289,15 +289,15 @@ fn of_an_animated_picture_the_first_frame_is_read() {
     let control = chunk(b"acTL", &[0, 0, 0, 1, 0, 0, 0, 0]);
     let [w, h] = [32u32, 16].map(u32::to_be_bytes);
     let frame = chunk(b"fcTL", &[&[0; 4][..], &w, &h, &[0; 8], &[0, 1, 0, 1, 0, 0]].concat());
-    // The picture as the frame, and the frame behind another picture, all black.
+    // The default image as the first frame, and a frame after a separate default image, which is black.
     let whole = [&plain[..data], &control, &frame, &plain[data..]].concat();
     let mut black = Cursor::new(Vec::new());
     image::RgbImage::new(32, 16).write_to(&mut black, ImageFormat::Png).unwrap();
     let black = black.into_inner();
-    let behind = black.len() - 12;
+    let end_chunk = black.len() - 12;
     let first_data = &plain[data + 8..end - 4];
     let moved = chunk(b"fdAT", &[&1u32.to_be_bytes()[..], first_data].concat());
-    let other = [&black[..33], &control, &black[33..behind], &frame, &moved, &black[behind..]].concat();
+    let other = [&black[..33], &control, &black[33..end_chunk], &frame, &moved, &black[end_chunk..]].concat();
     for bytes in [whole, other] {
         std::fs::write(&path, bytes).unwrap();
         assert_eq!(corners(&load_file(&path, false).unwrap()), "rgbw");
@@ -342,7 +342,7 @@ fn a_cubemap_is_six_files_or_one() {
 }
 
 #[test]
-fn a_volume_is_a_file_of_the_site() {
+fn volumes_of_shadertoy_are_loaded() {
     let dir = tempfile::tempdir().unwrap();
     let mut file = b"BIN\0\x02\0\0\0\x01\0\0\0\x01\0\0\0\x01\0\0\0".to_vec();
     file.extend([5, 6]);

@@ -1,16 +1,16 @@
-//! Volumes: the site's files and stacks of pictures.
+//! Volumes: Shadertoy's files and stacks of pictures.
 
 use super::cube::small_floats;
 use crate::Texels;
 use eddy_project::limits;
 use eddy_texture::{TexelFormat, TextureShape};
 
-/// Bytes before the texels of the site's file: signature, three sides, channels, layout, format.
+/// The bytes before the texels of Shadertoy's file: signature, three sides, channels, layout, format.
 const HEAD: usize = 20;
 
-/// Reads a file of the site's kind: a signature of 4 bytes, three sides (u32), the number of channels and the layout
-/// (u8), the format (u16: 0 for bytes, 10 for floats), then the texels; all numbers little-endian. `room`: bytes that
-/// it may take.
+/// Reads a file in Shadertoy's format: a signature of 4 bytes, three sides (u32), the number of channels and the layout
+/// (u8), the format (u16: 0 for bytes, 10 for floats), then the texels; all numbers are little-endian. `room` is the
+/// number of bytes that it may take.
 pub fn read(file: &[u8], room: u64) -> Result<Texels, String> {
     let (head, texels) = file.split_at_checked(HEAD).ok_or("the file ends within its header of 20 bytes")?;
     if !head.starts_with(b"BIN\0") {
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn the_sites_files_are_read() {
+    fn files_of_shadertoy_are_read() {
         let texels = read(&file([2, 1, 3], 1, 0, &[1, 2, 3, 4, 5, 6]), 100).unwrap();
         assert_eq!(
             texels,
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn damaged_files_are_refused_before_memory_is_taken() {
+    fn damaged_files_are_rejected_before_memory_is_allocated() {
         for (bytes, says) in [
             (b"BIN".to_vec(), "within its header"),
             (vec![7; 64], "letters BIN"),

@@ -1,4 +1,4 @@
-//! The error of loading a mesh, with what to do about it.
+//! The errors of loading a mesh, with hints for fixing them.
 
 use super::{builtin::NAMES, trouble::ModelError};
 use eddy_project::{confine::FileError, listed, nearest};
@@ -19,16 +19,16 @@ pub enum MeshError {
     Model { path: PathBuf, trouble: ModelError },
 }
 
-/// A word about a model that is loaded, but not as its author may think. The model's name is not in it.
+/// A warning about a model that is loaded, but maybe not as its author expects. It does not contain the model's name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MeshWarning {
     pub message: String,
-    /// The way to mend it.
+    /// A hint for fixing it.
     pub hint: String,
 }
 
 impl MeshError {
-    /// Returns what to do about it.
+    /// Returns a hint for fixing it.
     pub fn hint(&self) -> String {
         match self {
             MeshError::UnknownBuiltin(name) => match nearest(name, NAMES) {

@@ -1,4 +1,4 @@
-//! Makes what a file leaves out: normals and tangents.
+//! Adds what a file omits: normals and tangents.
 
 use super::{
     model::{Mesh, Raw},
@@ -7,7 +7,7 @@ use super::{
 };
 use eddy_project::Normals;
 
-/// A mesh with everything a vertex has. `normals`: which are made where there are none.
+/// Returns a mesh with all attributes of its vertices. `normals` selects how missing ones are made.
 pub(super) fn finished(mut raw: Raw, normals: Normals) -> Result<Mesh, ModelError> {
     if !raw.indices.len().is_multiple_of(3) {
         return Err(ModelError::broken(format!("{} corners are not a whole number of triangles", raw.indices.len())));

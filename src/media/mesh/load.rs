@@ -1,4 +1,4 @@
-//! Loads a mesh by what the project says of it.
+//! Loads a mesh from its description in the project.
 
 use super::{
     builtin,
@@ -12,20 +12,20 @@ use super::{
 use eddy_project::{MeshSource, Normals, confine, limits};
 use std::path::Path;
 
-/// Loads a mesh. A file lies in the project's folder `base`, see [`confine`]. `normals` says which are made where a file
-/// has none; unsaid they are as the kind of file wants them: see [`eddy_project::MeshDraw::normals`].
+/// Loads a mesh. A file is in the project's folder `base`, see [`confine`]. `normals` selects how missing normals are
+/// made; the default depends on the file format: see [`eddy_project::MeshDraw::normals`].
 pub fn load(source: &MeshSource, normals: Option<Normals>, base: Option<&Path>) -> Result<Mesh, MeshError> {
     load_within(source, normals, base, limits::MEDIA_BYTES).map(|loaded| loaded.mesh)
 }
 
-/// A mesh, and what is to be said of it.
+/// A mesh with its warnings.
 pub(crate) struct Loaded {
     pub mesh: Mesh,
-    /// Parts that are not drawn as the file's author may think.
+    /// Parts that are not drawn as the file's author may expect.
     pub warnings: Vec<MeshWarning>,
 }
 
-/// The same where pictures and models may take `room` bytes more.
+/// Does the same, but pictures and models may take `room` bytes more.
 pub(crate) fn load_within(
     source: &MeshSource,
     normals: Option<Normals>,
@@ -38,7 +38,7 @@ pub(crate) fn load_within(
             return Ok(Loaded { mesh, warnings: Vec::new() });
         }
         MeshSource::File(path) => (path.as_path(), base),
-        // What it names lies beside it.
+        // The files that it names are next to it.
         MeshSource::Picked(path) => (Path::new(path.file_name().unwrap_or_default()), path.parent()),
     };
     let is = |ending: &str| name.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
@@ -52,7 +52,7 @@ pub(crate) fn load_within(
     let mut mesh = Mesh { vertices: Vec::new(), indices: Vec::new() };
     let mut made = Counts::default();
     let mut take = |raw: Raw| -> Result<(), ModelError> {
-        // What was counted before is what the file has; flat normals take three vertices a triangle.
+        // The earlier counts are those of the file; flat normals need three vertices per triangle.
         let parts_corners = normals == Normals::Flat && !raw.has_normals;
         let vertices = if parts_corners { raw.indices.len() } else { raw.vertices.len() };
         made.add(vertices as u64, raw.indices.len() as u64 / 3).and_then(|()| made.fit(room)).map_err(|trouble| {
@@ -68,7 +68,7 @@ pub(crate) fn load_within(
         Ok(())
     };
     let done = if is_gltf {
-        // What a model names is relative to it.
+        // File names in a model are relative to it.
         let named = |uri: &str, limit| confine::read(folder, confine::relative(&name.to_string_lossy(), uri)?, limit);
         gltf::load(&bytes, &named, room, &mut take).map(|left_out| (left_out, Vec::new()))
     } else {

@@ -1,8 +1,8 @@
-//! Meshes: glTF 2.0 and OBJ files, and some made by code.
+//! Meshes: glTF 2.0 and OBJ files, and built-in ones.
 //!
-//! Owns what a vertex holds and where it comes from. Normals that a file does not have are made flat or
-//! smooth, tangents as MikkTSpace has them where there are texture coordinates. v runs upward, as in the rest of Eddy,
-//! so glTF's is turned; a triangle's front is where its corners turn counter-clockwise.
+//! Defines the vertex format and loads meshes. Missing normals are made flat or smooth; missing tangents as by
+//! MikkTSpace if there are texture coordinates. v points upward, as in the rest of Eddy, so glTF's is flipped; the
+//! front of a triangle is where its corners are counter-clockwise.
 
 mod builtin;
 mod error;

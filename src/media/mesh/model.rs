@@ -1,24 +1,24 @@
-//! Says what a mesh is: its vertices as the vertex buffer holds them, and its triangles.
+//! The data of a mesh: its vertices in the format of the vertex buffer, and its triangles.
 
 use bytemuck::{Pod, Zeroable};
 
-/// The attributes of a vertex as the vertex buffer holds them.
+/// The attributes of a vertex in the format of the vertex buffer.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Vertex {
     pub position: [f32; 3],
     /// The normal, of length 1.
     pub normal: [f32; 3],
-    /// The tangent, of length 1 and along u; the fourth is the sign of the bitangent `cross(normal, tangent)`. Zeros
-    /// without uv.
+    /// The tangent, of length 1 and along u; the fourth component is the sign of the bitangent `cross(normal,
+    /// tangent)`. Zeros without uv.
     pub tangent: [f32; 4],
     pub uv: [f32; 2],
-    /// White where the mesh says nothing.
+    /// White if the mesh has no colours.
     pub color: [f32; 4],
 }
 
 impl Vertex {
-    /// White, and else zeros.
+    /// A white vertex with all other attributes zero.
     pub const PLAIN: Vertex =
         Vertex { position: [0.0; 3], normal: [0.0; 3], tangent: [0.0; 4], uv: [0.0; 2], color: [1.0; 4] };
 }
@@ -31,12 +31,12 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Memory that it takes.
+    /// Returns its size in memory.
     pub fn bytes(&self) -> u64 {
         (size_of_val(&*self.vertices) + size_of_val(&*self.indices)) as u64
     }
 
-    /// Puts another mesh behind this one.
+    /// Appends another mesh.
     pub(super) fn append(&mut self, other: Mesh) {
         if self.vertices.is_empty() && self.indices.is_empty() {
             *self = other;
@@ -48,7 +48,7 @@ impl Mesh {
     }
 }
 
-/// The triangles as a file has them, before what it leaves out is made.
+/// The triangles as in a file, before missing attributes are made.
 #[derive(Debug, Default)]
 pub(super) struct Raw {
     pub vertices: Vec<Vertex>,

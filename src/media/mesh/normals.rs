@@ -1,9 +1,9 @@
-//! Normals where a model brings none.
+//! Computes the normals of models without any.
 
 use super::model::{Raw, Vertex};
 use glam::{DVec3, Vec3};
 
-/// Normals of the triangles: each has corners of its own.
+/// Computes normals per triangle: each gets corners of its own.
 pub(super) fn flat(raw: &mut Raw) {
     let mut vertices: Vec<Vertex> = Vec::with_capacity(raw.indices.len());
     for corners in raw.indices.chunks_exact(3) {
@@ -17,13 +17,13 @@ pub(super) fn flat(raw: &mut Raw) {
     raw.vertices = vertices;
 }
 
-/// The normal of a triangle, as long as twice its area.
+/// Returns the normal of a triangle, whose length is twice its area.
 fn face(a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
     (b - a).cross(c - a)
 }
 
-/// Normals that are the mean of those of the triangles around a place, by their areas: seams of the texture do not
-/// show.
+/// Computes normals as the mean of those of the triangles around a place, weighted by area: seams of the texture are
+/// invisible.
 pub(super) fn smooth(raw: &mut Raw) {
     let group = places(raw);
     let mut sums = vec![DVec3::ZERO; group.iter().max().map_or(0, |last| *last as usize + 1)];
@@ -36,15 +36,15 @@ pub(super) fn smooth(raw: &mut Raw) {
         }
     }
     for (vertex, group) in raw.vertices.iter_mut().zip(group) {
-        // A vertex of no triangle that has an area points somewhere.
+        // A vertex without a triangle of non-zero area gets an arbitrary normal.
         vertex.normal = sums[group as usize].try_normalize().unwrap_or(DVec3::Y).as_vec3().to_array();
     }
 }
 
-/// A number for each vertex that vertices of one place share, from 0 on. By sorting, as a hash table of millions of
-/// places takes several times the memory.
+/// Returns an index for each vertex that vertices at the same place share, from 0. Uses sorting, as a hash table of
+/// millions of places takes several times the memory.
 pub(super) fn places(raw: &Raw) -> Vec<u32> {
-    // Both zeros are one place.
+    // Positive and negative zero are the same place.
     let key = |i: u32| raw.vertices[i as usize].position.map(|x| (x + 0.0).to_bits());
     let mut order: Vec<u32> = (0..raw.vertices.len() as u32).collect();
     order.sort_unstable_by_key(|i| key(*i));

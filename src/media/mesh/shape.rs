@@ -1,4 +1,4 @@
-//! Surfaces to make meshes of: grids that may close upon themselves.
+//! Surfaces for generated meshes: grids that may be closed.
 
 use super::{
     finish::finished,
@@ -8,7 +8,7 @@ use eddy_project::Normals;
 use glam::Vec3;
 use std::f32::consts::TAU;
 
-/// A grid of quads over u and v. `closed`: the last column (row) lies where the first does, with its own texture
+/// A grid of quads over u and v. `closed`: the last column (row) is at the place of the first, with its own texture
 /// coordinate.
 pub(super) struct Grid {
     pub columns: u32,
@@ -17,13 +17,14 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// The surface through `place`, seen from the side where u turns counter-clockwise into v. Normals are made smooth.
+    /// Returns the surface through `place`, seen from the side where u turns counter-clockwise into v, with smooth
+    /// normals.
     pub fn surface(&self, color: [f32; 3], place: impl Fn(f32, f32) -> Vec3) -> Mesh {
         let mut raw = Raw { has_uv: true, ..Raw::default() };
         for j in 0..=self.rows {
             for i in 0..=self.columns {
                 let part = |n: u32, of: u32, closed: bool| (if closed { n % of } else { n }) as f32 / of as f32;
-                // Exactly the first place again where the grid closes, for normals to meet.
+                // Exactly the first place if the grid is closed, so that normals meet.
                 let at = place(part(i, self.columns, self.closed[0]), part(j, self.rows, self.closed[1]));
                 raw.vertices.push(Vertex {
                     position: at.to_array(),
@@ -39,7 +40,7 @@ impl Grid {
                 let [a, b] = [j * width + i, j * width + i + 1];
                 let [c, d] = [a + width, b + width];
                 for corners in [[a, b, d], [a, d, c]] {
-                    // A pole makes triangles of quads.
+                    // At a pole, quads become triangles.
                     let p = corners.map(|n| raw.vertices[n as usize].position);
                     if p[0] != p[1] && p[1] != p[2] && p[2] != p[0] {
                         raw.indices.extend(corners);
@@ -51,7 +52,7 @@ impl Grid {
     }
 }
 
-/// A profile of (radius, height) turned about the y axis, from the bottom up.
+/// Rotates a profile of (radius, height) around the y axis, from the bottom up.
 pub(super) fn lathe(color: [f32; 3], columns: u32, profile: &[[f32; 2]]) -> Mesh {
     let rows = profile.len() as u32 - 1;
     Grid { columns, rows, closed: [true, false] }.surface(color, |u, v| {
@@ -75,7 +76,7 @@ pub(super) fn round_profile(radius: f32, straight: f32, rows: u32) -> Vec<[f32; 
     bottom.into_iter().chain(top.into_iter().skip(skip)).collect()
 }
 
-/// A tube of `radius` about a closed curve.
+/// Returns a tube of `radius` around a closed curve.
 pub(super) fn tube(color: [f32; 3], columns: u32, rows: u32, radius: f32, curve: impl Fn(f32) -> Vec3) -> Mesh {
     Grid { columns, rows, closed: [true, true] }.surface(color, |u, v| {
         let step = 1e-3;

@@ -1,4 +1,4 @@
-//! Tangents where a model brings none, as MikkTSpace has them: what normal maps are baked for.
+//! Computes the tangents of models without any, as MikkTSpace does: normal maps are baked for those.
 
 use super::{
     model::{Mesh, Raw, Vertex},
@@ -9,8 +9,8 @@ use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 use eddy_project::limits;
 use std::collections::HashMap;
 
-/// Checks that tangents are made in reasonable time: MikkTSpace compares the corners that meet at a place with each
-/// other.
+/// Checks that tangents can be computed in reasonable time: MikkTSpace compares all pairs of corners that meet at a
+/// place.
 pub(super) fn check(raw: &Raw) -> Result<(), ModelError> {
     let group = normals::places(raw);
     let mut corners = vec![0u64; group.iter().max().map_or(0, |last| *last as usize + 1)];
@@ -25,7 +25,7 @@ pub(super) fn check(raw: &Raw) -> Result<(), ModelError> {
     )))
 }
 
-/// Every corner of every triangle, since two triangles of a vertex may have different tangents.
+/// Every corner of every triangle, since two triangles may have different tangents at a vertex.
 struct Corners<'a> {
     mesh: &'a Mesh,
     tangents: Vec<[f32; 4]>,
@@ -63,7 +63,7 @@ impl Geometry for Corners<'_> {
     }
 }
 
-/// The mesh with tangents; vertices are parted where their tangents differ.
+/// Returns the mesh with tangents; vertices are split where their tangents differ.
 pub(super) fn with_tangents(mut mesh: Mesh) -> Mesh {
     let tangents = mesh.indices.iter().map(|i| mesh.vertices[*i as usize].tangent).collect();
     let mut corners = Corners { mesh: &mesh, tangents };

@@ -1,36 +1,36 @@
-//! Says what can be wrong with a model, and how much of one is loaded.
+//! The errors of models, and the limits on their size.
 
 use super::model::Vertex;
 use eddy_project::{confine::FileError, limits};
 
-/// An error of a model; its text goes on behind the model's name.
+/// An error of a model; its text follows the model's name.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ModelError {
-    /// It is not what its format says.
+    /// The file violates its format.
     #[error(" is broken: {0}")]
     Broken(String),
-    /// An error in a line of a text, counted from 1, and how to mend it.
+    /// An error in a line of a text, counted from 1, with a hint for fixing it.
     #[error(" is broken: line {line}: {reason}")]
     Line { line: usize, reason: String, mend: String },
-    /// It is beyond a limit.
+    /// A limit is exceeded.
     #[error(" is too large: {0}")]
     TooLarge(String),
     /// An error of a file that the model names.
     #[error(" refers to a file: {0}")]
     Named(FileError),
-    /// It is glTF of a version that is not read.
+    /// A version of glTF that is not supported.
     #[error(": this is glTF {0}; Eddy reads 2.0")]
     Version(String),
-    /// It needs what is not read. `because` says why it is needed, and may be empty; `mend` what to do.
+    /// The model needs an unsupported feature. `because` is the reason and may be empty; `mend` is the fix.
     #[error(" needs {what}, which Eddy cannot read{}{because}", if because.is_empty() { "" } else { ": " })]
     Needs { what: String, because: String, mend: String },
-    /// It holds no triangles; the words behind that say what else.
+    /// The model has no triangles; the text lists what else it contains.
     #[error(" has no triangles{0}")]
     Empty(String),
 }
 
 impl ModelError {
-    /// Returns what to do about it.
+    /// Returns a hint for fixing it.
     pub fn hint(&self) -> String {
         match self {
             ModelError::Named(error) => error.hint(),
@@ -45,12 +45,12 @@ impl ModelError {
         }
     }
 
-    /// Cut short where a parser quotes a whole file.
+    /// Truncated, as a parser may quote a whole file.
     pub fn broken(reason: impl std::fmt::Display) -> ModelError {
         ModelError::Broken(Self::short(&reason.to_string()))
     }
 
-    /// A text of the file's, cut short where it is long.
+    /// Truncates a long text from a file.
     pub fn short(text: &str) -> String {
         const LONGEST: usize = 400;
         match text.char_indices().nth(LONGEST) {
@@ -59,7 +59,7 @@ impl ModelError {
         }
     }
 
-    /// Adds where in the file something is broken.
+    /// Adds the location to an error about broken data.
     pub fn at(self, place: impl FnOnce() -> String) -> ModelError {
         match self {
             ModelError::Broken(reason) => ModelError::Broken(format!("{}: {reason}", place())),
@@ -68,7 +68,7 @@ impl ModelError {
     }
 }
 
-/// The sizes of a model, counted before any of it is made.
+/// The sizes of a model, counted before memory is allocated.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Counts {
     pub vertices: u64,
@@ -77,20 +77,20 @@ pub(super) struct Counts {
     joints: u64,
     moved: u64,
     zeros: u64,
-    /// The most zeros: see [`limits::MODEL_ZEROS`].
+    /// The maximum number of zeros: see [`limits::MODEL_ZEROS`].
     most_zeros: u64,
 }
 
-/// Bytes of a position, the largest of the elements that are counted.
+/// The bytes of a position, the largest of the elements that are counted.
 const POSITION_BYTES: u64 = 12;
 
 impl Counts {
-    /// Counts what is in a file of so many bytes, those of its buffers among them.
+    /// Starts counting the contents of a file of this many bytes, including its buffers.
     pub fn of_file(bytes: u64) -> Self {
         Self { most_zeros: limits::MODEL_ZEROS + bytes / POSITION_BYTES, ..Self::default() }
     }
 
-    /// Adds elements that no bytes of the file are there for.
+    /// Adds elements that have no bytes in the file.
     pub fn add_zeros(&mut self, elements: u64) -> Result<(), ModelError> {
         self.zeros = self.zeros.saturating_add(elements);
         at_most(self.zeros, self.most_zeros, "positions, indices and instances without data")
@@ -117,13 +117,13 @@ impl Counts {
         at_most(self.joints, limits::MODEL_JOINTS, "joints")
     }
 
-    /// Vertices that morph targets and joints move, counted for each of these.
+    /// Adds vertices that morph targets and joints move, counted once for each.
     pub fn add_moved(&mut self, vertices: u64) -> Result<(), ModelError> {
         self.moved = self.moved.saturating_add(vertices);
         at_most(self.moved, limits::MODEL_MOVED, "vertices of morph targets and sets of joints")
     }
 
-    /// Returns whether there is room for them.
+    /// Returns an error if they do not fit into `room`.
     pub fn fit(&self, room: u64) -> Result<(), ModelError> {
         if self.vertices * size_of::<Vertex>() as u64 + self.triangles * 12 <= room {
             return Ok(());

@@ -1,4 +1,4 @@
-//! Animated images and sequences, for which ffmpeg is not asked.
+//! Animated images and sequences, which do not need ffmpeg.
 
 use super::*;
 use image::{
@@ -6,7 +6,7 @@ use image::{
     codecs::gif::{GifEncoder, Repeat},
 };
 
-/// An animated GIF whose frames last so many milliseconds.
+/// Returns an animated GIF whose frames have these lengths in milliseconds.
 pub fn gif(delays: &[u32]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = GifEncoder::new(&mut bytes);
@@ -20,7 +20,7 @@ pub fn gif(delays: &[u32]) -> Vec<u8> {
     bytes
 }
 
-/// A PNG of one colour.
+/// Returns a PNG of one colour.
 fn png(n: usize) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     let image = RgbaImage::from_pixel(SIDE.0, SIDE.1, image::Rgba(color(n)));
@@ -28,7 +28,7 @@ fn png(n: usize) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// A chunk of a PNG with its checksum.
+/// Returns a chunk of a PNG with its checksum.
 fn chunk(kind: &[u8; 4], content: &[u8]) -> Vec<u8> {
     let mut crc = !0_u32;
     for byte in kind.iter().chain(content) {
@@ -40,7 +40,7 @@ fn chunk(kind: &[u8; 4], content: &[u8]) -> Vec<u8> {
     [&(content.len() as u32).to_be_bytes()[..], kind, content, &(!crc).to_be_bytes()].concat()
 }
 
-/// An animated PNG whose frames last so many milliseconds.
+/// Returns an animated PNG whose frames have these lengths in milliseconds.
 pub fn apng(delays: &[u16]) -> Vec<u8> {
     let first = png(0);
     let parts = |bytes: &[u8]| -> Vec<([u8; 4], Vec<u8>)> {
@@ -78,7 +78,7 @@ pub fn apng(delays: &[u16]) -> Vec<u8> {
     out
 }
 
-/// An animated WebP whose frames last so many milliseconds.
+/// Returns an animated WebP whose frames have these lengths in milliseconds.
 pub fn webp(delays: &[u32]) -> Vec<u8> {
     let riff = |kind: &[u8; 4], content: &[u8]| {
         let padding = &[0][..content.len() % 2];
@@ -93,7 +93,7 @@ pub fn webp(delays: &[u32]) -> Vec<u8> {
         let mut still = std::io::Cursor::new(Vec::new());
         let image = RgbaImage::from_pixel(SIDE.0, SIDE.1, image::Rgba(color(n)));
         image.write_to(&mut still, image::ImageFormat::WebP).unwrap();
-        // Its one chunk of pixels.
+        // Its only chunk of pixels.
         let still = still.into_inner();
         let place = [three(0), three(0), three(SIDE.0 - 1), three(SIDE.1 - 1), three(*delay), vec![2]].concat();
         body.extend(riff(b"ANMF", &[&place[..], &still[12..]].concat()));
@@ -106,9 +106,9 @@ fn of(bytes: Vec<u8>) -> Video {
 }
 
 #[test]
-fn frames_last_as_long_as_they_say() {
-    // The second is as short as browsers do not believe: it lasts 100 ms.
-    let begins = [0.0, 0.05, 0.15, 0.35, 0.38];
+fn frames_last_for_their_declared_delays() {
+    // The second is shorter than browsers accept: it lasts 100 ms.
+    let starts = [0.0, 0.05, 0.15, 0.35, 0.38];
     for (what, video) in [
         ("gif", of(gif(&[50, 10, 200, 30, 120]))),
         ("apng", of(apng(&[50, 10, 200, 30, 120]))),
@@ -117,9 +117,9 @@ fn frames_last_as_long_as_they_say() {
         assert_eq!((video.info().width, video.info().height), SIDE, "{what}");
         assert!((video.info().seconds - 0.5).abs() < 1e-9, "{what}: {:?}", video.info());
         for round in [0.0, 0.5, 5.0, 0.0] {
-            for (n, begin) in begins.iter().enumerate() {
-                let end = begins.get(n + 1).unwrap_or(&0.5);
-                for at in [begin + 1e-6, end - 1e-4] {
+            for (n, start) in starts.iter().enumerate() {
+                let end = starts.get(n + 1).unwrap_or(&0.5);
+                for at in [start + 1e-6, end - 1e-4] {
                     assert_eq!(shown(&video, round + at), n, "{what} at {}", round + at);
                 }
             }
@@ -128,7 +128,7 @@ fn frames_last_as_long_as_they_say() {
 }
 
 #[test]
-fn what_moves_is_told_from_what_does_not() {
+fn animated_and_still_images_are_told_apart() {
     for bytes in [gif(&[50, 50]), apng(&[50, 50]), webp(&[50, 50])] {
         assert!(is_animation(&bytes) && is_animated(&bytes));
     }

@@ -1,9 +1,9 @@
-//! Cameras, for which filters of ffmpeg stand in.
+//! Cameras, replaced by filters of ffmpeg.
 
 use super::*;
 
 #[test]
-fn the_newest_picture_of_a_camera_wins_and_the_last_one_stays() {
+fn a_camera_returns_its_newest_picture_and_keeps_the_last_one() {
     if !has_ffmpeg() {
         return;
     }
@@ -30,7 +30,7 @@ fn the_newest_picture_of_a_camera_wins_and_the_last_one_stays() {
 }
 
 #[test]
-fn a_camera_that_is_not_there_says_why() {
+fn a_missing_camera_is_an_error() {
     if !has_ffmpeg() {
         return;
     }

@@ -6,7 +6,7 @@ use super::{
 };
 use std::time::Instant;
 
-/// Bits turned, parts cut out, doubled or overwritten, or the end cut off.
+/// Flips bits, cuts out, doubles or overwrites parts, or truncates.
 fn damaged(whole: &[u8], random: &mut Random) -> Vec<u8> {
     let mut bytes = whole.to_vec();
     for _ in 0..1 + random.below(4) {

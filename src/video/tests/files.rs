@@ -2,17 +2,17 @@
 
 use super::*;
 
-/// Positions of all kinds in a video of `count` frames at `rate`, with the frame that each shows.
+/// Returns positions of all kinds in a video of `count` frames at `rate`, with the frame that each shows.
 fn positions(count: usize, rate: f64, random: &mut Random) -> Vec<(f64, usize)> {
     let length = count as f64 / rate;
     let of = |n: usize| n as f64 / rate;
     let mut all = Vec::new();
-    // On each frame, just before the next, and over the end.
+    // On each frame, just before the next, and past the end.
     for n in 0..count + 3 {
         all.push((of(n), n % count));
         all.push((of(n + 1) - 1.5e-3, n % count));
     }
-    // Backwards, and rounds later.
+    // Backwards, and in later rounds.
     for n in (0..count).rev().step_by(7) {
         all.push((of(n) + 0.3 / rate, n));
         all.push((2.0 * length + of(n) + 0.3 / rate, n));
@@ -46,7 +46,7 @@ fn each_position_shows_its_frame_at_every_rate_and_in_every_container() {
     ] {
         let path = folder.path().join(name);
         encode(&path, 48, &rate.to_string(), args);
-        // Once kept whole, once a window of two frames.
+        // Once kept as a whole, once as a window of two frames.
         for (pool, is_kept) in [(Pool::default(), true), (Pool::new(0), false)] {
             let video = open_with(&path, &Tools::default(), &pool).unwrap();
             let VideoInfo { width, height, seconds, .. } = video.info();
@@ -69,7 +69,7 @@ fn frames_of_a_variable_rate_last_as_long_as_their_times_say() {
     }
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("variable.mkv");
-    // Frame n begins at n^2 / 100 s.
+    // Frame n starts at n^2 / 100 s.
     let times = "settb=1/100,setpts=N*N";
     encode(
         &path,
@@ -80,9 +80,9 @@ fn frames_of_a_variable_rate_last_as_long_as_their_times_say() {
     let video = open(&path).unwrap();
     assert!(video.info().seconds >= 1.21, "{:?}", video.info());
     for n in 0..11_usize {
-        let begin = (n * n) as f64 / 100.0;
+        let start = (n * n) as f64 / 100.0;
         let end = ((n + 1) * (n + 1)) as f64 / 100.0;
-        for at in [begin, begin + 1e-3, 0.5 * (begin + end), end - 1e-3] {
+        for at in [start, start + 1e-3, 0.5 * (start + end), end - 1e-3] {
             assert_eq!(shown(&video, at), n, "at {at}");
         }
     }
@@ -90,13 +90,13 @@ fn frames_of_a_variable_rate_last_as_long_as_their_times_say() {
 }
 
 #[test]
-fn a_jump_into_a_long_video_gives_what_playing_it_gives() {
+fn a_jump_shows_the_same_frames_as_playing() {
     if !has_ffmpeg() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("long.mp4");
-    // 600 frames with a key frame each 10 s, and references across frames.
+    // 600 frames with a key frame every 10 s, and references across frames.
     encode(&path, 200, "10", &["-c:v", "libx264", "-crf", "4", "-g", "100", "-bf", "3", "-pix_fmt", "yuv444p"]);
     let played = open_with(&path, &Tools::default(), &Pool::new(0)).unwrap();
     let all: Vec<Frame> = (0..200).map(|n| played.frame_at(n as f64 / 10.0, Pace::Exact).frame.unwrap()).collect();
@@ -110,7 +110,7 @@ fn a_jump_into_a_long_video_gives_what_playing_it_gives() {
 }
 
 #[test]
-fn memory_is_bounded_and_given_back() {
+fn memory_is_bounded_and_released() {
     if !has_ffmpeg() {
         return;
     }
@@ -141,12 +141,12 @@ fn sizes_and_colours_are_those_of_a_browser() {
     let video = open(&file("709.mp4")).unwrap();
     let texel = video.frame_at(0.0, Pace::Exact).frame.unwrap().texels[..4].to_vec();
     assert!(texel[0] >= 253 && texel[1] <= 2 && texel[2] <= 2, "{texel:?}");
-    // Without a tag this one is taken for BT.601, as Chromium takes it, and so not pure red.
+    // Without a tag this one is treated as BT.601, as in Chromium, and so is not pure red.
     encode(&file("untagged.mp4"), 5, "25", &red);
     let video = open(&file("untagged.mp4")).unwrap();
     let texel = video.frame_at(0.0, Pace::Exact).frame.unwrap().texels[..4].to_vec();
     assert!((225..=240).contains(&texel[0]), "{texel:?}");
-    // Wide pixels, and a picture that lies on its side.
+    // Wide pixels, and a picture that is rotated to its side.
     for (name, args, size) in [
         ("wide.mp4", &["-c", "copy", "-aspect", "8:3"][..], (32, 12)),
         ("turned.mp4", &["-c", "copy", "-metadata:s:v:0", "rotate=90"], (12, 16)),
@@ -156,7 +156,7 @@ fn sizes_and_colours_are_those_of_a_browser() {
         assert!(made.unwrap().success());
         let video = open(&file(name)).unwrap();
         let is_turned = size == (12, 16) && (video.info().width, video.info().height) == SIDE;
-        // Newer versions of ffmpeg write no rotation so.
+        // Newer versions of ffmpeg do not write the rotation this way.
         assert!((video.info().width, video.info().height) == size || is_turned, "{name}: {:?}", video.info());
         assert_eq!(video.frame_at(0.0, Pace::Exact).frame.unwrap().texels.len(), video.info().frame_bytes());
     }
@@ -174,7 +174,7 @@ fn sizes_and_colours_are_those_of_a_browser() {
 }
 
 #[test]
-fn what_is_no_video_is_an_error_and_one_that_is_cut_off_plays_as_far_as_it_goes() {
+fn other_files_are_errors_and_truncated_videos_play_to_their_end() {
     if !has_ffmpeg() {
         return;
     }
@@ -218,13 +218,13 @@ fn a_live_picture_does_not_wait_for_long() {
     let path = folder.path().join("a.mkv");
     encode(&path, 200, "25", &FFV1);
     let video = open_with(&path, &Tools::default(), &Pool::new(0)).unwrap();
-    // Jumps until one comes too early: then what is shown is there, and later the right one.
+    // Jumps until a frame is late: then an available frame is shown, and later the right one.
     let mut was_late = 0;
     for n in 0..40 {
         let at = (n * 61 % 200) as f64 / 25.0;
         let began = std::time::Instant::now();
         let shown = video.frame_at(at, Pace::Live);
-        // 150 ms, and what a busy machine adds.
+        // 150 ms, plus the delays of a busy machine.
         assert!(began.elapsed() < Duration::from_millis(1500), "{:?}", began.elapsed());
         assert!(shown.frame.is_some());
         was_late += usize::from(shown.is_late);

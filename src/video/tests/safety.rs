@@ -4,7 +4,7 @@ use super::*;
 use std::time::Instant;
 
 #[test]
-fn names_mean_nothing_to_ffmpeg() {
+fn special_file_names_are_not_interpreted_by_ffmpeg() {
     if !has_ffmpeg() {
         return;
     }
@@ -33,7 +33,7 @@ fn names_mean_nothing_to_ffmpeg() {
 }
 
 #[test]
-fn lists_and_scripts_that_name_other_files_are_not_followed() {
+fn playlists_and_scripts_are_rejected() {
     if !has_ffmpeg() {
         return;
     }
@@ -77,7 +77,7 @@ fn without_ffmpeg_the_error_says_what_to_install() {
     assert!(error.hint().contains("install ffmpeg"), "{}", error.hint());
 }
 
-/// Makes a program of a shell script.
+/// Makes a program from a shell script.
 #[cfg(unix)]
 fn script(path: &Path, text: &str) {
     use std::os::unix::fs::PermissionsExt;
@@ -87,7 +87,7 @@ fn script(path: &Path, text: &str) {
 
 #[cfg(unix)]
 #[test]
-fn a_decoder_that_hangs_is_stopped_and_left_behind() {
+fn a_decoder_that_hangs_is_stopped_and_abandoned() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.mp4");
     fs::write(&path, "anything").unwrap();
@@ -103,14 +103,14 @@ fn a_decoder_that_hangs_is_stopped_and_left_behind() {
     let answer = r#"{"streams":[{"width":4,"height":4,"time_base":"1/25","avg_frame_rate":"25/1"}],"format":{"duration":"1.0"}}"#;
     script(&ffprobe, &format!("echo '{answer}'"));
     assert!(matches!(open_with(&path, &tools, &Pool::default()).unwrap_err(), VideoError::Hangs { .. }));
-    // One that gives some frames and then no more: what was there stays.
+    // A decoder that outputs some frames and then hangs: the decoded ones stay.
     let frames = "head -c 128 /dev/zero; echo '[Parsed_showinfo_0 @ 0x0] n: 0 pts: 0 s:4x4' >&2; \
                   echo '[Parsed_showinfo_0 @ 0x0] n: 1 pts: 1 s:4x4' >&2";
     script(&ffmpeg, &format!("{frames}; {sleeps}"));
     let video = open_with(&path, &tools, &Pool::default()).unwrap();
     let shown = video.frame_at(0.5, Pace::Exact);
     assert!(shown.frame.is_some() && !shown.is_late, "{shown:?}");
-    // The next ones do not wait again.
+    // Later lookups do not wait again.
     let again = Instant::now();
     video.frame_at(0.6, Pace::Exact);
     assert!(again.elapsed() < patience);
@@ -124,7 +124,7 @@ fn a_decoder_that_hangs_is_stopped_and_left_behind() {
 
 #[cfg(unix)]
 #[test]
-fn messages_without_end_fill_no_memory_and_stop_nothing() {
+fn endless_messages_use_bounded_memory_and_do_not_block() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.mp4");
     fs::write(&path, "anything").unwrap();

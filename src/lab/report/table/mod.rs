@@ -1,4 +1,4 @@
-//! The points of a study with what follows from all of them together: orders, the frontier, the time to an error.
+//! The points of a study with derived results: orders, the frontier, the time to an error.
 
 use crate::{
     Extent, Measured, Method, Number, Point, Results, Study,
@@ -7,7 +7,7 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-/// The error whose time is told.
+/// The error for which the time is reported.
 pub const TARGET: f64 = 0.01;
 
 /// A point of the main grid.
@@ -18,11 +18,11 @@ pub struct Row {
     pub measured: Option<Measured>,
     pub trouble: Option<String>,
     pub cost: Option<Cost>,
-    /// Milliseconds for the study's unit; where there is no `cost`, an estimate.
+    /// The milliseconds for the study's unit; an estimate without `cost`.
     pub millis: Option<Times>,
-    /// Nothing that passes its hard cases is both cheaper and closer.
+    /// No point that passes its hard cases is both cheaper and more accurate.
     pub is_frontier: bool,
-    /// Something is.
+    /// Such a point exists.
     pub is_dominated: bool,
 }
 
@@ -31,7 +31,7 @@ impl Row {
         self.measured.as_ref().map(|m| m.norms.l2)
     }
 
-    /// Passed hard cases, and how many there are.
+    /// Returns the number of passed hard cases, and of all.
     pub fn hard(&self) -> (usize, usize) {
         let all = self.measured.as_ref().map_or(&[][..], |m| &m.hard);
         (all.iter().filter(|h| h.passed).count(), all.len())
@@ -42,7 +42,7 @@ impl Row {
         passed == all
     }
 
-    /// (milliseconds, error), if both are numbers above 0.
+    /// Returns (milliseconds, error), if both are numbers above 0.
     pub fn place(&self) -> Option<(f64, f64)> {
         let (x, y) = (self.millis?.median, self.error()?);
         (x.is_finite() && y.is_finite() && x > 0.0 && y > 0.0).then_some((x, y))
@@ -61,23 +61,24 @@ impl Row {
     }
 }
 
-/// Says how a point's sign is filled.
+/// The fill of a point's marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Look {
-    /// Nothing is cheaper and closer.
+    /// No point is cheaper and more accurate.
     Full,
-    /// Something is.
+    /// Another point is.
     Grey,
     /// It fails a hard case.
     Hollow,
 }
 
-/// Colours that methods take in turn, in the report and in the window.
+/// The number of colours that methods cycle through, in the report and in the window.
 pub const COLOURS: usize = 12;
 
-/// Corners of the sign of the nth method about (0, 0), y down; the last is the first. About 8 from the middle.
+/// Returns the corners of the nth method's marker around (0, 0), y down; the last is the first. About 8 from the
+/// centre.
 pub fn sign(n: usize) -> Vec<[f64; 2]> {
-    // Methods of the same colour have different signs.
+    // Methods of the same colour have different markers.
     let sign = (n + n / COLOURS) % 6;
     let (count, turn) = [(16, 0.0), (4, 0.125), (3, -0.25), (4, 0.0), (3, 0.25), (6, 0.0)][sign];
     let radius = [7.5, 9.0, 9.5, 8.5, 9.5, 8.0][sign];
@@ -88,7 +89,7 @@ pub fn sign(n: usize) -> Vec<[f64; 2]> {
     (0..=count).map(corner).collect()
 }
 
-/// Holds what a method comes to on several grids.
+/// The results of a method on several grids.
 #[derive(Clone, Debug)]
 pub struct Convergence {
     pub method: &'static Method,
@@ -107,35 +108,36 @@ pub struct Table {
     pub convergence: Vec<Convergence>,
 }
 
-/// Says how a method comes to an error of 1 %.
+/// The way in which a method reaches an error of 1 %.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach {
-    /// In so many milliseconds, interpolated between settings that pass their hard cases.
+    /// In this number of milliseconds, interpolated between settings that pass their hard cases.
     In(f64),
     /// As `In`, but only with settings that fail a hard case.
     Failing(f64),
     Never,
 }
 
-/// The least error that a method is sure of, of settings that pass their hard cases.
+/// The smallest reliable error of a method, of settings that pass their hard cases.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Best {
     pub error: f64,
-    /// The cheapest setting from which on no finer one has more.
+    /// The cheapest setting from which no finer one has a larger error.
     pub setting: f64,
     pub millis: f64,
-    /// Two neighbouring settings, the coarser first, between which the method goes from one side of the truth to the
-    /// other: what is less than `error` there is an accident.
+    /// Two neighbouring settings, the coarser first, between which the figure changes its sign: an error below `error`
+    /// there is a coincidence.
     pub turn: Option<[f64; 2]>,
 }
 
 impl Table {
-    /// `None` where nothing of the study is known.
+    /// Returns `None` if there are no results of the study.
     pub fn new(study: &'static Study, results: &Results) -> Option<Table> {
         Self::with_estimates(study, results, |_| None)
     }
 
-    /// As [`Table::new`], where `estimate` stands for the cost of a point that has none yet: milliseconds a frame.
+    /// Does the same as [`Table::new`]; `estimate` returns the milliseconds per frame of a point without a measured
+    /// cost.
     pub fn with_estimates(
         study: &'static Study,
         results: &Results,
@@ -202,7 +204,7 @@ impl Table {
         self.rows.iter().filter(|r| r.method.name == method.name)
     }
 
-    /// The row at a method's usual setting.
+    /// Returns the row at a method's usual setting.
     pub fn usual(&self, method: &Method) -> Option<&Row> {
         self.of(method).find(|r| r.point.setting == method.usual)
     }
@@ -211,14 +213,14 @@ impl Table {
         self.convergence.iter().find(|c| c.method.name == method.name).map(|c| c.order)
     }
 
-    /// Milliseconds until a method that passes its hard cases has an error of 1 %: between its settings, interpolated
-    /// in the logarithms.
+    /// Returns the milliseconds until a method that passes its hard cases has an error of 1 %: between its settings,
+    /// interpolated in the logarithms.
     pub fn millis_to_target(&self, method: &Method) -> Option<f64> {
         let places: Vec<(f64, f64)> = self.of(method).filter(|r| r.passes()).filter_map(Row::place).collect();
         first_reach(&places, TARGET)
     }
 
-    /// As [`Table::millis_to_target`], and why there is none.
+    /// Does the same as [`Table::millis_to_target`], with the reason if there is no such time.
     pub fn reach(&self, method: &Method) -> Reach {
         match (self.millis_to_target(method), self.millis_of_any(method)) {
             (Some(millis), _) => Reach::In(millis),
@@ -227,15 +229,15 @@ impl Table {
         }
     }
 
-    /// Milliseconds to the target, of settings that fail hard cases too.
+    /// Returns the milliseconds to the target, including settings that fail hard cases.
     fn millis_of_any(&self, method: &Method) -> Option<f64> {
         first_reach(&self.of(method).filter_map(Row::place).collect::<Vec<_>>(), TARGET)
     }
 
-    /// A method's best error. In a study with a figure that has a sign ([`Study::signed`]) the least error may lie
-    /// where that turns: there an error of time and one of space cancel, and a shorter step, which makes the one
-    /// smaller, gives the other back. So where the sign turns beside the least error and a finer setting has a larger
-    /// one, the best is the largest from the turn on.
+    /// Returns a method's best error. In a study with a signed figure ([`Study::signed`]) the smallest error may be at
+    /// its change of sign: there an error of time and one of space cancel, and a shorter step, which reduces only the
+    /// one, reveals the other. So if the sign changes next to the smallest error and a finer setting has a larger
+    /// error, the best one is the largest from that change on.
     pub fn best(&self, method: &Method) -> Option<Best> {
         let mut rows: Vec<(&Row, (f64, f64))> =
             self.of(method).filter(|r| r.passes()).filter_map(|r| Some((r, r.place()?))).collect();
@@ -248,7 +250,7 @@ impl Table {
         };
         let sign = |i: usize| self.study.signed.and_then(|name| rows.get(i)?.0.value(name)).map(f64::signum);
         let turns = |i: usize| sign(i).zip(sign(i + 1)).is_some_and(|(a, b)| a != b);
-        // The first setting on the finer side of a turn beside the least error.
+        // The first setting on the finer side of a change of sign next to the smallest error.
         let beyond = [least.checked_sub(1), Some(least)].into_iter().flatten().find(|i| turns(*i)).map(|i| i + 1);
         let Some(beyond) = beyond.filter(|_| (least + 1..rows.len()).any(|i| error(i) > error(least))) else {
             return best(least, error(least), None);
@@ -258,8 +260,8 @@ impl Table {
         best(from, kept, Some([beyond - 1, beyond].map(|i| rows[i].0.point.setting)))
     }
 
-    /// The study's [`SpeedComparison`] in a sentence: `None` where it has none, or its costs are not known. Peers are not asked to
-    /// pass their hard cases: it is their best that counts.
+    /// Returns the study's [`SpeedComparison`] as a sentence: `None` if it has none, or if its costs are not known.
+    /// Peers need not pass their hard cases: their best counts.
     pub fn verdict(&self) -> Option<String> {
         let race = self.study.race?;
         let methods = self.methods();
@@ -294,14 +296,14 @@ impl Table {
         ))
     }
 
-    /// The frontier from cheap to dear.
+    /// Returns the frontier from cheap to expensive.
     pub fn frontier(&self) -> Vec<(f64, f64)> {
         let mut all: Vec<(f64, f64)> = self.rows.iter().filter(|r| r.is_frontier).filter_map(Row::place).collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         all
     }
 
-    /// The names of every further figure.
+    /// Returns the names of all further figures.
     pub fn values(&self) -> Vec<String> {
         let names = self.rows.iter().filter_map(|r| r.measured.as_ref()).flat_map(|m| m.values.keys().cloned());
         names.collect::<BTreeSet<String>>().into_iter().collect()

@@ -7,7 +7,7 @@ const METHODS: [Method; 3] = [
     Method { name: "unsafe", title: "Unsafe", settings: &[1.0, 2.0], usual: 1.0 },
 ];
 
-/// A row of 1 x 1 texels at so many milliseconds and such an error.
+/// Returns a row of 1 x 1 texels with this time and this error.
 fn row(method: &'static Method, setting: f64, millis: f64, error: f64, passed: bool) -> Row {
     let times = Times { median: millis, min: millis, max: millis };
     let point = Point { study: "s".into(), method: method.name.into(), setting, grid: 1 };
@@ -46,7 +46,7 @@ fn table(rows: Vec<Row>, peers: &'static [&'static str]) -> Table {
     Table { study, grid: 1, rows, convergence: Vec::new() }
 }
 
-/// The errors of the fluid's best method at steps from long to short, and whether too much energy is left.
+/// The errors of the fluid's best method at steps from long to short, and whether too much energy remains.
 const CANCELS: [(f64, f64, f64); 6] = [
     (9.6, 6.1e-3, -1.0),
     (4.8, 1.4e-3, -1.0),
@@ -69,18 +69,18 @@ fn best_of(points: &[(f64, f64, f64)]) -> Option<Best> {
 }
 
 #[test]
-fn an_error_that_is_two_which_cancel_is_not_the_best() {
+fn errors_that_cancel_are_not_the_best() {
     let best = best_of(&CANCELS).unwrap();
     assert_eq!(best, Best { error: 1.4e-4, setting: 1.2, millis: 10.0, turn: Some([2.4, 1.2]) });
-    // In whatever order they were measured, and where the least lies before the turn.
+    // In any order of measurement, and if the smallest error is before the change of sign.
     let mut other = CANCELS;
     other.reverse();
     assert_eq!(best_of(&other), Some(best));
     (other[2].1, other[3].1) = (9e-5, 1e-5);
     let before = best_of(&other).unwrap();
     assert_eq!((before.error, before.setting, before.turn), (1.4e-4, 2.4, Some([2.4, 1.2])));
-    // A method that goes on falling beyond the turn, one that never turns, and one that is best at a step in the
-    // middle without a turn, are as good as their least error.
+    // A method whose error continues to fall, one that never changes its sign, and one that is best at a step in the
+    // middle without a change of sign, have their smallest error as the best.
     let falls = best_of(&[CANCELS[0], CANCELS[1], CANCELS[2], CANCELS[3]]).unwrap();
     assert_eq!((falls.error, falls.setting, falls.turn), (1.3e-5, 1.2, None));
     let middle = best_of(&CANCELS.map(|(setting, error, _)| (setting, error, 1.0))).unwrap();
@@ -89,7 +89,7 @@ fn an_error_that_is_two_which_cancel_is_not_the_best() {
 }
 
 #[test]
-fn a_race_is_told_and_so_is_who_never_arrives() {
+fn races_name_the_times_and_the_methods_that_never_arrive() {
     let [own, far, unsafe_] = &METHODS;
     let rows = || {
         vec![
@@ -114,7 +114,7 @@ fn a_race_is_told_and_so_is_who_never_arrives() {
 }
 
 #[test]
-fn methods_that_do_different_things_have_no_winner() {
+fn studies_without_a_contest_have_no_winner() {
     for is_contest in [true, false] {
         let study = Box::leak(Box::new(Study {
             name: "s",

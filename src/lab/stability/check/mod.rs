@@ -1,13 +1,13 @@
-//! Says what is looked at in a pass, the range it must keep, and the texel that is furthest outside of it.
+//! Checks of a pass: the quantity, the range it must keep, and the texel that is furthest outside of it.
 
 use eddy_engine::Pixels;
 use eddy_project::PassId;
 
-/// The largest size that a number of a quantity may have where nothing better is known, and everywhere where a case is
-/// expected to leave its own range.
+/// The largest absolute value of a quantity if no better bound is known, and always if a case is expected to leave its
+/// own range.
 pub const HARD_LIMIT: f64 = 1e4;
 
-/// A number that is made of a pass's texels.
+/// A number that is computed from a pass's texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Every component of each texel.
@@ -22,13 +22,14 @@ pub enum Quantity {
     Mean(usize),
     /// Half of the mean square of two components.
     Energy(usize, usize),
-    /// Says how much of a component's variance alternates from texel to texel: the mean square of a - 2 b + c over 16,
-    /// along x and along y together, by twice the variance. 1 for a checkerboard, 0.375 for noise, 0.02 for waves 8
-    /// texels long, below 0.01 for longer ones. 0 where the component hardly varies (see [`FLAT`]).
+    /// The part of a component's variance that alternates from texel to texel: the mean square of a - 2 b + c over 16,
+    /// along x and along y together, divided by twice the variance. 1 for a checkerboard, 0.375 for noise, 0.02 for
+    /// waves 8 texels long, below 0.01 for longer ones. 0 if the component hardly varies (see [`FLAT`]).
     Roughness(usize),
 }
 
-/// A root mean square deviation below which a field counts as flat, by the larger of 1 and its mean's size.
+/// The root mean square deviation below which a field counts as flat, relative to the larger of 1 and the absolute
+/// value of its mean.
 const FLAT: f64 = 2e-3;
 
 const AXES: [char; 4] = ['x', 'y', 'z', 'w'];
@@ -47,23 +48,23 @@ impl Quantity {
     }
 }
 
-/// Texels of a pass that belong to the quantity. Others hold something else, as a mouse's memory.
+/// The texels of a pass that belong to the quantity. The others contain other data, such as a mouse's memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Area {
     All,
-    /// Rows from this one on.
+    /// Rows starting with this one.
     FromRow(u32),
-    /// Without the texel (0, 0).
+    /// All texels except (0, 0).
     ButFirst,
-    /// Without the last texel of the last row.
+    /// All texels except the last one of the last row.
     ButLast,
     Texel(u32, u32),
-    /// From (x, y), so many texels wide and high.
+    /// A block at (x, y) with this width and height.
     Block(u32, u32, u32, u32),
 }
 
 impl Area {
-    /// A texel in its middle.
+    /// Returns a texel in its middle.
     pub fn middle(self, (width, height): (u32, u32)) -> (u32, u32) {
         match self {
             Area::Texel(x, y) => (x, y),
@@ -84,13 +85,13 @@ impl Area {
     }
 }
 
-/// A range, both ends included.
+/// A range, including both ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Allowed {
     pub low: f64,
     pub high: f64,
-    /// Says why theory expects the range to be left in this situation. Then all must be finite and within
-    /// [`HARD_LIMIT`] still.
+    /// The reason why theory expects the range to be left in this situation. All values must still be finite and within
+    /// [`HARD_LIMIT`].
     pub excuse: Option<&'static str>,
 }
 
@@ -108,21 +109,21 @@ impl Allowed {
     }
 }
 
-/// Holds what a case is drawn with, as far as a bound depends on it.
+/// The conditions of a case on which bounds may depend.
 #[derive(Clone, Debug)]
 pub struct CaseConditions {
-    /// Canvas.
+    /// The canvas.
     pub size: (u32, u32),
     /// The longest `iTimeDelta` of the case, in seconds.
     pub longest_step: f64,
-    /// Says whether a hand drags at some time of the case.
+    /// The mouse drags at some time of the case.
     pub is_dragged: bool,
-    /// Components of each slider's value.
+    /// The components of each slider's value.
     pub sliders: std::collections::BTreeMap<String, Vec<f64>>,
 }
 
 impl CaseConditions {
-    /// A slider's value: of several components the largest. 0 for a slider that is not there.
+    /// Returns a slider's value, the largest if there are several components. 0 for a missing slider.
     pub fn slider(&self, name: &str) -> f64 {
         let all = self.sliders.get(name).map_or(&[][..], |v| v);
         all.iter().copied().reduce(f64::max).unwrap_or(0.0)
@@ -136,7 +137,7 @@ pub struct Check {
     pub quantity: Quantity,
     pub area: Area,
     pub allowed: Rule,
-    /// Says where the range comes from.
+    /// The justification of the range.
     pub reason: String,
 }
 
@@ -160,27 +161,27 @@ impl Check {
     }
 }
 
-/// Holds what a check finds in a picture.
+/// The result of a check.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
-    /// The smallest and the largest value; NaN where one is no number.
+    /// The smallest and the largest value; NaN if one is not a number.
     pub low: f64,
     pub high: f64,
     pub rms: f64,
-    /// The value that is furthest outside of the range, a number that is none before all others.
+    /// The value that is furthest outside of the range; NaN before all others.
     pub worst: Option<WorstTexel>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorstTexel {
-    /// `None`: the quantity belongs to the whole picture.
+    /// `None` if the quantity belongs to the whole picture.
     pub texel: Option<(u32, u32)>,
     pub value: f64,
-    /// Values outside of the range.
+    /// The number of values outside of the range.
     pub count: u64,
 }
 
-/// Looks for values outside of `low..=high`.
+/// Finds values outside of `low..=high`.
 pub fn find(quantity: Quantity, area: Area, pixels: &Pixels, low: f64, high: f64) -> Found {
     let mut found = Found { low: f64::INFINITY, high: f64::NEG_INFINITY, rms: 0.0, worst: None };
     let (mut squares, mut count, mut furthest) = (0.0, 0u64, f64::NEG_INFINITY);
@@ -246,7 +247,7 @@ fn mean(area: Area, pixels: &Pixels, of: impl Fn(&[f32; 4]) -> f64) -> Option<f6
 
 fn roughness(area: Area, pixels: &Pixels, component: usize) -> f64 {
     let (width, height) = (pixels.width as usize, pixels.height as usize);
-    // Where the memory lies does not matter to a mean over thousands; what is no field at all is left out.
+    // The position of the memory does not matter to a mean over thousands; only rows outside of the field are excluded.
     let first = if let Area::FromRow(row) = area { row as usize } else { 0 };
     let at = |x: usize, y: usize| f64::from(pixels.texels[y * width + x][component]);
     let Some(middle) = mean(area, pixels, |t| f64::from(t[component])) else { return 0.0 };

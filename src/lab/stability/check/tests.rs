@@ -6,7 +6,7 @@ fn pixels(width: u32, height: u32, of: impl Fn(u32, u32) -> f32) -> Pixels {
 }
 
 #[test]
-fn the_texel_furthest_outside_is_found_and_all_are_counted() {
+fn the_worst_texel_is_found_and_all_are_counted() {
     let picture = pixels(7, 5, |x, y| match (x, y) {
         (2, 1) => 1.5,
         (6, 3) => -3.0,
@@ -20,7 +20,7 @@ fn the_texel_furthest_outside_is_found_and_all_are_counted() {
 }
 
 #[test]
-fn a_number_that_is_none_is_outside_of_every_range() {
+fn nan_is_outside_of_every_range() {
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let picture = pixels(4, 4, |x, y| if (x, y) == (1, 2) { bad } else { 9e9 });
         let found = find(Quantity::Component(0), Area::All, &picture, -1.0, 1.0);
@@ -33,20 +33,20 @@ fn a_number_that_is_none_is_outside_of_every_range() {
 }
 
 #[test]
-fn what_lies_outside_of_the_area_is_not_looked_at() {
+fn texels_outside_of_the_area_are_ignored() {
     let picture = pixels(20, 9, |x, y| if x == 0 && y == 0 || x == 19 && y == 8 { 99.0 } else { 0.0 });
     let outside = |area| find(Quantity::Component(0), area, &picture, 0.0, 1.0).worst.map_or(0, |w| w.count);
     let areas =
         [Area::All, Area::FromRow(1), Area::ButFirst, Area::ButLast, Area::Texel(0, 0), Area::Block(1, 1, 18, 7)];
     assert_eq!(areas.map(outside), [2, 1, 1, 1, 1, 0]);
-    // Nothing there: nothing is wrong.
+    // No texels: no violation.
     let none = find(Quantity::Component(0), Area::FromRow(9), &picture, 0.5, 1.0);
     assert_eq!((none.worst, none.rms), (None, 0.0));
     assert_eq!(find(Quantity::Mean(0), Area::FromRow(9), &picture, 0.5, 1.0).worst, None);
 }
 
 #[test]
-fn jaggedness_is_told_from_waves() {
+fn roughness_distinguishes_noise_from_waves() {
     let wave = |length: f32| pixels(96, 96, move |x, y| ((x + y) as f32 * std::f32::consts::TAU / length).sin());
     let of = |picture: &Pixels| find(Quantity::Roughness(0), Area::All, picture, 0.0, 1.0).high;
     let checkerboard = pixels(32, 32, |x, y| if (x + y) % 2 == 0 { 1.0 } else { -1.0 });
@@ -54,7 +54,7 @@ fn jaggedness_is_told_from_waves() {
     let noise = pixels(64, 64, |x, y| ((x * 7919 + y * 104_729) as f32 * 12.9898).sin().fract());
     assert!(of(&noise) > 0.2, "{}", of(&noise));
     assert!(of(&wave(8.0)) < 0.03 && of(&wave(32.0)) < 1e-3, "{} {}", of(&wave(8.0)), of(&wave(32.0)));
-    // What alternates by less than counts is flat.
+    // An alternation below the threshold is flat.
     let faint = pixels(32, 32, |x, y| if (x + y) % 2 == 0 { 1.0 } else { 1.001 });
     assert_eq!(of(&faint), 0.0);
 }

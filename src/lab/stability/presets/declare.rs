@@ -1,4 +1,4 @@
-//! The words in which the presets' bounds are declared.
+//! Helpers for declaring the presets' bounds.
 
 use crate::{
     stability::check::{Allowed, Area, CaseConditions, Check, Quantity, Rule},
@@ -6,28 +6,29 @@ use crate::{
 };
 use eddy_project::PassId;
 
-/// Says how a project is made to move by so many cells a step.
+/// Makes a project move by a given number of cells per step.
 #[derive(Clone, Copy, Debug)]
 pub struct Courant {
     /// The slider that sets it.
     pub slider: &'static str,
-    /// The slider's value for cells a step, at the speed that the project's own forces make, on a canvas of this size.
+    /// The slider's value for cells per step, at the speed that results from the project's own forces, on a canvas of
+    /// this size.
     pub value: fn(cells: f64, size: (u32, u32)) -> f64,
-    /// The check whose largest value is the speed, by its place in the list.
+    /// The check whose largest value is the speed, by its index in the list.
     pub speed: usize,
-    /// Cells a step at that speed.
+    /// Cells per step at that speed.
     pub cells: fn(speed: f64, conditions: &CaseConditions) -> f64,
-    /// Says what keeps it below what the cases ask for, where something does.
+    /// The reason why it stays below the requested values, if there is one.
     pub limit: Option<&'static str>,
 }
 
-/// A case of a preset's own: what the cases that all projects have leave out.
+/// An additional case of a preset, which the general cases do not cover.
 #[derive(Clone, Debug)]
 pub struct PresetCase {
     pub kind: Kind,
     /// Sliders that are not at their defaults.
     pub values: Vec<(&'static str, f64)>,
-    /// The canvas and the frames; `None`: those of a slider at an end. Such a case is drawn in a full run alone.
+    /// The canvas and the frames; `None` for those of a slider at an end. Such a case is drawn only in a full run.
     pub large: Option<((u32, u32), u32)>,
 }
 
@@ -41,8 +42,8 @@ fn buffer(name: &str) -> PassId {
     PassId::parse(&format!("buffer_{name}")).unwrap_or(PassId::Image)
 }
 
-/// The picture, from black to so much. A screen cuts off at 1; what is drawn has no reason to be more than its lights
-/// add up to.
+/// The picture, from black to `most`. A screen clamps at 1; the drawn values have no reason to exceed the sum of their
+/// lights.
 pub(super) fn picture(most: f64, reason: &str) -> Check {
     let allowed = Rule::Always(Allowed::new(0.0, most * 1.0001));
     Check { pass: PassId::Image, quantity: Quantity::Any, area: Area::All, allowed, reason: reason.into() }
@@ -68,7 +69,7 @@ pub(super) fn by(
     Check { pass: buffer(name), quantity, area, allowed: Rule::Of(rule), reason: reason.into() }
 }
 
-/// A mouse's memory: canvas pixels, or -1e4 where there is none.
+/// A mouse's memory: canvas pixels, or -1e4 if there is none.
 pub(super) fn mouse() -> Check {
     let reason = "pixels of a canvas, at most half of one outside of it; -1e4 where there is no mouse";
     always("mouse", Quantity::Any, Area::All, (-1e4, 1e5), reason)

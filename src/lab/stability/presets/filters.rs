@@ -1,12 +1,12 @@
-//! Presets without a state: what a filter makes of a picture lies in that picture's range, and what a screen shows is no
-//! more than its lights.
+//! Presets without a state: the result of a filter is in the range of its input, and the picture is at most the sum of
+//! its lights.
 
 use super::declare::{always, by, picture, picture_by};
 use crate::stability::check::{Allowed, Area, CaseConditions, Check, Quantity};
 
 const MEAN: &str = "means of the light, by weights that are positive and sum to 1";
 
-/// The root of Reinhard's curve: what the bloom presets show of a light.
+/// The root of Reinhard's curve: the value that the bloom presets show for a light.
 fn shown(light: f64, s: &CaseConditions) -> Allowed {
     let (light, white) = (light * s.slider("exposure").exp2(), s.slider("white"));
     let mapped = light * (1.0 + light / (white * white)) / (1.0 + light);
@@ -15,16 +15,16 @@ fn shown(light: f64, s: &CaseConditions) -> Allowed {
 
 const SHOWN: &str = "the curve's value for the brightest light; above `white` it is more than a screen can show";
 
-/// The brightest light of neon before a brick wall.
+/// The brightest light of neon in front of a brick wall.
 fn neon(s: &CaseConditions) -> f64 {
-    // A lamp half as bright again, and the wall behind it. Where a pixel is as wide as the tubes are apart it may hold a
-    // part of all four.
+    // A lamp half as bright again, and the wall behind it. If a pixel is as wide as the distance of the tubes it may
+    // contain parts of all four.
     let tubes = if s.size.0.min(s.size.1) < 64 { 5.3 } else { 2.0 };
     (tubes * s.slider("neon") + 0.05).max(s.slider("constant"))
 }
 
 pub fn denoise() -> Vec<Check> {
-    // Of 2^24 numbers the farthest is 5.9 deviations out.
+    // The largest of 2^24 numbers is 5.9 deviations from the mean.
     let noisy = |s: &CaseConditions| Allowed::new(-5.9 * s.slider("noise") - 0.01, 1.01 + 5.9 * s.slider("noise"));
     vec![
         by("a", Quantity::Colour, Area::All, noisy, "a picture from 0 to 1, and noise"),
@@ -61,11 +61,11 @@ fn lanterns(s: &CaseConditions) -> f64 {
 
 pub fn bloom_sized() -> Vec<Check> {
     let light = |s: &CaseConditions| Allowed::new(0.0, lanterns(s));
-    // Light is scaled so that the brightest that counts fills 15 of the 16 bits' powers of two.
+    // Light is scaled so that the brightest relevant light uses 15 of the 16 bits' powers of two.
     let spread = |s: &CaseConditions| {
         let brightest = s.slider("brightest");
         let scale = (32_768.0 / brightest).log2().floor().exp2();
-        // A level's light by its weight, each rounded to 11 bits.
+        // The light of a level times its weight, each rounded to 11 bits.
         Allowed::new(0.0, lanterns(s).min(brightest).max(1.0 / scale) * scale * 1.005)
     };
     vec![
@@ -80,7 +80,7 @@ pub fn bloom_sized() -> Vec<Check> {
 
 pub fn gaussian_blur() -> Vec<Check> {
     let magnified = |s: &CaseConditions| {
-        // The response to a texel is told in parts of the bell's peak; a narrow card's sparks reach into it.
+        // The response to a texel is relative to the bell's peak; the sparks of a narrow card overlap it.
         let peak = 1.0 / (std::f64::consts::TAU * s.slider("sigma").powi(2));
         Allowed::new(0.0, (1.6 / peak.min(1.0) + 0.012).sqrt() * 1.001)
     };
@@ -110,18 +110,18 @@ pub fn gbuffer_edges() -> Vec<Check> {
 }
 
 pub fn gbuffer_ssao_ssr() -> Vec<Check> {
-    // Paint of at most 0.83 in the sky's light and the sun's, the room it mirrors, and a highlight as high as it is
-    // narrow.
+    // An albedo of at most 0.83 in the light of the sky and the sun, the reflection of the room, and a highlight that
+    // is higher the narrower it is.
     fn light(s: &CaseConditions) -> f64 {
         0.83 * (0.61 + 2.3) + 2.9 + (s.slider("shininess") + 8.0) / 8.0
     }
-    // Reflections by themselves are shown without a curve.
+    // Reflections alone are shown without tone mapping.
     fn screen(s: &CaseConditions) -> Allowed {
         Allowed::new(0.0, if s.slider("show") == 2.0 { light(s).sqrt() } else { 1.001 })
     }
     let mut checks = gbuffer(6.0);
-    // One slice stands for the whole sky: seen along its normal it weighs cos n + n sin n, pi / 2 at most. The mean over
-    // all directions, which the next pass takes, is a part of the sky.
+    // One slice represents the whole sky: seen along its normal its weight is cos n + n sin n, at most pi / 2. The mean
+    // over all directions, which the next pass takes, is a part of the sky.
     checks.push(always("b", Quantity::Component(0), Area::All, (0.0, 1.572), "a slice weighs at most pi / 2"));
     let hidden = "the part of the sky that is hidden";
     checks.extend(["soft", "c"].map(|b| always(b, Quantity::Component(0), Area::All, (0.0, 1.001), hidden)));
@@ -135,8 +135,8 @@ pub fn gbuffer_ssao_ssr() -> Vec<Check> {
 }
 
 pub fn toon_outline() -> Vec<Check> {
-    // The sheet is shaded from its foot to its head by a tenth of its shade a unit, a unit being the height of a
-    // picture that is wide enough.
+    // The sheet is shaded from bottom to top by a tenth of its shade per unit, where a unit is the height of a
+    // sufficiently wide picture.
     let sheet = |s: &CaseConditions| {
         let (w, h) = (f64::from(s.size.0), f64::from(s.size.1));
         let shade = 0.05 * h / h.min(w / 1.5);

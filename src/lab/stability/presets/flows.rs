@@ -1,4 +1,4 @@
-//! Fluids, and what is carried by a flow.
+//! Fluids, and quantities that are transported by a flow.
 
 use super::declare::{Courant, PresetCase, always, by, mouse, picture};
 use crate::{
@@ -11,7 +11,7 @@ type Bounds = (Vec<Check>, Option<Courant>);
 /// Row 0 of the compressible fluids is the mouse's memory.
 const FLUID: Area = Area::FromRow(1);
 
-/// c dt, nu dt and the time step of the compressible fluids, as solver.glsl has them: (nu dt, K dt, dt).
+/// Returns c dt, nu dt and the time step of the compressible fluids, as in solver.glsl: (nu dt, K dt, dt).
 fn steps(s: &CaseConditions) -> (f64, f64, f64) {
     let (dt, nu, k) = (s.slider("dt"), s.slider("viscosity"), s.slider("stiffness"));
     match is_classic(s) {
@@ -33,16 +33,17 @@ fn is_beyond_classic(s: &CaseConditions) -> bool {
     is_classic(s) && (nu < k || nu * s.slider("dt") > 0.25)
 }
 
-/// The published form's only limit is a speed. Where that is slow against the sound, its flow is as the other form's.
+/// The only limit of the published form is a speed. If that is slow relative to sound, its flow equals that of the
+/// other form.
 fn is_supersonic(s: &CaseConditions) -> bool {
     let (_, k, dt) = steps(s);
     is_classic(s) && 0.4 * k.sqrt() / dt < CLASSIC_SPEED
 }
 
-/// The limit of speed of the published form, in solver.glsl.
+/// The speed limit of the published form, in solver.glsl.
 const CLASSIC_SPEED: f64 = 3.0;
 
-/// A range that is kept wherever the theory of sound in a fluid holds.
+/// A range that is valid wherever the theory of sound in a fluid applies.
 fn unless_theory(s: &CaseConditions, allowed: Allowed) -> Allowed {
     allowed
         .unless(is_beyond_classic(s), CLASSIC)
@@ -50,18 +51,18 @@ fn unless_theory(s: &CaseConditions, allowed: Allowed) -> Allowed {
         .unless(is_supersonic(s), SUPERSONIC)
 }
 
-/// The speed up to which the step is stable, and to which all forces push at most.
+/// The speed up to which the step is stable, and to which all forces accelerate at most.
 fn speed(s: &CaseConditions) -> Allowed {
     let (nu, k, dt) = steps(s);
     let sound = k.sqrt() / dt;
     let most = if is_classic(s) { CLASSIC_SPEED } else { (0.4 * sound).max(0.05) };
     let limit = ((1.0 - 4.0 * nu) / dt).clamp(0.05, most.max(0.05));
-    // The jets and the hand push after the limit, to a speed of their own.
+    // The jets and the mouse accelerate after the limit, to a speed of their own.
     let pushed = if is_classic(s) { CLASSIC_SPEED } else { 0.4 * sound };
     Allowed::new(0.0, limit.max(pushed) * 1.0001)
 }
 
-/// A flow of Mach M makes differences of M^2 / 2 to M^2 in density, sound waves of it differences of M: 0.4 at most.
+/// A flow of Mach M causes density differences of M^2 / 2 to M^2, its sound waves differences of M: 0.4 at most.
 fn density(s: &CaseConditions) -> Allowed {
     unless_theory(s, Allowed::new(0.6, 1.6))
 }
@@ -79,7 +80,7 @@ const DENSITY: &str = "at Mach 0.4 and below density differs from 1 by less than
 const MASS: &str = "fluxes conserve mass; what the density's limits take comes back";
 const SMOOTH: &str = "a field that alternates from cell to cell is an instability and no flow";
 
-/// A pass is the compressible fluid.
+/// The checks for a compressible fluid in this pass.
 fn compressible(name: &str) -> Vec<Check> {
     vec![
         by(name, Quantity::Length(0, 1), FLUID, speed, SPEED),
@@ -91,8 +92,8 @@ fn compressible(name: &str) -> Vec<Check> {
     ]
 }
 
-/// The jets would blow with some 1.8 cells a unit of time. The fluid's own limit lets them do so in the shortest of the
-/// steps at most.
+/// The jets would blow with about 1.8 cells per unit of time. The fluid's own limit allows that at most in the shortest
+/// of the steps.
 const COMPRESSIBLE: Courant = Courant {
     slider: "dt",
     value: |cells, _| cells / 1.8,
@@ -104,8 +105,8 @@ const COMPRESSIBLE: Courant = Courant {
     ),
 };
 
-/// A case in which theory says that the published form is stable: nu >= K, nu dt <= 1/4, and the limit of speed is below
-/// 0.4 of the sound's.
+/// A case in which theory predicts that the published form is stable: nu >= K, nu dt <= 1/4, and a speed limit below
+/// 0.4 of the speed of sound.
 pub fn stable_classic() -> PresetCase {
     PresetCase::new(Kind::Pairs, &[("form", 0.0), ("viscosity", 1.25), ("stiffness", 1.2), ("dt", 0.02)])
 }
@@ -121,7 +122,7 @@ pub fn fluid() -> Bounds {
 
 pub fn fluid_dye() -> Bounds {
     let mut checks = compressible("a");
-    // Two nozzles and a brush of twice their weight, and what each pours until it has decayed.
+    // Two nozzles and a brush of twice their weight, and the dye of each until it has decayed.
     let rule =
         |s: &CaseConditions| Allowed::new(0.0, 4.0 * s.slider("pours") * (s.slider("decay_seconds") + s.longest_step));
     checks.push(by("dye", Quantity::Colour, FLUID, rule, "what is poured out in one place until it has decayed"));
@@ -131,9 +132,9 @@ pub fn fluid_dye() -> Bounds {
 
 pub fn fluid_lit() -> Bounds {
     let mut checks = compressible("a");
-    // An eddy of the jets turns by 0.05 in a unit of time on a canvas 360 high; smaller ones pass before they have
-    // dented much. Vorticity confinement feeds the smallest ones, the more the greater it is (the slider ends at 2), up
-    // to eddies of a few cells at the limit of speed: their vorticity is that speed over a cell.
+    // An eddy of the jets rotates by 0.05 per unit of time on a canvas 360 high; smaller ones pass before they have a
+    // visible effect. Vorticity confinement amplifies the smallest ones, the more the greater it is (the slider ends at
+    // 2), up to eddies of a few cells at the speed limit: their vorticity is that speed over a cell.
     let rule = |s: &CaseConditions| {
         let dented =
             s.slider("dent") * s.slider("settle_seconds").max(s.longest_step) * f64::from(s.size.1.max(90)) / 90.0;
@@ -148,7 +149,7 @@ pub fn fluid_lit() -> Bounds {
 }
 
 pub fn fluid_accurate() -> Bounds {
-    // Without forces the energy cannot grow. Jets, hand and lid push to a speed and no further.
+    // Without forces the energy cannot grow. Jets, mouse and lid accelerate to a given speed and no further.
     fn jets(s: &CaseConditions) -> f64 {
         if s.slider("jets") > 0.0 { s.slider("jet_speed") } else { 0.0 }
     }
@@ -158,11 +159,11 @@ pub fn fluid_accurate() -> Bounds {
     fn hand(s: &CaseConditions) -> f64 {
         if s.is_dragged { 3.0 } else { 0.0 }
     }
-    // A lid shears what is below it, and nothing in its box is faster; a tenth is for what a projection leaves at the
-    // lid's corners. Where streams meet, pressure squeezes them, and the rims of eddies that roll up are faster than what
-    // drives them. Left alone for 2,000 frames the jets make 2.5 times their speed. A hand across the whole picture each
-    // frame makes 2.1 times its own, 6.26, 6.36 and 6.31 on canvases of 180, 360 and 720 rows: that is the flow, not its
-    // cells.
+    // A lid shears the fluid below it, and nothing in its box is faster; a tenth is added for the error of a projection
+    // at the lid's corners. Where streams meet, pressure squeezes them, and the rims of eddies that roll up are faster
+    // than their cause. In undisturbed runs of 2,000 frames the jets cause 2.5 times their speed. A mouse across the
+    // whole picture in each frame causes 2.1 times its own, 6.26, 6.36 and 6.31 on canvases of 180, 360 and 720 rows:
+    // this is a property of the flow, not of its cells.
     let speed = |s: &CaseConditions| Allowed::new(0.0, (1.15 * lid(s)).max(3.0 * jets(s)).max(2.3 * hand(s)).max(0.01));
     let energy = |s: &CaseConditions| Allowed::new(0.0, 0.5 * lid(s).max(jets(s)).max(hand(s)).powi(2).max(1e-4));
     // Jets are 0.028 heights wide, on half of the rows.
@@ -204,7 +205,7 @@ pub fn fluid_accurate() -> Bounds {
         mouse(),
         picture(1.22, "inks are at most 1; the sun lights a fold by 1.15 and gleams by 0.25, to the power 1/1.7"),
     ];
-    // The jets blow with 0.55 heights a second on half of the canvas' rows.
+    // The jets blow with 0.55 heights per second on half of the canvas' rows.
     let courant = Courant {
         slider: "speed",
         value: |cells, size| cells / (0.55 * 0.5 * f64::from(size.1) / 60.0),
@@ -215,8 +216,8 @@ pub fn fluid_accurate() -> Bounds {
     (checks, Some(courant))
 }
 
-/// Returns what a covering array of ends cannot have: the box to whose walls the fluid sticks, with its lid, is between
-/// the ends of `walls`; and viscosities that a splitting is known to explode at are between those of `viscosity`.
+/// Returns the cases that a covering array of ends cannot contain: the box with no-slip walls and a lid is between the
+/// ends of `walls`, and the viscosities at which a splitting is known to explode are between those of `viscosity`.
 pub fn of_fluid_accurate() -> Vec<PresetCase> {
     let mut all = Vec::new();
     for lid in [-2.0, 2.0] {
@@ -227,7 +228,7 @@ pub fn of_fluid_accurate() -> Vec<PresetCase> {
             }
         }
     }
-    // The lid, for as long as it takes to feed an instability, at the size of a window and at twice that.
+    // The lid, long enough for an instability to develop, at the size of a window and at twice that.
     for (size, frames) in [((640, 360), 600), ((1280, 720), 300)] {
         let values = [("walls", 1.0), ("lid_speed", 2.0), ("viscosity", 0.0), ("speed", 10.0)];
         all.push(PresetCase { large: Some((size, frames)), ..PresetCase::new(Kind::Pairs, &values) });
@@ -271,8 +272,8 @@ pub fn mip_fluid() -> Bounds {
         mouse(),
         picture(1.35, "paints are at most 0.94; light adds 22 % and a gleam of 0.3, to the power 0.8"),
     ];
-    // What stirs it pushes for as long as time runs: in 240 frames of 640 x 360 to 0.50, 0.63, 0.73 and 0.80 heights a
-    // second at a `speed` of 0.338, 0.54, 0.92 and 1.63. By these `speed` is a line over the cells a step.
+    // The stirring force acts for the whole time: in 240 frames of 640 x 360 up to 0.50, 0.63, 0.73 and 0.80 heights
+    // per second at a `speed` of 0.338, 0.54, 0.92 and 1.63. So `speed` is a linear function of the cells per step.
     let courant = Courant {
         slider: "speed",
         value: |cells, size| 0.15 + 1.13 * cells / (0.5 * f64::from(size.1) / 60.0),
@@ -283,8 +284,8 @@ pub fn mip_fluid() -> Bounds {
     (checks, Some(courant))
 }
 
-/// Pixels a frame on a canvas 270 pixels high that the largest ring of self-advection moves paint by, where vectors
-/// have length 1.
+/// The pixels per frame, on a canvas 270 pixels high, by which the largest ring of self-advection moves paint, for
+/// vectors of length 1.
 fn leap(s: &CaseConditions) -> f64 {
     let rings = ((0.35 * f64::from(s.size.1)).ln() / s.slider("growth").ln()).floor();
     s.slider("strength") * s.slider("slope").powf(rings.clamp(0.0, (s.slider("scales") - 1.0).max(0.0))).max(1.0)

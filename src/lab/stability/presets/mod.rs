@@ -1,10 +1,9 @@
-//! The presets' bounds, in one place: for every state and every picture the range that physics, the method or the light
-//! in it allows, and why.
+//! The presets' bounds, in one place: for every state and every picture the range that physics, the method or its
+//! lights allow, with the justification.
 //!
-//! A bound is that of the quantity and not of the clamp that would hold it there: a clamp that is reached is a fault
-//! that has been hidden. Where theory says that a slider's end leads out of the range, the rule says so with its
-//! reason; then the case is expected to leave it, and has to stay finite and below
-//! [`HARD_LIMIT`](super::check::HARD_LIMIT).
+//! A bound is that of the quantity and not of a clamp that would enforce it: reaching a clamp is a hidden fault. If
+//! theory predicts that a slider's end leads out of the range, the rule contains the reason; then the case is expected
+//! to leave it, and must stay finite and below [`HARD_LIMIT`](super::check::HARD_LIMIT).
 
 mod declare;
 mod filters;
@@ -16,7 +15,7 @@ pub use declare::{Courant, PresetCase};
 use super::check::Check;
 use eddy_project::{Project, presets};
 
-/// Holds what a preset declares.
+/// The declaration of a preset.
 pub struct Declared {
     pub checks: Vec<Check>,
     pub courant: Option<Courant>,
@@ -61,7 +60,7 @@ pub fn declared(name: &str) -> Option<Declared> {
     Some(Declared { checks, courant, extras })
 }
 
-/// All presets in the order in which they are measured: those that have a state, then those that have none.
+/// All presets in the order of measurement: those with a state, then those without.
 pub const NAMES: [&str; 25] = [
     "fluid",
     "fluid-dye",
@@ -90,10 +89,10 @@ pub const NAMES: [&str; 25] = [
     "toon-outline",
 ];
 
-/// Says how many of them have a state.
+/// The number of presets with a state.
 pub const WITH_STATE: usize = 16;
 
-/// For a project on disk that has the name of a preset and the passes of its checks.
+/// Returns the declaration for a project on disk that has the name of a preset and the passes of its checks.
 pub fn declared_for_copy(project: &Project) -> Option<Declared> {
     let has_name = |name: &&str| presets::load(name).is_ok_and(|l| l.project.name == project.name);
     let declared = declared(NAMES.iter().copied().find(has_name)?)?;
@@ -115,14 +114,14 @@ mod tests {
             let declared = declared(name).unwrap();
             let pictures: Vec<&Check> = declared.checks.iter().filter(|c| c.pass == PassId::Image).collect();
             assert_eq!(pictures.len(), 1, "{name}");
-            // The fingerprint takes the checks in their order.
+            // The fingerprint includes the checks in order.
             assert_eq!(declared.checks.last().unwrap().pass, PassId::Image, "{name}");
         }
         assert_eq!(library::names().len(), NAMES.len());
     }
 
     #[test]
-    fn extra_cases_turn_sliders_that_are_there_to_values_that_they_have() {
+    fn extra_cases_use_existing_sliders_and_valid_values() {
         for name in NAMES {
             let project = library::load(name).unwrap().project;
             for (slider, value) in declared(name).unwrap().extras.iter().flat_map(|e| &e.values) {
@@ -133,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn a_courant_number_is_set_by_a_slider_that_is_there_and_measured_at_a_length() {
+    fn courant_numbers_use_existing_sliders_and_length_checks() {
         for name in NAMES {
             let Some(courant) = declared(name).unwrap().courant else { continue };
             let subject = CheckedProject::load(name, &[]).unwrap();

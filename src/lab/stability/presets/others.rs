@@ -1,4 +1,4 @@
-//! Presets whose state is no flow.
+//! Presets whose state is not a flow.
 
 use super::declare::{Courant, always, by, mouse, picture};
 use crate::stability::check::{Allowed, Area, CaseConditions, Check, Quantity};
@@ -100,14 +100,14 @@ pub fn brick_breaker() -> Vec<Check> {
 
 pub fn particles() -> Vec<Check> {
     let lifetime = |s: &CaseConditions| Allowed::new(0.0, 14.0 * 1.4 * s.slider("lifetime") + 10.0 * s.longest_step);
-    // Flung up at 0.75 heights a second, for the longest life of a spark, from within the canvas (or the wider one that
-    // it was before).
+    // Thrown up at 0.75 heights per second, for the longest life of a spark, from within the canvas (or its wider
+    // previous size).
     let reach = |s: &CaseConditions| {
         let half_width = 0.5 * f64::from(s.size.0) / f64::from(s.size.1);
         let far = 0.75 * 3.7 * s.slider("lifetime") + half_width.max(3.0);
         Allowed::new(-far, far)
     };
-    // A tile has room for 64; a streak gives 12 times its colour a second, which fades.
+    // A tile has room for 64; a streak emits 12 times its colour per second, which fades.
     let light = |s: &CaseConditions| {
         let kept = (12.0 * (s.slider("exposure_seconds") + 2.0 * s.longest_step)).max(1.0);
         Allowed::new(0.0, (64.0 * 2.6 * s.slider("brightness") * kept).max(1.0))

@@ -1,6 +1,6 @@
-//! Pictures of OpenEXR ("The OpenEXR File Layout"). Which channels are a picture follows "Technical Introduction to OpenEXR",
-//! sections Channel Names and Layers: R, G, B and A, or Y for luminance, after the name of a layer and a point where there is
-//! one.
+//! OpenEXR pictures ("The OpenEXR File Layout"). The channels of the picture are chosen by "Technical Introduction to
+//! OpenEXR", sections Channel Names and Layers: R, G, B and A, or Y for luminance, after the name of a layer and a
+//! point if there is one.
 
 use super::Excess;
 use crate::{MediaError, Texels};
@@ -16,24 +16,24 @@ use std::{collections::BTreeMap, io::Cursor, path::Path};
 
 const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
-/// Channels that a message lists at most.
+/// The maximum number of channels in a message.
 const SHOWN: usize = 12;
 
 pub(super) fn is_exr(bytes: &[u8]) -> bool {
     bytes.starts_with(&MAGIC)
 }
 
-/// The channels that are read, and what is made of them.
+/// The channels that are read, and their meaning.
 #[derive(Debug, PartialEq)]
 enum Chosen {
-    /// The names of red, green, blue and alpha. One that the file does not have is 0, and alpha 1.
+    /// The names of red, green, blue and alpha. A colour that the file lacks is 0, a missing alpha 1.
     Color([Text; 4]),
     /// A channel that is shown as grey, and the name of alpha.
     Grey(Text, Text),
 }
 
-/// Reads a picture, whose first row is its top, as floats. Pixels lie in the display window; what the file does not have of
-/// that is 0.
+/// Reads a picture, top row first, as floats. Pixels are placed in the display window; parts of it that the file lacks
+/// are 0.
 pub(super) fn read(bytes: &[u8], path: &Path, room: u64) -> Result<Texels, MediaError> {
     let failed = |reason: String| MediaError::Exr { path: path.to_owned(), reason };
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|error| failed(reason(&error)))?;
@@ -66,7 +66,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, room: u64) -> Result<Texels, Media
     Ok(Texels::flat(width, height, TexelFormat::Rgba32f, bytemuck::cast_slice(&texels).to_vec()))
 }
 
-/// The place of the pixels of a part in the picture.
+/// The position of a part's pixels in the picture.
 #[derive(Clone, Copy)]
 struct Picture {
     width: usize,
@@ -117,7 +117,7 @@ impl Picture {
     }
 }
 
-/// Reads the channels of one part alone.
+/// Reads only the channels of one part.
 struct OfPart<'h, C> {
     part: &'h Header,
     channels: C,
@@ -134,8 +134,9 @@ impl<'s, C: ReadChannels<'s>> ReadChannels<'s> for OfPart<'_, C> {
     }
 }
 
-/// Returns the part that is read, and the channels of it: the first part with a color picture, in the layer without a name
-/// or in the first layer; else one with some of red, green and blue; else one with luminance; else one with a single channel.
+/// Returns the part that is read, and its channels: the first part with a color picture, in the layer without a name or
+/// in the first layer; otherwise one with some of red, green and blue; otherwise one with luminance; otherwise one with
+/// a single channel.
 fn chosen(parts: &[Header]) -> Option<(usize, Chosen)> {
     let flat = || parts.iter().enumerate().filter(|(_, part)| !part.deep);
     let layers: Vec<(usize, String, Vec<String>)> = flat()
@@ -144,7 +145,7 @@ fn chosen(parts: &[Header]) -> Option<(usize, Chosen)> {
     let name = |part: usize, layer: &str, channel: &str| {
         let whole = if layer.is_empty() { channel.to_owned() } else { format!("{layer}.{channel}") };
         let there = parts[part].channels.list.iter().find(|channel| channel.name.to_string() == whole);
-        // A name that is not there, and is no other channel's.
+        // A name that does not exist in the file.
         there.map_or_else(|| Text::from(&*format!("absent {channel}")), |channel| channel.name.clone())
     };
     let color = |(part, layer, _): &(usize, String, Vec<String>)| {
@@ -167,7 +168,7 @@ fn chosen(parts: &[Header]) -> Option<(usize, Chosen)> {
     Some((*part, Chosen::Grey(name(*part, layer, channel), name(*part, layer, "A"))))
 }
 
-/// The layers of a part, by their names, and the channels of each.
+/// Returns the layers of a part, by their names, and the channels of each.
 fn layers(part: &Header) -> BTreeMap<String, Vec<String>> {
     let mut layers: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for channel in &part.channels.list {
@@ -182,7 +183,7 @@ fn is_subsampled(part: &Header) -> bool {
     part.channels.list.iter().any(|channel| channel.sampling != Vec2(1, 1))
 }
 
-/// Says which channels a file has that has no picture that is read.
+/// Describes the channels of a file that has no readable picture.
 fn unread(parts: &[Header]) -> String {
     if parts.iter().all(|part| part.deep) {
         return "its pixels have several samples each (deep data), which is not supported".into();

@@ -1,4 +1,4 @@
-//! Files with channels that no other picture has.
+//! EXR files with channels that other picture formats do not have.
 
 use super::*;
 use exr::{
@@ -12,7 +12,7 @@ use exr::{
 };
 use half::f16;
 
-/// A part with the same values in each channel's pixels, of 2x1 pixels at a place.
+/// Returns a part of 2x1 pixels at a place, with the same values in each channel's pixels.
 fn part(name: &str, at: [i32; 2], channels: &[(&str, FlatSamples)]) -> Layer<AnyChannels<FlatSamples>> {
     let list = channels.iter().map(|(name, samples)| AnyChannel::new(*name, samples.clone())).collect();
     let attributes = LayerAttributes { layer_position: Vec2(at[0], at[1]), ..LayerAttributes::named(name) };
@@ -36,13 +36,13 @@ fn read_floats(bytes: &[u8]) -> Result<Vec<f32>, String> {
     Ok(bytemuck::pod_collect_to_vec(&texels.bytes))
 }
 
-/// The picture of a file of one part.
+/// Returns the picture of a file with one part.
 fn of_channels(channels: &[(&str, FlatSamples)]) -> Result<Vec<f32>, String> {
     read_floats(&file(IntegerBounds::from_dimensions((2, 1)), vec![part("a", [0, 0], channels)]))
 }
 
 #[test]
-fn channels_are_a_picture_by_their_names() {
+fn channels_are_chosen_by_name() {
     let [a, b, c, d] = [[0.0, 1.0], [2.0, -3.0], [0.25, 0.5], [0.0, 0.75]].map(floats);
     let halves = FlatSamples::F16([1.0, 0.5].map(f16::from_f32).to_vec());
     for (channels, right) in [
@@ -55,12 +55,12 @@ fn channels_are_a_picture_by_their_names() {
         (&[("Z", &b)], [2.0, 2.0, 2.0, 1.0, -3.0, -3.0, -3.0, 1.0]),
         (&[("depth.Z", &halves)], [1.0, 1.0, 1.0, 1.0, 0.5, 0.5, 0.5, 1.0]),
         (&[("N.X", &d), ("light.R", &a), ("light.G", &b), ("light.B", &c)], [0.0, 2.0, 0.25, 1.0, 1.0, -3.0, 0.5, 1.0]),
-        // The layer without a name is the picture, wherever others are in the order of names.
+        // The layer without a name is the picture, regardless of the order of names.
         (
             &[("R", &c), ("G", &c), ("B", &c), ("Light.R", &a), ("Light.G", &a), ("Light.B", &a)],
             [0.25, 0.25, 0.25, 1.0, 0.5, 0.5, 0.5, 1.0],
         ),
-        // A layer's missing green is not that of another layer.
+        // A layer's missing green is not taken from another layer.
         (&[("B", &a), ("x.R", &b)], [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0]),
         (&[("x.R", &b), ("Y", &a)], [2.0, 0.0, 0.0, 1.0, -3.0, 0.0, 0.0, 1.0]),
     ] {
@@ -91,7 +91,7 @@ fn the_first_part_with_a_picture_is_read() {
 }
 
 #[test]
-fn pixels_lie_in_the_display_window() {
+fn pixels_are_placed_in_the_display_window() {
     let window = IntegerBounds::new((-1, 5), (3, 2));
     let file = file(window, vec![part("a", [1, 6], &[("Y", floats([0.5, 1.0]))])]);
     let mut right = vec![0.0; 24];
@@ -107,7 +107,7 @@ fn damaged_and_large_files_are_errors() {
         for damage in [0x01, 0x80, 0xff] {
             let mut bytes = whole.clone();
             bytes[at] ^= damage;
-            // Nothing but an answer: a window may lie elsewhere, or a channel be called otherwise.
+            // Only checks that it returns: a window may have moved, or a channel may have been renamed.
             let _ = read_floats(&bytes);
         }
     }

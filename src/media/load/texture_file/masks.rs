@@ -1,20 +1,20 @@
-//! Texels of DDS files whose channels are bits of a number (Microsoft, DDS_PIXELFORMAT structure): the formats of Direct3D 9
-//! without a code of four letters, luminance and alpha among them.
+//! Texels of DDS files whose channels are bit fields of an integer (Microsoft, DDS_PIXELFORMAT structure): the formats
+//! of Direct3D 9 without a FourCC, including luminance and alpha.
 
 use eddy_texture::TexelFormat;
 use image_dds::ddsfile::PixelFormatFlags;
 
-/// The bits of a texel that are red, green, blue and alpha.
+/// The bit masks of red, green, blue and alpha.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Masks {
-    /// Bytes of a texel, 1 to 4.
+    /// Bytes per texel, 1 to 4.
     pub bytes: u32,
     channels: [u32; 4],
 }
 
 impl Masks {
-    /// Returns the masks of a file that has some. The pixel format is read here, as the `ddsfile` crate leaves masks aside that
-    /// go with luminance.
+    /// Returns the masks of a file, if it has any. The pixel format is parsed here, as the `ddsfile` crate ignores
+    /// masks for luminance.
     pub fn of(file: &[u8]) -> Option<Masks> {
         let field = |at: usize| Some(u32::from_le_bytes(file.get(at..at + 4)?.try_into().ok()?));
         let flags = PixelFormatFlags::from_bits_truncate(field(80)?);
@@ -36,13 +36,13 @@ impl Masks {
         fits.then_some(Masks { bytes: bits / 8, channels })
     }
 
-    /// Returns the format that texels are kept in: bytes where no channel has more bits.
+    /// Returns the format of the decoded texels: bytes if no channel has more bits.
     pub fn kept(self) -> TexelFormat {
         let most = self.channels.iter().map(|mask| mask.count_ones()).max();
         if most > Some(8) { TexelFormat::Rgba32f } else { TexelFormat::Rgba8 }
     }
 
-    /// Makes the texels of a layer. A channel without bits is 0, and alpha 1.
+    /// Decodes the texels of a layer. A channel without bits is 0, and alpha 1.
     pub fn decoded(self, layer: &[u8]) -> Vec<u8> {
         let kept = self.kept();
         let mut out = Vec::with_capacity(layer.len() / self.bytes as usize * kept.bytes() as usize);

@@ -1,6 +1,6 @@
-//! Files of textures: KTX2 (Khronos, KTX File Format Specification 2.0) and DDS (Microsoft, Programming Guide for DDS).
+//! Texture files: KTX2 (Khronos, KTX File Format Specification 2.0) and DDS (Microsoft, Programming Guide for DDS).
 //!
-//! The first mip level is read. Values are as stored: no colour space is undone.
+//! The first mip level is read. Values are as stored: they are not linearised.
 
 mod masks;
 
@@ -19,13 +19,13 @@ use std::{borrow::Cow, io::Read};
 const KTX2: &[u8] = b"\xabKTX 20\xbb";
 const DDS: &[u8] = b"DDS ";
 
-/// Returns the kind of texture file by its first bytes.
+/// Returns the format of a texture file by its first bytes.
 pub fn kind(bytes: &[u8]) -> Option<&'static str> {
-    [(KTX2, "KTX2"), (DDS, "DDS")].iter().find(|(begin, _)| bytes.starts_with(begin)).map(|(_, kind)| *kind)
+    [(KTX2, "KTX2"), (DDS, "DDS")].iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, kind)| *kind)
 }
 
-/// Reads a file as a texture of `dimension`, which may take `room` bytes while it is decoded. Rows of volumes stay in the
-/// file's order; those of pictures and faces begin at the top.
+/// Reads a file as a texture of `dimension`, which may take `room` bytes while it is decoded. Rows of volumes stay in
+/// the file's order; those of pictures and faces start at the top.
 pub fn read(bytes: &[u8], dimension: Dimension, vflip: bool, room: u64) -> Result<Texels, String> {
     let file = if bytes.starts_with(KTX2) { File::ktx2(bytes, room)? } else { File::dds(bytes, room)? };
     let held = file.dimension;
@@ -48,7 +48,8 @@ pub fn read(bytes: &[u8], dimension: Dimension, vflip: bool, room: u64) -> Resul
     }
 }
 
-/// The first level of a file. A layer is a picture: a face of a cubemap, a slice of a volume, or an element of an array.
+/// The first level of a file. A layer is a picture: a face of a cubemap, a slice of a volume, or an element of an
+/// array.
 struct File {
     dimension: Dimension,
     width: u32,
@@ -57,18 +58,18 @@ struct File {
     layers: Vec<Vec<u8>>,
 }
 
-/// The form of texels in a file.
+/// The format of texels in a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Stored {
     /// Three bytes, red first.
     Rgb8,
-    /// Numbers whose bits are channels.
+    /// Integers whose bit fields are channels.
     Masked(Masks),
     Other(ImageFormat),
 }
 
 impl Stored {
-    /// Returns the sides of a block of texels and its bytes.
+    /// Returns the side lengths of a block of texels and its size in bytes.
     fn block(self) -> (u32, u64) {
         use ImageFormat as F;
         match self {
@@ -107,8 +108,8 @@ impl Stored {
         u64::from(width.div_ceil(side)) * u64::from(height.div_ceil(side)) * bytes
     }
 
-    /// Returns the format that it is kept in. Formats that no [`TexelFormat`] equals become four bytes, or four floats
-    /// where bytes would lose something.
+    /// Returns the format of the decoded texels. Formats without an equal [`TexelFormat`] become four bytes, or four
+    /// floats if bytes would lose precision.
     fn kept(self) -> TexelFormat {
         use ImageFormat as F;
         match self {
@@ -192,7 +193,7 @@ impl File {
             (Err(_), Some(masks)) => return Self::masked(&dds, masks, room),
             (Err(_), None) => return Err(format!("its format {} cannot be read; {READ}", dds_format(&dds))),
         };
-        // The crate makes a list of as many levels as the file says.
+        // The crate allocates a list for the number of levels in the file.
         surface.mipmaps = surface.mipmaps.clamp(1, levels(surface.width, surface.height, surface.depth));
         let is_cube = dds.header.caps2.contains(Caps2::CUBEMAP)
             || dds.header10.as_ref().is_some_and(|h| h.misc_flag == image_dds::ddsfile::MiscFlag::TEXTURECUBE);
@@ -216,8 +217,8 @@ impl File {
         Ok(Self { dimension, width: surface.width, height: surface.height, texels, layers })
     }
 
-    /// Reads a file of Direct3D 9 without a code of four letters: a picture, a volume, or six faces that each have their mip
-    /// levels behind them.
+    /// Reads a file of Direct3D 9 without a FourCC: a picture, a volume, or six faces that are each followed by their
+    /// mip levels.
     fn masked(dds: &Dds, masks: Masks, room: u64) -> Result<Self, String> {
         let (width, height, depth) = (dds.get_width(), dds.get_height(), dds.get_depth().max(1));
         let is_cube = dds.header.caps2.contains(Caps2::CUBEMAP);
@@ -262,7 +263,7 @@ fn levels(width: u32, height: u32, depth: u32) -> u32 {
 
 const READ: &str = "8-bit and float formats and BC1 to BC7 can be";
 
-/// Checks the size of a texture before memory is taken, and returns the bytes of a layer.
+/// Checks the size of a texture before memory is allocated, and returns the bytes per layer.
 fn checked(width: u32, height: u32, layers: u64, texels: Stored, room: u64) -> Result<usize, String> {
     if width == 0 || height == 0 || layers == 0 {
         return Err("it has no texels".into());
@@ -278,7 +279,7 @@ fn checked(width: u32, height: u32, layers: u64, texels: Stored, room: u64) -> R
     Ok(layer as usize)
 }
 
-/// Unpacks Zstandard (RFC 8878) to `size` bytes; more are not read.
+/// Decompresses Zstandard (RFC 8878) to at most `size` bytes.
 fn unpacked(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
     let damaged = |error: &dyn std::fmt::Display| format!("its Zstandard data are damaged ({error})");
     let mut decoder = ruzstd::decoding::StreamingDecoder::new(packed).map_err(|e| damaged(&e))?;
@@ -332,7 +333,7 @@ fn of_vulkan(format: Format) -> Option<Stored> {
     }))
 }
 
-/// Makes the texels of a layer of what a file stores.
+/// Decodes the texels of a layer.
 fn decoded(stored: Stored, width: u32, height: u32, layer: Vec<u8>) -> Result<Vec<u8>, String> {
     let kept = stored.kept();
     let image_format = match stored {
@@ -348,7 +349,7 @@ fn decoded(stored: Stored, width: u32, height: u32, layer: Vec<u8>) -> Result<Ve
     match kept {
         TexelFormat::Rgba32f => {
             let data = surface.decode_rgbaf32().map_err(failed)?.data;
-            // A format of one channel or two is shown as grey by the decoder. OpenGL reads the missing ones as 0.
+            // The decoder shows formats of one or two channels as grey. OpenGL reads the missing ones as 0.
             let missing = match image_format {
                 ImageFormat::R8Snorm | ImageFormat::BC4RSnorm | ImageFormat::R16Unorm | ImageFormat::R16Snorm => 2,
                 ImageFormat::Rg8Snorm | ImageFormat::BC5RgSnorm | ImageFormat::Rg16Unorm | ImageFormat::Rg16Snorm => 1,
@@ -365,7 +366,7 @@ fn decoded(stored: Stored, width: u32, height: u32, layer: Vec<u8>) -> Result<Ve
     }
 }
 
-/// Says whether a format of a kept one's size has its channels in another order.
+/// Returns whether a format has the size of the decoded one, but its channels in another order.
 fn is_reordered(format: ImageFormat) -> bool {
     matches!(format, ImageFormat::Bgra8Unorm | ImageFormat::Bgra8UnormSrgb | ImageFormat::Rgba8Snorm)
 }

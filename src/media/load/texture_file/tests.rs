@@ -1,19 +1,19 @@
 use super::*;
 use image_dds::ddsfile::{AlphaMode, D3D10ResourceDimension, DxgiFormat, NewDxgiParams};
 
-/// A KTX2 file of one level.
+/// Returns a KTX2 file with one level.
 fn ktx2(format: Format, [width, height, depth]: [u32; 3], faces: u32, packed: u32, level: &[u8]) -> Vec<u8> {
     let mut file = b"\xabKTX 20\xbb\r\n\x1a\n".to_vec();
     for field in [format.value(), 1, width, height, depth, 0, faces, 1, packed] {
         file.extend(field.to_le_bytes());
     }
-    let begin = 104u64;
+    let descriptor = 104u64;
     // A descriptor of 4 bytes, no keys, no global data.
-    for field in [begin as u32, 4, 0, 0] {
+    for field in [descriptor as u32, 4, 0, 0] {
         file.extend(field.to_le_bytes());
     }
     file.extend([0; 16]);
-    for field in [begin + 4, level.len() as u64, level.len() as u64] {
+    for field in [descriptor + 4, level.len() as u64, level.len() as u64] {
         file.extend(field.to_le_bytes());
     }
     file.extend(4u32.to_le_bytes());
@@ -87,7 +87,7 @@ fn channels_keep_their_order_and_floats_their_values() {
     assert_eq!((grey[0], grey[1], grey[2], grey[3]), (32767.0 / 65535.0, 0.0, 0.0, 1.0));
 }
 
-/// Blocks by hand (Khronos Data Format Specification 1.3, chapter 18): both colours of BC1 are one, BC4 has one
+/// Blocks by hand (Khronos Data Format Specification 1.3, chapter 18): both colours of BC1 are equal, BC4 has one
 /// value, and all indices are 0.
 #[test]
 fn blocks_are_decoded() {
@@ -104,7 +104,7 @@ fn blocks_are_decoded() {
 }
 
 #[test]
-fn packed_levels_are_unpacked() {
+fn compressed_levels_are_decompressed() {
     let level = vec![9u8; 64 * 64];
     let packed = ruzstd::encoding::compress_to_vec(&*level, ruzstd::encoding::CompressionLevel::Fastest);
     assert!(packed.len() < 100);
@@ -115,7 +115,7 @@ fn packed_levels_are_unpacked() {
 }
 
 #[test]
-fn what_cannot_be_read_says_why() {
+fn unsupported_files_have_specific_errors() {
     let red = [1u8; 24];
     for (file, dimension, says) in [
         (ktx2(Format::R8_UNORM, [2, 2, 0], 6, 0, &red), Dimension::D2, "kind = \"cubemap\""),
@@ -136,9 +136,9 @@ fn what_cannot_be_read_says_why() {
     }
 }
 
-/// Cut short and with bytes changed, a file gives texels or an error.
+/// Truncated files and files with changed bytes result in texels or an error.
 #[test]
-fn damaged_files_are_no_danger() {
+fn damaged_files_do_not_panic() {
     let numbers: Vec<u8> = (0..96).collect();
     let files = [
         ktx2(Format::R8G8B8A8_UNORM, [2, 2, 0], 6, 0, &numbers),
@@ -169,7 +169,7 @@ fn damaged_files_are_no_danger() {
     }
 }
 
-/// A DDS file of Direct3D 9: flags, bits of a texel and the masks of its channels.
+/// Returns a DDS file of Direct3D 9: flags, bits per texel and the masks of its channels.
 fn dds9(
     [width, height]: [u32; 2],
     flags: u32,
@@ -191,7 +191,7 @@ fn dds9(
 }
 
 #[test]
-fn channels_of_dds_are_bits_of_a_number() {
+fn dds_bit_masks_are_decoded() {
     const LUMINANCE: u32 = 0x2_0000;
     let read = |flags, bits, masks, data: &[u8]| {
         let texels = read_as(&dds9([2, 1], flags, bits, masks, 1, 0, data), Dimension::D2).unwrap();
@@ -209,7 +209,7 @@ fn channels_of_dds_are_bits_of_a_number() {
     let floats: Vec<f32> = bytes.chunks_exact(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect();
     assert_eq!((format, floats[0], floats[3]), (TexelFormat::Rgba32f, 1.0, 1.0));
     assert!((floats[4] - 32768.0 / 65535.0).abs() < 1e-6, "{floats:?}");
-    // Each face of a cubemap has its mip levels behind it.
+    // Each face of a cubemap is followed by its mip levels.
     let data: Vec<u8> = (0..6).flat_map(|face| [face, face, face, face, 99]).collect();
     let cube = dds9([2, 2], LUMINANCE, 8, [0xff, 0, 0, 0], 2, 0xfe00, &data);
     let texels = read_as(&cube, Dimension::Cube).unwrap();
@@ -218,7 +218,7 @@ fn channels_of_dds_are_bits_of_a_number() {
     for cut in [0, 1, 127, 128, 130, cube.len() - 5] {
         assert!(super::read(&cube[..cut], Dimension::Cube, false, 1 << 20).is_err(), "{cut}");
     }
-    // More levels than there can be.
+    // More levels than possible.
     let many = dds9([2, 2], 0x41, 32, [0xff, 0xff00, 0xff_0000, 0xff00_0000], u32::MAX, 0, &[7; 20]);
     assert_eq!(read_as(&many, Dimension::D2).unwrap().bytes, [7; 16]);
     let wide = dds9([16384, 16384], LUMINANCE, 8, [0xff, 0, 0, 0], 1, 0, &[]);

@@ -1,4 +1,4 @@
-//! Accessors: elements of a kind, wherever their bytes lie, checked before one of them is read.
+//! Accessors: typed elements with their bytes, checked before one of them is read.
 
 use super::{
     buffers::Buffers,
@@ -45,7 +45,7 @@ impl Component {
         }
     }
 
-    /// Returns the number that a normalised integer stands for (section 3.6.2.2).
+    /// Returns the value of a normalised integer (section 3.6.2.2).
     fn normalized(self, x: f32) -> f32 {
         match self {
             I8 => (x / 127.0).max(-1.0),
@@ -57,14 +57,14 @@ impl Component {
     }
 }
 
-/// Says what integers stand for.
+/// The interpretation of integers.
 #[derive(Clone, Copy)]
 enum Integers {
-    /// Themselves.
+    /// As plain numbers.
     Plain,
-    /// Parts of 1: the only integers that the attribute may have, whether its accessor says so or not.
+    /// As normalised values: the attribute has no other integers, whether its accessor says so or not.
     Normalized,
-    /// As the accessor says.
+    /// As specified by the accessor.
     AsSaid,
 }
 
@@ -73,7 +73,7 @@ enum Integers {
 pub(super) struct Elements {
     dimensions: &'static [Dimensions],
     components: &'static [Component],
-    /// The further components that `KHR_mesh_quantization` allows.
+    /// The additional components that `KHR_mesh_quantization` allows.
     quantized: &'static [Component],
     integers: Integers,
 }
@@ -87,7 +87,7 @@ impl Elements {
         Elements { quantized: &[I8, U8, I16, U16], integers: Integers::AsSaid, ..elements(&[Vec3], &[F32]) };
     pub const NORMALS: Elements = Elements { quantized: &[I8, I16], ..elements(&[Vec3], &[F32]) };
     pub const TANGENTS: Elements = Elements { quantized: &[I8, I16], ..elements(&[Vec4], &[F32]) };
-    /// Those of morph targets, too: parts of 1 where the file is not quantised.
+    /// Also those of morph targets: normalised if the file is not quantised.
     pub const COORDINATES: Elements =
         Elements { quantized: &[I8, I16], integers: Integers::AsSaid, ..elements(&[Vec2], &[F32, U8, U16]) };
     pub const COLORS: Elements = elements(&[Vec3, Vec4], &[F32, U8, U16]);
@@ -101,7 +101,7 @@ impl Elements {
     pub const TURNS: Elements = elements(&[Vec4], &[F32, I8, I16]);
 }
 
-/// The file's accessors with the bytes that they read.
+/// The file's accessors and their bytes.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
     pub root: &'a Root<'a>,
@@ -109,7 +109,7 @@ pub(super) struct Source<'a> {
     pub is_quantized: bool,
 }
 
-/// The elements of an accessor, all of whose bytes are there.
+/// The elements of an accessor, all of whose bytes exist.
 pub(super) struct Values<'a> {
     bytes: Bytes<'a>,
     pub count: usize,
@@ -119,7 +119,7 @@ pub(super) struct Values<'a> {
     sparse: Option<SparseValues<'a>>,
 }
 
-/// Those that a sparse accessor replaces.
+/// The elements that a sparse accessor replaces.
 struct SparseValues<'a> {
     count: usize,
     places: Bytes<'a>,
@@ -127,7 +127,7 @@ struct SparseValues<'a> {
     values: Bytes<'a>,
 }
 
-/// Elements that lie so many bytes apart. None at all are zeros.
+/// Elements with a stride in bytes. Without bytes, all are zeros.
 #[derive(Clone, Copy)]
 struct Bytes<'a> {
     all: Option<&'a [u8]>,
@@ -142,7 +142,7 @@ impl<'a> Bytes<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// Returns how many of an accessor's elements no bytes are there for. Its index is in range.
+    /// Returns the number of an accessor's elements that have no bytes in the file. Its index must be in range.
     pub fn zeros(&self, index: Index) -> u64 {
         let accessor = &self.root.accessors[index as usize];
         match (accessor.buffer_view, &accessor.sparse) {
@@ -152,7 +152,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Returns the elements of an accessor that must be of this kind. Its index is in range.
+    /// Returns the elements of an accessor, which must have this kind. Its index must be in range.
     pub fn values(&self, index: Index, kind: Elements, what: &str) -> Result<Values<'a>, ModelError> {
         let accessor = &self.root.accessors[index as usize];
         let number = accessor.component_type;
@@ -197,7 +197,7 @@ impl<'a> Source<'a> {
         Ok(Values { bytes, count: count as usize, component, width, is_normalized, sparse })
     }
 
-    /// As many indices as values, each greater than the one before and less than the count (section 3.6.2.3).
+    /// As many indices as values, each greater than the previous one and less than the count (section 3.6.2.3).
     fn sparse(&self, index: Index, accessor: &Accessor, size: usize) -> Result<Option<SparseValues<'a>>, ModelError> {
         let Some(sparse) = &accessor.sparse else { return Ok(None) };
         let (all, count) = (accessor.count, sparse.count);
@@ -229,7 +229,7 @@ impl<'a> Source<'a> {
         Ok(Some(replaced))
     }
 
-    /// The bytes of `count` elements of `size` bytes in a view.
+    /// Returns the bytes of `count` elements of `size` bytes in a view.
     fn elements(
         &self,
         index: Index,
@@ -263,7 +263,7 @@ impl SparseValues<'_> {
 }
 
 impl<'a> Values<'a> {
-    /// The bytes of each element, in order; of zeros none.
+    /// Returns the bytes of each element, in order; empty for zeros.
     fn raw(&self) -> impl Iterator<Item = &'a [u8]> + '_ {
         let mut next = 0;
         (0..self.count).map(move |i| match &self.sparse {
@@ -275,7 +275,7 @@ impl<'a> Values<'a> {
         })
     }
 
-    /// Each element as floats, those that it does not have as in `rest`.
+    /// Returns each element as floats, with missing components from `rest`.
     pub fn floats<const N: usize>(&self, rest: [f32; N]) -> impl Iterator<Item = [f32; N]> + '_ {
         let width = self.width.min(N);
         self.raw().map(move |bytes| {
@@ -288,7 +288,7 @@ impl<'a> Values<'a> {
         })
     }
 
-    /// The first of each element's numbers, of an accessor of unsigned integers.
+    /// Returns the first component of each element, of an accessor of unsigned integers.
     pub fn integers(&self) -> impl Iterator<Item = u32> + '_ {
         let width = self.component.bytes();
         self.raw().map(move |bytes| bytes.iter().take(width).rev().fold(0, |sum, byte| sum << 8 | u32::from(*byte)))
@@ -299,7 +299,7 @@ impl<'a> Values<'a> {
         self.component != F32
     }
 
-    /// Returns the greatest number that indices of this kind can be: with it some programs begin a strip anew.
+    /// Returns the maximum index of this type: some programs use it to restart a strip.
     pub fn restart(&self) -> u32 {
         match self.component {
             U8 => u32::from(u8::MAX),

@@ -1,4 +1,4 @@
-//! The bytes of a glTF file's buffers, wherever they are.
+//! The bytes of a glTF file's buffers, wherever they are stored.
 
 use super::{
     document::{Index, Root},
@@ -16,15 +16,15 @@ use std::borrow::Cow;
 /// Reads a file that the model names.
 pub(super) type Named<'a> = &'a dyn Fn(&str, Limit) -> Result<Vec<u8>, FileError>;
 
-/// The longest file name that any system takes is shorter.
+/// No system accepts a longer file name.
 const LONGEST_NAME: usize = 4096;
 
-/// The bytes of every buffer; `None` where the file names none. That is no mistake until something lies there: a buffer
-/// may stand for what an extension compresses.
+/// The bytes of every buffer; `None` if the file names none. That is not an error until the buffer is read: it may be a
+/// placeholder for data that an extension compresses.
 pub(super) struct Buffers<'a>(Vec<Option<Cow<'a, [u8]>>>);
 
 impl<'a> Buffers<'a> {
-    /// Reads them. `taken`: bytes of the model file itself.
+    /// Loads all buffers. `taken` is the number of bytes of the model file itself.
     pub fn load(
         root: &Root<'_>,
         mut binary: Option<&'a [u8]>,
@@ -36,7 +36,7 @@ impl<'a> Buffers<'a> {
         for (n, buffer) in root.buffers.iter().enumerate() {
             let uri = buffer.uri.as_ref().map(|uri| &*uri.0);
             let mut bytes: Cow<'a, [u8]> = match uri {
-                // The binary chunk is the first buffer's (section 3.6.1.2).
+                // The binary chunk belongs to the first buffer (section 3.6.1.2).
                 None => match binary.take().filter(|_| n == 0) {
                     Some(binary) => binary.into(),
                     None => {
@@ -44,7 +44,7 @@ impl<'a> Buffers<'a> {
                         continue;
                     }
                 },
-                // Its length is bounded by that of the file, which holds it in 4 bytes for 3, or in one for one.
+                // Its length is bounded by that of the file, which stores 3 bytes in 4, or one byte in one.
                 Some(uri) if is_data(uri) => match data(uri) {
                     Ok(bytes) => bytes.into(),
                     Err(why) => return Err(ModelError::broken(format!("the data: address of buffer {n} {why}"))),
@@ -85,12 +85,12 @@ impl<'a> Buffers<'a> {
         Ok(Buffers(buffers))
     }
 
-    /// Returns the number of bytes of all of them.
+    /// Returns the total number of bytes.
     pub fn bytes(&self) -> u64 {
         self.0.iter().flatten().map(|bytes| bytes.len() as u64).sum()
     }
 
-    /// The bytes of a buffer view, whose index is in range.
+    /// Returns the bytes of a buffer view, whose index must be in range.
     pub fn view(&self, root: &Root<'_>, view: Index) -> Result<&[u8], ModelError> {
         let described = &root.buffer_views[view as usize];
         let buffer = described.buffer;
@@ -109,7 +109,7 @@ impl<'a> Buffers<'a> {
     }
 }
 
-/// Returns whether an address holds its data itself. Schemes are of either case (RFC 3986, section 3.1).
+/// Returns whether a URI contains its data itself. Schemes are case-insensitive (RFC 3986, section 3.1).
 fn is_data(uri: &str) -> bool {
     uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
 }

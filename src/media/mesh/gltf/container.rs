@@ -1,5 +1,5 @@
-//! The container of a glTF file: plain JSON text, or the chunks of a `.glb` (section 4). What is in the file says which
-//! of the two it is, whatever its name.
+//! The container of a glTF file: plain JSON text, or the chunks of a `.glb` (section 4). The content decides which of
+//! the two it is, whatever its name.
 
 use crate::mesh::trouble::ModelError;
 
@@ -36,7 +36,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<Chunks<'_>, ModelError> {
     let Some((b"JSON", json)) = chunk(&mut rest)? else {
         return Err(ModelError::broken("its first chunk is not JSON"));
     };
-    // Further chunks are those of extensions, and readers ignore them.
+    // Further chunks belong to extensions, and readers ignore them.
     let binary = chunk(&mut rest)?.filter(|(kind, _)| *kind == b"BIN\0").map(|(_, bytes)| bytes);
     Ok(Chunks { json, binary })
 }
@@ -44,7 +44,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<Chunks<'_>, ModelError> {
 /// A chunk's type and its bytes.
 type Chunk<'a> = (&'a [u8; 4], &'a [u8]);
 
-/// The next chunk; `None` where too little is left for the head of one.
+/// Returns the next chunk; `None` if the rest is shorter than a chunk header.
 fn chunk<'a>(rest: &mut &'a [u8]) -> Result<Option<Chunk<'a>>, ModelError> {
     let (Some(length), Some(kind)) = (number(rest, 0), rest.get(4..8).and_then(|kind| kind.first_chunk())) else {
         return Ok(None);

@@ -1,6 +1,5 @@
-//! The part of a glTF file's JSON text that says a shape, as section 5 of the specification has it. What else is there
-//! (materials, pictures, animations, cameras) is passed over unread, so that nothing in it keeps a shape from being
-//! drawn.
+//! The part of a glTF file's JSON text that defines a shape, by section 5 of the specification. Everything else
+//! (materials, pictures, animations, cameras) is skipped unread, so that it cannot prevent a shape from being drawn.
 
 use serde::{
     Deserialize, Deserializer,
@@ -9,10 +8,10 @@ use serde::{
 use serde_json::value::RawValue;
 use std::{borrow::Cow, fmt, marker::PhantomData};
 
-/// A place in one of the root's lists.
+/// An index into one of the root's lists.
 pub(super) type Index = u32;
 
-/// Says which glTF this is: all that is read before the rest.
+/// The version of a file: all that is read before the rest.
 #[derive(Deserialize)]
 pub(super) struct Head<'a> {
     #[serde(borrow)]
@@ -22,7 +21,7 @@ pub(super) struct Head<'a> {
     pub nodes: Option<&'a RawValue>,
 }
 
-/// Versions as they are written: a text, or a number in files that precede 1.0.
+/// Versions as they are written: a text, or a number in files older than 1.0.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Asset<'a> {
@@ -43,7 +42,7 @@ pub(super) struct Root<'a> {
     pub extensions_used: Vec<Text<'a>>,
     #[serde(borrow)]
     pub extensions_required: Vec<Text<'a>>,
-    /// Read where texture coordinates are quantised, and not before.
+    /// Parsed only if texture coordinates are quantised.
     #[serde(borrow)]
     pub materials: Option<&'a RawValue>,
     pub meshes: Vec<Mesh>,
@@ -54,7 +53,7 @@ pub(super) struct Root<'a> {
     pub skins: Vec<Skin>,
 }
 
-/// A text that takes no memory of its own where it holds no escapes.
+/// A text that is borrowed unless it contains escapes.
 #[derive(Deserialize)]
 #[serde(transparent)]
 pub(super) struct Text<'a>(#[serde(borrow)] pub Cow<'a, str>);
@@ -126,7 +125,7 @@ pub(super) enum Dimensions {
     Mat3,
     #[serde(rename = "MAT4")]
     Mat4,
-    /// One of an extension.
+    /// A value defined by an extension.
     #[serde(other)]
     Other,
 }
@@ -194,8 +193,8 @@ pub(super) struct PrimitiveExtensions {
     pub draco: Option<IgnoredAny>,
 }
 
-/// The accessors of a primitive's attributes, or of those that a morph target displaces. What the vertex buffer has no
-/// place for is passed over.
+/// The accessors of a primitive's attributes, or of those that a morph target displaces. Attributes that the vertex
+/// buffer does not support are skipped.
 #[derive(Default)]
 pub(super) struct Attributes {
     pub position: Option<Index>,
@@ -203,13 +202,13 @@ pub(super) struct Attributes {
     pub tangent: Option<Index>,
     pub uv: Option<Index>,
     pub color: Option<Index>,
-    /// By the number of the set, of any order.
+    /// By the number of the set, in any order.
     pub joints: Vec<(u32, Index)>,
     pub weights: Vec<(u32, Index)>,
 }
 
 impl Attributes {
-    /// All of them, each with its semantic.
+    /// Returns all of them, each with its semantic.
     pub fn all(&self) -> impl Iterator<Item = (Cow<'static, str>, Index)> {
         let plain = [
             ("POSITION", self.position),
@@ -277,7 +276,7 @@ pub(super) struct Node {
     pub mesh: Option<Index>,
     #[serde(default, deserialize_with = "maybe_whole")]
     pub skin: Option<Index>,
-    /// By columns.
+    /// In column-major order.
     pub matrix: Option<Box<[f64; 16]>>,
     pub translation: Option<[f64; 3]>,
     /// A quaternion, its real part last.
@@ -348,7 +347,7 @@ pub(super) struct Skin {
     pub inverse_bind_matrices: Option<Index>,
 }
 
-/// An integer, which may be written with a fraction of zero: `3.0`. Some programs do.
+/// An integer that may be written with a fraction of zero, as some programs do: `3.0`.
 struct IntegerLike<T>(T);
 
 impl<'de, T: TryFrom<u64>> Deserialize<'de> for IntegerLike<T> {
@@ -366,7 +365,7 @@ impl<'de, T: TryFrom<u64>> Deserialize<'de> for IntegerLike<T> {
             }
 
             fn visit_f64<E: Error>(self, x: f64) -> Result<IntegerLike<T>, E> {
-                // Beyond this not every whole number is one of the floats.
+                // Above this, floats cannot represent every integer.
                 const MOST: f64 = (1u64 << 53) as f64;
                 if x.fract() == 0.0 && (0.0..=MOST).contains(&x) {
                     return self.visit_u64(x as u64);

@@ -1,11 +1,11 @@
-//! Extensions that a file says it needs, and which of them matter to a shape.
+//! The extensions that a file requires, and which of them affect a shape.
 
 use super::document::Root;
 use crate::mesh::trouble::ModelError;
 use eddy_project::listed;
 
-/// Extensions that change where vertices lie or which are drawn, and that this module reads, or tells of where they
-/// are met: compressed data may have a plain fallback.
+/// Extensions that change the positions of vertices or which of them are drawn, and that this module reads, or reports
+/// where they are used: compressed data may have a plain fallback.
 const READ: [&str; 6] = [
     "KHR_mesh_quantization",
     "KHR_node_visibility",
@@ -15,7 +15,7 @@ const READ: [&str; 6] = [
     "KHR_meshopt_compression",
 ];
 
-/// Extensions that leave a shape as the rest of the file has it: they say more about it, or offer a second way to draw
+/// Extensions that do not change the shape in the rest of the file: they add information, or offer a second way to draw
 /// the same.
 const BESIDE: [&str; 18] = [
     "AGI_articulations",
@@ -38,8 +38,8 @@ const BESIDE: [&str; 18] = [
     "VRMC_vrm",
 ];
 
-/// Areas of extensions, as their names say behind the vendor: `VENDOR_AREA_feature`. All of these are left aside with
-/// what they extend.
+/// The areas of extensions by their names, after the vendor: `VENDOR_AREA_feature`. All of these are ignored together
+/// with what they extend.
 const AREAS: [&str; 12] = [
     "animation",
     "audio",
@@ -55,7 +55,7 @@ const AREAS: [&str; 12] = [
     "xmp",
 ];
 
-/// Checks that the file needs nothing that Eddy cannot read.
+/// Checks that the file requires nothing that Eddy cannot read.
 pub(super) fn check(root: &Root<'_>) -> Result<(), ModelError> {
     let mut unknown: Vec<&str> = root.extensions_required.iter().map(|name| &*name.0).collect();
     unknown.retain(|name| !is_known(name));
@@ -64,7 +64,7 @@ pub(super) fn check(root: &Root<'_>) -> Result<(), ModelError> {
     if unknown.is_empty() {
         return Ok(());
     }
-    // A list of thousands says no more than its start does.
+    // The start of a long list is sufficient.
     const SHOWN: usize = 5;
     let more = unknown.len().saturating_sub(SHOWN);
     let mut shown: Vec<String> = unknown.into_iter().take(SHOWN).map(ModelError::short).collect();
@@ -90,7 +90,7 @@ pub(super) fn is_quantized(root: &Root<'_>) -> bool {
     names.any(|name| name.0 == "KHR_mesh_quantization")
 }
 
-/// The trouble of a mesh that is there in Draco's form alone.
+/// Returns the error for a mesh that exists only in Draco's format.
 pub(super) fn draco() -> ModelError {
     ModelError::Needs {
         what: "KHR_draco_mesh_compression".into(),
@@ -99,7 +99,7 @@ pub(super) fn draco() -> ModelError {
     }
 }
 
-/// The trouble of a buffer view that is there in meshoptimizer's form alone.
+/// Returns the error for a buffer view that exists only in meshoptimizer's format.
 pub(super) fn meshopt(extension: &str) -> ModelError {
     ModelError::Needs {
         what: extension.into(),

@@ -1,4 +1,4 @@
-//! Instances: a mesh that one node shows at many places (`EXT_mesh_gpu_instancing`).
+//! Instancing: a mesh that one node shows at many places (`EXT_mesh_gpu_instancing`).
 
 use super::{
     accessors::{Elements, Source},
@@ -27,13 +27,13 @@ pub(super) fn count(source: Source<'_>, node: Option<Index>) -> Result<u64, Mode
     }
 }
 
-/// Returns how many of a node's instances no bytes of the file are there for.
+/// Returns the number of a node's instances that have no bytes in the file.
 pub(super) fn zeros(source: Source<'_>, node: Option<Index>) -> u64 {
     let Some(instancing) = of(source, node) else { return 0 };
     instancing.attributes.all().map(|(_, index)| source.zeros(index)).min().unwrap_or(0)
 }
 
-/// Hands the transform of each of a node's instances to `take`; of a node without, its own.
+/// Passes the transform of each of a node's instances to `take`; of a node without instances, its own.
 pub(super) fn each(
     source: Source<'_>,
     placed: &MeshInstance,

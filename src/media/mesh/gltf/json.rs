@@ -1,4 +1,4 @@
-//! The JSON text of a glTF file: its version, its extensions, and every index in it, checked before they are used.
+//! The JSON text of a glTF file: its version, its extensions, and every index, checked before they are used.
 
 use super::{
     document::{Asset, Attributes, Head, Index, Root},
@@ -8,7 +8,7 @@ use crate::mesh::trouble::ModelError;
 use eddy_project::limits;
 use serde_json::value::RawValue;
 
-/// Reads and checks the text. After this every index that Eddy follows is in range.
+/// Parses and checks the text. After this, every index that Eddy follows is in range.
 pub(super) fn document(text: &[u8]) -> Result<Root<'_>, ModelError> {
     let text = plain(text)?;
     measure(text)?;
@@ -20,8 +20,8 @@ pub(super) fn document(text: &[u8]) -> Result<Root<'_>, ModelError> {
     Ok(root)
 }
 
-/// The text without the mark that some editors begin it with (section 2.3 forbids it, and readers may skip it), and
-/// without the zeros that some programs fill a chunk up with.
+/// Strips the byte order mark that some editors write (section 2.3 forbids it, and readers may skip it), and the zeros
+/// with which some programs pad a chunk.
 fn plain(text: &[u8]) -> Result<&[u8], ModelError> {
     if text.starts_with(b"\xff\xfe") || text.starts_with(b"\xfe\xff") {
         return Err(ModelError::broken("its JSON is UTF-16 text, and glTF's is UTF-8"));
@@ -34,7 +34,7 @@ fn plain(text: &[u8]) -> Result<&[u8], ModelError> {
     Ok(&text[..end])
 }
 
-/// Counts objects and values before they are made: an empty object is two bytes of text and hundreds in memory.
+/// Counts objects and values before they are allocated: an empty object is two bytes of text and hundreds in memory.
 fn measure(text: &[u8]) -> Result<(), ModelError> {
     let (mut objects, mut values) = (0, 0);
     let (mut is_string, mut is_escaped) = (false, false);
@@ -58,13 +58,13 @@ fn measure(text: &[u8]) -> Result<(), ModelError> {
     Ok(())
 }
 
-/// As the note of section 3.2 has it: `minVersion` where it is there, else the major version.
+/// By the note of section 3.2: `minVersion` if present, otherwise the major version.
 fn check_version(head: &Head<'_>) -> Result<(), ModelError> {
     const NONE: Asset<'_> = Asset { version: None, min_version: None };
     let asset = head.asset.as_ref().unwrap_or(&NONE);
     let Some(version) = asset.version.map(words) else {
         return Err(match head.nodes {
-            // glTF 1.0 had objects for lists, and its asset might be left out.
+            // glTF 1.0 used objects instead of lists, and its asset was optional.
             Some(nodes) if nodes.get().starts_with('{') => ModelError::Version("1.0".into()),
             _ => ModelError::broken("it has no asset.version, which glTF requires"),
         });
@@ -85,12 +85,12 @@ fn check_version(head: &Head<'_>) -> Result<(), ModelError> {
     }
 }
 
-/// A text of the file without its quotes.
+/// Returns a text of the file without its quotes.
 fn words(value: &RawValue) -> &str {
     value.get().trim_matches('"')
 }
 
-/// Checks that every index names something that is there.
+/// Checks that every index is in range.
 fn check_indices(root: &Root<'_>) -> Result<(), String> {
     let within = |index: Index, count: usize, what: &dyn Fn() -> String| {
         if (index as usize) < count {
@@ -145,7 +145,7 @@ fn check_indices(root: &Root<'_>) -> Result<(), String> {
     root.scene.map_or(Ok(()), |i| within(i, root.scenes.len(), &|| "the scene to show is".into()))
 }
 
-/// The words for what a primitive has.
+/// Returns the words for an attribute of a primitive.
 fn owned(semantic: &str) -> String {
     if semantic == "POSITION" { "its positions".into() } else { format!("its {semantic}") }
 }

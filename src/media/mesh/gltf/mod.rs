@@ -1,15 +1,14 @@
-//! glTF 2.0: every triangle of the scene, with the transforms of its nodes applied, the joints of its skins in the pose
-//! that the nodes have and its morph targets at the weights that the file gives them. Materials and animations are left
-//! aside.
+//! glTF 2.0: every triangle of the scene, with the transforms of its nodes applied, its skins posed by the nodes, and
+//! its morph targets at the weights of the file. Materials and animations are ignored.
 //!
-//! The sections that comments name are those of the glTF 2.0 specification. What the text says is read into
-//! `document` by serde, and elements of accessors by `accessors`, as the crate `gltf` (1.4.1) refuses files that are
-//! valid: it knows no extension that does not change the shape, no attribute of an application's own, no scene without
-//! nodes, no accessor of zeros, and its readers take quantised attributes for floats.
+//! Section numbers in comments refer to the glTF 2.0 specification. The text is parsed into `document` by serde, and
+//! elements of accessors by `accessors`, because the crate `gltf` (1.4.1) rejects valid files: it does not support
+//! extensions that leave the shape unchanged, attributes of applications, scenes without nodes, or accessors of zeros,
+//! and its readers treat quantised attributes as floats.
 //!
-//! The file may be damaged or made to do harm, so all of it is checked before it is used, and what it comes to is
-//! counted before memory is taken: in `container` the chunks, in `json` what its text says, in `nodes` the hierarchy,
-//! in `buffers` the bytes, in `accessors` what is read of them.
+//! The file may be damaged or malicious, so all of it is checked before it is used, and its size is computed before
+//! memory is allocated: the chunks in `container`, the text in `json`, the hierarchy in `nodes`, the bytes in
+//! `buffers`, and the elements that are read in `accessors`.
 
 mod accessors;
 mod buffers;
@@ -35,8 +34,8 @@ use primitive::{Mode, Part, Pose};
 use skins::{Bound, Skins, skin_of};
 use texture::Transform;
 
-/// Reads the bytes of a `.gltf` or `.glb` file, and hands every part of it to `take`. Returns what of the scene is no
-/// triangle and was left out.
+/// Reads the bytes of a `.gltf` or `.glb` file, and passes every part of it to `take`. Returns the parts of the scene
+/// that are not triangles and were skipped.
 pub(super) fn load(
     bytes: &[u8],
     named: Named<'_>,
@@ -62,19 +61,19 @@ pub(super) fn load(
     Ok(left_out)
 }
 
-/// The kinds of things in a file that are no triangles.
+/// The parts of a file that are not drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct IgnoredParts {
     pub points: bool,
     pub lines: bool,
     /// Triangles without positions, which section 3.7.2.1 lets readers skip.
     pub unplaced: bool,
-    /// Meshes of nodes that are hidden or stand outside the scene.
+    /// Meshes of nodes that are hidden or outside the scene.
     pub unseen: bool,
 }
 
 impl IgnoredParts {
-    /// The words for what a file without triangles holds, behind "holds no triangles".
+    /// Returns the words that follow "holds no triangles" in a message about a file without triangles.
     pub fn only(self) -> String {
         match self.beside() {
             Some(what) => format!(", only {what}"),
@@ -84,7 +83,7 @@ impl IgnoredParts {
         }
     }
 
-    /// Returns the name of what there is beside triangles.
+    /// Returns the name of the parts that are not triangles.
     pub fn beside(self) -> Option<&'static str> {
         match (self.points, self.lines) {
             (true, true) => Some("points and lines"),
@@ -95,7 +94,7 @@ impl IgnoredParts {
     }
 }
 
-/// The words for where a primitive is.
+/// Returns the words for the location of a primitive.
 fn place(primitive: usize, placed: &MeshInstance) -> String {
     match placed.node {
         Some(node) => format!("primitive {primitive} of node {node}"),
@@ -110,7 +109,7 @@ struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    /// The primitives of a placed mesh by their numbers.
+    /// Returns the primitives of a placed mesh with their indices.
     fn parts(self, placed: &MeshInstance) -> impl Iterator<Item = (usize, Result<Part<'a>, ModelError>)> {
         let root: &'a Root<'a> = self.source.root;
         let mesh = &root.meshes[placed.mesh as usize];
@@ -122,7 +121,7 @@ impl<'a> Model<'a> {
         })
     }
 
-    /// Counts what all parts come to, by what accessors say.
+    /// Counts the sizes of all parts, by the counts of their accessors.
     fn count(self, stage: &Stage, counts: &mut Counts) -> Result<IgnoredParts, ModelError> {
         let root: &Root<'_> = self.source.root;
         let count = |index: Index| root.accessors[index as usize].count;
@@ -131,7 +130,7 @@ impl<'a> Model<'a> {
             let instances = instances::count(self.source, placed.node)?;
             for (n, part) in self.parts(placed) {
                 let part = part.map_err(|trouble| trouble.at(|| place(n, placed)))?;
-                // Also what is not drawn is looked at once for each node.
+                // Parts that are not drawn are also visited once per node.
                 counts.add_part()?;
                 counts.add_moved(part.primitive.targets.len() as u64)?;
                 match (part.mode, part.attributes().position) {
@@ -159,7 +158,7 @@ impl<'a> Model<'a> {
         Ok(left_out)
     }
 
-    /// Hands a part to `take`, wherever its mesh is placed.
+    /// Passes a part to `take`, for every place of its mesh.
     fn take(
         self,
         placed: &MeshInstance,

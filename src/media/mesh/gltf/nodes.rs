@@ -1,20 +1,20 @@
-//! The node hierarchy: a set of strict trees (section 3.5.2), which a file may not keep to.
+//! The node hierarchy: a set of strict trees (section 3.5.2), which a file may violate.
 
 use super::document::{Index, Node, Root};
 use crate::mesh::trouble::ModelError;
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 
-/// A mesh in its place.
+/// A mesh at its place.
 pub(super) struct MeshInstance {
     pub mesh: Index,
-    /// `None` where a file has meshes and no nodes.
+    /// `None` for a file that has meshes but no nodes.
     pub node: Option<Index>,
     pub to_world: DAffine3,
 }
 
-/// The nodes that are drawn, and where every node stands.
+/// The nodes that are drawn, and the world transform of every node.
 pub(super) struct Stage {
-    /// Parents before children.
+    /// Parents precede children.
     pub placed: Vec<MeshInstance>,
     /// By node; `None` for those that are their own ancestors.
     pub worlds: Vec<Option<DAffine3>>,
@@ -27,12 +27,12 @@ impl Stage {
         let mut placed = Vec::new();
         let scene = scene(root);
         walk.from(&scene.map_or_else(|| roots(nodes), |scene| root.scenes[scene].nodes.clone()), &mut placed)?;
-        // Joints may stand outside the scene, where nothing else is drawn of what they hang from.
+        // Joints may be outside the scene, whose other nodes are not drawn.
         if !root.skins.is_empty() {
             walk.beside();
         }
         if nodes.is_empty() {
-            // A library of meshes (section 3.5.1), all of which are wanted by whoever draws the file.
+            // A library of meshes (section 3.5.1): all of them are drawn.
             let mesh = |mesh| MeshInstance { mesh, node: None, to_world: DAffine3::IDENTITY };
             placed.extend((0..root.meshes.len() as Index).map(mesh));
         }
@@ -40,12 +40,12 @@ impl Stage {
     }
 }
 
-/// The default scene, else the first.
+/// Returns the default scene, otherwise the first.
 fn scene(root: &Root<'_>) -> Option<usize> {
     root.scene.map(|scene| scene as usize).or_else(|| (!root.scenes.is_empty()).then_some(0))
 }
 
-/// The nodes that are nobody's child.
+/// Returns the nodes that have no parent.
 fn roots(nodes: &[Node]) -> Vec<Index> {
     let mut is_child = vec![false; nodes.len()];
     nodes.iter().flat_map(|node| &node.children).for_each(|child| is_child[*child as usize] = true);
@@ -54,7 +54,7 @@ fn roots(nodes: &[Node]) -> Vec<Index> {
 
 struct Walk<'a> {
     nodes: &'a [Node],
-    /// By node: reached, and from where.
+    /// By node: whether it was reached, and from where.
     reached: Vec<Option<Option<Index>>>,
     worlds: Vec<Option<DAffine3>>,
 }
@@ -67,7 +67,7 @@ impl Walk<'_> {
             parent_to_world: DAffine3,
             is_shown: bool,
         }
-        // Not by recursion, as a chain of nodes may be longer than the stack is deep.
+        // Not recursive, as a chain of nodes may be longer than the stack is deep.
         let open =
             |node: &Index| Open { node: *node, parent: None, parent_to_world: DAffine3::IDENTITY, is_shown: true };
         let mut stack: Vec<Open> = roots.iter().rev().map(open).collect();
@@ -80,7 +80,7 @@ impl Walk<'_> {
             let node = &self.nodes[n];
             let to_world = parent_to_world * local(node);
             self.worlds[n] = Some(to_world);
-            // What is not visible hides all below it (KHR_node_visibility).
+            // An invisible node hides its descendants (KHR_node_visibility).
             let is_shown = is_shown && node.extensions.visibility.as_ref().is_none_or(|v| v.visible);
             let parent = Some(index);
             let child = |node: &Index| Open { node: *node, parent, parent_to_world: to_world, is_shown };
@@ -92,13 +92,13 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Says of nodes beside the scene where they stand, as far as they make trees.
+    /// Computes the transforms of nodes outside the scene, as far as they form trees.
     fn beside(&mut self) {
         let open = |node: Index| (node, DAffine3::IDENTITY);
         let mut stack: Vec<(Index, DAffine3)> = roots(self.nodes).into_iter().map(open).collect();
         while let Some((index, parent_to_world)) = stack.pop() {
             let n = index as usize;
-            // Those of the scene have been walked with all below them.
+            // Nodes of the scene have been visited with all their descendants.
             if self.worlds[n].is_none() {
                 let to_world = parent_to_world * local(&self.nodes[n]);
                 self.worlds[n] = Some(to_world);
@@ -117,7 +117,7 @@ fn local(node: &Node) -> DAffine3 {
     placement(vector(node.translation, DVec3::ZERO), node.rotation, vector(node.scale, DVec3::ONE))
 }
 
-/// Scaled, then turned, then moved. A quaternion of no length turns nothing.
+/// Scales, then rotates, then translates. A quaternion of length zero does not rotate.
 pub(super) fn placement(translation: DVec3, rotation: Option<[f64; 4]>, scale: DVec3) -> DAffine3 {
     let turn = rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
     let length = turn.length();
@@ -125,9 +125,9 @@ pub(super) fn placement(translation: DVec3, rotation: Option<[f64; 4]>, scale: D
     DAffine3::from_scale_rotation_translation(scale, turn, translation)
 }
 
-/// Returns what is wrong with a node that is reached a second time.
+/// Describes the error of a node that is reached a second time.
 fn twice(node: Index, earlier: Option<Index>, now: Option<Index>, reached: &[Option<Option<Index>>]) -> String {
-    // Parents of nodes that were reached make no circle, so this ends.
+    // The parents of nodes that were reached form no cycle, so this ends.
     let mut above = now;
     while let Some(n) = above {
         if n == node {

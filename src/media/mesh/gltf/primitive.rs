@@ -1,5 +1,5 @@
-//! One primitive as triangles of the world: its attributes, displaced by morph targets, then posed by joints or moved by
-//! its node.
+//! Converts a primitive to triangles in world space: its attributes, displaced by morph targets, then posed by joints
+//! or transformed by its node.
 
 use super::{
     accessors::{Elements, Source, Values},
@@ -14,7 +14,7 @@ use crate::mesh::{
 };
 use glam::{DAffine3, DMat3, DVec3};
 
-/// The topologies of section 3.7.2.1 by their numbers.
+/// The topologies of section 3.7.2.1 by number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mode {
     Points,
@@ -36,7 +36,7 @@ impl Mode {
         })
     }
 
-    /// Returns the number of triangles that so many corners make.
+    /// Returns the number of triangles for this number of corners.
     pub fn triangles(self, corners: u64) -> u64 {
         match self {
             Mode::Points | Mode::Lines => 0,
@@ -46,11 +46,11 @@ impl Mode {
     }
 }
 
-/// The place where a primitive stands.
+/// The placement of a primitive.
 pub(super) enum Pose<'a> {
     /// At its node, or at each of that node's instances.
     Placed(DAffine3),
-    /// Wherever its joints are. The node's own transform is ignored (section 3.7.3.2).
+    /// By its joints. The node's own transform is ignored (section 3.7.3.2).
     Bound(Bound<'a>),
 }
 
@@ -65,12 +65,12 @@ pub(super) struct Part<'a> {
 }
 
 impl<'a> Part<'a> {
-    /// The morph targets that have a part in the shape.
+    /// Returns the morph targets that affect the shape.
     pub fn targets(&self) -> impl Iterator<Item = (&'a Attributes, f32)> {
         self.primitive.targets.iter().zip(self.weights.iter().copied()).filter(|(_, weight)| *weight != 0.0)
     }
 
-    /// Returns whether an extension that Eddy does not read holds its elements, as [`Part::values`] says.
+    /// Returns whether its elements are stored by an extension that Eddy does not read, which [`Part::values`] reports.
     pub fn is_compressed(&self) -> bool {
         self.primitive.extensions.draco.is_some()
     }
@@ -91,7 +91,7 @@ impl<'a> Part<'a> {
         Err(ModelError::broken(format!("it has {count} positions but {} {what}", values.count)))
     }
 
-    /// Reads it where `pose` has it.
+    /// Reads it at `pose`.
     pub fn raw(&self, pose: &Pose<'a>) -> Result<Raw, ModelError> {
         let attributes = self.attributes();
         let mut raw = self.modelled()?;
@@ -112,7 +112,7 @@ impl<'a> Part<'a> {
                 let moved = Moved::by(*to_world);
                 raw.vertices.iter_mut().for_each(|vertex| moved.apply(vertex));
                 if moved.sign < 0.0 {
-                    // A mirror turns the fronts away.
+                    // A mirroring transform turns fronts into backs.
                     raw.indices.chunks_exact_mut(3).for_each(|corners| corners.swap(1, 2));
                 }
             }
@@ -123,7 +123,7 @@ impl<'a> Part<'a> {
                     moved.apply(&mut raw.vertices[n]);
                     is_mirrored[n] = moved.sign < 0.0;
                 })?;
-                // Joints may mirror a part of the mesh: most of a triangle's corners say.
+                // Joints may mirror a part of the mesh: the majority of a triangle's corners decides.
                 for corners in raw.indices.chunks_exact_mut(3) {
                     let at = |i: u32| is_mirrored.get(i as usize).copied().unwrap_or_default();
                     if corners.iter().filter(|i| at(**i)).count() >= 2 {
@@ -135,7 +135,7 @@ impl<'a> Part<'a> {
         Ok(raw)
     }
 
-    /// The vertices with their morph targets, in the mesh's own space.
+    /// Returns the vertices with their morph targets applied, in the mesh's own space.
     fn modelled(&self) -> Result<Raw, ModelError> {
         let attributes = self.attributes();
         let Some(position) = attributes.position else { return Ok(Raw::default()) };
@@ -148,7 +148,7 @@ impl<'a> Part<'a> {
             let values = self.values(index, Elements::NORMALS, "normals", count)?;
             vertices.iter_mut().zip(values.floats([0.0; 3])).for_each(|(vertex, v)| vertex.normal = v);
         }
-        // Tangents go with the normals they were made for.
+        // Tangents are only valid for the normals they were made for.
         if let Some(index) = attributes.tangent.filter(|_| attributes.normal.is_some()) {
             let values = self.values(index, Elements::TANGENTS, "tangents", count)?;
             vertices.iter_mut().zip(values.floats([0.0; 4])).for_each(|(vertex, v)| vertex.tangent = v);
@@ -171,15 +171,14 @@ impl<'a> Part<'a> {
             if let Some(texture) = &texture {
                 vertex.uv = texture.apply(vertex.uv);
             }
-            // glTF has v run downward.
+            // In glTF, v points downward.
             vertex.uv[1] = if attributes.uv.is_some() { 1.0 - vertex.uv[1] } else { 0.0 };
             vertex.color = vertex.color.map(|c| if c.is_nan() { c } else { c.clamp(0.0, 1.0) });
         }
         Ok(Raw { vertices, ..Raw::default() })
     }
 
-    /// Adds a target's displacements (section 3.7.2.2). One of an attribute that the primitive lacks has nothing to
-    /// displace.
+    /// Adds a target's displacements (section 3.7.2.2). Those of an attribute that the primitive lacks are ignored.
     fn morph(&self, vertices: &mut [Vertex], target: &Attributes, weight: f32, count: u64) -> Result<(), ModelError> {
         fn add<const N: usize>(
             vertices: &mut [Vertex],
@@ -203,7 +202,7 @@ impl<'a> Part<'a> {
         if let Some(shifts) = values(target.normal, base.normal, Elements::NORMALS, "normals of a morph target")? {
             add::<3>(vertices, &shifts, weight, |vertex| &mut vertex.normal);
         }
-        // The side of a tangent stays.
+        // The sign of a tangent stays.
         if let Some(shifts) = values(target.tangent, base.tangent, Elements::NORMALS, "tangents of a morph target")? {
             add::<3>(vertices, &shifts, weight, |vertex| &mut vertex.tangent[..3]);
         }
@@ -217,7 +216,7 @@ impl<'a> Part<'a> {
         Ok(())
     }
 
-    /// The corners of its triangles, three by three.
+    /// Returns the corners of its triangles, three by three.
     fn corners(&self, count: usize) -> Result<Vec<u32>, ModelError> {
         let Some(index) = self.primitive.indices else {
             return Ok(triangles(self.mode, (0..count as u32).collect()));
@@ -235,7 +234,7 @@ impl<'a> Part<'a> {
     }
 }
 
-/// Corners three by three. What is left over makes no triangle.
+/// Returns corners three by three. Leftover corners form no triangle.
 fn triangles(mode: Mode, mut corners: Vec<u32>) -> Vec<u32> {
     match mode {
         Mode::Strip => corners
@@ -251,19 +250,19 @@ fn triangles(mode: Mode, mut corners: Vec<u32>) -> Vec<u32> {
     }
 }
 
-/// A transform of vertices with what it does to normals and tangents.
+/// A transform of vertices with its effect on normals and tangents.
 struct Moved {
     by: DAffine3,
     normals: DMat3,
-    /// -1 where it mirrors.
+    /// -1 if it mirrors.
     sign: f64,
 }
 
 impl Moved {
     fn by(by: DAffine3) -> Moved {
         let m = by.matrix3;
-        // The inverse transposed but for its length, which is there for a matrix that flattens, too. Scaled, as that of
-        // small numbers is tiny.
+        // The transposed inverse except for its length, which also exists for a matrix that flattens. Scaled first, as
+        // that of small numbers is tiny.
         let largest = m.to_cols_array().into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let m = if largest > 0.0 { m * (1.0 / largest) } else { m };
         let sign = if m.determinant() < 0.0 { -1.0 } else { 1.0 };
@@ -291,7 +290,7 @@ mod tests {
 
     #[test]
     fn the_parts_of_a_strip_and_a_fan_all_face_one_way() {
-        // Checked by hand with the figures of section 3.7.2.1 of the glTF specification.
+        // Verified by hand with the figures of section 3.7.2.1 of the glTF specification.
         let corners = vec![0, 1, 2, 3, 4];
         assert_eq!(triangles(Mode::Strip, corners.clone()), [0, 1, 2, 2, 1, 3, 2, 3, 4]);
         assert_eq!(triangles(Mode::Fan, corners.clone()), [0, 1, 2, 0, 2, 3, 0, 3, 4]);

@@ -9,12 +9,12 @@ use crate::mesh::trouble::{Counts, ModelError};
 use glam::{DAffine3, DMat3, DMat4, DVec3};
 use std::collections::HashMap;
 
-/// The skins that are worn, each with its joints' matrices from where a vertex is modelled to where it is posed: the
-/// joint's place in the world after the inverse of its place when it was bound.
+/// The skins in use, each with its joints' matrices from bind pose to current pose: the joint's world transform times
+/// the inverse of its transform when it was bound.
 pub(super) struct Skins(HashMap<Index, Vec<DAffine3>>);
 
 impl Skins {
-    /// Reads those that placed meshes wear. `counts` has counted their joints.
+    /// Reads the skins of placed meshes. `counts` has counted their joints.
     pub fn load(source: Source<'_>, stage: &Stage) -> Result<Skins, ModelError> {
         let mut skins = HashMap::new();
         for index in worn(source, &stage.placed) {
@@ -25,7 +25,7 @@ impl Skins {
         Ok(Skins(skins))
     }
 
-    /// Counts the joints of the skins that placed meshes wear.
+    /// Counts the joints of the skins of placed meshes.
     pub fn count(source: Source<'_>, stage: &Stage, counts: &mut Counts) -> Result<(), ModelError> {
         let mut is_counted = vec![false; source.root.skins.len()];
         for index in worn(source, &stage.placed) {
@@ -41,7 +41,7 @@ impl Skins {
     }
 }
 
-/// The skin of a placed mesh.
+/// Returns the skin of a placed mesh.
 pub(super) fn skin_of(source: Source<'_>, placed: &MeshInstance) -> Option<Index> {
     source.root.nodes[placed.node? as usize].skin
 }
@@ -71,7 +71,7 @@ fn joints(source: Source<'_>, index: Index, stage: &Stage) -> Result<Vec<DAffine
     Ok(posed)
 }
 
-/// The joints of each vertex of a primitive with their weights: sets of four.
+/// The joints of each vertex of a primitive with their weights, in sets of four.
 pub(super) struct Bound<'a> {
     skin: Index,
     joints: &'a [DAffine3],
@@ -79,7 +79,7 @@ pub(super) struct Bound<'a> {
 }
 
 impl<'a> Bound<'a> {
-    /// `None` for a primitive without joints, which stands where its node does.
+    /// Returns `None` for a primitive without joints, which is placed at its node.
     pub fn of(
         source: Source<'a>,
         attributes: &Attributes,
@@ -101,14 +101,14 @@ impl<'a> Bound<'a> {
         Ok((!sets.is_empty()).then_some(Bound { skin, joints, sets }))
     }
 
-    /// The number of elements of each of its attributes.
+    /// Returns the number of elements of each of its attributes.
     pub fn counts(&self) -> impl Iterator<Item = (&'static str, usize)> {
         self.sets.iter().flat_map(|(joints, weights)| [("joints", joints.count), ("weights", weights.count)])
     }
 
-    /// Hands the transform of each vertex to `take`, in order: the mean of its joints' by their weights. Their sum is 1
-    /// in files that keep to section 3.7.3.3. A vertex that is bound to nothing goes with its first joint, as in other
-    /// viewers.
+    /// Passes the transform of each vertex to `take`, in order: the mean of its joints' transforms by weight. The
+    /// weights sum to 1 in files that conform to section 3.7.3.3. A vertex that is not bound follows its first joint,
+    /// as in other viewers.
     pub fn each(&self, mut take: impl FnMut(usize, DAffine3)) -> Result<(), ModelError> {
         let count = self.sets.first().map_or(0, |(joints, _)| joints.count);
         let mut sets: Vec<_> = self.sets.iter().map(|(j, w)| j.floats([0.0; 4]).zip(w.floats([0.0; 4]))).collect();
@@ -127,7 +127,7 @@ impl<'a> Bound<'a> {
                 let Some((joints, weights)) = values.next() else { continue };
                 first = if set == 0 { joints[0] } else { first };
                 for (index, weight) in joints.into_iter().zip(weights) {
-                    // The joint of no weight may be any.
+                    // A joint without weight may have any index.
                     if weight != 0.0 {
                         let (posed, weight) = (joint(index)?, f64::from(weight));
                         matrix += posed.matrix3 * weight;

@@ -1,5 +1,5 @@
-//! Texture coordinates that are quantised to integers, and the `KHR_texture_transform` of their material, which brings
-//! them back.
+//! Texture coordinates that are quantised to integers, and the `KHR_texture_transform` of their material, which
+//! restores them.
 
 use super::document::Root;
 use serde::Deserialize;
@@ -8,10 +8,10 @@ use serde::Deserialize;
 #[serde(default)]
 pub(super) struct Transform {
     offset: [f32; 2],
-    /// Radians.
+    /// In radians.
     rotation: f32,
     scale: [f32; 2],
-    /// Another set than the texture's own.
+    /// A set that overrides the texture's own.
     #[serde(rename = "texCoord")]
     tex_coord: Option<u32>,
 }
@@ -52,9 +52,9 @@ struct Extensions {
     transform: Option<Transform>,
 }
 
-/// The transform that each material has for the first set of coordinates: that of its colour, else of another of its
-/// textures. A program that quantises gives all the same one. None where the materials are not what they should be, as
-/// they are left aside else.
+/// Returns the transform of each material for the first set of coordinates: that of its colour, otherwise of another of
+/// its textures. A program that quantises writes the same one to all. Empty if the materials are malformed, as they are
+/// otherwise ignored.
 pub(super) fn transforms(root: &Root<'_>) -> Vec<Option<Transform>> {
     let materials = root.materials.and_then(|text| serde_json::from_str::<Vec<Material>>(text.get()).ok());
     materials.unwrap_or_default().into_iter().map(|material| material.transform()).collect()
@@ -76,7 +76,7 @@ impl Material {
 }
 
 impl Transform {
-    /// Scaled, then turned, then moved, as in the extension's own shader.
+    /// Scales, then rotates, then translates, as in the extension's own shader.
     pub fn apply(&self, [u, v]: [f32; 2]) -> [f32; 2] {
         let (sin, cos) = self.rotation.sin_cos();
         let (u, v) = (u * self.scale[0], v * self.scale[1]);

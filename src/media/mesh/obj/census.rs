@@ -1,4 +1,4 @@
-//! Counts what a file comes to before any of it is kept.
+//! Counts the contents of a file before memory is allocated.
 
 use super::{
     numbers::whole,
@@ -12,7 +12,7 @@ use crate::mesh::{
 /// The sizes of a file, and the first of its oddities.
 #[derive(Debug, Default)]
 pub(super) struct Census {
-    /// Its positions, its triangles and its parts.
+    /// The numbers of positions, triangles and parts.
     pub counts: Counts,
     pub uvs: usize,
     pub normals: usize,
@@ -20,13 +20,13 @@ pub(super) struct Census {
     points: u64,
     /// The first line with a curve or a surface.
     free_form: Option<usize>,
-    /// The first line with a face that names vertex 0, which OBJ does not have.
+    /// The first line with a face that uses vertex 0, which OBJ does not have.
     zero: Option<usize>,
-    /// The highest number of a vertex in a face.
+    /// The highest vertex number of a face.
     highest: i64,
-    /// A face counts back from where it stands.
+    /// A face uses relative (negative) numbers.
     is_relative: bool,
-    /// It holds something that OBJ has a word for.
+    /// The file contains an OBJ keyword.
     is_obj: bool,
 }
 
@@ -72,8 +72,8 @@ impl Census {
         self.counts.add(0, corners.saturating_sub(2))
     }
 
-    /// Returns the number of the first element: 1, but 0 where a face names vertex 0, and no face a vertex that is not
-    /// there if one counts so.
+    /// Returns the number of the first element: 1, but 0 if a face uses vertex 0, and counting from 0 leaves all
+    /// numbers of faces in range.
     pub fn first(&self) -> i64 {
         let counts_from_zero = self.zero.is_some() && !self.is_relative && self.highest < self.counts.vertices as i64;
         i64::from(!counts_from_zero)
@@ -91,7 +91,7 @@ impl Census {
         zero.into_iter().chain(free_form).collect()
     }
 
-    /// Returns what is to be said of a file without triangles, which is an error where it is no OBJ file at all.
+    /// Returns the warning for a file without triangles, or an error if it is not an OBJ file at all.
     pub fn no_triangles(&self) -> Result<MeshWarning, ModelError> {
         if !self.is_obj {
             return Err(ModelError::broken("it has no triangles"));

@@ -7,14 +7,14 @@ use super::{
 };
 use crate::mesh::{error::MeshWarning, model::Vertex, trouble::ModelError};
 
-/// The elements that the faces of a file name by number.
+/// The elements that the faces of a file refer to by number.
 pub(super) struct Elements {
     pub positions: Vec<[f32; 3]>,
-    /// White where a vertex says nothing; empty where none says anything.
+    /// White for vertices without a colour; empty if no vertex has one.
     colors: Vec<[f32; 3]>,
     pub uvs: Vec<[f32; 2]>,
     pub normals: Vec<[f32; 3]>,
-    /// The first of each kind that is not finite: its line and the word.
+    /// The first element of each kind that is not finite: its line and the word.
     broken: [Option<(usize, String)>; 4],
 }
 
@@ -47,7 +47,7 @@ impl Elements {
         Ok(elements)
     }
 
-    /// A position, and behind it a weight, which only curves have a use for, or a colour.
+    /// Adds a position, which may be followed by a colour, or by a weight that only curves use.
     fn add_position(&mut self, statement: Statement<'_>) -> Result<(), ModelError> {
         let mut read = [0.0; 6];
         let count = numbers(statement, &mut read)?;
@@ -66,7 +66,7 @@ impl Elements {
         Ok(())
     }
 
-    /// Texture coordinates of one, two or three dimensions, of which two count.
+    /// Adds texture coordinates of one, two or three dimensions, of which the first two are used.
     fn add_uv(&mut self, statement: Statement<'_>) -> Result<(), ModelError> {
         let mut uv = [0.0; 2];
         if numbers(statement, &mut uv)? == 0 {

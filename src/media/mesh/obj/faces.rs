@@ -1,4 +1,4 @@
-//! The faces of a file, as triangles of vertices.
+//! Converts the faces of a file to triangles.
 
 use super::{
     census::Census,
@@ -13,7 +13,7 @@ use crate::mesh::{
 };
 use rustc_hash::FxHashMap;
 
-/// A corner of a face: a position, a texture coordinate and a normal, by their places in [`Elements`].
+/// A corner of a face: a position, a texture coordinate and a normal, as indices into [`Elements`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Corner {
     position: u32,
@@ -21,17 +21,17 @@ struct Corner {
     normal: Option<u32>,
 }
 
-/// Makes triangles of faces.
+/// Converts faces to triangles.
 pub(super) struct Faces<'f> {
     elements: &'f Elements,
     /// The number of the first element.
     first: i64,
     room: u64,
     made: Counts,
-    /// Positions, texture coordinates and normals before the present statement, from which negative numbers count back.
+    /// Positions, texture coordinates and normals before the current statement, from which negative numbers count back.
     passed: [usize; 3],
-    /// The present part: faces with and without texture coordinates, with and without normals, as what a face does not
-    /// have is made for all of a kind.
+    /// The current part: faces with and without texture coordinates, with and without normals, as missing attributes
+    /// are made for all faces of a kind.
     part: [Kind; 4],
     cutter: Cutter,
     corners: Vec<Corner>,
@@ -46,7 +46,7 @@ struct Kind {
     vertices: FxHashMap<Corner, u32>,
 }
 
-/// The kinds of elements in the order in which a corner names them.
+/// The kinds of elements in the order of a corner's numbers.
 const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
 impl<'f> Faces<'f> {
@@ -65,7 +65,7 @@ impl<'f> Faces<'f> {
         }
     }
 
-    /// Hands over the faces of a text, part by part, and returns how many triangles they are.
+    /// Passes on the faces of a text, part by part, and returns the number of triangles.
     pub fn hand_over(
         mut self,
         text: &[u8],
@@ -90,7 +90,7 @@ impl<'f> Faces<'f> {
         kinds.map(std::mem::take).try_for_each(|kind| take(kind.raw))
     }
 
-    /// Adds a face. One of fewer than three corners is a point or a line.
+    /// Adds a face. A face of fewer than three corners is a point or a line.
     fn add(&mut self, statement: Statement<'_>) -> Result<(), ModelError> {
         self.corners.clear();
         for word in statement.words().skip(1) {
@@ -124,7 +124,7 @@ impl<'f> Faces<'f> {
         Ok(())
     }
 
-    /// Reads a corner: `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+    /// Parses a corner: `v`, `v/vt`, `v//vn` or `v/vt/vn`.
     fn corner(&self, statement: Statement<'_>, word: &[u8]) -> Result<Corner, ModelError> {
         let mut found = [None; 3];
         for (kind, number) in word.split(|b| *b == b'/').enumerate() {
@@ -139,8 +139,8 @@ impl<'f> Faces<'f> {
         Ok(Corner { position, uv, normal })
     }
 
-    /// Returns the place of an element of a kind. For a texture coordinate or a normal that is not there some write 0,
-    /// and others any number, in a file that has none at all.
+    /// Returns the index of an element of a kind. For a missing texture coordinate or normal some programs write 0, and
+    /// others any number in a file that has none at all.
     fn element(
         &self,
         statement: Statement<'_>,

@@ -1,10 +1,10 @@
-//! Wavefront OBJ. Materials are left aside: a draw has its own program and channels. So are lines, points, curves and
+//! Wavefront OBJ. Materials are ignored: a draw has its own program and channels. So are lines, points, curves and
 //! surfaces, and the weight of a vertex, which is for these (appendix B1 of the manual of Wavefront's Advanced
 //! Visualizer).
 //!
-//! Read here and not by a crate: those that there are name no line of what is wrong, want UTF-8, and cut faces as if all
-//! were convex. The text is gone through three times: for what it comes to, for its numbers, and for its faces, which may
-//! stand before their vertices. So no face is kept.
+//! Not parsed by a crate, because existing ones do not report the line of an error, require UTF-8, and triangulate
+//! faces as if all were convex. The text is read three times: for its size, for its numbers, and for its faces, which
+//! may precede their vertices. So no face is stored.
 
 mod census;
 mod elements;
@@ -24,8 +24,7 @@ use census::Census;
 use elements::Elements;
 use faces::Faces;
 
-/// Reads the bytes of an `.obj` file, and hands every part of it to `take`. Returns what is to be said of what is left
-/// out.
+/// Reads the bytes of an `.obj` file, and passes every part of it to `take`. Returns warnings about ignored parts.
 pub(super) fn load(
     bytes: &[u8],
     room: u64,
@@ -43,7 +42,7 @@ pub(super) fn load(
             return Err(elements.no_places());
         }
         warnings.push(census.no_triangles()?);
-        // A mesh has one triangle at least; this one has no area.
+        // A mesh has at least one triangle; this one has no area.
         let vertex = Vertex { position: elements.somewhere(), ..Vertex::PLAIN };
         take(Raw { vertices: vec![vertex], indices: vec![0; 3], ..Raw::default() })?;
     }

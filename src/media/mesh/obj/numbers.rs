@@ -1,10 +1,10 @@
-//! The numbers of an OBJ file as exporters write them.
+//! Parses the numbers of an OBJ file in the formats that exporters write.
 
 use super::text::{Statement, quoted};
 use crate::mesh::trouble::ModelError;
 
-/// Reads the numbers of a statement behind its keyword, as many as there is room for, and returns how many it has.
-/// One that is not finite is none in the file either, or more than a float holds.
+/// Parses the numbers of a statement after its keyword, as many as fit, and returns their count. A number that is not
+/// finite is either written so in the file, or too large for a float.
 pub(super) fn numbers(statement: Statement<'_>, into: &mut [f32]) -> Result<usize, ModelError> {
     let mut count = 0;
     for word in statement.words().skip(1) {
@@ -16,7 +16,7 @@ pub(super) fn numbers(statement: Statement<'_>, into: &mut [f32]) -> Result<usiz
     Ok(count)
 }
 
-/// Reads a whole number; one that is beyond any is as far as there is.
+/// Parses an integer, saturating.
 pub(super) fn whole(text: &[u8]) -> Option<i64> {
     let digits = text.strip_prefix(b"-").or(text.strip_prefix(b"+")).unwrap_or(text);
     if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
@@ -31,13 +31,14 @@ fn number(word: &[u8]) -> Option<f32> {
     text.parse().ok().or_else(|| no_value(text)).or_else(|| fortran(text))
 }
 
-/// Reads what the C libraries of Microsoft and others print of a number that is none: `-1.#IND`, `1.#QNAN`, `-nan(ind)`.
+/// Parses the texts that the C libraries of Microsoft and others print for values that are not a number: `-1.#IND`,
+/// `1.#QNAN`, `-nan(ind)`.
 fn no_value(text: &str) -> Option<f32> {
     let text = text.trim_start_matches(['+', '-']).to_ascii_lowercase();
     (text.starts_with("1.#") || text.starts_with("nan(")).then_some(f32::NAN)
 }
 
-/// Reads a number with Fortran's exponents: `1.5D-02`, `1.5-02`. Some put the sign before the letter.
+/// Parses a number with a Fortran exponent: `1.5D-02`, `1.5-02`. Some programs put the sign before the letter.
 fn fortran(text: &str) -> Option<f32> {
     let is_of_mantissa = |c: char| c.is_ascii_digit() || c == '.';
     let sign = usize::from(text.starts_with(['+', '-']));

@@ -1,35 +1,35 @@
-//! Triangles of a face of any number of corners, which need not be convex.
+//! Triangulates faces of any number of corners, which need not be convex.
 //!
-//! Cut by ears and not by a crate: what there is drops corners that lie on a line with their neighbours, which leaves
-//! gaps beside the faces that meet there.
+//! Ears are clipped here rather than by a crate: existing ones drop corners that are collinear with their neighbours,
+//! which leaves gaps next to the adjacent faces.
 
 use crate::mesh::trouble::{ModelError, at_most};
 use eddy_project::limits;
 use glam::{DVec2, DVec3};
 
-/// Cuts the faces of a file.
+/// Triangulates the faces of a file.
 #[derive(Default)]
 pub(super) struct Cutter {
-    /// The face as it is seen from its front.
+    /// The face projected to two dimensions, seen from its front.
     flat: Vec<DVec2>,
-    /// The corners of it that are left.
+    /// The remaining corners of the face.
     ring: Vec<u32>,
-    /// Corners that were looked at, which is how long it takes.
+    /// The number of visited corners, which bounds the time.
     steps: u64,
 }
 
 impl Cutter {
-    /// Gives the corners of the triangles of a face whose corners lie at these places: a fan where that covers the face
-    /// and nothing beside it. There are two less than corners.
+    /// Computes the corners of the triangles of a face with corners at these places: a fan if that covers exactly the
+    /// face. There are two triangles less than corners.
     pub fn triangles(&mut self, places: &[[f32; 3]], out: &mut Vec<u32>) -> Result<(), ModelError> {
         out.clear();
         let count = places.len() as u32;
         let fan = |first: u32| (2..count).map(move |i| [0, i - 1, i].map(|corner| (corner + first) % count));
         let at = |corner: u32| DVec3::from(places[corner as usize].map(f64::from));
         let area = |[a, b, c]: [u32; 3]| (at(b) - at(a)).cross(at(c) - at(a));
-        // Of the whole face, by Newell's method: the fan's areas, with their signs.
+        // The normal of the whole face, by Newell's method: the fan's signed areas.
         let whole: DVec3 = fan(0).map(area).sum();
-        // What is less than this of the face is rounding.
+        // A smaller part of the face is a rounding error.
         let least = -1e-7 * whole.length_squared();
         let is_upright = |triangle: [u32; 3]| area(triangle).dot(whole) >= least;
         let found = (0..if count == 4 { 2 } else { 1 }).find(|&first| fan(first).all(is_upright));
@@ -44,8 +44,8 @@ impl Cutter {
         Ok(())
     }
 
-    /// Takes one ear after the other: a corner whose triangle with its neighbours has no corner of the rest in it. One
-    /// without an area waits until nothing else is left, and so does any corner of a face that crosses itself.
+    /// Clips one ear after the other: a corner whose triangle with its neighbours contains no other corner. Ears
+    /// without an area come last, and so does any corner of a face that intersects itself.
     fn cut_ears(&mut self, out: &mut Vec<u32>) -> Result<(), ModelError> {
         self.ring.clear();
         self.ring.extend(0..self.flat.len() as u32);
@@ -64,7 +64,7 @@ impl Cutter {
             let ear = ear.unwrap_or(next % count);
             out.extend(self.around(ear));
             self.ring.remove(ear);
-            // Beginning behind the ear makes fewer slivers than staying at one corner.
+            // Continuing after the ear makes fewer slivers than staying at one corner.
             next = ear + 1;
         }
         out.extend_from_slice(&self.ring);
@@ -93,7 +93,7 @@ impl Cutter {
     }
 }
 
-/// Returns twice the area of a triangle, which is positive where a point lies left of the way from one to another.
+/// Returns twice the signed area of a triangle, which is positive if the point is left of the line `from`-`to`.
 fn side(from: DVec2, to: DVec2, point: DVec2) -> f64 {
     (to - from).perp_dot(point - from)
 }
@@ -102,7 +102,7 @@ fn side(from: DVec2, to: DVec2, point: DVec2) -> f64 {
 mod tests {
     use super::*;
 
-    /// The triangles of a face in a slanted plane, by its corners in that plane.
+    /// Triangulates a face in a slanted plane, by its corners in that plane.
     fn cut(corners: &[[f32; 2]]) -> Vec<[u32; 3]> {
         let places: Vec<[f32; 3]> = corners.iter().map(|[x, y]| [*x, *y, 2.0 * x + y]).collect();
         let mut out = Vec::new();
@@ -110,7 +110,7 @@ mod tests {
         out.as_chunks().0.to_vec()
     }
 
-    /// Twice the area, which is negative of a triangle that turns clockwise.
+    /// Returns twice the area, which is negative for a clockwise triangle.
     fn area(corners: &[[f32; 2]], [a, b, c]: [u32; 3]) -> f32 {
         let [a, b, c] = [a, b, c].map(|i| glam::Vec2::from(corners[i as usize]));
         (b - a).perp_dot(c - a)
@@ -122,12 +122,12 @@ mod tests {
         assert_eq!(cut(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]), [[0, 1, 2], [0, 2, 3]]);
         let five = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
         assert_eq!(cut(&five), [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
-        // Without an area.
+        // A face without an area.
         assert_eq!(cut(&[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0], [3.0, 3.0], [0.0, 0.0]]).len(), 3);
     }
 
     #[test]
-    fn a_concave_face_is_covered_once_wherever_it_begins_and_however_it_turns() {
+    fn concave_faces_are_covered_once_for_every_start_and_winding() {
         let arrow = vec![[0.0, 0.0], [2.0, -1.0], [1.0, 0.0], [2.0, 1.0]];
         let comb = vec![
             [0.0, 0.0],
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn the_time_that_concave_faces_take_is_bounded() {
+    fn the_time_for_concave_faces_is_bounded() {
         let star = |corners: u16| -> Vec<[f32; 3]> {
             let corner = |i: u16| {
                 let (sin, cos) = (f32::from(i) * std::f32::consts::TAU / f32::from(corners)).sin_cos();

@@ -5,7 +5,7 @@ use super::*;
 /// A quad in the plane z = 0.
 const QUAD: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
 
-/// The triangles of a text by their corners' positions, and its warnings.
+/// Returns the triangles of a text by their corners' positions, and its warnings.
 fn read(text: impl AsRef<[u8]>) -> Result<(Vec<Vertex>, Vec<MeshWarning>), ModelError> {
     let mut corners = Vec::new();
     let warnings = load(text.as_ref(), 1 << 30, &mut |raw| {
@@ -26,7 +26,7 @@ fn quad() -> Vec<[f32; 3]> {
     vec![a, b, c, a, c, d]
 }
 
-/// The line of an error, what it says and how to mend it.
+/// Returns the line of an error, its message and its hint.
 fn error(text: impl AsRef<[u8]>) -> (usize, String, String) {
     match read(text) {
         Err(ModelError::Line { line, reason, mend }) => (line, reason, mend),
@@ -77,14 +77,14 @@ fn statements_are_read_however_they_are_spaced_joined_and_commented() {
     ] {
         assert_eq!(places(format!("{QUAD}{face}")), quad(), "{face}");
     }
-    // Faces may stand before their vertices.
+    // Faces may precede their vertices.
     assert_eq!(places(format!("f 1 2 3 4\n{QUAD}")), quad());
     let numbers = "v -1. -1.0e0 +0 1.0\nv +1 -.1e1 0 0.5\nv 1D0 1 0 0.2 0.4 0.6\nv -1 1 0 1 0 0 0.5\nf 1 2 3 4";
     assert_eq!(places(numbers), quad(), "the weight of a vertex is for curves");
 }
 
 #[test]
-fn attributes_are_those_that_all_corners_of_a_face_have() {
+fn attributes_need_all_corners_of_a_face() {
     let text = "v 0 0 0\nv 1 0 0 0.5 0.25 0\nv 0 1 0\nvt 0.5\nvt 0.25 0.75 9\nvn 0 0 -2\nvn 0 0 0\n\
                 f 1/1/1 2/2/1 3/2/2\nf 1//1 2//1 3//1\nf 1/1 2 3/2\n";
     let mut raws = Vec::new();
@@ -103,7 +103,7 @@ fn attributes_are_those_that_all_corners_of_a_face_have() {
 }
 
 #[test]
-fn each_error_names_the_line_the_word_and_the_mend() {
+fn errors_name_the_line_the_word_and_the_fix() {
     for (line, text, reason, mend) in [
         (1, "v 0,5 0 0", "0,5 is not a number: it has a decimal comma", "with a point: 0.5 for 0,5"),
         (2, "\nv 1,2,3", "1,2,3 is not a number", "separate the numbers"),
@@ -134,7 +134,7 @@ fn each_error_names_the_line_the_word_and_the_mend() {
 }
 
 #[test]
-fn what_is_left_out_of_a_model_is_a_warning() {
+fn ignored_parts_of_a_model_are_warnings() {
     let warned = |text: String, words: &str| {
         let (corners, warnings) = read(&text).unwrap();
         assert!(warnings.len() == 1 && warnings[0].message.contains(words), "{text}: {warnings:?}");
@@ -149,7 +149,7 @@ fn what_is_left_out_of_a_model_is_a_warning() {
     );
     assert_eq!(warned(format!("{QUAD}f 0 1 2 3\n"), "line 5: a face uses vertex 0"), quad());
     assert_eq!(warned(format!("{QUAD}f 1 2 3 4\ncurv 0 1 1 2\n"), "line 6: its curves and surfaces"), quad());
-    // A triangle without an area stands for none.
+    // A triangle without an area replaces a missing mesh.
     let nothing = "it has no triangles, so nothing of it is drawn (vertices: 4, lines: 1, points: 1)";
     assert_eq!(warned(format!("{QUAD}l 1 2 3 4\np 1\n"), nothing), [[-1.0, -1.0, 0.0]; 3]);
     let all = error(format!("{QUAD}v 0 inf 0\nf 1 2 5\n"));

@@ -1,11 +1,11 @@
 //! The text of an OBJ file: its encoding, its statements and their words.
 //!
-//! OBJ is words of ASCII, and the names between them are of any encoding: what is no number stays bytes.
+//! OBJ consists of ASCII words, but the names in it have any encoding: everything except numbers stays bytes.
 
 use crate::mesh::trouble::ModelError;
 use std::borrow::Cow;
 
-/// Returns the text in an encoding of which ASCII is a part, without its byte order mark.
+/// Returns the text in an encoding that extends ASCII, without its byte order mark.
 pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, [u8]> {
     let utf16 = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
         let units = bytes.as_chunks().0.iter().map(|pair| unit(*pair));
@@ -16,14 +16,14 @@ pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, [u8]> {
         [0xef, 0xbb, 0xbf, text @ ..] => Cow::Borrowed(text),
         [0xff, 0xfe, text @ ..] => utf16(text, u16::from_le_bytes),
         [0xfe, 0xff, text @ ..] => utf16(text, u16::from_be_bytes),
-        // A first letter of ASCII in two bytes.
+        // The first letter is ASCII in two bytes.
         [1..=0x7f, 0, ..] => utf16(bytes, u16::from_le_bytes),
         [0, 1..=0x7f, ..] => utf16(bytes, u16::from_be_bytes),
         _ => Cow::Borrowed(bytes),
     }
 }
 
-/// A line of the file, with those that a backslash at its end joins to it.
+/// A line of the file, joined with the next ones if it ends with a backslash.
 #[derive(Clone, Copy)]
 pub(super) struct Statement<'t> {
     text: &'t [u8],
@@ -31,14 +31,14 @@ pub(super) struct Statement<'t> {
     line: usize,
 }
 
-/// Returns the statements of a text. Lines end as on any system.
+/// Returns the statements of a text, with line ends of any system.
 pub(super) fn statements(text: &[u8]) -> impl Iterator<Item = Statement<'_>> {
     let (mut rest, mut line) = (text, 1);
     std::iter::from_fn(move || {
         if rest.is_empty() {
             return None;
         }
-        // A path in a comment may end with a backslash, and the next line is none the less data.
+        // A path in a comment may end with a backslash, but the next line is data nevertheless.
         let is_comment = rest.iter().find(|b| !is_blank(**b)) == Some(&b'#');
         let (mut end, mut lines) = (0, 0);
         loop {
@@ -58,7 +58,7 @@ pub(super) fn statements(text: &[u8]) -> impl Iterator<Item = Statement<'_>> {
     })
 }
 
-/// Returns the length of the line end that a text begins with.
+/// Returns the length of the line end at the start of a text.
 fn line_end(text: &[u8]) -> usize {
     match text {
         [b'\r', b'\n', ..] => 2,
@@ -72,7 +72,7 @@ fn is_blank(byte: u8) -> bool {
 }
 
 impl<'t> Statement<'t> {
-    /// The words up to a comment. A number sign begins one, but for that of Microsoft's `1.#IND`.
+    /// Returns the words up to a comment. A number sign starts one, except in Microsoft's `1.#IND`.
     pub fn words(self) -> impl Iterator<Item = &'t [u8]> {
         let mut is_over = false;
         self.text
@@ -89,7 +89,7 @@ impl<'t> Statement<'t> {
             .filter(|word| !word.is_empty())
     }
 
-    /// Returns the number of the line that a word of the statement stands in.
+    /// Returns the number of the line that contains a word of the statement.
     pub fn line_of(self, word: &[u8]) -> usize {
         let before = (word.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
         let mut text = &self.text[..before.min(self.text.len())];
@@ -113,7 +113,7 @@ impl<'t> Statement<'t> {
     }
 }
 
-/// Returns a word as an error shows it.
+/// Returns a word as shown in an error.
 pub(super) fn quoted(word: &[u8]) -> String {
     const LONGEST: usize = 40;
     let mut text = String::new();

@@ -1,4 +1,4 @@
-//! Models made to do harm: small files that ask for much, and files that a reader stumbles over.
+//! Malicious models: small files that would need much memory or time, and files that make a reader fail.
 
 use super::*;
 use crate::mesh::trouble::ModelError;
@@ -18,7 +18,7 @@ fn says(error: &MeshError, file: &str, what: &str) {
     assert!(text.len() < 1000 && !error.hint().is_empty(), "{text}");
 }
 
-/// The text of a model with these nodes, of which node 0 is the scene's, and this accessor for positions.
+/// Returns the text of a model with these nodes, of which node 0 is the scene's, and this accessor for positions.
 fn model(nodes: &str, accessor: &str) -> String {
     // Three corners, and an index into them.
     let data = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAA==";
@@ -43,13 +43,13 @@ fn sparse(count: u64) -> String {
 }
 
 #[test]
-fn a_model_is_counted_before_memory_is_taken() {
+fn the_size_of_a_model_is_checked_before_memory_is_allocated() {
     load_text(&model(NODE, TRIANGLE)).unwrap();
     load_text(&model(NODE, &sparse(9))).unwrap();
     let many = "it has more than 8388608 vertices";
     says(&error("m.gltf", model(NODE, &sparse(3_000_000_000))), "m.gltf is too large", many);
     says(&error("m.gltf", model(NODE, &sparse(u64::MAX))), "m.gltf is too large", many);
-    // Below that limit, but what no byte of the file is there for.
+    // Below that limit, but for elements without bytes in the file.
     for count in [100_000, 1 << 20] {
         let without_data = "positions, indices and instances without data, the limit for a model";
         says(&error("m.gltf", model(NODE, &sparse(count))), "m.gltf is too large", without_data);
@@ -61,7 +61,7 @@ fn a_model_is_counted_before_memory_is_taken() {
         says(&error("m.gltf", model(node, &places)), "m.gltf is too large", without_data);
     }
     load_text(&model(NODE, &sparse(60_000))).unwrap();
-    // A mesh counts for each node that shows it.
+    // A mesh is counted for each node that shows it.
     let placed = |count: usize| {
         let children: Vec<String> = (1..=count).map(|n| n.to_string()).collect();
         format!(r#"{{"children":[{}]}}{}"#, children.join(","), r#",{"mesh":0}"#.repeat(count))
@@ -75,7 +75,7 @@ fn a_model_is_counted_before_memory_is_taken() {
     says(&error("m.gltf", large), "m.gltf is too large", "it has more than 8388608 vertices");
     let objects = format!(r#"{{"asset":{{"version":"2.0"}},"nodes":[{{}}{}]}}"#, ",{}".repeat(2 << 20));
     says(&error("m.gltf", objects), "m.gltf is too large", "its JSON has 2097155 objects, but the limit is 1048576");
-    // Bounds are passed over unread, however many they are.
+    // Bounds are skipped unread, however many there are.
     let bounds = TRIANGLE.replace("[0,0,0]", &format!("[0{}]", ",0".repeat(1 << 20)));
     load_text(&model(NODE, &bounds)).unwrap();
 }
@@ -87,8 +87,8 @@ fn load_text(text: &str) -> Result<Mesh, MeshError> {
 }
 
 #[test]
-fn nodes_that_are_no_tree_are_an_error() {
-    // Each node twice the child of the one before: 2^40 places for the last.
+fn nodes_that_do_not_form_a_tree_are_an_error() {
+    // Each node is twice the child of the previous one: 2^40 places for the last.
     let twice = |n: usize| format!(r#"{{"children":[{},{}]}}"#, n + 1, n + 1);
     let nodes: Vec<String> = (0..40).map(twice).chain([NODE.into()]).collect();
     says(&error("m.gltf", model(&nodes.join(","), TRIANGLE)), "m.gltf is broken", "is twice a child of node 39");
@@ -103,7 +103,7 @@ fn nodes_that_are_no_tree_are_an_error() {
 }
 
 #[test]
-fn accessors_that_the_crate_would_stumble_over_are_errors() {
+fn malformed_accessors_are_errors() {
     let gone = model(NODE, TRIANGLE).replace(r#""POSITION":0"#, r#""POSITION":77"#);
     says(&error("m.gltf", gone), "m.gltf is broken", "in accessor 77, but there are 1");
     let other = model(NODE, TRIANGLE).replace(r#""mesh":0"#, r#""mesh":5"#);
@@ -130,7 +130,7 @@ fn accessors_that_the_crate_would_stumble_over_are_errors() {
 }
 
 #[test]
-fn a_buffer_is_a_regular_file_of_the_project_that_holds_what_it_says() {
+fn buffers_must_be_regular_files_of_the_project_with_the_declared_length() {
     let named = |uri: &str| {
         let text = model(NODE, TRIANGLE);
         let (from, to) = (text.find("data:").unwrap(), text.rfind('"').unwrap());
@@ -147,7 +147,7 @@ fn a_buffer_is_a_regular_file_of_the_project_that_holds_what_it_says() {
         );
     }
     says(&named("file:///etc/passwd"), "m.gltf is broken", "neither a file nor data");
-    // Percent signs that make no Unicode: the crate's own reader panics.
+    // Percent signs that decode to invalid Unicode: the crate's own reader panics.
     says(&named("%ff%fe"), "m.gltf refers to a file", "there is no such file");
     says(&named(&"x".repeat(5000)), "m.gltf is broken", "a file name of 5000 bytes");
     let short = "40 bytes by its byteLength, and its data: address 3";
@@ -158,13 +158,13 @@ fn a_buffer_is_a_regular_file_of_the_project_that_holds_what_it_says() {
 }
 
 #[test]
-fn what_a_parser_quotes_is_cut_short() {
+fn long_quotes_of_a_parser_are_truncated() {
     let text = format!(r#"{{"asset":{{"version":"2.0"}},"nodes":"{}"}}"#, "x".repeat(1 << 20));
     says(&error("m.gltf", text), "m.gltf is broken", "…");
 }
 
 #[test]
-fn an_obj_is_counted_and_its_numbers_are_looked_at() {
+fn the_size_and_the_numbers_of_an_obj_are_checked() {
     let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
     for far in ["9223372036854775807", "-9223372036854775808", "6148914691236517206"] {
         for (corner, element) in
@@ -181,8 +181,8 @@ fn an_obj_is_counted_and_its_numbers_are_looked_at() {
 }
 
 #[test]
-fn tangents_of_many_corners_at_one_place_are_refused() {
-    // Each corner is compared with each other: 70,000 are five thousand million pairs.
+fn tangents_of_many_corners_at_one_place_are_rejected() {
+    // Each corner is compared with every other: 70,000 are five thousand million pairs.
     let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n";
     let fan = format!("{points}{}", "f 1/1 2/2 3/3\n".repeat(70_000));
     says(&error("m.obj", fan), "m.obj is too large", "70000 corners of its triangles meet at one point");

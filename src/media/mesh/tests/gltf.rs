@@ -1,5 +1,4 @@
-//! Tests of what a glTF file says of a shape: skins, morph targets, quantised attributes, instances, extensions and
-//! containers.
+//! Tests of the shapes in glTF files: skins, morph targets, quantised attributes, instances, extensions and containers.
 
 use super::*;
 use eddy_project::Normals;
@@ -15,7 +14,7 @@ const UNSIGNED_SHORT: u32 = 5123;
 /// The unit triangle in z = 0, its corners at the origin and on both axes.
 const CORNERS: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
-/// A file that is put together: node 0 shows mesh 0, of one primitive.
+/// A generated file: node 0 shows mesh 0, with one primitive.
 struct Model {
     root: Value,
     bytes: Vec<u8>,
@@ -42,7 +41,7 @@ impl Model {
         model
     }
 
-    /// A bufferView of these bytes.
+    /// Adds a bufferView of these bytes.
     fn view(&mut self, bytes: &[u8]) -> usize {
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         let views = self.root["bufferViews"].as_array_mut().unwrap();
@@ -60,7 +59,7 @@ impl Model {
         accessors.len() - 1
     }
 
-    /// An attribute of the primitive, for three vertices.
+    /// Adds an attribute of the primitive, for three vertices.
     fn attribute(&mut self, name: &str, component: u32, dimensions: &str, bytes: &[u8]) -> usize {
         let index = self.accessor(component, dimensions, 3, bytes);
         self.root["meshes"][0]["primitives"][0]["attributes"][name] = index.into();
@@ -113,7 +112,7 @@ impl Model {
         open("m.glb", &self.glb(), None)
     }
 
-    /// The positions of the first triangle.
+    /// Returns the positions of the first triangle.
     #[track_caller]
     fn positions(&self) -> [[f32; 3]; 3] {
         let mesh = self.load().unwrap();
@@ -150,10 +149,10 @@ fn moved(by: [f32; 3]) -> [[f32; 3]; 3] {
 }
 
 #[test]
-fn a_skinned_mesh_stands_where_its_joints_are() {
+fn a_skinned_mesh_follows_its_joints() {
     let model = Model::triangle().skinned([0; 12], FIRST);
     assert_eq!(model.positions(), moved([5.0, 0.0, 0.0]), "without the transform of its own node");
-    // The same mesh in a node without a skin stands at that node, and mirrored.
+    // The same mesh at a node without a skin is placed at that node, and mirrored.
     let plain =
         Model::triangle().skinned([0; 12], FIRST).set("/nodes/0", json!({ "mesh": 0, "translation": [0, 3, 0] }));
     assert_eq!(plain.positions(), moved([0.0, 3.0, 0.0]));
@@ -161,15 +160,15 @@ fn a_skinned_mesh_stands_where_its_joints_are() {
     let unbound = Model::triangle().set("/skins", json!([{ "joints": [0] }]));
     let unbound = unbound.set("/nodes/0", json!({ "mesh": 0, "skin": 0, "translation": [0, 3, 0] }));
     assert_eq!(unbound.positions(), moved([0.0, 3.0, 0.0]));
-    // Joints outside the scene, and one that hangs from another.
+    // Joints outside the scene, and a joint that is the child of another.
     let outside = Model::triangle().skinned([0; 12], FIRST).set("/scenes", json!([{ "nodes": [0] }]));
     assert_eq!(outside.positions(), moved([5.0, 0.0, 0.0]));
 }
 
 #[test]
-fn inverse_bind_matrices_come_before_the_joint() {
+fn inverse_bind_matrices_are_applied_before_the_joint() {
     let mut model = Model::triangle().skinned([0; 12], FIRST);
-    // By columns: moved by (-1, 2, 0).
+    // In column-major order: moved by (-1, 2, 0).
     let bind = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 2.0, 0.0, 1.0];
     let bind = model.accessor(FLOAT, "MAT4", 1, &floats(&bind));
     let model = model.set("/skins/0/inverseBindMatrices", bind.into());
@@ -183,7 +182,7 @@ fn weights_are_shares_of_their_sum_over_all_sets() {
     let half = FIRST.map(|w| w * 0.5);
     assert_eq!(Model::triangle().skinned([0; 12], half).positions(), moved([5.0, 0.0, 0.0]));
     assert_eq!(Model::triangle().skinned([0; 12], [0.0; 12]).positions(), moved([5.0, 0.0, 0.0]), "bound to nothing");
-    // A second set, of bytes: as much of the origin as of joint 0.
+    // A second set, of bytes: the same weights for the origin as for joint 0.
     let mut model = Model::triangle().skinned([0; 12], FIRST);
     model.attribute("JOINTS_1", UNSIGNED_SHORT, "VEC4", &shorts(&[1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0]));
     model.attribute("WEIGHTS_1", UNSIGNED_BYTE, "VEC4", &[255, 0, 0, 0].repeat(3));
@@ -192,13 +191,13 @@ fn weights_are_shares_of_their_sum_over_all_sets() {
     assert_eq!(model.positions(), moved([2.5, 0.0, 0.0]));
     let hint = Model::triangle().skinned([7; 12], FIRST).refused("vertex 0 is bound to joint 7 of skin 0, which has 1");
     assert!(!hint.is_empty());
-    // The joint of no weight may be any.
+    // A joint without weight may have any index.
     let joints = [0, 9, 9, 9].repeat(3).try_into().unwrap();
     assert_eq!(Model::triangle().skinned(joints, FIRST).positions(), moved([5.0, 0.0, 0.0]));
 }
 
 #[test]
-fn joints_turn_normals_and_a_mirror_keeps_fronts_in_front() {
+fn joints_rotate_normals_and_mirroring_keeps_the_winding() {
     let mut model = Model::triangle().skinned([0; 12], FIRST);
     model.attribute("NORMAL", FLOAT, "VEC3", &floats(&[0.0, 0.0, 1.0].repeat(3)));
     let half = std::f64::consts::FRAC_1_SQRT_2;
@@ -236,10 +235,10 @@ fn morph_targets_have_the_weights_of_the_mesh_or_of_its_node() {
     assert_eq!(mesh.positions(), [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 5.0, 1.0]]);
     let node = mesh.set("/nodes/0/weights", json!([0, 0.5]));
     assert_eq!(node.positions(), [CORNERS[0], CORNERS[1], [0.0, 3.0, 0.0]]);
-    // Before the joints move it.
+    // Applied before the joints move it.
     let both = node.skinned([0; 12], FIRST).set("/meshes/0/weights", json!([0, 1]));
     assert_eq!(both.positions()[2], [5.0, 5.0, 0.0]);
-    // Each target's vertices count.
+    // The vertices of each target are counted.
     let weights = vec![1; 300];
     let targets = vec![json!({ "POSITION": 3 }); 300];
     let mut many = morphed().set("/meshes/0/weights", json!(weights));
@@ -250,8 +249,8 @@ fn morph_targets_have_the_weights_of_the_mesh_or_of_its_node() {
 }
 
 #[test]
-fn normals_that_are_missing_are_flat_unless_smooth_ones_are_wanted() {
-    // Two triangles at a right angle over the edge from the origin along x.
+fn missing_normals_are_flat_unless_smooth_ones_are_requested() {
+    // Two triangles at a right angle at the edge from the origin along x.
     let mut model = Model::new();
     let places = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let positions = model.accessor(FLOAT, "VEC3", 4, &floats(places.as_flattened()));
@@ -271,7 +270,7 @@ fn normals_that_are_missing_are_flat_unless_smooth_ones_are_wanted() {
     assert_eq!(mesh.vertices.len(), 4);
     let both = Vec3::new(0.0, 1.0, 1.0).normalize();
     assert!((Vec3::from(mesh.vertices[0].normal) - both).length() < 1e-6);
-    // An OBJ file is smooth unless flat normals are wanted.
+    // An OBJ file is smooth unless flat normals are requested.
     let obj = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\n";
     assert_eq!(open("m.obj", obj, None).unwrap().vertices.len(), 4);
     assert_eq!(open("m.obj", obj, Some(Normals::Flat)).unwrap().vertices.len(), 6);
@@ -302,7 +301,7 @@ fn quantised_attributes_are_read_with_their_texture_transform() {
 }
 
 #[test]
-fn extensions_that_leave_the_shape_alone_may_be_required() {
+fn required_extensions_that_do_not_affect_the_shape_are_accepted() {
     for name in [
         "KHR_materials_unlit",
         "KHR_materials_pbrSpecularGlossiness",
@@ -323,7 +322,7 @@ fn extensions_that_leave_the_shape_alone_may_be_required() {
 }
 
 #[test]
-fn compressed_meshes_are_named_and_plain_ones_beside_them_are_read() {
+fn compressed_meshes_are_rejected_but_their_plain_fallbacks_are_read() {
     let draco = json!({ "KHR_draco_mesh_compression": { "bufferView": 0, "attributes": {} } });
     let beside = Model::triangle().set("/meshes/0/primitives/0/extensions", draco);
     assert_eq!(beside.positions(), CORNERS, "a fallback");
@@ -343,7 +342,7 @@ fn compressed_meshes_are_named_and_plain_ones_beside_them_are_read() {
 }
 
 #[test]
-fn other_versions_are_named() {
+fn errors_name_unsupported_versions() {
     let old = br#"{"asset":{"version":"1.0"},"nodes":{"n":{}},"meshes":{}}"#;
     for (text, version) in [
         (&old[..], "1.0"),
@@ -363,11 +362,11 @@ fn other_versions_are_named() {
 }
 
 #[test]
-fn a_file_is_what_is_in_it_whatever_its_name() {
+fn the_container_is_recognised_by_content() {
     let mut model = Model::triangle();
     let glb = model.glb();
     assert_eq!(open("m.gltf", &glb, None).unwrap().vertices.len(), 3);
-    // A data: address by percent signs, and one of base64 without padding.
+    // A data: URI with percent signs, and one of base64 without padding.
     let escaped: String = model.bytes.iter().map(|b| format!("%{b:02x}")).collect();
     for uri in [
         format!("data:application/octet-stream,{escaped}"),
@@ -401,7 +400,7 @@ fn a_file_is_what_is_in_it_whatever_its_name() {
 }
 
 #[test]
-fn what_holds_no_triangles_says_what_it_holds() {
+fn files_without_triangles_list_their_contents() {
     let mode = |mode: u32| Model::triangle().set("/meshes/0/primitives/0/mode", json!(mode));
     for (n, what) in [(0, "points"), (1, "lines"), (2, "lines"), (3, "lines")] {
         mode(n).refused(&format!("m.glb has no triangles, only {what}"));
@@ -410,9 +409,9 @@ fn what_holds_no_triangles_says_what_it_holds() {
     let bare = Model::triangle().set("/meshes/0/primitives/0/attributes", json!({ "_HEAT": 0 }));
     bare.refused("has no triangles: its meshes have no positions");
     Model::triangle().set("/scenes/0", json!({})).refused("its meshes are in no node of its scene that is visible");
-    // Attributes of an application's own are none of Eddy's.
+    // Attributes of applications are ignored.
     assert_eq!(Model::triangle().set("/meshes/0/primitives/0/attributes/_HEAT", json!(0)).positions(), CORNERS);
-    // Corners that are left over make no triangle.
+    // Leftover corners form no triangle.
     let mut more = Model::triangle();
     let indices = more.accessor(UNSIGNED_BYTE, "SCALAR", 5, &[0, 1, 2, 0, 1]);
     assert_eq!(more.set("/meshes/0/primitives/0/indices", indices.into()).load().unwrap().indices.len(), 3);
@@ -422,14 +421,14 @@ fn what_holds_no_triangles_says_what_it_holds() {
 }
 
 #[test]
-fn nodes_say_what_is_shown_how_often_and_where() {
-    // A library of meshes is drawn as it is.
+fn nodes_determine_visibility_count_and_place() {
+    // A library of meshes is drawn without transforms.
     let mut library = Model::triangle();
     for key in ["nodes", "scenes", "scene"] {
         library.root.as_object_mut().unwrap().remove(key);
     }
     assert_eq!(library.positions(), CORNERS);
-    // What is hidden hides what is below it.
+    // Hidden nodes hide their descendants.
     let hidden = json!({ "children": [1], "extensions": { "KHR_node_visibility": { "visible": false } } });
     let model = Model::triangle().set("/nodes", json!([hidden, { "mesh": 0 }]));
     model.refused("in no node of its scene that is visible");
@@ -441,10 +440,10 @@ fn nodes_say_what_is_shown_how_often_and_where() {
     let mut many = many.set("/nodes/0", json!({ "mesh": 0, "scale": [2, 2, 2], "extensions": instancing }));
     let firsts: Vec<[f32; 3]> = corners(&many.load().unwrap()).map(|[a, ..]| a.position).collect();
     assert_eq!(firsts, [[0.0, 0.0, 2.0], [4.0, 0.0, 0.0]]);
-    // Counted before memory is taken.
+    // Counted before memory is allocated.
     many.root["accessors"][places].as_object_mut().unwrap().remove("bufferView");
     many.set(&format!("/accessors/{places}/count"), json!(u64::MAX)).refused("it has more than");
-    // A matrix, a scale that flattens, a whole number that is written as a float.
+    // A matrix, a scale that flattens, an integer that is written as a float.
     let matrix = [2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 2, 3, 1];
     let mut flat = Model::triangle().set("/nodes/0/matrix", json!(matrix)).set("/nodes/0/mesh", json!(0.0));
     flat.attribute("NORMAL", FLOAT, "VEC3", &floats(&[0.6, 0.0, 0.8].repeat(3)));

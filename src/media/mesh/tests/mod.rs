@@ -1,4 +1,4 @@
-//! Tests of meshes: what the built-in ones promise, what is read of model files, and what is said of broken ones.
+//! Tests of meshes: built-in ones, model files, and the errors of broken ones.
 
 mod bombs;
 mod gltf;
@@ -13,7 +13,7 @@ fn corners(mesh: &Mesh) -> impl Iterator<Item = [&Vertex; 3]> {
     mesh.indices.chunks_exact(3).map(|t| [0, 1, 2].map(|n| &mesh.vertices[t[n] as usize]))
 }
 
-/// Six times the volume inside, by the sign of the corners' turn.
+/// Returns six times the enclosed volume, with the sign of the winding.
 fn volume(mesh: &Mesh) -> f32 {
     corners(mesh).map(|t| t.map(|v| Vec3::from(v.position))).map(|[a, b, c]| a.dot(b.cross(c))).sum::<f32>() / 6.0
 }
@@ -23,7 +23,7 @@ fn builtin(name: &str) -> Mesh {
 }
 
 #[test]
-fn meshes_made_by_code_face_outward_and_have_whole_vertices() {
+fn built_in_meshes_face_outward_and_have_all_attributes() {
     for name in NAMES {
         let mesh = builtin(name);
         for t in corners(&mesh) {
@@ -47,7 +47,7 @@ fn meshes_made_by_code_face_outward_and_have_whole_vertices() {
     assert!((volume(&builtin("cube")) - 8.0).abs() < 1e-4);
     assert!((volume(&builtin("icosphere")) - 4.0 / 3.0 * std::f32::consts::PI).abs() < 0.03);
     assert_eq!(builtin("cube").vertices.len(), 24);
-    // u runs along the tangent, v along the bitangent.
+    // u increases along the tangent, v along the bitangent.
     for t in corners(&builtin("plane")) {
         for v in t {
             assert_eq!((v.normal, v.tangent), ([0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 1.0]));
@@ -57,7 +57,7 @@ fn meshes_made_by_code_face_outward_and_have_whole_vertices() {
 }
 
 #[test]
-fn an_obj_gives_what_it_says_and_the_rest_is_made() {
+fn attributes_of_an_obj_are_read_and_missing_ones_are_made() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("quad.obj");
     fs_write(&path, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
@@ -73,7 +73,7 @@ fn fs_write(path: &Path, text: impl AsRef<[u8]>) {
     std::fs::write(path, text).unwrap();
 }
 
-/// A glTF of one triangle with its buffer inside: the node is scaled by -2 along x, and moved.
+/// A glTF of one triangle with an embedded buffer: the node is scaled by -2 along x, and moved.
 fn triangle(count: usize, indices: [u8; 3], extra: &str) -> String {
     let mut bytes: Vec<u8> =
         [[0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
@@ -106,7 +106,7 @@ fn a_gltf_has_its_nodes_transforms_applied() {
     fs_write(&dir.path().join("t.gltf"), triangle(3, [0, 1, 2], ""));
     let mesh = load(&MeshSource::File("t.gltf".into()), None, Some(dir.path())).unwrap();
     let [a, b, c] = corners(&mesh).next().unwrap();
-    // Mirrored, so that the corners turn the other way round for the front to stay in front.
+    // Mirrored, so that the order of corners is reversed to keep the front.
     assert_eq!([a.position, b.position, c.position], [[0.0, 0.0, 5.0], [0.0, 1.0, 5.0], [-2.0, 0.0, 5.0]]);
     assert_eq!(a.normal, [0.0, 0.0, 1.0]);
     assert_eq!([a.uv, b.uv, c.uv], [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]], "v is turned");
@@ -114,7 +114,7 @@ fn a_gltf_has_its_nodes_transforms_applied() {
 }
 
 #[test]
-fn a_broken_file_is_one_clear_error() {
+fn a_broken_file_is_one_error() {
     let dir = tempfile::tempdir().unwrap();
     let whole = triangle(3, [0, 1, 2], "");
     let cases: [(&str, Vec<u8>, &str); 13] = [
