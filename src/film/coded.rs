@@ -1,4 +1,4 @@
-//! Films that ffmpeg encodes: which encoder, with which numbers and which tags.
+//! Films that ffmpeg encodes: the encoder, its options and the colour tags.
 
 use super::{
     FilmError, FilmSound,
@@ -24,7 +24,7 @@ pub struct Coded {
 }
 
 impl Codec {
-    /// Returns the smallest and the largest number of a quality.
+    /// Returns the smallest and the largest value of the quality scale.
     pub fn numbers(self) -> (u32, u32) {
         match self {
             Codec::H264 | Codec::H265 => (0, 51),
@@ -34,7 +34,8 @@ impl Codec {
         }
     }
 
-    /// Returns the constant rate factor of the qualities low, medium and high; of ProRes the profiles LT, standard and HQ.
+    /// Returns the constant rate factors for the qualities low, medium and high; for ProRes, the profiles LT, standard
+    /// and HQ.
     fn words(self) -> [u32; 3] {
         match self {
             Codec::H264 => [28, 20, 10],
@@ -52,7 +53,7 @@ impl Coded {
         self.quality == Quality::Lossless
     }
 
-    /// Returns the encoders that can do it, the first choice first.
+    /// Returns the encoders that support it, in order of preference.
     fn candidates(self, size: (u32, u32)) -> &'static [&'static str] {
         let is_420 = matches!(self.pixels, PixelFormat::Yuv(format) if format.chroma == Chroma::C420);
         match self.codec {
@@ -60,7 +61,7 @@ impl Coded {
             Codec::H264 => &["libx264"],
             Codec::H265 => &["libx265"],
             Codec::Vp9 => &["libvpx-vp9"],
-            // SVT-AV1 is several times as fast, and has only 4:2:0 of even sides of at least 64 pixels.
+            // SVT-AV1 is several times as fast, but supports only 4:2:0 with even sides of at least 64 pixels.
             Codec::Av1
                 if is_420 && size.0.min(size.1) >= 64 && size.0.is_multiple_of(2) && size.1.is_multiple_of(2) =>
             {
@@ -72,7 +73,7 @@ impl Coded {
         }
     }
 
-    /// Returns the encoder that is used of those that are there.
+    /// Returns the preferred encoder among the installed ones.
     pub(super) fn encoder(self, there: &[String], size: (u32, u32)) -> Result<&'static str, FilmError> {
         let candidates = self.candidates(size);
         let found = candidates.iter().find(|name| there.iter().any(|there| there == *name));
@@ -80,7 +81,7 @@ impl Coded {
         found.copied().ok_or_else(missing)
     }
 
-    /// Returns the number that the encoder gets.
+    /// Returns the value that is passed to the encoder.
     fn number(self) -> u32 {
         let [low, medium, high] = self.codec.words();
         match self.quality {
@@ -111,7 +112,7 @@ impl Coded {
             "libaom-av1" => list(&["-crf", &number, "-b:v", "0", "-row-mt", "1", "-cpu-used", "6"]),
             "libsvtav1" => list(&["-crf", &number, "-preset", "8"]),
             "prores_ks" => {
-                // 4444 takes more bits than its lower namesakes; its XQ is for the quality high.
+                // 4444 profiles use more bits than the profiles of the same name below; XQ is used for high quality.
                 let profile = match (is_444, self.quality) {
                     (false, Quality::Number(_)) => "3".to_owned(),
                     (false, _) => number.clone(),
@@ -126,7 +127,7 @@ impl Coded {
             }
             _ => list(&["-level", "3", "-g", "1", "-slices", "4", "-slicecrc", "1"]),
         };
-        // The planes of RGB that the encoders take; the samples are the same.
+        // The planar RGB formats that these encoders accept; the samples are the same.
         let pixels = match (self.pixels, encoder) {
             (PixelFormat::Rgb(_), "libx264rgb") => "rgb24".to_owned(),
             (PixelFormat::Rgb(8), "ffv1") => "bgr0".to_owned(),
@@ -138,17 +139,17 @@ impl Coded {
         arguments
     }
 
-    /// Returns the tags of the colours: the matrix, the range, the primaries and the transfer function.
+    /// Returns the colour tags: matrix, range, primaries and transfer function.
     fn tags(self) -> (&'static str, &'static str, &'static str, &'static str) {
         match self.pixels {
             PixelFormat::Yuv(format) if format.range == ColorRange::Limited => ("bt709", "tv", "bt709", "bt709"),
             PixelFormat::Yuv(_) => ("bt709", "pc", "bt709", "bt709"),
-            // The values are those of a screen: sRGB.
+            // The values are display values: sRGB.
             PixelFormat::Rgb(_) => ("gbr", "pc", "bt709", "iec61966-2-1"),
         }
     }
 
-    /// Returns what ffmpeg is told, but for the name of the output.
+    /// Returns ffmpeg's arguments, without the name of the output.
     fn arguments(self, shape: Shape, encoder: &str, sound: Option<OsString>) -> Vec<OsString> {
         let mut all: Vec<OsString> = Vec::new();
         let mut add = |texts: &[&str]| all.extend(texts.iter().map(OsString::from));
@@ -167,7 +168,7 @@ impl Coded {
             add(self.sound_arguments());
         }
         let (matrix, range, primaries, transfer) = self.tags();
-        // As properties of the frames and as options of the encoder: versions of ffmpeg differ in which they take.
+        // Set both as frame properties and as encoder options: versions of ffmpeg differ in which of them they honour.
         let frames =
             format!("setparams=range={range}:color_primaries={primaries}:color_trc={transfer}:colorspace={matrix}");
         let option = if matrix == "gbr" { "rgb" } else { matrix };
@@ -179,33 +180,29 @@ impl Coded {
         all
     }
 
-    /// Returns the codec of the sound.
+    /// Returns the arguments for the sound codec.
     fn sound_arguments(self) -> &'static [&'static str] {
-        match self.container {
-            Format::Mp4 => &["-c:a", "aac", "-b:a", "256k"],
-            Format::Webm => &["-c:a", "libopus", "-b:a", "192k"],
-            Format::Mov => &["-c:a", "pcm_s16le"],
-            _ => &["-c:a", "flac"],
-        }
+        self.container.container().map_or(&[], |container| container.sound)
     }
 
-    /// Returns how the file is put together.
+    /// Returns the arguments for the container.
     fn container_arguments(self) -> Vec<&'static str> {
         let mut all = Vec::new();
-        if matches!(self.container, Format::Mp4 | Format::Mov) {
+        let container = self.container.container();
+        if container.is_some_and(|container| container.is_iso_media) {
             if self.codec == Codec::H265 {
-                // The name that QuickTime knows.
+                // The codec tag that QuickTime recognises.
                 all.extend(["-tag:v", "hvc1"]);
             }
             all.extend(["-movflags", "+faststart+write_colr"]);
         }
-        // Nothing of the time or the version, so that equal films have equal bytes.
-        let muxer = if self.container == Format::Mkv { "matroska" } else { self.container.name() };
+        // No time stamp and no version, so that equal films have equal bytes.
+        let muxer = container.map_or(self.container.name(), |container| container.muxer);
         all.extend(["-map_metadata", "-1", "-fflags", "+bitexact", "-f", muxer]);
         all
     }
 
-    /// Returns what ffmpeg is told to add a sound, if there is one, to a film whose pictures stay as they are.
+    /// Returns ffmpeg's arguments for adding a sound, if there is one, to a film whose pictures are copied unchanged.
     fn join_arguments(self, film: OsString, sound: Option<OsString>) -> Vec<OsString> {
         let mut all: Vec<OsString> = ["-protocol_whitelist", "file,pipe", "-i"].map(OsString::from).into();
         all.push(film);
@@ -224,8 +221,8 @@ impl Coded {
         all
     }
 
-    /// Fails for a size that the format does not have. VP9 and AV1 have frames of any size, with the half of an odd side
-    /// rounded up (VP9 Bitstream Specification, section 7.2.6; AV1 Bitstream Specification, section 5.9.5).
+    /// Fails for a size that the format does not support. VP9 and AV1 support frames of any size; half of an odd side
+    /// is rounded up (VP9 Bitstream Specification, section 7.2.6; AV1 Bitstream Specification, section 5.9.5).
     pub(super) fn check_size(self, width: u32, height: u32) -> Result<(), FilmError> {
         if matches!(self.codec, Codec::Vp9 | Codec::Av1) {
             return Ok(());
@@ -244,24 +241,24 @@ impl Coded {
     }
 }
 
-/// The least width and height of a frame that ffmpeg gives to libx265 (`libavcodec/libx265.c`): its smallest block.
+/// The minimum width and height of a frame that ffmpeg passes to libx265 (`libavcodec/libx265.c`): its smallest block.
 const SMALLEST_H265: u32 = 16;
 
 /// A film that is being encoded.
 pub struct CodedFilm {
-    /// Taken when the film is complete.
+    /// `None` once the film is complete.
     encoder: Option<Encoder>,
     pixels: PixelFormat,
     bytes: Vec<u8>,
-    /// Kept until ffmpeg has read it.
+    /// Kept alive until ffmpeg has read it.
     _sound: Option<Staged>,
     later: Option<PendingMux>,
 }
 
-/// A film that gets its sound when all pictures are there.
+/// A film whose sound is muxed in after all pictures are encoded.
 struct PendingMux {
     coded: Coded,
-    /// The pictures.
+    /// The encoded pictures.
     film: Staged,
     sound: Option<Vec<[i16; 2]>>,
     to: PathBuf,
@@ -284,7 +281,7 @@ fn named(path: &Path) -> Result<OsString, FilmError> {
 }
 
 impl CodedFilm {
-    /// Starts ffmpeg, which writes `to`.
+    /// Starts an ffmpeg process that writes `to`.
     pub fn start(
         coded: Coded,
         shape: Shape,
@@ -294,7 +291,8 @@ impl CodedFilm {
     ) -> Result<CodedFilm, FilmError> {
         coded.check_size(shape.width, shape.height)?;
         let size = (shape.width, shape.height);
-        // Where there is no choice, ffmpeg says itself that it lacks the encoder; listing them takes a tenth of a second.
+        // With a single candidate, ffmpeg itself reports that the encoder is missing; listing encoders takes a tenth of
+        // a second.
         let encoder = match coded.candidates(size) {
             [only] => only,
             _ => coded.encoder(&tools.encoders()?, size)?,

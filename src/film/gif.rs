@@ -1,7 +1,8 @@
-//! GIF by ffmpeg, with one palette of the whole film.
+//! GIF by ffmpeg, with one palette for the whole film.
 //!
-//! The palette depends on all frames, and ffmpeg's filter for both steps at once would keep all of them in memory. So frames
-//! first go to a temporary file without loss, of which the palette is made, and with it the GIF.
+//! The palette depends on all frames, and ffmpeg's filter that does both steps at once would keep all of them in
+//! memory. So frames are first written losslessly to a temporary file, from which the palette and then the GIF are
+//! made.
 
 use super::{
     FilmError,
@@ -18,9 +19,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// A film whose frames are kept until its palette is known.
+/// A film whose frames are stored until its palette is known.
 pub struct Gif {
-    /// Taken when all frames are there.
+    /// `None` once all frames have been pushed.
     frames: Option<Encoder>,
     kept: Staged,
     palette: Staged,
@@ -31,7 +32,7 @@ pub struct Gif {
 }
 
 impl Gif {
-    /// Starts with no frame. `to` is the file that is written in the end, and the temporary ones are beside it.
+    /// Starts an empty film. `to` is the final file; the temporary files are next to it.
     pub fn start(shape: Shape, to: &Path, (tools, stop): (&Tools, &Stop)) -> Result<Gif, FilmError> {
         check_rate(shape.rate)?;
         let kept = Staged::new(to).map_err(FilmError::io(to))?;
@@ -52,10 +53,10 @@ impl Gif {
     }
 }
 
-/// Fails for a rate that browsers do not show.
+/// Fails for a rate that browsers cannot show.
 pub fn check_rate(rate: Rate) -> Result<(), FilmError> {
     match rate.per_second() {
-        fps if Format::Gif.fastest().is_some_and(|fastest| fps > fastest) => Err(FilmError::GifRate(fps)),
+        fps if Format::Gif.max_fps().is_some_and(|fastest| fps > fastest) => Err(FilmError::GifRate(fps)),
         _ => Ok(()),
     }
 }

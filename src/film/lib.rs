@@ -1,16 +1,17 @@
-//! Pictures and films leave Eddy as files: what a format can hold, and the writers of all of them.
+//! Writers for pictures and films: the features of each format, and the writers of all of them.
 //!
-//! A [`Style`] is what somebody asks for; [`Style::resolve`] makes an [`Encoding`] of it or says why that cannot be. [`Film`]
-//! takes frames in their order, [`Stills`] takes pictures with their paths, and [`StripWriter`] takes one picture in strips of
-//! rows. All encode on a thread of their own behind a
-//! bounded queue, so that drawing goes on meanwhile and memory does not grow. Files are written beside their place and take it
-//! when they are complete. H.264 and the like are encoded by ffmpeg (`eddy_video::Encoder`); PNG, APNG, EXR, npy, Y4M and raw
-//! frames are written here. The sound of a film ([`soundtrack`]) and the joint of a loop ([`Seam`]) are made of further runs
-//! of the project. Knows no front end and reads no clock.
+//! A [`Style`] is the user's request; [`Style::resolve`] turns it into an [`Encoding`] or returns the reason why it is
+//! not possible. [`Film`] takes frames in order, [`Stills`] takes pictures with their paths, and [`StripWriter`] takes
+//! one picture in strips of rows. Each encodes on a thread of its own that is fed by a bounded queue, so that drawing
+//! continues meanwhile and memory does not grow. Files are written next to their destination and moved there when they
+//! are complete. H.264 and similar codecs are encoded by ffmpeg (`eddy_video::Encoder`); PNG, APNG, EXR, npy, Y4M and
+//! raw frames are written here. The sound of a film ([`soundtrack`]) and the joint of a loop ([`Seam`]) are made from
+//! further runs of the project. This package knows no front end and reads no clock.
 
 mod apng;
 mod coded;
 mod error;
+mod formats;
 mod gif;
 mod mean;
 mod moments;

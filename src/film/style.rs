@@ -1,8 +1,9 @@
-//! From what somebody asks for to what is written, with the defaults and the reasons why something cannot be.
+//! Resolves a user's request into an encoding, with the defaults and the reasons why a request is not possible.
 
 use super::{
     FilmError,
     coded::Coded,
+    formats::{FormatKind, FormatRow},
     gif,
     rate::Rate,
     rgb,
@@ -13,7 +14,7 @@ use super::{
 use eddy_engine::Pixels;
 use eddy_video::Tools;
 
-/// The choices of somebody who wants a file. What is `None` is chosen by [`Style::resolve`].
+/// The user's choices for a file. [`Style::resolve`] chooses the fields that are `None`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Style {
     pub format: Format,
@@ -21,7 +22,7 @@ pub struct Style {
     pub quality: Option<Quality>,
     pub range: Option<ColorRange>,
     pub chroma: Option<Chroma>,
-    /// Bits of a component.
+    /// Bits per component.
     pub depth: Option<u32>,
 }
 
@@ -30,28 +31,28 @@ pub struct Style {
 pub enum Encoding {
     /// Each picture is a file.
     Still(Still),
-    /// All of them are one.
+    /// All pictures are one file.
     Film(FilmEncoding),
 }
 
 /// A description of how a film is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FilmEncoding {
-    /// An animated PNG with this many bits of a component.
+    /// An animated PNG with this number of bits per component.
     Apng(u32),
     Gif,
-    /// RGBA with this many bits of a component and nothing else.
+    /// Plain RGBA with this number of bits per component.
     Raw(u32),
-    /// YUV4MPEG2, the frames between programs.
+    /// YUV4MPEG2, a format for pipes between programs.
     Y4m(YuvFormat),
-    /// By ffmpeg.
+    /// Encoded by ffmpeg.
     Coded(Coded),
 }
 
-/// The codes of the pixels that an encoder gets.
+/// The pixel format that an encoder receives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PixelFormat {
-    /// Red, green and blue with this many bits of each.
+    /// Red, green and blue with this number of bits each.
     Rgb(u32),
     Yuv(YuvFormat),
 }
@@ -80,12 +81,12 @@ impl FilmEncoding {
         matches!(self, FilmEncoding::Gif | FilmEncoding::Coded(_))
     }
 
-    /// Returns whether the file holds sound.
+    /// Returns whether the file contains sound.
     pub fn holds_sound(&self) -> bool {
         matches!(self, FilmEncoding::Coded(_))
     }
 
-    /// Fails for a rate that the format does not have.
+    /// Fails for a rate that the format does not support.
     pub fn check_rate(&self, rate: Rate) -> Result<(), FilmError> {
         match self {
             FilmEncoding::Gif => gif::check_rate(rate),
@@ -94,7 +95,8 @@ impl FilmEncoding {
     }
 }
 
-/// Says whether what an encoding of pictures of a size needs is installed, so that this is known before hours of drawing.
+/// Fails if a program that the encoding needs for pictures of this size is not installed, so that this is known before
+/// hours of drawing.
 pub fn check_tools(encoding: &Encoding, size: (u32, u32), tools: &Tools) -> Result<(), FilmError> {
     let Encoding::Film(film) = encoding else { return Ok(()) };
     if !film.needs_ffmpeg() {
@@ -103,7 +105,7 @@ pub fn check_tools(encoding: &Encoding, size: (u32, u32), tools: &Tools) -> Resu
     check_encoders(encoding, size, &tools.encoders()?)
 }
 
-/// Does the same where the encoders of ffmpeg are known.
+/// Does the same if the encoders of ffmpeg are known.
 pub fn check_encoders(encoding: &Encoding, size: (u32, u32), there: &[String]) -> Result<(), FilmError> {
     match encoding {
         Encoding::Film(FilmEncoding::Coded(coded)) => coded.encoder(there, size).map(drop),
@@ -111,7 +113,7 @@ pub fn check_encoders(encoding: &Encoding, size: (u32, u32), there: &[String]) -
     }
 }
 
-/// Fails for pictures of a size that the encoding does not take.
+/// Fails for pictures of a size that the encoding does not support.
 pub fn check_size(encoding: &Encoding, (width, height): (u32, u32)) -> Result<(), FilmError> {
     match encoding {
         Encoding::Film(FilmEncoding::Coded(coded)) => coded.check_size(width, height),
@@ -120,20 +122,21 @@ pub fn check_size(encoding: &Encoding, (width, height): (u32, u32)) -> Result<()
 }
 
 impl Style {
-    /// A style of a format that leaves everything else open.
+    /// Returns a style that leaves everything but the format open.
     pub fn new(format: Format) -> Style {
         Style { format, codec: None, quality: None, range: None, chroma: None, depth: None }
     }
 
-    /// Returns what is written. Err: what was asked for cannot be, and what can.
+    /// Returns the encoding, or an error message that lists what is possible.
     pub fn resolve(self) -> Result<Encoding, String> {
         let name = self.format.name();
         let refused = |what: &str, is_given: bool| match is_given {
             true => Err(format!("{what} cannot be chosen for {name} files")),
             false => Ok(()),
         };
-        let takes_codec = self.format.holds_sound();
-        let takes_yuv = takes_codec || self.format == Format::Y4m;
+        let FormatRow { kind, depths, .. } = self.format.row();
+        let takes_codec = matches!(kind, FormatKind::Container(_));
+        let takes_yuv = takes_codec || matches!(kind, FormatKind::YuvFilm);
         refused("a codec", self.codec.is_some() && !takes_codec)?;
         refused("a quality", self.quality.is_some() && !takes_codec)?;
         refused("a colour range", self.range.is_some() && !takes_yuv)?;
@@ -146,31 +149,24 @@ impl Style {
                 Err(format!("a depth of {depth} bits: {what} have {}", allowed.join(" or ")))
             }
         };
-        let files = format!("{name} files");
-        Ok(match self.format {
-            Format::Png => Encoding::Still(Still::Png { depth: depth(&[8, 16], &files)? }),
-            Format::Exr | Format::Npy => {
-                refused("a depth", self.depth.is_some())?;
-                Encoding::Still(if self.format == Format::Exr { Still::Exr } else { Still::Npy })
-            }
-            Format::Apng => Encoding::Film(FilmEncoding::Apng(depth(&[8, 16], &files)?)),
-            Format::Raw => Encoding::Film(FilmEncoding::Raw(depth(&[8, 16], &files)?)),
-            Format::Gif => {
-                refused("a depth", self.depth.is_some())?;
-                Encoding::Film(FilmEncoding::Gif)
-            }
-            Format::Y4m => {
+        // A container has those of its codec.
+        let has_no_choice = depths.is_empty() && !takes_codec;
+        refused("a depth", self.depth.is_some() && has_no_choice)?;
+        let own_depth = || if has_no_choice { Ok(8) } else { depth(depths, &format!("{name} files")) };
+        Ok(match kind {
+            FormatKind::Still(still) => Encoding::Still(still(own_depth()?)),
+            FormatKind::Film(film) => Encoding::Film(film(own_depth()?)),
+            FormatKind::YuvFilm => {
                 let (chroma, range) = (self.chroma.unwrap_or(Chroma::C420), self.range.unwrap_or(ColorRange::Limited));
-                Encoding::Film(FilmEncoding::Y4m(YuvFormat { chroma, depth: depth(&[8, 10], &files)?, range }))
+                Encoding::Film(FilmEncoding::Y4m(YuvFormat { chroma, depth: own_depth()?, range }))
             }
-            Format::Webm | Format::Mp4 | Format::Mov | Format::Mkv => {
-                Encoding::Film(FilmEncoding::Coded(self.coded(depth)?))
+            FormatKind::Container(container) => {
+                Encoding::Film(FilmEncoding::Coded(self.coded(container.codecs, depth)?))
             }
         })
     }
 
-    fn coded(self, depth: impl Fn(&[u32], &str) -> Result<u32, String>) -> Result<Coded, String> {
-        let codecs = Self::codecs(self.format);
+    fn coded(self, codecs: &[Codec], depth: impl Fn(&[u32], &str) -> Result<u32, String>) -> Result<Coded, String> {
         let codec = self.codec.unwrap_or(codecs[0]);
         if !codecs.contains(&codec) {
             let names: Vec<&str> = codecs.iter().map(|codec| codec.name()).collect();
@@ -221,17 +217,6 @@ impl Style {
             pixels: PixelFormat::Yuv(YuvFormat { chroma, depth, range }),
         })
     }
-
-    /// Returns the codecs that a format of films holds, the default first; none for other formats.
-    pub fn codecs(format: Format) -> &'static [Codec] {
-        match format {
-            Format::Webm => &[Codec::Vp9, Codec::Av1],
-            Format::Mp4 => &[Codec::H264, Codec::H265, Codec::Av1, Codec::Vp9],
-            Format::Mov => &[Codec::ProRes, Codec::H264, Codec::H265, Codec::Ffv1],
-            Format::Mkv => &[Codec::Ffv1, Codec::H264, Codec::H265, Codec::Av1, Codec::Vp9, Codec::ProRes],
-            _ => &[],
-        }
-    }
 }
 
 #[cfg(test)]
@@ -239,7 +224,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_cannot_be_is_refused_with_what_can() {
+    fn impossible_styles_are_rejected_with_the_alternatives() {
         let style = Style::new;
         let codec = |format, codec| Style { codec: Some(codec), ..style(format) };
         for (style, says) in [
@@ -271,7 +256,7 @@ mod tests {
             let encoding = Style::new(format).resolve().unwrap();
             assert_eq!(format.is_still(), matches!(encoding, Encoding::Still(_)), "{format:?}");
             if let Encoding::Film(film) = encoding {
-                assert_eq!(film.holds_sound(), format.holds_sound(), "{format:?}");
+                assert_eq!(film.holds_sound(), format.has_sound(), "{format:?}");
             }
         }
     }

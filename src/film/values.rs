@@ -1,6 +1,8 @@
-//! The choices that a file's format leaves: names as people write them.
+//! The options of file formats, with their names on the command line.
 
-/// The format of a file.
+use super::formats::{FormatKind, ROWS};
+
+/// The format of a file. What is known of each is in the table of `formats.rs`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     Png,
@@ -17,65 +19,59 @@ pub enum Format {
 }
 
 impl Format {
-    pub const ALL: [Format; 11] = [
-        Format::Png,
-        Format::Exr,
-        Format::Npy,
-        Format::Gif,
-        Format::Apng,
-        Format::Webm,
-        Format::Mp4,
-        Format::Mov,
-        Format::Mkv,
-        Format::Y4m,
-        Format::Raw,
-    ];
-
-    /// Returns its name, which a file's name ends in.
-    pub fn name(self) -> &'static str {
-        match self {
-            Format::Png => "png",
-            Format::Exr => "exr",
-            Format::Npy => "npy",
-            Format::Gif => "gif",
-            Format::Apng => "apng",
-            Format::Webm => "webm",
-            Format::Mp4 => "mp4",
-            Format::Mov => "mov",
-            Format::Mkv => "mkv",
-            Format::Y4m => "y4m",
-            Format::Raw => "raw",
+    /// All formats: films, then pictures.
+    pub const ALL: [Format; ROWS.len()] = {
+        let mut all = [Format::Png; ROWS.len()];
+        let mut index = 0;
+        while index < ROWS.len() {
+            all[index] = ROWS[index].format;
+            index += 1;
         }
+        all
+    };
+
+    /// Returns its name, which is also the file extension.
+    pub fn name(self) -> &'static str {
+        self.row().name
     }
 
-    /// Returns the most frames per second that the format has, where that is less than any film asks for. Browsers show no frame
-    /// of a GIF for less than two hundredths of a second.
-    pub fn fastest(self) -> Option<f64> {
-        (self == Format::Gif).then_some(50.0)
+    /// Returns its name in a list of choices.
+    pub fn title(self) -> &'static str {
+        self.row().title
     }
 
-    /// Returns the format of a name, whatever the case of its letters.
+    /// Returns the maximum frames per second of the format, where it is lower than a film may request.
+    pub fn max_fps(self) -> Option<f64> {
+        self.row().max_fps
+    }
+
+    /// Returns the format with this name, ignoring case.
     pub fn of_name(name: &str) -> Option<Format> {
         Format::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name))
     }
 
-    /// Returns whether a file holds one picture.
+    /// Returns whether a file contains one picture.
     pub fn is_still(self) -> bool {
-        matches!(self, Format::Png | Format::Exr | Format::Npy)
+        matches!(self.row().kind, FormatKind::Still(_))
     }
 
-    /// Returns whether a file may hold sound.
-    pub fn holds_sound(self) -> bool {
-        matches!(self, Format::Webm | Format::Mp4 | Format::Mov | Format::Mkv)
+    /// Returns the codecs that a film of the format may have, the default first; none if it has no choice.
+    pub fn codecs(self) -> &'static [Codec] {
+        self.container().map_or(&[], |container| container.codecs)
     }
 
-    /// Returns whether the format can be written to a pipe, where nothing is written twice.
-    pub fn is_for_pipes(self) -> bool {
-        self.is_still() || matches!(self, Format::Y4m | Format::Raw | Format::Apng)
+    /// Returns whether a file may contain sound.
+    pub fn has_sound(self) -> bool {
+        self.container().is_some()
+    }
+
+    /// Returns whether the format can be written to a pipe, where no byte is written twice.
+    pub fn is_sequential(self) -> bool {
+        self.row().is_sequential
     }
 }
 
-/// The form in which a film's pictures are compressed.
+/// The codec of a film's pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Codec {
     H264,
@@ -118,15 +114,15 @@ impl Codec {
     }
 }
 
-/// The trade of size against likeness.
+/// The trade-off between file size and fidelity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quality {
     Low,
     Medium,
     High,
-    /// Every pixel has the bytes that a PNG of 8 bits has.
+    /// Every pixel has the bytes that an 8-bit PNG has.
     Lossless,
-    /// The encoder's own number: the constant rate factor, or ProRes' quantiser.
+    /// The encoder's own number: the constant rate factor, or the quantiser of ProRes.
     Number(u32),
 }
 
@@ -142,10 +138,10 @@ impl Quality {
     }
 }
 
-/// The resolution of the colour differences against that of the brightness.
+/// The resolution of the chroma planes relative to luma.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Chroma {
-    /// Half across and down, which every player shows.
+    /// Half across and down, which every player supports.
     C420,
     /// Half across.
     C422,
@@ -172,7 +168,7 @@ impl Chroma {
     }
 }
 
-/// The codes that black and white have.
+/// The codes of black and white.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColorRange {
     /// 16 and 235 of 8 bits (ITU-R BT.709-6, section 4.6).

@@ -63,7 +63,7 @@ enum Output {
 /// wrong with the call is reported by [`Targets::of`].
 pub fn choose_rate(args: &mut RenderArgs) {
     let Ok((format, _)) = place(args) else { return };
-    let (Some(fastest), Ok(asked)) = (format.fastest(), frames::of(args, !format.is_still())) else { return };
+    let (Some(fastest), Ok(asked)) = (format.max_fps(), frames::of(args, !format.is_still())) else { return };
     if args.run.fps.is_none() && args.run.fps() / f64::from(asked.step) > fastest {
         args.run.fps = Some(fastest * f64::from(asked.step));
         let name = format.name().to_uppercase();
@@ -207,7 +207,7 @@ fn place(args: &RenderArgs) -> Result<(Format, Output), String> {
     let Some(out) = &args.out else { return Ok((asked.unwrap_or(Format::Png), Output::Nowhere)) };
     if out == Path::new("-") {
         let format = asked.unwrap_or(Format::Y4m);
-        if !format.is_for_pipes() {
+        if !format.is_sequential() {
             return Err(format!("--out -: {} needs a file, as parts of it are written twice; use y4m", format.name()));
         }
         return Ok((format, Output::Pipe));

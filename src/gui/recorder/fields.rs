@@ -2,7 +2,7 @@
 
 use super::Recorder;
 use crate::{
-    film::{Codec, Format, Style},
+    film::{Codec, Format},
     gui::{accessible, theme, ui_output::UiOutput},
     session::{CheckedForm, FilmFacts, FilmField, FilmForm},
 };
@@ -12,20 +12,6 @@ use egui::{Align, ComboBox, Label, Layout, Margin, RichText, Role, TextEdit, Ui,
 const TITLES: f32 = 78.0;
 const NARROW: f32 = 132.0;
 const WIDE: f32 = 260.0;
-/// Formats in the order of the list: films, then pictures.
-const FORMATS: [(Format, &str); 11] = [
-    (Format::Mp4, "MP4"),
-    (Format::Webm, "WebM"),
-    (Format::Mov, "MOV (QuickTime)"),
-    (Format::Mkv, "MKV (Matroska)"),
-    (Format::Gif, "GIF"),
-    (Format::Apng, "Animated PNG"),
-    (Format::Y4m, "Y4M, uncompressed"),
-    (Format::Raw, "Raw RGBA, uncompressed"),
-    (Format::Png, "PNG sequence"),
-    (Format::Exr, "EXR sequence, floats"),
-    (Format::Npy, "NPY sequence, floats"),
-];
 const QUALITIES: [(&str, &str); 4] = [("low", "Low"), ("medium", "Medium"), ("high", "High"), ("lossless", "Lossless")];
 
 /// A row of the form while it is shown.
@@ -69,7 +55,7 @@ pub fn error(ui: &mut Ui, name: &str, why: &str, out: &mut UiOutput) {
 /// Returns the rate, or the most that a format has where the default rate is faster. A rate that a person wrote is kept, and
 /// an error at its field says what is wrong with it.
 fn fitting_rate(format: Format, fps: &str) -> String {
-    match format.fastest() {
+    match format.max_fps() {
         Some(fastest) if fps == FilmForm::default().fps => fastest.to_string(),
         _ => fps.to_owned(),
     }
@@ -148,18 +134,18 @@ pub fn show(
         hint(ui, "Frames per second");
     });
     row(FilmField::Format, "Format").show(ui, out, |ui, out| {
-        let choices = FORMATS.map(|(format, title)| (format, title.to_owned()));
+        let choices = Format::ALL.map(|format| (format, format.title().to_owned()));
         if let Some(format) = combo(ui, ("format", "Format"), form.format, &choices, out) {
             // What another format does not have is not kept.
-            let codec = form.codec.filter(|codec| Style::codecs(format).contains(codec));
-            let has_codecs = !Style::codecs(format).is_empty();
+            let codec = form.codec.filter(|codec| format.codecs().contains(codec));
+            let has_codecs = !format.codecs().is_empty();
             let quality = if has_codecs { form.quality.clone() } else { String::new() };
             let fade = if format.is_still() { String::new() } else { form.fade.clone() };
             let fps = fitting_rate(format, &form.fps);
             form = FilmForm { format, codec, quality, fade, fps, ..form.clone() };
         }
     });
-    let codecs = Style::codecs(form.format);
+    let codecs = form.format.codecs();
     if !codecs.is_empty() {
         row(FilmField::Codec, "Codec").show(ui, out, |ui, out| {
             let usual = format!("Default ({})", codecs[0].title());
@@ -179,7 +165,7 @@ pub fn show(
             hint(ui, "Seconds of the end that fade into the start");
         });
     }
-    if form.format.holds_sound() {
+    if form.format.has_sound() {
         below(ui, |ui| {
             let sound = ui.checkbox(&mut form.with_sound, "With sound");
             let sound = sound.on_hover_text("Music and the sound pass, where the project has them; for ranges only");

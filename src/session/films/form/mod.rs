@@ -358,7 +358,7 @@ impl FilmForm {
                 }
             }
         }
-        if let Some(fastest) = form.format.fastest().filter(|_| !has_rate) {
+        if let Some(fastest) = form.format.max_fps().filter(|_| !has_rate) {
             form.fps = fastest.to_string();
         }
         Ok(form)
