@@ -1,5 +1,6 @@
-//! Measures how the time of reading a file grows with its size, at one, two and four times a size: `cargo bench --bench
-//! growth`. A ratio near that of the sizes is linear; sixteen times the time for four times the text is quadratic.
+//! Measures how the time of reading a file grows with its size, at one, two and four times a size:
+//! `cargo bench --bench growth`. A ratio near that of the sizes is linear; sixteen times the time for four times the text
+//! is quadratic.
 
 use eddy::{
     diag::{SourceMap, render_all},

@@ -169,7 +169,7 @@ mod tests {
 
     /// Frames in order, one alone, and backwards: the same bytes.
     #[test]
-    fn a_frame_has_the_same_bytes_whatever_was_drawn_before() {
+    fn frames_do_not_depend_on_earlier_draws() {
         let chirp = |n: i64| sine(200.0 + n as f64 / 100.0, 0.3)(n);
         let mut running = Analyser::default();
         let run: Vec<_> = (0..100).map(|frame| running.texture(each_frame(735 * frame), chirp)).collect();

@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn a_constant_stays() {
+    fn a_constant_is_preserved() {
         let kernel = Kernel::default();
         for ratio in [0.3, 1.0, 1.7, 4.0] {
             let [left, right] = kernel.read(100.37, ratio, |_| [1.0, -0.5]);

@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tone_is_in_the_bin_of_our_rate_whatever_the_devices() {
+    fn a_tone_is_in_the_right_bin_at_every_device_rate() {
         let peak = |bytes: &Spectrum| (0..BINS).max_by_key(|bin| bytes[*bin]).unwrap();
         let exact = (1000.0 / f64::from(SAMPLE_RATE) * 2048.0_f64).round() as usize;
         for rate in [16_000.0, 44_100.0, 48_000.0, 96_000.0] {
@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn the_analyser_is_called_once_for_each_frame_with_something_new() {
+    fn the_analyser_runs_once_per_frame_with_new_samples() {
         let mut heard = RecordedSamples::default();
         assert_eq!(heard.frame(), None);
         (0..3000).for_each(|n| heard.add((n as f32 * 0.3).sin() * 0.1, 1.0));

@@ -25,7 +25,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn at_the_start_and_a_quarter_of_a_second_later() {
+    fn values_at_the_start_and_after_a_quarter_second() {
         let start = synthetic(0.0);
         // (.5)^4 of the first bin, and two thirds of that; the wave is flat.
         assert_eq!((start[0], start[1], start[BINS]), (15, 10, 127));

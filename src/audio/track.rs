@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn blocks_are_written_in_any_order_and_missing_ones_differ_from_silence() {
+    fn blocks_may_arrive_in_any_order_and_missing_ones_are_not_silence() {
         let track = Track::new(5, 2);
         assert_eq!((track.blocks(), track.first_missing(), track.frame(0)), (3, Some(0), None));
         track.write(2, vec![[5, -5], [9, 9]]);

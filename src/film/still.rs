@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_png_of_16_bits_is_finer() {
+    fn a_16_bit_png_has_more_levels() {
         let bytes = file(Still::Png { depth: 16 }, TexelFormat::Rgba32f);
         let image = image::load_from_memory(&bytes).unwrap();
         assert_eq!(image.color(), image::ColorType::Rgba16);

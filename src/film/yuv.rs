@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_those_of_ffmpeg() {
+    fn names_equal_those_of_ffmpeg() {
         let name = |chroma, depth| YuvFormat { chroma, depth, range: ColorRange::Full }.name();
         assert_eq!(name(Chroma::C420, 8), "yuv420p");
         assert_eq!(name(Chroma::C422, 10), "yuv422p10le");

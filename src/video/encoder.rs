@@ -121,7 +121,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_only_files() {
+    fn names_have_the_file_protocol() {
         for name in ["-i.mp4", "http:..", "pipe:1", "concat:a|b"] {
             let name = file_name(Path::new(name)).unwrap().into_string().unwrap();
             let rest = name.strip_prefix("file:").unwrap();

@@ -126,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn folder_names_give_the_frame_rate() {
+    fn folder_names_determine_the_frame_rate() {
         for (path, rate) in [
             ("walk-12fps/1.png", 12.0),
             ("walk_29.97fps/1.png", 29.97),

@@ -224,7 +224,7 @@ fn a_wav_file_with_many_channels_plays_its_first_two() {
 }
 
 #[test]
-fn a_wav_file_of_another_codec_is_called_unsupported_and_not_damaged() {
+fn unsupported_codecs_differ_from_damage() {
     let error = read(&wav_of(0x31, 8, &[], &[0; 100])).unwrap_err();
     assert_eq!(error.to_string(), "WAV files with codec 0x0031 are not supported");
     let error = read(&wav_of(3, 16, &[], &[0; 100])).unwrap_err();

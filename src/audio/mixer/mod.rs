@@ -52,8 +52,8 @@ pub struct Mixer {
     decks: [Option<Deck>; DECKS],
     kernel: Kernel,
     gain: f32,
-    /// Seconds that the sound lags behind the picture, averaged.
-    behind: f64,
+    /// The averaged delay of the sound relative to the picture, in seconds.
+    lag: f64,
     state: Arc<MixerState>,
 }
 
@@ -69,7 +69,7 @@ pub struct Remote {
 pub struct MixerState {
     buffers: AtomicU64,
     jumps: AtomicU64,
-    behind: AtomicU64,
+    lag: AtomicU64,
 }
 
 impl MixerState {
@@ -83,9 +83,9 @@ impl MixerState {
         self.jumps.load(Ordering::Relaxed)
     }
 
-    /// Returns the seconds that the sound lags behind the picture, averaged.
+    /// Returns the averaged delay of the sound relative to the picture, in seconds.
     pub fn behind_secs(&self) -> f64 {
-        f64::from_bits(self.behind.load(Ordering::Relaxed))
+        f64::from_bits(self.lag.load(Ordering::Relaxed))
     }
 }
 
@@ -103,7 +103,7 @@ pub fn mixer(rate: u32) -> (Mixer, Remote) {
         decks: std::array::from_fn(|_| None),
         kernel: Kernel::default(),
         gain: 0.0,
-        behind: 0.0,
+        lag: 0.0,
         state: state.clone(),
     };
     (mixer, Remote { orders: to, freed: back, state })
@@ -161,7 +161,7 @@ impl Mixer {
             }
         }
         self.state.buffers.fetch_add(1, Ordering::Relaxed);
-        self.state.behind.store(self.behind.to_bits(), Ordering::Relaxed);
+        self.state.lag.store(self.lag.to_bits(), Ordering::Relaxed);
     }
 
     fn take_orders(&mut self) {
@@ -184,7 +184,7 @@ impl Mixer {
         let ratio = line.speed * f64::from(SAMPLE_RATE) / self.rate;
         let wanted = line.position_at(heard_at);
         let Some(playing) = self.decks.iter_mut().flatten().find(|deck| deck.target > 0.0) else {
-            self.behind = 0.0;
+            self.lag = 0.0;
             if !self.desired.scene.sources.is_empty() {
                 self.start(wanted, ratio);
             }
@@ -195,12 +195,12 @@ impl Mixer {
         let turned = before.is_some_and(|before| {
             before != line && (before.secs_at(heard_at) - line.secs_at(heard_at)).abs() > JUMP_SECS
         });
-        let behind = (wanted - at) / f64::from(SAMPLE_RATE);
+        let lag = (wanted - at) / f64::from(SAMPLE_RATE);
         let share = 1.0 - (-(frames as f64) / self.rate / AVERAGED_SECS).exp();
-        self.behind += share * (behind - self.behind);
-        if turned || self.behind.abs() > JUMP_SECS * line.speed.max(1.0) {
+        self.lag += share * (lag - self.lag);
+        if turned || self.lag.abs() > JUMP_SECS * line.speed.max(1.0) {
             if self.start(wanted, ratio) {
-                self.behind = 0.0;
+                self.lag = 0.0;
                 self.state.jumps.fetch_add(1, Ordering::Relaxed);
             } else {
                 // Retry with the next buffer.
@@ -209,7 +209,7 @@ impl Mixer {
         } else if is_other {
             self.start(at, ratio);
         }
-        ratio * (1.0 + (PULL * self.behind / line.speed).clamp(-MOST_PULL, MOST_PULL))
+        ratio * (1.0 + (PULL * self.lag / line.speed).clamp(-MOST_PULL, MOST_PULL))
     }
 
     /// Starts to play the desired scene at a position, and fades out the current one. Returns false if there is no

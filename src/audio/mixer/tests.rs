@@ -155,7 +155,7 @@ fn a_seek_a_reset_and_a_scrub_jump_without_a_click() {
 }
 
 #[test]
-fn an_edit_cross_fades_at_the_same_place() {
+fn an_edit_cross_fades_at_the_same_position() {
     let old = track(|n| (n % 20_000) as i16, 400_000, 4096, &(0..98).collect::<Vec<_>>());
     let new = track(|n| -((n % 20_000) as i16), 400_000, 4096, &(0..98).collect::<Vec<_>>());
     let mut bench = Bench::new(44_100, scene(&[Source::Track(old)]));

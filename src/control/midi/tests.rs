@@ -45,10 +45,10 @@ fn running_status_and_interleaved_messages_are_decoded() {
 
 #[test]
 fn coarse_and_fine_controllers_form_a_pair_if_sent_together() {
-    let begin = Instant::now();
+    let start = Instant::now();
     let (mut decoder, mut events) = (MidiDecoder::default(), Vec::new());
     let mut send = |millis: u64, number: u8, value: u8| {
-        decoder.feed(&[0xb0, number, value], begin + Duration::from_millis(millis), &mut events);
+        decoder.feed(&[0xb0, number, value], start + Duration::from_millis(millis), &mut events);
         let found = std::mem::take(&mut events);
         found.into_iter().find(|event| matches!(event.source, ControlAddress::ControlChange14 { .. })).map(|e| e.value)
     };
@@ -69,7 +69,7 @@ fn parameters(bytes: &[u8]) -> Vec<(String, f64)> {
 }
 
 #[test]
-fn a_parameter_is_selected_by_two_controllers_and_set_by_one_or_two() {
+fn parameters_are_selected_by_two_controllers_and_set_by_one_or_two() {
     let fine = |coarse: u16, fine: u16| f64::from(coarse * 128 + fine) / 16_383.0;
     let of = |values: &[f64]| values.iter().map(|value| ("midi 1 nrpn 300".to_owned(), *value)).collect::<Vec<_>>();
     // 300 is 2 * 128 + 44.

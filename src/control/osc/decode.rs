@@ -46,11 +46,11 @@ pub fn decode(packet: &[u8]) -> Result<Vec<ControlEvent>, OscError> {
         let mut rest = contents.get(TIME_TAG..).ok_or(OscError::Damaged)?;
         let first = left.len();
         while !rest.is_empty() {
-            let (size, behind) = rest.split_first_chunk::<4>().ok_or(OscError::Damaged)?;
+            let (size, tail) = rest.split_first_chunk::<4>().ok_or(OscError::Damaged)?;
             let size = u32::from_be_bytes(*size) as usize;
-            let (element, behind) = behind.split_at_checked(size).ok_or(OscError::Damaged)?;
+            let (element, tail) = tail.split_at_checked(size).ok_or(OscError::Damaged)?;
             left.push((element, depth + 1));
-            rest = behind;
+            rest = tail;
             if left.len() > limits::OSC_MESSAGES {
                 return Err(OscError::ManyMessages);
             }

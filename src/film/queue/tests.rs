@@ -29,7 +29,7 @@ impl Write for Shared {
 }
 
 #[test]
-fn frames_are_piped_in_their_order() {
+fn frames_are_piped_in_order() {
     let out = Shared::default();
     let mut film = start(Format::Raw, 40, Output::Pipe(Box::new(out.clone())));
     (0..40).for_each(|n| film.push(picture(n as f32 / 255.0)).unwrap());

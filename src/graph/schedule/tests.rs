@@ -108,7 +108,7 @@ fn bands_come_last_and_are_preceded_by_everything_that_later_frames_read() {
 }
 
 #[test]
-fn every_draw_is_timed_and_waited_for_by_itself() {
+fn every_draw_is_timed_in_its_own_submission() {
     let mut frames = Frames::of(plan(&project()));
     let schedule = frames.next(Purpose::Timed);
     let overhead =
@@ -129,7 +129,7 @@ fn every_draw_is_timed_and_waited_for_by_itself() {
 }
 
 #[test]
-fn inputs_are_captured_before_each_step_also_of_a_draw_that_is_not_due() {
+fn inputs_are_captured_before_each_step_even_if_the_draw_is_not_due() {
     let mut grouped = project();
     grouped.groups.push(Group { name: "g".into(), passes: vec![PassId::Buffer("A".into())], steps: 3 });
     let mut frames = Frames::of(plan(&grouped));

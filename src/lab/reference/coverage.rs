@@ -115,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn coverage_is_the_area() {
+    fn coverage_equals_the_polygon_area() {
         let shape = rectangle([5.3, 6.1], [2.7, 0.2], 0.77);
         let area: f64 = (0..144).map(|i| covered(&shape, i % 12, i / 12)).sum();
         assert!((area - 4.0 * 2.7 * 0.2).abs() < 1e-12, "{area}");
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn means_are_those_of_many_samples() {
+    fn closed_forms_agree_with_means_of_many_samples() {
         let (n, h, fine) = (32, 16.0, 400u32);
         let picture = picture(n);
         let mean = |value: &dyn Fn(f64, f64) -> f64| {

@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn means_are_those_of_many_moments() {
+    fn closed_forms_agree_with_means_over_many_moments() {
         let (from, to) = ([3.0, 4.0], [11.0, 7.5]);
         let centre = |t: f64| [0, 1].map(|n| from[n] + t * (to[n] - from[n]));
         for at in [[3.5, 4.5], [7.0, 6.0], [11.5, 8.0], [2.0, 9.0]] {

@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn statistics_are_those_of_a_wave() {
+    fn statistics_of_a_wave_are_correct() {
         let (n, k) = (64, TAU * 5.0 / 64.0);
         let v = sampled(n, |x, y| 0.2 + 0.1 * (k * (0.6 * x + 0.8 * y)).sin());
         let of_axis = Statistics::of(&sampled(n, |x, _| 0.2 + 0.1 * (k * x).sin()), n);

@@ -43,8 +43,8 @@ pub fn hidden(from: V, normal: V, side: u32, hit: impl Fn(V, V) -> Option<f64>, 
     sum / f64::from(side * side)
 }
 
-/// Returns the part of a floor's cosine-weighted hemisphere that an infinite wall of a height and a distance hides: (1
-/// - cos t) / 2, t = atan(height / distance).
+/// Returns the part of a floor's cosine-weighted hemisphere that an infinite wall of a height and a distance hides:
+/// (1 - cos t) / 2, t = atan(height / distance).
 pub fn behind_wall(height: f64, distance: f64) -> f64 {
     0.5 * (1.0 - (height / distance).atan().cos())
 }

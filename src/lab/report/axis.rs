@@ -18,7 +18,8 @@ pub fn tick(value: f64) -> String {
     if (-3.0..=4.0).contains(&power) { format!("{}", 10f64.powf(power)) } else { format!("1e{power}") }
 }
 
-/// The largest number of decades with labels between the powers of ten, if there is room.
+/// Axes of fewer decades than `FEW` have labels between the powers of ten; those of more than `MANY` do not label
+/// every power.
 const FEW: usize = 3;
 const MANY: usize = 10;
 

@@ -65,7 +65,7 @@ pub enum Steps {
     Seconds(f64),
     /// No time passes during the disturbance: frames drawn during a pause.
     Still,
-    /// Alternating from a 240th to a 15th of a second, during the disturbance.
+    /// Varying from a 240th to a 15th of a second, during the disturbance.
     Uneven,
 }
 

@@ -38,8 +38,8 @@ pub fn still_holds(subject: &CheckedProject, case: &Case, record: &StabilityReco
     is_left == matches!(outcome, Outcome::Left(_))
 }
 
-/// While a canvas goes through several sizes, an area may temporarily have no texels; its extremes are then recorded as
-/// 0.
+/// While a canvas goes through several sizes, an area may temporarily have no texels; its extremes are then recorded
+/// as 0.
 fn can_be_judged(check: &Check, case: &Case) -> bool {
     case.resizes.is_empty() || check.area == Area::All
 }

@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_row_is_noticed() {
+    fn a_missing_row_is_detected() {
         let mut short = rows(6, 4, 3);
         short.pop();
         let seen: BTreeSet<Pair> = short.iter().flat_map(|row| covered(row).collect::<Vec<_>>()).collect();

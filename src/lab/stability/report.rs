@@ -94,7 +94,7 @@ fn recovery_text(recovery: Recovery) -> String {
     }
 }
 
-/// Describes the violation.
+/// Describes the outcome of a case.
 fn what(record: &StabilityRecord) -> String {
     match (&record.trouble, record.offence()) {
         (Some(trouble), _) => trouble.clone(),

@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_record_is_judged_by_the_ranges_of_today() {
+    fn records_are_judged_by_the_current_ranges() {
         let mut subject = CheckedProject::load("feedback", &[]).unwrap();
         let case = cases::list(&subject, Extent::Quick, (160, 90)).remove(0);
         let extremes = subject.checks.iter().map(|c| (c.name(), (Number(0.1), Number(1.5)))).collect();

@@ -62,7 +62,7 @@ fn every_texture_has_the_same_bytes_on_every_machine() {
 }
 
 #[test]
-fn fallbacks_have_the_sizes_and_channels_of_the_sites_textures() {
+fn fallbacks_have_the_sizes_and_channels_of_shadertoys_textures() {
     let size = |id: &str| {
         let texture = SITE_FILES.iter().find(|s| s.id == id).unwrap();
         let texels = &MADE[texture.fallback];

@@ -169,7 +169,7 @@ fn png_with(exif: &[u8]) -> Vec<u8> {
 
 /// Chromium 156 uploads each format to a texture of WebGL 2 like this.
 #[test]
-fn a_picture_is_turned_by_its_exif_orientation_where_a_browser_does_so() {
+fn exif_orientation_is_applied_as_in_browsers() {
     let dir = tempfile::tempdir().unwrap();
     let read = |name: &str, bytes: Vec<u8>| {
         let path = dir.path().join(name);

@@ -9,8 +9,8 @@ pub struct Vertex {
     pub position: [f32; 3],
     /// The normal, of length 1.
     pub normal: [f32; 3],
-    /// The tangent, of length 1 and along u; the fourth component is the sign of the bitangent `cross(normal,
-    /// tangent)`. Zeros without uv.
+    /// The tangent, of length 1 and along u; the fourth component is the sign of the bitangent
+    /// `cross(normal, tangent)`. Zeros without uv.
     pub tangent: [f32; 4],
     pub uv: [f32; 2],
     /// White if the mesh has no colours.

@@ -63,7 +63,7 @@ fn each_position_shows_its_frame_at_every_rate_and_in_every_container() {
 }
 
 #[test]
-fn frames_of_a_variable_rate_last_as_long_as_their_times_say() {
+fn variable_rate_frames_follow_their_times() {
     if !has_ffmpeg() {
         return;
     }
@@ -129,7 +129,7 @@ fn memory_is_bounded_and_released() {
 }
 
 #[test]
-fn sizes_and_colours_are_those_of_a_browser() {
+fn sizes_and_colours_match_browsers() {
     if !has_ffmpeg() {
         return;
     }

@@ -105,8 +105,8 @@ const COMPRESSIBLE: Courant = Courant {
     ),
 };
 
-/// A case in which theory predicts that the published form is stable: nu >= K, nu dt <= 1/4, and a speed limit below
-/// 0.4 of the speed of sound.
+/// A case in which theory predicts that the published form is stable: nu >= K, nu dt <= 1/4, and a speed limit
+/// below 0.4 of the speed of sound.
 pub fn stable_classic() -> PresetCase {
     PresetCase::new(Kind::Pairs, &[("form", 0.0), ("viscosity", 1.25), ("stiffness", 1.2), ("dt", 0.02)])
 }

@@ -134,9 +134,9 @@ impl<'s, C: ReadChannels<'s>> ReadChannels<'s> for OfPart<'_, C> {
     }
 }
 
-/// Returns the part that is read, and its channels: the first part with a color picture, in the layer without a name or
-/// in the first layer; otherwise one with some of red, green and blue; otherwise one with luminance; otherwise one with
-/// a single channel.
+/// Returns the part that is read, and its channels: the first part with a colour picture, in the layer without a name
+/// or in the first layer; otherwise one with some of red, green and blue; otherwise one with luminance; otherwise one
+/// with a single channel.
 fn chosen(parts: &[Header]) -> Option<(usize, Chosen)> {
     let flat = || parts.iter().enumerate().filter(|(_, part)| !part.deep);
     let layers: Vec<(usize, String, Vec<String>)> = flat()

@@ -197,7 +197,8 @@ impl<'a> Source<'a> {
         Ok(Values { bytes, count: count as usize, component, width, is_normalized, sparse })
     }
 
-    /// As many indices as values, each greater than the previous one and less than the count (section 3.6.2.3).
+    /// Returns the elements that a sparse accessor replaces: as many indices as values, each greater than the previous
+    /// one and less than the count (section 3.6.2.3).
     fn sparse(&self, index: Index, accessor: &Accessor, size: usize) -> Result<Option<SparseValues<'a>>, ModelError> {
         let Some(sparse) = &accessor.sparse else { return Ok(None) };
         let (all, count) = (accessor.count, sparse.count);

@@ -58,7 +58,7 @@ fn every_encoding_and_line_end_gives_the_same_shape() {
 }
 
 #[test]
-fn statements_are_read_however_they_are_spaced_joined_and_commented() {
+fn statements_with_any_spacing_continuation_and_comments_are_read() {
     for face in [
         "f 1 2 \\\n 3 4",
         "f 1 2\\\n3 4",
