@@ -9,7 +9,7 @@ use eddy_glsl::{ChannelUse, interface};
 use eddy_gpu::{Binding, Gpu, GpuError};
 use eddy_graph::effective_sampler;
 use eddy_media::{MediaKey, MediaSet, Texels};
-use eddy_project::{Channel, Filter, Input, PassId, PassSettings, Project};
+use eddy_project::{Channel, Filter, Input, PassSettings, Project};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
 use std::{path::Path, sync::Arc};
 
@@ -118,7 +118,7 @@ fn resolution(shape: TextureShape) -> [f32; 3] {
 /// Returns the settings of the pass that the channel names, if it names one; the format is that of the target.
 fn settings_of(project: &Project, channel: &Channel) -> Option<PassSettings> {
     let (id, index) = channel.input.target()?;
-    if *id == PassId::Cubemap {
+    if id.has_faces() {
         project.pass(id)?;
     }
     let mut settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();

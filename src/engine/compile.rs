@@ -8,7 +8,7 @@ use super::{
 };
 use eddy_diag::{Diagnostic, Span};
 use eddy_glsl::{self as glsl, Compiled, Driver, Link, PassKind, PassSource, Probe, Reflection};
-use eddy_project::{FillKind, Geometry, PassBody, PassId, Stage};
+use eddy_project::{FillKind, Geometry, PassBody, PassName, Stage};
 use std::sync::Arc;
 
 type Result<T> = std::result::Result<T, Vec<Diagnostic>>;
@@ -83,7 +83,7 @@ impl Sources<'_> {
         &self,
         cache: &mut StageCache,
         index: usize,
-        id: &PassId,
+        id: &PassName,
         options: PassOptions,
     ) -> Result<CompiledPass> {
         let (id, kind) = (self.stage_id(index, Stage::Own), sources::pass_kind(id));

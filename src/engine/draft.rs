@@ -97,7 +97,7 @@ enum BodyDraft {
 
 /// The programs of a pass or of one of its fills.
 struct ProgramDraft {
-    pass: eddy_project::PassId,
+    pass: eddy_project::PassName,
     reflection: Reflection,
     channels: [BoundChannel; 4],
     body: BodyDraft,

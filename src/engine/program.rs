@@ -8,7 +8,7 @@ use super::{
 use eddy_glsl::{CustomUniformSet, UniformSet};
 use eddy_gpu::Texture;
 use eddy_graph::{Draw, FramePlan};
-use eddy_project::{Camera, CustomUniform, CustomUniformValues, Dialect, PassId, PassSize};
+use eddy_project::{Camera, CustomUniform, CustomUniformValues, Dialect, PassName, PassSize};
 use eddy_texture::Dimension;
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ pub struct Program {
 
 /// The pipelines of one draw and what its channels are bound to.
 pub(super) struct CompiledDraw {
-    pub id: PassId,
+    pub id: PassName,
     pub body: DrawBody,
     /// Some program reads what meshes are drawn with.
     pub reads_geometry: bool,

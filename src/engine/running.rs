@@ -13,7 +13,7 @@ use super::{
 };
 use eddy_gpu::{PassTimer, Texture, depth_buffer};
 use eddy_graph::Changes;
-use eddy_project::{CustomUniformValues, PassId};
+use eddy_project::{CustomUniformValues, PassName};
 
 /// A program with its textures, on a canvas of one size.
 pub(super) struct Running {
@@ -198,7 +198,7 @@ impl Running {
     }
 
     /// The target of a pass by its place among the pass's targets.
-    pub fn target(&self, pass: &PassId, index: usize) -> Result<&Target, EngineError> {
+    pub fn target(&self, pass: &PassName, index: usize) -> Result<&Target, EngineError> {
         let own = || self.targets.iter().filter(|t| t.id == *pass);
         if own().next().is_none() {
             return Err(EngineError::NoSuchPass(pass.title()));
@@ -208,7 +208,7 @@ impl Running {
 
     /// Returns the newest texture of one of a pass's targets, and layer 0 of it; of a cubemap its one target, and face
     /// `index` in the order of [`eddy_texture::Face::ALL`].
-    pub fn layer(&self, pass: &PassId, index: usize) -> Result<(&Texture, u32), EngineError> {
+    pub fn layer(&self, pass: &PassName, index: usize) -> Result<(&Texture, u32), EngineError> {
         let first = self.target(pass, 0)?.newest();
         if first.shape.layers() == 1 {
             return Ok((self.target(pass, index)?.newest(), 0));

@@ -10,7 +10,7 @@ use eddy_glsl::{
     walkable::{Detail, Walkable},
 };
 use eddy_project::{
-    CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Pass, PassBody, PassId, Project, Source, Stage,
+    CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Pass, PassBody, PassName, Project, Role, Source, Stage,
     ignored_channel_lines,
 };
 use eddy_texture::Dimension;
@@ -385,12 +385,12 @@ pub fn stage_kind(geometry: &Geometry, stage: Stage) -> PassKind {
 }
 
 /// Returns what the compiler calls a pass.
-pub fn pass_kind(id: &PassId) -> PassKind {
-    match id {
-        PassId::Image => PassKind::Image,
-        PassId::Buffer(_) => PassKind::Buffer,
-        PassId::Cubemap => PassKind::Cubemap,
-        PassId::Sound => PassKind::Sound,
+pub fn pass_kind(id: &PassName) -> PassKind {
+    match id.role() {
+        Role::Image => PassKind::Image,
+        Role::Buffer => PassKind::Buffer,
+        Role::Cube => PassKind::Cubemap,
+        Role::Sound => PassKind::Sound,
     }
 }
 
@@ -408,6 +408,6 @@ pub fn channel_kinds(pass: &Pass) -> [ChannelKind; 4] {
 pub(super) fn declared_dimensions(pass: &Pass) -> [Dimension; 4] {
     pass.channels.each_ref().map(|channel| {
         let dimension = channel.as_ref().map_or(Dimension::D2, |channel| channel.input.row().dimension);
-        if pass.id == PassId::Sound && dimension == Dimension::D3 { Dimension::D2 } else { dimension }
+        if pass.id.is_sound() && dimension == Dimension::D3 { Dimension::D2 } else { dimension }
     })
 }

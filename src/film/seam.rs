@@ -9,7 +9,7 @@ use eddy_playback::{
     median,
     offline::{Offline, OfflineError},
 };
-use eddy_project::PassId;
+use eddy_project::PassName;
 
 /// The joint of a film, while its frames are drawn.
 pub struct Seam {
@@ -68,7 +68,7 @@ impl Fade {
 /// The picture of a run that a film shows.
 #[derive(Clone, Debug)]
 pub struct ShownPass {
-    pub pass: PassId,
+    pub pass: PassName,
     /// The target of a pass that has several, or the face of a cubemap.
     pub layer: usize,
     /// It is drawn so many times as wide and high.

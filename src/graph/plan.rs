@@ -1,7 +1,7 @@
 //! The plan of a frame, and the sampler that counts where several channels read one buffer (`shadertoy.md`, section 7).
 
 use super::tiles::TiledDraw;
-use eddy_project::{Condition, Filter, Input, PassId, PassSize, Project, Region, Sampler, SamplerRules, Wrap};
+use eddy_project::{Condition, Filter, Input, PassName, PassSize, Project, Region, Sampler, SamplerRules, Wrap};
 use eddy_texture::{Dimension, TexelFormat};
 use std::{collections::BTreeSet, ops::Range};
 
@@ -61,7 +61,7 @@ pub struct Read {
 /// A texture, or a pair of them, that passes draw into or read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
-    pub id: PassId,
+    pub id: PassName,
     /// The place among the pass's targets, from 0.
     pub index: usize,
     pub dimension: Dimension,
@@ -149,7 +149,7 @@ impl FramePlan {
 
     /// Adds a target of 32-bit floats, with a name of its own, for a value that the pass of a draw gives beside its
     /// picture. Nobody reads it, and what the pass reads and draws is as before.
-    pub fn draw_beside(&mut self, pass: usize, id: PassId) {
+    pub fn draw_beside(&mut self, pass: usize, id: PassName) {
         let Some(draw) = self.draws.iter_mut().find(|draw| draw.pass == pass) else { return };
         draw.beside = Some(self.targets.len());
         let own = &self.targets[draw.targets.start];
@@ -164,7 +164,7 @@ impl FramePlan {
     ///
     /// # Panics
     /// If `facts` and the project's passes differ in length.
-    pub fn new(project: &Project, facts: &[PassFacts], wanted: &[PassId], skip: bool) -> FramePlan {
+    pub fn new(project: &Project, facts: &[PassFacts], wanted: &[PassName], skip: bool) -> FramePlan {
         Self::ending_with(project, facts, wanted, skip, None)
     }
 
@@ -172,9 +172,9 @@ impl FramePlan {
     pub fn ending_with(
         project: &Project,
         facts: &[PassFacts],
-        wanted: &[PassId],
+        wanted: &[PassName],
         skip: bool,
-        last: Option<&PassId>,
+        last: Option<&PassName>,
     ) -> FramePlan {
         assert_eq!(facts.len(), project.passes.len(), "one PassFacts for each pass");
         let mut order = drawing_order(project, wanted);
@@ -217,7 +217,7 @@ impl FramePlan {
     }
 
     /// Indices of the targets of `id`, made if there are none.
-    fn targets(&mut self, project: &Project, id: &PassId) -> Range<usize> {
+    fn targets(&mut self, project: &Project, id: &PassName) -> Range<usize> {
         let settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();
         let formats = id.formats(&settings);
         let first = self.targets.iter().position(|t| t.id == *id).unwrap_or_else(|| {
@@ -282,11 +282,11 @@ impl FramePlan {
         project: &Project,
         drawn: &[usize],
         place: usize,
-        id: &PassId,
+        id: &PassName,
         index: usize,
     ) -> TexelSource {
         // A buffer without a pass holds zeros. A cube of them would take 48 MiB to say less than an empty channel.
-        if *id == PassId::Cubemap && project.pass(id).is_none() {
+        if id.has_faces() && project.pass(id).is_none() {
             return TexelSource::Nothing;
         }
         let earlier = drawn[..place].iter().any(|&p| project.passes[p].id == *id);
@@ -314,7 +314,7 @@ impl FramePlan {
             let is_cleared = |p: usize| project.passes[p].settings.meshes().is_some();
             let discards = drawn_by.is_some_and(|p| facts[p].discards && !is_cleared(p));
             // Image keeps the canvas of one frame before, and Sound its block before; only buffers take turns.
-            let takes_turns = id.is_picture() && id != PassId::Image && drawn_by.is_some();
+            let takes_turns = id.is_readable() && drawn_by.is_some();
             let doubled = takes_turns && (!skip || discards || !reads_of(Some(ReadTiming::LastFrame)).is_empty());
             // The site asks every pass of the project, also one that nobody looks at.
             let sampler_asks = (0..project.passes.len()).any(|p| {
@@ -351,7 +351,7 @@ impl FramePlan {
 
 /// Buffers in the project's order, then the cubemap, then Image. Sound makes no picture, and is drawn only for who wants
 /// a block of its samples.
-fn drawing_order(project: &Project, wanted: &[PassId]) -> Vec<usize> {
+fn drawing_order(project: &Project, wanted: &[PassName]) -> Vec<usize> {
     let id = |i: usize| &project.passes[i].id;
     let is_drawn = |i: &usize| id(*i).is_picture() || wanted.contains(id(*i));
     let mut order: Vec<usize> = (0..project.passes.len()).filter(is_drawn).collect();
@@ -360,9 +360,9 @@ fn drawing_order(project: &Project, wanted: &[PassId]) -> Vec<usize> {
 }
 
 /// Passes that some wanted picture needs, now or in a frame to come.
-fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassId]) -> BTreeSet<usize> {
-    let index_of = |id: &PassId| project.passes.iter().position(|p| p.id == *id);
-    let image = [PassId::Image];
+fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassName]) -> BTreeSet<usize> {
+    let index_of = |id: &PassName| project.passes.iter().position(|p| p.id == *id);
+    let image = [PassName::image()];
     let mut todo: Vec<usize> =
         if wanted.is_empty() { &image[..] } else { wanted }.iter().filter_map(index_of).collect();
     let mut reached = BTreeSet::new();

@@ -10,7 +10,7 @@ use eddy_glsl::{
 };
 use eddy_media as media;
 use eddy_project::{
-    self as project, Channel, Dialect, EditedTexts, PassId, PassSettings, Project, ProjectError, ShaderForm, Stage,
+    self as project, Channel, Dialect, EditedTexts, PassSettings, Project, ProjectError, ShaderForm, Stage,
 };
 use std::{
     collections::BTreeSet,
@@ -274,7 +274,7 @@ impl Program {
         };
         let own = self.stages.iter().find(|stage| project.stage_id(stage.index, stage.stage) == id);
         let has_it = |stage: &&StageAnalysis| stage.analysis.text(id).is_some();
-        let image = |stage: &&StageAnalysis| project.passes[stage.index].id == PassId::Image;
+        let image = |stage: &&StageAnalysis| project.passes[stage.index].id.is_image();
         let with = || self.stages.iter().filter(has_it);
         let found = own.or_else(|| with().find(image)).or_else(|| with().next())?;
         Some(&found.analysis)
@@ -283,7 +283,7 @@ impl Program {
     /// The file that a diagnostic without a place is shown in.
     pub fn main_path(&self) -> Option<&Path> {
         let image = self.project.as_ref().and_then(|project| {
-            let index = project.passes.iter().position(|pass| pass.id == PassId::Image)?;
+            let index = project.image_index()?;
             self.path_of(Project::pass_id(index))
         });
         let root = match &self.root {

@@ -190,12 +190,12 @@ fn channels(project: &Project) -> impl Iterator<Item = (&Pass, usize, &Channel)>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eddy_project::{Origin, PassId, Source};
+    use eddy_project::{Origin, PassName, Source};
 
     fn project(inputs: [Option<Input>; 4]) -> Project {
         let channels = inputs.map(|i| i.map(Channel::new));
         let source = Source { name: "image.glsl".into(), path: None, text: "".into() };
-        let image = Pass { channels, ..Pass::new(PassId::Image, source) };
+        let image = Pass { channels, ..Pass::new(PassName::image(), source) };
         Project::new("p", vec![image], Origin::Unsaved)
     }
 
@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn a_project_without_pictures_warns_of_nothing() {
-        let p = project([Some(Input::KEYBOARD), Some(Input::buffer("A")), None, Some(Input::pass(PassId::Cubemap))]);
+        let p = project([Some(Input::KEYBOARD), Some(Input::buffer("A")), None, Some(Input::pass(PassName::cube()))]);
         assert_eq!(gather(&p, None), (MediaSet::new(), vec![]));
     }
 }

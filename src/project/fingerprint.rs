@@ -1,6 +1,6 @@
 //! A number for what is measured: what was measured of other texts says nothing about these.
 
-use super::{Channel, Dialect, Input, InputKind, PassId, Project};
+use super::{Channel, Dialect, Group, Input, InputKind, PassName, Project};
 
 /// FNV-1a of 64 bits (G. Fowler, L. Noll, K.-P. Vo).
 pub struct Fingerprint(u64);
@@ -16,7 +16,8 @@ impl Fingerprint {
         for (_, source) in project.sources().iter().take(counted).skip(made) {
             print.eat(source.text.as_bytes());
         }
-        print.eat(format!("{:?} {:?}", project.groups, project.custom_uniform_values).as_bytes());
+        let groups: Vec<String> = project.groups.iter().map(group_text).collect();
+        print.eat(format!("[{}] {:?}", groups.join(", "), project.custom_uniform_values).as_bytes());
         for pass in &project.passes {
             let channels = pass.channels.each_ref().map(|channel| channel.as_ref().map_or("None".into(), channel_text));
             // Where the files lie does not count: another machine has them elsewhere.
@@ -40,13 +41,22 @@ impl Fingerprint {
     }
 }
 
+/// Spells a group, as [`channel_text`] does a channel.
+fn group_text(group: &Group) -> String {
+    let pass = |pass: &PassName| pass.buffer_name().map_or_else(|| pass.title(), |name| format!("Buffer({name:?})"));
+    let passes: Vec<String> = group.passes.iter().map(pass).collect();
+    format!("Group {{ name: {:?}, passes: [{}], steps: {} }}", group.name, passes.join(", "), group.steps)
+}
+
 /// Spells a channel. Results on disk are known by numbers of these texts, so the words never change, whatever the types
 /// are called.
 fn channel_text(channel: &Channel) -> String {
     let input = match &channel.input {
-        Input::Pass { id: PassId::Buffer(name), target: 0 } => format!("Buffer({name:?})"),
-        Input::Pass { id: PassId::Buffer(name), target } => format!("Target {{ buffer: {name:?}, index: {target} }}"),
-        Input::Pass { .. } => "CubemapPass".into(),
+        Input::Pass { id, target } => match (id.buffer_name(), target) {
+            (Some(name), 0) => format!("Buffer({name:?})"),
+            (Some(name), target) => format!("Target {{ buffer: {name:?}, index: {target} }}"),
+            (None, _) => "CubemapPass".into(),
+        },
         Input::Media { kind: InputKind::Texture, media } => format!("Texture({media:?})"),
         Input::Media { kind, media } => format!("{kind:?}({media:?})"),
         Input::Device(kind) => format!("{kind:?}"),
@@ -65,7 +75,7 @@ mod tests {
             "PassSettings { size: Canvas, format: Rgba32f, region: None, initial: None, boundary: None, body: Screen }";
         assert_eq!(format!("{:?}", PassSettings::default()), text);
         let source = Source { name: "Image".into(), path: None, text: "".into() };
-        let mut project = Project::new("p", vec![Pass::new(PassId::Image, source)], Origin::Unsaved);
+        let mut project = Project::new("p", vec![Pass::new(PassName::image(), source)], Origin::Unsaved);
         let print = |project: &Project| Fingerprint::of(project).text();
         let before = print(&project);
         project.passes[0].settings.when = Some(Condition::parse("width > 3").unwrap());

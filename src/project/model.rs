@@ -1,7 +1,7 @@
 //! A project as pure data: passes in their drawing order, what each channel reads, and where the texts came from.
 
 use super::{
-    ControlBindings, CustomUniformValues, Dialect, Group, Included, Input, PassId, PassSettings, Source, ghostty,
+    ControlBindings, CustomUniformValues, Dialect, Group, Included, Input, PassName, PassSettings, Source, ghostty,
 };
 use eddy_texture::{Dimension, Face, TexelFormat};
 use std::{collections::BTreeSet, path::PathBuf};
@@ -64,7 +64,7 @@ pub enum Origin {
 /// One render pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pass {
-    pub id: PassId,
+    pub id: PassName,
     pub source: Source,
     /// `iChannel0..3`; `None` reads as a 2D texture that is opaque black and of size 0.
     pub channels: [Option<Channel>; 4],
@@ -73,7 +73,7 @@ pub struct Pass {
 
 impl Pass {
     /// Returns a pass that reads nothing and is drawn as on the site.
-    pub fn new(id: PassId, source: Source) -> Pass {
+    pub fn new(id: PassName, source: Source) -> Pass {
         Pass { id, source, channels: Default::default(), settings: Default::default() }
     }
 
@@ -219,7 +219,7 @@ impl Project {
 
     /// Returns the passes of which one reads what the last frame left in them, itself or one that is drawn before it:
     /// the project's state. A project without any draws the same picture at a time, whatever it drew before.
-    pub fn stateful_passes(&self) -> BTreeSet<PassId> {
+    pub fn stateful_passes(&self) -> BTreeSet<PassName> {
         let passes = &self.passes;
         let read = |index: usize| {
             passes[index].channels.iter().flatten().filter_map(|channel| {
@@ -251,16 +251,41 @@ impl Project {
 
     /// Returns a project of one Image pass that is nowhere on disk.
     pub fn of_image(name: String, text: String) -> Project {
-        let id = PassId::Image;
+        let id = PassName::image();
         let source = Source { name: id.title(), path: None, text: text.into() };
         Project::new(name, vec![Pass::new(id, source)], Origin::Unsaved)
     }
 
-    pub fn pass(&self, id: &PassId) -> Option<&Pass> {
+    /// The pass whose picture is shown.
+    pub fn image(&self) -> Option<&Pass> {
+        self.passes.iter().find(|p| p.id.is_image())
+    }
+
+    pub fn image_mut(&mut self) -> Option<&mut Pass> {
+        self.passes.iter_mut().find(|p| p.id.is_image())
+    }
+
+    /// The index of Image in [`Project::passes`].
+    pub fn image_index(&self) -> Option<usize> {
+        self.passes.iter().position(|p| p.id.is_image())
+    }
+
+    /// The pass that is heard.
+    pub fn sound(&self) -> Option<&Pass> {
+        self.passes.iter().find(|p| p.id.is_sound())
+    }
+
+    /// Returns Image, and another pass that the project has: what is drawn where that one is shown.
+    pub fn image_and(&self, shown: &PassName) -> Vec<PassName> {
+        let other = Some(shown).filter(|pass| !pass.is_image() && self.pass(pass).is_some());
+        [PassName::image()].into_iter().chain(other.cloned()).collect()
+    }
+
+    pub fn pass(&self, id: &PassName) -> Option<&Pass> {
         self.passes.iter().find(|p| p.id == *id)
     }
 
-    pub fn pass_mut(&mut self, id: &PassId) -> Option<&mut Pass> {
+    pub fn pass_mut(&mut self, id: &PassName) -> Option<&mut Pass> {
         self.passes.iter_mut().find(|p| p.id == *id)
     }
 }
@@ -269,20 +294,33 @@ impl Project {
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Tab {
     Common,
-    Pass(PassId),
+    Pass(PassName),
     /// A stage of a geometry pass that lies in a file of its own, by the file's name.
-    Stage(PassId, String),
+    Stage(PassName, String),
     /// A file that others include, by its path from the project's folder.
     Included(String),
 }
 
 impl Default for Tab {
     fn default() -> Self {
-        Tab::Pass(PassId::Image)
+        Tab::image()
     }
 }
 
 impl Tab {
+    pub fn image() -> Tab {
+        Tab::Pass(PassName::image())
+    }
+
+    pub fn sound() -> Tab {
+        Tab::Pass(PassName::sound())
+    }
+
+    /// Returns whether it is the text of a buffer.
+    pub fn is_buffer(&self) -> bool {
+        matches!(self, Tab::Pass(pass) if pass.is_buffer())
+    }
+
     pub fn title(&self) -> String {
         match self {
             Tab::Common => "Common".into(),
@@ -292,7 +330,7 @@ impl Tab {
     }
 
     /// The same tab of another pass.
-    pub fn of_pass(&self, pass: PassId) -> Tab {
+    pub fn of_pass(&self, pass: PassName) -> Tab {
         match self {
             Tab::Common => Tab::Common,
             Tab::Pass(_) => Tab::Pass(pass),
@@ -302,7 +340,7 @@ impl Tab {
     }
 
     /// The pass it belongs to.
-    pub fn pass(&self) -> Option<&PassId> {
+    pub fn pass(&self) -> Option<&PassName> {
         match self {
             Tab::Common | Tab::Included(_) => None,
             Tab::Pass(id) | Tab::Stage(id, _) => Some(id),
@@ -415,7 +453,7 @@ impl Project {
     /// files that they include.
     pub fn tabs(&self) -> Vec<Tab> {
         let mut ids: Vec<_> = self.passes.iter().map(|p| p.id.clone()).collect();
-        ids.sort_by(PassId::drawing_order);
+        ids.sort_by(PassName::drawing_order);
         let mut tabs: Vec<Tab> = self.common.iter().map(|_| Tab::Common).collect();
         for id in ids {
             let stages = self.pass(&id).and_then(|p| p.settings.meshes()).map_or(&[][..], |g| &g.stages);
@@ -433,6 +471,6 @@ impl Project {
             _ => None,
         };
         let own = self.readable_includes().find(|s| file.is_some_and(|name| name == s.name.as_str()));
-        own.map_or(Tab::Pass(PassId::Image), |s| Tab::Included(s.name.clone()))
+        own.map_or(Tab::image(), |s| Tab::Included(s.name.clone()))
     }
 }

@@ -1,7 +1,7 @@
 //! Settings in `eddy.toml` say how a pass is drawn: its size, the format of its texels, which of them are drawn, how
 //! often a frame.
 
-use super::{Boundary, Condition, Fill, Geometry, Pass, PassId, TexelFormat};
+use super::{Boundary, Condition, Fill, Geometry, Pass, PassName, TexelFormat};
 use std::fmt;
 
 /// Says how a pass is drawn. The default is what the site does.
@@ -117,7 +117,7 @@ pub struct Group {
     /// The name in the file.
     pub name: String,
     /// In the order they are drawn; each of them buffers of the project, without another pass between them.
-    pub passes: Vec<PassId>,
+    pub passes: Vec<PassName>,
     /// At least 1.
     pub steps: u32,
 }

@@ -6,7 +6,7 @@ use eddy_background::Background;
 use eddy_diag::SourceId;
 use eddy_engine::{self as engine, KeptPreamble, Sources};
 use eddy_glsl::services::{Analysis, ClassSpan};
-use eddy_project::{Pass, PassId, Project, Stage, Tab};
+use eddy_project::{Pass, PassName, Project, Stage, Tab};
 use std::{collections::BTreeSet, ops::Range, sync::Arc};
 
 pub(super) const COMMON: SourceId = Project::COMMON_ID;
@@ -109,7 +109,7 @@ pub(super) struct Analyst {
     pub background: Background<(Texts, Tab), (), TabAnalysis>,
     pub front: Option<Tab>,
     /// The pass that Common is read with.
-    pub pass: PassId,
+    pub pass: PassName,
     /// And the stage of it.
     pub stage: Option<String>,
     pub asked: Option<(Texts, Tab)>,
@@ -130,7 +130,7 @@ impl Analyst {
             Ok(TabAnalysis { analysis, front, classes, texts })
         };
         let background = Background::new("analysis", "the analysis", wake, work)?;
-        Ok(Self { background, front: None, pass: PassId::Image, stage: None, asked: None, newest: None })
+        Ok(Self { background, front: None, pass: PassName::image(), stage: None, asked: None, newest: None })
     }
 }
 
@@ -186,10 +186,10 @@ impl Session {
         };
         let is_known = |user: &&Tab| user.pass().is_none_or(|id| *id == self.analyst.pass);
         let user = users.iter().find(is_known).or(users.first())?;
-        let place = |id: &PassId| project.passes.iter().position(|p| p.id == *id);
+        let place = |id: &PassName| project.passes.iter().position(|p| p.id == *id);
         let index = match user.pass() {
             Some(id) => place(id)?,
-            None => place(&self.analyst.pass).or_else(|| place(&PassId::Image))?,
+            None => place(&self.analyst.pass).or_else(|| place(&PassName::image()))?,
         };
         let stages = project.passes[index].settings.meshes().map_or(&[][..], |g| &g.stages);
         let file = match user {
@@ -219,8 +219,8 @@ impl Session {
     pub(super) fn analyse(&mut self) {
         let Some(front) = self.analyst.front.clone() else { return };
         let project = self.documents.current();
-        let place = |id: &PassId| project.passes.iter().position(|p| p.id == *id);
-        let index = place(&self.analyst.pass).or_else(|| place(&PassId::Image)).unwrap_or(0);
+        let place = |id: &PassName| project.passes.iter().position(|p| p.id == *id);
+        let index = place(&self.analyst.pass).or_else(|| place(&PassName::image())).unwrap_or(0);
         if project.passes.is_empty() {
             return;
         }

@@ -9,7 +9,7 @@ use super::{
     view::{About, Level},
 };
 use eddy_playback::{capture, mouse::Mouse};
-use eddy_project::{self as project, Channel, PassId, Tab, include_names};
+use eddy_project::{self as project, Channel, PassName, Tab, include_names};
 
 impl Session {
     /// Does what the user asked. Never fails: trouble becomes a notice.
@@ -192,7 +192,7 @@ impl Session {
     }
 
     /// True if the channel reads something else now.
-    pub(super) fn set_channel(&mut self, pass: &PassId, index: usize, channel: Option<Channel>) -> bool {
+    pub(super) fn set_channel(&mut self, pass: &PassName, index: usize, channel: Option<Channel>) -> bool {
         let folder = capture::base_folder(self.project());
         let channel = channel.map(|c| Channel { input: project::at_home(c.input, folder.as_deref()), ..c });
         let now = self.project().pass(pass).and_then(|p| p.channels.get(index));
@@ -260,7 +260,7 @@ impl Session {
         }
     }
 
-    pub(super) fn show_pass(&mut self, pass: PassId) {
+    pub(super) fn show_pass(&mut self, pass: PassName) {
         if self.picture.shown == pass || self.project().pass(&pass).is_none() {
             return;
         }

@@ -7,8 +7,8 @@ use eddy_engine::{CompiledPass, CompiledProgram, Sources};
 use eddy_glsl::{ClipSpace, Compiled, PassSource, PlainOptions, interface};
 use eddy_graph::{Draw, FramePlan, PassFacts, Read, ReadTiming, Target, TexelSource};
 use eddy_project::{
-    Channel, CustomUniformValue, FillKind, Filter, Input, Media, Pass, PassBody, PassId, PassSize, Project, Stage, Tab,
-    Wrap,
+    Channel, CustomUniformValue, FillKind, Filter, Input, Media, Pass, PassBody, PassName, PassSize, Project, Stage,
+    Tab, Wrap,
 };
 use eddy_texture::Dimension;
 
@@ -78,11 +78,11 @@ pub(crate) fn translate(project: &Project, language: Language) -> Result<Transla
         targets: plan.targets.iter().map(target).collect(),
         runs: runs(&plan, &pictures.project),
         passes: Vec::new(),
-        skipped: plan.skipped.iter().map(|&pass| pictures.project.passes[pass].id.key()).collect(),
+        skipped: plan.skipped.iter().map(|&pass| pictures.project.passes[pass].id.key().to_owned()).collect(),
     };
     manifest.passes.extend(writer.passes(&plan, &pictures, 0));
     if !sounds.passes.is_empty() {
-        let plan = FramePlan::new(&sounds.project, &sounds.facts, &[PassId::Sound], true);
+        let plan = FramePlan::new(&sounds.project, &sounds.facts, &[PassName::sound()], true);
         let before = manifest.targets.len();
         manifest.targets.extend(plan.targets.iter().map(target));
         manifest.passes.extend(writer.passes(&plan, &sounds, before));
@@ -151,7 +151,7 @@ impl<'a> Writer<'a> {
         let place = self.place(*index, pass);
         let meshes = pass.settings.meshes();
         let programs = compiled.programs().iter().enumerate().map(|(n, program)| {
-            let stem = if meshes.is_some() { format!("{key}.{n}") } else { key.clone() };
+            let stem = if meshes.is_some() { format!("{key}.{n}") } else { key.to_owned() };
             let mesh = meshes.and_then(|geometry| geometry.draws.get(n)).map(|draw| MeshInfo {
                 mesh: draw.mesh.name(),
                 cull: draw.cull.name(),
@@ -202,7 +202,7 @@ impl<'a> Writer<'a> {
             channels,
             programs,
             fills: filled,
-            pass: key,
+            pass: key.to_owned(),
         }
     }
 
@@ -297,7 +297,7 @@ fn custom_uniforms(texts: &Sources<'_>, project: &Project) -> Vec<CustomUniformI
 
 fn target(target: &Target) -> TargetInfo {
     TargetInfo {
-        pass: target.id.key(),
+        pass: target.id.key().to_owned(),
         index: target.index,
         dimension: dimension(target.dimension),
         size: match target.size {
@@ -320,7 +320,7 @@ fn dimension(dimension: Dimension) -> &'static str {
 }
 
 fn runs(plan: &FramePlan, project: &Project) -> Vec<RunInfo> {
-    let key = |draw: &Draw| project.passes[draw.pass].id.key();
+    let key = |draw: &Draw| project.passes[draw.pass].id.key().to_owned();
     let run = |run: &eddy_graph::Run| RunInfo {
         passes: plan.draws[run.draws.clone()].iter().map(key).collect(),
         steps: run.steps,

@@ -10,8 +10,8 @@ use eddy_engine::{CompiledPass, Sources, channel_kinds};
 use eddy_glsl::{ChannelKind, taken};
 use eddy_graph::{FramePlan, PassFacts, effective_sampler};
 use eddy_project::{
-    CustomUniform, CustomUniformRange, FillKind, Filter, Input, InputKind, Media, PassBody, PassId, PassSize, Project,
-    Sampler, Stage, Term, Wrap,
+    CustomUniform, CustomUniformRange, FillKind, Filter, Input, InputKind, Media, PassBody, PassSize, Project, Sampler,
+    Stage, Term, Wrap,
 };
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -62,7 +62,7 @@ impl Description<'_> {
         let pass = &self.project.passes[index];
         let draw = self.plan.draws.iter().find(|draw| draw.pass == index);
         let targets = draw.map_or(&[][..], |draw| &self.plan.targets[draw.targets.clone()]);
-        let is_target = pass.id.is_picture() && pass.id != PassId::Image;
+        let is_target = pass.id.is_readable();
         let skip = draw.is_none() && pass.id.is_picture();
         let meshes = pass.settings.meshes();
         let stages: BTreeSet<SourceId> = match &pass.settings.body {
@@ -103,12 +103,7 @@ impl Description<'_> {
         let is_screen = meshes.is_none();
         PassData {
             title: pass.id.title(),
-            kind: match pass.id {
-                PassId::Buffer(_) => "buffer",
-                PassId::Cubemap => "cubemap",
-                PassId::Sound => "sound",
-                PassId::Image => "image",
-            },
+            kind: pass.id.row().json_type,
             skip,
             size: match pass.id.size(&pass.settings) {
                 PassSize::Canvas => SizeData::Canvas(1.0),
@@ -153,7 +148,7 @@ impl Description<'_> {
             _ if !is_heard => ("none", None, None),
             Input::Pass { id, target } => match self.project.passes.iter().position(|pass| pass.id == *id) {
                 Some(at) if *target < self.project.passes[at].formats().len() => ("pass", Some((at, *target)), None),
-                None if *id != PassId::Cubemap => ("zero", None, None),
+                None if id.is_buffer() => ("zero", None, None),
                 _ => ("none", None, None),
             },
             Input::Device(kind) => (kind.row().key, None, None),

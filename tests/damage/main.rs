@@ -186,7 +186,7 @@ fn open(path: &Path, gpu: Option<&Gpu>, tally: &mut Tally) {
     let Ok(built) = Program::build(gpu, project, &media, &BuildOptions::default()) else { return };
     let Ok(mut engine) = Engine::new(gpu.clone(), 16, 9) else { return };
     let drawn = engine.set_program(built.program).and_then(|()| engine.draw(&FrameInputs::at_fixed_step(0, 60.0)));
-    let drawn = drawn.is_ok() && engine.read(&project::PassId::Image).is_ok();
+    let drawn = drawn.is_ok() && engine.read_image().is_ok();
     tally.drawn += u64::from(drawn);
 }
 

@@ -2,7 +2,7 @@
 
 use crate::support::{self, program::Bench, stage::Stage};
 use eddy::{
-    project::{self, Input, MeshSource, Overwrite, PassId, Stage as Text, Tab, TexelFormat},
+    project::{self, Input, MeshSource, Overwrite, PassName, Stage as Text, Tab, TexelFormat},
     session::{Command, Level},
 };
 use std::{fs, path::Path};
@@ -58,7 +58,7 @@ fn write(folder: &Path, changes: &[(&str, &str)]) {
 }
 
 fn scene_tab(file: &str) -> Tab {
-    Tab::Stage(PassId::Buffer("scene".into()), file.into())
+    Tab::Stage(PassName::buffer("scene"), file.into())
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn a_folder_is_read_and_written_back_as_it_was() {
     assert_eq!((g.camera.yaw, g.camera.pitch, g.camera.distance), (45.0, 20.0, 6.5));
     assert_eq!(
         p.passes[1].channels[0].as_ref().unwrap().input,
-        Input::Pass { id: PassId::Buffer("scene".into()), target: 1 }
+        Input::Pass { id: PassName::buffer("scene"), target: 1 }
     );
     let titles: Vec<String> = p.tabs().iter().map(Tab::title).collect();
     assert_eq!(titles, ["Buffer scene", "scene.vert.glsl", "hull.vert.glsl", "Image"]);
@@ -263,7 +263,7 @@ fn a_saved_stage_or_model_shows_at_once_and_a_broken_one_keeps_the_picture() {
     stage.settle();
 
     stage.write("scene.frag.glsl", FRAGMENT.replace("0.2", "0.4"));
-    stage.until("the reload", |s| s.text(&Tab::Pass(PassId::Buffer("scene".into()))).contains("0.4"));
+    stage.until("the reload", |s| s.text(&Tab::Pass(PassName::buffer("scene"))).contains("0.4"));
     stage.until_compiled();
     assert_eq!(stage.red(), 102);
     let vertex = VERTEX.replace("vec4(aPosition, 1.0)", "vec4(aPosition + 9.0, 1.0)");

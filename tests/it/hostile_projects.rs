@@ -5,7 +5,8 @@ use crate::support::{self, folder_of, program::Bench};
 use eddy::{
     media::MediaKey,
     project::{
-        self, Channel, Geometry, Input, Media, MeshDraw, MeshSource, Overwrite, PassId, Project, Source, Stage, limits,
+        self, Channel, Geometry, Input, Media, MeshDraw, MeshSource, Overwrite, PassName, Project, Source, Stage,
+        limits,
     },
     texture::Dimension,
 };
@@ -181,7 +182,7 @@ fn an_import_writes_into_its_folder_whatever_the_ids_are() {
     assert_eq!(b.names("."), ["deep"]);
     // What reads such an id reads the pass that has it.
     let project = load(&b.path("deep/er/new")).unwrap();
-    let channel = project.pass(&PassId::Image).unwrap().channels[0].clone();
+    let channel = project.image().unwrap().channels[0].clone();
     assert_eq!(channel.unwrap().input, Input::buffer("A"));
 }
 
@@ -201,11 +202,11 @@ fn ids_that_a_disk_takes_for_one_become_two_files() {
 #[test]
 fn names_of_passes_are_no_paths() {
     for bad in ["a/b", "..", "a\\b", "a.b", "a:b", "a\0", "a\n", "a*", &"x".repeat(limits::NAME + 1)] {
-        assert_eq!(PassId::parse(bad), None, "{bad:?}");
-        assert_eq!(PassId::parse(&format!("buffer_{bad}")), None, "{bad:?}");
+        assert_eq!(PassName::parse(bad), None, "{bad:?}");
+        assert_eq!(PassName::parse(&format!("buffer_{bad}")), None, "{bad:?}");
     }
     for good in ["A", "blur", "Buffer A", "buf_b", "buffer-far-field", "größe", &"x".repeat(limits::NAME)] {
-        assert!(PassId::parse(good).is_some(), "{good}");
+        assert!(PassName::parse(good).is_some(), "{good}");
     }
     let dir = place(&[("eddy.toml", "[passes.image]\n[passes.\"buffer_a/../../x\"]\n"), ("image.glsl", IMAGE)]);
     let said = refusal(&dir.path().join("p"));
@@ -220,7 +221,7 @@ fn names_of_passes_are_no_paths() {
 
 /// A project in memory with a geometry pass whose stage has this name.
 fn with_stage(name: &str) -> Project {
-    let mut scene = support::pass(PassId::Buffer("scene".into()), "", Default::default());
+    let mut scene = support::pass(PassName::buffer("scene"), "", Default::default());
     let draw = MeshDraw {
         mesh: MeshSource::Builtin("cube".into()),
         normals: None,

@@ -12,7 +12,7 @@ use eddy::{
         studies,
     },
     media,
-    project::{self, FillValue, Origin, Overwrite, PassId, Project},
+    project::{self, FillValue, Origin, Overwrite, PassName, Project},
 };
 use std::{
     path::Path,
@@ -23,7 +23,7 @@ use std::{
 const FRAMES: i32 = 2;
 
 /// Texels of a pass of a project with no media but what it names, after [`FRAMES`] frames.
-fn drawn(engines: &mut Engines, project: &Project, size: (u32, u32), pass: &PassId) -> Vec<[f32; 4]> {
+fn drawn(engines: &mut Engines, project: &Project, size: (u32, u32), pass: &PassName) -> Vec<[f32; 4]> {
     let (media, warnings) = media::gather(project, None);
     assert!(warnings.is_empty(), "{warnings:?}");
     let options = BuildOptions { wanted: vec![pass.clone()], skip: true, ..BuildOptions::default() };

@@ -14,7 +14,7 @@ use eddy_glsl::{
     walk::{EntryInputs, Shadowed, Stop},
     walkable::Detail,
 };
-use eddy_project::{FillKind, PassId, Project, Stage, Tab, TexelFormat, inspect_comments};
+use eddy_project::{FillKind, PassName, Project, Stage, Tab, TexelFormat, inspect_comments};
 use std::sync::Arc;
 
 /// Statements after which a walk is given up: a few seconds.
@@ -27,7 +27,7 @@ const MOST_PRINTED: usize = 1000;
 pub struct Traced {
     /// The texts that were walked through.
     pub project: Project,
-    pub pass: PassId,
+    pub pass: PassName,
     /// The text with the pass's entry point: of a pass that draws meshes the fragment stage of a draw.
     pub tab: Tab,
     text_id: SourceId,
@@ -80,7 +80,7 @@ impl Traced {
     /// draws meshes and none of them is drawn at the pixel, and where its boundary or nothing is.
     pub fn new(
         project: Project,
-        pass: &PassId,
+        pass: &PassName,
         frame: i32,
         (inputs, drawn): (PassInputs, &Pixels),
         place: [f32; 2],

@@ -7,13 +7,13 @@ use crate::{
 use eddy_gpu::{FloatConverter, Gpu, Readback, Texture};
 use eddy_graph::{ReadTiming, TexelSource};
 use eddy_media::Texels;
-use eddy_project::{Filter, PassId, Wrap};
+use eddy_project::{Filter, PassName, Wrap};
 use eddy_texture::{Dimension, TextureShape};
 use std::sync::Arc;
 
 /// Takes the inputs of one pass while a frame is drawn; of a pass of several steps, those of its last.
 pub(crate) struct Capture<'a> {
-    pass: &'a PassId,
+    pass: &'a PassName,
     converter: &'a FloatConverter,
     /// The pass has been drawn already.
     is_past: bool,
@@ -21,12 +21,12 @@ pub(crate) struct Capture<'a> {
 }
 
 impl<'a> Capture<'a> {
-    pub fn new(pass: &'a PassId, converter: &'a FloatConverter) -> Self {
+    pub fn new(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
         Self { pass, converter, is_past: false, taken: None }
     }
 
     /// Takes the inputs of a pass after the frame: they are there as long as nothing new is drawn.
-    pub fn of_the_past(pass: &'a PassId, converter: &'a FloatConverter) -> Self {
+    pub fn of_the_past(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
         Self { pass, converter, is_past: true, taken: None }
     }
 

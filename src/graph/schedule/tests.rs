@@ -2,11 +2,13 @@
 
 use super::*;
 use crate::{ChannelFacts, PassFacts};
-use eddy_project::{Channel, Filter, Group, Input, Origin, Pass, PassId, PassSettings, Project, Sampler, Source, Wrap};
+use eddy_project::{
+    Channel, Filter, Group, Input, Origin, Pass, PassName, PassSettings, Project, Sampler, Source, Wrap,
+};
 
 /// A buffer A that reads itself and B, a buffer B that reads nothing, and Image that reads A.
 fn project() -> Project {
-    let pass = |id: PassId, reads: &[&str]| {
+    let pass = |id: PassName, reads: &[&str]| {
         let source = Source { name: id.title(), path: None, text: "".into() };
         let mut pass = Pass::new(id, source);
         for (channel, name) in pass.channels.iter_mut().zip(reads) {
@@ -15,8 +17,8 @@ fn project() -> Project {
         }
         pass
     };
-    let buffer = |name: &str| PassId::Buffer(name.into());
-    let passes = vec![pass(buffer("A"), &["A", "B"]), pass(buffer("B"), &[]), pass(PassId::Image, &["A"])];
+    let buffer = |name: &str| PassName::buffer(name);
+    let passes = vec![pass(buffer("A"), &["A", "B"]), pass(buffer("B"), &[]), pass(PassName::image(), &["A"])];
     Project::new("test", passes, Origin::Unsaved)
 }
 
@@ -102,7 +104,7 @@ fn bands_come_last_and_are_preceded_by_everything_that_later_frames_read() {
     // Where a pass reads the picture, it is drawn in one piece.
     let mut read = project();
     read.passes[0].channels[2] = read.passes[2].channels[0].clone();
-    read.passes[0].channels[2].as_mut().unwrap().input = Input::pass(PassId::Image);
+    read.passes[0].channels[2].as_mut().unwrap().input = Input::pass(PassName::image());
     let whole = Frames::of(plan(&read)).next(Purpose::Bands);
     assert!(whole.ops.contains(&FrameOp::Encode { draw: 2, layer: 0 }), "{:?}", whole.ops);
 }
@@ -131,7 +133,7 @@ fn every_draw_is_timed_and_waited_for_by_itself() {
 #[test]
 fn inputs_are_captured_before_each_step_also_of_a_draw_that_is_not_due() {
     let mut grouped = project();
-    grouped.groups.push(Group { name: "g".into(), passes: vec![PassId::Buffer("A".into())], steps: 3 });
+    grouped.groups.push(Group { name: "g".into(), passes: vec![PassName::buffer("A")], steps: 3 });
     let mut frames = Frames::of(plan(&grouped));
     let captures = |schedule: &Schedule, of| {
         let at = |(at, op): (usize, &FrameOp)| (*op == FrameOp::Capture { draw: of }).then_some(at);

@@ -10,7 +10,7 @@ pub use live::Live;
 
 use super::{theme, thumbnails::Thumbnails, ui_output::UiOutput};
 use crate::{
-    project::{self, Channel, Pass, PassId, Tab},
+    project::{self, Channel, Pass, Tab},
     session::Session,
 };
 use egui::{
@@ -39,7 +39,7 @@ fn pass<'s>(session: &'s Session, tab: &Tab) -> Option<&'s Pass> {
     match tab {
         Tab::Pass(id) | Tab::Stage(id, _) => session.project().pass(id),
         // What Image is made of, where an editor begins with it.
-        Tab::Included(_) if *tab == session.project().main_tab() => session.project().pass(&PassId::Image),
+        Tab::Included(_) if *tab == session.project().main_tab() => session.project().image(),
         Tab::Common | Tab::Included(_) => None,
     }
 }

@@ -6,7 +6,7 @@ use crate::{
     metrics::{Norms, drift},
     three_of,
 };
-use eddy_project::{Channel, Filter, Input, Pass, PassId, PassSize, Project, Sampler, Source, Wrap};
+use eddy_project::{Channel, Filter, Input, Pass, PassName, PassSize, Project, Sampler, Source, Wrap};
 use std::f64::consts::TAU;
 
 /// The blur that is asked for has the standard deviation of the nine taps; and the widest that the preset's slider has,
@@ -45,7 +45,7 @@ pub(super) fn pyramid(project: &mut Project, levels: u32) {
     let pass = |name: &str, text: &str, level: u32, reads: String| {
         let sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
         let mut pass = Pass {
-            id: PassId::Buffer(name.to_owned()),
+            id: PassName::buffer(name),
             source: Source { name: format!("buffer_{name}.glsl"), path: None, text: text.into() },
             channels: [Some(Channel { input: Input::buffer(reads), sampler }), None, None, None],
             settings: Default::default(),
@@ -63,7 +63,7 @@ pub(super) fn pyramid(project: &mut Project, levels: u32) {
         passes.push(pass(&format!("up{level}"), UP, level, before));
         before = format!("up{level}");
     }
-    let place = project.passes.iter().position(|p| p.id == PassId::Buffer("field".into())).unwrap_or(0);
+    let place = project.passes.iter().position(|p| p.id == PassName::buffer("field")).unwrap_or(0);
     if let Some(Channel { input, .. }) = &mut project.passes[place].channels[0] {
         *input = Input::buffer(before);
     }

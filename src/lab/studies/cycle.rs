@@ -1,7 +1,7 @@
 //! Multigrid cycles on a torus, or in a box with walls, as passes of a project: one for every thing that is done on a
 //! grid. The names of cycles and their parts are those of Trottenberg, Oosterlee and Schüller, Multigrid (2001), chapter 2.
 
-use eddy_project::{Channel, Filter, Input, Pass, PassId, PassSize, Project, Sampler, Source, TexelFormat, Wrap};
+use eddy_project::{Channel, Filter, Input, Pass, PassName, PassSize, Project, Sampler, Source, TexelFormat, Wrap};
 
 macro_rules! part {
     ($file:literal) => {
@@ -164,7 +164,7 @@ pub fn insert<'p>(project: &'p mut Project, passes: Vec<Pass>, before: &str) -> 
 /// A buffer of a grid, of (p, f) unless its name says that it holds a right-hand side alone.
 pub fn pass(name: &str, text: &str, size: PassSize, reads: &[&str]) -> Pass {
     let mut pass = Pass {
-        id: PassId::Buffer(name.to_owned()),
+        id: PassName::buffer(name),
         source: Source { name: format!("buffer_{name}.glsl"), path: None, text: text.into() },
         channels: channels(reads),
         settings: Default::default(),

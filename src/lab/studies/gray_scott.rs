@@ -12,7 +12,7 @@ use crate::{
     setup::{Storage, frames_of, pass},
     three_of,
 };
-use eddy_project::{PassId, Project, TexelFormat};
+use eddy_project::{PassName, Project, TexelFormat};
 use std::{f64::consts::TAU, sync::LazyLock};
 
 const EULER: &[f64] = &[0.25, 0.5, 1.0];
@@ -73,7 +73,7 @@ fn transformed(project: &mut Project, size: (u32, u32)) {
     if let Some(history) = project.pass_mut(&pass("history")) {
         history.channels = cycle::channels(&[&waves]);
     }
-    let buffers: Vec<PassId> = project.passes.iter().map(|p| p.id.clone()).filter(|id| *id != PassId::Image).collect();
+    let buffers: Vec<PassName> = project.passes.iter().map(|p| p.id.clone()).filter(|id| !id.is_image()).collect();
     project.groups.iter_mut().for_each(|group| group.passes.clone_from(&buffers));
 }
 

@@ -10,7 +10,7 @@ fn project() -> Project {
         text: text.into(),
     };
     let mut image =
-        Pass::new(PassId::Image, source("void mainImage(out vec4 o, in vec2 p) { o = vec4(p, iTime, 1.0); }"));
+        Pass::new(PassName::image(), source("void mainImage(out vec4 o, in vec2 p) { o = vec4(p, iTime, 1.0); }"));
     image.channels[0] = Some(Channel::new(Input::texture(Media::Picked("/home/somebody/cat.png".into()))));
     image.channels[1] = Some(Channel::new(Input::texture(Media::File("own.png".into()))));
     let place = Origin::Folder { path: "/home/somebody/waves".into(), has_manifest: true };
@@ -28,7 +28,7 @@ fn scene() -> Scene {
     Scene {
         eddy: "1.2.3".into(),
         device: "a device".into(),
-        pass: PassId::Image,
+        pass: PassName::image(),
         frame: 12,
         size: (4, 3),
         project: project(),

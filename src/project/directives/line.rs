@@ -2,7 +2,7 @@
 
 use super::around::DirectiveScope;
 use crate::{
-    Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassId, Wrap, file_names, kind_of_file,
+    Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassName, Wrap, file_names, kind_of_file,
     lines::{HashLine, trim_start},
     listed, nearest,
 };
@@ -139,7 +139,7 @@ pub(super) fn input(
 }
 
 /// The channel that reads a pass.
-fn pass(id: &PassId, around: DirectiveScope<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
+fn pass(id: &PassName, around: DirectiveScope<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
     let (message, hint) = match id.row().input {
         Some(_) => return Some(Channel::new(Input::pass(id.clone()))),
         None if id == around.id => {

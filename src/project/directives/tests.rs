@@ -1,15 +1,15 @@
 //! Tests of `#iChannel` lines.
 
 use super::{read::Declared, *};
-use crate::{Channel, PassId};
+use crate::{Channel, PassName};
 use crate::{Filter, Input, InputKind, Media, Sampler, Wrap};
 use eddy_diag::SourceId;
 
 /// Reads a text of Buffer A, beside which Buffer B and Image are.
 fn of_a(text: &str) -> Declared {
-    let id = PassId::Buffer("A".into());
-    let passes = [("buffer_a.glsl", id.clone()), ("buffer_b.glsl", PassId::Buffer("B".into()))];
-    let passes: Vec<(String, PassId)> = passes.into_iter().map(|(file, id)| (file.to_owned(), id)).collect();
+    let id = PassName::buffer("A");
+    let passes = [("buffer_a.glsl", id.clone()), ("buffer_b.glsl", PassName::buffer("B"))];
+    let passes: Vec<(String, PassName)> = passes.into_iter().map(|(file, id)| (file.to_owned(), id)).collect();
     read(text, SourceId(3), DirectiveScope { id: &id, file: "buffer_a.glsl", passes: &passes }, &Default::default())
 }
 
@@ -122,7 +122,7 @@ fn every_spelling_of_a_pass_means_it() {
 
 #[test]
 fn a_setting_alone_is_one_of_the_usual_channels() {
-    let id = PassId::Image;
+    let id = PassName::image();
     let around = DirectiveScope { id: &id, file: "image.glsl", passes: &[] };
     let usual = [Some(Channel::new(Input::buffer("A"))), None, None, None];
     let found = read("#iChannel0::WrapMode \"Repeat\"\n", SourceId(1), around, &usual);

@@ -7,7 +7,7 @@ use super::{
     texts,
 };
 use crate::{
-    Channel, Dialect, Filter, Info, Input, InputKind, Loaded, Media, Origin, Overwrite, Pass, PassId, PassSize,
+    Channel, Dialect, Filter, Info, Input, InputKind, Loaded, Media, Origin, Overwrite, Pass, PassName, PassSize,
     Project, ProjectError, Sampler, Source, TexelFormat, Wrap, atomic::Content, confine, files::Files, includes,
     writes::Writes,
 };
@@ -80,7 +80,7 @@ impl Maker<'_> {
         let mut passes: Vec<Pass> = self.audio_passes(&images);
         let scaled = self.scaled(&images, &targets, vertex);
         passes.extend(scaled.iter().map(|name| {
-            let id = PassId::Buffer(buffer_name(name));
+            let id = PassName::buffer(buffer_name(name));
             let mut pass = Pass::new(id.clone(), generated(&id, texts::SCALED.to_owned()));
             pass.settings.format = TexelFormat::Rgba8;
             pass.channels[0] = Some(self.channel(name, &targets));
@@ -102,7 +102,7 @@ impl Maker<'_> {
                 );
                 continue;
             }
-            let id = target.as_ref().map_or(PassId::Image, |target| PassId::Buffer(buffer_name(target)));
+            let id = target.as_ref().map_or_else(PassName::image, |target| PassName::buffer(buffer_name(target)));
             let mut pass =
                 Pass::new(id.clone(), generated(&id, texts::pass(index, &images, (self.name, &self.words), vertex)));
             if target.is_some() {
@@ -117,7 +117,7 @@ impl Maker<'_> {
             }
             passes.push(pass);
             if is_last && let Some(target) = target {
-                let mut image = Pass::new(PassId::Image, generated(&PassId::Image, texts::SHOW.to_owned()));
+                let mut image = Pass::new(PassName::image(), generated(&PassName::image(), texts::SHOW.to_owned()));
                 image.channels[0] = Some(linear(Input::buffer(buffer_name(&target))));
                 passes.push(image);
             }
@@ -223,7 +223,7 @@ impl Maker<'_> {
         let inputs = self.header.inputs.iter().filter(|input| matches!(input.kind, Kind::Audio | Kind::AudioFft));
         let read = inputs.filter(|input| images.contains(&input.name));
         let pass = |input: &header::IsfInput| {
-            let id = PassId::Buffer(buffer_name(&input.name));
+            let id = PassName::buffer(buffer_name(&input.name));
             let mut pass = Pass::new(id.clone(), generated(&id, texts::audio(input.kind)));
             let samples = input.max.first().filter(|max| (1.0..=4096.0).contains(*max)).map_or(512, |max| *max as u32);
             pass.settings.size = PassSize::Fixed(samples, 1);
@@ -267,16 +267,14 @@ impl Maker<'_> {
     }
 }
 
-fn generated(id: &PassId, text: String) -> Source {
+fn generated(id: &PassName, text: String) -> Source {
     Source { name: id.title(), path: None, text: text.into() }
 }
 
 /// Returns what the buffer of a target is called: names of buffers have letters and digits alone.
 fn buffer_name(target: &str) -> String {
-    match PassId::buffer_named(&format!("buffer_{target}")) {
-        Some(PassId::Buffer(name)) => name,
-        _ => "isf".to_owned(),
-    }
+    let known = PassName::buffer_named(&format!("buffer_{target}"));
+    known.as_ref().and_then(PassName::buffer_name).unwrap_or("isf").to_owned()
 }
 
 fn linear(input: Input) -> Channel {

@@ -85,7 +85,7 @@ fn eddy_toml_says_what_the_texts_cannot() {
     assert_eq!(warnings, []);
     assert_eq!(project.name, "Ink");
     assert_eq!(project.info.tags, ["fluid", "2d"]);
-    let ids: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+    let ids: Vec<&str> = project.passes.iter().map(|p| p.id.key()).collect();
     assert_eq!(ids, ["buffer_b", "buffer_a", "image"], "buffers are drawn in the file's order");
     assert_eq!(&*project.passes[1].source.text, "a");
     let noise = project.passes[0].channels[3].as_ref().unwrap();

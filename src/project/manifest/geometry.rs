@@ -5,8 +5,8 @@ use super::{
     reader::{Reader, number},
 };
 use crate::{
-    Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, PassId, PassSettings, Source, Stage,
-    TexelFormat,
+    Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, PassName, PassSettings, Source,
+    Stage, TexelFormat,
 };
 use std::ops::Range;
 use toml_edit::{Array, InlineTable, Item, TableLike, Value};
@@ -64,7 +64,7 @@ impl Reader<'_> {
     /// The geometry of a pass whose own text lies in `file`. `settings` gets the format of its first target.
     pub(super) fn geometry(
         &mut self,
-        id: &PassId,
+        id: &PassName,
         pass: &dyn TableLike,
         file: &str,
         settings: &mut PassSettings,

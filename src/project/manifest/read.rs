@@ -7,8 +7,8 @@ use super::{
 };
 use crate::{
     Channel, Dialect, Filter, Info, Input, InputKind, InputSource, Loaded, MAX_TARGETS, Media, Origin, Pass, PassBody,
-    PassId, PassKind, Project, ProjectError, SamplerRules, Source, Wrap,
-    file_names::{self, Role},
+    PassName, Project, ProjectError, Role, SamplerRules, Source, Wrap,
+    file_names::{self, FileRole},
     files::{Files, MANIFEST},
     includes, limits, listed, nearest,
 };
@@ -148,19 +148,19 @@ impl Reader<'_> {
             }
             let table = self.table("common", item)?;
             self.check_keys("[common]", table, &[&["file"]]);
-            let file = self.string(table, "file").unwrap_or_else(|| self.conventional(&Role::Common));
+            let file = self.string(table, "file").unwrap_or_else(|| self.conventional(&FileRole::Common));
             let at = table.get("file").and_then(Item::span).or_else(|| item.span());
             return self.source(&file, "Common", at);
         }
-        let file = self.conventional(&Role::Common);
+        let file = self.conventional(&FileRole::Common);
         if self.files.exists(&file) { self.source(&file, "Common", None) } else { None }
     }
 
     /// The file of a role that is there, whatever its case and extension; else the name a new one would get.
-    fn conventional(&self, role: &Role) -> String {
+    fn conventional(&self, role: &FileRole) -> String {
         let key = match role {
-            Role::Common => "common".to_owned(),
-            Role::Pass(id) => id.key(),
+            FileRole::Common => "common",
+            FileRole::Pass(id) => id.key(),
         };
         let plain = format!("{key}.glsl");
         if self.files.exists(&plain) {
@@ -181,14 +181,14 @@ impl Reader<'_> {
             let at = table.key(name).and_then(toml_edit::Key::span).or_else(|| item.span());
             let Some(id) = file_names::pass_of_stem(name) else {
                 let fixed: Vec<&str> =
-                    PassKind::all().rev().filter(|kind| kind.id().is_some()).map(|kind| kind.row().key).collect();
+                    Role::all().rev().map(Role::row).filter(|row| !row.is_named).map(|row| row.key).collect();
                 let buffers = ["buffer_a", "buffer_b", "buffer_c", "buffer_d"];
                 let hint = match nearest(name, fixed.iter().copied().chain(buffers)) {
                     Some(near) => format!("did you mean {near}?"),
                     None if name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' ')) => {
                         format!("a pass is {}, or buffer_ and a name", fixed.join(", "))
                     }
-                    None => PassId::NAMES.to_owned(),
+                    None => PassName::NAMES.to_owned(),
                 };
                 self.error(at, format!("there is no pass {}", name.escape_debug()), hint);
                 continue;
@@ -209,7 +209,7 @@ impl Reader<'_> {
                 &[&["file", "channels"], &settings::KEYS, &geometry::KEYS, &fills::KEYS],
             );
             let file = self.string(table, "file").or_else(|| geometry::own_file(table));
-            let file = file.unwrap_or_else(|| self.conventional(&Role::Pass(id.clone())));
+            let file = file.unwrap_or_else(|| self.conventional(&FileRole::Pass(id.clone())));
             let file_at = table.get("file").and_then(Item::span).or(at);
             let source = self.source(&file, &id.title(), file_at);
             let channels = self.channels(table);
@@ -221,7 +221,7 @@ impl Reader<'_> {
                 passes.push(Pass { id, source, channels, settings });
             }
         }
-        if !table.iter().any(|(name, _)| file_names::pass_of_stem(name) == Some(PassId::Image)) {
+        if !table.iter().any(|(name, _)| file_names::pass_of_stem(name).is_some_and(|pass| pass.is_image())) {
             self.error(item.span(), "there is no Image pass", "add a table [passes.image]");
         }
         passes.sort_by(|a, b| a.id.drawing_order(&b.id));
@@ -362,9 +362,9 @@ impl Reader<'_> {
     /// Returns the buffer that a channel names; the cubemap pass may be named so, too.
     fn buffer(&mut self, channel: &dyn TableLike, key: &str) -> Option<Input> {
         let name = self.string(channel, key)?;
-        match PassId::parse(&name) {
-            Some(id @ PassId::Buffer(_)) => Some(Input::Pass { id, target: self.target(channel)? }),
-            Some(id @ PassId::Cubemap) => Some(Input::pass(id)),
+        match PassName::parse(&name) {
+            Some(id) if id.is_buffer() => Some(Input::Pass { id, target: self.target(channel)? }),
+            Some(id) if id.is_readable() => Some(Input::pass(id)),
             _ => {
                 let at = channel.get(key).and_then(Item::span);
                 self.error(at, format!("\"{name}\" is not a buffer"), "write a buffer pass: buffer = \"A\"");

@@ -3,7 +3,7 @@
 //! Owns what goes into which file. The writing itself, which never leaves half a file behind, is in `atomic`.
 
 use super::{
-    Dialect, FillValue, Media, MeshSource, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source,
+    Dialect, FillValue, Media, MeshSource, Origin, Pass, Project, ProjectError, SamplerRules, Source,
     atomic::Content,
     confine, file_names,
     files::{Files, MANIFEST},
@@ -92,7 +92,7 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     }
     // Buffers that its lines name have files of their own, which stay where they are.
     let is_beside = |p: &&Pass| own && p.source.path.as_deref() == Some(&*base.join(&p.source.name));
-    let (images, others): (Vec<&Pass>, Vec<&Pass>) = project.passes.iter().partition(|p| p.id == PassId::Image);
+    let (images, others): (Vec<&Pass>, Vec<&Pass>) = project.passes.iter().partition(|p| p.id.is_image());
     if !others.iter().all(is_beside) {
         return cannot("more passes than Image");
     }
@@ -131,7 +131,7 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     saved.name = target.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     saved.sampler_rules = SamplerRules::PerChannel;
     saved.origin = Origin::File(target.to_owned());
-    if let Some(image) = saved.pass_mut(&PassId::Image) {
+    if let Some(image) = saved.image_mut() {
         image.source.name = name;
         image.source.path = Some(target.to_owned());
     }
@@ -160,15 +160,14 @@ fn save_ghostty(
     overwrite: Overwrite<'_>,
 ) -> Result<Project, ProjectError> {
     let cannot = |what: &str| Err(ProjectError::CannotHold { path: target.to_owned(), what: what.into() });
-    let Some(image) = project.pass(&PassId::Image) else { return cannot("anything but Image") };
+    let Some(image) = project.image() else { return cannot("anything but Image") };
     let mut fresh = project.clone();
     ghostty::dress(&mut fresh);
     if project.passes.iter().map(|pass| &pass.id).ne(fresh.passes.iter().map(|pass| &pass.id)) {
         return cannot("more passes than Image");
     }
     let text = |source: Option<&Source>| source.map(|source| source.text.clone());
-    let is_same =
-        |a: &Pass, b: &Pass| a.id == PassId::Image || a.source.text == b.source.text && a.settings == b.settings;
+    let is_same = |a: &Pass, b: &Pass| a.id.is_image() || a.source.text == b.source.text && a.settings == b.settings;
     let around = project.passes.iter().zip(&fresh.passes).all(|(a, b)| is_same(a, b));
     if !around || text(project.common.as_ref()) != text(fresh.common.as_ref()) {
         return cannot("changes of the terminal's picture or of Common");
@@ -183,7 +182,7 @@ fn save_ghostty(
     let mut saved = project.clone();
     saved.name = name_at(target);
     saved.origin = Origin::File(target.to_owned());
-    if let Some(image) = saved.pass_mut(&PassId::Image) {
+    if let Some(image) = saved.image_mut() {
         image.source.name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
         image.source.path = Some(target.to_owned());
     }
@@ -212,7 +211,7 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Re
     }
     for pass in &mut saved.passes {
         let is_renamed = is_home && pass.source.renamed_from().is_some();
-        let name = if is_renamed { pass.source.name.clone() } else { usual(&pass.source, &pass.id.key()) };
+        let name = if is_renamed { pass.source.name.clone() } else { usual(&pass.source, pass.id.key()) };
         place(&mut pass.source, name, is_home, target, &mut writes)?;
         for stage in pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.stages) {
             let name = with_ending(stage.name.clone());
@@ -397,7 +396,7 @@ fn manifest_text(
     target: &Path,
     files: &BTreeMap<String, Vec<u8>>,
 ) -> Result<String, ProjectError> {
-    let has_common_file = files.keys().any(|name| file_names::role_of_file(name) == Some(file_names::Role::Common));
+    let has_common_file = files.keys().any(|name| file_names::role_of_file(name) == Some(file_names::FileRole::Common));
     for old in [old, None] {
         let text = manifest::write(project, old, name, has_common_file);
         let read = manifest::project("", name.to_owned(), &text, &Files::in_memory(files), Origin::Unsaved);

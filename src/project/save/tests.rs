@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::{
-    Boundary, Channel, Condition, Fill, Filter, Info, Input, InputKind, Pass, PassSettings, PassSize, Region, Sampler,
-    TexelFormat, Wrap, load,
+    Boundary, Channel, Condition, Fill, Filter, Info, Input, InputKind, Pass, PassName, PassSettings, PassSize, Region,
+    Sampler, TexelFormat, Wrap, load,
 };
 use std::{
     fs,
@@ -47,9 +47,9 @@ impl Random {
 }
 
 /// Settings the file may have for a pass.
-fn any_settings(r: &mut Random, id: &PassId) -> PassSettings {
+fn any_settings(r: &mut Random, id: &PassName) -> PassSettings {
     let mut settings = PassSettings::default();
-    if matches!(id, PassId::Buffer(_)) {
+    if id.is_buffer() {
         settings.size = match r.below(3) {
             0 => PassSize::Canvas,
             1 => PassSize::Scale(0.25 + r.below(3) as f64),
@@ -57,17 +57,17 @@ fn any_settings(r: &mut Random, id: &PassId) -> PassSettings {
         };
         settings.format = TexelFormat::ALL[r.below(TexelFormat::ALL.len())];
     }
-    if matches!(id, PassId::Buffer(_) | PassId::Image) && r.below(2) == 0 {
+    if (id.is_buffer() || id.is_image()) && r.below(2) == 0 {
         settings.region = Some(Region { x: r.below(9) as u32, y: 0, width: 1, height: 5 });
     }
-    if matches!(id, PassId::Buffer(_) | PassId::Cubemap) && r.below(3) == 0 {
+    if (id.is_buffer() || *id == PassName::cube()) && r.below(3) == 0 {
         let text = r.of(&["on", "kind == 3 && !off", " a<1||b>=.5 ", "-(width) != -64"]);
         settings.when = Some(Condition::parse(text).unwrap());
     }
-    if matches!(id, PassId::Buffer(_)) && r.below(3) == 0 {
+    if id.is_buffer() && r.below(3) == 0 {
         settings.initial = Some(any_fill(r));
     }
-    if matches!(id, PassId::Buffer(_) | PassId::Image) && r.below(3) == 0 {
+    if (id.is_buffer() || id.is_image()) && r.below(3) == 0 {
         settings.boundary = Some(Boundary { width: 1 + r.below(3) as u32, value: any_fill(r) });
     }
     settings
@@ -83,18 +83,18 @@ fn any_fill(r: &mut Random) -> Fill {
 
 fn any_project(seed: u64) -> Project {
     let r = &mut Random(seed);
-    let mut ids: BTreeSet<PassId> = BTreeSet::new();
+    let mut ids: BTreeSet<PassName> = BTreeSet::new();
     for _ in 0..r.below(6) {
         let name = r.of(&["A", "B", "C", "D", "E", "blur", "x1", "image", "sound", "common", "buffer", "cubea", "7"]);
-        ids.insert(PassId::Buffer(name.into()));
+        ids.insert(PassName::buffer(name));
     }
-    let mut ids: Vec<PassId> = ids.into_iter().collect();
+    let mut ids: Vec<PassName> = ids.into_iter().collect();
     for i in (1..ids.len()).rev() {
         ids.swap(i, r.below(i + 1));
     }
-    ids.extend((r.below(3) == 0).then_some(PassId::Cubemap));
-    ids.push(PassId::Image);
-    ids.extend((r.below(3) == 0).then_some(PassId::Sound));
+    ids.extend((r.below(3) == 0).then_some(PassName::cube()));
+    ids.push(PassName::image());
+    ids.extend((r.below(3) == 0).then_some(PassName::sound()));
     let source = |r: &mut Random, name: String| Source { name, path: None, text: r.text().into() };
     let passes = ids
         .into_iter()
@@ -136,7 +136,7 @@ fn any_channel(r: &mut Random) -> Channel {
     };
     let input = match r.below(10) {
         0 | 1 => Input::buffer(r.of(&["A", "B", "blur", "image", "sound", "cubea"])),
-        2 => Input::pass(PassId::Cubemap),
+        2 => Input::pass(PassName::cube()),
         3 => Input::KEYBOARD,
         4 => Input::Device(InputKind::Microphone),
         5 => Input::Device(InputKind::Webcam),
@@ -330,7 +330,7 @@ fn what_is_not_the_projects_own_is_not_overwritten_unasked() {
     let mut grown = project.clone();
     fs::write(dir.path().join("mine/buffer_b.glsl"), "precious").unwrap();
     let source = Source { name: "Buffer B".into(), path: None, text: "b".into() };
-    grown.passes.insert(1, Pass::new(PassId::Buffer("B".into()), source));
+    grown.passes.insert(1, Pass::new(PassName::buffer("B"), source));
     assert!(matches!(
         save(&grown, &dir.path().join("mine"), Overwrite::Refuse),
         Err(ProjectError::WouldOverwrite { .. })
@@ -435,10 +435,7 @@ fn save_on_a_full_disk() {
     let folder = PathBuf::from(std::env::var_os("EDDY_TEST_FOLDER").expect("set by a_full_disk_loses_nothing"));
     let mut project = reloaded(&folder);
     for pass in &mut project.passes {
-        pass.source.text = match pass.id {
-            PassId::Image => "x".repeat(100_000).into(),
-            _ => "small and new".into(),
-        };
+        pass.source.text = if pass.id.is_image() { "x".repeat(100_000).into() } else { "small and new".into() };
     }
     let error = save(&project, &folder, Overwrite::Refuse).unwrap_err();
     assert!(matches!(&error, ProjectError::Io { path, .. } if path.ends_with("image.glsl")), "{error}");

@@ -6,7 +6,7 @@
 //! [`super::FillValue::InMemory`]) only the name is.
 
 use super::{
-    Channel, Included, Input, Media, MeshSource, Origin, PassId, Project, ProjectError, Source, Tab, confine,
+    Channel, Included, Input, Media, MeshSource, Origin, Project, ProjectError, Source, Tab, confine,
     file_names::pass_of_stem, files::Files, json_values::check_json_values, limits, manifest,
 };
 use serde::{Deserialize, Serialize};
@@ -92,7 +92,7 @@ struct PickedModel {
 pub fn write_snapshot(project: &Project) -> Result<String, SnapshotError> {
     let named = named(project);
     let text = |(tab, source): (Tab, &Source)| Text {
-        pass: tab.pass().map(PassId::key),
+        pass: tab.pass().map(|pass| pass.key().to_owned()),
         stage: if let Tab::Stage(_, file) = tab { Some(file) } else { None },
         name: source.name.clone(),
         path: source.path.clone().map(absolute),
@@ -218,7 +218,7 @@ fn picked_models(project: &Project) -> Vec<PickedModel> {
     for pass in &project.passes {
         for (n, draw) in pass.settings.meshes().into_iter().flat_map(|g| g.draws.iter().enumerate()) {
             if let MeshSource::Picked(path) = &draw.mesh {
-                list.push(PickedModel { pass: pass.id.key(), draw: n, path: absolute(path.clone()) });
+                list.push(PickedModel { pass: pass.id.key().to_owned(), draw: n, path: absolute(path.clone()) });
             }
         }
     }
@@ -230,7 +230,7 @@ fn picked(project: &Project) -> Vec<Picked> {
     for pass in &project.passes {
         for (channel, slot) in pass.channels.iter().enumerate() {
             if let Some(Media::Picked(path)) = slot.as_ref().map(|c: &Channel| &c.input).and_then(Input::media) {
-                list.push(Picked { pass: pass.id.key(), channel, path: absolute(path.clone()) });
+                list.push(Picked { pass: pass.id.key().to_owned(), channel, path: absolute(path.clone()) });
             }
         }
     }

@@ -2,8 +2,8 @@
 
 use super::*;
 use eddy_project::{
-    Channel, ControlAddress, ControlTarget, CustomUniformValue, Included, Input, InputKind, PassBody, PassId, Sampler,
-    SamplerRules, Source,
+    Channel, ControlAddress, ControlTarget, CustomUniformValue, Included, Input, InputKind, PassBody, PassName,
+    Sampler, SamplerRules, Source,
 };
 
 fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
@@ -14,7 +14,7 @@ fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
         match *key {
             "common" => project.common = Some(source),
             key => {
-                insert_pass(&mut project, Pass::new(PassId::parse(key).unwrap(), source));
+                insert_pass(&mut project, Pass::new(PassName::parse(key).unwrap(), source));
             }
         }
     }
@@ -22,7 +22,7 @@ fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
 }
 
 fn pass(key: &str) -> Tab {
-    Tab::Pass(PassId::parse(key).unwrap())
+    Tab::Pass(PassName::parse(key).unwrap())
 }
 
 fn edit(d: &mut Documents, tab: &Tab, text: &str) {
@@ -35,7 +35,7 @@ fn text<'a>(d: &'a Documents, tab: &Tab) -> &'a str {
 
 fn rebind(project: &mut Project) {
     let channel = Channel { input: Input::KEYBOARD, sampler: Sampler::BUFFER };
-    project.pass_mut(&PassId::Image).unwrap().channels[0] = Some(channel);
+    project.image_mut().unwrap().channels[0] = Some(channel);
 }
 
 #[test]
@@ -146,7 +146,7 @@ fn structure_follows_the_disk_and_edited_texts_stay() {
     assert!(m.took_structure && m.conflicts.is_empty() && !m.structure_conflict);
     assert_eq!(text(&d, &pass("buffer_a")), "a");
     assert_eq!(text(&d, &pass("image")), "mine");
-    assert!(d.current().pass(&PassId::Image).unwrap().channels[0].is_some());
+    assert!(d.current().image().unwrap().channels[0].is_some());
     assert_eq!(d.dirty_tabs(), [pass("image")]);
 }
 
@@ -159,7 +159,7 @@ fn structure_changed_on_both_sides_is_a_conflict() {
     let m = d.merge(disk);
     assert!(m.structure_conflict && !m.took_structure);
     d.take_structure_of_saved();
-    assert!(d.current().pass(&PassId::Image).unwrap().channels[0].is_some());
+    assert!(d.current().image().unwrap().channels[0].is_some());
     assert_eq!(text(&d, &pass("buffer_b")), "b", "a text that is nowhere else is not dropped");
 }
 
@@ -199,7 +199,7 @@ fn passes_are_put_where_the_drawing_order_wants_them() {
         &[("image", ""), ("sound", ""), ("buffer_c", ""), ("cube_a", ""), ("buffer_a", ""), ("buffer_b", "")],
         true,
     );
-    let keys: Vec<String> = p.passes.iter().map(|p| p.id.key()).collect();
+    let keys: Vec<&str> = p.passes.iter().map(|p| p.id.key()).collect();
     assert_eq!(keys, ["buffer_a", "buffer_b", "buffer_c", "cube_a", "image", "sound"]);
 }
 

@@ -18,7 +18,7 @@ use eddy_background::{Background, Wake};
 use eddy_engine::BLOCK_SECS;
 use eddy_media::{MediaKey, MediaSet};
 use eddy_playback::date;
-use eddy_project::{Channel, CustomUniformValues, PassId, Project};
+use eddy_project::{Channel, CustomUniformValues, Project};
 use std::{
     sync::{
         Arc, Mutex, MutexGuard,
@@ -65,7 +65,7 @@ struct Source {
 
 impl Source {
     fn of(project: &Project, media: &MediaSet, opened: u64) -> Option<Self> {
-        let sound = project.pass(&PassId::Sound)?;
+        let sound = project.sound()?;
         let others = project.common.iter().chain(project.includes.iter().map(|included| &included.source));
         let texels = sound.channels.each_ref().map(|channel| {
             let key = channel.as_ref().and_then(MediaKey::of_channel)?;
@@ -346,7 +346,7 @@ impl Session {
 
     /// Returns what there is to show of the sound pass; `None` where the project has none.
     pub fn sound(&self) -> Option<SoundView> {
-        self.project().pass(&PassId::Sound)?;
+        self.project().sound()?;
         let (revision, track) = match self.sound_track() {
             Some((revision, track)) => (revision, Some(track)),
             None => (0, None),

@@ -2,7 +2,7 @@
 
 use super::{Image, Images};
 use eddy_engine::Sources;
-use eddy_project::{CustomUniform, CustomUniformType, PassId, PassSize, Project, TexelFormat};
+use eddy_project::{CustomUniform, CustomUniformType, PassSize, Project, TexelFormat};
 use serde_json::{Map, Value, json};
 
 /// Numbers of a menu that an `int` slider becomes, at most.
@@ -36,7 +36,7 @@ pub(super) fn header(project: &Project, sources: &Sources<'_>, images: &Images, 
         header.insert("IMPORTED".into(), imported.into());
     }
     let passes: Vec<Value> =
-        project.passes.iter().filter(|pass| pass.id != PassId::Sound).map(|p| pass(p, project)).collect();
+        project.passes.iter().filter(|pass| !pass.id.is_sound()).map(|p| pass(p, project)).collect();
     if passes.len() > 1 {
         header.insert("PASSES".into(), passes.into());
     }
@@ -45,7 +45,7 @@ pub(super) fn header(project: &Project, sources: &Sources<'_>, images: &Images, 
 }
 
 fn pass(pass: &eddy_project::Pass, project: &Project) -> Value {
-    if pass.id == PassId::Image {
+    if pass.id.is_image() {
         return json!({});
     }
     let mut of = Map::new();

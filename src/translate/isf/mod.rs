@@ -13,7 +13,7 @@ mod tests;
 use eddy_diag::{self as diag, Diagnostic, Span};
 use eddy_engine::Sources;
 use eddy_glsl::Driver;
-use eddy_project::{Dialect, Input, InputKind, Media, PassBody, PassId, Project};
+use eddy_project::{Dialect, Input, InputKind, Media, PassBody, Project};
 
 /// An ISF file, and what its author should know of it.
 #[derive(Debug)]
@@ -64,7 +64,7 @@ fn refusals(project: &Project) -> Vec<Diagnostic> {
     }
     for pass in &project.passes {
         let (title, settings) = (pass.id.title(), &pass.settings);
-        if pass.id == PassId::Cubemap {
+        if pass.id.has_faces() {
             error("ISF has no cubemap pass".into(), "compute its colour where it is read");
         } else if !matches!(settings.body, PassBody::Screen) {
             error(format!("{title} draws meshes, which ISF does not have"), "remove the pass");
@@ -111,8 +111,8 @@ fn images(project: &Project, found: &mut Vec<Diagnostic>) -> Images {
             let Some(input) = channel.as_ref().map(|channel| &channel.input) else { continue };
             let title = pass.id.title();
             of_pass[n] = match input {
-                Input::Pass { id: id @ PassId::Buffer(_), .. } if project.pass(id).is_some() => {
-                    Some(Image::Target(id.key()))
+                Input::Pass { id, .. } if id.is_buffer() && project.pass(id).is_some() => {
+                    Some(Image::Target(id.key().to_owned()))
                 }
                 Input::Media { kind: InputKind::Texture, media: Media::File(path) } => {
                     let path = path.to_string_lossy().into_owned();

@@ -2,7 +2,7 @@
 
 use super::{buffer, image, pass, project};
 use eddy::project::{
-    Camera, Channel, Cull, DepthTest, Filter, Geometry, Input, MeshDraw, MeshSource, Pass, PassBody, PassId, Project,
+    Camera, Channel, Cull, DepthTest, Filter, Geometry, Input, MeshDraw, MeshSource, Pass, PassBody, PassName, Project,
     Sampler, Source, Stage, TexelFormat, Wrap,
 };
 
@@ -43,7 +43,7 @@ pub fn scene(fragment: &str, stages: &[&str], targets: usize, camera: Camera, dr
 pub fn target(index: usize) -> Option<Channel> {
     let input = match index {
         0 => Input::buffer("scene"),
-        index => Input::Pass { id: PassId::Buffer("scene".into()), target: index },
+        index => Input::Pass { id: PassName::buffer("scene"), target: index },
     };
     Some(Channel { input, sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true } })
 }

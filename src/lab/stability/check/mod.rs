@@ -1,7 +1,7 @@
 //! Says what is looked at in a pass, the range it must keep, and the texel that is furthest outside of it.
 
 use eddy_engine::Pixels;
-use eddy_project::PassId;
+use eddy_project::PassName;
 
 /// The largest size that a number of a quantity may have where nothing better is known, and everywhere where a case is
 /// expected to leave its own range.
@@ -132,7 +132,7 @@ impl CaseConditions {
 /// A range for a quantity of a pass.
 #[derive(Clone, Debug)]
 pub struct Check {
-    pub pass: PassId,
+    pub pass: PassName,
     pub quantity: Quantity,
     pub area: Area,
     pub allowed: Rule,

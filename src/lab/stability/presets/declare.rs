@@ -4,7 +4,7 @@ use crate::{
     stability::check::{Allowed, Area, CaseConditions, Check, Quantity, Rule},
     stability_record::Kind,
 };
-use eddy_project::PassId;
+use eddy_project::PassName;
 
 /// Says how a project is made to move by so many cells a step.
 #[derive(Clone, Copy, Debug)]
@@ -37,20 +37,20 @@ impl PresetCase {
     }
 }
 
-fn buffer(name: &str) -> PassId {
-    PassId::parse(&format!("buffer_{name}")).unwrap_or(PassId::Image)
+fn buffer(name: &str) -> PassName {
+    PassName::parse(&format!("buffer_{name}")).unwrap_or_default()
 }
 
 /// The picture, from black to so much. A screen cuts off at 1; what is drawn has no reason to be more than its lights
 /// add up to.
 pub(super) fn picture(most: f64, reason: &str) -> Check {
     let allowed = Rule::Always(Allowed::new(0.0, most * 1.0001));
-    Check { pass: PassId::Image, quantity: Quantity::Any, area: Area::All, allowed, reason: reason.into() }
+    Check { pass: PassName::image(), quantity: Quantity::Any, area: Area::All, allowed, reason: reason.into() }
 }
 
 pub(super) fn picture_by(rule: fn(&CaseConditions) -> Allowed, reason: &str) -> Check {
     let allowed = Rule::Of(rule);
-    Check { pass: PassId::Image, quantity: Quantity::Any, area: Area::All, allowed, reason: reason.into() }
+    Check { pass: PassName::image(), quantity: Quantity::Any, area: Area::All, allowed, reason: reason.into() }
 }
 
 pub(super) fn always(name: &str, quantity: Quantity, area: Area, range: (f64, f64), reason: &str) -> Check {
