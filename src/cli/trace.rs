@@ -200,7 +200,7 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, p
         }
         placed
     });
-    let draws = project.pass(&args.pass.pass).and_then(|pass| pass.settings.meshes()).map_or(&[][..], |g| &g.draws);
+    let draws = project.pass(&args.pass.pass).map_or(&[][..], |pass| pass.body.draws());
     let mesh = match trace.origin {
         Origin::Mesh(fragment) => draws.get(fragment.draw).map(|draw| MeshReport {
             draw: fragment.draw,

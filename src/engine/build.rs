@@ -18,7 +18,7 @@ use eddy_glsl::{Driver, Probe, opt::PassSet};
 use eddy_gpu::Gpu;
 use eddy_graph::{FramePlan, PassFacts};
 use eddy_media::MediaSet;
-use eddy_project::{Channel, FillKind, Pass, PassName, PassSettings, Project};
+use eddy_project::{FillKind, Pass, PassName, PassSettings, Project};
 use eddy_texture::TexelFormat;
 
 /// The pictures that are wanted, and whether the others may be left out.
@@ -264,7 +264,7 @@ impl Builder {
                     }
                 }
             });
-            if build.probe.as_ref().is_some_and(|(id, _)| *id == pass.id) && pass.settings.meshes().is_some() {
+            if build.probe.as_ref().is_some_and(|(id, _)| *id == pass.id) && !pass.body.is_screen() {
                 said.push(Diagnostic::error(None, "a pass that draws meshes cannot be probed: probe another pass"));
             }
             if let Some((_, probe)) = build.probe.as_ref().filter(|(id, _)| id.is_image() && *id == pass.id) {
@@ -311,7 +311,7 @@ struct Compilation {
 
 /// Returns what the device's driver needs of the code of a pass.
 fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
-    let has_small_floats = pass.id.formats(&pass.settings).into_iter().any(TexelFormat::is_small_float);
+    let has_small_floats = pass.formats().into_iter().any(TexelFormat::is_small_float);
     Driver {
         tables_in_memory: !gpu.has_storage_buffers,
         opaque_uniforms: gpu.recompiles_for_uniforms,
@@ -330,8 +330,9 @@ fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
 
 /// The sound pass with the channels that it can read: there are no frames yet that other passes could have drawn.
 fn heard(pass: &Pass) -> Pass {
-    let is_heard = |channel: &Channel| channel.input.kind().is_in_sound();
-    Pass { channels: pass.channels.clone().map(|channel| channel.filter(is_heard)), ..pass.clone() }
+    let mut pass = pass.clone();
+    pass.bindings.retain(|channel| channel.input.kind().is_in_sound());
+    pass
 }
 
 /// The pass that a value of Image is drawn by.

@@ -83,7 +83,7 @@ impl Engine {
             let is_off = running.is_off(index);
             let step = if is_off { Traffic::default() } else { plan.traffic_of(index, canvas) };
             let steps = plan.steps_of(index);
-            let depth = if compiled.body.meshes().is_some() { DEPTH_BYTES } else { 0 };
+            let depth = if compiled.body.has_depth() { DEPTH_BYTES } else { 0 };
             costs.push(PassCost {
                 pass: compiled.id.clone(),
                 when: draw.when.as_ref().map(Condition::to_string),
@@ -110,8 +110,8 @@ impl Engine {
                 pass: pass.id.clone(),
                 role: PassRole::Unread,
                 when: pass.settings.when.as_ref().map(Condition::to_string),
-                size: pass.id.size(&pass.settings).of(canvas),
-                formats: pass.id.formats(&pass.settings),
+                size: pass.size().of(canvas),
+                formats: pass.formats(),
                 steps: 0,
                 // What reads a pass that is not drawn reads zeros, which take their room.
                 held_bytes: plan.targets.iter().filter(|t| t.id == pass.id).map(|t| t.bytes(canvas)).sum(),

@@ -194,7 +194,7 @@ impl Running {
                 sound::set_offsets(&mut block, inputs);
             }
             self.uniforms.set(index, self.program.plan.layers(index), &block);
-            let Some(meshes) = compiled.body.meshes() else { continue };
+            let Some(meshes) = compiled.body.geometry() else { continue };
             for (n, (_, mesh)) in meshes.programs.iter().enumerate() {
                 self.uniforms.set_mesh(meshes.first + n, &mesh.block(&meshes.camera, inputs, own, self.canvas));
             }

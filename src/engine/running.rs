@@ -6,7 +6,7 @@ use super::{
     bind::{Bindings, draw_fill},
     custom_uniforms,
     frame::Unfinished,
-    program::{Meshes, Program},
+    program::Program,
     shared::Shared,
     targets::{NewTargets, Target},
     uniforms::{self, Uniforms},
@@ -51,11 +51,11 @@ impl NewTextures {
         present: &[Target],
     ) -> Result<Self, EngineError> {
         let depths = program.planned_draws().map(|(compiled, draw)| {
-            let of = |_: &Meshes| {
+            let depth = || {
                 let (width, height) = program.plan.targets[draw.targets.start].size.of(canvas);
                 depth_buffer(&shared.gpu, &format!("depth of {}", compiled.id.title()), width, height)
             };
-            compiled.body.meshes().map(of).transpose()
+            compiled.body.has_depth().then(depth).transpose()
         });
         Ok(Self {
             depths: depths.collect::<Result<_, _>>()?,

@@ -1,5 +1,7 @@
 //! Says what a pass really reaches from its entry point. `graph` plans with it: what is not read here need not be made.
 
+use crate::source::SLOTS;
+
 bitflags::bitflags! {
     /// A set of the site's uniforms, in the order of the uniform block.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -68,7 +70,7 @@ impl ChannelUse {
 pub struct Reflection {
     pub uniforms: UniformSet,
     pub custom_uniforms: CustomUniformSet,
-    pub channels: [ChannelUse; 4],
+    pub channels: [ChannelUse; SLOTS],
     /// `discard` can be reached: the target keeps what it held, so the planner must not pretend it is overwritten.
     pub discards: bool,
     /// Something of the [`super::interface::GeometryBlock`] is read.

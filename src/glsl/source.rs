@@ -202,6 +202,9 @@ pub enum UntypedValue {
     List(Vec<UntypedValue>),
 }
 
+/// The channels that Shadertoy's language has: `iChannel0` to `iChannel3`. The uniform block has room for as many.
+pub const SLOTS: usize = 4;
+
 /// Everything the front end needs to know of a pass.
 #[derive(Clone, Copy, Debug)]
 pub struct PassSource<'a> {
@@ -211,7 +214,7 @@ pub struct PassSource<'a> {
     pub code: Text<'a>,
     /// The includes of all texts of the pass, those in includes among them; no text includes itself.
     pub includes: &'a [Include<'a>],
-    pub channels: [ChannelKind; 4],
+    pub channels: [ChannelKind; SLOTS],
     /// The custom uniforms of all texts of the pass, each name once.
     pub custom_uniforms: &'a [CustomUniform<'a>],
     /// The values of uniforms that a text of the pass may declare, each name once; those it does not declare mean
@@ -219,7 +222,7 @@ pub struct PassSource<'a> {
     pub values: &'a [UniformValue],
     /// Channels whose texture this device cannot filter though the project asks for it: every filtered read of them is
     /// written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification gives the weights).
-    pub bilinear_by_hand: [bool; 4],
+    pub bilinear_by_hand: [bool; SLOTS],
     pub driver: Driver,
     /// The pass is drawn in tiles, each into a target of its own: a pixel's position is that in the whole picture, by the
     /// uniform block's `tile_origin`. Only in Image and buffers.
@@ -241,7 +244,7 @@ impl<'a> PassSource<'a> {
             common: None,
             code,
             includes: &[],
-            channels: [ChannelKind::Sampler2D; 4],
+            channels: [ChannelKind::Sampler2D; SLOTS],
             custom_uniforms: &[],
             values: &[],
             bilinear_by_hand: [false; 4],

@@ -1,7 +1,9 @@
 //! The plan of a frame, and the sampler that counts where several channels read one buffer (`shadertoy.md`, section 7).
 
 use super::tiles::TiledDraw;
-use eddy_project::{Condition, Filter, Input, PassName, PassSize, Project, Region, Sampler, SamplerRules, Wrap};
+use eddy_project::{
+    Condition, Filter, Input, Pass, PassName, PassSize, Project, Region, SLOTS, Sampler, SamplerRules, Wrap,
+};
 use eddy_texture::{Dimension, TexelFormat};
 use std::{collections::BTreeSet, ops::Range};
 
@@ -17,7 +19,7 @@ pub struct ChannelFacts {
 /// The facts of a compiled pass that the planner needs. Conservative: what may happen counts as happening.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PassFacts {
-    pub channels: [ChannelFacts; 4],
+    pub channels: [ChannelFacts; SLOTS],
     /// `discard` can be reached, so what the target held before can stay visible.
     pub discards: bool,
 }
@@ -25,7 +27,7 @@ pub struct PassFacts {
 impl PassFacts {
     /// Reads every channel at every level and discards: what to assume of a pass of which nothing is known.
     pub const ANYTHING: PassFacts =
-        PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; 4], discards: true };
+        PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; SLOTS], discards: true };
 }
 
 /// The frame whose picture of a target a read sees.
@@ -83,7 +85,7 @@ pub struct Draw {
     /// The index of one more, behind these, for what [`FramePlan::draw_beside`] asks for.
     pub beside: Option<usize>,
     /// `None` where the compiled pass does not read the channel.
-    pub reads: [Option<Read>; 4],
+    pub reads: [Option<Read>; SLOTS],
     /// It rasterizes meshes into targets that are cleared first.
     pub draws_meshes: bool,
     /// The pass begins with the texels that the target held.
@@ -196,7 +198,7 @@ impl FramePlan {
             });
             let region = project.passes[pass].settings.region;
             // Where meshes are drawn everything is cleared first, on the site's terms or not.
-            let is_cleared = project.passes[pass].settings.meshes().is_some();
+            let is_cleared = project.passes[pass].body.is_cleared();
             plan.draws.push(Draw {
                 pass,
                 targets,
@@ -218,10 +220,10 @@ impl FramePlan {
 
     /// Indices of the targets of `id`, made if there are none.
     fn targets(&mut self, project: &Project, id: &PassName) -> Range<usize> {
-        let settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();
-        let formats = id.formats(&settings);
+        let pass = project.pass_or_empty(id);
+        let formats = pass.formats();
         let first = self.targets.iter().position(|t| t.id == *id).unwrap_or_else(|| {
-            let size = id.size(&settings);
+            let size = pass.size();
             let first = self.targets.len();
             self.targets.extend(formats.iter().enumerate().map(|(index, &format)| Target {
                 id: id.clone(),
@@ -269,7 +271,7 @@ impl FramePlan {
     fn read(&mut self, project: &Project, drawn: &[usize], place: usize, channel: usize) -> Option<Read> {
         let pass = drawn[place];
         let sampler = effective_sampler(project, pass, channel);
-        let source = match project.passes[pass].channels[channel].as_ref().map(|c| &c.input) {
+        let source = match project.passes[pass].bindings.get(channel).map(|c| &c.input) {
             None => TexelSource::Nothing,
             Some(Input::Pass { id, target }) => self.target_read(project, drawn, place, id, *target),
             Some(Input::Media { .. } | Input::Device(_)) => TexelSource::External,
@@ -311,15 +313,15 @@ impl FramePlan {
             };
             let drawn_by = self.draws.iter().find(|d| d.targets.contains(&index)).map(|d| d.pass);
             // What a cleared target held before cannot show.
-            let is_cleared = |p: usize| project.passes[p].settings.meshes().is_some();
+            let is_cleared = |p: usize| project.passes[p].body.is_cleared();
             let discards = drawn_by.is_some_and(|p| facts[p].discards && !is_cleared(p));
             // Image keeps the canvas of one frame before, and Sound its block before; only buffers take turns.
             let takes_turns = id.is_readable() && drawn_by.is_some();
             let doubled = takes_turns && (!skip || discards || !reads_of(Some(ReadTiming::LastFrame)).is_empty());
             // The site asks every pass of the project, also one that nobody looks at.
             let sampler_asks = (0..project.passes.len()).any(|p| {
-                (0..4).any(|c| {
-                    project.passes[p].channels[c].as_ref().is_some_and(|ch| ch.input.target() == Some((&id, own_index)))
+                (0..SLOTS).any(|c| {
+                    project.passes[p].bindings.get(c).is_some_and(|ch| ch.input.target() == Some((&id, own_index)))
                         && effective_sampler(project, p, c).is_some_and(|s| s.filter == Filter::Mipmap)
                 })
             });
@@ -335,7 +337,7 @@ impl FramePlan {
                 .iter()
                 .flatten()
                 .any(|r| matches!(r.source, TexelSource::Target { index, .. } if own.contains(&index)));
-            let shows_before = facts[draw.pass].discards && project.passes[draw.pass].settings.meshes().is_none();
+            let shows_before = facts[draw.pass].discards && !project.passes[draw.pass].body.is_cleared();
             draw.is_cacheable = skip && !shows_before && !reads_itself;
             for read in draw.reads.iter_mut().flatten() {
                 read.mips = read.sampler.filter == Filter::Mipmap
@@ -370,8 +372,9 @@ fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassName]) -> 
         if !reached.insert(pass) {
             continue;
         }
-        for (channel, fact) in project.passes[pass].channels.iter().zip(facts[pass].channels) {
-            let read = channel.as_ref().filter(|_| fact.is_read).and_then(|c| c.input.target());
+        for (slot, channel) in project.passes[pass].bindings.iter() {
+            let is_read = facts[pass].channels.get(slot).is_some_and(|fact| fact.is_read);
+            let read = Some(channel).filter(|_| is_read).and_then(|c| c.input.target());
             todo.extend(read.and_then(|(id, _)| index_of(id)));
         }
     }
@@ -386,15 +389,13 @@ fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassName]) -> 
 /// load.
 pub fn effective_sampler(project: &Project, pass: usize, index: usize) -> Option<Sampler> {
     let pass = &project.passes[pass];
-    let channel = pass.channels[index].as_ref()?;
+    let channel = pass.bindings.get(index)?;
     let is_shared = channel.input.target().is_some();
     if !is_shared || project.sampler_rules == SamplerRules::PerChannel {
         return Some(channel.sampler());
     }
-    let same = |channels: &[Option<eddy_project::Channel>; 4]| {
-        channels.iter().flatten().rfind(|c| c.input == channel.input).map(|c| c.sampler)
-    };
-    let filter = same(&pass.channels)?.filter;
-    let wrap = project.passes.iter().rev().find_map(|p| same(&p.channels))?.wrap;
+    let same = |pass: &Pass| pass.bindings.channels().rfind(|c| c.input == channel.input).map(|c| c.sampler);
+    let filter = same(pass)?.filter;
+    let wrap = project.passes.iter().rev().find_map(same)?.wrap;
     Some(Sampler { filter, wrap, ..channel.sampler })
 }

@@ -4,8 +4,8 @@ use super::{
     Carried, Changes, ChannelFacts, FramePlan, PassFacts, ReadTiming, Target, TexelSource, Undivided, effective_sampler,
 };
 use eddy_project::{
-    Channel, Filter, Group, Input, Origin, Pass, PassBody, PassName, PassSize, Project, Region, Sampler, SamplerRules,
-    Wrap,
+    Body, Channel, Filter, Group, Input, Origin, Pass, PassName, PassSize, Project, Region, SLOTS, Sampler,
+    SamplerRules, Wrap,
 };
 use eddy_texture::{Dimension, TexelFormat};
 
@@ -20,7 +20,7 @@ fn buffer(name: &str) -> Option<Channel> {
 }
 
 fn pass(id: PassName, channels: [Option<Channel>; 4]) -> Pass {
-    Pass { channels, ..Pass::new(id.clone(), source(&id)) }
+    Pass { bindings: channels.into(), ..Pass::new(id.clone(), source(&id)) }
 }
 
 fn source(id: &PassName) -> eddy_project::Source {
@@ -32,7 +32,7 @@ fn project(passes: Vec<Pass>) -> Project {
 }
 
 fn reads_all() -> PassFacts {
-    PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; 4], discards: false }
+    PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; SLOTS], discards: false }
 }
 
 fn plan(project: &Project) -> FramePlan {
@@ -284,7 +284,7 @@ fn with_scene() -> (Project, Vec<PassFacts>) {
     let id = PassName::buffer("scene");
     let mut scene = pass(id, Default::default());
     scene.settings.format = TexelFormat::Rgba8;
-    scene.settings.body = PassBody::Meshes(eddy_project::Geometry {
+    scene.body = Body::Meshes(eddy_project::Geometry {
         draws: Vec::new(),
         more_targets: vec![TexelFormat::Rgba16f],
         camera: Default::default(),
@@ -335,8 +335,8 @@ fn readers_of_any_target_follow_a_scene_that_was_drawn() {
 #[test]
 fn a_target_that_is_not_there_reads_as_nothing() {
     let (mut project, facts) = with_scene();
-    project.passes[1].channels[0] =
-        channel(Input::Pass { id: PassName::buffer("scene"), target: 3 }, Filter::Linear, Wrap::Clamp);
+    let fourth = channel(Input::Pass { id: PassName::buffer("scene"), target: 3 }, Filter::Linear, Wrap::Clamp);
+    project.passes[1].bindings.set(0, fourth);
     let plan = FramePlan::new(&project, &facts, &[], true);
     assert_eq!(plan.draws[1].reads[0].as_ref().unwrap().source, TexelSource::Nothing);
 }
@@ -432,11 +432,11 @@ fn frames_to_come_depend_on_what_leads_to_what_they_read() {
     assert_eq!(lasting(&project, &facts), [true, true, true, false]);
     facts[2].discards = false;
     // A reads what C left.
-    project.passes[0].channels[0] = buffer("C");
+    project.passes[0].bindings.set(0, buffer("C"));
     assert_eq!(lasting(&project, &facts), [true, true, true, false]);
     // Nothing is read of a frame before.
-    project.passes[0].channels[0] = None;
-    project.passes[1].channels[1] = None;
+    project.passes[0].bindings.set(0, None);
+    project.passes[1].bindings.set(1, None);
     assert_eq!(lasting(&project, &facts), [false; 4]);
 }
 

@@ -10,7 +10,7 @@ use eddy_glsl::{
 };
 use eddy_media as media;
 use eddy_project::{
-    self as project, Channel, Dialect, EditedTexts, PassSettings, Project, ProjectError, ShaderForm, Stage,
+    self as project, Bindings, Body, Dialect, EditedTexts, PassSettings, Project, ProjectError, ShaderForm, Stage,
 };
 use std::{
     collections::BTreeSet,
@@ -71,7 +71,7 @@ pub(crate) struct Program {
 /// The diagnostics of pictures and models, which are read again where a project names others.
 #[derive(Default)]
 struct Media {
-    of: Option<Vec<([Option<Channel>; 4], PassSettings)>>,
+    of: Option<Vec<(Bindings, PassSettings, Body)>>,
     said: Vec<Diagnostic>,
 }
 
@@ -230,14 +230,18 @@ impl Program {
     /// The pictures and models are others than those that were looked at last.
     pub fn has_unseen_media(&self) -> bool {
         let Some(project) = &self.project else { return false };
-        let now = project.passes.iter().map(|pass| (&pass.channels, &pass.settings));
-        self.media.of.as_ref().is_none_or(|of| !of.iter().map(|(c, s)| (c, s)).eq(now))
+        let now = project.passes.iter().map(|pass| (&pass.bindings, &pass.settings, &pass.body));
+        self.media.of.as_ref().is_none_or(|of| !of.iter().map(|(c, s, b)| (c, s, b)).eq(now))
     }
 
     /// Looks at pictures and models, which may take as long as they are large.
     pub fn look_at_media(&mut self) {
         let Some(project) = &self.project else { return };
-        let of = project.passes.iter().map(|pass| (pass.channels.clone(), pass.settings.clone())).collect();
+        let of = project
+            .passes
+            .iter()
+            .map(|pass| (pass.bindings.clone(), pass.settings.clone(), pass.body.clone()))
+            .collect();
         let said = media::diagnose(project);
         self.is_untold |= said != self.media.said;
         self.media = Media { of: Some(of), said };

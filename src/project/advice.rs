@@ -18,8 +18,7 @@ pub fn advice(project: &Project) -> Vec<Diagnostic> {
 fn unheard(project: &Project) -> Vec<Diagnostic> {
     let Some(sound) = project.sound() else { return Vec::new() };
     let mut warnings = Vec::new();
-    for (n, channel) in sound.channels.iter().enumerate() {
-        let Some(Channel { input, .. }) = channel else { continue };
+    for (n, Channel { input, .. }) in sound.bindings.iter() {
         let (why, hint) = match input.kind() {
             InputKind::Texture | InputKind::Cubemap => continue,
             InputKind::Volume => (
@@ -47,8 +46,8 @@ pub fn missing_pass(project: &Project, input: &Input) -> Option<PassName> {
 pub(super) fn unread(project: &Project, place: impl Fn(usize, usize) -> Option<Span>) -> Vec<Diagnostic> {
     let mut warnings = Vec::new();
     for (index, pass) in project.passes.iter().enumerate() {
-        for (n, channel) in pass.channels.iter().enumerate() {
-            let Some(missing) = channel.as_ref().and_then(|c| missing_pass(project, &c.input)) else { continue };
+        for (n, channel) in pass.bindings.iter() {
+            let Some(missing) = missing_pass(project, &channel.input) else { continue };
             let near = near_buffer(project, &missing);
             let near = near.map(|near| format!("; did you mean Buffer {near}?")).unwrap_or_default();
             let reads = format!(
@@ -84,8 +83,7 @@ pub(super) fn shared_samplers(project: &Project) -> Vec<Diagnostic> {
     let mut wraps: BTreeMap<&str, Vec<(String, Wrap)>> = BTreeMap::new();
     for pass in &project.passes {
         let mut filters: BTreeMap<&str, Vec<(String, Filter)>> = BTreeMap::new();
-        for (index, channel) in pass.channels.iter().enumerate() {
-            let Some(channel) = channel else { continue };
+        for (index, channel) in pass.bindings.iter() {
             let Some((id, 0)) = channel.input.target() else { continue };
             let Some(buffer) = id.buffer_name() else { continue };
             let place = format!("iChannel{index} of {}", pass.id.title());

@@ -15,7 +15,7 @@
 //! exist. A GLSL file of another name is a buffer where such a line names it.
 
 use super::{
-    Channel, Input, Origin, Pass, PassName, Project, Source,
+    Bindings, Channel, Input, Origin, Pass, PassName, Project, Source,
     advice::unread,
     directives::{self, DirectiveScope},
     file_names::{FileRole, role_of_file},
@@ -62,20 +62,22 @@ fn two_files(title: &str, first: &str, second: &str) -> Diagnostic {
 pub fn declare_channels(project: &mut Project) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     let passes = directives::files_of_passes(project);
-    let buffers: [Option<Channel>; 4] = ["A", "B", "C", "D"].map(|name| {
-        let id = PassName::buffer(name);
-        project.pass(&id).map(|_| Channel::new(Input::pass(id)))
-    });
+    let buffers: Bindings = ["A", "B", "C", "D"]
+        .map(|name| {
+            let id = PassName::buffer(name);
+            project.pass(&id).map(|_| Channel::new(Input::pass(id)))
+        })
+        .into();
     let mut places = Vec::new();
     for (i, pass) in project.passes.iter_mut().enumerate() {
         let default = if pass.id.is_picture() { buffers.clone() } else { Default::default() };
         let around = DirectiveScope { id: &pass.id, file: &pass.source.name, passes: &passes };
         let declared = directives::read(&pass.source.text, Project::pass_id(i), around, &default);
         diagnostics.extend(declared.diagnostics);
-        pass.channels = declared.channels.unwrap_or(default);
+        pass.bindings = declared.channels.unwrap_or(default);
         places.push(declared.places);
     }
-    diagnostics.extend(unread(project, |pass, n| places[pass][n]));
+    diagnostics.extend(unread(project, |pass, n| places[pass].get(&n).copied()));
     diagnostics
 }
 
@@ -140,11 +142,11 @@ mod tests {
         assert_eq!(diagnostics, []);
         let keys: Vec<&str> = project.passes.iter().map(|p| p.id.key()).collect();
         assert_eq!(keys, ["buffer_a", "buffer_c", "buffer_zoom", "image", "sound"]);
-        let image = &project.image().unwrap().channels;
-        assert_eq!(image[0].as_ref().unwrap().input, Input::buffer("A"));
-        assert_eq!(image[1], None);
-        assert_eq!(image[2].as_ref().unwrap().input, Input::buffer("C"));
-        assert_eq!(project.sound().unwrap().channels, <[Option<Channel>; 4]>::default());
+        let image = &project.image().unwrap().bindings;
+        assert_eq!(image.get(0).unwrap().input, Input::buffer("A"));
+        assert_eq!(image.get(1), None);
+        assert_eq!(image.get(2).unwrap().input, Input::buffer("C"));
+        assert!(project.sound().unwrap().bindings.is_empty());
     }
 
     #[test]

@@ -308,8 +308,8 @@ mod tests {
 
     fn project(channel: &Channel) -> Project {
         let source = Source { name: "image.glsl".into(), path: None, text: "".into() };
-        let channels = [Some(channel.clone()), None, None, None];
-        Project::new("p", vec![Pass { channels, ..Pass::new(PassName::image(), source) }], Origin::Unsaved)
+        let bindings = [Some(channel.clone())].into();
+        Project::new("p", vec![Pass { bindings, ..Pass::new(PassName::image(), source) }], Origin::Unsaved)
     }
 
     /// An input of a kind.
@@ -322,7 +322,7 @@ mod tests {
     }
 
     fn read(project: &Project) -> Option<Channel> {
-        project.image()?.channels[0].clone()
+        project.image()?.bindings.get(0).cloned()
     }
 
     #[test]

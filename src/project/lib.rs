@@ -5,6 +5,8 @@
 
 mod advice;
 mod atomic;
+mod bindings;
+mod body;
 mod condition;
 pub mod confine;
 mod controls;
@@ -54,6 +56,8 @@ pub mod xscreensaver;
 
 pub use advice::{advice, missing_pass};
 pub use atomic::{Staged, rename_temporary, write_with};
+pub use bindings::{Bindings, SLOTS};
+pub use body::Body;
 pub use condition::{Condition, ConditionError, Operator, Term};
 pub use confine::FileError;
 pub use controls::{ControlAddress, ControlBindings, ControlTarget, is_osc_path};
@@ -95,7 +99,7 @@ pub use pass_name::PassName;
 pub use picked::{at_home, bring_home};
 pub use role::{Role, RoleRow};
 pub use save::{name_at, remove_renamed, save};
-pub use settings::{Group, PassBody, PassSettings, PassSize, Region};
+pub use settings::{Group, PassSettings, PassSize, Region};
 pub use snapshot::{SnapshotError, read_snapshot, write_snapshot};
 pub use source::{Included, Source};
 pub use source_ids::TextLocation;

@@ -1,10 +1,11 @@
 //! A project as pure data: passes in their drawing order, what each channel reads, and where the texts came from.
 
 use super::{
-    ControlBindings, CustomUniformValues, Dialect, Group, Included, Input, PassName, PassSettings, Source, ghostty,
+    Bindings, Body, ControlBindings, CustomUniformValues, Dialect, Group, Included, Input, PassName, PassSettings,
+    PassSize, Source, ghostty,
 };
 use eddy_texture::{Dimension, Face, TexelFormat};
-use std::{collections::BTreeSet, path::PathBuf};
+use std::{borrow::Cow, collections::BTreeSet, path::PathBuf};
 
 /// All that the author wrote: enough to compile, plan and draw, and to write it back unchanged.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,20 +67,27 @@ pub enum Origin {
 pub struct Pass {
     pub id: PassName,
     pub source: Source,
-    /// `iChannel0..3`; `None` reads as a 2D texture that is opaque black and of size 0.
-    pub channels: [Option<Channel>; 4],
+    /// The inputs of its channels.
+    pub bindings: Bindings,
     pub settings: PassSettings,
+    pub body: Body,
 }
 
 impl Pass {
     /// Returns a pass that reads nothing and is drawn as on the site.
     pub fn new(id: PassName, source: Source) -> Pass {
-        Pass { id, source, channels: Default::default(), settings: Default::default() }
+        Pass { id, source, bindings: Default::default(), settings: Default::default(), body: Body::Screen }
     }
 
     /// Returns the format of each of its targets.
     pub fn formats(&self) -> Vec<TexelFormat> {
-        self.id.formats(&self.settings)
+        let formats = || [self.settings.format].into_iter().chain(self.body.more_targets().iter().copied()).collect();
+        self.id.row().format.map_or_else(formats, |format| vec![format])
+    }
+
+    /// Returns the size of its targets.
+    pub fn size(&self) -> PassSize {
+        if self.settings.size == PassSize::Canvas { self.id.row().size } else { self.settings.size }
     }
 
     /// Returns how many pictures it draws: its targets, or the faces of a cubemap.
@@ -222,7 +230,7 @@ impl Project {
     pub fn stateful_passes(&self) -> BTreeSet<PassName> {
         let passes = &self.passes;
         let read = |index: usize| {
-            passes[index].channels.iter().flatten().filter_map(|channel| {
+            passes[index].bindings.channels().filter_map(|channel| {
                 let (id, _) = channel.input.target()?;
                 passes.iter().position(|p| p.id == *id)
             })
@@ -256,7 +264,7 @@ impl Project {
         Project::new(name, vec![Pass::new(id, source)], Origin::Unsaved)
     }
 
-    /// The pass whose picture is shown.
+    /// The pass whose picture the window shows.
     pub fn image(&self) -> Option<&Pass> {
         self.passes.iter().find(|p| p.id.is_image())
     }
@@ -275,7 +283,8 @@ impl Project {
         self.passes.iter().find(|p| p.id.is_sound())
     }
 
-    /// Returns Image, and another pass that the project has: what is drawn where that one is shown.
+    /// Returns Image and `shown`, each once: what is drawn while `shown` is looked at. A pass that the project lacks is left
+    /// out.
     pub fn image_and(&self, shown: &PassName) -> Vec<PassName> {
         let other = Some(shown).filter(|pass| !pass.is_image() && self.pass(pass).is_some());
         [PassName::image()].into_iter().chain(other.cloned()).collect()
@@ -283,6 +292,12 @@ impl Project {
 
     pub fn pass(&self, id: &PassName) -> Option<&Pass> {
         self.passes.iter().find(|p| p.id == *id)
+    }
+
+    /// The pass of a name. Where the project lacks it, a pass with default settings and no text: channels read zeros of it.
+    pub fn pass_or_empty(&self, id: &PassName) -> Cow<'_, Pass> {
+        let empty = || Pass::new(id.clone(), Source { name: id.title(), path: None, text: "".into() });
+        self.pass(id).map_or_else(|| Cow::Owned(empty()), Cow::Borrowed)
     }
 
     pub fn pass_mut(&mut self, id: &PassName) -> Option<&mut Pass> {
@@ -352,9 +367,7 @@ impl Tab {
 impl Project {
     /// Every stage that lies in a file of its own, with the index of its pass.
     pub fn stages(&self) -> impl Iterator<Item = (usize, &Source)> {
-        self.passes.iter().enumerate().flat_map(|(index, pass)| {
-            pass.settings.meshes().into_iter().flat_map(|g| &g.stages).map(move |s| (index, s))
-        })
+        self.passes.iter().enumerate().flat_map(|(index, pass)| pass.body.stages().iter().map(move |s| (index, s)))
     }
 
     /// Every text that the project itself names: Common, the passes', the stages'. What these include is in
@@ -368,7 +381,7 @@ impl Project {
         let mut all: Vec<&mut Source> = self.common.iter_mut().collect();
         for pass in &mut self.passes {
             all.push(&mut pass.source);
-            all.extend(pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.stages));
+            all.extend(pass.body.stages_mut());
         }
         all
     }
@@ -416,7 +429,7 @@ impl Project {
         match tab {
             Tab::Common => self.common.as_ref(),
             Tab::Pass(id) => self.pass(id).map(|p| &p.source),
-            Tab::Stage(id, file) => self.pass(id)?.settings.meshes()?.stages.iter().find(|s| s.name == *file),
+            Tab::Stage(id, file) => self.pass(id)?.body.stages().iter().find(|s| s.name == *file),
             Tab::Included(file) => self.readable_includes().find(|s| s.name == *file),
         }
     }
@@ -425,9 +438,7 @@ impl Project {
         match tab {
             Tab::Common => self.common.as_mut(),
             Tab::Pass(id) => self.pass_mut(id).map(|p| &mut p.source),
-            Tab::Stage(id, file) => {
-                self.pass_mut(id)?.settings.meshes_mut()?.stages.iter_mut().find(|s| s.name == *file)
-            }
+            Tab::Stage(id, file) => self.pass_mut(id)?.body.stages_mut().iter_mut().find(|s| s.name == *file),
             Tab::Included(file) => {
                 let included = self.includes.iter_mut().find(|i| i.trouble.is_none() && i.source.name == *file);
                 included.map(|i| &mut i.source)
@@ -456,7 +467,7 @@ impl Project {
         ids.sort_by(PassName::drawing_order);
         let mut tabs: Vec<Tab> = self.common.iter().map(|_| Tab::Common).collect();
         for id in ids {
-            let stages = self.pass(&id).and_then(|p| p.settings.meshes()).map_or(&[][..], |g| &g.stages);
+            let stages = self.pass(&id).map_or(&[][..], |p| p.body.stages());
             tabs.push(Tab::Pass(id.clone()));
             tabs.extend(stages.iter().map(|s| Tab::Stage(id.clone(), s.name.clone())));
         }

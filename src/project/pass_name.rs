@@ -1,12 +1,11 @@
 //! The names of passes, and the two orders in which they are listed.
 
-use super::{PassSettings, PassSize, Role, RoleRow, limits};
-use eddy_texture::{Dimension, TexelFormat};
+use super::{Role, RoleRow, limits};
+use eddy_texture::Dimension;
 use std::{cmp::Ordering, fmt, sync::Arc};
 
-/// Names a pass. Within a project every name is there once: it is what channels, settings, files and commands call the
-/// pass. The name says the role too, as files' names do, so a name alone is enough to read a row of the table of roles.
-/// Cheap to clone.
+/// The name of a pass, unique in its project: channels, settings, files and commands refer to a pass by it. As in file
+/// names, the role is part of the name. Cheap to clone.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct PassName {
     role: Role,
@@ -33,7 +32,7 @@ impl PassName {
         PassName::new(Role::Buffer, name.as_ref())
     }
 
-    /// The pass of a role; `own` is empty where a project has only one.
+    /// A pass of a role. `own` is what tells passes of this role apart; empty where a project has only one.
     pub(crate) fn new(role: Role, own: &str) -> PassName {
         PassName { role, key: format!("{}{}", role.row().key, own.to_lowercase()).into() }
     }
@@ -101,16 +100,6 @@ impl PassName {
     /// Returns whether channels of a picture can read it.
     pub fn is_readable(&self) -> bool {
         self.row().input.is_some()
-    }
-
-    /// Returns the format of each of its targets.
-    pub fn formats(&self, settings: &PassSettings) -> Vec<TexelFormat> {
-        self.row().format.map_or_else(|| settings.formats(), |format| vec![format])
-    }
-
-    /// Returns the size of its targets.
-    pub fn size(&self, settings: &PassSettings) -> PassSize {
-        if settings.size == PassSize::Canvas { self.row().size } else { settings.size }
     }
 
     /// Compares by when in a frame passes are drawn. All buffers are equal: a stable sort leaves them in the project's

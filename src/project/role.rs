@@ -3,7 +3,7 @@
 use super::{InputKind, PassName, PassSize};
 use eddy_texture::{Dimension, TexelFormat};
 
-/// What a pass is for. What is known of each role is in its [`RoleRow`].
+/// The purpose of a pass. Everything that is known of a role is in its [`RoleRow`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Role {
     Buffer,

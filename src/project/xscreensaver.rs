@@ -5,8 +5,7 @@
 //! every program is what program N drew; nothing else can be read, and not what a program itself drew before.
 
 use super::{
-    Filter, InputKind, PassBody, PassName, Project, Wrap, custom_uniforms, includes, lines::hash_lines,
-    words::find_word,
+    Filter, InputKind, PassName, Project, Wrap, custom_uniforms, includes, lines::hash_lines, words::find_word,
 };
 use eddy_diag::{Diagnostic, Severity, Span};
 
@@ -36,7 +35,7 @@ pub fn advice(project: &Project) -> Vec<Diagnostic> {
             continue;
         }
         let settings = &pass.settings;
-        let is_plain = matches!(settings.body, PassBody::Screen)
+        let is_plain = pass.body.is_screen()
             && settings.size == Default::default()
             && settings.region.is_none()
             && settings.initial.is_none()
@@ -46,8 +45,7 @@ pub fn advice(project: &Project) -> Vec<Diagnostic> {
             found.push(Diagnostic::error(None, message).hint("draw the whole picture, and no meshes"));
         }
         let own = buffers.iter().position(|id| **id == pass.id).unwrap_or(buffers.len());
-        for (n, channel) in pass.channels.iter().enumerate() {
-            let Some(channel) = channel else { continue };
+        for (n, channel) in pass.bindings.iter() {
             let of = channel.input.target().and_then(|(id, _)| buffers.iter().position(|known| *known == id));
             let (message, hint) = match of {
                 None => {
@@ -123,7 +121,7 @@ mod tests {
     fn pass(id: PassName, reads: &[(usize, Input)], text: &str) -> Pass {
         let mut pass = Pass::new(id.clone(), Source { name: id.title(), path: None, text: text.into() });
         for (n, input) in reads {
-            pass.channels[*n] = Some(Channel::new(input.clone()));
+            pass.bindings.set(*n, Some(Channel::new(input.clone())));
         }
         pass
     }

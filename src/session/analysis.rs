@@ -56,7 +56,7 @@ impl Texts {
             && mine.iter().zip(&theirs).all(|(a, b)| Arc::ptr_eq(a, b))
             && self.pass().id == other.pass().id
             && self.stage == other.stage
-            && self.pass().settings.body == other.pass().settings.body
+            && self.pass().body == other.pass().body
             && engine::channel_kinds(self.pass()) == engine::channel_kinds(other.pass())
     }
 
@@ -191,7 +191,7 @@ impl Session {
             Some(id) => place(id)?,
             None => place(&self.analyst.pass).or_else(|| place(&PassName::image()))?,
         };
-        let stages = project.passes[index].settings.meshes().map_or(&[][..], |g| &g.stages);
+        let stages = project.passes[index].body.stages();
         let file = match user {
             Tab::Stage(_, file) => Some(file),
             _ => None,
@@ -204,7 +204,7 @@ impl Session {
         if let Some((index, stage)) = self.read_with(&tab).filter(|_| tab != Tab::Common) {
             let pass = &self.documents.current().passes[index];
             self.analyst.pass = pass.id.clone();
-            let stages = pass.settings.meshes().map_or(&[][..], |g| &g.stages);
+            let stages = pass.body.stages();
             self.analyst.stage = match stage {
                 Stage::Own => None,
                 Stage::File(n) => stages.get(n).map(|s| s.name.clone()),
@@ -224,7 +224,7 @@ impl Session {
         if project.passes.is_empty() {
             return;
         }
-        let stages = project.passes[index].settings.meshes().map_or(&[][..], |g| &g.stages);
+        let stages = project.passes[index].body.stages();
         let file = self.analyst.stage.as_ref();
         let stage = stages.iter().position(|s| Some(&s.name) == file).map_or(Stage::Own, Stage::File);
         let texts = Texts::of(project, index, stage);

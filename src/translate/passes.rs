@@ -7,8 +7,7 @@ use eddy_engine::{CompiledPass, CompiledProgram, Sources};
 use eddy_glsl::{ClipSpace, Compiled, PassSource, PlainOptions, interface};
 use eddy_graph::{Draw, FramePlan, PassFacts, Read, ReadTiming, Target, TexelSource};
 use eddy_project::{
-    Channel, CustomUniformValue, FillKind, Filter, Input, Media, Pass, PassBody, PassName, PassSize, Project, Stage,
-    Tab, Wrap,
+    Channel, CustomUniformValue, FillKind, Filter, Input, Media, Pass, PassName, PassSize, Project, Tab, Wrap,
 };
 use eddy_texture::Dimension;
 
@@ -115,8 +114,9 @@ impl Compilation {
 
 /// Returns the sound pass with the channels that it can read.
 fn heard(pass: &Pass) -> Pass {
-    let is_heard = |channel: &Channel| channel.input.kind().is_in_sound();
-    Pass { channels: pass.channels.clone().map(|channel| channel.filter(is_heard)), ..pass.clone() }
+    let mut pass = pass.clone();
+    pass.bindings.retain(|channel| channel.input.kind().is_in_sound());
+    pass
 }
 
 /// Gathers files and refusals.
@@ -149,10 +149,9 @@ impl<'a> Writer<'a> {
         let (index, compiled, fills) = &all.passes[draw.pass];
         let key = pass.id.key();
         let place = self.place(*index, pass);
-        let meshes = pass.settings.meshes();
         let programs = compiled.programs().iter().enumerate().map(|(n, program)| {
-            let stem = if meshes.is_some() { format!("{key}.{n}") } else { key.to_owned() };
-            let mesh = meshes.and_then(|geometry| geometry.draws.get(n)).map(|draw| MeshInfo {
+            let stem = if pass.body.is_screen() { key.to_owned() } else { format!("{key}.{n}") };
+            let mesh = pass.body.draws().get(n).map(|draw| MeshInfo {
                 mesh: draw.mesh.name(),
                 cull: draw.cull.name(),
                 front_face: self.language.front_face(),
@@ -167,7 +166,7 @@ impl<'a> Writer<'a> {
         });
         let programs = programs.collect();
         let reads = draw.reads.iter().enumerate().filter_map(|(channel, read)| Some((channel, read.as_ref()?)));
-        let channels = reads.map(|(n, read)| channel(n, read, pass.channels[n].as_ref(), first_target)).collect();
+        let channels = reads.map(|(n, read)| channel(n, read, pass.bindings.get(n), first_target)).collect();
         let mut filled = Vec::new();
         for (kind, fill) in FillKind::ALL.into_iter().zip(fills) {
             let (Some(compiled), Some(own)) = (fill, pass.fill(kind)) else { continue };
@@ -183,7 +182,7 @@ impl<'a> Writer<'a> {
                 program: self.program(&format!("{key}.{name}"), program, &place),
             });
         }
-        let camera = meshes.map(|geometry| geometry.camera).map(|c| CameraInfo {
+        let camera = pass.body.geometry().map(|geometry| geometry.camera).map(|c| CameraInfo {
             yaw: c.yaw,
             pitch: c.pitch,
             distance: c.distance,
@@ -208,11 +207,7 @@ impl<'a> Writer<'a> {
 
     /// Returns where the texts of a pass are: its own, those of its stages, Common, and all others.
     fn place(&self, index: usize, pass: &Pass) -> PassTexts<'a> {
-        let own = match &pass.settings.body {
-            PassBody::Screen => vec![Stage::Own],
-            PassBody::Meshes(geometry) => geometry.draws.iter().flat_map(|d| [d.vertex, d.fragment]).collect(),
-        };
-        let own = own.into_iter().map(|stage| self.project.stage_id(index, stage));
+        let own = pass.body.drawn_stages().into_iter().map(|stage| self.project.stage_id(index, stage));
         let all = (0..=u16::MAX).map(SourceId).take_while(|id| self.sources.get(*id).is_some());
         let included = all.filter(|id| matches!(self.project.tab_of(*id), Some(Tab::Included(_))));
         let mut seen = HashSet::new();

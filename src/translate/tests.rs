@@ -15,12 +15,12 @@ fn feedback() -> Project {
         a.clone(),
         "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + iTimeDelta; }",
     );
-    buffer.channels[0] = Some(Channel::new(Input::Pass { id: a.clone(), target: 0 }));
+    buffer.bindings.set(0, Some(Channel::new(Input::Pass { id: a.clone(), target: 0 })));
     let mut image = pass(
         PassName::image(),
         "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel1, p / iResolution.xy) * iTime; }",
     );
-    image.channels[1] = Some(Channel::new(Input::Pass { id: a, target: 0 }));
+    image.bindings.set(1, Some(Channel::new(Input::Pass { id: a, target: 0 })));
     eddy_project::Project { passes: vec![buffer, image], ..Project::of_image("feedback".into(), String::new()) }
 }
 

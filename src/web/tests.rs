@@ -130,8 +130,7 @@ fn errors_of_the_author_are_told_and_nothing_is_written() {
 fn textures_are_in_the_page_once() {
     let noise = || Some(Channel::new(Input::texture(Media::Builtin("noise-rgba-64".into()))));
     let text = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p) + texture(iChannel1, p); }";
-    let image =
-        Pass { channels: [noise(), noise(), None, None], ..Pass::new(PassName::image(), source("Image", text)) };
+    let image = Pass { bindings: [noise(), noise()].into(), ..Pass::new(PassName::image(), source("Image", text)) };
     let page = exported(&Project::new("p", vec![image], Origin::Unsaved));
     let data = description(&page.html);
     assert_eq!(data["media"].as_array().unwrap().len(), 1);
@@ -147,7 +146,7 @@ fn what_is_not_there_is_a_warning_and_black() {
         media: Media::Picked("/nowhere/a.mkv".into()),
     }));
     let text = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p); }";
-    let image = Pass { channels: [video, None, None, None], ..Pass::new(PassName::image(), source("Image", text)) };
+    let image = Pass { bindings: [video].into(), ..Pass::new(PassName::image(), source("Image", text)) };
     let page = exported(&Project::new("p", vec![image], Origin::Unsaved));
     assert!(page.diagnostics.iter().any(|d| d.message.starts_with("iChannel0 of Image: ")), "{:?}", page.diagnostics);
     assert_eq!(description(&page.html)["passes"][0]["channels"][0]["in"], "none");

@@ -178,7 +178,7 @@ fn open(path: &Path, gpu: Option<&Gpu>, tally: &mut Tally) {
     tally.opened += 1;
     tally.whole += u64::from(errors.is_empty() && warnings.is_empty());
     // Frames behind the first, which a video has decoded when it is loaded.
-    let channels = project.passes.iter().flat_map(|pass| &pass.channels).flatten();
+    let channels = project.passes.iter().flat_map(|pass| pass.bindings.channels());
     for video in channels.filter_map(|channel| media.video(channel.input.media()?)) {
         let _ = video.frame_at(0.2, Pace::Exact);
     }

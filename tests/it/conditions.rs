@@ -143,7 +143,7 @@ fn frames_that_are_drawn_again_are_the_same() {
 fn a_project_without_state_stays_one() {
     let Some(gpu) = gpu() else { return };
     let mut project = counting();
-    project.passes[0].channels = Default::default();
+    project.passes[0].bindings = Default::default();
     let engine = engine(&gpu, &project, (4, 3));
     assert_eq!((engine.passes_with_state(), engine.checkpoint_bytes()), (vec![], 0));
 }

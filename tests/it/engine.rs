@@ -38,14 +38,25 @@ fn truth_table_of_reads_by_pictures() {
 }
 
 #[test]
+fn a_slot_that_the_language_lacks_is_an_error_that_names_the_pass() {
+    let mut image = image("void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }", Default::default());
+    image.bindings.set(3, nearest("A"));
+    image.bindings.set(7, nearest("A"));
+    let project = project(vec![image]);
+    let found = eddy::engine::Sources::new(&project).diagnostics;
+    let messages: Vec<&str> = found.iter().filter(|d| d.is_error()).map(|d| d.message.as_str()).collect();
+    assert_eq!(messages, ["Image has an input for iChannel7, which its language does not have"]);
+}
+
+#[test]
 fn discard_shows_what_a_buffer_held_two_frames_ago_and_image_one_frame_ago() {
     let Some(gpu) = gpu() else { return };
     let code =
         "void mainImage(out vec4 o, in vec2 p) { if (iFrame == 4) discard; o = vec4(float(iFrame), 7.0, 7.0, 7.0); }";
-    let show = image(code, [nearest("A"), None, None, None]);
     let also = "void mainImage(out vec4 o, in vec2 p) { if (iFrame == 4) discard; o = vec4(float(iFrame) + \
                 texelFetch(iChannel0, ivec2(0), 0).y); }";
-    let project = project(vec![pass(buffer("A"), code, Default::default()), image(also, show.channels.clone())]);
+    let project =
+        project(vec![pass(buffer("A"), code, Default::default()), image(also, [nearest("A"), None, None, None])]);
     let mut engine = ran(&gpu, &project, (1, 1), 5);
     assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 0, 0)[0], 2.0);
     assert_eq!(texel(&engine.read_image().unwrap(), 0, 0)[0], 10.0);
@@ -369,8 +380,8 @@ fn buffers_keep_their_texels_through_edits_of_their_shape() {
     // Mips on and off, and a doubled buffer that becomes single.
     for (drawn, change) in (3..).zip(["mips", "none", "no mips", "single"]) {
         match change {
-            "mips" => project.passes[1].channels[0] = a(Filter::Mipmap),
-            "no mips" => project.passes[1].channels[0] = a(Filter::Nearest),
+            "mips" => project.passes[1].bindings.set(0, a(Filter::Mipmap)),
+            "no mips" => project.passes[1].bindings.set(0, a(Filter::Nearest)),
             "single" => edit(&mut project, &buffer("A"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(9.0); }"),
             _ => {}
         }

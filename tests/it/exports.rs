@@ -133,13 +133,13 @@ fn settings_pictures_and_further_buffers_are_named() {
     let buffer = project.passes.iter_mut().find(|pass| pass.id == PassName::buffer("A")).unwrap();
     buffer.settings.size = project::PassSize::Scale(0.5);
     buffer.settings.format = project::TexelFormat::Rgba16f;
-    let mut channel = buffer.channels[0].clone().unwrap();
+    let mut channel = buffer.bindings.get(0).cloned().unwrap();
     channel.input = project::Input::texture(project::Media::File("rock.png".into()));
-    buffer.channels[1] = Some(channel);
+    buffer.bindings.set(1, Some(channel));
     let mut further = buffer.clone();
     further.id = PassName::buffer("velocity");
     further.settings = Default::default();
-    further.channels = Default::default();
+    further.bindings = Default::default();
     project.passes.insert(0, further);
     let said = project::json_losses(&project).join("\n");
     for sentence in [

@@ -208,7 +208,7 @@ fn a_stage_reads_channels_uniforms_custom_uniforms_and_tables() {
         }";
     let a = pass(buffer("A"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(7.0); }", Default::default());
     let mut scene = scene(fragment, &[vertex], 1, straight(), vec![draw("builtin:cube")]);
-    scene.channels[0] = nearest("A");
+    scene.bindings.set(0, nearest("A"));
     let project = project(vec![a, scene, image(SUM, [target(0), None, None, None])]);
     let mut engine = ran(&gpu, &project, (4, 4), 1);
     assert_eq!(texel(&engine.read_target(&buffer("scene"), 0).unwrap(), 1, 2), [7.0, 6.0, 402.0, 111.25]);

@@ -71,7 +71,7 @@ fn every_method_saved_as_a_project_draws_what_was_measured() {
             let mut running = rig.open(&setup).unwrap();
             running.frames(FRAMES as u32).unwrap();
             let name = pass.key();
-            let measured = running.read(name.strip_prefix("buffer_").unwrap_or(&name)).unwrap().texels().to_vec();
+            let measured = running.read(name.strip_prefix("buffer_").unwrap_or(name)).unwrap().texels().to_vec();
             let bits = |texels: &[[f32; 4]]| -> Vec<u32> { texels.iter().flatten().map(|v| v.to_bits()).collect() };
             assert!(bits(&drawn(&mut engines, &opened, size, &pass)) == bits(&measured), "as opened: {point:?}");
             assert!(bits(&drawn(&mut engines, &loaded.project, size, &pass)) == bits(&measured), "as saved: {point:?}");

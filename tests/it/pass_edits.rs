@@ -124,7 +124,7 @@ fn channels_and_dragged_numbers_are_taken_back_in_whole_steps() {
     stage.session.apply(Command::SetChannel { pass: PassName::image(), index: 0, channel: None });
     stage.session.apply(Command::UndoPassEdit);
     let image = stage.session.project().image().unwrap();
-    assert_eq!(image.channels[0].as_ref().unwrap().input, Input::buffer("A"));
+    assert_eq!(image.bindings.get(0).unwrap().input, Input::buffer("A"));
     stage.session.apply(Command::UndoPassEdit);
     assert_eq!(*stage.session.project(), before, "one drag is one step");
     assert!(stage.session.pass_undo().is_none());
@@ -145,7 +145,7 @@ fn a_model_from_elsewhere_is_saved_with_the_project() {
     stage.session.apply(Command::Bring { paths: vec![file.clone()], to });
     let draws = |stage: &Stage| {
         let pass = stage.session.project().pass(&buffer("model")).unwrap().clone();
-        pass.settings.meshes().unwrap().draws[0].mesh.clone()
+        pass.body.geometry().unwrap().draws[0].mesh.clone()
     };
     assert_eq!(draws(&stage), MeshSource::Picked(file));
     stage.compile(Command::CompileNow);

@@ -102,7 +102,7 @@ fn accurate(custom_uniforms: &[&str], initial: &str) -> Project {
     project.passes.retain(|p| !["dye", "sums_64", "sums_8", "ledger"].map(buffer).contains(&p.id));
     let image = project.image_mut().unwrap();
     image.source.text = "void mainImage(out vec4 o, in vec2 c) { o = texelFetch(iChannel0, ivec2(c) / 2, 0); }".into();
-    image.channels[0] = nearest("velocity");
+    image.bindings.set(0, nearest("velocity"));
     project
 }
 

@@ -13,7 +13,7 @@ use eddy::{
 fn fluid_in_one_pass(custom_uniforms: &[&str], steps: u32) -> Project {
     let mut project = preset_with("fluid", custom_uniforms);
     project.passes.retain(|p| p.id == buffer("A") || p.id.is_image());
-    project.pass_mut(&buffer("A")).unwrap().channels[0] = nearest("A");
+    project.pass_mut(&buffer("A")).unwrap().bindings.set(0, nearest("A"));
     project.groups.push(Group { name: "solver".into(), passes: vec![buffer("A")], steps });
     project
 }

@@ -107,7 +107,7 @@ fn three_chained_sub_steps_are_three_steps_of_one_pass() {
     let chain = preset("fluid");
     let mut single = chain.clone();
     single.passes.retain(|p| p.id == buffer("A") || p.id.is_image());
-    single.pass_mut(&buffer("A")).unwrap().channels[0] = nearest("A");
+    single.pass_mut(&buffer("A")).unwrap().bindings.set(0, nearest("A"));
     let (mut chain, mut single) = (whole(&gpu, &chain, true, (48, 27)), whole(&gpu, &single, true, (48, 27)));
     for frame in 0..40 {
         chain.draw(&drag(frame)).unwrap();

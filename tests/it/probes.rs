@@ -12,7 +12,7 @@ use eddy::{
     engine::{BuildError, BuildOptions, Builder, Engine, FrameInputs, Program, Sources},
     glsl::Probe,
     media,
-    project::{Boundary, Fill, Group, PassBody, PassName, Project, Region, TexelFormat, presets as all_presets},
+    project::{Boundary, Fill, Group, PassName, Project, Region, TexelFormat, presets as all_presets},
 };
 
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
@@ -105,8 +105,7 @@ fn a_probe_of_any_buffer_of_the_presets_changes_no_texel() {
         let mut texts: Vec<&str> = Vec::new();
         for (index, pass) in project.passes.iter().enumerate() {
             let text = &*pass.source.text;
-            if pass.id.is_image() || !pass.id.is_picture() || pass.settings.meshes().is_some() || texts.contains(&text)
-            {
+            if pass.id.is_image() || !pass.id.is_picture() || !pass.body.is_screen() || texts.contains(&text) {
                 continue;
             }
             texts.push(text);
@@ -166,7 +165,7 @@ fn no_value_where_nothing_is_drawn() {
 fn a_pass_of_meshes_is_not_probed() {
     let Some(gpu) = gpu() else { return };
     let project = all_presets::load("ssao").unwrap().project;
-    let pass = project.passes.iter().find(|p| matches!(p.settings.body, PassBody::Meshes(_))).unwrap().id.clone();
+    let pass = project.passes.iter().find(|p| !p.body.is_screen()).unwrap().id.clone();
     let probe = Some((pass, Probe { source: Project::COMMON_ID, at: 0, visit: 0 }));
     let options = BuildOptions { wanted: vec![BuildOptions::probed()], probe, ..Default::default() };
     let (media, _) = media::gather(&project, None);

@@ -214,7 +214,7 @@ fn eddy_toml_reloads_passes_and_channels_and_time_goes_on() {
     );
     stage.until("the new pass", |s| s.project().passes.len() == 2);
     assert_eq!(stage.session.project().name, "Two");
-    assert!(stage.session.project().image().unwrap().channels[0].is_some());
+    assert!(stage.session.project().image().unwrap().bindings.get(0).is_some());
     stage.until_compiled();
     assert!(stage.session.transport().frame >= 3, "time goes on");
 
@@ -241,8 +241,8 @@ fn channels_changed_here_and_on_disk_ask() {
     let Some(Question::Conflict { tab: None, mine, disk, .. }) = stage.session.question() else { panic!() };
     assert!(mine.contains("keyboard") && disk.contains("noise-rgba-64"), "{mine}\n--\n{disk}");
     stage.session.apply(Command::Answer(Answer::TakeDisk));
-    let channels = &stage.session.project().image().unwrap().channels;
-    assert!(channels[0].is_none() && channels[1].is_some());
+    let channels = &stage.session.project().image().unwrap().bindings;
+    assert!(channels.get(0).is_none() && channels.get(1).is_some());
     assert!(stage.read("eddy.toml.mine-0001").contains("keyboard"));
     assert!(!stage.session.is_dirty());
 }

@@ -80,7 +80,7 @@ fn on_a_channel_it_is_a_picture_and_without_the_project_too() {
         stage.session.apply(Command::Bring { paths: vec![picture.clone()], to: Some((PassName::image(), channel)) });
     };
     bring(&mut stage, Some(2));
-    let channels = |stage: &Stage| stage.session.project().passes[0].channels.iter().flatten().count();
+    let channels = |stage: &Stage| stage.session.project().passes[0].bindings.channels().count();
     assert_eq!(channels(&stage), 1);
     // Unsaved work is asked about first.
     bring(&mut stage, None);

@@ -278,7 +278,7 @@ fn what_has_no_place_of_its_own_is_saved_where_the_user_says() {
     assert_eq!(stage.session.take_request(), Some(Request::Exit), "{:?}", stage.session.notices());
     let back = project::load(folder.to_str().unwrap()).unwrap().project;
     assert_eq!(&*back.source(&image_tab()).unwrap().text, plain(0.4));
-    assert_eq!(back.image().unwrap().channels[2], channel);
+    assert_eq!(back.image().unwrap().bindings.get(2), channel.as_ref());
     assert!(back.common.is_some());
 }
 
@@ -380,9 +380,9 @@ fn channel_lines_in_a_lone_file_count_as_they_are_typed() {
     stage.write("lone.glsl", plain(0.2));
     stage.session.apply(Command::Open(stage.path("lone.glsl").to_str().unwrap().into()));
     stage.session.apply(Command::Pause);
-    let channels = |stage: &Stage| stage.session.project().image().unwrap().channels.clone();
+    let channels = |stage: &Stage| stage.session.project().image().unwrap().bindings.clone();
     stage.edit(&format!("#iChannel1 \"keyboard\"\n{}", plain(0.4)));
-    assert!(matches!(&channels(&stage)[1], Some(c) if c.input == Input::KEYBOARD));
+    assert!(matches!(channels(&stage).get(1), Some(c) if c.input == Input::KEYBOARD));
     stage.compile(Command::CompileNow);
     assert!(stage.is_ok(), "{:?}", stage.session.diagnostics());
     stage.session.apply(Command::Save);
@@ -393,7 +393,7 @@ fn channel_lines_in_a_lone_file_count_as_they_are_typed() {
     let d = &stage.session.diagnostics()[0];
     assert_eq!((d.tab(), line(d)), (Some(&image_tab()), Some(1)), "{d:?}");
     stage.edit(&plain(0.4));
-    assert!(channels(&stage)[1].is_none());
+    assert!(channels(&stage).get(1).is_none());
 }
 
 /// A lone file has no place for a slider's value. Its code is written all the same, and once nothing but the value is left

@@ -132,7 +132,7 @@ fn a_sound_pass_reads_pictures_and_of_a_volume_the_size() {
     let about = |channel: &str| said.iter().any(|message| message.starts_with(&format!("{channel} of Sound is")));
     assert!(!about("iChannel0") && about("iChannel1") && about("iChannel2") && about("iChannel3"), "{said:?}");
     let samples = block(&mut engine_of(&gpu, &project, &media), 0);
-    let key = MediaKey::of_channel(project.passes[0].channels[0].as_ref().unwrap()).unwrap();
+    let key = MediaKey::of_channel(project.passes[0].bindings.get(0).unwrap()).unwrap();
     let texels = &media.get(&key).unwrap().bytes;
     for n in 0..4096usize {
         let wanted = quantised(f64::from(texels[4 * n]) / 255.0);

@@ -509,7 +509,7 @@ fn a_song_that_is_dropped_is_music_of_a_free_channel() {
     room.stage.session.apply(Command::Play);
     room.stage.session.apply(Command::Bring { paths: vec![elsewhere.clone()], to: Some((PassName::image(), None)) });
     room.stage.until("music", |session| session.output_view().is_some_and(|view| view.has_sound));
-    let channel = room.stage.session.project().image().unwrap().channels[1].clone().unwrap();
+    let channel = room.stage.session.project().image().unwrap().bindings.get(1).cloned().unwrap();
     assert_eq!(channel.input.kind(), InputKind::Music);
     assert_eq!(channel.input.media(), Some(&Media::Picked(elsewhere)));
     assert_eq!(room.stage.count("iChannel1 of Image reads tune.WAV"), 1);

@@ -15,7 +15,7 @@ use eddy::{
     engine::{BuildOptions, FrameInputs, PassInputs, Pixels, Sources},
     gpu::Gpu,
     media,
-    project::{self, Camera, Cull, DepthTest, MeshDraw, PassName, Project, Stage, TexelFormat},
+    project::{self, Camera, Cull, DepthTest, MeshDraw, Pass, PassName, Project, Stage, TexelFormat},
 };
 use std::sync::Arc;
 
@@ -229,8 +229,8 @@ fn the_mesh_passes_of_presets_are_walked_to_what_the_device_draws() {
     {
         let project = project::load(&format!("presets/{name}")).unwrap().project;
         for pass in passes.iter().map(|name| buffer(name)) {
-            let settings = &project.pass(&pass).unwrap().settings;
-            assert!(settings.meshes().is_some());
+            let Pass { body, settings, .. } = project.pass(&pass).unwrap();
+            assert!(!body.is_screen());
             for frame in [0, 31] {
                 let (read, device) = drawn(&gpu, &project, &pass, (160, 90), frame);
                 let tracer = tracer(&project, &pass, &read);

@@ -110,8 +110,8 @@ impl Traced {
         let (origin, entry) = (at.origin, at.inputs);
         let history = recorded.of(walked.into_walkable(origin));
         let device = drawn.texels.get((pixel.1 * drawn.width + pixel.0) as usize).copied().unwrap_or_default();
-        let settings = &project.passes[index].settings;
-        let draw = origin.draw().and_then(|draw| settings.meshes()?.draws.get(draw));
+        let body = &project.passes[index].body;
+        let draw = origin.draw().and_then(|draw| body.draws().get(draw));
         let text_id = project.stage_id(index, draw.map_or(Stage::Own, |draw| draw.fragment));
         Ok(Self {
             index,
@@ -155,7 +155,7 @@ impl Traced {
     /// meshes.
     pub fn mesh(&self) -> Option<(MeshFragment, String)> {
         let Origin::Mesh(fragment) = self.origin else { return None };
-        let draw = self.project.passes[self.index].settings.meshes()?.draws.get(fragment.draw)?;
+        let draw = self.project.passes[self.index].body.draws().get(fragment.draw)?;
         Some((fragment, draw.mesh.name()))
     }
 

@@ -4,6 +4,7 @@ use super::{LevelBy, MeshInputs, PassInputs, TextureCopy, texture::Level};
 use crate::{
     EngineError, external::External, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared,
 };
+use eddy_glsl::SLOTS;
 use eddy_gpu::{FloatConverter, Gpu, Readback, Texture};
 use eddy_graph::{ReadTiming, TexelSource};
 use eddy_media::Texels;
@@ -33,11 +34,11 @@ impl<'a> Capture<'a> {
     /// Reads everything that a draw reads. What was encoded before has been handed in.
     pub fn take(&mut self, running: &Running, shared: &Shared, index: usize) -> Result<(), EngineError> {
         let (compiled, draw) = (&running.program.draws[index], &running.program.plan.draws[index]);
-        let mut channels = [const { None }; 4];
+        let mut channels = [const { None }; SLOTS];
         for (channel, copy) in channels.iter_mut().enumerate() {
             *copy = Some(self.channel(running, shared, (compiled, index), channel)?);
         }
-        let meshes = compiled.body.meshes().map_or_else(Vec::new, |meshes| {
+        let meshes = compiled.body.geometry().map_or_else(Vec::new, |meshes| {
             let each = meshes.programs.iter().enumerate();
             let of = |(n, (_, placed)): (usize, &(_, PlacedMesh))| MeshInputs {
                 mesh: placed.mesh.clone(),

@@ -3,7 +3,7 @@
 use super::*;
 use crate::{ChannelFacts, PassFacts};
 use eddy_project::{
-    Channel, Filter, Group, Input, Origin, Pass, PassName, PassSettings, Project, Sampler, Source, Wrap,
+    Channel, Filter, Group, Input, Origin, Pass, PassName, PassSettings, Project, SLOTS, Sampler, Source, Wrap,
 };
 
 /// A buffer A that reads itself and B, a buffer B that reads nothing, and Image that reads A.
@@ -11,9 +11,9 @@ fn project() -> Project {
     let pass = |id: PassName, reads: &[&str]| {
         let source = Source { name: id.title(), path: None, text: "".into() };
         let mut pass = Pass::new(id, source);
-        for (channel, name) in pass.channels.iter_mut().zip(reads) {
+        for (slot, name) in reads.iter().enumerate() {
             let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true };
-            *channel = Some(Channel { input: Input::buffer(*name), sampler });
+            pass.bindings.set(slot, Some(Channel { input: Input::buffer(*name), sampler }));
         }
         pass
     };
@@ -23,7 +23,7 @@ fn project() -> Project {
 }
 
 fn plan(project: &Project) -> FramePlan {
-    let reads = PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: false }; 4], discards: false };
+    let reads = PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: false }; SLOTS], discards: false };
     FramePlan::new(project, &vec![reads; project.passes.len()], &[], true)
 }
 
@@ -103,8 +103,9 @@ fn bands_come_last_and_are_preceded_by_everything_that_later_frames_read() {
     assert!(!sound.ops.contains(&FrameOp::Present));
     // Where a pass reads the picture, it is drawn in one piece.
     let mut read = project();
-    read.passes[0].channels[2] = read.passes[2].channels[0].clone();
-    read.passes[0].channels[2].as_mut().unwrap().input = Input::pass(PassName::image());
+    let channel = read.passes[2].bindings.get(0).cloned();
+    read.passes[0].bindings.set(2, channel);
+    read.passes[0].bindings.get_mut(2).unwrap().input = Input::pass(PassName::image());
     let whole = Frames::of(plan(&read)).next(Purpose::Bands);
     assert!(whole.ops.contains(&FrameOp::Encode { draw: 2, layer: 0 }), "{:?}", whole.ops);
 }

@@ -41,7 +41,7 @@ pub fn choose(
         }
         for other in &session.project().passes {
             let Some(name) = other.id.buffer_name() else { continue };
-            for target in 0..other.settings.formats().len() {
+            for target in 0..other.formats().len() {
                 let input = Input::Pass { id: other.id.clone(), target };
                 let place = match target {
                     0 => format!("choose:buffer:{name}"),

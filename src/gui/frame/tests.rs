@@ -265,7 +265,7 @@ fn things(stage: &Stage) {
 
 fn reads(stage: &Stage, channel: usize) -> Option<Input> {
     let image = stage.session.project().image().unwrap();
-    image.channels[channel].as_ref().map(|channel| channel.input.clone())
+    image.bindings.get(channel).map(|channel| channel.input.clone())
 }
 
 const READS_SECOND: &str = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel2, vec2(0.5)); }";

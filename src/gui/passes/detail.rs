@@ -84,7 +84,7 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
             samplers(ui, project, &pass.id, out);
             ui.end_row();
         }
-        let can_be_filled = pass.settings.meshes().is_none();
+        let can_be_filled = !pass.body.is_cleared();
         if has("initial") && can_be_filled {
             ui.label("Initial state");
             fills::show(ui, pass, FillKind::Initial, &mut typed.initial, out);
@@ -96,7 +96,7 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
             ui.end_row();
         }
     });
-    let note = match pass.settings.meshes() {
+    let note = match pass.body.geometry() {
         Some(_) => "This pass draws meshes. Edit eddy.toml to change the meshes and the camera.",
         None => pass.id.row().note,
     };
@@ -282,11 +282,11 @@ fn format(ui: &mut Ui, pass: &Pass, out: &mut UiOutput) {
         let unit = if bytes == 1 { "byte" } else { "bytes" };
         ui.colored_label(theme::of(ui).weak, format!("{bytes} {unit} per texel"));
     });
-    let more = pass.settings.meshes().map_or(0, |g| g.more_targets.len());
-    if more > 0 {
+    let more = pass.body.more_targets();
+    if !more.is_empty() {
         ui.end_row();
         ui.label("");
-        let names: Vec<&str> = pass.settings.formats().iter().skip(1).map(|f| f.name()).collect();
+        let names: Vec<&str> = more.iter().map(|f| f.name()).collect();
         ui.colored_label(theme::of(ui).weak, format!("more targets: {}", names.join(", ")));
     }
 }
@@ -361,7 +361,7 @@ fn steps(ui: &mut Ui, project: &Project, pass: &Pass, out: &mut UiOutput) {
 
 /// The filter and the wrap of all channels that read a buffer.
 fn samplers(ui: &mut Ui, project: &Project, id: &PassName, out: &mut UiOutput) {
-    let channels = project.passes.iter().flat_map(|p| p.channels.iter().flatten());
+    let channels = project.passes.iter().flat_map(|p| p.bindings.channels());
     let readers: Vec<_> = channels.filter(|c| c.input.target().is_some_and(|(of, _)| of == id)).collect();
     if readers.is_empty() {
         ui.colored_label(theme::of(ui).weak, "no channel reads it");

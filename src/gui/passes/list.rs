@@ -138,7 +138,7 @@ fn note(pass: &Pass) -> String {
         PassSize::Scale(by) => parts.push(format!("{by:.3}").trim_end_matches('0').trim_end_matches('.').to_owned()),
         PassSize::Fixed(width, height) => parts.push(format!("{width}×{height}")),
     }
-    match pass.settings.formats().as_slice() {
+    match pass.formats().as_slice() {
         [one] if *one == Default::default() => {}
         [one] => parts.push(one.name().to_owned()),
         more => parts.push(format!("{} targets", more.len())),

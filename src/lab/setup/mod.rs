@@ -224,7 +224,7 @@ impl Setup {
             let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true };
             let Some(name) = id.buffer_name() else { return Err(lacks("a buffer to be given".into())) };
             pass.source.text = GIVEN.into();
-            pass.channels = [Some(Channel { input: Input::buffer(name), sampler }), None, None, None];
+            pass.bindings = [Some(Channel { input: Input::buffer(name), sampler })].into();
         }
         for Edit { pass, old, new } in &self.edits {
             let source = match pass {
@@ -322,9 +322,9 @@ pub(super) const PROBE: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4
 /// Makes every 32-bit float format of a buffer the 16-bit one of as many components. The picture itself is not stored
 /// between frames, and is shown in 8 bits.
 pub(super) fn halve(project: &mut Project) {
-    for settings in project.passes.iter_mut().filter(|p| !p.id.is_image()).map(|p| &mut p.settings) {
-        settings.format = half(settings.format);
-        let more = settings.meshes_mut().into_iter().flat_map(|g| &mut g.more_targets);
+    for pass in project.passes.iter_mut().filter(|p| !p.id.is_image()) {
+        pass.settings.format = half(pass.settings.format);
+        let more = pass.body.geometry_mut().into_iter().flat_map(|g| &mut g.more_targets);
         more.for_each(|format| *format = half(*format));
     }
 }

@@ -47,8 +47,9 @@ pub(super) fn pyramid(project: &mut Project, levels: u32) {
         let mut pass = Pass {
             id: PassName::buffer(name),
             source: Source { name: format!("buffer_{name}.glsl"), path: None, text: text.into() },
-            channels: [Some(Channel { input: Input::buffer(reads), sampler }), None, None, None],
+            bindings: [Some(Channel { input: Input::buffer(reads), sampler })].into(),
             settings: Default::default(),
+            body: Default::default(),
         };
         pass.settings.size = PassSize::Scale(0.5f64.powi(level as i32));
         pass
@@ -64,7 +65,7 @@ pub(super) fn pyramid(project: &mut Project, levels: u32) {
         before = format!("up{level}");
     }
     let place = project.passes.iter().position(|p| p.id == PassName::buffer("field")).unwrap_or(0);
-    if let Some(Channel { input, .. }) = &mut project.passes[place].channels[0] {
+    if let Some(Channel { input, .. }) = project.passes[place].bindings.get_mut(0) {
         *input = Input::buffer(before);
     }
     project.passes.splice(place..place, passes);

@@ -25,7 +25,7 @@ pub fn chain(project: &mut Project, n: u32) {
         passes.push(sums);
         last = name;
     }
-    cycle::insert(project, passes, "totals").channels = cycle::channels(&[&last]);
+    cycle::insert(project, passes, "totals").bindings = cycle::channels(&[&last]);
     for group in &mut project.groups {
         let place = group.passes.iter().position(|id| *id == PassName::buffer("totals"));
         if let Some(place) = place {
@@ -46,7 +46,7 @@ pub fn preconditioned(project: &mut Project, n: u32) {
     Cycle::Symmetric.add(project, n, None, Component { pass: "field", component: 'y' }, "cycled");
     for (name, channel) in [("dots", 1), ("field", 2)] {
         if let Some(pass) = project.pass_mut(&PassName::buffer(name)) {
-            pass.channels[channel] = cycle::channels(&["cycled"])[0].clone();
+            pass.bindings.set(channel, cycle::channels(&["cycled"]).get(0).cloned());
         }
     }
 }

@@ -101,12 +101,10 @@ fn portable(project: &Project) -> Project {
     for included in &mut project.includes {
         (included.source.path, included.is_edited) = (None, true);
     }
-    for slot in project.passes.iter_mut().flat_map(|pass| &mut pass.channels) {
-        if slot.as_ref().is_some_and(|channel| matches!(channel.input.media(), Some(Media::Picked(_)))) {
-            *slot = None;
-        }
+    for pass in &mut project.passes {
+        pass.bindings.retain(|channel| !matches!(channel.input.media(), Some(Media::Picked(_))));
     }
-    for meshes in project.passes.iter_mut().filter_map(|pass| pass.settings.meshes_mut()) {
+    for meshes in project.passes.iter_mut().filter_map(|pass| pass.body.geometry_mut()) {
         meshes.draws.retain(|draw| !matches!(draw.mesh, MeshSource::Picked(_)));
     }
     project

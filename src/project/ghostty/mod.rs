@@ -40,7 +40,7 @@ pub(super) fn dress(project: &mut Project) {
     for image in &mut project.passes {
         let sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
         let channel = Channel { input: Input::pass(terminal.clone()), sampler };
-        image.channels = [Some(channel), None, None, None];
+        image.bindings = [Some(channel)].into();
     }
     project.passes.insert(0, pass);
     project.common = Some(generated("Ghostty", prelude::text()));

@@ -78,8 +78,8 @@ fn a_file_becomes_image_with_the_terminal_in_its_channel() {
     assert_eq!(project.dialect, Dialect::Ghostty);
     assert!(matches!(&project.origin, Origin::File(path) if path.ends_with("glow.glsl")));
     let image = project.image().unwrap();
-    assert_eq!(image.channels[0].as_ref().map(|c| &c.input), Some(&Input::buffer("terminal")));
-    assert_eq!(image.channels[1..], [None, None, None]);
+    assert_eq!(image.bindings.get(0).map(|c| &c.input), Some(&Input::buffer("terminal")));
+    assert_eq!(image.bindings.channels().count(), 1);
     assert!(!project.has_channels_in_texts());
 }
 
@@ -115,8 +115,8 @@ fn a_file_is_saved_if_nothing_is_lost_by_it() {
         ("Common", &|project| project.common = None),
         ("terminal", &|project| project.passes[0].source.text = "// mine".into()),
         ("channels", &|project| {
-            let channels = &mut project.image_mut().unwrap().channels;
-            channels[1] = channels[0].clone();
+            let bindings = &mut project.image_mut().unwrap().bindings;
+            bindings.set(1, bindings.get(0).cloned());
         }),
         ("sliders", &|project| {
             project.custom_uniform_values.insert("x".into(), crate::CustomUniformValue::Float(0.5));

@@ -25,7 +25,7 @@ fn json_of_the_site_is_a_project_with_its_channels() {
         let project = project(&text);
         assert_eq!((&*project.name, &project.origin), ("Rings", &Origin::Unsaved));
         let image = project.image().unwrap();
-        assert_eq!(image.channels[2].as_ref().unwrap().input, Input::buffer("A"));
+        assert_eq!(image.bindings.get(2).unwrap().input, Input::buffer("A"));
     }
     assert!(refused("{\"a\": 1}").contains("no \"renderpass\""));
     assert!(refused("{").contains("not JSON"));
@@ -36,7 +36,7 @@ fn glsl_is_an_image_pass_and_its_lines_say_what_it_reads() {
     let text = "#iChannel1 \"keyboard\"\r\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\r\n";
     let project = project(text);
     let image = project.image().unwrap();
-    assert_eq!(image.channels[1].as_ref().unwrap().input, Input::KEYBOARD);
+    assert_eq!(image.bindings.get(1).unwrap().input, Input::KEYBOARD);
     assert!(!image.source.text.contains('\r'));
     // In one line, too.
     self::project("void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }");
@@ -120,7 +120,7 @@ fn a_picture_goes_where_it_is_read_and_never_over_what_is_there() {
     }
     assert_eq!(project.free_channel(&PassName::image()), None);
     project.read_sound(&PassName::image(), 2, Path::new("/there/song.mp3"));
-    let input = project.image().unwrap().channels[2].as_ref().unwrap().input.clone();
+    let input = project.image().unwrap().bindings.get(2).unwrap().input.clone();
     assert_eq!((input.kind(), input.media()), (InputKind::Music, Some(&Media::Picked("/there/song.mp3".into()))));
 }
 

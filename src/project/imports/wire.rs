@@ -1,8 +1,8 @@
 //! Pictures and models on their way into a project: which channel reads a picture, which pass draws a model.
 
 use crate::{
-    Camera, Channel, Cull, DepthTest, Geometry, Input, InputKind, Media, MeshDraw, MeshSource, Pass, PassBody,
-    PassName, PassSettings, Project, Source, Stage, limits,
+    Body, Camera, Channel, Cull, DepthTest, Geometry, Input, InputKind, Media, MeshDraw, MeshSource, Pass, PassName,
+    Project, SLOTS, Source, Stage, limits,
 };
 use std::path::Path;
 
@@ -91,15 +91,15 @@ impl Project {
     /// one.
     pub fn free_channel(&self, id: &PassName) -> Option<usize> {
         let pass = self.pass(id)?;
-        let is_empty = |n: &usize| pass.channels[*n].is_none();
+        let is_empty = |n: &usize| pass.bindings.get(*n).is_none();
         let reads = |n: &usize| pass.source.text.contains(&format!("iChannel{n}"));
-        (0..4).filter(is_empty).find(reads).or_else(|| (0..4).find(is_empty))
+        (0..SLOTS).filter(is_empty).find(reads).or_else(|| (0..SLOTS).find(is_empty))
     }
 
     /// Lets a channel read a picture.
     pub fn read_picture(&mut self, id: &PassName, channel: usize, picture: &Path) {
-        if let Some(slot) = self.pass_mut(id).and_then(|pass| pass.channels.get_mut(channel)) {
-            *slot = Some(Channel::new(Input::texture(Media::Picked(picture.to_owned()))));
+        if let Some(pass) = self.pass_mut(id).filter(|_| channel < SLOTS) {
+            pass.bindings.set(channel, Some(Channel::new(Input::texture(Media::Picked(picture.to_owned())))));
         }
     }
 
@@ -114,9 +114,9 @@ impl Project {
     }
 
     fn read_picked(&mut self, kind: InputKind, id: &PassName, channel: usize, path: &Path) {
-        if let Some(slot) = self.pass_mut(id).and_then(|pass| pass.channels.get_mut(channel)) {
+        if let Some(pass) = self.pass_mut(id).filter(|_| channel < SLOTS) {
             let media = Media::Picked(path.to_owned());
-            *slot = Some(Channel::new(Input::Media { kind, media }));
+            pass.bindings.set(channel, Some(Channel::new(Input::Media { kind, media })));
         }
     }
 
@@ -126,7 +126,7 @@ impl Project {
             return None;
         }
         let numbered = (2..).map(|n| format!("model{n}"));
-        let is_free = |name: &String| self.pass(&PassName::buffer(&name)).is_none();
+        let is_free = |name: &String| self.pass(&PassName::buffer(name)).is_none();
         let name = std::iter::once("model".to_owned()).chain(numbered).find(is_free)?;
         let id = PassName::buffer(&name);
         let draw = MeshDraw {
@@ -149,8 +149,9 @@ impl Project {
         let pass = Pass {
             id: id.clone(),
             source: Source { name: id.title(), path: None, text: FRAGMENT.into() },
-            channels: Default::default(),
-            settings: PassSettings { body: PassBody::Meshes(geometry), ..PassSettings::default() },
+            bindings: Default::default(),
+            settings: Default::default(),
+            body: Body::Meshes(geometry),
         };
         append_buffer(self, pass);
         Some(id)
@@ -158,8 +159,8 @@ impl Project {
 
     /// Lets a channel read what a buffer has drawn.
     pub fn read_buffer(&mut self, id: &PassName, channel: usize, buffer: &PassName) {
-        if let Some(slot) = self.pass_mut(id).and_then(|pass| pass.channels.get_mut(channel)) {
-            *slot = Some(Channel::new(Input::pass(buffer.clone())));
+        if let Some(pass) = self.pass_mut(id).filter(|_| channel < SLOTS) {
+            pass.bindings.set(channel, Some(Channel::new(Input::pass(buffer.clone()))));
         }
     }
 }

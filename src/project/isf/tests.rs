@@ -63,8 +63,8 @@ fn passes_become_buffers_and_inputs_sliders() {
         (project.passes[1].settings.format, project.passes[1].settings.size),
         (TexelFormat::Rgba8, PassSize::Scale(0.5))
     );
-    let image = &project.passes[2].channels;
-    let inputs: Vec<&Input> = image.iter().flatten().map(|channel| &channel.input).collect();
+    let image = &project.passes[2].bindings;
+    let inputs: Vec<&Input> = image.channels().map(|channel| &channel.input).collect();
     assert!(matches!(inputs[0], Input::Media { media: Media::Builtin(_), .. }));
     assert_eq!(inputs[1..], [&Input::buffer("trail1"), &Input::buffer("small")]);
     let uniforms = project.custom_uniforms();
@@ -90,8 +90,8 @@ fn a_last_pass_with_a_target_is_shown() {
     );
     let ids: Vec<&str> = project.passes.iter().map(|pass| pass.id.key()).collect();
     assert_eq!(ids, ["buffer_state", "image"]);
-    let channels = &project.passes[1].channels;
-    assert_eq!(channels[0].as_ref().map(|c| &c.input), Some(&Input::buffer("state")));
+    let channels = &project.passes[1].bindings;
+    assert_eq!(channels.get(0).map(|c| &c.input), Some(&Input::buffer("state")));
     assert!(project.stateful_passes().contains(&PassName::buffer("state")));
 }
 
@@ -103,7 +103,7 @@ fn audio_is_an_image_of_one_row() {
     );
     assert_eq!(project.passes[0].id, PassName::buffer("fft"));
     assert_eq!(project.passes[0].settings.size, PassSize::Fixed(64, 1));
-    assert_eq!(project.image().unwrap().channels[0].as_ref().map(|c| &c.input), Some(&Input::buffer("fft")));
+    assert_eq!(project.image().unwrap().bindings.get(0).map(|c| &c.input), Some(&Input::buffer("fft")));
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn an_image_whose_pixels_are_counted_has_the_size_of_the_canvas() {
     let scaled = project(text);
     assert_eq!(scaled.passes[0].id, PassName::buffer("inputimage"));
     assert_eq!(scaled.passes[0].settings.size, PassSize::Canvas);
-    let of = |project: &Project, n: usize| project.passes[n].channels[0].as_ref().map(|c| c.input.clone());
+    let of = |project: &Project, n: usize| project.passes[n].bindings.get(0).map(|c| c.input.clone());
     assert!(matches!(of(&scaled, 0), Some(Input::Media { media: Media::Builtin(_), .. })));
     assert_eq!(of(&scaled, 1), Some(Input::buffer("inputimage")));
     let plain = project(&text.replace("IMG_PIXEL(inputImage, gl_FragCoord.xy)", "IMG_THIS_PIXEL(inputImage)"));

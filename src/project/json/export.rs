@@ -48,8 +48,7 @@ pub fn export(project: &Project) -> String {
 }
 
 fn pass(pass: &Pass, code: String) -> Value {
-    let inputs: Vec<Value> =
-        pass.channels.iter().enumerate().filter_map(|(n, c)| Some(input(n, c.as_ref()?))).collect();
+    let inputs: Vec<Value> = pass.bindings.iter().map(|(n, channel)| input(n, channel)).collect();
     let output = pass.id.buffer_name().map_or_else(|| pass.id.row().json_output.to_owned(), ids::of_buffer);
     json!({
         "inputs": inputs,

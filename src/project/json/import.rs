@@ -11,8 +11,8 @@ use super::{
     several,
 };
 use crate::{
-    Channel, Filter, Info, Input, InputKind, InputRow, InputSource, Media, Origin, Pass, PassName, Project,
-    ProjectError, Role, Sampler, SamplerRules, Source, Wrap, limits, listed,
+    Bindings, Channel, Filter, Info, Input, InputKind, InputRow, InputSource, Media, Origin, Pass, PassName, Project,
+    ProjectError, Role, SLOTS, Sampler, SamplerRules, Source, Wrap, limits, listed,
 };
 use eddy_diag::{Diagnostic, SourceMap, Span};
 use serde_json::{Map, Value, value::RawValue};
@@ -247,17 +247,17 @@ fn project(
             return Err(Diagnostic::error(None, format!("the shader has two passes named {}", id.title()))
                 .hint("remove one of them"));
         }
-        let mut channels: [Option<Channel>; 4] = Default::default();
+        let mut bindings = Bindings::default();
         for input in pass.inputs.iter().flat_map(|inputs| &inputs.0) {
             if let Some((n, channel)) = channel(input, &id, &names, warnings) {
                 if channel.input.buffer_name().is_some() {
                     reads.push((passes.len(), n));
                 }
-                channels[n] = Some(channel);
+                bindings.set(n, Some(channel));
             }
         }
         let source = Source { name: id.title(), path: None, text: code.into() };
-        passes.push(Pass { channels, ..Pass::new(id, source) });
+        passes.push(Pass { bindings, ..Pass::new(id, source) });
     }
     if !passes.iter().any(|p| p.id.is_image()) {
         return Err(Diagnostic::error(None, "the shader has no Image pass").hint("add a renderpass of type \"image\""));
@@ -324,11 +324,11 @@ fn types() -> String {
 fn settle_wraps(passes: &mut [Pass], reads: &[(usize, usize)]) {
     let mut wraps: HashMap<PassName, Wrap> = HashMap::new();
     for &(pass, n) in reads {
-        if let Some(Channel { input: Input::Pass { id, .. }, sampler }) = &passes[pass].channels[n] {
+        if let Some(Channel { input: Input::Pass { id, .. }, sampler }) = passes[pass].bindings.get(n) {
             wraps.insert(id.clone(), sampler.wrap);
         }
     }
-    for channel in passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
+    for channel in passes.iter_mut().flat_map(|p| p.bindings.channels_mut()) {
         if let Input::Pass { id, .. } = &channel.input
             && let Some(wrap) = wraps.get(id)
         {
@@ -403,7 +403,7 @@ fn channel(
     warnings: &mut Vec<Diagnostic>,
 ) -> Option<(usize, Channel)> {
     let number = input.channel.as_ref().map(Scalar::text).unwrap_or_default();
-    let Some(n) = number.parse::<f64>().ok().filter(|n| n.fract() == 0.0 && (0.0..4.0).contains(n)) else {
+    let Some(n) = number.parse::<f64>().ok().filter(|n| n.fract() == 0.0 && (0.0..SLOTS as f64).contains(n)) else {
         let message = match &*number {
             "" => format!("{} has an input without a \"channel\"", id.title()),
             _ => format!("{} has an input for iChannel{}, which does not exist", id.title(), shown(&number)),

@@ -33,13 +33,9 @@ pub fn losses(project: &Project) -> Vec<String> {
         lost.push(format!("Shadertoy has only Buffer A to D and cannot read {}; Eddy can.", listed(&further)));
     }
     for pass in &project.passes {
-        for (n, channel) in pass.channels.iter().enumerate() {
-            lost.extend(
-                channel
-                    .as_ref()
-                    .and_then(|channel| picture(&channel.input))
-                    .map(|what| format!("iChannel{n} of {} reads {what}", pass.id.title())),
-            );
+        for (n, channel) in pass.bindings.iter() {
+            let what = picture(&channel.input);
+            lost.extend(what.map(|what| format!("iChannel{n} of {} reads {what}", pass.id.title())));
         }
     }
     lost.extend(

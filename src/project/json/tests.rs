@@ -47,8 +47,8 @@ fn the_three_shapes_give_the_same_project() {
     let ids: Vec<&str> = project.passes.iter().map(|p| p.id.key()).collect();
     assert_eq!(ids, ["buffer_b", "buffer_a", "image"], "buffers in the list's order, by output id, Image last");
     assert_eq!(&*project.common.as_ref().unwrap().text, "// common");
-    assert_eq!(project.passes[1].channels[2].as_ref().unwrap().input, Input::pass(PassName::cube()));
-    assert_eq!(project.passes[2].channels[1].as_ref().unwrap().input, Input::buffer("B"));
+    assert_eq!(project.passes[1].bindings.get(2).unwrap().input, Input::pass(PassName::cube()));
+    assert_eq!(project.passes[2].bindings.get(1).unwrap().input, Input::buffer("B"));
     assert_eq!(project.sampler_rules, SamplerRules::Site);
     assert_eq!((project.info.id.as_str(), project.info.author.as_str()), ("XxXxXx", "me"));
     assert_eq!(project.info.extra["viewed"], json!(7));
@@ -64,12 +64,12 @@ fn the_api_spelling_is_read_too() {
             { "id": "XsfGRn", "src": "/media/a/1f7d.jpg", "ctype": "texture", "channel": 2 } ] } ] } });
     let project = read(&api);
     assert_eq!(project.name, "x", "a shader without a name is called after its file");
-    let channels = &project.passes[0].channels;
+    let channels = &project.passes[0].bindings;
     let sampler = Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: false };
-    assert_eq!(channels[0], Some(Channel { input: Input::buffer("A"), sampler }));
-    assert_eq!(channels[1].as_ref().unwrap().input, Input::buffer("D"));
+    assert_eq!(channels.get(0), Some(&Channel { input: Input::buffer("A"), sampler }));
+    assert_eq!(channels.get(1).unwrap().input, Input::buffer("D"));
     let wood = Media::Site { id: "XsfGRn".into(), path: "/media/a/1f7d.jpg".into() };
-    assert_eq!(channels[2].as_ref().unwrap().input, Input::texture(wood));
+    assert_eq!(channels.get(2).unwrap().input, Input::texture(wood));
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn one_wrap_a_buffer_and_the_last_of_the_list_wins() {
         pass("buffer", Some("4dXGR8"), &[input(0, "buffer", "4dXGR8", "", "repeat")]),
     ]));
     for pass in &project.passes {
-        assert_eq!(pass.channels[0].as_ref().unwrap().sampler.wrap, Wrap::Repeat, "{}", pass.id.key());
+        assert_eq!(pass.bindings.get(0).unwrap().sampler.wrap, Wrap::Repeat, "{}", pass.id.key());
     }
 }
 
@@ -111,7 +111,7 @@ fn inputs_that_mean_nothing_are_left_out_with_a_warning() {
         ],
     )]);
     let (project, warnings) = import(&value.to_string(), "x.json").unwrap();
-    assert_eq!(project.passes[0].channels, <[Option<Channel>; 4]>::default());
+    assert!(project.passes[0].bindings.is_empty());
     assert_eq!(warnings.len(), 3);
 }
 
@@ -178,11 +178,12 @@ fn an_export_reads_back_as_the_same_project() {
     let channel = |input, filter, wrap, vflip| Some(Channel { input, sampler: Sampler { filter, wrap, vflip } });
     let site = |id: &str, path: &str| Media::Site { id: id.into(), path: path.into() };
     let source = |name: &str, text: &str| Source { name: name.into(), path: None, text: text.into() };
-    let pass = |id: PassName, channels| Pass {
+    let pass = |id: PassName, channels: [Option<Channel>; crate::SLOTS]| Pass {
         source: source(&id.title(), "void f() { \"\u{e9}\\n\" }\r\n"),
         id,
-        channels,
+        bindings: channels.into(),
         settings: Default::default(),
+        body: Default::default(),
     };
     let (n, l, m) = (Filter::Nearest, Filter::Linear, Filter::Mipmap);
     let project = Project {
@@ -324,7 +325,7 @@ fn what_other_tools_write_is_read() {
         "info": { "name": "n", "viewed": 1e999, "likes": 4 } }"#;
     let project = read(twice);
     assert_eq!(&*project.passes[0].source.text, "// \u{fffd} \u{1f600}");
-    assert_eq!(project.passes[0].channels[2].as_ref().unwrap().input, Input::KEYBOARD);
+    assert_eq!(project.passes[0].bindings.get(2).unwrap().input, Input::KEYBOARD);
     assert_eq!((&project.info.extra["viewed"], &project.info.extra["likes"]), (&Value::Null, &json!(4)));
     let deep = format!("{}{}", "[".repeat(5000), "]".repeat(5000));
     let text = format!(

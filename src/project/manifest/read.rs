@@ -6,8 +6,8 @@ use super::{
     settings,
 };
 use crate::{
-    Channel, Dialect, Filter, Info, Input, InputKind, InputSource, Loaded, MAX_TARGETS, Media, Origin, Pass, PassBody,
-    PassName, Project, ProjectError, Role, SamplerRules, Source, Wrap,
+    Bindings, Body, Channel, Dialect, Filter, Info, Input, InputKind, InputSource, Loaded, MAX_TARGETS, Media, Origin,
+    Pass, PassName, Project, ProjectError, Role, SLOTS, SamplerRules, Source, Wrap,
     file_names::{self, FileRole},
     files::{Files, MANIFEST},
     includes, limits, listed, nearest,
@@ -212,13 +212,13 @@ impl Reader<'_> {
             let file = file.unwrap_or_else(|| self.conventional(&FileRole::Pass(id.clone())));
             let file_at = table.get("file").and_then(Item::span).or(at);
             let source = self.source(&file, &id.title(), file_at);
-            let channels = self.channels(table);
+            let bindings = self.channels(table);
             let mut settings = self.settings(&id, table);
             let meshes = self.geometry(&id, table, &file, &mut settings);
-            settings.body = meshes.map_or(PassBody::Screen, PassBody::Meshes);
-            self.fills(&id, table, &mut settings);
+            let body = meshes.map_or(Body::Screen, Body::Meshes);
+            self.fills(&id, table, &body, &mut settings);
             if let Some(source) = source {
-                passes.push(Pass { id, source, channels, settings });
+                passes.push(Pass { id, source, bindings, settings, body });
             }
         }
         if !table.iter().any(|(name, _)| file_names::pass_of_stem(name).is_some_and(|pass| pass.is_image())) {
@@ -234,8 +234,8 @@ impl Reader<'_> {
     fn check_reads(&mut self, table: &dyn TableLike, passes: &[Pass]) {
         let mut found = Vec::new();
         for pass in passes {
-            for (n, channel) in pass.channels.iter().enumerate() {
-                let Some((missing, _)) = channel.as_ref().and_then(|c| c.input.target()) else { continue };
+            for (n, channel) in pass.bindings.iter() {
+                let Some((missing, _)) = channel.input.target() else { continue };
                 if passes.iter().any(|p| p.id == *missing) {
                     continue;
                 }
@@ -261,10 +261,10 @@ impl Reader<'_> {
     /// Channels that read a target their pass does not have.
     fn check_targets(&mut self, table: &dyn TableLike, passes: &[Pass]) {
         for pass in passes {
-            for (n, channel) in pass.channels.iter().enumerate() {
-                let Some((id, index)) = channel.as_ref().and_then(|c| c.input.target()) else { continue };
+            for (n, channel) in pass.bindings.iter() {
+                let Some((id, index)) = channel.input.target() else { continue };
                 let Some(read) = passes.iter().find(|p| p.id == *id) else { continue };
-                let count = read.settings.formats().len();
+                let count = read.formats().len();
                 if index < count {
                     continue;
                 }
@@ -286,12 +286,12 @@ impl Reader<'_> {
         }
     }
 
-    fn channels(&mut self, pass: &dyn TableLike) -> [Option<Channel>; 4] {
-        let mut channels: [Option<Channel>; 4] = Default::default();
+    fn channels(&mut self, pass: &dyn TableLike) -> Bindings {
+        let mut channels = Bindings::default();
         let Some(table) = pass.get("channels").and_then(|item| self.table("channels", item)) else { return channels };
         for (number, item) in table.iter() {
             match number.parse::<usize>() {
-                Ok(n) if n < 4 && number.len() == 1 => channels[n] = self.channel(n, item),
+                Ok(n) if n < SLOTS && number.len() == 1 => channels.set(n, self.channel(n, item)),
                 _ => {
                     let at = table.key(number).and_then(toml_edit::Key::span).or_else(|| item.span());
                     self.error(at, format!("there is no channel {number}"), "a pass has channels 0 to 3");

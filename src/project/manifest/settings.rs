@@ -203,7 +203,8 @@ fn region(item: &Item) -> Option<Region> {
     }
 }
 
-pub(super) fn write_settings(table: &mut dyn TableLike, settings: &PassSettings) {
+pub(super) fn write_settings(table: &mut dyn TableLike, pass: &Pass) {
+    let settings = &pass.settings;
     if table.get("size").and_then(size).unwrap_or_default() != settings.size {
         set(
             table,
@@ -217,7 +218,7 @@ pub(super) fn write_settings(table: &mut dyn TableLike, settings: &PassSettings)
     }
     let written = table.get("format").and_then(Item::as_str).map(str::to_ascii_lowercase);
     // Of several targets `targets` says it.
-    if table.contains_key("targets") || settings.formats().len() > 1 {
+    if table.contains_key("targets") || !pass.body.more_targets().is_empty() {
         table.remove("format");
     } else if written.as_deref().unwrap_or(TexelFormat::default().name()) != settings.format.name() {
         set(table, "format", (settings.format != TexelFormat::default()).then(|| settings.format.name().into()));

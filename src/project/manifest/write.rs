@@ -8,8 +8,8 @@ use super::{
     settings, uniforms,
 };
 use crate::{
-    Channel, CustomUniformValue, Dialect, Filter, Input, InputKind, InputRow, Media, PassName, Project, SamplerRules,
-    Wrap,
+    Bindings, Channel, CustomUniformValue, Dialect, Filter, Input, InputKind, InputRow, Media, PassName, Project,
+    SLOTS, SamplerRules, Wrap,
     file_names::{FileRole, pass_of_stem, role_of_file},
 };
 use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
@@ -128,10 +128,10 @@ fn passes(root: &mut Table, project: &Project) {
         if !is_old || entry.contains_key("file") || !is_implied {
             set(entry, "file", Some(pass.source.name.as_str().into()));
         }
-        channels(entry, &pass.channels);
-        settings::write_settings(entry, &pass.settings);
+        channels(entry, &pass.bindings);
+        settings::write_settings(entry, pass);
         fills::write_fills(entry, &pass.settings);
-        geometry::write_geometry(entry, &pass.source, &pass.settings);
+        geometry::write_geometry(entry, pass);
     }
     order(table, project);
 }
@@ -165,8 +165,8 @@ fn take(table: &mut dyn TableLike, key: &str) -> Option<(Key, Item)> {
     Some((old_key, table.remove(key)?))
 }
 
-fn channels(pass: &mut dyn TableLike, channels: &[Option<Channel>; 4]) {
-    if channels.iter().all(Option::is_none) {
+fn channels(pass: &mut dyn TableLike, channels: &Bindings) {
+    if channels.is_empty() {
         pass.remove("channels");
         return;
     }
@@ -176,9 +176,9 @@ fn channels(pass: &mut dyn TableLike, channels: &[Option<Channel>; 4]) {
         pass.insert("channels", Item::Table(dotted));
     }
     let Some(table) = pass.get_mut("channels").and_then(Item::as_table_like_mut) else { return };
-    for (n, channel) in channels.iter().enumerate() {
+    for n in 0..SLOTS {
         let key = n.to_string();
-        match (channel, table.get(&key)) {
+        match (channels.get(n), table.get(&key)) {
             (None, _) => {
                 table.remove(&key);
             }

@@ -220,7 +220,7 @@ impl Project {
     fn filled(&mut self, id: &PassName, what: &'static str) -> Result<&mut Pass, PassEditError> {
         let found = self.found(id)?;
         // One that draws meshes is cleared in every frame.
-        if !id.is_picture() || found.settings.meshes().is_some() {
+        if !id.is_picture() || found.body.is_cleared() {
             return Err(PassEditError::NotHere { pass: id.title(), what });
         }
         Ok(found)
@@ -229,7 +229,7 @@ impl Project {
     /// The samplers of all channels that read a buffer.
     fn readers<'p>(&'p mut self, id: &'p PassName) -> Result<impl Iterator<Item = &'p mut Sampler>, PassEditError> {
         self.buffer(id, "filter and wrap")?;
-        let channels = self.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten());
+        let channels = self.passes.iter_mut().flat_map(|p| p.bindings.channels_mut());
         Ok(channels.filter(move |c| c.input.target().is_some_and(|(of, _)| of == id)).map(|c| &mut c.sampler))
     }
 
@@ -248,7 +248,7 @@ impl Project {
         let pass = self.found(from)?;
         pass.id = to.clone();
         pass.source.follow_rename(from, &to);
-        for channel in self.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
+        for channel in self.passes.iter_mut().flat_map(|p| p.bindings.channels_mut()) {
             if let Some(id) = channel.input.pass_mut().filter(|id| *id == from) {
                 id.clone_from(&to);
             }

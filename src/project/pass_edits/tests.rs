@@ -69,7 +69,7 @@ fn a_new_name_goes_to_what_reads_the_pass_and_to_its_file() {
     let done = project.edit_passes(&PassEdit::Rename { pass: buffer("A"), name: " Velocity Field ".into() }).unwrap();
     let to = buffer("velocityfield");
     assert_eq!(done, PassEdited { is_changed: true, renamed: Some((buffer("A"), to.clone())) });
-    let reads = |id: &PassName, n: usize| project.pass(id).unwrap().channels[n].clone().unwrap().input;
+    let reads = |id: &PassName, n: usize| project.pass(id).unwrap().bindings.get(n).cloned().unwrap().input;
     assert_eq!(reads(&to, 0), Input::buffer("velocityfield"));
     assert_eq!(reads(&buffer("B"), 0), Input::buffer("velocityfield"));
     assert_eq!(reads(&PassName::image(), 0), Input::buffer("velocityfield"));
@@ -187,8 +187,8 @@ fn steps_and_groups_are_made_joined_parted_and_forgotten() {
     edit(PassEdit::Remove(Tab::Pass(buffer("B"))));
     // What read it would be warned of.
     edit(PassEdit::Remove(Tab::Pass(buffer("A"))));
-    project.pass_mut(&buffer("C")).unwrap().channels = Default::default();
-    project.image_mut().unwrap().channels[0] = None;
+    project.pass_mut(&buffer("C")).unwrap().bindings = Default::default();
+    project.image_mut().unwrap().bindings.set(0, None);
     assert_eq!(project.groups, [group("b", &["C"], 5)]);
     saved(&project, dir.path());
     assert_eq!(project.edit_passes(&PassEdit::Steps(buffer("C"), 0)), Err(PassEditError::NoSteps));
@@ -220,9 +220,9 @@ fn how_a_pass_is_drawn_and_read_is_saved() {
         input: Input::buffer("A"),
         sampler: Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: true },
     });
-    assert_eq!(a.channels[0], read);
-    assert_eq!(after.image().unwrap().channels[0], read);
-    let of_c = after.image().unwrap().channels[1].as_ref().unwrap().sampler;
+    assert_eq!(a.bindings.get(0), read.as_ref());
+    assert_eq!(after.image().unwrap().bindings.get(0), read.as_ref());
+    let of_c = after.image().unwrap().bindings.get(1).unwrap().sampler;
     assert_eq!(of_c, Sampler::BUFFER, "another buffer's channels stay");
     let refused = [
         PassEdit::Size(buffer("A"), PassSize::Scale(f64::NAN)),

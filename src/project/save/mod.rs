@@ -57,7 +57,7 @@ fn save_json(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     let own = matches!(&project.origin, Origin::Json(path) if is_same(path, target));
     // The others of several shaders are not here, and would be lost.
     let own = own && !confine::read_own(target, limits::JSON).is_ok_and(|bytes| is_of_several(&bytes));
-    if let Some(pass) = project.passes.iter().find(|p| p.settings.meshes().is_some()) {
+    if let Some(pass) = project.passes.iter().find(|p| !p.body.is_screen()) {
         let what = format!("{}, which draws meshes: Shadertoy has no such pass", pass.id.title());
         return Err(ProjectError::CannotHold { path: target.to_owned(), what });
     }
@@ -105,7 +105,7 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     }
     let mut saved = project.clone();
     folder::declare_channels(&mut saved);
-    if saved.passes.iter().zip(&project.passes).any(|(read, pass)| read.channels != pass.channels) {
+    if saved.passes.iter().zip(&project.passes).any(|(read, pass)| read.bindings != pass.bindings) {
         return cannot("channels that its code does not declare in #iChannel lines");
     }
     let has_moved = project.origin.base_dir() != target.parent();
@@ -143,7 +143,7 @@ fn beside_texts<'a>(project: &Project, passes: impl IntoIterator<Item = &'a Pass
     if project.info != super::Info::default() {
         return Some("a description, an author or tags");
     }
-    if passes.into_iter().any(|pass| pass.settings != Default::default()) {
+    if passes.into_iter().any(|pass| pass.settings != Default::default() || !pass.body.is_screen()) {
         return Some("how its pass is drawn");
     }
     if !project.custom_uniform_values.is_empty() {
@@ -167,12 +167,13 @@ fn save_ghostty(
         return cannot("more passes than Image");
     }
     let text = |source: Option<&Source>| source.map(|source| source.text.clone());
-    let is_same = |a: &Pass, b: &Pass| a.id.is_image() || a.source.text == b.source.text && a.settings == b.settings;
+    let is_drawn_the_same = |a: &Pass, b: &Pass| a.settings == b.settings && a.body == b.body;
+    let is_same = |a: &Pass, b: &Pass| a.id.is_image() || a.source.text == b.source.text && is_drawn_the_same(a, b);
     let around = project.passes.iter().zip(&fresh.passes).all(|(a, b)| is_same(a, b));
     if !around || text(project.common.as_ref()) != text(fresh.common.as_ref()) {
         return cannot("changes of the terminal's picture or of Common");
     }
-    if project.passes.iter().zip(&fresh.passes).any(|(a, b)| a.channels != b.channels) {
+    if project.passes.iter().zip(&fresh.passes).any(|(a, b)| a.bindings != b.bindings) {
         return cannot("other channels than the terminal's picture in iChannel0");
     }
     if let Some(what) = beside_texts(project, [image]) {
@@ -213,7 +214,7 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Re
         let is_renamed = is_home && pass.source.renamed_from().is_some();
         let name = if is_renamed { pass.source.name.clone() } else { usual(&pass.source, pass.id.key()) };
         place(&mut pass.source, name, is_home, target, &mut writes)?;
-        for stage in pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.stages) {
+        for stage in pass.body.stages_mut() {
             let name = with_ending(stage.name.clone());
             place(stage, name, is_home, target, &mut writes)?;
         }
@@ -325,14 +326,14 @@ fn copy_media(project: &Project, writes: &mut Writes) -> Result<(), ProjectError
     let Some(base) = project.origin.base_dir() else { return Ok(()) };
     let mut names: BTreeSet<String> = BTreeSet::new();
     let named = |path: &Path| path.to_str().and_then(|name| confine::relative("", name).ok());
-    for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
+    for draw in project.passes.iter().flat_map(|p| p.body.draws()) {
         let MeshSource::File(path) = &draw.mesh else { continue };
         if let Some(model) = named(path) {
             names.extend(files_beside(base, &model));
             names.insert(model);
         }
     }
-    for channel in project.passes.iter().flat_map(|p| p.channels.iter().flatten()) {
+    for channel in project.passes.iter().flat_map(|p| p.bindings.channels()) {
         if let Some(Media::File(path)) = channel.input.media() {
             let Some(name) = named(path) else { continue };
             names.extend(media_files::companions(base, &name, channel.input.kind()));

@@ -3,7 +3,7 @@
 use super::*;
 use crate::{
     Boundary, Channel, Condition, Fill, Filter, Info, Input, InputKind, Pass, PassName, PassSettings, PassSize, Region,
-    Sampler, TexelFormat, Wrap, load,
+    SLOTS, Sampler, TexelFormat, Wrap, load,
 };
 use std::{
     fs,
@@ -100,8 +100,9 @@ fn any_project(seed: u64) -> Project {
         .into_iter()
         .map(|id| Pass {
             source: source(r, id.title()),
-            channels: std::array::from_fn(|_| (r.below(2) == 0).then(|| any_channel(r))),
+            bindings: (0..SLOTS).filter_map(|slot| (r.below(2) == 0).then(|| (slot, any_channel(r)))).collect(),
             settings: any_settings(r, &id),
+            body: Default::default(),
             id,
         })
         .collect();
@@ -234,7 +235,7 @@ fn saving_keeps_the_authors_comments_order_and_spelling() {
     project = save(&project, dir.path(), Overwrite::Refuse).unwrap();
     assert_eq!(text(), toml, "nothing changed, so nothing is written");
     project.name = "Inks".into();
-    project.passes[0].channels[1].as_mut().unwrap().sampler.filter = Filter::Linear;
+    project.passes[0].bindings.get_mut(1).unwrap().sampler.filter = Filter::Linear;
     project.passes[0].source.text = "g".into();
     save(&project, dir.path(), Overwrite::Refuse).unwrap();
     let expected = toml
@@ -269,7 +270,7 @@ fn a_folder_without_eddy_toml_gets_one_only_when_the_texts_no_longer_say_it_all(
     project = save(&project, dir.path(), Overwrite::Refuse).unwrap();
     assert!(!dir.path().join("eddy.toml").exists());
     assert_eq!(reloaded(dir.path()), project);
-    project.passes[1].channels[0] = None;
+    project.passes[1].bindings.set(0, None);
     project = save(&project, dir.path(), Overwrite::Refuse).unwrap();
     assert!(dir.path().join("eddy.toml").exists());
     assert_eq!(reloaded(dir.path()), project);
@@ -284,7 +285,7 @@ fn a_pass_that_was_removed_stays_removed_and_its_file_stays_there() {
     let mut project = reloaded(dir.path());
     project.passes.remove(0);
     project.common = None;
-    project.passes[0].channels = Default::default();
+    project.passes[0].bindings = Default::default();
     let saved = save(&project, dir.path(), Overwrite::Refuse).unwrap();
     assert_eq!(reloaded(dir.path()), saved);
     assert_eq!(fs::read_to_string(dir.path().join("buffer_a.glsl")).unwrap(), "a");
@@ -347,7 +348,7 @@ fn one_file_holds_a_lone_image_and_says_so_when_it_cannot() {
     project.passes[0].source.text = "#iChannel0 \"keyboard\"\nnew".into();
     let saved = save(&project, &path, Overwrite::Refuse).unwrap();
     assert_eq!(reloaded(&path), saved);
-    project.passes[0].channels[1] = Some(Channel::new(Input::KEYBOARD));
+    project.passes[0].bindings.set(1, Some(Channel::new(Input::KEYBOARD)));
     let error = save(&project, &path, Overwrite::Refuse).unwrap_err();
     assert!(matches!(error, ProjectError::CannotHold { .. }) && error.to_string().contains("folder"), "{error}");
     let folder = save(&project, &dir.path().join("plasma"), Overwrite::Refuse).unwrap();
@@ -387,7 +388,7 @@ fn pictures_go_along_into_a_new_folder() {
     .unwrap();
     let saved = save(&reloaded(&old), &dir.path().join("far/new"), Overwrite::Refuse).unwrap();
     assert_eq!(fs::read_to_string(dir.path().join("far/new/pics/a.png")).unwrap(), "inside");
-    let media = |n: usize| match &saved.passes[0].channels[n].as_ref().unwrap().input {
+    let media = |n: usize| match &saved.passes[0].bindings.get(n).unwrap().input {
         Input::Media { media: Media::File(path), .. } => path.clone(),
         other => panic!("{other:?}"),
     };

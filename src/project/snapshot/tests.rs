@@ -1,7 +1,7 @@
 //! The tests hold what a snapshot gives back.
 
 use super::*;
-use crate::{self as project, PassName, presets};
+use crate::{self as project, Channel, Input, PassName, presets};
 
 fn round_trip(project: &Project) -> Project {
     read_snapshot(&write_snapshot(project).unwrap()).unwrap_or_else(|e| panic!("{}: {e}", project.name))
@@ -30,7 +30,7 @@ fn files_on_disk_and_pictures_from_elsewhere_come_back_with_whole_paths() {
     }
     let mut project = project::load(folder.path().to_str().unwrap()).unwrap().project;
     let media = Media::Picked(folder.path().join("a picture.png"));
-    project.passes[1].channels[3] = Some(Channel::new(Input::texture(media)));
+    project.passes[1].bindings.set(3, Some(Channel::new(Input::texture(media))));
     assert_eq!(round_trip(&project), project);
     project.origin = Origin::File("image.glsl".into());
     let back = round_trip(&project);

@@ -300,7 +300,7 @@ fn needed(project: &Project, probed: &PassName) -> Vec<PassName> {
     let mut next = 0;
     while let Some(pass) = found.get(next).and_then(|id| project.pass(id)) {
         next += 1;
-        for channel in pass.channels.iter().flatten() {
+        for channel in pass.bindings.channels() {
             let read = channel.input.target().map(|(id, _)| id);
             if let Some(id) = read.filter(|id| project.pass(id).is_some() && !found.contains(id)) {
                 found.push(id.clone());

@@ -1,6 +1,6 @@
 //! The JSON object at the beginning of an ISF file.
 
-use super::{Image, Images};
+use super::{Image, Images, SlotImages};
 use eddy_engine::Sources;
 use eddy_project::{CustomUniform, CustomUniformType, PassSize, Project, TexelFormat};
 use serde_json::{Map, Value, json};
@@ -16,7 +16,7 @@ pub(super) fn header(project: &Project, sources: &Sources<'_>, images: &Images, 
     }
     let mut imported = Map::new();
     let mut given: Vec<&str> = Vec::new();
-    for image in images.iter().flatten().flatten() {
+    for image in images.iter().flat_map(SlotImages::values) {
         match image {
             Image::File(name, path) => drop(imported.insert(name.clone(), json!({ "PATH": path }))),
             Image::Input(name) if !given.contains(&name.as_str()) => given.push(name),

@@ -13,7 +13,8 @@ mod tests;
 use eddy_diag::{self as diag, Diagnostic, Span};
 use eddy_engine::Sources;
 use eddy_glsl::Driver;
-use eddy_project::{Dialect, Input, InputKind, Media, PassBody, Project};
+use eddy_project::{Dialect, Input, InputKind, Media, Project};
+use std::collections::BTreeMap;
 
 /// An ISF file, and what its author should know of it.
 #[derive(Debug)]
@@ -66,7 +67,7 @@ fn refusals(project: &Project) -> Vec<Diagnostic> {
         let (title, settings) = (pass.id.title(), &pass.settings);
         if pass.id.has_faces() {
             error("ISF has no cubemap pass".into(), "compute its colour where it is read");
-        } else if !matches!(settings.body, PassBody::Screen) {
+        } else if !pass.body.is_screen() {
             error(format!("{title} draws meshes, which ISF does not have"), "remove the pass");
         } else if settings.region.is_some() || settings.initial.is_some() || settings.boundary.is_some() {
             error(
@@ -97,8 +98,11 @@ impl Image {
     }
 }
 
-/// The images of each pass's channels, by the indices of pass and channel.
-pub(crate) type Images = Vec<[Option<Image>; 4]>;
+/// The images that a pass reads, by slot.
+pub(crate) type SlotImages = BTreeMap<usize, Image>;
+
+/// Those of each pass.
+pub(crate) type Images = Vec<SlotImages>;
 
 /// Names what each channel reads.
 fn images(project: &Project, found: &mut Vec<Diagnostic>) -> Images {
@@ -106,11 +110,11 @@ fn images(project: &Project, found: &mut Vec<Diagnostic>) -> Images {
     let mut inputs: Vec<Input> = Vec::new();
     let mut all = Vec::new();
     for pass in &project.passes {
-        let mut of_pass: [Option<Image>; 4] = Default::default();
-        for (n, channel) in pass.channels.iter().enumerate() {
-            let Some(input) = channel.as_ref().map(|channel| &channel.input) else { continue };
+        let mut of_pass = SlotImages::new();
+        for (n, channel) in pass.bindings.iter() {
+            let input = &channel.input;
             let title = pass.id.title();
-            of_pass[n] = match input {
+            let image = match input {
                 Input::Pass { id, .. } if id.is_buffer() && project.pass(id).is_some() => {
                     Some(Image::Target(id.key().to_owned()))
                 }
@@ -138,6 +142,7 @@ fn images(project: &Project, found: &mut Vec<Diagnostic>) -> Images {
                     None
                 }
             };
+            of_pass.extend(image.map(|image| (n, image)));
         }
         all.push(of_pass);
     }

@@ -43,7 +43,7 @@ pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, 
         let same = passes.first().filter(|&&first| passes.iter().all(|&index| images[index] == images[first]));
         let none = Default::default();
         let (own, channels) =
-            same.map_or((&none, None), |&index| (&images[index], Some(&project.passes[index].channels)));
+            same.map_or((&none, None), |&index| (&images[index], Some(&project.passes[index].bindings)));
         let none = Default::default();
         let mut reads = Reads::new((&text, Project::COMMON_ID), own, channels.unwrap_or(&none));
         let _ = write!(texts, "// Common\n{}\n\n", reads.replaced().trim());
@@ -54,7 +54,7 @@ pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, 
         let pass = &project.passes[index];
         let id = Project::pass_id(index);
         let text = text_of(id);
-        let mut reads = Reads::new((&text, id), &images[index], &pass.channels);
+        let mut reads = Reads::new((&text, id), &images[index], &pass.bindings);
         let body = reads.replaced();
         found.append(&mut reads.found);
         let prefix = if passes.len() > 1 { format!("{}_", pass.id.key()) } else { String::new() };

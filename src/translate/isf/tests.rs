@@ -7,7 +7,7 @@ use eddy_project::{
 fn pass(id: PassName, text: &str, reads: &[Input]) -> Pass {
     let mut pass = Pass::new(id.clone(), Source { name: id.key().to_owned(), path: None, text: text.into() });
     for (n, input) in reads.iter().enumerate() {
-        pass.channels[n] = Some(Channel { sampler: Sampler::BUFFER, ..Channel::new(input.clone()) });
+        pass.bindings.set(n, Some(Channel { sampler: Sampler::BUFFER, ..Channel::new(input.clone()) }));
     }
     pass
 }
@@ -95,7 +95,7 @@ fn images_are_imported_or_given() {
     let text = "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p) + textureLod(iChannel1, p, 2.0); }";
     let file = Input::texture(Media::File("pics/a.png".into()));
     let mut shown = pass(PassName::image(), text, &[file, Input::texture(Media::Builtin("marble".into()))]);
-    shown.channels[0].as_mut().unwrap().sampler.wrap = Wrap::Repeat;
+    shown.bindings.get_mut(0).unwrap().sampler.wrap = Wrap::Repeat;
     let file = written(&project(vec![shown]));
     let header = header(&file);
     assert_eq!(header["IMPORTED"]["image0"]["PATH"], "pics/a.png");

@@ -60,7 +60,7 @@ pub fn nearest(name: &str) -> Option<Channel> {
 
 pub fn pass(id: PassName, code: &str, channels: [Option<Channel>; 4]) -> Pass {
     let source = Source { name: id.title(), path: None, text: code.into() };
-    Pass { channels, ..Pass::new(id, source) }
+    Pass { bindings: channels.into(), ..Pass::new(id, source) }
 }
 
 pub fn image(code: &str, channels: [Option<Channel>; 4]) -> Pass {
