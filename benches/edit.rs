@@ -8,7 +8,7 @@ use eddy::{
     engine::{BuildOptions, Builder, Engine, FrameInputs},
     gpu::{Gpu, GpuOptions},
     media,
-    project::{self, PassId, Project},
+    project::{self, Project},
 };
 use std::time::Instant;
 
@@ -55,7 +55,7 @@ fn main() {
 /// Returns the project with another number in the computation of Image.
 fn edited(project: &Project, n: usize, salt: u32) -> Project {
     let mut project = project.clone();
-    let source = &mut project.pass_mut(&PassId::Image).expect("an Image").source;
+    let source = &mut project.image_mut().expect("an Image").source;
     let name = "void mainImage";
     let at = source.text.find(name).expect("a mainImage");
     let (head, tail) = source.text.split_at(at);

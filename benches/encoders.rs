@@ -12,7 +12,7 @@ use eddy::{
     gpu::{Gpu, GpuOptions},
     media,
     playback::{offline::Offline, script::ScriptedInputs},
-    project::{self, PassId},
+    project::{self, PassName},
     video::Tools,
 };
 use std::{path::Path, time::Instant};
@@ -106,7 +106,7 @@ fn drawing(gpu: &Gpu, preset: &str, size: (u32, u32)) -> impl FnMut() -> Pixels 
     offline.build(&project, &media, &BuildOptions::default()).expect("a program");
     move || {
         offline.draw().expect("a frame");
-        offline.read(&PassId::Image, 0).expect("a picture")
+        offline.read(&PassName::image(), 0).expect("a picture")
     }
 }
 

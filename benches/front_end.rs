@@ -8,7 +8,7 @@ use eddy::{
     diag::SourceId,
     engine::{channel_kinds, pass_kind},
     glsl::{self, PassSource, Text, services::Analysis},
-    project::{self, PassId, Project},
+    project::{self, Project},
 };
 use std::time::{Duration, Instant};
 
@@ -89,7 +89,7 @@ fn measure_long() -> Row {
     let mut text: String = (0..200).map(function).collect();
     text.push_str("void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(part199(vec3(p, 1.0), 0.5));\n}\n");
     let mut project = project::presets::load(project::presets::names()[0]).expect("a preset").project;
-    let index = project.passes.iter().position(|p| p.id == PassId::Image).expect("an Image");
+    let index = project.passes.iter().position(|p| p.id.is_image()).expect("an Image");
     project.common = None;
     project.passes[index].source.text = text.into();
     measure("two thousand lines", &project, index)

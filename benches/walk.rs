@@ -10,7 +10,7 @@ use eddy::{
     engine::{DrawFor, Engine, FrameInputs, Program, Sources},
     gpu::{Gpu, GpuOptions},
     media,
-    project::{self, PassId},
+    project::{self, PassName},
 };
 use std::time::Instant;
 
@@ -37,11 +37,12 @@ fn main() {
         let mut engine = Engine::new(gpu.clone(), SIZE.0, SIZE.1).expect("an engine");
         engine.set_program(built.program).expect("room for it");
         engine.draw(&FrameInputs::at_fixed_step(0, 60.0)).expect("a frame");
-        let drawn =
-            engine.draw_for(&FrameInputs::at_fixed_step(1, 60.0), DrawFor::Inspect(&PassId::Image)).expect("a frame");
+        let drawn = engine
+            .draw_for(&FrameInputs::at_fixed_step(1, 60.0), DrawFor::Inspect(&PassName::image()))
+            .expect("a frame");
         let inputs = drawn.read.expect("what Image reads");
-        let drawn = engine.read(&PassId::Image).expect("its texels");
-        let index = project.passes.iter().position(|p| p.id == PassId::Image).expect("an Image");
+        let drawn = engine.read_image().expect("its texels");
+        let index = project.passes.iter().position(|p| p.id.is_image()).expect("an Image");
         let sources = Sources::new(&project);
         let (mut walks, mut traces, mut panels, mut statements) = (Vec::new(), Vec::new(), Vec::new(), 0);
         for pixel in PIXELS {
@@ -57,7 +58,7 @@ fn main() {
             statements = statements.max(count);
             let place = [(pixel.0 as f32 + 0.5) / SIZE.0 as f32, (pixel.1 as f32 + 0.5) / SIZE.1 as f32];
             let began = Instant::now();
-            let traced = Traced::new(project.clone(), &PassId::Image, 1, (inputs.clone(), &drawn), place);
+            let traced = Traced::new(project.clone(), &PassName::image(), 1, (inputs.clone(), &drawn), place);
             panels.push(began.elapsed().as_secs_f64() * 1e3);
             drop(traced);
         }

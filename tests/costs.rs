@@ -45,24 +45,23 @@ fn bytes_are_those_of_the_plan_and_an_unread_pass_is_said() {
     let texels = u64::from(SIZE.0 * SIZE.1);
     let seen: Vec<_> = costs.iter().map(|c| (c.pass.key(), c.role, c.held_bytes, c.moved_bytes, c.texels)).collect();
     let drawn = PassRole::Drawn { is_cached: false };
-    let name = |key: &str| key.to_owned();
     assert_eq!(
         seen,
         [
             // Two textures of 16 bytes a texel; one read, one written.
-            (name("buffer_a"), drawn, 2 * 16 * texels, 2 * 16 * texels, texels),
+            ("buffer_a", drawn, 2 * 16 * texels, 2 * 16 * texels, texels),
             // A quarter of the texels of 2 bytes, and all of Buffer A.
-            (name("buffer_b"), drawn, 2 * texels / 4, 2 * texels / 4 + 16 * texels, texels / 4),
-            (name("image"), drawn, 16 * texels, 16 * texels + 16 * texels + 2 * texels / 4, texels),
-            (name("buffer_c"), PassRole::Unread, 0, 0, 0),
+            ("buffer_b", drawn, 2 * texels / 4, 2 * texels / 4 + 16 * texels, texels / 4),
+            ("image", drawn, 16 * texels, 16 * texels + 16 * texels + 2 * texels / 4, texels),
+            ("buffer_c", PassRole::Unread, 0, 0, 0),
         ]
     );
     // What each reads, also of the pass that is not drawn.
     let reads =
         |i: usize| costs[i].reads.iter().map(|r| (r.channel, r.pass.key(), r.when, r.is_used)).collect::<Vec<_>>();
-    assert_eq!(reads(0), [(0, name("buffer_a"), ReadTiming::LastFrame, true)]);
-    assert_eq!(reads(1), [(0, name("buffer_a"), ReadTiming::ThisFrame, true)]);
-    assert_eq!(reads(3), [(0, name("buffer_c"), ReadTiming::LastFrame, false)]);
+    assert_eq!(reads(0), [(0, "buffer_a", ReadTiming::LastFrame, true)]);
+    assert_eq!(reads(1), [(0, "buffer_a", ReadTiming::ThisFrame, true)]);
+    assert_eq!(reads(3), [(0, "buffer_c", ReadTiming::LastFrame, false)]);
     let plan = engine.program().unwrap().plan();
     assert_eq!(plan.traffic(SIZE).bytes, costs.iter().map(|c| c.moved_bytes).sum::<u64>());
     assert_eq!(plan.target_bytes(SIZE), costs.iter().map(|c| c.held_bytes).sum::<u64>());
@@ -103,7 +102,7 @@ fn without_timestamps_passes_are_waited_for_and_the_picture_is_the_same() {
     let [cheap, dear, image] = least;
     assert!(dear > 3.0 * cheap && dear > 3.0 * image, "{least:?}");
     let read = |engine: &mut eddy::engine::Engine, id| engine.read(&id).unwrap().texels;
-    for id in [buffer("A"), buffer("B"), eddy::project::PassId::Image] {
+    for id in [buffer("A"), buffer("B"), eddy::project::PassName::image()] {
         assert!(read(&mut waited, id.clone()) == read(&mut plain, id.clone()), "{id:?}");
     }
 }

@@ -6,7 +6,7 @@ mod support;
 
 use eddy::{
     gpu::Gpu,
-    project::{PassId, Tab},
+    project::{PassName, Tab},
     session::{Command, FallbackPicture, Halt, Level, Outcome, Session, SessionOptions},
 };
 use std::{
@@ -14,7 +14,7 @@ use std::{
     sync::Mutex,
     time::{Duration, Instant},
 };
-use support::stage::{IMAGE, Stage, plain};
+use support::stage::{Stage, image_tab, plain};
 
 const LIMIT: Duration = Duration::from_millis(500);
 /// A canvas that no device draws within the limit if each pixel takes 65,535 turns.
@@ -139,7 +139,7 @@ fn goes_back_to_the_last_good_code(gpu: Gpu) {
     }
     assert!(edits > 20, "{edits} edits a second");
     let text = format!("{}// {}", slow(1.0), edits - 1);
-    assert_eq!(stage.session.text(&IMAGE), text);
+    assert_eq!(stage.session.text(&image_tab()), text);
 
     // An edit that was compiled meanwhile is being tried: it halts, too.
     stage.until("the halt of the newest edit", |s| !s.compile_state().compiling && halted(s));
@@ -148,7 +148,7 @@ fn goes_back_to_the_last_good_code(gpu: Gpu) {
     stage.until("the last working version", |s| is_last_good(s) && s.transport().frame > frame + 1);
     assert_eq!(stage.red(), 51);
     assert!(stage.session.transport().playing, "it ran before");
-    assert_eq!(stage.session.text(&IMAGE), text, "the text is untouched");
+    assert_eq!(stage.session.text(&image_tab()), text, "the text is untouched");
     assert!(stage.session.diagnostics()[0].message.contains("0.5 s"), "{:?}", stage.session.diagnostics());
 
     edit(&mut stage, &plain(0.6));
@@ -209,7 +209,7 @@ fn gives_a_device_up(gpu: Gpu) {
     }
     let folder = stage.folder();
     stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    let buffer = Tab::Pass(PassId::Buffer("A".into()));
+    let buffer = Tab::Pass(PassName::buffer("A"));
     let edit = |stage: &mut Stage, code: &str| {
         stage.session.apply(Command::EditText { tab: buffer.clone(), text: code.into() });
         stage.session.apply(Command::CompileNow);
@@ -282,5 +282,5 @@ fn opens_paused(gpu: Gpu) {
     assert_eq!((calm.frames(), calm.session.halt()), (0, Some(&Halt::Opened { after_trouble: false })));
     calm.session.apply(Command::GoOn);
     calm.until("frames", |s| s.transport().frame > 3);
-    assert!(calm.session.tabs().contains(&Tab::Pass(eddy::project::PassId::Image)));
+    assert!(calm.session.tabs().contains(&Tab::image()));
 }

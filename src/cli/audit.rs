@@ -149,7 +149,7 @@ fn summary(
         anyhow::Ok(path.clone())
     });
     Ok(Audited {
-        pass: args.pass.pass.key(),
+        pass: args.pass.pass.key().to_owned(),
         frame: args.frames() - 1,
         pixels: audit.pixels.len(),
         median: Number(order.get(order.len() / 2).map_or(0.0, |o| o.0)),

@@ -12,7 +12,7 @@ use crate::{
     engine::{CostClock, PassRole},
     graph::{FramePlan, PassFacts},
     playback::{median, offline::Offline, script::ScriptedInputs},
-    project::{PassId, Project},
+    project::{PassName, Project},
 };
 use serde::Serialize;
 use std::{collections::HashMap, fmt::Write, io};
@@ -127,7 +127,7 @@ fn measure(
     spec: &str,
     inputs: ScriptedInputs,
 ) -> Result<Costs, RunError> {
-    let (project, mut offline) = open(machine, report, spec, &args.run, &PassId::Image, inputs)?;
+    let (project, mut offline) = open(machine, report, spec, &args.run, &PassName::image(), inputs)?;
     // A recording is measured from its first frame on, once for each kind of time.
     let is_replay = args.run.replay.is_some();
     for _ in 0..if is_replay { WARM_UP.min(args.frames()) } else { WARM_UP } {
@@ -160,7 +160,7 @@ fn measure(
     let drawable = drawable(&project);
     let costs = engine.pass_costs(&project);
     let passes_off = costs.iter().filter(|c| c.role == PassRole::Off).map(|cost| PassOff {
-        pass: cost.pass.key(),
+        pass: cost.pass.key().to_owned(),
         title: cost.pass.title(),
         when: cost.when.clone().unwrap_or_default(),
         steps: cost.steps,
@@ -170,7 +170,7 @@ fn measure(
     let passes = passes.map(|cost| {
         let ms = millis_of.get(&cost.pass).copied();
         PassCost {
-            pass: cost.pass.key(),
+            pass: cost.pass.key().to_owned(),
             title: cost.pass.title(),
             gpu_ms: ms.filter(|_| clock == CostClock::Timestamps),
             ms,
@@ -198,7 +198,7 @@ fn measure(
         moved_bytes: passes.iter().map(|p| p.moved_bytes).sum(),
         passes,
         passes_off,
-        passes_skipped: plan.skipped.iter().map(|i| drawable.passes[*i].id.key()).collect(),
+        passes_skipped: plan.skipped.iter().map(|i| drawable.passes[*i].id.key().to_owned()).collect(),
         target_bytes,
         target_bytes_saved: everything.target_bytes((width, height)).saturating_sub(target_bytes),
         passes_rested: passes_rested as f64 / f64::from(args.frames()),
@@ -207,8 +207,8 @@ fn measure(
 }
 
 /// Median time of each pass in the frames in which it was drawn.
-fn pass_times(offline: &mut Offline, frames: u32) -> Result<HashMap<PassId, f64>, RunError> {
-    let mut times: HashMap<PassId, Vec<f64>> = HashMap::new();
+fn pass_times(offline: &mut Offline, frames: u32) -> Result<HashMap<PassName, f64>, RunError> {
+    let mut times: HashMap<PassName, Vec<f64>> = HashMap::new();
     for _ in 0..frames {
         for time in offline.draw_timed()? {
             times.entry(time.pass).or_default().push(time.gpu_millis);

@@ -153,7 +153,7 @@ impl Compared {
     fn new(args: &CompareArgs, shown: &Pixels, apart: &PictureDifference) -> Self {
         Self {
             frame: args.frame,
-            pass: args.pass.pass.key(),
+            pass: args.pass.pass.key().to_owned(),
             width: shown.width,
             height: shown.height,
             texels_apart: apart.texels_apart,

@@ -20,7 +20,7 @@ use crate::{
         script::ScriptedInputs,
         trial::TrialSettings,
     },
-    project::{self, PassId, Project, ProjectError},
+    project::{self, PassName, Project, ProjectError},
     video::{Camera, CameraSource, Tools},
 };
 use std::{
@@ -191,7 +191,7 @@ pub fn open(
     report: &mut Report,
     spec: &str,
     run: &RunArgs,
-    wanted: &PassId,
+    wanted: &PassName,
     inputs: ScriptedInputs,
 ) -> Result<(Project, Offline), RunError> {
     is_picture(wanted)?;
@@ -207,12 +207,12 @@ pub fn open_sound(
     run: &RunArgs,
     inputs: ScriptedInputs,
 ) -> Result<Offline, RunError> {
-    let opened = open_with(machine, report, spec, run, (&PassId::Sound, &|_| Vec::new(), None), inputs);
+    let opened = open_with(machine, report, spec, run, (&PassName::sound(), &|_| Vec::new(), None), inputs);
     opened.map(|(_, offline, _)| offline)
 }
 
 /// Says which passes of a project are read beside the wanted one.
-pub type FindPasses<'a> = &'a dyn Fn(&Project) -> Vec<PassId>;
+pub type FindPasses<'a> = &'a dyn Fn(&Project) -> Vec<PassName>;
 
 /// Does the same as [`open`] where further passes are read. Returns what the channels read, too.
 pub fn open_measured(
@@ -220,7 +220,7 @@ pub fn open_measured(
     report: &mut Report,
     spec: &str,
     run: &RunArgs,
-    (wanted, beside): (&PassId, FindPasses<'_>),
+    (wanted, beside): (&PassName, FindPasses<'_>),
     inputs: ScriptedInputs,
 ) -> Result<(Project, Offline, MediaSet), RunError> {
     is_picture(wanted)?;
@@ -236,7 +236,7 @@ pub fn open_probed(
     report: &mut Report,
     spec: &str,
     run: &RunArgs,
-    (pass, probe): (&PassId, FindProbe<'_>),
+    (pass, probe): (&PassName, FindProbe<'_>),
     inputs: ScriptedInputs,
 ) -> Result<Offline, RunError> {
     is_picture(pass)?;
@@ -248,7 +248,7 @@ fn open_with(
     report: &mut Report,
     spec: &str,
     run: &RunArgs,
-    (wanted, beside, probe): (&PassId, FindPasses<'_>, Option<FindProbe<'_>>),
+    (wanted, beside, probe): (&PassName, FindPasses<'_>, Option<FindProbe<'_>>),
     inputs: ScriptedInputs,
 ) -> Result<(Project, Offline, MediaSet), RunError> {
     let loaded = project::load(spec)?;
@@ -336,7 +336,7 @@ fn build(
     (project, media): (&Project, &MediaSet),
     report: &mut Report,
     run: &RunArgs,
-    (wanted, probe): (Vec<PassId>, Option<(PassId, Probe)>),
+    (wanted, probe): (Vec<PassName>, Option<(PassName, Probe)>),
 ) -> Result<(), RunError> {
     let trials = TrialSettings::of_this_program(run.compile_timeout);
     let trial = trials.map(|trials| trials.trial(run.media.clone(), Arc::default()));
@@ -369,7 +369,7 @@ pub fn open_sound_of(
 ) -> Result<Offline, RunError> {
     let mut offline = Offline::new(&machine.gpu()?, run.size, inputs)?;
     offline.set_frame_limit(run.frame_timeout);
-    build(&mut offline, project, report, run, (vec![PassId::Sound], None))?;
+    build(&mut offline, project, report, run, (vec![PassName::sound()], None))?;
     Ok(offline)
 }
 
@@ -395,10 +395,10 @@ fn camera(media: &mut MediaSet, project: &Project, wanted: Option<&CameraSource>
 const CAMERA_PATIENCE: Duration = Duration::from_secs(15);
 
 /// Fails for a pass that the project does not have.
-fn is_there(project: &Project, pass: &PassId) -> Result<(), RunError> {
+fn is_there(project: &Project, pass: &PassName) -> Result<(), RunError> {
     match project.pass(pass) {
         None => {
-            let there: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+            let there: Vec<&str> = project.passes.iter().map(|p| p.id.key()).collect();
             let error = anyhow::anyhow!("there is no pass {}; there are {}", pass.key(), project::listed(&there));
             Err(error.into())
         }
@@ -407,7 +407,7 @@ fn is_there(project: &Project, pass: &PassId) -> Result<(), RunError> {
 }
 
 /// Fails for a pass that has no picture.
-fn is_picture(pass: &PassId) -> Result<(), RunError> {
+fn is_picture(pass: &PassName) -> Result<(), RunError> {
     if pass.is_picture() {
         return Ok(());
     }

@@ -9,7 +9,7 @@ use crate::{
         offline::Offline,
         reduction::{self, Assertion, Quantity},
     },
-    project::{PassId, Project},
+    project::{PassName, Project},
 };
 use serde::Serialize;
 use std::collections::HashMap;
@@ -66,7 +66,7 @@ impl<'a> Measures<'a> {
         frame: u32,
         report: &mut Report,
     ) -> Result<(), EngineError> {
-        let mut read: HashMap<(PassId, usize), Pixels> = HashMap::new();
+        let mut read: HashMap<(PassName, usize), Pixels> = HashMap::new();
         let mut value = |quantity: &Quantity, stored: usize| -> Result<f64, EngineError> {
             let key = (quantity.pass.clone(), quantity.target);
             let pixels = match read.get(&key) {

@@ -13,7 +13,7 @@ use crate::{
         trace::TraceError,
     },
     playback::{offline::Offline, script::ScriptedInputs},
-    project::{PassId, Project},
+    project::{PassName, Project},
 };
 use serde::Serialize;
 use std::fmt::Write;
@@ -69,7 +69,7 @@ pub fn first(
     let value = pixels.texels[(texel.1 * pixels.width + texel.0) as usize];
     let born = born(machine, args, spec, inputs, (&pass, frame, texel))?;
     Ok(Some(Begin {
-        pass: pass.key(),
+        pass: pass.key().to_owned(),
         frame,
         texel: [texel.0, texel.1],
         value: value.map(|x| crate::lab::Number(x.into())),
@@ -86,7 +86,7 @@ fn start(
     inputs: &ScriptedInputs,
 ) -> Result<(Project, Offline), RunError> {
     let (project, offline, _) =
-        open_measured(machine, report, spec, &args.run, (&PassId::Image, &nonfinite::drawn), inputs.clone())?;
+        open_measured(machine, report, spec, &args.run, (&PassName::image(), &nonfinite::drawn), inputs.clone())?;
     Ok((project, offline))
 }
 
@@ -96,7 +96,7 @@ fn born(
     args: &TraceArgs,
     spec: &str,
     inputs: &ScriptedInputs,
-    (pass, frame, texel): (&PassId, u32, (u32, u32)),
+    (pass, frame, texel): (&PassName, u32, (u32, u32)),
 ) -> Result<Option<NonfiniteOrigin>, RunError> {
     let (project, mut offline) = start(machine, &mut Report::new(spec), args, spec, inputs)?;
     for _ in 0..frame {

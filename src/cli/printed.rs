@@ -5,7 +5,7 @@ use crate::{
     debugger::trace::{Examiner, Number, TraceError, Traced},
     diag::escape_message,
     engine::{PassInputs, Pixels},
-    project::{PassId, Project, Tab, inspect_comments},
+    project::{PassName, Project, Tab, inspect_comments},
 };
 use serde::Serialize;
 use std::{fmt::Write, sync::Arc};
@@ -28,7 +28,7 @@ pub struct Printed {
 /// Walks once more where there are such comments, by statements.
 pub fn printed(
     project: &Project,
-    pass: &PassId,
+    pass: &PassName,
     frame: u32,
     (inputs, device): (&PassInputs, &Pixels),
     (x, y): (u32, u32),

@@ -11,7 +11,7 @@ use crate::{
     film::{self, Moment, Rate, SoundPass},
     media::MediaSet,
     playback::{recording::Recording, script::ScriptedInputs},
-    project::{CustomUniformValues, PassId, Project},
+    project::{CustomUniformValues, Project},
 };
 
 /// A film is said to be slower or faster than its recording from this difference on.
@@ -39,7 +39,7 @@ pub fn recorded_sound(
         note(report, other_speed(speed, run.fps()));
     }
     let music = film::music(project, media);
-    let mut pass = match project.pass(&PassId::Sound) {
+    let mut pass = match project.sound() {
         Some(_) => Some(SoundPass::new(open_sound_of(machine, report, (project, media), run, inputs.clone())?)),
         None => None,
     };

@@ -31,7 +31,7 @@ use crate::{
         scene::{RunSource, Scene},
         script::ScriptedInputs,
     },
-    project::{self, PassId, Project},
+    project::{self, PassName, Project},
 };
 use serde::Serialize;
 use std::{io, path::PathBuf, time::Instant};
@@ -513,7 +513,7 @@ pub(super) fn note(report: &mut Report, what: String) {
 
 /// Says why frames of a project with a state have no motion blur.
 fn blurred_state(project: &Project) -> RunError {
-    let passes: Vec<String> = project.stateful_passes().iter().map(PassId::title).collect();
+    let passes: Vec<String> = project.stateful_passes().iter().map(PassName::title).collect();
     let which = match passes.is_empty() {
         true => String::new(),
         false => format!(" ({} read the last frame)", project::listed(&passes)),

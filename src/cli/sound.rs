@@ -14,7 +14,7 @@ use crate::{
     audio::{SAMPLE_RATE, flac, wav},
     engine::{BLOCK_FRAMES, SOUND_FRAMES},
     playback::{median, script::ScriptedInputs},
-    project::{self, PassId},
+    project::{self},
 };
 use anyhow::Context;
 use serde::Serialize;
@@ -53,7 +53,7 @@ impl Sounds {
     /// meant.
     pub fn of(args: &RenderArgs) -> Result<Option<Sounds>, String> {
         let named = args.out.as_deref().filter(|out| !out.is_dir()).and_then(format_of);
-        if args.pass.pass != PassId::Sound {
+        if !args.pass.pass.is_sound() {
             return match (&args.out, named) {
                 (Some(out), Some(_)) => Err(format!("--out {} is a sound: add --pass sound", out.display())),
                 _ if args.secs.is_some() => Err("--secs is the length of a sound: add --pass sound".into()),

@@ -2,7 +2,7 @@
 
 use crate::{
     diag::SourceId,
-    project::{Pass, PassId, Project, Tab},
+    project::{Pass, PassName, Project, Tab},
 };
 
 /// A place of a text: a tab, a line and a column, both from 1.
@@ -21,7 +21,7 @@ impl TextPlace {
         let mut number = || parts.next().and_then(|part| part.parse::<usize>().ok()).filter(|&n| n > 0);
         let (column, line) = (number().ok_or_else(wrong)?, number().ok_or_else(wrong)?);
         let tab = parts.next().ok_or_else(wrong)?;
-        let tab = if tab == "common" { Tab::Common } else { Tab::Pass(PassId::parse(tab).ok_or_else(wrong)?) };
+        let tab = if tab == "common" { Tab::Common } else { Tab::Pass(PassName::parse(tab).ok_or_else(wrong)?) };
         Ok(Self { tab, line, column })
     }
 
@@ -56,7 +56,7 @@ mod tests {
     #[test]
     fn a_place_is_a_tab_a_line_and_a_column() {
         let place = TextPlace::parse("image:12:9").unwrap();
-        assert_eq!(place, TextPlace { tab: Tab::Pass(PassId::Image), line: 12, column: 9 });
+        assert_eq!(place, TextPlace { tab: Tab::image(), line: 12, column: 9 });
         assert_eq!(TextPlace::parse("common:1:2").unwrap().tab, Tab::Common);
         for wrong in ["image", "image:12", "image:0:1", "image:x:1", ":1:1"] {
             let why = TextPlace::parse(wrong).unwrap_err();

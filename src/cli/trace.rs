@@ -16,7 +16,7 @@ use crate::{
     diag::{SourceMap, Span},
     engine::{self, PassInputs},
     playback::script::ScriptedInputs,
-    project::{FillKind, PassId, Project, TexelFormat},
+    project::{FillKind, PassName, Project, TexelFormat},
     texture::Face,
 };
 use serde::Serialize;
@@ -187,7 +187,7 @@ fn traced(
 }
 
 /// The format of a pass's first target.
-fn format_of(project: &Project, pass: &PassId) -> TexelFormat {
+fn format_of(project: &Project, pass: &PassName) -> TexelFormat {
     project.pass(pass).and_then(|pass| pass.formats().first().copied()).unwrap_or_default()
 }
 
@@ -215,7 +215,7 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, p
         }
         placed
     });
-    let draws = project.pass(&args.pass.pass).and_then(|pass| pass.settings.meshes()).map_or(&[][..], |g| &g.draws);
+    let draws = project.pass(&args.pass.pass).map_or(&[][..], |pass| pass.body.draws());
     let mesh = match trace.origin {
         Origin::Mesh(fragment) => draws.get(fragment.draw).map(|draw| MeshReport {
             draw: fragment.draw,
@@ -239,8 +239,8 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, p
         initial: outside.and_then(|_| fill(FillKind::Initial)),
         boundary: (trace.origin == Origin::Boundary).then(|| fill(FillKind::Boundary)).flatten(),
         clear: trace.origin == Origin::Clear,
-        pass: args.pass.pass.key(),
-        face: (args.pass.pass == PassId::Cubemap).then(|| Face::ALL[args.face.unwrap_or_default()].name()),
+        pass: args.pass.pass.key().to_owned(),
+        face: (args.pass.pass.has_faces()).then(|| Face::ALL[args.face.unwrap_or_default()].name()),
         pixel: args.pixel.map_or([0, 0], |(x, y)| [x, y]),
         frame: args.frame,
         value: trace.value.map(floats),

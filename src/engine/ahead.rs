@@ -7,7 +7,7 @@ use super::{
     stage_cache::{self, CacheMiss, Outcome, StageCache},
 };
 use eddy_glsl::{Link, PassSource};
-use eddy_project::{PassBody, Stage};
+use eddy_project::Stage;
 use std::{
     cmp::Reverse,
     num::NonZero,
@@ -34,7 +34,7 @@ impl Sources<'_> {
     pub(super) fn compile_ahead(&self, cache: &mut StageCache, passes: impl IntoIterator<Item = (usize, PassOptions)>) {
         let mut jobs: Vec<Job> = Vec::new();
         for (index, options) in passes {
-            if !matches!(self.project.passes[index].settings.body, PassBody::Screen) {
+            if !self.project.passes[index].body.is_screen() {
                 continue;
             }
             self.with_screen(index, options, |source| {
@@ -107,7 +107,7 @@ mod tests {
             let project = project::presets::load(name).expect("a preset").project;
             let texts = Sources::new(&project);
             let options = PassOptions::default();
-            let screens = (0..project.passes.len()).filter(|&i| project.passes[i].settings.meshes().is_none());
+            let screens = (0..project.passes.len()).filter(|&i| project.passes[i].body.is_screen());
             let mut cache = StageCache::default();
             let mut jobs = Vec::new();
             for index in screens {

@@ -116,8 +116,7 @@ fn uniform_group(
         });
     }
     if compiled.reads_geometry {
-        let first = compiled.body.meshes().map_or(0, |meshes| meshes.first);
-        let resource = uniforms.mesh_binding(first + n);
+        let resource = uniforms.mesh_binding(compiled.body.geometry_blocks().start + n);
         entries.push(wgpu::BindGroupEntry { binding: interface::GEOMETRY_BINDING, resource });
     }
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {

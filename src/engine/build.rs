@@ -18,7 +18,7 @@ use eddy_glsl::{Driver, Probe, opt::PassSet};
 use eddy_gpu::Gpu;
 use eddy_graph::{FramePlan, PassFacts};
 use eddy_media::MediaSet;
-use eddy_project::{Channel, FillKind, Pass, PassId, PassSettings, Project};
+use eddy_project::{FillKind, Pass, PassName, PassSettings, Project};
 use eddy_texture::TexelFormat;
 
 /// The pictures that are wanted, and whether the others may be left out.
@@ -26,13 +26,13 @@ use eddy_texture::TexelFormat;
 pub struct BuildOptions {
     /// The passes whose pictures are wanted; nothing they do not need is compiled into the frame. Empty: Image. Sound
     /// alone: see [`BuildOptions::sound`].
-    pub wanted: Vec<PassId>,
+    pub wanted: Vec<PassName>,
     /// Leave out what nobody reads. Off (`--no-skip`), everything is drawn, with the same bytes in every picture.
     pub skip: bool,
     /// Passes of the shader compiler's optimiser that are left out: for who works on it.
     pub without: PassSet,
     /// A value of a pass that is drawn into [`BuildOptions::probed`].
-    pub probe: Option<(PassId, Probe)>,
+    pub probe: Option<(PassName, Probe)>,
     /// Compiles large programs elsewhere first, where the driver compiles on the processor. A program whose value is
     /// probed is not tried.
     pub trial: Option<Trial>,
@@ -45,41 +45,41 @@ impl BuildOptions {
     /// Builds the sound pass alone, for [`Engine::draw_sound`](super::Engine::draw_sound). No other pass is compiled, so
     /// that their errors do not silence it; and in no other build is the sound pass, so that its errors stop no picture.
     pub fn sound() -> Self {
-        Self { wanted: vec![PassId::Sound], ..Self::default() }
+        Self { wanted: vec![PassName::sound()], ..Self::default() }
     }
 
     fn is_sound(&self) -> bool {
-        self.wanted == [PassId::Sound]
+        matches!(&self.wanted[..], [pass] if pass.is_sound())
     }
 
     /// Returns whether a pass is compiled at all.
-    fn compiles(&self, pass: &PassId) -> bool {
+    fn compiles(&self, pass: &PassName) -> bool {
         pass.is_picture() != self.is_sound()
     }
 
     /// Returns what the probed value is drawn into: 32-bit floats, NaN where the probe never was. A buffer draws it
     /// beside its picture, as others read that, so both take one evaluation. Of Image it is drawn by a pass of its own,
     /// behind all buffers: its picture is drawn only where it is wanted too.
-    pub fn probed() -> PassId {
-        PassId::Buffer("probe of a value".into())
+    pub fn probed() -> PassName {
+        PassName::buffer("probe of a value")
     }
 
     /// Draws the first value that the innermost expression at a byte of a text has in a pass, or the variable whose name
     /// is declared there, and nothing else that it does not need.
     #[must_use]
-    pub fn probing(self, pass: PassId, source: SourceId, at: u32) -> Self {
+    pub fn probing(self, pass: PassName, source: SourceId, at: u32) -> Self {
         let probe = Some((pass, Probe { source, at, visit: 0 }));
         Self { wanted: vec![BuildOptions::probed()], probe, ..self }
     }
 
     /// The pass that is drawn in tiles.
-    fn tiled(&self) -> Option<&PassId> {
-        self.tile.map(|_| self.wanted.first().unwrap_or(&PassId::Image))
+    fn tiled(&self) -> Option<PassName> {
+        self.tile.map(|_| self.wanted.first().cloned().unwrap_or_default())
     }
 
     /// The buffer that draws a probed value beside its picture.
-    fn probed_buffer(&self) -> Option<(&PassId, Probe)> {
-        self.probe.as_ref().filter(|(pass, _)| *pass != PassId::Image).map(|(pass, probe)| (pass, *probe))
+    fn probed_buffer(&self) -> Option<(&PassName, Probe)> {
+        self.probe.as_ref().filter(|(pass, _)| !pass.is_image()).map(|(pass, probe)| (pass, *probe))
     }
 }
 
@@ -163,8 +163,8 @@ impl Builder {
             Err(diagnostics) => return Err(BuildError::Diagnostics { diagnostics, sources }),
         };
         let beside = options.probed_buffer().map(|(pass, _)| pass);
-        let drawn_by = |id: &PassId| beside.filter(|_| *id == BuildOptions::probed()).unwrap_or(id).clone();
-        let wanted: Vec<PassId> = options.wanted.iter().map(drawn_by).collect();
+        let drawn_by = |id: &PassName| beside.filter(|_| *id == BuildOptions::probed()).unwrap_or(id).clone();
+        let wanted: Vec<PassName> = options.wanted.iter().map(drawn_by).collect();
         for id in &wanted {
             if drawable.pass(id).is_none() {
                 return Err(EngineError::NoSuchPass(id.title()).into());
@@ -178,7 +178,7 @@ impl Builder {
             plan.draw_beside(pass, BuildOptions::probed());
         }
         if let (Some(tile), Some(id)) = (options.tile, options.tiled())
-            && let Some(pass) = drawable.passes.iter().position(|pass| pass.id == *id)
+            && let Some(pass) = drawable.passes.iter().position(|pass| pass.id == id)
         {
             let undivided = |why| EngineError::Undivided { pass: id.title(), why };
             plan.tile(&drawable, pass, tile).map_err(undivided)?;
@@ -220,7 +220,7 @@ impl Builder {
         let filter_mode = filter_mode(&self.gpu, project, media, index);
         let driver = Driver { without: build.without, ..driver(&self.gpu, &project.passes[index]) };
         let probe = build.probed_buffer().filter(|(id, _)| **id == project.passes[index].id).map(|(_, probe)| probe);
-        let tiled = build.tiled() == Some(&project.passes[index].id);
+        let tiled = build.tiled().as_ref() == Some(&project.passes[index].id);
         PassOptions { bilinear_by_hand: filter_mode.map(|m| m == FilterMode::Shader), driver, probe, tiled }
     }
 
@@ -264,10 +264,10 @@ impl Builder {
                     }
                 }
             });
-            if build.probe.as_ref().is_some_and(|(id, _)| *id == pass.id) && pass.settings.meshes().is_some() {
+            if build.probe.as_ref().is_some_and(|(id, _)| *id == pass.id) && !pass.body.is_screen() {
                 said.push(Diagnostic::error(None, "a pass that draws meshes cannot be probed: probe another pass"));
             }
-            if let Some((PassId::Image, probe)) = build.probe.as_ref().filter(|(id, _)| *id == pass.id) {
+            if let Some((_, probe)) = build.probe.as_ref().filter(|(id, _)| id.is_image() && *id == pass.id) {
                 match texts.compile_pass_with(&mut self.stages, index, PassOptions { probe: Some(*probe), ..options }) {
                     Ok(compiled) => {
                         let filter_mode = filter_mode(&self.gpu, project, media, index);
@@ -311,7 +311,7 @@ struct Compilation {
 
 /// Returns what the device's driver needs of the code of a pass.
 fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
-    let has_small_floats = pass.id.formats(&pass.settings).into_iter().any(TexelFormat::is_small_float);
+    let has_small_floats = pass.formats().into_iter().any(TexelFormat::is_small_float);
     Driver {
         tables_in_memory: !gpu.has_storage_buffers,
         opaque_uniforms: gpu.recompiles_for_uniforms,
@@ -330,8 +330,9 @@ fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
 
 /// The sound pass with the channels that it can read: there are no frames yet that other passes could have drawn.
 fn heard(pass: &Pass) -> Pass {
-    let is_heard = |channel: &Channel| channel.input.kind().is_in_sound();
-    Pass { channels: pass.channels.clone().map(|channel| channel.filter(is_heard)), ..pass.clone() }
+    let mut pass = pass.clone();
+    pass.bindings.retain(|channel| channel.input.kind().is_in_sound());
+    pass
 }
 
 /// The pass that a value of Image is drawn by.

@@ -5,20 +5,20 @@ use super::{
     program::{BoundChannel, BoundExternal, FilterMode},
     uploads::Uploads,
 };
-use eddy_glsl::{ChannelUse, interface};
+use eddy_glsl::{ChannelUse, SLOTS, interface};
 use eddy_gpu::{Binding, Gpu, GpuError};
 use eddy_graph::effective_sampler;
 use eddy_media::{MediaKey, MediaSet, Texels};
-use eddy_project::{Channel, Filter, Input, PassId, PassSettings, Project};
+use eddy_project::{Channel, Filter, Input, PassSize, Project};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
 use std::{path::Path, sync::Arc};
 
 /// Returns how each channel of `project.passes[pass]` mixes texels on a device: the one place that decides it.
-pub(super) fn filter_mode(gpu: &Gpu, project: &Project, media: &MediaSet, pass: usize) -> [FilterMode; 4] {
+pub(super) fn filter_mode(gpu: &Gpu, project: &Project, media: &MediaSet, pass: usize) -> [FilterMode; SLOTS] {
     std::array::from_fn(|index| {
         let Some(sampler) = effective_sampler(project, pass, index) else { return FilterMode::Nearest };
-        let channel = project.passes[pass].channels[index].as_ref();
-        let drawn = channel.and_then(|c| settings_of(project, c)).map(|settings| settings.format);
+        let channel = project.passes[pass].bindings.get(index);
+        let drawn = channel.and_then(|c| target_of(project, c)).map(|(_, format)| format);
         let format = drawn.or_else(|| Some(external::of_channel(media, channel?)?.shape().format));
         mixing_of(gpu, sampler.filter, format.is_some_and(TexelFormat::is_32_bit))
     })
@@ -76,7 +76,7 @@ impl ChannelBinder<'_> {
             external,
             resolution,
             clock,
-            buffer: channel.and_then(|c| settings_of(self.project, c)).map(|s| s.size),
+            buffer: channel.and_then(|c| target_of(self.project, c)).map(|(size, _)| size),
         })
     }
 
@@ -115,20 +115,19 @@ fn resolution(shape: TextureShape) -> [f32; 3] {
     }
 }
 
-/// Returns the settings of the pass that the channel names, if it names one; the format is that of the target.
-fn settings_of(project: &Project, channel: &Channel) -> Option<PassSettings> {
+/// Returns the size and the format of the target that the channel names, if it names one.
+fn target_of(project: &Project, channel: &Channel) -> Option<(PassSize, TexelFormat)> {
     let (id, index) = channel.input.target()?;
-    if *id == PassId::Cubemap {
+    if id.has_faces() {
         project.pass(id)?;
     }
-    let mut settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();
-    settings.format = id.formats(&settings).get(index).copied().unwrap_or_default();
-    settings.size = id.size(&settings);
-    Some(settings)
+    let pass = project.pass_or_empty(id);
+    let format = pass.formats().get(index).copied().unwrap_or_default();
+    Some((pass.size(), format))
 }
 
 /// Returns the bind group that the channels of a draw are laid out in.
-pub(super) fn channel_bindings(channels: &[BoundChannel; 4]) -> Vec<(u32, Binding)> {
+pub(super) fn channel_bindings(channels: &[BoundChannel; SLOTS]) -> Vec<(u32, Binding)> {
     let mut bindings = Vec::new();
     for (index, channel) in channels.iter().enumerate() {
         let dimension = eddy_gpu::view_dimension(channel.dimension);

@@ -7,8 +7,8 @@ use super::{
     stage_cache::{self, StageCache},
 };
 use eddy_diag::{Diagnostic, Span};
-use eddy_glsl::{self as glsl, Compiled, Driver, Link, PassKind, PassSource, Probe, Reflection};
-use eddy_project::{FillKind, Geometry, PassBody, PassId, Stage};
+use eddy_glsl::{self as glsl, Compiled, Driver, Link, PassKind, PassSource, Probe, Reflection, SLOTS};
+use eddy_project::{Body, FillKind, Geometry, PassName, Stage};
 use std::sync::Arc;
 
 type Result<T> = std::result::Result<T, Vec<Diagnostic>>;
@@ -16,7 +16,7 @@ type Result<T> = std::result::Result<T, Vec<Diagnostic>>;
 /// The settings of a pass that its texts do not say.
 #[derive(Clone, Copy, Default)]
 pub(super) struct PassOptions {
-    pub bilinear_by_hand: [bool; 4],
+    pub bilinear_by_hand: [bool; SLOTS],
     pub driver: Driver,
     /// A value that the pass draws too.
     pub probe: Option<Probe>,
@@ -30,7 +30,7 @@ impl Sources<'_> {
     ///
     /// # Panics
     /// If there is no such pass.
-    pub fn compile_pass(&self, index: usize, bilinear_by_hand: [bool; 4], driver: Driver) -> Result<CompiledPass> {
+    pub fn compile_pass(&self, index: usize, bilinear_by_hand: [bool; SLOTS], driver: Driver) -> Result<CompiledPass> {
         let options = PassOptions { bilinear_by_hand, driver, ..PassOptions::default() };
         self.compile_pass_with(&mut StageCache::default(), index, options)
     }
@@ -73,9 +73,9 @@ impl Sources<'_> {
         options: PassOptions,
     ) -> Result<CompiledPass> {
         let pass = &self.project.passes[index];
-        match &pass.settings.body {
-            PassBody::Screen => self.compile_screen(cache, index, &pass.id, options),
-            PassBody::Meshes(geometry) => self.compile_meshes(cache, index, geometry, options),
+        match &pass.body {
+            Body::Screen => self.compile_screen(cache, index, &pass.id, options),
+            Body::Meshes(geometry) => self.compile_meshes(cache, index, geometry, options),
         }
     }
 
@@ -83,7 +83,7 @@ impl Sources<'_> {
         &self,
         cache: &mut StageCache,
         index: usize,
-        id: &PassId,
+        id: &PassName,
         options: PassOptions,
     ) -> Result<CompiledPass> {
         let (id, kind) = (self.stage_id(index, Stage::Own), sources::pass_kind(id));
@@ -99,9 +99,9 @@ impl Sources<'_> {
     /// fragment stage.
     pub(super) fn bulk(&self, index: usize) -> Option<Span> {
         let pass = &self.project.passes[index];
-        let (stage, kind) = match &pass.settings.body {
-            PassBody::Screen => (Stage::Own, sources::pass_kind(&pass.id)),
-            PassBody::Meshes(geometry) => (geometry.draws.first()?.fragment, PassKind::Fragment),
+        let (stage, kind) = match &pass.body {
+            Body::Screen => (Stage::Own, sources::pass_kind(&pass.id)),
+            Body::Meshes(geometry) => (geometry.draws.first()?.fragment, PassKind::Fragment),
         };
         self.with_source(index, self.stage_id(index, stage), kind, glsl::bulk)
     }
@@ -141,7 +141,7 @@ impl Sources<'_> {
                 self.compile(cache, source, link, options)
             })
         };
-        let targets = Some(self.project.passes[index].settings.formats().len());
+        let targets = Some(self.project.passes[index].formats().len());
         let mut pass =
             CompiledPass { programs: Vec::new(), reflection: Reflection::default(), diagnostics: Vec::new() };
         for draw in &geometry.draws {

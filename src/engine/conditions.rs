@@ -6,7 +6,7 @@
 
 use super::{EngineError, encode::NO_VALUE, program::Program, running::Running, shared::Shared};
 use eddy_graph::Traffic;
-use eddy_project::{CustomUniformType, PassId};
+use eddy_project::{CustomUniformType, PassName};
 
 impl Program {
     /// Returns the value that a uniform has in its slot, as a condition sees it. `None`: no single number, or unknown.
@@ -62,7 +62,7 @@ impl Running {
     }
 
     /// Gives an error for a pass whose condition is false: nothing runs for its texels.
-    pub fn check_is_on(&self, pass: &PassId) -> Result<(), EngineError> {
+    pub fn check_is_on(&self, pass: &PassName) -> Result<(), EngineError> {
         let off =
             (0..self.program.draws.len()).find(|draw| self.program.draws[*draw].id == *pass && self.is_off(*draw));
         let when = off.and_then(|draw| self.program.plan.draws[draw].when.as_ref());

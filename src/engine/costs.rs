@@ -2,7 +2,7 @@
 
 use super::Engine;
 use eddy_graph::{Draw, FramePlan, PassFacts, Read, ReadTiming, TexelSource, Traffic};
-use eddy_project::{Condition, PassId, Project};
+use eddy_project::{Condition, PassName, Project};
 use eddy_texture::TexelFormat;
 
 /// Bytes a texel of a depth buffer.
@@ -35,7 +35,7 @@ pub enum PassRole {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PassRead {
     pub channel: usize,
-    pub pass: PassId,
+    pub pass: PassName,
     /// The target among those of that pass.
     pub index: usize,
     pub when: ReadTiming,
@@ -46,7 +46,7 @@ pub struct PassRead {
 /// A pass's part of a frame, by its plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassCost {
-    pub pass: PassId,
+    pub pass: PassName,
     pub role: PassRole,
     /// The condition by which it is drawn, if it has one.
     pub when: Option<String>,
@@ -83,7 +83,7 @@ impl Engine {
             let is_off = running.is_off(index);
             let step = if is_off { Traffic::default() } else { plan.traffic_of(index, canvas) };
             let steps = plan.steps_of(index);
-            let depth = if compiled.body.meshes().is_some() { DEPTH_BYTES } else { 0 };
+            let depth = if compiled.body.has_depth() { DEPTH_BYTES } else { 0 };
             costs.push(PassCost {
                 pass: compiled.id.clone(),
                 when: draw.when.as_ref().map(Condition::to_string),
@@ -110,8 +110,8 @@ impl Engine {
                 pass: pass.id.clone(),
                 role: PassRole::Unread,
                 when: pass.settings.when.as_ref().map(Condition::to_string),
-                size: pass.id.size(&pass.settings).of(canvas),
-                formats: pass.id.formats(&pass.settings),
+                size: pass.size().of(canvas),
+                formats: pass.formats(),
                 steps: 0,
                 // What reads a pass that is not drawn reads zeros, which take their room.
                 held_bytes: plan.targets.iter().filter(|t| t.id == pass.id).map(|t| t.bytes(canvas)).sum(),
@@ -131,7 +131,7 @@ impl Engine {
 }
 
 /// The reads of a pass in a plan of everything, and which of them its draw does.
-fn reads(whole: &FramePlan, project: &Project, pass: &PassId, drawn: Option<&Draw>) -> Vec<PassRead> {
+fn reads(whole: &FramePlan, project: &Project, pass: &PassName, drawn: Option<&Draw>) -> Vec<PassRead> {
     let is_it = |draw: &&Draw| project.passes[draw.pass].id == *pass;
     let Some(planned) = whole.draws.iter().find(is_it) else { return Vec::new() };
     let read = |(channel, read): (usize, &Option<Read>)| {

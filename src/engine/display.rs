@@ -2,14 +2,14 @@
 
 use super::targets::Target;
 use eddy_gpu::{Gpu, GpuError, Presenter, Texture, ValueLook, ValuePainter};
-use eddy_project::PassId;
+use eddy_project::PassName;
 
 /// Shows the newest texels of one pass.
 pub(super) struct Display {
     presenter: Presenter,
     texture: Texture,
     /// `None`: nobody looks.
-    shown: Option<PassId>,
+    shown: Option<PassName>,
     /// The shown target's textures, bound for presenting.
     bound: Vec<wgpu::BindGroup>,
     /// The place of the shown target in the plan.
@@ -42,7 +42,7 @@ impl Display {
     }
 
     /// Chooses the pass that is shown.
-    pub fn show(&mut self, pass: PassId) {
+    pub fn show(&mut self, pass: PassName) {
         self.shown = Some(pass);
     }
 

@@ -8,10 +8,10 @@ use super::{
     placed::PlacedMesh,
     program::{BoundChannel, CompiledDraw, DrawBody, FillProgram, FilterMode, Meshes},
 };
-use eddy_glsl::{Reflection, interface};
+use eddy_glsl::{Reflection, SLOTS, interface};
 use eddy_gpu::Binding;
 use eddy_graph::{Draw, FramePlan};
-use eddy_project::{Camera, FillKind, Pass, PassBody};
+use eddy_project::{Body, Camera, FillKind, Pass};
 use eddy_texture::{Dimension, TexelFormat};
 use std::sync::Arc;
 
@@ -19,9 +19,9 @@ use std::sync::Arc;
 pub(super) struct CompiledParts {
     pub compiled: CompiledPass,
     pub fills: [Option<CompiledPass>; 2],
-    pub filter_mode: [FilterMode; 4],
+    pub filter_mode: [FilterMode; SLOTS],
     /// The dimensions that its channels are declared with.
-    pub dimensions: [Dimension; 4],
+    pub dimensions: [Dimension; SLOTS],
 }
 
 /// A draw that waits for its pipelines.
@@ -40,15 +40,15 @@ impl DrawDraft {
     ) -> Result<Self, EngineError> {
         let pass = &binder.project.passes[draw.pass];
         let CompiledParts { compiled, fills, filter_mode, dimensions } = parts;
-        let mut channels: [BoundChannel; 4] = Default::default();
+        let mut channels: [BoundChannel; SLOTS] = Default::default();
         for (index, bound) in channels.iter_mut().enumerate() {
             let mips = draw.reads[index].as_ref().is_some_and(|r| r.mips);
-            let (channel, used) = (pass.channels[index].as_ref(), compiled.reflection.channels[index]);
+            let (channel, used) = (pass.bindings.get(index), compiled.reflection.channels[index]);
             *bound = binder.bind((channel, dimensions[index]), used, filter_mode[index], mips)?;
         }
-        let body = match &pass.settings.body {
-            PassBody::Screen => BodyDraft::Screen,
-            PassBody::Meshes(geometry) => BodyDraft::Meshes {
+        let body = match &pass.body {
+            Body::Screen => BodyDraft::Screen,
+            Body::Meshes(geometry) => BodyDraft::Meshes {
                 camera: geometry.camera,
                 states: geometry.draws.iter().map(MeshState::of).collect(),
                 placed: binder.uploads.placed(binder.gpu, binder.media, geometry)?,
@@ -59,7 +59,7 @@ impl DrawDraft {
         let mut drafted = [None, None];
         for ((drafted, compiled), kind) in drafted.iter_mut().zip(fills).zip(FillKind::ALL) {
             let (Some(compiled), Some(fill)) = (compiled, pass.fill(kind)) else { continue };
-            let mut channels: [BoundChannel; 4] = Default::default();
+            let mut channels: [BoundChannel; SLOTS] = Default::default();
             let picture = fill.value.path().and_then(|path| Some((path, binder.media.fill(path)?)));
             if let Some((path, texels)) = picture {
                 channels[0] = binder.bind_fill(path, texels, compiled.reflection.channels[0])?;
@@ -97,9 +97,9 @@ enum BodyDraft {
 
 /// The programs of a pass or of one of its fills.
 struct ProgramDraft {
-    pass: eddy_project::PassId,
+    pass: eddy_project::PassName,
     reflection: Reflection,
-    channels: [BoundChannel; 4],
+    channels: [BoundChannel; SLOTS],
     body: BodyDraft,
     orders: Vec<PipelineOrder>,
 }
@@ -108,7 +108,7 @@ impl ProgramDraft {
     fn new(
         pass: &Pass,
         compiled: CompiledPass,
-        channels: [BoundChannel; 4],
+        channels: [BoundChannel; SLOTS],
         formats: &[TexelFormat],
         body: BodyDraft,
     ) -> Self {

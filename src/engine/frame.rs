@@ -6,7 +6,7 @@ use super::{
 };
 use eddy_gpu::Gpu;
 use eddy_graph::{FrameOp, FrameState, Lap, Purpose};
-use eddy_project::{PassId, Region};
+use eddy_project::{PassName, Region};
 
 /// Answers, before each part of a draw in bands, how many rows are drawn next; `None` stops there.
 pub type Rows<'a> = dyn FnMut() -> Option<u32> + 'a;
@@ -23,7 +23,7 @@ pub enum DrawFor<'a> {
     Timed(&'a mut dyn FnMut() -> f64),
     /// To read back what a pass reads when it is drawn; of a pass of several steps, what its last step reads. Waits for
     /// the device.
-    Inspect(&'a PassId),
+    Inspect(&'a PassName),
     /// To show it without holding the device for long: waits for the device, and draws a last pass that no other pass
     /// reads in bands of rows. Where the caller stops, the display keeps the frame before, though everything that later
     /// frames read is drawn; [`Engine::resume`](super::Engine::resume) draws the rest.
@@ -190,11 +190,11 @@ impl Running {
             let own = self.picture_size(index);
             let mut block = uniforms::block(inputs, own, self.canvas, &compiled.channels);
             host::adapt(dialect, &mut block);
-            if compiled.id == PassId::Sound {
+            if compiled.id.is_sound() {
                 sound::set_offsets(&mut block, inputs);
             }
             self.uniforms.set(index, self.program.plan.layers(index), &block);
-            let Some(meshes) = compiled.body.meshes() else { continue };
+            let Some(meshes) = compiled.body.geometry() else { continue };
             for (n, (_, mesh)) in meshes.programs.iter().enumerate() {
                 self.uniforms.set_mesh(meshes.first + n, &mesh.block(&meshes.camera, inputs, own, self.canvas));
             }

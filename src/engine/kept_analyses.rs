@@ -35,8 +35,7 @@ impl KeptAnalyses {
         let before = std::mem::take(&mut self.kept);
         let mut found = Vec::new();
         for (index, pass) in project.passes.iter().enumerate() {
-            let files = pass.settings.meshes().map_or(0, |g| g.stages.len());
-            for stage in [Stage::Own].into_iter().chain((0..files).map(Stage::File)) {
+            for stage in pass.body.texts() {
                 let key = texts.with_stage(index, stage, |source| {
                     CacheMiss::new(source, &Link::default(), |text| texts.shared(text))
                 });
@@ -56,7 +55,7 @@ impl KeptAnalyses {
         let mut found: Vec<Diagnostic> = texts.diagnostics.clone();
         found.extend(texts.check_common());
         for (index, pass) in project.passes.iter().enumerate() {
-            if pass.settings.meshes().is_some() {
+            if !pass.body.is_screen() {
                 match self.stages.compile(texts, index) {
                     Ok(pass) => diag::append(&mut found, pass.diagnostics),
                     Err(errors) => diag::append(&mut found, errors),

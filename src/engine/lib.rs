@@ -63,7 +63,7 @@ pub use results::{FrameStats, Miniature, PassTime, Picture, Pixels, TexelAt};
 pub use run::Engine;
 pub use snapshot::Snapshot;
 pub use sound::{BLOCK_FRAMES, BLOCK_SECS, SOUND_BLOCKS, SOUND_FRAMES};
-pub use sources::{Sources, channel_kinds, pass_kind, stage_kind};
+pub use sources::{Sources, channel_kinds, pass_kind};
 pub use stage_cache::KeptStages;
 pub use state::{State, StateError, TargetForm, TargetState};
 pub use trial::{Trial, TrialError, TrialOrder};

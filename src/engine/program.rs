@@ -5,12 +5,12 @@ use super::{
     pipelines::StagePipeline,
     placed::PlacedMesh,
 };
-use eddy_glsl::{CustomUniformSet, UniformSet};
+use eddy_glsl::{CustomUniformSet, SLOTS, UniformSet};
 use eddy_gpu::Texture;
 use eddy_graph::{Draw, FramePlan};
-use eddy_project::{Camera, CustomUniform, CustomUniformValues, Dialect, PassId, PassSize};
+use eddy_project::{Camera, CustomUniform, CustomUniformValues, Dialect, PassName, PassSize};
 use eddy_texture::Dimension;
-use std::sync::Arc;
+use std::{ops::Range, sync::Arc};
 
 /// A whole set of compiled passes and their plan. [`super::Builder`] makes it on any thread;
 /// [`super::Engine::set_program`] swaps it in at once.
@@ -30,11 +30,11 @@ pub struct Program {
 
 /// The pipelines of one draw and what its channels are bound to.
 pub(super) struct CompiledDraw {
-    pub id: PassId,
+    pub id: PassName,
     pub body: DrawBody,
     /// Some program reads what meshes are drawn with.
     pub reads_geometry: bool,
-    pub channels: [BoundChannel; 4],
+    pub channels: [BoundChannel; SLOTS],
     /// Draws what its target holds before frame 0.
     pub initial: Option<Box<FillProgram>>,
     /// Draws its outermost texels.
@@ -60,11 +60,22 @@ pub(super) struct Meshes {
 }
 
 impl DrawBody {
-    pub fn meshes(&self) -> Option<&Meshes> {
+    /// The meshes with their camera, if it draws any.
+    pub fn geometry(&self) -> Option<&Meshes> {
         match self {
             DrawBody::Screen(_) => None,
             DrawBody::Meshes(meshes) => Some(meshes),
         }
+    }
+
+    /// The places of its meshes among those of all draws, each of which has a block of uniforms.
+    pub fn geometry_blocks(&self) -> Range<usize> {
+        self.geometry().map_or(0..0, |meshes| meshes.first..meshes.first + meshes.programs.len())
+    }
+
+    /// Returns whether it is drawn over a depth buffer.
+    pub fn has_depth(&self) -> bool {
+        self.geometry().is_some()
     }
 
     /// Every pipeline, in drawing order.
@@ -131,7 +142,7 @@ impl Program {
 
     /// Returns the number of meshes that all passes together draw.
     pub(super) fn meshes(&self) -> usize {
-        self.draws.iter().filter_map(|d| d.body.meshes()).map(|m| m.programs.len()).sum()
+        self.draws.iter().map(|draw| draw.body.geometry_blocks().len()).sum()
     }
 
     /// The plan of each frame.

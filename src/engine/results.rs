@@ -1,11 +1,11 @@
 //! Times, counts and texels of frames.
 
-use eddy_project::PassId;
+use eddy_project::PassName;
 
 /// Time of one pass in one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassTime {
-    pub pass: PassId,
+    pub pass: PassName,
     pub gpu_millis: f64,
 }
 
@@ -82,7 +82,7 @@ impl Miniature {
 /// A texel of a target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TexelAt {
-    pub pass: PassId,
+    pub pass: PassName,
     /// The target among those of the pass.
     pub index: usize,
     /// The place of the texel, from the left and from the bottom.

@@ -14,7 +14,7 @@ use super::{
 };
 use eddy_gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback, ValueLook};
 use eddy_graph::{Purpose, Traffic};
-use eddy_project::{CustomUniformValues, PassId};
+use eddy_project::{CustomUniformValues, PassName};
 use eddy_texture::{TexelFormat, TextureShape};
 use eddy_video::CameraFrame;
 
@@ -250,7 +250,7 @@ impl Engine {
     }
 
     /// Takes what a pass read when it was drawn last, and draws nothing. Waits for the device.
-    pub fn inspect(&mut self, pass: &PassId) -> Result<PassInputs, EngineError> {
+    pub fn inspect(&mut self, pass: &PassName) -> Result<PassInputs, EngineError> {
         let none = || EngineError::NoSuchPass(pass.title());
         let running = self.running.as_ref().ok_or_else(none)?;
         running.check_is_on(pass)?;
@@ -262,19 +262,19 @@ impl Engine {
     }
 
     /// Returns the texels of a pass, across and up.
-    pub fn pass_size(&self, pass: &PassId) -> Option<(u32, u32)> {
+    pub fn pass_size(&self, pass: &PassName) -> Option<(u32, u32)> {
         self.targets().iter().find(|t| t.id == *pass).map(Target::size)
     }
 
     /// Overwrites a texel of a pass's newest ones by NaN, in a format of floats; in any other by its largest value. For
     /// who asks how a project recovers. A place outside of the pass's texels is held inside.
-    pub fn poison(&mut self, pass: &PassId, place: (u32, u32)) -> Result<(), EngineError> {
+    pub fn poison(&mut self, pass: &PassName, place: (u32, u32)) -> Result<(), EngineError> {
         // All bits set: an exponent of ones and a mantissa that is not zero.
         self.overwrite(pass, place, |bytes, _| vec![0xff; bytes])
     }
 
     /// As [`Engine::poison`], by infinity.
-    pub fn make_infinite(&mut self, pass: &PassId, place: (u32, u32)) -> Result<(), EngineError> {
+    pub fn make_infinite(&mut self, pass: &PassName, place: (u32, u32)) -> Result<(), EngineError> {
         // An exponent of ones, a mantissa of zeros; the lowest byte comes first.
         self.overwrite(pass, place, |bytes, components| match bytes / components {
             4 => [0x00, 0x00, 0x80, 0x7f].repeat(components),
@@ -287,7 +287,7 @@ impl Engine {
     /// keeps its texels: no frame could have broken one.
     fn overwrite(
         &mut self,
-        pass: &PassId,
+        pass: &PassName,
         (x, y): (u32, u32),
         texel: impl Fn(usize, usize) -> Vec<u8>,
     ) -> Result<(), EngineError> {
@@ -378,7 +378,7 @@ impl Engine {
 
     /// Chooses which pass [`Engine::display`] shows, from its newest texels on. Nothing is made for showing before the
     /// first call. A pass that is not drawn shows black.
-    pub fn show(&mut self, pass: PassId) {
+    pub fn show(&mut self, pass: PassName) {
         self.display.show(pass);
         self.rebind_display();
     }
@@ -403,7 +403,7 @@ impl Engine {
 
     /// Reads a small picture of one of a pass's targets back, of [`MINIATURE_SIZE`] whatever its shape; waits for the
     /// device.
-    pub fn miniature(&mut self, pass: &PassId, index: usize) -> Result<Miniature, EngineError> {
+    pub fn miniature(&mut self, pass: &PassName, index: usize) -> Result<Miniature, EngineError> {
         let gpu = &self.shared.gpu;
         let running = self.running.as_ref().ok_or_else(|| EngineError::NoSuchPass(pass.title()))?;
         let (newest, layer) = running.layer(pass, index)?;
@@ -418,7 +418,12 @@ impl Engine {
     }
 
     /// Reads a picture back of what one of a pass's targets holds, as `look` says; waits for the device.
-    pub fn picture_of_values(&mut self, pass: &PassId, index: usize, look: &ValueLook) -> Result<Picture, EngineError> {
+    pub fn picture_of_values(
+        &mut self,
+        pass: &PassName,
+        index: usize,
+        look: &ValueLook,
+    ) -> Result<Picture, EngineError> {
         let gpu = &self.shared.gpu;
         let running = self.running.as_ref().ok_or_else(|| EngineError::NoSuchPass(pass.title()))?;
         let (newest, layer) = running.layer(pass, index)?;
@@ -453,18 +458,23 @@ impl Engine {
     }
 
     /// Returns the format of one of a pass's targets or of a face of its cubemap, while the running program has it.
-    pub fn format(&self, pass: &PassId, index: usize) -> Option<TexelFormat> {
+    pub fn format(&self, pass: &PassName, index: usize) -> Option<TexelFormat> {
         self.running.as_ref()?.layer(pass, index).ok().map(|(texture, _)| texture.shape.format)
     }
 
     /// Reads a pass's newest texels back; waits for the device.
-    pub fn read(&mut self, pass: &PassId) -> Result<Pixels, EngineError> {
+    pub fn read(&mut self, pass: &PassName) -> Result<Pixels, EngineError> {
         self.read_target(pass, 0)
+    }
+
+    /// Reads the newest texels of Image back; waits for the device.
+    pub fn read_image(&mut self) -> Result<Pixels, EngineError> {
+        self.read(&PassName::image())
     }
 
     /// Does the same as [`Engine::read`] for one of the pass's targets, or for one of a cubemap's faces in the order +x,
     /// -x, +y, -y, +z, -z.
-    pub fn read_target(&mut self, pass: &PassId, index: usize) -> Result<Pixels, EngineError> {
+    pub fn read_target(&mut self, pass: &PassName, index: usize) -> Result<Pixels, EngineError> {
         let gpu = &self.shared.gpu;
         let running = self.running.as_ref().ok_or_else(|| EngineError::NoSuchPass(pass.title()))?;
         let (newest, layer) = running.layer(pass, index)?;

@@ -6,14 +6,14 @@ use super::{
     bind::{Bindings, draw_fill},
     custom_uniforms,
     frame::Unfinished,
-    program::{Meshes, Program},
+    program::Program,
     shared::Shared,
     targets::{NewTargets, Target},
     uniforms::{self, Uniforms},
 };
 use eddy_gpu::{PassTimer, Texture, depth_buffer};
 use eddy_graph::Changes;
-use eddy_project::{CustomUniformValues, PassId};
+use eddy_project::{CustomUniformValues, PassName};
 
 /// A program with its textures, on a canvas of one size.
 pub(super) struct Running {
@@ -51,11 +51,11 @@ impl NewTextures {
         present: &[Target],
     ) -> Result<Self, EngineError> {
         let depths = program.planned_draws().map(|(compiled, draw)| {
-            let of = |_: &Meshes| {
+            let depth = || {
                 let (width, height) = program.plan.targets[draw.targets.start].size.of(canvas);
                 depth_buffer(&shared.gpu, &format!("depth of {}", compiled.id.title()), width, height)
             };
-            compiled.body.meshes().map(of).transpose()
+            compiled.body.has_depth().then(depth).transpose()
         });
         Ok(Self {
             depths: depths.collect::<Result<_, _>>()?,
@@ -198,7 +198,7 @@ impl Running {
     }
 
     /// The target of a pass by its place among the pass's targets.
-    pub fn target(&self, pass: &PassId, index: usize) -> Result<&Target, EngineError> {
+    pub fn target(&self, pass: &PassName, index: usize) -> Result<&Target, EngineError> {
         let own = || self.targets.iter().filter(|t| t.id == *pass);
         if own().next().is_none() {
             return Err(EngineError::NoSuchPass(pass.title()));
@@ -208,7 +208,7 @@ impl Running {
 
     /// Returns the newest texture of one of a pass's targets, and layer 0 of it; of a cubemap its one target, and face
     /// `index` in the order of [`eddy_texture::Face::ALL`].
-    pub fn layer(&self, pass: &PassId, index: usize) -> Result<(&Texture, u32), EngineError> {
+    pub fn layer(&self, pass: &PassName, index: usize) -> Result<(&Texture, u32), EngineError> {
         let first = self.target(pass, 0)?.newest();
         if first.shape.layers() == 1 {
             return Ok((self.target(pass, index)?.newest(), 0));

@@ -3,7 +3,7 @@
 use super::{running::Running, shared::Shared, targets::Target};
 use eddy_gpu::{Gpu, GpuError, Texture, TextureDescriptor};
 use eddy_graph::{Carried, FramePlan};
-use eddy_project::PassId;
+use eddy_project::PassName;
 use eddy_texture::TextureShape;
 
 /// Holds what a program's targets held between two frames. It belongs to the program and the canvas that it was taken
@@ -14,7 +14,7 @@ pub struct Snapshot {
 }
 
 struct KeptTarget {
-    id: PassId,
+    id: PassName,
     index: usize,
     /// The shapes of all its textures, and copies of the first levels of those that were asked for.
     textures: Vec<(TextureShape, Option<Texture>)>,

@@ -13,7 +13,7 @@ use super::{
 use eddy_audio::SAMPLE_RATE;
 use eddy_glsl::interface::UniformBlock;
 use eddy_graph::Purpose;
-use eddy_project::{CustomUniformValues, PassId};
+use eddy_project::{CustomUniformValues, PassName};
 use std::sync::Arc;
 
 /// Samples of a block: 512x512 texels.
@@ -39,7 +39,7 @@ impl Engine {
         date: [f32; 4],
         rows: &mut Rows<'_>,
     ) -> Result<Option<Vec<[i16; 2]>>, EngineError> {
-        let none = || EngineError::NoSuchPass(PassId::Sound.title());
+        let none = || EngineError::NoSuchPass(PassName::sound().title());
         let running = self.running.as_mut().ok_or_else(none)?;
         let [year, month, day, seconds] = date;
         let inputs = FrameInputs {
@@ -55,7 +55,7 @@ impl Engine {
             return Ok(None);
         }
         self.shared.gpu.take_trouble("a block of sound")?;
-        let bytes = self.readback.rgba8(&self.shared.gpu, running.target(&PassId::Sound, 0)?.newest())?;
+        let bytes = self.readback.rgba8(&self.shared.gpu, running.target(&PassName::sound(), 0)?.newest())?;
         Ok(Some(bytes.chunks_exact(4).map(|texel| [sample(texel[0], texel[1]), sample(texel[2], texel[3])]).collect()))
     }
 }

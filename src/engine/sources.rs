@@ -4,13 +4,13 @@ use super::{custom_uniforms, fill_text::FillSource, host};
 use eddy_diag::{Diagnostic, SourceId, Span};
 use eddy_glsl::{
     self as glsl, ChannelKind, Dialect, Driver, Include, Link, PassKind, PassSource, Preamble, Probe, ProbedExpression,
-    Text, UniformValue, Varying,
+    SLOTS, Text, UniformValue, Varying,
     cancel::Cancel,
     services::Analysis,
     walkable::{Detail, Walkable},
 };
 use eddy_project::{
-    CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Pass, PassBody, PassId, Project, Source, Stage,
+    Body, CustomUniforms, FillKind, FillText, IncludeLines, Pass, PassName, Project, Role, Source, Stage,
     ignored_channel_lines,
 };
 use eddy_texture::Dimension;
@@ -42,9 +42,9 @@ pub struct Sources<'p> {
 impl<'p> Sources<'p> {
     pub fn new(project: &'p Project) -> Self {
         let common = project.common.as_ref().map_or_else(|| "".into(), compile_text);
-        let passes = project.passes.iter().map(|p| match &p.settings.body {
-            PassBody::Screen => compile_text(&p.source),
-            PassBody::Meshes(_) => stage_text(&p.source),
+        let passes = project.passes.iter().map(|p| {
+            let text = if p.body.is_screen() { compile_text } else { stage_text };
+            text(&p.source)
         });
         let stages = project.stages().map(|(_, s)| stage_text(s));
         let included = project.includes.iter().map(|i| compile_text(&i.source));
@@ -53,6 +53,7 @@ impl<'p> Sources<'p> {
         let fills = project.fills().filter_map(|(p, kind, _)| Some((p, kind, project.fill_text(p, kind)?))).collect();
         let mut diagnostics: Vec<Diagnostic> =
             lines.diagnostics.iter().chain(&custom_uniforms.diagnostics).cloned().collect();
+        diagnostics.extend(project.passes.iter().flat_map(slots_beyond_language));
         diagnostics.extend(ignored_channel_lines(project));
         let values = custom_uniforms::uniform_values(&custom_uniforms, &project.custom_uniform_values);
         let dialect = host::dialect(project.dialect);
@@ -158,9 +159,7 @@ impl<'p> Sources<'p> {
                 glsl::dump_ir(&PassSource { driver, ..*source }, &Link::default(), self.preamble(), pass)
             })
         };
-        let Some(meshes) = own.settings.meshes() else { return dump(Stage::Own, pass_kind(&own.id)) };
-        let stages = meshes.draws.iter().flat_map(|draw| [draw.vertex, draw.fragment]);
-        stages.map(|stage| dump(stage, stage_kind(meshes, stage))).collect()
+        own.body.drawn_stages().into_iter().map(|stage| dump(stage, stage_kind(own, stage))).collect()
     }
 
     /// The pass as the author has it.
@@ -201,7 +200,7 @@ impl<'p> Sources<'p> {
         (stage, varyings): (Stage, &[Varying]),
         detail: Detail,
     ) -> Result<Walkable, Vec<Diagnostic>> {
-        let targets = Some(self.pass(index).settings.formats().len());
+        let targets = Some(self.pass(index).formats().len());
         let link = Link { varyings: Some(varyings), targets };
         self.lower_stage(index, (stage, PassKind::Fragment), |source| {
             Walkable::new(source, &link, self.preamble(), detail)
@@ -219,7 +218,7 @@ impl<'p> Sources<'p> {
         (index, draw): (usize, Option<usize>),
         (declarations, body): (&str, &str),
     ) -> Result<Walkable, Vec<Diagnostic>> {
-        let Some(draw) = draw.and_then(|draw| self.pass(index).settings.meshes()?.draws.get(draw)) else {
+        let Some(draw) = draw.and_then(|draw| self.pass(index).body.draws().get(draw)) else {
             return self.lower_stage(index, (Stage::Own, self.own_kind(index)), |source| {
                 let text = format!(
                     "{}\n{declarations}void mainCubemap(out vec4 o, in vec2 p, in vec3 a, in vec3 b) {{ o = vec4(0.0); \
@@ -276,7 +275,7 @@ impl<'p> Sources<'p> {
     /// # Panics
     /// If there is no such pass.
     pub fn probed(&self, index: usize, probe: &Probe) -> Option<ProbedExpression> {
-        let is_probed = self.pass(index).settings.meshes().is_none();
+        let is_probed = self.pass(index).body.is_screen();
         let own = (Stage::Own, self.own_kind(index));
         is_probed.then(|| self.lower_stage(index, own, |source| glsl::probed(source, self.preamble(), probe)))?
     }
@@ -288,12 +287,11 @@ impl<'p> Sources<'p> {
     /// # Panics
     /// If there is no such pass.
     pub fn probe_places(&self, index: usize, spans: &[Span]) -> Vec<Option<(u32, usize)>> {
-        match self.pass(index).settings.meshes() {
-            Some(_) => vec![None; spans.len()],
-            None => self.lower_stage(index, (Stage::Own, self.own_kind(index)), |s| {
-                glsl::probe_places(s, self.preamble(), spans)
-            }),
+        if !self.pass(index).body.is_screen() {
+            return vec![None; spans.len()];
         }
+        let own = (Stage::Own, self.own_kind(index));
+        self.lower_stage(index, own, |source| glsl::probe_places(source, self.preamble(), spans))
     }
 
     /// Analyses `project.passes[index]` as an editor understands it, whether it compiles or not.
@@ -315,8 +313,7 @@ impl<'p> Sources<'p> {
     /// Gives a stage of `project.passes[index]` as the compiler takes it.
     pub(super) fn with_stage<T>(&self, index: usize, stage: Stage, work: impl FnOnce(&PassSource<'_>) -> T) -> T {
         let pass = &self.project.passes[index];
-        let kind = pass.settings.meshes().map_or_else(|| pass_kind(&pass.id), |g| stage_kind(g, stage));
-        self.with_source(index, self.stage_id(index, stage), kind, work)
+        self.with_source(index, self.stage_id(index, stage), stage_kind(pass, stage), work)
     }
 
     /// Returns what the site would refuse in Common; see [`glsl::check_common`].
@@ -379,23 +376,35 @@ fn stage_text(source: &Source) -> Arc<str> {
     format!("{}{blank}{}", &text[..begin], &text[begin + line.len()..]).into()
 }
 
-/// Returns which stage a text of a pass is: that of vertices if some draw uses it so.
-pub fn stage_kind(geometry: &Geometry, stage: Stage) -> PassKind {
-    if geometry.draws.iter().any(|d| d.vertex == stage) { PassKind::Vertex } else { PassKind::Fragment }
-}
-
-/// Returns what the compiler calls a pass.
-pub fn pass_kind(id: &PassId) -> PassKind {
-    match id {
-        PassId::Image => PassKind::Image,
-        PassId::Buffer(_) => PassKind::Buffer,
-        PassId::Cubemap => PassKind::Cubemap,
-        PassId::Sound => PassKind::Sound,
+/// Returns what the compiler calls a text of a pass: of meshes the stage of vertices if some draw uses it so.
+fn stage_kind(pass: &Pass, stage: Stage) -> PassKind {
+    match &pass.body {
+        Body::Screen => pass_kind(&pass.id),
+        Body::Meshes(geometry) if geometry.draws.iter().any(|draw| draw.vertex == stage) => PassKind::Vertex,
+        Body::Meshes(_) => PassKind::Fragment,
     }
 }
 
+/// Returns what the compiler calls a pass.
+pub fn pass_kind(id: &PassName) -> PassKind {
+    match id.role() {
+        Role::Image => PassKind::Image,
+        Role::Buffer => PassKind::Buffer,
+        Role::Cube => PassKind::Cubemap,
+        Role::Sound => PassKind::Sound,
+    }
+}
+
+/// Returns an error for each channel of a pass in a slot that the language has no name for.
+fn slots_beyond_language(pass: &Pass) -> impl Iterator<Item = Diagnostic> {
+    pass.bindings.iter().filter(|(slot, _)| *slot >= SLOTS).map(|(slot, _)| {
+        let message = format!("{} has an input for iChannel{slot}, which its language does not have", pass.id.title());
+        Diagnostic::error(None, message).hint(format!("use iChannel0 to iChannel{}", SLOTS - 1))
+    })
+}
+
 /// Returns the types that `iChannel0..3` of a pass are declared with.
-pub fn channel_kinds(pass: &Pass) -> [ChannelKind; 4] {
+pub fn channel_kinds(pass: &Pass) -> [ChannelKind; SLOTS] {
     declared_dimensions(pass).map(|dimension| match dimension {
         Dimension::D2 => ChannelKind::Sampler2D,
         Dimension::D3 => ChannelKind::Sampler3D,
@@ -405,9 +414,9 @@ pub fn channel_kinds(pass: &Pass) -> [ChannelKind; 4] {
 
 /// Returns the dimension that each channel of a pass is declared with. As on Shadertoy, a sound pass has no `sampler3D`:
 /// a volume is a `sampler2D` there, which reads black.
-pub(super) fn declared_dimensions(pass: &Pass) -> [Dimension; 4] {
-    pass.channels.each_ref().map(|channel| {
-        let dimension = channel.as_ref().map_or(Dimension::D2, |channel| channel.input.row().dimension);
-        if pass.id == PassId::Sound && dimension == Dimension::D3 { Dimension::D2 } else { dimension }
+pub(super) fn declared_dimensions(pass: &Pass) -> [Dimension; SLOTS] {
+    std::array::from_fn(|slot| {
+        let dimension = pass.bindings.get(slot).map_or(Dimension::D2, |channel| channel.input.row().dimension);
+        if pass.id.is_sound() && dimension == Dimension::D3 { Dimension::D2 } else { dimension }
     })
 }

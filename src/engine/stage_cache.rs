@@ -4,7 +4,7 @@ use super::{Sources, cache::Cache, compile::PassOptions, compiled::CompiledPass}
 use eddy_diag::{Diagnostic, Severity, SourceId, Span};
 use eddy_glsl::{
     self as glsl, ChannelKind, Compiled, CustomUniformKind, Dialect, Driver, Link, PassKind, PassSource, PlainOptions,
-    Preamble, Probe, Text, UntypedValue, Varying,
+    Preamble, Probe, SLOTS, Text, UntypedValue, Varying,
 };
 use std::{
     cell::OnceCell,
@@ -114,10 +114,10 @@ struct StageKey {
     common: Option<(usize, Arc<str>)>,
     code: (usize, Arc<str>),
     includes: Vec<IncludeKey>,
-    channels: [ChannelKind; 4],
+    channels: [ChannelKind; SLOTS],
     custom_uniforms: Vec<(String, CustomUniformKind, u16)>,
     values: Vec<(String, Vec<u64>)>,
-    bilinear_by_hand: [bool; 4],
+    bilinear_by_hand: [bool; SLOTS],
     driver: Driver,
     tiled: bool,
     plain: PlainOptions,

@@ -3,7 +3,7 @@
 use super::{EngineError, run::Engine, running::Running, shared::Shared, targets::Target};
 use eddy_gpu::{GpuError, Readback};
 use eddy_graph::Carried;
-use eddy_project::PassId;
+use eddy_project::PassName;
 use eddy_texture::TextureShape;
 
 /// Holds what the next frame of a program reads of the frames before it.
@@ -15,7 +15,7 @@ pub struct State {
 /// Holds the texels of one target of a pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetState {
-    pub pass: PassId,
+    pub pass: PassName,
     /// The place among the pass's targets.
     pub index: usize,
     /// The shape of each texture: one level.
@@ -28,7 +28,7 @@ pub struct TargetState {
 /// Says what a program keeps of one target, by which a state is measured before it is read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetForm {
-    pub pass: PassId,
+    pub pass: PassName,
     /// The place among the pass's targets.
     pub index: usize,
     /// The shape of each texture: one level.
@@ -68,8 +68,8 @@ fn carried(running: &Running) -> impl Iterator<Item = (usize, &Target, usize)> {
 
 impl Engine {
     /// Returns the passes of which the next frame reads what they drew in the frames before.
-    pub fn passes_with_state(&self) -> Vec<PassId> {
-        let mut passes: Vec<PassId> = Vec::new();
+    pub fn passes_with_state(&self) -> Vec<PassName> {
+        let mut passes: Vec<PassName> = Vec::new();
         for (_, target, _) in self.running.iter().flat_map(carried) {
             if !passes.contains(&target.id) {
                 passes.push(target.id.clone());

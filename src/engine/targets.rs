@@ -2,12 +2,12 @@
 
 use eddy_gpu::{Gpu, GpuError, MipChain, MipMaker, Texture, TextureDescriptor};
 use eddy_graph::{self as graph, FramePlan};
-use eddy_project::PassId;
+use eddy_project::PassName;
 
 /// One or two textures of a pass. Of two, one holds what was drawn last and is read; the next draw goes into the other,
 /// and then they change places.
 pub(super) struct Target {
-    pub id: PassId,
+    pub id: PassName,
     /// The place among the pass's targets.
     pub index: usize,
     pub textures: Vec<Texture>,

@@ -6,7 +6,7 @@
 
 use super::{pipelines::PipelineOrder, sources::Sources};
 use eddy_diag::Diagnostic;
-use eddy_project::{PassId, Project, limits};
+use eddy_project::{PassName, Project, limits};
 use std::{fmt, sync::Arc, time::Duration};
 
 /// Statements of a program, with all calls written out, that are compiled without a trial. Mesa's drivers for the
@@ -18,7 +18,7 @@ const UNTRIED: u64 = 1 << 12;
 pub struct TrialOrder<'a> {
     pub project: &'a Project,
     /// As in [`super::BuildOptions`].
-    pub wanted: &'a [PassId],
+    pub wanted: &'a [PassName],
     pub skip: bool,
 }
 

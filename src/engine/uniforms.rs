@@ -5,7 +5,7 @@ use super::{
     program::{BoundChannel, CompiledDraw, Program},
 };
 use eddy_glsl::{
-    UniformSet,
+    SLOTS, UniformSet,
     interface::{CUSTOM_UNIFORM_BYTES, GeometryBlock, UniformBlock},
 };
 use eddy_gpu::Gpu;
@@ -173,8 +173,8 @@ impl Uniforms {
         if let Some(boundary) = &draw.boundary {
             self.add_read_by(index, &boundary.compiled, read);
         }
-        if let Some(meshes) = draw.body.meshes().filter(|_| draw.reads_geometry) {
-            (0..meshes.programs.len()).for_each(|n| read.extend_from_slice(self.meshes.block(meshes.first + n)));
+        if draw.reads_geometry {
+            draw.body.geometry_blocks().for_each(|block| read.extend_from_slice(self.meshes.block(block)));
         }
     }
 }
@@ -184,7 +184,7 @@ pub(super) fn block(
     inputs: &FrameInputs,
     own: (u32, u32),
     canvas: (u32, u32),
-    channels: &[BoundChannel; 4],
+    channels: &[BoundChannel; SLOTS],
 ) -> UniformBlock {
     let vec3 = |(width, height): (u32, u32)| [width as f32, height as f32, 1.0];
     let resolution = |c: &BoundChannel| c.buffer.map_or(c.resolution, |size| vec3(size.of(canvas)));

@@ -10,7 +10,7 @@ use eddy_playback::{
     median,
     offline::{Offline, OfflineError},
 };
-use eddy_project::PassId;
+use eddy_project::PassName;
 
 /// The joint of a looping film, while its frames are drawn.
 pub struct Seam {
@@ -70,7 +70,7 @@ impl Fade {
 /// The picture of a run that a film shows.
 #[derive(Clone, Debug)]
 pub struct ShownPass {
-    pub pass: PassId,
+    pub pass: PassName,
     /// The target of a pass with several targets, or the face of a cubemap.
     pub layer: usize,
     /// The supersampling factor: the picture is drawn this many times as wide and high.

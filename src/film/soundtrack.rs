@@ -5,7 +5,7 @@ use eddy_audio::{SAMPLE_RATE, Scene, Source, Track};
 use eddy_engine::{BLOCK_FRAMES, SOUND_FRAMES};
 use eddy_media::{MediaSet, sounds};
 use eddy_playback::offline::{Offline, OfflineError};
-use eddy_project::{PassId, Project};
+use eddy_project::Project;
 use std::{ops::Range, sync::Arc};
 
 /// The number of samples that are mixed at once: ten seconds.
@@ -13,7 +13,7 @@ pub(super) const PIECE: usize = 10 * SAMPLE_RATE as usize;
 
 /// Returns whether a project has any sound.
 pub fn has_sound(project: &Project, media: &MediaSet) -> bool {
-    project.pass(&PassId::Sound).is_some() || !sounds(project, media).is_empty()
+    project.sound().is_some() || !sounds(project, media).is_empty()
 }
 
 /// Returns the music of a project's channels, each file once.
@@ -42,7 +42,7 @@ pub fn soundtrack<E: From<OfflineError>>(
     let mut sources = music(project, media);
     let samples = film.samples();
     let fade = (film.fade_secs * f64::from(SAMPLE_RATE)).round() as u64;
-    if project.pass(&PassId::Sound).is_some() {
+    if project.sound().is_some() {
         let track = Track::new(SOUND_FRAMES as usize, BLOCK_FRAMES as usize);
         let end = (samples.end + fade).min(u64::from(SOUND_FRAMES));
         if samples.start < end {

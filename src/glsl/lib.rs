@@ -156,7 +156,7 @@ pub use preamble::Preamble;
 pub use probe::{Probe, ProbedExpression, probe_places, probed};
 pub use reflection::{ChannelUse, CustomUniformSet, Reflection, UniformSet};
 pub use source::{
-    ChannelKind, CustomUniform, CustomUniformKind, Dialect, Include, PassKind, PassSource, Text, UniformValue,
+    ChannelKind, CustomUniform, CustomUniformKind, Dialect, Include, PassKind, PassSource, SLOTS, Text, UniformValue,
     UntypedValue,
 };
 pub use stages::{Attribute, Link, Varying};

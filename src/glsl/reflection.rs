@@ -1,5 +1,7 @@
 //! The resources that a pass reads from its entry point. `graph` plans with it: what is not read need not be produced.
 
+use crate::source::SLOTS;
+
 bitflags::bitflags! {
     /// A set of Shadertoy's uniforms, in the order of the uniform block.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -68,7 +70,7 @@ impl ChannelUse {
 pub struct Reflection {
     pub uniforms: UniformSet,
     pub custom_uniforms: CustomUniformSet,
-    pub channels: [ChannelUse; 4],
+    pub channels: [ChannelUse; SLOTS],
     /// `discard` is reachable: texels may keep their old value, so the planner must not assume that the target is
     /// overwritten.
     pub discards: bool,

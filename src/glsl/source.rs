@@ -205,6 +205,9 @@ pub enum UntypedValue {
     List(Vec<UntypedValue>),
 }
 
+/// The channels that Shadertoy's language has: `iChannel0` to `iChannel3`. The uniform block has room for as many.
+pub const SLOTS: usize = 4;
+
 /// The complete input of the front end for a pass.
 #[derive(Clone, Copy, Debug)]
 pub struct PassSource<'a> {
@@ -214,7 +217,7 @@ pub struct PassSource<'a> {
     pub code: Text<'a>,
     /// The includes of all texts of the pass, including nested ones; no text includes itself.
     pub includes: &'a [Include<'a>],
-    pub channels: [ChannelKind; 4],
+    pub channels: [ChannelKind; SLOTS],
     /// The custom uniforms of all texts of the pass, each name once.
     pub custom_uniforms: &'a [CustomUniform<'a>],
     /// The values of uniforms that a text of the pass may declare, each name once; values of undeclared uniforms are
@@ -222,7 +225,7 @@ pub struct PassSource<'a> {
     pub values: &'a [UniformValue],
     /// Channels whose texture this device cannot filter although the project requests it: every filtered read of them
     /// is written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification defines the weights).
-    pub bilinear_by_hand: [bool; 4],
+    pub bilinear_by_hand: [bool; SLOTS],
     pub driver: Driver,
     /// The pass is drawn in tiles, each into its own target: a pixel's position is that in the whole picture, offset by
     /// the uniform block's `tile_origin`. Only in Image and buffers.
@@ -245,7 +248,7 @@ impl<'a> PassSource<'a> {
             common: None,
             code,
             includes: &[],
-            channels: [ChannelKind::Sampler2D; 4],
+            channels: [ChannelKind::Sampler2D; SLOTS],
             custom_uniforms: &[],
             values: &[],
             bilinear_by_hand: [false; 4],

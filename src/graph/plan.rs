@@ -1,7 +1,9 @@
 //! The plan of a frame, and the sampler that applies if several channels read one buffer (`shadertoy.md`, section 7).
 
 use super::tiles::TiledDraw;
-use eddy_project::{Condition, Filter, Input, PassId, PassSize, Project, Region, Sampler, SamplerRules, Wrap};
+use eddy_project::{
+    Condition, Filter, Input, Pass, PassName, PassSize, Project, Region, SLOTS, Sampler, SamplerRules, Wrap,
+};
 use eddy_texture::{Dimension, TexelFormat};
 use std::{collections::BTreeSet, ops::Range};
 
@@ -17,7 +19,7 @@ pub struct ChannelFacts {
 /// The facts about a compiled pass that the planner needs. Conservative: whatever may happen is assumed to happen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PassFacts {
-    pub channels: [ChannelFacts; 4],
+    pub channels: [ChannelFacts; SLOTS],
     /// `discard` is reachable, so the previous content of the target can stay visible.
     pub discards: bool,
 }
@@ -25,7 +27,7 @@ pub struct PassFacts {
 impl PassFacts {
     /// Reads every channel at every level and discards: the assumption for an unknown pass.
     pub const ANYTHING: PassFacts =
-        PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; 4], discards: true };
+        PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; SLOTS], discards: true };
 }
 
 /// The frame whose picture of a target a read sees.
@@ -61,7 +63,7 @@ pub struct Read {
 /// A texture, or a pair of them, that passes draw into or read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
-    pub id: PassId,
+    pub id: PassName,
     /// The index among the pass's targets, from 0.
     pub index: usize,
     pub dimension: Dimension,
@@ -83,7 +85,7 @@ pub struct Draw {
     /// The index of an additional target, after these, for [`FramePlan::draw_beside`].
     pub beside: Option<usize>,
     /// `None` if the compiled pass does not read the channel.
-    pub reads: [Option<Read>; 4],
+    pub reads: [Option<Read>; SLOTS],
     /// It rasterizes meshes into targets that are cleared first.
     pub draws_meshes: bool,
     /// The pass starts with the previous texels of the target.
@@ -151,7 +153,7 @@ impl FramePlan {
 
     /// Adds a target of 32-bit floats, with a name of its own, for a value that the pass of a draw outputs in addition
     /// to its picture. No pass reads it, and the pass's other reads and outputs do not change.
-    pub fn draw_beside(&mut self, pass: usize, id: PassId) {
+    pub fn draw_beside(&mut self, pass: usize, id: PassName) {
         let Some(draw) = self.draws.iter_mut().find(|draw| draw.pass == pass) else { return };
         draw.beside = Some(self.targets.len());
         let own = &self.targets[draw.targets.start];
@@ -166,7 +168,7 @@ impl FramePlan {
     ///
     /// # Panics
     /// If `facts` and the project's passes differ in length.
-    pub fn new(project: &Project, facts: &[PassFacts], wanted: &[PassId], skip: bool) -> FramePlan {
+    pub fn new(project: &Project, facts: &[PassFacts], wanted: &[PassName], skip: bool) -> FramePlan {
         Self::ending_with(project, facts, wanted, skip, None)
     }
 
@@ -174,9 +176,9 @@ impl FramePlan {
     pub fn ending_with(
         project: &Project,
         facts: &[PassFacts],
-        wanted: &[PassId],
+        wanted: &[PassName],
         skip: bool,
-        last: Option<&PassId>,
+        last: Option<&PassName>,
     ) -> FramePlan {
         assert_eq!(facts.len(), project.passes.len(), "one PassFacts for each pass");
         let mut order = drawing_order(project, wanted);
@@ -198,7 +200,7 @@ impl FramePlan {
             });
             let region = project.passes[pass].settings.region;
             // Targets of meshes are always cleared first, with any rules.
-            let is_cleared = project.passes[pass].settings.meshes().is_some();
+            let is_cleared = project.passes[pass].body.is_cleared();
             plan.draws.push(Draw {
                 pass,
                 targets,
@@ -219,11 +221,11 @@ impl FramePlan {
     }
 
     /// Returns the indices of the targets of `id`, which are created if necessary.
-    fn targets(&mut self, project: &Project, id: &PassId) -> Range<usize> {
-        let settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();
-        let formats = id.formats(&settings);
+    fn targets(&mut self, project: &Project, id: &PassName) -> Range<usize> {
+        let pass = project.pass_or_empty(id);
+        let formats = pass.formats();
         let first = self.targets.iter().position(|t| t.id == *id).unwrap_or_else(|| {
-            let size = id.size(&settings);
+            let size = pass.size();
             let first = self.targets.len();
             self.targets.extend(formats.iter().enumerate().map(|(index, &format)| Target {
                 id: id.clone(),
@@ -272,7 +274,7 @@ impl FramePlan {
     fn read(&mut self, project: &Project, drawn: &[usize], place: usize, channel: usize) -> Option<Read> {
         let pass = drawn[place];
         let sampler = effective_sampler(project, pass, channel);
-        let source = match project.passes[pass].channels[channel].as_ref().map(|c| &c.input) {
+        let source = match project.passes[pass].bindings.get(channel).map(|c| &c.input) {
             None => TexelSource::Nothing,
             Some(Input::Pass { id, target }) => self.target_read(project, drawn, place, id, *target),
             Some(Input::Media { .. } | Input::Device(_)) => TexelSource::External,
@@ -285,11 +287,11 @@ impl FramePlan {
         project: &Project,
         drawn: &[usize],
         place: usize,
-        id: &PassId,
+        id: &PassName,
         index: usize,
     ) -> TexelSource {
         // A buffer without a pass contains zeros. A cube of them would use 48 MiB for no more than an empty channel.
-        if *id == PassId::Cubemap && project.pass(id).is_none() {
+        if id.has_faces() && project.pass(id).is_none() {
             return TexelSource::Nothing;
         }
         let earlier = drawn[..place].iter().any(|&p| project.passes[p].id == *id);
@@ -314,15 +316,15 @@ impl FramePlan {
             };
             let drawn_by = self.draws.iter().find(|d| d.targets.contains(&index)).map(|d| d.pass);
             // The previous content of a cleared target cannot be visible.
-            let is_cleared = |p: usize| project.passes[p].settings.meshes().is_some();
+            let is_cleared = |p: usize| project.passes[p].body.is_cleared();
             let discards = drawn_by.is_some_and(|p| facts[p].discards && !is_cleared(p));
             // Image keeps the canvas of the previous frame, and Sound its previous block; only buffers alternate.
-            let takes_turns = id.is_picture() && id != PassId::Image && drawn_by.is_some();
+            let takes_turns = id.is_readable() && drawn_by.is_some();
             let doubled = takes_turns && (!skip || discards || !reads_of(Some(ReadTiming::LastFrame)).is_empty());
             // Shadertoy considers every pass of the project, including those that are not shown.
             let sampler_asks = (0..project.passes.len()).any(|p| {
-                (0..4).any(|c| {
-                    project.passes[p].channels[c].as_ref().is_some_and(|ch| ch.input.target() == Some((&id, own_index)))
+                (0..SLOTS).any(|c| {
+                    project.passes[p].bindings.get(c).is_some_and(|ch| ch.input.target() == Some((&id, own_index)))
                         && effective_sampler(project, p, c).is_some_and(|s| s.filter == Filter::Mipmap)
                 })
             });
@@ -338,7 +340,7 @@ impl FramePlan {
                 .iter()
                 .flatten()
                 .any(|r| matches!(r.source, TexelSource::Target { index, .. } if own.contains(&index)));
-            let shows_before = facts[draw.pass].discards && project.passes[draw.pass].settings.meshes().is_none();
+            let shows_before = facts[draw.pass].discards && !project.passes[draw.pass].body.is_cleared();
             draw.is_cacheable = skip && !shows_before && !reads_itself;
             for read in draw.reads.iter_mut().flatten() {
                 read.mips = read.sampler.filter == Filter::Mipmap
@@ -354,7 +356,7 @@ impl FramePlan {
 
 /// Buffers in the project's order, then the cubemap, then Image. Sound has no picture, and is drawn only if a block of
 /// its samples is requested.
-fn drawing_order(project: &Project, wanted: &[PassId]) -> Vec<usize> {
+fn drawing_order(project: &Project, wanted: &[PassName]) -> Vec<usize> {
     let id = |i: usize| &project.passes[i].id;
     let is_drawn = |i: &usize| id(*i).is_picture() || wanted.contains(id(*i));
     let mut order: Vec<usize> = (0..project.passes.len()).filter(is_drawn).collect();
@@ -363,9 +365,9 @@ fn drawing_order(project: &Project, wanted: &[PassId]) -> Vec<usize> {
 }
 
 /// Returns the passes that some requested picture needs, now or in a later frame.
-fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassId]) -> BTreeSet<usize> {
-    let index_of = |id: &PassId| project.passes.iter().position(|p| p.id == *id);
-    let image = [PassId::Image];
+fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassName]) -> BTreeSet<usize> {
+    let index_of = |id: &PassName| project.passes.iter().position(|p| p.id == *id);
+    let image = [PassName::image()];
     let mut todo: Vec<usize> =
         if wanted.is_empty() { &image[..] } else { wanted }.iter().filter_map(index_of).collect();
     let mut reached = BTreeSet::new();
@@ -373,8 +375,9 @@ fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassId]) -> BT
         if !reached.insert(pass) {
             continue;
         }
-        for (channel, fact) in project.passes[pass].channels.iter().zip(facts[pass].channels) {
-            let read = channel.as_ref().filter(|_| fact.is_read).and_then(|c| c.input.target());
+        for (slot, channel) in project.passes[pass].bindings.iter() {
+            let is_read = facts[pass].channels.get(slot).is_some_and(|fact| fact.is_read);
+            let read = Some(channel).filter(|_| is_read).and_then(|c| c.input.target());
             todo.extend(read.and_then(|(id, _)| index_of(id)));
         }
     }
@@ -389,15 +392,13 @@ fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassId]) -> BT
 /// when channels load.
 pub fn effective_sampler(project: &Project, pass: usize, index: usize) -> Option<Sampler> {
     let pass = &project.passes[pass];
-    let channel = pass.channels[index].as_ref()?;
+    let channel = pass.bindings.get(index)?;
     let is_shared = channel.input.target().is_some();
     if !is_shared || project.sampler_rules == SamplerRules::PerChannel {
         return Some(channel.sampler());
     }
-    let same = |channels: &[Option<eddy_project::Channel>; 4]| {
-        channels.iter().flatten().rfind(|c| c.input == channel.input).map(|c| c.sampler)
-    };
-    let filter = same(&pass.channels)?.filter;
-    let wrap = project.passes.iter().rev().find_map(|p| same(&p.channels))?.wrap;
+    let same = |pass: &Pass| pass.bindings.channels().rfind(|c| c.input == channel.input).map(|c| c.sampler);
+    let filter = same(pass)?.filter;
+    let wrap = project.passes.iter().rev().find_map(same)?.wrap;
     Some(Sampler { filter, wrap, ..channel.sampler })
 }

@@ -4,8 +4,8 @@ use super::{
     Carried, Changes, ChannelFacts, FramePlan, PassFacts, ReadTiming, Target, TexelSource, Undivided, effective_sampler,
 };
 use eddy_project::{
-    Channel, Filter, Group, Input, Origin, Pass, PassBody, PassId, PassSize, Project, Region, Sampler, SamplerRules,
-    Wrap,
+    Body, Channel, Filter, Group, Input, Origin, Pass, PassName, PassSize, Project, Region, SLOTS, Sampler,
+    SamplerRules, Wrap,
 };
 use eddy_texture::{Dimension, TexelFormat};
 
@@ -19,11 +19,11 @@ fn buffer(name: &str) -> Option<Channel> {
     channel(Input::buffer(name), Filter::Linear, Wrap::Clamp)
 }
 
-fn pass(id: PassId, channels: [Option<Channel>; 4]) -> Pass {
-    Pass { channels, ..Pass::new(id.clone(), source(&id)) }
+fn pass(id: PassName, channels: [Option<Channel>; 4]) -> Pass {
+    Pass { bindings: channels.into(), ..Pass::new(id.clone(), source(&id)) }
 }
 
-fn source(id: &PassId) -> eddy_project::Source {
+fn source(id: &PassName) -> eddy_project::Source {
     eddy_project::Source { name: id.title(), path: None, text: "".into() }
 }
 
@@ -32,7 +32,7 @@ fn project(passes: Vec<Pass>) -> Project {
 }
 
 fn reads_all() -> PassFacts {
-    PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; 4], discards: false }
+    PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; SLOTS], discards: false }
 }
 
 fn plan(project: &Project) -> FramePlan {
@@ -40,7 +40,7 @@ fn plan(project: &Project) -> FramePlan {
 }
 
 /// Returns what `reader`'s channel `c` reads in `plan`: the target's title and the frame.
-fn seen(project: &Project, plan: &FramePlan, reader: &PassId, c: usize) -> Option<(String, ReadTiming)> {
+fn seen(project: &Project, plan: &FramePlan, reader: &PassName, c: usize) -> Option<(String, ReadTiming)> {
     let draw = plan.draws.iter().find(|d| project.passes[d.pass].id == *reader)?;
     match &draw.reads[c].as_ref()?.source {
         TexelSource::Target { index, when } => Some((plan.targets[*index].id.title(), *when)),
@@ -53,49 +53,48 @@ fn truth_table_of_reads() {
     // Every buffer and Image read all four buffers; the buffers are not listed in alphabetical order.
     for order in [[0, 1, 2, 3], [3, 1, 0, 2], [2, 3, 0, 1]] {
         let everything = || LETTERS.map(buffer);
-        let mut passes: Vec<_> =
-            order.map(|i| pass(PassId::Buffer(LETTERS[i].into()), everything())).into_iter().collect();
-        passes.push(pass(PassId::Image, everything()));
+        let mut passes: Vec<_> = order.map(|i| pass(PassName::buffer(LETTERS[i]), everything())).into_iter().collect();
+        passes.push(pass(PassName::image(), everything()));
         let project = project(passes);
         let plan = plan(&project);
         for (place, &reader) in order.iter().enumerate() {
             for (source, letter) in LETTERS.iter().enumerate() {
                 let source_place = order.iter().position(|&i| i == source).unwrap();
                 let when = if source_place < place { ReadTiming::ThisFrame } else { ReadTiming::LastFrame };
-                let id = PassId::Buffer(LETTERS[reader].into());
+                let id = PassName::buffer(LETTERS[reader]);
                 assert_eq!(seen(&project, &plan, &id, source), Some((format!("Buffer {letter}"), when)), "{order:?}");
             }
         }
         for (source, letter) in LETTERS.iter().enumerate() {
             let expected = Some((format!("Buffer {letter}"), ReadTiming::ThisFrame));
-            assert_eq!(seen(&project, &plan, &PassId::Image, source), expected);
+            assert_eq!(seen(&project, &plan, &PassName::image(), source), expected);
         }
     }
 }
 
 #[test]
 fn buffers_see_last_frames_cubemap_and_image_this_frames() {
-    let cube = || channel(Input::pass(PassId::Cubemap), Filter::Linear, Wrap::Clamp);
+    let cube = || channel(Input::pass(PassName::cube()), Filter::Linear, Wrap::Clamp);
     let project = project(vec![
-        pass(PassId::Buffer("A".into()), [cube(), None, None, None]),
-        pass(PassId::Cubemap, [buffer("A"), cube(), None, None]),
-        pass(PassId::Image, [cube(), buffer("A"), None, None]),
+        pass(PassName::buffer("A"), [cube(), None, None, None]),
+        pass(PassName::cube(), [buffer("A"), cube(), None, None]),
+        pass(PassName::image(), [cube(), buffer("A"), None, None]),
     ]);
     let plan = plan(&project);
-    let see = |id: PassId, c| seen(&project, &plan, &id, c).unwrap().1;
-    assert_eq!(see(PassId::Buffer("A".into()), 0), ReadTiming::LastFrame);
-    assert_eq!(see(PassId::Cubemap, 0), ReadTiming::ThisFrame);
-    assert_eq!(see(PassId::Cubemap, 1), ReadTiming::LastFrame);
-    assert_eq!(see(PassId::Image, 0), ReadTiming::ThisFrame);
-    assert_eq!(plan.targets.iter().find(|t| t.id == PassId::Cubemap).unwrap().dimension, Dimension::Cube);
+    let see = |id: PassName, c| seen(&project, &plan, &id, c).unwrap().1;
+    assert_eq!(see(PassName::buffer("A"), 0), ReadTiming::LastFrame);
+    assert_eq!(see(PassName::cube(), 0), ReadTiming::ThisFrame);
+    assert_eq!(see(PassName::cube(), 1), ReadTiming::LastFrame);
+    assert_eq!(see(PassName::image(), 0), ReadTiming::ThisFrame);
+    assert_eq!(plan.targets.iter().find(|t| t.id.has_faces()).unwrap().dimension, Dimension::Cube);
 }
 
 #[test]
 fn unreachable_passes_are_not_drawn_and_unread_channels_reach_nothing() {
     let project = project(vec![
-        pass(PassId::Buffer("A".into()), [None, None, None, None]),
-        pass(PassId::Buffer("B".into()), [buffer("A"), None, None, None]),
-        pass(PassId::Image, [buffer("B"), buffer("A"), None, None]),
+        pass(PassName::buffer("A"), [None, None, None, None]),
+        pass(PassName::buffer("B"), [buffer("A"), None, None, None]),
+        pass(PassName::image(), [buffer("B"), buffer("A"), None, None]),
     ]);
     let mut facts = vec![reads_all(); 3];
     facts[2].channels[0].is_read = false;
@@ -105,22 +104,22 @@ fn unreachable_passes_are_not_drawn_and_unread_channels_reach_nothing() {
     let all = FramePlan::new(&project, &facts, &[], false);
     assert_eq!(all.draws.len(), 3);
     assert!(all.skipped.is_empty());
-    let wanted = FramePlan::new(&project, &facts, &[PassId::Buffer("B".into())], true);
+    let wanted = FramePlan::new(&project, &facts, &[PassName::buffer("B")], true);
     assert_eq!(wanted.draws.iter().map(|d| d.pass).collect::<Vec<_>>(), [0, 1], "Image is not wanted");
 }
 
 #[test]
 fn only_buffers_read_back_or_discarded_are_doubled() {
     let project = project(vec![
-        pass(PassId::Buffer("A".into()), [buffer("C"), None, None, None]),
-        pass(PassId::Buffer("B".into()), [buffer("A"), None, None, None]),
-        pass(PassId::Buffer("C".into()), [buffer("B"), None, None, None]),
-        pass(PassId::Buffer("D".into()), [None, None, None, None]),
-        pass(PassId::Image, [buffer("C"), buffer("D"), None, None]),
+        pass(PassName::buffer("A"), [buffer("C"), None, None, None]),
+        pass(PassName::buffer("B"), [buffer("A"), None, None, None]),
+        pass(PassName::buffer("C"), [buffer("B"), None, None, None]),
+        pass(PassName::buffer("D"), [None, None, None, None]),
+        pass(PassName::image(), [buffer("C"), buffer("D"), None, None]),
     ]);
     let doubled = |facts: &[PassFacts], skip| {
         let plan = FramePlan::new(&project, facts, &[], skip);
-        plan.targets.iter().filter(|t| t.doubled).map(|t| t.id.key()).collect::<Vec<_>>()
+        plan.targets.iter().filter(|t| t.doubled).map(|t| t.id.key().to_owned()).collect::<Vec<_>>()
     };
     let mut facts = vec![reads_all(); 5];
     assert_eq!(doubled(&facts, true), ["buffer_c"]);
@@ -135,9 +134,9 @@ fn only_buffers_read_back_or_discarded_are_doubled() {
 fn mips_exist_only_where_a_sampler_asks_and_a_read_can_reach_them() {
     let mip = |name: &str| channel(Input::buffer(name), Filter::Mipmap, Wrap::Clamp);
     let project = project(vec![
-        pass(PassId::Buffer("A".into()), [None, None, None, None]),
-        pass(PassId::Buffer("B".into()), [None, None, None, None]),
-        pass(PassId::Image, [mip("A"), buffer("A"), buffer("B"), None]),
+        pass(PassName::buffer("A"), [None, None, None, None]),
+        pass(PassName::buffer("B"), [None, None, None, None]),
+        pass(PassName::image(), [mip("A"), buffer("A"), buffer("B"), None]),
     ]);
     let mut facts = vec![reads_all(); 3];
     let mips = |facts: &[PassFacts]| {
@@ -155,8 +154,8 @@ fn mips_exist_only_where_a_sampler_asks_and_a_read_can_reach_them() {
 fn site_rules_share_filter_in_a_pass_and_wrap_in_the_project() {
     let a = |filter, wrap| channel(Input::buffer("A"), filter, wrap);
     let mut project = project(vec![
-        pass(PassId::Buffer("A".into()), [a(Filter::Nearest, Wrap::Clamp), None, None, None]),
-        pass(PassId::Image, [a(Filter::Nearest, Wrap::Clamp), a(Filter::Linear, Wrap::Repeat), None, None]),
+        pass(PassName::buffer("A"), [a(Filter::Nearest, Wrap::Clamp), None, None, None]),
+        pass(PassName::image(), [a(Filter::Nearest, Wrap::Clamp), a(Filter::Linear, Wrap::Repeat), None, None]),
     ]);
     let sampler = |project: &Project, p, c| {
         let s = effective_sampler(project, p, c).unwrap();
@@ -170,8 +169,10 @@ fn site_rules_share_filter_in_a_pass_and_wrap_in_the_project() {
 
 #[test]
 fn keyboard_is_nearest_and_clamped_whatever_the_project_says() {
-    let project =
-        project(vec![pass(PassId::Image, [channel(Input::KEYBOARD, Filter::Linear, Wrap::Repeat), None, None, None])]);
+    let project = project(vec![pass(
+        PassName::image(),
+        [channel(Input::KEYBOARD, Filter::Linear, Wrap::Repeat), None, None, None],
+    )]);
     let read = plan(&project).draws[0].reads[0].clone().unwrap();
     assert_eq!(
         (read.sampler.filter, read.sampler.wrap, read.source),
@@ -181,14 +182,14 @@ fn keyboard_is_nearest_and_clamped_whatever_the_project_says() {
 
 #[test]
 fn a_buffer_without_a_pass_is_a_target_without_a_draw() {
-    let project = project(vec![pass(PassId::Image, [buffer("C"), None, None, None])]);
+    let project = project(vec![pass(PassName::image(), [buffer("C"), None, None, None])]);
     let plan = plan(&project);
-    let place = plan.targets.iter().position(|t| t.id == PassId::Buffer("C".into())).unwrap();
+    let place = plan.targets.iter().position(|t| t.id == PassName::buffer("C")).unwrap();
     assert!(!plan.targets[place].doubled && plan.draws.iter().all(|draw| !draw.targets.contains(&place)));
 }
 
-fn id(letter: &str) -> PassId {
-    PassId::Buffer(letter.into())
+fn id(letter: &str) -> PassName {
+    PassName::buffer(letter)
 }
 
 #[test]
@@ -198,7 +199,7 @@ fn a_group_is_one_run_of_many_steps_and_every_other_draw_a_run_of_one() {
         pass(id("B"), [buffer("C"), buffer("A"), None, None]),
         pass(id("C"), [buffer("B"), None, None, None]),
         pass(id("D"), Default::default()),
-        pass(PassId::Image, [buffer("C"), buffer("D"), None, None]),
+        pass(PassName::image(), [buffer("C"), buffer("D"), None, None]),
     ]);
     project.groups = vec![Group { name: "solver".into(), passes: vec![id("B"), id("C")], steps: 20 }];
     let runs = |plan: &FramePlan| plan.runs.iter().map(|r| (r.draws.clone(), r.steps)).collect::<Vec<_>>();
@@ -217,8 +218,10 @@ fn a_group_is_one_run_of_many_steps_and_every_other_draw_a_run_of_one() {
 
 #[test]
 fn targets_have_their_passes_sizes_formats_and_regions() {
-    let mut project =
-        project(vec![pass(id("A"), Default::default()), pass(PassId::Image, [buffer("A"), buffer("D"), None, None])]);
+    let mut project = project(vec![
+        pass(id("A"), Default::default()),
+        pass(PassName::image(), [buffer("A"), buffer("D"), None, None]),
+    ]);
     let region = Region { x: 3, y: 1, width: 9, height: 2 };
     let settings = &mut project.passes[0].settings;
     (settings.size, settings.format, settings.region) = (PassSize::Scale(0.5), TexelFormat::Rg16f, Some(region));
@@ -238,7 +241,7 @@ fn only_draws_that_do_not_read_themselves_are_cached() {
         pass(id("A"), Default::default()),
         pass(id("B"), [buffer("B"), None, None, None]),
         pass(id("C"), Default::default()),
-        pass(PassId::Image, [buffer("A"), buffer("B"), buffer("C"), None]),
+        pass(PassName::image(), [buffer("A"), buffer("B"), buffer("C"), None]),
     ]);
     let mut facts = vec![reads_all(); 4];
     facts[2].discards = true;
@@ -255,7 +258,7 @@ fn a_draw_is_skipped_until_one_of_its_transitive_inputs_changes() {
         pass(id("C"), [buffer("B"), None, None, None]),
         pass(id("A"), Default::default()),
         pass(id("B"), [buffer("A"), None, None, None]),
-        pass(PassId::Image, [buffer("B"), buffer("C"), None, None]),
+        pass(PassName::image(), [buffer("B"), buffer("C"), None, None]),
     ]);
     let plan = plan(&project);
     let mut changes = Changes::new(&plan);
@@ -278,18 +281,18 @@ fn a_draw_is_skipped_until_one_of_its_transitive_inputs_changes() {
 
 /// `scene` draws meshes into two targets and may discard; A reads its second, Image reads A and its first.
 fn with_scene() -> (Project, Vec<PassFacts>) {
-    let id = PassId::Buffer("scene".into());
+    let id = PassName::buffer("scene");
     let mut scene = pass(id, Default::default());
     scene.settings.format = TexelFormat::Rgba8;
-    scene.settings.body = PassBody::Meshes(eddy_project::Geometry {
+    scene.body = Body::Meshes(eddy_project::Geometry {
         draws: Vec::new(),
         more_targets: vec![TexelFormat::Rgba16f],
         camera: Default::default(),
         stages: Vec::new(),
     });
-    let second = channel(Input::Pass { id: PassId::Buffer("scene".into()), target: 1 }, Filter::Mipmap, Wrap::Clamp);
-    let a = pass(PassId::Buffer("A".into()), [second, None, None, None]);
-    let image = pass(PassId::Image, [buffer("scene"), buffer("A"), None, None]);
+    let second = channel(Input::Pass { id: PassName::buffer("scene"), target: 1 }, Filter::Mipmap, Wrap::Clamp);
+    let a = pass(PassName::buffer("A"), [second, None, None, None]);
+    let image = pass(PassName::image(), [buffer("scene"), buffer("A"), None, None]);
     let nothing = PassFacts { discards: true, ..PassFacts::default() };
     (project(vec![scene, a, image]), vec![nothing, reads_all(), reads_all()])
 }
@@ -299,7 +302,7 @@ fn a_scene_has_a_target_for_each_of_its_pictures() {
     let (project, facts) = with_scene();
     let plan = FramePlan::new(&project, &facts, &[], true);
     let targets: Vec<_> = plan.targets.iter().map(|t| (t.id.key(), t.index, t.format, t.mips, t.doubled)).collect();
-    let scene = || "buffer_scene".to_owned();
+    let scene = || "buffer_scene";
     // Cleared first, so that a `discard` never shows older texels; mips only for the target whose sampler uses them.
     assert_eq!(
         targets[..2],
@@ -332,8 +335,8 @@ fn readers_of_any_target_follow_a_scene_that_was_drawn() {
 #[test]
 fn a_missing_target_reads_as_nothing() {
     let (mut project, facts) = with_scene();
-    project.passes[1].channels[0] =
-        channel(Input::Pass { id: PassId::Buffer("scene".into()), target: 3 }, Filter::Linear, Wrap::Clamp);
+    let fourth = channel(Input::Pass { id: PassName::buffer("scene"), target: 3 }, Filter::Linear, Wrap::Clamp);
+    project.passes[1].bindings.set(0, fourth);
     let plan = FramePlan::new(&project, &facts, &[], true);
     assert_eq!(plan.draws[1].reads[0].as_ref().unwrap().source, TexelSource::Nothing);
 }
@@ -343,7 +346,7 @@ fn traffic_counts_writes_and_each_source_once_per_draw() {
     let frame = |change: &dyn Fn(&mut Project)| {
         let a = pass(id("A"), [buffer("A"), buffer("A"), buffer("B"), None]);
         let b = pass(id("B"), [buffer("A"), None, None, None]);
-        let mut project = project(vec![a, b, pass(PassId::Image, [buffer("B"), None, None, None])]);
+        let mut project = project(vec![a, b, pass(PassName::image(), [buffer("B"), None, None, None])]);
         change(&mut project);
         let plan = FramePlan::new(&project, &[reads_all(); 3], &[id("B")], true);
         let traffic = plan.traffic((8, 4));
@@ -361,12 +364,12 @@ fn traffic_counts_writes_and_each_source_once_per_draw() {
 #[test]
 fn an_additional_output_changes_no_other_target() {
     let project = project(vec![
-        pass(PassId::Buffer("A".into()), [buffer("A"), None, None, None]),
-        pass(PassId::Image, [buffer("A"), None, None, None]),
+        pass(PassName::buffer("A"), [buffer("A"), None, None, None]),
+        pass(PassName::image(), [buffer("A"), None, None, None]),
     ]);
     let plain = plan(&project);
     let mut plan = plan(&project);
-    let value = PassId::Buffer("a value".into());
+    let value = PassName::buffer("a value");
     plan.draw_beside(0, value.clone());
     assert_eq!(plan.targets[..plain.targets.len()], plain.targets);
     let [more] = &plan.targets[plain.targets.len()..] else { panic!("one more target") };
@@ -386,7 +389,7 @@ fn targets_that_are_read_before_being_overwritten_are_carried_to_the_next_frame(
         pass(id("B"), [buffer("A"), None, None, None]),
         pass(id("C"), [buffer("B"), buffer("C"), None, None]),
         pass(id("D"), [buffer("E"), None, None, None]),
-        pass(PassId::Image, [buffer("C"), buffer("D"), None, None]),
+        pass(PassName::image(), [buffer("C"), buffer("D"), None, None]),
     ]);
     let mut facts = vec![reads_all(); 5];
     facts[3].discards = true;
@@ -396,7 +399,7 @@ fn targets_that_are_read_before_being_overwritten_are_carried_to_the_next_frame(
         plan.targets.iter().enumerate().map(of).collect::<std::collections::BTreeMap<_, _>>()
     };
     let expect = |entries: [Carried; 6]| {
-        let ids = ["A", "B", "C", "D", "E"].map(id).into_iter().chain([PassId::Image]);
+        let ids = ["A", "B", "C", "D", "E"].map(id).into_iter().chain([PassName::image()]);
         ids.map(|id| id.title()).zip(entries).collect::<std::collections::BTreeMap<_, _>>()
     };
     let (nothing, newest, all) = (Carried::Nothing, Carried::Newest, Carried::All);
@@ -405,7 +408,7 @@ fn targets_that_are_read_before_being_overwritten_are_carried_to_the_next_frame(
     assert_eq!(carried(&project, &facts, false), expect([all, all, all, all, nothing, newest]));
     // Image has one texture, which a `discard` shows.
     facts[4].discards = true;
-    assert_eq!(carried(&project, &facts, true)[&PassId::Image.title()], newest);
+    assert_eq!(carried(&project, &facts, true)[&PassName::image().title()], newest);
     // The texels around a region never change.
     let mut project = project;
     project.passes[0].settings.region = Some(Region { x: 0, y: 0, width: 3, height: 3 });
@@ -420,7 +423,7 @@ fn later_frames_depend_on_their_transitive_inputs() {
         pass(id("A"), [None, None, None, None]),
         pass(id("B"), [buffer("A"), buffer("B"), None, None]),
         pass(id("C"), [buffer("B"), None, None, None]),
-        pass(PassId::Image, [buffer("C"), None, None, None]),
+        pass(PassName::image(), [buffer("C"), None, None, None]),
     ]);
     let mut facts = vec![reads_all(); 4];
     let lasting = |project: &Project, facts: &[PassFacts]| FramePlan::new(project, facts, &[], true).lasting_draws();
@@ -430,11 +433,11 @@ fn later_frames_depend_on_their_transitive_inputs() {
     assert_eq!(lasting(&project, &facts), [true, true, true, false]);
     facts[2].discards = false;
     // A reads what C left.
-    project.passes[0].channels[0] = buffer("C");
+    project.passes[0].bindings.set(0, buffer("C"));
     assert_eq!(lasting(&project, &facts), [true, true, true, false]);
     // Nothing is read from a previous frame.
-    project.passes[0].channels[0] = None;
-    project.passes[1].channels[1] = None;
+    project.passes[0].bindings.set(0, None);
+    project.passes[1].bindings.set(1, None);
     assert_eq!(lasting(&project, &facts), [false; 4]);
 }
 
@@ -443,10 +446,11 @@ fn the_last_draw_may_be_split_if_the_result_is_the_same() {
     let mut project = project(vec![
         pass(id("A"), [buffer("B"), None, None, None]),
         pass(id("B"), [buffer("A"), None, None, None]),
-        pass(PassId::Image, [buffer("A"), None, None, None]),
+        pass(PassName::image(), [buffer("A"), None, None, None]),
     ]);
     let facts = [reads_all(); 3];
-    let plan = |project: &Project, facts: &[PassFacts], wanted: &[PassId]| FramePlan::new(project, facts, wanted, true);
+    let plan =
+        |project: &Project, facts: &[PassFacts], wanted: &[PassName]| FramePlan::new(project, facts, wanted, true);
     let divisible = |project: &Project, facts: &[PassFacts]| plan(project, facts, &[]).divisible_draw();
     assert_eq!(divisible(&project, &facts), Some(2));
     assert_eq!(plan(&project, &facts, &[id("B")]).divisible_draw(), None, "A reads the B of the frame before");
@@ -458,7 +462,7 @@ fn the_last_draw_may_be_split_if_the_result_is_the_same() {
     let mut probed = plan(&project, &facts, &[]);
     probed.draw_beside(2, id("probe"));
     assert_eq!(probed.divisible_draw(), None, "a probe is read back");
-    project.groups = vec![Group { name: "g".into(), passes: vec![PassId::Image], steps: 2 }];
+    project.groups = vec![Group { name: "g".into(), passes: vec![PassName::image()], steps: 2 }];
     assert_eq!(divisible(&project, &facts), None, "it is drawn twice");
     project.groups.clear();
     project.passes[2].settings.region = Some(Region { x: 0, y: 0, width: 3, height: 3 });
@@ -468,8 +472,8 @@ fn the_last_draw_may_be_split_if_the_result_is_the_same() {
 
 #[test]
 fn a_pass_is_drawn_in_tiles_if_its_picture_is_the_same() {
-    let image = || pass(PassId::Image, [buffer("A"), None, None, None]);
-    let a = || pass(PassId::Buffer("A".into()), Default::default());
+    let image = || pass(PassName::image(), [buffer("A"), None, None, None]);
+    let a = || pass(PassName::buffer("A"), Default::default());
     let project = project(vec![a(), image()]);
     let whole = plan(&project);
     let mut tiled = whole.clone();
@@ -495,12 +499,12 @@ fn a_pass_whose_picture_would_differ_is_not_drawn_in_tiles() {
         let mut plan = FramePlan::new(&project, &vec![facts; project.passes.len()], &wanted, true);
         plan.tile(&project, of, (64, 32)).unwrap_err()
     };
-    let image = || pass(PassId::Image, Default::default());
-    let a = || pass(PassId::Buffer("A".into()), [buffer("A"), None, None, None]);
+    let image = || pass(PassName::image(), Default::default());
+    let a = || pass(PassName::buffer("A"), [buffer("A"), None, None, None]);
     let region = Some(Region { x: 0, y: 0, width: 1, height: 1 });
     let settings = |region| eddy_project::PassSettings { region, ..Default::default() };
     assert_eq!(why(vec![image()], PassFacts { discards: true, ..reads_all() }, 0), Undivided::Discards);
     assert_eq!(why(vec![a(), image()], reads_all(), 0), Undivided::Itself);
     assert_eq!(why(vec![Pass { settings: settings(region), ..image() }], reads_all(), 0), Undivided::Region);
-    assert_eq!(why(vec![pass(PassId::Cubemap, Default::default()), image()], reads_all(), 0), Undivided::Cube);
+    assert_eq!(why(vec![pass(PassName::cube(), Default::default()), image()], reads_all(), 0), Undivided::Cube);
 }

@@ -70,8 +70,7 @@ impl FramePlan {
     pub fn tile(&mut self, project: &Project, pass: usize, tile: (u32, u32)) -> Result<(), Undivided> {
         let index = self.draws.iter().position(|draw| draw.pass == pass).expect("the pass is drawn");
         let draw = &self.draws[index];
-        let settings = &project.passes[pass].settings;
-        if settings.meshes().is_some() {
+        if !project.passes[pass].body.is_screen() {
             return Err(Undivided::Meshes);
         }
         if draw.targets.len() != 1 || draw.beside.is_some() {

@@ -99,13 +99,13 @@ fn target_of(read: &super::Read) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eddy_project::{PassId, PassSize};
+    use eddy_project::{PassName, PassSize};
     use eddy_texture::{Dimension, TexelFormat};
 
     #[test]
     fn a_mip_chain_and_a_second_texture_are_counted() {
         let target = |doubled, mips| Target {
-            id: PassId::Image,
+            id: PassName::image(),
             index: 0,
             dimension: Dimension::D2,
             size: Default::default(),

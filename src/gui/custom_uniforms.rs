@@ -89,14 +89,14 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::project::{Origin, Pass, PassId, Project, Source};
+    use crate::project::{Origin, Pass, PassName, Project, Source};
 
     #[test]
     fn groups_keep_the_order_of_the_code_and_what_is_in_none_comes_first() {
         let text = "//@group Light\n#iUniform float a\n//@group\n#iUniform float b\n//@group Fog\n#iUniform float c\n\
                     //@group Light\n#iUniform float d\n";
         let source = Source { name: "image.glsl".into(), path: None, text: text.into() };
-        let project = Project::new("p", vec![Pass::new(PassId::Image, source)], Origin::Unsaved);
+        let project = Project::new("p", vec![Pass::new(PassName::image(), source)], Origin::Unsaved);
         let list = project.custom_uniforms().list;
         let shown: Vec<(&str, Vec<&str>)> = groups(&list)
             .into_iter()

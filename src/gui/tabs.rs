@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     diag::Severity,
-    project::{PassEdit, PassId, Tab, listed},
+    project::{PassEdit, Tab, listed},
     session::{Command, Session},
 };
 use egui::{Align2, FontId, Rect, ScrollArea, Sense, Stroke, Ui, pos2, style::ScrollAnimation, vec2};
@@ -186,7 +186,7 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
         {
             out.shell_commands.push(ShellCommand::ChoosePass(Tab::Pass(id.clone())));
         }
-        let can_go = *tab != Tab::Pass(PassId::Image);
+        let can_go = *tab != Tab::image();
         if is_included {
             let close = ui.add_enabled(can_close, egui::Button::new("Close tab"));
             if close.on_disabled_hover_text("Save it first").clicked() {
@@ -220,7 +220,7 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
         if dirty {
             ui.colored_label(theme::of(ui).accent, "Not saved");
         }
-        if *tab != Tab::Pass(PassId::Image) && !is_included {
+        if *tab != Tab::image() && !is_included {
             ui.colored_label(theme::of(ui).weak, "Right-click or Shift+F10 for more");
         }
     });

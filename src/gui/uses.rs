@@ -148,17 +148,16 @@ fn place(text: &str, tab: Tab, range: Range<usize>, known: (usize, usize)) -> Op
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::project::PassId;
 
     #[test]
     fn a_place_is_shown_with_its_line() {
         let text = "float a;\r\n    b = a * a; // x\r\n";
         let at = text.rfind("a;").unwrap();
-        let found = place(text, Tab::Pass(PassId::Image), at..at + 1, (0, 1)).unwrap();
+        let found = place(text, Tab::image(), at..at + 1, (0, 1)).unwrap();
         assert_eq!((found.line, found.text.as_str(), &found.text[found.name]), (2, "b = a * a; // x", "a"));
-        let first = place(text, Tab::Pass(PassId::Image), 6..7, (0, 1)).unwrap();
+        let first = place(text, Tab::image(), 6..7, (0, 1)).unwrap();
         assert_eq!((first.line, first.text.as_str()), (1, "float a;"));
-        assert_eq!(place(text, Tab::Pass(PassId::Image), at..at + 1, (6, 1)).unwrap().line, 2);
+        assert_eq!(place(text, Tab::image(), at..at + 1, (6, 1)).unwrap().line, 2);
         assert!(place(text, Tab::Common, 90..91, (0, 1)).is_none(), "the text has changed meanwhile");
         let long = format!("{}a{}", "ä b ".repeat(3_000), " ö + ".repeat(3_000));
         let at = long.find('a').unwrap();

@@ -247,7 +247,7 @@ fn traced(ui: &Ui, session: &Session, picture: Rect) {
 }
 
 fn reads_keyboard(session: &Session) -> bool {
-    session.project().passes.iter().flat_map(|p| p.channels.iter().flatten()).any(|c| c.input == Input::KEYBOARD)
+    session.project().passes.iter().flat_map(|p| p.bindings.channels()).any(|c| c.input == Input::KEYBOARD)
 }
 
 /// A line of text over a corner of the picture, on black in either theme.

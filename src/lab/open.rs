@@ -2,7 +2,7 @@
 
 use super::{LabError, Point, Study};
 use eddy_media as media;
-use eddy_project::{FillKind, FillValue, PassId, Project};
+use eddy_project::{FillKind, FillValue, PassName, Project};
 
 /// The project of a point.
 pub struct Opened {
@@ -12,7 +12,7 @@ pub struct Opened {
     /// The size of its canvas.
     pub size: (u32, u32),
     /// The pass that is measured.
-    pub pass: PassId,
+    pub pass: PassName,
 }
 
 /// Returns the project of a point of a study.
@@ -41,6 +41,6 @@ pub fn project(study: &Study, point: &Point) -> Result<Opened, LabError> {
         "{}: {title}, {} = {}, on {} x {} texels.",
         study.title, study.parameter, point.setting, point.grid, point.grid
     );
-    let pass = setup.wanted().first().cloned().unwrap_or(PassId::Image);
+    let pass = setup.wanted().first().cloned().unwrap_or_default();
     Ok(Opened { project, size: setup.size(), pass })
 }

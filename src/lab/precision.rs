@@ -8,7 +8,7 @@ use super::{
 use eddy_engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Pixels, Program};
 use eddy_gpu::Gpu;
 use eddy_media::MediaSet;
-use eddy_project::{PassId, Project, TexelFormat};
+use eddy_project::{PassName, Project, TexelFormat};
 use serde::Serialize;
 
 /// The smallest difference that a screen of 8 bits shows.
@@ -106,7 +106,7 @@ fn compare_run(
         for engine in &mut engines {
             engine.draw(&inputs)?;
         }
-        let [a, b] = both(&mut engines, &PassId::Image)?;
+        let [a, b] = both(&mut engines, &PassName::image())?;
         let off = largest(&a, &b);
         result.largest = result.largest.max(off);
         if off > VISIBLE && result.first_visible.is_none() {
@@ -124,7 +124,7 @@ fn compare_run(
             let size = reference.iter().map(|x| x.abs()).sum::<f64>();
             let mass_drift = if size > 0.0 { (sum(&values) - sum(&reference)) / size } else { 0.0 };
             let norms = Norms::of(&values, &reference);
-            result.rows.push(Row { pass: pass.id.key(), formats, frame, norms, mass_drift });
+            result.rows.push(Row { pass: pass.id.key().to_owned(), formats, frame, norms, mass_drift });
         }
     }
     Ok(result)
@@ -165,7 +165,7 @@ pub fn halved_by(
 pub fn cuts_off(rig: &Rig) -> Result<bool, LabError> {
     let probe =
         Setup::new("floor", (1, 1)).wants(&["empty"]).steps("empty", 1).storage(Storage::Half).built(|project| {
-            if let Some(pass) = project.pass_mut(&PassId::Buffer("empty".into())) {
+            if let Some(pass) = project.pass_mut(&PassName::buffer("empty")) {
                 pass.source.text = PROBE.into();
                 pass.settings.format = TexelFormat::R32f;
             }
@@ -176,13 +176,13 @@ pub fn cuts_off(rig: &Rig) -> Result<bool, LabError> {
 
 fn open(gpu: &Gpu, project: &Project, media: &MediaSet, size: (u32, u32)) -> Result<Engine, PrecisionError> {
     let mut engine = Engine::new(gpu.clone(), size.0, size.1)?;
-    let options = BuildOptions { wanted: vec![PassId::Image], skip: true, ..BuildOptions::default() };
+    let options = BuildOptions { wanted: vec![PassName::image()], skip: true, ..BuildOptions::default() };
     let built = Program::build(gpu, project, media, &options).map_err(PrecisionError::Build)?;
     engine.set_program(built.program)?;
     Ok(engine)
 }
 
-fn both(engines: &mut [Engine; 2], pass: &PassId) -> Result<[Pixels; 2], EngineError> {
+fn both(engines: &mut [Engine; 2], pass: &PassName) -> Result<[Pixels; 2], EngineError> {
     let [a, b] = engines;
     Ok([a.read(pass)?, b.read(pass)?])
 }

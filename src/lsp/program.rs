@@ -10,7 +10,7 @@ use eddy_glsl::{
 };
 use eddy_media as media;
 use eddy_project::{
-    self as project, Channel, Dialect, EditedTexts, PassId, PassSettings, Project, ProjectError, ShaderForm, Stage,
+    self as project, Bindings, Body, Dialect, EditedTexts, PassSettings, Project, ProjectError, ShaderForm, Stage,
 };
 use std::{
     collections::BTreeSet,
@@ -71,7 +71,7 @@ pub(crate) struct Program {
 /// The diagnostics of pictures and models, which are read again when a project names different ones.
 #[derive(Default)]
 struct Media {
-    of: Option<Vec<([Option<Channel>; 4], PassSettings)>>,
+    of: Option<Vec<(Bindings, PassSettings, Body)>>,
     reported: Vec<Diagnostic>,
 }
 
@@ -230,14 +230,18 @@ impl Program {
     /// Returns whether the pictures and models differ from those that were checked last.
     pub fn has_unseen_media(&self) -> bool {
         let Some(project) = &self.project else { return false };
-        let now = project.passes.iter().map(|pass| (&pass.channels, &pass.settings));
-        self.media.of.as_ref().is_none_or(|of| !of.iter().map(|(c, s)| (c, s)).eq(now))
+        let now = project.passes.iter().map(|pass| (&pass.bindings, &pass.settings, &pass.body));
+        self.media.of.as_ref().is_none_or(|of| !of.iter().map(|(c, s, b)| (c, s, b)).eq(now))
     }
 
     /// Checks pictures and models; the time depends on their size.
     pub fn look_at_media(&mut self) {
         let Some(project) = &self.project else { return };
-        let of = project.passes.iter().map(|pass| (pass.channels.clone(), pass.settings.clone())).collect();
+        let of = project
+            .passes
+            .iter()
+            .map(|pass| (pass.bindings.clone(), pass.settings.clone(), pass.body.clone()))
+            .collect();
         let reported = media::diagnose(project);
         self.is_untold |= reported != self.media.reported;
         self.media = Media { of: Some(of), reported };
@@ -275,7 +279,7 @@ impl Program {
         };
         let own = self.stages.iter().find(|stage| project.stage_id(stage.index, stage.stage) == id);
         let has_it = |stage: &&StageAnalysis| stage.analysis.text(id).is_some();
-        let image = |stage: &&StageAnalysis| project.passes[stage.index].id == PassId::Image;
+        let image = |stage: &&StageAnalysis| project.passes[stage.index].id.is_image();
         let with = || self.stages.iter().filter(has_it);
         let found = own.or_else(|| with().find(image)).or_else(|| with().next())?;
         Some(&found.analysis)
@@ -284,7 +288,7 @@ impl Program {
     /// Returns the file for diagnostics without a place.
     pub fn main_path(&self) -> Option<&Path> {
         let image = self.project.as_ref().and_then(|project| {
-            let index = project.passes.iter().position(|pass| pass.id == PassId::Image)?;
+            let index = project.image_index()?;
             self.path_of(Project::pass_id(index))
         });
         let root = match &self.root {

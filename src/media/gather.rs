@@ -125,7 +125,7 @@ pub fn fills(project: &Project, set: &mut MediaSet) {
 /// [`MediaSet::mesh_errors`]. Parts that are not drawn are listed by [`MediaSet::mesh_warnings`].
 pub fn meshes(project: &Project, set: &mut MediaSet) {
     let base = project.origin.base_dir();
-    for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
+    for draw in project.passes.iter().flat_map(|p| p.body.draws()) {
         let key = MeshKey::of(draw);
         if !set.meshes.contains_key(&key) {
             let loaded = super::mesh::load_within(&draw.mesh, draw.normals, base, set.room());
@@ -177,10 +177,9 @@ impl MediaSet {
 
 fn channels(project: &Project) -> impl Iterator<Item = (&Pass, usize, &Channel)> {
     project.passes.iter().flat_map(|pass| {
-        pass.channels
+        pass.bindings
             .iter()
-            .enumerate()
-            .filter_map(move |(n, c)| c.as_ref().map(|c| (pass, n, c)))
+            .map(move |(n, channel)| (pass, n, channel))
             .filter(|(.., channel)| channel.input.target().is_none())
             // Channels that a sound pass cannot read are reported by the project's advice.
             .filter(|(pass, _, channel)| pass.id.is_picture() || channel.input.kind().is_in_sound())
@@ -190,12 +189,12 @@ fn channels(project: &Project) -> impl Iterator<Item = (&Pass, usize, &Channel)>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eddy_project::{Origin, PassId, Source};
+    use eddy_project::{Origin, PassName, Source};
 
     fn project(inputs: [Option<Input>; 4]) -> Project {
         let channels = inputs.map(|i| i.map(Channel::new));
         let source = Source { name: "image.glsl".into(), path: None, text: "".into() };
-        let image = Pass { channels, ..Pass::new(PassId::Image, source) };
+        let image = Pass { bindings: channels.into(), ..Pass::new(PassName::image(), source) };
         Project::new("p", vec![image], Origin::Unsaved)
     }
 
@@ -217,7 +216,7 @@ mod tests {
 
     #[test]
     fn a_project_without_pictures_has_no_warnings() {
-        let p = project([Some(Input::KEYBOARD), Some(Input::buffer("A")), None, Some(Input::pass(PassId::Cubemap))]);
+        let p = project([Some(Input::KEYBOARD), Some(Input::buffer("A")), None, Some(Input::pass(PassName::cube()))]);
         assert_eq!(gather(&p, None), (MediaSet::new(), vec![]));
     }
 }

@@ -223,7 +223,7 @@ impl MediaSet {
 fn first_draws(project: &Project) -> impl Iterator<Item = (&Pass, usize, &MeshDraw)> {
     let mut seen: HashSet<&MeshSource> = HashSet::new();
     let all = project.passes.iter().flat_map(|pass| {
-        let draws = pass.settings.meshes().into_iter().flat_map(|g| g.draws.iter().enumerate());
+        let draws = pass.body.draws().iter().enumerate();
         draws.map(move |(n, draw)| (pass, n, draw))
     });
     all.filter(move |(.., draw)| seen.insert(&draw.mesh))

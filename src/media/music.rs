@@ -15,8 +15,8 @@ pub struct ChannelSound {
 /// Returns the music of the channels of a project, without duplicates.
 pub fn sounds(project: &Project, media: &MediaSet) -> Vec<ChannelSound> {
     let mut found: Vec<ChannelSound> = Vec::new();
-    let channels = project.passes.iter().filter(|pass| pass.id.is_picture()).flat_map(|pass| &pass.channels);
-    for channel in channels.flatten() {
+    let channels = project.passes.iter().filter(|pass| pass.id.is_picture()).flat_map(|pass| pass.bindings.channels());
+    for channel in channels {
         let Input::Media { kind: InputKind::Music, media: name } = &channel.input else { continue };
         if let Some(sound) = media.sound(name)
             && found.iter().all(|known| known.media != *name)

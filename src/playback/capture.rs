@@ -6,7 +6,7 @@
 
 use crate::{npy, scene::Scene};
 use eddy_engine::Pixels;
-use eddy_project::{Origin, PassId, Project, confine};
+use eddy_project::{Origin, PassName, Project, confine};
 use std::{
     fs::{self, File, OpenOptions},
     io::{self, BufWriter, Write},
@@ -134,11 +134,11 @@ pub fn base_folder(project: &Project) -> Option<PathBuf> {
 }
 
 /// The name of this project's pictures without their number, safe in any file system.
-pub fn stem_for(project: &Project, pass: &PassId) -> String {
+pub fn stem_for(project: &Project, pass: &PassName) -> String {
     let mut stem = file_stem(&project.name);
-    if *pass != PassId::Image {
+    if !pass.is_image() {
         stem.push('-');
-        stem.push_str(&file_stem(&pass.key()));
+        stem.push_str(&file_stem(pass.key()));
     }
     stem
 }

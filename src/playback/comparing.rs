@@ -10,7 +10,7 @@ use eddy_diag as diag;
 use eddy_engine::{BuildError, BuildOptions, CameraFrame, Engine, EngineError, FrameInputs, Pixels, Program, Trial};
 use eddy_gpu::{Gpu, GpuOptions};
 use eddy_media::{self as media, MediaSet};
-use eddy_project::{self as project, Origin, PassId, Project};
+use eddy_project::{self as project, Origin, PassName, Project};
 use std::{
     path::PathBuf,
     time::{Duration, Instant},
@@ -49,7 +49,7 @@ impl Baseline {
 #[derive(Debug)]
 pub struct Comparison {
     pub against: Baseline,
-    pub pass: PassId,
+    pub pass: PassName,
     /// `iFrame` of the pictures.
     pub frame: i32,
     pub ours: Pixels,
@@ -74,7 +74,7 @@ pub struct CompareJob {
     pub saved: Project,
     pub against: Baseline,
     pub revision: u64,
-    pub shown: PassId,
+    pub shown: PassName,
     pub media_dir: Option<PathBuf>,
     /// The other project may be one that the driver takes minutes for.
     pub trial: Option<Trial>,
@@ -100,7 +100,7 @@ pub fn compare(job: CompareJob, control: &Control<Count>) -> Result<Comparison, 
         }
         (Baseline::Revision(_), _) => return Err("only a project saved in a git repository has revisions".into()),
     };
-    let pass = if project.pass(&shown).is_some() && other.pass(&shown).is_some() { shown } else { PassId::Image };
+    let pass = if project.pass(&shown).is_some() && other.pass(&shown).is_some() { shown } else { PassName::default() };
     // What a frame leaves nothing to the next is drawn alone.
     let is_stateless = project.stateful_passes().is_empty() && other.stateful_passes().is_empty();
     if is_stateless {
@@ -154,14 +154,13 @@ impl ComparedEngine {
     fn new(
         gpu: &Gpu,
         project: &Project,
-        pass: &PassId,
+        pass: &PassName,
         (mut media, camera): (MediaSet, Option<CameraFrame>),
         (width, height): (u32, u32),
         trial: Option<Trial>,
     ) -> Result<Self, String> {
         media.set_camera_picture(camera);
-        let mut wanted = vec![PassId::Image];
-        wanted.extend((*pass != PassId::Image).then(|| pass.clone()));
+        let wanted = project.image_and(pass);
         // Also what does not change: it is timed.
         let options = BuildOptions { wanted, skip: false, trial, ..BuildOptions::default() };
         let built = Program::build(gpu, project, &media, &options).map_err(|error| first_error(&error))?;

@@ -15,7 +15,7 @@ use eddy_engine::{
 };
 use eddy_gpu::{Gpu, GpuError};
 use eddy_media::MediaSet;
-use eddy_project::{CustomUniformValues, PassId, Project};
+use eddy_project::{CustomUniformValues, PassName, Project};
 use std::{
     sync::mpsc::{RecvTimeoutError, SendError, channel},
     time::{Duration, Instant},
@@ -261,7 +261,7 @@ impl Offline {
     }
 
     /// Draws the next frame, and takes what a pass reads when it is drawn.
-    pub fn draw_inspected(&mut self, pass: &PassId) -> Result<PassInputs, OfflineError> {
+    pub fn draw_inspected(&mut self, pass: &PassName) -> Result<PassInputs, OfflineError> {
         let (inputs, pass) = (self.next_inputs()?, pass.clone());
         self.within(inputs.frame, move |engine| {
             let drawn = engine.draw_for(&inputs, DrawFor::Inspect(&pass))?;
@@ -321,7 +321,7 @@ impl Offline {
     }
 
     /// Reads the texels of a pass's target as the newest frame left them; 0 is the first target.
-    pub fn read(&mut self, pass: &PassId, target: usize) -> Result<Pixels, EngineError> {
+    pub fn read(&mut self, pass: &PassName, target: usize) -> Result<Pixels, EngineError> {
         self.engine.as_mut().ok_or_else(gone)?.read_target(pass, target)
     }
 

@@ -7,7 +7,7 @@
 use eddy_engine::{BuildOptions, DrawFor, FrameInputs, Trial, TrialError, TrialOrder};
 use eddy_gpu::{Gpu, GpuOptions};
 use eddy_media as media;
-use eddy_project::{self as project, PassId, limits};
+use eddy_project::{self as project, PassName, limits};
 use serde::{Deserialize, Serialize};
 use std::{
     io::{Read, Write},
@@ -72,7 +72,7 @@ impl TrialSettings {
         let Ok(snapshot) = project::write_snapshot(project) else { return Ok(()) };
         let request = Request {
             snapshot,
-            wanted: wanted.iter().map(PassId::key).collect(),
+            wanted: wanted.iter().map(|pass| pass.key().to_owned()).collect(),
             skip,
             media,
             limit_secs: self.limit.as_secs_f64(),
@@ -151,7 +151,7 @@ pub fn serve(mut request: impl Read) -> Result<(), Box<dyn std::error::Error>> {
     let mut text = String::new();
     request.read_to_string(&mut text)?;
     let Request { snapshot, wanted, skip, media, limit_secs } = serde_json::from_str(&text)?;
-    let wanted: Vec<PassId> = wanted.iter().filter_map(|key| PassId::parse(key)).collect();
+    let wanted: Vec<PassName> = wanted.iter().filter_map(|key| PassName::parse(key)).collect();
     let gpu = Gpu::new(&GpuOptions::default())?;
     if !gpu.compiles_here {
         return Ok(());
@@ -164,7 +164,7 @@ pub fn serve(mut request: impl Read) -> Result<(), Box<dyn std::error::Error>> {
     let (media, _) = media::gather(&project, media.as_deref());
     // One pixel: the driver compiles whatever the size.
     let mut offline = Offline::new(&gpu, (1, 1), ScriptedInputs::new(FPS))?;
-    let is_sound = wanted == [PassId::Sound];
+    let is_sound = wanted == [PassName::sound()];
     let options = BuildOptions { wanted, skip, ..BuildOptions::default() };
     offline.build(&project, &media, &options)?;
     if is_sound {

@@ -1,7 +1,7 @@
 //! Some things are legal in a project and more often a slip: channels that read no pass, and channels that the site
 //! cannot have.
 
-use super::{Channel, Filter, Input, InputKind, PassId, Project, SamplerRules, Wrap, nearest};
+use super::{Channel, Filter, Input, InputKind, PassName, Project, SamplerRules, Wrap, nearest};
 use eddy_diag::{Diagnostic, Span};
 use std::{collections::BTreeMap, fmt::Debug};
 
@@ -16,10 +16,9 @@ pub fn advice(project: &Project) -> Vec<Diagnostic> {
 /// Returns a warning for each channel of a sound pass that reads black there, as it does on Shadertoy (`shadertoy.md`,
 /// section 8).
 fn unheard(project: &Project) -> Vec<Diagnostic> {
-    let Some(sound) = project.pass(&PassId::Sound) else { return Vec::new() };
+    let Some(sound) = project.sound() else { return Vec::new() };
     let mut warnings = Vec::new();
-    for (n, channel) in sound.channels.iter().enumerate() {
-        let Some(Channel { input, .. }) = channel else { continue };
+    for (n, Channel { input, .. }) in sound.bindings.iter() {
         let (why, hint) = match input.kind() {
             InputKind::Texture | InputKind::Cubemap => continue,
             InputKind::Volume => (
@@ -37,7 +36,7 @@ fn unheard(project: &Project) -> Vec<Diagnostic> {
 }
 
 /// The pass that an input reads and that the project does not have.
-pub fn missing_pass(project: &Project, input: &Input) -> Option<PassId> {
+pub fn missing_pass(project: &Project, input: &Input) -> Option<PassName> {
     let (id, _) = input.target()?;
     project.pass(id).is_none().then(|| id.clone())
 }
@@ -47,8 +46,8 @@ pub fn missing_pass(project: &Project, input: &Input) -> Option<PassId> {
 pub(super) fn unread(project: &Project, place: impl Fn(usize, usize) -> Option<Span>) -> Vec<Diagnostic> {
     let mut warnings = Vec::new();
     for (index, pass) in project.passes.iter().enumerate() {
-        for (n, channel) in pass.channels.iter().enumerate() {
-            let Some(missing) = channel.as_ref().and_then(|c| missing_pass(project, &c.input)) else { continue };
+        for (n, channel) in pass.bindings.iter() {
+            let Some(missing) = missing_pass(project, &channel.input) else { continue };
             let near = near_buffer(project, &missing);
             let near = near.map(|near| format!("; did you mean Buffer {near}?")).unwrap_or_default();
             let reads = format!(
@@ -68,16 +67,10 @@ pub(super) fn unread(project: &Project, place: impl Fn(usize, usize) -> Option<S
 }
 
 /// Returns the buffer that was perhaps meant.
-fn near_buffer<'p>(project: &'p Project, missing: &PassId) -> Option<&'p str> {
-    let buffers = project.passes.iter().filter_map(|p| match &p.id {
-        PassId::Buffer(name) => Some(name.as_str()),
-        _ => None,
-    });
-    match missing {
-        // A letter is as near to another as any.
-        PassId::Buffer(name) if name.chars().count() > 1 => nearest(name, buffers),
-        _ => None,
-    }
+fn near_buffer<'p>(project: &'p Project, missing: &PassName) -> Option<&'p str> {
+    let buffers = project.passes.iter().filter_map(|p| p.id.buffer_name());
+    // A letter is as near to another as any.
+    missing.buffer_name().filter(|name| name.chars().count() > 1).and_then(|name| nearest(name, buffers))
 }
 
 /// Returns a warning where channels with samplers of their own read a buffer differently from each other, which the
@@ -90,9 +83,9 @@ pub(super) fn shared_samplers(project: &Project) -> Vec<Diagnostic> {
     let mut wraps: BTreeMap<&str, Vec<(String, Wrap)>> = BTreeMap::new();
     for pass in &project.passes {
         let mut filters: BTreeMap<&str, Vec<(String, Filter)>> = BTreeMap::new();
-        for (index, channel) in pass.channels.iter().enumerate() {
-            let Some(channel) = channel else { continue };
-            let Input::Pass { id: PassId::Buffer(buffer), target: 0 } = &channel.input else { continue };
+        for (index, channel) in pass.bindings.iter() {
+            let Some((id, 0)) = channel.input.target() else { continue };
+            let Some(buffer) = id.buffer_name() else { continue };
             let place = format!("iChannel{index} of {}", pass.id.title());
             filters.entry(buffer).or_default().push((place.clone(), channel.sampler.filter));
             wraps.entry(buffer).or_default().push((place, channel.sampler.wrap));

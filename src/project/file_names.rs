@@ -1,6 +1,6 @@
 //! A file is a pass by its name; the convention is in [`super::folder`].
 
-use super::PassId;
+use super::PassName;
 use eddy_diag::Diagnostic;
 use std::{ffi::OsStr, path::Path};
 
@@ -14,11 +14,8 @@ pub(super) fn is_vertex_extension(extension: &OsStr) -> bool {
 }
 
 /// The pass a file is by its stem; `None` for Common and for files that are not of the convention.
-pub(super) fn pass_of_stem(stem: &str) -> Option<PassId> {
-    match PassId::parse(stem)? {
-        PassId::Buffer(name) => is_buffer(stem).then_some(PassId::Buffer(name)),
-        other => Some(other),
-    }
+pub(super) fn pass_of_stem(stem: &str) -> Option<PassName> {
+    PassName::parse(stem).filter(|pass| !pass.is_buffer() || is_buffer(stem))
 }
 
 fn is_buffer(stem: &str) -> bool {
@@ -30,24 +27,29 @@ fn is_buffer(stem: &str) -> bool {
 /// Returns what is wrong with a file that would be a buffer if its name were one.
 pub(super) fn misnamed(file: &str) -> Option<Diagnostic> {
     let path = Path::new(file);
-    let stem = path.file_stem()?.to_str().filter(|stem| is_buffer(stem) && PassId::parse(stem).is_none())?;
+    let stem = path.file_stem()?.to_str().filter(|stem| is_buffer(stem) && PassName::parse(stem).is_none())?;
     path.extension().filter(|e| is_glsl_extension(e))?;
     let message = format!("{file} is not a pass: \"{}\" is not a valid buffer name", stem.escape_debug());
-    Some(Diagnostic::warning(None, message).hint(PassId::NAMES))
+    Some(Diagnostic::warning(None, message).hint(PassName::NAMES))
 }
 
 /// Says which text of a project a file is by convention.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) enum Role {
+pub(super) enum FileRole {
     Common,
-    Pass(PassId),
+    Pass(PassName),
 }
 
-pub(super) fn role_of_file(name: &str) -> Option<Role> {
+pub(super) fn role_of_file(name: &str) -> Option<FileRole> {
     let path = Path::new(name);
     if !path.extension().is_some_and(is_glsl_extension) {
         return None;
     }
     let stem = path.file_stem()?.to_str()?;
-    if stem.eq_ignore_ascii_case("common") { Some(Role::Common) } else { pass_of_stem(stem).map(Role::Pass) }
+    if stem.eq_ignore_ascii_case("common") { Some(FileRole::Common) } else { pass_of_stem(stem).map(FileRole::Pass) }
+}
+
+/// Returns whether a file is the Image pass by its name.
+pub(super) fn is_image_file(name: &str) -> bool {
+    matches!(role_of_file(name), Some(FileRole::Pass(pass)) if pass.is_image())
 }

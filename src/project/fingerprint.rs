@@ -1,6 +1,7 @@
 //! A number for what is measured: what was measured of other texts says nothing about these.
 
-use super::{Channel, Dialect, Input, InputKind, PassId, Project};
+use super::{Body, Channel, Dialect, Group, Input, InputKind, PassName, PassSettings, Project, SLOTS};
+use std::fmt;
 
 /// FNV-1a of 64 bits (G. Fowler, L. Noll, K.-P. Vo).
 pub struct Fingerprint(u64);
@@ -16,13 +17,16 @@ impl Fingerprint {
         for (_, source) in project.sources().iter().take(counted).skip(made) {
             print.eat(source.text.as_bytes());
         }
-        print.eat(format!("{:?} {:?}", project.groups, project.custom_uniform_values).as_bytes());
+        let groups: Vec<String> = project.groups.iter().map(group_text).collect();
+        print.eat(format!("[{}] {:?}", groups.join(", "), project.custom_uniform_values).as_bytes());
         for pass in &project.passes {
-            let channels = pass.channels.each_ref().map(|channel| channel.as_ref().map_or("None".into(), channel_text));
+            let slots = pass.bindings.iter().map(|(slot, _)| slot + 1).max().unwrap_or_default().max(SLOTS);
+            let text = |slot| pass.bindings.get(slot).map_or("None".into(), channel_text);
+            let channels: Vec<String> = (0..slots).map(text).collect();
             // Where the files lie does not count: another machine has them elsewhere.
-            let mut settings = pass.settings.clone();
-            let stages = settings.meshes_mut().into_iter().flat_map(|geometry| &mut geometry.stages);
-            stages.for_each(|stage| stage.path = None);
+            let mut body = pass.body.clone();
+            body.stages_mut().iter_mut().for_each(|stage| stage.path = None);
+            let settings = SettingsText(&pass.settings, &body);
             print.eat(format!("[{}] {settings:?}", channels.join(", ")).as_bytes());
         }
         print
@@ -40,13 +44,39 @@ impl Fingerprint {
     }
 }
 
+/// Spells how a pass is drawn, as [`channel_text`] does a channel. A setting that came later is not in the text where it has
+/// its default.
+struct SettingsText<'p>(&'p PassSettings, &'p Body);
+
+impl fmt::Debug for SettingsText<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let PassSettings { size, format, region, initial, boundary, when } = self.0;
+        let mut text = f.debug_struct("PassSettings");
+        text.field("size", size).field("format", format).field("region", region);
+        text.field("initial", initial).field("boundary", boundary).field("body", self.1);
+        if let Some(when) = when {
+            text.field("when", &when.text());
+        }
+        text.finish()
+    }
+}
+
+/// Spells a group, as [`channel_text`] does a channel.
+fn group_text(group: &Group) -> String {
+    let pass = |pass: &PassName| pass.buffer_name().map_or_else(|| pass.title(), |name| format!("Buffer({name:?})"));
+    let passes: Vec<String> = group.passes.iter().map(pass).collect();
+    format!("Group {{ name: {:?}, passes: [{}], steps: {} }}", group.name, passes.join(", "), group.steps)
+}
+
 /// Spells a channel. Results on disk are known by numbers of these texts, so the words never change, whatever the types
 /// are called.
 fn channel_text(channel: &Channel) -> String {
     let input = match &channel.input {
-        Input::Pass { id: PassId::Buffer(name), target: 0 } => format!("Buffer({name:?})"),
-        Input::Pass { id: PassId::Buffer(name), target } => format!("Target {{ buffer: {name:?}, index: {target} }}"),
-        Input::Pass { .. } => "CubemapPass".into(),
+        Input::Pass { id, target } => match (id.buffer_name(), target) {
+            (Some(name), 0) => format!("Buffer({name:?})"),
+            (Some(name), target) => format!("Target {{ buffer: {name:?}, index: {target} }}"),
+            (None, _) => "CubemapPass".into(),
+        },
         Input::Media { kind: InputKind::Texture, media } => format!("Texture({media:?})"),
         Input::Media { kind, media } => format!("{kind:?}({media:?})"),
         Input::Device(kind) => format!("{kind:?}"),
@@ -57,19 +87,32 @@ fn channel_text(channel: &Channel) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Condition, Cull, DepthTest, MeshDraw, MeshSource, Normals, Origin, Pass, PassSettings, Source, Stage};
+    use crate::{Condition, Cull, DepthTest, MeshDraw, MeshSource, Normals, Origin, Pass, Source, Stage};
 
     #[test]
     fn a_setting_that_came_later_changes_no_number_of_projects_without_it() {
         let text =
             "PassSettings { size: Canvas, format: Rgba32f, region: None, initial: None, boundary: None, body: Screen }";
-        assert_eq!(format!("{:?}", PassSettings::default()), text);
+        assert_eq!(format!("{:?}", SettingsText(&PassSettings::default(), &Body::Screen)), text);
         let source = Source { name: "Image".into(), path: None, text: "".into() };
-        let mut project = Project::new("p", vec![Pass::new(PassId::Image, source)], Origin::Unsaved);
+        let mut project = Project::new("p", vec![Pass::new(PassName::image(), source)], Origin::Unsaved);
         let print = |project: &Project| Fingerprint::of(project).text();
         let before = print(&project);
         project.passes[0].settings.when = Some(Condition::parse("width > 3").unwrap());
         assert_ne!(print(&project), before);
+    }
+
+    #[test]
+    fn spelling_of_groups_and_channels_never_changes() {
+        let passes = vec![PassName::buffer("A"), PassName::buffer("glow"), PassName::image()];
+        let text = r#"Group { name: "g", passes: [Buffer("A"), Buffer("glow"), Image], steps: 2 }"#;
+        assert_eq!(group_text(&Group { name: "g".into(), passes, steps: 2 }), text);
+        let input = |input: Input| channel_text(&Channel::new(input)).replace("Some(Channel { input: ", "");
+        let spelled = |text: &str, found: String| assert!(found.starts_with(text), "{found}");
+        spelled("Buffer(\"A\"), ", input(Input::buffer("a")));
+        spelled("CubemapPass, ", input(Input::pass(PassName::cube())));
+        let second = Input::Pass { id: PassName::buffer("scene"), target: 1 };
+        spelled("Target { buffer: \"scene\", index: 1 }, ", input(second));
     }
 
     /// Results of projects with meshes were measured before a draw said what normals it makes.

@@ -15,10 +15,10 @@
 //! exist. A GLSL file of another name is a buffer where such a line names it.
 
 use super::{
-    Channel, Input, Origin, Pass, PassId, Project, Source,
+    Bindings, Channel, Input, Origin, Pass, PassName, Project, Source,
     advice::unread,
     directives::{self, DirectiveScope},
-    file_names::{Role, role_of_file},
+    file_names::{FileRole, role_of_file},
     files::Files,
 };
 use eddy_diag::{Diagnostic, Span};
@@ -37,11 +37,11 @@ pub(super) fn by_convention(files: Vec<Source>) -> ByConvention {
     for source in files {
         match role_of_file(&source.name) {
             None => {}
-            Some(Role::Common) => match &found.common {
+            Some(FileRole::Common) => match &found.common {
                 Some(first) => found.diagnostics.push(two_files("Common", &first.name, &source.name)),
                 None => found.common = Some(source),
             },
-            Some(Role::Pass(id)) => match found.passes.iter().find(|p| p.id == id) {
+            Some(FileRole::Pass(id)) => match found.passes.iter().find(|p| p.id == id) {
                 Some(first) => {
                     let diagnostic = two_files(&id.title(), &first.source.name, &source.name);
                     found.diagnostics.push(diagnostic);
@@ -62,20 +62,22 @@ fn two_files(title: &str, first: &str, second: &str) -> Diagnostic {
 pub fn declare_channels(project: &mut Project) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     let passes = directives::files_of_passes(project);
-    let buffers: [Option<Channel>; 4] = ["A", "B", "C", "D"].map(|name| {
-        let id = PassId::Buffer(name.into());
-        project.pass(&id).map(|_| Channel::new(Input::pass(id)))
-    });
+    let buffers: Bindings = ["A", "B", "C", "D"]
+        .map(|name| {
+            let id = PassName::buffer(name);
+            project.pass(&id).map(|_| Channel::new(Input::pass(id)))
+        })
+        .into();
     let mut places = Vec::new();
     for (i, pass) in project.passes.iter_mut().enumerate() {
         let default = if pass.id.is_picture() { buffers.clone() } else { Default::default() };
         let around = DirectiveScope { id: &pass.id, file: &pass.source.name, passes: &passes };
         let declared = directives::read(&pass.source.text, Project::pass_id(i), around, &default);
         diagnostics.extend(declared.diagnostics);
-        pass.channels = declared.channels.unwrap_or(default);
+        pass.bindings = declared.channels.unwrap_or(default);
         places.push(declared.places);
     }
-    diagnostics.extend(unread(project, |pass, n| places[pass][n]));
+    diagnostics.extend(unread(project, |pass, n| places[pass].get(&n).copied()));
     diagnostics
 }
 
@@ -98,7 +100,7 @@ pub(super) fn project(
 ) -> (Project, Vec<Diagnostic>) {
     let ByConvention { common, passes, mut diagnostics } = by_convention(texts);
     let mut project = Project { common, ..Project::new(name, passes, origin) };
-    if project.pass(&PassId::Image).is_none() {
+    if project.image().is_none() {
         diagnostics
             .push(Diagnostic::error(None, "there is no Image pass").hint("add image.glsl with a mainImage function"));
     }
@@ -120,13 +122,13 @@ mod tests {
     #[test]
     fn file_names_name_passes_whatever_their_case() {
         let role = |n: &str| role_of_file(n);
-        assert_eq!(role("Common.GLSL"), Some(Role::Common));
-        assert_eq!(role("Buffer A.glsl"), Some(Role::Pass(PassId::Buffer("A".into()))));
-        assert_eq!(role("BUF_b.frag"), Some(Role::Pass(PassId::Buffer("B".into()))));
-        assert_eq!(role("buffer_blur.glsl"), Some(Role::Pass(PassId::Buffer("blur".into()))));
-        assert_eq!(role("cubeA.glsl"), Some(Role::Pass(PassId::Cubemap)));
-        assert_eq!(role("cube_a.glsl"), Some(Role::Pass(PassId::Cubemap)));
-        assert_eq!(role("image.glsl"), Some(Role::Pass(PassId::Image)));
+        assert_eq!(role("Common.GLSL"), Some(FileRole::Common));
+        assert_eq!(role("Buffer A.glsl"), Some(FileRole::Pass(PassName::buffer("A"))));
+        assert_eq!(role("BUF_b.frag"), Some(FileRole::Pass(PassName::buffer("B"))));
+        assert_eq!(role("buffer_blur.glsl"), Some(FileRole::Pass(PassName::buffer("blur"))));
+        assert_eq!(role("cubeA.glsl"), Some(FileRole::Pass(PassName::cube())));
+        assert_eq!(role("cube_a.glsl"), Some(FileRole::Pass(PassName::cube())));
+        assert_eq!(role("image.glsl"), Some(FileRole::Pass(PassName::image())));
         for other in ["image.txt", "buffoon.glsl", "buffer.glsl", "noise.glsl", "a.glsl", "image", ".glsl"] {
             assert_eq!(role(other), None, "{other}");
         }
@@ -138,13 +140,13 @@ mod tests {
             ["buffer_zoom.glsl", "image.glsl", "buffer_c.glsl", "buffer_a.glsl", "sound.glsl"].map(|n| source(n, ""));
         let (project, diagnostics) = project("p".into(), files.into(), Origin::Unsaved, None);
         assert_eq!(diagnostics, []);
-        let keys: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+        let keys: Vec<&str> = project.passes.iter().map(|p| p.id.key()).collect();
         assert_eq!(keys, ["buffer_a", "buffer_c", "buffer_zoom", "image", "sound"]);
-        let image = &project.pass(&PassId::Image).unwrap().channels;
-        assert_eq!(image[0].as_ref().unwrap().input, Input::buffer("A"));
-        assert_eq!(image[1], None);
-        assert_eq!(image[2].as_ref().unwrap().input, Input::buffer("C"));
-        assert_eq!(project.pass(&PassId::Sound).unwrap().channels, <[Option<Channel>; 4]>::default());
+        let image = &project.image().unwrap().bindings;
+        assert_eq!(image.get(0).unwrap().input, Input::buffer("A"));
+        assert_eq!(image.get(1), None);
+        assert_eq!(image.get(2).unwrap().input, Input::buffer("C"));
+        assert!(project.sound().unwrap().bindings.is_empty());
     }
 
     #[test]

@@ -1,14 +1,14 @@
 //! Owns what a channel can read: [`Input`], and the table of its kinds. A kind is a row of [`ROWS`]; whoever needs to
 //! know something of a kind asks its row.
 
-use super::{Filter, Media, PassId, PassKind, Sampler, Wrap, pass_kind};
+use super::{Filter, Media, PassName, Role, Sampler, Wrap, role};
 use eddy_texture::Dimension;
 
 /// A source of texels.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
     /// One of the targets of a pass, counted from 0. A pass that the project does not have reads zeros.
-    Pass { id: PassId, target: usize },
+    Pass { id: PassName, target: usize },
     /// Something that is loaded.
     Media { kind: InputKind, media: Media },
     /// A device of the machine.
@@ -109,7 +109,7 @@ static ROWS: [InputRow; 11] = [
     },
     InputRow {
         kind: InputKind::CubemapPass,
-        title: pass_kind::CUBEMAP.title,
+        title: role::CUBEMAP.title,
         glyph: "C",
         key: "cube_a",
         json_type: "cubemap",
@@ -228,7 +228,7 @@ impl InputKind {
     pub(crate) fn unnamed(self) -> Option<Input> {
         match self.row().source {
             InputSource::Device => Some(Input::Device(self)),
-            InputSource::Pass => PassKind::find(|pass| pass.input == Some(self))?.id().map(Input::pass),
+            InputSource::Pass => Role::find(|pass| pass.input == Some(self))?.only_pass().map(Input::pass),
             InputSource::Media => None,
         }
     }
@@ -238,18 +238,23 @@ impl Input {
     pub const KEYBOARD: Input = Input::Device(InputKind::Keyboard);
 
     /// The first target of a pass.
-    pub fn pass(id: PassId) -> Input {
+    pub fn pass(id: PassName) -> Input {
         Input::Pass { id, target: 0 }
     }
 
     /// The first target of a buffer, by its name.
-    pub fn buffer(name: impl Into<String>) -> Input {
-        Input::pass(PassId::Buffer(name.into()))
+    pub fn buffer(name: impl AsRef<str>) -> Input {
+        Input::pass(PassName::buffer(name))
     }
 
     /// A 2D picture.
     pub fn texture(media: Media) -> Input {
         Input::Media { kind: InputKind::Texture, media }
+    }
+
+    /// Returns the name of the buffer that it reads, without the word `Buffer`.
+    pub fn buffer_name(&self) -> Option<&str> {
+        self.target()?.0.buffer_name()
     }
 
     pub fn kind(&self) -> InputKind {
@@ -280,14 +285,14 @@ impl Input {
     }
 
     /// The pass that is read, and which of its targets.
-    pub fn target(&self) -> Option<(&PassId, usize)> {
+    pub fn target(&self) -> Option<(&PassName, usize)> {
         match self {
             Input::Pass { id, target } => Some((id, *target)),
             Input::Media { .. } | Input::Device(_) => None,
         }
     }
 
-    pub fn pass_mut(&mut self) -> Option<&mut PassId> {
+    pub fn pass_mut(&mut self) -> Option<&mut PassName> {
         match self {
             Input::Pass { id, .. } => Some(id),
             Input::Media { .. } | Input::Device(_) => None,
@@ -303,8 +308,8 @@ mod tests {
 
     fn project(channel: &Channel) -> Project {
         let source = Source { name: "image.glsl".into(), path: None, text: "".into() };
-        let channels = [Some(channel.clone()), None, None, None];
-        Project::new("p", vec![Pass { channels, ..Pass::new(PassId::Image, source) }], Origin::Unsaved)
+        let bindings = [Some(channel.clone())].into();
+        Project::new("p", vec![Pass { bindings, ..Pass::new(PassName::image(), source) }], Origin::Unsaved)
     }
 
     /// An input of a kind.
@@ -317,7 +322,7 @@ mod tests {
     }
 
     fn read(project: &Project) -> Option<Channel> {
-        project.pass(&PassId::Image)?.channels[0].clone()
+        project.image()?.bindings.get(0).cloned()
     }
 
     #[test]

@@ -5,6 +5,8 @@
 
 mod advice;
 mod atomic;
+mod bindings;
+mod body;
 mod condition;
 pub mod confine;
 mod controls;
@@ -39,10 +41,10 @@ mod model;
 mod names;
 mod pads;
 mod pass_edits;
-mod pass_id;
-mod pass_kind;
+mod pass_name;
 mod picked;
 pub mod presets;
+mod role;
 mod save;
 mod settings;
 mod snapshot;
@@ -54,6 +56,8 @@ pub mod xscreensaver;
 
 pub use advice::{advice, missing_pass};
 pub use atomic::{Staged, rename_temporary, write_with};
+pub use bindings::{Bindings, SLOTS};
+pub use body::Body;
 pub use condition::{Condition, ConditionError, Operator, Term};
 pub use confine::FileError;
 pub use controls::{ControlAddress, ControlBindings, ControlTarget, is_osc_path};
@@ -91,11 +95,11 @@ pub use model::{Channel, Filter, Info, Media, Origin, Pass, Project, Sampler, Sa
 pub use names::{listed, nearest};
 pub use pads::{PAD_AXES, PAD_BUTTONS, PADS, PadPart};
 pub use pass_edits::{PassEdit, PassEditError, PassEdited};
-pub use pass_id::PassId;
-pub use pass_kind::{PassKind, PassRow};
+pub use pass_name::PassName;
 pub use picked::{at_home, bring_home};
+pub use role::{Role, RoleRow};
 pub use save::{name_at, remove_renamed, save};
-pub use settings::{Group, PassBody, PassSettings, PassSize, Region};
+pub use settings::{Group, PassSettings, PassSize, Region};
 pub use snapshot::{SnapshotError, read_snapshot, write_snapshot};
 pub use source::{Included, Source};
 pub use source_ids::TextLocation;

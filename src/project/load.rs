@@ -1,7 +1,7 @@
 //! Files become a [`Project`].
 
 use super::{
-    Origin, Pass, PassId, Project, ProjectError, Source,
+    Origin, Pass, PassName, Project, ProjectError, Source,
     atomic::sweep,
     confine, file_names,
     files::{self, EditedTexts, Files, MANIFEST, Read},
@@ -98,7 +98,7 @@ pub(super) fn load_glsl_alone(path: &Path) -> Result<Loaded, ProjectError> {
 fn of_glsl(path: &Path, name: String, text: String) -> Project {
     Project::new(
         path.file_stem().unwrap_or_default().to_string_lossy(),
-        vec![Pass::new(PassId::Image, Source { name, path: Some(path.to_owned()), text: text.into() })],
+        vec![Pass::new(PassName::image(), Source { name, path: Some(path.to_owned()), text: text.into() })],
         Origin::File(path.to_owned()),
     )
 }

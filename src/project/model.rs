@@ -1,10 +1,11 @@
 //! A project as pure data: passes in their drawing order, what each channel reads, and where the texts came from.
 
 use super::{
-    ControlBindings, CustomUniformValues, Dialect, Group, Included, Input, PassId, PassSettings, Source, ghostty,
+    Bindings, Body, ControlBindings, CustomUniformValues, Dialect, Group, Included, Input, PassName, PassSettings,
+    PassSize, Source, ghostty,
 };
 use eddy_texture::{Dimension, Face, TexelFormat};
-use std::{collections::BTreeSet, path::PathBuf};
+use std::{borrow::Cow, collections::BTreeSet, path::PathBuf};
 
 /// All that the author wrote: enough to compile, plan and draw, and to write it back unchanged.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,22 +65,29 @@ pub enum Origin {
 /// One render pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pass {
-    pub id: PassId,
+    pub id: PassName,
     pub source: Source,
-    /// `iChannel0..3`; `None` reads as a 2D texture that is opaque black and of size 0.
-    pub channels: [Option<Channel>; 4],
+    /// The inputs of its channels.
+    pub bindings: Bindings,
     pub settings: PassSettings,
+    pub body: Body,
 }
 
 impl Pass {
     /// Returns a pass that reads nothing and is drawn as on the site.
-    pub fn new(id: PassId, source: Source) -> Pass {
-        Pass { id, source, channels: Default::default(), settings: Default::default() }
+    pub fn new(id: PassName, source: Source) -> Pass {
+        Pass { id, source, bindings: Default::default(), settings: Default::default(), body: Body::Screen }
     }
 
     /// Returns the format of each of its targets.
     pub fn formats(&self) -> Vec<TexelFormat> {
-        self.id.formats(&self.settings)
+        let formats = || [self.settings.format].into_iter().chain(self.body.more_targets().iter().copied()).collect();
+        self.id.row().format.map_or_else(formats, |format| vec![format])
+    }
+
+    /// Returns the size of its targets.
+    pub fn size(&self) -> PassSize {
+        if self.settings.size == PassSize::Canvas { self.id.row().size } else { self.settings.size }
     }
 
     /// Returns how many pictures it draws: its targets, or the faces of a cubemap.
@@ -219,10 +227,10 @@ impl Project {
 
     /// Returns the passes of which one reads what the last frame left in them, itself or one that is drawn before it:
     /// the project's state. A project without any draws the same picture at a time, whatever it drew before.
-    pub fn stateful_passes(&self) -> BTreeSet<PassId> {
+    pub fn stateful_passes(&self) -> BTreeSet<PassName> {
         let passes = &self.passes;
         let read = |index: usize| {
-            passes[index].channels.iter().flatten().filter_map(|channel| {
+            passes[index].bindings.channels().filter_map(|channel| {
                 let (id, _) = channel.input.target()?;
                 passes.iter().position(|p| p.id == *id)
             })
@@ -251,16 +259,48 @@ impl Project {
 
     /// Returns a project of one Image pass that is nowhere on disk.
     pub fn of_image(name: String, text: String) -> Project {
-        let id = PassId::Image;
+        let id = PassName::image();
         let source = Source { name: id.title(), path: None, text: text.into() };
         Project::new(name, vec![Pass::new(id, source)], Origin::Unsaved)
     }
 
-    pub fn pass(&self, id: &PassId) -> Option<&Pass> {
+    /// The pass whose picture the window shows.
+    pub fn image(&self) -> Option<&Pass> {
+        self.passes.iter().find(|p| p.id.is_image())
+    }
+
+    pub fn image_mut(&mut self) -> Option<&mut Pass> {
+        self.passes.iter_mut().find(|p| p.id.is_image())
+    }
+
+    /// The index of Image in [`Project::passes`].
+    pub fn image_index(&self) -> Option<usize> {
+        self.passes.iter().position(|p| p.id.is_image())
+    }
+
+    /// The pass that is heard.
+    pub fn sound(&self) -> Option<&Pass> {
+        self.passes.iter().find(|p| p.id.is_sound())
+    }
+
+    /// Returns Image and `shown`, each once: what is drawn while `shown` is looked at. A pass that the project lacks is left
+    /// out.
+    pub fn image_and(&self, shown: &PassName) -> Vec<PassName> {
+        let other = Some(shown).filter(|pass| !pass.is_image() && self.pass(pass).is_some());
+        [PassName::image()].into_iter().chain(other.cloned()).collect()
+    }
+
+    pub fn pass(&self, id: &PassName) -> Option<&Pass> {
         self.passes.iter().find(|p| p.id == *id)
     }
 
-    pub fn pass_mut(&mut self, id: &PassId) -> Option<&mut Pass> {
+    /// The pass of a name. Where the project lacks it, a pass with default settings and no text: channels read zeros of it.
+    pub fn pass_or_empty(&self, id: &PassName) -> Cow<'_, Pass> {
+        let empty = || Pass::new(id.clone(), Source { name: id.title(), path: None, text: "".into() });
+        self.pass(id).map_or_else(|| Cow::Owned(empty()), Cow::Borrowed)
+    }
+
+    pub fn pass_mut(&mut self, id: &PassName) -> Option<&mut Pass> {
         self.passes.iter_mut().find(|p| p.id == *id)
     }
 }
@@ -269,20 +309,33 @@ impl Project {
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Tab {
     Common,
-    Pass(PassId),
+    Pass(PassName),
     /// A stage of a geometry pass that lies in a file of its own, by the file's name.
-    Stage(PassId, String),
+    Stage(PassName, String),
     /// A file that others include, by its path from the project's folder.
     Included(String),
 }
 
 impl Default for Tab {
     fn default() -> Self {
-        Tab::Pass(PassId::Image)
+        Tab::image()
     }
 }
 
 impl Tab {
+    pub fn image() -> Tab {
+        Tab::Pass(PassName::image())
+    }
+
+    pub fn sound() -> Tab {
+        Tab::Pass(PassName::sound())
+    }
+
+    /// Returns whether it is the text of a buffer.
+    pub fn is_buffer(&self) -> bool {
+        matches!(self, Tab::Pass(pass) if pass.is_buffer())
+    }
+
     pub fn title(&self) -> String {
         match self {
             Tab::Common => "Common".into(),
@@ -292,7 +345,7 @@ impl Tab {
     }
 
     /// The same tab of another pass.
-    pub fn of_pass(&self, pass: PassId) -> Tab {
+    pub fn of_pass(&self, pass: PassName) -> Tab {
         match self {
             Tab::Common => Tab::Common,
             Tab::Pass(_) => Tab::Pass(pass),
@@ -302,7 +355,7 @@ impl Tab {
     }
 
     /// The pass it belongs to.
-    pub fn pass(&self) -> Option<&PassId> {
+    pub fn pass(&self) -> Option<&PassName> {
         match self {
             Tab::Common | Tab::Included(_) => None,
             Tab::Pass(id) | Tab::Stage(id, _) => Some(id),
@@ -314,9 +367,7 @@ impl Tab {
 impl Project {
     /// Every stage that lies in a file of its own, with the index of its pass.
     pub fn stages(&self) -> impl Iterator<Item = (usize, &Source)> {
-        self.passes.iter().enumerate().flat_map(|(index, pass)| {
-            pass.settings.meshes().into_iter().flat_map(|g| &g.stages).map(move |s| (index, s))
-        })
+        self.passes.iter().enumerate().flat_map(|(index, pass)| pass.body.stages().iter().map(move |s| (index, s)))
     }
 
     /// Every text that the project itself names: Common, the passes', the stages'. What these include is in
@@ -330,7 +381,7 @@ impl Project {
         let mut all: Vec<&mut Source> = self.common.iter_mut().collect();
         for pass in &mut self.passes {
             all.push(&mut pass.source);
-            all.extend(pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.stages));
+            all.extend(pass.body.stages_mut());
         }
         all
     }
@@ -378,7 +429,7 @@ impl Project {
         match tab {
             Tab::Common => self.common.as_ref(),
             Tab::Pass(id) => self.pass(id).map(|p| &p.source),
-            Tab::Stage(id, file) => self.pass(id)?.settings.meshes()?.stages.iter().find(|s| s.name == *file),
+            Tab::Stage(id, file) => self.pass(id)?.body.stages().iter().find(|s| s.name == *file),
             Tab::Included(file) => self.readable_includes().find(|s| s.name == *file),
         }
     }
@@ -387,9 +438,7 @@ impl Project {
         match tab {
             Tab::Common => self.common.as_mut(),
             Tab::Pass(id) => self.pass_mut(id).map(|p| &mut p.source),
-            Tab::Stage(id, file) => {
-                self.pass_mut(id)?.settings.meshes_mut()?.stages.iter_mut().find(|s| s.name == *file)
-            }
+            Tab::Stage(id, file) => self.pass_mut(id)?.body.stages_mut().iter_mut().find(|s| s.name == *file),
             Tab::Included(file) => {
                 let included = self.includes.iter_mut().find(|i| i.trouble.is_none() && i.source.name == *file);
                 included.map(|i| &mut i.source)
@@ -415,10 +464,10 @@ impl Project {
     /// files that they include.
     pub fn tabs(&self) -> Vec<Tab> {
         let mut ids: Vec<_> = self.passes.iter().map(|p| p.id.clone()).collect();
-        ids.sort_by(PassId::drawing_order);
+        ids.sort_by(PassName::drawing_order);
         let mut tabs: Vec<Tab> = self.common.iter().map(|_| Tab::Common).collect();
         for id in ids {
-            let stages = self.pass(&id).and_then(|p| p.settings.meshes()).map_or(&[][..], |g| &g.stages);
+            let stages = self.pass(&id).map_or(&[][..], |p| p.body.stages());
             tabs.push(Tab::Pass(id.clone()));
             tabs.extend(stages.iter().map(|s| Tab::Stage(id.clone(), s.name.clone())));
         }
@@ -433,6 +482,6 @@ impl Project {
             _ => None,
         };
         let own = self.readable_includes().find(|s| file.is_some_and(|name| name == s.name.as_str()));
-        own.map_or(Tab::Pass(PassId::Image), |s| Tab::Included(s.name.clone()))
+        own.map_or(Tab::image(), |s| Tab::Included(s.name.clone()))
     }
 }

@@ -27,11 +27,11 @@ pub fn at_home(mut input: Input, folder: Option<&Path>) -> Input {
 /// Everything that was picked for a project, as [`at_home`] has it.
 pub fn bring_home(project: &mut Project, folder: Option<&Path>) {
     for pass in &mut project.passes {
-        for channel in pass.channels.iter_mut().flatten() {
+        for channel in pass.bindings.channels_mut() {
             let input = std::mem::replace(&mut channel.input, Input::KEYBOARD);
             channel.input = at_home(input, folder);
         }
-        for draw in pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.draws) {
+        for draw in pass.body.draws_mut() {
             let MeshSource::Picked(path) = &mut draw.mesh else { continue };
             *path = std::path::absolute(&*path).unwrap_or_else(|_| path.clone());
             if let Some(name) = folder.and_then(|folder| name_within(folder, path)) {
@@ -52,7 +52,7 @@ fn name_within(folder: &Path, path: &Path) -> Option<String> {
 
 /// Returns where the picked pictures of a project lie.
 pub(super) fn paths(project: &Project) -> impl Iterator<Item = &Path> {
-    let channels = project.passes.iter().flat_map(|p| p.channels.iter().flatten());
+    let channels = project.passes.iter().flat_map(|p| p.bindings.channels());
     channels.filter_map(|c| match c.input.media() {
         Some(Media::Picked(path)) => Some(path.as_path()),
         _ => None,
@@ -62,7 +62,7 @@ pub(super) fn paths(project: &Project) -> impl Iterator<Item = &Path> {
 /// Copies the picked pictures into `target` and names the copies. A file of another content is never replaced: the copy
 /// then gets a number. A picture that cannot be read is named and not there, so that the rest of the project is saved.
 pub(super) fn copy_in(project: &mut Project, target: &Path, writes: &mut Writes) -> Result<(), ProjectError> {
-    for channel in project.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
+    for channel in project.passes.iter_mut().flat_map(|p| p.bindings.channels_mut()) {
         let Some(media @ Media::Picked(_)) = channel.input.media_mut() else { continue };
         let Media::Picked(path) = &*media else { continue };
         let name = match name_within(target, path) {
@@ -79,7 +79,7 @@ pub(super) fn copy_in(project: &mut Project, target: &Path, writes: &mut Writes)
 /// read is named and not there.
 pub(super) fn copy_models_in(project: &mut Project, target: &Path, writes: &mut Writes) -> Result<(), ProjectError> {
     for pass in &mut project.passes {
-        for draw in pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.draws) {
+        for draw in pass.body.draws_mut() {
             let MeshSource::Picked(path) = &draw.mesh else { continue };
             let name = match name_within(target, path) {
                 Some(name) => name,

@@ -56,12 +56,12 @@ mod tests {
             assert_eq!(saved.warnings, [], "{name}");
             assert_eq!(texts(&saved.project), texts(&project), "{name}");
             let settings =
-                |p: &Project| p.passes.iter().map(|p| (p.id.clone(), p.channels.clone())).collect::<Vec<_>>();
+                |p: &Project| p.passes.iter().map(|p| (p.id.clone(), p.bindings.clone())).collect::<Vec<_>>();
             assert_eq!(settings(&saved.project), settings(&project), "{name}");
             let mut again = read_snapshot(&write_snapshot(&project).unwrap()).unwrap();
             again.read_includes();
             assert_eq!(texts(&again), texts(&project), "{name} from a snapshot");
-            if !project.passes.iter().any(|p| p.settings.meshes().is_some()) {
+            if project.passes.iter().all(|p| p.body.is_screen()) {
                 let json = json::export(&project);
                 assert!(!json.contains("#include"), "{name}: Shadertoy has no #include");
             }

@@ -1,11 +1,10 @@
 //! Settings in `eddy.toml` say how a pass is drawn: its size, the format of its texels, which of them are drawn, how
 //! often a frame.
 
-use super::{Boundary, Condition, Fill, Geometry, Pass, PassId, TexelFormat};
-use std::fmt;
+use super::{Boundary, Condition, Fill, Pass, PassName, TexelFormat};
 
 /// Says how a pass is drawn. The default is what the site does.
-#[derive(Clone, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct PassSettings {
     pub size: PassSize,
     pub format: TexelFormat,
@@ -17,55 +16,6 @@ pub struct PassSettings {
     pub boundary: Option<Boundary>,
     /// While it is false the pass is not drawn, and holds what it holds before frame 0. `None`: it is always drawn.
     pub when: Option<Condition>,
-    pub body: PassBody,
-}
-
-/// Results on disk are known by a number of this text ([`super::Fingerprint`]): a setting that came later is not in it
-/// where it has its default.
-impl fmt::Debug for PassSettings {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let PassSettings { size, format, region, initial, boundary, when, body } = self;
-        let mut text = f.debug_struct("PassSettings");
-        text.field("size", size).field("format", format).field("region", region);
-        text.field("initial", initial).field("boundary", boundary).field("body", body);
-        if let Some(when) = when {
-            text.field("when", &when.text());
-        }
-        text.finish()
-    }
-}
-
-/// Says what a pass draws.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub enum PassBody {
-    /// Every texel of its one target, as on the site.
-    #[default]
-    Screen,
-    /// Meshes into its targets, which are cleared before, with a depth buffer.
-    Meshes(Geometry),
-}
-
-impl PassSettings {
-    /// The format of each target the pass draws into, at least one.
-    pub fn formats(&self) -> Vec<TexelFormat> {
-        let more = self.meshes().into_iter().flat_map(|g| g.more_targets.iter().copied());
-        [self.format].into_iter().chain(more).collect()
-    }
-
-    /// The meshes, where the pass draws meshes.
-    pub fn meshes(&self) -> Option<&Geometry> {
-        match &self.body {
-            PassBody::Screen => None,
-            PassBody::Meshes(geometry) => Some(geometry),
-        }
-    }
-
-    pub fn meshes_mut(&mut self) -> Option<&mut Geometry> {
-        match &mut self.body {
-            PassBody::Screen => None,
-            PassBody::Meshes(geometry) => Some(geometry),
-        }
-    }
 }
 
 /// Size of a pass's picture.
@@ -117,7 +67,7 @@ pub struct Group {
     /// The name in the file.
     pub name: String,
     /// In the order they are drawn; each of them buffers of the project, without another pass between them.
-    pub passes: Vec<PassId>,
+    pub passes: Vec<PassName>,
     /// At least 1.
     pub steps: u32,
 }
@@ -126,8 +76,7 @@ pub struct Group {
 pub(super) fn draws(passes: &[Pass], groups: &[Group]) -> u64 {
     let draws = |pass: &Pass| {
         let steps = groups.iter().find(|g| g.passes.contains(&pass.id)).map_or(1, |g| u64::from(g.steps));
-        let meshes = pass.settings.meshes().map_or(1, |g| g.draws.len().max(1) as u64);
-        meshes.saturating_mul(steps)
+        pass.body.draw_count().saturating_mul(steps)
     };
     passes.iter().map(draws).fold(0, u64::saturating_add)
 }

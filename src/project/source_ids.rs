@@ -2,7 +2,7 @@
 //! the stages of passes that draw meshes in order, then the files they include, then the texts of fills, then those of conditions. Nothing
 //! else counts them. A [`TextLocation`] is a place in one of them, as people are told it.
 
-use super::{Included, PassId, Project, Stage, Tab};
+use super::{Included, PassName, Project, Stage, Tab};
 use eddy_diag::{SourceId, SourceMap, Span};
 use std::ops::Range;
 
@@ -59,7 +59,7 @@ impl Project {
 
     /// Returns the id of a tab's text; `None` for a tab that this project does not have.
     pub fn id_of(&self, tab: &Tab) -> Option<SourceId> {
-        let place = |id: &PassId| self.passes.iter().position(|p| p.id == *id);
+        let place = |id: &PassName| self.passes.iter().position(|p| p.id == *id);
         match tab {
             Tab::Common => self.common.as_ref().map(|_| Self::COMMON_ID),
             Tab::Pass(of) => place(of).map(Self::pass_id),

@@ -5,7 +5,7 @@
 //! every program is what program N drew; nothing else can be read, and not what a program itself drew before.
 
 use super::{
-    Filter, InputKind, PassBody, PassId, Project, Wrap, custom_uniforms, includes, lines::hash_lines, words::find_word,
+    Filter, InputKind, PassName, Project, Wrap, custom_uniforms, includes, lines::hash_lines, words::find_word,
 };
 use eddy_diag::{Diagnostic, Severity, Span};
 
@@ -19,8 +19,7 @@ const MISSING: [&str; 6] = ["iGlobalTime", "iCh0", "iCh1", "iCh2", "iCh3", "st_a
 /// Returns what XScreenSaver refuses of a project that compiles, as errors, and what it does otherwise, as warnings and notes.
 pub fn advice(project: &Project) -> Vec<Diagnostic> {
     let mut found = Vec::new();
-    let buffers: Vec<&PassId> =
-        project.passes.iter().map(|pass| &pass.id).filter(|id| matches!(id, PassId::Buffer(_))).collect();
+    let buffers: Vec<&PassName> = project.passes.iter().map(|pass| &pass.id).filter(|id| id.is_buffer()).collect();
     if buffers.len() > BUFFERS {
         let message = format!("XScreenSaver runs {BUFFERS} buffers, and the project has {}", buffers.len());
         found.push(Diagnostic::error(None, message).hint("draw some of them in one pass"));
@@ -30,13 +29,13 @@ pub fn advice(project: &Project) -> Vec<Diagnostic> {
     }
     for (index, pass) in project.passes.iter().enumerate() {
         let title = pass.id.title();
-        if !matches!(pass.id, PassId::Buffer(_) | PassId::Image) {
+        if !(pass.id.is_buffer() || pass.id.is_image()) {
             let message = format!("XScreenSaver has no {title} pass");
             found.push(Diagnostic::error(None, message).hint("remove it"));
             continue;
         }
         let settings = &pass.settings;
-        let is_plain = matches!(settings.body, PassBody::Screen)
+        let is_plain = pass.body.is_screen()
             && settings.size == Default::default()
             && settings.region.is_none()
             && settings.initial.is_none()
@@ -46,8 +45,7 @@ pub fn advice(project: &Project) -> Vec<Diagnostic> {
             found.push(Diagnostic::error(None, message).hint("draw the whole picture, and no meshes"));
         }
         let own = buffers.iter().position(|id| **id == pass.id).unwrap_or(buffers.len());
-        for (n, channel) in pass.channels.iter().enumerate() {
-            let Some(channel) = channel else { continue };
+        for (n, channel) in pass.bindings.iter() {
             let of = channel.input.target().and_then(|(id, _)| buffers.iter().position(|known| *known == id));
             let (message, hint) = match of {
                 None => {
@@ -120,10 +118,10 @@ mod tests {
     use super::*;
     use crate::{Channel, Input, Origin, Pass, Source};
 
-    fn pass(id: PassId, reads: &[(usize, Input)], text: &str) -> Pass {
+    fn pass(id: PassName, reads: &[(usize, Input)], text: &str) -> Pass {
         let mut pass = Pass::new(id.clone(), Source { name: id.title(), path: None, text: text.into() });
         for (n, input) in reads {
-            pass.channels[*n] = Some(Channel::new(input.clone()));
+            pass.bindings.set(*n, Some(Channel::new(input.clone())));
         }
         pass
     }
@@ -134,12 +132,12 @@ mod tests {
     }
 
     fn buffer(name: &str, reads: &[(usize, Input)]) -> Pass {
-        pass(PassId::Buffer(name.into()), reads, "")
+        pass(PassName::buffer(name), reads, "")
     }
 
     #[test]
     fn a_chain_of_buffers_is_taken() {
-        let image = pass(PassId::Image, &[(0, Input::buffer("A")), (1, Input::buffer("B"))], "float t = iTime;");
+        let image = pass(PassName::image(), &[(0, Input::buffer("A")), (1, Input::buffer("B"))], "float t = iTime;");
         let all = said(image, vec![buffer("A", &[]), buffer("B", &[(0, Input::buffer("A"))])]);
         assert!(all.iter().all(|line| line.starts_with("note: ")), "{all:?}");
         assert_eq!(all.len(), 3, "{all:?}");
@@ -147,7 +145,7 @@ mod tests {
 
     #[test]
     fn what_it_lacks_is_an_error() {
-        let image = |reads: &[(usize, Input)], text: &str| pass(PassId::Image, reads, text);
+        let image = |reads: &[(usize, Input)], text: &str| pass(PassName::image(), reads, text);
         let cases: [(Pass, Vec<Pass>, &str); 9] = [
             (image(&[(0, Input::KEYBOARD)], ""), vec![], "error: iChannel0 of Image reads Keyboard"),
             (
@@ -160,7 +158,7 @@ mod tests {
                 vec![buffer("A", &[(0, Input::buffer("A"))])],
                 "error: iChannel0 of Buffer A reads the previous frame",
             ),
-            (image(&[], ""), vec![pass(PassId::Sound, &[], "")], "error: XScreenSaver has no Sound pass"),
+            (image(&[], ""), vec![pass(PassName::sound(), &[], "")], "error: XScreenSaver has no Sound pass"),
             (
                 image(&[], ""),
                 ["A", "B", "C", "D", "e"].map(|n| buffer(n, &[])).to_vec(),

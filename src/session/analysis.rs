@@ -6,7 +6,7 @@ use eddy_background::Background;
 use eddy_diag::SourceId;
 use eddy_engine::{self as engine, KeptPreamble, Sources};
 use eddy_glsl::services::{Analysis, ClassSpan};
-use eddy_project::{Pass, PassId, Project, Stage, Tab};
+use eddy_project::{Pass, PassName, Project, Stage, Tab};
 use std::{collections::BTreeSet, ops::Range, sync::Arc};
 
 pub(super) const COMMON: SourceId = Project::COMMON_ID;
@@ -56,7 +56,7 @@ impl Texts {
             && mine.iter().zip(&theirs).all(|(a, b)| Arc::ptr_eq(a, b))
             && self.pass().id == other.pass().id
             && self.stage == other.stage
-            && self.pass().settings.body == other.pass().settings.body
+            && self.pass().body == other.pass().body
             && engine::channel_kinds(self.pass()) == engine::channel_kinds(other.pass())
     }
 
@@ -109,7 +109,7 @@ pub(super) struct Analyst {
     pub background: Background<(Texts, Tab), (), TabAnalysis>,
     pub front: Option<Tab>,
     /// The pass that Common is read with.
-    pub pass: PassId,
+    pub pass: PassName,
     /// And the stage of it.
     pub stage: Option<String>,
     pub asked: Option<(Texts, Tab)>,
@@ -130,7 +130,7 @@ impl Analyst {
             Ok(TabAnalysis { analysis, front, classes, texts })
         };
         let background = Background::new("analysis", "the analysis", wake, work)?;
-        Ok(Self { background, front: None, pass: PassId::Image, stage: None, asked: None, newest: None })
+        Ok(Self { background, front: None, pass: PassName::image(), stage: None, asked: None, newest: None })
     }
 }
 
@@ -186,12 +186,12 @@ impl Session {
         };
         let is_known = |user: &&Tab| user.pass().is_none_or(|id| *id == self.analyst.pass);
         let user = users.iter().find(is_known).or(users.first())?;
-        let place = |id: &PassId| project.passes.iter().position(|p| p.id == *id);
+        let place = |id: &PassName| project.passes.iter().position(|p| p.id == *id);
         let index = match user.pass() {
             Some(id) => place(id)?,
-            None => place(&self.analyst.pass).or_else(|| place(&PassId::Image))?,
+            None => place(&self.analyst.pass).or_else(|| place(&PassName::image()))?,
         };
-        let stages = project.passes[index].settings.meshes().map_or(&[][..], |g| &g.stages);
+        let stages = project.passes[index].body.stages();
         let file = match user {
             Tab::Stage(_, file) => Some(file),
             _ => None,
@@ -204,7 +204,7 @@ impl Session {
         if let Some((index, stage)) = self.read_with(&tab).filter(|_| tab != Tab::Common) {
             let pass = &self.documents.current().passes[index];
             self.analyst.pass = pass.id.clone();
-            let stages = pass.settings.meshes().map_or(&[][..], |g| &g.stages);
+            let stages = pass.body.stages();
             self.analyst.stage = match stage {
                 Stage::Own => None,
                 Stage::File(n) => stages.get(n).map(|s| s.name.clone()),
@@ -219,12 +219,12 @@ impl Session {
     pub(super) fn analyse(&mut self) {
         let Some(front) = self.analyst.front.clone() else { return };
         let project = self.documents.current();
-        let place = |id: &PassId| project.passes.iter().position(|p| p.id == *id);
-        let index = place(&self.analyst.pass).or_else(|| place(&PassId::Image)).unwrap_or(0);
+        let place = |id: &PassName| project.passes.iter().position(|p| p.id == *id);
+        let index = place(&self.analyst.pass).or_else(|| place(&PassName::image())).unwrap_or(0);
         if project.passes.is_empty() {
             return;
         }
-        let stages = project.passes[index].settings.meshes().map_or(&[][..], |g| &g.stages);
+        let stages = project.passes[index].body.stages();
         let file = self.analyst.stage.as_ref();
         let stage = stages.iter().position(|s| Some(&s.name) == file).map_or(Stage::Own, Stage::File);
         let texts = Texts::of(project, index, stage);

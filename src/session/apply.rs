@@ -9,7 +9,7 @@ use super::{
     view::{About, Level},
 };
 use eddy_playback::{capture, mouse::Mouse};
-use eddy_project::{self as project, Channel, PassId, Tab, include_names};
+use eddy_project::{self as project, Bindings, Channel, PassName, SLOTS, Tab, include_names};
 
 impl Session {
     /// Does what the user asked. Never fails: trouble becomes a notice.
@@ -192,16 +192,16 @@ impl Session {
     }
 
     /// True if the channel reads something else now.
-    pub(super) fn set_channel(&mut self, pass: &PassId, index: usize, channel: Option<Channel>) -> bool {
+    pub(super) fn set_channel(&mut self, pass: &PassName, index: usize, channel: Option<Channel>) -> bool {
         let folder = capture::base_folder(self.project());
         let channel = channel.map(|c| Channel { input: project::at_home(c.input, folder.as_deref()), ..c });
-        let now = self.project().pass(pass).and_then(|p| p.channels.get(index));
-        if now.is_none_or(|now| *now == channel) {
+        let now = self.project().pass(pass).filter(|_| index < SLOTS).map(|p| p.bindings.get(index));
+        if now.is_none_or(|now| now == channel.as_ref()) {
             return false;
         }
         let before = self.project().clone();
-        if let Some(slot) = self.documents.current_mut().pass_mut(pass).and_then(|p| p.channels.get_mut(index)) {
-            *slot = channel;
+        if let Some(pass) = self.documents.current_mut().pass_mut(pass) {
+            pass.bindings.set(index, channel);
         }
         self.note_pass_edit(format!("iChannel{index} of {}", pass.title()), before);
         self.compile_soon();
@@ -235,18 +235,18 @@ impl Session {
             if before != now
                 && let (Some(now), Some(pass)) = (now, self.documents.current_mut().pass_mut(id))
             {
-                pass.channels = now;
+                pass.bindings = now;
             }
         }
         self.compile.edit();
     }
 
     /// Returns what the tab's pass reads by its text alone.
-    fn declared_channels(&self, tab: &Tab) -> Option<[Option<Channel>; 4]> {
+    fn declared_channels(&self, tab: &Tab) -> Option<Bindings> {
         let Tab::Pass(id) = tab else { return None };
         let mut project = self.project().clone();
         project::declare_channels(&mut project);
-        project.pass(id).map(|p| p.channels.clone())
+        project.pass(id).map(|p| p.bindings.clone())
     }
 
     fn focus(&mut self, focused: bool) {
@@ -260,7 +260,7 @@ impl Session {
         }
     }
 
-    pub(super) fn show_pass(&mut self, pass: PassId) {
+    pub(super) fn show_pass(&mut self, pass: PassName) {
         if self.picture.shown == pass || self.project().pass(&pass).is_none() {
             return;
         }

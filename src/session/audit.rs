@@ -14,7 +14,7 @@ use eddy_debugger::{
 };
 use eddy_diag::{Diagnostic, Severity};
 use eddy_engine::{EngineError, Sources};
-use eddy_project::{PassId, Project};
+use eddy_project::{PassName, Project};
 use std::collections::HashMap;
 
 /// Says how many pixels are looked at, across and up.
@@ -24,7 +24,7 @@ const WORST: usize = 5;
 
 /// Holds what came of it.
 pub(super) struct AuditSummary {
-    pub pass: PassId,
+    pub pass: PassName,
     pub pixels: usize,
     /// The largest difference of a component between the device and double precision.
     pub error: f64,
@@ -35,7 +35,7 @@ pub(super) struct AuditSummary {
 /// Says how far pixels of a pass are off double precision, and where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AuditMap {
-    pub pass: PassId,
+    pub pass: PassName,
     /// The pass's picture.
     pub size: (u32, u32),
     pub pixels: usize,
@@ -78,7 +78,7 @@ impl Auditing {
         Ok(Self { background, input: Ticket::default(), map: None, of_frame: 0 })
     }
 
-    pub fn request_input(&mut self, shown: &PassId, tasks: &mut Tasks) {
+    pub fn request_input(&mut self, shown: &PassName, tasks: &mut Tasks) {
         if self.background.take_request() {
             self.input = tasks.add(Inspect(shown.clone()));
         }

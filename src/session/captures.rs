@@ -8,13 +8,13 @@ use super::{
 };
 use eddy_engine::{EngineError, Pixels};
 use eddy_playback::{capture, scene::Scene};
-use eddy_project::PassId;
+use eddy_project::PassName;
 use std::path::PathBuf;
 
 /// A picture that is to be written to a file.
 #[derive(Clone, Debug)]
 struct Capture {
-    pass: PassId,
+    pass: PassName,
     format: capture::Format,
     folder: PathBuf,
     stem: String,

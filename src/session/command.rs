@@ -10,7 +10,7 @@ use super::{
 };
 use eddy_control::midi::MidiChoice;
 use eddy_playback::{comparing::Baseline, scene::Scene};
-use eddy_project::{Channel, ControlTarget, CustomUniformValue, InputKind, Origin, PassEdit, PassId, Project, Tab};
+use eddy_project::{Channel, ControlTarget, CustomUniformValue, InputKind, Origin, PassEdit, PassName, Project, Tab};
 use std::{net::SocketAddr, path::PathBuf, sync::Arc, time::Duration};
 
 /// Something the user did. Takes effect in [`Session::apply`](super::Session::apply); what needs time (compiling,
@@ -31,7 +31,7 @@ pub enum Command {
     /// channel of it if these are named, or begin a new one where none is shown.
     Bring {
         paths: Vec<PathBuf>,
-        to: Option<(PassId, Option<usize>)>,
+        to: Option<(PassName, Option<usize>)>,
     },
     /// A new project of one Image pass.
     New,
@@ -146,7 +146,7 @@ pub enum Command {
     SetFixedSize(Option<(u32, u32)>),
     /// Sets what `iChannel{index}` of a pass reads, with its sampler.
     SetChannel {
-        pass: PassId,
+        pass: PassName,
         index: usize,
         channel: Option<Channel>,
     },
@@ -214,7 +214,7 @@ pub enum Command {
     /// Ends that. The picture goes on from the frame that is shown.
     StopReplay,
     /// Shows a pass, which is captured then too.
-    ShowPass(PassId),
+    ShowPass(PassName),
     /// Draws the value of an expression instead of the picture; `None`: the picture again. See
     /// [`Session::probe`](super::Session::probe).
     Probe(Option<ProbePlace>),
@@ -233,7 +233,7 @@ pub enum Command {
     WatchCosts(bool),
     /// Says which targets of passes somebody sees small: only those are read back. See
     /// [`Session::miniature`](super::Session::miniature).
-    WatchTargets(Vec<(PassId, usize)>),
+    WatchTargets(Vec<(PassName, usize)>),
     /// Says what somebody looks at closely: only that is read back, and nothing with the default. See
     /// [`Session::buffer`](super::Session::buffer) and [`Session::texels_under`](super::Session::texels_under).
     WatchBuffers(BufferWatch),

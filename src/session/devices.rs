@@ -162,7 +162,7 @@ impl Session {
 
 fn reads(project: &Project, kind: InputKind) -> bool {
     let passes = project.passes.iter().filter(|pass| pass.id.is_picture());
-    passes.flat_map(|pass| pass.channels.iter().flatten()).any(|channel| channel.input.kind() == kind)
+    passes.flat_map(|pass| pass.bindings.channels()).any(|channel| channel.input.kind() == kind)
 }
 
 #[cfg(test)]

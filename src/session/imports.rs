@@ -10,7 +10,7 @@ use super::{
     view::{About, Level},
 };
 use eddy_media::mesh;
-use eddy_project::{self as project, FileKind, Fit, MeshSource, PassId, Project, TextImport, listed};
+use eddy_project::{self as project, FileKind, Fit, MeshSource, PassName, Project, TextImport, listed};
 use std::path::{Path, PathBuf};
 
 /// A model of more bytes is not measured before it is drawn: the window would wait for it.
@@ -39,7 +39,7 @@ impl Session {
 
     /// Takes files. `to`: the pass in front and the channel they were dropped on, or none where no project is shown:
     /// then a picture or a model makes a new one.
-    pub(super) fn bring(&mut self, paths: Vec<PathBuf>, to: Option<(PassId, Option<usize>)>) {
+    pub(super) fn bring(&mut self, paths: Vec<PathBuf>, to: Option<(PassName, Option<usize>)>) {
         self.settled(About::Opening);
         let of = |kind: FileKind| paths.iter().filter(move |p| project::kind_of_file(p) == kind);
         self.tell_unfit(&paths);
@@ -74,12 +74,12 @@ impl Session {
         match to {
             None => {
                 let mut project = project::new_for(first, pictures.is_empty());
-                let done = self.put_in(&mut project, &PassId::Image, None, &pictures, &models);
+                let done = self.put_in(&mut project, &PassName::image(), None, &pictures, &models);
                 self.unless_unsaved(PendingAction::Keep(Box::new(project)));
                 self.notice(Level::Info, format!("a new shader: {done}"));
             }
             Some((pass, channel)) => {
-                let pass = if pass.is_picture() { pass } else { PassId::Image };
+                let pass = if pass.is_picture() { pass } else { PassName::image() };
                 let before = self.project().clone();
                 let mut project = before.clone();
                 let done = self.put_in(&mut project, &pass, channel, &pictures, &models);
@@ -111,7 +111,7 @@ impl Session {
     fn put_in(
         &self,
         project: &mut Project,
-        pass: &PassId,
+        pass: &PassName,
         channel: Option<usize>,
         pictures: &[&Path],
         models: &[&Path],
@@ -143,10 +143,10 @@ impl Session {
                 continue;
             };
             said.push(format!("{} draws {}", id.title(), name(model)));
-            match project.free_channel(&PassId::Image) {
+            match project.free_channel(&PassName::image()) {
                 Some(n) => {
-                    project.read_buffer(&PassId::Image, n, &id);
-                    said.push(reads(project, &PassId::Image, n, &id.title()));
+                    project.read_buffer(&PassName::image(), n, &id);
+                    said.push(reads(project, &PassName::image(), n, &id.title()));
                 }
                 None => said.push("all four channels of Image are in use".into()),
             }
@@ -191,7 +191,7 @@ fn is_video(path: &Path) -> bool {
 }
 
 /// Says what a channel reads now, and how its text gets at it.
-fn reads(project: &Project, pass: &PassId, channel: usize, what: &str) -> String {
+fn reads(project: &Project, pass: &PassName, channel: usize, what: &str) -> String {
     let text = project.pass(pass).map_or("", |p| &p.source.text);
     let hint = if text.contains(&format!("iChannel{channel}")) {
         String::new()

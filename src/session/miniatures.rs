@@ -5,7 +5,7 @@ use super::{
     read_back::{Moment, ReadBack},
 };
 use eddy_engine::Miniature;
-use eddy_project::PassId;
+use eddy_project::PassName;
 use std::{
     collections::HashMap,
     time::{Duration, Instant},
@@ -16,7 +16,7 @@ const EVERY: Duration = Duration::from_millis(100);
 /// And they take this part of the time at most: each looks at all texels of its target.
 const SHARE: u32 = 10;
 
-type Target = (PassId, usize);
+type Target = (PassName, usize);
 
 /// Draws small pictures of targets.
 #[derive(Debug, PartialEq)]
@@ -55,7 +55,7 @@ impl Miniatures {
         self.watched = targets;
     }
 
-    pub fn get(&self, pass: &PassId, index: usize) -> Option<(&Miniature, u64)> {
+    pub fn get(&self, pass: &PassName, index: usize) -> Option<(&Miniature, u64)> {
         self.known.get(&(pass.clone(), index)).map(|(picture, generation)| (picture, *generation))
     }
 
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn only_what_is_watched_is_read_and_no_more_often_than_it_is_seen() {
-        let (a, now) = ((PassId::Buffer("A".into()), 0), Instant::now());
+        let (a, now) = ((PassName::buffer("A"), 0), Instant::now());
         let wanted = || Some(DrawMiniatures(vec![a.clone()]));
         let mut small = Miniatures::default();
         small.receive(true);

@@ -13,7 +13,7 @@ use super::{
     state::{Dialog, Picture},
     uniforms::TextUniforms,
 };
-use eddy_project::PassId;
+use eddy_project::PassName;
 
 impl Session {
     /// Another project takes the place of this one, from where its time stood when it was open last.
@@ -65,6 +65,6 @@ impl Dialog {
 
 impl Picture {
     fn begin_next_project(&mut self) {
-        (self.shown, self.is_program_new) = (PassId::Image, false);
+        (self.shown, self.is_program_new) = (PassName::image(), false);
     }
 }

@@ -1,6 +1,6 @@
 //! Steps back from edits of passes, channels and uniforms, and forth again.
 
-use eddy_project::{CustomUniformValues, PassEdit, PassId, Project, listed};
+use eddy_project::{CustomUniformValues, PassEdit, PassName, Project, listed};
 use std::{
     collections::BTreeSet,
     time::{Duration, Instant},
@@ -47,7 +47,7 @@ pub(super) struct Step {
     pub title: String,
     pub side: UndoState,
     /// A pass has another name here than on the other side: there, here.
-    pub renamed: Option<(PassId, PassId)>,
+    pub renamed: Option<(PassName, PassName)>,
     pub edit: Option<PassEdit>,
     pub at: Instant,
 }
@@ -67,7 +67,13 @@ impl PassHistory {
         self.redo.clear();
     }
 
-    pub fn push(&mut self, title: String, before: Project, renamed: Option<(PassId, PassId)>, edit: Option<PassEdit>) {
+    pub fn push(
+        &mut self,
+        title: String,
+        before: Project,
+        renamed: Option<(PassName, PassName)>,
+        edit: Option<PassEdit>,
+    ) {
         let at = Instant::now();
         self.redo.clear();
         if let (Some(last), Some(edit)) = (self.undo.last_mut(), &edit)
@@ -143,7 +149,7 @@ impl PassHistory {
         &mut self,
         title: String,
         side: UndoState,
-        renamed: Option<(PassId, PassId)>,
+        renamed: Option<(PassName, PassName)>,
         edit: Option<PassEdit>,
         at: Instant,
     ) {

@@ -11,7 +11,7 @@ use super::{
     template,
     view::{About, Level},
 };
-use eddy_project::{PassEdit, PassId, Project, Tab};
+use eddy_project::{PassEdit, PassName, Project, Tab};
 use std::time::Instant;
 
 impl Session {
@@ -26,7 +26,7 @@ impl Session {
     }
 
     /// Every pass that got another name since the session began: the old one, the new one. Grows only.
-    pub fn renamed_passes(&self) -> &[(PassId, PassId)] {
+    pub fn renamed_passes(&self) -> &[(PassName, PassName)] {
         &self.renamed
     }
 
@@ -128,7 +128,7 @@ impl Session {
     }
 
     /// Lets what is known of a pass by its name go on under its new one.
-    fn follow_rename(&mut self, from: &PassId, to: &PassId) {
+    fn follow_rename(&mut self, from: &PassName, to: &PassName) {
         self.renamed.push((from.clone(), to.clone()));
         if self.picture.shown == *from {
             self.picture.shown = to.clone();
@@ -146,7 +146,7 @@ impl Session {
     /// Shows Image where the shown pass is no more.
     pub(super) fn show_image_if_gone(&mut self) {
         if self.project().pass(&self.picture.shown).is_none() {
-            self.picture.shown = PassId::Image;
+            self.picture.shown = PassName::image();
         }
     }
 }
@@ -157,7 +157,7 @@ fn is_untouched(text: &str, tab: &Tab) -> bool {
 }
 
 /// The passes of `there` with what was typed since. `renamed`: a pass's name there, and here.
-fn returned(documents: &Documents, mut there: Project, renamed: Option<&(PassId, PassId)>) -> Project {
+fn returned(documents: &Documents, mut there: Project, renamed: Option<&(PassName, PassName)>) -> Project {
     let (here, saved) = (documents.current(), documents.saved());
     for tab in there.tabs() {
         let tab_here = match renamed {

@@ -11,7 +11,7 @@ use super::{
 };
 use eddy_engine::{BuildOptions, Miniature, PassTime, TexelAt};
 use eddy_gpu::Gpu;
-use eddy_project::{CustomUniform, PassId, Project, Tab};
+use eddy_project::{CustomUniform, PassName, Project, Tab};
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
@@ -173,7 +173,7 @@ impl Session {
 
     /// Returns a small picture of one of a pass's targets, while it is watched
     /// ([`Command::WatchTargets`](super::Command::WatchTargets)), and a number that grows with each new one.
-    pub fn miniature(&self, pass: &PassId, index: usize) -> Option<(&Miniature, u64)> {
+    pub fn miniature(&self, pass: &PassName, index: usize) -> Option<(&Miniature, u64)> {
         self.watched.miniatures.get(pass, index)
     }
 
@@ -195,11 +195,11 @@ impl Session {
     }
 
     /// Returns what the display shows: the shown pass, or a value of the code.
-    pub(super) fn pictured(&self) -> PassId {
+    pub(super) fn pictured(&self) -> PassName {
         if self.watched.probing.is_drawn() { BuildOptions::probed() } else { self.picture.shown.clone() }
     }
 
-    pub fn shown_pass(&self) -> &PassId {
+    pub fn shown_pass(&self) -> &PassName {
         &self.picture.shown
     }
 

@@ -14,7 +14,7 @@ use super::{
 };
 use eddy_engine::{CameraFrame, EngineError, PassInputs, Picture, Pixels};
 use eddy_playback::run::{Replay, ReplayFrom, Run};
-use eddy_project::PassId;
+use eddy_project::PassName;
 use std::time::Instant;
 
 /// The job that tasks go with.
@@ -165,10 +165,10 @@ impl RenderTask for TakeRun {
 }
 
 /// Takes what a pass read as it was drawn last, and its picture.
-pub(super) struct Inspect(pub PassId);
+pub(super) struct Inspect(pub PassName);
 
 pub(super) struct Inspected {
-    pub pass: PassId,
+    pub pass: PassName,
     pub inputs: PassInputs,
     pub picture: Pixels,
 }

@@ -7,7 +7,7 @@ use super::{
 use eddy_diag::{Fix, SourceId, SourceMap, Span};
 use eddy_engine as engine;
 use eddy_glsl::services::{Analysis, Places, Programs};
-use eddy_project::{Project, Stage, Tab};
+use eddy_project::{Project, Tab};
 
 impl Session {
     /// Returns the name at a byte of a tab that can have another one, or why it cannot.
@@ -62,9 +62,7 @@ impl Read {
         let texts = engine::Sources::new(project);
         let mut analyses = Vec::new();
         for (index, pass) in project.passes.iter().enumerate() {
-            let files = pass.settings.meshes().map_or(0, |g| g.stages.len());
-            let stages = [Stage::Own].into_iter().chain((0..files).map(Stage::File));
-            analyses.extend(stages.map(|stage| texts.analyse_stage(index, stage)));
+            analyses.extend(pass.body.texts().map(|stage| texts.analyse_stage(index, stage)));
         }
         Self { analyses, uniforms: project.custom_uniform_names(), texts: project.texts() }
     }

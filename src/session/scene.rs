@@ -13,14 +13,14 @@ use eddy_playback::{
     run::Run,
     scene::{LONGEST, Scene, SceneInputs},
 };
-use eddy_project::{PassId, Project, confine, limits};
+use eddy_project::{PassName, Project, confine, limits};
 use std::{ffi::OsStr, path::Path, sync::Arc};
 
 /// Holds the project of a picture that is to be read from the device.
 #[derive(Clone, Debug)]
 pub(super) struct PictureSource {
     pub project: Project,
-    pub pass: PassId,
+    pub pass: PassName,
     /// Frames are of one another.
     pub has_state: bool,
 }

@@ -32,7 +32,7 @@ use super::{
     view::{About, Level},
 };
 use eddy_gpu::Gpu;
-use eddy_project::PassId;
+use eddy_project::PassName;
 use std::{collections::VecDeque, sync::Arc, time::Instant};
 
 /// An open project over time.
@@ -75,7 +75,7 @@ pub struct Session {
     /// Edits of passes and channels.
     pub(super) passes: PassHistory,
     /// Passes that got another name, oldest first.
-    pub(super) renamed: Vec<(PassId, PassId)>,
+    pub(super) renamed: Vec<(PassName, PassName)>,
     /// Something a panel shows has changed since the last tick.
     pub(super) changed: bool,
     /// The time of the newest tick: the only time there is between ticks.
@@ -94,7 +94,7 @@ pub(super) struct Dialog {
 /// The picture that is shown.
 #[derive(Default)]
 pub(super) struct Picture {
-    pub shown: PassId,
+    pub shown: PassName,
     /// The newest program has not drawn a frame.
     pub is_program_new: bool,
     /// There is a new picture, to be painted before another is drawn.

@@ -1,7 +1,7 @@
 //! The structure of a project is all that is not text: passes, channels, settings, names. It is compared without a
 //! copy, as the window asks in each frame.
 
-use eddy_project::{Geometry, Pass, PassBody, PassSettings, Project, listed};
+use eddy_project::{Body, Geometry, Pass, Project, listed};
 use std::collections::BTreeSet;
 
 /// Returns whether two projects are the same but for their texts and their places on disk.
@@ -49,8 +49,9 @@ pub(super) fn differences(now: &Project, saved: &Project) -> Vec<String> {
     say(now.sampler_rules != saved.sampler_rules, "sampler rules");
     for pass in &now.passes {
         let Some(before) = saved.pass(&pass.id) else { continue };
-        say(pass.channels != before.channels, &format!("channels of {}", pass.id.title()));
-        say(!is_same_setting(&pass.settings, &before.settings), &format!("settings of {}", pass.id.title()));
+        say(pass.bindings != before.bindings, &format!("channels of {}", pass.id.title()));
+        let is_drawn_the_same = pass.settings == before.settings && is_same_body(&pass.body, &before.body);
+        say(!is_drawn_the_same, &format!("settings of {}", pass.id.title()));
     }
     say(now.controls != saved.controls, "controls of uniforms");
     let (values, before) = (&now.custom_uniform_values, &saved.custom_uniform_values);
@@ -71,26 +72,15 @@ pub(super) fn has_same_texts(a: &Project, b: &Project) -> bool {
 }
 
 fn is_same_pass(a: &Pass, b: &Pass) -> bool {
-    let Pass { id, source: _, channels, settings } = a;
-    *id == b.id && *channels == b.channels && is_same_setting(settings, &b.settings)
+    let Pass { id, source: _, bindings, settings, body } = a;
+    *id == b.id && *bindings == b.bindings && *settings == b.settings && is_same_body(body, &b.body)
 }
 
-fn is_same_setting(a: &PassSettings, b: &PassSettings) -> bool {
-    let PassSettings { size, format, region, initial, boundary, when, body } = a;
-    *size == b.size
-        && *format == b.format
-        && *region == b.region
-        && *initial == b.initial
-        && *boundary == b.boundary
-        && *when == b.when
-        && is_same_body(body, &b.body)
-}
-
-fn is_same_body(a: &PassBody, b: &PassBody) -> bool {
+fn is_same_body(a: &Body, b: &Body) -> bool {
     match (a, b) {
-        (PassBody::Screen, PassBody::Screen) => true,
-        (PassBody::Meshes(a), PassBody::Meshes(b)) => is_same_geometry(a, b),
-        (PassBody::Screen | PassBody::Meshes(_), _) => false,
+        (Body::Screen, Body::Screen) => true,
+        (Body::Meshes(a), Body::Meshes(b)) => is_same_geometry(a, b),
+        (Body::Screen | Body::Meshes(_), _) => false,
     }
 }
 

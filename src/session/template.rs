@@ -1,7 +1,7 @@
 //! The texts that new projects and new passes begin with. They are Eddy's own.
 
 use super::documents::insert_pass;
-use eddy_project::{Origin, Pass, PassId, Project, Source, Tab, limits};
+use eddy_project::{Origin, Pass, PassName, Project, Role, Source, Tab, limits};
 
 const IMAGE: &str = "\
 // fragCoord: pixels from the bottom left. Inputs: iResolution, iTime, iMouse, iChannel0 to iChannel3.
@@ -47,7 +47,7 @@ const COMMON: &str = "\
 /// A project of one Image pass, nowhere on disk.
 pub(super) fn project() -> Project {
     let mut project = Project::new("Untitled", Vec::new(), Origin::Unsaved);
-    add(&mut project, &Tab::Pass(PassId::Image));
+    add(&mut project, &Tab::image());
     project
 }
 
@@ -55,17 +55,19 @@ pub(super) fn project() -> Project {
 pub(super) fn text(tab: &Tab) -> &'static str {
     match tab {
         Tab::Common => COMMON,
-        Tab::Pass(PassId::Buffer(_)) => BUFFER,
-        Tab::Pass(PassId::Cubemap) => CUBEMAP,
-        Tab::Pass(PassId::Sound) => SOUND,
-        Tab::Pass(PassId::Image) => IMAGE,
+        Tab::Pass(pass) => match pass.role() {
+            Role::Buffer => BUFFER,
+            Role::Cube => CUBEMAP,
+            Role::Sound => SOUND,
+            Role::Image => IMAGE,
+        },
         Tab::Stage(..) | Tab::Included(_) => "",
     }
 }
 
 /// Adds a tab with its starting text; false if it is there already.
 pub(super) fn add(project: &mut Project, tab: &Tab) -> bool {
-    let is_named_so = !matches!(tab, Tab::Pass(PassId::Buffer(name)) if !PassId::is_name(name));
+    let is_named_so = tab.pass().and_then(PassName::buffer_name).is_none_or(PassName::is_name);
     if project.source(tab).is_some() || !is_named_so || project.passes.len() >= limits::PASSES {
         return false;
     }

@@ -16,13 +16,13 @@ use eddy_debugger::{
 };
 use eddy_engine::{CameraFrame, EngineError};
 use eddy_playback::run::{Replay, ReplayFrom};
-use eddy_project::{PassId, Project};
+use eddy_project::{PassName, Project};
 use std::{io, sync::Arc};
 
 /// A pixel of a pass: where in its picture, from 0 to 1 across and up.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TracedPixel {
-    pub pass: PassId,
+    pub pass: PassName,
     pub at: [f32; 2],
 }
 

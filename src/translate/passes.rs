@@ -7,8 +7,7 @@ use eddy_engine::{CompiledPass, CompiledProgram, Sources};
 use eddy_glsl::{ClipSpace, Compiled, PassSource, PlainOptions, interface};
 use eddy_graph::{Draw, FramePlan, PassFacts, Read, ReadTiming, Target, TexelSource};
 use eddy_project::{
-    Channel, CustomUniformValue, FillKind, Filter, Input, Media, Pass, PassBody, PassId, PassSize, Project, Stage, Tab,
-    Wrap,
+    Channel, CustomUniformValue, FillKind, Filter, Input, Media, Pass, PassName, PassSize, Project, Tab, Wrap,
 };
 use eddy_texture::Dimension;
 
@@ -78,11 +77,11 @@ pub(crate) fn translate(project: &Project, language: Language) -> Result<Transla
         targets: plan.targets.iter().map(target).collect(),
         runs: runs(&plan, &pictures.project),
         passes: Vec::new(),
-        skipped: plan.skipped.iter().map(|&pass| pictures.project.passes[pass].id.key()).collect(),
+        skipped: plan.skipped.iter().map(|&pass| pictures.project.passes[pass].id.key().to_owned()).collect(),
     };
     manifest.passes.extend(writer.passes(&plan, &pictures, 0));
     if !sounds.passes.is_empty() {
-        let plan = FramePlan::new(&sounds.project, &sounds.facts, &[PassId::Sound], true);
+        let plan = FramePlan::new(&sounds.project, &sounds.facts, &[PassName::sound()], true);
         let before = manifest.targets.len();
         manifest.targets.extend(plan.targets.iter().map(target));
         manifest.passes.extend(writer.passes(&plan, &sounds, before));
@@ -115,8 +114,9 @@ impl Compilation {
 
 /// Returns the sound pass with only the channels that it can read.
 fn with_sound_channels(pass: &Pass) -> Pass {
-    let is_heard = |channel: &Channel| channel.input.kind().is_in_sound();
-    Pass { channels: pass.channels.clone().map(|channel| channel.filter(is_heard)), ..pass.clone() }
+    let mut pass = pass.clone();
+    pass.bindings.retain(|channel| channel.input.kind().is_in_sound());
+    pass
 }
 
 /// Collects files and refusals.
@@ -149,10 +149,9 @@ impl<'a> Writer<'a> {
         let (index, compiled, fills) = &all.passes[draw.pass];
         let key = pass.id.key();
         let place = self.place(*index, pass);
-        let meshes = pass.settings.meshes();
         let programs = compiled.programs().iter().enumerate().map(|(n, program)| {
-            let stem = if meshes.is_some() { format!("{key}.{n}") } else { key.clone() };
-            let mesh = meshes.and_then(|geometry| geometry.draws.get(n)).map(|draw| MeshInfo {
+            let stem = if pass.body.is_screen() { key.to_owned() } else { format!("{key}.{n}") };
+            let mesh = pass.body.draws().get(n).map(|draw| MeshInfo {
                 mesh: draw.mesh.name(),
                 cull: draw.cull.name(),
                 front_face: self.language.front_face(),
@@ -167,7 +166,7 @@ impl<'a> Writer<'a> {
         });
         let programs = programs.collect();
         let reads = draw.reads.iter().enumerate().filter_map(|(channel, read)| Some((channel, read.as_ref()?)));
-        let channels = reads.map(|(n, read)| channel(n, read, pass.channels[n].as_ref(), first_target)).collect();
+        let channels = reads.map(|(n, read)| channel(n, read, pass.bindings.get(n), first_target)).collect();
         let mut filled = Vec::new();
         for (kind, fill) in FillKind::ALL.into_iter().zip(fills) {
             let (Some(compiled), Some(own)) = (fill, pass.fill(kind)) else { continue };
@@ -183,7 +182,7 @@ impl<'a> Writer<'a> {
                 program: self.program(&format!("{key}.{name}"), program, &place),
             });
         }
-        let camera = meshes.map(|geometry| geometry.camera).map(|c| CameraInfo {
+        let camera = pass.body.geometry().map(|geometry| geometry.camera).map(|c| CameraInfo {
             yaw: c.yaw,
             pitch: c.pitch,
             distance: c.distance,
@@ -202,17 +201,13 @@ impl<'a> Writer<'a> {
             channels,
             programs,
             fills: filled,
-            pass: key,
+            pass: key.to_owned(),
         }
     }
 
     /// Returns the places of a pass's texts: its own, those of its stages, Common, and all others.
     fn place(&self, index: usize, pass: &Pass) -> PassTexts<'a> {
-        let own = match &pass.settings.body {
-            PassBody::Screen => vec![Stage::Own],
-            PassBody::Meshes(geometry) => geometry.draws.iter().flat_map(|d| [d.vertex, d.fragment]).collect(),
-        };
-        let own = own.into_iter().map(|stage| self.project.stage_id(index, stage));
+        let own = pass.body.drawn_stages().into_iter().map(|stage| self.project.stage_id(index, stage));
         let all = (0..=u16::MAX).map(SourceId).take_while(|id| self.sources.get(*id).is_some());
         let included = all.filter(|id| matches!(self.project.tab_of(*id), Some(Tab::Included(_))));
         let mut seen = HashSet::new();
@@ -297,7 +292,7 @@ fn custom_uniforms(texts: &Sources<'_>, project: &Project) -> Vec<CustomUniformI
 
 fn target(target: &Target) -> TargetInfo {
     TargetInfo {
-        pass: target.id.key(),
+        pass: target.id.key().to_owned(),
         index: target.index,
         dimension: dimension(target.dimension),
         size: match target.size {
@@ -320,7 +315,7 @@ fn dimension(dimension: Dimension) -> &'static str {
 }
 
 fn runs(plan: &FramePlan, project: &Project) -> Vec<RunInfo> {
-    let key = |draw: &Draw| project.passes[draw.pass].id.key();
+    let key = |draw: &Draw| project.passes[draw.pass].id.key().to_owned();
     let run = |run: &eddy_graph::Run| RunInfo {
         passes: plan.draws[run.draws.clone()].iter().map(key).collect(),
         steps: run.steps,

@@ -2,26 +2,26 @@
 //! compilers.
 
 use super::*;
-use eddy_project::{Channel, Input, Pass, PassId, Source};
+use eddy_project::{Channel, Input, Pass, PassName, Source};
 
-fn pass(id: PassId, text: &str) -> Pass {
+fn pass(id: PassName, text: &str) -> Pass {
     let source = Source { name: id.title(), path: None, text: text.into() };
     Pass::new(id, source)
 }
 
 /// Buffer A reads itself; Image reads Buffer A, the keyboard's number of a pixel and uniforms.
 fn feedback() -> Project {
-    let a = PassId::Buffer("A".into());
+    let a = PassName::buffer("A");
     let mut buffer = pass(
         a.clone(),
         "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + iTimeDelta; }",
     );
-    buffer.channels[0] = Some(Channel::new(Input::Pass { id: a.clone(), target: 0 }));
+    buffer.bindings.set(0, Some(Channel::new(Input::Pass { id: a.clone(), target: 0 })));
     let mut image = pass(
-        PassId::Image,
+        PassName::image(),
         "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel1, p / iResolution.xy) * iTime; }",
     );
-    image.channels[1] = Some(Channel::new(Input::Pass { id: a, target: 0 }));
+    image.bindings.set(1, Some(Channel::new(Input::Pass { id: a, target: 0 })));
     eddy_project::Project { passes: vec![buffer, image], ..Project::of_image("feedback".into(), String::new()) }
 }
 

@@ -1,5 +1,6 @@
 //! The description of a project for the player, as JSON. The names of members are those that `player/` uses.
 
+use eddy_project::SLOTS;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -84,7 +85,7 @@ pub(crate) struct PassData {
     pub draws: Option<Vec<DrawData>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera: Option<CameraData>,
-    pub channels: [Option<ChannelData>; 4],
+    pub channels: [Option<ChannelData>; SLOTS],
     /// Indices into `uniforms`.
     pub uniforms: Vec<usize>,
 }

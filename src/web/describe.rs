@@ -10,8 +10,8 @@ use eddy_engine::{CompiledPass, Sources, channel_kinds};
 use eddy_glsl::{ChannelKind, taken};
 use eddy_graph::{FramePlan, PassFacts, effective_sampler};
 use eddy_project::{
-    CustomUniform, CustomUniformRange, FillKind, Filter, Input, InputKind, Media, PassBody, PassId, PassSize, Project,
-    Sampler, Stage, Term, Wrap,
+    CustomUniform, CustomUniformRange, FillKind, Filter, Input, InputKind, Media, PassSize, Project, Sampler, Stage,
+    Term, Wrap,
 };
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -62,17 +62,12 @@ impl Description<'_> {
         let pass = &self.project.passes[index];
         let draw = self.plan.draws.iter().find(|draw| draw.pass == index);
         let targets = draw.map_or(&[][..], |draw| &self.plan.targets[draw.targets.clone()]);
-        let is_target = pass.id.is_picture() && pass.id != PassId::Image;
+        let is_target = pass.id.is_readable();
         let skip = draw.is_none() && pass.id.is_picture();
-        let meshes = pass.settings.meshes();
-        let stages: BTreeSet<SourceId> = match &pass.settings.body {
-            PassBody::Screen => BTreeSet::from([Project::pass_id(index)]),
-            PassBody::Meshes(geometry) => {
-                let all = geometry.draws.iter().flat_map(|draw| [draw.vertex, draw.fragment]);
-                all.map(|stage| self.project.stage_id(index, stage)).collect()
-            }
-        };
-        let draws = meshes.filter(|_| !skip).map(|geometry| {
+        let geometry = pass.body.geometry();
+        let stages: BTreeSet<SourceId> =
+            pass.body.drawn_stages().into_iter().map(|stage| self.project.stage_id(index, stage)).collect();
+        let draws = geometry.filter(|_| !skip).map(|geometry| {
             let mut code = |stage: Stage| texts.code(self.project.stage_id(index, stage));
             let draw = |draw: &eddy_project::MeshDraw| {
                 Some(DrawData {
@@ -90,7 +85,7 @@ impl Description<'_> {
             };
             geometry.draws.iter().filter_map(draw).collect()
         });
-        let camera = meshes.map(|geometry| geometry.camera).map(|c| CameraData {
+        let camera = geometry.map(|geometry| geometry.camera).map(|c| CameraData {
             yaw: c.yaw,
             pitch: c.pitch,
             distance: c.distance,
@@ -100,17 +95,12 @@ impl Description<'_> {
             far: c.far,
             orbit: c.orbit,
         });
-        let is_screen = meshes.is_none();
+        let is_screen = pass.body.is_screen();
         PassData {
             title: pass.id.title(),
-            kind: match pass.id {
-                PassId::Buffer(_) => "buffer",
-                PassId::Cubemap => "cubemap",
-                PassId::Sound => "sound",
-                PassId::Image => "image",
-            },
+            kind: pass.id.row().json_type,
             skip,
-            size: match pass.id.size(&pass.settings) {
+            size: match pass.size() {
                 PassSize::Canvas => SizeData::Canvas(1.0),
                 PassSize::Scale(by) => SizeData::Canvas(by),
                 PassSize::Fixed(width, height) => SizeData::Fixed([width, height]),
@@ -146,14 +136,14 @@ impl Description<'_> {
 
     fn channel(&self, index: usize, number: usize, inlined: &mut Inlined<'_>) -> Option<ChannelData> {
         let pass = &self.project.passes[index];
-        let channel = pass.channels[number].as_ref()?;
+        let channel = pass.bindings.get(number)?;
         let sampler = effective_sampler(self.project, index, number).unwrap_or(Sampler::BUFFER);
         let is_heard = pass.id.is_picture() || channel.input.kind().is_in_sound();
         let (from, of_pass, of_media) = match &channel.input {
             _ if !is_heard => ("none", None, None),
             Input::Pass { id, target } => match self.project.passes.iter().position(|pass| pass.id == *id) {
                 Some(at) if *target < self.project.passes[at].formats().len() => ("pass", Some((at, *target)), None),
-                None if *id != PassId::Cubemap => ("zero", None, None),
+                None if id.is_buffer() => ("zero", None, None),
                 _ => ("none", None, None),
             },
             Input::Device(kind) => (kind.row().key, None, None),

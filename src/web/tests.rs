@@ -1,7 +1,7 @@
 //! Tests of whole pages: their size, their bytes, and texts that look like markup.
 
 use crate::{PLAYER_BYTES, Page, export, page};
-use eddy_project::{Channel, Condition, Input, Media, Origin, Pass, PassId, Project, Source, load, presets};
+use eddy_project::{Channel, Condition, Input, Media, Origin, Pass, PassName, Project, Source, load, presets};
 
 fn source(name: &str, text: &str) -> Source {
     Source { name: name.into(), path: None, text: text.into() }
@@ -56,7 +56,7 @@ fn every_preset_is_exported_with_all_its_passes() {
 fn condition_is_an_expression_tree() {
     let mut project = plain();
     let mut buffer =
-        Pass::new(PassId::Buffer("A".into()), source("A", "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }"));
+        Pass::new(PassName::buffer("A"), source("A", "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }"));
     buffer.settings.when = Some(Condition::parse("!(width < 640.5) && -1 != 0 || false").unwrap());
     project.passes.insert(0, buffer);
     let data = description(&exported(&project).html);
@@ -130,7 +130,7 @@ fn compile_errors_are_returned() {
 fn textures_are_embedded_once() {
     let noise = || Some(Channel::new(Input::texture(Media::Builtin("noise-rgba-64".into()))));
     let text = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p) + texture(iChannel1, p); }";
-    let image = Pass { channels: [noise(), noise(), None, None], ..Pass::new(PassId::Image, source("Image", text)) };
+    let image = Pass { bindings: [noise(), noise()].into(), ..Pass::new(PassName::image(), source("Image", text)) };
     let page = exported(&Project::new("p", vec![image], Origin::Unsaved));
     let data = description(&page.html);
     assert_eq!(data["media"].as_array().unwrap().len(), 1);
@@ -146,7 +146,7 @@ fn missing_media_is_a_warning_and_black() {
         media: Media::Picked("/nowhere/a.mkv".into()),
     }));
     let text = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p); }";
-    let image = Pass { channels: [video, None, None, None], ..Pass::new(PassId::Image, source("Image", text)) };
+    let image = Pass { bindings: [video].into(), ..Pass::new(PassName::image(), source("Image", text)) };
     let page = exported(&Project::new("p", vec![image], Origin::Unsaved));
     assert!(page.diagnostics.iter().any(|d| d.message.starts_with("iChannel0 of Image: ")), "{:?}", page.diagnostics);
     assert_eq!(description(&page.html)["passes"][0]["channels"][0]["in"], "none");

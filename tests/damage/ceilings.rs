@@ -9,7 +9,7 @@ use eddy::{
         checkpoint::{self, Moment},
         scene::Scene,
     },
-    project::{Media, MeshSource, PassId, limits},
+    project::{Media, MeshSource, PassName, limits},
 };
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
 use flate2::{Compression, write::ZlibEncoder};
@@ -168,7 +168,7 @@ fn checkpoints() -> Row {
         device: "d".into(),
     };
     let shape = TextureShape::flat(64, 64, TexelFormat::Rgba32f);
-    let form = TargetForm { pass: PassId::Buffer("A".into()), index: 0, shape, textures: 2, is_read: true };
+    let form = TargetForm { pass: PassName::buffer("A"), index: 0, shape, textures: 2, is_read: true };
     let make = move |random: &mut Random| {
         let entry = |pass: &str, side: u32| {
             format!(

@@ -179,7 +179,7 @@ fn open(path: &Path, gpu: Option<&Gpu>, tally: &mut Tally) {
     tally.opened += 1;
     tally.whole += u64::from(errors.is_empty() && warnings.is_empty());
     // Frames after the first, which a video decodes when it is loaded.
-    let channels = project.passes.iter().flat_map(|pass| &pass.channels).flatten();
+    let channels = project.passes.iter().flat_map(|pass| pass.bindings.channels());
     for video in channels.filter_map(|channel| media.video(channel.input.media()?)) {
         let _ = video.frame_at(0.2, Pace::Exact);
     }
@@ -187,7 +187,7 @@ fn open(path: &Path, gpu: Option<&Gpu>, tally: &mut Tally) {
     let Ok(built) = Program::build(gpu, project, &media, &BuildOptions::default()) else { return };
     let Ok(mut engine) = Engine::new(gpu.clone(), 16, 9) else { return };
     let drawn = engine.set_program(built.program).and_then(|()| engine.draw(&FrameInputs::at_fixed_step(0, 60.0)));
-    let drawn = drawn.is_ok() && engine.read(&project::PassId::Image).is_ok();
+    let drawn = drawn.is_ok() && engine.read_image().is_ok();
     tally.drawn += u64::from(drawn);
 }
 

@@ -11,7 +11,7 @@ use eddy::{
     engine::{BuildOptions, FrameInputs, Sources},
     glsl::Probe,
     gpu::GpuOptions,
-    project::{self, PassId},
+    project::{self, PassName},
     session::{Command, Session},
 };
 use std::{
@@ -32,7 +32,7 @@ fn a_marcher_is_traced_in_50_milliseconds() {
     let lines = project.passes[0].source.text.lines().count();
     assert!(lines >= 500, "{lines} lines");
     let mut engine = ran(&gpu, &project, (64, 36), 1);
-    let mut read = inspect(&mut engine, &FrameInputs::at_fixed_step(1, 60.0), &PassId::Image);
+    let mut read = inspect(&mut engine, &FrameInputs::at_fixed_step(1, 60.0), &PassName::image());
     // The pixels of a larger picture, which nobody draws here.
     (read.size, read.uniforms.resolution) = ((640, 360), [640.0, 360.0, 1.0]);
     let sources = Sources::new(&project);
@@ -105,10 +105,10 @@ fn a_probe_costs_a_tenth_of_a_frame_at_most() {
     let of = |name: &str| buffer(name);
     let mut late = Vec::new();
     for (what, project, pass, size, expression) in [
-        ("marcher, Image, along", &marcher, PassId::Image, (320, 180), "along = normalize(uv.x"),
-        ("marcher, Image, normal", &marcher, PassId::Image, (320, 180), "n = normal_at"),
-        ("marcher, Image, in the loop", &marcher, PassId::Image, (320, 180), "hit = map(from"),
-        ("marcher, Image, in the map", &marcher, PassId::Image, (320, 180), "q = abs(p) - size"),
+        ("marcher, Image, along", &marcher, PassName::image(), (320, 180), "along = normalize(uv.x"),
+        ("marcher, Image, normal", &marcher, PassName::image(), (320, 180), "n = normal_at"),
+        ("marcher, Image, in the loop", &marcher, PassName::image(), (320, 180), "hit = map(from"),
+        ("marcher, Image, in the map", &marcher, PassName::image(), (320, 180), "q = abs(p) - size"),
         ("marcher, buffer, along", &buffered, of("A"), (320, 180), "along = normalize(uv.x"),
         ("marcher, buffer, normal", &buffered, of("A"), (320, 180), "n = normal_at"),
         ("marcher, buffer, in the loop", &buffered, of("A"), (320, 180), "hit = map(from"),
@@ -132,7 +132,7 @@ fn probe_ratio(
     gpu: &eddy::gpu::Gpu,
     what: &str,
     project: &project::Project,
-    pass: PassId,
+    pass: PassName,
     size: (u32, u32),
     expression: &str,
 ) -> Option<(String, f64)> {
@@ -142,9 +142,9 @@ fn probe_ratio(
     Sources::new(project).probed(index, &probe)?;
     let (media, _) = eddy::media::gather(project, None);
     // What a session draws: all that the picture needs, and of Image the value in its place.
-    let own = if pass == PassId::Image { vec![PassId::Image] } else { Vec::new() };
-    let buffers = || project.passes.iter().map(|p| p.id.clone()).filter(|id| id.is_picture() && *id != PassId::Image);
-    let plain: Vec<PassId> = own.into_iter().chain(buffers()).collect();
+    let own = if pass.is_image() { vec![PassName::image()] } else { Vec::new() };
+    let buffers = || project.passes.iter().map(|p| p.id.clone()).filter(|id| id.is_picture() && !id.is_image());
+    let plain: Vec<PassName> = own.into_iter().chain(buffers()).collect();
     let wanted = [BuildOptions::probed()].into_iter().chain(buffers()).collect();
     let with = |options: &BuildOptions| engine_with(gpu, project, &media, options, size);
     let (mut plain, mut probed) = (

@@ -10,7 +10,7 @@ use eddy::{
     gpu::Gpu,
     media::MediaSet,
     project::{
-        Condition, CustomUniformValue, CustomUniformValues, Fill, Group, PassEdit, PassId, Project, json_losses, load,
+        Condition, CustomUniformValue, CustomUniformValues, Fill, Group, PassEdit, PassName, Project, json_losses, load,
     },
 };
 use std::{fs, path::Path};
@@ -44,7 +44,7 @@ fn kind(n: i32) -> CustomUniformValues {
 fn red(engine: &mut Engine, n: i32, kind_now: i32) -> f32 {
     engine.set_custom_uniforms(&kind(kind_now));
     engine.draw(&FrameInputs::at_fixed_step(n, 60.0)).unwrap();
-    texel(&engine.read(&PassId::Image).unwrap(), 0, 0)[0]
+    texel(&engine.read_image().unwrap(), 0, 0)[0]
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn a_pass_that_is_off_holds_its_initial_texels_at_the_present_values() {
         values.insert("start".into(), CustomUniformValue::Float(start));
         engine.set_custom_uniforms(&values);
         engine.draw(&FrameInputs::at_fixed_step(0, 60.0)).unwrap();
-        texel(&engine.read(&PassId::Image).unwrap(), 0, 0)[0]
+        texel(&engine.read_image().unwrap(), 0, 0)[0]
     };
     assert_eq!([draw(3, 5.0), draw(1, 5.0), draw(1, 7.0), draw(3, 7.0)], [909.0, 505.0, 707.0, 1111.0]);
 }
@@ -143,7 +143,7 @@ fn frames_that_are_drawn_again_are_the_same() {
 fn a_project_without_state_stays_one() {
     let Some(gpu) = gpu() else { return };
     let mut project = counting();
-    project.passes[0].channels = Default::default();
+    project.passes[0].bindings = Default::default();
     let engine = engine(&gpu, &project, (4, 3));
     assert_eq!((engine.passes_with_state(), engine.checkpoint_bytes()), (vec![], 0));
 }
@@ -188,7 +188,7 @@ fn mistakes_name_the_file_the_line_and_the_mend() {
     assert_eq!(said_when_built(&gpu, &project), "");
     let error = project.edit_passes(&PassEdit::When(buffer("A"), Some("kind = 3".into()))).unwrap_err();
     assert!(error.to_string().contains("write == to compare"), "{error}");
-    project.edit_passes(&PassEdit::When(PassId::Image, Some("kind == 3".into()))).unwrap_err();
+    project.edit_passes(&PassEdit::When(PassName::image(), Some("kind == 3".into()))).unwrap_err();
     project.edit_passes(&PassEdit::When(buffer("A"), None)).unwrap();
     assert_eq!(project.passes[0].settings.when, None);
 }
@@ -199,7 +199,7 @@ fn drawn(gpu: &Gpu, project: &Project, size: (u32, u32), frames: i32) -> (Vec<u3
     let mut engine = engine_with(gpu, project, &MediaSet::new(), &options, size);
     run(&mut engine, 0, frames - 1);
     let stats = engine.draw(&FrameInputs::at_fixed_step(frames - 1, 60.0)).unwrap();
-    let texels = engine.read(&PassId::Image).unwrap().texels;
+    let texels = engine.read_image().unwrap().texels;
     (texels.iter().flatten().map(|x| x.to_bits()).collect(), stats.passes_drawn)
 }
 

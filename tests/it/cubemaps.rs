@@ -4,7 +4,7 @@ use crate::support::{gpu, program::Bench, *};
 use eddy::{
     engine::{BuildOptions, Engine},
     media::{self, MediaKey},
-    project::{Channel, Filter, Input, InputKind, Media, Pass, PassId, Project, Sampler, Wrap},
+    project::{Channel, Filter, Input, InputKind, Media, Pass, PassName, Project, Sampler, Wrap},
     texture::Dimension,
 };
 
@@ -15,7 +15,7 @@ fn channel(input: Input, filter: Filter) -> Option<Channel> {
 }
 
 fn cube_pass(body: &str, channels: [Option<Channel>; 4]) -> Pass {
-    pass(PassId::Cubemap, &format!("{CUBE} {{ {body} }}"), channels)
+    pass(PassName::cube(), &format!("{CUBE} {{ {body} }}"), channels)
 }
 
 /// Image by the direction of a panorama.
@@ -42,11 +42,11 @@ fn a_cubemap_pass_is_read_by_the_direction_that_it_was_drawn_for() {
     let cube = cube_pass("o = vec4(rayDir, length(rayOri));", Default::default());
     let look = panorama(
         "o = vec4(texture(iChannel0, d).xyz - d, texture(iChannel0, d).w);",
-        Input::pass(PassId::Cubemap),
+        Input::pass(PassName::cube()),
         Filter::Linear,
     );
     let mut engine = drawn(&gpu, &project(vec![cube, look]), (128, 64), 1);
-    let pixels = engine.read(&PassId::Image).unwrap();
+    let pixels = engine.read_image().unwrap();
     // Half floats next to 1 lie 2^-11 apart; a texel of 1,024 turns by at most 2^-9 of which half is mixed away.
     let worst = pixels.texels.iter().flat_map(|t| t[..3].iter()).fold(0f32, |a, b| a.max(b.abs()));
     assert!(worst < 1.5e-3, "{worst}");
@@ -57,7 +57,7 @@ fn a_cubemap_pass_is_read_by_the_direction_that_it_was_drawn_for() {
 #[test]
 fn a_cubemap_pass_sees_its_last_frame_on_every_face_and_buffers_see_the_last_too() {
     let Some(gpu) = gpu() else { return };
-    let own = Input::pass(PassId::Cubemap);
+    let own = Input::pass(PassName::cube());
     let cube = cube_pass(
         "o = texture(iChannel0, rayDir) + vec4(1., 0., 0., 0.);",
         [channel(own.clone(), Filter::Nearest), None, None, None],
@@ -69,7 +69,7 @@ fn a_cubemap_pass_sees_its_last_frame_on_every_face_and_buffers_see_the_last_too
                 texelFetch(iChannel1, ivec2(0), 0).x, iChannelResolution[0].xz); }";
     let look = image(code, [channel(own, Filter::Nearest), nearest("A"), None, None]);
     let mut engine = drawn(&gpu, &project(vec![behind, cube, look]), (6, 2), 3);
-    let pixels = engine.read(&PassId::Image).unwrap();
+    let pixels = engine.read_image().unwrap();
     for x in 0..6 {
         assert_eq!(texel(&pixels, x, 0)[..3], [3.0, 2.0, 1024.0], "face {x}");
     }
@@ -78,10 +78,10 @@ fn a_cubemap_pass_sees_its_last_frame_on_every_face_and_buffers_see_the_last_too
     run(&mut engine, 3, 5);
     assert!(engine.restore(&kept));
     run(&mut engine, 3, 4);
-    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 5, 0)[0], 4.0);
+    assert_eq!(texel(&engine.read_image().unwrap(), 5, 0)[0], 4.0);
     engine.reset();
     run(&mut engine, 0, 1);
-    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 5, 0)[0], 1.0);
+    assert_eq!(texel(&engine.read_image().unwrap(), 5, 0)[0], 1.0);
 }
 
 /// Texels of a file come back at their own directions, byte for byte, flipped as the site flips.
@@ -101,7 +101,7 @@ fn texels_of_a_cubemap_lie_where_its_faces_have_them() {
         let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip };
         let look = image(code, [Some(Channel { input, sampler }), None, None, None]);
         let mut engine = drawn(&gpu, &project(vec![look]), (6, 256), 1);
-        let pixels = engine.read(&PassId::Image).unwrap();
+        let pixels = engine.read_image().unwrap();
         for face in 0..6 {
             for row in 0..256 {
                 let at = ((face as usize * 256 + row as usize) * 256 + 37) * 4;
@@ -129,7 +129,7 @@ fn a_volume_is_read_trilinearly_and_its_mips_are_means() {
     let sampler = Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: false };
     let look = image(code, [Some(Channel { input, sampler }), None, None, None]);
     let mut engine = drawn(&gpu, &project(vec![look]), (32, 32), 1);
-    let pixels = engine.read(&PassId::Image).unwrap();
+    let pixels = engine.read_image().unwrap();
     for y in 0..32usize {
         for x in 0..32usize {
             let [own, between, coarse, _] = texel(&pixels, x as u32, y as u32);

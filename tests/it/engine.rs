@@ -5,7 +5,7 @@ use eddy::{
     engine::{BuildError, BuildOptions, BuildWork, Builder, Engine, FrameInputs, Program, ValueLook},
     gpu::{GpuError, GpuOptions},
     media::MediaSet,
-    project::{Channel, Filter, Input, InputKind, PadPart, PassId, Project, Source, TexelFormat, Wrap},
+    project::{Channel, Filter, Input, InputKind, PadPart, PassName, Project, Source, TexelFormat, Wrap},
 };
 
 const READS_ALL: &str = "void mainImage(out vec4 o, in vec2 p) {
@@ -33,8 +33,19 @@ fn truth_table_of_reads_by_pictures() {
             }
         }
         // Alpha of Image is forced to 1, so only three of its four reads are kept.
-        assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 1, 0), [3.0, 3.0, 3.0, 1.0]);
+        assert_eq!(texel(&engine.read_image().unwrap(), 1, 0), [3.0, 3.0, 3.0, 1.0]);
     }
+}
+
+#[test]
+fn a_slot_that_the_language_lacks_is_an_error_that_names_the_pass() {
+    let mut image = image("void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }", Default::default());
+    image.bindings.set(3, nearest("A"));
+    image.bindings.set(7, nearest("A"));
+    let project = project(vec![image]);
+    let found = eddy::engine::Sources::new(&project).diagnostics;
+    let messages: Vec<&str> = found.iter().filter(|d| d.is_error()).map(|d| d.message.as_str()).collect();
+    assert_eq!(messages, ["Image has an input for iChannel7, which its language does not have"]);
 }
 
 #[test]
@@ -42,13 +53,13 @@ fn discard_shows_what_a_buffer_held_two_frames_ago_and_image_one_frame_ago() {
     let Some(gpu) = gpu() else { return };
     let code =
         "void mainImage(out vec4 o, in vec2 p) { if (iFrame == 4) discard; o = vec4(float(iFrame), 7.0, 7.0, 7.0); }";
-    let show = image(code, [nearest("A"), None, None, None]);
     let also = "void mainImage(out vec4 o, in vec2 p) { if (iFrame == 4) discard; o = vec4(float(iFrame) + \
                 texelFetch(iChannel0, ivec2(0), 0).y); }";
-    let project = project(vec![pass(buffer("A"), code, Default::default()), image(also, show.channels.clone())]);
+    let project =
+        project(vec![pass(buffer("A"), code, Default::default()), image(also, [nearest("A"), None, None, None])]);
     let mut engine = ran(&gpu, &project, (1, 1), 5);
     assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 0, 0)[0], 2.0);
-    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 0, 0)[0], 10.0);
+    assert_eq!(texel(&engine.read_image().unwrap(), 0, 0)[0], 10.0);
 }
 
 #[test]
@@ -61,7 +72,7 @@ fn frame_0_reads_zeros_and_a_reset_brings_them_back() {
         image(show, [nearest("A"), None, None, None]),
     ]);
     let mut engine = ran(&gpu, &project, (3, 2), 3);
-    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 2, 1), [3.0, 3.0, 3.0, 1.0]);
+    assert_eq!(texel(&engine.read_image().unwrap(), 2, 1), [3.0, 3.0, 3.0, 1.0]);
     engine.reset();
     run(&mut engine, 0, 1);
     assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 2, 1), [1.0; 4]);
@@ -100,7 +111,7 @@ fn filter_wrap_and_mips_read_as_they_say() {
         [a(Filter::Linear, Wrap::Clamp), a(Filter::Linear, Wrap::Repeat), a(Filter::Mipmap, Wrap::Clamp), None];
     let project = project(vec![pass(buffer("A"), fill, Default::default()), image(show, channels)]);
     let mut engine = ran(&gpu, &project, (4, 4), 1);
-    let [between, edge, mean, _] = texel(&engine.read(&PassId::Image).unwrap(), 0, 0);
+    let [between, edge, mean, _] = texel(&engine.read_image().unwrap(), 0, 0);
     for (got, expected) in [(between, 0.5), (edge, 1.5), (mean, 1.5)] {
         assert!((got - expected).abs() < 0.01, "{got} is not {expected}");
     }
@@ -201,7 +212,7 @@ fn impossible_sizes_are_refused_and_leave_the_engine_as_it_was() {
     assert!(message.contains("1048576x4") && message.contains("at most"), "{message}");
     run(&mut engine, 0, 1);
     assert_eq!(engine.size(), (2, 2));
-    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 1, 1), [0.5, 0.5, 0.5, 1.0]);
+    assert_eq!(texel(&engine.read_image().unwrap(), 1, 1), [0.5, 0.5, 0.5, 1.0]);
 }
 
 #[test]
@@ -222,7 +233,7 @@ fn bilinear_reads_by_hand_match_the_samplers() {
     let project = project(vec![pass(buffer("A"), fill, Default::default()), image(show, channels)]);
     let picture = |gpu| {
         let mut engine = ran(gpu, &project, (37, 23), 1);
-        engine.read(&PassId::Image).unwrap()
+        engine.read_image().unwrap()
     };
     assert!(!plain.filters_float32);
     let (by_sampler, by_hand) = (picture(&gpu), picture(&plain));
@@ -259,7 +270,7 @@ fn show(n: u32) -> String {
     format!("void mainImage(out vec4 o, in vec2 p) {{ o = texelFetch(iChannel0, ivec2(p), 0) * noise({n}.0); }}\n")
 }
 
-fn edit(project: &mut Project, pass: &PassId, code: &str) {
+fn edit(project: &mut Project, pass: &PassName, code: &str) {
     project.pass_mut(pass).unwrap().source.text = code.into();
 }
 
@@ -273,7 +284,7 @@ fn rebuild(builder: &mut Builder, engine: &mut Engine, project: &Project) -> (Bu
     engine.set_program(built.program).unwrap();
     engine.reset();
     run(engine, 0, 3);
-    (built.work, engine.read(&PassId::Image).unwrap().texels)
+    (built.work, engine.read_image().unwrap().texels)
 }
 
 #[test]
@@ -284,7 +295,7 @@ fn an_edit_builds_what_it_changes_and_nothing_else() {
         let (work, picture) = rebuild(&mut builder, &mut engine, project);
         let mut fresh = engine_with(&gpu, project, &MediaSet::new(), &BuildOptions::default(), (2, 2));
         run(&mut fresh, 0, 3);
-        assert_eq!(picture, fresh.read(&PassId::Image).unwrap().texels, "as with nothing from before");
+        assert_eq!(picture, fresh.read_image().unwrap().texels, "as with nothing from before");
         (work, picture)
     };
     let mut project = many();
@@ -292,18 +303,18 @@ fn an_edit_builds_what_it_changes_and_nothing_else() {
     assert_eq!(first, work(4, 4), "25 passes over four texts");
     assert_eq!(rebuild(&project).0, work(0, 0), "nothing has changed");
 
-    edit(&mut project, &PassId::Image, &show(2));
+    edit(&mut project, &PassName::image(), &show(2));
     let (one, after) = rebuild(&project);
     assert_eq!(one, work(1, 1));
     assert_ne!(before, after);
 
-    edit(&mut project, &PassId::Image, &show(1));
+    edit(&mut project, &PassName::image(), &show(1));
     assert_eq!(rebuild(&project), (work(0, 0), before), "back to the text of before");
 
     edit(&mut project, &buffer("b7"), &step_text(1, 5));
     assert_eq!(rebuild(&project).0, work(1, 1), "one of the eight passes of a text");
 
-    edit(&mut project, &PassId::Image, &format!("// a word\n{}", show(1)));
+    edit(&mut project, &PassName::image(), &format!("// a word\n{}", show(1)));
     assert_eq!(rebuild(&project).0, work(1, 0), "what compiles to the same needs no new pipeline");
 
     project.passes[3].settings.format = TexelFormat::Rg32f;
@@ -324,7 +335,7 @@ fn a_broken_edit_costs_nothing_that_was_there() {
     let (_, before) = rebuild(&mut builder, &mut engine, &project);
     let mut broken = project.clone();
     for n in 0..5 {
-        edit(&mut broken, &PassId::Image, &format!("{} {n}", show(1)));
+        edit(&mut broken, &PassName::image(), &format!("{} {n}", show(1)));
         let built = builder.build(&broken, &MediaSet::new(), &BuildOptions::default());
         assert!(matches!(built, Err(BuildError::Diagnostics { .. })));
     }
@@ -369,8 +380,8 @@ fn buffers_keep_their_texels_through_edits_of_their_shape() {
     // Mips on and off, and a doubled buffer that becomes single.
     for (drawn, change) in (3..).zip(["mips", "none", "no mips", "single"]) {
         match change {
-            "mips" => project.passes[1].channels[0] = a(Filter::Mipmap),
-            "no mips" => project.passes[1].channels[0] = a(Filter::Nearest),
+            "mips" => project.passes[1].bindings.set(0, a(Filter::Mipmap)),
+            "no mips" => project.passes[1].bindings.set(0, a(Filter::Nearest)),
             "single" => edit(&mut project, &buffer("A"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(9.0); }"),
             _ => {}
         }
@@ -379,7 +390,7 @@ fn buffers_keep_their_texels_through_edits_of_their_shape() {
         assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 3, 3)[0], drawn as f32, "{change}");
         run(&mut engine, drawn, drawn + 1);
     }
-    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 0, 0), [9.0, 9.0, 9.0, 1.0]);
+    assert_eq!(texel(&engine.read_image().unwrap(), 0, 0), [9.0, 9.0, 9.0, 1.0]);
 }
 
 #[test]
@@ -399,7 +410,7 @@ fn a_place_has_a_texel_of_each_target_and_values_become_a_picture() {
     let mut engine = ran(&gpu, &project, (8, 4), 1);
     let texels = engine.texels_at([0.8, 0.3]).unwrap();
     let told: Vec<_> = texels.iter().map(|t| (t.pass.clone(), t.texel, t.components)).collect();
-    assert_eq!(told, [(buffer("A"), (6, 1), 4), (buffer("B"), (3, 0), 2), (PassId::Image, (6, 1), 4)]);
+    assert_eq!(told, [(buffer("A"), (6, 1), 4), (buffer("B"), (3, 0), 2), (PassName::image(), (6, 1), 4)]);
     assert_eq!((texels[0].value, texels[1].value), ([6.5, 1.5, 8.0, 2.0], [3.5, 0.5, 0.0, 1.0]));
     assert_eq!(engine.texels_at([1.0, 1.0]).unwrap()[0].texel, (7, 3), "the edge is of the last texel");
 

@@ -7,7 +7,7 @@ use eddy::{
     gpu::Gpu,
     media,
     playback::{npy, offline::Offline, script::ScriptedInputs},
-    project::{self, PassId},
+    project::{self, PassName},
     session::{Answer, Command, Level, Question},
 };
 use std::{fs, path::Path};
@@ -44,7 +44,7 @@ fn picture(gpu: &Gpu, spec: &Path) -> Vec<u8> {
         offline.draw().unwrap();
     }
     let mut bytes = Vec::new();
-    npy::write(&mut bytes, &offline.read(&PassId::Image, 0).unwrap()).unwrap();
+    npy::write(&mut bytes, &offline.read(&PassName::image(), 0).unwrap()).unwrap();
     bytes
 }
 
@@ -130,16 +130,16 @@ fn what_cannot_be_exported_is_refused_before_anything_is_asked() {
 fn settings_pictures_and_further_buffers_are_named() {
     let mut project = project::load("feedback").unwrap().project;
     assert_eq!(project::json_losses(&project), [""; 0]);
-    let buffer = project.passes.iter_mut().find(|pass| pass.id == PassId::Buffer("A".into())).unwrap();
+    let buffer = project.passes.iter_mut().find(|pass| pass.id == PassName::buffer("A")).unwrap();
     buffer.settings.size = project::PassSize::Scale(0.5);
     buffer.settings.format = project::TexelFormat::Rgba16f;
-    let mut channel = buffer.channels[0].clone().unwrap();
+    let mut channel = buffer.bindings.get(0).cloned().unwrap();
     channel.input = project::Input::texture(project::Media::File("rock.png".into()));
-    buffer.channels[1] = Some(channel);
+    buffer.bindings.set(1, Some(channel));
     let mut further = buffer.clone();
-    further.id = PassId::Buffer("velocity".into());
+    further.id = PassName::buffer("velocity");
     further.settings = Default::default();
-    further.channels = Default::default();
+    further.bindings = Default::default();
     project.passes.insert(0, further);
     let said = project::json_losses(&project).join("\n");
     for sentence in [

@@ -5,7 +5,7 @@ use eddy::{
     diag::render_all,
     engine::{BuildError, BuildOptions, Engine, Program},
     media::{self, MediaSet},
-    project::{Boundary, CustomUniformValue, Fill, Overwrite, PassId, Project, Region, TexelFormat, load, save},
+    project::{Boundary, CustomUniformValue, Fill, Overwrite, Project, Region, TexelFormat, load, save},
 };
 use std::{fs, path::Path};
 
@@ -76,7 +76,7 @@ fn a_boundary_is_overwritten_after_each_draw_and_sees_the_time() {
         let options = BuildOptions { wanted: Vec::new(), skip, ..BuildOptions::default() };
         let mut engine = engine_with(&gpu, &project, &MediaSet::new(), &options, (6, 5));
         run(&mut engine, 0, 3);
-        let read = engine.read(&PassId::Image).unwrap();
+        let read = engine.read_image().unwrap();
         for (x, y) in (0..5).flat_map(|y| (0..6).map(move |x| (x, y))) {
             let edge = x.min(5 - x) < 2 || y.min(4 - y) < 2;
             let expected = if edge { [2.0, x as f32 + 0.5, y as f32 + 0.5, 1.0] } else { [7.0, 7.0, 7.0, 1.0] };

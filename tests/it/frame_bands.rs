@@ -5,7 +5,7 @@ use eddy::{
     engine::{BuildOptions, DrawFor, Engine, FrameInputs},
     gpu::Gpu,
     media,
-    project::{PassId, presets},
+    project::{PassName, presets},
 };
 
 const SIZE: (u32, u32) = (96, 150);
@@ -14,7 +14,7 @@ fn preset(gpu: &Gpu, name: &str) -> Engine {
     let loaded = presets::load(name).unwrap();
     let (media, _) = media::gather(&loaded.project, None);
     let mut engine = engine_with(gpu, &loaded.project, &media, &BuildOptions::default(), SIZE);
-    engine.show(PassId::Image);
+    engine.show(PassName::image());
     engine
 }
 
@@ -72,7 +72,7 @@ fn a_picture_that_depends_on_nothing_new_is_drawn_after_it_was_given_up() {
         "void mainImage(out vec4 o, in vec2 p) { o = vec4(p / iResolution.xy, .5, 1.); }",
         Default::default(),
     )]);
-    let picture = |engine: &mut Engine| engine.read(&PassId::Image).unwrap().texels;
+    let picture = |engine: &mut Engine| engine.read_image().unwrap().texels;
     let mut whole = ran(&gpu, &still, SIZE, 1);
     let expected = picture(&mut whole);
     let given_up = || {

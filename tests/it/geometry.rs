@@ -4,7 +4,7 @@ use crate::support::{meshes::*, *};
 use eddy::{
     engine::{BuildError, BuildOptions, Engine, FrameInputs, Program},
     media::MediaSet,
-    project::{Camera, Cull, DepthTest, MeshDraw, PassId, Project, Stage, TexelFormat},
+    project::{Camera, Cull, DepthTest, MeshDraw, Project, Stage, TexelFormat},
 };
 use glam::{Mat4, Vec3, Vec4};
 
@@ -108,7 +108,7 @@ fn middle(gpu: &eddy::gpu::Gpu, draws: Vec<MeshDraw>) -> [f32; 3] {
     let (red, green) = (one_colour("1.0, 0.0, 0.0"), one_colour("0.0, 1.0, 0.0"));
     let project = whole(scene(&red, &[FLAT_VERTEX, &green], 1, straight(), draws));
     let mut engine = ran(gpu, &project, (9, 9), 1);
-    let [r, g, b, _] = texel(&engine.read(&PassId::Image).unwrap(), 4, 4);
+    let [r, g, b, _] = texel(&engine.read_image().unwrap(), 4, 4);
     [r, g, b]
 }
 
@@ -160,7 +160,7 @@ fn a_hull_drawn_with_other_program_and_culling_outlines_the_mesh() {
     let outline = MeshDraw { vertex: Stage::File(2), fragment: Stage::File(1), cull: Cull::Front, ..body.clone() };
     let project = whole(scene(&red, &[FLAT_VERTEX, &green, hull], 1, straight(), vec![body, outline]));
     let mut engine = ran(&gpu, &project, (65, 65), 1);
-    let pixels = engine.read(&PassId::Image).unwrap();
+    let pixels = engine.read_image().unwrap();
     let row: Vec<[f32; 4]> = (0..65).map(|x| texel(&pixels, x, 32)).collect();
     let colours: Vec<char> = row
         .iter()
@@ -208,7 +208,7 @@ fn a_stage_reads_channels_uniforms_custom_uniforms_and_tables() {
         }";
     let a = pass(buffer("A"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(7.0); }", Default::default());
     let mut scene = scene(fragment, &[vertex], 1, straight(), vec![draw("builtin:cube")]);
-    scene.channels[0] = nearest("A");
+    scene.bindings.set(0, nearest("A"));
     let project = project(vec![a, scene, image(SUM, [target(0), None, None, None])]);
     let mut engine = ran(&gpu, &project, (4, 4), 1);
     assert_eq!(texel(&engine.read_target(&buffer("scene"), 0).unwrap(), 1, 2), [7.0, 6.0, 402.0, 111.25]);
@@ -224,7 +224,7 @@ fn fragments_set_depth_and_are_discarded() {
     let near = MeshDraw { fragment: Stage::File(1), ..draw("builtin:cube") };
     let project = whole(scene(deep, &[FLAT_VERTEX, &green], 1, straight(), vec![far, near]));
     let mut engine = ran(&gpu, &project, (9, 9), 2);
-    let pixels = engine.read(&PassId::Image).unwrap();
+    let pixels = engine.read_image().unwrap();
     assert_eq!(texel(&pixels, 4, 4)[..3], [1.0; 3], "depth 0 lies before everything");
     assert_eq!(texel(&pixels, 5, 4)[..3], GREEN);
 }
@@ -251,8 +251,8 @@ fn a_scene_rests_until_what_it_reads_has_changed() {
         let inputs = FrameInputs { drag, ..FrameInputs::at_fixed_step(frame as i32, 60.0) };
         drawn.push(lean.draw(&inputs).unwrap().passes_drawn);
         assert_eq!(full.draw(&inputs).unwrap().passes_drawn, 2);
-        pictures.push(lean.read(&PassId::Image).unwrap());
-        assert_eq!(pictures.last(), full.read(&PassId::Image).ok().as_ref(), "frame {frame}");
+        pictures.push(lean.read_image().unwrap());
+        assert_eq!(pictures.last(), full.read_image().ok().as_ref(), "frame {frame}");
     }
     assert_eq!(drawn, [2, 0, 2, 0]);
     assert_ne!(pictures[1], pictures[2], "the camera has turned");
@@ -277,7 +277,7 @@ fn last_frames_scene_is_there_for_who_reads_it_first() {
     let scene = scene(fragment, &[vertex], 2, straight(), vec![cube]);
     let show = image(SUM, [nearest("A"), target(1), None, None]);
     let mut engine = ran(&gpu, &project(vec![reader, scene, show]), (4, 4), 5);
-    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 1, 1)[0], 3.0 + 1.0);
+    assert_eq!(texel(&engine.read_image().unwrap(), 1, 1)[0], 3.0 + 1.0);
     let doubled: Vec<bool> = engine.program().unwrap().plan().targets.iter().map(|t| t.doubled).collect();
     // A; target 0, read before it is drawn; target 1, read after; Image.
     assert_eq!(doubled, [false, true, false, false]);
@@ -333,7 +333,7 @@ fn meshes_in_small_floats_leave_arithmetic_alone() {
     let mut cubes = scene(fragment, &[VERTEX], 1, camera(), vec![draw("builtin:cube"), behind]);
     cubes.settings.format = TexelFormat::Rgba16f;
     let mut engine = ran(&gpu, &whole(cubes), (200, 150), 4);
-    engine.read(&PassId::Image).unwrap();
+    engine.read_image().unwrap();
     for _ in 0..4 {
         assert!(denormals() == before, "denormal numbers are treated otherwise");
     }

@@ -2,7 +2,7 @@
 
 use crate::support::{self, program::Bench, stage::Stage};
 use eddy::{
-    project::{self, Input, MeshSource, Overwrite, PassId, Stage as Text, Tab, TexelFormat},
+    project::{self, Input, MeshSource, Overwrite, PassName, Stage as Text, Tab, TexelFormat},
     session::{Command, Level},
 };
 use std::{fs, path::Path};
@@ -58,7 +58,7 @@ fn write(folder: &Path, changes: &[(&str, &str)]) {
 }
 
 fn scene_tab(file: &str) -> Tab {
-    Tab::Stage(PassId::Buffer("scene".into()), file.into())
+    Tab::Stage(PassName::buffer("scene"), file.into())
 }
 
 #[test]
@@ -69,18 +69,15 @@ fn a_folder_is_read_and_written_back_as_it_was() {
     let loaded = project::load(home.to_str().unwrap()).unwrap();
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     let mut p = loaded.project;
-    let settings = &p.passes[0].settings;
-    assert_eq!(settings.formats(), [TexelFormat::Rgba8, TexelFormat::Rgba16f]);
-    let g = settings.meshes().unwrap();
+    let pass = &p.passes[0];
+    assert_eq!(pass.formats(), [TexelFormat::Rgba8, TexelFormat::Rgba16f]);
+    let g = pass.body.geometry().unwrap();
     assert_eq!(p.passes[0].source.name, "scene.frag.glsl");
     assert_eq!((g.draws[0].vertex, g.draws[0].fragment), (Text::File(0), Text::Own));
     assert_eq!((g.draws[1].vertex, g.draws[1].fragment), (Text::File(1), Text::Own));
     assert_eq!(g.draws[0].mesh, MeshSource::File("models/tri.obj".into()));
     assert_eq!((g.camera.yaw, g.camera.pitch, g.camera.distance), (45.0, 20.0, 6.5));
-    assert_eq!(
-        p.passes[1].channels[0].as_ref().unwrap().input,
-        Input::Pass { id: PassId::Buffer("scene".into()), target: 1 }
-    );
+    assert_eq!(p.passes[1].bindings.get(0).unwrap().input, Input::Pass { id: PassName::buffer("scene"), target: 1 });
     let titles: Vec<String> = p.tabs().iter().map(Tab::title).collect();
     assert_eq!(titles, ["Buffer scene", "scene.vert.glsl", "hull.vert.glsl", "Image"]);
     for (id, source) in p.sources().iter().skip(1) {
@@ -92,7 +89,7 @@ fn a_folder_is_read_and_written_back_as_it_was() {
     assert_eq!(fs::read_to_string(home.join("eddy.toml")).unwrap(), TOML, "nothing was changed");
 
     // A change of one thing leaves the rest as it is written, comments too.
-    p.passes[0].settings.meshes_mut().unwrap().camera.yaw = 10.0;
+    p.passes[0].body.geometry_mut().unwrap().camera.yaw = 10.0;
     p.source_mut(&scene_tab("hull.vert.glsl")).unwrap().text = "// hull\n".into();
     project::save(&p, &home, Overwrite::Refuse).unwrap();
     let text = fs::read_to_string(home.join("eddy.toml")).unwrap();
@@ -100,8 +97,8 @@ fn a_folder_is_read_and_written_back_as_it_was() {
     assert_eq!(fs::read_to_string(home.join("hull.vert.glsl")).unwrap(), "// hull\n");
 
     // Elsewhere: stages, models, all of it.
-    p.passes[0].settings.meshes_mut().unwrap().draws[0].normals = Some(project::Normals::Flat);
-    p.passes[0].settings.meshes_mut().unwrap().draws[0].cull = project::Cull::Front;
+    p.passes[0].body.geometry_mut().unwrap().draws[0].normals = Some(project::Normals::Flat);
+    p.passes[0].body.geometry_mut().unwrap().draws[0].cull = project::Cull::Front;
     let away = dir.path().join("away");
     let saved = project::save(&p, &away, Overwrite::Refuse).unwrap();
     assert_eq!(fs::read_to_string(away.join("models/tri.obj")).unwrap(), TRIANGLE);
@@ -263,7 +260,7 @@ fn a_saved_stage_or_model_shows_at_once_and_a_broken_one_keeps_the_picture() {
     stage.settle();
 
     stage.write("scene.frag.glsl", FRAGMENT.replace("0.2", "0.4"));
-    stage.until("the reload", |s| s.text(&Tab::Pass(PassId::Buffer("scene".into()))).contains("0.4"));
+    stage.until("the reload", |s| s.text(&Tab::Pass(PassName::buffer("scene"))).contains("0.4"));
     stage.until_compiled();
     assert_eq!(stage.red(), 102);
     let vertex = VERTEX.replace("vec4(aPosition, 1.0)", "vec4(aPosition + 9.0, 1.0)");

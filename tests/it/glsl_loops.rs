@@ -163,7 +163,7 @@ fn row(before: &str, body: &str) -> Option<Vec<[f32; 4]>> {
     let code = format!("{before}\nvoid mainImage(out vec4 o, in vec2 p) {{ int x = int(p.x); {body} }}");
     let project = project(vec![image(&code, Default::default())]);
     let mut engine = ran(&gpu, &project, (8, 1), 1);
-    let id = eddy::project::PassId::Image;
+    let id = eddy::project::PassName::image();
     assert_walked(&mut engine, &project, &id);
     let pixels = engine.read(&id).unwrap();
     Some((0..8).map(|x| texel(&pixels, x, 0)).collect())

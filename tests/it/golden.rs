@@ -11,7 +11,7 @@ use eddy::{
     engine::BuildOptions,
     media::MediaSet,
     playback::script::{ScriptedInputs, parse_keys, parse_mouse},
-    project::{PassId, presets},
+    project::presets,
 };
 use image::{Rgba, RgbaImage};
 use serde::Deserialize;
@@ -74,7 +74,7 @@ impl Case {
         while inputs.frame() <= self.frame {
             engine.draw(&inputs.next_frame()).map_err(|e| e.to_string())?;
         }
-        let pixels = engine.read(&PassId::Image).map_err(|e| e.to_string())?;
+        let pixels = engine.read_image().map_err(|e| e.to_string())?;
         Ok(RgbaImage::from_raw(width, height, pixels.to_rgba8()).unwrap())
     }
 }

@@ -5,7 +5,8 @@ use crate::support::{self, folder_of, program::Bench};
 use eddy::{
     media::MediaKey,
     project::{
-        self, Channel, Geometry, Input, Media, MeshDraw, MeshSource, Overwrite, PassId, Project, Source, Stage, limits,
+        self, Channel, Geometry, Input, Media, MeshDraw, MeshSource, Overwrite, PassName, Project, Source, Stage,
+        limits,
     },
     texture::Dimension,
 };
@@ -181,7 +182,7 @@ fn an_import_writes_into_its_folder_whatever_the_ids_are() {
     assert_eq!(b.names("."), ["deep"]);
     // What reads such an id reads the pass that has it.
     let project = load(&b.path("deep/er/new")).unwrap();
-    let channel = project.pass(&PassId::Image).unwrap().channels[0].clone();
+    let channel = project.image().unwrap().bindings.get(0).cloned();
     assert_eq!(channel.unwrap().input, Input::buffer("A"));
 }
 
@@ -201,11 +202,11 @@ fn ids_that_a_disk_takes_for_one_become_two_files() {
 #[test]
 fn names_of_passes_are_no_paths() {
     for bad in ["a/b", "..", "a\\b", "a.b", "a:b", "a\0", "a\n", "a*", &"x".repeat(limits::NAME + 1)] {
-        assert_eq!(PassId::parse(bad), None, "{bad:?}");
-        assert_eq!(PassId::parse(&format!("buffer_{bad}")), None, "{bad:?}");
+        assert_eq!(PassName::parse(bad), None, "{bad:?}");
+        assert_eq!(PassName::parse(&format!("buffer_{bad}")), None, "{bad:?}");
     }
     for good in ["A", "blur", "Buffer A", "buf_b", "buffer-far-field", "größe", &"x".repeat(limits::NAME)] {
-        assert!(PassId::parse(good).is_some(), "{good}");
+        assert!(PassName::parse(good).is_some(), "{good}");
     }
     let dir = place(&[("eddy.toml", "[passes.image]\n[passes.\"buffer_a/../../x\"]\n"), ("image.glsl", IMAGE)]);
     let said = refusal(&dir.path().join("p"));
@@ -220,7 +221,7 @@ fn names_of_passes_are_no_paths() {
 
 /// A project in memory with a geometry pass whose stage has this name.
 fn with_stage(name: &str) -> Project {
-    let mut scene = support::pass(PassId::Buffer("scene".into()), "", Default::default());
+    let mut scene = support::pass(PassName::buffer("scene"), "", Default::default());
     let draw = MeshDraw {
         mesh: MeshSource::Builtin("cube".into()),
         normals: None,
@@ -237,7 +238,7 @@ fn with_stage(name: &str) -> Project {
     let stage = Source { name: name.into(), path: Some(name.into()), text: "evil".into() };
     let camera = Default::default();
     let meshes = Geometry { draws: vec![draw], more_targets: vec![], camera, stages: vec![stage] };
-    scene.settings.body = eddy::project::PassBody::Meshes(meshes);
+    scene.body = eddy::project::Body::Meshes(meshes);
     support::project(vec![scene, support::image(IMAGE, Default::default())])
 }
 
@@ -357,19 +358,20 @@ fn a_picked_picture_is_copied_in_by_saving_and_over_nothing() {
     fs::write(elsewhere.join("cat.png"), "cat").unwrap();
     fs::write(elsewhere.join("we;ird\u{1}.EXE"), "odd").unwrap();
     let mut project = load(&home).unwrap();
-    project.passes[0].channels = [
+    project.passes[0].bindings = [
         picked(&elsewhere.join("cat.png")),
         picked(&elsewhere.join("we;ird\u{1}.EXE")),
         picked(&elsewhere.join("gone.png")),
         picked(&elsewhere.join("cat.png")),
-    ];
+    ]
+    .into();
     let saved = project::save(&project, &home, Overwrite::Refuse).unwrap();
     let names = |p: &Project| -> Vec<PathBuf> {
-        let media = |c: &Option<Channel>| match c.as_ref().unwrap().input.media() {
+        let media = |c: &Channel| match c.input.media() {
             Some(Media::File(path)) => path.clone(),
             other => panic!("{other:?}"),
         };
-        p.passes[0].channels.iter().map(media).collect()
+        p.passes[0].bindings.channels().map(media).collect()
     };
     let expected = ["cat_2.png", "we_ird_.png", "gone.png", "cat_2.png"].map(PathBuf::from);
     assert_eq!(names(&saved), expected);
@@ -379,13 +381,13 @@ fn a_picked_picture_is_copied_in_by_saving_and_over_nothing() {
     assert_eq!(names(&load(&home).unwrap()), expected);
     // The same again makes no further copy, and one that lies in the folder is named.
     let mut project = saved;
-    project.passes[0].channels = [picked(&elsewhere.join("cat.png")), picked(&home.join("cat.png")), None, None];
+    project.passes[0].bindings = [picked(&elsewhere.join("cat.png")), picked(&home.join("cat.png"))].into();
     let saved = project::save(&project, &home, Overwrite::Refuse).unwrap();
-    let media: Vec<_> = saved.passes[0].channels.iter().flatten().map(|c| c.input.media().unwrap().clone()).collect();
+    let media: Vec<_> = saved.passes[0].bindings.channels().map(|c| c.input.media().unwrap().clone()).collect();
     assert_eq!(media, [Media::File("cat_2.png".into()), Media::File("cat.png".into())]);
     assert!(!home.join("cat_3.png").exists());
     // Where it lies on this machine is in no file.
-    project.passes[0].channels = [picked(&elsewhere.join("cat.png")), None, None, None];
+    project.passes[0].bindings = [picked(&elsewhere.join("cat.png"))].into();
     assert!(project::save(&project, &dir.path().join("x.json"), Overwrite::Refuse).is_err());
     assert!(!project::json::export(&project).contains("elsewhere"));
 }

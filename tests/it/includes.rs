@@ -2,7 +2,7 @@
 
 use crate::support::{gpu, program::Bench, stage::*};
 use eddy::{
-    project::{PassId, Tab},
+    project::{PassName, Tab},
     session::{Answer, Command, Question},
 };
 
@@ -142,13 +142,15 @@ fn an_included_file_is_edited_compiled_and_saved_like_a_pass() {
     let Some(mut stage) = with_tone("float tone() { return 1.0; }") else { return };
     assert!(stage.session.tabs().contains(&tone()));
     let users = stage.session.project().tabs_that_include(&tone());
-    assert_eq!(users, [Tab::Pass(PassId::Buffer("A".into())), IMAGE]);
+    assert_eq!(users, [Tab::Pass(PassName::buffer("A")), image_tab()]);
     let at = USES.find("lib").unwrap();
-    assert_eq!(stage.session.project().included_at(&IMAGE, at), Some(tone()));
-    assert_eq!(stage.session.project().included_at(&IMAGE, USES.len() - 3), None);
+    assert_eq!(stage.session.project().included_at(&image_tab(), at), Some(tone()));
+    assert_eq!(stage.session.project().included_at(&image_tab(), USES.len() - 3), None);
 
     type_into(&mut stage, "float tone() { return 0.2; }");
-    assert!(stage.session.is_dirty() && stage.session.is_tab_dirty(&tone()) && !stage.session.is_tab_dirty(&IMAGE));
+    assert!(
+        stage.session.is_dirty() && stage.session.is_tab_dirty(&tone()) && !stage.session.is_tab_dirty(&image_tab())
+    );
     stage.until_red(51);
     assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 1.0; }", "nothing is written unasked");
     // An edit that has the files read anew leaves what was typed.
@@ -161,7 +163,7 @@ fn an_included_file_is_edited_compiled_and_saved_like_a_pass() {
     assert_eq!(stage.session.text(&tone()), "float tone() { return 0.2; }");
     // So does a text that includes it no more.
     stage.edit(&plain(0.0));
-    stage.session.apply(Command::EditText { tab: Tab::Pass(PassId::Buffer("A".into())), text: plain(0.0) });
+    stage.session.apply(Command::EditText { tab: Tab::Pass(PassName::buffer("A")), text: plain(0.0) });
     stage.session.apply(Command::CompileNow);
     stage.until_red(0);
     assert!(stage.session.is_tab_dirty(&tone()));

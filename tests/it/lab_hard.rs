@@ -11,7 +11,7 @@ use eddy::{
             run::{self as stability, Options},
         },
     },
-    project::{Filter, PassId, Project, Wrap},
+    project::{Filter, Project, Wrap},
 };
 
 /// A number between 0 and 1 for a place, which no symmetry relates to its neighbours'.
@@ -135,7 +135,7 @@ fn a_constant_is_a_constant_beyond_every_edge_and_on_every_level_of_odd_sizes() 
             for level in ["0.0", "1.0", "1.5", "2.0", "9.0"] {
                 let at = format!("3.0 * uv - 1.0, {level}");
                 let mut engine = ran(&gpu, &sampled("vec4(0.3, -2.5, 0.7, 1.0)", &at, wrap), size, 1);
-                for t in engine.read(&PassId::Image).unwrap().texels {
+                for t in engine.read_image().unwrap().texels {
                     assert!(apart(&[t], &[[0.3, -2.5, 0.7, 1.0]]) < 1e-6, "{size:?} {wrap:?} level {level}: {t:?}");
                 }
             }
@@ -150,7 +150,7 @@ fn a_ramp_stays_one_between_texels_and_on_levels_of_odd_sizes_and_is_level_beyon
     for level in 0..3 {
         let at = format!("uv + vec2(0.3, -0.2) / iResolution.xy, {level}.0");
         let mut engine = ran(&gpu, &sampled("vec4(p.x, p.y, p.x - 2.0 * p.y, 1.0)", &at, Wrap::Clamp), (w, h), 1);
-        let pixels = engine.read(&PassId::Image).unwrap();
+        let pixels = engine.read_image().unwrap();
         // A level's first texel lies half of its width inside.
         let margin = (1 << level) + 2;
         for y in margin..h - margin {
@@ -168,7 +168,7 @@ fn a_ramp_stays_one_between_texels_and_on_levels_of_odd_sizes_and_is_level_beyon
     let mut engine =
         engine(&gpu, &sampled("vec4(p.x, p.y, 0.0, 1.0)", "uv + vec2(1.0, 0.0), 0.0", Wrap::Clamp), (w, h));
     run(&mut engine, 0, 1);
-    for (n, t) in engine.read(&PassId::Image).unwrap().texels.iter().enumerate() {
+    for (n, t) in engine.read_image().unwrap().texels.iter().enumerate() {
         let exact = [w as f32 - 0.5, (n as u32 / w) as f32 + 0.5, 0.0, 1.0];
         assert!(apart(&[*t], &[exact]) < 1e-3, "{n}: {t:?}, not {exact:?}");
     }

@@ -12,7 +12,7 @@ use eddy::{
         studies,
     },
     media,
-    project::{self, FillValue, Origin, Overwrite, PassId, Project},
+    project::{self, FillValue, Origin, Overwrite, PassName, Project},
 };
 use std::{
     path::Path,
@@ -23,7 +23,7 @@ use std::{
 const FRAMES: i32 = 2;
 
 /// Texels of a pass of a project with no media but what it names, after [`FRAMES`] frames.
-fn drawn(engines: &mut Engines, project: &Project, size: (u32, u32), pass: &PassId) -> Vec<[f32; 4]> {
+fn drawn(engines: &mut Engines, project: &Project, size: (u32, u32), pass: &PassName) -> Vec<[f32; 4]> {
     let (media, warnings) = media::gather(project, None);
     assert!(warnings.is_empty(), "{warnings:?}");
     let options = BuildOptions { wanted: vec![pass.clone()], skip: true, ..BuildOptions::default() };
@@ -71,7 +71,7 @@ fn every_method_saved_as_a_project_draws_what_was_measured() {
             let mut running = rig.open(&setup).unwrap();
             running.frames(FRAMES as u32).unwrap();
             let name = pass.key();
-            let measured = running.read(name.strip_prefix("buffer_").unwrap_or(&name)).unwrap().texels().to_vec();
+            let measured = running.read(name.strip_prefix("buffer_").unwrap_or(name)).unwrap().texels().to_vec();
             let bits = |texels: &[[f32; 4]]| -> Vec<u32> { texels.iter().flatten().map(|v| v.to_bits()).collect() };
             assert!(bits(&drawn(&mut engines, &opened, size, &pass)) == bits(&measured), "as opened: {point:?}");
             assert!(bits(&drawn(&mut engines, &loaded.project, size, &pass)) == bits(&measured), "as saved: {point:?}");

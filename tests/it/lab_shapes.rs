@@ -11,7 +11,7 @@ use eddy::{
     },
     media::MediaSet,
     playback::script::ScriptedInputs,
-    project::{PassId, Project},
+    project::{PassName, Project},
 };
 
 // ----------------------------------------------------------------------------------------------------------- particles
@@ -115,7 +115,7 @@ fn sixteen_bits_lose_what_they_must_and_the_first_frame_that_shows_it_is_named()
     // A sum of 2^-13 a frame from 1 on: 32 bits add it up, 16 bits never see it. The picture is the sum's hundredfold
     // excess.
     let sum = pass(
-        PassId::Buffer("A".into()),
+        PassName::buffer("A"),
         "void mainImage(out vec4 o, in vec2 p) { vec4 b = texelFetch(iChannel0, ivec2(p), 0); \
          o = iFrame == 0 ? vec4(1.0) : b + vec4(1.0 / 8192.0); }",
         [nearest("A"), None, None, None],

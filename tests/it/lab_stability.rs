@@ -12,7 +12,7 @@ use eddy::{
         },
     },
     media::MediaSet,
-    project::{self as library, Fill, PassId, Project},
+    project::{self as library, Fill, PassName, Project},
 };
 use std::path::Path;
 
@@ -132,7 +132,7 @@ fn an_explicit_viscosity_that_is_too_large_is_found_with_its_first_frame_and_tex
 }
 
 /// A preset with one text of it replaced.
-fn changed(name: &str, id: PassId, before: &str, after: &str) -> CheckedProject {
+fn changed(name: &str, id: PassName, before: &str, after: &str) -> CheckedProject {
     let mut project = library::presets::load(name).unwrap().project;
     let pass = project.passes.iter_mut().find(|p| p.id == id).unwrap();
     assert!(pass.source.text.contains(before), "{name} has no {before}");

@@ -7,7 +7,7 @@ use crate::support::{
 };
 use eddy::{
     glsl::{self, Driver, PassSource},
-    project::PassId,
+    project::PassName,
 };
 use std::time::Duration;
 
@@ -218,7 +218,7 @@ fn long_arrays_are_walked() {
     for (name, text, texel) in long.chain(constant_arrays()) {
         let project = project(vec![image(&text, Default::default())]);
         let pixels = [(0, 0), (3, 3), (17, 5), (31, 17)];
-        let found = walk(&project, &PassId::Image, &nothing_read((32, 18)), &pixels);
+        let found = walk(&project, &PassName::image(), &nothing_read((32, 18)), &pixels);
         let expected = pixels.map(|(x, y)| Some(texel(x as usize, y as usize)));
         assert_eq!(found, expected, "{name}");
     }

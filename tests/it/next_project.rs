@@ -4,7 +4,7 @@ use crate::support::{self, stage::*};
 use eddy::{
     gpu::Gpu,
     playback::comparing::Baseline,
-    project::{PassId, Tab},
+    project::{PassName, Tab},
     session::{
         Answer, Command, Level, Question, Session, SessionOptions, TimeRange, buffers::BufferWatch, probe::ProbePlace,
     },
@@ -53,7 +53,12 @@ fn seen(session: &Session) -> String {
                 session.comparison().is_some(),
                 session.buffer().is_some()
             ),
-            (session.texels_under().len(), session.miniature(&PassId::Image, 0).is_some(), measures, custom_uniforms),
+            (
+                session.texels_under().len(),
+                session.miniature(&PassName::image(), 0).is_some(),
+                measures,
+                custom_uniforms
+            ),
             (session.pass_undo().is_some(), session.pass_redo().is_some(), session.recorded_frames()),
             session.is_first_frame_coming(),
         )
@@ -95,7 +100,7 @@ fn nothing_of_a_project_is_left_when_another_is_opened() {
     let mut stage = Stage::bare(gpu);
     open(&mut stage, &a);
     stage.compile(Command::Pause);
-    let buffer_a = PassId::Buffer("A".into());
+    let buffer_a = PassName::buffer("A");
     for _ in 0..5 {
         stage.session.apply(Command::Step);
     }
@@ -113,14 +118,14 @@ fn nothing_of_a_project_is_left_when_another_is_opened() {
         Command::AssignCustomUniform("nothing=0.75".into()),
         Command::AddTab(Tab::Common),
         Command::UndoPassEdit,
-        Command::AddTab(Tab::Pass(PassId::Buffer("C".into()))),
+        Command::AddTab(Tab::Pass(PassName::buffer("C"))),
         Command::MouseDown { x: 3.0, y: 2.0 },
         Command::KeyDown(65),
         Command::WatchBuffers(BufferWatch {
             shown: Some(((buffer_a, 0), Default::default())),
             under: Some([0.5, 0.5]),
         }),
-        Command::WatchTargets(vec![(PassId::Image, 0)]),
+        Command::WatchTargets(vec![(PassName::image(), 0)]),
         Command::WatchMeasures(vec![1]),
         Command::Trace(Some([0.5, 0.5])),
         Command::Audit,
@@ -141,7 +146,7 @@ fn nothing_of_a_project_is_left_when_another_is_opened() {
     }
     stage.session.apply(Command::FindDivergence);
     stage.for_a_while();
-    stage.compile(Command::Probe(Some(ProbePlace { tab: IMAGE, at: SHOW.find("texel").unwrap(), visit: 0 })));
+    stage.compile(Command::Probe(Some(ProbePlace { tab: image_tab(), at: SHOW.find("texel").unwrap(), visit: 0 })));
     stage.session.apply(Command::Record);
     // Some of it is still under way when the other project comes.
     stage.session.apply(Command::Audit);
@@ -401,7 +406,7 @@ fn a_program_that_comes_late_is_gone_to_its_frame_and_who_plays_begins_at_0() {
     broken.compile(Command::Open(project.clone()));
     broken.for_a_while();
     assert_eq!(broken.frames(), 0);
-    broken.session.apply(Command::EditText { tab: IMAGE, text: SHOW.into() });
+    broken.session.apply(Command::EditText { tab: image_tab(), text: SHOW.into() });
     broken.session.apply(Command::CompileNow);
     broken.until("a program", |s| s.programs_drawn() > 0 || s.transport().frame > 0);
     broken.until("the frame that was left", |s| !s.transport().is_seeking);

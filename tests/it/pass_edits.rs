@@ -2,7 +2,7 @@
 
 use crate::support::{self, stage::*};
 use eddy::{
-    project::{Input, MeshSource, PassEdit, PassId, Tab},
+    project::{Input, MeshSource, PassEdit, PassName, Tab},
     session::{Answer, Command, Level, Question},
 };
 
@@ -13,8 +13,8 @@ const MANIFEST: &str = "\
 channels.0 = { buffer = \"A\" }
 ";
 
-fn buffer(name: &str) -> PassId {
-    PassId::Buffer(name.into())
+fn buffer(name: &str) -> PassName {
+    PassName::buffer(name)
 }
 
 fn tab(name: &str) -> Tab {
@@ -60,8 +60,8 @@ fn a_pass_that_was_removed_comes_back_with_its_text() {
     stage.session.apply(Command::RedoPassEdit);
     assert!(!stage.session.tabs().contains(&tab("A")));
     assert_eq!(stage.session.text(&tab("B")), plain(0.125));
-    edit(&mut stage, PassEdit::Remove(IMAGE));
-    assert!(stage.session.tabs().contains(&IMAGE));
+    edit(&mut stage, PassEdit::Remove(image_tab()));
+    assert!(stage.session.tabs().contains(&image_tab()));
     assert!(stage.notices(Level::Warning).last().unwrap().contains("cannot be removed"));
 }
 
@@ -121,10 +121,10 @@ fn channels_and_dragged_numbers_are_taken_back_in_whole_steps() {
         edit(&mut stage, PassEdit::Steps(buffer("A"), steps));
     }
     assert_eq!(stage.session.pass_undo().map(|step| step.title), Some("steps of Buffer A"));
-    stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 0, channel: None });
+    stage.session.apply(Command::SetChannel { pass: PassName::image(), index: 0, channel: None });
     stage.session.apply(Command::UndoPassEdit);
-    let image = stage.session.project().pass(&PassId::Image).unwrap();
-    assert_eq!(image.channels[0].as_ref().unwrap().input, Input::buffer("A"));
+    let image = stage.session.project().image().unwrap();
+    assert_eq!(image.bindings.get(0).unwrap().input, Input::buffer("A"));
     stage.session.apply(Command::UndoPassEdit);
     assert_eq!(*stage.session.project(), before, "one drag is one step");
     assert!(stage.session.pass_undo().is_none());
@@ -141,11 +141,11 @@ fn a_model_from_elsewhere_is_saved_with_the_project() {
     let elsewhere = tempfile::tempdir().unwrap();
     let file = elsewhere.path().join("tri angle.obj");
     std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
-    let to = Some((PassId::Image, None));
+    let to = Some((PassName::image(), None));
     stage.session.apply(Command::Bring { paths: vec![file.clone()], to });
     let draws = |stage: &Stage| {
         let pass = stage.session.project().pass(&buffer("model")).unwrap().clone();
-        pass.settings.meshes().unwrap().draws[0].mesh.clone()
+        pass.body.geometry().unwrap().draws[0].mesh.clone()
     };
     assert_eq!(draws(&stage), MeshSource::Picked(file));
     stage.compile(Command::CompileNow);

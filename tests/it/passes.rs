@@ -5,7 +5,7 @@ use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Pixels},
     gpu::Gpu,
     media::MediaSet,
-    project::{Filter, Group, PassId, PassSize, Project, Region, TexelFormat, Wrap},
+    project::{Filter, Group, PassSize, Project, Region, TexelFormat, Wrap},
 };
 
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
@@ -27,7 +27,7 @@ fn same_with_no_skip(gpu: &Gpu, project: &Project, size: (u32, u32), inputs: &[F
     for (i, inputs) in inputs.iter().enumerate() {
         lean.draw(inputs).unwrap();
         full.draw(inputs).unwrap();
-        let (a, b) = (lean.read(&PassId::Image).unwrap(), full.read(&PassId::Image).unwrap());
+        let (a, b) = (lean.read_image().unwrap(), full.read_image().unwrap());
         assert_eq!(a, b, "frame {i}");
         last = Some(a);
     }
@@ -171,7 +171,7 @@ fn a_group_is_stepped_in_order_and_sees_its_newest() {
     run(&mut whole, 0, 4);
     run(&mut halves, 0, 2);
     run(&mut halves, 2, 4);
-    assert_eq!(whole.read(&PassId::Image).unwrap(), halves.read(&PassId::Image).unwrap());
+    assert_eq!(whole.read_image().unwrap(), halves.read_image().unwrap());
 }
 
 /// B is made of A and a custom uniform, A of nothing that moves, C of the mouse, D of keys; Image of all.
@@ -207,7 +207,7 @@ fn what_did_not_change_is_not_drawn_again_and_every_change_is() {
         let mut full = no_skip(&gpu, &project, engine.size());
         full.set_custom_uniforms(&project.custom_uniform_values);
         full.draw(inputs).unwrap();
-        assert_eq!(engine.read(&PassId::Image).unwrap(), full.read(&PassId::Image).unwrap(), "{what}");
+        assert_eq!(engine.read_image().unwrap(), full.read_image().unwrap(), "{what}");
         stats.bytes_cached
     };
     draw(&mut engine, &inputs, "the first frame", 5);
@@ -228,7 +228,7 @@ fn what_did_not_change_is_not_drawn_again_and_every_change_is() {
     assert_eq!(engine.draw(&inputs).unwrap().passes_drawn, 2, "a custom uniform: B and Image");
     let mut full = no_skip(&gpu, &project, engine.size());
     full.draw(&inputs).unwrap();
-    assert_eq!(engine.read(&PassId::Image).unwrap(), full.read(&PassId::Image).unwrap());
+    assert_eq!(engine.read_image().unwrap(), full.read_image().unwrap());
     let built = eddy::engine::Program::build(&gpu, &project, &MediaSet::new(), &BuildOptions::default()).unwrap();
     engine.set_program(built.program).unwrap();
     assert_eq!(engine.draw(&inputs).unwrap().passes_drawn, 5, "a new program");

@@ -3,7 +3,7 @@
 
 use crate::support::{self, stage::*};
 use eddy::{
-    project::{Channel, Input, PassEdit, PassId, Tab},
+    project::{Channel, Input, PassEdit, PassName, Tab},
     session::{Command, Level, probe::ProbePlace},
 };
 use std::{fs, time::Duration};
@@ -27,14 +27,14 @@ steps = 2
 ";
 
 fn buffer_a() -> Tab {
-    Tab::Pass(PassId::Buffer("A".into()))
+    Tab::Pass(PassName::buffer("A"))
 }
 
 /// Paused at frame 100, with a hand that has been on it.
 fn stage(gpu: eddy::gpu::Gpu) -> Stage {
     let mut stage = Stage::open(gpu, &[("eddy.toml", MANIFEST), ("buffer_a.glsl", SUM), ("image.glsl", SHOW)]);
     assert!(stage.is_ok(), "{:?}", stage.session.notices());
-    stage.session.apply(Command::ShowPass(PassId::Buffer("A".into())));
+    stage.session.apply(Command::ShowPass(PassName::buffer("A")));
     for frame in 1..=100 {
         if frame == 40 {
             stage.session.apply(Command::MouseDown { x: 3.5, y: 1.5 });
@@ -86,15 +86,15 @@ fn an_edit_while_paused_draws_the_same_frame_from_the_same_state() {
     others.dedup();
     assert!(others.len() == 1 && others[0] != before, "the other code draws one and the same frame each time");
     // Image alone; a mistake; a channel; another pass, and none.
-    edit(&mut edited, IMAGE, &SHOW.replace("0);", "0).yxzw;"));
-    edit(&mut edited, IMAGE, "void mainImage(");
-    edit(&mut edited, IMAGE, SHOW);
+    edit(&mut edited, image_tab(), &SHOW.replace("0);", "0).yxzw;"));
+    edit(&mut edited, image_tab(), "void mainImage(");
+    edit(&mut edited, image_tab(), SHOW);
     let channel = Some(Channel::new(Input::KEYBOARD));
     for channel in [channel, None] {
-        edited.compile(Command::SetChannel { pass: PassId::Image, index: 2, channel });
+        edited.compile(Command::SetChannel { pass: PassName::image(), index: 2, channel });
     }
-    edited.compile(Command::AddTab(Tab::Pass(PassId::Buffer("B".into()))));
-    edited.compile(Command::EditPasses(PassEdit::Remove(Tab::Pass(PassId::Buffer("B".into())))));
+    edited.compile(Command::AddTab(Tab::Pass(PassName::buffer("B"))));
+    edited.compile(Command::EditPasses(PassEdit::Remove(Tab::Pass(PassName::buffer("B")))));
     // From disk as well.
     edited.write("buffer_a.glsl", &other);
     edited.session.apply(Command::Focus(true));
@@ -128,8 +128,8 @@ fn looking_at_a_paused_picture_steps_nothing() {
         vec![Command::Audit],
         vec![Command::HideAudit],
         vec![Command::Screenshot],
-        vec![Command::ShowPass(PassId::Image)],
-        vec![Command::ShowPass(PassId::Buffer("A".into()))],
+        vec![Command::ShowPass(PassName::image())],
+        vec![Command::ShowPass(PassName::buffer("A"))],
         vec![Command::FindNonfinite(true)],
         vec![Command::FindNonfinite(false)],
         vec![Command::WatchCosts(true)],

@@ -5,7 +5,7 @@ use eddy::{
     engine::{BuildOptions, Engine},
     gpu::Gpu,
     media::MediaSet,
-    project::{PassId, Project},
+    project::{PassName, Project},
 };
 
 /// A lit texel where the mouse is.
@@ -17,11 +17,11 @@ fn bloom_of_a_spot(gpu: &Gpu, name: &str, size: (u32, u32)) -> Engine {
     let custom_uniforms = if name == "bloom" { &["strength=1"][..] } else { &["strength=1", "calm=false"] };
     let mut project = preset(name, custom_uniforms);
     replace(&mut project, "A", SPOT);
-    let index = project.passes.iter().position(|p| p.id == PassId::Image).unwrap();
+    let index = project.image_index().unwrap();
     let declaration = if name == "bloom" { "vec3 light" } else { "vec3 wide" };
     let begin = project.passes[index].source.text.find(declaration).expect(declaration);
     let at = (begin + declaration.len() - 1) as u32;
-    let options = BuildOptions::default().probing(PassId::Image, Project::pass_id(index), at);
+    let options = BuildOptions::default().probing(PassName::image(), Project::pass_id(index), at);
     engine_with(gpu, &project, &MediaSet::new(), &options, size)
 }
 

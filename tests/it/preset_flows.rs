@@ -4,7 +4,7 @@ use crate::support::{presets::*, *};
 use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Pixels},
     media::MediaSet,
-    project::{PassId, Project},
+    project::{PassName, Project},
 };
 use std::f64::consts::PI;
 
@@ -18,7 +18,7 @@ fn leaving_the_rings_early_changes_nothing_else() {
     let flow = |custom_uniforms: &[&str]| {
         let project = preset_with("self-advection", custom_uniforms);
         let mut engine = drawn(&gpu, &project, true, (64, 36), 0..12, drag);
-        [buffer("flow"), PassId::Image].map(|id| bits(&engine.read(&id).unwrap()))
+        [buffer("flow"), PassName::image()].map(|id| bits(&engine.read(&id).unwrap()))
     };
     let all = flow(&["growth=1.25", "scales=20"]);
     assert!(all == flow(&["growth=1.25", "scales=12"]), "a ring past the limit was looked at");
@@ -100,9 +100,9 @@ fn accurate(custom_uniforms: &[&str], initial: &str) -> Project {
     );
     overwrite(&mut project, "velocity", &code);
     project.passes.retain(|p| !["dye", "sums_64", "sums_8", "ledger"].map(buffer).contains(&p.id));
-    let image = project.pass_mut(&PassId::Image).unwrap();
+    let image = project.image_mut().unwrap();
     image.source.text = "void mainImage(out vec4 o, in vec2 c) { o = texelFetch(iChannel0, ivec2(c) / 2, 0); }".into();
-    image.channels[0] = nearest("velocity");
+    image.bindings.set(0, nearest("velocity"));
     project
 }
 

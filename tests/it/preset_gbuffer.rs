@@ -307,7 +307,7 @@ fn off_coverage(gpu: &eddy::gpu::Gpu, image: Option<&str>) -> f64 {
         "void mainImage(out vec4 o, in vec2 p) { o = vec4(vec3(p.y - 0.37 * p.x > 20.0 ? 0.8 : 0.1), 1.0); }",
     );
     if let Some(text) = image {
-        project.pass_mut(&eddy::project::PassId::Image).unwrap().source.text = text.into();
+        project.image_mut().unwrap().source.text = text.into();
     }
     let mut engine = engine(gpu, &project, (160, 90));
     draw(&mut engine, 0..1);

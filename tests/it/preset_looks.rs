@@ -2,7 +2,7 @@
 //! them in.
 
 use crate::support::{preset::*, presets::overwrite, presets::untouched, *};
-use eddy::project::{CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues, PassId};
+use eddy::project::{CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues};
 
 /// The part of all squares of 16 x 16 texels in which V is seen.
 fn filled(pixels: &eddy::engine::Pixels) -> f64 {
@@ -113,7 +113,7 @@ fn every_slider_at_both_ends_leaves_a_picture_in_range() {
                     engine.draw(&untouched(frame)).unwrap();
                     frame += 1;
                 }
-                let pixels = engine.read(&PassId::Image).unwrap();
+                let pixels = engine.read_image().unwrap();
                 let bad = pixels.texels.iter().flatten().find(|v| !(-1e-3..=100.0).contains(*v));
                 assert!(bad.is_none(), "{name}, {} = {value:?}: {bad:?}", custom_uniform.name);
             }

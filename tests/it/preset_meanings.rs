@@ -4,7 +4,7 @@ use crate::support::{presets::*, *};
 use eddy::{
     engine::{BuildOptions, Engine},
     media::MediaSet,
-    project::{Group, PassId, Project},
+    project::{Group, Project},
 };
 
 // ------------------------------------------------------------------------------------------------------------- fluid
@@ -12,8 +12,8 @@ use eddy::{
 /// The fluid with its three sub-steps as one pass that reads itself, drawn `steps` times a frame.
 fn fluid_in_one_pass(custom_uniforms: &[&str], steps: u32) -> Project {
     let mut project = preset_with("fluid", custom_uniforms);
-    project.passes.retain(|p| p.id == buffer("A") || p.id == PassId::Image);
-    project.pass_mut(&buffer("A")).unwrap().channels[0] = nearest("A");
+    project.passes.retain(|p| p.id == buffer("A") || p.id.is_image());
+    project.pass_mut(&buffer("A")).unwrap().bindings.set(0, nearest("A"));
     project.groups.push(Group { name: "solver".into(), passes: vec![buffer("A")], steps });
     project
 }
@@ -125,7 +125,7 @@ fn sound_in_the_fluid_decays_or_grows_as_linear_theory_says() {
 
 /// Whether the foot of the picture is hatched.
 fn hatched(engine: &mut Engine) -> bool {
-    let image = engine.read(&PassId::Image).unwrap();
+    let image = engine.read_image().unwrap();
     (0..image.width).any(|x| texel(&image, x, 0)[0] > 2.0 * texel(&image, x, 0)[1])
 }
 

@@ -89,7 +89,7 @@ fn occlusion_among_meshes_is_that_of_rays() {
     let target =
         |engine: &mut eddy::engine::Engine, i| -> Pixels { engine.read_target(&buffer("geometry"), i).unwrap() };
     let (world, normals, open) = (target(&mut engine, 1), target(&mut engine, 2), read(&mut engine, "blur"));
-    let geometry = project.pass(&buffer("geometry")).unwrap().settings.meshes().unwrap();
+    let geometry = project.pass(&buffer("geometry")).unwrap().body.geometry().unwrap();
     let meshes = Meshes::of(&geometry.draws).unwrap();
     let spots: Vec<(u32, u32)> =
         (2..height).step_by(5).flat_map(|y| (2..width).step_by(5).map(move |x| (x, y))).collect();

@@ -84,7 +84,7 @@ fn the_tiles_show_every_particle() {
         }
         let mut engine = engine_with(&gpu, &project, &MediaSet::new(), &Default::default(), size);
         draw(&mut engine, 0..6, untouched);
-        engine.read(&eddy::project::PassId::Image).unwrap()
+        engine.read_image().unwrap()
     };
     for size in [(320, 180), (160, 90), (100, 170)] {
         let (tiled, all) = (light(false, size), light(true, size));

@@ -6,7 +6,7 @@ use crate::support::{presets::*, *};
 use eddy::{
     engine::{BuildOptions, Engine, FrameInputs},
     media::MediaSet,
-    project::{CustomUniformType, CustomUniformValue, PassId, Project},
+    project::{CustomUniformType, CustomUniformValue, Project},
 };
 
 /// A simulation: the buffer that is its state, the largest number that may ever stand in one of its buffers, and how
@@ -142,11 +142,8 @@ fn the_fluids_paint_has_no_colour_that_was_not_poured() {
 fn a_broken_number_in_any_buffer_heals() {
     let Some(gpu) = gpu() else { return };
     for s in &SIMULATIONS {
-        let names: Vec<String> = preset(s.name)
-            .passes
-            .iter()
-            .filter_map(|p| if let PassId::Buffer(name) = &p.id { Some(name.to_string()) } else { None })
-            .collect();
+        let names: Vec<String> =
+            preset(s.name).passes.iter().filter_map(|p| p.id.buffer_name().map(str::to_owned)).collect();
         let mut engines = Engines::new(&gpu);
         // Of the grids between the finest and the coarsest one says what all do.
         let between = |name: &str| ["_1", "_3", "_4", "_5"].iter().any(|level| name.ends_with(level));
@@ -260,9 +257,9 @@ fn all_sliders_may_go_to_their_ends_at_once_and_come_back() {
             run(&mut engine, 10, false);
             check(s, &mut engine, &format!("back from sliders at {corner:x}"));
         }
-        let before = bits(&engine.read(&PassId::Image).unwrap());
+        let before = bits(&engine.read_image().unwrap());
         run(&mut engine, 20, false);
-        assert!(before != bits(&engine.read(&PassId::Image).unwrap()), "{} stands still", s.name);
+        assert!(before != bits(&engine.read_image().unwrap()), "{} stands still", s.name);
     }
 }
 
@@ -307,9 +304,9 @@ fn a_resize_in_mid_run_leaves_no_undefined_texel() {
         }
         // Whatever it has been through, it moves again.
         draw(&mut engine, frame..frame + 40, untouched);
-        let before = bits(&engine.read(&PassId::Image).unwrap());
+        let before = bits(&engine.read_image().unwrap());
         draw(&mut engine, frame + 40..frame + 60, untouched);
-        assert!(before != bits(&engine.read(&PassId::Image).unwrap()), "{} stands still", s.name);
+        assert!(before != bits(&engine.read_image().unwrap()), "{} stands still", s.name);
     }
 }
 

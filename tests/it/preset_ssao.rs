@@ -21,7 +21,7 @@ fn camera() -> Camera {
 /// to the sides.
 fn corner(project: &mut Project, height: Option<f64>) {
     for name in ["geometry", "backs", "occlusion", "lighting"] {
-        let geometry = project.pass_mut(&buffer(name)).unwrap().settings.meshes_mut().unwrap();
+        let geometry = project.pass_mut(&buffer(name)).unwrap().body.geometry_mut().unwrap();
         geometry.camera = camera();
         if name == "geometry" || name == "backs" {
             let floor = geometry.draws[0].clone();

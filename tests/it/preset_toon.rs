@@ -40,7 +40,7 @@ fn scene(page: Page, mesh: &str, rotation: [f64; 3], distance: f64, custom_unifo
     let mut project = preset("toon-outline", &PLAIN);
     // One by one: a custom uniform may be turned once.
     custom_uniforms.iter().for_each(|custom_uniform| project.set_custom_uniform(custom_uniform).unwrap());
-    let geometry = project.pass_mut(&buffer("scene")).unwrap().settings.meshes_mut().unwrap();
+    let geometry = project.pass_mut(&buffer("scene")).unwrap().body.geometry_mut().unwrap();
     geometry.camera = camera(distance);
     let first = 3 * page as usize;
     let place = |draw: &MeshDraw| MeshDraw {
@@ -126,7 +126,7 @@ fn without_width_and_with_depth_alone_there_is_no_line() {
     for (page, mesh) in [(Page::Figure, "builtin:figure"), (Page::Cube, "builtin:cube"), (Page::Knot, "builtin:knot")] {
         let with = |custom_uniforms: &[&str]| drawn(&gpu, page, mesh, [20.0, 30.0, 0.0], 7.0, custom_uniforms);
         let mut bare = scene(page, mesh, [20.0, 30.0, 0.0], 7.0, &[]);
-        bare.pass_mut(&buffer("scene")).unwrap().settings.meshes_mut().unwrap().draws.truncate(1);
+        bare.pass_mut(&buffer("scene")).unwrap().body.geometry_mut().unwrap().draws.truncate(1);
         let bare = picture_of(&gpu, &bare);
         assert!(count(&with(&[]), is_line) > 500, "{mesh}");
         assert_eq!(with(&["outlineWidth=0"]).texels, bare.texels, "{mesh}");
@@ -140,7 +140,7 @@ fn depth_alone_hides_what_is_drawn_behind() {
     // A large cube behind the sphere, drawn after it.
     let with = |z_only: &str| {
         let mut project = scene(Page::Figure, "builtin:sphere", [0.0; 3], 6.0, &[z_only]);
-        let geometry = project.pass_mut(&buffer("scene")).unwrap().settings.meshes_mut().unwrap();
+        let geometry = project.pass_mut(&buffer("scene")).unwrap().body.geometry_mut().unwrap();
         let cube = MeshDraw {
             mesh: MeshSource::parse("builtin:cube"),
             scale: 3.0,
@@ -296,7 +296,7 @@ fn depth_alone_of_no_width_hides_what_the_mesh_hides() {
     // The hull alone, and a large cube behind it, drawn after it.
     let seen = |custom_uniforms: &[&str]| {
         let mut project = scene(Page::Figure, "builtin:sphere", [0.0; 3], 6.0, custom_uniforms);
-        let geometry = project.pass_mut(&buffer("scene")).unwrap().settings.meshes_mut().unwrap();
+        let geometry = project.pass_mut(&buffer("scene")).unwrap().body.geometry_mut().unwrap();
         let position = [0.0, 0.0, -5.0];
         let cube = MeshSource::parse("builtin:cube");
         let cube = MeshDraw { mesh: cube, scale: 3.0, position, ..geometry.draws[0].clone() };

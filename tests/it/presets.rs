@@ -4,7 +4,7 @@ use crate::support::{presets::*, *};
 use eddy::{
     engine::{BuildOptions, DrawFor, FrameInputs, Pixels},
     media::{Keyboard, MediaSet},
-    project::{PassId, Project, presets},
+    project::{Project, presets},
 };
 use std::collections::BTreeMap;
 
@@ -55,8 +55,8 @@ fn three_chained_sub_steps_are_three_steps_of_one_pass() {
     let Some(gpu) = gpu() else { return };
     let chain = preset("fluid");
     let mut single = chain.clone();
-    single.passes.retain(|p| p.id == buffer("A") || p.id == PassId::Image);
-    single.pass_mut(&buffer("A")).unwrap().channels[0] = nearest("A");
+    single.passes.retain(|p| p.id == buffer("A") || p.id.is_image());
+    single.pass_mut(&buffer("A")).unwrap().bindings.set(0, nearest("A"));
     let (mut chain, mut single) = (whole(&gpu, &chain, true, (48, 27)), whole(&gpu, &single, true, (48, 27)));
     for frame in 0..40 {
         chain.draw(&drag(frame)).unwrap();
@@ -85,7 +85,7 @@ fn drawing_what_nobody_needs_changes_no_byte() {
             let options = BuildOptions { skip, ..Default::default() };
             let mut engine = engines.with(&project, &MediaSet::new(), &options, (48, 27));
             draw(&mut engine, 0..12, drag);
-            bits(&engine.read(&PassId::Image).unwrap())
+            bits(&engine.read_image().unwrap())
         });
         assert!(pictures[0] == pictures[1], "{name} is another picture when nothing is skipped");
         // Of frames that nobody sees, what others read is enough: some are seen one after the other, some not at all.
@@ -98,10 +98,7 @@ fn drawing_what_nobody_needs_changes_no_byte() {
             };
             drawn += if matches!(frame, 7) { frame_stats.passes_drawn } else { 0 };
         }
-        assert!(
-            bits(&engine.read(&PassId::Image).unwrap()) == pictures[0],
-            "{name} depends on frames that were not seen"
-        );
+        assert!(bits(&engine.read_image().unwrap()) == pictures[0], "{name} depends on frames that were not seen");
         let most = engine.draw(&drag(12)).unwrap().passes_drawn;
         assert!(drawn < most, "{name}: {drawn} of {most} draws of a frame that nobody sees");
     }
@@ -116,15 +113,15 @@ fn a_run_repeats_itself_whole_or_in_halves() {
         let mut engines = [(); 2].map(|()| made.whole(&project, true, (48, 27)));
         draw(&mut engines[0], 0..12, drag);
         draw(&mut engines[1], 0..6, drag);
-        engines[1].read(&PassId::Image).unwrap();
+        engines[1].read_image().unwrap();
         draw(&mut engines[1], 6..12, drag);
         for id in buffers(&project) {
             let [a, b] = engines.each_mut().map(|e| bits(&e.read(id).unwrap()));
             assert!(a == b, "{name}, {}", id.title());
         }
-        let after = bits(&engines[0].read(&PassId::Image).unwrap());
+        let after = bits(&engines[0].read_image().unwrap());
         draw(&mut engines[0], 12..13, drag);
-        assert!(after != bits(&engines[0].read(&PassId::Image).unwrap()), "{name} stands still: the test sees nothing");
+        assert!(after != bits(&engines[0].read_image().unwrap()), "{name} stands still: the test sees nothing");
     }
 }
 

@@ -12,13 +12,13 @@ use eddy::{
     engine::{BuildError, BuildOptions, Builder, Engine, FrameInputs, Program, Sources},
     glsl::Probe,
     media,
-    project::{Boundary, Fill, Group, PassBody, PassId, Project, Region, TexelFormat, presets as all_presets},
+    project::{Boundary, Fill, Group, PassName, Project, Region, TexelFormat, presets as all_presets},
 };
 
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
 
 /// The probe of the first value of the expression at a part of a pass's text.
-fn probe_of(project: &Project, id: &PassId, text: &str) -> Option<(PassId, Probe)> {
+fn probe_of(project: &Project, id: &PassName, text: &str) -> Option<(PassName, Probe)> {
     let index = project.passes.iter().position(|p| p.id == *id).unwrap();
     let at = project.passes[index].source.text.find(text).unwrap() as u32;
     Some((id.clone(), Probe { source: Project::pass_id(index), at, visit: 0 }))
@@ -41,9 +41,9 @@ fn a_probe_disturbs_no_buffer_and_is_of_this_frame() {
     ]);
     let group = Group { name: "both".into(), passes: vec![buffer("a"), buffer("b")], steps: 3 };
     project.groups.push(group);
-    let run = |probe: Option<(PassId, &str)>| {
+    let run = |probe: Option<(PassName, &str)>| {
         let probe = probe.and_then(|(id, text)| probe_of(&project, &id, text));
-        let image = || PassId::Image;
+        let image = || PassName::image();
         let wanted = if probe.is_some() {
             vec![BuildOptions::probed(), buffer("a"), buffer("b")]
         } else {
@@ -57,9 +57,12 @@ fn a_probe_disturbs_no_buffer_and_is_of_this_frame() {
         (read(&mut engine, buffer("a")), read(&mut engine, buffer("b")), probed)
     };
     let (a, b, _) = run(None);
-    for (id, text) in
-        [(PassId::Image, "a = "), (PassId::Image, "one = "), (buffer("a"), "s * 0.5"), (buffer("b"), "t + vec4")]
-    {
+    for (id, text) in [
+        (PassName::image(), "a = "),
+        (PassName::image(), "one = "),
+        (buffer("a"), "s * 0.5"),
+        (buffer("b"), "t + vec4"),
+    ] {
         let (probed_a, probed_b, value) = run(Some((id.clone(), text)));
         assert!(probed_a == a && probed_b == b, "{text} of {}", id.title());
         let value = value.unwrap();
@@ -83,9 +86,9 @@ fn a_probe_of_any_buffer_of_the_presets_changes_no_texel() {
     for name in all_presets::names() {
         let project = all_presets::load(name).unwrap().project;
         let (media, _) = media::gather(&project, None);
-        let all: Vec<PassId> = buffers(&project).cloned().collect();
+        let all: Vec<PassName> = buffers(&project).cloned().collect();
         let mut builder = Builder::new(gpu.clone());
-        let mut drawn = |probe: Option<(PassId, Probe)>| {
+        let mut drawn = |probe: Option<(PassName, Probe)>| {
             let probed = probe.iter().map(|_| BuildOptions::probed());
             let wanted = all.iter().cloned().chain(probed).collect();
             let options = BuildOptions { wanted, probe, ..BuildOptions::default() };
@@ -102,11 +105,7 @@ fn a_probe_of_any_buffer_of_the_presets_changes_no_texel() {
         let mut texts: Vec<&str> = Vec::new();
         for (index, pass) in project.passes.iter().enumerate() {
             let text = &*pass.source.text;
-            if pass.id == PassId::Image
-                || !pass.id.is_picture()
-                || pass.settings.meshes().is_some()
-                || texts.contains(&text)
-            {
+            if pass.id.is_image() || !pass.id.is_picture() || !pass.body.is_screen() || texts.contains(&text) {
                 continue;
             }
             texts.push(text);
@@ -144,8 +143,8 @@ fn no_value_where_nothing_is_drawn() {
         a.settings.boundary = Some(Boundary { width: 1, value: Fill::expression("vec4(0.25)") });
         a.settings.region = Some(Region { x: 0, y: 0, width: 5, height: 8 });
         let project = project(vec![a, image(SHOW, [nearest("A"), None, None, None])]);
-        let drawn = |probe: Option<(PassId, Probe)>| {
-            let probed = if probe.is_none() { PassId::Image } else { BuildOptions::probed() };
+        let drawn = |probe: Option<(PassName, Probe)>| {
+            let probed = if probe.is_none() { PassName::image() } else { BuildOptions::probed() };
             let options = BuildOptions { wanted: vec![buffer("A"), probed.clone()], probe, ..Default::default() };
             let mut engine = engine_with(&gpu, &project, &Default::default(), &options, (6, 4));
             run(&mut engine, 0, 3);
@@ -166,7 +165,7 @@ fn no_value_where_nothing_is_drawn() {
 fn a_pass_of_meshes_is_not_probed() {
     let Some(gpu) = gpu() else { return };
     let project = all_presets::load("ssao").unwrap().project;
-    let pass = project.passes.iter().find(|p| matches!(p.settings.body, PassBody::Meshes(_))).unwrap().id.clone();
+    let pass = project.passes.iter().find(|p| !p.body.is_screen()).unwrap().id.clone();
     let probe = Some((pass, Probe { source: Project::COMMON_ID, at: 0, visit: 0 }));
     let options = BuildOptions { wanted: vec![BuildOptions::probed()], probe, ..Default::default() };
     let (media, _) = media::gather(&project, None);

@@ -57,7 +57,7 @@ fn offer(session: &mut Session) -> Recovered {
 }
 
 fn edit(session: &mut Session, text: &str) {
-    session.apply(Command::EditText { tab: IMAGE, text: text.into() });
+    session.apply(Command::EditText { tab: image_tab(), text: text.into() });
 }
 
 fn write_project(dir: &Path) -> PathBuf {
@@ -86,14 +86,14 @@ fn a_crashed_session_is_offered_with_its_difference_and_taken_up() {
     second.apply(Command::Open(folder.display().to_string()));
     let offered = offer(&mut second);
     assert_eq!(offered.origin, Origin::Folder { path: folder.clone(), has_manifest: false });
-    let tab = offered.tabs.iter().find(|t| t.tab == IMAGE).unwrap();
+    let tab = offered.tabs.iter().find(|t| t.tab == image_tab()).unwrap();
     let changed: Vec<&DiffLine> = tab.diff.iter().filter(|l| !matches!(l, DiffLine::Both(_))).collect();
     let line = |red: f32| plain(red).lines().nth(1).unwrap().to_owned();
     assert_eq!(changed, [&DiffLine::Disk(line(0.2)), &DiffLine::Mine(line(0.4))]);
     assert!(offered.is_structure_changed, "Common is new");
-    assert_eq!(second.text(&IMAGE), plain(0.2), "nothing is taken before the answer");
+    assert_eq!(second.text(&image_tab()), plain(0.2), "nothing is taken before the answer");
     second.apply(Command::Answer(Answer::Recover));
-    assert_eq!(second.text(&IMAGE), plain(0.4));
+    assert_eq!(second.text(&image_tab()), plain(0.4));
     assert!(second.is_dirty() && !second.transport().playing);
     assert!(second.tabs().contains(&Tab::Common));
     assert_eq!(recovery_files(&state).len(), 1, "it is not saved yet");
@@ -180,9 +180,9 @@ fn recovered_work_does_not_push_unsaved_work_aside() {
     offer(&mut next);
     next.apply(Command::Answer(Answer::Recover));
     assert!(matches!(next.question(), Some(Question::Unsaved { .. })), "{:?}", next.question());
-    assert_eq!(next.text(&IMAGE), plain(0.8));
+    assert_eq!(next.text(&image_tab()), plain(0.8));
     next.apply(Command::Answer(Answer::Discard));
-    assert_eq!(next.text(&IMAGE), plain(0.4));
+    assert_eq!(next.text(&image_tab()), plain(0.4));
 }
 
 #[test]
@@ -268,7 +268,7 @@ fn killed_at_any_moment_it_loses_at_most_a_second() {
         let mut next = session(&gpu, &state(kill));
         offer(&mut next);
         next.apply(Command::Answer(Answer::Recover));
-        let text = next.text(&IMAGE).to_owned();
+        let text = next.text(&image_tab()).to_owned();
         let number: u64 = text.lines().next().unwrap()[3..].parse().unwrap();
         assert_eq!(text, format!("// {number}\n{}", plain(0.4)), "whole");
         assert!(safe.is_none_or(|safe| number >= safe), "kill {kill}: {number} of {safe:?} is there");

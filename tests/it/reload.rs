@@ -2,7 +2,7 @@
 
 use crate::support::{self, stage::*};
 use eddy::{
-    project::{Channel, Input, Media, PassId, Sampler, Tab},
+    project::{Channel, Input, Media, PassName, Sampler, Tab},
     session::{Answer, Command, DiffLine, Level, Question},
 };
 use std::{
@@ -20,11 +20,11 @@ fn open(files: &[(&str, &str)]) -> Option<Stage> {
 fn a_save_in_place_or_by_rename_is_one_reload() {
     let Some(mut stage) = open(&[("image.glsl", &plain(0.2))]) else { return };
     stage.write("image.glsl", plain(0.4));
-    stage.until("the reload", |s| s.text(&IMAGE) == plain(0.4));
+    stage.until("the reload", |s| s.text(&image_tab()) == plain(0.4));
     stage.until_compiled();
     assert_eq!(stage.red(), 102);
     replace(&stage.path("image.glsl"), &plain(0.6));
-    stage.until("the reload after a rename", |s| s.text(&IMAGE) == plain(0.6));
+    stage.until("the reload after a rename", |s| s.text(&image_tab()) == plain(0.6));
     stage.until_compiled();
     assert_eq!(stage.red(), 153);
     stage.for_a_while();
@@ -39,7 +39,7 @@ fn a_burst_of_writes_is_one_reload_and_the_same_content_is_none() {
         stage.write("image.glsl", plain(i as f32 / 32.0));
         stage.tick();
     }
-    stage.until("the reload", |s| s.text(&IMAGE) == plain(19.0 / 32.0));
+    stage.until("the reload", |s| s.text(&image_tab()) == plain(19.0 / 32.0));
     stage.for_a_while();
     assert_eq!(stage.count("reloaded"), 1);
     let text = stage.read("image.glsl");
@@ -58,10 +58,10 @@ fn a_half_written_file_is_waited_for() {
         while std::time::Instant::now() < until {
             stage.tick();
         }
-        assert_ne!(stage.session.text(&IMAGE), "", "the last whole text stays");
+        assert_ne!(stage.session.text(&image_tab()), "", "the last whole text stays");
         let text = format!("// é\n{}", plain(if half.is_empty() { 0.4 } else { 0.6 }));
         stage.write("image.glsl", &text);
-        stage.until("the whole text", |s| s.text(&IMAGE) == text);
+        stage.until("the whole text", |s| s.text(&image_tab()) == text);
     }
     assert!(stage.notices(Level::Warning).is_empty(), "{:?}", stage.session.notices());
 
@@ -70,7 +70,7 @@ fn a_half_written_file_is_waited_for() {
     stage.for_a_while();
     assert_eq!(stage.notices(Level::Warning).len(), 1, "said once: {:?}", stage.session.notices());
     assert!(stage.notices(Level::Warning)[0].contains("image.glsl is not UTF-8"));
-    assert!(stage.session.text(&IMAGE).contains("0.6"));
+    assert!(stage.session.text(&image_tab()).contains("0.6"));
 }
 
 #[test]
@@ -81,10 +81,10 @@ fn an_edited_tab_asks_and_keeps_both_texts_whatever_the_answer() {
         stage.write("image.glsl", plain(0.6));
         stage.until("the question", |s| s.question().is_some());
         let Some(Question::Conflict { tab, file, mine, disk, diff }) = stage.session.question() else { panic!() };
-        assert_eq!((tab.as_ref(), file), (Some(&IMAGE), &stage.path("image.glsl")));
+        assert_eq!((tab.as_ref(), file), (Some(&image_tab()), &stage.path("image.glsl")));
         assert_eq!((&**mine, &**disk), (&*plain(0.4), &*plain(0.6)));
         assert_eq!(diff.iter().filter(|l| !matches!(l, DiffLine::Both(_))).count(), 2);
-        assert_eq!(stage.session.text(&IMAGE), plain(0.4), "mine stands until the answer");
+        assert_eq!(stage.session.text(&image_tab()), plain(0.4), "mine stands until the answer");
         let elsewhere = stage.path("elsewhere.txt");
         stage.session.apply(Command::Answer(match answer {
             "mine" => Answer::KeepMine,
@@ -94,18 +94,18 @@ fn an_edited_tab_asks_and_keeps_both_texts_whatever_the_answer() {
         assert!(stage.session.question().is_none(), "{:?}", stage.session.notices());
         match answer {
             "mine" => {
-                assert_eq!(stage.session.text(&IMAGE), plain(0.4));
+                assert_eq!(stage.session.text(&image_tab()), plain(0.4));
                 assert!(stage.session.is_dirty());
                 assert_eq!(stage.read("image.glsl.disk-0001"), plain(0.6));
                 stage.session.apply(Command::Save);
                 assert_eq!(stage.read("image.glsl"), plain(0.4));
             }
             "disk" => {
-                assert_eq!(stage.session.text(&IMAGE), plain(0.6));
+                assert_eq!(stage.session.text(&image_tab()), plain(0.6));
                 assert_eq!(stage.read("image.glsl.mine-0001"), plain(0.4));
             }
             _ => {
-                assert_eq!(stage.session.text(&IMAGE), plain(0.6));
+                assert_eq!(stage.session.text(&image_tab()), plain(0.6));
                 assert_eq!(fs::read_to_string(elsewhere).unwrap(), plain(0.4));
             }
         }
@@ -130,7 +130,7 @@ fn the_other_text_is_kept_beside_a_file_that_was_opened_by_a_relative_path() {
         let file = if name == "." { "image.glsl" } else { name };
         stage.write(file, plain(0.2));
         stage.session.apply(Command::Open(relative(&stage.path(name)).display().to_string()));
-        assert_eq!(stage.session.text(&IMAGE), plain(0.2), "{:?}", stage.session.notices());
+        assert_eq!(stage.session.text(&image_tab()), plain(0.2), "{:?}", stage.session.notices());
         stage.edit(&plain(0.4));
         stage.write(file, plain(0.6));
         stage.until("the question", |s| s.question().is_some());
@@ -150,7 +150,7 @@ fn save_mine_as_never_overwrites() {
     stage.session.apply(Command::Answer(Answer::SaveMineAs(notes)));
     assert!(stage.session.question().is_some(), "the question stands on");
     assert_eq!(stage.read("notes.txt"), "notes");
-    assert_eq!(stage.session.text(&IMAGE), plain(0.4));
+    assert_eq!(stage.session.text(&image_tab()), plain(0.4));
 }
 
 #[test]
@@ -181,20 +181,20 @@ fn a_save_of_our_own_is_no_reload() {
 fn a_deleted_file_keeps_its_text_and_saving_writes_it_again() {
     let a = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\n";
     let Some(mut stage) = open(&[("buffer_a.glsl", a), ("image.glsl", &plain(0.2))]) else { return };
-    let tab = Tab::Pass(PassId::Buffer("A".into()));
+    let tab = Tab::Pass(PassName::buffer("A"));
     fs::remove_file(stage.path("buffer_a.glsl")).unwrap();
     stage.until("the notice", |s| s.notices().iter().any(|n| n.text.starts_with("buffer_a.glsl was deleted")));
     assert_eq!(stage.session.text(&tab), a);
     assert!(stage.session.is_tab_dirty(&tab));
     stage.write("image.glsl", plain(0.4));
-    stage.until("other files still reload", |s| s.text(&IMAGE) == plain(0.4));
+    stage.until("other files still reload", |s| s.text(&image_tab()) == plain(0.4));
     stage.session.apply(Command::Save);
     assert_eq!(stage.read("buffer_a.glsl"), a);
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
 
     fs::remove_file(stage.path("image.glsl")).unwrap();
     stage.until("the notice", |s| s.notices().iter().any(|n| n.text.starts_with("image.glsl was deleted")));
-    assert!(stage.session.is_tab_dirty(&IMAGE));
+    assert!(stage.session.is_tab_dirty(&image_tab()));
     stage.session.apply(Command::Save);
     assert_eq!(stage.read("image.glsl"), plain(0.4));
 }
@@ -214,13 +214,13 @@ fn eddy_toml_reloads_passes_and_channels_and_time_goes_on() {
     );
     stage.until("the new pass", |s| s.project().passes.len() == 2);
     assert_eq!(stage.session.project().name, "Two");
-    assert!(stage.session.project().pass(&PassId::Image).unwrap().channels[0].is_some());
+    assert!(stage.session.project().image().unwrap().bindings.get(0).is_some());
     stage.until_compiled();
     assert!(stage.session.transport().frame >= 3, "time goes on");
 
     stage.session.apply(Command::SetResetOnReload(true));
     stage.write("image.glsl", plain(0.4));
-    stage.until("the reload", |s| s.text(&IMAGE) == plain(0.4));
+    stage.until("the reload", |s| s.text(&image_tab()) == plain(0.4));
     stage.until_compiled();
     assert_eq!(stage.session.transport().frame, 0, "unless the switch says otherwise");
 
@@ -235,14 +235,14 @@ fn channels_changed_here_and_on_disk_ask() {
     let toml = "eddy = 1\n[passes.image]\n";
     let Some(mut stage) = open(&[("eddy.toml", toml), ("image.glsl", &plain(0.2))]) else { return };
     let channel = eddy::project::Channel::new(eddy::project::Input::KEYBOARD);
-    stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 0, channel: Some(channel) });
+    stage.session.apply(Command::SetChannel { pass: PassName::image(), index: 0, channel: Some(channel) });
     stage.write("eddy.toml", "eddy = 1\n[passes.image]\nchannels.1 = { texture = \"noise-rgba-64\" }\n");
     stage.until("the question", |s| s.question().is_some());
     let Some(Question::Conflict { tab: None, mine, disk, .. }) = stage.session.question() else { panic!() };
     assert!(mine.contains("keyboard") && disk.contains("noise-rgba-64"), "{mine}\n--\n{disk}");
     stage.session.apply(Command::Answer(Answer::TakeDisk));
-    let channels = &stage.session.project().pass(&PassId::Image).unwrap().channels;
-    assert!(channels[0].is_none() && channels[1].is_some());
+    let channels = &stage.session.project().image().unwrap().bindings;
+    assert!(channels.get(0).is_none() && channels.get(1).is_some());
     assert!(stage.read("eddy.toml.mine-0001").contains("keyboard"));
     assert!(!stage.session.is_dirty());
 }
@@ -284,7 +284,7 @@ fn writes_without_an_end_beside_the_sources_do_not_hide_a_change() {
     stage.write("image.glsl", plain(0.4));
     let end = Instant::now() + Duration::from_secs(30);
     let mut line = 0;
-    while stage.session.text(&IMAGE) != plain(0.4) {
+    while stage.session.text(&image_tab()) != plain(0.4) {
         assert!(Instant::now() < end, "the log put the reload off for ever");
         line += 1;
         stage.write("run.log", format!("{line}\n"));
@@ -302,7 +302,7 @@ fn a_picture_chosen_here_is_watched_wherever_it_lies() {
     fs::write(&path, picture(50)).unwrap();
     let input = Input::texture(Media::Picked(path.clone()));
     let channel = Channel { input, sampler: Sampler { filter: eddy::project::Filter::Nearest, ..Sampler::TEXTURE } };
-    stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 0, channel: Some(channel) });
+    stage.session.apply(Command::SetChannel { pass: PassName::image(), index: 0, channel: Some(channel) });
     stage.until_red(50);
     fs::write(&path, picture(200)).unwrap();
     stage.until_red(200);

@@ -4,7 +4,7 @@ use crate::support::{self, stage::*};
 use crate::time_travel::{stage, steps, texels};
 use eddy::{
     playback::scene::Scene,
-    project::PassId,
+    project::PassName,
     session::{Command, Level},
 };
 use std::{fs, path::Path};
@@ -14,7 +14,7 @@ fn opened(picture: &Path) -> Stage {
     let mut stage = Stage::bare(support::gpu().unwrap());
     let name = stage.path("picture.png");
     fs::copy(picture, &name).unwrap();
-    stage.session.apply(Command::Bring { paths: vec![name], to: Some((PassId::Image, None)) });
+    stage.session.apply(Command::Bring { paths: vec![name], to: Some((PassName::image(), None)) });
     stage.until_compiled();
     stage
 }
@@ -33,7 +33,7 @@ fn a_picture_of_a_state_is_drawn_again_from_its_inputs() {
     let picture = before.screenshot();
     let mut after = opened(&picture);
     until_frame(&mut after, 150);
-    assert_eq!(after.session.shown_pass(), &PassId::Buffer("A".into()));
+    assert_eq!(after.session.shown_pass(), &PassName::buffer("A"));
     assert!(texels(&mut after) == wanted);
     assert!(!after.session.transport().playing && !after.session.is_dirty());
     let text = "opened from the image, paused at frame 150";
@@ -77,10 +77,10 @@ fn on_a_channel_it_is_a_picture_and_without_the_project_too() {
     let picture = stage.screenshot();
     assert!(stage.notices(Level::Info).iter().any(|text| text.ends_with("with the project in it")));
     let bring = |stage: &mut Stage, channel| {
-        stage.session.apply(Command::Bring { paths: vec![picture.clone()], to: Some((PassId::Image, channel)) });
+        stage.session.apply(Command::Bring { paths: vec![picture.clone()], to: Some((PassName::image(), channel)) });
     };
     bring(&mut stage, Some(2));
-    let channels = |stage: &Stage| stage.session.project().passes[0].channels.iter().flatten().count();
+    let channels = |stage: &Stage| stage.session.project().passes[0].bindings.channels().count();
     assert_eq!(channels(&stage), 1);
     // Unsaved work is asked about first.
     bring(&mut stage, None);
@@ -89,7 +89,7 @@ fn on_a_channel_it_is_a_picture_and_without_the_project_too() {
     plain_stage.session.apply(Command::SetProjectInPictures(false));
     let picture = plain_stage.screenshot();
     assert!(!Scene::is_in(&fs::read(&picture).unwrap()));
-    plain_stage.session.apply(Command::Bring { paths: vec![picture], to: Some((PassId::Image, None)) });
+    plain_stage.session.apply(Command::Bring { paths: vec![picture], to: Some((PassName::image(), None)) });
     assert_eq!(channels(&plain_stage), 1);
 }
 

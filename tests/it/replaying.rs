@@ -7,7 +7,7 @@ use eddy::{
     gpu::Gpu,
     media,
     playback::{npy, offline::Offline, recording::Recording, script::ScriptedInputs},
-    project::{self, PassId},
+    project::{self, PassName},
     session::{Answer, Command, Level},
 };
 use std::{
@@ -39,7 +39,7 @@ fn draw(stage: &mut Stage, frames: usize) {
 }
 
 /// Returns the texels of a pass at the end of a recording as `eddy render --replay` draws them.
-fn rendered(gpu: &Gpu, spec: &str, file: &Path, pass: &PassId) -> Vec<u8> {
+fn rendered(gpu: &Gpu, spec: &str, file: &Path, pass: &PassName) -> Vec<u8> {
     let recording = Recording::read(BufReader::new(File::open(file).unwrap())).unwrap();
     let (size, frames) = (recording.frames[0].size, recording.frames.len());
     let loaded = project::load(spec).unwrap().project;
@@ -77,7 +77,7 @@ fn what_was_recorded_is_played_bit_for_bit_and_ends_paused() {
         assert!(!stage.session.transport().playing);
         assert_eq!(stage.session.transport().resolution, (80, 45));
         assert!(texels(&mut stage) == last, "{preset}: as it was when it was recorded");
-        assert!(texels(&mut stage) == rendered(&gpu, preset, &file, &PassId::Image), "{preset}: as it is rendered");
+        assert!(texels(&mut stage) == rendered(&gpu, preset, &file, &PassName::image()), "{preset}: as it is rendered");
         let notices = stage.notices(Level::Info).join("\n");
         assert!(notices.contains("ended: the picture is paused at frame"), "{notices}");
         assert!(stage.notices(Level::Warning).is_empty() && stage.notices(Level::Error).is_empty());
@@ -116,7 +116,7 @@ fn sliders_are_the_recordings_until_it_is_over_and_the_projects_after_it() {
     play(&mut stage, &file);
     draw(&mut stage, usize::MAX);
     let folder = stage.folder();
-    let buffer = PassId::Buffer("A".into());
+    let buffer = PassName::buffer("A");
     let end = texels(&mut stage);
     assert!(end == known.last().unwrap().2, "as it was recorded");
     assert!(end == rendered(&gpu, folder.to_str().unwrap(), &file, &buffer), "as it is rendered");
@@ -228,7 +228,7 @@ fn a_file_that_cannot_be_played_is_named_with_its_line_and_what_to_do() {
         if let Some(text) = text {
             fs::write(&file, text).unwrap();
         }
-        stage.session.apply(Command::Bring { paths: vec![file.clone()], to: Some((PassId::Image, None)) });
+        stage.session.apply(Command::Bring { paths: vec![file.clone()], to: Some((PassName::image(), None)) });
         stage.until("an error", |session| session.notices().iter().any(|n| n.text.contains(says)));
         let [error] = stage.notices(Level::Error)[..] else { panic!("{:?}", stage.session.notices()) };
         assert!(error.starts_with(&format!("cannot play {}: ", file.display())), "{error}");
@@ -250,7 +250,7 @@ fn a_recording_of_another_project_is_played_with_a_warning_and_none_without_a_pr
         notices.contains("open the project that it was recorded in") && stage.session.replay().is_none(),
         "{notices}"
     );
-    stage.session.apply(Command::Bring { paths: vec![file], to: Some((PassId::Image, None)) });
+    stage.session.apply(Command::Bring { paths: vec![file], to: Some((PassName::image(), None)) });
     stage.until("a recording that plays", |session| session.replay().is_some());
     let notices = stage.notices(Level::Warning).join("\n");
     assert!(notices.contains("was recorded in the project \"project\", but \"Feedback\" is open"), "{notices}");

@@ -302,8 +302,8 @@ fn images_open_as_their_projects() {
             let mut session = session(&gpu, &b.path("state"));
             session.apply(Command::Open(saved(&file).display().to_string()));
             let project = project::load(&spec).unwrap().project;
-            let text = project.pass(&project::PassId::Image).unwrap().source.text.clone();
-            until(&mut session, "the project", |s| (s.text(&IMAGE) == &*text).then_some(()));
+            let text = project.image().unwrap().source.text.clone();
+            until(&mut session, "the project", |s| (s.text(&image_tab()) == &*text).then_some(()));
             until(&mut session, "the frame", |s| (s.transport().frame == 3).then_some(()));
             assert!(!session.transport().playing, "{file}");
         }
@@ -351,7 +351,7 @@ fn recovery_files_are_offered() {
         if is_blessing() && !saved(&file).exists() {
             let mut first = session(&gpu, &root);
             first.apply(Command::Open(project.display().to_string()));
-            first.apply(Command::EditText { tab: IMAGE, text: edited.into() });
+            first.apply(Command::EditText { tab: image_tab(), text: edited.into() });
             drop(first);
             let (_, bytes) =
                 files(&recovery).into_iter().find(|(p, _)| p.extension() == Some("json".as_ref())).unwrap();
@@ -365,7 +365,7 @@ fn recovery_files_are_offered() {
         second.apply(Command::Open(project.display().to_string()));
         until(&mut second, "the question", |s| matches!(s.question(), Some(Question::Recover(_))).then_some(()));
         second.apply(Command::Answer(Answer::Recover));
-        assert_eq!(second.text(&IMAGE), edited, "{name}");
+        assert_eq!(second.text(&image_tab()), edited, "{name}");
         second.apply(Command::Save);
         until(&mut second, "the save", |s| (!s.is_dirty()).then_some(()));
     }

@@ -9,7 +9,7 @@ use eddy::{
         offline::Offline,
         script::{ScriptedInputs, parse_keys, parse_mouse},
     },
-    project::{self, Channel, CustomUniformValue, Input, PassEdit, PassId, Tab},
+    project::{self, Channel, CustomUniformValue, Input, PassEdit, PassName, Tab},
     session::{
         Answer, Command, FallbackPicture, Level, Outcome, PendingAction, Question, Request, Session, SessionOptions,
         TabDiagnostic,
@@ -50,7 +50,7 @@ fn a_screenshot_is_what_an_offline_run_draws() {
 
     let loaded = project::load(stage.folder().to_str().unwrap()).unwrap().project;
     let (media, _) = media::gather(&loaded, None);
-    let drawn = |pass: PassId| {
+    let drawn = |pass: PassName| {
         let inputs = ScriptedInputs::new(60.0).with_mouse(parse_mouse("1:down 3,2").unwrap());
         let mut offline = Offline::new(&gpu, (8, 4), inputs).unwrap();
         let options = BuildOptions { wanted: vec![pass.clone()], skip: true, ..BuildOptions::default() };
@@ -59,14 +59,14 @@ fn a_screenshot_is_what_an_offline_run_draws() {
         assert_eq!(frames, [0, 1, 2, 3, 4, 5]);
         offline.read(&pass, 0).unwrap()
     };
-    let pixels = drawn(PassId::Image);
+    let pixels = drawn(PassName::image());
     assert_eq!(image::open(&path).unwrap().to_rgba8().into_raw(), pixels.to_rgba8());
 
-    stage.session.apply(Command::ShowPass(PassId::Buffer("A".into())));
+    stage.session.apply(Command::ShowPass(PassName::buffer("A")));
     stage.session.apply(Command::SaveTexels);
     let npy = fs::read(stage.path("project-buffer_a-0001.npy")).unwrap();
     let mut want = Vec::new();
-    capture::encode(&mut want, &drawn(PassId::Buffer("A".into())), capture::Format::Npy).unwrap();
+    capture::encode(&mut want, &drawn(PassName::buffer("A")), capture::Format::Npy).unwrap();
     assert_eq!(npy, want);
 }
 
@@ -87,7 +87,7 @@ fn a_run_is_the_same_in_one_piece_or_in_two() {
         for _ in 0..frames {
             let frame = offline.draw().unwrap().number;
             if frame == 4 || frame == 9 {
-                seen.push((frame, offline.read(&PassId::Image, 0).unwrap()));
+                seen.push((frame, offline.read(&PassName::image(), 0).unwrap()));
             }
         }
     };
@@ -128,7 +128,7 @@ fn paused_it_draws_one_frame_for_each_change_and_none_without() {
     expect(&mut stage, "again: a size", vec![Command::SetFixedSize(Some((16, 4)))], 1);
     expect(&mut stage, "the same size", vec![Command::SetFixedSize(Some((16, 4)))], 0);
     let channel = Some(Channel::new(Input::KEYBOARD));
-    stage.compile(Command::SetChannel { pass: PassId::Image, index: 1, channel });
+    stage.compile(Command::SetChannel { pass: PassName::image(), index: 1, channel });
     expect(&mut stage, "again: a channel, once it is compiled", vec![], 1);
     assert!(stage.tick().wake_at.is_none(), "nothing to wait for");
 }
@@ -167,7 +167,7 @@ fn an_edit_compiles_after_quiet_and_an_error_keeps_the_picture() {
     stage.edit(&plain(0.6));
     let later = start + Duration::from_millis(150);
     assert!(is_soon(stage.session.tick(later).wake_at, later));
-    assert!(stage.session.is_tab_dirty(&IMAGE));
+    assert!(stage.session.is_tab_dirty(&image_tab()));
     stage.session.tick(later + Duration::from_millis(200));
     stage.until_compiled();
     assert_eq!(stage.red(), 153);
@@ -177,7 +177,7 @@ fn an_edit_compiles_after_quiet_and_an_error_keeps_the_picture() {
     let failed = |meanwhile| Some(Outcome::Failed { errors: 1, meanwhile });
     assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::LastGood));
     let error = &stage.session.diagnostics()[0];
-    assert_eq!((error.tab(), line(error)), (Some(&IMAGE), Some(3)), "{error:?}");
+    assert_eq!((error.tab(), line(error)), (Some(&image_tab()), Some(3)), "{error:?}");
     assert_eq!(stage.red(), 153, "the last working version");
     stage.act(Command::Step);
     assert_eq!(stage.red(), 153, "and it still draws");
@@ -234,12 +234,12 @@ fn nothing_unsaved_is_left_without_a_question() {
         (Command::Open("no such thing".into()), PendingAction::Open("no such thing".into())),
     ] {
         stage.session.apply(command);
-        assert_eq!(stage.session.question(), Some(&Question::Unsaved { then, tabs: vec![IMAGE] }));
+        assert_eq!(stage.session.question(), Some(&Question::Unsaved { then, tabs: vec![image_tab()] }));
         stage.session.apply(Command::Answer(Answer::TakeDisk));
         assert!(stage.session.question().is_some(), "an answer that does not fit changes nothing");
         stage.session.apply(Command::Answer(Answer::Cancel));
         assert!(stage.session.question().is_none() && stage.session.take_request().is_none());
-        assert_eq!(stage.session.text(&IMAGE), plain(0.4));
+        assert_eq!(stage.session.text(&image_tab()), plain(0.4));
     }
     stage.session.apply(Command::Close);
     stage.session.apply(Command::Answer(Answer::Save));
@@ -255,7 +255,7 @@ fn what_has_no_place_of_its_own_is_saved_where_the_user_says() {
     stage.edit(&plain(0.4));
     stage.session.apply(Command::AddTab(Tab::Common));
     let channel = Some(Channel::new(Input::KEYBOARD));
-    stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 2, channel: channel.clone() });
+    stage.session.apply(Command::SetChannel { pass: PassName::image(), index: 2, channel: channel.clone() });
     stage.session.apply(Command::Close);
     stage.session.apply(Command::Answer(Answer::Save));
     assert_eq!(stage.session.take_request(), Some(Request::SaveAs { suggested_name: "Untitled".into() }));
@@ -277,8 +277,8 @@ fn what_has_no_place_of_its_own_is_saved_where_the_user_says() {
     stage.session.apply(Command::SaveAs(folder.clone()));
     assert_eq!(stage.session.take_request(), Some(Request::Exit), "{:?}", stage.session.notices());
     let back = project::load(folder.to_str().unwrap()).unwrap().project;
-    assert_eq!(&*back.source(&IMAGE).unwrap().text, plain(0.4));
-    assert_eq!(back.pass(&PassId::Image).unwrap().channels[2], channel);
+    assert_eq!(&*back.source(&image_tab()).unwrap().text, plain(0.4));
+    assert_eq!(back.image().unwrap().bindings.get(2), channel.as_ref());
     assert!(back.common.is_some());
 }
 
@@ -313,14 +313,14 @@ fn a_failing_save_and_a_failing_open_lose_nothing() {
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.2))]);
     stage.session.apply(Command::Open(stage.dir.path().join("gone").to_str().unwrap().into()));
     assert_eq!(stage.notices(Level::Error).len(), 1);
-    assert_eq!(stage.session.text(&IMAGE), plain(0.2));
+    assert_eq!(stage.session.text(&image_tab()), plain(0.2));
     stage.edit(&plain(0.4));
     fs::remove_dir_all(stage.folder()).unwrap();
     fs::write(stage.folder(), "a file where the folder was").unwrap();
     stage.session.apply(Command::Save);
     assert_eq!(stage.notices(Level::Error).len(), 2, "{:?}", stage.session.notices());
     assert!(stage.session.is_dirty());
-    assert_eq!(stage.session.text(&IMAGE), plain(0.4));
+    assert_eq!(stage.session.text(&image_tab()), plain(0.4));
 }
 
 #[test]
@@ -352,7 +352,7 @@ fn a_pass_that_vanishes_is_warned_of_and_the_picture_is_drawn_without_it() {
         let mut stage = Stage::open(gpu.clone(), &files);
         assert_eq!(stage.red(), 102);
         if by_hand {
-            stage.session.apply(Command::EditPasses(PassEdit::Remove(Tab::Pass(PassId::Buffer("A".into())))));
+            stage.session.apply(Command::EditPasses(PassEdit::Remove(Tab::Pass(PassName::buffer("A")))));
         } else {
             stage.write("eddy.toml", "[passes.image]\nchannels.0 = { buffer = \"A\" }\n");
         }
@@ -380,9 +380,9 @@ fn channel_lines_in_a_lone_file_count_as_they_are_typed() {
     stage.write("lone.glsl", plain(0.2));
     stage.session.apply(Command::Open(stage.path("lone.glsl").to_str().unwrap().into()));
     stage.session.apply(Command::Pause);
-    let channels = |stage: &Stage| stage.session.project().pass(&PassId::Image).unwrap().channels.clone();
+    let channels = |stage: &Stage| stage.session.project().image().unwrap().bindings.clone();
     stage.edit(&format!("#iChannel1 \"keyboard\"\n{}", plain(0.4)));
-    assert!(matches!(&channels(&stage)[1], Some(c) if c.input == Input::KEYBOARD));
+    assert!(matches!(channels(&stage).get(1), Some(c) if c.input == Input::KEYBOARD));
     stage.compile(Command::CompileNow);
     assert!(stage.is_ok(), "{:?}", stage.session.diagnostics());
     stage.session.apply(Command::Save);
@@ -391,9 +391,9 @@ fn channel_lines_in_a_lone_file_count_as_they_are_typed() {
     stage.edit(&format!("#iChannel1 \"keybord\"\n{}", plain(0.4)));
     stage.compile(Command::CompileNow);
     let d = &stage.session.diagnostics()[0];
-    assert_eq!((d.tab(), line(d)), (Some(&IMAGE), Some(1)), "{d:?}");
+    assert_eq!((d.tab(), line(d)), (Some(&image_tab()), Some(1)), "{d:?}");
     stage.edit(&plain(0.4));
-    assert!(channels(&stage)[1].is_none());
+    assert!(channels(&stage).get(1).is_none());
 }
 
 /// A lone file has no place for a slider's value. Its code is written all the same, and once nothing but the value is left
@@ -405,7 +405,7 @@ fn the_code_of_a_lone_file_is_saved_whatever_its_sliders_are() {
                void main() { gl_FragColor = vec4(level); }\n";
     let lone =
         "#iUniform float level = 0.0 in { 0.0, 1.0 }\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(level); }\n";
-    for (name, text, tab) in [("lone.glsl", lone, IMAGE), ("lone.fs", isf, Tab::Included("lone.fs".into()))] {
+    for (name, text, tab) in [("lone.glsl", lone, image_tab()), ("lone.fs", isf, Tab::Included("lone.fs".into()))] {
         let mut stage = Stage::bare(gpu.clone());
         stage.write(name, text);
         stage.session.apply(Command::Open(stage.path(name).to_str().unwrap().into()));
@@ -443,7 +443,7 @@ fn what_is_added_to_a_shader_of_ghostty_is_not_lost_by_saving() {
     stage.session.apply(Command::Open(format!("ghostty:{}", stage.path("glow.glsl").display())));
     stage.session.apply(Command::Pause);
     stage.until_compiled();
-    let tab = Tab::Pass(PassId::Buffer("B".into()));
+    let tab = Tab::Pass(PassName::buffer("B"));
     stage.session.apply(Command::AddTab(tab.clone()));
     stage.session.apply(Command::EditText { tab: tab.clone(), text: text.replace("0.0", "0.5") });
     stage.session.apply(Command::Save);
@@ -498,7 +498,7 @@ fn a_save_into_another_projects_folder_names_every_file_and_keeps_what_it_replac
     let mut stage = Stage::with_options(gpu, options);
     let there = [("eddy.toml", "eddy = 1\nname = \"Theirs\"\n"), ("buffer_a.glsl", "theirs"), ("image.glsl", "theirs")];
     there.iter().for_each(|(name, text)| stage.write(name, text));
-    stage.session.apply(Command::AddTab(Tab::Pass(PassId::Buffer("A".into()))));
+    stage.session.apply(Command::AddTab(Tab::Pass(PassName::buffer("A"))));
     stage.edit(&plain(0.4));
     let asked = |stage: &mut Stage| {
         stage.session.apply(Command::SaveAs(stage.folder()));

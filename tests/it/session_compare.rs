@@ -6,7 +6,7 @@ use eddy::{
         comparing::{Baseline, Comparison},
         trial::TrialSettings,
     },
-    project::PassId,
+    project::PassName,
     session::{Command, Session, Status},
 };
 use std::{fs, sync::Arc};
@@ -102,7 +102,7 @@ fn without_a_state_only_the_newest_frame_is_drawn() {
     let other = stage.dir.path().join("other.glsl");
     fs::write(&other, text.replace("p.x", "p.y")).unwrap();
     let found = compare(&mut stage, Baseline::Project(other.display().to_string())).unwrap();
-    assert_eq!((found.frames, found.is_cut, found.pass.clone()), (1, false, PassId::Image));
+    assert_eq!((found.frames, found.is_cut, found.pass.clone()), (1, false, PassName::image()));
     let frame = stage.session.transport().frame as f32;
     assert_eq!((found.ours.texels[9][0], found.theirs.texels[9][0]), (frame, frame));
     assert_eq!((found.ours.texels[9][2], found.theirs.texels[9][2]), (1.5, 1.5));

@@ -3,7 +3,7 @@
 use crate::support::{self, stage::*};
 use eddy::{
     engine::Paint,
-    project::{PassId, Tab},
+    project::{PassName, Tab},
     session::{
         Command, SessionOptions,
         probe::{ProbeLook, ProbePlace},
@@ -23,8 +23,8 @@ const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) {
 }";
 const FILES: [(&str, &str); 2] = [("buffer_a.glsl", HISTORY), ("image.glsl", SHOW)];
 
-fn buffer_a() -> PassId {
-    PassId::Buffer("A".into())
+fn buffer_a() -> PassName {
+    PassName::buffer("A")
 }
 
 fn step(stage: &mut Stage, count: usize) {
@@ -38,7 +38,7 @@ fn a_pixel_is_traced_from_what_is_there_and_nothing_is_drawn_for_it() {
     let mut stage = Stage::open(gpu, &FILES);
     step(&mut stage, 5);
     let (frames, frame) = (stage.frames(), stage.session.transport().frame);
-    for pass in [PassId::Image, buffer_a()] {
+    for pass in [PassName::image(), buffer_a()] {
         stage.session.apply(Command::ShowPass(pass.clone()));
         stage.session.apply(Command::Trace(Some([0.4, 0.6])));
         stage.until("a trace", |s| s.trace().traced.is_some_and(|traced| traced.pass == pass));
@@ -64,7 +64,7 @@ fn a_probe_has_the_numbers_and_the_buffers_go_on() {
         step(&mut stage, 3);
         // Another program draws one frame while paused, whatever it draws.
         let at = SHOW.find("p.x * 2.0").unwrap() + 5;
-        let place = ProbePlace { tab: Tab::Pass(PassId::Image), at, visit: 0 };
+        let place = ProbePlace { tab: Tab::image(), at, visit: 0 };
         stage.compile(if probes { Command::Probe(Some(place)) } else { Command::CompileNow });
         step(&mut stage, 4);
         if probes {
@@ -98,7 +98,7 @@ fn a_probe_that_is_shown_otherwise_is_painted_though_nothing_is_drawn() {
     // A picture that is drawn within a few milliseconds is waited for in the tick that asks for it.
     stage.compile(Command::SetFixedSize(Some((2048, 1024))));
     let at = SHOW.find("p.x * 2.0").unwrap() + 5;
-    let place = ProbePlace { tab: Tab::Pass(PassId::Image), at, visit: 0 };
+    let place = ProbePlace { tab: Tab::image(), at, visit: 0 };
     stage.session.apply(Command::Probe(Some(place)));
     stage.until("numbers", |s| s.probe().is_some_and(|view| view.numbers.is_some()));
     stage.for_a_while();
@@ -143,7 +143,7 @@ fn a_breakpoint_stands_where_a_statement_does() {
     stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
     stage.compile(Command::Pause);
     let at = |tab: &Tab, line: usize| stage.session.stop_line(tab, line);
-    let found: Vec<Option<usize>> = (0..=18).map(|line| at(&IMAGE, line)).collect();
+    let found: Vec<Option<usize>> = (0..=18).map(|line| at(&image_tab(), line)).collect();
     let wanted = [4, 4, 4, 4, 4, 8, 8, 8, 8, 8, 13, 13, 13, 13, 14, 16, 16].map(Some);
     assert_eq!(found[..17], wanted);
     assert_eq!(found[17..], [None, None], "none is below");
@@ -154,7 +154,7 @@ fn a_breakpoint_stands_where_a_statement_does() {
     for text in ["", "{", "void mainImage(", "void mainImage(out vec4 o, in vec2 p) { o = ; for (;; }", "float f() {"] {
         stage.edit(text);
         for line in 0..3 {
-            assert!(stage.session.stop_line(&IMAGE, line).is_none_or(|line| line < 3));
+            assert!(stage.session.stop_line(&image_tab(), line).is_none_or(|line| line < 3));
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::support::{self, stage::*};
 use eddy::{
-    project::{PassId, Tab},
+    project::{PassName, Tab},
     session::{Command, Level, Session, SessionOptions, measures::Measure},
 };
 use std::fs;
@@ -72,12 +72,12 @@ fn numbers_are_measured_frame_by_frame_while_somebody_looks() {
         ("there is no pass buffer_q", "the project's passes are buffer_a, buffer_b and image")
     );
     assert_eq!(why(&stage, "max(buffer_a.x)"), None);
-    stage.compile(Command::ShowPass(PassId::Buffer("B".into())));
+    stage.compile(Command::ShowPass(PassName::buffer("B")));
     assert_eq!(why(&stage, "sum(buffer_b)"), None);
     stage.until("a sum of what is shown", |s| measure(s, "sum(buffer_b)").record.newest().is_some());
     assert_eq!(measure(&stage.session, "sum(buffer_b)").record.newest().unwrap().value, 8.0 * 4.0 * 4.0);
 
-    stage.compile(Command::ShowPass(PassId::Image));
+    stage.compile(Command::ShowPass(PassName::image()));
     step(&mut stage, 1);
 
     // Nobody looks: nothing is measured, and frames go on.
@@ -116,7 +116,7 @@ fn records_follow_time_and_edits() {
     stage.compile(Command::CompileNow);
     assert!(frames(&stage).starts_with(&[0, 1, 2, 3]) && measure(&stage.session, "max(buffer_a.x)").serial == serial);
     assert_eq!(measure(&stage.session, "sum(buffer_q)").place.line, 4);
-    let tab = Tab::Pass(PassId::Buffer("A".into()));
+    let tab = Tab::Pass(PassName::buffer("A"));
     stage.act(Command::EditText { tab, text: GROWING.replace("max(buffer_a.x)", "min(buffer_a.x)") });
     assert!(measure(&stage.session, "min(buffer_a.x)").record.newest().is_none());
     assert!(stage.session.measures().iter().all(|measure| measure.text != "max(buffer_a.x)"));

@@ -2,16 +2,14 @@
 
 use crate::support::{
     self,
-    stage::{IMAGE, Stage, plain},
+    stage::{Stage, image_tab, plain},
 };
 use eddy::{
     audio::Track,
-    project::{CustomUniformValue, PassEdit, PassId, Tab},
+    project::{CustomUniformValue, PassEdit, Tab},
     session::{Command, Outcome, Session},
 };
 use std::sync::Arc;
-
-const SOUND: Tab = Tab::Pass(PassId::Sound);
 
 fn constant(value: &str) -> String {
     format!("vec2 mainSound(int samp, float time) {{ return vec2({value}, -0.5); }}\n")
@@ -35,7 +33,7 @@ fn until_whole(stage: &mut Stage) -> Arc<Track> {
 }
 
 fn edit_sound(stage: &mut Stage, text: &str) {
-    stage.session.apply(Command::EditText { tab: SOUND, text: text.into() });
+    stage.session.apply(Command::EditText { tab: Tab::sound(), text: text.into() });
 }
 
 /// (0.5 + 0.5 v) 65,536 - 32,767.
@@ -83,7 +81,7 @@ fn a_track_is_made_once_and_again_only_where_it_sounds_different() {
     assert!(until_left(&mut stage, QUARTER) > second);
 
     // Without the pass there is nothing to hear; another project begins anew.
-    stage.session.apply(Command::EditPasses(PassEdit::Remove(SOUND)));
+    stage.session.apply(Command::EditPasses(PassEdit::Remove(Tab::sound())));
     stage.until("silence", |session| session.sound_track().is_none() && session.sound().is_none());
 }
 
@@ -111,7 +109,7 @@ fn errors_are_in_the_tab_of_the_pass_and_the_picture_goes_on() {
     let mut stage = Stage::open(gpu, &[("sound.glsl", &constant("0.25")), ("image.glsl", &plain(0.2))]);
     let revision = until_left(&mut stage, QUARTER);
     edit_sound(&mut stage, "vec2 mainSound(float time) { return vec2(time); }\n");
-    stage.until("an error", |session| session.diagnostics().iter().any(|d| d.tab() == Some(&SOUND)));
+    stage.until("an error", |session| session.diagnostics().iter().any(|d| d.tab() == Some(&Tab::sound())));
     assert!(matches!(stage.session.compile_state().last, Some(Outcome::Failed { errors: 1, .. })));
     stage.edit(&plain(0.4));
     stage.until_red(102);
@@ -121,7 +119,7 @@ fn errors_are_in_the_tab_of_the_pass_and_the_picture_goes_on() {
     assert!(stage.session.diagnostics().is_empty());
     // An error of the picture does not silence the sound.
     stage.edit("void mainImage(out vec4 o, in vec2 p) { o = nothing; }");
-    stage.until("an error", |session| session.diagnostics().iter().any(|d| d.tab() == Some(&IMAGE)));
+    stage.until("an error", |session| session.diagnostics().iter().any(|d| d.tab() == Some(&image_tab())));
     edit_sound(&mut stage, &constant("0.25"));
     until_left(&mut stage, QUARTER);
 }

@@ -61,9 +61,9 @@ fn what_is_dropped_and_moves_is_a_video() {
     for (name, bytes, kind) in [("moves.gif", gif(3), InputKind::Video), ("stands.gif", gif(1), InputKind::Texture)] {
         let path = stage.dir.path().join(name);
         std::fs::write(&path, bytes).unwrap();
-        let to = Some((eddy::project::PassId::Image, Some(0)));
+        let to = Some((eddy::project::PassName::image(), Some(0)));
         stage.session.apply(Command::Bring { paths: vec![path], to });
-        let channel = stage.session.project().passes[0].channels[0].clone();
+        let channel = stage.session.project().passes[0].bindings.get(0).cloned();
         assert_eq!(channel.unwrap().input.kind(), kind, "{name}");
     }
 }

@@ -7,7 +7,7 @@ use eddy::{
     gpu::Gpu,
     media::{self, MediaKey, MediaSet},
     project::{
-        self, Channel, CustomUniformValue, Filter, Input, InputKind, Media, Pass, PassId, Project, Sampler, Wrap,
+        self, Channel, CustomUniformValue, Filter, Input, InputKind, Media, Pass, PassName, Project, Sampler, Wrap,
     },
 };
 use std::{f64::consts::TAU, sync::Arc};
@@ -19,7 +19,7 @@ const TONES: &str = "float turn(int samp, int hertz) { return 6.28318530718 * fl
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p / iResolution.xy, fract(iTime), 1.0); }";
 
 fn sound(code: &str, channels: [Option<Channel>; 4]) -> Project {
-    project(vec![pass(PassId::Sound, code, channels), image(SHOW, Default::default())])
+    project(vec![pass(PassName::sound(), code, channels), image(SHOW, Default::default())])
 }
 
 /// A sound pass with this body.
@@ -132,7 +132,7 @@ fn a_sound_pass_reads_pictures_and_of_a_volume_the_size() {
     let about = |channel: &str| said.iter().any(|message| message.starts_with(&format!("{channel} of Sound is")));
     assert!(!about("iChannel0") && about("iChannel1") && about("iChannel2") && about("iChannel3"), "{said:?}");
     let samples = block(&mut engine_of(&gpu, &project, &media), 0);
-    let key = MediaKey::of_channel(project.passes[0].channels[0].as_ref().unwrap()).unwrap();
+    let key = MediaKey::of_channel(project.passes[0].bindings.get(0).unwrap()).unwrap();
     let texels = &media.get(&key).unwrap().bytes;
     for n in 0..4096usize {
         let wanted = quantised(f64::from(texels[4 * n]) / 255.0);
@@ -185,7 +185,7 @@ fn a_picture_is_the_same_with_a_sound_pass_without_one_and_with_a_broken_one() {
         let options = BuildOptions { skip, ..BuildOptions::default() };
         let mut engine = engine_with(&gpu, project, &MediaSet::new(), &options, (64, 32));
         run(&mut engine, 0, 5);
-        engine.read(&PassId::Image).unwrap().texels
+        engine.read_image().unwrap().texels
     };
     let alone = picture(&project(vec![image(SHOW, Default::default())]), true);
     for code in [TONES, "vec2 mainSound(int samp, float time) { return nothing; }"] {
@@ -222,7 +222,7 @@ fn programs_that_make_the_same_sound_are_known() {
     let mut builder = Builder::new(gpu.clone());
     let code = format!("#iUniform float level = 0.5 in {{0.0, 1.0}}\n{}", samples_of("return vec2(level);"));
     let show = format!("#iUniform float tint = 0.5 in {{0.0, 1.0}}\n{}", SHOW.replace("o = vec4(", "o = tint * vec4("));
-    let first = project(vec![pass(PassId::Sound, &code, Default::default()), image(&show, Default::default())]);
+    let first = project(vec![pass(PassName::sound(), &code, Default::default()), image(&show, Default::default())]);
     let mut build = |edit: &dyn Fn(&mut Project)| {
         let mut project = first.clone();
         edit(&mut project);
@@ -365,5 +365,5 @@ fn a_sound_pass_goes_to_the_site_and_back() {
 #[test]
 fn one_rate_is_used_everywhere() {
     assert_eq!(SOUND_FRAMES, 180 * SAMPLE_RATE);
-    let _: Pass = pass(PassId::Sound, TONES, Default::default());
+    let _: Pass = pass(PassName::sound(), TONES, Default::default());
 }

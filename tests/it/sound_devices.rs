@@ -8,7 +8,7 @@ use eddy::{
         host::Format,
     },
     playback::scene::{Scene, SceneInputs},
-    project::{InputKind, Media, PassId},
+    project::{InputKind, Media, PassName},
     session::{Command, DeviceState, Level, SessionOptions},
 };
 use std::{
@@ -392,7 +392,7 @@ fn a_microphone_is_opened_by_a_person_alone_and_its_frames_are_recorded() {
         room.run(0.05);
     }
     assert_eq!(seen(&mut room), shown, "the same picture without the microphone");
-    assert_eq!(room.stage.session.shown_pass(), &PassId::Image);
+    assert_eq!(room.stage.session.shown_pass(), &PassName::image());
 }
 
 #[test]
@@ -496,7 +496,7 @@ fn a_microphone_that_is_not_there_is_told_of_and_one_that_no_channel_reads_stays
     room.run(3.5);
     assert!(room.host.input.is_open());
     assert_eq!(room.stage.count("the microphone cannot be used"), 0);
-    room.stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 0, channel: None });
+    room.stage.session.apply(Command::SetChannel { pass: PassName::image(), index: 0, channel: None });
     room.run(0.2);
     assert!(!room.host.input.is_open());
 }
@@ -507,9 +507,9 @@ fn a_song_that_is_dropped_is_music_of_a_free_channel() {
     let elsewhere = room.stage.dir.path().join("tune.WAV");
     std::fs::write(&elsewhere, wav((0..44_100).map(saw))).unwrap();
     room.stage.session.apply(Command::Play);
-    room.stage.session.apply(Command::Bring { paths: vec![elsewhere.clone()], to: Some((PassId::Image, None)) });
+    room.stage.session.apply(Command::Bring { paths: vec![elsewhere.clone()], to: Some((PassName::image(), None)) });
     room.stage.until("music", |session| session.output_view().is_some_and(|view| view.has_sound));
-    let channel = room.stage.session.project().pass(&PassId::Image).unwrap().channels[1].clone().unwrap();
+    let channel = room.stage.session.project().image().unwrap().bindings.get(1).cloned().unwrap();
     assert_eq!(channel.input.kind(), InputKind::Music);
     assert_eq!(channel.input.media(), Some(&Media::Picked(elsewhere)));
     assert_eq!(room.stage.count("iChannel1 of Image reads tune.WAV"), 1);

@@ -11,7 +11,7 @@ use eddy::{
         offline::Offline,
         script::{ScriptedInputs, parse_mouse},
     },
-    project::{PassId, presets},
+    project::{PassName, presets},
 };
 use image::{DynamicImage, RgbImage, codecs::jpeg::JpegEncoder, imageops};
 use std::{
@@ -81,7 +81,7 @@ fn draw(name: &str) -> Option<RgbImage> {
     for _ in 0..=frame {
         offline.draw().unwrap();
     }
-    let pixels = offline.read(&PassId::Image, 0).unwrap();
+    let pixels = offline.read(&PassName::image(), 0).unwrap();
     let rgba = image::RgbaImage::from_raw(pixels.width, pixels.height, pixels.to_rgba8()).unwrap();
     let rgb = DynamicImage::ImageRgba8(rgba).to_rgb8();
     Some(imageops::resize(&rgb, SIZE.0, SIZE.1, imageops::FilterType::Triangle))

@@ -5,7 +5,7 @@ use eddy::{
     engine::{BuildOptions, Engine, Pixels},
     media,
     playback::{npy, offline::Offline, recording::Recording, script::ScriptedInputs},
-    project::{self, PassId, Tab},
+    project::{self, PassName, Tab},
     session::{Command, Level, TimeRange},
 };
 use std::{
@@ -31,7 +31,7 @@ const MANIFEST: &str =
 pub(super) fn stage(gpu: eddy::gpu::Gpu) -> Stage {
     let mut stage = Stage::open(gpu, &[("eddy.toml", MANIFEST), ("buffer_a.glsl", HISTORY), ("image.glsl", SHOW)]);
     assert!(stage.is_ok(), "{:?}", stage.session.notices());
-    stage.act(Command::ShowPass(PassId::Buffer("A".into())));
+    stage.act(Command::ShowPass(PassName::buffer("A")));
     stage
 }
 
@@ -267,7 +267,7 @@ fn a_range_is_played_again_and_again_from_the_same_state() {
 fn new_code_shows_the_same_frame_of_the_same_inputs() {
     let Some(gpu) = support::gpu() else { return };
     let other = HISTORY.replace("0.37", "0.41");
-    let buffer_a = || Tab::Pass(PassId::Buffer("A".into()));
+    let buffer_a = || Tab::Pass(PassName::buffer("A"));
     let edited = |stage: &mut Stage, text: &str| {
         stage.session.apply(Command::EditText { tab: buffer_a(), text: text.into() });
         stage.compile(Command::CompileNow);
@@ -371,7 +371,7 @@ fn a_recorded_run_is_replayed_bit_for_bit() {
         for _ in 0..frames {
             offline.draw().unwrap();
         }
-        let pixels: Pixels = offline.read(&PassId::Image, 0).unwrap();
+        let pixels: Pixels = offline.read(&PassName::image(), 0).unwrap();
         let mut replayed = Vec::new();
         npy::write(&mut replayed, &pixels).unwrap();
         assert_eq!((pixels.width, pixels.height), (80, 45));

@@ -5,7 +5,7 @@ use eddy::{
     diag::render_all,
     engine::{BuildError, BuildOptions, Program},
     media::MediaSet,
-    project::{CustomUniformType, CustomUniformValue, PassId, Source},
+    project::{CustomUniformType, CustomUniformValue, PassName, Source},
     session::{Command, Level},
 };
 
@@ -73,8 +73,8 @@ fn common_declares_for_every_pass_and_a_pass_for_itself() {
     p.common = Some(Source { name: "Common".into(), path: None, text: "#iUniform float shared_one = 0.5".into() });
     let mut engine = ran(&gpu, &p, (1, 1), 1);
     assert_walked(&mut engine, &p, &buffer("A"));
-    assert_walked(&mut engine, &p, &PassId::Image);
-    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 0, 0), [2.5, 1.0, 0.5, 1.0]);
+    assert_walked(&mut engine, &p, &PassName::image());
+    assert_eq!(texel(&engine.read_image().unwrap(), 0, 0), [2.5, 1.0, 0.5, 1.0]);
     let mut stranger = p.clone();
     stranger.passes[1].source.text = show.replace("shared_one", "own").into();
     let said = errors(&gpu, &stranger);

@@ -2,7 +2,7 @@
 //! where a buffer without a pass is a texture of zeros. Drawn by the device, and walked.
 
 use crate::support::{gpu, meshes, program::Bench, walked::assert_walked, *};
-use eddy::project::{Channel, Input, InputKind, Media, PassId, Project, Sampler};
+use eddy::project::{Channel, Input, InputKind, Media, PassName, Project, Sampler};
 
 const OPAQUE: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 const ZERO: [f32; 4] = [0.0; 4];
@@ -65,7 +65,7 @@ fn a_channel_without_a_texture_is_one_opaque_black_texel_to_every_read() {
     for input in [
         Input::Media { kind: InputKind::Volume, media: file() },
         Input::Media { kind: InputKind::Cubemap, media: file() },
-        Input::pass(PassId::Cubemap),
+        Input::pass(PassName::cube()),
     ] {
         for read in DEEP_READS {
             // llvmpipe's weights of eight equal texels make a bit less than 1.

@@ -8,7 +8,7 @@ use eddy::{
     debugger::trace::{self, Event, Extent},
     engine::{BuildOptions, Engine, FrameInputs, Sources},
     media,
-    project::{PassId, Project, presets},
+    project::{PassName, Project, presets},
 };
 
 const SIZE: (u32, u32) = (64, 36);
@@ -34,7 +34,7 @@ void mainImage(out vec4 o, in vec2 p) {
 ";
     let project = project(vec![image(code, Default::default())]);
     let mut engine = engine(&gpu, &project, (8, 4));
-    let image = PassId::Image;
+    let image = PassName::image();
     let read = inspect(&mut engine, &FrameInputs::at_fixed_step(0, 60.0), &image);
     let texts = Sources::new(&project);
     let trace = trace::trace(&texts, 0, &read, (5, 1), Extent::default()).unwrap();
@@ -312,12 +312,12 @@ fn what_a_probe_and_a_traced_pixel_cost() {
     projects.push(("long marcher".into(), project(vec![image(&long_marcher(), Default::default())])));
     for (name, project) in projects {
         let (media, _) = media::gather(&project, None);
-        let index = project.passes.iter().position(|p| p.id == PassId::Image).unwrap();
+        let index = project.image_index().unwrap();
         let text = &project.passes[index].source.text;
-        let ids = project.passes.iter().map(|p| p.id.clone()).filter(PassId::is_picture);
-        let buffers: Vec<PassId> = ids.filter(|id| *id != PassId::Image).collect();
-        let engine = |probe: Option<(PassId, eddy::glsl::Probe)>| {
-            let own = if probe.is_some() { BuildOptions::probed() } else { PassId::Image };
+        let ids = project.passes.iter().map(|p| p.id.clone()).filter(PassName::is_picture);
+        let buffers: Vec<PassName> = ids.filter(|id| !id.is_image()).collect();
+        let engine = |probe: Option<(PassName, eddy::glsl::Probe)>| {
+            let own = if probe.is_some() { BuildOptions::probed() } else { PassName::image() };
             let wanted = [own].into_iter().chain(buffers.clone()).collect();
             let options = BuildOptions { wanted, probe, ..BuildOptions::default() };
             engine_with(&gpu, &project, &media, &options, (640, 360))
@@ -334,7 +334,7 @@ fn what_a_probe_and_a_traced_pixel_cost() {
             let probe = eddy::glsl::Probe { source: Project::pass_id(index), at: at as u32, visit: 0 };
             let Some(found) = sources.probed(index, &probe) else { continue };
             // Frame by frame in turns, as the machine does other things too.
-            let (mut picture, mut probed) = (engine(None), engine(Some((PassId::Image, probe))));
+            let (mut picture, mut probed) = (engine(None), engine(Some((PassName::image(), probe))));
             let pairs = (0..24).map(|frame| (millis(&mut picture, frame), millis(&mut probed, frame)));
             let pairs: Vec<(f64, f64)> = pairs.skip(3).collect();
             let ratio = median(pairs.iter().map(|(picture, probed)| probed / picture).collect());
@@ -346,10 +346,10 @@ fn what_a_probe_and_a_traced_pixel_cost() {
             millis(&mut picture, frame);
         }
         for place in [[0.5, 0.5], [0.3, 0.6]] {
-            let (read, drawn) = (picture.inspect(&PassId::Image).unwrap(), picture.read(&PassId::Image).unwrap());
+            let (read, drawn) = (picture.inspect(&PassName::image()).unwrap(), picture.read_image().unwrap());
             let began = std::time::Instant::now();
             let taken = (read, &drawn);
-            let traced = trace::Traced::new(project.clone(), &PassId::Image, 2, taken, place).unwrap();
+            let traced = trace::Traced::new(project.clone(), &PassName::image(), 2, taken, place).unwrap();
             let millis = began.elapsed().as_secs_f64() * 1e3;
             let (lines, moments) = (text.lines().count(), traced.history.moments.len());
             println!("{name}: {lines} lines, {moments} moments in {millis:.2} ms");

@@ -19,7 +19,7 @@ use eddy::{
     },
     engine::{BuildOptions, Engine, FrameInputs, Program, Sources},
     media,
-    project::{self, PassId, Project},
+    project::{self, PassName, Project},
 };
 use std::{
     collections::BTreeMap,
@@ -66,7 +66,7 @@ fn class(walked: [f32; 4], drawn: [f32; 4]) -> (&'static str, f64) {
 fn compare(path: &Path) -> Result<(), String> {
     let gpu = gpu().ok_or("no device")?;
     let project = project::load(&path.to_string_lossy()).map_err(|e| e.to_string())?.project;
-    let wanted: Vec<PassId> =
+    let wanted: Vec<PassName> =
         project.passes.iter().map(|pass| &pass.id).filter(|id| id.is_picture()).cloned().collect();
     let (media, _) = media::gather(&project, None);
     let options = BuildOptions { wanted: wanted.clone(), skip: false, ..BuildOptions::default() };
@@ -90,7 +90,7 @@ fn compare(path: &Path) -> Result<(), String> {
 fn walk_pass(
     engine: &mut Engine,
     (project, sources): (&Project, &Sources<'_>),
-    id: &PassId,
+    id: &PassName,
     path: &Path,
 ) -> Result<(), String> {
     let index = project.passes.iter().position(|pass| pass.id == *id).expect("it is drawn");

@@ -15,14 +15,14 @@ use eddy::{
     engine::{BuildOptions, FrameInputs, PassInputs, Pixels, Sources},
     gpu::Gpu,
     media,
-    project::{self, Camera, Cull, DepthTest, MeshDraw, PassId, Project, Stage, TexelFormat},
+    project::{self, Camera, Cull, DepthTest, MeshDraw, Pass, PassName, Project, Stage, TexelFormat},
 };
 use std::sync::Arc;
 
 const SIZE: (u32, u32) = (48, 32);
 
 /// What a pass reads in a frame of a run, and what it draws.
-fn drawn(gpu: &Gpu, project: &Project, pass: &PassId, size: (u32, u32), frame: i32) -> (PassInputs, Pixels) {
+fn drawn(gpu: &Gpu, project: &Project, pass: &PassName, size: (u32, u32), frame: i32) -> (PassInputs, Pixels) {
     let (media, _) = media::gather(project, None);
     let options = BuildOptions { wanted: vec![pass.clone()], skip: false, ..BuildOptions::default() };
     let mut engine = engine_with(gpu, project, &media, &options, size);
@@ -35,7 +35,7 @@ fn drawn(gpu: &Gpu, project: &Project, pass: &PassId, size: (u32, u32), frame: i
     (read, engine.read(pass).unwrap())
 }
 
-fn tracer<'p>(project: &Project, pass: &PassId, read: &'p PassInputs) -> Tracer<'p> {
+fn tracer<'p>(project: &Project, pass: &PassName, read: &'p PassInputs) -> Tracer<'p> {
     let index = project.passes.iter().position(|p| p.id == *pass).unwrap();
     let extent = Extent { steps: 0, ..Extent::default() };
     Tracer::new(&Sources::new(project), index, read, extent).unwrap_or_else(|e| panic!("{e}"))
@@ -229,8 +229,8 @@ fn the_mesh_passes_of_presets_are_walked_to_what_the_device_draws() {
     {
         let project = project::presets::load(name).unwrap().project;
         for pass in passes.iter().map(|name| buffer(name)) {
-            let settings = &project.pass(&pass).unwrap().settings;
-            assert!(settings.meshes().is_some());
+            let Pass { body, settings, .. } = project.pass(&pass).unwrap();
+            assert!(!body.is_screen());
             for frame in [0, 31] {
                 let (read, device) = drawn(&gpu, &project, &pass, (160, 90), frame);
                 let tracer = tracer(&project, &pass, &read);

@@ -15,7 +15,7 @@ use eddy::{
     engine::{BuildOptions, FrameInputs, PassInputs, Pixels, Sources},
     gpu::Gpu,
     media,
-    project::{self, Pass, PassId, Project, TexelFormat, presets},
+    project::{self, Pass, PassName, Project, TexelFormat, presets},
 };
 use std::collections::BTreeSet;
 
@@ -158,7 +158,7 @@ fn walk_pass(
 }
 
 /// What is wrong with a pass, against the exceptions.
-fn judge(preset: &str, id: &PassId, found: &Found) -> Vec<String> {
+fn judge(preset: &str, id: &PassName, found: &Found) -> Vec<String> {
     let title = id.title();
     let exception = EXCEPTIONS.iter().find(|exception| exception.preset == preset && exception.pass == title);
     let Some(Exception { absolute, share, reasons, .. }) = exception else {
@@ -182,16 +182,17 @@ fn judge(preset: &str, id: &PassId, found: &Found) -> Vec<String> {
 }
 
 /// Draws a preset, and walks through its passes at each of the frames.
-fn walk_preset(gpu: &Gpu, name: &str) -> Vec<(PassId, Found)> {
+fn walk_preset(gpu: &Gpu, name: &str) -> Vec<(PassName, Found)> {
     let mut project = project::presets::load(name).unwrap().project;
     // Nothing runs for the texels of a pass that is off.
     project.passes.iter_mut().for_each(|pass| pass.settings.when = None);
     let (media, _) = media::gather(&project, None);
     let sources = Sources::new(&project);
-    let wanted: Vec<PassId> = project.passes.iter().map(|pass| pass.id.clone()).filter(PassId::is_picture).collect();
+    let wanted: Vec<PassName> =
+        project.passes.iter().map(|pass| pass.id.clone()).filter(PassName::is_picture).collect();
     let options = BuildOptions { wanted: wanted.clone(), skip: false, ..BuildOptions::default() };
     let mut engine = engine_with(gpu, &project, &media, &options, SIZE);
-    let mut found: Vec<(PassId, Found)> = wanted.into_iter().map(|id| (id, Found::default())).collect();
+    let mut found: Vec<(PassName, Found)> = wanted.into_iter().map(|id| (id, Found::default())).collect();
     // Without state a frame is what it is whatever was drawn before.
     let has_state = !project.stateful_passes().is_empty();
     let mut drawn_to = 0;
@@ -249,7 +250,7 @@ fn a_preset_that_is_not_what_is_drawn_is_seen() {
     let Some(gpu) = gpu() else { return };
     let project = project::presets::load("feedback").unwrap().project;
     let mut engine = ran(&gpu, &project, SIZE, 4);
-    let index = project.passes.iter().position(|pass| pass.id == PassId::Image).unwrap();
+    let index = project.image_index().unwrap();
     let mut other = project.clone();
     let text = format!(
         "#define mainImage preset\n{}\n#undef mainImage\nvoid mainImage(out vec4 o, in vec2 p) {{ preset(o, p); o *= \
@@ -257,10 +258,10 @@ fn a_preset_that_is_not_what_is_drawn_is_seen() {
         project.passes[index].source.text
     );
     other.passes[index].source.text = text.into();
-    let (read, drawn) = (engine.inspect(&PassId::Image).unwrap(), engine.read(&PassId::Image).unwrap());
+    let (read, drawn) = (engine.inspect(&PassName::image()).unwrap(), engine.read_image().unwrap());
     for (project, is_right) in [(&project, true), (&other, false)] {
         let mut found = Found::default();
         walk_pass((project, &Sources::new(project)), (index, 3), (&read, &drawn), &mut found);
-        assert_eq!(judge("feedback", &PassId::Image, &found).is_empty(), is_right, "{found:?}");
+        assert_eq!(judge("feedback", &PassName::image(), &found).is_empty(), is_right, "{found:?}");
     }
 }

@@ -8,7 +8,7 @@ use crate::{
     cli::text_place::TextPlace,
     debugger::{divergence::MOST, trace::STEPS},
     playback::capture::Format,
-    project::{self, PassId, Tab},
+    project::{self, PassName, Tab},
 };
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -54,11 +54,11 @@ pub struct ProbeArgs {
 
 impl ProbeArgs {
     /// Returns the pass that is drawn.
-    pub fn pass(&self) -> PassId {
+    pub fn pass(&self) -> PassName {
         match (&self.pass, &self.at.tab) {
             (Some(pass), _) => pass.pass.clone(),
             (None, Tab::Pass(pass)) => pass.clone(),
-            (None, _) => PassId::Image,
+            (None, _) => PassName::image(),
         }
     }
 
@@ -70,7 +70,7 @@ impl ProbeArgs {
     /// The file of the values, if one is asked for.
     pub fn file(&self) -> Option<PathBuf> {
         let TextPlace { tab, line, column } = &self.at;
-        let tab = tab.pass().map_or_else(|| "common".to_owned(), PassId::key);
+        let tab = tab.pass().map_or("common", PassName::key);
         let named = |format: Format| {
             let stem = project::stem(&self.project);
             PathBuf::from(format!("{stem}_{tab}_{line}_{column}.{}", format.extension()))

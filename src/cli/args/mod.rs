@@ -202,7 +202,7 @@ mod tests {
         cli::command::Command,
         film::Format,
         playback::frames::{FrameList, Frames},
-        project::PassId,
+        project::PassName,
     };
 
     fn parse(line: &str) -> Result<Cli, String> {
@@ -241,10 +241,10 @@ mod tests {
         assert!(parse("eddy fluid --paused").unwrap().window.paused);
         assert_eq!(r.project, ["a", "b"]);
         assert_eq!((r.run.size, r.frames, r.run.fps), ((320, 180), Some(Frames::Count(9)), Some(30.0)));
-        assert_eq!((r.pass.pass.key(), r.style.format), ("buffer_b".into(), Some(Format::Npy)));
+        assert_eq!((r.pass.pass.key(), r.style.format), ("buffer_b", Some(Format::Npy)));
         assert_eq!(FrameList::joined(&r.at).unwrap().numbers(), [0, 4, 8]);
         assert_eq!(r.pass.target, 0);
-        assert_eq!(picture("scene:2"), Ok(Picture { pass: PassId::Buffer("scene".into()), target: 2 }));
+        assert_eq!(picture("scene:2"), Ok(Picture { pass: PassName::buffer("scene"), target: 2 }));
         assert!(picture("scene:x").is_err());
         assert_eq!(r.run.set, ["a=1", "b=1,2"]);
         assert!(r.json && r.run.no_skip && r.run.date.is_some());

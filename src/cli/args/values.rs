@@ -3,7 +3,7 @@
 use crate::{
     film::{Chroma, Codec, ColorRange, Format, Quality, Rate},
     playback::{capture, recording::Recording, shard::Shard},
-    project::PassId,
+    project::PassName,
     texture::Face,
     video::CameraSource,
 };
@@ -114,7 +114,7 @@ pub fn shard(text: &str) -> Result<Shard, String> {
 /// A pass, and which of its targets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
-    pub pass: PassId,
+    pub pass: PassName,
     pub target: usize,
 }
 
@@ -129,9 +129,9 @@ pub fn picture(text: &str) -> Result<Picture, String> {
 }
 
 /// Returns the number of a cubemap's face, or says that the pass has none.
-pub fn face_of(pass: &PassId, face: Option<usize>) -> Result<usize, String> {
+pub fn face_of(pass: &PassName, face: Option<usize>) -> Result<usize, String> {
     match face {
-        Some(_) if *pass != PassId::Cubemap => Err("--face: only a cubemap has faces; add --pass cube_a".into()),
+        Some(_) if !pass.has_faces() => Err("--face: only a cubemap has faces; add --pass cube_a".into()),
         face => Ok(face.unwrap_or_default()),
     }
 }
@@ -142,8 +142,8 @@ pub fn face(text: &str) -> Result<usize, String> {
     face.ok_or_else(|| format!("a face is one of {}", Face::ALL.map(Face::name).join(", ")))
 }
 
-pub fn pass(text: &str) -> Result<PassId, String> {
-    PassId::parse(text)
+pub fn pass(text: &str) -> Result<PassName, String> {
+    PassName::parse(text)
         .ok_or_else(|| "unknown pass; write image, buffer_a, buffer_b … or the name of another buffer".into())
 }
 

@@ -124,7 +124,7 @@ fn consequences_of_undefined_values_are_reported_at_the_source() {
 #[test]
 fn a_buffer_shows_every_component_that_it_stores() {
     let mut project = Project::of_image("Untitled".into(), image("o.xyz = vec3(p, 1.);"));
-    project.passes[0].id = eddy_project::PassId::Buffer("A".into());
+    project.passes[0].id = eddy_project::PassName::buffer("A");
     let audit = audit(&Sources::new(&project), 0, &inputs(), &[(1, 1)], STEPS).unwrap();
     assert_eq!(audit.findings.iter().map(|finding| &*finding.numbers).collect::<Vec<_>>(), ["o.w"]);
 }

@@ -3,7 +3,7 @@
 use super::assignment::Assignment;
 use eddy_engine::{BuildError, BuildOptions, Builder, Engine, EngineError, FrameInputs, Snapshot};
 use eddy_media::MediaSet;
-use eddy_project::{CustomUniformValues, PassId, Project};
+use eddy_project::{CustomUniformValues, PassName, Project};
 
 /// A value could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -22,7 +22,7 @@ pub struct Probes<'p> {
     media: &'p MediaSet,
     /// The options of the program that has drawn the previous frames.
     options: BuildOptions,
-    pass: PassId,
+    pass: PassName,
     engine: Engine,
     builder: Builder,
     before: Snapshot,
@@ -37,7 +37,7 @@ impl<'p> Probes<'p> {
         (engine, before): (Engine, Snapshot),
         (project, media): (&'p Project, &'p MediaSet),
         options: BuildOptions,
-        pass: PassId,
+        pass: PassName,
         (inputs, values): (FrameInputs, CustomUniformValues),
     ) -> Self {
         let builder = Builder::new(engine.gpu().clone());

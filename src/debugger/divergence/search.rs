@@ -10,7 +10,7 @@ use eddy_background::Control;
 use eddy_engine::{BuildOptions, CameraFrame, Engine, FrameInputs, Program, Snapshot, Sources};
 use eddy_gpu::Gpu;
 use eddy_media as media;
-use eddy_project::{CustomUniformValues, PassId};
+use eddy_project::{CustomUniformValues, PassName};
 use std::{path::PathBuf, sync::Arc};
 
 /// An assignment with a different value on the device.
@@ -92,7 +92,7 @@ pub const STEPS_KEPT: usize = 200_000;
 pub struct DivergenceJob {
     pub gpu: Gpu,
     pub traced: Arc<Traced>,
-    pub shown: PassId,
+    pub shown: PassName,
     pub size: (u32, u32),
     pub media_dir: Option<PathBuf>,
     /// The targets before the first of the frames.
@@ -112,8 +112,7 @@ pub fn find(job: DivergenceJob, control: &Control<()>) -> Result<DivergenceFound
     };
     let (mut media, _) = media::gather(project, media_dir.as_deref());
     media.set_camera_picture(camera);
-    let mut wanted = vec![PassId::Image];
-    wanted.extend((shown != PassId::Image && project.pass(&shown).is_some()).then_some(shown));
+    let wanted = project.image_and(&shown);
     let options = BuildOptions { wanted, ..BuildOptions::default() };
     let built = Program::build(&gpu, project, &media, &options).map_err(|e| e.to_string())?;
     let mut engine = Engine::new(gpu, size.0, size.1).map_err(|e| e.to_string())?;

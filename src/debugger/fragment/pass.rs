@@ -41,13 +41,13 @@ impl<'p> PassFragments<'p> {
         detail: Detail,
         limit: u64,
     ) -> Result<Self, WalkError> {
-        let settings = sources.pass(index).settings.clone();
-        let body = match settings.meshes() {
+        let pass = sources.pass(index);
+        let body = match pass.body.geometry() {
             None => Body::Screen(Box::new(sources.walkable(index, detail)?)),
             Some(geometry) => Body::Meshes(Raster::new(sources, (index, geometry), inputs, detail, limit)?),
         };
         let boundary = sources.walkable_boundary(index).transpose()?.map(Box::new);
-        Ok(Self { inputs, body, settings, boundary, limit })
+        Ok(Self { inputs, body, settings: pass.settings.clone(), boundary, limit })
     }
 
     /// Returns what runs for a pixel, counted from the bottom left.
@@ -59,7 +59,7 @@ impl<'p> PassFragments<'p> {
             },
             // A pass that draws meshes first clears everything, outside of its region too.
             Writer::Nothing(region)
-                if self.settings.meshes().is_some() && region.within(self.inputs.size).is_some() =>
+                if matches!(self.body, Body::Meshes(_)) && region.within(self.inputs.size).is_some() =>
             {
                 return Ok(PixelContent::Undrawn(Origin::Clear));
             }

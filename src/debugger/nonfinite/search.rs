@@ -8,13 +8,13 @@ use eddy_engine::{BuildOptions, CameraFrame, Engine, FrameInputs, Program, Snaps
 use eddy_gpu::Gpu;
 use eddy_media as media;
 use eddy_project::TextLocation;
-use eddy_project::{CustomUniformValues, PassId, Project};
+use eddy_project::{CustomUniformValues, PassName, Project};
 use std::{path::PathBuf, sync::Arc};
 
 /// The first texels that are not finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FirstNonfinite {
-    pub pass: PassId,
+    pub pass: PassName,
     pub frame: i32,
     /// The first from the bottom left, and the number of such texels of the pass in that frame.
     pub texel: (u32, u32),
@@ -51,7 +51,7 @@ pub enum SearchEnd {
 pub struct SearchJob {
     pub gpu: Gpu,
     pub project: Project,
-    pub shown: PassId,
+    pub shown: PassName,
     pub size: (u32, u32),
     pub media_dir: Option<PathBuf>,
     /// The targets before the first of the frames.
@@ -66,8 +66,7 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
     let SearchJob { gpu, project, shown, size, media_dir, snapshot, camera, frames } = job;
     let (mut media, _) = media::gather(&project, media_dir.as_deref());
     media.set_camera_picture(camera);
-    let mut wanted = vec![PassId::Image];
-    wanted.extend((shown != PassId::Image && project.pass(&shown).is_some()).then_some(shown));
+    let wanted = project.image_and(&shown);
     let options = BuildOptions { wanted, ..BuildOptions::default() };
     let built = Program::build(&gpu, &project, &media, &options).map_err(|e| e.to_string())?;
     let mut engine = Engine::new(gpu, size.0, size.1).map_err(|e| e.to_string())?;
@@ -102,7 +101,7 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
 }
 
 /// Returns the first pass whose newest texels are not all finite.
-fn first_nonfinite(engine: &mut Engine, project: &Project, passes: &[PassId], frame: i32) -> Option<FirstNonfinite> {
+fn first_nonfinite(engine: &mut Engine, project: &Project, passes: &[PassName], frame: i32) -> Option<FirstNonfinite> {
     passes.iter().find_map(|pass| {
         // A pass that no picture needs is not drawn, and has no texels.
         let pixels = engine.read(pass).ok()?;

@@ -5,7 +5,7 @@ use crate::{
     trace::TraceError,
 };
 use eddy_engine::{PassInputs, Pixels, Sources};
-use eddy_project::{PassId, Project};
+use eddy_project::{PassName, Project};
 
 /// Texels of a picture with a stored component that is NaN or infinite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,16 +26,16 @@ impl NonfiniteTexels {
 }
 
 /// Returns the passes that draw pictures, in drawing order.
-pub fn drawn(project: &Project) -> Vec<PassId> {
-    let mut passes: Vec<PassId> = project.passes.iter().map(|pass| pass.id.clone()).collect();
-    passes.retain(PassId::is_picture);
+pub fn drawn(project: &Project) -> Vec<PassName> {
+    let mut passes: Vec<PassName> = project.passes.iter().map(|pass| pass.id.clone()).collect();
+    passes.retain(PassName::is_picture);
     // All buffers are equal there: they keep the order of the project.
-    passes.sort_by(PassId::drawing_order);
+    passes.sort_by(PassName::drawing_order);
     passes
 }
 
 /// Returns the number of components that a pass stores.
-pub fn stored(project: &Project, pass: &PassId) -> usize {
+pub fn stored(project: &Project, pass: &PassName) -> usize {
     project.pass(pass).and_then(|p| p.formats().first().copied()).unwrap_or_default().components()
 }
 
@@ -43,7 +43,7 @@ pub fn stored(project: &Project, pass: &PassId) -> usize {
 /// the pass's format, or was read from a texture, or comes from a vertex stage.
 pub fn born(
     project: &Project,
-    pass: &PassId,
+    pass: &PassName,
     read: &PassInputs,
     texel: (u32, u32),
     limit: u64,

@@ -14,7 +14,7 @@ use eddy_glsl::{
     walk::{EntryInputs, Shadowed, Stop},
     walkable::Detail,
 };
-use eddy_project::{FillKind, PassId, Project, Stage, Tab, TexelFormat, inspect_comments};
+use eddy_project::{FillKind, PassName, Project, Stage, Tab, TexelFormat, inspect_comments};
 use std::sync::Arc;
 
 /// The number of statements after which a walk is stopped: a few seconds.
@@ -27,7 +27,7 @@ const MAX_PRINTED: usize = 1000;
 pub struct Traced {
     /// The texts that were walked.
     pub project: Project,
-    pub pass: PassId,
+    pub pass: PassName,
     /// The text with the pass's entry point; for a pass that draws meshes the fragment stage of a draw.
     pub tab: Tab,
     text_id: SourceId,
@@ -80,7 +80,7 @@ impl Traced {
     /// meshes and none of them is drawn at the pixel, and if its boundary or nothing is drawn there.
     pub fn new(
         project: Project,
-        pass: &PassId,
+        pass: &PassName,
         frame: i32,
         (inputs, drawn): (PassInputs, &Pixels),
         place: [f32; 2],
@@ -110,8 +110,8 @@ impl Traced {
         let (origin, entry) = (at.origin, at.inputs);
         let history = recorded.of(walked.into_walkable(origin));
         let device = drawn.texels.get((pixel.1 * drawn.width + pixel.0) as usize).copied().unwrap_or_default();
-        let settings = &project.passes[index].settings;
-        let draw = origin.draw().and_then(|draw| settings.meshes()?.draws.get(draw));
+        let body = &project.passes[index].body;
+        let draw = origin.draw().and_then(|draw| body.draws().get(draw));
         let text_id = project.stage_id(index, draw.map_or(Stage::Own, |draw| draw.fragment));
         Ok(Self {
             index,
@@ -155,7 +155,7 @@ impl Traced {
     /// meshes.
     pub fn mesh(&self) -> Option<(MeshFragment, String)> {
         let Origin::Mesh(fragment) = self.origin else { return None };
-        let draw = self.project.passes[self.index].settings.meshes()?.draws.get(fragment.draw)?;
+        let draw = self.project.passes[self.index].body.draws().get(fragment.draw)?;
         Some((fragment, draw.mesh.name()))
     }
 

@@ -4,7 +4,7 @@ use super::{
     ulps,
 };
 use eddy_engine::{PassInputs, Pixels, Sources, TextureCopy};
-use eddy_project::{PassId, Project, Tab, limits};
+use eddy_project::{PassName, Project, Tab, limits};
 use std::sync::Arc;
 
 const CODE: &str = "float glow = 0.25;
@@ -32,7 +32,7 @@ void mainImage(out vec4 o, in vec2 c) {
 fn traced(code: &str) -> Traced {
     let project = Project::of_image("Untitled".into(), code.into());
     let drawn = Pixels { width: 4, height: 4, texels: vec![[0.0, 0.0, 1.0, 1.0]; 16] };
-    Traced::new(project, &PassId::Image, 3, (inputs(), &drawn), [0.3, 0.3]).unwrap()
+    Traced::new(project, &PassName::image(), 3, (inputs(), &drawn), [0.3, 0.3]).unwrap()
 }
 
 fn inputs() -> PassInputs {
@@ -175,7 +175,7 @@ fn conditional_breakpoints_stop_in_both_directions() {
     use Direction::*;
     let mut examiner = Examiner::new(Arc::new(traced(CODE)));
     let traced = examiner.traced.clone();
-    let image = Tab::Pass(PassId::Image);
+    let image = Tab::image();
     let at_line = |line: usize, condition: &str| {
         [Breakpoint { tab: image.clone(), line: line - 1, condition: condition.into(), is_on: true }]
     };
@@ -241,7 +241,7 @@ fn undrawn_texel_reports_its_origin() {
     settings.region = Some(Region { x: 1, y: 1, width: 2, height: 3 });
     let refused = |project: &eddy_project::Project, place| {
         let drawn = Pixels { width: 4, height: 4, texels: vec![[0.0; 4]; 16] };
-        Traced::new(project.clone(), &PassId::Image, 3, (inputs(), &drawn), place)
+        Traced::new(project.clone(), &PassName::image(), 3, (inputs(), &drawn), place)
             .map(|_| ())
             .map_err(|e| e.to_string())
     };

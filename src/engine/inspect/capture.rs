@@ -4,16 +4,17 @@ use super::{LevelBy, MeshInputs, PassInputs, TextureCopy, texture::Level};
 use crate::{
     EngineError, external::External, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared,
 };
+use eddy_glsl::SLOTS;
 use eddy_gpu::{FloatConverter, Gpu, Readback, Texture};
 use eddy_graph::{ReadTiming, TexelSource};
 use eddy_media::Texels;
-use eddy_project::{Filter, PassId, Wrap};
+use eddy_project::{Filter, PassName, Wrap};
 use eddy_texture::{Dimension, TextureShape};
 use std::sync::Arc;
 
 /// Takes the inputs of one pass while a frame is drawn; of a pass of several steps, those of its last.
 pub(crate) struct Capture<'a> {
-    pass: &'a PassId,
+    pass: &'a PassName,
     converter: &'a FloatConverter,
     /// The pass has been drawn already.
     is_past: bool,
@@ -21,23 +22,23 @@ pub(crate) struct Capture<'a> {
 }
 
 impl<'a> Capture<'a> {
-    pub fn new(pass: &'a PassId, converter: &'a FloatConverter) -> Self {
+    pub fn new(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
         Self { pass, converter, is_past: false, taken: None }
     }
 
     /// Takes the inputs of a pass after the frame: they are there as long as nothing new is drawn.
-    pub fn of_the_past(pass: &'a PassId, converter: &'a FloatConverter) -> Self {
+    pub fn of_the_past(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
         Self { pass, converter, is_past: true, taken: None }
     }
 
     /// Reads everything that a draw reads. What was encoded before has been handed in.
     pub fn take(&mut self, running: &Running, shared: &Shared, index: usize) -> Result<(), EngineError> {
         let (compiled, draw) = (&running.program.draws[index], &running.program.plan.draws[index]);
-        let mut channels = [const { None }; 4];
+        let mut channels = [const { None }; SLOTS];
         for (channel, copy) in channels.iter_mut().enumerate() {
             *copy = Some(self.channel(running, shared, (compiled, index), channel)?);
         }
-        let meshes = compiled.body.meshes().map_or_else(Vec::new, |meshes| {
+        let meshes = compiled.body.geometry().map_or_else(Vec::new, |meshes| {
             let each = meshes.programs.iter().enumerate();
             let of = |(n, (_, placed)): (usize, &(_, PlacedMesh))| MeshInputs {
                 mesh: placed.mesh.clone(),

@@ -2,6 +2,7 @@
 
 use super::texture::{LevelBy, TextureCopy};
 use eddy_glsl::{
+    SLOTS,
     interface::{GeometryBlock, UniformBlock},
     walk::{Lod, World},
 };
@@ -15,7 +16,7 @@ pub struct PassInputs {
     pub uniforms: UniformBlock,
     /// The author's own, by their slots.
     pub custom_uniforms: Vec<[u32; 4]>,
-    pub channels: [TextureCopy; 4],
+    pub channels: [TextureCopy; SLOTS],
     /// The texels that are drawn, across and up.
     pub size: (u32, u32),
     /// The face of a cubemap that is walked, in the order of [`eddy_texture::Face::ALL`]; 0 for any other pass.

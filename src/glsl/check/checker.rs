@@ -13,7 +13,7 @@ use crate::{
     hir::{self, FuncId, Module, TypeId},
     near::Budget,
     report::MAX_ERRORS,
-    source::{ChannelKind, CustomUniform, Dialect, UniformValue},
+    source::{ChannelKind, CustomUniform, Dialect, SLOTS, UniformValue},
 };
 use eddy_diag::{Diagnostic, Fix, SourceId, Span};
 use rustc_hash::FxHashMap;
@@ -31,7 +31,7 @@ pub(super) struct Switch {
 #[derive(Clone, Copy, Default)]
 pub(super) struct Settings<'a> {
     pub dialect: Dialect,
-    pub channels: [ChannelKind; 4],
+    pub channels: [ChannelKind; SLOTS],
     pub custom_uniforms: &'a [CustomUniform<'a>],
     pub values: &'a [UniformValue],
     /// The text that is shared with other stages.

@@ -3,7 +3,7 @@
 
 use crate::{
     hir::{Builtin, BuiltinVar, LocalKind, TypeId, Uniform},
-    source::{CustomUniformKind, PassKind},
+    source::{CustomUniformKind, PassKind, SLOTS},
 };
 
 /// The header that precedes the text.
@@ -96,8 +96,8 @@ pub(super) fn differ() -> impl Iterator<Item = &'static str> {
     uniforms.chain(CHANNELS).chain(CHANNEL_STRUCTS).chain(entries).chain(functions).chain(["iGlobalTime"])
 }
 
-pub(crate) const CHANNELS: [&str; 4] = ["iChannel0", "iChannel1", "iChannel2", "iChannel3"];
-pub(crate) const CHANNEL_STRUCTS: [&str; 4] = ["iCh0", "iCh1", "iCh2", "iCh3"];
+pub(crate) const CHANNELS: [&str; SLOTS] = ["iChannel0", "iChannel1", "iChannel2", "iChannel3"];
+pub(crate) const CHANNEL_STRUCTS: [&str; SLOTS] = ["iCh0", "iCh1", "iCh2", "iCh3"];
 
 /// Returns the names that the language or Shadertoy defines besides functions and uniforms.
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::{
     front_end::FrontEnd,
     hir::{Module, TypeId, Uniform},
     preamble::Preamble,
-    source::{ChannelKind, PassKind, PassSource},
+    source::{ChannelKind, PassKind, PassSource, SLOTS},
     stages::Link,
 };
 use eddy_diag::{Diagnostic, SourceId, Span};
@@ -19,7 +19,7 @@ pub(super) type Position = (usize, u32);
 /// is neither has no answers. Cheap enough to rebuild for each text: about a millisecond for a thousand lines.
 pub struct Analysis {
     pub(super) kind: PassKind,
-    pub(super) channels: [ChannelKind; 4],
+    pub(super) channels: [ChannelKind; SLOTS],
     /// Common, if there is one, the included texts, then the pass's text: later texts may use names of earlier ones.
     pub(super) sources: Vec<Source>,
     /// The index of the first included text.

@@ -2,26 +2,28 @@
 
 use super::*;
 use crate::{ChannelFacts, PassFacts};
-use eddy_project::{Channel, Filter, Group, Input, Origin, Pass, PassId, PassSettings, Project, Sampler, Source, Wrap};
+use eddy_project::{
+    Channel, Filter, Group, Input, Origin, Pass, PassName, PassSettings, Project, SLOTS, Sampler, Source, Wrap,
+};
 
 /// A buffer A that reads itself and B, a buffer B that reads nothing, and Image that reads A.
 fn project() -> Project {
-    let pass = |id: PassId, reads: &[&str]| {
+    let pass = |id: PassName, reads: &[&str]| {
         let source = Source { name: id.title(), path: None, text: "".into() };
         let mut pass = Pass::new(id, source);
-        for (channel, name) in pass.channels.iter_mut().zip(reads) {
+        for (slot, name) in reads.iter().enumerate() {
             let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true };
-            *channel = Some(Channel { input: Input::buffer(*name), sampler });
+            pass.bindings.set(slot, Some(Channel { input: Input::buffer(*name), sampler }));
         }
         pass
     };
-    let buffer = |name: &str| PassId::Buffer(name.into());
-    let passes = vec![pass(buffer("A"), &["A", "B"]), pass(buffer("B"), &[]), pass(PassId::Image, &["A"])];
+    let buffer = |name: &str| PassName::buffer(name);
+    let passes = vec![pass(buffer("A"), &["A", "B"]), pass(buffer("B"), &[]), pass(PassName::image(), &["A"])];
     Project::new("test", passes, Origin::Unsaved)
 }
 
 fn plan(project: &Project) -> FramePlan {
-    let reads = PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: false }; 4], discards: false };
+    let reads = PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: false }; SLOTS], discards: false };
     FramePlan::new(project, &vec![reads; project.passes.len()], &[], true)
 }
 
@@ -101,8 +103,9 @@ fn bands_come_last_and_are_preceded_by_everything_that_later_frames_read() {
     assert!(!sound.ops.contains(&FrameOp::Present));
     // If a pass reads the picture, it is drawn in one piece.
     let mut read = project();
-    read.passes[0].channels[2] = read.passes[2].channels[0].clone();
-    read.passes[0].channels[2].as_mut().unwrap().input = Input::pass(PassId::Image);
+    let channel = read.passes[2].bindings.get(0).cloned();
+    read.passes[0].bindings.set(2, channel);
+    read.passes[0].bindings.get_mut(2).unwrap().input = Input::pass(PassName::image());
     let whole = Frames::of(plan(&read)).next(Purpose::Bands);
     assert!(whole.ops.contains(&FrameOp::Encode { draw: 2, layer: 0 }), "{:?}", whole.ops);
 }
@@ -131,7 +134,7 @@ fn every_draw_is_timed_in_its_own_submission() {
 #[test]
 fn inputs_are_captured_before_each_step_even_if_the_draw_is_not_due() {
     let mut grouped = project();
-    grouped.groups.push(Group { name: "g".into(), passes: vec![PassId::Buffer("A".into())], steps: 3 });
+    grouped.groups.push(Group { name: "g".into(), passes: vec![PassName::buffer("A")], steps: 3 });
     let mut frames = Frames::of(plan(&grouped));
     let captures = |schedule: &Schedule, of| {
         let at = |(at, op): (usize, &FrameOp)| (*op == FrameOp::Capture { draw: of }).then_some(at);

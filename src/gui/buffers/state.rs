@@ -7,7 +7,7 @@ use super::{
 use crate::{
     debugger::nonfinite::drawn,
     engine::TexelAt,
-    project::{PassId, Project},
+    project::{PassName, Project},
     session::{
         Command, Session,
         buffers::{BufferLook, BufferRead, BufferWatch, Target},
@@ -90,7 +90,7 @@ impl Default for Buffers {
 impl Buffers {
     /// Every target that the project's passes have, in the order in which they are drawn.
     pub(super) fn targets(project: &Project) -> Vec<Target> {
-        let count = |pass: &PassId| project.pass(pass).map_or(1, |p| p.layers().max(1));
+        let count = |pass: &PassName| project.pass(pass).map_or(1, |p| p.layers().max(1));
         drawn(project).into_iter().flat_map(|pass| (0..count(&pass)).map(move |index| (pass.clone(), index))).collect()
     }
 

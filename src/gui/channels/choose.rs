@@ -13,7 +13,7 @@ use crate::{
         ui_output::{Pick, ShellCommand, UiOutput},
     },
     media,
-    project::{Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassId, Wrap},
+    project::{Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassName, Wrap},
     session::{Command, Session},
 };
 use egui::{ComboBox, FontId, Rect, ScrollArea, Sense, Ui, pos2, vec2};
@@ -22,7 +22,7 @@ use std::time::Instant;
 /// The popup of a card.
 pub fn choose(
     ui: &mut Ui,
-    pass: &PassId,
+    pass: &PassName,
     index: usize,
     channel: Option<&Channel>,
     swatches: &mut Swatches<'_>,
@@ -40,8 +40,8 @@ pub fn choose(
             set(out, None);
         }
         for other in &session.project().passes {
-            let PassId::Buffer(name) = &other.id else { continue };
-            for target in 0..other.settings.formats().len() {
+            let Some(name) = other.id.buffer_name() else { continue };
+            for target in 0..other.formats().len() {
                 let input = Input::Pass { id: other.id.clone(), target };
                 let place = match target {
                     0 => format!("choose:buffer:{name}"),
@@ -108,7 +108,7 @@ pub fn choose(
 /// The files of the project's folder that a channel can read.
 fn files(
     ui: &mut Ui,
-    pass: &PassId,
+    pass: &PassName,
     index: usize,
     now: Option<&Input>,
     swatches: &mut Swatches<'_>,

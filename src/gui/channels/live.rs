@@ -1,7 +1,7 @@
 //! Small live pictures of passes, as textures of the window.
 
 use crate::{
-    project::PassId,
+    project::PassName,
     session::{Command, Session},
     video::CameraFrame,
 };
@@ -21,7 +21,7 @@ fn reduced(picture: &CameraFrame) -> ColorImage {
     ColorImage::from_rgba_unmultiplied(size, &bytes)
 }
 
-type Target = (PassId, usize);
+type Target = (PassName, usize);
 
 #[derive(Default)]
 pub struct Live {
@@ -40,7 +40,7 @@ const CAMERA_EVERY: Duration = Duration::from_millis(100);
 
 impl Live {
     /// Returns the newest picture of a target and the shape of what it shows (width to height), and asks for more.
-    pub fn get(&mut self, ui: &Ui, session: &Session, pass: &PassId, index: usize) -> Option<(TextureHandle, f32)> {
+    pub fn get(&mut self, ui: &Ui, session: &Session, pass: &PassName, index: usize) -> Option<(TextureHandle, f32)> {
         let target = (pass.clone(), index);
         if !self.wanted.contains(&target) {
             self.wanted.push(target.clone());
@@ -90,7 +90,7 @@ impl Live {
     }
 
     /// Returns the texels of a target across and up, while its picture is asked for.
-    pub fn size(&self, session: &Session, pass: &PassId, index: usize) -> Option<(u32, u32)> {
+    pub fn size(&self, session: &Session, pass: &PassName, index: usize) -> Option<(u32, u32)> {
         session.miniature(pass, index).map(|(miniature, _)| miniature.of)
     }
 

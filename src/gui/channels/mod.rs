@@ -10,7 +10,7 @@ pub use live::Live;
 
 use super::{theme, thumbnails::Thumbnails, ui_output::UiOutput};
 use crate::{
-    project::{self, Channel, Pass, PassId, Tab},
+    project::{self, Channel, Pass, SLOTS, Tab},
     session::Session,
 };
 use egui::{
@@ -39,7 +39,7 @@ fn pass<'s>(session: &'s Session, tab: &Tab) -> Option<&'s Pass> {
     match tab {
         Tab::Pass(id) | Tab::Stage(id, _) => session.project().pass(id),
         // What Image is made of, where an editor begins with it.
-        Tab::Included(_) if *tab == session.project().main_tab() => session.project().pass(&PassId::Image),
+        Tab::Included(_) if *tab == session.project().main_tab() => session.project().image(),
         Tab::Common | Tab::Included(_) => None,
     }
 }
@@ -67,10 +67,11 @@ pub fn show(
     };
     let inner = rect.shrink2(vec2(8.0, 0.0)).with_max_y(rect.bottom() - 8.0);
     let height = inner.height().clamp(24.0, MOST);
-    let widths = widths(inner.width(), &pass.channels.each_ref().map(Option::is_some));
+    let widths = widths(inner.width(), &std::array::from_fn(|slot| pass.bindings.get(slot).is_some()));
     let mut left = inner.left();
-    for (index, channel) in pass.channels.iter().enumerate() {
-        let card = Rect::from_min_size(pos2(left, inner.top()), vec2(widths[index], height));
+    for (index, width) in widths.into_iter().enumerate() {
+        let channel = pass.bindings.get(index);
+        let card = Rect::from_min_size(pos2(left, inner.top()), vec2(width, height));
         left = card.right() + GAP;
         let response = match channel {
             Some(channel) => show_card(ui, card, index, channel, &mut swatches),
@@ -81,12 +82,12 @@ pub fn show(
         Popup::from_toggle_button_response(&response)
             .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
             .width(width)
-            .show(|ui| choose::choose(ui, &pass.id, index, channel.as_ref(), &mut swatches, out));
+            .show(|ui| choose::choose(ui, &pass.id, index, channel, &mut swatches, out));
     }
 }
 
 /// Channels that read something share what those that read nothing leave.
-fn widths(width: f32, is_read: &[bool; 4]) -> [f32; 4] {
+fn widths(width: f32, is_read: &[bool; SLOTS]) -> [f32; SLOTS] {
     let empty = is_read.iter().filter(|read| !**read).count() as f32;
     let room = width - 3.0 * GAP;
     let least = EMPTY.min(room / 4.0);

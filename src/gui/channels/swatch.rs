@@ -7,7 +7,7 @@ use crate::{
         thumbnails::{Thumbnail, ThumbnailSource, Thumbnails},
     },
     media::MediaKey,
-    project::{Input, InputKind, Media, Origin, PassId},
+    project::{Input, InputKind, Media, Origin},
     session::Session,
     texture::Dimension,
 };
@@ -70,8 +70,7 @@ fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &m
             Thumbnail::Failed(_) if matches!(input.media(), Some(Media::Site { .. })) => input.row().glyph,
             Thumbnail::Failed(_) => "!",
         },
-        (None, Input::Pass { id: PassId::Buffer(name), .. }) => name.as_str(),
-        (None, other) => other.row().glyph,
+        (None, input) => input.buffer_name().unwrap_or(input.row().glyph),
     };
     // A buffer's name may be long: as large as fits, and what does not fit even small is cut.
     let layout = |size: f32| {

@@ -20,7 +20,7 @@ use super::{
     uses::Uses,
 };
 use crate::{
-    project::{Origin, PassId, Tab},
+    project::{Origin, Tab},
     session::{Command, Session, probe::ProbePlace},
 };
 use egui::{Frame, Id, Margin, Panel, Ui};
@@ -141,7 +141,7 @@ impl CodePanel {
     pub fn close_file(&mut self, tab: &Tab) {
         self.files.retain(|file| file.tab != *tab);
         if self.current == *tab {
-            self.current = Tab::Pass(PassId::Image);
+            self.current = Tab::image();
         }
     }
 
@@ -277,7 +277,7 @@ impl CodePanel {
             }
         }
         if !tabs.contains(&self.current) {
-            self.current = Tab::Pass(PassId::Image);
+            self.current = Tab::image();
         }
         let is_compiling = session.compile_state().compiling;
         if std::mem::replace(&mut self.was_compiling, is_compiling) && !is_compiling {

@@ -1,10 +1,7 @@
 //! Devices that are lost, panics, and places that take nothing.
 
 use super::*;
-use crate::{
-    gpu::testing,
-    project::{PassId, Tab},
-};
+use crate::{gpu::testing, project::Tab};
 use std::sync::Arc;
 
 const UNSAVED: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); } // not saved";
@@ -23,7 +20,7 @@ fn a_window_whose_device_is_lost_again_and_again_saves_what_was_not() {
     let Some(gpu) = testing::gpu() else { return };
     let folder = tempfile::tempdir().unwrap();
     let mut session = open(gpu.clone(), folder.path());
-    session.apply(Command::EditText { tab: Tab::Pass(PassId::Image), text: UNSAVED.into() });
+    session.apply(Command::EditText { tab: Tab::image(), text: UNSAVED.into() });
     let (mut losses, start) = (DeviceLosses::default(), Instant::now());
     let mut watch = |seconds: u64, session: &mut Session| {
         let mut renewed = 0;
@@ -52,7 +49,7 @@ fn a_window_that_gets_no_other_device_saves_what_was_not() {
     let Some(gpu) = testing::gpu() else { return };
     let folder = tempfile::tempdir().unwrap();
     let mut session = open(gpu.clone(), folder.path());
-    session.apply(Command::EditText { tab: Tab::Pass(PassId::Image), text: UNSAVED.into() });
+    session.apply(Command::EditText { tab: Tab::image(), text: UNSAVED.into() });
     testing::lose(&gpu);
     let none = |_: &mut Session| Err(GuiError::Surface("planted".into()));
     let error = DeviceLosses::default().watch(&gpu, &mut session, Instant::now(), none).unwrap_err();
@@ -64,7 +61,7 @@ fn a_panic_in_the_window_saves_what_was_not() {
     let Some(gpu) = testing::gpu() else { return };
     let folder = tempfile::tempdir().unwrap();
     let mut session = open(gpu, folder.path());
-    let (text, tab) = (UNSAVED, Tab::Pass(PassId::Image));
+    let (text, tab) = (UNSAVED, Tab::image());
     let ends = |session: &mut Session| {
         caught(
             session,

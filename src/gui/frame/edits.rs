@@ -3,15 +3,13 @@
 use super::harness::{CTRL, CTRL_SHIFT, Stage, choose, click, has, named, open, press, texts, until};
 use crate::{
     gui::dock::Panel,
-    project::{CustomUniformValue, FillValue, PassEdit, PassId, Tab},
+    project::{CustomUniformValue, FillValue, PassEdit, PassName, Tab},
     session::Command,
 };
 use egui::{Event, Key, Modifiers, PointerButton};
 
-const IMAGE: Tab = Tab::Pass(PassId::Image);
-
 fn buffer() -> Tab {
-    Tab::Pass(PassId::Buffer("A".into()))
+    Tab::Pass(PassName::buffer("A"))
 }
 
 fn text(stage: &Stage, tab: &Tab) -> String {
@@ -58,30 +56,30 @@ const OLD: &str = "void main() {\n    vec4 a = texture2D(iChannel0, vec2(1));\n 
 fn a_problem_is_fixed_by_keys_at_the_caret_and_by_its_row() {
     let Some(mut stage) = open(false) else { return };
     write(&mut stage, OLD);
-    assert_eq!(stage.state().session.diagnostics().iter().filter(|d| d.tab() == Some(&IMAGE)).count(), 2);
+    assert_eq!(stage.state().session.diagnostics().iter().filter(|d| d.tab() == Some(&Tab::image())).count(), 2);
     // Ctrl+. at the first line, and Enter.
     press(&mut stage, CTRL, Key::Home);
     press(&mut stage, CTRL, Key::Period);
     assert!(stage.state().shell.place("fixes").is_some(), "{:?}", texts(&stage));
     has(&named(&stage, "fixes"), &["Make it `mainImage`"]);
     key(&mut stage, Key::Escape);
-    assert!(stage.state().shell.place("fixes").is_none() && text(&stage, &IMAGE) == OLD);
+    assert!(stage.state().shell.place("fixes").is_none() && text(&stage, &Tab::image()) == OLD);
     press(&mut stage, CTRL, Key::Period);
     key(&mut stage, Key::Enter);
-    let mended = text(&stage, &IMAGE);
+    let mended = text(&stage, &Tab::image());
     assert!(mended.starts_with("void mainImage(out vec4 fragColor, in vec2 fragCoord) {\n"), "{mended}");
     assert!(mended.contains("    fragColor = a;\n"), "{mended}");
     // One step of undo takes it back, and redo does it again.
     press(&mut stage, CTRL, Key::Z);
-    assert_eq!(text(&stage, &IMAGE), OLD);
+    assert_eq!(text(&stage, &Tab::image()), OLD);
     press(&mut stage, CTRL_SHIFT, Key::Z);
-    assert_eq!(text(&stage, &IMAGE), mended);
+    assert_eq!(text(&stage, &Tab::image()), mended);
     settle(&mut stage);
     // The next by the button in the list.
     click(&mut stage, "problem:0:fix");
-    assert!(text(&stage, &IMAGE).contains("texture(iChannel0"), "{}", text(&stage, &IMAGE));
+    assert!(text(&stage, &Tab::image()).contains("texture(iChannel0"), "{}", text(&stage, &Tab::image()));
     settle(&mut stage);
-    assert!(stage.state().session.diagnostics().iter().all(|d| d.tab() != Some(&IMAGE)));
+    assert!(stage.state().session.diagnostics().iter().all(|d| d.tab() != Some(&Tab::image())));
     // Where nothing is wrong the list says so, and another key goes to the code.
     press(&mut stage, CTRL, Key::Period);
     assert!(texts(&stage).iter().any(|text| text == "No quick fix for this line"));
@@ -99,7 +97,7 @@ fn a_fix_of_a_text_that_is_another_by_now_changes_nothing() {
     write(&mut stage, other);
     stage.state_mut().shell.ask_fix(problem.fixes[0].clone());
     stage.run_steps(3);
-    assert_eq!(text(&stage, &IMAGE), other);
+    assert_eq!(text(&stage, &Tab::image()), other);
     assert!(stage.state().session.notices().last().unwrap().text.contains("changed since"));
 }
 
@@ -146,12 +144,12 @@ fn a_symbol_is_renamed_in_every_text_and_only_where_it_means_the_same() {
     type_text(&mut stage, "mix");
     key(&mut stage, Key::Enter);
     assert!(stage.state().shell.place("rename:wrong").is_some());
-    assert_eq!(text(&stage, &IMAGE), USES);
+    assert_eq!(text(&stage, &Tab::image()), USES);
     press(&mut stage, CTRL, Key::A);
     type_text(&mut stage, "shine");
     key(&mut stage, Key::Enter);
     let renamed = USES.replace("glow(", "shine(");
-    for tab in [IMAGE, buffer()] {
+    for tab in [Tab::image(), buffer()] {
         assert_eq!(text(&stage, &tab), renamed, "{tab:?}");
     }
     assert_eq!(text(&stage, &shared()), SHARED.replace("glow", "shine"));
@@ -159,7 +157,8 @@ fn a_symbol_is_renamed_in_every_text_and_only_where_it_means_the_same() {
     assert!(stage.state().session.diagnostics().is_empty(), "{:?}", stage.state().session.diagnostics());
     // Each text by its own undo.
     press(&mut stage, CTRL, Key::Z);
-    let now: Vec<bool> = [IMAGE, buffer(), shared()].iter().map(|tab| text(&stage, tab).contains("shine")).collect();
+    let now: Vec<bool> =
+        [Tab::image(), buffer(), shared()].iter().map(|tab| text(&stage, tab).contains("shine")).collect();
     assert_eq!(now.iter().filter(|has| **has).count(), 2, "{now:?}");
     // What is the language's own has no other name.
     write(&mut stage, "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }");
@@ -208,7 +207,7 @@ fn a_uniform_is_renamed_with_its_line_its_uses_and_its_value() {
     // No edit of a text reaches `eddy.toml`.
     let fill = |text: &str| {
         let value = FillValue::Expression(format!("vec4({text})").into());
-        Command::EditPasses(PassEdit::Initial(PassId::Buffer("A".into()), Some(value)))
+        Command::EditPasses(PassEdit::Initial(PassName::buffer("A"), Some(value)))
     };
     stage.state_mut().session.apply(fill("0.1 * speed"));
     let why = stage.state().session.rename(&Tab::Common, SPEED.find("speed").unwrap(), "pace").unwrap_err();
@@ -229,7 +228,7 @@ fn a_uniform_is_renamed_with_its_line_its_uses_and_its_value() {
     type_text(&mut stage, "pace");
     key(&mut stage, Key::Enter);
     assert_eq!(text(&stage, &Tab::Common), SPEED.replacen("speed", "pace", 1));
-    for tab in [IMAGE, buffer()] {
+    for tab in [Tab::image(), buffer()] {
         assert_eq!(text(&stage, &tab), USES_SPEED.replace("speed", "pace"), "{tab:?}");
     }
     assert_eq!((turned(&stage, "speed"), turned(&stage, "pace")), (None, Some(value.clone())));
@@ -327,7 +326,7 @@ fn a_text_is_found_and_replaced_in_all_passes_and_taken_back_in_each() {
     click(&mut stage, "field:replace");
     type_text(&mut stage, "highp float");
     click(&mut stage, "find:replace-all");
-    for (tab, old) in [(IMAGE, USES), (buffer(), USES), (shared(), SHARED)] {
+    for (tab, old) in [(Tab::image(), USES), (buffer(), USES), (shared(), SHARED)] {
         assert_eq!(text(&stage, &tab), old.replace("float", "highp float"), "{tab:?}");
     }
     assert!(stage.state().session.notices().last().unwrap().text.starts_with("Replaced 4 in 3 texts"));
@@ -378,11 +377,11 @@ fn the_code_has_a_menu_by_the_mouse_and_by_keys() {
     press(&mut stage, Modifiers::SHIFT, Key::F10);
     click(&mut stage, "code-menu:cut");
     stage.run_steps(3);
-    assert_eq!(text(&stage, &IMAGE), USES.split_once('\n').unwrap().1);
+    assert_eq!(text(&stage, &Tab::image()), USES.split_once('\n').unwrap().1);
     stage.state_mut().shell.focus_code();
     stage.run_steps(2);
     press(&mut stage, CTRL, Key::Z);
-    assert_eq!(text(&stage, &IMAGE), USES);
+    assert_eq!(text(&stage, &Tab::image()), USES);
 }
 
 #[test]
@@ -402,7 +401,7 @@ fn a_breakpoint_moves_to_a_statement_or_is_refused_aloud() {
     };
     for line in [0, 2, 3] {
         go(&mut stage, line);
-        assert_eq!(stage.state().shell.breakpoints(), [(IMAGE, 4)], "line {line}");
+        assert_eq!(stage.state().shell.breakpoints(), [(Tab::image(), 4)], "line {line}");
     }
     go(&mut stage, 4);
     assert_eq!(stage.state().shell.breakpoints(), []);

@@ -5,7 +5,7 @@ use super::harness::{CTRL_SHIFT, Stage, choose, click, open, open_with, press, t
 use crate::{
     audio::fake::FakeHost,
     gui::theme::{DARK, LIGHT},
-    project::{PassId, Tab},
+    project::Tab,
     session::{Command, SessionOptions},
 };
 use egui::{Key, Modifiers, MouseWheelUnit, TouchPhase, vec2};
@@ -60,7 +60,7 @@ fn lights_of_devices_take_what_room_the_bar_has() {
     let Some(mut stage) = open_with(false, options) else { return };
     let text = "#iChannel0 \"webcam\"\n#iChannel1 \"microphone\"\n\
                 void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p) + texture(iChannel1, p); }";
-    stage.state_mut().session.apply(Command::EditText { tab: Tab::Pass(PassId::Image), text: text.into() });
+    stage.state_mut().session.apply(Command::EditText { tab: Tab::image(), text: text.into() });
     until(&mut stage, "a camera that is asked for", |stage| stage.state().shell.place("button:camera").is_some());
     let names = |names: &[&str]| {
         let buttons = names.iter().map(|name| format!("button:{name}"));

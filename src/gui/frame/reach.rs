@@ -3,7 +3,7 @@
 use super::harness::{Stage, choose, named, open, press, until};
 use crate::{
     gui::dock::Panel,
-    project::{PassId, Tab},
+    project::{PassName, Tab},
     session::Command,
 };
 use egui::{Event, Key, Modifiers};
@@ -39,7 +39,7 @@ fn the_palette_reaches_the_picture_the_passes_and_recent_projects() {
     stage.run_steps(3);
     assert!((shape(&stage) - 16.0 / 9.0).abs() < 0.02);
     choose(&mut stage, "show pass: buffer a");
-    assert_eq!(*stage.state().session.shown_pass(), PassId::Buffer("A".into()));
+    assert_eq!(*stage.state().session.shown_pass(), PassName::buffer("A"));
 
     let before = stage.state().session.reset_on_reload();
     choose(&mut stage, "reset when");
@@ -57,7 +57,7 @@ fn the_palette_reaches_the_picture_the_passes_and_recent_projects() {
     choose(&mut stage, "add common");
     assert!(stage.state().session.tabs().contains(&Tab::Common));
     choose(&mut stage, "add buffer");
-    let b = Tab::Pass(PassId::Buffer("B".into()));
+    let b = Tab::Pass(PassName::buffer("B"));
     assert!(stage.state().session.tabs().contains(&b));
     stage.run_steps(2);
     assert_eq!(stage.state().shell.caret().0, b, "it is in front");

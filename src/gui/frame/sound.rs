@@ -1,11 +1,7 @@
 //! The panel of the sound pass: what it says, and that a click in the waveform goes to that time.
 
 use super::harness::{Stage, click, open, texts, until};
-use crate::{
-    gui::dock::Panel,
-    project::{PassId, Tab},
-    session::Command,
-};
+use crate::{gui::dock::Panel, project::Tab, session::Command};
 
 fn says(stage: &Stage, words: &str) -> bool {
     texts(stage).iter().any(|text| text.contains(words))
@@ -31,7 +27,7 @@ fn a_sound_pass_is_added_shown_and_gone_through() {
     stage.run_steps(3);
     until(&mut stage, "a time", |stage| (stage.state().session.transport().time_secs - 45.0).abs() < 1.0);
 
-    let tab = Tab::Pass(PassId::Sound);
+    let tab = Tab::sound();
     let text = "vec2 mainSound(float time) { return vec2(0.0); }".into();
     stage.state_mut().session.apply(Command::EditText { tab, text });
     until(&mut stage, "an error", |stage| says(stage, "this is the sound before"));

@@ -3,7 +3,7 @@
 use super::*;
 use crate::{
     gpu::testing,
-    project::{Input, Media, PassId, Tab},
+    project::{Input, Media, PassName, Tab},
     session::{Command, SessionOptions},
 };
 use egui::{Event, Modifiers, PointerButton, Pos2, Rect, pos2, vec2};
@@ -172,13 +172,13 @@ fn a_problem_and_the_further_places_it_speaks_of_lead_to_their_tabs() {
     let Some(mut stage) = Stage::open(&[("common.glsl", common), ("image.glsl", image)]) else { return };
     let problems = stage.session.diagnostics();
     let label = &problems[0].labels[0];
-    assert_eq!((problems.len(), problems[0].tab()), (1, Some(&Tab::Pass(PassId::Image))), "{problems:?}");
+    assert_eq!((problems.len(), problems[0].tab()), (1, Some(&Tab::image())), "{problems:?}");
     assert_eq!((&label.place.tab, label.place.line), (&Some(Tab::Common), 3), "{label:?}");
     stage.frame(vec![]);
     stage.click("problem:0:0");
     assert_eq!(stage.shell.caret(), (Tab::Common, 2));
     stage.click("problem:0");
-    assert_eq!(stage.shell.caret(), (Tab::Pass(PassId::Image), 1));
+    assert_eq!(stage.shell.caret(), (Tab::image(), 1));
 }
 
 /// Only what a card shows is read back, and a window at rest reads nothing.
@@ -191,7 +191,7 @@ fn a_channel_that_reads_a_buffer_sees_it_as_it_is_now() {
     let files = [("buffer_a.glsl", green.as_str()), ("image.glsl", image), ("eddy.toml", manifest)];
     let Some(mut stage) = Stage::open(&files) else { return };
     stage.session.apply(Command::Pause);
-    let a = PassId::Buffer("A".into());
+    let a = PassName::buffer("A");
     let texel = |stage: &Stage| {
         let (small, _) = stage.session.miniature(&a, 0)?;
         let p = &small.picture;
@@ -264,8 +264,8 @@ fn things(stage: &Stage) {
 }
 
 fn reads(stage: &Stage, channel: usize) -> Option<Input> {
-    let image = stage.session.project().pass(&PassId::Image).unwrap();
-    image.channels[channel].as_ref().map(|channel| channel.input.clone())
+    let image = stage.session.project().image().unwrap();
+    image.bindings.get(channel).map(|channel| channel.input.clone())
 }
 
 const READS_SECOND: &str = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel2, vec2(0.5)); }";
@@ -296,7 +296,7 @@ fn a_dropped_model_is_drawn_by_a_pass_of_its_own() {
     let Some(mut stage) = Stage::open(&[("image.glsl", READS_SECOND)]) else { return };
     things(&stage);
     stage.drop_files(&["triangle.obj"], None);
-    let model = PassId::Buffer("model".into());
+    let model = PassName::buffer("model");
     assert_eq!(reads(&stage, 2), Some(Input::buffer("model")));
     stage.until("a frame of it", |stage| {
         stage.session.compile_state().last.is_some() && !stage.session.compile_state().compiling
@@ -385,7 +385,7 @@ fn only_measurements_in_sight_are_measured() {
     assert!((1..20).contains(&measured(&stage)), "those in sight: {}", measured(&stage));
 
     stage.click("measures:go:1");
-    assert_eq!(stage.shell.caret(), (Tab::Pass(PassId::Image), 1));
+    assert_eq!(stage.shell.caret(), (Tab::image(), 1));
 
     // Behind another panel of its place.
     press(&mut stage, egui::Key::T);

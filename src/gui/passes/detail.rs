@@ -7,8 +7,7 @@ use crate::{
         ui_output::{ShellCommand, UiOutput},
     },
     project::{
-        Condition, FillKind, Filter, Pass, PassEdit, PassId, PassKind, PassSize, Project, Region, Tab, TexelFormat,
-        Wrap,
+        Condition, FillKind, Filter, Pass, PassEdit, PassName, PassSize, Project, Region, Tab, TexelFormat, Wrap,
     },
     session::{Command, Session},
 };
@@ -42,7 +41,7 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
         shows(ui, tab, None, out);
         return;
     };
-    let is_buffer = pass.id.kind() == PassKind::Buffer;
+    let is_buffer = pass.id.is_buffer();
     let has = |key: &str| pass.id.row().refusal(key).is_none();
     Grid::new("pass settings").num_columns(2).spacing([14.0, 9.0]).show(ui, |ui| {
         ui.label("Name");
@@ -85,7 +84,7 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
             samplers(ui, project, &pass.id, out);
             ui.end_row();
         }
-        let can_be_filled = pass.settings.meshes().is_none();
+        let can_be_filled = !pass.body.is_cleared();
         if has("initial") && can_be_filled {
             ui.label("Initial state");
             fills::show(ui, pass, FillKind::Initial, &mut typed.initial, out);
@@ -97,7 +96,7 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
             ui.end_row();
         }
     });
-    let note = match pass.settings.meshes() {
+    let note = match pass.body.geometry() {
         Some(_) => "This pass draws meshes. Edit eddy.toml to change the meshes and the camera.",
         None => pass.id.row().note,
     };
@@ -109,7 +108,7 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &
 }
 
 /// The ways from here to the text and to the picture.
-fn shows(ui: &mut Ui, tab: &Tab, pass: Option<&PassId>, out: &mut UiOutput) {
+fn shows(ui: &mut Ui, tab: &Tab, pass: Option<&PassName>, out: &mut UiOutput) {
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         if out.clicked("passes:text", &ui.button("Edit code")) {
@@ -124,13 +123,10 @@ fn shows(ui: &mut Ui, tab: &Tab, pass: Option<&PassId>, out: &mut UiOutput) {
 }
 
 fn name_of(tab: &Tab) -> String {
-    match tab {
-        Tab::Pass(PassId::Buffer(name)) => name.clone(),
-        other => other.title(),
-    }
+    tab.pass().filter(|_| tab.is_buffer()).and_then(PassName::buffer_name).map_or_else(|| tab.title(), str::to_owned)
 }
 
-fn name(ui: &mut Ui, project: &Project, id: &PassId, naming: &mut Naming, out: &mut UiOutput) {
+fn name(ui: &mut Ui, project: &Project, id: &PassName, naming: &mut Naming, out: &mut UiOutput) {
     let is_wrong = checked(project, id, &naming.text).1.is_some();
     let field = TextEdit::singleline(&mut naming.text).desired_width(150.0);
     let field = field.text_color_opt(is_wrong.then_some(theme::of(ui).error));
@@ -188,10 +184,10 @@ fn condition(ui: &mut Ui, pass: &Pass, typed: &mut Naming, out: &mut UiOutput) {
 }
 
 /// The pass that a name means, and why it cannot be this one's.
-fn checked(project: &Project, id: &PassId, name: &str) -> (Option<PassId>, Option<String>) {
-    let wanted = PassId::buffer_named(name);
+fn checked(project: &Project, id: &PassName, name: &str) -> (Option<PassName>, Option<String>) {
+    let wanted = PassName::buffer_named(name);
     let why = match &wanted {
-        None => Some(PassId::NAMES.to_owned()),
+        None => Some(PassName::NAMES.to_owned()),
         Some(other) if other != id && project.pass(other).is_some() => {
             Some(format!("{} already exists", other.title()))
         }
@@ -286,11 +282,11 @@ fn format(ui: &mut Ui, pass: &Pass, out: &mut UiOutput) {
         let unit = if bytes == 1 { "byte" } else { "bytes" };
         ui.colored_label(theme::of(ui).weak, format!("{bytes} {unit} per texel"));
     });
-    let more = pass.settings.meshes().map_or(0, |g| g.more_targets.len());
-    if more > 0 {
+    let more = pass.body.more_targets();
+    if !more.is_empty() {
         ui.end_row();
         ui.label("");
-        let names: Vec<&str> = pass.settings.formats().iter().skip(1).map(|f| f.name()).collect();
+        let names: Vec<&str> = more.iter().map(|f| f.name()).collect();
         ui.colored_label(theme::of(ui).weak, format!("more targets: {}", names.join(", ")));
     }
 }
@@ -341,7 +337,7 @@ fn region(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut UiOutput) {
 fn steps(ui: &mut Ui, project: &Project, pass: &Pass, out: &mut UiOutput) {
     let group = project.groups.iter().find(|g| g.passes.contains(&pass.id));
     let now = group.map_or(1, |g| g.steps);
-    let buffers: Vec<&PassId> = project.passes.iter().map(|p| &p.id).take_while(|id| **id != pass.id).collect();
+    let buffers: Vec<&PassName> = project.passes.iter().map(|p| &p.id).take_while(|id| **id != pass.id).collect();
     ui.vertical(|ui| {
         ui.horizontal(|ui| {
             let mut value = now;
@@ -364,8 +360,8 @@ fn steps(ui: &mut Ui, project: &Project, pass: &Pass, out: &mut UiOutput) {
 }
 
 /// The filter and the wrap of all channels that read a buffer.
-fn samplers(ui: &mut Ui, project: &Project, id: &PassId, out: &mut UiOutput) {
-    let channels = project.passes.iter().flat_map(|p| p.channels.iter().flatten());
+fn samplers(ui: &mut Ui, project: &Project, id: &PassName, out: &mut UiOutput) {
+    let channels = project.passes.iter().flat_map(|p| p.bindings.channels());
     let readers: Vec<_> = channels.filter(|c| c.input.target().is_some_and(|(of, _)| of == id)).collect();
     if readers.is_empty() {
         ui.colored_label(theme::of(ui).weak, "no channel reads it");

@@ -2,7 +2,7 @@
 
 use crate::{
     gui::{accessible, theme, ui_output::UiOutput},
-    project::{FillKind, FillValue, Pass, PassEdit, PassId},
+    project::{FillKind, FillValue, Pass, PassEdit, PassName},
     session::Command,
 };
 use egui::{ComboBox, DragValue, Key, RichText, Role, TextEdit, Ui, vec2};
@@ -15,7 +15,7 @@ const FIRST: &str = "vec4(0.0)";
 #[derive(Debug, Default)]
 pub struct Filling {
     /// The pass, and the value that it had when the text was taken from it.
-    of: Option<(PassId, Option<FillValue>)>,
+    of: Option<(PassName, Option<FillValue>)>,
     text: String,
     /// A file is wanted that has no name yet.
     wants_file: bool,

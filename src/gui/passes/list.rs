@@ -7,7 +7,7 @@ use crate::{
         theme,
         ui_output::UiOutput,
     },
-    project::{Group, Pass, PassEdit, PassId, PassSize, Project, Tab},
+    project::{Group, Pass, PassEdit, PassName, PassSize, Project, Tab},
     session::{Command, Session},
 };
 use egui::{Align2, FontId, Id, Rect, Response, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
@@ -32,7 +32,7 @@ pub fn show(ui: &mut Ui, session: &Session, chosen: &Tab, out: &mut UiOutput) ->
             if response.clicked() || response.drag_started() {
                 clicked = Some(tab);
             }
-            if matches!(pass.id, PassId::Buffer(_)) {
+            if pass.id.is_buffer() {
                 if response.dragged() || response.drag_stopped() {
                     dragged = Some((places.len(), pass.id.clone(), response.clone()));
                 }
@@ -48,7 +48,7 @@ pub fn show(ui: &mut Ui, session: &Session, chosen: &Tab, out: &mut UiOutput) ->
 }
 
 /// Shows where a buffer that is being dragged would go, and lets it go there.
-fn drop_at(ui: &Ui, places: &[Rect], from: usize, id: &PassId, response: &Response, out: &mut UiOutput) {
+fn drop_at(ui: &Ui, places: &[Rect], from: usize, id: &PassName, response: &Response, out: &mut UiOutput) {
     let Some(pointer) = response.interact_pointer_pos() else { return };
     // How many rows' middles it is below; its own counts for where it comes from.
     let below = places.iter().filter(|r| pointer.y > r.center().y).count();
@@ -70,7 +70,7 @@ fn drop_at(ui: &Ui, places: &[Rect], from: usize, id: &PassId, response: &Respon
 
 fn row(ui: &mut Ui, session: &Session, tab: &Tab, pass: Option<&Pass>, chosen: &Tab, out: &mut UiOutput) -> Response {
     let id = Id::unique(("pass row", tab.title()));
-    let is_buffer = matches!(tab, Tab::Pass(PassId::Buffer(_)));
+    let is_buffer = tab.is_buffer();
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     let sense = if is_buffer { Sense::click_and_drag() } else { Sense::click() };
     let response = ui.interact(rect, id, sense);
@@ -138,7 +138,7 @@ fn note(pass: &Pass) -> String {
         PassSize::Scale(by) => parts.push(format!("{by:.3}").trim_end_matches('0').trim_end_matches('.').to_owned()),
         PassSize::Fixed(width, height) => parts.push(format!("{width}×{height}")),
     }
-    match pass.settings.formats().as_slice() {
+    match pass.formats().as_slice() {
         [one] if *one == Default::default() => {}
         [one] => parts.push(one.name().to_owned()),
         more => parts.push(format!("{} targets", more.len())),
@@ -148,8 +148,7 @@ fn note(pass: &Pass) -> String {
 
 /// Up, down, away.
 fn tools(ui: &mut Ui, project: &Project, chosen: &Tab, out: &mut UiOutput) {
-    let buffers: Vec<&PassId> =
-        project.passes.iter().map(|p| &p.id).filter(|id| matches!(id, PassId::Buffer(_))).collect();
+    let buffers: Vec<&PassName> = project.passes.iter().map(|p| &p.id).filter(|id| id.is_buffer()).collect();
     let at = buffers.iter().position(|id| chosen.pass() == Some(*id));
     let moves = [
         ("passes:up", Icon::Previous, "Draw earlier", at.and_then(|at| at.checked_sub(1))),
@@ -164,7 +163,7 @@ fn tools(ui: &mut Ui, project: &Project, chosen: &Tab, out: &mut UiOutput) {
         }
         button.on_hover_text(tip);
     }
-    let can_go = *chosen != Tab::Pass(PassId::Image) && project.source(chosen).is_some();
+    let can_go = *chosen != Tab::image() && project.source(chosen).is_some();
     let remove = ui.add_enabled(can_go, egui::Button::new("Remove"));
     if out.clicked("passes:remove", &remove) {
         out.ask(Command::EditPasses(PassEdit::Remove(chosen.clone())));

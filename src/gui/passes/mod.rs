@@ -13,7 +13,7 @@ use super::{
     ui_output::{ShellCommand, UiOutput},
 };
 use crate::{
-    project::{PassId, Tab},
+    project::{PassName, Role, Tab},
     session::{Command, Session},
 };
 use detail::Typed;
@@ -96,7 +96,7 @@ impl Passes {
         ui.add_space(2.0);
         let room = ui.available_rect_before_wrap();
         let wide = room.width() > 460.0;
-        let tab = self.chosen.clone().unwrap_or(Tab::Pass(PassId::Image));
+        let tab = self.chosen.clone().unwrap_or(Tab::image());
         if wide {
             let list = egui::Rect::from_min_size(room.min, vec2(LIST, room.height()));
             let rest = egui::Rect::from_min_max(egui::pos2(list.right() + 14.0, room.top()), room.max);
@@ -182,13 +182,13 @@ pub fn add_menu(ui: &mut Ui, session: &Session, chooses: bool, out: &mut UiOutpu
         let field = ui.add(egui::TextEdit::singleline(&mut name).hint_text("velocity").desired_width(110.0));
         accessible::name(&field, egui::Role::TextInput, "Name of the new buffer");
         out.place("add:name", field.rect);
-        let wanted = PassId::buffer_named(&name).map(Tab::Pass);
+        let wanted = PassName::buffer_named(&name).map(Tab::Pass);
         let is_free = wanted.as_ref().is_some_and(|tab| !session.tabs().contains(tab));
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
         let button = ui.add_enabled(is_free, egui::Button::new("Add"));
         let clicked = out.clicked("add:named", &button);
         let why = match &wanted {
-            None => PassId::NAMES.to_owned(),
+            None => PassName::NAMES.to_owned(),
             Some(tab) => format!("{} already exists", tab.title()),
         };
         button.on_disabled_hover_text(why);
@@ -202,19 +202,20 @@ pub fn add_menu(ui: &mut Ui, session: &Session, chooses: bool, out: &mut UiOutpu
 
 /// Common, the site's four buffers that are not there yet or else the next letter, the cubemap and the sound pass.
 fn addable(tabs: &[Tab]) -> Vec<Tab> {
-    let buffer = |c: char| Tab::Pass(PassId::Buffer(c.to_string()));
+    let buffer = |c: char| Tab::Pass(PassName::buffer(c.to_string()));
     let is_free = |tab: &Tab| !tabs.contains(tab);
     let mut buffers: Vec<Tab> = ('A'..='D').map(buffer).filter(is_free).collect();
     if buffers.is_empty() {
         buffers.extend(('E'..='Z').map(buffer).find(is_free));
     }
-    let others = [PassId::Cubemap, PassId::Sound].map(Tab::Pass).into_iter().filter(is_free);
+    let others =
+        Role::all().filter_map(Role::only_pass).map(Tab::Pass).filter(|tab| *tab != Tab::image() && is_free(tab));
     std::iter::once(Tab::Common).filter(is_free).chain(buffers).chain(others).collect()
 }
 
 /// Returns the buffer that comes next: the site's four, then further letters.
 pub fn next_buffer(tabs: &[Tab]) -> Option<Tab> {
-    addable(tabs).into_iter().find(|tab| matches!(tab, Tab::Pass(PassId::Buffer(_))))
+    addable(tabs).into_iter().find(Tab::is_buffer)
 }
 
 #[cfg(test)]
@@ -223,9 +224,9 @@ mod tests {
 
     #[test]
     fn a_fifth_buffer_is_offered_when_four_are_there() {
-        let tab = |id: PassId| Tab::Pass(id);
-        let buffer = |name: &str| tab(PassId::Buffer(name.into()));
-        let (cube, sound) = (tab(PassId::Cubemap), tab(PassId::Sound));
+        let tab = |id: PassName| Tab::Pass(id);
+        let buffer = |name: &str| tab(PassName::buffer(name));
+        let (cube, sound) = (tab(PassName::cube()), tab(PassName::sound()));
         let there = [buffer("B"), cube.clone()];
         assert_eq!(addable(&there), [Tab::Common, buffer("A"), buffer("C"), buffer("D"), sound.clone()]);
         let full = ["A", "B", "C", "D", "E"].map(buffer).into_iter().chain([Tab::Common]).collect::<Vec<_>>();

@@ -3,7 +3,6 @@
 use super::Shell;
 use crate::{
     gui::ui_output::UiOutput,
-    project::PassId,
     session::{Command, Session},
 };
 use egui::Ui;
@@ -54,7 +53,7 @@ impl Shell {
 
     /// Brings files in: projects are opened, pictures and models go to the pass in front.
     pub(super) fn bring(&self, paths: Vec<PathBuf>, channel: Option<usize>, out: &mut UiOutput) {
-        let pass = self.code.current().pass().cloned().unwrap_or(PassId::Image);
+        let pass = self.code.current().pass().cloned().unwrap_or_default();
         // Nothing is in front while the gallery covers it.
         let to = (!self.gallery).then_some((pass, channel));
         out.ask(Command::Bring { paths, to });

@@ -12,7 +12,7 @@ use crate::{
         timeline::written,
         ui_output::{ShellCommand, UiOutput},
     },
-    project::{PassId, Tab},
+    project::Tab,
     session::{Command, Halt, Session, SoundView},
 };
 use egui::{Align2, FontId, Key, Label, Rect, Response, RichText, Role, Sense, Ui, vec2};
@@ -31,7 +31,7 @@ pub fn show(state: &mut Sound, ui: &mut Ui, session: &Session, out: &mut UiOutpu
         let text = "This project has no sound pass. A sound pass computes 180 s of sound, sample by sample.";
         ui.add(Label::new(RichText::new(text).color(theme::of(ui).weak)).wrap());
         if out.clicked("sound:add", &ui.button("Add sound pass")) {
-            let tab = Tab::Pass(PassId::Sound);
+            let tab = Tab::sound();
             out.ask(Command::AddTab(tab.clone()));
             out.shell_commands.push(ShellCommand::GoTo(tab, None));
         }
@@ -69,7 +69,8 @@ pub fn show(state: &mut Sound, ui: &mut Ui, session: &Session, out: &mut UiOutpu
 fn progress(ui: &mut Ui, session: &Session, view: &SoundView) {
     let p = theme::of(ui);
     let has_errors = session.diagnostics().iter().any(|d| {
-        d.severity == crate::diag::Severity::Error && matches!(d.tab(), Some(Tab::Pass(PassId::Sound) | Tab::Common))
+        d.severity == crate::diag::Severity::Error
+            && d.tab().is_some_and(|tab| matches!(tab, Tab::Common) || *tab == Tab::sound())
     });
     let (text, color) = match (&view.trouble, &view.track) {
         (Some(why), _) => (format!("No more sound is computed: {why}. Edit the pass to try again."), p.error),

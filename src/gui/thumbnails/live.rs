@@ -7,7 +7,7 @@ use crate::{
     engine::{BuildOptions, Engine, FrameInputs, Program},
     gpu::{self, Gpu, GpuOptions},
     media,
-    project::{PassId, presets},
+    project::presets,
 };
 use egui::{ColorImage, TextureHandle, TextureOptions};
 use std::{
@@ -190,7 +190,7 @@ fn draw(
         if number < HIDDEN {
             continue;
         }
-        let pixels = engine.read(&PassId::Image).map_err(|e| e.to_string())?;
+        let pixels = engine.read_image().map_err(|e| e.to_string())?;
         let size = [pixels.width as usize, pixels.height as usize];
         let mut bytes = pixels.to_rgba8();
         bytes.chunks_exact_mut(4).for_each(|texel| texel[3] = 255);

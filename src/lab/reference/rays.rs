@@ -241,7 +241,7 @@ mod tests {
     #[test]
     fn rays_hit_meshes_at_the_right_distance() {
         let ssao = eddy_project::presets::load("ssao").unwrap().project;
-        let geometry = ssao.passes.iter().find_map(|p| p.settings.meshes()).unwrap();
+        let geometry = ssao.passes.iter().find_map(|p| p.body.geometry()).unwrap();
         let draw = MeshDraw { mesh: MeshSource::parse("builtin:cube"), ..geometry.draws[0].clone() };
         let draw = MeshDraw { scale: 0.5, rotation: [0.0; 3], position: [0.0, 2.0, 0.0], ..draw };
         let cube = Meshes::of(&[draw]).unwrap();

@@ -5,7 +5,7 @@ use eddy_diag::SourceId;
 use eddy_engine::BuildOptions;
 use eddy_media::{MediaSet, Texels};
 use eddy_project::{
-    self as project, Channel, CustomUniformType, CustomUniformValue, Fill, Filter, Input, Origin, PassId, Project,
+    self as project, Channel, CustomUniformType, CustomUniformValue, Fill, Filter, Input, Origin, PassName, Project,
     Sampler, TexelFormat, Wrap, presets::Library,
 };
 use include_dir::{Dir, include_dir};
@@ -28,7 +28,7 @@ pub enum Storage {
 #[derive(Clone)]
 struct Edit {
     /// `None` for Common.
-    pass: Option<PassId>,
+    pass: Option<PassName>,
     old: String,
     new: String,
 }
@@ -44,15 +44,15 @@ pub struct Setup {
     custom_uniforms: Vec<(String, CustomUniformValue)>,
     defines: Vec<(&'static str, String)>,
     steps: Vec<(&'static str, u32)>,
-    initial: Vec<(PassId, Fill)>,
-    texts: Vec<(PassId, String)>,
+    initial: Vec<(PassName, Fill)>,
+    texts: Vec<(PassName, String)>,
     edits: Vec<Edit>,
     states: Vec<(PathBuf, Arc<Texels>)>,
     storage: Storage,
-    wanted: Vec<PassId>,
+    wanted: Vec<PassName>,
     skip: bool,
-    given: Vec<PassId>,
-    value: Option<(PassId, &'static str)>,
+    given: Vec<PassName>,
+    value: Option<(PassName, &'static str)>,
     built: Option<Build>,
 }
 
@@ -71,7 +71,7 @@ impl Setup {
         self.size
     }
 
-    pub fn wanted(&self) -> &[PassId] {
+    pub fn wanted(&self) -> &[PassName] {
         &self.wanted
     }
 
@@ -197,7 +197,7 @@ impl Setup {
     /// Measures the picture.
     #[must_use]
     pub fn wants_picture(mut self) -> Self {
-        self.wanted = vec![PassId::Image];
+        self.wanted = vec![PassName::image()];
         self
     }
 
@@ -224,9 +224,9 @@ impl Setup {
         for id in &self.given {
             let pass = project.pass_mut(id).ok_or_else(|| lacks(id.title()))?;
             let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true };
-            let PassId::Buffer(name) = id else { return Err(lacks("a buffer to be given".into())) };
+            let Some(name) = id.buffer_name() else { return Err(lacks("a buffer to be given".into())) };
             pass.source.text = GIVEN.into();
-            pass.channels = [Some(Channel { input: Input::buffer(name), sampler }), None, None, None];
+            pass.bindings = [Some(Channel { input: Input::buffer(name), sampler })].into();
         }
         for Edit { pass, old, new } in &self.edits {
             let source = match pass {
@@ -290,7 +290,7 @@ impl Setup {
 
     /// Returns the position of the measured value in this setup's project: its pass and its place in a text. `None` if
     /// a picture is measured.
-    pub(super) fn value_at(&self, project: &Project) -> Result<Option<(PassId, SourceId, u32)>, LabError> {
+    pub(super) fn value_at(&self, project: &Project) -> Result<Option<(PassName, SourceId, u32)>, LabError> {
         let Some((id, declaration)) = &self.value else { return Ok(None) };
         let lacks = || LabError::Setup { method: self.folder.into(), what: format!("declaration `{declaration}`") };
         let index = project.passes.iter().position(|p| p.id == *id).ok_or_else(lacks)?;
@@ -311,11 +311,11 @@ const GIVEN: &str = "void mainImage(out vec4 texel, in vec2 fragCoord) {
 ";
 
 /// Returns the buffer with this file name, or `image`.
-pub fn pass(name: &str) -> PassId {
+pub fn pass(name: &str) -> PassName {
     if name == "image" {
-        return PassId::Image;
+        return PassName::image();
     }
-    PassId::parse(&format!("buffer_{name}")).unwrap_or(PassId::Image)
+    PassName::parse(&format!("buffer_{name}")).unwrap_or_default()
 }
 
 /// The text of a pass whose value a 16-bit float cannot represent: 1 and three quarters of its last bit.
@@ -324,9 +324,9 @@ pub(super) const PROBE: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4
 /// Replaces every 32-bit float format of a buffer by the 16-bit one with the same number of components. The picture
 /// itself is not stored between frames, and is shown in 8 bits.
 pub(super) fn halve(project: &mut Project) {
-    for settings in project.passes.iter_mut().filter(|p| p.id != PassId::Image).map(|p| &mut p.settings) {
-        settings.format = half(settings.format);
-        let more = settings.meshes_mut().into_iter().flat_map(|g| &mut g.more_targets);
+    for pass in project.passes.iter_mut().filter(|p| !p.id.is_image()) {
+        pass.settings.format = half(pass.settings.format);
+        let more = pass.body.geometry_mut().into_iter().flat_map(|g| &mut g.more_targets);
         more.for_each(|format| *format = half(*format));
     }
 }

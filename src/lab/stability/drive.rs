@@ -14,7 +14,7 @@ use crate::{
 };
 use eddy_engine::{BuildOptions, DrawFor, Engine, Pixels, Program};
 use eddy_gpu::Gpu;
-use eddy_project::PassId;
+use eddy_project::PassName;
 use std::collections::BTreeMap;
 
 /// The maximum number of frames in flight.
@@ -27,7 +27,7 @@ const RECOVERED: f64 = 1.1;
 pub struct Driver<'s> {
     subject: &'s CheckedProject,
     engine: Engine,
-    state: Vec<PassId>,
+    state: Vec<PassName>,
     /// The largest root mean square of each check without any disturbance, by size and frames.
     calm: BTreeMap<((u32, u32), u32), Vec<f64>>,
 }
@@ -43,7 +43,7 @@ struct Run<'d, 's, 'c> {
 impl<'s> Driver<'s> {
     /// Compiles the project. Fails with the author's diagnostics.
     pub fn new(gpu: &Gpu, subject: &'s CheckedProject, size: (u32, u32)) -> Result<Driver<'s>, LabError> {
-        let mut wanted: Vec<PassId> = vec![PassId::Image];
+        let mut wanted: Vec<PassName> = vec![PassName::image()];
         wanted.extend(subject.checks.iter().map(|c| c.pass.clone()));
         wanted.extend(subject.stateful());
         wanted.sort();
@@ -142,7 +142,7 @@ impl<'s> Driver<'s> {
                 let check = &run.driver.subject.checks[n];
                 last = looked.offence.map(|worst| Violation {
                     frame,
-                    pass: check.pass.key(),
+                    pass: check.pass.key().to_owned(),
                     quantity: check.quantity.name(),
                     texel: worst.texel,
                     value: Number(worst.value),
@@ -231,7 +231,7 @@ impl Run<'_, '_, '_> {
     fn look(&mut self, conditions: &CaseConditions) -> Result<Vec<FrameCheck>, LabError> {
         let engine = &mut self.driver.engine;
         let conditions = CaseConditions { size: engine.size(), ..conditions.clone() };
-        let mut read: BTreeMap<&PassId, Pixels> = BTreeMap::new();
+        let mut read: BTreeMap<&PassName, Pixels> = BTreeMap::new();
         let mut all = Vec::new();
         for check in &self.driver.subject.checks {
             if !read.contains_key(&check.pass) {

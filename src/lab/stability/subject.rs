@@ -6,7 +6,7 @@ use super::{
 };
 use crate::LabError;
 use eddy_media::{self as media, MediaSet};
-use eddy_project::{self as project, CustomUniform, CustomUniformValues, Origin, PassId, Project};
+use eddy_project::{self as project, CustomUniform, CustomUniformValues, Origin, PassName, Project};
 use std::collections::BTreeSet;
 
 /// The maximum absolute value in a project without declarations: larger values are neither colours nor states that a
@@ -16,7 +16,7 @@ pub const ANY_BOUND: f64 = 1e4;
 /// A range for all components of a pass, as in `--bound buffer_a=-2..2`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundArgument {
-    pub pass: PassId,
+    pub pass: PassName,
     pub low: f64,
     pub high: f64,
 }
@@ -28,7 +28,7 @@ impl BoundArgument {
         let (pass, range) = text.split_once('=').ok_or_else(form)?;
         let (low, high) = range.split_once("..").ok_or_else(form)?;
         let number = |t: &str| t.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(form);
-        let pass = PassId::parse(pass.trim()).ok_or_else(form)?;
+        let pass = PassName::parse(pass.trim()).ok_or_else(form)?;
         let (low, high) = (number(low)?, number(high)?);
         if low > high {
             return Err(format!("{text}: the lower bound is above the upper one"));
@@ -88,8 +88,8 @@ impl CheckedProject {
                 ));
             }
         }
-        if !subject.checks.iter().any(|c| c.pass == PassId::Image) {
-            subject.checks.push(any(PassId::Image, -ANY_BOUND, ANY_BOUND, "a colour"));
+        if !subject.checks.iter().any(|c| c.pass.is_image()) {
+            subject.checks.push(any(PassName::image(), -ANY_BOUND, ANY_BOUND, "a colour"));
         }
         subject
     }
@@ -106,7 +106,7 @@ impl CheckedProject {
     }
 
     /// Returns the buffers that a pass reads from the last frame: the project's state.
-    pub fn stateful(&self) -> BTreeSet<PassId> {
+    pub fn stateful(&self) -> BTreeSet<PassName> {
         self.project.stateful_passes()
     }
 
@@ -143,10 +143,8 @@ impl CheckedProject {
         let mut print = project::Fingerprint::of(&self.project);
         let usual = self.conditions(&CustomUniformValues::new(), (640, 360), 1.0 / 60.0, true);
         for check in &self.checks {
-            let allowed = match check.pass {
-                PassId::Image => Allowed::new(-ANY_BOUND, ANY_BOUND),
-                _ => check.allowed(&usual),
-            };
+            let is_any = check.pass.is_image();
+            let allowed = if is_any { Allowed::new(-ANY_BOUND, ANY_BOUND) } else { check.allowed(&usual) };
             print.eat(format!("{} {allowed:?}", check.name()).as_bytes());
         }
         print.text()
@@ -162,7 +160,7 @@ impl CheckedProject {
     }
 }
 
-fn any(pass: PassId, low: f64, high: f64, reason: &str) -> Check {
+fn any(pass: PassName, low: f64, high: f64, reason: &str) -> Check {
     Check {
         pass,
         quantity: Quantity::Any,
@@ -180,7 +178,7 @@ mod tests {
     #[test]
     fn bounds_are_parsed_or_rejected_with_a_hint() {
         let bound = BoundArgument::parse("buffer_a=-2..2.5").unwrap();
-        assert_eq!((bound.pass, bound.low, bound.high), (PassId::Buffer("A".into()), -2.0, 2.5));
+        assert_eq!((bound.pass, bound.low, bound.high), (PassName::buffer("A"), -2.0, 2.5));
         for (text, hint) in [
             ("buffer_a", "PASS=LOW..HIGH"),
             ("buffer_a=1", "PASS=LOW..HIGH"),

@@ -128,7 +128,7 @@ fn in_the_room(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
     let open = running.read("blur")?;
     let (project, _) = setup.project()?;
     let pass = project.pass(&crate::setup::pass("geometry"));
-    let geometry = pass.and_then(|p| p.settings.meshes()).ok_or_else(lacks)?;
+    let geometry = pass.and_then(|p| p.body.geometry()).ok_or_else(lacks)?;
     let meshes = Meshes::of(&geometry.draws).map_err(|_| lacks())?;
     let falloff = |d: f64| room_falloff(ROOM_RADIUS, d);
     let found = on_all_cores(&spots(setup.size()), |&(x, y)| {

@@ -100,7 +100,7 @@ fn show(project: &mut Project, scene: Scene) {
     let target = if scene == Scene::Wall { [0.0, 0.1, -1.5] } else { [0.0, 0.1, 0.3] };
     let camera = Camera { yaw: 0.0, pitch: 35.0, distance: 5.0, target, fov: 30.0, ..Camera::default() };
     for name in ["geometry", "backs", "occlusion", "lighting"] {
-        let Some(meshes) = project.pass_mut(&pass(name)).and_then(|p| p.settings.meshes_mut()) else { continue };
+        let Some(meshes) = project.pass_mut(&pass(name)).and_then(|p| p.body.geometry_mut()) else { continue };
         meshes.camera = camera;
         if name == "occlusion" || name == "lighting" {
             continue;

@@ -6,7 +6,7 @@ use crate::{
     metrics::{Norms, drift},
     three_of,
 };
-use eddy_project::{Channel, Filter, Input, Pass, PassId, PassSize, Project, Sampler, Source, Wrap};
+use eddy_project::{Channel, Filter, Input, Pass, PassName, PassSize, Project, Sampler, Source, Wrap};
 use std::f64::consts::TAU;
 
 /// The requested blur has the standard deviation of the nine taps; and the widest of the preset's slider, for methods
@@ -45,10 +45,11 @@ pub(super) fn pyramid(project: &mut Project, levels: u32) {
     let pass = |name: &str, text: &str, level: u32, reads: String| {
         let sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
         let mut pass = Pass {
-            id: PassId::Buffer(name.to_owned()),
+            id: PassName::buffer(name),
             source: Source { name: format!("buffer_{name}.glsl"), path: None, text: text.into() },
-            channels: [Some(Channel { input: Input::buffer(reads), sampler }), None, None, None],
+            bindings: [Some(Channel { input: Input::buffer(reads), sampler })].into(),
             settings: Default::default(),
+            body: Default::default(),
         };
         pass.settings.size = PassSize::Scale(0.5f64.powi(level as i32));
         pass
@@ -63,8 +64,8 @@ pub(super) fn pyramid(project: &mut Project, levels: u32) {
         passes.push(pass(&format!("up{level}"), UP, level, before));
         before = format!("up{level}");
     }
-    let place = project.passes.iter().position(|p| p.id == PassId::Buffer("field".into())).unwrap_or(0);
-    if let Some(Channel { input, .. }) = &mut project.passes[place].channels[0] {
+    let place = project.passes.iter().position(|p| p.id == PassName::buffer("field")).unwrap_or(0);
+    if let Some(Channel { input, .. }) = project.passes[place].bindings.get_mut(0) {
         *input = Input::buffer(before);
     }
     project.passes.splice(place..place, passes);

@@ -2,7 +2,7 @@
 //! (Saad, Iterative Methods for Sparse Linear Systems, algorithms 6.18 and 9.1; Tatebe 1993).
 
 use super::cycle::{self, Component, Cycle};
-use eddy_project::{PassId, PassSize, Project, TexelFormat};
+use eddy_project::{PassName, PassSize, Project, TexelFormat};
 
 const SUMS: &str = include_str!("../../../assets/lab/poisson_cg/sums.glsl");
 
@@ -25,9 +25,9 @@ pub fn chain(project: &mut Project, n: u32) {
         passes.push(sums);
         last = name;
     }
-    cycle::insert(project, passes, "totals").channels = cycle::channels(&[&last]);
+    cycle::insert(project, passes, "totals").bindings = cycle::channels(&[&last]);
     for group in &mut project.groups {
-        let place = group.passes.iter().position(|id| *id == PassId::Buffer("totals".into()));
+        let place = group.passes.iter().position(|id| *id == PassName::buffer("totals"));
         if let Some(place) = place {
             group.passes.splice(place..place, names.iter().cloned());
         }
@@ -45,8 +45,8 @@ pub fn preconditioned(project: &mut Project, n: u32) {
     cycle::insert(project, vec![end], "dots");
     Cycle::Symmetric.add(project, n, None, Component { pass: "field", component: 'y' }, "cycled");
     for (name, channel) in [("dots", 1), ("field", 2)] {
-        if let Some(pass) = project.pass_mut(&PassId::Buffer(name.into())) {
-            pass.channels[channel] = cycle::channels(&["cycled"])[0].clone();
+        if let Some(pass) = project.pass_mut(&PassName::buffer(name)) {
+            pass.bindings.set(channel, cycle::channels(&["cycled"]).get(0).cloned());
         }
     }
 }

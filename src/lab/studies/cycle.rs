@@ -1,7 +1,9 @@
 //! Multigrid cycles on a torus, or in a box with walls, as passes of a project: one for every operation on a grid. The
 //! names of cycles and their parts are those of Trottenberg, Oosterlee and Schüller, Multigrid (2001), chapter 2.
 
-use eddy_project::{Channel, Filter, Input, Pass, PassId, PassSize, Project, Sampler, Source, TexelFormat, Wrap};
+use eddy_project::{
+    Bindings, Channel, Filter, Input, Pass, PassName, PassSize, Project, Sampler, Source, TexelFormat, Wrap,
+};
 
 macro_rules! part {
     ($file:literal) => {
@@ -90,7 +92,7 @@ impl Cycle {
     /// Makes a pass the last of a cycle whose others were returned by [`Cycle::passes`].
     fn end(self, prefix: &str, end: &mut Pass) {
         let added = format!("{prefix}add0");
-        (end.channels, end.source.text) = (channels(&[&added, &added]), self.after().into());
+        (end.bindings, end.source.text) = (channels(&[&added, &added]), self.after().into());
     }
 
     /// Adds a cycle that ends in the pass `result` of the project: (p, f). It starts with p of `guess`, or with 0, and
@@ -164,10 +166,11 @@ pub fn insert<'p>(project: &'p mut Project, passes: Vec<Pass>, before: &str) -> 
 /// Returns a buffer of a grid, of (p, f) unless its name indicates that it contains only a right-hand side.
 pub fn pass(name: &str, text: &str, size: PassSize, reads: &[&str]) -> Pass {
     let mut pass = Pass {
-        id: PassId::Buffer(name.to_owned()),
+        id: PassName::buffer(name),
         source: Source { name: format!("buffer_{name}.glsl"), path: None, text: text.into() },
-        channels: channels(reads),
+        bindings: channels(reads),
         settings: Default::default(),
+        body: Default::default(),
     };
     pass.settings.size = size;
     pass.settings.format = if name.contains("rhs") { TexelFormat::R32f } else { TexelFormat::Rg32f };
@@ -175,7 +178,7 @@ pub fn pass(name: &str, text: &str, size: PassSize, reads: &[&str]) -> Pass {
 }
 
 /// Returns channels that read buffers texel by texel.
-pub fn channels(reads: &[&str]) -> [Option<Channel>; 4] {
+pub fn channels(reads: &[&str]) -> Bindings {
     let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Repeat, vflip: true };
-    std::array::from_fn(|n| reads.get(n).map(|name| Channel { input: Input::buffer(*name), sampler }))
+    reads.iter().map(|name| Channel { input: Input::buffer(*name), sampler }).enumerate().collect()
 }

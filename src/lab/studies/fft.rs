@@ -21,7 +21,7 @@ pub fn add(project: &mut Project, n: u32) {
     let end = texts.pop().unwrap_or_default();
     let (passes, last) = chain("stage", &texts, "source", TexelFormat::Rg32f);
     let field = cycle::insert(project, passes, "field");
-    (field.source.text, field.channels) = (end.into(), cycle::channels(&[&last]));
+    (field.source.text, field.bindings) = (end.into(), cycle::channels(&[&last]));
 }
 
 /// The direction of a transform: from a picture to its waves, or back.

@@ -3,7 +3,7 @@
 
 use super::cycle::{Component, Cycle};
 use crate::{LabError, Measured, Running, Setup, metrics::mean, setup::Storage};
-use eddy_project::{PassId, Project, TexelFormat};
+use eddy_project::{PassName, Project, TexelFormat};
 use std::f64::consts::TAU;
 
 /// The flow to compute.
@@ -408,7 +408,7 @@ fn solved_by_cycles(setup: Setup, n: u32, pressures: &'static [(&'static str, &'
     setup.built(move |project: &mut Project| {
         project.groups.clear();
         for &(divergence, pressure) in pressures {
-            if let Some(pass) = project.pass_mut(&PassId::Buffer(pressure.into())) {
+            if let Some(pass) = project.pass_mut(&PassName::buffer(pressure)) {
                 pass.settings.format = TexelFormat::Rg32f;
             }
             let divergence = Component { pass: divergence, component: 'x' };

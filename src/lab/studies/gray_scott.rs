@@ -12,7 +12,7 @@ use crate::{
     setup::{Storage, frames_of, pass},
     three_of,
 };
-use eddy_project::{PassId, Project, TexelFormat};
+use eddy_project::{PassName, Project, TexelFormat};
 use std::{f64::consts::TAU, sync::LazyLock};
 
 const EULER: &[f64] = &[0.25, 0.5, 1.0];
@@ -65,15 +65,15 @@ fn transformed(project: &mut Project, size: (u32, u32)) {
     let end = back.pop().unwrap_or_default();
     let (passes, last) = fft::chain("back", &back, "step", TexelFormat::Rg32f);
     let field = cycle::insert(project, passes, "field");
-    (field.source.text, field.channels) = (end.into(), cycle::channels(&[&last]));
+    (field.source.text, field.bindings) = (end.into(), cycle::channels(&[&last]));
     // The waves of the terms are drawn before both passes that read them.
     let (passes, waves) = fft::chain("there", &texts(Direction::There), "terms", TexelFormat::Rgba32f);
     let step = cycle::insert(project, passes, "step");
-    step.channels = cycle::channels(&[&waves, "history"]);
+    step.bindings = cycle::channels(&[&waves, "history"]);
     if let Some(history) = project.pass_mut(&pass("history")) {
-        history.channels = cycle::channels(&[&waves]);
+        history.bindings = cycle::channels(&[&waves]);
     }
-    let buffers: Vec<PassId> = project.passes.iter().map(|p| p.id.clone()).filter(|id| *id != PassId::Image).collect();
+    let buffers: Vec<PassName> = project.passes.iter().map(|p| p.id.clone()).filter(|id| !id.is_image()).collect();
     project.groups.iter_mut().for_each(|group| group.passes.clone_from(&buffers));
 }
 

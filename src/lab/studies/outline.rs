@@ -124,7 +124,7 @@ fn staged(project: &mut Project, method: &str, width: f64) {
         // The preset has them; a test of the studies opens each setup.
         project.set_custom_uniform(&custom_uniform).unwrap_or_else(|why| panic!("{custom_uniform}: {why}"));
     }
-    let scene = project.pass_mut(&super::super::setup::pass("scene")).and_then(|p| p.settings.meshes_mut());
+    let scene = project.pass_mut(&super::super::setup::pass("scene")).and_then(|p| p.body.geometry_mut());
     let geometry = scene.expect("the preset draws meshes");
     geometry.camera = Camera {
         yaw: 0.0,

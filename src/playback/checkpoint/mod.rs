@@ -8,7 +8,7 @@
 use crate::script::ScriptedInputs;
 use eddy_engine::{State, TargetForm, TargetState};
 use eddy_media::MediaSet;
-use eddy_project::{FileError, Fingerprint, PassId, Project, confine, limits, write_into};
+use eddy_project::{FileError, Fingerprint, PassName, Project, confine, limits, write_into};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
 use flate2::{Compression, bufread::GzDecoder, write::GzEncoder};
 use serde::{Deserialize, Serialize};
@@ -126,7 +126,7 @@ impl Moment {
 /// Writes a checkpoint into a folder, whole or not at all. A link of this name that leads out of the folder is refused.
 pub fn write(folder: &Path, name: &str, moment: &Moment, state: &State) -> Result<(), CheckpointError> {
     let target = |target: &TargetState| TargetHead {
-        pass: target.pass.key(),
+        pass: target.pass.key().to_owned(),
         target: target.index,
         format: target.shape.format.name().into(),
         width: target.shape.width,
@@ -161,7 +161,8 @@ pub fn read(path: &Path, run: &Moment, forms: &[TargetForm]) -> Result<Checkpoin
         return Err(CheckpointError::Other { path: path.into(), reason });
     }
     let form = |reason: String| CheckpointError::Form { path: path.into(), reason };
-    let shapes: Vec<(PassId, TextureShape)> = head.targets.iter().map(shape).collect::<Result<_, _>>().map_err(form)?;
+    let shapes: Vec<(PassName, TextureShape)> =
+        head.targets.iter().map(shape).collect::<Result<_, _>>().map_err(form)?;
     let sizes =
         head.targets.iter().zip(&shapes).map(|(head, (_, shape))| shape.bytes().checked_mul(head.textures as u64));
     let all = sizes.sum::<Option<u64>>().unwrap_or(u64::MAX);
@@ -203,7 +204,7 @@ pub fn read(path: &Path, run: &Moment, forms: &[TargetForm]) -> Result<Checkpoin
 /// Returns for each target of a file whether its texels are kept. Err: the file has targets otherwise than the program.
 fn measure(
     targets: &[TargetHead],
-    shapes: &[(PassId, TextureShape)],
+    shapes: &[(PassName, TextureShape)],
     forms: &[TargetForm],
 ) -> Result<Vec<bool>, String> {
     let in_words =
@@ -263,8 +264,8 @@ fn head(path: &Path) -> Result<(Head, BufReader<File>), CheckpointError> {
     Ok((head, file))
 }
 
-fn shape(head: &TargetHead) -> Result<(PassId, TextureShape), String> {
-    let pass = PassId::parse(&head.pass).ok_or_else(|| format!("no pass is called {:?}", head.pass))?;
+fn shape(head: &TargetHead) -> Result<(PassName, TextureShape), String> {
+    let pass = PassName::parse(&head.pass).ok_or_else(|| format!("no pass is called {:?}", head.pass))?;
     let format = TexelFormat::ALL.into_iter().find(|format| format.name() == head.format);
     let format = format.ok_or_else(|| format!("there is no format {:?}", head.format))?;
     let side = 1..=limits::PICTURE_SIDE;

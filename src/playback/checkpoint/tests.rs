@@ -23,7 +23,7 @@ fn state() -> State {
         shape,
         textures: (0..count).map(|n| texels(shape.bytes(), n)).collect(),
     };
-    State { targets: vec![target(PassId::Buffer("A".into()), 1, flat, 2), target(PassId::Cubemap, 0, cube, 1)] }
+    State { targets: vec![target(PassName::buffer("A"), 1, flat, 2), target(PassName::cube(), 0, cube, 1)] }
 }
 
 fn forms() -> Vec<TargetForm> {

@@ -2,7 +2,7 @@
 
 use super::quantity::Quantity;
 use eddy_diag::{Diagnostic, Span};
-use eddy_project::{self as project, PassId, Project, inspect_comments};
+use eddy_project::{self as project, PassName, Project, inspect_comments};
 
 /// Says why a number cannot be had, and what mends that.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,7 +46,7 @@ fn quantity(project: &Project, text: &str) -> Result<Quantity, Unmeasured> {
     })?;
     let key = quantity.pass.key();
     let Some(pass) = project.pass(&quantity.pass) else {
-        let keys: Vec<String> = project.passes.iter().map(|pass| pass.id.key()).collect();
+        let keys: Vec<&str> = project.passes.iter().map(|pass| pass.id.key()).collect();
         let mend = format!("the project's passes are {}", project::listed(&keys));
         return Err(Unmeasured { why: format!("there is no pass {key}"), mend });
     };
@@ -69,7 +69,7 @@ fn quantity(project: &Project, text: &str) -> Result<Quantity, Unmeasured> {
 }
 
 /// Returns how many components a target of a pass stores.
-pub fn stored(project: &Project, pass: &PassId, target: usize) -> usize {
+pub fn stored(project: &Project, pass: &PassName, target: usize) -> usize {
     let formats = project.pass(pass).map(|pass| pass.formats()).unwrap_or_default();
     formats.get(target).copied().unwrap_or_default().components()
 }

@@ -2,7 +2,7 @@
 
 use super::reader::Reader;
 use eddy_engine::Pixels;
-use eddy_project::{self as project, PassId};
+use eddy_project::{self as project, PassName};
 use std::fmt;
 
 /// Says how numbers become one.
@@ -60,7 +60,7 @@ impl Reduction {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Quantity {
     pub reduction: Reduction,
-    pub pass: PassId,
+    pub pass: PassName,
     /// The target among those of the pass.
     pub target: usize,
     /// 0 to 3; all that the pass stores where none is named.
@@ -87,7 +87,8 @@ impl Quantity {
         };
         reader.want("(", "after the reduction")?;
         let name = reader.take(|c| !matches!(c, '.' | ':' | ')'));
-        let pass = PassId::parse(name.trim()).ok_or_else(|| format!("`{}` is not the name of a pass", name.trim()))?;
+        let pass =
+            PassName::parse(name.trim()).ok_or_else(|| format!("`{}` is not the name of a pass", name.trim()))?;
         let mut target = 0;
         if reader.has(":") {
             let number = reader.take(|c| c.is_ascii_digit());

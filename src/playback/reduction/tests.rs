@@ -1,6 +1,6 @@
 use super::*;
 use eddy_engine::Pixels;
-use eddy_project::PassId;
+use eddy_project::PassName;
 
 fn pixels(texels: &[[f32; 4]]) -> Pixels {
     Pixels { width: texels.len() as u32, height: 1, texels: texels.to_vec() }
@@ -13,7 +13,7 @@ fn value(quantity: &str, texels: &[[f32; 4]]) -> f64 {
 #[test]
 fn a_quantity_names_a_reduction_a_pass_and_a_component() {
     let quantity = Quantity::parse(" rms( Buffer A .y ) ").unwrap();
-    let pass = PassId::Buffer("A".into());
+    let pass = PassName::buffer("A");
     assert_eq!(quantity, Quantity { reduction: Reduction::Rms, pass, target: 0, component: Some(1) });
     for text in ["sum(buffer_a.x)", "nonfinite(image)", "max(buffer_scene:1.w)"] {
         assert_eq!(Quantity::parse(text).unwrap().to_string(), text);

@@ -13,7 +13,7 @@ use crate::{
     script::{Script, ScriptedInputs},
 };
 use eddy_project::{
-    FileError, Media, MeshSource, Origin, PassId, Project, check_json_values, confine, limits, read_snapshot,
+    FileError, Media, MeshSource, Origin, PassName, Project, check_json_values, confine, limits, read_snapshot,
     write_snapshot,
 };
 use flate2::{Compression, Crc, read::ZlibDecoder, write::ZlibEncoder};
@@ -43,7 +43,7 @@ pub struct Scene {
     /// The device that drew it.
     pub device: String,
     /// The pass that the picture is of.
-    pub pass: PassId,
+    pub pass: PassName,
     /// The picture's frame, counted from the first one of the run.
     pub frame: u32,
     /// The canvas, in pixels.
@@ -101,12 +101,10 @@ fn portable(project: &Project) -> Project {
     for included in &mut project.includes {
         (included.source.path, included.is_edited) = (None, true);
     }
-    for slot in project.passes.iter_mut().flat_map(|pass| &mut pass.channels) {
-        if slot.as_ref().is_some_and(|channel| matches!(channel.input.media(), Some(Media::Picked(_)))) {
-            *slot = None;
-        }
+    for pass in &mut project.passes {
+        pass.bindings.retain(|channel| !matches!(channel.input.media(), Some(Media::Picked(_))));
     }
-    for meshes in project.passes.iter_mut().filter_map(|pass| pass.settings.meshes_mut()) {
+    for meshes in project.passes.iter_mut().filter_map(|pass| pass.body.geometry_mut()) {
         meshes.draws.retain(|draw| !matches!(draw.mesh, MeshSource::Picked(_)));
     }
     project
@@ -173,7 +171,7 @@ impl Scene {
             eddy_picture: VERSION,
             eddy: self.eddy.clone(),
             device: self.device.clone(),
-            pass: self.pass.key(),
+            pass: self.pass.key().to_owned(),
             frame: self.frame,
             size: self.size,
             project: write_snapshot(&portable(&self.project)).map_err(io::Error::other)?,
@@ -244,7 +242,7 @@ impl Scene {
         Ok(Scene {
             eddy: form.eddy,
             device: form.device,
-            pass: PassId::parse(&form.pass).unwrap_or(PassId::Image),
+            pass: PassName::parse(&form.pass).unwrap_or_default(),
             frame: form.frame,
             size: form.size,
             // A snapshot may name a place.

@@ -2,13 +2,13 @@
 
 use super::{LONGEST, Scene, SceneInputs};
 use crate::{recording::Recording, script::ScriptedInputs};
-use eddy_project::{PassId, Project};
+use eddy_project::{PassName, Project};
 
 /// Holds what the pictures of an offline run are drawn from.
 #[derive(Clone, Debug)]
 pub struct RunSource {
     pub project: Project,
-    pub pass: PassId,
+    pub pass: PassName,
     /// The device that draws.
     pub device: String,
     /// Frames depend on those before.

@@ -10,9 +10,9 @@ fn project() -> Project {
         text: text.into(),
     };
     let mut image =
-        Pass::new(PassId::Image, source("void mainImage(out vec4 o, in vec2 p) { o = vec4(p, iTime, 1.0); }"));
-    image.channels[0] = Some(Channel::new(Input::texture(Media::Picked("/home/somebody/cat.png".into()))));
-    image.channels[1] = Some(Channel::new(Input::texture(Media::File("own.png".into()))));
+        Pass::new(PassName::image(), source("void mainImage(out vec4 o, in vec2 p) { o = vec4(p, iTime, 1.0); }"));
+    image.bindings.set(0, Some(Channel::new(Input::texture(Media::Picked("/home/somebody/cat.png".into())))));
+    image.bindings.set(1, Some(Channel::new(Input::texture(Media::File("own.png".into())))));
     let place = Origin::Folder { path: "/home/somebody/waves".into(), has_manifest: true };
     Project::new("waves", vec![image], place)
 }
@@ -28,7 +28,7 @@ fn scene() -> Scene {
     Scene {
         eddy: "1.2.3".into(),
         device: "a device".into(),
-        pass: PassId::Image,
+        pass: PassName::image(),
         frame: 12,
         size: (4, 3),
         project: project(),
@@ -55,7 +55,7 @@ fn a_scene_comes_back_without_places_of_the_machine() {
     assert_eq!(back.inputs, scene().inputs);
     let text = scene().text().unwrap();
     assert!(!text.contains("somebody"), "{text}");
-    let [picked, own] = [0, 1].map(|n| back.project.passes[0].channels[n].as_ref().map(|c| c.input.media().cloned()));
+    let [picked, own] = [0, 1].map(|n| back.project.passes[0].bindings.get(n).map(|c| c.input.media().cloned()));
     assert_eq!((picked, own), (None, Some(Some(Media::File("own.png".into())))));
     assert_eq!(back.project.passes[0].source.text, project().passes[0].source.text);
     // The picture is the same, and other programs read it.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Origin, Pass, PassId, Source, limits};
+use crate::{Origin, Pass, PassName, Source, limits};
 
 fn holds(text: &str) -> bool {
     let value = |name: &str| match name {
@@ -85,8 +85,8 @@ fn names_are_checked_against_the_uniforms() {
     let source = |text: &str| Source { name: "Image".into(), path: None, text: text.into() };
     let text =
         "#iUniform int diffusion = 1 in { 0, 3 }\n#iUniform vec2 wind = vec2(0.0)\n#iUniform float height = 2.0\n";
-    let mut project = Project::new("p", vec![Pass::new(PassId::Image, source(text))], Origin::Unsaved);
-    let mut buffer = Pass::new(PassId::Buffer("A".into()), source(""));
+    let mut project = Project::new("p", vec![Pass::new(PassName::image(), source(text))], Origin::Unsaved);
+    let mut buffer = Pass::new(PassName::buffer("A"), source(""));
     buffer.settings.when = Some(Condition::parse("difusion == 3 && width > 3 && height > 1 && wind < 1").unwrap());
     project.passes.insert(0, buffer);
     let uniforms = project.custom_uniforms();

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::Project;
-use crate::{Origin, Pass, PassId, Source, json};
+use crate::{Origin, Pass, PassName, Source, json};
 use eddy_diag::{SourceMap, render_all};
 
 fn read(texts: &[&str]) -> CustomUniforms {
@@ -23,7 +23,7 @@ fn range(min: [f64; 4], max: [f64; 4]) -> Option<CustomUniformRange> {
 
 fn project(common: Option<&str>, image: &str) -> Project {
     let source = |name: &str, text: &str| Source { name: name.into(), path: None, text: text.into() };
-    let image = Pass::new(PassId::Image, source("image.glsl", image));
+    let image = Pass::new(PassName::image(), source("image.glsl", image));
     Project { common: common.map(|t| source("common.glsl", t)), ..Project::new("p", vec![image], Origin::Unsaved) }
 }
 

@@ -1,6 +1,6 @@
 //! Tells which lines are directives, and which passes they may name.
 
-use crate::{PassId, Project, confine, lines::HashLine};
+use crate::{PassName, Project, confine, lines::HashLine};
 
 pub(super) fn is_channel(line: &HashLine<'_>) -> bool {
     line.body.strip_prefix("iChannel").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
@@ -10,16 +10,16 @@ pub(super) fn is_channel(line: &HashLine<'_>) -> bool {
 #[derive(Clone, Copy)]
 pub(crate) struct DirectiveScope<'p> {
     /// The pass whose text it is.
-    pub id: &'p PassId,
+    pub id: &'p PassName,
     /// The text's own file.
     pub file: &'p str,
     /// All passes, by file.
-    pub passes: &'p [(String, PassId)],
+    pub passes: &'p [(String, PassName)],
 }
 
 impl DirectiveScope<'_> {
     /// Returns the pass whose file a path leads to.
-    pub fn pass_of(&self, path: &str) -> Option<&PassId> {
+    pub fn pass_of(&self, path: &str) -> Option<&PassName> {
         let name = confine::relative(self.file, path).ok()?;
         // A file may be the text of two passes: of these a pass means itself.
         let mut found = self.passes.iter().filter(|(file, _)| *file == name).map(|(_, id)| id);
@@ -29,6 +29,6 @@ impl DirectiveScope<'_> {
 }
 
 /// The passes of a project, by the files of their texts.
-pub(crate) fn files_of_passes(project: &Project) -> Vec<(String, PassId)> {
+pub(crate) fn files_of_passes(project: &Project) -> Vec<(String, PassName)> {
     project.passes.iter().map(|p| (p.source.name.clone(), p.id.clone())).collect()
 }

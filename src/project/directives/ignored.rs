@@ -26,21 +26,18 @@ pub fn ignored_channel_lines(project: &Project) -> Vec<Diagnostic> {
                 continue;
             }
             let around = DirectiveScope { id: &pass.id, file: &pass.source.name, passes: &passes };
-            let declared = read(&pass.source.text, Project::pass_id(i), around, &pass.channels);
+            let declared = read(&pass.source.text, Project::pass_id(i), around, &pass.bindings);
             for mut diagnostic in declared.diagnostics {
                 diagnostic.severity = Severity::Warning;
                 found.push(diagnostic);
             }
             let channels = declared.channels.unwrap_or_default();
-            for (n, (place, channel)) in declared.places.iter().zip(channels).enumerate() {
-                let is_same = |c: &Channel| pass.channels[n].as_ref().is_some_and(|p| p.input == c.input);
-                if let (Some(place), Some(channel)) = (place, channel)
-                    && !is_same(&channel)
-                {
+            for (n, place) in declared.places {
+                let is_same = |c: &Channel| pass.bindings.get(n).is_some_and(|p| p.input == c.input);
+                if channels.get(n).is_some_and(|channel| !is_same(channel)) {
                     let message = format!("{who} sets the input of iChannel{n}, so this line is ignored");
-                    found.push(
-                        Diagnostic::warning(*place, message).hint("remove the line, or change the channel there"),
-                    );
+                    found
+                        .push(Diagnostic::warning(place, message).hint("remove the line, or change the channel there"));
                 }
             }
         }

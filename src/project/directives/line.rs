@@ -2,7 +2,7 @@
 
 use super::around::DirectiveScope;
 use crate::{
-    Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassId, Wrap, file_names, kind_of_file,
+    Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassName, SLOTS, Wrap, file_names, kind_of_file,
     lines::{HashLine, trim_start},
     listed, nearest,
 };
@@ -21,7 +21,7 @@ pub(super) fn parse<'a>(line: &HashLine<'a>) -> Result<Parsed<'a>, impl FnOnce(S
     let rest = line.body.strip_prefix("iChannel").unwrap_or_default();
     let digits = rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
     let (number, rest) = rest.split_at(digits);
-    let Some(n) = number.parse::<usize>().ok().filter(|n| *n < 4) else {
+    let Some(n) = number.parse::<usize>().ok().filter(|n| *n < SLOTS) else {
         return error(format!("there is no iChannel{number}: a pass has iChannel0 to iChannel3"));
     };
     let (setting, rest) = match rest.strip_prefix("::") {
@@ -139,7 +139,7 @@ pub(super) fn input(
 }
 
 /// The channel that reads a pass.
-fn pass(id: &PassId, around: DirectiveScope<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
+fn pass(id: &PassName, around: DirectiveScope<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
     let (message, hint) = match id.row().input {
         Some(_) => return Some(Channel::new(Input::pass(id.clone()))),
         None if id == around.id => {

@@ -2,7 +2,7 @@
 
 use super::{around::is_channel, line};
 use crate::{
-    Pass, PassId, Project, Source, confine, file_names,
+    Pass, PassName, Project, Source, confine, file_names,
     files::{Files, Read},
     limits,
     lines::hash_lines,
@@ -88,19 +88,19 @@ fn find(project: &mut Project, files: &Files<'_>, from: &str, path: &str) -> Res
 }
 
 /// A name for the pass of a file, which no other pass has.
-fn free_id(project: &Project, usual: Option<PassId>, stem: &str) -> PassId {
-    let is_free = |id: &PassId| project.pass(id).is_none();
-    if let Some(id) = usual.filter(|id| id.row().input.is_some() && is_free(id)) {
+fn free_id(project: &Project, usual: Option<PassName>, stem: &str) -> PassName {
+    let is_free = |id: &PassName| project.pass(id).is_none();
+    if let Some(id) = usual.filter(|id| id.is_readable() && is_free(id)) {
         return id;
     }
     let letters: String = stem.to_lowercase().chars().filter(|c| c.is_alphanumeric()).take(limits::NAME - 6).collect();
     let letters = if letters.chars().count() > 1 { letters } else { format!("file{letters}") };
     let mut numbered = (2..).map(|n| format!("{letters}{n}"));
     let mut name = letters.clone();
-    while !is_free(&PassId::Buffer(name.clone())) {
+    while !is_free(&PassName::buffer(&name)) {
         name = numbered.next().unwrap_or_default();
     }
-    PassId::Buffer(name)
+    PassName::buffer(name)
 }
 
 /// Sorts passes so that those behind the first ones, which are named, are drawn before the pass that names them.

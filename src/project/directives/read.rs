@@ -4,30 +4,26 @@ use super::{
     around::{DirectiveScope, is_channel},
     line,
 };
-use crate::{Channel, lines::hash_lines};
+use crate::{Bindings, lines::hash_lines};
 use eddy_diag::{Diagnostic, SourceId, Span};
+use std::collections::BTreeMap;
 
 /// The directives of one pass.
 #[derive(Debug, Default)]
 pub(crate) struct Declared {
     /// `None` where no directive names what a channel reads.
-    pub channels: Option<[Option<Channel>; 4]>,
+    pub channels: Option<Bindings>,
     /// The line that says what each channel reads.
-    pub places: [Option<Span>; 4],
+    pub places: BTreeMap<usize, Span>,
     pub diagnostics: Vec<Diagnostic>,
 }
 
 /// Reads the directives of a pass. `default`: what its channels read where no directive says it.
-pub(crate) fn read(
-    text: &str,
-    source: SourceId,
-    around: DirectiveScope<'_>,
-    default: &[Option<Channel>; 4],
-) -> Declared {
+pub(crate) fn read(text: &str, source: SourceId, around: DirectiveScope<'_>, default: &Bindings) -> Declared {
     let mut found = Declared::default();
     // Inputs first, settings after: a setting may stand above the line that names the input.
     let mut settings: Vec<(usize, &str, &str, Span)> = Vec::new();
-    let mut channels: [Option<Channel>; 4] = Default::default();
+    let mut channels = Bindings::default();
     let mut is_any = false;
     for line in hash_lines(text).into_iter().filter(is_channel) {
         let span = Span::new(source, line.range.clone());
@@ -35,14 +31,15 @@ pub(crate) fn read(
             Ok((n, None, value)) => {
                 is_any = true;
                 let read = line::input(value, around, span, &mut found.diagnostics);
-                if let Some(earlier) = found.places[n]
-                    && channels[n] != read
+                if let Some(&earlier) = found.places.get(&n)
+                    && channels.get(n) != read.as_ref()
                 {
                     let message = format!("another line already sets iChannel{n}: only this one is used");
                     let twice = Diagnostic::warning(span, message).label(earlier, "this line is ignored");
                     found.diagnostics.push(twice.hint("remove one of them"));
                 }
-                (channels[n], found.places[n]) = (read, Some(span));
+                channels.set(n, read);
+                found.places.insert(n, span);
             }
             Ok((n, Some(setting), value)) => settings.push((n, setting, value, span)),
             Err(diagnostic) => found.diagnostics.push(diagnostic(span)),
@@ -52,13 +49,13 @@ pub(crate) fn read(
         channels = default.clone();
     }
     for (n, setting, value, span) in settings {
-        match &mut channels[n] {
+        match channels.get_mut(n) {
             Some(channel) => {
                 line::set(channel, setting, value, span, &mut found.diagnostics);
                 is_any = true;
             }
             // What it reads cannot be had, which was said.
-            None if found.places[n].is_some() => {}
+            None if found.places.contains_key(&n) => {}
             None => found.diagnostics.push(
                 Diagnostic::warning(span, format!("iChannel{n} has no input, so this line is ignored"))
                     .hint(format!("add its input: #iChannel{n} \"buffer_a\"")),

@@ -1,19 +1,19 @@
 //! Tests of `#iChannel` lines.
 
 use super::{read::Declared, *};
-use crate::{Channel, PassId};
+use crate::{Channel, PassName};
 use crate::{Filter, Input, InputKind, Media, Sampler, Wrap};
 use eddy_diag::SourceId;
 
 /// Reads a text of Buffer A, beside which Buffer B and Image are.
 fn of_a(text: &str) -> Declared {
-    let id = PassId::Buffer("A".into());
-    let passes = [("buffer_a.glsl", id.clone()), ("buffer_b.glsl", PassId::Buffer("B".into()))];
-    let passes: Vec<(String, PassId)> = passes.into_iter().map(|(file, id)| (file.to_owned(), id)).collect();
+    let id = PassName::buffer("A");
+    let passes = [("buffer_a.glsl", id.clone()), ("buffer_b.glsl", PassName::buffer("B"))];
+    let passes: Vec<(String, PassName)> = passes.into_iter().map(|(file, id)| (file.to_owned(), id)).collect();
     read(text, SourceId(3), DirectiveScope { id: &id, file: "buffer_a.glsl", passes: &passes }, &Default::default())
 }
 
-fn channels(text: &str) -> [Option<Channel>; 4] {
+fn channels(text: &str) -> crate::Bindings {
     let d = of_a(text);
     assert_eq!(d.diagnostics, []);
     d.channels.unwrap()
@@ -26,27 +26,27 @@ fn directives_name_inputs_and_samplers() {
          #iChannel1::MinFilter \"Nearest\"\r\n#iChannel2 \"keyboard\"\n#iChannel3 \"file://Buffer_B.glsl\"\n",
     );
     assert_eq!(
-        c[0],
-        Some(Channel { input: Input::buffer("A"), sampler: Sampler { wrap: Wrap::Repeat, ..Sampler::BUFFER } })
+        c.get(0),
+        Some(&Channel { input: Input::buffer("A"), sampler: Sampler { wrap: Wrap::Repeat, ..Sampler::BUFFER } })
     );
     assert_eq!(
-        c[1],
-        Some(Channel {
+        c.get(1),
+        Some(&Channel {
             input: Input::texture(Media::File("sub/pic.png".into())),
             sampler: Sampler { filter: Filter::Nearest, ..Sampler::TEXTURE }
         })
     );
-    assert_eq!(c[2].as_ref().unwrap().input, Input::KEYBOARD);
-    assert_eq!(c[3].as_ref().unwrap().input, Input::buffer("B"));
+    assert_eq!(c.get(2).unwrap().input, Input::KEYBOARD);
+    assert_eq!(c.get(3).unwrap().input, Input::buffer("B"));
 }
 
 #[test]
 fn music_is_known_by_its_ending() {
     let c = channels("#iChannel0 \"file://sub/song.MP3\"\n#iChannel1 \"tune.ogg\"\n#iChannel2 \"Microphone\"\n");
     let music = |path: &str| Input::Media { kind: InputKind::Music, media: Media::File(path.into()) };
-    let read = c.map(|channel| channel.map(|channel| channel.input));
+    let read: Vec<(usize, Input)> = c.iter().map(|(slot, channel)| (slot, channel.input.clone())).collect();
     let microphone = Input::Device(InputKind::Microphone);
-    assert_eq!(read, [Some(music("sub/song.MP3")), Some(music("tune.ogg")), Some(microphone), None]);
+    assert_eq!(read, [(0, music("sub/song.MP3")), (1, music("tune.ogg")), (2, microphone)]);
 }
 
 #[test]
@@ -116,18 +116,18 @@ fn every_spelling_of_a_pass_means_it() {
         ("file://other/buffer_b.glsl", "B"),
     ] {
         let read = channels(&format!("#iChannel2 \"{value}\"\n"));
-        assert_eq!(read[2].as_ref().map(|c| &c.input), Some(&Input::buffer(buffer)), "{value}");
+        assert_eq!(read.get(2).map(|c| &c.input), Some(&Input::buffer(buffer)), "{value}");
     }
 }
 
 #[test]
 fn a_setting_alone_is_one_of_the_usual_channels() {
-    let id = PassId::Image;
+    let id = PassName::image();
     let around = DirectiveScope { id: &id, file: "image.glsl", passes: &[] };
-    let usual = [Some(Channel::new(Input::buffer("A"))), None, None, None];
+    let usual = [Some(Channel::new(Input::buffer("A")))].into();
     let found = read("#iChannel0::WrapMode \"Repeat\"\n", SourceId(1), around, &usual);
     assert_eq!(found.diagnostics, []);
-    let first = found.channels.unwrap()[0].clone().unwrap();
+    let first = found.channels.unwrap().get(0).cloned().unwrap();
     assert_eq!((first.input, first.sampler.wrap), (Input::buffer("A"), Wrap::Repeat));
 }
 
@@ -136,7 +136,7 @@ fn a_channel_that_is_said_twice_is_told_of() {
     let said = of_a("#iChannel0 \"self\"\n#iChannel0 \"buffer_b\"\n#iChannel1 \"self\"\n#iChannel1 \"buffer_a\"\n");
     assert_eq!(said.diagnostics.len(), 1, "two lines that say the same do no harm: {:?}", said.diagnostics);
     assert!(said.diagnostics[0].message.contains("iChannel0") && said.diagnostics[0].labels.len() == 1);
-    assert_eq!(said.channels.unwrap()[0].as_ref().unwrap().input, Input::buffer("B"));
+    assert_eq!(said.channels.unwrap().get(0).unwrap().input, Input::buffer("B"));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Differences that Ghostty makes to a custom shader that compiles: uniforms that it leaves alone, and lines that are Eddy's.
 
-use crate::{PassId, Project, custom_uniforms, includes, lines::hash_lines, words::find_word};
+use crate::{Project, custom_uniforms, includes, lines::hash_lines, words::find_word};
 use eddy_diag::{Diagnostic, Severity, Span};
 
 /// Uniforms that Ghostty declares and does not set, with the value that they keep and what to use.
@@ -19,7 +19,7 @@ const UNSET: [(&str, &str, &str); 6] = [
 
 /// Returns what to say of the Image pass, whose text is the custom shader.
 pub fn advice(project: &Project) -> Vec<Diagnostic> {
-    let Some(index) = project.passes.iter().position(|pass| pass.id == PassId::Image) else { return Vec::new() };
+    let Some(index) = project.image_index() else { return Vec::new() };
     let (id, text) = (Project::pass_id(index), &*project.passes[index].source.text);
     let mut found = Vec::new();
     for line in hash_lines(text) {

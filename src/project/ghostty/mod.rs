@@ -21,7 +21,7 @@ mod tests;
 pub use advice::advice;
 pub use uniforms::{HostUniform, uniforms, values};
 
-use super::{Channel, Dialect, Filter, Input, Pass, PassId, Project, Sampler, Source, TexelFormat, Wrap};
+use super::{Channel, Dialect, Filter, Input, Pass, PassName, Project, Sampler, Source, TexelFormat, Wrap};
 
 /// The name of the buffer that draws the stand-in terminal.
 pub const TERMINAL: &str = "terminal";
@@ -33,14 +33,14 @@ pub(super) const PREFIX: &str = "ghostty:";
 /// stand-in terminal as the buffer that it reads.
 pub(super) fn dress(project: &mut Project) {
     let generated = |name: &str, text: String| Source { name: name.into(), path: None, text: text.into() };
-    let terminal = PassId::Buffer(TERMINAL.into());
+    let terminal = PassName::buffer(TERMINAL);
     let mut pass = Pass::new(terminal.clone(), generated("terminal", screen::text()));
     pass.settings.format = TexelFormat::Rgba8;
-    project.passes.retain(|pass| pass.id == PassId::Image);
+    project.passes.retain(|pass| pass.id.is_image());
     for image in &mut project.passes {
         let sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
         let channel = Channel { input: Input::pass(terminal.clone()), sampler };
-        image.channels = [Some(channel), None, None, None];
+        image.bindings = [Some(channel)].into();
     }
     project.passes.insert(0, pass);
     project.common = Some(generated("Ghostty", prelude::text()));

@@ -3,7 +3,7 @@ use super::{
     script::{self, Grid, SPANS, Style},
     uniforms, values,
 };
-use crate::{Dialect, Input, Origin, Overwrite, Pass, PassId, Project, ProjectError, Source, load, manifest, save};
+use crate::{Dialect, Input, Origin, Overwrite, Pass, PassName, Project, ProjectError, Source, load, manifest, save};
 use std::fs;
 
 #[test]
@@ -77,9 +77,9 @@ fn a_file_becomes_image_with_the_terminal_in_its_channel() {
     let project = project("#iChannel0 \"keyboard\"\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(0.0); }\n");
     assert_eq!(project.dialect, Dialect::Ghostty);
     assert!(matches!(&project.origin, Origin::File(path) if path.ends_with("glow.glsl")));
-    let image = project.pass(&PassId::Image).unwrap();
-    assert_eq!(image.channels[0].as_ref().map(|c| &c.input), Some(&Input::buffer("terminal")));
-    assert_eq!(image.channels[1..], [None, None, None]);
+    let image = project.image().unwrap();
+    assert_eq!(image.bindings.get(0).map(|c| &c.input), Some(&Input::buffer("terminal")));
+    assert_eq!(image.bindings.channels().count(), 1);
     assert!(!project.has_channels_in_texts());
 }
 
@@ -101,13 +101,13 @@ fn a_file_is_saved_if_nothing_is_lost_by_it() {
     type Change<'a> = &'a dyn Fn(&mut Project);
     let change = |change: Change<'_>| {
         let mut changed = project.clone();
-        changed.pass_mut(&PassId::Image).unwrap().source.text = edited.clone().into();
+        changed.image_mut().unwrap().source.text = edited.clone().into();
         change(&mut changed);
         changed
     };
     let added = |project: &mut Project| {
         let source = Source { name: "b".into(), path: None, text: "// mine".into() };
-        project.passes.insert(1, Pass::new(PassId::Buffer("B".into()), source));
+        project.passes.insert(1, Pass::new(PassName::buffer("B"), source));
     };
     let refused: [(&str, Change<'_>); 7] = [
         ("more passes", &added),
@@ -115,8 +115,8 @@ fn a_file_is_saved_if_nothing_is_lost_by_it() {
         ("Common", &|project| project.common = None),
         ("terminal", &|project| project.passes[0].source.text = "// mine".into()),
         ("channels", &|project| {
-            let channels = &mut project.pass_mut(&PassId::Image).unwrap().channels;
-            channels[1] = channels[0].clone();
+            let bindings = &mut project.image_mut().unwrap().bindings;
+            bindings.set(1, bindings.get(0).cloned());
         }),
         ("sliders", &|project| {
             project.custom_uniform_values.insert("x".into(), crate::CustomUniformValue::Float(0.5));

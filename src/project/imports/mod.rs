@@ -70,7 +70,7 @@ pub fn folder_of_parts<'p>(paths: &[&'p Path]) -> Option<&'p Path> {
     let folder = paths.first()?.parent()?;
     let is_main = |path: &&Path| {
         let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default();
-        name == MANIFEST || file_names::role_of_file(name) == Some(file_names::Role::Pass(super::PassId::Image))
+        name == MANIFEST || file_names::is_image_file(name)
     };
     let is_one = paths.len() > 1 && paths.iter().all(|path| path.parent() == Some(folder) && !path.is_dir());
     (is_one && paths.iter().any(is_main)).then_some(folder)

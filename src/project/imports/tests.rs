@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Input, InputKind, Media, Origin, PassId};
+use crate::{Input, InputKind, Media, Origin, PassName};
 
 const SHADER: &str = r#"{"ver":"0.1","info":{"name":"Rings"},"renderpass":[
     {"type":"buffer","name":"Buffer A","inputs":[],"outputs":[{"id":"4dXGR8","channel":0}],
@@ -24,8 +24,8 @@ fn json_of_the_site_is_a_project_with_its_channels() {
     for text in [SHADER.to_owned(), format!("\u{feff}\n  {SHADER}\n"), format!("[{SHADER}]")] {
         let project = project(&text);
         assert_eq!((&*project.name, &project.origin), ("Rings", &Origin::Unsaved));
-        let image = project.pass(&PassId::Image).unwrap();
-        assert_eq!(image.channels[2].as_ref().unwrap().input, Input::buffer("A"));
+        let image = project.image().unwrap();
+        assert_eq!(image.bindings.get(2).unwrap().input, Input::buffer("A"));
     }
     assert!(refused("{\"a\": 1}").contains("no \"renderpass\""));
     assert!(refused("{").contains("not JSON"));
@@ -35,8 +35,8 @@ fn json_of_the_site_is_a_project_with_its_channels() {
 fn glsl_is_an_image_pass_and_its_lines_say_what_it_reads() {
     let text = "#iChannel1 \"keyboard\"\r\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\r\n";
     let project = project(text);
-    let image = project.pass(&PassId::Image).unwrap();
-    assert_eq!(image.channels[1].as_ref().unwrap().input, Input::KEYBOARD);
+    let image = project.image().unwrap();
+    assert_eq!(image.bindings.get(1).unwrap().input, Input::KEYBOARD);
     assert!(!image.source.text.contains('\r'));
     // In one line, too.
     self::project("void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }");
@@ -110,17 +110,17 @@ fn files_that_are_dropped_together_may_be_one_project() {
 fn a_picture_goes_where_it_is_read_and_never_over_what_is_there() {
     let mut project = new_for(Path::new("/there/photo.png"), false);
     assert_eq!(project.name, "photo");
-    assert_eq!(project.free_channel(&PassId::Image), Some(0));
-    project.read_picture(&PassId::Image, 0, Path::new("/there/photo.png"));
-    assert_eq!(project.free_channel(&PassId::Image), Some(1));
-    project.pass_mut(&PassId::Image).unwrap().source.text = "texture(iChannel3, p)".into();
-    assert_eq!(project.free_channel(&PassId::Image), Some(3));
+    assert_eq!(project.free_channel(&PassName::image()), Some(0));
+    project.read_picture(&PassName::image(), 0, Path::new("/there/photo.png"));
+    assert_eq!(project.free_channel(&PassName::image()), Some(1));
+    project.image_mut().unwrap().source.text = "texture(iChannel3, p)".into();
+    assert_eq!(project.free_channel(&PassName::image()), Some(3));
     for channel in 1..4 {
-        project.read_picture(&PassId::Image, channel, Path::new("/there/photo.png"));
+        project.read_picture(&PassName::image(), channel, Path::new("/there/photo.png"));
     }
-    assert_eq!(project.free_channel(&PassId::Image), None);
-    project.read_sound(&PassId::Image, 2, Path::new("/there/song.mp3"));
-    let input = project.pass(&PassId::Image).unwrap().channels[2].as_ref().unwrap().input.clone();
+    assert_eq!(project.free_channel(&PassName::image()), None);
+    project.read_sound(&PassName::image(), 2, Path::new("/there/song.mp3"));
+    let input = project.image().unwrap().bindings.get(2).unwrap().input.clone();
     assert_eq!((input.kind(), input.media()), (InputKind::Music, Some(&Media::Picked("/there/song.mp3".into()))));
 }
 

@@ -1,6 +1,6 @@
 //! A pasted text is Shadertoy JSON, GLSL, the name of a file, or an address.
 
-use crate::{Loaded, PassKind, Project, ProjectError, folder, json, limits, presets, unescaped};
+use crate::{Loaded, Project, ProjectError, Role, folder, json, limits, presets, unescaped};
 use eddy_diag::Diagnostic;
 use std::path::Path;
 
@@ -99,7 +99,7 @@ fn shown(line: &str) -> String {
 
 /// Returns whether a text has a function that a pass begins with.
 fn has_main(text: &str) -> bool {
-    PassKind::all().map(|kind| kind.row().entry).chain(["void main"]).any(|main| text.contains(main))
+    Role::all().map(|kind| kind.row().entry).chain(["void main"]).any(|main| text.contains(main))
 }
 
 /// A project whose Image pass is the text; its `#iChannel` lines say what it reads.

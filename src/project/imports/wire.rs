@@ -1,8 +1,8 @@
 //! Pictures and models on their way into a project: which channel reads a picture, which pass draws a model.
 
 use crate::{
-    Camera, Channel, Cull, DepthTest, Geometry, Input, InputKind, Media, MeshDraw, MeshSource, Pass, PassBody, PassId,
-    PassSettings, Project, Source, Stage, limits,
+    Body, Camera, Channel, Cull, DepthTest, Geometry, Input, InputKind, Media, MeshDraw, MeshSource, Pass, PassName,
+    Project, SLOTS, Source, Stage, limits,
 };
 use std::path::Path;
 
@@ -89,46 +89,46 @@ pub fn new_for(path: &Path, is_model: bool) -> Project {
 impl Project {
     /// The channel of a pass that something new goes to: an empty one that its text reads already, else the first empty
     /// one.
-    pub fn free_channel(&self, id: &PassId) -> Option<usize> {
+    pub fn free_channel(&self, id: &PassName) -> Option<usize> {
         let pass = self.pass(id)?;
-        let is_empty = |n: &usize| pass.channels[*n].is_none();
+        let is_empty = |n: &usize| pass.bindings.get(*n).is_none();
         let reads = |n: &usize| pass.source.text.contains(&format!("iChannel{n}"));
-        (0..4).filter(is_empty).find(reads).or_else(|| (0..4).find(is_empty))
+        (0..SLOTS).filter(is_empty).find(reads).or_else(|| (0..SLOTS).find(is_empty))
     }
 
     /// Lets a channel read a picture.
-    pub fn read_picture(&mut self, id: &PassId, channel: usize, picture: &Path) {
-        if let Some(slot) = self.pass_mut(id).and_then(|pass| pass.channels.get_mut(channel)) {
-            *slot = Some(Channel::new(Input::texture(Media::Picked(picture.to_owned()))));
+    pub fn read_picture(&mut self, id: &PassName, channel: usize, picture: &Path) {
+        if let Some(pass) = self.pass_mut(id).filter(|_| channel < SLOTS) {
+            pass.bindings.set(channel, Some(Channel::new(Input::texture(Media::Picked(picture.to_owned())))));
         }
     }
 
     /// Lets a channel play a video.
-    pub fn read_video(&mut self, id: &PassId, channel: usize, video: &Path) {
+    pub fn read_video(&mut self, id: &PassName, channel: usize, video: &Path) {
         self.read_picked(InputKind::Video, id, channel, video);
     }
 
     /// Lets a channel read a sound as music.
-    pub fn read_sound(&mut self, id: &PassId, channel: usize, sound: &Path) {
+    pub fn read_sound(&mut self, id: &PassName, channel: usize, sound: &Path) {
         self.read_picked(InputKind::Music, id, channel, sound);
     }
 
-    fn read_picked(&mut self, kind: InputKind, id: &PassId, channel: usize, path: &Path) {
-        if let Some(slot) = self.pass_mut(id).and_then(|pass| pass.channels.get_mut(channel)) {
+    fn read_picked(&mut self, kind: InputKind, id: &PassName, channel: usize, path: &Path) {
+        if let Some(pass) = self.pass_mut(id).filter(|_| channel < SLOTS) {
             let media = Media::Picked(path.to_owned());
-            *slot = Some(Channel::new(Input::Media { kind, media }));
+            pass.bindings.set(channel, Some(Channel::new(Input::Media { kind, media })));
         }
     }
 
     /// Adds a buffer that draws a model, with texts to begin with. `None` where there are too many passes.
-    pub fn add_model(&mut self, model: &Path, fit: Fit) -> Option<PassId> {
+    pub fn add_model(&mut self, model: &Path, fit: Fit) -> Option<PassName> {
         if self.passes.len() >= limits::PASSES {
             return None;
         }
         let numbered = (2..).map(|n| format!("model{n}"));
-        let is_free = |name: &String| self.pass(&PassId::Buffer(name.clone())).is_none();
+        let is_free = |name: &String| self.pass(&PassName::buffer(name)).is_none();
         let name = std::iter::once("model".to_owned()).chain(numbered).find(is_free)?;
-        let id = PassId::Buffer(name.clone());
+        let id = PassName::buffer(&name);
         let draw = MeshDraw {
             mesh: MeshSource::Picked(model.to_owned()),
             normals: None,
@@ -149,23 +149,24 @@ impl Project {
         let pass = Pass {
             id: id.clone(),
             source: Source { name: id.title(), path: None, text: FRAGMENT.into() },
-            channels: Default::default(),
-            settings: PassSettings { body: PassBody::Meshes(geometry), ..PassSettings::default() },
+            bindings: Default::default(),
+            settings: Default::default(),
+            body: Body::Meshes(geometry),
         };
         append_buffer(self, pass);
         Some(id)
     }
 
     /// Lets a channel read what a buffer has drawn.
-    pub fn read_buffer(&mut self, id: &PassId, channel: usize, buffer: &PassId) {
-        if let Some(slot) = self.pass_mut(id).and_then(|pass| pass.channels.get_mut(channel)) {
-            *slot = Some(Channel::new(Input::pass(buffer.clone())));
+    pub fn read_buffer(&mut self, id: &PassName, channel: usize, buffer: &PassName) {
+        if let Some(pass) = self.pass_mut(id).filter(|_| channel < SLOTS) {
+            pass.bindings.set(channel, Some(Channel::new(Input::pass(buffer.clone()))));
         }
     }
 }
 
 /// Puts a buffer behind the other buffers.
 fn append_buffer(project: &mut Project, pass: Pass) {
-    let at = project.passes.iter().position(|p| !matches!(p.id, PassId::Buffer(_))).unwrap_or(project.passes.len());
+    let at = project.passes.iter().position(|p| !p.id.is_buffer()).unwrap_or(project.passes.len());
     project.passes.insert(at, pass);
 }

@@ -1,6 +1,6 @@
 //! Tests of `#include` lines.
 
-use crate::{Origin, Overwrite, PassId, Project, json, load, save::save};
+use crate::{Origin, Overwrite, Project, json, load, save::save};
 use eddy_diag::{SourceId, render_all};
 use std::{fs, path::Path};
 
@@ -116,7 +116,7 @@ fn a_copy_in_another_folder_has_the_files_too() {
     assert_eq!(image(&saved), image(&project));
     assert_eq!(image(&load(to.to_str().unwrap()).unwrap().project), image(&project));
     assert_eq!(saved.includes[0].source.path.as_deref(), Some(to.join(Path::new("lib/noise.glsl")).as_path()));
-    assert!(saved.pass(&PassId::Image).is_some());
+    assert!(saved.image().is_some());
     assert!(save(&project, &dir.path().join("alone.glsl"), Overwrite::Refuse).is_err());
 }
 

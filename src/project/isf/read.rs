@@ -7,8 +7,8 @@ use super::{
     texts,
 };
 use crate::{
-    Channel, Dialect, Filter, Info, Input, InputKind, Loaded, Media, Origin, Overwrite, Pass, PassId, PassSize,
-    Project, ProjectError, Sampler, Source, TexelFormat, Wrap, atomic::Content, confine, files::Files, includes,
+    Channel, Dialect, Filter, Info, Input, InputKind, Loaded, Media, Origin, Overwrite, Pass, PassName, PassSize,
+    Project, ProjectError, SLOTS, Sampler, Source, TexelFormat, Wrap, atomic::Content, confine, files::Files, includes,
     writes::Writes,
 };
 use eddy_diag::{Diagnostic, SourceMap, Span};
@@ -18,7 +18,6 @@ use std::{
 };
 
 /// Channels of a pass.
-const CHANNELS: usize = 4;
 /// Images that a message lists at most.
 const SHOWN: usize = 12;
 /// Textures that stand in for images that the person does not choose, one after the other.
@@ -80,10 +79,10 @@ impl Maker<'_> {
         let mut passes: Vec<Pass> = self.audio_passes(&images);
         let scaled = self.scaled(&images, &targets, vertex);
         passes.extend(scaled.iter().map(|name| {
-            let id = PassId::Buffer(buffer_name(name));
+            let id = PassName::buffer(buffer_name(name));
             let mut pass = Pass::new(id.clone(), generated(&id, texts::SCALED.to_owned()));
             pass.settings.format = TexelFormat::Rgba8;
-            pass.channels[0] = Some(self.channel(name, &targets));
+            pass.bindings.set(0, Some(self.channel(name, &targets)));
             pass
         }));
         let count = self.header.passes.len().max(1);
@@ -102,23 +101,24 @@ impl Maker<'_> {
                 );
                 continue;
             }
-            let id = target.as_ref().map_or(PassId::Image, |target| PassId::Buffer(buffer_name(target)));
+            let id = target.as_ref().map_or_else(PassName::image, |target| PassName::buffer(buffer_name(target)));
             let mut pass =
                 Pass::new(id.clone(), generated(&id, texts::pass(index, &images, (self.name, &self.words), vertex)));
             if target.is_some() {
                 pass.settings.format = if is_float { TexelFormat::Rgba32f } else { TexelFormat::Rgba8 };
                 pass.settings.size = self.size_of(index);
             }
-            for (slot, name) in pass.channels.iter_mut().zip(&images) {
-                *slot = Some(match scaled.contains(name) {
+            for (slot, name) in images.iter().enumerate() {
+                let channel = match scaled.contains(name) {
                     true => linear(Input::buffer(buffer_name(name))),
                     false => self.channel(name, &targets),
-                });
+                };
+                pass.bindings.set(slot, Some(channel));
             }
             passes.push(pass);
             if is_last && let Some(target) = target {
-                let mut image = Pass::new(PassId::Image, generated(&PassId::Image, texts::SHOW.to_owned()));
-                image.channels[0] = Some(linear(Input::buffer(buffer_name(&target))));
+                let mut image = Pass::new(PassName::image(), generated(&PassName::image(), texts::SHOW.to_owned()));
+                image.bindings.set(0, Some(linear(Input::buffer(buffer_name(&target)))));
                 passes.push(image);
             }
         }
@@ -168,22 +168,22 @@ impl Maker<'_> {
                 read.push(name.clone());
             }
         }
-        if read.len() > CHANNELS {
+        if read.len() > SLOTS {
             let message = format!(
-                "the shader reads {} images, and a pass of Eddy has {CHANNELS} channels: {}",
+                "the shader reads {} images, and a pass of Eddy has {SLOTS} channels: {}",
                 read.len(),
                 read[..read.len().min(SHOWN)].join(", ")
             );
             self.error(message, "read at most four images, buffers among them");
         }
         // An image may be called as a channel is, and is then that one.
-        for n in 0..read.len().min(CHANNELS) {
+        for n in 0..read.len().min(SLOTS) {
             let own = read.iter().position(|name| *name == format!("iChannel{n}"));
             if let Some(own) = own {
                 read.swap(n, own);
             }
         }
-        read.truncate(CHANNELS);
+        read.truncate(SLOTS);
         read
     }
 
@@ -223,11 +223,11 @@ impl Maker<'_> {
         let inputs = self.header.inputs.iter().filter(|input| matches!(input.kind, Kind::Audio | Kind::AudioFft));
         let read = inputs.filter(|input| images.contains(&input.name));
         let pass = |input: &header::IsfInput| {
-            let id = PassId::Buffer(buffer_name(&input.name));
+            let id = PassName::buffer(buffer_name(&input.name));
             let mut pass = Pass::new(id.clone(), generated(&id, texts::audio(input.kind)));
             let samples = input.max.first().filter(|max| (1.0..=4096.0).contains(*max)).map_or(512, |max| *max as u32);
             pass.settings.size = PassSize::Fixed(samples, 1);
-            pass.channels[0] = Some(Channel::new(Input::Device(InputKind::Microphone)));
+            pass.bindings.set(0, Some(Channel::new(Input::Device(InputKind::Microphone))));
             pass
         };
         read.map(pass).collect()
@@ -267,16 +267,14 @@ impl Maker<'_> {
     }
 }
 
-fn generated(id: &PassId, text: String) -> Source {
+fn generated(id: &PassName, text: String) -> Source {
     Source { name: id.title(), path: None, text: text.into() }
 }
 
 /// Returns what the buffer of a target is called: names of buffers have letters and digits alone.
 fn buffer_name(target: &str) -> String {
-    match PassId::buffer_named(&format!("buffer_{target}")) {
-        Some(PassId::Buffer(name)) => name,
-        _ => "isf".to_owned(),
-    }
+    let known = PassName::buffer_named(&format!("buffer_{target}"));
+    known.as_ref().and_then(PassName::buffer_name).unwrap_or("isf").to_owned()
 }
 
 fn linear(input: Input) -> Channel {
@@ -286,9 +284,10 @@ fn linear(input: Input) -> Channel {
 /// Writes what was edited of an ISF file, and of the files that it includes; the texts around it are Eddy's.
 pub(crate) fn save(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {
     let fresh = load_again(target)?;
-    let is_same = |a: &Pass, b: &Pass| a.id == b.id && a.source.text == b.source.text && a.settings == b.settings;
+    let is_drawn_the_same = |a: &Pass, b: &Pass| a.settings == b.settings && a.body == b.body;
+    let is_same = |a: &Pass, b: &Pass| a.id == b.id && a.source.text == b.source.text && is_drawn_the_same(a, b);
     let passes = project.passes.len() == fresh.passes.len()
-        && project.passes.iter().zip(&fresh.passes).all(|(a, b)| is_same(a, b) && a.channels == b.channels);
+        && project.passes.iter().zip(&fresh.passes).all(|(a, b)| is_same(a, b) && a.bindings == b.bindings);
     let text = |project: &Project| project.common.as_ref().map(|common| common.text.clone());
     let others = text(project) == text(&fresh)
         && project.info == fresh.info

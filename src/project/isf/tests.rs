@@ -1,6 +1,6 @@
 use super::json_of;
 use crate::{
-    CustomUniformType, Dialect, Input, Loaded, Media, Overwrite, PassId, PassSize, Project, ProjectError, ShaderForm,
+    CustomUniformType, Dialect, Input, Loaded, Media, Overwrite, PassName, PassSize, Project, ProjectError, ShaderForm,
     Tab, TexelFormat, load, save,
 };
 use std::{fs, path::Path};
@@ -56,15 +56,15 @@ fn passes_become_buffers_and_inputs_sliders() {
     let project = project(TRAILS);
     assert_eq!(project.dialect, Dialect::Isf);
     assert_eq!((&*project.info.description, &*project.info.author), ("Trails of an image", "somebody"));
-    let ids: Vec<String> = project.passes.iter().map(|pass| pass.id.key()).collect();
+    let ids: Vec<&str> = project.passes.iter().map(|pass| pass.id.key()).collect();
     assert_eq!(ids, ["buffer_trail1", "buffer_small", "image"]);
     assert_eq!(project.passes[0].settings.format, TexelFormat::Rgba32f);
     assert_eq!(
         (project.passes[1].settings.format, project.passes[1].settings.size),
         (TexelFormat::Rgba8, PassSize::Scale(0.5))
     );
-    let image = &project.passes[2].channels;
-    let inputs: Vec<&Input> = image.iter().flatten().map(|channel| &channel.input).collect();
+    let image = &project.passes[2].bindings;
+    let inputs: Vec<&Input> = image.channels().map(|channel| &channel.input).collect();
     assert!(matches!(inputs[0], Input::Media { media: Media::Builtin(_), .. }));
     assert_eq!(inputs[1..], [&Input::buffer("trail1"), &Input::buffer("small")]);
     let uniforms = project.custom_uniforms();
@@ -88,11 +88,11 @@ fn a_last_pass_with_a_target_is_shown() {
     let project = project(
         "/*{\"PASSES\": [{\"TARGET\": \"state\", \"PERSISTENT\": true}]}*/\nvoid main() { gl_FragColor = IMG_THIS_PIXEL(state); }",
     );
-    let ids: Vec<String> = project.passes.iter().map(|pass| pass.id.key()).collect();
+    let ids: Vec<&str> = project.passes.iter().map(|pass| pass.id.key()).collect();
     assert_eq!(ids, ["buffer_state", "image"]);
-    let channels = &project.passes[1].channels;
-    assert_eq!(channels[0].as_ref().map(|c| &c.input), Some(&Input::buffer("state")));
-    assert!(project.stateful_passes().contains(&PassId::Buffer("state".into())));
+    let channels = &project.passes[1].bindings;
+    assert_eq!(channels.get(0).map(|c| &c.input), Some(&Input::buffer("state")));
+    assert!(project.stateful_passes().contains(&PassName::buffer("state")));
 }
 
 #[test]
@@ -101,12 +101,9 @@ fn audio_is_an_image_of_one_row() {
         "/*{\"INPUTS\": [{\"NAME\": \"fft\", \"TYPE\": \"audioFFT\", \"MAX\": 64}]}*/\n\
          void main() { gl_FragColor = IMG_NORM_PIXEL(fft, vec2(0.5)); }",
     );
-    assert_eq!(project.passes[0].id, PassId::Buffer("fft".into()));
+    assert_eq!(project.passes[0].id, PassName::buffer("fft"));
     assert_eq!(project.passes[0].settings.size, PassSize::Fixed(64, 1));
-    assert_eq!(
-        project.pass(&PassId::Image).unwrap().channels[0].as_ref().map(|c| &c.input),
-        Some(&Input::buffer("fft"))
-    );
+    assert_eq!(project.image().unwrap().bindings.get(0).map(|c| &c.input), Some(&Input::buffer("fft")));
 }
 
 #[test]
@@ -151,9 +148,9 @@ fn an_image_whose_pixels_are_counted_has_the_size_of_the_canvas() {
     let text = "/*{\"INPUTS\": [{\"NAME\": \"inputImage\", \"TYPE\": \"image\"}]}*/\n\
                 void main() { gl_FragColor = IMG_PIXEL(inputImage, gl_FragCoord.xy); }";
     let scaled = project(text);
-    assert_eq!(scaled.passes[0].id, PassId::Buffer("inputimage".into()));
+    assert_eq!(scaled.passes[0].id, PassName::buffer("inputimage"));
     assert_eq!(scaled.passes[0].settings.size, PassSize::Canvas);
-    let of = |project: &Project, n: usize| project.passes[n].channels[0].as_ref().map(|c| c.input.clone());
+    let of = |project: &Project, n: usize| project.passes[n].bindings.get(0).map(|c| c.input.clone());
     assert!(matches!(of(&scaled, 0), Some(Input::Media { media: Media::Builtin(_), .. })));
     assert_eq!(of(&scaled, 1), Some(Input::buffer("inputimage")));
     let plain = project(&text.replace("IMG_PIXEL(inputImage, gl_FragCoord.xy)", "IMG_THIS_PIXEL(inputImage)"));
@@ -167,7 +164,7 @@ fn uniforms_of_images_and_names_of_shadertoy_are_there() {
          void mainImage(out vec4 c) { c = IMG_NORM_PIXEL(left, _left_imgRect.zw / _left_imgSize); }\n\
          void main() { mainImage(gl_FragColor); gl_FragColor *= smooth; }",
     );
-    let image = project.pass(&PassId::Image).unwrap();
+    let image = project.image().unwrap();
     let text = &*image.source.text;
     for line in [
         "#define _left_imgRect vec4(vec2(0.0), IMG_SIZE(iChannel0))",
@@ -203,7 +200,7 @@ fn what_is_wrong_with_a_header_is_told_at_its_place() {
         + "]}*/\nvoid main() { gl_FragColor = IMG_THIS_PIXEL(a0) + IMG_THIS_PIXEL(a1) + IMG_THIS_PIXEL(a2) + IMG_THIS_PIXEL(a3) + IMG_THIS_PIXEL(a4); }";
     assert!(wrong(&reads)[0].0.contains("reads 5 images"));
     // Images that the text does not read take no channel.
-    assert!(project(&reads.replace(" + IMG_THIS_PIXEL(a4)", "")).pass(&PassId::Image).is_some());
+    assert!(project(&reads.replace(" + IMG_THIS_PIXEL(a4)", "")).image().is_some());
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::ids;
 use crate::{
-    Channel, CustomUniform, Filter, Input, Media, Pass, PassId, Project, Wrap, custom_uniforms::constants, directives,
+    Channel, CustomUniform, Filter, Input, Media, Pass, Project, Wrap, custom_uniforms::constants, directives,
 };
 use eddy_diag::SourceId;
 use serde_json::{Map, Value, json};
@@ -33,8 +33,8 @@ pub fn export(project: &Project) -> String {
     };
     let pass = |(index, pass): (usize, &Pass)| self::pass(pass, text(Project::pass_id(index)));
     // Image first, as the site writes it.
-    let image = project.passes.iter().enumerate().filter(|(_, p)| p.id == PassId::Image);
-    let others = project.passes.iter().enumerate().filter(|(_, p)| p.id != PassId::Image);
+    let image = project.passes.iter().enumerate().filter(|(_, p)| p.id.is_image());
+    let others = project.passes.iter().enumerate().filter(|(_, p)| !p.id.is_image());
     let mut passes: Vec<Value> = image.map(pass).collect();
     passes.extend(project.common.iter().map(|_| {
         let code = text(Project::COMMON_ID);
@@ -48,12 +48,8 @@ pub fn export(project: &Project) -> String {
 }
 
 fn pass(pass: &Pass, code: String) -> Value {
-    let inputs: Vec<Value> =
-        pass.channels.iter().enumerate().filter_map(|(n, c)| Some(input(n, c.as_ref()?))).collect();
-    let output = match &pass.id {
-        PassId::Buffer(name) => ids::of_buffer(name),
-        other => other.row().json_output.to_owned(),
-    };
+    let inputs: Vec<Value> = pass.bindings.iter().map(|(n, channel)| input(n, channel)).collect();
+    let output = pass.id.buffer_name().map_or_else(|| pass.id.row().json_output.to_owned(), ids::of_buffer);
     json!({
         "inputs": inputs,
         "outputs": [{ "id": output, "channel": 0 }],
@@ -69,8 +65,10 @@ fn input(n: usize, channel: &Channel) -> Value {
     let of_row = || row.json_id.map(|(id, path)| (id.to_owned(), path.to_owned())).unwrap_or_default();
     let (id, path) = match &channel.input {
         // Only geometry passes have further targets, and a project with one is not exported.
-        Input::Pass { id: PassId::Buffer(name), .. } => (ids::of_buffer(name), ids::preview(name)),
-        Input::Pass { .. } | Input::Device(_) => of_row(),
+        Input::Pass { id, .. } => {
+            id.buffer_name().map_or_else(of_row, |name| (ids::of_buffer(name), ids::preview(name)))
+        }
+        Input::Device(_) => of_row(),
         Input::Media { media, .. } => of_media(media),
     };
     let kind = match (row.json_stream_type, channel.input.media()) {

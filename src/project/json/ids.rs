@@ -1,6 +1,6 @@
 //! The site's ids of buffers: what one writes and what an input reads.
 
-use crate::PassId;
+use crate::PassName;
 
 /// Buffer A to D. The API's older answers have the numbers.
 const BUFFERS: [(&str, &str, &str); 4] =
@@ -10,7 +10,7 @@ const BUFFERS: [(&str, &str, &str); 4] =
 pub fn of_buffer(name: &str) -> String {
     match BUFFERS.iter().find(|(n, ..)| *n == name) {
         Some((_, id, _)) => (*id).to_owned(),
-        None => PassId::Buffer(name.to_owned()).key(),
+        None => PassName::buffer(name).key().to_owned(),
     }
 }
 
@@ -19,10 +19,7 @@ pub fn buffer(id: &str) -> Option<String> {
     if let Some((name, ..)) = BUFFERS.iter().find(|(_, i, number)| *i == id || *number == id) {
         return Some((*name).to_owned());
     }
-    match PassId::parse(id.strip_prefix("buffer_").map(|_| id)?)? {
-        PassId::Buffer(name) => Some(name),
-        _ => None,
-    }
+    PassName::parse(id.strip_prefix("buffer_").map(|_| id)?)?.buffer_name().map(str::to_owned)
 }
 
 /// Path of a buffer's preview picture, which the site's inputs carry; empty for a buffer that the site does not have.

@@ -11,8 +11,8 @@ use super::{
     several,
 };
 use crate::{
-    Channel, Filter, Info, Input, InputKind, InputRow, InputSource, Media, Origin, Pass, PassId, PassKind, Project,
-    ProjectError, Sampler, SamplerRules, Source, Wrap, limits, listed,
+    Bindings, Channel, Filter, Info, Input, InputKind, InputRow, InputSource, Media, Origin, Pass, PassName, Project,
+    ProjectError, Role, SLOTS, Sampler, SamplerRules, Source, Wrap, limits, listed,
 };
 use eddy_diag::{Diagnostic, SourceMap, Span};
 use serde_json::{Map, Value, value::RawValue};
@@ -233,13 +233,13 @@ fn project(
             common = Some(Source { name: "Common".into(), path: None, text: code.into() });
             continue;
         }
-        let Some(known) = PassKind::find(|row| row.json_type == kind) else {
+        let Some(known) = Role::find(|row| row.json_type == kind) else {
             let message = format!("a pass has the unknown type \"{}\"", shown(&kind));
             return Err(Diagnostic::error(None, message).hint(types()));
         };
-        let buffer = || PassId::Buffer(names.of_passes.pop_front().unwrap_or_default());
-        let id = known.id().unwrap_or_else(buffer);
-        if id == PassId::Image && covered > 0 {
+        let buffer = || PassName::buffer(names.of_passes.pop_front().unwrap_or_default());
+        let id = known.only_pass().unwrap_or_else(buffer);
+        if id.is_image() && covered > 0 {
             covered -= 1;
             continue;
         }
@@ -247,19 +247,19 @@ fn project(
             return Err(Diagnostic::error(None, format!("the shader has two passes named {}", id.title()))
                 .hint("remove one of them"));
         }
-        let mut channels: [Option<Channel>; 4] = Default::default();
+        let mut bindings = Bindings::default();
         for input in pass.inputs.iter().flat_map(|inputs| &inputs.0) {
             if let Some((n, channel)) = channel(input, &id, &names, warnings) {
-                if matches!(channel.input, Input::Pass { id: PassId::Buffer(_), .. }) {
+                if channel.input.buffer_name().is_some() {
                     reads.push((passes.len(), n));
                 }
-                channels[n] = Some(channel);
+                bindings.set(n, Some(channel));
             }
         }
         let source = Source { name: id.title(), path: None, text: code.into() };
-        passes.push(Pass { channels, ..Pass::new(id, source) });
+        passes.push(Pass { bindings, ..Pass::new(id, source) });
     }
-    if !passes.iter().any(|p| p.id == PassId::Image) {
+    if !passes.iter().any(|p| p.id.is_image()) {
         return Err(Diagnostic::error(None, "the shader has no Image pass").hint("add a renderpass of type \"image\""));
     }
     settle_wraps(&mut passes, &reads);
@@ -285,7 +285,7 @@ fn project(
 
 /// Returns how many Image passes the last one covers. The site draws all of them into its canvas, in the order of the file.
 fn covered_images(passes: &[RenderPass], warnings: &mut Vec<Diagnostic>) -> usize {
-    let is_image = |pass: &&RenderPass| kind(pass).is_ok_and(|kind| kind == PassId::Image.row().json_type);
+    let is_image = |pass: &&RenderPass| kind(pass).is_ok_and(|kind| kind == Role::Image.row().json_type);
     let count = passes.iter().filter(is_image).count();
     if count > 1 {
         let message = format!("the shader has {count} Image passes; only the last one is read");
@@ -302,9 +302,9 @@ fn kind(pass: &RenderPass) -> Result<String, Diagnostic> {
     }
     let name = pass.name.as_ref().map(Scalar::text).unwrap_or_default();
     let is_called_buffer = || name.trim().to_lowercase().starts_with("buf");
-    match PassId::parse(&name) {
+    match PassName::parse(&name) {
         _ if name.trim().eq_ignore_ascii_case(COMMON) => Ok(COMMON.to_owned()),
-        Some(id) if !matches!(id, PassId::Buffer(_)) || is_called_buffer() => Ok(id.row().json_type.to_owned()),
+        Some(id) if !id.is_buffer() || is_called_buffer() => Ok(id.row().json_type.to_owned()),
         _ => {
             let message = format!("the pass \"{}\" has no \"type\"", shown(&name));
             Err(Diagnostic::error(None, message).hint(types()))
@@ -314,7 +314,7 @@ fn kind(pass: &RenderPass) -> Result<String, Diagnostic> {
 
 /// Lists the types of passes.
 fn types() -> String {
-    let types: Vec<&str> = [COMMON].into_iter().chain(PassKind::all().map(|kind| kind.row().json_type)).collect();
+    let types: Vec<&str> = [COMMON].into_iter().chain(Role::all().map(|kind| kind.row().json_type)).collect();
     format!("the types are {}", listed(&types))
 }
 
@@ -322,13 +322,13 @@ fn types() -> String {
 /// not kept (Image stands first in the list and is drawn last), so every channel gets the wrap that wins; pictures stay
 /// the same, there and here.
 fn settle_wraps(passes: &mut [Pass], reads: &[(usize, usize)]) {
-    let mut wraps: HashMap<PassId, Wrap> = HashMap::new();
+    let mut wraps: HashMap<PassName, Wrap> = HashMap::new();
     for &(pass, n) in reads {
-        if let Some(Channel { input: Input::Pass { id, .. }, sampler }) = &passes[pass].channels[n] {
+        if let Some(Channel { input: Input::Pass { id, .. }, sampler }) = passes[pass].bindings.get(n) {
             wraps.insert(id.clone(), sampler.wrap);
         }
     }
-    for channel in passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
+    for channel in passes.iter_mut().flat_map(|p| p.bindings.channels_mut()) {
         if let Input::Pass { id, .. } = &channel.input
             && let Some(wrap) = wraps.get(id)
         {
@@ -354,7 +354,7 @@ impl BufferNames {
         };
         let buffers: Vec<(&RenderPass, Vec<String>)> = passes
             .iter()
-            .filter(|p| kind(p).is_ok_and(|kind| kind == PassKind::Buffer.row().json_type))
+            .filter(|p| kind(p).is_ok_and(|kind| kind == Role::Buffer.row().json_type))
             .map(|p| (p, outputs(p)))
             .collect();
         let claims: Vec<Option<String>> =
@@ -398,12 +398,12 @@ impl BufferNames {
 
 fn channel(
     input: &RenderInput,
-    id: &PassId,
+    id: &PassName,
     names: &BufferNames,
     warnings: &mut Vec<Diagnostic>,
 ) -> Option<(usize, Channel)> {
     let number = input.channel.as_ref().map(Scalar::text).unwrap_or_default();
-    let Some(n) = number.parse::<f64>().ok().filter(|n| n.fract() == 0.0 && (0.0..4.0).contains(n)) else {
+    let Some(n) = number.parse::<f64>().ok().filter(|n| n.fract() == 0.0 && (0.0..SLOTS as f64).contains(n)) else {
         let message = match &*number {
             "" => format!("{} has an input without a \"channel\"", id.title()),
             _ => format!("{} has an input for iChannel{}, which does not exist", id.title(), shown(&number)),

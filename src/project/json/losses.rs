@@ -1,6 +1,6 @@
 //! Lists what the site's JSON cannot express of a project, so that it is told before the file is written.
 
-use crate::{Input, Media, Pass, PassId, Project, advice, listed};
+use crate::{Input, Media, Pass, PassName, Project, advice, listed};
 
 /// The buffers that the site has.
 const BUFFERS: [&str; 4] = ["A", "B", "C", "D"];
@@ -24,22 +24,18 @@ pub fn losses(project: &Project) -> Vec<String> {
     }
     lost.extend(project.passes.iter().filter_map(settings));
     for group in &project.groups {
-        let passes: Vec<String> = group.passes.iter().map(PassId::title).collect();
+        let passes: Vec<String> = group.passes.iter().map(PassName::title).collect();
         lost.push(format!("{} are drawn once per frame, not {} times.", listed(&passes), group.steps));
     }
     let further: Vec<String> =
-        project.passes.iter().map(|pass| &pass.id).filter(|id| is_further(id)).map(PassId::title).collect();
+        project.passes.iter().map(|pass| &pass.id).filter(|id| is_further(id)).map(PassName::title).collect();
     if !further.is_empty() {
         lost.push(format!("Shadertoy has only Buffer A to D and cannot read {}; Eddy can.", listed(&further)));
     }
     for pass in &project.passes {
-        for (n, channel) in pass.channels.iter().enumerate() {
-            lost.extend(
-                channel
-                    .as_ref()
-                    .and_then(|channel| picture(&channel.input))
-                    .map(|what| format!("iChannel{n} of {} reads {what}", pass.id.title())),
-            );
+        for (n, channel) in pass.bindings.iter() {
+            let what = picture(&channel.input);
+            lost.extend(what.map(|what| format!("iChannel{n} of {} reads {what}", pass.id.title())));
         }
     }
     lost.extend(
@@ -48,8 +44,8 @@ pub fn losses(project: &Project) -> Vec<String> {
     lost
 }
 
-fn is_further(id: &PassId) -> bool {
-    matches!(id, PassId::Buffer(name) if !BUFFERS.contains(&name.as_str()))
+fn is_further(id: &PassName) -> bool {
+    id.buffer_name().is_some_and(|name| !BUFFERS.contains(&name))
 }
 
 /// Says which settings of a pass are left out.

@@ -2,7 +2,8 @@
 
 use super::{export, holds_several, import, import_one};
 use crate::{
-    Channel, Filter, Info, Input, InputKind, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Wrap,
+    Channel, Filter, Info, Input, InputKind, Media, Origin, Pass, PassName, Project, Sampler, SamplerRules, Source,
+    Wrap,
 };
 use serde_json::{Value, json};
 
@@ -43,11 +44,11 @@ fn the_three_shapes_give_the_same_project() {
     let project = read(&site);
     assert_eq!(read(&json!({ "Shader": site })), project);
     assert_eq!(read(&json!([site])), project);
-    let ids: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+    let ids: Vec<&str> = project.passes.iter().map(|p| p.id.key()).collect();
     assert_eq!(ids, ["buffer_b", "buffer_a", "image"], "buffers in the list's order, by output id, Image last");
     assert_eq!(&*project.common.as_ref().unwrap().text, "// common");
-    assert_eq!(project.passes[1].channels[2].as_ref().unwrap().input, Input::pass(PassId::Cubemap));
-    assert_eq!(project.passes[2].channels[1].as_ref().unwrap().input, Input::buffer("B"));
+    assert_eq!(project.passes[1].bindings.get(2).unwrap().input, Input::pass(PassName::cube()));
+    assert_eq!(project.passes[2].bindings.get(1).unwrap().input, Input::buffer("B"));
     assert_eq!(project.sampler_rules, SamplerRules::Site);
     assert_eq!((project.info.id.as_str(), project.info.author.as_str()), ("XxXxXx", "me"));
     assert_eq!(project.info.extra["viewed"], json!(7));
@@ -63,12 +64,12 @@ fn the_api_spelling_is_read_too() {
             { "id": "XsfGRn", "src": "/media/a/1f7d.jpg", "ctype": "texture", "channel": 2 } ] } ] } });
     let project = read(&api);
     assert_eq!(project.name, "x", "a shader without a name is called after its file");
-    let channels = &project.passes[0].channels;
+    let channels = &project.passes[0].bindings;
     let sampler = Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: false };
-    assert_eq!(channels[0], Some(Channel { input: Input::buffer("A"), sampler }));
-    assert_eq!(channels[1].as_ref().unwrap().input, Input::buffer("D"));
+    assert_eq!(channels.get(0), Some(&Channel { input: Input::buffer("A"), sampler }));
+    assert_eq!(channels.get(1).unwrap().input, Input::buffer("D"));
     let wood = Media::Site { id: "XsfGRn".into(), path: "/media/a/1f7d.jpg".into() };
-    assert_eq!(channels[2].as_ref().unwrap().input, Input::texture(wood));
+    assert_eq!(channels.get(2).unwrap().input, Input::texture(wood));
 }
 
 #[test]
@@ -78,7 +79,7 @@ fn one_wrap_a_buffer_and_the_last_of_the_list_wins() {
         pass("buffer", Some("4dXGR8"), &[input(0, "buffer", "4dXGR8", "", "repeat")]),
     ]));
     for pass in &project.passes {
-        assert_eq!(pass.channels[0].as_ref().unwrap().sampler.wrap, Wrap::Repeat, "{}", pass.id.key());
+        assert_eq!(pass.bindings.get(0).unwrap().sampler.wrap, Wrap::Repeat, "{}", pass.id.key());
     }
 }
 
@@ -93,7 +94,7 @@ fn buffers_without_a_usable_id_get_a_free_letter_and_a_warning() {
         pass("buffer", Some("buffer_blur"), &[]),
     ]);
     let (project, warnings) = import(&value.to_string(), "x.json").unwrap();
-    let ids: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+    let ids: Vec<&str> = project.passes.iter().map(|p| p.id.key()).collect();
     assert_eq!(ids, ["buffer_a", "buffer_b", "buffer_d", "buffer_c", "buffer_blur", "image"]);
     assert_eq!(warnings.len(), 2, "{warnings:?}");
 }
@@ -110,7 +111,7 @@ fn inputs_that_mean_nothing_are_left_out_with_a_warning() {
         ],
     )]);
     let (project, warnings) = import(&value.to_string(), "x.json").unwrap();
-    assert_eq!(project.passes[0].channels, <[Option<Channel>; 4]>::default());
+    assert!(project.passes[0].bindings.is_empty());
     assert_eq!(warnings.len(), 3);
 }
 
@@ -177,11 +178,12 @@ fn an_export_reads_back_as_the_same_project() {
     let channel = |input, filter, wrap, vflip| Some(Channel { input, sampler: Sampler { filter, wrap, vflip } });
     let site = |id: &str, path: &str| Media::Site { id: id.into(), path: path.into() };
     let source = |name: &str, text: &str| Source { name: name.into(), path: None, text: text.into() };
-    let pass = |id: PassId, channels| Pass {
+    let pass = |id: PassName, channels: [Option<Channel>; crate::SLOTS]| Pass {
         source: source(&id.title(), "void f() { \"\u{e9}\\n\" }\r\n"),
         id,
-        channels,
+        bindings: channels.into(),
         settings: Default::default(),
+        body: Default::default(),
     };
     let (n, l, m) = (Filter::Nearest, Filter::Linear, Filter::Mipmap);
     let project = Project {
@@ -197,7 +199,7 @@ fn an_export_reads_back_as_the_same_project() {
         common: Some(source("Common", "#define A\n")),
         passes: vec![
             pass(
-                PassId::Buffer("C".into()),
+                PassName::buffer("C"),
                 [
                     channel(Input::buffer("blur"), n, Wrap::Clamp, true),
                     channel(Input::texture(Media::Builtin("noise-rgba-64".into())), m, Wrap::Repeat, false),
@@ -211,7 +213,7 @@ fn an_export_reads_back_as_the_same_project() {
                 ],
             ),
             pass(
-                PassId::Buffer("blur".into()),
+                PassName::buffer("blur"),
                 [
                     channel(
                         Input::Media { kind: InputKind::Music, media: site("m", "/media/a/m.mp3") },
@@ -229,9 +231,9 @@ fn an_export_reads_back_as_the_same_project() {
                     channel(Input::Device(InputKind::Webcam), l, Wrap::Clamp, true),
                 ],
             ),
-            pass(PassId::Cubemap, [channel(Input::pass(PassId::Cubemap), l, Wrap::Clamp, true), None, None, None]),
+            pass(PassName::cube(), [channel(Input::pass(PassName::cube()), l, Wrap::Clamp, true), None, None, None]),
             pass(
-                PassId::Image,
+                PassName::image(),
                 [
                     None,
                     channel(Input::KEYBOARD, n, Wrap::Clamp, true),
@@ -249,7 +251,7 @@ fn an_export_reads_back_as_the_same_project() {
                     ),
                 ],
             ),
-            pass(PassId::Sound, Default::default()),
+            pass(PassName::sound(), Default::default()),
         ],
         sampler_rules: SamplerRules::Site,
         dialect: Default::default(),
@@ -314,7 +316,7 @@ fn what_other_tools_write_is_read() {
     let (project, warnings) = import(&bare.to_string(), "x.json").unwrap();
     let said: Vec<&str> = warnings.iter().map(|w| w.message.as_str()).collect();
     assert!(said.len() == 2 && said[0].contains("no \"ver\"") && said[1].contains("Buf A"), "{said:?}");
-    let ids: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+    let ids: Vec<&str> = project.passes.iter().map(|p| p.id.key()).collect();
     assert_eq!((ids.join(" "), &*project.passes[1].source.text), ("buffer_a image".to_owned(), "x\r\n"));
     let read = |text: &str| import(text, "x.json").unwrap().0;
     // As `JSON.parse`: the last member counts, half a pair of surrogates is a letter, and a number may be infinite.
@@ -323,7 +325,7 @@ fn what_other_tools_write_is_read() {
         "info": { "name": "n", "viewed": 1e999, "likes": 4 } }"#;
     let project = read(twice);
     assert_eq!(&*project.passes[0].source.text, "// \u{fffd} \u{1f600}");
-    assert_eq!(project.passes[0].channels[2].as_ref().unwrap().input, Input::KEYBOARD);
+    assert_eq!(project.passes[0].bindings.get(2).unwrap().input, Input::KEYBOARD);
     assert_eq!((&project.info.extra["viewed"], &project.info.extra["likes"]), (&Value::Null, &json!(4)));
     let deep = format!("{}{}", "[".repeat(5000), "]".repeat(5000));
     let text = format!(

@@ -1,8 +1,7 @@
 //! A name that a person gives on the command line leads to a [`Project`](super::Project).
 
 use super::{
-    Loaded, PassId, ProjectError,
-    file_names::{self, Role},
+    Loaded, ProjectError, file_names,
     files::{EditedTexts, Files, MANIFEST},
     ghostty, json, limits,
     load::{folder_name, load_edited_folder, load_folder, load_glsl, load_glsl_alone, load_json},
@@ -157,10 +156,7 @@ fn locate(spec: &str) -> Result<Location, ProjectError> {
 
 fn holds_project(path: &Path) -> bool {
     let files = Files::on_disk(path);
-    files.exists(MANIFEST)
-        || files
-            .names()
-            .is_ok_and(|names| names.iter().any(|n| file_names::role_of_file(n) == Some(Role::Pass(PassId::Image))))
+    files.exists(MANIFEST) || files.names().is_ok_and(|names| names.iter().any(|n| file_names::is_image_file(n)))
 }
 
 #[cfg(test)]

@@ -39,9 +39,9 @@ fn a_folder_of_glsl_files_is_a_project() {
     assert_eq!(&*project.common.as_ref().unwrap().text, "#define X 1\n");
     assert_eq!(project.passes.len(), 2);
     let sampler = Sampler { wrap: Wrap::Repeat, ..Sampler::BUFFER };
-    assert_eq!(project.passes[0].channels[0], Some(Channel { input: Input::buffer("A"), sampler }));
+    assert_eq!(project.passes[0].bindings.get(0), Some(&Channel { input: Input::buffer("A"), sampler }));
     assert_eq!(project.passes[0].source.path.as_deref(), Some(dir.path().join("buffer_a.glsl").as_path()));
-    assert_eq!(project.passes[1].channels[0].as_ref().unwrap().input, Input::buffer("A"));
+    assert_eq!(project.passes[1].bindings.get(0).unwrap().input, Input::buffer("A"));
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn one_glsl_file_is_an_image_pass() {
     assert_eq!((project.name.as_str(), project.passes.len()), ("plasma", 1));
     assert_eq!(project.origin, Origin::File(path.clone()));
     assert_eq!(project.origin.base_dir(), Some(dir.path()));
-    assert_eq!(project.passes[0].channels[0].as_ref().unwrap().input, Input::texture(Media::File("pic.png".into())));
+    assert_eq!(project.passes[0].bindings.get(0).unwrap().input, Input::texture(Media::File("pic.png".into())));
     assert!(project.passes[0].source.compile_text().starts_with("     "));
     assert_eq!(stem(path.to_str().unwrap()), "plasma");
 }
@@ -85,16 +85,16 @@ fn eddy_toml_says_what_the_texts_cannot() {
     assert_eq!(warnings, []);
     assert_eq!(project.name, "Ink");
     assert_eq!(project.info.tags, ["fluid", "2d"]);
-    let ids: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+    let ids: Vec<&str> = project.passes.iter().map(|p| p.id.key()).collect();
     assert_eq!(ids, ["buffer_b", "buffer_a", "image"], "buffers are drawn in the file's order");
     assert_eq!(&*project.passes[1].source.text, "a");
-    let noise = project.passes[0].channels[3].as_ref().unwrap();
+    let noise = project.passes[0].bindings.get(3).unwrap();
     assert_eq!(noise.input, Input::texture(Media::Builtin("noise-rgba-256".into())));
     assert_eq!(noise.sampler, Sampler { filter: Filter::Nearest, ..Sampler::TEXTURE });
-    let image = &project.passes[2].channels;
-    assert_eq!(image[0].as_ref().unwrap().input, Input::buffer("B"));
-    assert!(!image[1].as_ref().unwrap().sampler.vflip);
-    assert_eq!(image[2].as_ref().unwrap().input, Input::KEYBOARD);
+    let image = &project.passes[2].bindings;
+    assert_eq!(image.get(0).unwrap().input, Input::buffer("B"));
+    assert!(!image.get(1).unwrap().sampler.vflip);
+    assert_eq!(image.get(2).unwrap().input, Input::KEYBOARD);
     assert_eq!(&*sources.get(eddy_diag::SourceId(0)).unwrap().text, "c", "common is source 0");
     assert_eq!(load_path(&dir.path().join("eddy.toml")).unwrap().project.passes, project.passes);
 }

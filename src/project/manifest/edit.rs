@@ -1,6 +1,6 @@
 //! Changing a manifest's text no more than needed.
 
-use crate::{PassId, file_names::pass_of_stem};
+use crate::{PassName, file_names::pass_of_stem};
 use toml_edit::{Item, Table, TableLike, Value};
 
 /// Sets, replaces or removes a value. One that says the same stays as it is written; a comment beside it stays in any
@@ -44,7 +44,7 @@ pub(super) fn child<'t>(table: &'t mut dyn TableLike, key: &str, is_implicit: bo
 }
 
 /// The key by which a table has a pass already, or the one it shall get.
-pub(super) fn key_of(table: &dyn TableLike, id: &PassId) -> String {
+pub(super) fn key_of(table: &dyn TableLike, id: &PassName) -> String {
     let old = table.iter().map(|(key, _)| key).find(|key| pass_of_stem(key).as_ref() == Some(id));
-    old.map_or_else(|| id.key(), str::to_owned)
+    old.map_or_else(|| id.key().to_owned(), str::to_owned)
 }

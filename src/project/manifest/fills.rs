@@ -1,7 +1,7 @@
 //! The keys of `eddy.toml` that fill texels from outside a pass's own program: `initial` and `boundary`.
 
 use super::{edit::set, reader::Reader};
-use crate::{Boundary, Fill, FillValue, PassId, PassSettings, Written};
+use crate::{Body, Boundary, Fill, FillValue, PassName, PassSettings, Written};
 use std::path::PathBuf;
 use toml_edit::{InlineTable, Item, TableLike, Value};
 
@@ -11,11 +11,11 @@ pub(super) const KEYS: [&str; 2] = ["initial", "boundary"];
 const FORM: &str = "a GLSL expression in quotes (\"vec4(0.5)\") or { file = \"state.npy\" }";
 
 impl Reader<'_> {
-    /// Reads both keys into `settings`, whose geometry is known.
-    pub(super) fn fills(&mut self, id: &PassId, table: &dyn TableLike, settings: &mut PassSettings) {
+    /// Reads both keys into `settings`.
+    pub(super) fn fills(&mut self, id: &PassName, table: &dyn TableLike, body: &Body, settings: &mut PassSettings) {
         for key in KEYS {
             let Some(item) = table.get(key) else { continue };
-            let cleared = || settings.meshes().map(|_| "a pass that draws meshes is cleared in every frame");
+            let cleared = || body.is_cleared().then_some("a pass that draws meshes is cleared in every frame");
             let Some(why) = id.row().refusal(key).or_else(cleared) else { continue };
             self.error(item.span(), format!("{} has no {key}", id.title()), why);
             return;
@@ -75,7 +75,7 @@ pub(super) fn write_fills(table: &mut dyn TableLike, settings: &PassSettings) {
     let read = |table: &dyn TableLike| {
         super::reader::silent(|reader| {
             let mut read = PassSettings::default();
-            reader.fills(&PassId::Buffer(String::new()), table, &mut read);
+            reader.fills(&PassName::buffer(""), table, &Body::Screen, &mut read);
             read
         })
     };

@@ -5,8 +5,8 @@ use super::{
     reader::{Reader, number},
 };
 use crate::{
-    Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, PassId, PassSettings, Source, Stage,
-    TexelFormat,
+    Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, Pass, PassName, PassSettings,
+    Source, Stage, TexelFormat,
 };
 use std::ops::Range;
 use toml_edit::{Array, InlineTable, Item, TableLike, Value};
@@ -64,7 +64,7 @@ impl Reader<'_> {
     /// The geometry of a pass whose own text lies in `file`. `settings` gets the format of its first target.
     pub(super) fn geometry(
         &mut self,
-        id: &PassId,
+        id: &PassName,
         pass: &dyn TableLike,
         file: &str,
         settings: &mut PassSettings,
@@ -260,23 +260,23 @@ fn targets(item: &Item) -> Option<Vec<TexelFormat>> {
 }
 
 /// Changes no more of a pass's table than needed.
-pub(super) fn write_geometry(pass: &mut dyn TableLike, own: &Source, settings: &PassSettings) {
-    let Some(geometry) = settings.meshes() else {
-        KEYS.iter().for_each(|key| drop(pass.remove(key)));
+pub(super) fn write_geometry(table: &mut dyn TableLike, of: &Pass) {
+    let Some(geometry) = of.body.geometry() else {
+        KEYS.iter().for_each(|key| drop(table.remove(key)));
         return;
     };
-    let formats = settings.formats();
-    if pass.get("targets").is_some() || formats.len() > 1 {
-        if pass.get("targets").and_then(targets).as_ref() != Some(&formats) {
-            set(pass, "targets", Some(formats.iter().map(|f| f.name()).collect()));
+    let (own, formats) = (&of.source, of.formats());
+    if table.get("targets").is_some() || formats.len() > 1 {
+        if table.get("targets").and_then(targets).as_ref() != Some(&formats) {
+            set(table, "targets", Some(formats.iter().map(|f| f.name()).collect()));
         }
-        pass.remove("format");
+        table.remove("format");
     }
     let read = |item: &Item| super::reader::silent(|reader| reader.entries(item));
     let entries: Vec<Entry> = geometry.draws.iter().map(|d| entry(d, own, geometry)).collect();
     let full =
         |e: &Entry| Entry { fragment: Some(e.fragment.clone().unwrap_or_else(|| own.name.clone())), ..e.clone() };
-    let written = pass.get("draw").and_then(read);
+    let written = table.get("draw").and_then(read);
     let same = |w: &Vec<(Entry, _)>| w.iter().map(|(e, _)| full(e)).eq(entries.iter().map(full));
     if !written.as_ref().is_some_and(same) {
         let mut draws: Array = entries.iter().map(|e| Value::InlineTable(inline(e))).collect();
@@ -285,10 +285,10 @@ pub(super) fn write_geometry(pass: &mut dyn TableLike, own: &Source, settings: &
         }
         draws.set_trailing("\n");
         draws.set_trailing_comma(true);
-        pass.remove("draw");
-        pass.insert("draw", Item::Value(Value::Array(draws)));
+        table.remove("draw");
+        table.insert("draw", Item::Value(Value::Array(draws)));
     }
-    write_camera(pass, &geometry.camera);
+    write_camera(table, &geometry.camera);
 }
 
 fn entry(draw: &MeshDraw, own: &Source, geometry: &Geometry) -> Entry {

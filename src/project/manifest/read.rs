@@ -6,9 +6,9 @@ use super::{
     settings,
 };
 use crate::{
-    Channel, Dialect, Filter, Info, Input, InputKind, InputSource, Loaded, MAX_TARGETS, Media, Origin, Pass, PassBody,
-    PassId, PassKind, Project, ProjectError, SamplerRules, Source, Wrap,
-    file_names::{self, Role},
+    Bindings, Body, Channel, Dialect, Filter, Info, Input, InputKind, InputSource, Loaded, MAX_TARGETS, Media, Origin,
+    Pass, PassName, Project, ProjectError, Role, SLOTS, SamplerRules, Source, Wrap,
+    file_names::{self, FileRole},
     files::{Files, MANIFEST},
     includes, limits, listed, nearest,
 };
@@ -147,19 +147,19 @@ impl Reader<'_> {
             }
             let table = self.table("common", item)?;
             self.check_keys("[common]", table, &[&["file"]]);
-            let file = self.string(table, "file").unwrap_or_else(|| self.conventional(&Role::Common));
+            let file = self.string(table, "file").unwrap_or_else(|| self.conventional(&FileRole::Common));
             let at = table.get("file").and_then(Item::span).or_else(|| item.span());
             return self.source(&file, "Common", at);
         }
-        let file = self.conventional(&Role::Common);
+        let file = self.conventional(&FileRole::Common);
         if self.files.exists(&file) { self.source(&file, "Common", None) } else { None }
     }
 
     /// The file of a role that is there, whatever its case and extension; else the name a new one would get.
-    fn conventional(&self, role: &Role) -> String {
+    fn conventional(&self, role: &FileRole) -> String {
         let key = match role {
-            Role::Common => "common".to_owned(),
-            Role::Pass(id) => id.key(),
+            FileRole::Common => "common",
+            FileRole::Pass(id) => id.key(),
         };
         let plain = format!("{key}.glsl");
         if self.files.exists(&plain) {
@@ -180,14 +180,14 @@ impl Reader<'_> {
             let at = table.key(name).and_then(toml_edit::Key::span).or_else(|| item.span());
             let Some(id) = file_names::pass_of_stem(name) else {
                 let fixed: Vec<&str> =
-                    PassKind::all().rev().filter(|kind| kind.id().is_some()).map(|kind| kind.row().key).collect();
+                    Role::all().rev().map(Role::row).filter(|row| !row.is_named).map(|row| row.key).collect();
                 let buffers = ["buffer_a", "buffer_b", "buffer_c", "buffer_d"];
                 let hint = match nearest(name, fixed.iter().copied().chain(buffers)) {
                     Some(near) => format!("did you mean {near}?"),
                     None if name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' ')) => {
                         format!("a pass is {}, or buffer_ and a name", fixed.join(", "))
                     }
-                    None => PassId::NAMES.to_owned(),
+                    None => PassName::NAMES.to_owned(),
                 };
                 self.error(at, format!("there is no pass {}", name.escape_debug()), hint);
                 continue;
@@ -208,19 +208,19 @@ impl Reader<'_> {
                 &[&["file", "channels"], &settings::KEYS, &geometry::KEYS, &fills::KEYS],
             );
             let file = self.string(table, "file").or_else(|| geometry::own_file(table));
-            let file = file.unwrap_or_else(|| self.conventional(&Role::Pass(id.clone())));
+            let file = file.unwrap_or_else(|| self.conventional(&FileRole::Pass(id.clone())));
             let file_at = table.get("file").and_then(Item::span).or(at);
             let source = self.source(&file, &id.title(), file_at);
-            let channels = self.channels(table);
+            let bindings = self.channels(table);
             let mut settings = self.settings(&id, table);
             let meshes = self.geometry(&id, table, &file, &mut settings);
-            settings.body = meshes.map_or(PassBody::Screen, PassBody::Meshes);
-            self.fills(&id, table, &mut settings);
+            let body = meshes.map_or(Body::Screen, Body::Meshes);
+            self.fills(&id, table, &body, &mut settings);
             if let Some(source) = source {
-                passes.push(Pass { id, source, channels, settings });
+                passes.push(Pass { id, source, bindings, settings, body });
             }
         }
-        if !table.iter().any(|(name, _)| file_names::pass_of_stem(name) == Some(PassId::Image)) {
+        if !table.iter().any(|(name, _)| file_names::pass_of_stem(name).is_some_and(|pass| pass.is_image())) {
             self.error(item.span(), "there is no Image pass", "add a table [passes.image]");
         }
         passes.sort_by(|a, b| a.id.drawing_order(&b.id));
@@ -233,8 +233,8 @@ impl Reader<'_> {
     fn check_reads(&mut self, table: &dyn TableLike, passes: &[Pass]) {
         let mut found = Vec::new();
         for pass in passes {
-            for (n, channel) in pass.channels.iter().enumerate() {
-                let Some((missing, _)) = channel.as_ref().and_then(|c| c.input.target()) else { continue };
+            for (n, channel) in pass.bindings.iter() {
+                let Some((missing, _)) = channel.input.target() else { continue };
                 if passes.iter().any(|p| p.id == *missing) {
                     continue;
                 }
@@ -260,10 +260,10 @@ impl Reader<'_> {
     /// Channels that read a target their pass does not have.
     fn check_targets(&mut self, table: &dyn TableLike, passes: &[Pass]) {
         for pass in passes {
-            for (n, channel) in pass.channels.iter().enumerate() {
-                let Some((id, index)) = channel.as_ref().and_then(|c| c.input.target()) else { continue };
+            for (n, channel) in pass.bindings.iter() {
+                let Some((id, index)) = channel.input.target() else { continue };
                 let Some(read) = passes.iter().find(|p| p.id == *id) else { continue };
-                let count = read.settings.formats().len();
+                let count = read.formats().len();
                 if index < count {
                     continue;
                 }
@@ -285,12 +285,12 @@ impl Reader<'_> {
         }
     }
 
-    fn channels(&mut self, pass: &dyn TableLike) -> [Option<Channel>; 4] {
-        let mut channels: [Option<Channel>; 4] = Default::default();
+    fn channels(&mut self, pass: &dyn TableLike) -> Bindings {
+        let mut channels = Bindings::default();
         let Some(table) = pass.get("channels").and_then(|item| self.table("channels", item)) else { return channels };
         for (number, item) in table.iter() {
             match number.parse::<usize>() {
-                Ok(n) if n < 4 && number.len() == 1 => channels[n] = self.channel(n, item),
+                Ok(n) if n < SLOTS && number.len() == 1 => channels.set(n, self.channel(n, item)),
                 _ => {
                     let at = table.key(number).and_then(toml_edit::Key::span).or_else(|| item.span());
                     self.error(at, format!("there is no channel {number}"), "a pass has channels 0 to 3");
@@ -361,9 +361,9 @@ impl Reader<'_> {
     /// Returns the buffer that a channel names; the cubemap pass may be named so, too.
     fn buffer(&mut self, channel: &dyn TableLike, key: &str) -> Option<Input> {
         let name = self.string(channel, key)?;
-        match PassId::parse(&name) {
-            Some(id @ PassId::Buffer(_)) => Some(Input::Pass { id, target: self.target(channel)? }),
-            Some(id @ PassId::Cubemap) => Some(Input::pass(id)),
+        match PassName::parse(&name) {
+            Some(id) if id.is_buffer() => Some(Input::Pass { id, target: self.target(channel)? }),
+            Some(id) if id.is_readable() => Some(Input::pass(id)),
             _ => {
                 let at = channel.get(key).and_then(Item::span);
                 self.error(at, format!("\"{name}\" is not a buffer"), "write a buffer pass: buffer = \"A\"");

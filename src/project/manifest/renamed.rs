@@ -3,7 +3,7 @@
 use super::geometry;
 use crate::{
     Project,
-    file_names::{Role, pass_of_stem, role_of_file},
+    file_names::{FileRole, pass_of_stem, role_of_file},
 };
 use toml_edit::{DocumentMut, Item};
 
@@ -29,15 +29,15 @@ pub fn follow_renames(text: &str, project: &Project) -> String {
             });
             id.is_some_and(|id| match named {
                 Some(named) => named == file,
-                None => role_of_file(&file) == Some(Role::Pass(id)),
+                None => role_of_file(&file) == Some(FileRole::Pass(id)),
             })
         };
         let Some(old) = table.iter().find(is_of_file).map(|(key, _)| key.to_owned()) else { continue };
         let decor = table.key(&old).map(|key| key.leaf_decor().clone());
         let Some(item) = table.remove(&old) else { continue };
         let new = pass.id.key();
-        table.insert(&new, item);
-        if let (Some(decor), Some(mut key)) = (decor, table.key_mut(&new)) {
+        table.insert(new, item);
+        if let (Some(decor), Some(mut key)) = (decor, table.key_mut(new)) {
             *key.leaf_decor_mut() = decor;
         }
         is_changed = true;

@@ -6,8 +6,8 @@ use super::{
     reader::{Reader, number},
 };
 use crate::{
-    Condition, Group, Pass, PassId, PassSettings, PassSize, Project, Region, TexelFormat, Written, file_names, limits,
-    listed, nearest, settings::draws,
+    Condition, Group, Pass, PassName, PassSettings, PassSize, Project, Region, TexelFormat, Written, file_names,
+    limits, listed, nearest, settings::draws,
 };
 use toml_edit::{Item, Table, TableLike, Value};
 
@@ -19,7 +19,7 @@ fn whole(value: &Value) -> Option<u32> {
 }
 
 impl Reader<'_> {
-    pub(super) fn settings(&mut self, id: &PassId, table: &dyn TableLike) -> PassSettings {
+    pub(super) fn settings(&mut self, id: &PassName, table: &dyn TableLike) -> PassSettings {
         let mut settings = PassSettings::default();
         for key in KEYS {
             if let (Some(item), Some(why)) = (table.get(key), id.row().refusal(key)) {
@@ -80,7 +80,7 @@ impl Reader<'_> {
     pub(super) fn groups(&mut self, root: &dyn TableLike, passes: &[Pass]) -> Vec<Group> {
         let mut groups: Vec<Group> = Vec::new();
         let table = root.get("groups").and_then(|item| self.table("groups", item));
-        let order: Vec<&PassId> = passes.iter().map(|p| &p.id).filter(|id| matches!(id, PassId::Buffer(_))).collect();
+        let order: Vec<&PassName> = passes.iter().map(|p| &p.id).filter(|id| id.is_buffer()).collect();
         for (name, item) in table.into_iter().flat_map(TableLike::iter) {
             let at = table.and_then(|table| table.key(name)).and_then(toml_edit::Key::span).or_else(|| item.span());
             if !is_group_name(name) {
@@ -139,14 +139,14 @@ impl Reader<'_> {
         &mut self,
         item: &Item,
         names: &[&str],
-        order: &[&PassId],
+        order: &[&PassName],
         others: &[Group],
-    ) -> Option<Vec<PassId>> {
+    ) -> Option<Vec<PassName>> {
         let mut places = Vec::new();
         for name in names {
             let Some(place) = file_names::pass_of_stem(name).and_then(|id| order.iter().position(|o| **o == id)) else {
-                let known: Vec<String> = order.iter().map(|id| id.key()).collect();
-                let hint = match nearest(name, known.iter().map(String::as_str)) {
+                let known: Vec<&str> = order.iter().map(|id| id.key()).collect();
+                let hint = match nearest(name, known.iter().copied()) {
                     Some(near) => format!("did you mean {near}?"),
                     None => format!("there are {}", listed(&known)),
                 };
@@ -164,7 +164,7 @@ impl Reader<'_> {
             self.error(item.span(), "the passes of a group are drawn one after the other", hint);
             return None;
         }
-        let passes: Vec<PassId> = places.iter().map(|p| order[*p].clone()).collect();
+        let passes: Vec<PassName> = places.iter().map(|p| order[*p].clone()).collect();
         if let Some(twice) = passes.iter().find(|id| others.iter().any(|g| g.passes.contains(id))) {
             self.error(item.span(), format!("{} is in another group already", twice.title()), "list it once");
             return None;
@@ -203,7 +203,8 @@ fn region(item: &Item) -> Option<Region> {
     }
 }
 
-pub(super) fn write_settings(table: &mut dyn TableLike, settings: &PassSettings) {
+pub(super) fn write_settings(table: &mut dyn TableLike, pass: &Pass) {
+    let settings = &pass.settings;
     if table.get("size").and_then(size).unwrap_or_default() != settings.size {
         set(
             table,
@@ -217,7 +218,7 @@ pub(super) fn write_settings(table: &mut dyn TableLike, settings: &PassSettings)
     }
     let written = table.get("format").and_then(Item::as_str).map(str::to_ascii_lowercase);
     // Of several targets `targets` says it.
-    if table.contains_key("targets") || settings.formats().len() > 1 {
+    if table.contains_key("targets") || !pass.body.more_targets().is_empty() {
         table.remove("format");
     } else if written.as_deref().unwrap_or(TexelFormat::default().name()) != settings.format.name() {
         set(table, "format", (settings.format != TexelFormat::default()).then(|| settings.format.name().into()));
@@ -241,7 +242,7 @@ pub(super) fn write_groups(root: &mut Table, project: &Project) {
     let keys: Vec<Vec<String>> = project
         .groups
         .iter()
-        .map(|g| g.passes.iter().map(|id| passes.map_or_else(|| id.key(), |t| key_of(t, id))).collect())
+        .map(|g| g.passes.iter().map(|id| passes.map_or_else(|| id.key().to_owned(), |t| key_of(t, id))).collect())
         .collect();
     let Some(table) = child(root, "groups", true) else { return };
     let is_gone = |key: &str| !project.groups.iter().any(|g| g.name == key);
@@ -251,7 +252,7 @@ pub(super) fn write_groups(root: &mut Table, project: &Project) {
     }
     for (group, keys) in project.groups.iter().zip(keys) {
         let Some(entry) = child(table, &group.name, false) else { continue };
-        let written: Option<Vec<PassId>> = entry
+        let written: Option<Vec<PassName>> = entry
             .get("passes")
             .and_then(Item::as_array)
             .map(|a| a.iter().filter_map(|v| file_names::pass_of_stem(v.as_str()?)).collect());

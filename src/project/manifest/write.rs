@@ -8,9 +8,9 @@ use super::{
     settings, uniforms,
 };
 use crate::{
-    Channel, CustomUniformValue, Dialect, Filter, Input, InputKind, InputRow, Media, PassId, Project, SamplerRules,
-    Wrap,
-    file_names::{Role, pass_of_stem, role_of_file},
+    Bindings, Channel, CustomUniformValue, Dialect, Filter, Input, InputKind, InputRow, Media, PassName, Project,
+    SLOTS, SamplerRules, Wrap,
+    file_names::{FileRole, pass_of_stem, role_of_file},
 };
 use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
@@ -123,15 +123,15 @@ fn passes(root: &mut Table, project: &Project) {
         let is_old = table.contains_key(&key);
         let Some(entry) = child(table, &key, false) else { continue };
         let implied = geometry::own_file(entry).unwrap_or_else(|| format!("{}.glsl", pass.id.key()));
-        let role = Role::Pass(pass.id.clone());
+        let role = FileRole::Pass(pass.id.clone());
         let is_implied = pass.source.name == implied || role_of_file(&pass.source.name) == Some(role);
         if !is_old || entry.contains_key("file") || !is_implied {
             set(entry, "file", Some(pass.source.name.as_str().into()));
         }
-        channels(entry, &pass.channels);
-        settings::write_settings(entry, &pass.settings);
+        channels(entry, &pass.bindings);
+        settings::write_settings(entry, pass);
         fills::write_fills(entry, &pass.settings);
-        geometry::write_geometry(entry, &pass.source, &pass.settings);
+        geometry::write_geometry(entry, pass);
     }
     order(table, project);
 }
@@ -139,7 +139,7 @@ fn passes(root: &mut Table, project: &Project) {
 /// Puts the pass tables into the project's order where they do not stand in it already.
 fn order(table: &mut dyn TableLike, project: &Project) {
     let wanted: Vec<String> = project.passes.iter().map(|p| key_of(table, &p.id)).collect();
-    let is_buffer = |key: &&str| matches!(pass_of_stem(key), Some(PassId::Buffer(_)));
+    let is_buffer = |key: &&str| pass_of_stem(key).is_some_and(|id| id.is_buffer());
     let now: Vec<&str> = table.iter().map(|(key, _)| key).filter(is_buffer).collect();
     // Only buffers have an order.
     if now == wanted.iter().map(String::as_str).filter(is_buffer).collect::<Vec<_>>() {
@@ -165,8 +165,8 @@ fn take(table: &mut dyn TableLike, key: &str) -> Option<(Key, Item)> {
     Some((old_key, table.remove(key)?))
 }
 
-fn channels(pass: &mut dyn TableLike, channels: &[Option<Channel>; 4]) {
-    if channels.iter().all(Option::is_none) {
+fn channels(pass: &mut dyn TableLike, channels: &Bindings) {
+    if channels.is_empty() {
         pass.remove("channels");
         return;
     }
@@ -176,9 +176,9 @@ fn channels(pass: &mut dyn TableLike, channels: &[Option<Channel>; 4]) {
         pass.insert("channels", Item::Table(dotted));
     }
     let Some(table) = pass.get_mut("channels").and_then(Item::as_table_like_mut) else { return };
-    for (n, channel) in channels.iter().enumerate() {
+    for n in 0..SLOTS {
         let key = n.to_string();
-        match (channel, table.get(&key)) {
+        match (channels.get(n), table.get(&key)) {
             (None, _) => {
                 table.remove(&key);
             }
@@ -206,9 +206,9 @@ fn entry(channel: &Channel) -> InlineTable {
     let mut table = InlineTable::new();
     let row = channel.input.row();
     match &channel.input {
-        Input::Pass { id: id @ PassId::Buffer(name), .. } => {
-            let is_plain = PassId::parse(name).as_ref() == Some(id);
-            table.insert(row.key, if is_plain { name.clone() } else { id.key() }.into());
+        Input::Pass { id, .. } if id.is_buffer() => {
+            let plain = id.buffer_name().filter(|name| PassName::parse(name).as_ref() == Some(id));
+            table.insert(row.key, plain.unwrap_or(id.key()).into());
         }
         Input::Pass { .. } | Input::Device(_) => drop(table.insert(row.key, true.into())),
         Input::Media { media, .. } => self::media(&mut table, row, media),

@@ -2,9 +2,9 @@
 
 use super::groups;
 use crate::{
-    Boundary, Condition, Fill, FillValue, Filter, Pass, PassId, PassKind, PassSize, Project, Region, Sampler, Source,
-    Tab, TexelFormat, Wrap, confine,
-    file_names::{self, Role},
+    Boundary, Condition, Fill, FillValue, Filter, Pass, PassName, PassSize, Project, Region, Sampler, Source, Tab,
+    TexelFormat, Wrap, confine,
+    file_names::{self, FileRole},
     limits,
     settings::draws,
 };
@@ -13,31 +13,31 @@ use std::path::Path;
 /// A change of a project's passes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PassEdit {
-    /// Gives a buffer another name, as a person writes it: see [`PassId::buffer_named`]. What reads it reads it under
+    /// Gives a buffer another name, as a person writes it: see [`PassName::buffer_named`]. What reads it reads it under
     /// the new one.
-    Rename { pass: PassId, name: String },
+    Rename { pass: PassName, name: String },
     /// Puts a buffer at a place among the buffers, which are counted from 0 in drawing order.
-    Move { pass: PassId, to: usize },
+    Move { pass: PassName, to: usize },
     /// Sets the size of a buffer's texture.
-    Size(PassId, PassSize),
+    Size(PassName, PassSize),
     /// Sets the format of its texels.
-    Format(PassId, TexelFormat),
+    Format(PassName, TexelFormat),
     /// Sets the part of it that is drawn; `None`: all.
-    Region(PassId, Option<Region>),
+    Region(PassName, Option<Region>),
     /// Sets the condition by which it is drawn, as a person writes it; `None`: in every frame.
-    When(PassId, Option<String>),
+    When(PassName, Option<String>),
     /// Sets what a buffer holds before frame 0; `None`: zeros.
-    Initial(PassId, Option<FillValue>),
+    Initial(PassName, Option<FillValue>),
     /// The outermost texels of a pass, and how many from each edge; `None`: as drawn.
-    Boundary(PassId, Option<(u32, FillValue)>),
+    Boundary(PassName, Option<(u32, FillValue)>),
     /// Sets how often a frame a buffer is drawn, with the others of its group.
-    Steps(PassId, u32),
+    Steps(PassName, u32),
     /// Draws a buffer in one group with the buffer before it, or begins another group with it.
-    WithPrevious(PassId, bool),
+    WithPrevious(PassName, bool),
     /// The filter of every channel that reads a buffer.
-    Filter(PassId, Filter),
+    Filter(PassName, Filter),
     /// The wrap of every channel that reads a buffer.
-    Wrap(PassId, Wrap),
+    Wrap(PassName, Wrap),
     /// Takes away Common or a pass. Channels that read it stay, and read zeros.
     Remove(Tab),
 }
@@ -48,7 +48,7 @@ pub struct PassEdited {
     /// The project is another one now.
     pub is_changed: bool,
     /// A pass has another name: the old one, the new one.
-    pub renamed: Option<(PassId, PassId)>,
+    pub renamed: Option<(PassName, PassName)>,
 }
 
 /// The reason why passes cannot be edited so.
@@ -56,7 +56,7 @@ pub struct PassEdited {
 pub enum PassEditError {
     #[error("there is no {0}")]
     NoSuchPass(String),
-    #[error("\"{0}\" is not a valid buffer name: {rule}", rule = PassId::NAMES)]
+    #[error("\"{0}\" is not a valid buffer name: {rule}", rule = PassName::NAMES)]
     BadName(String),
     #[error("there is a {0} already; choose another name")]
     Taken(String),
@@ -93,7 +93,7 @@ pub enum PassEditError {
 impl PassEdit {
     /// Returns what it is about, as a menu says it behind "Undo".
     pub fn title(&self) -> String {
-        let of = |what: &str, pass: &PassId| format!("{what} of {}", pass.title());
+        let of = |what: &str, pass: &PassName| format!("{what} of {}", pass.title());
         match self {
             PassEdit::Rename { pass, name } => format!("rename {} to {name}", pass.title()),
             PassEdit::Move { pass, .. } => format!("move {}", pass.title()),
@@ -141,7 +141,7 @@ impl Project {
         Ok(PassEdited { is_changed, renamed })
     }
 
-    fn edit(&mut self, edit: &PassEdit) -> Result<Option<(PassId, PassId)>, PassEditError> {
+    fn edit(&mut self, edit: &PassEdit) -> Result<Option<(PassName, PassName)>, PassEditError> {
         match edit {
             PassEdit::Rename { pass, name } => return self.rename(pass, name),
             PassEdit::Move { pass, to } => self.move_buffer(pass, *to)?,
@@ -206,39 +206,39 @@ impl Project {
         Ok(None)
     }
 
-    fn found(&mut self, id: &PassId) -> Result<&mut Pass, PassEditError> {
+    fn found(&mut self, id: &PassName) -> Result<&mut Pass, PassEditError> {
         self.pass_mut(id).ok_or_else(|| PassEditError::NoSuchPass(id.title()))
     }
 
-    fn buffer(&mut self, id: &PassId, what: &'static str) -> Result<&mut Pass, PassEditError> {
-        let is_buffer = matches!(id, PassId::Buffer(_));
+    fn buffer(&mut self, id: &PassName, what: &'static str) -> Result<&mut Pass, PassEditError> {
+        let is_buffer = id.is_buffer();
         let found = self.found(id)?;
         if is_buffer { Ok(found) } else { Err(PassEditError::NotHere { pass: id.title(), what }) }
     }
 
     /// A pass whose texels can be filled from outside its own program.
-    fn filled(&mut self, id: &PassId, what: &'static str) -> Result<&mut Pass, PassEditError> {
+    fn filled(&mut self, id: &PassName, what: &'static str) -> Result<&mut Pass, PassEditError> {
         let found = self.found(id)?;
         // One that draws meshes is cleared in every frame.
-        if !id.is_picture() || found.settings.meshes().is_some() {
+        if !id.is_picture() || found.body.is_cleared() {
             return Err(PassEditError::NotHere { pass: id.title(), what });
         }
         Ok(found)
     }
 
     /// The samplers of all channels that read a buffer.
-    fn readers<'p>(&'p mut self, id: &'p PassId) -> Result<impl Iterator<Item = &'p mut Sampler>, PassEditError> {
+    fn readers<'p>(&'p mut self, id: &'p PassName) -> Result<impl Iterator<Item = &'p mut Sampler>, PassEditError> {
         self.buffer(id, "filter and wrap")?;
-        let channels = self.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten());
+        let channels = self.passes.iter_mut().flat_map(|p| p.bindings.channels_mut());
         Ok(channels.filter(move |c| c.input.target().is_some_and(|(of, _)| of == id)).map(|c| &mut c.sampler))
     }
 
-    fn rename(&mut self, from: &PassId, name: &str) -> Result<Option<(PassId, PassId)>, PassEditError> {
+    fn rename(&mut self, from: &PassName, name: &str) -> Result<Option<(PassName, PassName)>, PassEditError> {
         self.found(from)?;
-        if from.kind() != PassKind::Buffer {
+        if !from.is_buffer() {
             return Err(PassEditError::NotABuffer(from.title()));
         }
-        let to = PassId::buffer_named(name).ok_or_else(|| PassEditError::BadName(name.trim().to_owned()))?;
+        let to = PassName::buffer_named(name).ok_or_else(|| PassEditError::BadName(name.trim().to_owned()))?;
         if to == *from {
             return Ok(None);
         }
@@ -248,7 +248,7 @@ impl Project {
         let pass = self.found(from)?;
         pass.id = to.clone();
         pass.source.follow_rename(from, &to);
-        for channel in self.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
+        for channel in self.passes.iter_mut().flat_map(|p| p.bindings.channels_mut()) {
             if let Some(id) = channel.input.pass_mut().filter(|id| *id == from) {
                 id.clone_from(&to);
             }
@@ -259,12 +259,12 @@ impl Project {
         Ok(Some((from.clone(), to)))
     }
 
-    fn move_buffer(&mut self, id: &PassId, to: usize) -> Result<(), PassEditError> {
+    fn move_buffer(&mut self, id: &PassName, to: usize) -> Result<(), PassEditError> {
         self.found(id)?;
-        if !matches!(id, PassId::Buffer(_)) {
+        if !id.is_buffer() {
             return Err(PassEditError::NotABuffer(id.title()));
         }
-        let count = self.passes.iter().filter(|p| matches!(p.id, PassId::Buffer(_))).count();
+        let count = self.passes.iter().filter(|p| p.id.is_buffer()).count();
         // Buffers come first.
         let Some(from) = self.passes.iter().position(|p| p.id == *id) else { return Ok(()) };
         let pass = self.passes.remove(from);
@@ -275,7 +275,7 @@ impl Project {
 
     fn remove(&mut self, tab: &Tab) -> Result<(), PassEditError> {
         match tab {
-            Tab::Pass(PassId::Image) => return Err(PassEditError::Image),
+            Tab::Pass(id) if id.is_image() => return Err(PassEditError::Image),
             Tab::Stage(_, file) => return Err(PassEditError::Stage(file.clone())),
             Tab::Included(file) => return Err(PassEditError::Included(file.clone())),
             Tab::Common if self.common.is_none() => return Err(PassEditError::NoSuchPass(tab.title())),
@@ -311,7 +311,7 @@ impl Source {
     /// Calls a text as its pass is called now. A file that is named after the pass gets the new name when it is saved:
     /// until then its path is the file that is there, and its name the one that it shall have. A file of any other name
     /// keeps it.
-    pub fn follow_rename(&mut self, from: &PassId, to: &PassId) {
+    pub fn follow_rename(&mut self, from: &PassName, to: &PassName) {
         if self.path.is_none() {
             if self.name == from.title() {
                 self.name = to.title();
@@ -320,7 +320,7 @@ impl Source {
         }
         let file = Path::new(&self.name);
         let Some(own) = file.file_name().and_then(|name| name.to_str()) else { return };
-        if file_names::role_of_file(own) != Some(Role::Pass(from.clone())) {
+        if file_names::role_of_file(own) != Some(FileRole::Pass(from.clone())) {
             return;
         }
         let extension = file.extension().and_then(|e| e.to_str()).unwrap_or("glsl");

@@ -1,10 +1,10 @@
 //! Groups while passes are edited: their passes follow each other, and none is empty.
 
 use super::edit::PassEditError;
-use crate::{Group, PassId, Project};
+use crate::{Group, PassName, Project};
 
 /// Draws a buffer so many times a frame, with the others of its group.
-pub fn set_steps(project: &mut Project, id: &PassId, steps: u32) -> Result<(), PassEditError> {
+pub fn set_steps(project: &mut Project, id: &PassName, steps: u32) -> Result<(), PassEditError> {
     if steps == 0 {
         return Err(PassEditError::NoSteps);
     }
@@ -22,7 +22,7 @@ pub fn set_steps(project: &mut Project, id: &PassId, steps: u32) -> Result<(), P
 }
 
 /// Puts a buffer and what is grouped with it into the group of the buffer before, or parts the two.
-pub fn join(project: &mut Project, id: &PassId, is_joined: bool) -> Result<(), PassEditError> {
+pub fn join(project: &mut Project, id: &PassName, is_joined: bool) -> Result<(), PassEditError> {
     let before = place(project, id).and_then(|at| project.passes.get(at.checked_sub(1)?)).map(|p| p.id.clone());
     let Some(before) = before else { return Err(PassEditError::First(id.title())) };
     let (above, own) = (of(project, &before), of(project, id));
@@ -55,7 +55,7 @@ pub fn join(project: &mut Project, id: &PassId, is_joined: bool) -> Result<(), P
 }
 
 /// After a buffer was moved: between two passes of a group it is one of them, and away from its own group it leaves it.
-pub fn settle_moved(project: &mut Project, id: &PassId) {
+pub fn settle_moved(project: &mut Project, id: &PassName) {
     let Some(at) = place(project, id) else { return };
     let neighbour = |at: Option<usize>| of(project, &project.passes.get(at?)?.id);
     let (before, after) = (neighbour(at.checked_sub(1)), neighbour(Some(at + 1)));
@@ -74,7 +74,7 @@ pub fn settle_moved(project: &mut Project, id: &PassId) {
             project.groups[own].passes.retain(|p| p != id);
         }
     }
-    let order: Vec<PassId> = project.passes.iter().map(|p| p.id.clone()).collect();
+    let order: Vec<PassName> = project.passes.iter().map(|p| p.id.clone()).collect();
     for group in &mut project.groups {
         group.passes.sort_by_key(|id| order.iter().position(|o| o == id));
     }
@@ -82,26 +82,23 @@ pub fn settle_moved(project: &mut Project, id: &PassId) {
 }
 
 /// Takes a pass that is no more out of its group.
-pub fn forget(project: &mut Project, id: &PassId) {
+pub fn forget(project: &mut Project, id: &PassName) {
     project.groups.iter_mut().for_each(|g| g.passes.retain(|p| p != id));
     project.groups.retain(|g| !g.passes.is_empty());
 }
 
 /// The group that a pass is in.
-fn of(project: &Project, id: &PassId) -> Option<usize> {
+fn of(project: &Project, id: &PassName) -> Option<usize> {
     project.groups.iter().position(|g| g.passes.contains(id))
 }
 
-fn place(project: &Project, id: &PassId) -> Option<usize> {
+fn place(project: &Project, id: &PassName) -> Option<usize> {
     project.passes.iter().position(|p| p.id == *id)
 }
 
 /// A name for a new group, after its first pass.
-fn free_name(project: &Project, id: &PassId) -> String {
-    let stem = match id {
-        PassId::Buffer(name) => name.to_lowercase(),
-        other => other.key(),
-    };
+fn free_name(project: &Project, id: &PassName) -> String {
+    let stem = id.buffer_name().unwrap_or(id.key()).to_lowercase();
     let is_free = |name: &String| project.groups.iter().all(|g| g.name != *name);
     let numbered = (2..).map(|n| format!("{stem} {n}"));
     std::iter::once(stem.clone()).chain(numbered).find(is_free).unwrap_or(stem)

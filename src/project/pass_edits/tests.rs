@@ -1,6 +1,6 @@
 use super::*;
 use crate::{
-    self as project, Channel, FillValue, Filter, Group, Input, Overwrite, PassId, PassSize, Project, Region, Sampler,
+    self as project, Channel, FillValue, Filter, Group, Input, Overwrite, PassName, PassSize, Project, Region, Sampler,
     Tab, TexelFormat, Wrap,
 };
 use std::{
@@ -32,8 +32,8 @@ channels.0 = { buffer = \"A\", wrap = \"repeat\" }
 channels.1 = { buffer = \"C\" }
 ";
 
-fn buffer(name: &str) -> PassId {
-    PassId::Buffer(name.into())
+fn buffer(name: &str) -> PassName {
+    PassName::buffer(name)
 }
 
 /// A project of three buffers on disk.
@@ -49,7 +49,7 @@ fn on_disk() -> (tempfile::TempDir, Project) {
     (dir, project)
 }
 
-fn order(project: &Project) -> Vec<String> {
+fn order(project: &Project) -> Vec<&str> {
     project.passes.iter().map(|p| p.id.key()).collect()
 }
 
@@ -69,11 +69,11 @@ fn a_new_name_goes_to_what_reads_the_pass_and_to_its_file() {
     let done = project.edit_passes(&PassEdit::Rename { pass: buffer("A"), name: " Velocity Field ".into() }).unwrap();
     let to = buffer("velocityfield");
     assert_eq!(done, PassEdited { is_changed: true, renamed: Some((buffer("A"), to.clone())) });
-    let reads = |id: &PassId, n: usize| project.pass(id).unwrap().channels[n].clone().unwrap().input;
+    let reads = |id: &PassName, n: usize| project.pass(id).unwrap().bindings.get(n).cloned().unwrap().input;
     assert_eq!(reads(&to, 0), Input::buffer("velocityfield"));
     assert_eq!(reads(&buffer("B"), 0), Input::buffer("velocityfield"));
-    assert_eq!(reads(&PassId::Image, 0), Input::buffer("velocityfield"));
-    assert_eq!(reads(&PassId::Image, 1), Input::buffer("C"));
+    assert_eq!(reads(&PassName::image(), 0), Input::buffer("velocityfield"));
+    assert_eq!(reads(&PassName::image(), 1), Input::buffer("C"));
     assert_eq!(project.groups[0].passes, [to.clone(), buffer("B")]);
 
     let after = saved(&project, dir.path());
@@ -127,13 +127,13 @@ fn a_new_name_never_takes_somebody_elses_file() {
 fn names_that_cannot_be_are_refused_with_the_reason() {
     let (_dir, mut project) = on_disk();
     let before = project.clone();
-    let mut rename = |pass: PassId, name: &str| {
+    let mut rename = |pass: PassName, name: &str| {
         project.edit_passes(&PassEdit::Rename { pass, name: name.into() }).unwrap_err().to_string()
     };
     assert!(rename(buffer("A"), "b").contains("there is a Buffer B already"));
     assert!(rename(buffer("A"), "a/b").contains("letters, digits"));
     assert!(rename(buffer("A"), "  ").contains("letters, digits"));
-    assert!(rename(PassId::Image, "x").contains("only buffers"));
+    assert!(rename(PassName::image(), "x").contains("only buffers"));
     assert!(rename(buffer("nowhere"), "x").contains("there is no Buffer nowhere"));
     assert_eq!(project, before);
     let same = project.edit_passes(&PassEdit::Rename { pass: buffer("A"), name: "Buffer A".into() }).unwrap();
@@ -156,7 +156,7 @@ fn buffers_move_and_groups_stay_in_one_piece() {
     assert_eq!(project.groups[0].passes, [buffer("B"), buffer("A"), buffer("C")]);
     let again = saved(&project, dir.path());
     assert_eq!(order(&again), ["buffer_b", "buffer_a", "buffer_c", "image"]);
-    assert!(project.edit_passes(&PassEdit::Move { pass: PassId::Image, to: 0 }).is_err());
+    assert!(project.edit_passes(&PassEdit::Move { pass: PassName::image(), to: 0 }).is_err());
     let far = project.edit_passes(&PassEdit::Move { pass: buffer("B"), to: 99 }).unwrap();
     assert!(far.is_changed);
     assert_eq!(order(&project), ["buffer_a", "buffer_c", "buffer_b", "image"]);
@@ -187,8 +187,8 @@ fn steps_and_groups_are_made_joined_parted_and_forgotten() {
     edit(PassEdit::Remove(Tab::Pass(buffer("B"))));
     // What read it would be warned of.
     edit(PassEdit::Remove(Tab::Pass(buffer("A"))));
-    project.pass_mut(&buffer("C")).unwrap().channels = Default::default();
-    project.pass_mut(&PassId::Image).unwrap().channels[0] = None;
+    project.pass_mut(&buffer("C")).unwrap().bindings = Default::default();
+    project.image_mut().unwrap().bindings.set(0, None);
     assert_eq!(project.groups, [group("b", &["C"], 5)]);
     saved(&project, dir.path());
     assert_eq!(project.edit_passes(&PassEdit::Steps(buffer("C"), 0)), Err(PassEditError::NoSteps));
@@ -207,7 +207,7 @@ fn how_a_pass_is_drawn_and_read_is_saved() {
         PassEdit::Size(buffer("B"), PassSize::Fixed(64, 32)),
         PassEdit::Format(buffer("A"), TexelFormat::Rg16f),
         PassEdit::Region(buffer("A"), Some(region)),
-        PassEdit::Region(PassId::Image, Some(region)),
+        PassEdit::Region(PassName::image(), Some(region)),
         PassEdit::Filter(buffer("A"), Filter::Mipmap),
         PassEdit::Wrap(buffer("A"), Wrap::Repeat),
     ] {
@@ -220,18 +220,18 @@ fn how_a_pass_is_drawn_and_read_is_saved() {
         input: Input::buffer("A"),
         sampler: Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: true },
     });
-    assert_eq!(a.channels[0], read);
-    assert_eq!(after.pass(&PassId::Image).unwrap().channels[0], read);
-    let of_c = after.pass(&PassId::Image).unwrap().channels[1].as_ref().unwrap().sampler;
+    assert_eq!(a.bindings.get(0), read.as_ref());
+    assert_eq!(after.image().unwrap().bindings.get(0), read.as_ref());
+    let of_c = after.image().unwrap().bindings.get(1).unwrap().sampler;
     assert_eq!(of_c, Sampler::BUFFER, "another buffer's channels stay");
     let refused = [
         PassEdit::Size(buffer("A"), PassSize::Scale(f64::NAN)),
         PassEdit::Size(buffer("A"), PassSize::Fixed(0, 3)),
-        PassEdit::Size(PassId::Image, PassSize::Scale(0.5)),
-        PassEdit::Format(PassId::Image, TexelFormat::R8),
+        PassEdit::Size(PassName::image(), PassSize::Scale(0.5)),
+        PassEdit::Format(PassName::image(), TexelFormat::R8),
         PassEdit::Region(buffer("A"), Some(Region { width: 0, ..region })),
-        PassEdit::Filter(PassId::Image, Filter::Linear),
-        PassEdit::Remove(Tab::Pass(PassId::Image)),
+        PassEdit::Filter(PassName::image(), Filter::Linear),
+        PassEdit::Remove(Tab::image()),
         PassEdit::Remove(Tab::Common),
     ];
     for edit in refused {
@@ -250,13 +250,13 @@ fn what_a_pass_begins_with_and_its_edges_are_saved() {
         PassEdit::Initial(buffer("A"), Some(expression("vec4(0.5)"))),
         PassEdit::Initial(buffer("B"), Some(FillValue::File("state.npy".into()))),
         PassEdit::Boundary(buffer("A"), Some((2, expression("vec4(fragCoord, 0.0, 1.0)")))),
-        PassEdit::Boundary(PassId::Image, Some((1, expression("vec4(0.0)")))),
+        PassEdit::Boundary(PassName::image(), Some((1, expression("vec4(0.0)")))),
     ] {
         assert!(project.edit_passes(&edit).unwrap().is_changed, "{edit:?}");
     }
     saved(&project, dir.path());
     let mut project = project::load(dir.path().to_str().unwrap()).unwrap().project;
-    let settings = |project: &Project, id: &PassId| project.pass(id).unwrap().settings.clone();
+    let settings = |project: &Project, id: &PassName| project.pass(id).unwrap().settings.clone();
     let a = settings(&project, &buffer("A"));
     assert_eq!(a.initial.as_ref().unwrap().value, expression("vec4(0.5)"));
     let boundary = a.boundary.unwrap();
@@ -271,7 +271,7 @@ fn what_a_pass_begins_with_and_its_edges_are_saved() {
         PassEdit::Initial(buffer("A"), None),
         PassEdit::Initial(buffer("B"), None),
         PassEdit::Boundary(buffer("A"), None),
-        PassEdit::Boundary(PassId::Image, None),
+        PassEdit::Boundary(PassName::image(), None),
     ] {
         assert!(project.edit_passes(&edit).unwrap().is_changed, "{edit:?}");
     }
@@ -280,7 +280,7 @@ fn what_a_pass_begins_with_and_its_edges_are_saved() {
     for edit in [
         PassEdit::Initial(buffer("A"), Some(expression("  "))),
         PassEdit::Initial(buffer("A"), Some(FillValue::File("../state.npy".into()))),
-        PassEdit::Initial(PassId::Image, Some(expression("vec4(0.0)"))),
+        PassEdit::Initial(PassName::image(), Some(expression("vec4(0.0)"))),
         PassEdit::Boundary(buffer("A"), Some((0, expression("vec4(0.0)")))),
     ] {
         assert!(project.edit_passes(&edit).is_err(), "{edit:?}");

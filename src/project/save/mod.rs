@@ -3,7 +3,7 @@
 //! Owns what goes into which file. The writing itself, which never leaves half a file behind, is in `atomic`.
 
 use super::{
-    Dialect, FillValue, Media, MeshSource, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source,
+    Dialect, FillValue, Media, MeshSource, Origin, Pass, Project, ProjectError, SamplerRules, Source,
     atomic::Content,
     confine, file_names,
     files::{Files, MANIFEST},
@@ -57,7 +57,7 @@ fn save_json(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     let own = matches!(&project.origin, Origin::Json(path) if is_same(path, target));
     // The others of several shaders are not here, and would be lost.
     let own = own && !confine::read_own(target, limits::JSON).is_ok_and(|bytes| is_of_several(&bytes));
-    if let Some(pass) = project.passes.iter().find(|p| p.settings.meshes().is_some()) {
+    if let Some(pass) = project.passes.iter().find(|p| !p.body.is_screen()) {
         let what = format!("{}, which draws meshes: Shadertoy has no such pass", pass.id.title());
         return Err(ProjectError::CannotHold { path: target.to_owned(), what });
     }
@@ -92,7 +92,7 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     }
     // Buffers that its lines name have files of their own, which stay where they are.
     let is_beside = |p: &&Pass| own && p.source.path.as_deref() == Some(&*base.join(&p.source.name));
-    let (images, others): (Vec<&Pass>, Vec<&Pass>) = project.passes.iter().partition(|p| p.id == PassId::Image);
+    let (images, others): (Vec<&Pass>, Vec<&Pass>) = project.passes.iter().partition(|p| p.id.is_image());
     if !others.iter().all(is_beside) {
         return cannot("more passes than Image");
     }
@@ -105,7 +105,7 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     }
     let mut saved = project.clone();
     folder::declare_channels(&mut saved);
-    if saved.passes.iter().zip(&project.passes).any(|(read, pass)| read.channels != pass.channels) {
+    if saved.passes.iter().zip(&project.passes).any(|(read, pass)| read.bindings != pass.bindings) {
         return cannot("channels that its code does not declare in #iChannel lines");
     }
     let has_moved = project.origin.base_dir() != target.parent();
@@ -131,7 +131,7 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
     saved.name = target.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     saved.sampler_rules = SamplerRules::PerChannel;
     saved.origin = Origin::File(target.to_owned());
-    if let Some(image) = saved.pass_mut(&PassId::Image) {
+    if let Some(image) = saved.image_mut() {
         image.source.name = name;
         image.source.path = Some(target.to_owned());
     }
@@ -143,7 +143,7 @@ fn beside_texts<'a>(project: &Project, passes: impl IntoIterator<Item = &'a Pass
     if project.info != super::Info::default() {
         return Some("a description, an author or tags");
     }
-    if passes.into_iter().any(|pass| pass.settings != Default::default()) {
+    if passes.into_iter().any(|pass| pass.settings != Default::default() || !pass.body.is_screen()) {
         return Some("how its pass is drawn");
     }
     if !project.custom_uniform_values.is_empty() {
@@ -160,20 +160,20 @@ fn save_ghostty(
     overwrite: Overwrite<'_>,
 ) -> Result<Project, ProjectError> {
     let cannot = |what: &str| Err(ProjectError::CannotHold { path: target.to_owned(), what: what.into() });
-    let Some(image) = project.pass(&PassId::Image) else { return cannot("anything but Image") };
+    let Some(image) = project.image() else { return cannot("anything but Image") };
     let mut fresh = project.clone();
     ghostty::dress(&mut fresh);
     if project.passes.iter().map(|pass| &pass.id).ne(fresh.passes.iter().map(|pass| &pass.id)) {
         return cannot("more passes than Image");
     }
     let text = |source: Option<&Source>| source.map(|source| source.text.clone());
-    let is_same =
-        |a: &Pass, b: &Pass| a.id == PassId::Image || a.source.text == b.source.text && a.settings == b.settings;
+    let is_drawn_the_same = |a: &Pass, b: &Pass| a.settings == b.settings && a.body == b.body;
+    let is_same = |a: &Pass, b: &Pass| a.id.is_image() || a.source.text == b.source.text && is_drawn_the_same(a, b);
     let around = project.passes.iter().zip(&fresh.passes).all(|(a, b)| is_same(a, b));
     if !around || text(project.common.as_ref()) != text(fresh.common.as_ref()) {
         return cannot("changes of the terminal's picture or of Common");
     }
-    if project.passes.iter().zip(&fresh.passes).any(|(a, b)| a.channels != b.channels) {
+    if project.passes.iter().zip(&fresh.passes).any(|(a, b)| a.bindings != b.bindings) {
         return cannot("other channels than the terminal's picture in iChannel0");
     }
     if let Some(what) = beside_texts(project, [image]) {
@@ -183,7 +183,7 @@ fn save_ghostty(
     let mut saved = project.clone();
     saved.name = name_at(target);
     saved.origin = Origin::File(target.to_owned());
-    if let Some(image) = saved.pass_mut(&PassId::Image) {
+    if let Some(image) = saved.image_mut() {
         image.source.name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
         image.source.path = Some(target.to_owned());
     }
@@ -212,9 +212,9 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Re
     }
     for pass in &mut saved.passes {
         let is_renamed = is_home && pass.source.renamed_from().is_some();
-        let name = if is_renamed { pass.source.name.clone() } else { usual(&pass.source, &pass.id.key()) };
+        let name = if is_renamed { pass.source.name.clone() } else { usual(&pass.source, pass.id.key()) };
         place(&mut pass.source, name, is_home, target, &mut writes)?;
-        for stage in pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.stages) {
+        for stage in pass.body.stages_mut() {
             let name = with_ending(stage.name.clone());
             place(stage, name, is_home, target, &mut writes)?;
         }
@@ -326,14 +326,14 @@ fn copy_media(project: &Project, writes: &mut Writes) -> Result<(), ProjectError
     let Some(base) = project.origin.base_dir() else { return Ok(()) };
     let mut names: BTreeSet<String> = BTreeSet::new();
     let named = |path: &Path| path.to_str().and_then(|name| confine::relative("", name).ok());
-    for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
+    for draw in project.passes.iter().flat_map(|p| p.body.draws()) {
         let MeshSource::File(path) = &draw.mesh else { continue };
         if let Some(model) = named(path) {
             names.extend(files_beside(base, &model));
             names.insert(model);
         }
     }
-    for channel in project.passes.iter().flat_map(|p| p.channels.iter().flatten()) {
+    for channel in project.passes.iter().flat_map(|p| p.bindings.channels()) {
         if let Some(Media::File(path)) = channel.input.media() {
             let Some(name) = named(path) else { continue };
             names.extend(media_files::companions(base, &name, channel.input.kind()));
@@ -397,7 +397,7 @@ fn manifest_text(
     target: &Path,
     files: &BTreeMap<String, Vec<u8>>,
 ) -> Result<String, ProjectError> {
-    let has_common_file = files.keys().any(|name| file_names::role_of_file(name) == Some(file_names::Role::Common));
+    let has_common_file = files.keys().any(|name| file_names::role_of_file(name) == Some(file_names::FileRole::Common));
     for old in [old, None] {
         let text = manifest::write(project, old, name, has_common_file);
         let read = manifest::project("", name.to_owned(), &text, &Files::in_memory(files), Origin::Unsaved);

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::{
-    Boundary, Channel, Condition, Fill, Filter, Info, Input, InputKind, Pass, PassSettings, PassSize, Region, Sampler,
-    TexelFormat, Wrap, load,
+    Boundary, Channel, Condition, Fill, Filter, Info, Input, InputKind, Pass, PassName, PassSettings, PassSize, Region,
+    SLOTS, Sampler, TexelFormat, Wrap, load,
 };
 use std::{
     fs,
@@ -47,9 +47,9 @@ impl Random {
 }
 
 /// Settings the file may have for a pass.
-fn any_settings(r: &mut Random, id: &PassId) -> PassSettings {
+fn any_settings(r: &mut Random, id: &PassName) -> PassSettings {
     let mut settings = PassSettings::default();
-    if matches!(id, PassId::Buffer(_)) {
+    if id.is_buffer() {
         settings.size = match r.below(3) {
             0 => PassSize::Canvas,
             1 => PassSize::Scale(0.25 + r.below(3) as f64),
@@ -57,17 +57,17 @@ fn any_settings(r: &mut Random, id: &PassId) -> PassSettings {
         };
         settings.format = TexelFormat::ALL[r.below(TexelFormat::ALL.len())];
     }
-    if matches!(id, PassId::Buffer(_) | PassId::Image) && r.below(2) == 0 {
+    if (id.is_buffer() || id.is_image()) && r.below(2) == 0 {
         settings.region = Some(Region { x: r.below(9) as u32, y: 0, width: 1, height: 5 });
     }
-    if matches!(id, PassId::Buffer(_) | PassId::Cubemap) && r.below(3) == 0 {
+    if (id.is_buffer() || *id == PassName::cube()) && r.below(3) == 0 {
         let text = r.of(&["on", "kind == 3 && !off", " a<1||b>=.5 ", "-(width) != -64"]);
         settings.when = Some(Condition::parse(text).unwrap());
     }
-    if matches!(id, PassId::Buffer(_)) && r.below(3) == 0 {
+    if id.is_buffer() && r.below(3) == 0 {
         settings.initial = Some(any_fill(r));
     }
-    if matches!(id, PassId::Buffer(_) | PassId::Image) && r.below(3) == 0 {
+    if (id.is_buffer() || id.is_image()) && r.below(3) == 0 {
         settings.boundary = Some(Boundary { width: 1 + r.below(3) as u32, value: any_fill(r) });
     }
     settings
@@ -83,25 +83,26 @@ fn any_fill(r: &mut Random) -> Fill {
 
 fn any_project(seed: u64) -> Project {
     let r = &mut Random(seed);
-    let mut ids: BTreeSet<PassId> = BTreeSet::new();
+    let mut ids: BTreeSet<PassName> = BTreeSet::new();
     for _ in 0..r.below(6) {
         let name = r.of(&["A", "B", "C", "D", "E", "blur", "x1", "image", "sound", "common", "buffer", "cubea", "7"]);
-        ids.insert(PassId::Buffer(name.into()));
+        ids.insert(PassName::buffer(name));
     }
-    let mut ids: Vec<PassId> = ids.into_iter().collect();
+    let mut ids: Vec<PassName> = ids.into_iter().collect();
     for i in (1..ids.len()).rev() {
         ids.swap(i, r.below(i + 1));
     }
-    ids.extend((r.below(3) == 0).then_some(PassId::Cubemap));
-    ids.push(PassId::Image);
-    ids.extend((r.below(3) == 0).then_some(PassId::Sound));
+    ids.extend((r.below(3) == 0).then_some(PassName::cube()));
+    ids.push(PassName::image());
+    ids.extend((r.below(3) == 0).then_some(PassName::sound()));
     let source = |r: &mut Random, name: String| Source { name, path: None, text: r.text().into() };
     let passes = ids
         .into_iter()
         .map(|id| Pass {
             source: source(r, id.title()),
-            channels: std::array::from_fn(|_| (r.below(2) == 0).then(|| any_channel(r))),
+            bindings: (0..SLOTS).filter_map(|slot| (r.below(2) == 0).then(|| (slot, any_channel(r)))).collect(),
             settings: any_settings(r, &id),
+            body: Default::default(),
             id,
         })
         .collect();
@@ -136,7 +137,7 @@ fn any_channel(r: &mut Random) -> Channel {
     };
     let input = match r.below(10) {
         0 | 1 => Input::buffer(r.of(&["A", "B", "blur", "image", "sound", "cubea"])),
-        2 => Input::pass(PassId::Cubemap),
+        2 => Input::pass(PassName::cube()),
         3 => Input::KEYBOARD,
         4 => Input::Device(InputKind::Microphone),
         5 => Input::Device(InputKind::Webcam),
@@ -234,7 +235,7 @@ fn saving_keeps_the_authors_comments_order_and_spelling() {
     project = save(&project, dir.path(), Overwrite::Refuse).unwrap();
     assert_eq!(text(), toml, "nothing changed, so nothing is written");
     project.name = "Inks".into();
-    project.passes[0].channels[1].as_mut().unwrap().sampler.filter = Filter::Linear;
+    project.passes[0].bindings.get_mut(1).unwrap().sampler.filter = Filter::Linear;
     project.passes[0].source.text = "g".into();
     save(&project, dir.path(), Overwrite::Refuse).unwrap();
     let expected = toml
@@ -269,7 +270,7 @@ fn a_folder_without_eddy_toml_gets_one_only_when_the_texts_no_longer_say_it_all(
     project = save(&project, dir.path(), Overwrite::Refuse).unwrap();
     assert!(!dir.path().join("eddy.toml").exists());
     assert_eq!(reloaded(dir.path()), project);
-    project.passes[1].channels[0] = None;
+    project.passes[1].bindings.set(0, None);
     project = save(&project, dir.path(), Overwrite::Refuse).unwrap();
     assert!(dir.path().join("eddy.toml").exists());
     assert_eq!(reloaded(dir.path()), project);
@@ -284,7 +285,7 @@ fn a_pass_that_was_removed_stays_removed_and_its_file_stays_there() {
     let mut project = reloaded(dir.path());
     project.passes.remove(0);
     project.common = None;
-    project.passes[0].channels = Default::default();
+    project.passes[0].bindings = Default::default();
     let saved = save(&project, dir.path(), Overwrite::Refuse).unwrap();
     assert_eq!(reloaded(dir.path()), saved);
     assert_eq!(fs::read_to_string(dir.path().join("buffer_a.glsl")).unwrap(), "a");
@@ -330,7 +331,7 @@ fn what_is_not_the_projects_own_is_not_overwritten_unasked() {
     let mut grown = project.clone();
     fs::write(dir.path().join("mine/buffer_b.glsl"), "precious").unwrap();
     let source = Source { name: "Buffer B".into(), path: None, text: "b".into() };
-    grown.passes.insert(1, Pass::new(PassId::Buffer("B".into()), source));
+    grown.passes.insert(1, Pass::new(PassName::buffer("B"), source));
     assert!(matches!(
         save(&grown, &dir.path().join("mine"), Overwrite::Refuse),
         Err(ProjectError::WouldOverwrite { .. })
@@ -347,7 +348,7 @@ fn one_file_holds_a_lone_image_and_says_so_when_it_cannot() {
     project.passes[0].source.text = "#iChannel0 \"keyboard\"\nnew".into();
     let saved = save(&project, &path, Overwrite::Refuse).unwrap();
     assert_eq!(reloaded(&path), saved);
-    project.passes[0].channels[1] = Some(Channel::new(Input::KEYBOARD));
+    project.passes[0].bindings.set(1, Some(Channel::new(Input::KEYBOARD)));
     let error = save(&project, &path, Overwrite::Refuse).unwrap_err();
     assert!(matches!(error, ProjectError::CannotHold { .. }) && error.to_string().contains("folder"), "{error}");
     let folder = save(&project, &dir.path().join("plasma"), Overwrite::Refuse).unwrap();
@@ -387,7 +388,7 @@ fn pictures_go_along_into_a_new_folder() {
     .unwrap();
     let saved = save(&reloaded(&old), &dir.path().join("far/new"), Overwrite::Refuse).unwrap();
     assert_eq!(fs::read_to_string(dir.path().join("far/new/pics/a.png")).unwrap(), "inside");
-    let media = |n: usize| match &saved.passes[0].channels[n].as_ref().unwrap().input {
+    let media = |n: usize| match &saved.passes[0].bindings.get(n).unwrap().input {
         Input::Media { media: Media::File(path), .. } => path.clone(),
         other => panic!("{other:?}"),
     };
@@ -435,10 +436,7 @@ fn save_on_a_full_disk() {
     let folder = PathBuf::from(std::env::var_os("EDDY_TEST_FOLDER").expect("set by a_full_disk_loses_nothing"));
     let mut project = reloaded(&folder);
     for pass in &mut project.passes {
-        pass.source.text = match pass.id {
-            PassId::Image => "x".repeat(100_000).into(),
-            _ => "small and new".into(),
-        };
+        pass.source.text = if pass.id.is_image() { "x".repeat(100_000).into() } else { "small and new".into() };
     }
     let error = save(&project, &folder, Overwrite::Refuse).unwrap_err();
     assert!(matches!(&error, ProjectError::Io { path, .. } if path.ends_with("image.glsl")), "{error}");

@@ -6,8 +6,8 @@
 //! [`super::FillValue::InMemory`]) only the name is.
 
 use super::{
-    Channel, Included, Input, Media, MeshSource, Origin, PassId, Project, ProjectError, Source, Tab, confine,
-    file_names::pass_of_stem, files::Files, json_values::check_json_values, limits, manifest,
+    Included, Media, MeshSource, Origin, Project, ProjectError, Source, Tab, confine, file_names::pass_of_stem,
+    files::Files, json_values::check_json_values, limits, manifest,
 };
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, path::PathBuf};
@@ -92,7 +92,7 @@ struct PickedModel {
 pub fn write_snapshot(project: &Project) -> Result<String, SnapshotError> {
     let named = named(project);
     let text = |(tab, source): (Tab, &Source)| Text {
-        pass: tab.pass().map(PassId::key),
+        pass: tab.pass().map(|pass| pass.key().to_owned()),
         stage: if let Tab::Stage(_, file) = tab { Some(file) } else { None },
         name: source.name.clone(),
         path: source.path.clone().map(absolute),
@@ -166,14 +166,14 @@ pub fn read_snapshot(text: &str) -> Result<Project, SnapshotError> {
         }
     }
     for Picked { pass, channel, path } in form.picked {
-        let slot = pass_of_stem(&pass).and_then(|id| project.pass_mut(&id)?.channels.get_mut(channel)?.as_mut());
+        let slot = pass_of_stem(&pass).and_then(|id| project.pass_mut(&id)?.bindings.get_mut(channel));
         if let Some(media) = slot.and_then(|channel| channel.input.media_mut()) {
             *media = Media::Picked(path);
         }
     }
     for PickedModel { pass, draw, path } in form.picked_models {
         let pass = pass_of_stem(&pass).and_then(|id| project.pass_mut(&id));
-        if let Some(draw) = pass.and_then(|p| p.settings.meshes_mut()?.draws.get_mut(draw)) {
+        if let Some(draw) = pass.and_then(|p| p.body.draws_mut().get_mut(draw)) {
             draw.mesh = MeshSource::Picked(path);
         }
     }
@@ -198,14 +198,13 @@ fn named(project: &Project) -> Project {
     for pass in named.passes.iter_mut().filter(|p| p.source.path.is_none()) {
         pass.source.name = format!("{}.glsl", pass.id.key());
     }
-    for channel in named.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
+    for channel in named.passes.iter_mut().flat_map(|p| p.bindings.channels_mut()) {
         if let Some(media @ Media::Picked(_)) = channel.input.media_mut() {
             // Its own name may be one that no project may have.
             *media = Media::File("picked.png".into());
         }
     }
-    let meshes = named.passes.iter_mut().filter_map(|p| p.settings.meshes_mut());
-    for draw in meshes.flat_map(|g| &mut g.draws) {
+    for draw in named.passes.iter_mut().flat_map(|p| p.body.draws_mut()) {
         if let mesh @ MeshSource::Picked(_) = &mut draw.mesh {
             *mesh = MeshSource::File("picked.glb".into());
         }
@@ -216,9 +215,9 @@ fn named(project: &Project) -> Project {
 fn picked_models(project: &Project) -> Vec<PickedModel> {
     let mut list = Vec::new();
     for pass in &project.passes {
-        for (n, draw) in pass.settings.meshes().into_iter().flat_map(|g| g.draws.iter().enumerate()) {
+        for (n, draw) in pass.body.draws().iter().enumerate() {
             if let MeshSource::Picked(path) = &draw.mesh {
-                list.push(PickedModel { pass: pass.id.key(), draw: n, path: absolute(path.clone()) });
+                list.push(PickedModel { pass: pass.id.key().to_owned(), draw: n, path: absolute(path.clone()) });
             }
         }
     }
@@ -228,9 +227,9 @@ fn picked_models(project: &Project) -> Vec<PickedModel> {
 fn picked(project: &Project) -> Vec<Picked> {
     let mut list = Vec::new();
     for pass in &project.passes {
-        for (channel, slot) in pass.channels.iter().enumerate() {
-            if let Some(Media::Picked(path)) = slot.as_ref().map(|c: &Channel| &c.input).and_then(Input::media) {
-                list.push(Picked { pass: pass.id.key(), channel, path: absolute(path.clone()) });
+        for (slot, channel) in pass.bindings.iter() {
+            if let Some(Media::Picked(path)) = channel.input.media() {
+                list.push(Picked { pass: pass.id.key().to_owned(), channel: slot, path: absolute(path.clone()) });
             }
         }
     }

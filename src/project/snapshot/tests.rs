@@ -1,7 +1,7 @@
 //! The tests hold what a snapshot gives back.
 
 use super::*;
-use crate::{self as project, presets};
+use crate::{self as project, Channel, Input, PassName, presets};
 
 fn round_trip(project: &Project) -> Project {
     read_snapshot(&write_snapshot(project).unwrap()).unwrap_or_else(|e| panic!("{}: {e}", project.name))
@@ -30,7 +30,7 @@ fn files_on_disk_and_pictures_from_elsewhere_come_back_with_whole_paths() {
     }
     let mut project = project::load(folder.path().to_str().unwrap()).unwrap().project;
     let media = Media::Picked(folder.path().join("a picture.png"));
-    project.passes[1].channels[3] = Some(Channel::new(Input::texture(media)));
+    project.passes[1].bindings.set(3, Some(Channel::new(Input::texture(media))));
     assert_eq!(round_trip(&project), project);
     project.origin = Origin::File("image.glsl".into());
     let back = round_trip(&project);
@@ -64,7 +64,7 @@ fn a_model_from_elsewhere_and_a_new_name_come_back() {
     let mut project = project::load(folder.path().to_str().unwrap()).unwrap().project;
     let fit = project::Fit { scale: 2.0, position: [1.0, 0.0, 0.0] };
     project.add_model(&folder.path().join("a fox.glb"), fit).unwrap();
-    let rename = project::PassEdit::Rename { pass: PassId::Buffer("A".into()), name: "glow".into() };
+    let rename = project::PassEdit::Rename { pass: PassName::buffer("A"), name: "glow".into() };
     project.edit_passes(&rename).unwrap();
     assert_eq!(round_trip(&project), project);
 }

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// Returns whether a channel of a pass reads the microphone.
 pub(super) fn reads_it(pass: &Pass) -> bool {
-    pass.channels.iter().flatten().any(|channel| channel.input == Input::Device(InputKind::Microphone))
+    pass.bindings.channels().any(|channel| channel.input == Input::Device(InputKind::Microphone))
 }
 
 impl Audio {

@@ -8,7 +8,7 @@ use crate::{
 };
 use eddy_debugger::nonfinite::NonfiniteTexels;
 use eddy_engine::{Picture, Pixels, TexelAt};
-use eddy_project::PassId;
+use eddy_project::PassName;
 use std::{
     sync::Arc,
     time::{Duration, Instant},
@@ -22,7 +22,7 @@ const EVERY_PLACE: Duration = Duration::from_millis(40);
 const SHARE: u32 = 20;
 
 /// A pass, and which of its targets.
-pub type Target = (PassId, usize);
+pub type Target = (PassName, usize);
 
 /// Names what somebody looks at.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -177,7 +177,7 @@ mod tests {
     fn read() -> BuffersRead {
         let pixels = Pixels { width: 1, height: 1, texels: vec![[0.5; 4]] };
         let shown = BufferRead {
-            target: (PassId::Image, 0),
+            target: (PassName::image(), 0),
             components: 4,
             statistics: Statistics::new(&pixels, 4, None, false),
             picture: Picture { width: 1, height: 1, bytes: vec![128; 4] },
@@ -192,7 +192,7 @@ mod tests {
         let (mut watching, now) = (BufferReads::default(), Instant::now());
         watching.receive(true);
         assert_eq!(watching.due(now, true), None);
-        let shown = Some(((PassId::Image, 0), BufferLook::default()));
+        let shown = Some(((PassName::image(), 0), BufferLook::default()));
         let watch = BufferWatch { shown, under: Some([0.5, 0.5]) };
         watching.watch(watch.clone());
         assert_eq!(watching.due(now, false), Some(watch.clone()));

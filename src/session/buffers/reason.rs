@@ -1,10 +1,10 @@
 //! A pass is not drawn for one of these reasons.
 
 use eddy_engine::{PassCost, PassRole, ReadTiming};
-use eddy_project::PassId;
+use eddy_project::PassName;
 
 /// Returns in words why a pass was not drawn in the newest frame; `None` for one that was.
-pub fn reason(pass: &PassId, all: &[PassCost]) -> Option<String> {
+pub fn reason(pass: &PassName, all: &[PassCost]) -> Option<String> {
     let cost = all.iter().find(|cost| cost.pass == *pass)?;
     match cost.role {
         PassRole::Drawn { is_cached: false } => return None,
@@ -45,7 +45,7 @@ mod tests {
     use eddy_engine::PassRead;
 
     fn cost(name: &str, role: PassRole, reads: &[&str]) -> PassCost {
-        let id = |name: &str| if name == "image" { PassId::Image } else { PassId::Buffer(name.into()) };
+        let id = |name: &str| if name == "image" { PassName::image() } else { PassName::buffer(name) };
         let read = |(channel, other): (usize, &&str)| PassRead {
             channel,
             pass: id(other),
@@ -80,8 +80,8 @@ mod tests {
             cost("F", PassRole::Outside, &[]),
             cost("G", PassRole::Off, &[]),
         ];
-        let why = |name: &str| reason(&PassId::Buffer(name.into()), &all).unwrap();
-        assert_eq!(reason(&PassId::Image, &all), None);
+        let why = |name: &str| reason(&PassName::buffer(name), &all).unwrap();
+        assert_eq!(reason(&PassName::image(), &all), None);
         assert!(why("A").starts_with("unchanged"));
         assert_eq!(why("B"), "not drawn: iChannel1 of Image is set to it, but the code never reads that channel");
         assert_eq!(why("C"), "not drawn: no channel reads it");

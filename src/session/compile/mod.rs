@@ -16,7 +16,7 @@ use super::{
 };
 use eddy_background::{Background, Wake};
 use eddy_diag::Severity;
-use eddy_project::{PassId, Project};
+use eddy_project::{PassName, Project};
 use eddy_video::Camera;
 use std::{
     cmp::Reverse,
@@ -69,7 +69,7 @@ pub(super) struct CompileControl {
 /// The documents and the view that a compile is of.
 pub(super) struct Source<'s> {
     pub project: &'s Project,
-    pub shown: &'s PassId,
+    pub shown: &'s PassName,
     /// Counts the times a project was opened or took a new place.
     pub opened: u64,
     pub probe: Option<(ProbePlace, bool)>,

@@ -12,7 +12,7 @@ use eddy_background::Control;
 use eddy_diag::{self as diag, Diagnostic};
 use eddy_engine::{BuildError, BuildOptions, Builder, EngineError, KeptStages, Program, Sources};
 use eddy_media::{self as media, ChannelSound, MediaSet, sounds};
-use eddy_project::{self as project, Channel, Included, MeshSource, Normals, Pass, PassId, Project};
+use eddy_project::{self as project, Bindings, Included, MeshSource, Normals, Pass, PassName, Project};
 use eddy_video::{Camera, Pace};
 use std::{
     cmp::Reverse,
@@ -25,7 +25,7 @@ use std::{
 pub struct Job {
     pub project: Project,
     /// The pass that is shown besides Image.
-    pub shown: PassId,
+    pub shown: PassName,
     /// Counts the times a project was opened or took a new place. A state and not an order, as jobs can be overtaken.
     pub opened: u64,
     /// The texts name other files in their `#include` lines than those that were read: read them. Counts such edits.
@@ -152,7 +152,7 @@ pub fn work(
 fn not_built(kept: &mut KeptStages, project: &Project) -> (Vec<Diagnostic>, Option<bool>) {
     let texts = Sources::new(project);
     let mut found = texts.check_common();
-    let Some(index) = project.passes.iter().position(|pass| pass.id == PassId::Sound) else { return (found, None) };
+    let Some(index) = project.passes.iter().position(|pass| pass.id.is_sound()) else { return (found, None) };
     let compiled = kept.compile(&texts, index);
     let is_sound = compiled.is_ok();
     diag::append(&mut found, compiled.map_or_else(|errors| errors, |pass| pass.diagnostics));
@@ -160,7 +160,7 @@ fn not_built(kept: &mut KeptStages, project: &Project) -> (Vec<Diagnostic>, Opti
 }
 
 /// A pass, its channels and its meshes.
-type NamedByPass = (PassId, [Option<Channel>; 4], Vec<(MeshSource, Option<Normals>)>);
+type NamedByPass = (PassName, Bindings, Vec<(MeshSource, Option<Normals>)>);
 
 /// The names of pictures and models, and how these are on disk. They are always taken before they are read: then a
 /// change in between shows as one more reading, and never as none.
@@ -186,10 +186,8 @@ struct Media {
 
 impl Media {
     fn named(&mut self, job: &Job) -> Named {
-        let meshes = |p: &Pass| {
-            p.settings.meshes().into_iter().flat_map(|g| &g.draws).map(|d| (d.mesh.clone(), d.normals)).collect()
-        };
-        let channels = job.project.passes.iter().map(|p| (p.id.clone(), p.channels.clone(), meshes(p))).collect();
+        let meshes = |p: &Pass| p.body.draws().iter().map(|d| (d.mesh.clone(), d.normals)).collect();
+        let channels = job.project.passes.iter().map(|p| (p.id.clone(), p.bindings.clone(), meshes(p))).collect();
         let base = eddy_playback::capture::base_folder(&job.project).unwrap_or_default();
         Named { opened: job.opened, base, channels, stamps: self.stamps.take(&job.project) }
     }
@@ -209,12 +207,8 @@ impl Media {
     }
 }
 
-fn wanted(job: &Job) -> Vec<PassId> {
-    let mut wanted = vec![PassId::Image];
-    if job.shown != PassId::Image && job.project.pass(&job.shown).is_some() {
-        wanted.push(job.shown.clone());
-    }
-    wanted
+fn wanted(job: &Job) -> Vec<PassName> {
+    job.project.image_and(&job.shown)
 }
 
 #[cfg(test)]

@@ -88,7 +88,7 @@ fn files(project: &Project, base: Option<&Path>) -> BTreeMap<PathBuf, Option<Str
     let mut own: Vec<String> = Vec::new();
     let mut files = BTreeMap::new();
     let relative = |path: &Path| path.to_str().and_then(|name| confine::relative("", name).ok());
-    for channel in project.passes.iter().flat_map(|p| p.channels.iter().flatten()) {
+    for channel in project.passes.iter().flat_map(|p| p.bindings.channels()) {
         match channel.input.media() {
             Some(Media::File(path)) => own.extend(relative(path)),
             Some(Media::Picked(path)) => drop(files.insert(path.clone(), None)),
@@ -100,7 +100,7 @@ fn files(project: &Project, base: Option<&Path>) -> BTreeMap<PathBuf, Option<Str
             own.extend(relative(path));
         }
     }
-    for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
+    for draw in project.passes.iter().flat_map(|p| p.body.draws()) {
         let MeshSource::Picked(path) = &draw.mesh else { continue };
         let (Some(folder), Some(model)) = (path.parent(), path.file_name().and_then(|n| n.to_str())) else { continue };
         let beside = project::files_beside(folder, model);
@@ -108,7 +108,7 @@ fn files(project: &Project, base: Option<&Path>) -> BTreeMap<PathBuf, Option<Str
         files.insert(path.clone(), None);
     }
     let Some(base) = base else { return files };
-    for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
+    for draw in project.passes.iter().flat_map(|p| p.body.draws()) {
         let MeshSource::File(path) = &draw.mesh else { continue };
         let Some(model) = relative(path) else { continue };
         own.extend(project::files_beside(base, &model));

@@ -316,7 +316,7 @@ impl Documents {
         if !is_listed && !self.missing.is_empty() {
             for pass in &mut disk.passes {
                 if let Some(saved) = self.saved.pass(&pass.id) {
-                    pass.channels = saved.channels.clone();
+                    pass.bindings = saved.bindings.clone();
                 }
             }
         }
@@ -354,7 +354,7 @@ fn reinsert(to: &mut Project, from: &Project, tab: &Tab) {
         // With the draws that name it, or nothing would be drawn with it.
         Tab::Stage(id, _) => {
             if let (Some(from), Some(to)) = (from.pass(id), to.pass_mut(id)) {
-                to.settings = from.settings.clone();
+                (to.settings, to.body) = (from.settings.clone(), from.body.clone());
             }
         }
         Tab::Pass(id) => {

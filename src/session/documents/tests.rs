@@ -2,7 +2,7 @@
 
 use super::*;
 use eddy_project::{
-    Channel, ControlAddress, ControlTarget, CustomUniformValue, Included, Input, InputKind, PassBody, PassId, Sampler,
+    Body, Channel, ControlAddress, ControlTarget, CustomUniformValue, Included, Input, InputKind, PassName, Sampler,
     SamplerRules, Source,
 };
 
@@ -14,7 +14,7 @@ fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
         match *key {
             "common" => project.common = Some(source),
             key => {
-                insert_pass(&mut project, Pass::new(PassId::parse(key).unwrap(), source));
+                insert_pass(&mut project, Pass::new(PassName::parse(key).unwrap(), source));
             }
         }
     }
@@ -22,7 +22,7 @@ fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
 }
 
 fn pass(key: &str) -> Tab {
-    Tab::Pass(PassId::parse(key).unwrap())
+    Tab::Pass(PassName::parse(key).unwrap())
 }
 
 fn edit(d: &mut Documents, tab: &Tab, text: &str) {
@@ -35,7 +35,7 @@ fn text<'a>(d: &'a Documents, tab: &Tab) -> &'a str {
 
 fn rebind(project: &mut Project) {
     let channel = Channel { input: Input::KEYBOARD, sampler: Sampler::BUFFER };
-    project.pass_mut(&PassId::Image).unwrap().channels[0] = Some(channel);
+    project.image_mut().unwrap().bindings.set(0, Some(channel));
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn edits_make_a_tab_dirty_and_undoing_them_makes_it_clean() {
 #[test]
 fn every_change_but_that_of_a_text_or_a_place_is_one_of_structure() {
     let scene = eddy_project::presets::load("toon-outline").unwrap().project;
-    let geometry = |p: &Project| p.passes.iter().position(|p| p.settings.meshes().is_some()).unwrap();
+    let geometry = |p: &Project| p.passes.iter().position(|p| !p.body.is_screen()).unwrap();
     assert!(structure::is_same(&scene, &scene.clone()));
     type Change = fn(&mut Project, usize);
     let changes: &[(&str, Change)] = &[
@@ -64,8 +64,8 @@ fn every_change_but_that_of_a_text_or_a_place_is_one_of_structure() {
         ("a pass less", |p, _| drop(p.passes.pop())),
         ("the order", |p, _| p.passes.reverse()),
         ("a channel", |p, _| {
-            p.passes[0].channels[3] =
-                Some(Channel { input: Input::Device(InputKind::Webcam), sampler: Sampler::BUFFER })
+            let channel = Channel { input: Input::Device(InputKind::Webcam), sampler: Sampler::BUFFER };
+            p.passes[0].bindings.set(3, Some(channel));
         }),
         ("sampler rules", |p, _| p.sampler_rules = SamplerRules::Site),
         ("groups", |p, _| p.groups.push(eddy_project::Group { name: "g".into(), passes: vec![], steps: 2 })),
@@ -77,13 +77,13 @@ fn every_change_but_that_of_a_text_or_a_place_is_one_of_structure() {
         ("size", |p, _| p.passes[0].settings.size = eddy_project::PassSize::Scale(0.25)),
         ("format", |p, _| p.passes[0].settings.format = eddy_project::TexelFormat::R8),
         ("region", |p, _| p.passes[0].settings.region = Some(eddy_project::Region { x: 0, y: 0, width: 1, height: 1 })),
-        ("no meshes", |p, i| p.passes[i].settings.body = PassBody::Screen),
-        ("a draw less", |p, i| drop(p.passes[i].settings.meshes_mut().unwrap().draws.pop())),
+        ("no meshes", |p, i| p.passes[i].body = Body::Screen),
+        ("a draw less", |p, i| drop(p.passes[i].body.geometry_mut().unwrap().draws.pop())),
         ("a target more", |p, i| {
-            p.passes[i].settings.meshes_mut().unwrap().more_targets.push(eddy_project::TexelFormat::R8)
+            p.passes[i].body.geometry_mut().unwrap().more_targets.push(eddy_project::TexelFormat::R8)
         }),
-        ("the camera", |p, i| p.passes[i].settings.meshes_mut().unwrap().camera.fov += 1.0),
-        ("a stage's file", |p, i| p.passes[i].settings.meshes_mut().unwrap().stages[0].name.push('x')),
+        ("the camera", |p, i| p.passes[i].body.geometry_mut().unwrap().camera.fov += 1.0),
+        ("a stage's file", |p, i| p.passes[i].body.geometry_mut().unwrap().stages[0].name.push('x')),
     ];
     for (what, change) in changes {
         let mut other = scene.clone();
@@ -146,7 +146,7 @@ fn structure_follows_the_disk_and_edited_texts_stay() {
     assert!(m.took_structure && m.conflicts.is_empty() && !m.structure_conflict);
     assert_eq!(text(&d, &pass("buffer_a")), "a");
     assert_eq!(text(&d, &pass("image")), "mine");
-    assert!(d.current().pass(&PassId::Image).unwrap().channels[0].is_some());
+    assert!(d.current().image().unwrap().bindings.get(0).is_some());
     assert_eq!(d.dirty_tabs(), [pass("image")]);
 }
 
@@ -159,7 +159,7 @@ fn structure_changed_on_both_sides_is_a_conflict() {
     let m = d.merge(disk);
     assert!(m.structure_conflict && !m.took_structure);
     d.take_structure_of_saved();
-    assert!(d.current().pass(&PassId::Image).unwrap().channels[0].is_some());
+    assert!(d.current().image().unwrap().bindings.get(0).is_some());
     assert_eq!(text(&d, &pass("buffer_b")), "b", "a text that is nowhere else is not dropped");
 }
 
@@ -199,7 +199,7 @@ fn passes_are_put_where_the_drawing_order_wants_them() {
         &[("image", ""), ("sound", ""), ("buffer_c", ""), ("cube_a", ""), ("buffer_a", ""), ("buffer_b", "")],
         true,
     );
-    let keys: Vec<String> = p.passes.iter().map(|p| p.id.key()).collect();
+    let keys: Vec<&str> = p.passes.iter().map(|p| p.id.key()).collect();
     assert_eq!(keys, ["buffer_a", "buffer_b", "buffer_c", "cube_a", "image", "sound"]);
 }
 

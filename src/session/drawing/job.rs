@@ -8,7 +8,7 @@ use super::{
 use crate::playback::{Reach, SeekTarget};
 use eddy_engine::{CostClock, EngineError, FrameInputs, PassCost, PassTime, Picture, Program, ValueLook};
 use eddy_playback::run::Frame;
-use eddy_project::{CustomUniform, CustomUniformValues, PassId, Project};
+use eddy_project::{CustomUniform, CustomUniformValues, PassName, Project};
 use std::time::Duration;
 
 /// Changes that wait for the engine, each the newest of its kind.
@@ -19,7 +19,7 @@ pub struct Changes {
     pub size: Option<(u32, u32)>,
     pub program: Option<PendingProgram>,
     pub custom_uniforms: Option<CustomUniformValues>,
-    pub shown: Option<PassId>,
+    pub shown: Option<PassName>,
     /// The way in which the shown pass is shown: as numbers, or as a picture.
     pub look: Option<Option<ValueLook>>,
     /// Every buffer as before frame 0.
@@ -60,7 +60,7 @@ pub struct ProgramOrigin {
     /// The author's own uniforms.
     pub custom_uniforms: Vec<CustomUniform>,
     /// The passes that are drawn.
-    pub drawn: Vec<PassId>,
+    pub drawn: Vec<PassName>,
 }
 
 impl PendingProgram {

@@ -21,7 +21,7 @@ pub(super) use task::{Finished, RenderTask, Tasks, Ticket};
 use crate::playback::Reach;
 use eddy_engine::{CostClock, EngineError, PassCost, Picture};
 use eddy_gpu::{Gpu, GpuError, Presenter, Texture};
-use eddy_project::{CustomUniform, PassId, Project};
+use eddy_project::{CustomUniform, PassName, Project};
 use gate::Gate;
 use render_thread::RenderThread;
 use std::{
@@ -194,7 +194,7 @@ impl Drawing {
     }
 
     /// The program draws a pass.
-    pub fn draws(&self, pass: &PassId) -> bool {
+    pub fn draws(&self, pass: &PassName) -> bool {
         self.facts.program.as_ref().is_some_and(|program| program.drawn.contains(pass))
     }
 

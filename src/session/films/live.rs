@@ -12,7 +12,7 @@ use crate::{
 };
 use eddy_engine::{EngineError, Pixels};
 use eddy_film::{Cancel, Encoding, FilmError, FilmSound, Shape, Writer};
-use eddy_project::PassId;
+use eddy_project::PassName;
 use eddy_texture::TexelFormat;
 use std::{
     collections::VecDeque,
@@ -25,7 +25,7 @@ const RETRY: Duration = Duration::from_millis(4);
 const WINDOW: Duration = Duration::from_secs(1);
 
 /// Reads the picture of the frame that was drawn, and the form of its texels.
-struct TakeFrame(PassId);
+struct TakeFrame(PassName);
 
 impl RenderTask for TakeFrame {
     type Output = Result<(Pixels, TexelFormat), EngineError>;
@@ -153,7 +153,7 @@ impl Live {
     }
 
     /// Adds the read-back of a frame that is noted.
-    pub fn request(&mut self, pass: PassId, tasks: &mut Tasks) {
+    pub fn request(&mut self, pass: PassName, tasks: &mut Tasks) {
         if std::mem::take(&mut self.is_new) {
             self.ticket = tasks.add(TakeFrame(pass));
             self.awaits_frame = true;

@@ -20,7 +20,7 @@ use eddy_playback::{
     scene::RunSource,
     script::ScriptedInputs,
 };
-use eddy_project::{PassId, Project};
+use eddy_project::{PassName, Project};
 use eddy_video::Tools;
 use std::{
     path::PathBuf,
@@ -43,7 +43,7 @@ pub(super) enum Work {
 pub(super) struct RangeJob {
     pub gpu: Gpu,
     pub project: Project,
-    pub pass: PassId,
+    pub pass: PassName,
     pub media_dir: Option<PathBuf>,
     pub trial: Option<Trial>,
     /// Pictures hold the project.
@@ -264,7 +264,7 @@ impl Drawing<'_> {
     }
 
     /// Sets up a run of the project that draws a pass.
-    fn open(&self, gpu: &Gpu, media: &MediaSet, pass: PassId) -> Result<Offline, Stopped> {
+    fn open(&self, gpu: &Gpu, media: &MediaSet, pass: PassName) -> Result<Offline, Stopped> {
         let RangeJob { project, order, trial, .. } = &self.job;
         let inputs = ScriptedInputs::new(order.fps);
         let mut offline = Offline::new(gpu, order.size, inputs).map_err(OfflineError::from)?;
@@ -301,7 +301,7 @@ impl Drawing<'_> {
             None => 0.0,
         };
         let time = FilmTime { first, fps: order.fps, count, rate: order.rate, fade_secs };
-        let open = || self.open(gpu, media, PassId::Sound);
+        let open = || self.open(gpu, media, PassName::sound());
         soundtrack((project, media), &time, open, || Ok(self.control.check()?))
     }
 

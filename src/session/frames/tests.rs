@@ -9,7 +9,7 @@ use super::super::{
 use super::*;
 use eddy_background::Background;
 use eddy_gpu::{Gpu, testing};
-use eddy_project::{PassId, Tab};
+use eddy_project::Tab;
 use std::{
     sync::{
         Arc,
@@ -36,7 +36,7 @@ fn a_compiler_that_panics_is_told_of_and_loses_no_text() {
     let work = |_: Job, _: &_| panic!("planted");
     let planted = Background::new("compile", "the compiler", Arc::new(|| ()), work).unwrap();
     let healthy = session.compile.replace_worker(planted);
-    let tab = Tab::Pass(PassId::Image);
+    let tab = Tab::image();
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
     session.apply(Command::EditText { tab: tab.clone(), text: text.into() });
     tick_until(&mut session, "the panic to be told of", |s| s.notices().iter().any(|n| n.text.contains("planted")));
@@ -59,7 +59,7 @@ fn a_text_that_compiled_fast_is_compiled_at_each_key() {
     let options = SessionOptions { edit_debounce: Duration::from_secs(3600), ..SessionOptions::default() };
     let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
     tick_until(&mut session, "the first program", |s| matches!(s.compile_state().last, Some(Outcome::Ok { .. })));
-    let tab = Tab::Pass(PassId::Image);
+    let tab = Tab::image();
     let edit = |session: &mut Session, text: &str| {
         session.apply(Command::EditText { tab: tab.clone(), text: text.into() });
         session.tick(Instant::now());
@@ -191,7 +191,7 @@ fn a_frame_waits_for_the_newest_text_and_is_given_up_for_its_program() {
     assert_eq!(control(&session), FrameControl::GoOn, "it is no longer a compile that is not felt");
     session.compile.set_newest_since(None);
     // A text that gives a program: as soon as that is there, the frame before it is not finished.
-    let tab = Tab::Pass(PassId::Image);
+    let tab = Tab::image();
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
     session.apply(Command::EditText { tab, text: text.into() });
     let end = now + Duration::from_secs(120);

@@ -7,7 +7,7 @@ use crate::{
 };
 use eddy_engine::Pixels;
 use eddy_playback::reduction::{self, Quantity, Unmeasured};
-use eddy_project::{PassId, Project, TextLocation};
+use eddy_project::{PassName, Project, TextLocation};
 use std::{
     collections::HashMap,
     time::{Duration, Instant},
@@ -49,7 +49,7 @@ impl RenderTask for MeasureQuantities {
         let (frame, time_secs) = renderer.shown()?;
         let engine = renderer.engine_mut();
         // Each target is read once.
-        let mut read: HashMap<(PassId, usize), Option<(Pixels, usize)>> = HashMap::new();
+        let mut read: HashMap<(PassName, usize), Option<(Pixels, usize)>> = HashMap::new();
         let mut value = |quantity: &Quantity| {
             let target = (quantity.pass.clone(), quantity.target);
             let texels = read.entry(target).or_insert_with_key(|(pass, index)| {

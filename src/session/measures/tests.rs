@@ -1,6 +1,6 @@
 use super::{csv::write as write_csv, measuring::Measured, *};
 use crate::{drawing::Ticket, read_back::ReadBack, template};
-use eddy_project::{PassId, Project, Tab};
+use eddy_project::{Project, Tab};
 use std::time::{Duration, Instant};
 
 fn sample(frame: i32, value: f64) -> Sample {
@@ -128,7 +128,7 @@ fn gaps_stay_where_they_are_longer_than_a_cell() {
 
 fn project(image: &str) -> Project {
     let mut project = template::project();
-    project.source_mut(&Tab::Pass(PassId::Image)).unwrap().text = image.into();
+    project.source_mut(&Tab::image()).unwrap().text = image.into();
     project
 }
 

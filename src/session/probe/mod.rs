@@ -15,7 +15,7 @@ use crate::{
 use eddy_diag::follow;
 use eddy_engine::{BuildOptions, Paint, Pixels, Sources, ValueLook};
 use eddy_glsl::{Probe, ProbedExpression};
-use eddy_project::{PassId, Project, Tab};
+use eddy_project::{PassName, Project, Tab};
 use std::{
     sync::Arc,
     time::{Duration, Instant},
@@ -49,7 +49,7 @@ pub struct ProbeLook {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProbedValue {
     /// The pass in which it is evaluated.
-    pub pass: PassId,
+    pub pass: PassName,
     pub text: String,
     pub type_text: String,
     pub components: u8,
@@ -251,11 +251,11 @@ impl ReadBack for Probing {
 /// goes on whether it is looked at or not.
 pub(super) fn options(
     project: &Project,
-    shown: &PassId,
+    shown: &PassName,
     (place, is_gone): &(ProbePlace, bool),
 ) -> Result<(BuildOptions, ProbedValue), String> {
     let pass = match &place.tab {
-        Tab::Pass(PassId::Sound) => return Err("a sound pass has no pixels to probe".into()),
+        Tab::Pass(pass) if pass.is_sound() => return Err("a sound pass has no pixels to probe".into()),
         Tab::Pass(pass) => pass.clone(),
         Tab::Common => shown.clone(),
         Tab::Included(_) => {
@@ -295,13 +295,12 @@ pub(super) fn options(
 }
 
 /// The buffers that Image and the probed pass read, and those that these read.
-fn needed(project: &Project, probed: &PassId) -> Vec<PassId> {
-    let mut found = vec![PassId::Image];
-    found.extend((*probed != PassId::Image).then(|| probed.clone()));
+fn needed(project: &Project, probed: &PassName) -> Vec<PassName> {
+    let mut found = project.image_and(probed);
     let mut next = 0;
     while let Some(pass) = found.get(next).and_then(|id| project.pass(id)) {
         next += 1;
-        for channel in pass.channels.iter().flatten() {
+        for channel in pass.bindings.channels() {
             let read = channel.input.target().map(|(id, _)| id);
             if let Some(id) = read.filter(|id| project.pass(id).is_some() && !found.contains(id)) {
                 found.push(id.clone());

@@ -1,7 +1,7 @@
 //! Recovery files without a session.
 
 use super::*;
-use eddy_project::{self as project, PassId, Project, Tab};
+use eddy_project::{self as project, Project, Tab};
 use std::{
     fs,
     path::Path,
@@ -20,12 +20,12 @@ fn edited(folder: &Path, typed: &str) -> Project {
     fs::create_dir_all(folder).unwrap();
     fs::write(folder.join("image.glsl"), "// saved").unwrap();
     let mut project = project::load(folder.to_str().unwrap()).unwrap().project;
-    project.source_mut(&Tab::Pass(PassId::Image)).unwrap().text = typed.into();
+    project.source_mut(&Tab::image()).unwrap().text = typed.into();
     project
 }
 
 fn typed_in(left: &Left) -> String {
-    left.project.source(&Tab::Pass(PassId::Image)).unwrap().text.to_string()
+    left.project.source(&Tab::image()).unwrap().text.to_string()
 }
 
 fn files(folder: &Path) -> Vec<PathBuf> {
@@ -109,7 +109,7 @@ fn adopted_work_is_never_without_its_file_and_discarded_work_is_gone() {
     let file = left[0].shown.file.clone();
     next.adopt(file.clone());
     let mut project = left[0].project.clone();
-    project.source_mut(&Tab::Pass(PassId::Image)).unwrap().text = "// further".into();
+    project.source_mut(&Tab::image()).unwrap().text = "// further".into();
     next.keep(&project);
     until("the same file to go on", || {
         assert_eq!(files(&folder), std::slice::from_ref(&file));

@@ -18,7 +18,7 @@ use eddy_background::{Background, Wake};
 use eddy_engine::BLOCK_SECS;
 use eddy_media::{MediaKey, MediaSet};
 use eddy_playback::date;
-use eddy_project::{Channel, CustomUniformValues, PassId, Project};
+use eddy_project::{Bindings, CustomUniformValues, Project};
 use std::{
     sync::{
         Arc, Mutex, MutexGuard,
@@ -57,24 +57,25 @@ struct Source {
     opened: u64,
     /// The texts of the pass, of Common, and of all included files.
     texts: Vec<Arc<str>>,
-    channels: [Option<Channel>; 4],
+    bindings: Bindings,
     /// The addresses of their texels, which [`Sounding::kept`] keeps where they are.
-    texels: [Option<usize>; 4],
+    texels: Vec<Option<usize>>,
     values: CustomUniformValues,
 }
 
 impl Source {
     fn of(project: &Project, media: &MediaSet, opened: u64) -> Option<Self> {
-        let sound = project.pass(&PassId::Sound)?;
+        let sound = project.sound()?;
         let others = project.common.iter().chain(project.includes.iter().map(|included| &included.source));
-        let texels = sound.channels.each_ref().map(|channel| {
-            let key = channel.as_ref().and_then(MediaKey::of_channel)?;
+        let texels = sound.bindings.channels().map(|channel| {
+            let key = MediaKey::of_channel(channel)?;
             media.get(&key).map(|texels| Arc::as_ptr(texels) as usize)
         });
+        let texels = texels.collect();
         Some(Self {
             opened,
             texts: [&sound.source].into_iter().chain(others).map(|source| source.text.clone()).collect(),
-            channels: sound.channels.clone(),
+            bindings: sound.bindings.clone(),
             texels,
             values: project.custom_uniform_values.clone(),
         })
@@ -82,7 +83,8 @@ impl Source {
 
     /// Both differ in the values of uniforms alone.
     fn is_same_code(&self, other: &Source) -> bool {
-        let all = |source: &Source| (source.opened, source.texts.clone(), source.channels.clone(), source.texels);
+        let all =
+            |source: &Source| (source.opened, source.texts.clone(), source.bindings.clone(), source.texels.clone());
         all(self) == all(other)
     }
 }
@@ -346,7 +348,7 @@ impl Session {
 
     /// Returns what there is to show of the sound pass; `None` where the project has none.
     pub fn sound(&self) -> Option<SoundView> {
-        self.project().pass(&PassId::Sound)?;
+        self.project().sound()?;
         let (revision, track) = match self.sound_track() {
             Some((revision, track)) => (revision, Some(track)),
             None => (0, None),

@@ -6,7 +6,7 @@ use crate::{
 };
 use eddy_audio::wav;
 use eddy_playback::capture;
-use eddy_project::PassId;
+use eddy_project::PassName;
 use std::io::Write;
 
 impl Session {
@@ -32,7 +32,7 @@ impl Session {
         let frames: Vec<[i16; 2]> = (0..track.frames() as i64).filter_map(|n| track.frame(n)).collect();
         let project = self.project();
         let folder = capture::folder_for(project, &self.options.pictures);
-        let stem = capture::stem_for(project, &PassId::Sound);
+        let stem = capture::stem_for(project, &PassName::sound());
         match capture::write_new(&folder, |n| format!("{stem}-{n:04}.wav"), &stem, |out| out.write_all(&wav(&frames))) {
             Ok(path) => {
                 self.notice(Level::Info, format!("saved {}", path.display()));

@@ -1,8 +1,8 @@
 //! The JSON object at the start of an ISF file.
 
-use super::{Image, Images};
+use super::{Image, Images, SlotImages};
 use eddy_engine::Sources;
-use eddy_project::{CustomUniform, CustomUniformType, PassId, PassSize, Project, TexelFormat};
+use eddy_project::{CustomUniform, CustomUniformType, PassSize, Project, TexelFormat};
 use serde_json::{Map, Value, json};
 
 /// The limit of values for an `int` slider to become a menu.
@@ -16,7 +16,7 @@ pub(super) fn header(project: &Project, sources: &Sources<'_>, images: &Images, 
     }
     let mut imported = Map::new();
     let mut given: Vec<&str> = Vec::new();
-    for image in images.iter().flatten().flatten() {
+    for image in images.iter().flat_map(SlotImages::values) {
         match image {
             Image::File(name, path) => drop(imported.insert(name.clone(), json!({ "PATH": path }))),
             Image::Input(name) if !given.contains(&name.as_str()) => given.push(name),
@@ -36,7 +36,7 @@ pub(super) fn header(project: &Project, sources: &Sources<'_>, images: &Images, 
         header.insert("IMPORTED".into(), imported.into());
     }
     let passes: Vec<Value> =
-        project.passes.iter().filter(|pass| pass.id != PassId::Sound).map(|p| pass(p, project)).collect();
+        project.passes.iter().filter(|pass| !pass.id.is_sound()).map(|p| pass(p, project)).collect();
     if passes.len() > 1 {
         header.insert("PASSES".into(), passes.into());
     }
@@ -45,7 +45,7 @@ pub(super) fn header(project: &Project, sources: &Sources<'_>, images: &Images, 
 }
 
 fn pass(pass: &eddy_project::Pass, project: &Project) -> Value {
-    if pass.id == PassId::Image {
+    if pass.id.is_image() {
         return json!({});
     }
     let mut of = Map::new();

@@ -14,7 +14,8 @@ mod tests;
 use eddy_diag::{self as diag, Diagnostic, Span};
 use eddy_engine::Sources;
 use eddy_glsl::Driver;
-use eddy_project::{Dialect, Input, InputKind, Media, PassBody, PassId, Project};
+use eddy_project::{Dialect, Input, InputKind, Media, Project};
+use std::collections::BTreeMap;
 
 /// An ISF file, and diagnostics for its author.
 #[derive(Debug)]
@@ -66,9 +67,9 @@ fn refusals(project: &Project) -> Vec<Diagnostic> {
     }
     for pass in &project.passes {
         let (title, settings) = (pass.id.title(), &pass.settings);
-        if pass.id == PassId::Cubemap {
+        if pass.id.has_faces() {
             error("ISF has no cubemap pass".into(), "compute its colour where it is read");
-        } else if !matches!(settings.body, PassBody::Screen) {
+        } else if !pass.body.is_screen() {
             error(format!("{title} draws meshes, which ISF does not have"), "remove the pass");
         } else if settings.region.is_some() || settings.initial.is_some() || settings.boundary.is_some() {
             error(
@@ -99,8 +100,11 @@ impl Image {
     }
 }
 
-/// The images of each pass's channels, by the indices of pass and channel.
-pub(crate) type Images = Vec<[Option<Image>; 4]>;
+/// The images that a pass reads, by slot.
+pub(crate) type SlotImages = BTreeMap<usize, Image>;
+
+/// Those of each pass.
+pub(crate) type Images = Vec<SlotImages>;
 
 /// Names the image that each channel reads.
 fn images(project: &Project, found: &mut Vec<Diagnostic>) -> Images {
@@ -108,13 +112,13 @@ fn images(project: &Project, found: &mut Vec<Diagnostic>) -> Images {
     let mut inputs: Vec<Input> = Vec::new();
     let mut all = Vec::new();
     for pass in &project.passes {
-        let mut of_pass: [Option<Image>; 4] = Default::default();
-        for (n, channel) in pass.channels.iter().enumerate() {
-            let Some(input) = channel.as_ref().map(|channel| &channel.input) else { continue };
+        let mut of_pass = SlotImages::new();
+        for (n, channel) in pass.bindings.iter() {
+            let input = &channel.input;
             let title = pass.id.title();
-            of_pass[n] = match input {
-                Input::Pass { id: id @ PassId::Buffer(_), .. } if project.pass(id).is_some() => {
-                    Some(Image::Target(id.key()))
+            let image = match input {
+                Input::Pass { id, .. } if id.is_buffer() && project.pass(id).is_some() => {
+                    Some(Image::Target(id.key().to_owned()))
                 }
                 Input::Media { kind: InputKind::Texture, media: Media::File(path) } => {
                     let path = path.to_string_lossy().into_owned();
@@ -140,6 +144,7 @@ fn images(project: &Project, found: &mut Vec<Diagnostic>) -> Images {
                     None
                 }
             };
+            of_pass.extend(image.map(|image| (n, image)));
         }
         all.push(of_pass);
     }

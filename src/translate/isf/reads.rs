@@ -1,9 +1,9 @@
 //! Calls that read channels: `texture(iChannel0, at)` becomes `IMG_NORM_PIXEL(image, at)`. ISF hosts search the text
 //! for these calls, so each of them must contain the name of the image.
 
-use super::{Image, refused};
+use super::{SlotImages, refused};
 use eddy_diag::{Diagnostic, SourceId, Span};
-use eddy_project::{Channel, Filter, Wrap};
+use eddy_project::{Bindings, Channel, Filter, SLOTS, Wrap};
 use std::ops::Range;
 
 /// A text whose calls are replaced.
@@ -12,20 +12,16 @@ pub(super) struct Reads<'t> {
     /// The text with comments replaced by spaces, byte for byte.
     code: Vec<u8>,
     id: SourceId,
-    images: &'t [Option<Image>; 4],
-    channels: &'t [Option<Channel>; 4],
+    images: &'t SlotImages,
+    bindings: &'t Bindings,
     pub found: Vec<Diagnostic>,
 }
 
 const CHANNEL: &str = "iChannel";
 
 impl<'t> Reads<'t> {
-    pub fn new(
-        (text, id): (&'t str, SourceId),
-        images: &'t [Option<Image>; 4],
-        channels: &'t [Option<Channel>; 4],
-    ) -> Self {
-        Self { text, code: without_comments(text), id, images, channels, found: Vec::new() }
+    pub fn new((text, id): (&'t str, SourceId), images: &'t SlotImages, bindings: &'t Bindings) -> Self {
+        Self { text, code: without_comments(text), id, images, bindings, found: Vec::new() }
     }
 
     /// Returns the text with every read of a channel replaced by one of its image.
@@ -126,7 +122,7 @@ impl<'t> Reads<'t> {
         let (parts, end) = self.arguments(open)?;
         let first = self.text[parts.first()?.clone()].trim().to_owned();
         let index = channel_index(&first)?;
-        let Some(image) = self.images[index].as_ref().map(|image| image.name().to_owned()) else {
+        let Some(image) = self.images.get(&index).map(|image| image.name().to_owned()) else {
             self.refuse(
                 word,
                 &format!("{first} has no input, which ISF cannot say"),
@@ -154,7 +150,7 @@ impl<'t> Reads<'t> {
     }
 
     fn read(&mut self, index: usize, word: &Range<usize>, image: &str, at: &str) -> String {
-        let sampler = self.channels[index].as_ref().map(Channel::sampler);
+        let sampler = self.bindings.get(index).map(Channel::sampler);
         if sampler.is_some_and(|sampler| sampler.filter == Filter::Nearest) {
             self.warn(word, "ISF reads between texels: the filter of this channel is nearest");
         }
@@ -174,7 +170,7 @@ impl<'t> Reads<'t> {
         let index = (self.code[open] == b'[').then(|| self.arguments(open)).flatten();
         let number =
             index.as_ref().and_then(|(parts, _)| self.text[parts.first()?.clone()].trim().parse::<usize>().ok());
-        let image = number.and_then(|n| self.images.get(n)?.as_ref()).map(|image| image.name().to_owned());
+        let image = number.and_then(|n| self.images.get(&n)).map(|image| image.name().to_owned());
         match (image, index) {
             (Some(image), Some((_, end))) => Some((format!("vec3(IMG_SIZE({image}), 1.0)"), end)),
             _ => {
@@ -187,7 +183,7 @@ impl<'t> Reads<'t> {
 }
 
 fn channel_index(name: &str) -> Option<usize> {
-    name.strip_prefix(CHANNEL)?.parse().ok().filter(|n| *n < 4)
+    name.strip_prefix(CHANNEL)?.parse().ok().filter(|n| *n < SLOTS)
 }
 
 fn is_channel(name: &str) -> bool {

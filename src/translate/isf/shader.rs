@@ -8,7 +8,7 @@ use super::{
 use eddy_diag::{Diagnostic, SourceId, Span};
 use eddy_engine::Sources;
 use eddy_glsl::services::OutlineKind;
-use eddy_project::{CustomUniformType, PassId, Project, directives};
+use eddy_project::{CustomUniformType, Project, directives};
 use std::fmt::Write;
 
 pub(super) struct Body {
@@ -30,7 +30,7 @@ const UNIFORMS: [(&str, &str); 8] = [
 
 /// Returns the shader, and adds errors for features that ISF cannot express.
 pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, found: &mut Vec<Diagnostic>) -> Body {
-    let passes: Vec<usize> = (0..project.passes.len()).filter(|&i| project.passes[i].id != PassId::Sound).collect();
+    let passes: Vec<usize> = (0..project.passes.len()).filter(|&i| !project.passes[i].id.is_sound()).collect();
     if passes.len() < project.passes.len() {
         found.push(Diagnostic::warning(None, "ISF has no sound: the Sound pass is left out"));
     }
@@ -43,7 +43,7 @@ pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, 
         let same = passes.first().filter(|&&first| passes.iter().all(|&index| images[index] == images[first]));
         let none = Default::default();
         let (own, channels) =
-            same.map_or((&none, None), |&index| (&images[index], Some(&project.passes[index].channels)));
+            same.map_or((&none, None), |&index| (&images[index], Some(&project.passes[index].bindings)));
         let none = Default::default();
         let mut reads = Reads::new((&text, Project::COMMON_ID), own, channels.unwrap_or(&none));
         let _ = write!(texts, "// Common\n{}\n\n", reads.replaced().trim());
@@ -54,7 +54,7 @@ pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, 
         let pass = &project.passes[index];
         let id = Project::pass_id(index);
         let text = text_of(id);
-        let mut reads = Reads::new((&text, id), &images[index], &pass.channels);
+        let mut reads = Reads::new((&text, id), &images[index], &pass.bindings);
         let body = reads.replaced();
         found.append(&mut reads.found);
         let prefix = if passes.len() > 1 { format!("{}_", pass.id.key()) } else { String::new() };
@@ -88,7 +88,7 @@ pub(super) fn shader(project: &Project, sources: &Sources<'_>, images: &Images, 
             let _ = writeln!(texts, "#undef {name}");
         }
         texts.push('\n');
-        let alpha = if pass.id == PassId::Image { " color.a = 1.0;" } else { "" };
+        let alpha = if pass.id.is_image() { " color.a = 1.0;" } else { "" };
         let call = format!("{prefix}mainImage(color, gl_FragCoord.xy);{alpha}");
         let _ = match passes.len() {
             1 => writeln!(entry, "    {call}"),

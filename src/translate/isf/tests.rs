@@ -1,13 +1,13 @@
 use super::{IsfFile, isf};
 use eddy_diag::Diagnostic;
 use eddy_project::{
-    Channel, Input, InputKind, Media, Origin, Pass, PassId, PassSize, Project, Sampler, Source, TexelFormat, Wrap,
+    Channel, Input, InputKind, Media, Origin, Pass, PassName, PassSize, Project, Sampler, Source, TexelFormat, Wrap,
 };
 
-fn pass(id: PassId, text: &str, reads: &[Input]) -> Pass {
-    let mut pass = Pass::new(id.clone(), Source { name: id.key(), path: None, text: text.into() });
+fn pass(id: PassName, text: &str, reads: &[Input]) -> Pass {
+    let mut pass = Pass::new(id.clone(), Source { name: id.key().to_owned(), path: None, text: text.into() });
     for (n, input) in reads.iter().enumerate() {
-        pass.channels[n] = Some(Channel { sampler: Sampler::BUFFER, ..Channel::new(input.clone()) });
+        pass.bindings.set(n, Some(Channel { sampler: Sampler::BUFFER, ..Channel::new(input.clone()) }));
     }
     pass
 }
@@ -17,7 +17,7 @@ fn project(passes: Vec<Pass>) -> Project {
 }
 
 fn image(text: &str) -> Project {
-    project(vec![pass(PassId::Image, text, &[])])
+    project(vec![pass(PassName::image(), text, &[])])
 }
 
 fn written(project: &Project) -> IsfFile {
@@ -66,10 +66,10 @@ fn buffers_become_named_passes() {
                   void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0) + at(1.0); }";
     let shown = "float at(float x) { return x; }\nvoid mainImage(out vec4 c, in vec2 p) {\n\
                  c = texture(iChannel0, p / iChannelResolution[0].xy) + at(0.0); // texture(iChannel3, p)\n}";
-    let id = PassId::Buffer("A".into());
+    let id = PassName::buffer("A");
     let mut state = pass(id.clone(), buffer, &[Input::pass(id.clone())]);
     (state.settings.size, state.settings.format) = (PassSize::Scale(0.5), TexelFormat::Rgba16f);
-    let file = written(&project(vec![state, pass(PassId::Image, shown, &[Input::pass(id)])]));
+    let file = written(&project(vec![state, pass(PassName::image(), shown, &[Input::pass(id)])]));
     let header = header(&file);
     let first = &header["PASSES"][0];
     assert_eq!(
@@ -94,8 +94,8 @@ fn buffers_become_named_passes() {
 fn images_are_imported_or_inputs() {
     let text = "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p) + textureLod(iChannel1, p, 2.0); }";
     let file = Input::texture(Media::File("pics/a.png".into()));
-    let mut shown = pass(PassId::Image, text, &[file, Input::texture(Media::Builtin("marble".into()))]);
-    shown.channels[0].as_mut().unwrap().sampler.wrap = Wrap::Repeat;
+    let mut shown = pass(PassName::image(), text, &[file, Input::texture(Media::Builtin("marble".into()))]);
+    shown.bindings.get_mut(0).unwrap().sampler.wrap = Wrap::Repeat;
     let file = written(&project(vec![shown]));
     let header = header(&file);
     assert_eq!(header["IMPORTED"]["image0"]["PATH"], "pics/a.png");
@@ -115,7 +115,7 @@ fn images_are_imported_or_inputs() {
 #[test]
 fn features_that_isf_lacks_are_errors() {
     let text = "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p); }";
-    let reads = |text: &str, input: Input| refused(&project(vec![pass(PassId::Image, text, &[input])]));
+    let reads = |text: &str, input: Input| refused(&project(vec![pass(PassName::image(), text, &[input])]));
     assert!(reads(text, Input::KEYBOARD)[0].contains("reads Keyboard"));
     assert!(reads(text, Input::Device(InputKind::Microphone))[0].contains("reads Microphone"));
     assert!(refused(&image(text))[0].contains("has no input"));
@@ -126,13 +126,13 @@ fn features_that_isf_lacks_are_errors() {
     assert!(reads(&grad, marble())[0].contains("no `textureGrad`"));
     assert!(refused(&image("void mainImage(out vec4 c, in vec2 p) { c = vec4(x); }"))[0].contains("`x`"));
     let short = "float r(float x) { return x; }\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(r(1.0)); }";
-    let two = project(vec![pass(PassId::Buffer("A".into()), short, &[]), pass(PassId::Image, short, &[])]);
+    let two = project(vec![pass(PassName::buffer("A"), short, &[]), pass(PassName::image(), short, &[])]);
     assert!(refused(&two)[0].contains("components of a vector"));
     let cube = pass(
-        PassId::Cubemap,
+        PassName::cube(),
         "void mainCubemap(out vec4 c, in vec2 p, in vec3 o, in vec3 d) { c = vec4(d, 1.0); }",
         &[],
     );
     let plain = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }";
-    assert!(refused(&project(vec![cube, pass(PassId::Image, plain, &[])]))[0].contains("no cubemap pass"));
+    assert!(refused(&project(vec![cube, pass(PassName::image(), plain, &[])]))[0].contains("no cubemap pass"));
 }

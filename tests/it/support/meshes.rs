@@ -2,7 +2,7 @@
 
 use super::{buffer, image, pass, project};
 use eddy::project::{
-    Camera, Channel, Cull, DepthTest, Filter, Geometry, Input, MeshDraw, MeshSource, Pass, PassBody, PassId, Project,
+    Body, Camera, Channel, Cull, DepthTest, Filter, Geometry, Input, MeshDraw, MeshSource, Pass, PassName, Project,
     Sampler, Source, Stage, TexelFormat, Wrap,
 };
 
@@ -30,7 +30,7 @@ pub fn source(name: &str, text: &str) -> Source {
 /// A pass `scene` of 32-bit targets; its own text is the fragment stage, `stages` are further texts.
 pub fn scene(fragment: &str, stages: &[&str], targets: usize, camera: Camera, draws: Vec<MeshDraw>) -> Pass {
     let mut scene = pass(buffer("scene"), fragment, Default::default());
-    scene.settings.body = PassBody::Meshes(Geometry {
+    scene.body = Body::Meshes(Geometry {
         draws,
         more_targets: vec![TexelFormat::Rgba32f; targets - 1],
         camera,
@@ -43,7 +43,7 @@ pub fn scene(fragment: &str, stages: &[&str], targets: usize, camera: Camera, dr
 pub fn target(index: usize) -> Option<Channel> {
     let input = match index {
         0 => Input::buffer("scene"),
-        index => Input::Pass { id: PassId::Buffer("scene".into()), target: index },
+        index => Input::Pass { id: PassName::buffer("scene"), target: index },
     };
     Some(Channel { input, sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true } })
 }
@@ -55,7 +55,7 @@ pub const SUM: &str = "void mainImage(out vec4 o, in vec2 p) { ivec2 i = ivec2(p
 
 /// A project of a scene, and Image that shows it.
 pub fn whole(scene: Pass) -> Project {
-    let count = scene.settings.formats().len();
+    let count = scene.formats().len();
     project(vec![scene, image(SUM, [0, 1, 2, 3].map(|i| if i < count { target(i) } else { None }))])
 }
 

@@ -29,7 +29,7 @@ use eddy::{
     gpu::Gpu,
     lab::Rig,
     media::MediaSet,
-    project::{Channel, Filter, Info, Input, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Wrap},
+    project::{Channel, Filter, Info, Input, Origin, Pass, PassName, Project, Sampler, SamplerRules, Source, Wrap},
 };
 use std::{fs, path::PathBuf};
 
@@ -45,8 +45,8 @@ pub fn folder_of(folder: PathBuf, files: &[(&str, &str)]) -> PathBuf {
     folder
 }
 
-pub fn buffer(name: &str) -> PassId {
-    PassId::Buffer(name.into())
+pub fn buffer(name: &str) -> PassName {
+    PassName::buffer(name)
 }
 
 /// A channel that reads a buffer.
@@ -58,13 +58,13 @@ pub fn nearest(name: &str) -> Option<Channel> {
     reads(name, Filter::Nearest, Wrap::Clamp)
 }
 
-pub fn pass(id: PassId, code: &str, channels: [Option<Channel>; 4]) -> Pass {
+pub fn pass(id: PassName, code: &str, channels: [Option<Channel>; 4]) -> Pass {
     let source = Source { name: id.title(), path: None, text: code.into() };
-    Pass { channels, ..Pass::new(id, source) }
+    Pass { bindings: channels.into(), ..Pass::new(id, source) }
 }
 
 pub fn image(code: &str, channels: [Option<Channel>; 4]) -> Pass {
-    pass(PassId::Image, code, channels)
+    pass(PassName::image(), code, channels)
 }
 
 pub fn project(passes: Vec<Pass>) -> Project {
@@ -73,7 +73,7 @@ pub fn project(passes: Vec<Pass>) -> Project {
 
 /// An engine at a size with the project's program in it.
 /// Draws a frame and returns what a pass reads in it.
-pub fn inspect(engine: &mut Engine, inputs: &FrameInputs, pass: &PassId) -> PassInputs {
+pub fn inspect(engine: &mut Engine, inputs: &FrameInputs, pass: &PassName) -> PassInputs {
     engine.draw_for(inputs, DrawFor::Inspect(pass)).unwrap().read.unwrap()
 }
 

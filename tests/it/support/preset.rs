@@ -4,7 +4,7 @@ use crate::support::{buffer, presets};
 use eddy::{
     engine::{Engine, FrameInputs, Pixels},
     gpu::Gpu,
-    project::{PassId, Project},
+    project::{PassName, Project},
 };
 
 pub use presets::{all_finite, preset_with as preset};
@@ -47,7 +47,7 @@ pub fn read(engine: &mut Engine, name: &str) -> Pixels {
 }
 
 pub fn picture(engine: &mut Engine) -> Pixels {
-    engine.read(&PassId::Image).unwrap()
+    engine.read_image().unwrap()
 }
 
 /// Peak signal-to-noise ratio of the colours in dB, where 1 is the peak.

@@ -5,7 +5,7 @@ use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Pixels},
     gpu::Gpu,
     media::MediaSet,
-    project::{CustomUniformValues, PassId, Project, presets},
+    project::{CustomUniformValues, PassName, Project, presets},
 };
 
 pub fn preset(name: &str) -> Project {
@@ -31,7 +31,7 @@ pub fn values(name: &str, custom_uniforms: &[&str]) -> CustomUniformValues {
 }
 
 /// Puts `new` in place of `old` in a pass's text, which must have it: a preset that changed shall not pass by accident.
-pub fn patch(project: &mut Project, id: &PassId, old: &str, new: &str) {
+pub fn patch(project: &mut Project, id: &PassName, old: &str, new: &str) {
     let source = &mut project.pass_mut(id).unwrap().source;
     assert!(source.text.contains(old), "{} no longer says `{old}`", source.name);
     source.text = source.text.replace(old, new).into();
@@ -97,7 +97,7 @@ pub fn bits(pixels: &Pixels) -> Vec<[u32; 4]> {
     pixels.texels.iter().map(|t| t.map(f32::to_bits)).collect()
 }
 
-pub fn buffers(project: &Project) -> impl Iterator<Item = &PassId> {
+pub fn buffers(project: &Project) -> impl Iterator<Item = &PassName> {
     project.passes.iter().map(|p| &p.id).filter(|id| id.is_picture())
 }
 

@@ -2,7 +2,7 @@
 
 use eddy::{
     gpu::Gpu,
-    project::{PassId, Tab},
+    project::{PassName, Tab},
     session::{Command, Level, Outcome, Session, SessionOptions, Tick},
 };
 use std::{
@@ -12,7 +12,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-pub const IMAGE: Tab = Tab::Pass(PassId::Image);
+pub fn image_tab() -> Tab {
+    Tab::image()
+}
 
 /// An Image pass of one colour.
 pub fn plain(red: f32) -> String {
@@ -135,7 +137,7 @@ impl Stage {
     }
 
     pub fn edit(&mut self, text: &str) {
-        self.session.apply(Command::EditText { tab: IMAGE, text: text.into() });
+        self.session.apply(Command::EditText { tab: image_tab(), text: text.into() });
     }
 
     pub fn notices(&self, level: Level) -> Vec<&str> {

@@ -6,7 +6,7 @@ use eddy::{
     debugger::trace::{Extent, Tracer},
     engine::{Engine, PassInputs, Sources, TextureCopy},
     glsl::interface::UniformBlock,
-    project::{PassId, Project},
+    project::{PassName, Project},
 };
 
 /// A place in a picture, counted from the bottom left.
@@ -26,7 +26,7 @@ pub fn nothing_read(size: (u32, u32)) -> PassInputs {
 
 /// Walks through a pass for these pixels; `None` where one is discarded.
 #[track_caller]
-pub fn walk(project: &Project, id: &PassId, read: &PassInputs, pixels: &[Pixel]) -> Vec<Option<[f32; 4]>> {
+pub fn walk(project: &Project, id: &PassName, read: &PassInputs, pixels: &[Pixel]) -> Vec<Option<[f32; 4]>> {
     let index = project.passes.iter().position(|pass| pass.id == *id).expect("the pass");
     let extent = Extent { steps: 0, ..Extent::default() };
     let tracer = Tracer::new(&Sources::new(project), index, read, extent);
@@ -47,7 +47,7 @@ pub fn is_same(a: f32, b: f32) -> bool {
 
 /// Walks through a pass of the newest frame for all of its pixels: every component must be what was drawn.
 #[track_caller]
-pub fn assert_walked(engine: &mut Engine, project: &Project, id: &PassId) {
+pub fn assert_walked(engine: &mut Engine, project: &Project, id: &PassName) {
     let (read, drawn) = (engine.inspect(id).unwrap(), engine.read(id).unwrap());
     let pixels = all_pixels(read.size);
     for (&pixel, value) in pixels.iter().zip(walk(project, id, &read, &pixels)) {

@@ -11,16 +11,17 @@ use crate::{
         Axis, Binary, Level, Math, Module, Op, Value,
         rewrite::{self, Rewriter, Rule},
     },
+    source::SLOTS,
     types::{Scalar, TypeId},
 };
 
 /// Expands every filtered read of these channels. Only reads of 2D textures are filtered.
-pub(super) fn run(program: &mut Module, channels: [bool; 4]) {
+pub(super) fn run(program: &mut Module, channels: [bool; SLOTS]) {
     rewrite::each_function(program, || ByHand(channels));
 }
 
 /// The channels that are filtered manually.
-struct ByHand([bool; 4]);
+struct ByHand([bool; SLOTS]);
 
 impl Rule for ByHand {
     fn operation(&mut self, r: &mut Rewriter<'_>, _: Value, op: &Op) -> Option<Value> {

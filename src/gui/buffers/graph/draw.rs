@@ -10,7 +10,7 @@ use crate::{
         theme::{self, Palette},
         ui_output::UiOutput,
     },
-    project::PassId,
+    project::PassName,
     session::{Session, TimedPass, buffers::reason},
 };
 use egui::{
@@ -30,7 +30,7 @@ struct Arrow<'a> {
 
 pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let passes = session.pass_costs().passes;
-    let place = |pass: &PassId| passes.iter().position(|p| p.cost.pass == *pass);
+    let place = |pass: &PassName| passes.iter().position(|p| p.cost.pass == *pass);
     let mut arrows: Vec<Arrow<'_>> = Vec::new();
     for (to, pass) in passes.iter().enumerate() {
         let reads = pass.cost.reads.iter();

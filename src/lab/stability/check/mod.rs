@@ -1,7 +1,7 @@
 //! Checks of a pass: the quantity, the range it must keep, and the texel that is furthest outside of it.
 
 use eddy_engine::Pixels;
-use eddy_project::PassId;
+use eddy_project::PassName;
 
 /// The largest absolute value of a quantity if no better bound is known, and always if a case is expected to leave its
 /// own range.
@@ -133,7 +133,7 @@ impl CaseConditions {
 /// A range for a quantity of a pass.
 #[derive(Clone, Debug)]
 pub struct Check {
-    pub pass: PassId,
+    pub pass: PassName,
     pub quantity: Quantity,
     pub area: Area,
     pub allowed: Rule,

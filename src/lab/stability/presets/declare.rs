@@ -4,7 +4,7 @@ use crate::{
     stability::check::{Allowed, Area, CaseConditions, Check, Quantity, Rule},
     stability_record::Kind,
 };
-use eddy_project::PassId;
+use eddy_project::PassName;
 
 /// Makes a project move by a given number of cells per step.
 #[derive(Clone, Copy, Debug)]
@@ -38,20 +38,20 @@ impl PresetCase {
     }
 }
 
-fn buffer(name: &str) -> PassId {
-    PassId::parse(&format!("buffer_{name}")).unwrap_or(PassId::Image)
+fn buffer(name: &str) -> PassName {
+    PassName::parse(&format!("buffer_{name}")).unwrap_or_default()
 }
 
 /// The picture, from black to `most`. A screen clamps at 1; the drawn values have no reason to exceed the sum of their
 /// lights.
 pub(super) fn picture(most: f64, reason: &str) -> Check {
     let allowed = Rule::Always(Allowed::new(0.0, most * 1.0001));
-    Check { pass: PassId::Image, quantity: Quantity::Any, area: Area::All, allowed, reason: reason.into() }
+    Check { pass: PassName::image(), quantity: Quantity::Any, area: Area::All, allowed, reason: reason.into() }
 }
 
 pub(super) fn picture_by(rule: fn(&CaseConditions) -> Allowed, reason: &str) -> Check {
     let allowed = Rule::Of(rule);
-    Check { pass: PassId::Image, quantity: Quantity::Any, area: Area::All, allowed, reason: reason.into() }
+    Check { pass: PassName::image(), quantity: Quantity::Any, area: Area::All, allowed, reason: reason.into() }
 }
 
 pub(super) fn always(name: &str, quantity: Quantity, area: Area, range: (f64, f64), reason: &str) -> Check {

@@ -103,7 +103,7 @@ pub fn declared_for_copy(project: &Project) -> Option<Declared> {
 mod tests {
     use super::*;
     use crate::stability::{CheckedProject, Quantity};
-    use eddy_project::{PassId, presets as library};
+    use eddy_project::{PassName, presets as library};
 
     #[test]
     fn every_preset_is_declared_with_its_picture_and_those_with_a_state_come_first() {
@@ -112,10 +112,10 @@ mod tests {
             let has_state = !CheckedProject::load(name, &[]).unwrap().stateful().is_empty();
             assert_eq!(place < WITH_STATE, has_state, "{name}");
             let declared = declared(name).unwrap();
-            let pictures: Vec<&Check> = declared.checks.iter().filter(|c| c.pass == PassId::Image).collect();
+            let pictures: Vec<&Check> = declared.checks.iter().filter(|c| c.pass.is_image()).collect();
             assert_eq!(pictures.len(), 1, "{name}");
             // The fingerprint includes the checks in order.
-            assert_eq!(declared.checks.last().unwrap().pass, PassId::Image, "{name}");
+            assert_eq!(declared.checks.last().unwrap().pass, PassName::image(), "{name}");
         }
         assert_eq!(library::names().len(), NAMES.len());
     }

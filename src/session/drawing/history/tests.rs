@@ -4,7 +4,7 @@ use super::*;
 use eddy_engine::{BuildOptions, Program};
 use eddy_gpu::testing;
 use eddy_media as media;
-use eddy_project::{PassId, presets};
+use eddy_project::presets;
 
 const SIZE: (u32, u32) = (32, 18);
 
@@ -69,7 +69,7 @@ fn one_goes_back_to_the_first_frame_and_near_ones_are_near_a_snapshot() {
     let mut pictures = Vec::new();
     for frame in 0..200 {
         step(&mut history, &mut engine, frame);
-        pictures.push(engine.read(&PassId::Image).unwrap().texels);
+        pictures.push(engine.read_image().unwrap().texels);
         let held: u64 = history.snapshots.iter().map(|(_, snapshot)| snapshot.bytes()).sum();
         assert!(held <= history.budget, "{held} bytes");
     }
@@ -79,9 +79,9 @@ fn one_goes_back_to_the_first_frame_and_near_ones_are_near_a_snapshot() {
         let travelled = history.travel(&mut engine, SeekTarget::By(-back), Duration::ZERO).unwrap().unwrap();
         assert!(travelled.left < most, "{back} frames back: {} more are drawn", travelled.left);
         history.travel(&mut engine, SeekTarget::Frame(199 - back as u64), Duration::MAX).unwrap().unwrap();
-        assert!(engine.read(&PassId::Image).unwrap().texels == pictures[199 - back as usize], "{back} back");
+        assert!(engine.read_image().unwrap().texels == pictures[199 - back as usize], "{back} back");
         history.travel(&mut engine, SeekTarget::Frame(199), Duration::MAX).unwrap().unwrap();
-        assert!(engine.read(&PassId::Image).unwrap().texels == pictures[199], "{back} back, and on");
+        assert!(engine.read_image().unwrap().texels == pictures[199], "{back} back, and on");
     }
     // Where the first frames have been forgotten, so are their snapshots.
     history.forget(200);
@@ -89,7 +89,7 @@ fn one_goes_back_to_the_first_frame_and_near_ones_are_near_a_snapshot() {
     assert!((100..199).contains(&first.back) && !first.is_whole, "{first:?}");
     let travelled = history.travel(&mut engine, SeekTarget::By(-(first.back as i64)), Duration::MAX);
     assert_eq!(travelled.unwrap().unwrap().left, 0);
-    assert!(engine.read(&PassId::Image).unwrap().texels == pictures[199 - first.back as usize]);
+    assert!(engine.read_image().unwrap().texels == pictures[199 - first.back as usize]);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::{
 use eddy_engine::BuildOptions;
 use eddy_gpu::testing;
 use eddy_media as media;
-use eddy_project::{PassId, presets};
+use eddy_project::{PassName, presets};
 
 #[test]
 fn a_resize_or_a_program_is_shown_with_the_frame_that_follows_it() {
@@ -26,7 +26,7 @@ fn a_resize_or_a_program_is_shown_with_the_frame_that_follows_it() {
     let resize = |size| Changes { size: Some(size), ..Changes::default() };
     assert_eq!(sizes(resize((32, 18)), None), Some((32, 18)), "without a program it is black");
     let program = Some(PendingProgram { program, origin: None });
-    let shown = Some(PassId::Image);
+    let shown = Some(PassName::image());
     assert_eq!(sizes(Changes { program, shown, ..Changes::default() }, Some(0)), Some((32, 18)));
     assert_eq!(sizes(resize((64, 36)), None), None);
     assert_eq!(sizes(Changes::default(), Some(1)), Some((64, 36)));
@@ -55,7 +55,7 @@ fn a_frame_that_is_given_up_is_handed_out_by_nobody_and_read_whole() {
     let start = || {
         let mut renderer = Renderer::new(gpu.clone(), (64, 192), true).unwrap();
         let program = Some(PendingProgram { program: build(), origin: None });
-        let shown = Some(PassId::Image);
+        let shown = Some(PassName::image());
         renderer.work(Job { changes: Changes { program, shown, ..Changes::default() }, ..Job::default() });
         renderer
     };

@@ -1,21 +1,23 @@
-//! Owns the table of the kinds of passes: what is known of each.
+//! Owns the table of the roles of passes: what is known of each.
 
-use super::{InputKind, PassId, PassSettings, PassSize};
+use super::{InputKind, PassName, PassSize};
 use eddy_texture::{Dimension, TexelFormat};
 
-/// A kind of pass. What is known of each stands in its [`PassRow`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PassKind {
+/// The purpose of a pass. Everything that is known of a role is in its [`RoleRow`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Role {
     Buffer,
-    Cubemap,
+    Cube,
     Sound,
     Image,
 }
 
-/// Everything that is known of a kind of pass.
+/// Everything that is known of a role.
 #[derive(Debug)]
-pub struct PassRow {
-    pub kind: PassKind,
+pub struct RoleRow {
+    pub role: Role,
+    /// A project has several passes of it, each with a name of its own.
+    pub is_named: bool,
     /// The title of tabs; of buffers what stands before the name.
     pub title: &'static str,
     /// The spelling of file names, `eddy.toml` and `--pass`; of buffers what stands before the name.
@@ -53,8 +55,9 @@ const NO_PICTURE: &[(&[&str], &str)] = &[
     NO_MESHES,
 ];
 
-const BUFFER: PassRow = PassRow {
-    kind: PassKind::Buffer,
+const BUFFER: RoleRow = RoleRow {
+    role: Role::Buffer,
+    is_named: true,
     title: "Buffer ",
     key: "buffer_",
     spellings: &[],
@@ -70,8 +73,9 @@ const BUFFER: PassRow = PassRow {
     note: "",
 };
 
-pub(super) const CUBEMAP: PassRow = PassRow {
-    kind: PassKind::Cubemap,
+pub(super) const CUBEMAP: RoleRow = RoleRow {
+    role: Role::Cube,
+    is_named: false,
     title: "Cube A",
     key: "cube_a",
     spellings: &["cubea", "cubemap", "cubemapa"],
@@ -92,8 +96,9 @@ pub(super) const CUBEMAP: PassRow = PassRow {
     note: "A cubemap has six faces of 1024x1024 texels of 16-bit floats.",
 };
 
-const SOUND: PassRow = PassRow {
-    kind: PassKind::Sound,
+const SOUND: RoleRow = RoleRow {
+    role: Role::Sound,
+    is_named: false,
     title: "Sound",
     key: "sound",
     spellings: &["sound"],
@@ -109,8 +114,9 @@ const SOUND: PassRow = PassRow {
     note: "A sound pass makes 180 s of sound once, and not in each frame. It reads image files and cubemaps.",
 };
 
-const IMAGE: PassRow = PassRow {
-    kind: PassKind::Image,
+const IMAGE: RoleRow = RoleRow {
+    role: Role::Image,
+    is_named: false,
     title: "Image",
     key: "image",
     spellings: &["image"],
@@ -131,69 +137,33 @@ const IMAGE: PassRow = PassRow {
     ..BUFFER
 };
 
-/// Every kind, in the order in which [`PassKind`] has them.
-static ROWS: [PassRow; 4] = [BUFFER, CUBEMAP, SOUND, IMAGE];
+/// Every role, in the order in which [`Role`] has them.
+static ROWS: [RoleRow; 4] = [BUFFER, CUBEMAP, SOUND, IMAGE];
 
-impl PassKind {
-    pub fn all() -> impl DoubleEndedIterator<Item = PassKind> {
-        ROWS.iter().map(|row| row.kind)
+impl Role {
+    pub fn all() -> impl DoubleEndedIterator<Item = Role> {
+        ROWS.iter().map(|row| row.role)
     }
 
-    pub fn row(self) -> &'static PassRow {
+    pub fn row(self) -> &'static RoleRow {
         &ROWS[self as usize]
     }
 
-    /// Returns the kind whose row is as asked.
-    pub(crate) fn find(is_it: impl Fn(&PassRow) -> bool) -> Option<PassKind> {
-        ROWS.iter().find(|row| is_it(row)).map(|row| row.kind)
+    /// Returns the role whose row is as asked.
+    pub(crate) fn find(is_it: impl Fn(&RoleRow) -> bool) -> Option<Role> {
+        ROWS.iter().find(|row| is_it(row)).map(|row| row.role)
     }
 
-    /// Returns the one pass of this kind; `None` for buffers, of which there are many.
-    pub fn id(self) -> Option<PassId> {
-        match self {
-            PassKind::Buffer => None,
-            PassKind::Cubemap => Some(PassId::Cubemap),
-            PassKind::Sound => Some(PassId::Sound),
-            PassKind::Image => Some(PassId::Image),
-        }
+    /// Returns the one pass of this role; `None` for buffers, of which there are many.
+    pub fn only_pass(self) -> Option<PassName> {
+        (!self.row().is_named).then(|| PassName::new(self, ""))
     }
 }
 
-impl PassRow {
+impl RoleRow {
     /// Returns why it has no such key in `eddy.toml`; `None` if it has.
     pub fn refusal(&self, key: &str) -> Option<&'static str> {
         self.refused.iter().find(|(keys, _)| keys.contains(&key)).map(|(_, why)| *why)
-    }
-}
-
-impl PassId {
-    pub fn kind(&self) -> PassKind {
-        match self {
-            PassId::Buffer(_) => PassKind::Buffer,
-            PassId::Cubemap => PassKind::Cubemap,
-            PassId::Sound => PassKind::Sound,
-            PassId::Image => PassKind::Image,
-        }
-    }
-
-    /// Returns what is known of its kind.
-    pub fn row(&self) -> &'static PassRow {
-        self.kind().row()
-    }
-
-    /// Returns the format of each of its targets.
-    pub fn formats(&self, settings: &PassSettings) -> Vec<TexelFormat> {
-        self.row().format.map_or_else(|| settings.formats(), |format| vec![format])
-    }
-
-    /// Returns the size of its targets.
-    pub fn size(&self, settings: &PassSettings) -> PassSize {
-        if settings.size == PassSize::Canvas { self.row().size } else { settings.size }
-    }
-
-    /// Returns whether it has a picture.
-    pub fn is_picture(&self) -> bool {
-        self.row().target.is_some()
     }
 }
 
@@ -202,14 +172,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_row_is_found_by_its_kind_and_by_each_of_its_names() {
+    fn a_row_is_found_by_its_role_and_by_each_of_its_names() {
         for (index, row) in ROWS.iter().enumerate() {
-            let id = row.kind.id().unwrap_or_else(|| PassId::Buffer("A".into()));
-            assert_eq!((row.kind as usize, id.kind(), id.row().key), (index, row.kind, row.key));
-            for name in [id.key(), id.title()].into_iter().chain(row.spellings.iter().map(|s| (*s).to_owned())) {
-                assert_eq!(PassId::parse(&name), Some(id.clone()), "{name}");
+            let id = row.role.only_pass().unwrap_or_else(|| PassName::buffer("A"));
+            assert_eq!((row.role as usize, id.role(), id.row().key), (index, row.role, row.key));
+            for name in
+                [id.key().to_owned(), id.title()].into_iter().chain(row.spellings.iter().map(|s| (*s).to_owned()))
+            {
+                assert_eq!(PassName::parse(&name), Some(id.clone()), "{name}");
             }
-            assert_eq!(PassKind::find(|other| other.json_type == row.json_type), Some(row.kind));
+            assert_eq!(Role::find(|other| other.json_type == row.json_type), Some(row.role));
             assert!(row.input.is_none_or(|input| row.target == Some(input.row().dimension)), "{row:?}");
             assert!(row.note.is_empty() || row.note.ends_with('.'), "{row:?}");
             assert!(row.entry.starts_with("main"), "{row:?}");
