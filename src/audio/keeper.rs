@@ -96,7 +96,7 @@ enum Link<W: Work> {
 
 impl<W: Work + 'static> Keeper<W> {
     /// Starts a thread. `wake` is called when the state of the device has changed.
-    pub fn on_thread(name: &str, work: W, wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
+    pub(crate) fn on_thread(name: &str, work: W, wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
         let (to, from) = channel();
         let mut worker = Worker::new(work, to.clone(), wake);
         let (status, underruns) = (worker.status.clone(), worker.underruns.clone());
@@ -105,24 +105,24 @@ impl<W: Work + 'static> Keeper<W> {
     }
 
     /// Creates a keeper without a thread: [`Keeper::step`] does the work.
-    pub fn here(work: W) -> Self {
+    pub(crate) fn here(work: W) -> Self {
         let (to, from) = channel();
         let worker = Box::new(Worker::new(work, to, Arc::new(|| {})));
         let (status, underruns) = (worker.status.clone(), worker.underruns.clone());
         Self { link: Link::Here { worker, from }, status, underruns }
     }
 
-    pub fn order(&mut self, order: W::Order) {
+    pub(crate) fn order(&mut self, order: W::Order) {
         self.send(Message::Order(order));
     }
 
     /// Requests a device by its name, or the system's default one.
-    pub fn choose(&mut self, device: Option<String>) {
+    pub(crate) fn choose(&mut self, device: Option<String>) {
         self.send(Message::Device(device));
     }
 
     /// Requests the names of the devices, which become part of the status.
-    pub fn ask_names(&mut self) {
+    pub(crate) fn ask_names(&mut self) {
         self.send(Message::Names);
     }
 
@@ -135,7 +135,7 @@ impl<W: Work + 'static> Keeper<W> {
     }
 
     /// Does pending work if there is no thread.
-    pub fn step(&mut self, now: Instant) {
+    pub(crate) fn step(&mut self, now: Instant) {
         if let Link::Here { worker, from } = &mut self.link {
             while let Ok(message) = from.try_recv() {
                 worker.take(message);
@@ -144,16 +144,16 @@ impl<W: Work + 'static> Keeper<W> {
         }
     }
 
-    pub fn state(&self) -> DeviceState {
+    pub(crate) fn state(&self) -> DeviceState {
         self.status.lock().unwrap_or_else(PoisonError::into_inner).state.clone()
     }
 
-    pub fn names(&self) -> Option<Vec<String>> {
+    pub(crate) fn names(&self) -> Option<Vec<String>> {
         self.status.lock().unwrap_or_else(PoisonError::into_inner).names.clone()
     }
 
     /// Returns the number of late buffers since the start.
-    pub fn underruns(&self) -> u64 {
+    pub(crate) fn underruns(&self) -> u64 {
         self.underruns.load(Ordering::Relaxed)
     }
 }

@@ -41,12 +41,12 @@ impl Default for Kernel {
 impl Kernel {
     /// Returns the number of samples on each side of a position that are used if each sample that is read advances by
     /// `ratio` samples.
-    pub fn reach(ratio: f64) -> i64 {
+    pub(crate) fn reach(ratio: f64) -> i64 {
         (HALF as f64 * ratio.max(1.0)).ceil() as i64
     }
 
     /// Reads stereo sound at a position, in samples. Frequencies above half the rate of reading are removed.
-    pub fn read(&self, position: f64, ratio: f64, mut frame: impl FnMut(i64) -> [f32; 2]) -> [f32; 2] {
+    pub(crate) fn read(&self, position: f64, ratio: f64, mut frame: impl FnMut(i64) -> [f32; 2]) -> [f32; 2] {
         let base = position.floor();
         let part = (position - base) as f32;
         let stretch = ratio.max(1.0) as f32;

@@ -27,7 +27,7 @@ const WORST: usize = 5;
 const BLACK: f32 = 1e-8;
 
 #[derive(Debug, Serialize)]
-pub struct Audited {
+pub(super) struct Audited {
     pass: String,
     frame: u32,
     pixels: usize,
@@ -93,7 +93,7 @@ struct Found {
     error_left: Option<Number>,
 }
 
-pub fn run(
+pub(super) fn run(
     machine: &mut Machine,
     report: &mut Report,
     args: &PrecisionArgs,
@@ -216,7 +216,7 @@ fn found(project: &Project, finding: &Finding) -> Found {
     }
 }
 
-pub fn words(audited: &Audited) -> String {
+pub(super) fn words(audited: &Audited) -> String {
     let Audited { pass, frame, pixels, median, largest, visible, worst, walker, findings, written } = audited;
     let mut out = format!("Single against double precision: {pixels} pixels of {pass} in frame {frame}\n");
     let _ = writeln!(

@@ -13,7 +13,7 @@ use crate::{
 use std::path::{Path, PathBuf};
 
 /// The checkpoints of one project of a call.
-pub struct Checkpoints<'a> {
+pub(super) struct Checkpoints<'a> {
     args: &'a RenderArgs,
     /// The name of the project's files, with what a sweep sets.
     stem: String,
@@ -21,7 +21,7 @@ pub struct Checkpoints<'a> {
 }
 
 impl<'a> Checkpoints<'a> {
-    pub fn new(
+    pub(super) fn new(
         args: &'a RenderArgs,
         (spec, swept): (&str, &[String]),
         (project, media): (&Project, &MediaSet),
@@ -48,7 +48,7 @@ impl<'a> Checkpoints<'a> {
 
     /// Goes on from the checkpoint of `--resume` from which the fewest frames are drawn before `first`. Returns the frame
     /// that is drawn next, and a remark.
-    pub fn resume(&self, offline: &mut Offline, first: u32) -> Result<(u32, Option<String>), RunError> {
+    pub(super) fn resume(&self, offline: &mut Offline, first: u32) -> Result<(u32, Option<String>), RunError> {
         let Some(place) = &self.args.resume else { return Ok((0, None)) };
         let file = match place.is_dir() {
             false => place.clone(),
@@ -88,7 +88,7 @@ impl<'a> Checkpoints<'a> {
     }
 
     /// Writes a checkpoint if one is due before frame `next`.
-    pub fn write(&self, offline: &Offline, next: u32) -> Result<Option<PathBuf>, RunError> {
+    pub(super) fn write(&self, offline: &Offline, next: u32) -> Result<Option<PathBuf>, RunError> {
         let Some(every) = self.args.checkpoint_every.filter(|every| next.is_multiple_of(*every)) else {
             return Ok(None);
         };

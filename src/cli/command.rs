@@ -10,7 +10,7 @@ use clap::Subcommand;
 use std::io;
 
 /// A command whose arguments have been parsed.
-pub trait Run {
+pub(super) trait Run {
     /// Whether the command opens a graphics device.
     const OPENS_DEVICE: bool = false;
 
@@ -25,7 +25,7 @@ pub trait Run {
 
 /// A command did not run to its end.
 #[derive(Debug, thiserror::Error)]
-pub enum CommandError {
+pub(super) enum CommandError {
     /// The arguments contradict each other, or the whole call cannot be done.
     #[error("{0}")]
     Refused(String),

@@ -16,7 +16,7 @@ use std::fmt::Write;
 
 /// Holds what a search has found.
 #[derive(Debug, Serialize)]
-pub struct DivergenceReport {
+pub(super) struct DivergenceReport {
     /// Assignments that were compared, of so many that the pixel has.
     compared: usize,
     assignments: usize,
@@ -40,7 +40,7 @@ struct First {
 }
 
 /// Looks for it in the frame after those that are drawn: `before` is what the engine's targets held then.
-pub fn find(
+pub(super) fn find(
     args: &TraceArgs,
     project: &Project,
     (engine, before): (Engine, Snapshot),
@@ -85,7 +85,7 @@ pub fn find(
     Ok(DivergenceReport { compared: found.compared, assignments: found.of, first })
 }
 
-pub fn words(report: &DivergenceReport) -> String {
+pub(super) fn words(report: &DivergenceReport) -> String {
     let DivergenceReport { compared, assignments, first } = report;
     let of = format!("{compared} of {assignments} assignments compared");
     let Some(First { written, name, visit, walker, device, ulps }) = first else {

@@ -5,7 +5,7 @@ use crate::diag::escape_message;
 use std::io::Write;
 
 /// The exit code for trouble with the machine or the usage.
-pub const TROUBLE: u8 = 2;
+pub(super) const TROUBLE: u8 = 2;
 
 /// Says what is wrong with the call as a whole.
 pub fn trouble(what: impl std::fmt::Display) -> u8 {

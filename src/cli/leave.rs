@@ -3,7 +3,7 @@
 /// Ends the process without the exit handlers of libraries where a thread was left behind in a call of the driver: its
 /// handlers would wait for that thread, or free what it uses. Returns where there is none.
 #[cfg(target_os = "linux")]
-pub fn end_process(code: u8) {
+pub(super) fn end_process(code: u8) {
     use crate::{gpu::loss::OPENER, playback::offline::DRAWER};
     use std::{fs, io::Write};
 

@@ -31,7 +31,7 @@ use std::{
 };
 
 /// The reason why a project was not drawn.
-pub enum RunError {
+pub(super) enum RunError {
     Diagnostics(Vec<Diagnostic>, SourceMap),
     Unsupported(String),
     Other(anyhow::Error),
@@ -84,7 +84,7 @@ impl From<anyhow::Error> for RunError {
 
 /// The device of a call, made when the first project needs one.
 #[derive(Default)]
-pub struct Machine {
+pub(super) struct Machine {
     gpu: Option<Gpu>,
     /// The reason why there is no device, which is asked for once.
     refusal: Option<String>,
@@ -103,7 +103,7 @@ enum DeviceLoss {
 }
 
 impl Machine {
-    pub fn gpu(&mut self) -> anyhow::Result<Gpu> {
+    pub(super) fn gpu(&mut self) -> anyhow::Result<Gpu> {
         if let Some(gpu) = &self.gpu {
             return Ok(gpu.clone());
         }
@@ -135,7 +135,7 @@ impl Machine {
 
     /// Does a project's work, and puts what went wrong into its report. A panic is this project's alone, and a device
     /// that was lost, or may have been left in disorder, is made anew for the next one.
-    pub fn attempt<T>(
+    pub(super) fn attempt<T>(
         &mut self,
         report: &mut Report,
         work: impl FnOnce(&mut Machine, &mut Report) -> Result<T, RunError>,
@@ -174,19 +174,19 @@ impl Machine {
 
 /// Returns what a run of the lab begins with: its part of the work, by `--shard`, and the device. Err: one line that
 /// says what is wrong.
-pub fn shard_and_device(shard: &str) -> Result<(Shard, Gpu), String> {
+pub(super) fn shard_and_device(shard: &str) -> Result<(Shard, Gpu), String> {
     let shard = Shard::parse(shard, |name| env::var(name).ok()).map_err(|error| format!("--shard {error}"))?;
     let gpu = Machine::default().gpu().map_err(|error| error_chain(&error))?;
     Ok((shard, gpu))
 }
 
 /// Goes on by a frame that nobody sees: only what later ones read of it is drawn, unless all passes are to be.
-pub fn pass_over(offline: &mut Offline, run: &RunArgs) -> Result<DrawnFrame, OfflineError> {
+pub(super) fn pass_over(offline: &mut Offline, run: &RunArgs) -> Result<DrawnFrame, OfflineError> {
     if run.no_skip { offline.draw() } else { offline.advance() }
 }
 
 /// Reads, compiles and sets up a project, its warnings going into the report, by which it is swept.
-pub fn open(
+pub(super) fn open(
     machine: &mut Machine,
     report: &mut Report,
     spec: &str,
@@ -200,7 +200,7 @@ pub fn open(
 }
 
 /// Does the same as [`open`] for the sound pass of a project.
-pub fn open_sound(
+pub(super) fn open_sound(
     machine: &mut Machine,
     report: &mut Report,
     spec: &str,
@@ -212,10 +212,10 @@ pub fn open_sound(
 }
 
 /// Says which passes of a project are read beside the wanted one.
-pub type FindPasses<'a> = &'a dyn Fn(&Project) -> Vec<PassName>;
+pub(super) type FindPasses<'a> = &'a dyn Fn(&Project) -> Vec<PassName>;
 
 /// Does the same as [`open`] where further passes are read. Returns what the channels read, too.
-pub fn open_measured(
+pub(super) fn open_measured(
     machine: &mut Machine,
     report: &mut Report,
     spec: &str,
@@ -228,10 +228,10 @@ pub fn open_measured(
 }
 
 /// Says which value of a project is probed.
-pub type FindProbe<'a> = &'a dyn Fn(&Project) -> anyhow::Result<Probe>;
+pub(super) type FindProbe<'a> = &'a dyn Fn(&Project) -> anyhow::Result<Probe>;
 
 /// Does the same as [`open`] for a project of which a value of a pass is drawn.
-pub fn open_probed(
+pub(super) fn open_probed(
     machine: &mut Machine,
     report: &mut Report,
     spec: &str,
@@ -360,7 +360,7 @@ fn build(
 }
 
 /// Sets up the sound pass of a project that is open, to be drawn beside its pictures.
-pub fn open_sound_of(
+pub(super) fn open_sound_of(
     machine: &mut Machine,
     report: &mut Report,
     project: (&Project, &MediaSet),
@@ -415,7 +415,7 @@ fn is_picture(pass: &PassName) -> Result<(), RunError> {
     Err(RunError::Unsupported(what))
 }
 
-pub fn millis_since(began: Instant) -> f64 {
+pub(super) fn millis_since(began: Instant) -> f64 {
     began.elapsed().as_nanos() as f64 / 1e6
 }
 

@@ -16,14 +16,14 @@ use std::collections::HashMap;
 
 /// A number of a frame.
 #[derive(Debug, Serialize)]
-pub struct Measured {
+pub(super) struct Measured {
     pub quantity: String,
     pub frame: u32,
     pub value: Number,
 }
 
 /// Holds the numbers that are measured of a project while it is drawn.
-pub struct Measures<'a> {
+pub(super) struct Measures<'a> {
     assertions: &'a [Assertion],
     quantities: Vec<Quantity>,
     /// The number of components that each of them may take.
@@ -34,14 +34,14 @@ pub struct Measures<'a> {
 }
 
 impl Measures<'_> {
-    pub fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.quantities.is_empty() && self.assertions.is_empty()
     }
 }
 
 /// Returns the quantities that `//@probe` comments of a project ask for, and what is wrong with those that cannot be
 /// measured.
-pub fn declared(project: &Project) -> (Vec<Quantity>, Vec<Diagnostic>) {
+pub(super) fn declared(project: &Project) -> (Vec<Quantity>, Vec<Diagnostic>) {
     let (mut quantities, mut diagnostics) = (Vec::new(), Vec::new());
     for comment in reduction::declared(project) {
         match comment.quantity {
@@ -53,13 +53,13 @@ pub fn declared(project: &Project) -> (Vec<Quantity>, Vec<Diagnostic>) {
 }
 
 impl<'a> Measures<'a> {
-    pub fn new(project: &Project, quantities: Vec<Quantity>, assertions: &'a [Assertion]) -> Self {
+    pub(super) fn new(project: &Project, quantities: Vec<Quantity>, assertions: &'a [Assertion]) -> Self {
         let stored = quantities.iter().map(|quantity| components(project, quantity)).collect();
         Self { assertions, quantities, stored, first: Vec::new(), taken: Vec::new() }
     }
 
     /// Measures the frame that was drawn last. A claim that does not hold goes into the report.
-    pub fn take(
+    pub(super) fn take(
         &mut self,
         project: &Project,
         offline: &mut Offline,

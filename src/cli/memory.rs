@@ -7,7 +7,7 @@ use std::fs;
 const LEAST_PIXELS: u64 = 1 << 24;
 
 /// Returns the bytes of memory that can be taken; `None` where the system does not say.
-pub fn available() -> Option<u64> {
+pub(super) fn available() -> Option<u64> {
     let machine = fs::read_to_string("/proc/meminfo").ok().and_then(|text| of_meminfo(&text));
     let number = |name: &str| -> Option<u64> {
         fs::read_to_string(format!("/sys/fs/cgroup/memory.{name}")).ok()?.trim().parse().ok()
@@ -25,7 +25,7 @@ fn of_meminfo(text: &str) -> Option<u64> {
 
 /// Fails for a picture that needs more than `available`, drawn and read in one piece. On a processor that draws
 /// (`is_cpu`) its textures take the same memory.
-pub fn check_whole((width, height): (u32, u32), is_cpu: bool, available: Option<u64>) -> anyhow::Result<()> {
+pub(super) fn check_whole((width, height): (u32, u32), is_cpu: bool, available: Option<u64>) -> anyhow::Result<()> {
     let pixels = u64::from(width) * u64::from(height);
     // What is read, the buffer that it is read through, and its bytes in a file; the target and the display texture.
     let needed = pixels.saturating_mul(16 + 16 + 4 + if is_cpu { 16 + 4 } else { 0 });
@@ -41,7 +41,7 @@ pub fn check_whole((width, height): (u32, u32), is_cpu: bool, available: Option<
 }
 
 /// Returns bytes as people write them.
-pub fn gibibytes(bytes: u64) -> String {
+pub(super) fn gibibytes(bytes: u64) -> String {
     format!("{:.1} GiB", bytes as f64 / (1u64 << 30) as f64)
 }
 

@@ -20,7 +20,7 @@ use std::fmt::Write;
 
 /// Names the place where it begins.
 #[derive(Debug, Serialize)]
-pub struct Begin {
+pub(super) struct Begin {
     pass: String,
     frame: u32,
     texel: [u32; 2],
@@ -42,7 +42,7 @@ struct NonfiniteOrigin {
 }
 
 /// Looks for it in the frames up to and with `args.frame`. `None`: every texel is a finite number.
-pub fn first(
+pub(super) fn first(
     machine: &mut Machine,
     report: &mut Report,
     args: &TraceArgs,
@@ -114,7 +114,7 @@ fn born(
     }))
 }
 
-pub fn words(spec: &str, frames: u32, begin: Option<&Begin>) -> String {
+pub(super) fn words(spec: &str, frames: u32, begin: Option<&Begin>) -> String {
     let spec = one_line(spec);
     let Some(Begin { pass, frame, texel: [x, y], texels, born, .. }) = begin else {
         return format!("{spec}: all texels of all passes are finite in {frames} frames");

@@ -50,7 +50,7 @@ struct JsonLine<'a> {
     plan: Option<&'a Plan>,
 }
 
-pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
+pub(super) fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
     let mut machine = Machine::default();
     for spec in &args.project {

@@ -44,7 +44,7 @@ struct JsonLine<'a> {
     double: Option<&'a Audited>,
 }
 
-pub fn run(args: &PrecisionArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
+pub(super) fn run(args: &PrecisionArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
     let mut machine = Machine::default();
     for spec in &args.project {

@@ -12,7 +12,7 @@ use std::{fmt::Write, sync::Arc};
 
 /// A comment, and its value each time that its turn came.
 #[derive(Debug, Serialize)]
-pub struct Printed {
+pub(super) struct Printed {
     tab: String,
     line: usize,
     expression: String,
@@ -26,7 +26,7 @@ pub struct Printed {
 }
 
 /// Walks once more where there are such comments, by statements.
-pub fn printed(
+pub(super) fn printed(
     project: &Project,
     pass: &PassName,
     frame: u32,
@@ -62,7 +62,7 @@ pub fn printed(
         .collect())
 }
 
-pub fn words(all: &[Printed]) -> String {
+pub(super) fn words(all: &[Printed]) -> String {
     let mut out = String::new();
     for Printed { tab, line, expression, values, error, cut } in all {
         let _ = writeln!(out, "{}:{line}: {}", one_line(tab), one_line(expression));

@@ -9,7 +9,7 @@
 /// safely only for one that it starts: so this starts itself again in its own place, before anything was done. Where
 /// that fails, the lines are written.
 #[cfg(target_os = "linux")]
-pub fn ask_for_no_wayland() {
+pub(super) fn ask_for_no_wayland() {
     use std::{env, os::unix::process::CommandExt, path::Path, process::Command};
     let is_absolute = |name: &str| env::var_os(name).is_some_and(|value| Path::new(&value).is_absolute());
     if is_absolute("XDG_RUNTIME_DIR") || is_absolute("WAYLAND_DISPLAY") {

@@ -19,7 +19,7 @@ const OTHER_SPEED: f64 = 0.05;
 
 /// Returns the samples of a film of these recorded frames. Where the film is slower or faster than the recording, the sound is,
 /// too, and a note says how both get the same speed.
-pub fn recorded_sound(
+pub(super) fn recorded_sound(
     machine: &mut Machine,
     report: &mut Report,
     (project, media): (&Project, &MediaSet),

@@ -11,7 +11,7 @@ use std::io::{self, Write};
 /// Says how a project fared. The order is how bad it is for the exit code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Status {
+pub(super) enum Status {
     #[default]
     Ok,
     /// The author has something to mend.
@@ -24,7 +24,7 @@ pub enum Status {
 
 impl Status {
     /// 0 all well, 1 diagnostics, 2 machine or usage.
-    pub fn exit_code(self) -> u8 {
+    pub(super) fn exit_code(self) -> u8 {
         match self {
             Status::Ok => 0,
             Status::Diagnostics => 1,
@@ -35,7 +35,7 @@ impl Status {
 
 /// One line of `--json`.
 #[derive(Debug, Default, Serialize)]
-pub struct Report {
+pub(super) struct Report {
     /// Its name on the command line.
     pub project: String,
     /// The values that `--sweep` set.
@@ -56,7 +56,7 @@ pub struct Report {
 
 /// A diagnostic whose place is spelled out.
 #[derive(Debug, PartialEq, Eq, Serialize)]
-pub struct Message {
+pub(super) struct Message {
     pub severity: &'static str,
     pub message: String,
     /// The text's name: a file, or a tab where the text has no file of its own.
@@ -85,23 +85,23 @@ impl Message {
 }
 
 impl Report {
-    pub fn new(project: &str) -> Report {
+    pub(super) fn new(project: &str) -> Report {
         Report { project: project.to_owned(), ..Report::default() }
     }
 
     /// Returns an empty report of a project that is drawn with these assignments.
-    pub fn swept(project: &str, sweep: &[String]) -> Report {
+    pub(super) fn swept(project: &str, sweep: &[String]) -> Report {
         Report { sweep: sweep.to_vec(), ..Report::new(project) }
     }
 
     /// Returns the project, and what `--sweep` set, as one line that people read.
-    pub fn title(&self) -> String {
+    pub(super) fn title(&self) -> String {
         let title = self.sweep.iter().fold(self.project.clone(), |title, set| format!("{title} {set}"));
         one_line(&title).into_owned()
     }
 
     /// Adds diagnostics; an error among them is what became of the project.
-    pub fn diagnose(&mut self, found: &[Diagnostic], sources: &SourceMap, project: Option<&Project>) {
+    pub(super) fn diagnose(&mut self, found: &[Diagnostic], sources: &SourceMap, project: Option<&Project>) {
         self.diagnostics.extend(found.iter().map(|d| Message::of(d, sources, project)));
         let carets = diag::render_all(found, sources);
         if !self.carets.is_empty() && !carets.is_empty() {
@@ -114,13 +114,13 @@ impl Report {
     }
 
     /// Trouble that has no place in a text.
-    pub fn fail(&mut self, status: Status, message: impl std::fmt::Display) {
+    pub(super) fn fail(&mut self, status: Status, message: impl std::fmt::Display) {
         self.diagnose(&[Diagnostic::error(None, message.to_string())], &SourceMap::default(), None);
         self.status = self.status.max(status);
     }
 
     /// Returns the first error with its place, and how many there are beside it.
-    pub fn first_error(&self) -> Option<String> {
+    pub(super) fn first_error(&self) -> Option<String> {
         let Message { source, line, column, message, .. } =
             self.diagnostics.iter().find(|m| m.severity == Severity::Error.name())?;
         let place = match (source, line, column) {
@@ -135,14 +135,14 @@ impl Report {
         Some(format!("{place}{message}{more}"))
     }
 
-    pub fn errors(&self) -> usize {
+    pub(super) fn errors(&self) -> usize {
         self.diagnostics.iter().filter(|m| m.severity == Severity::Error.name()).count()
     }
 }
 
 /// Prints reports as they come and remembers the worst.
 #[derive(Debug)]
-pub struct Printer {
+pub(super) struct Printer {
     json: bool,
     /// Standard output is a file, so that words go to standard error.
     is_piped: bool,
@@ -150,22 +150,22 @@ pub struct Printer {
 }
 
 impl Printer {
-    pub fn new(json: bool) -> Printer {
+    pub(super) fn new(json: bool) -> Printer {
         Printer { json, is_piped: false, worst: Status::Ok }
     }
 
     /// Returns one whose words go to standard error.
-    pub fn beside_pipe() -> Printer {
+    pub(super) fn beside_pipe() -> Printer {
         Printer { json: false, is_piped: true, worst: Status::Ok }
     }
 
     /// One project is done. `words` is its line on standard output without `--json`; diagnostics go to standard error.
-    pub fn print(&mut self, report: &Report, words: &str) -> io::Result<()> {
+    pub(super) fn print(&mut self, report: &Report, words: &str) -> io::Result<()> {
         self.print_as(report, report, words)
     }
 
     /// The same with a JSON object that says more than the report.
-    pub fn print_as(&mut self, line: &impl Serialize, report: &Report, words: &str) -> io::Result<()> {
+    pub(super) fn print_as(&mut self, line: &impl Serialize, report: &Report, words: &str) -> io::Result<()> {
         self.worst = self.worst.max(report.status);
         if self.json {
             return terminal::print_json(line);
@@ -183,7 +183,7 @@ impl Printer {
         out.flush()
     }
 
-    pub fn exit_code(&self) -> u8 {
+    pub(super) fn exit_code(&self) -> u8 {
         self.worst.exit_code()
     }
 }

@@ -33,7 +33,7 @@ enum Format {
 
 /// The files that one call writes sounds to.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Sounds {
+pub(super) struct Sounds {
     format: Format,
     /// Samples of each.
     frames: u32,
@@ -51,7 +51,7 @@ enum Output {
 impl Sounds {
     /// Returns where a call writes sounds to; `None` for one that writes pictures. Err: what was asked for cannot be
     /// meant.
-    pub fn of(args: &RenderArgs) -> Result<Option<Sounds>, String> {
+    pub(super) fn of(args: &RenderArgs) -> Result<Option<Sounds>, String> {
         let named = args.out.as_deref().filter(|out| !out.is_dir()).and_then(format_of);
         if !args.pass.pass.is_sound() {
             return match (&args.out, named) {
@@ -103,7 +103,7 @@ impl Sounds {
     }
 
     /// Makes the folder, so that a place nothing can be written to is known before anything is drawn.
-    pub fn prepare(&self) -> anyhow::Result<()> {
+    pub(super) fn prepare(&self) -> anyhow::Result<()> {
         match &self.place {
             Output::Nowhere => Ok(()),
             Output::File(file) => check_folder(file),
@@ -161,7 +161,7 @@ struct SoundReport {
     file: Option<PathBuf>,
 }
 
-pub fn run(args: &RenderArgs, sounds: &Sounds, inputs: &ScriptedInputs) -> io::Result<u8> {
+pub(super) fn run(args: &RenderArgs, sounds: &Sounds, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
     let mut machine = Machine::default();
     let blocks = sounds.frames.div_ceil(BLOCK_FRAMES);

@@ -5,7 +5,7 @@ use crate::{diag::Span, project::Project};
 use serde::Serialize;
 
 #[derive(Debug, Serialize)]
-pub struct SourceExcerpt {
+pub(super) struct SourceExcerpt {
     pub source: Option<String>,
     /// Counted from 1, in characters.
     pub line: Option<usize>,
@@ -15,7 +15,7 @@ pub struct SourceExcerpt {
 }
 
 impl SourceExcerpt {
-    pub fn at(project: &Project, span: Option<Span>) -> Self {
+    pub(super) fn at(project: &Project, span: Option<Span>) -> Self {
         let sources = project.sources();
         let at = span.and_then(|span| sources.line_column(span));
         let source = span.and_then(|span| sources.get(span.source));
@@ -29,7 +29,7 @@ impl SourceExcerpt {
     }
 
     /// `image.glsl:12:9`; `None` for what Eddy adds to the author's code.
-    pub fn place(&self) -> Option<String> {
+    pub(super) fn place(&self) -> Option<String> {
         Some(format!("{}:{}:{}", one_line(self.source.as_ref()?), self.line?, self.column?))
     }
 }

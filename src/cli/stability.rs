@@ -21,7 +21,7 @@ use std::{
 /// Exit code 1: a bound was left that should have been kept, or a case could not be drawn.
 const LEFT: u8 = 1;
 
-pub fn run(args: &StabilityArgs) -> io::Result<u8> {
+pub(super) fn run(args: &StabilityArgs) -> io::Result<u8> {
     let names: Vec<String> = match args.project.as_slice() {
         [] => presets::NAMES.map(str::to_owned).into(),
         some => some.to_vec(),
@@ -66,7 +66,7 @@ pub fn run(args: &StabilityArgs) -> io::Result<u8> {
 }
 
 /// The report of what stability there is among results.
-pub fn files(out: &Path, results: &Results, subjects: &[CheckedProject]) -> Result<Vec<String>, LabError> {
+pub(super) fn files(out: &Path, results: &Results, subjects: &[CheckedProject]) -> Result<Vec<String>, LabError> {
     stability::write_of(out, results, subjects)
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 /// Values of a uniform, as `--set` takes them.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Sweep {
+pub(super) struct Sweep {
     name: String,
     values: Vec<String>,
 }
@@ -14,7 +14,7 @@ const MOST: u32 = 1 << 20;
 
 impl Sweep {
     /// Reads `NAME=VALUE;VALUE` or `NAME=LOW..HIGH:COUNT`, with `:log` after that for even ratios.
-    pub fn parse(text: &str) -> Result<Sweep, String> {
+    pub(super) fn parse(text: &str) -> Result<Sweep, String> {
         let shape =
             || "write a sweep as NAME=VALUE;VALUE or NAME=LOW..HIGH:COUNT, as in viscosity=0..0.01:5".to_owned();
         let (name, values) = text.split_once('=').ok_or_else(shape)?;
@@ -76,7 +76,7 @@ fn short(value: f64) -> String {
 
 /// Every combination of the sweeps' values, each as assignments for `--set`; the last sweep changes first. One without
 /// any assignment where there is no sweep.
-pub fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<String>>, String> {
+pub(super) fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<String>>, String> {
     let mut names = BTreeSet::new();
     if let Some(twice) = sweeps.iter().find(|sweep| !names.insert(&sweep.name)) {
         return Err(format!("--sweep: {} is listed twice", twice.name));

@@ -16,14 +16,14 @@ use std::{
 /// Writes text whose control characters are escaped. Bytes that are not UTF-8 are written as U+FFFD, as a terminal of 8 bits
 /// obeys some of them.
 #[derive(Debug)]
-pub struct EscapingWriter<W> {
+pub(super) struct EscapingWriter<W> {
     out: W,
     /// The start of a character whose other bytes have not come yet.
     pending: Vec<u8>,
 }
 
 impl<W> EscapingWriter<W> {
-    pub fn new(out: W) -> Self {
+    pub(super) fn new(out: W) -> Self {
         Self { out, pending: Vec::new() }
     }
 }
@@ -60,21 +60,21 @@ fn incomplete_tail(bytes: &[u8]) -> usize {
     at
 }
 
-pub fn stdout() -> EscapingWriter<StdoutLock<'static>> {
+pub(super) fn stdout() -> EscapingWriter<StdoutLock<'static>> {
     EscapingWriter::new(io::stdout().lock())
 }
 
-pub fn stderr() -> EscapingWriter<StderrLock<'static>> {
+pub(super) fn stderr() -> EscapingWriter<StderrLock<'static>> {
     EscapingWriter::new(io::stderr().lock())
 }
 
 /// Returns standard output for bytes that are not text.
-pub fn raw_stdout() -> io::Stdout {
+pub(super) fn raw_stdout() -> io::Stdout {
     io::stdout()
 }
 
 /// Writes one object of JSON as a line on standard output.
-pub fn print_json(value: &impl Serialize) -> io::Result<()> {
+pub(super) fn print_json(value: &impl Serialize) -> io::Result<()> {
     let line = serde_json::to_string(value)?;
     let mut out = io::stdout().lock();
     writeln!(out, "{}", escape_json(&line))?;
@@ -82,7 +82,7 @@ pub fn print_json(value: &impl Serialize) -> io::Result<()> {
 }
 
 /// Writes a line on standard error that takes the place of the one before; a line of its own where that is not a terminal.
-pub fn replace_line(words: &str) {
+pub(super) fn replace_line(words: &str) {
     let mut err = io::stderr().lock();
     let words = escape_line(words);
     // Standard error may be closed.
@@ -91,21 +91,21 @@ pub fn replace_line(words: &str) {
 }
 
 /// Writes codes that move the cursor, which are Eddy's own, around text that was escaped before.
-pub fn stderr_with_codes(text: &str) -> io::Result<()> {
+pub(super) fn stderr_with_codes(text: &str) -> io::Result<()> {
     io::stderr().lock().write_all(text.as_bytes())
 }
 
-pub fn flush_stderr() -> io::Result<()> {
+pub(super) fn flush_stderr() -> io::Result<()> {
     io::stderr().flush()
 }
 
 /// Returns a path for a line that people read.
-pub fn shown_path(path: &Path) -> String {
+pub(super) fn shown_path(path: &Path) -> String {
     one_line(&path.to_string_lossy()).into_owned()
 }
 
 /// Returns a name for a line that people read.
-pub fn one_line(name: &str) -> Cow<'_, str> {
+pub(super) fn one_line(name: &str) -> Cow<'_, str> {
     escape_line(name)
 }
 

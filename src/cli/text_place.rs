@@ -7,7 +7,7 @@ use crate::{
 
 /// A place of a text: a tab, a line and a column, both from 1.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TextPlace {
+pub(super) struct TextPlace {
     pub tab: Tab,
     pub line: usize,
     pub column: usize,
@@ -15,7 +15,7 @@ pub struct TextPlace {
 
 impl TextPlace {
     /// Reads TAB:LINE:COLUMN.
-    pub fn parse(text: &str) -> Result<Self, String> {
+    pub(super) fn parse(text: &str) -> Result<Self, String> {
         let wrong = || format!("{text} is not a position: write tab, line and column, as in image:12:9");
         let mut parts = text.rsplitn(3, ':');
         let mut number = || parts.next().and_then(|part| part.parse::<usize>().ok()).filter(|&n| n > 0);
@@ -26,7 +26,7 @@ impl TextPlace {
     }
 
     /// The tab's text and a byte of it. Err: what is wrong with the place.
-    pub fn find(&self, project: &Project) -> Result<(SourceId, u32), String> {
+    pub(super) fn find(&self, project: &Project) -> Result<(SourceId, u32), String> {
         let missing = || format!("there is no tab {}", self.tab.title());
         let source = match &self.tab {
             Tab::Common => Project::COMMON_ID,

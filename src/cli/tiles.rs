@@ -20,7 +20,7 @@ use std::ops::Range;
 
 /// Says whether the pass that is written is drawn in tiles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Tiles {
+pub(super) enum Tiles {
     #[default]
     Never,
     /// In tiles if its picture is too large to be drawn in one piece, or would take too much memory. Strips have whole blocks of
@@ -32,7 +32,7 @@ pub enum Tiles {
 
 /// Says whether a picture is drawn in tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TilePolicy {
+pub(super) enum TilePolicy {
     /// In one piece.
     Never,
     /// In tiles, if that can be; otherwise in one piece.
@@ -42,7 +42,7 @@ pub enum TilePolicy {
 }
 
 impl TilePolicy {
-    pub fn tiling(self) -> Option<Tiling> {
+    pub(super) fn tiling(self) -> Option<Tiling> {
         match self {
             TilePolicy::Never => None,
             TilePolicy::Preferred(tiling) | TilePolicy::Required(tiling) => Some(tiling),
@@ -51,7 +51,7 @@ impl TilePolicy {
 }
 
 /// Decides how the pictures of a run are drawn. `is_measured`: somebody else reads all of the picture.
-pub fn policy(run: &RunArgs, gpu: &Gpu, is_measured: bool) -> Result<TilePolicy, RunError> {
+pub(super) fn policy(run: &RunArgs, gpu: &Gpu, is_measured: bool) -> Result<TilePolicy, RunError> {
     let recorded = run.replay.iter().flat_map(|recording| recording.frames.iter().map(|frame| frame.size));
     let sides = recorded.chain([run.size]).fold((0, 0), |(w, h), size| (w.max(size.0), h.max(size.1)));
     let limit = gpu.device.limits().max_texture_dimension_2d;
@@ -88,7 +88,7 @@ pub fn policy(run: &RunArgs, gpu: &Gpu, is_measured: bool) -> Result<TilePolicy,
 }
 
 /// Returns the size of the written picture of a project that is drawn in tiles.
-pub fn size(offline: &Offline, args: &RenderArgs) -> Result<(u32, u32), RunError> {
+pub(super) fn size(offline: &Offline, args: &RenderArgs) -> Result<(u32, u32), RunError> {
     let (width, height) = offline.engine()?.tiles().map_or((0, 0), |(picture, _)| picture);
     Ok((width / args.factor(), height / args.factor()))
 }
@@ -120,7 +120,7 @@ fn strips(offline: &Offline, top_first: bool) -> Result<Vec<Range<u32>>, RunErro
 }
 
 /// Draws all of the newest frame's picture and drops it.
-pub fn draw_all(offline: &mut Offline) -> Result<(), RunError> {
+pub(super) fn draw_all(offline: &mut Offline) -> Result<(), RunError> {
     for rows in strips(offline, true)? {
         offline.draw_strip(rows)?;
     }
@@ -128,7 +128,7 @@ pub fn draw_all(offline: &mut Offline) -> Result<(), RunError> {
 }
 
 /// Returns the whole picture of the newest frame, whether or not it is drawn in tiles, as it is written.
-pub fn whole(offline: &mut Offline, args: &RenderArgs, parts: Option<&FrameInputs>) -> Result<Pixels, RunError> {
+pub(super) fn whole(offline: &mut Offline, args: &RenderArgs, parts: Option<&FrameInputs>) -> Result<Pixels, RunError> {
     if offline.tiling().is_none() {
         let pixels = offline.read(&args.pass.pass, args.face.unwrap_or(args.pass.target))?;
         return Ok(if args.factor() == 1 { pixels } else { shrunk(&pixels, args.factor()) });
@@ -152,7 +152,7 @@ pub fn whole(offline: &mut Offline, args: &RenderArgs, parts: Option<&FrameInput
 }
 
 /// Draws the newest frame's picture and writes it meanwhile.
-pub fn write(
+pub(super) fn write(
     offline: &mut Offline,
     args: &RenderArgs,
     parts: Option<&FrameInputs>,

@@ -4,7 +4,7 @@ use crate::project::{self, ProjectError};
 use std::{fs, io::Write, path::Path};
 
 /// Makes the folder that `option` names, unless it is there.
-pub fn make_folder(option: &str, folder: &Path) -> anyhow::Result<()> {
+pub(super) fn make_folder(option: &str, folder: &Path) -> anyhow::Result<()> {
     check_is_no_file(option, folder)?;
     fs::create_dir_all(folder)
         .map_err(|error| anyhow::anyhow!("{option} {}: the folder cannot be made: {error}", folder.display()))
@@ -21,7 +21,7 @@ fn check_is_no_file(option: &str, folder: &Path) -> anyhow::Result<()> {
 
 /// Writes files into a folder, which is made where it is not there. One that is there already with other content is an
 /// error, unless `force` allows it; nothing is written then. The files are regular ones within the folder.
-pub fn write_all<'a>(
+pub(super) fn write_all<'a>(
     folder: &Path,
     files: impl IntoIterator<Item = (&'a str, &'a [u8])> + Clone,
     force: bool,

@@ -33,7 +33,7 @@ impl DrawBindings {
     }
 
     /// Uniforms, and the channels as the targets stand now.
-    pub fn groups(
+    pub(crate) fn groups(
         &mut self,
         shared: &Shared,
         compiled: &CompiledDraw,
@@ -66,7 +66,7 @@ pub(super) struct Bindings {
 }
 
 impl Bindings {
-    pub fn new(gpu: &Gpu, program: &Program, uniforms: &Uniforms) -> Self {
+    pub(crate) fn new(gpu: &Gpu, program: &Program, uniforms: &Uniforms) -> Self {
         let bind = |index, compiled: &CompiledDraw| {
             DrawBindings::new(gpu, compiled, index, program.plan.layers(index), uniforms)
         };

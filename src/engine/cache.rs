@@ -29,29 +29,29 @@ impl<K, V> Default for Cache<K, V> {
 
 impl<K: Eq + Hash, V> Cache<K, V> {
     /// Returns the value of a key, which this build uses from now on.
-    pub fn get(&mut self, key: &K) -> Option<&V> {
+    pub(crate) fn get(&mut self, key: &K) -> Option<&V> {
         let entry = self.entries.get_mut(key)?;
         entry.used_by = self.build;
         Some(&entry.value)
     }
 
     /// Returns whether a value is there, which nothing uses by that.
-    pub fn holds(&self, key: &K) -> bool {
+    pub(crate) fn holds(&self, key: &K) -> bool {
         self.entries.contains_key(key)
     }
 
     /// Adds a value that this build uses.
-    pub fn insert(&mut self, key: K, value: V) {
+    pub(crate) fn insert(&mut self, key: K, value: V) {
         self.entries.insert(key, Entry { value, used_by: self.build, is_of_whole: false });
     }
 
     /// Returns every value that is there.
-    pub fn values(&self) -> impl Iterator<Item = &V> {
+    pub(crate) fn values(&self) -> impl Iterator<Item = &V> {
         self.entries.values().map(|entry| &entry.value)
     }
 
     /// Ends a build. Forgets what neither it nor the newest whole build before it used.
-    pub fn end_build(&mut self, is_whole: bool) {
+    pub(crate) fn end_build(&mut self, is_whole: bool) {
         let build = self.build;
         self.entries.retain(|_, entry| entry.used_by == build || entry.is_of_whole);
         if is_whole {
@@ -62,7 +62,7 @@ impl<K: Eq + Hash, V> Cache<K, V> {
 
     /// Returns the number of values.
     #[cfg(test)]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.entries.len()
     }
 }
@@ -72,7 +72,7 @@ impl<K: Eq + Hash, V> Cache<K, V> {
 pub(super) struct ByAddress<T>(Weak<T>);
 
 impl<T> ByAddress<T> {
-    pub fn of(value: &Arc<T>) -> Self {
+    pub(crate) fn of(value: &Arc<T>) -> Self {
         Self(Arc::downgrade(value))
     }
 }

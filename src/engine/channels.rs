@@ -50,7 +50,7 @@ pub(super) struct ChannelBinder<'a> {
 impl ChannelBinder<'_> {
     /// Returns one channel of a pass, whose texture is on the device if the program reads it. One of another dimension
     /// than the channel is declared with cannot be read.
-    pub fn bind(
+    pub(crate) fn bind(
         &mut self,
         (channel, dimension): (Option<&Channel>, Dimension),
         used: ChannelUse,
@@ -81,7 +81,12 @@ impl ChannelBinder<'_> {
     }
 
     /// Returns the one channel of a fill that is the picture of a file.
-    pub fn bind_fill(&mut self, path: &Path, texels: &Arc<Texels>, used: ChannelUse) -> Result<BoundChannel, GpuError> {
+    pub(crate) fn bind_fill(
+        &mut self,
+        path: &Path,
+        texels: &Arc<Texels>,
+        used: ChannelUse,
+    ) -> Result<BoundChannel, GpuError> {
         let MediaKey { media, vflip, .. } = MediaKey::of_fill(path);
         let key = ExternalKey { input: Input::texture(media), vflip, mips: false };
         Ok(BoundChannel {

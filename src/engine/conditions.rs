@@ -24,7 +24,7 @@ impl Program {
 
 impl Running {
     /// Returns whether the condition of a draw is false.
-    pub fn is_off(&self, draw: usize) -> bool {
+    pub(crate) fn is_off(&self, draw: usize) -> bool {
         let slots = self.uniforms.custom_uniforms();
         let value = |name: &str| self.program.single_value(slots, name);
         let condition = self.program.plan.draws[draw].when.as_ref();
@@ -33,7 +33,7 @@ impl Running {
 
     /// Returns for each draw whether its condition is false. Targets of those that have become so hold from here on what
     /// they hold before frame 0.
-    pub fn turn_off(&mut self, shared: &Shared) -> Vec<bool> {
+    pub(crate) fn turn_off(&mut self, shared: &Shared) -> Vec<bool> {
         let off: Vec<bool> = (0..self.program.draws.len()).map(|draw| self.is_off(draw)).collect();
         self.is_blank.resize(off.len(), false);
         let new: Vec<usize> = (0..off.len()).filter(|draw| off[*draw] && !self.is_blank[*draw]).collect();
@@ -62,7 +62,7 @@ impl Running {
     }
 
     /// Gives an error for a pass whose condition is false: nothing runs for its texels.
-    pub fn check_is_on(&self, pass: &PassName) -> Result<(), EngineError> {
+    pub(crate) fn check_is_on(&self, pass: &PassName) -> Result<(), EngineError> {
         let off =
             (0..self.program.draws.len()).find(|draw| self.program.draws[*draw].id == *pass && self.is_off(*draw));
         let when = off.and_then(|draw| self.program.plan.draws[draw].when.as_ref());
@@ -70,14 +70,14 @@ impl Running {
     }
 
     /// Has targets of passes that are off filled again whose initial texels may depend on uniforms.
-    pub fn forget_blank_fills(&mut self) {
+    pub(crate) fn forget_blank_fills(&mut self) {
         for (is_blank, draw) in self.is_blank.iter_mut().zip(&self.program.plan.draws) {
             *is_blank &= !draw.has_initial;
         }
     }
 
     /// Returns the least that a frame moves now in which everything is drawn whose condition holds.
-    pub fn traffic(&self) -> Traffic {
+    pub(crate) fn traffic(&self) -> Traffic {
         let mut sum = Traffic::default();
         for draw in (0..self.program.draws.len()).filter(|draw| !self.is_off(*draw)) {
             let (step, steps) = (self.program.plan.traffic_of(draw, self.canvas), self.program.plan.steps_of(draw));

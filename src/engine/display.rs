@@ -21,33 +21,33 @@ pub(super) struct Display {
 }
 
 impl Display {
-    pub fn new(gpu: &Gpu, (width, height): (u32, u32)) -> Result<Self, GpuError> {
+    pub(crate) fn new(gpu: &Gpu, (width, height): (u32, u32)) -> Result<Self, GpuError> {
         let (presenter, texture) = (Presenter::new(gpu), Presenter::texture(gpu, width, height)?);
         Ok(Self { presenter, texture, shown: None, bound: Vec::new(), target: 0, painter: None, has_look: false })
     }
 
     /// The picture, its first row the top.
-    pub fn view(&self) -> &wgpu::TextureView {
+    pub(crate) fn view(&self) -> &wgpu::TextureView {
         &self.texture.level_0
     }
 
     /// The texture of the picture.
-    pub fn texture(&self) -> &Texture {
+    pub(crate) fn texture(&self) -> &Texture {
         &self.texture
     }
 
     /// Takes another texture for its own.
-    pub fn set_texture(&mut self, texture: Texture) {
+    pub(crate) fn set_texture(&mut self, texture: Texture) {
         self.texture = texture;
     }
 
     /// Chooses the pass that is shown.
-    pub fn show(&mut self, pass: PassName) {
+    pub(crate) fn show(&mut self, pass: PassName) {
         self.shown = Some(pass);
     }
 
     /// Shows what the pass holds as numbers, so; none: as a picture. It must be bound anew.
-    pub fn look(&mut self, gpu: &Gpu, look: Option<ValueLook>) {
+    pub(crate) fn look(&mut self, gpu: &Gpu, look: Option<ValueLook>) {
         if let Some(look) = &look {
             self.painter.get_or_insert_with(|| ValuePainter::new(gpu)).set(gpu, look);
         }
@@ -56,7 +56,7 @@ impl Display {
 
     /// Shows the chosen pass, if one is chosen, from these targets on; a pass without a target is black and of the
     /// canvas's size.
-    pub fn rebind(&mut self, gpu: &Gpu, canvas: (u32, u32), targets: &[Target]) {
+    pub(crate) fn rebind(&mut self, gpu: &Gpu, canvas: (u32, u32), targets: &[Target]) {
         let Some(shown) = &self.shown else { return };
         self.bound.clear();
         let place = targets.iter().position(|t| t.id == *shown);
@@ -86,7 +86,7 @@ impl Display {
     }
 
     /// Draws the shown pass's newest texels, if a pass is shown. Says whether one is.
-    pub fn present(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, targets: &[Target]) -> bool {
+    pub(crate) fn present(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, targets: &[Target]) -> bool {
         let newest = targets.get(self.target).map_or(0, |t| t.front);
         let Some(bound) = self.bound.get(newest) else { return false };
         match self.painter.as_ref().filter(|_| self.has_look) {

@@ -32,7 +32,7 @@ pub(super) struct DrawDraft {
 
 impl DrawDraft {
     /// Uploads what a draw reads, and says which pipelines it needs.
-    pub fn new(
+    pub(crate) fn new(
         binder: &mut ChannelBinder<'_>,
         plan: &FramePlan,
         draw: &Draw,
@@ -74,13 +74,17 @@ impl DrawDraft {
     }
 
     /// Gives the orders of the pass, then those of its fills.
-    pub fn take_orders(&mut self) -> Vec<PipelineOrder> {
+    pub(crate) fn take_orders(&mut self) -> Vec<PipelineOrder> {
         let fills = self.fills.iter_mut().flatten().map(|(program, _)| program);
         [&mut self.program].into_iter().chain(fills).flat_map(|program| std::mem::take(&mut program.orders)).collect()
     }
 
     /// Takes a pipeline for each of its orders from `made`, and adds its meshes to those of the draws before it.
-    pub fn finish(self, made: &mut impl Iterator<Item = Arc<StagePipeline>>, meshes: &mut usize) -> CompiledDraw {
+    pub(crate) fn finish(
+        self,
+        made: &mut impl Iterator<Item = Arc<StagePipeline>>,
+        meshes: &mut usize,
+    ) -> CompiledDraw {
         let compiled = self.program.finish(made, meshes);
         let [initial, boundary] = self.fills.map(|fill| {
             fill.map(|(program, draw)| Box::new(FillProgram { compiled: program.finish(&mut *made, meshes), draw }))

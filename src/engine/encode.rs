@@ -11,7 +11,7 @@ pub(super) const NO_VALUE: wgpu::Color = wgpu::Color { r: f64::NAN, g: f64::NAN,
 
 impl Running {
     /// Encodes a layer of a draw: all of its texels, or those of `part`.
-    pub fn encode(
+    pub(crate) fn encode(
         &mut self,
         shared: &Shared,
         encoder: &mut wgpu::CommandEncoder,

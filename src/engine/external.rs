@@ -117,7 +117,7 @@ pub(super) enum ChannelClock {
 }
 
 impl ChannelClock {
-    pub fn at(self, inputs: &FrameInputs) -> f32 {
+    pub(crate) fn at(self, inputs: &FrameInputs) -> f32 {
         let time_secs = inputs.time_secs;
         match self {
             ChannelClock::Stopped => 0.0,
@@ -241,7 +241,7 @@ pub(super) struct ExternalKey {
 }
 
 impl External {
-    pub fn new(
+    pub(crate) fn new(
         gpu: &Gpu,
         uploads: &mut Uploads,
         key: ExternalKey,
@@ -265,22 +265,22 @@ impl External {
     }
 
     /// The texels, where they are the same in every frame.
-    pub fn texels(&self) -> Option<&Arc<Texels>> {
+    pub(crate) fn texels(&self) -> Option<&Arc<Texels>> {
         self.source.constant()
     }
 
     /// Returns whether the frame that is drawn shows other texels than it should: see [`ExternalTexture::is_late`].
-    pub fn is_late(&self) -> bool {
+    pub(crate) fn is_late(&self) -> bool {
         self.source.is_late()
     }
 
     /// Returns the picture of a camera that the frame shows: see [`ExternalTexture::camera_picture`].
-    pub fn camera_picture(&self) -> Option<CameraFrame> {
+    pub(crate) fn camera_picture(&self) -> Option<CameraFrame> {
         self.source.camera_picture()
     }
 
     /// Writes the texels of a frame if they are other than before.
-    pub fn update(&mut self, gpu: &Gpu, inputs: &FrameInputs) {
+    pub(crate) fn update(&mut self, gpu: &Gpu, inputs: &FrameInputs) {
         if self.source.advance(inputs) {
             self.texture.write(gpu, self.source.bytes());
             if let Some((maker, chain)) = &self.mips {

@@ -27,7 +27,7 @@ pub(super) struct FillSource {
 }
 
 impl FillSource {
-    pub fn new(value: &FillValue, written: &FillText) -> Self {
+    pub(crate) fn new(value: &FillValue, written: &FillText) -> Self {
         let FillText { id, text, range } = written;
         let place = Span::new(*id, range.clone());
         let FillValue::Expression(_) = value else {
@@ -39,18 +39,18 @@ impl FillSource {
         Self { code: format!("{HEAD} {FOOT}"), expression: Some(expression), place }
     }
 
-    pub fn code(&self) -> Text<'_> {
+    pub(crate) fn code(&self) -> Text<'_> {
         Text { id: AROUND, text: &self.code }
     }
 
     /// The expression and the line that it stands in place of; `None` for a picture, which sees nothing of the project.
-    pub fn value(&self) -> Option<Include<'_>> {
+    pub(crate) fn value(&self) -> Option<Include<'_>> {
         let text = Text { id: self.place.source, text: self.expression.as_ref()? };
         Some(Include { line: Span::new(AROUND, HEAD.len()..HEAD.len() + 1), text: Ok(text) })
     }
 
     /// Returns what the compiler says of the program as it is said to the author.
-    pub fn relocated(&self, mut all: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    pub(crate) fn relocated(&self, mut all: Vec<Diagnostic>) -> Vec<Diagnostic> {
         if self.expression.is_none() {
             return all;
         }

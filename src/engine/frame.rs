@@ -60,7 +60,7 @@ pub(super) struct Caller<'a, 'c> {
 impl Running {
     /// Schedules a frame and executes it up to its end, or to where the caller stops it. Returns the work of the frame
     /// and whether all of it is done. On a `display` the picture is shown.
-    pub fn draw(
+    pub(crate) fn draw(
         &mut self,
         shared: &Shared,
         display: Option<&Display>,
@@ -89,7 +89,7 @@ impl Running {
 
     /// Draws a tile of the picture of the pass that is drawn in tiles: `size` of its pixels from `origin` on, into the
     /// first texels of its target, with the inputs of the newest frame.
-    pub fn draw_tile(
+    pub(crate) fn draw_tile(
         &mut self,
         shared: &Shared,
         (origin, size): ((u32, u32), (u32, u32)),
@@ -106,7 +106,7 @@ impl Running {
 
     /// Executes what is left of the newest frame. Returns whether all of it is done now; if not, the caller stopped it and
     /// another call continues there.
-    pub fn execute(
+    pub(crate) fn execute(
         &mut self,
         shared: &Shared,
         display: Option<&Display>,
@@ -238,7 +238,7 @@ pub(super) struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    pub fn new(now: &'a mut dyn FnMut() -> f64, program: &Program) -> Self {
+    pub(crate) fn new(now: &'a mut dyn FnMut() -> f64, program: &Program) -> Self {
         Self { now, start: 0.0, overhead: 0.0, millis: vec![0.0; program.draws.len()] }
     }
 
@@ -252,7 +252,7 @@ impl<'a> Watch<'a> {
     }
 
     /// Returns the time of each pass.
-    pub fn times(&self, program: &Program) -> Vec<PassTime> {
+    pub(crate) fn times(&self, program: &Program) -> Vec<PassTime> {
         let times = program.draws.iter().zip(&self.millis);
         times.map(|(draw, &gpu_millis)| PassTime { pass: draw.id.clone(), gpu_millis }).collect()
     }

@@ -60,7 +60,7 @@ impl Picture {
 }
 
 impl VideoTexture {
-    pub fn new(source: Arc<dyn FrameSource>, vflip: bool, pace: Pace) -> Self {
+    pub(crate) fn new(source: Arc<dyn FrameSource>, vflip: bool, pace: Pace) -> Self {
         let info = source.info();
         Self { source, pace, shown: Picture::new((info.width, info.height), vflip), is_late: false }
     }
@@ -97,7 +97,7 @@ pub(super) struct Webcam {
 }
 
 impl Webcam {
-    pub fn new(camera: Option<Camera>, vflip: bool) -> Self {
+    pub(crate) fn new(camera: Option<Camera>, vflip: bool) -> Self {
         let newest = camera.as_ref().and_then(Camera::newest);
         let size = newest.map_or(PLACEHOLDER, |newest| (newest.width, newest.height));
         Self { camera, shown: Picture::new(size, vflip) }

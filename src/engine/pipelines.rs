@@ -54,7 +54,7 @@ pub(super) struct MeshState {
 }
 
 impl MeshState {
-    pub fn of(draw: &MeshDraw) -> Self {
+    pub(crate) fn of(draw: &MeshDraw) -> Self {
         let &MeshDraw { cull, depth, depth_write, color_write, .. } = draw;
         Self { cull, depth, depth_write, color_write }
     }
@@ -80,7 +80,11 @@ pub(super) struct PipelineCache {
 impl PipelineCache {
     /// Returns a pipeline for each order. Those that are not there are made side by side: a driver takes a tenth of a
     /// second for one.
-    pub fn make(&mut self, gpu: &Gpu, orders: Vec<PipelineOrder>) -> Result<Vec<Arc<StagePipeline>>, EngineError> {
+    pub(crate) fn make(
+        &mut self,
+        gpu: &Gpu,
+        orders: Vec<PipelineOrder>,
+    ) -> Result<Vec<Arc<StagePipeline>>, EngineError> {
         let keys: Vec<PipelineKey> = orders.iter().map(PipelineOrder::key).collect();
         let mut missing: HashMap<&PipelineKey, PipelineOrder> = HashMap::new();
         let mut in_order = Vec::new();
@@ -99,12 +103,12 @@ impl PipelineCache {
     }
 
     /// Returns the orders whose pipelines are not there yet.
-    pub fn missing<'a>(&self, orders: &'a [PipelineOrder]) -> Vec<&'a PipelineOrder> {
+    pub(crate) fn missing<'a>(&self, orders: &'a [PipelineOrder]) -> Vec<&'a PipelineOrder> {
         orders.iter().filter(|order| !self.made.holds(&order.key())).collect()
     }
 
     /// Ends a build; see [`Cache::end_build`]. Returns the number of pipelines that it made.
-    pub fn end_build(&mut self, is_whole: bool) -> usize {
+    pub(crate) fn end_build(&mut self, is_whole: bool) -> usize {
         self.made.end_build(is_whole);
         std::mem::take(&mut self.built)
     }

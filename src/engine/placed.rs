@@ -17,12 +17,18 @@ pub(super) struct PlacedMesh {
 }
 
 impl PlacedMesh {
-    pub fn new(mesh: Arc<Mesh>, buffers: Arc<MeshBuffers>, draw: &MeshDraw) -> Self {
+    pub(crate) fn new(mesh: Arc<Mesh>, buffers: Arc<MeshBuffers>, draw: &MeshDraw) -> Self {
         Self { mesh, buffers, model: model(draw) }
     }
 
     /// Returns what a program sees of it through a camera, in a picture of size `own` on a canvas.
-    pub fn block(&self, camera: &Camera, inputs: &FrameInputs, own: (u32, u32), canvas: (u32, u32)) -> GeometryBlock {
+    pub(crate) fn block(
+        &self,
+        camera: &Camera,
+        inputs: &FrameInputs,
+        own: (u32, u32),
+        canvas: (u32, u32),
+    ) -> GeometryBlock {
         let (view, position) = view(camera, inputs.drag, canvas);
         let aspect = own.0 as f32 / own.1 as f32;
         let fov = (camera.fov as f32).to_radians();

@@ -61,7 +61,7 @@ pub(super) struct Meshes {
 
 impl DrawBody {
     /// The meshes with their camera, if it draws any.
-    pub fn geometry(&self) -> Option<&Meshes> {
+    pub(crate) fn geometry(&self) -> Option<&Meshes> {
         match self {
             DrawBody::Screen(_) => None,
             DrawBody::Meshes(meshes) => Some(meshes),
@@ -69,17 +69,17 @@ impl DrawBody {
     }
 
     /// The places of its meshes among those of all draws, each of which has a block of uniforms.
-    pub fn geometry_blocks(&self) -> Range<usize> {
+    pub(crate) fn geometry_blocks(&self) -> Range<usize> {
         self.geometry().map_or(0..0, |meshes| meshes.first..meshes.first + meshes.programs.len())
     }
 
     /// Returns whether it is drawn over a depth buffer.
-    pub fn has_depth(&self) -> bool {
+    pub(crate) fn has_depth(&self) -> bool {
         self.geometry().is_some()
     }
 
     /// Every pipeline, in drawing order.
-    pub fn pipelines(&self) -> impl Iterator<Item = &StagePipeline> {
+    pub(crate) fn pipelines(&self) -> impl Iterator<Item = &StagePipeline> {
         let (screen, meshes) = match self {
             DrawBody::Screen(pipeline) => (Some(pipeline), &[][..]),
             DrawBody::Meshes(meshes) => (None, &meshes.programs[..]),

@@ -67,7 +67,7 @@ impl NewTextures {
 impl Running {
     /// Starts a program in place of `before`. Targets that both have keep their texels; new ones start as the project
     /// says, else as zeros. On an error `before` stays.
-    pub fn start(
+    pub(crate) fn start(
         shared: &mut Shared,
         program: Program,
         canvas: (u32, u32),
@@ -99,7 +99,7 @@ impl Running {
 
     /// Goes on with another canvas. Targets keep the overlap; the rest is as before frame 0. On an error everything
     /// stays.
-    pub fn resize(&mut self, shared: &mut Shared, canvas: (u32, u32)) -> Result<(), EngineError> {
+    pub(crate) fn resize(&mut self, shared: &mut Shared, canvas: (u32, u32)) -> Result<(), EngineError> {
         let new = NewTextures::make(shared, &self.program, canvas, &self.targets)?;
         self.canvas = canvas;
         self.drop_unfinished();
@@ -125,7 +125,7 @@ impl Running {
     }
 
     /// Sets values of the author's own uniforms. Says whether anything is different now.
-    pub fn set_custom_uniforms(&mut self, shared: &Shared, values: &CustomUniformValues) -> bool {
+    pub(crate) fn set_custom_uniforms(&mut self, shared: &Shared, values: &CustomUniformValues) -> bool {
         let slots = custom_uniforms::block(&self.program.custom_uniforms, values);
         let is_changed = self.uniforms.set_custom_uniforms(&shared.gpu, slots);
         if is_changed {
@@ -135,14 +135,14 @@ impl Running {
     }
 
     /// Drops what is left of a frame that was stopped. The next frame draws everything.
-    pub fn drop_unfinished(&mut self) {
+    pub(crate) fn drop_unfinished(&mut self) {
         if self.unfinished.take().is_some() {
             self.changes.invalidate();
         }
     }
 
     /// Sets every target to its state before frame 0.
-    pub fn reset(&mut self, shared: &Shared) {
+    pub(crate) fn reset(&mut self, shared: &Shared) {
         self.drop_unfinished();
         let descriptor = wgpu::CommandEncoderDescriptor { label: Some("reset") };
         let mut encoder = shared.gpu.device.create_command_encoder(&descriptor);
@@ -155,7 +155,7 @@ impl Running {
     }
 
     /// Draws what targets hold before frame 0, of those that are named by their place in the plan.
-    pub fn fill_initial(&mut self, shared: &Shared, is_named: impl Fn(usize) -> bool) {
+    pub(crate) fn fill_initial(&mut self, shared: &Shared, is_named: impl Fn(usize) -> bool) {
         let Self { program, canvas, targets, bindings, uniforms, .. } = self;
         if !program.draws.iter().any(|draw| draw.initial.is_some()) {
             return;
@@ -192,13 +192,13 @@ impl Running {
     }
 
     /// Turns measuring on or off. Room is made for every draw of a frame.
-    pub fn set_timing(&mut self, shared: &Shared, on: bool) {
+    pub(crate) fn set_timing(&mut self, shared: &Shared, on: bool) {
         let draws = u32::try_from(self.program.plan.draws_a_frame().max(1)).unwrap_or(u32::MAX);
         self.timer = if on { PassTimer::new(&shared.gpu, draws) } else { None };
     }
 
     /// The target of a pass by its place among the pass's targets.
-    pub fn target(&self, pass: &PassName, index: usize) -> Result<&Target, EngineError> {
+    pub(crate) fn target(&self, pass: &PassName, index: usize) -> Result<&Target, EngineError> {
         let own = || self.targets.iter().filter(|t| t.id == *pass);
         if own().next().is_none() {
             return Err(EngineError::NoSuchPass(pass.title()));
@@ -208,7 +208,7 @@ impl Running {
 
     /// Returns the newest texture of one of a pass's targets, and layer 0 of it; of a cubemap its one target, and face
     /// `index` in the order of [`eddy_texture::Face::ALL`].
-    pub fn layer(&self, pass: &PassName, index: usize) -> Result<(&Texture, u32), EngineError> {
+    pub(crate) fn layer(&self, pass: &PassName, index: usize) -> Result<(&Texture, u32), EngineError> {
         let first = self.target(pass, 0)?.newest();
         if first.shape.layers() == 1 {
             return Ok((self.target(pass, index)?.newest(), 0));

@@ -11,7 +11,7 @@ pub(super) struct Shared {
 }
 
 impl Shared {
-    pub fn new(gpu: Gpu) -> Result<Self, GpuError> {
+    pub(crate) fn new(gpu: Gpu) -> Result<Self, GpuError> {
         Ok(Self {
             samplers: Samplers::new(&gpu),
             fallbacks: FallbackTextures::new(&gpu)?,
@@ -45,7 +45,7 @@ impl FallbackTextures {
         })
     }
 
-    pub fn of(&self, dimension: Dimension) -> &wgpu::TextureView {
+    pub(crate) fn of(&self, dimension: Dimension) -> &wgpu::TextureView {
         match dimension {
             Dimension::D2 => &self.flat.all_levels,
             Dimension::D3 => &self.volume.all_levels,

@@ -50,7 +50,7 @@ pub(super) struct CacheMiss {
 
 impl CacheMiss {
     /// Everything that reading a stage reads. `shared` returns a text of `source` as it is kept.
-    pub fn new(source: &PassSource<'_>, link: &Link<'_>, shared: impl Fn(Text<'_>) -> Arc<str>) -> Self {
+    pub(crate) fn new(source: &PassSource<'_>, link: &Link<'_>, shared: impl Fn(Text<'_>) -> Arc<str>) -> Self {
         let ids = ids_of(source);
         Self { key: StageKey::new(source, link, &ids, shared), ids }
     }
@@ -216,12 +216,12 @@ fn words(value: &UntypedValue) -> Vec<u64> {
 
 impl StageCache {
     /// A cache for stages that pipelines are made of: comparing stages takes less than a pipeline more.
-    pub fn of_pipelines() -> Self {
+    pub(crate) fn of_pipelines() -> Self {
         Self { joins: true, ..Self::default() }
     }
 
     /// Returns a stage if an equal one is there. `shared` returns a text of `source` as the cache keeps it.
-    pub fn find(
+    pub(crate) fn find(
         &mut self,
         source: &PassSource<'_>,
         link: &Link<'_>,
@@ -235,7 +235,7 @@ impl StageCache {
     }
 
     /// Adds a stage that was compiled.
-    pub fn add(&mut self, missing: Box<CacheMiss>, outcome: Outcome) -> Found {
+    pub(crate) fn add(&mut self, missing: Box<CacheMiss>, outcome: Outcome) -> Found {
         self.compiled += 1;
         let (stage, diagnostics) = match outcome {
             Ok(mut stage) => {
@@ -258,7 +258,7 @@ impl StageCache {
     }
 
     /// Ends a build; see [`Cache::end_build`]. Returns the number of stages that it compiled.
-    pub fn end_build(&mut self, is_whole: bool) -> usize {
+    pub(crate) fn end_build(&mut self, is_whole: bool) -> usize {
         self.stages.end_build(is_whole);
         std::mem::take(&mut self.compiled)
     }

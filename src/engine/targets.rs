@@ -41,21 +41,21 @@ impl Target {
     }
 
     /// The texture that was drawn last.
-    pub fn newest(&self) -> &Texture {
+    pub(crate) fn newest(&self) -> &Texture {
         &self.textures[self.front]
     }
 
     /// Returns the index of the texture that the next draw goes into.
-    pub fn back(&self) -> usize {
+    pub(crate) fn back(&self) -> usize {
         (self.front + 1) % self.textures.len()
     }
 
-    pub fn size(&self) -> (u32, u32) {
+    pub(crate) fn size(&self) -> (u32, u32) {
         (self.textures[0].width(), self.textures[0].height())
     }
 
     /// Takes over what `old` held, if its texels are of the same kind.
-    pub fn take_over(&mut self, gpu: &Gpu, mips: &MipMaker, old: &Target) {
+    pub(crate) fn take_over(&mut self, gpu: &Gpu, mips: &MipMaker, old: &Target) {
         if old.textures[0].shape.format != self.textures[0].shape.format {
             return;
         }
@@ -71,7 +71,7 @@ impl Target {
         gpu.queue.submit([encoder.finish()]);
     }
 
-    pub fn clear(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, mips: &MipMaker) {
+    pub(crate) fn clear(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, mips: &MipMaker) {
         for texture in &self.textures {
             texture.clear(gpu, encoder, wgpu::Color::TRANSPARENT);
         }
@@ -86,7 +86,7 @@ pub(super) struct NewTargets(Vec<Option<Target>>);
 
 impl NewTargets {
     /// Makes those targets of a plan on a canvas that `present` lacks or has otherwise.
-    pub fn make(
+    pub(crate) fn make(
         gpu: &Gpu,
         mips: &mut MipMaker,
         plan: &FramePlan,
@@ -103,7 +103,7 @@ impl NewTargets {
 
     /// Puts the targets of the plan in place of the present ones, of which it keeps those that are as the plan asks.
     /// Returns the others, and for each target of the plan whether it is new.
-    pub fn replace(self, plan: &FramePlan, present: &mut Vec<Target>) -> (Vec<Target>, Vec<bool>) {
+    pub(crate) fn replace(self, plan: &FramePlan, present: &mut Vec<Target>) -> (Vec<Target>, Vec<bool>) {
         let is_new = self.0.iter().map(Option::is_some).collect();
         let mut old = std::mem::take(present);
         for (made, planned) in self.0.into_iter().zip(&plan.targets) {

@@ -71,7 +71,7 @@ fn uniform_buffer(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
 }
 
 impl Uniforms {
-    pub fn new(gpu: &Gpu, program: &Program) -> Self {
+    pub(crate) fn new(gpu: &Gpu, program: &Program) -> Self {
         let custom_uniforms = program.custom_uniforms.len() + host::slots(program.dialect);
         let mut count = 0;
         let first = (0..program.draws.len()).map(|draw| {
@@ -90,7 +90,7 @@ impl Uniforms {
     }
 
     /// The blocks of draw `index`, one for each layer.
-    pub fn set(&mut self, index: usize, layers: u32, block: &UniformBlock) {
+    pub(crate) fn set(&mut self, index: usize, layers: u32, block: &UniformBlock) {
         for face in 0..layers {
             let block = UniformBlock { cube_face: [face as i32, 0], ..*block };
             self.blocks.set(self.first[index] + face as usize, bytemuck::bytes_of(&block));
@@ -98,29 +98,29 @@ impl Uniforms {
     }
 
     /// Sets the place of draw `index`'s target in its picture, in pixels.
-    pub fn set_tile_origin(&mut self, index: usize, (x, y): (u32, u32)) {
+    pub(crate) fn set_tile_origin(&mut self, index: usize, (x, y): (u32, u32)) {
         let block = UniformBlock { tile_origin: [x as i32, y as i32, 0, 0], ..self.uniform_block(index) };
         self.blocks.set(self.first[index], bytemuck::bytes_of(&block));
     }
 
     /// The block of a mesh, counted through all passes.
-    pub fn set_mesh(&mut self, mesh: usize, block: &GeometryBlock) {
+    pub(crate) fn set_mesh(&mut self, mesh: usize, block: &GeometryBlock) {
         self.meshes.set(mesh, bytemuck::bytes_of(block));
     }
 
     /// Hands the blocks to the device.
-    pub fn write(&self, gpu: &Gpu) {
+    pub(crate) fn write(&self, gpu: &Gpu) {
         gpu.queue.write_buffer(&self.blocks.buffer, 0, &self.blocks.bytes);
         gpu.queue.write_buffer(&self.meshes.buffer, 0, &self.meshes.bytes);
     }
 
     /// Values of the author's own uniforms. Says whether any is different now.
-    pub fn set_custom_uniforms(&mut self, gpu: &Gpu, slots: Vec<[u32; 4]>) -> bool {
+    pub(crate) fn set_custom_uniforms(&mut self, gpu: &Gpu, slots: Vec<[u32; 4]>) -> bool {
         self.set_slots(gpu, 0, &slots)
     }
 
     /// Values of the uniforms of the program that the texts are written for.
-    pub fn set_host_uniforms(&mut self, gpu: &Gpu, slots: &[[u32; 4]]) {
+    pub(crate) fn set_host_uniforms(&mut self, gpu: &Gpu, slots: &[[u32; 4]]) {
         self.set_slots(gpu, self.own, slots);
     }
 
@@ -134,35 +134,35 @@ impl Uniforms {
         true
     }
 
-    pub fn block_binding(&self, index: usize, layer: u32) -> wgpu::BindingResource<'_> {
+    pub(crate) fn block_binding(&self, index: usize, layer: u32) -> wgpu::BindingResource<'_> {
         self.blocks.binding(self.first[index] + layer as usize, size_of::<UniformBlock>())
     }
 
-    pub fn mesh_binding(&self, mesh: usize) -> wgpu::BindingResource<'_> {
+    pub(crate) fn mesh_binding(&self, mesh: usize) -> wgpu::BindingResource<'_> {
         self.meshes.binding(mesh, size_of::<GeometryBlock>())
     }
 
-    pub fn custom_uniform_binding(&self) -> wgpu::BindingResource<'_> {
+    pub(crate) fn custom_uniform_binding(&self) -> wgpu::BindingResource<'_> {
         self.custom_uniforms.as_entire_binding()
     }
 
     /// The site's uniforms as draw `index` reads them.
-    pub fn uniform_block(&self, index: usize) -> UniformBlock {
+    pub(crate) fn uniform_block(&self, index: usize) -> UniformBlock {
         bytemuck::pod_read_unaligned(&self.blocks.block(self.first[index])[..size_of::<UniformBlock>()])
     }
 
     /// The matrices of a mesh, counted through all passes.
-    pub fn mesh_block(&self, mesh: usize) -> GeometryBlock {
+    pub(crate) fn mesh_block(&self, mesh: usize) -> GeometryBlock {
         bytemuck::pod_read_unaligned(&self.meshes.block(mesh)[..size_of::<GeometryBlock>()])
     }
 
     /// The words of the author's own, by their slots.
-    pub fn custom_uniforms(&self) -> &[[u32; 4]] {
+    pub(crate) fn custom_uniforms(&self) -> &[[u32; 4]] {
         &self.custom_uniform_slots
     }
 
     /// Adds what draw `index` reads of all this, and nothing else: equal bytes, equal values.
-    pub fn add_read_by(&self, index: usize, draw: &CompiledDraw, read: &mut Vec<u8>) {
+    pub(crate) fn add_read_by(&self, index: usize, draw: &CompiledDraw, read: &mut Vec<u8>) {
         let block = self.blocks.block(self.first[index]);
         for range in places(draw.uniforms) {
             read.extend_from_slice(&block[range]);

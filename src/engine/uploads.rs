@@ -23,11 +23,11 @@ pub(super) struct Uploads {
 }
 
 impl Uploads {
-    pub fn new(gpu: &Gpu) -> Self {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
         Self { mips: MipMaker::new(gpu), pictures: Cache::default(), meshes: Cache::default() }
     }
 
-    pub fn picture(&mut self, gpu: &Gpu, texels: &Arc<Texels>, mips: bool) -> Result<Texture, GpuError> {
+    pub(crate) fn picture(&mut self, gpu: &Gpu, texels: &Arc<Texels>, mips: bool) -> Result<Texture, GpuError> {
         let key = (ByAddress::of(texels), mips);
         if let Some(texture) = self.pictures.get(&key) {
             return Ok(texture.clone());
@@ -52,7 +52,12 @@ impl Uploads {
     }
 
     /// Returns the mesh of each draw of a pass, in order.
-    pub fn placed(&mut self, gpu: &Gpu, media: &MediaSet, geometry: &Geometry) -> Result<Vec<PlacedMesh>, EngineError> {
+    pub(crate) fn placed(
+        &mut self,
+        gpu: &Gpu,
+        media: &MediaSet,
+        geometry: &Geometry,
+    ) -> Result<Vec<PlacedMesh>, EngineError> {
         let placed = |draw: &eddy_project::MeshDraw| {
             let mesh = media.mesh(draw).map_err(|error: MeshError| EngineError::from(error))?;
             let buffers = self.mesh(gpu, &draw.mesh.name(), &mesh)?;
@@ -72,7 +77,7 @@ impl Uploads {
     }
 
     /// Ends a build; see [`Cache::end_build`].
-    pub fn end_build(&mut self, is_whole: bool) {
+    pub(crate) fn end_build(&mut self, is_whole: bool) {
         self.pictures.end_build(is_whole);
         self.meshes.end_build(is_whole);
     }

@@ -12,7 +12,7 @@ pub(super) struct Viewer {
 }
 
 impl Viewer {
-    pub fn new(gpu: &Gpu) -> Self {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
         Self {
             painter: ValuePainter::new(gpu),
             picker: TexelPicker::new(gpu),
@@ -22,7 +22,13 @@ impl Viewer {
     }
 
     /// Returns a picture of a layer of a texture, of its size.
-    pub fn paint(&mut self, gpu: &Gpu, values: &Texture, layer: u32, look: &ValueLook) -> Result<Picture, GpuError> {
+    pub(crate) fn paint(
+        &mut self,
+        gpu: &Gpu,
+        values: &Texture,
+        layer: u32,
+        look: &ValueLook,
+    ) -> Result<Picture, GpuError> {
         let (width, height) = (values.width(), values.height());
         let has_size = |texture: &Texture| (texture.width(), texture.height()) == (width, height);
         let texture = match self.texture.take().filter(has_size) {
@@ -40,7 +46,12 @@ impl Viewer {
     }
 
     /// Returns the texel of each picture at a place, from 0 to 1 across and up.
-    pub fn texels(&mut self, gpu: &Gpu, views: &[&wgpu::TextureView], at: [f32; 2]) -> Result<Vec<[f32; 4]>, GpuError> {
+    pub(crate) fn texels(
+        &mut self,
+        gpu: &Gpu,
+        views: &[&wgpu::TextureView],
+        at: [f32; 2],
+    ) -> Result<Vec<[f32; 4]>, GpuError> {
         self.picker.pick(gpu, views, at)
     }
 }

@@ -9,7 +9,7 @@ use eddy_engine::Pixels;
 use std::io::Write;
 
 /// A film in which every frame is a separate picture.
-pub struct Apng<W: Write> {
+pub(crate) struct Apng<W: Write> {
     /// `None` once the film is complete.
     writer: Option<png::Writer<W>>,
     depth: u32,
@@ -19,7 +19,7 @@ pub struct Apng<W: Write> {
 
 impl<W: Write> Apng<W> {
     /// `failed` maps an I/O error to one that names the output.
-    pub fn new(
+    pub(crate) fn new(
         out: W,
         shape: Shape,
         depth: u32,

@@ -245,7 +245,7 @@ impl Coded {
 const SMALLEST_H265: u32 = 16;
 
 /// A film that is being encoded.
-pub struct CodedFilm {
+pub(crate) struct CodedFilm {
     /// `None` once the film is complete.
     encoder: Option<Encoder>,
     pixels: PixelFormat,
@@ -282,7 +282,7 @@ fn named(path: &Path) -> Result<OsString, FilmError> {
 
 impl CodedFilm {
     /// Starts an ffmpeg process that writes `to`.
-    pub fn start(
+    pub(crate) fn start(
         coded: Coded,
         shape: Shape,
         sound: FilmSound<'_>,

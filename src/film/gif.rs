@@ -20,7 +20,7 @@ use std::{
 };
 
 /// A film whose frames are stored until its palette is known.
-pub struct Gif {
+pub(crate) struct Gif {
     /// `None` once all frames have been pushed.
     frames: Option<Encoder>,
     kept: Staged,
@@ -33,7 +33,7 @@ pub struct Gif {
 
 impl Gif {
     /// Starts an empty film. `to` is the final file; the temporary files are next to it.
-    pub fn start(shape: Shape, to: &Path, (tools, stop): (&Tools, &Stop)) -> Result<Gif, FilmError> {
+    pub(crate) fn start(shape: Shape, to: &Path, (tools, stop): (&Tools, &Stop)) -> Result<Gif, FilmError> {
         check_rate(shape.rate)?;
         let kept = Staged::new(to).map_err(FilmError::io(to))?;
         let palette = Staged::new(to).map_err(FilmError::io(to))?;
@@ -54,7 +54,7 @@ impl Gif {
 }
 
 /// Fails for a rate that browsers cannot show.
-pub fn check_rate(rate: Rate) -> Result<(), FilmError> {
+pub(crate) fn check_rate(rate: Rate) -> Result<(), FilmError> {
     match rate.per_second() {
         fps if Format::Gif.max_fps().is_some_and(|fastest| fps > fastest) => Err(FilmError::GifRate(fps)),
         _ => Ok(()),

@@ -14,7 +14,7 @@ use eddy_engine::Pixels;
 use std::io::{self, Write};
 
 /// A film that is written frame by frame.
-pub struct Plain<W: Write> {
+pub(crate) struct Plain<W: Write> {
     out: W,
     /// `Err` for RGBA with this many bits per component.
     yuv: Result<YuvFormat, u32>,
@@ -25,7 +25,7 @@ pub struct Plain<W: Write> {
 impl<W: Write> Plain<W> {
     /// `yuv` is `Ok` for a film of YUV4MPEG2 and `Err` for raw RGBA with this many bits. `failed` maps an I/O error to
     /// one that names the output.
-    pub fn new(
+    pub(crate) fn new(
         mut out: W,
         shape: Shape,
         yuv: Result<YuvFormat, u32>,

@@ -4,7 +4,7 @@ use eddy_engine::Pixels;
 
 /// Appends components of 8 or 16 bits to `out`; those of 16 bits in the byte order of `bytes`. Values are converted as
 /// by [`Pixels::to_rgba8`]: clamped to 0 to 1, rounded, NaN as 0.
-pub fn write(pixels: &Pixels, components: usize, depth: u32, bytes: fn(u16) -> [u8; 2], out: &mut Vec<u8>) {
+pub(crate) fn write(pixels: &Pixels, components: usize, depth: u32, bytes: fn(u16) -> [u8; 2], out: &mut Vec<u8>) {
     out.reserve(pixels.texels.len() * components * depth as usize / 8);
     for row in pixels.texels.chunks_exact(pixels.width as usize).rev() {
         let values = row.iter().flat_map(|texel| &texel[..components]);

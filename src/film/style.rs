@@ -51,7 +51,7 @@ pub enum FilmEncoding {
 
 /// The pixel format that an encoder receives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PixelFormat {
+pub(crate) enum PixelFormat {
     /// Red, green and blue with this number of bits each.
     Rgb(u32),
     Yuv(YuvFormat),

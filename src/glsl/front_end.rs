@@ -25,7 +25,7 @@ pub(super) struct FrontEnd {
 
 impl FrontEnd {
     /// Reads and checks a pass. The `preamble` is that of its own Common; it saves time and does not change the result.
-    pub fn run(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> Self {
+    pub(crate) fn run(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> Self {
         let preamble = preamble.filter(|_| source.common.is_some());
         let parsed = parse::parse(source, preamble.map(Preamble::parsed));
         let checkpoint = preamble.and_then(|preamble| preamble.checked(source));
@@ -51,7 +51,7 @@ impl FrontEnd {
         }
     }
 
-    pub fn has_errors(&self) -> bool {
+    pub(crate) fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }
 }

@@ -84,8 +84,10 @@
 //!
 //! The crate uses no device, no files and no clock.
 
-// Types with a length are never empty here: a type table contains the types of the language, a swizzle has a component.
-#![allow(clippy::len_without_is_empty)]
+#![allow(
+    clippy::len_without_is_empty,
+    reason = "types with a length are never empty: a type table contains the types of the language, a swizzle has a component"
+)]
 
 pub mod cancel;
 mod compile;

@@ -26,7 +26,7 @@ impl Budget {
 
     /// Returns the amount of work used.
     #[cfg(test)]
-    pub fn used(&self) -> u64 {
+    pub(crate) fn used(&self) -> u64 {
         BUDGET - self.left
     }
 }

@@ -15,7 +15,7 @@ pub(super) struct Report {
 
 impl Report {
     /// Adds a diagnostic, unless there are already too many.
-    pub fn add(&mut self, diagnostic: Diagnostic) {
+    pub(crate) fn add(&mut self, diagnostic: Diagnostic) {
         if diagnostic.is_error() {
             self.errors += 1;
             if self.errors > MAX_ERRORS {
@@ -28,7 +28,7 @@ impl Report {
     }
 
     /// As [`Report::add`]; if the mistake is in a macro's definition, only its first use is reported.
-    pub fn add_in_macro(&mut self, definition: Option<Span>, diagnostic: Diagnostic) {
+    pub(crate) fn add_in_macro(&mut self, definition: Option<Span>, diagnostic: Diagnostic) {
         // Once the report is full, duplicates need not be detected, which would search all earlier places.
         if let Some(span) = definition.filter(|_| !self.is_full()) {
             if self.in_macros.contains(&span) {
@@ -39,12 +39,12 @@ impl Report {
         self.add(diagnostic);
     }
 
-    pub fn has_errors(&self) -> bool {
+    pub(crate) fn has_errors(&self) -> bool {
         self.errors > 0
     }
 
     /// Returns whether there are more errors than are kept, so that no further ones need be searched for.
-    pub fn is_full(&self) -> bool {
+    pub(crate) fn is_full(&self) -> bool {
         self.errors > MAX_ERRORS
     }
 }

@@ -12,8 +12,8 @@ use super::{
 };
 use std::collections::BTreeSet;
 
-pub const OPERANDS: &str = "one side changes a variable that the other uses, and their order is undefined (5.9)";
-pub const ARGUMENTS: &str = "one variable is written back twice, and their order is undefined (6.1.1)";
+pub(crate) const OPERANDS: &str = "one side changes a variable that the other uses, and their order is undefined (5.9)";
+pub(crate) const ARGUMENTS: &str = "one variable is written back twice, and their order is undefined (6.1.1)";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Variable {
@@ -45,7 +45,7 @@ impl Effects {
 }
 
 /// Returns the locations of such expressions in the reachable functions, and what is undefined there.
-pub fn find(module: &Module) -> Vec<(Loc, &'static str)> {
+pub(crate) fn find(module: &Module) -> Vec<(Loc, &'static str)> {
     let mut functions = vec![Effects::default(); module.functions.len()];
     let mut found = Vec::new();
     for &func in &module.call_order {

@@ -27,7 +27,7 @@ pub(super) struct FenceKeeper {
 }
 
 impl FenceKeeper {
-    pub fn new(device: &wgpu::Device) -> Self {
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
         let queries = device.create_query_set(&wgpu::QuerySetDescriptor {
             label: Some("fences"),
             ty: wgpu::QueryType::Occlusion,
@@ -37,7 +37,7 @@ impl FenceKeeper {
     }
 
     /// Keeps the fence of the preceding draws alive.
-    pub fn hold(&self, pass: &mut wgpu::RenderPass<'_>) {
+    pub(crate) fn hold(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.begin_occlusion_query(self.next.fetch_add(1, Ordering::Relaxed) % QUERIES);
         pass.end_occlusion_query();
     }

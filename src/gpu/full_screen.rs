@@ -67,7 +67,7 @@ pub(super) struct ValuesShader {
 
 impl ValuesShader {
     /// Compiles WGSL with an entry point `fragment` that draws into targets of a format.
-    pub fn new(gpu: &Gpu, label: &'static str, wgsl: &str, target: wgpu::TextureFormat) -> Self {
+    pub(crate) fn new(gpu: &Gpu, label: &'static str, wgsl: &str, target: wgpu::TextureFormat) -> Self {
         let fragment = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(label),
             source: wgpu::ShaderSource::Wgsl(wgsl.into()),
@@ -87,12 +87,12 @@ impl ValuesShader {
     }
 
     /// Sets the uniform for all following draws.
-    pub fn set<T: bytemuck::NoUninit>(&self, gpu: &Gpu, words: [T; 8]) {
+    pub(crate) fn set<T: bytemuck::NoUninit>(&self, gpu: &Gpu, words: [T; 8]) {
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::cast_slice(&words));
     }
 
     /// Binds the values to read.
-    pub fn bind(&self, gpu: &Gpu, values: &wgpu::TextureView) -> wgpu::BindGroup {
+    pub(crate) fn bind(&self, gpu: &Gpu, values: &wgpu::TextureView) -> wgpu::BindGroup {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(self.label),
             layout: &self.layout,
@@ -104,7 +104,7 @@ impl ValuesShader {
     }
 
     /// Draws into a target; `draw` selects values and parts of the target.
-    pub fn draw(
+    pub(crate) fn draw(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
@@ -133,7 +133,7 @@ pub(super) struct PictureShader {
 
 impl PictureShader {
     /// Compiles WGSL with an entry point `fragment` that reads a `texture_2d<f32>` at group 0, binding 0.
-    pub fn new(gpu: &Gpu, label: &'static str, wgsl: &str) -> Self {
+    pub(crate) fn new(gpu: &Gpu, label: &'static str, wgsl: &str) -> Self {
         let fragment = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(label),
             source: wgpu::ShaderSource::Wgsl(wgsl.into()),
@@ -156,12 +156,12 @@ impl PictureShader {
     }
 
     /// Creates the pipeline for targets of a format.
-    pub fn pipeline(&self, gpu: &Gpu, target: wgpu::TextureFormat) -> wgpu::RenderPipeline {
+    pub(crate) fn pipeline(&self, gpu: &Gpu, target: wgpu::TextureFormat) -> wgpu::RenderPipeline {
         pipeline(gpu, self.label, &self.pipeline_layout, (&self.fragment, "fragment"), &[(target, true)])
     }
 
     /// Binds the picture to read.
-    pub fn bind(&self, gpu: &Gpu, picture: &wgpu::TextureView) -> wgpu::BindGroup {
+    pub(crate) fn bind(&self, gpu: &Gpu, picture: &wgpu::TextureView) -> wgpu::BindGroup {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(self.label),
             layout: &self.layout,
@@ -170,7 +170,7 @@ impl PictureShader {
     }
 
     /// Draws into every texel of a target.
-    pub fn draw(
+    pub(crate) fn draw(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,

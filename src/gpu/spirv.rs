@@ -94,16 +94,16 @@ fn binding_map(groups: &[Vec<(u32, Binding)>]) -> spv::BindingMap {
 
 /// Instructions and storage classes, by the SPIR-V specification, sections 3.52 and 3.7.
 mod op {
-    pub const TYPE_VECTOR: u32 = 23;
-    pub const TYPE_MATRIX: u32 = 24;
-    pub const TYPE_ARRAY: u32 = 28;
-    pub const TYPE_STRUCT: u32 = 30;
-    pub const TYPE_POINTER: u32 = 32;
-    pub const CONSTANT: u32 = 43;
-    pub const CONSTANT_NULL: u32 = 46;
-    pub const VARIABLE: u32 = 59;
-    pub const PRIVATE: u32 = 6;
-    pub const FUNCTION: u32 = 7;
+    pub(super) const TYPE_VECTOR: u32 = 23;
+    pub(super) const TYPE_MATRIX: u32 = 24;
+    pub(super) const TYPE_ARRAY: u32 = 28;
+    pub(super) const TYPE_STRUCT: u32 = 30;
+    pub(super) const TYPE_POINTER: u32 = 32;
+    pub(super) const CONSTANT: u32 = 43;
+    pub(super) const CONSTANT_NULL: u32 = 46;
+    pub(super) const VARIABLE: u32 = 59;
+    pub(super) const PRIVATE: u32 = 6;
+    pub(super) const FUNCTION: u32 = 7;
 }
 
 /// The number of words before the first instruction.

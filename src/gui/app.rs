@@ -38,7 +38,7 @@ use winit::{
 
 /// Sent to the event loop from other threads.
 #[derive(Debug)]
-pub enum AppEvent {
+pub(super) enum AppEvent {
     /// There is something to show.
     Wake,
     /// A frame has been painted, and what happened meanwhile has been told of.

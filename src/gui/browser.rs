@@ -24,13 +24,13 @@ const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Pages on their way to the browser.
 #[derive(Default)]
-pub struct Browser {
+pub(super) struct Browser {
     opening: Vec<(PathBuf, Background<(), (), bool>)>,
 }
 
 impl Browser {
     /// Writes the page with the bookmarklet and asks the desktop to open it.
-    pub fn open_bookmarklet(&mut self, wake: &Arc<dyn Fn() + Send + Sync>) -> Result<(), String> {
+    pub(super) fn open_bookmarklet(&mut self, wake: &Arc<dyn Fn() + Send + Sync>) -> Result<(), String> {
         let folder = dirs::cache_dir().unwrap_or_else(std::env::temp_dir).join("eddy");
         let path =
             write(&folder).map_err(|e| format!("cannot write {} to {}: {e}", BOOKMARKLET_NAME, folder.display()))?;
@@ -45,7 +45,7 @@ impl Browser {
     }
 
     /// Returns what there is to say of pages for which the desktop has answered.
-    pub fn take(&mut self) -> Vec<Command> {
+    pub(super) fn take(&mut self) -> Vec<Command> {
         let mut notices = Vec::new();
         self.opening.retain_mut(|(path, opening)| match opening.take() {
             None => true,

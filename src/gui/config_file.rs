@@ -10,7 +10,7 @@ use std::{
 
 /// Names something in a file that cannot be done as it stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ConfigError {
+pub(super) struct ConfigError {
     /// The line, counted from 1.
     pub line: usize,
     /// Says what is wrong and how to mend it.
@@ -18,7 +18,7 @@ pub struct ConfigError {
 }
 
 /// The meaning of such a file. The default is that of no file.
-pub trait Content: Default {
+pub(super) trait Content: Default {
     const NAME: &str;
     /// A sentence behind the error of a file that cannot be read.
     const STAYS: &str;
@@ -32,7 +32,7 @@ pub trait Content: Default {
 
 /// A file in the folder for settings, and its content as it was read last.
 #[derive(Debug)]
-pub struct ConfigFile<T> {
+pub(super) struct ConfigFile<T> {
     /// `None` where the system has no place for settings.
     path: Option<PathBuf>,
     /// The text that was read last.
@@ -46,7 +46,7 @@ pub struct ConfigFile<T> {
 
 impl<T: Content> ConfigFile<T> {
     /// Names the file in the platform's folder for settings. It is not read yet.
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self::at(dirs::config_dir().map(|folder| folder.join("eddy").join(T::NAME)))
     }
 
@@ -54,16 +54,16 @@ impl<T: Content> ConfigFile<T> {
         Self { path, text: None, content: T::default(), mistakes: Vec::new(), is_unreadable: false }
     }
 
-    pub fn content(&self) -> &T {
+    pub(super) fn content(&self) -> &T {
         &self.content
     }
 
-    pub fn content_mut(&mut self) -> &mut T {
+    pub(super) fn content_mut(&mut self) -> &mut T {
         &mut self.content
     }
 
     /// Reads the file if it is not what it was. What is wrong in it comes back, one line each.
-    pub fn refresh(&mut self) -> Vec<String> {
+    pub(super) fn refresh(&mut self) -> Vec<String> {
         let Some(path) = &self.path else { return Vec::new() };
         let text = match read(path) {
             Ok(text) => text,
@@ -84,14 +84,14 @@ impl<T: Content> ConfigFile<T> {
     }
 
     /// Returns whether a text was said of the file and is true no more.
-    pub fn is_fixed(&self, said: &str) -> bool {
+    pub(super) fn is_fixed(&self, said: &str) -> bool {
         let path = self.path.as_ref().map(|path| path.display().to_string());
         path.is_some_and(|path| said.starts_with(&format!("{path}:"))) && !self.mistakes.iter().any(|m| m == said)
     }
 
     /// Changes the text of the file, or of the template where there is none. Err: why it stays as it was, with a
     /// sentence behind an error of the disk.
-    pub fn edit(
+    pub(super) fn edit(
         &mut self,
         edit: impl FnOnce(&str) -> Result<String, ConfigError>,
         otherwise: &str,
@@ -109,27 +109,27 @@ impl<T: Content> ConfigFile<T> {
         Ok(())
     }
 
-    pub fn path(&self) -> Option<&Path> {
+    pub(super) fn path(&self) -> Option<&Path> {
         self.path.as_deref()
     }
 
     /// Returns the text that was read last.
-    pub fn text(&self) -> Option<&str> {
+    pub(super) fn text(&self) -> Option<&str> {
         self.text.as_deref()
     }
 
     /// Returns what is wrong in it, one line each.
-    pub fn mistakes(&self) -> &[String] {
+    pub(super) fn mistakes(&self) -> &[String] {
         &self.mistakes
     }
 
     /// It could not be read when it was looked at last.
-    pub fn is_unreadable(&self) -> bool {
+    pub(super) fn is_unreadable(&self) -> bool {
         self.is_unreadable
     }
 
     /// Returns where the file is, after writing the template if there is none.
-    pub fn write_if_missing(&self) -> Result<&Path, String> {
+    pub(super) fn write_if_missing(&self) -> Result<&Path, String> {
         let Some(path) = &self.path else { return Err("this system has no folder for settings".into()) };
         if !path.exists() {
             write(path, &T::template()).map_err(|error| format!("{}: {error}", path.display()))?;
@@ -148,7 +148,7 @@ fn with_place(path: &Path, mistake: &ConfigError) -> String {
 }
 
 /// Writes a file whole or not at all.
-pub fn write(path: &Path, text: &str) -> io::Result<()> {
+pub(super) fn write(path: &Path, text: &str) -> io::Result<()> {
     // People keep such files elsewhere: where it is a link, what it leads to is written.
     let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let folder = path.parent().unwrap_or(Path::new("."));

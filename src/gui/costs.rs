@@ -39,7 +39,7 @@ impl Columns {
     }
 }
 
-pub fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("costs", ui);
     let costs = session.pass_costs();
     ui.spacing_mut().item_spacing.y = 0.0;
@@ -61,7 +61,7 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
 }
 
 /// Says at the right end of the panel's row how the times were found.
-pub fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(super) fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let (short, long) = match session.pass_costs().clock {
         CostClock::Timestamps => (
             "GPU timestamps",
@@ -196,7 +196,7 @@ fn sum(ui: &mut Ui, columns: &Columns, costs: &PassCosts, out: &mut UiOutput) {
 }
 
 /// Bytes as people read them, in powers of 1024.
-pub fn bytes(n: u64) -> String {
+pub(super) fn bytes(n: u64) -> String {
     const KIB: f64 = 1024.0;
     let x = n as f64;
     match x {
@@ -216,7 +216,7 @@ fn count(texels: u64) -> String {
 }
 
 /// Returns what the table says, for scripts that drive the window.
-pub fn report(session: &Session) -> serde_json::Value {
+pub(super) fn report(session: &Session) -> serde_json::Value {
     let costs = session.pass_costs();
     let passes: Vec<serde_json::Value> = costs
         .passes
@@ -235,7 +235,7 @@ pub fn report(session: &Session) -> serde_json::Value {
 }
 
 /// Milliseconds in as many digits as say something, so that columns do not touch.
-pub fn millis_text(millis: f64) -> String {
+pub(super) fn millis_text(millis: f64) -> String {
     let digits = if millis < 10.0 { 3 } else { usize::from(millis < 1000.0) };
     format!("{millis:.digits$} ms")
 }

@@ -14,7 +14,7 @@ const EMPTY: f32 = COLLAPSED;
 const GROUP: f32 = 24.0;
 
 /// Height of all of them.
-pub fn height(session: &Session) -> f32 {
+pub(super) fn height(session: &Session) -> f32 {
     let groups = groups(session.custom_uniforms());
     let names = groups.iter().filter(|(name, _)| !name.is_empty()).count();
     match session.custom_uniforms().len() {
@@ -36,7 +36,7 @@ fn groups(custom_uniforms: &[CustomUniform]) -> Vec<(&str, Vec<&CustomUniform>)>
 }
 
 /// Shows at the right end of the panel's row what concerns them all.
-pub fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(super) fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let custom_uniforms = session.custom_uniforms();
     if custom_uniforms.iter().any(|k| session.custom_uniform_value(k) != k.default) {
         let reset = ui.add(Button::new("Reset all").small()).on_hover_text("Reset all uniforms to their defaults");
@@ -58,7 +58,7 @@ fn how_to_declare(dialect: Dialect) -> (&'static str, &'static str) {
     }
 }
 
-pub fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("uniforms", ui);
     let custom_uniforms = session.custom_uniforms();
     ui.spacing_mut().item_spacing.y = 3.0;

@@ -26,7 +26,7 @@ const MOST: usize = 64;
 
 /// A rectangle of the window that is painted anew. Physical pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Area {
+pub(super) struct Area {
     pub x: u32,
     pub y: u32,
     pub width: u32,
@@ -34,18 +34,18 @@ pub struct Area {
 }
 
 impl Area {
-    pub fn in_points(self, scale: f32) -> Rect {
+    pub(super) fn in_points(self, scale: f32) -> Rect {
         let corner = pos2(self.x as f32, self.y as f32) / scale;
         Rect::from_min_size(corner, vec2(self.width as f32, self.height as f32) / scale)
     }
 }
 
 /// A number for each texture that was changed, another one after each change of its texels.
-pub type Versions = HashMap<TextureId, u64>;
+pub(super) type Versions = HashMap<TextureId, u64>;
 
 /// Finds what a painting changes.
 #[derive(Clone, Default)]
-pub struct Damage {
+pub(super) struct Damage {
     size: [u32; 2],
     scale: f32,
     /// One for each tile, row by row; none before the first painting.
@@ -55,7 +55,13 @@ pub struct Damage {
 impl Damage {
     /// Takes the next painting of a window of `size` physical pixels, `scale` of them a point. Returns the areas that
     /// differ from the painting before.
-    pub fn of(&mut self, triangles: &[ClippedPrimitive], size: [u32; 2], scale: f32, versions: &Versions) -> Vec<Area> {
+    pub(super) fn of(
+        &mut self,
+        triangles: &[ClippedPrimitive],
+        size: [u32; 2],
+        scale: f32,
+        versions: &Versions,
+    ) -> Vec<Area> {
         let tiles = Tiles::new(size, scale);
         let mut signatures = vec![0; tiles.count()];
         let state = FixedState::default();

@@ -14,11 +14,11 @@ use egui::{Button, Color32, FontId, Response, RichText, Ui, vec2};
 /// The width of a light of the camera or the network.
 const WIDTH: f32 = 112.0;
 /// The width of the shortest text of a light, and the gap behind it.
-pub const LEAST: f32 = 32.0 + 4.0;
+pub(super) const LEAST: f32 = 32.0 + 4.0;
 
 /// Adds a button of the width `wide` if there is so much room, otherwise a narrower one. It has the first of `texts` that
 /// fits, or the last with less space around it.
-pub fn indicator(ui: &mut Ui, texts: &[&str], color: Color32, (wide, room): (f32, f32)) -> Response {
+pub(super) fn indicator(ui: &mut Ui, texts: &[&str], color: Color32, (wide, room): (f32, f32)) -> Response {
     let font = FontId::proportional(12.0);
     let padding = 2.0 * ui.spacing().button_padding.x;
     let width = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), color).size().x + padding;
@@ -40,12 +40,12 @@ fn is_used(session: &Session) -> bool {
 }
 
 /// Returns the least room that [`light`] takes.
-pub fn least(session: &Session) -> f32 {
+pub(super) fn least(session: &Session) -> f32 {
     if is_used(session) { LEAST } else { 0.0 }
 }
 
 /// Shows the light of a camera that is on, which turns it off; where a channel reads one that is off, a button to use it.
-pub fn light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
+pub(super) fn light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
     if !is_used(session) {
         return;
     }
@@ -74,7 +74,7 @@ pub fn light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
 }
 
 /// The same in the popup of a channel that reads the webcam, with a choice among several cameras.
-pub fn choose(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(super) fn choose(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let kind = InputKind::Webcam;
     let is_off = session.device_state(kind) == CameraState::Off;
     ui.horizontal_wrapped(|ui| {
@@ -94,14 +94,14 @@ pub fn choose(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
 }
 
 /// Returns the least room that [`network_light`] takes.
-pub fn network_least(session: &Session) -> f32 {
+pub(super) fn network_least(session: &Session) -> f32 {
     let view = session.controls_view();
     let is_shown = view.is_osc_public && matches!(view.osc, Some(OscState::Listening(_)));
     if is_shown { LEAST } else { 0.0 }
 }
 
 /// Shows that OSC comes in from the network, and not from this computer alone; a click turns it off.
-pub fn network_light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
+pub(super) fn network_light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
     let view = session.controls_view();
     let Some(OscState::Listening(at)) = view.osc.filter(|_| view.is_osc_public) else { return };
     let button = indicator(ui, &["● OSC open", "● OSC", "●"], theme::of(ui).error, (WIDTH, room));

@@ -15,7 +15,7 @@ const LEAST: f64 = 1e-8;
 const VISIBLE: f64 = 1.0 / 255.0;
 
 /// Paints the map over the picture of the pass that it is of.
-pub fn paint(ui: &Ui, session: &Session, picture: Rect) {
+pub(super) fn paint(ui: &Ui, session: &Session, picture: Rect) {
     let Some(map) = session.audit_map().filter(|map| map.pass == *session.shown_pass()) else { return };
     let painter = ui.painter().with_clip_rect(picture);
     let at = |[x, y]: [f32; 2]| -> Pos2 { picture.left_bottom() + vec2(x * picture.width(), -y * picture.height()) };
@@ -28,7 +28,7 @@ pub fn paint(ui: &Ui, session: &Session, picture: Rect) {
 }
 
 /// Lists the worst pixels over the picture's lower edge.
-pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
+pub(super) fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
     let Some(map) = session.audit_map().filter(|map| map.pass == *session.shown_pass()) else { return };
     let legend = Area::new(Id::unique("audit"))
         .order(Order::Middle)
@@ -117,7 +117,7 @@ fn color(error: f64) -> Color32 {
 }
 
 /// Returns what scripts are told of it.
-pub fn report(session: &Session) -> Value {
+pub(super) fn report(session: &Session) -> Value {
     let Some(map) = session.audit_map() else { return Value::Null };
     let worst: Vec<Value> = map
         .worst

@@ -39,7 +39,7 @@ const ROWS: &[Option<(&str, Action, &str)>] = &[
 ];
 
 /// Shows the button and its menu. `has_lab_results`: there is something to report.
-pub fn show(ui: &mut Ui, session: &Session, has_lab_results: bool, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, session: &Session, has_lab_results: bool, out: &mut UiOutput) {
     let menu = ui.menu_button("Export", |ui| {
         ui.set_min_width(230.0);
         for row in ROWS {

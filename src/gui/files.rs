@@ -25,7 +25,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// A dialog's buttons are at least so large.
 const BUTTON: Vec2 = vec2(84.0, 28.0);
 
-pub struct Files {
+pub(super) struct Files {
     wake: Arc<dyn Fn() + Send + Sync>,
     /// Shows a dialog of the desktop's and waits for its end.
     desktop: fn(&Dialog) -> Outcome,
@@ -55,24 +55,24 @@ struct PathField {
 
 /// The outcome of a dialog.
 #[derive(Debug, PartialEq)]
-pub enum Picked {
+pub(super) enum Picked {
     Path(Pick, PathBuf),
     Cancelled(Pick),
 }
 
 impl Files {
-    pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+    pub(super) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
         Self { wake, desktop: dialogs::show, asked: None, typing: None, gets_keyboard: None }
     }
 
     /// Without the desktop's dialogs, of which tests have none.
     #[cfg(test)]
-    pub fn without_desktop(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+    pub(super) fn without_desktop(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
         Self { desktop: |_| Outcome::Unavailable, ..Self::new(wake) }
     }
 
     /// Opens a dialog. One at a time: a second is not opened over it.
-    pub fn ask(&mut self, pick: Pick, start: Option<PathBuf>) {
+    pub(super) fn ask(&mut self, pick: Pick, start: Option<PathBuf>) {
         if self.asked.is_some() || self.typing.is_some() {
             return;
         }
@@ -88,7 +88,7 @@ impl Files {
     }
 
     /// A path is being typed.
-    pub fn is_asking(&self) -> bool {
+    pub(super) fn is_asking(&self) -> bool {
         self.typing.is_some() || self.gets_keyboard.is_some()
     }
 
@@ -104,7 +104,7 @@ impl Files {
     }
 
     /// Shows what is to be shown; a dialog's end.
-    pub fn show(&mut self, ui: &Ui, out: &mut UiOutput) -> Option<Picked> {
+    pub(super) fn show(&mut self, ui: &Ui, out: &mut UiOutput) -> Option<Picked> {
         if let Some(id) = self.gets_keyboard.take() {
             ui.memory_mut(|m| m.request_focus(id));
         }

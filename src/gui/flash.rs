@@ -7,7 +7,7 @@ use std::time::Duration;
 const HALF: Duration = Duration::from_millis(500);
 
 /// Returns whether it is lit now, and the colour of now. Asks for the frame in which it changes.
-pub fn now(ui: &Ui) -> (bool, Color32) {
+pub(super) fn now(ui: &Ui) -> (bool, Color32) {
     let half = HALF.as_secs_f64();
     let time = ui.input(|i| i.time);
     ui.ctx().request_repaint_after(Duration::from_secs_f64(half - time % half + 0.005));

@@ -12,12 +12,12 @@ const CODE_NAME: &str = "Noto Sans Mono";
 const OWN_NAME: &str = "code-font";
 
 /// Lets letters that no font of the window has be looked up among the system's, when the first of them is shown.
-pub fn install_system(ctx: &Context) {
+pub(super) fn install_system(ctx: &Context) {
     ctx.add_font_provider(Arc::new(egui_system_font_provider::SystemFontProvider::new()));
 }
 
 /// Gives code its font; `own` is the file of one that a person has chosen. Err: why that is not used.
-pub fn set(ctx: &Context, own: Option<&str>) -> Result<(), String> {
+pub(super) fn set(ctx: &Context, own: Option<&str>) -> Result<(), String> {
     let chosen = own.map(read);
     let mut definitions = FontDefinitions::default();
     definitions.font_data.insert(CODE_NAME.into(), Arc::new(FontData::from_static(CODE)));
@@ -32,7 +32,7 @@ pub fn set(ctx: &Context, own: Option<&str>) -> Result<(), String> {
 }
 
 /// Returns why a file cannot be the font of code.
-pub fn check(path: &str) -> Result<(), String> {
+pub(super) fn check(path: &str) -> Result<(), String> {
     read(path).map(drop)
 }
 

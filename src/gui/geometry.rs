@@ -2,7 +2,7 @@
 
 /// An area of the window: left, top, width, height.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Area {
+pub(super) struct Area {
     pub x: f32,
     pub y: f32,
     pub width: f32,
@@ -11,7 +11,7 @@ pub struct Area {
 
 /// A canvas shown inside an area without changing its shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Letterbox {
+pub(super) struct Letterbox {
     /// The area that the picture covers; it starts on a whole pixel.
     pub picture: Area,
     pub canvas: (u32, u32),
@@ -23,7 +23,7 @@ impl Letterbox {
     /// The largest picture that fits: pixel for pixel where the canvas has just the area's size, a whole multiple where
     /// that loses less than a tenth of the size (so that pixels stay square and equal), else as large as the area
     /// allows.
-    pub fn new(area: Area, canvas: (u32, u32)) -> Letterbox {
+    pub(super) fn new(area: Area, canvas: (u32, u32)) -> Letterbox {
         let (width, height) = (canvas.0.max(1) as f32, canvas.1.max(1) as f32);
         let fit = (area.width / width).min(area.height / height).max(0.0);
         let whole = fit.floor();
@@ -40,19 +40,19 @@ impl Letterbox {
 
     /// Returns whether texels should be shown as they are. Between two whole zooms some would be wider than others, so
     /// those blend.
-    pub fn shows_whole_texels(&self) -> bool {
+    pub(super) fn shows_whole_texels(&self) -> bool {
         self.zoom >= 1.0 && (self.zoom - self.zoom.round()).abs() < 1e-3
     }
 
     /// Canvas pixels from the bottom left, not rounded; may lie outside while a drag does.
-    pub fn canvas_from_window(&self, x: f32, y: f32) -> (f32, f32) {
+    pub(super) fn canvas_from_window(&self, x: f32, y: f32) -> (f32, f32) {
         if self.zoom <= 0.0 {
             return (0.0, 0.0);
         }
         ((x - self.picture.x) / self.zoom, self.canvas.1 as f32 - (y - self.picture.y) / self.zoom)
     }
 
-    pub fn contains(&self, x: f32, y: f32) -> bool {
+    pub(super) fn contains(&self, x: f32, y: f32) -> bool {
         let p = self.picture;
         x >= p.x && y >= p.y && x < p.x + p.width && y < p.y + p.height
     }
@@ -60,7 +60,7 @@ impl Letterbox {
 
 /// The shape of a picture that follows the view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Shape {
+pub(super) enum Shape {
     /// 16:9, which pictures on the site are composed for.
     #[default]
     Site,
@@ -70,7 +70,7 @@ pub enum Shape {
 
 impl Shape {
     /// The largest size of this shape in whole pixels.
-    pub fn within(self, width: u32, height: u32) -> (u32, u32) {
+    pub(super) fn within(self, width: u32, height: u32) -> (u32, u32) {
         match self {
             Shape::Fill => (width, height),
             Shape::Site => (width.min(height * 16 / 9), height.min((width * 9).div_ceil(16))),

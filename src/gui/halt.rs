@@ -11,7 +11,7 @@ const SMALLER: &str = "halt:smaller";
 const LAST_GOOD: &str = "halt:last-good";
 
 /// Shows the message in the middle of the picture's area. It takes no keyboard: one can go on typing.
-pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
+pub(super) fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
     let Some(halt) = session.halt() else { return };
     let (title, text, go_on) = words(halt);
     let width = (area.width() - 24.0).clamp(150.0, 420.0);
@@ -92,7 +92,7 @@ fn time(time: Duration) -> String {
 }
 
 /// Returns the kind of a halt, for scripts.
-pub fn kind(halt: &Halt) -> &'static str {
+pub(super) fn kind(halt: &Halt) -> &'static str {
     match halt {
         Halt::Drawing { .. } => "drawing",
         Halt::Drawn { .. } => "drawn",

@@ -21,12 +21,12 @@ const INKS: [[Color32; 4]; 2] = [
 ];
 
 /// The colour of a component in text.
-pub fn ink(ui: &Ui, component: usize) -> Color32 {
+pub(super) fn ink(ui: &Ui, component: usize) -> Color32 {
     INKS[usize::from(!theme::of(ui).is_dark)][component & 3]
 }
 
 /// Shows it, so high. The ground is dark in either theme.
-pub fn show(ui: &mut Ui, components: u8, statistics: &Statistics, place: &str, height: f32, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, components: u8, statistics: &Statistics, place: &str, height: f32, out: &mut UiOutput) {
     let (rect, response) = ui.allocate_exact_size(vec2(2.0 * BINS as f32, height), Sense::hover());
     let (low, high) = statistics.range;
     accessible::name(&response, egui::Role::Canvas, format!("Histogram from {low} to {high}"));

@@ -4,7 +4,7 @@ use super::theme;
 use egui::{Color32, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Icon {
+pub(super) enum Icon {
     Reset,
     Play,
     Pause,
@@ -23,10 +23,10 @@ pub enum Icon {
 }
 
 /// Points of a button.
-pub const WIDTH: f32 = 28.0;
+pub(super) const WIDTH: f32 = 28.0;
 
 /// A button with a sign; `label` is what it is called to those who do not see it.
-pub fn button(ui: &mut Ui, icon: Icon, label: &str) -> Response {
+pub(super) fn button(ui: &mut Ui, icon: Icon, label: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, 24.0), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
     let visuals = ui.style().interact(&response);
@@ -36,7 +36,7 @@ pub fn button(ui: &mut Ui, icon: Icon, label: &str) -> Response {
 }
 
 /// Does the same for what is wanted first: larger, and in the window's accent.
-pub fn first(ui: &mut Ui, icon: Icon, label: &str) -> Response {
+pub(super) fn first(ui: &mut Ui, icon: Icon, label: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(40.0, 28.0), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
     let p = theme::of(ui);
@@ -51,13 +51,13 @@ pub fn first(ui: &mut Ui, icon: Icon, label: &str) -> Response {
 }
 
 /// Does the same without a ground, for rows of titles.
-pub fn flat(ui: &mut Ui, icon: Icon, label: &str) -> Response {
+pub(super) fn flat(ui: &mut Ui, icon: Icon, label: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(20.0, 20.0), Sense::click());
     flat_sign(ui, rect, response, icon, label)
 }
 
 /// Does the same at a place over another widget.
-pub fn flat_at(ui: &Ui, rect: Rect, icon: Icon, label: &str) -> Response {
+pub(super) fn flat_at(ui: &Ui, rect: Rect, icon: Icon, label: &str) -> Response {
     let response = ui.interact(rect, ui.scope_id().with(label), Sense::click());
     flat_sign(ui, rect, response, icon, label)
 }

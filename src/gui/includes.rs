@@ -16,7 +16,7 @@ struct Part {
 }
 
 /// Shows them at the right end of a place: all names, or how many there are where there is no room for the names.
-pub fn show(ui: &mut Ui, session: &Session, place: Rect, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, session: &Session, place: Rect, out: &mut UiOutput) {
     let names: Vec<&str> = session.project().includes.iter().map(|i| i.source.name.as_str()).collect();
     if names.is_empty() {
         return;

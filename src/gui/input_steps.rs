@@ -11,7 +11,7 @@
 use egui::{Event, Key, Modifiers, RawInput};
 
 /// The input of each pass to make, in order; at least one.
-pub fn split(input: RawInput) -> Vec<RawInput> {
+pub(super) fn split(input: RawInput) -> Vec<RawInput> {
     let mut steps = vec![RawInput { events: Vec::new(), ..input.clone() }];
     let nothing = without_events(&input);
     let mut is_ended = false;
@@ -35,7 +35,7 @@ pub fn split(input: RawInput) -> Vec<RawInput> {
 }
 
 /// The same moment in which nothing has happened: files are dropped once.
-pub fn without_events(input: &RawInput) -> RawInput {
+pub(super) fn without_events(input: &RawInput) -> RawInput {
     RawInput { events: Vec::new(), dropped_files: Vec::new(), ..input.clone() }
 }
 

@@ -13,20 +13,20 @@ use winit::{
 /// Keys that are down, so that the release gives the code that the press gave though a modifier or the layout has
 /// changed.
 #[derive(Debug, Default)]
-pub struct HeldKeys {
+pub(super) struct HeldKeys {
     codes: HashMap<PhysicalKey, u8>,
 }
 
 /// The effect of a key event on a shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum KeyChange {
+pub(super) enum KeyChange {
     Down(u8),
     Up(u8),
 }
 
 impl HeldKeys {
     /// `to_shader`: whether a press goes to the shader. Releases of keys it saw pressed always do.
-    pub fn change(&mut self, event: &KeyEvent, to_shader: bool) -> Option<KeyChange> {
+    pub(super) fn change(&mut self, event: &KeyEvent, to_shader: bool) -> Option<KeyChange> {
         match event.state {
             ElementState::Pressed if to_shader => {
                 let code = code(&event.logical_key, event.physical_key, event.location)?;
@@ -39,13 +39,13 @@ impl HeldKeys {
     }
 
     /// The window lost the keyboard: releases will not come.
-    pub fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         self.codes.clear();
     }
 }
 
 /// The `keyCode` of a key; `None` for one that has none.
-pub fn code(logical: &Key, physical: PhysicalKey, location: KeyLocation) -> Option<u8> {
+pub(super) fn code(logical: &Key, physical: PhysicalKey, location: KeyLocation) -> Option<u8> {
     if let Key::Named(named) = logical
         && let Some(code) = named_code(*named, location)
     {

@@ -10,7 +10,7 @@ use egui::{
 const MARK: f32 = 16.0;
 
 /// An entry of a menu that is on or off: a check mark where it is on, its title, and its key at the right.
-pub fn switch(ui: &mut Ui, is_on: bool, title: &str, key: String) -> Response {
+pub(super) fn switch(ui: &mut Ui, is_on: bool, title: &str, key: String) -> Response {
     let mark = IdSalt::new("mark");
     let button = Button::new((Atom::custom(mark, vec2(MARK, 14.0)), title.to_owned())).shortcut_text(key);
     let shown = button.atom_ui(ui);
@@ -24,20 +24,20 @@ pub fn switch(ui: &mut Ui, is_on: bool, title: &str, key: String) -> Response {
 }
 
 /// An entry below others that are on or off, with the same room before its title.
-pub fn entry(ui: &mut Ui, title: &str, key: String) -> Response {
+pub(super) fn entry(ui: &mut Ui, title: &str, key: String) -> Response {
     let mark = Atom::custom(IdSalt::new("mark"), vec2(MARK, 14.0));
     ui.add(Button::new((mark, title.to_owned())).shortcut_text(key))
 }
 
 /// A menu below a button that stays while one types in it, in the style of all menus.
-pub fn below(button: &Response, contents: impl FnOnce(&mut Ui)) {
+pub(super) fn below(button: &Response, contents: impl FnOnce(&mut Ui)) {
     let menu = Popup::from_toggle_button_response(button).style(menu_style);
     menu.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(contents);
 }
 
 /// Shows a widget's menu: a right click opens it at the pointer, Shift+F10 and the menu key below the widget while that
 /// has the keyboard.
-pub fn context(response: &Response, contents: impl FnOnce(&mut Ui)) {
+pub(super) fn context(response: &Response, contents: impl FnOnce(&mut Ui)) {
     let ctx = &response.ctx;
     let is_asked = response.has_focus() && ctx.input(|i| i.events.iter().any(is_menu_key));
     let id = Id::unique((response.id, "menu by keys"));
@@ -56,7 +56,7 @@ pub fn context(response: &Response, contents: impl FnOnce(&mut Ui)) {
 
 /// Shows the menu of a row: a right click anywhere in it opens it at the pointer, Shift+F10 and the menu key below the row while
 /// one of its widgets has the keyboard.
-pub fn context_of_row(row: &Response, contents: impl FnOnce(&mut Ui)) {
+pub(super) fn context_of_row(row: &Response, contents: impl FnOnce(&mut Ui)) {
     let ctx = &row.ctx;
     let is_key = ctx.input(|i| i.focused && i.events.iter().any(is_menu_key));
     let focused = || ctx.memory(|m| m.focused()).and_then(|id| ctx.read_response(id));

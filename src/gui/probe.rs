@@ -20,7 +20,7 @@ use egui::{Area, DragValue, Frame, Id, Margin, Order, Rect, RichText, Role, Ui, 
 const NAMES: [&str; 4] = ["x", "y", "z", "w"];
 
 /// Shows it at the top of the picture's area. `under`: the place of the picture under the mouse, from 0 to 1.
-pub fn show(ui: &Ui, session: &Session, area: Rect, under: Option<[f32; 2]>, out: &mut UiOutput) {
+pub(super) fn show(ui: &Ui, session: &Session, area: Rect, under: Option<[f32; 2]>, out: &mut UiOutput) {
     let Some(view) = session.probe() else { return };
     let card =
         Area::new(Id::unique("probe")).order(Order::Middle).fixed_pos(area.min + vec2(6.0, 6.0)).constrain_to(area);
@@ -132,7 +132,7 @@ fn figures(ui: &mut Ui, value: &ProbedValue, statistics: &Statistics, out: &mut 
 }
 
 /// The texel under a place of the picture, and its numbers.
-pub fn number_at(pixels: &Pixels, at: [f32; 2], value: &ProbedValue) -> Option<((u32, u32), String)> {
+pub(super) fn number_at(pixels: &Pixels, at: [f32; 2], value: &ProbedValue) -> Option<((u32, u32), String)> {
     let texel = |part: f32, count: u32| ((part * count as f32) as u32).min(count.saturating_sub(1));
     let (x, y) = (texel(at[0], pixels.width), texel(at[1], pixels.height));
     let found = pixels.texels.get((y * pixels.width + x) as usize)?;
@@ -148,7 +148,7 @@ pub fn number_at(pixels: &Pixels, at: [f32; 2], value: &ProbedValue) -> Option<(
 }
 
 /// Returns what scripts are told.
-pub fn report(session: &Session, under: Option<[f32; 2]>) -> serde_json::Value {
+pub(super) fn report(session: &Session, under: Option<[f32; 2]>) -> serde_json::Value {
     let Some(view) = session.probe() else { return serde_json::json!({ "text": null }) };
     let (value, trouble) = match view.value {
         Some(Ok(value)) => (Some(value), None),

@@ -25,7 +25,7 @@ const HINT_ROOM: f32 = 60.0;
 
 /// `caret`: the tab in front and its caret's line from 0, whose problem is told in whole. `limit`: how high the list
 /// may be.
-pub fn show(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, limit: f32, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, limit: f32, out: &mut UiOutput) {
     out.stop("problems", ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, Stroke::new(1.0, theme::of(ui).line));
@@ -94,7 +94,7 @@ fn whole(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, out: &mut
 }
 
 /// Returns how the newest compile ended in words, and their colour.
-pub fn state(session: &Session, palette: &Palette) -> (String, Color32) {
+pub(super) fn state(session: &Session, palette: &Palette) -> (String, Color32) {
     let state = session.compile_state();
     if state.compiling {
         return ("Compiling…".into(), palette.accent);

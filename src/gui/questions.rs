@@ -12,7 +12,7 @@ use egui::{Color32, FontId, Frame, Id, Modal, Rect, RichText, ScrollArea, Sense,
 use std::path::{Path, PathBuf};
 
 /// Shows the first question there is.
-pub fn show(ui: &Ui, session: &Session, out: &mut UiOutput) {
+pub(super) fn show(ui: &Ui, session: &Session, out: &mut UiOutput) {
     let Some(question) = session.question() else { return };
     let window = ui.ctx().content_rect();
     let wide = matches!(question, Question::Conflict { .. } | Question::Recover(_));

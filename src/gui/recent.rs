@@ -3,13 +3,13 @@
 use std::path::Path;
 
 /// Returns the name that a project on disk goes by.
-pub fn title(path: &Path) -> String {
+pub(super) fn title(path: &Path) -> String {
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned());
     name.filter(|n| !n.is_empty()).unwrap_or_else(|| path.display().to_string())
 }
 
 /// Returns where it lies, from the home folder if it is there.
-pub fn parent(path: &Path) -> String {
+pub(super) fn parent(path: &Path) -> String {
     let Some(parent) = path.parent() else { return String::new() };
     let home = std::env::home_dir().filter(|home| !home.as_os_str().is_empty());
     match home.and_then(|home| Some(parent.strip_prefix(home).ok()?.to_owned())) {

@@ -7,7 +7,7 @@ use egui::{Button, FontId, Sense, Ui, vec2};
 const STOP: f32 = 52.0;
 
 /// Shows it in the room that there is; `kept` points of it are somebody else's.
-pub fn show(ui: &mut Ui, replay: &ReplayView, is_playing: bool, kept: f32, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, replay: &ReplayView, is_playing: bool, kept: f32, out: &mut UiOutput) {
     let tip = "Stop playing the recording and continue live from this frame. Until then mouse, keys, resolution and \
                uniforms are the recorded ones";
     let stop = ui.add(Button::new("Stop").min_size(vec2(STOP, 24.0)));

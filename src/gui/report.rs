@@ -15,7 +15,7 @@ use std::{
 const FRAME_EVERY: Duration = Duration::from_millis(100);
 
 #[derive(Debug, Default)]
-pub struct Report {
+pub(super) struct Report {
     enabled: bool,
     /// Last line of each event that is repeated only when it says something new.
     said: BTreeMap<&'static str, Value>,
@@ -23,16 +23,16 @@ pub struct Report {
 }
 
 impl Report {
-    pub fn new(enabled: bool) -> Self {
+    pub(super) fn new(enabled: bool) -> Self {
         Self { enabled, ..Default::default() }
     }
 
-    pub fn is_enabled(&self) -> bool {
+    pub(super) fn is_enabled(&self) -> bool {
         self.enabled
     }
 
     /// Writes an event.
-    pub fn say(&self, event: Value) {
+    pub(super) fn say(&self, event: Value) {
         if self.enabled {
             // A reader that went away is no reason to end a person's session.
             let mut out = std::io::stdout().lock();
@@ -42,7 +42,7 @@ impl Report {
 
     /// Writes an event if its members differ from those of the last one of this name. Returns whether
     /// it did.
-    pub fn say_if_new(&mut self, name: &'static str, mut members: Value) -> bool {
+    pub(super) fn say_if_new(&mut self, name: &'static str, mut members: Value) -> bool {
         if !self.enabled || self.said.get(name) == Some(&members) {
             return false;
         }
@@ -53,12 +53,12 @@ impl Report {
     }
 
     /// Lets the next event of this name be said even if it is as the last one.
-    pub fn forget(&mut self, name: &str) {
+    pub(super) fn forget(&mut self, name: &str) {
         self.said.remove(name);
     }
 
     /// A frame was drawn. While `running`, only some of them are told of.
-    pub fn frame(&mut self, now: Instant, running: bool, members: Value) {
+    pub(super) fn frame(&mut self, now: Instant, running: bool, members: Value) {
         if running && self.frame_at.is_some_and(|at| now - at < FRAME_EVERY) {
             return;
         }
@@ -68,7 +68,13 @@ impl Report {
     }
 
     /// Tells where things are, in physical pixels of the window.
-    pub fn layout(&mut self, window: (u32, u32), canvas: (u32, u32), scale: f32, areas: &BTreeMap<String, Area>) {
+    pub(super) fn layout(
+        &mut self,
+        window: (u32, u32),
+        canvas: (u32, u32),
+        scale: f32,
+        areas: &BTreeMap<String, Area>,
+    ) {
         if !self.enabled {
             return;
         }

@@ -44,7 +44,7 @@ struct Typed {
 }
 
 /// Opens the menu with the keyboard in its field.
-pub fn open(ctx: &egui::Context) {
+pub(super) fn open(ctx: &egui::Context) {
     Popup::open_id(ctx, popup());
     ctx.data_mut(|data| data.insert_temp(typed(), Typed::default()));
     // The field is not there yet.
@@ -52,7 +52,7 @@ pub fn open(ctx: &egui::Context) {
 }
 
 /// Shows the menu that [`open`] opens, at a widget. It is shown in each frame, whatever the widget is.
-pub fn opened(anchor: &Response, session: &Session, shape: Shape, out: &mut UiOutput) {
+pub(super) fn opened(anchor: &Response, session: &Session, shape: Shape, out: &mut UiOutput) {
     let menu = Popup::from_response(anchor).id(popup()).open_memory(None).style(egui::containers::menu::menu_style);
     menu.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
         ScrollArea::vertical().max_height(HEIGHT).show(ui, |ui| list(ui, session, shape, out));
@@ -60,7 +60,7 @@ pub fn opened(anchor: &Response, session: &Session, shape: Shape, out: &mut UiOu
 }
 
 /// The resolution on a button that opens the list.
-pub fn button(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) {
+pub(super) fn button(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) {
     let (width, height) = session.transport().resolution;
     let response = ComboBox::from_id_salt("size")
         .width(96.0)
@@ -76,7 +76,7 @@ pub fn button(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) 
 }
 
 /// An entry of a menu that opens the list beside it.
-pub fn entry(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) {
+pub(super) fn entry(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) {
     let (width, height) = session.transport().resolution;
     let config = egui::containers::menu::MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let title = format!("Resolution: {width}×{height}");

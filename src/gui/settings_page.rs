@@ -30,7 +30,7 @@ const INTERVAL: Duration = Duration::from_millis(500);
 
 /// The page while it is open.
 #[derive(Debug, Default)]
-pub struct SettingsPage {
+pub(super) struct SettingsPage {
     is_new: bool,
     looked_at: Option<Instant>,
     /// A number while it is dragged, and whose it is.
@@ -46,18 +46,18 @@ pub struct SettingsPage {
 
 /// Settings that the command line has the last word on.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Overridden {
+pub(super) struct Overridden {
     pub frame_limit: bool,
     pub osc: bool,
 }
 
 impl SettingsPage {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self { is_new: true, ..Self::default() }
     }
 
     /// Returns whether the file is to be looked at now.
-    pub fn looks(&mut self, ui: &Ui, now: Instant) -> bool {
+    pub(super) fn looks(&mut self, ui: &Ui, now: Instant) -> bool {
         ui.ctx().request_repaint_after(INTERVAL);
         let is_due = self.looked_at.is_none_or(|at| now.saturating_duration_since(at) >= INTERVAL);
         if is_due {
@@ -67,7 +67,7 @@ impl SettingsPage {
     }
 
     /// Takes the path of a font that was chosen. `None`: it cannot be used, which the page says.
-    pub fn choose_font(&mut self, path: &str) -> Option<Change> {
+    pub(super) fn choose_font(&mut self, path: &str) -> Option<Change> {
         match fonts::check(path) {
             Ok(()) => {
                 (self.typed, self.font_trouble) = (None, None);
@@ -81,7 +81,7 @@ impl SettingsPage {
     }
 
     /// Shows it; false when it is closed.
-    pub fn show(
+    pub(super) fn show(
         &mut self,
         ui: &Ui,
         session: &Session,

@@ -20,7 +20,7 @@ const MUTE: f32 = icons::WIDTH + 4.0;
 const MICROPHONE: f32 = 116.0;
 
 /// Shows the parts that the project has a use for. `room`: what may be taken in all; the switch of mute is always there.
-pub fn show(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
     let microphone = microphone(session);
     let left = microphone.as_ref().map_or(room, |_| room - MICROPHONE);
     let end = ui.cursor().min.x + room;
@@ -36,7 +36,7 @@ pub fn show(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
 }
 
 /// Returns the least room that [`show`] takes.
-pub fn least(session: &Session) -> f32 {
+pub(super) fn least(session: &Session) -> f32 {
     let mute = session.output_view().filter(|view| view.has_sound).map_or(0.0, |_| MUTE);
     mute + microphone(session).map_or(0.0, |_| devices::LEAST)
 }

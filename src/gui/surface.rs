@@ -72,7 +72,7 @@ fn renderer(gpu: &Gpu, config: &wgpu::SurfaceConfiguration) -> Renderer {
 
 /// The outcome of presenting a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Presented {
+pub(super) enum Presented {
     Shown,
     /// Nobody could see it; painting again before the window changes is of no use.
     Hidden,
@@ -80,7 +80,7 @@ pub enum Presented {
     Again,
 }
 
-pub struct Surface {
+pub(super) struct Surface {
     display: OwnedDisplayHandle,
     instance: wgpu::Instance,
     surface: wgpu::Surface<'static>,
@@ -98,7 +98,7 @@ const REFUSALS: u32 = 200;
 
 impl Surface {
     /// A surface for the window, and the device that can draw on it.
-    pub fn new(window: &Arc<Window>, display: OwnedDisplayHandle) -> Result<Surface, GuiError> {
+    pub(super) fn new(window: &Arc<Window>, display: OwnedDisplayHandle) -> Result<Surface, GuiError> {
         let (instance, surface, adapter) = open(window, &display)?;
         let gpu = Gpu::from_adapter(&adapter, &GpuOptions::default())?;
         let config = config(&surface, &adapter, window.inner_size())?;
@@ -119,7 +119,7 @@ impl Surface {
 
     /// Puts a fresh device and a fresh surface in the place of those that are lost. egui's fonts are handed over; all
     /// other textures were on the lost device, and are to be made anew by those who show them.
-    pub fn renew(&mut self, window: &Arc<Window>, ctx: &egui::Context) -> Result<(), GuiError> {
+    pub(super) fn renew(&mut self, window: &Arc<Window>, ctx: &egui::Context) -> Result<(), GuiError> {
         let (instance, surface, adapter) = open(window, &self.display)?;
         let gpu = loss::reopen(loss::RESET, || Gpu::from_adapter(&adapter, &GpuOptions::default()))?;
         self.config = config(&surface, &adapter, window.inner_size())?;
@@ -138,26 +138,26 @@ impl Surface {
         Ok(())
     }
 
-    pub fn gpu(&self) -> &Gpu {
+    pub(super) fn gpu(&self) -> &Gpu {
         &self.gpu
     }
 
-    pub fn renderer(&mut self) -> &mut Renderer {
+    pub(super) fn renderer(&mut self) -> &mut Renderer {
         &mut self.renderer
     }
 
     /// A texture that is not egui's own has other texels than in the last painting.
-    pub fn touch(&mut self, texture: egui::TextureId) {
+    pub(super) fn touch(&mut self, texture: egui::TextureId) {
         self.back_buffer.touch(texture);
     }
 
     /// Physical pixels.
-    pub fn size(&self) -> (u32, u32) {
+    pub(super) fn size(&self) -> (u32, u32) {
         (self.config.width, self.config.height)
     }
 
     /// The window has a new size; one of nothing (minimised) is kept for later.
-    pub fn resize(&mut self, width: u32, height: u32) {
+    pub(super) fn resize(&mut self, width: u32, height: u32) {
         if width > 0 && height > 0 && (width, height) != self.size() {
             let limit = self.gpu.device.limits().max_texture_dimension_2d;
             (self.config.width, self.config.height) = (width.min(limit), height.min(limit));
@@ -166,7 +166,7 @@ impl Surface {
     }
 
     /// Paints a frame of egui's and shows it.
-    pub fn paint(&mut self, window: &Arc<Window>, output: egui::FullOutput, ctx: &egui::Context) -> Presented {
+    pub(super) fn paint(&mut self, window: &Arc<Window>, output: egui::FullOutput, ctx: &egui::Context) -> Presented {
         match catch_unwind(AssertUnwindSafe(|| self.paint_on_device(window, output, ctx))) {
             Ok(presented) => presented,
             // egui's renderer panics where a lost device gives it no memory. Another takes the place of both.

@@ -9,7 +9,7 @@ use std::sync::{
 
 /// Asks once, and listens for changes. `wake` is called when there is an answer.
 #[cfg(not(any(windows, target_os = "macos")))]
-pub fn watch(wake: Arc<dyn Fn() + Send + Sync>) -> Receiver<egui::Theme> {
+pub(super) fn watch(wake: Arc<dyn Fn() + Send + Sync>) -> Receiver<egui::Theme> {
     let (sender, receiver) = channel();
     let work = move || {
         let tell = |theme: Option<egui::Theme>| {

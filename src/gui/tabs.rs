@@ -23,7 +23,7 @@ const CLOSE: f32 = 18.0;
 
 /// An included file that is open as a tab, and the tabs whose texts have it in them.
 #[derive(Clone, Debug)]
-pub struct OpenFile {
+pub(super) struct OpenFile {
     pub tab: Tab,
     pub users: Vec<Tab>,
 }
@@ -39,14 +39,14 @@ impl OpenFile {
 }
 
 /// Returns the tabs to show: the project's own, and of the files that these include those that are open or not saved.
-pub fn shown(session: &Session, files: &[OpenFile]) -> Vec<Tab> {
+pub(super) fn shown(session: &Session, files: &[OpenFile]) -> Vec<Tab> {
     let is_open = |tab: &Tab| files.iter().any(|file| file.tab == *tab) || session.is_tab_dirty(tab);
     session.tabs().into_iter().filter(|tab| !matches!(tab, Tab::Included(_)) || is_open(tab)).collect()
 }
 
 /// Shows the tabs; `current` has the accent. `files`: the included files that are open. True: a hand drags what is
 /// beside them.
-pub fn show(ui: &mut Ui, session: &Session, current: &Tab, files: &[OpenFile], out: &mut UiOutput) -> bool {
+pub(super) fn show(ui: &mut Ui, session: &Session, current: &Tab, files: &[OpenFile], out: &mut UiOutput) -> bool {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
     // Below the tabs, which come after it. That it takes clicks too keeps a click from moving anything.
     let handle = ui.interact(rect, ui.scope_id().with("tab row"), Sense::CLICK | Sense::DRAG);

@@ -57,7 +57,7 @@ impl Group<'_> {
 }
 
 /// Closes those that have been there long enough. What is said again stays with the newest of its kind.
-pub fn expire(ctx: &Context, session: &Session, now: Instant, out: &mut UiOutput) {
+pub(super) fn expire(ctx: &Context, session: &Session, now: Instant, out: &mut UiOutput) {
     for group in groups(session.notices()).iter().filter(|group| group.newest.level == Level::Info) {
         let age = now.saturating_duration_since(group.newest.at);
         if age >= STAYS {
@@ -70,7 +70,7 @@ pub fn expire(ctx: &Context, session: &Session, now: Instant, out: &mut UiOutput
 
 /// Shows them at the bottom of `ui`, which has so much less room: the newest on top, where the eye is, and the oldest
 /// below, where they are scrolled to.
-pub fn panel(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(super) fn panel(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let groups = groups(session.notices());
     if groups.is_empty() {
         return;
@@ -111,7 +111,7 @@ pub fn panel(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
 
 /// Shows the newest over all else where nothing has called [`panel`]. Good news goes by itself, and so does trouble
 /// here: it is still there when the code is.
-pub fn over(ui: &Ui, session: &Session, now: Instant, out: &mut UiOutput) {
+pub(super) fn over(ui: &Ui, session: &Session, now: Instant, out: &mut UiOutput) {
     let is_fresh = |n: &&Notice| now.saturating_duration_since(n.at) < STAYS;
     let groups = groups(session.notices());
     let Some(group) = groups.first().filter(|group| is_fresh(&group.newest)) else { return };

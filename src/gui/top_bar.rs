@@ -18,7 +18,7 @@ use egui::{
 use std::collections::BTreeSet;
 
 /// Holds what the bar shows of the window's state.
-pub struct State<'a> {
+pub(super) struct State<'a> {
     pub is_gallery: bool,
     /// The lab has something to report.
     pub has_lab_results: bool,
@@ -31,7 +31,7 @@ const ROOMY: f32 = 700.0;
 /// And less than this the menu of exports, whose rows are in the palette.
 const COMPACT: f32 = 440.0;
 
-pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut UiOutput) {
     out.stop("top", ui);
     ui.spacing_mut().item_spacing.x = 4.0;
     let width = ui.available_width();

@@ -17,7 +17,7 @@ use crate::{
 use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
 
 /// Height of the bar.
-pub const HEIGHT: f32 = 40.0 + timeline::HEIGHT;
+pub(super) const HEIGHT: f32 = 40.0 + timeline::HEIGHT;
 
 /// Points for the pass that is shown and the menu behind it, and for the size.
 const BEHIND: f32 = 116.0;
@@ -26,7 +26,7 @@ const SIZE: f32 = 108.0;
 const RECORDING: f32 = 64.0;
 
 /// Fills the space there is. True: a hand drags what is free of it.
-pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) -> bool {
+pub(super) fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) -> bool {
     out.stop("transport", ui);
     let transport = session.transport();
     // That it takes clicks too keeps a click from moving anything.

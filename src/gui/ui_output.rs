@@ -16,7 +16,7 @@ use std::{collections::BTreeMap, path::PathBuf};
 
 /// The purpose of a file dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Pick {
+pub(super) enum Pick {
     /// A project: a folder.
     OpenFolder,
     /// A project: a `.glsl` or `.json` file.
@@ -45,7 +45,7 @@ pub enum Pick {
 
 /// Something only the shell can do.
 #[derive(Clone, Debug, PartialEq)]
-pub enum ShellCommand {
+pub(super) enum ShellCommand {
     Act(Action),
     Pick(Pick),
     /// A tab, and a line and column from 0 of it.
@@ -74,7 +74,7 @@ pub enum ShellCommand {
 
 /// A part of the window that F6 goes to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FocusStop {
+pub(super) struct FocusStop {
     pub name: &'static str,
     /// Its `Ui`.
     pub ui: Id,
@@ -84,7 +84,7 @@ pub struct FocusStop {
 }
 
 #[derive(Debug, Default)]
-pub struct UiOutput {
+pub(super) struct UiOutput {
     pub commands: Vec<Command>,
     pub shell_commands: Vec<ShellCommand>,
     /// Named places, in points.
@@ -96,20 +96,20 @@ pub struct UiOutput {
 }
 
 impl UiOutput {
-    pub fn new(keys: ActiveKeymap) -> Self {
+    pub(super) fn new(keys: ActiveKeymap) -> Self {
         Self { keys, ..Self::default() }
     }
 
-    pub fn ask(&mut self, command: Command) {
+    pub(super) fn ask(&mut self, command: Command) {
         self.commands.push(command);
     }
 
-    pub fn act(&mut self, action: Action) {
+    pub(super) fn act(&mut self, action: Action) {
         self.shell_commands.push(ShellCommand::Act(action));
     }
 
     /// Notes where a widget is, for scripts that click on it.
-    pub fn place(&mut self, name: impl Into<String>, rect: Rect) {
+    pub(super) fn place(&mut self, name: impl Into<String>, rect: Rect) {
         if rect.is_positive() {
             self.places.insert(name.into(), rect);
         }
@@ -117,7 +117,7 @@ impl UiOutput {
 
     /// Shows an area and notes where it and its widgets are, once egui knows its size: a new area is first shown invisibly
     /// and often in another place, to measure it.
-    pub fn show_area<R>(
+    pub(super) fn show_area<R>(
         &mut self,
         name: &str,
         area: egui::Area,
@@ -137,30 +137,30 @@ impl UiOutput {
     }
 
     /// Notes that what is shown in `ui` is a part of the window, which F6 takes the keyboard to.
-    pub fn stop(&mut self, name: &'static str, ui: &Ui) {
+    pub(super) fn stop(&mut self, name: &'static str, ui: &Ui) {
         self.stops.push(FocusStop { name, ui: ui.unique_id(), rect: ui.max_rect(), home: None });
     }
 
     /// The same for one with a widget that takes every key while it has the keyboard.
-    pub fn home(&mut self, name: &'static str, ui: &Ui, home: Id) {
+    pub(super) fn home(&mut self, name: &'static str, ui: &Ui, home: Id) {
         self.stops.push(FocusStop { name, ui: ui.unique_id(), rect: ui.max_rect(), home: Some(home) });
     }
 
     /// Notes where a button is; whether it was clicked.
-    pub fn clicked(&mut self, name: &str, response: &Response) -> bool {
+    pub(super) fn clicked(&mut self, name: &str, response: &Response) -> bool {
         self.place(name, response.rect);
         response.clicked()
     }
 
     /// Returns the name of a place.
-    pub fn named(&self, rect: Rect) -> Option<&str> {
+    pub(super) fn named(&self, rect: Rect) -> Option<&str> {
         let differs = |other: Rect| (other.min - rect.min).length() + (other.max - rect.max).length();
         let near = self.places.iter().map(|(name, other)| (differs(*other), name));
         near.filter(|(by, _)| *by < 8.0).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, name)| name.as_str())
     }
 
     /// Every named place in physical pixels.
-    pub fn areas(&self, pixels_per_point: f32) -> BTreeMap<String, Area> {
+    pub(super) fn areas(&self, pixels_per_point: f32) -> BTreeMap<String, Area> {
         let area = |r: &Rect| Area {
             x: r.left() * pixels_per_point,
             y: r.top() * pixels_per_point,

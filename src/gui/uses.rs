@@ -12,7 +12,7 @@ use std::ops::Range;
 
 const ROW: f32 = 21.0;
 
-pub struct Uses {
+pub(super) struct Uses {
     name: String,
     places: Vec<Use>,
     selected: Option<usize>,
@@ -30,14 +30,14 @@ struct Use {
 
 /// The results of a frame of the list.
 #[derive(Default)]
-pub struct UsesResponse {
+pub(super) struct UsesResponse {
     pub go_to: Option<(Tab, Range<usize>)>,
     pub closed: bool,
 }
 
 impl Uses {
     /// `None` where there is nothing to list.
-    pub fn new(session: &Session, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
+    pub(super) fn new(session: &Session, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
         let mut list: Vec<Use> = Vec::new();
         for (tab, range) in places {
             // Lines are counted on from the place before: from the top each time, many uses in a long text take
@@ -52,12 +52,12 @@ impl Uses {
     }
 
     /// Returns the list of what was looked for. `None` where nothing was found.
-    pub fn found(session: &Session, query: &str, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
+    pub(super) fn found(session: &Session, query: &str, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
         Some(Self { name: query.to_owned(), ..Self::new(session, places)? })
     }
 
     /// `limit`: how high the list may be.
-    pub fn show(&mut self, ui: &mut Ui, session: &Session, limit: f32, out: &mut UiOutput) -> UsesResponse {
+    pub(super) fn show(&mut self, ui: &mut Ui, session: &Session, limit: f32, out: &mut UiOutput) -> UsesResponse {
         out.stop("uses", ui);
         let mut shown = UsesResponse::default();
         let top = ui.max_rect().top() + 0.5;

@@ -5,7 +5,7 @@ use egui::{DragValue, Role, Ui};
 
 /// Shows them; names of widgets begin with `owner`. `extent`: the smallest and the largest value. `fixed`: the range when Auto is
 /// switched off. `range`: what is set, none for Auto.
-pub fn show(
+pub(super) fn show(
     ui: &mut Ui,
     owner: &str,
     extent: (f32, f32),

@@ -18,7 +18,7 @@ const RIM: f32 = 3.0;
 
 /// The part of the window that the picture fills.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ViewportMode {
+pub(super) enum ViewportMode {
     /// A panel. Another one may have the keyboard.
     Panel,
     /// The whole window.
@@ -26,7 +26,7 @@ pub enum ViewportMode {
 }
 
 #[derive(Default)]
-pub struct Viewport {
+pub(super) struct Viewport {
     texture: Option<TextureId>,
     /// The generation of the display that the texture shows, and whether it is magnified texel by texel.
     shows: (u64, bool),
@@ -47,54 +47,54 @@ pub struct Viewport {
 
 impl Viewport {
     /// Points that the picture's frame takes of the height, and a little more where pixels are coarse.
-    pub const RIMS: f32 = 2.0 * RIM + 1.0;
+    pub(super) const RIMS: f32 = 2.0 * RIM + 1.0;
 
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self { shows: (0, true), ..Self::default() }
     }
 
-    pub fn id() -> Id {
+    pub(super) fn id() -> Id {
         Id::unique("picture")
     }
 
-    pub fn shape(&self) -> Shape {
+    pub(super) fn shape(&self) -> Shape {
         self.shape
     }
 
-    pub fn set_shape(&mut self, shape: Shape) {
+    pub(super) fn set_shape(&mut self, shape: Shape) {
         self.shape = shape;
     }
 
     /// Lets the next click say which pixel is traced, or no more.
-    pub fn pick(&mut self) {
+    pub(super) fn pick(&mut self) {
         self.picks = !self.picks;
     }
 
-    pub fn stop_picking(&mut self) -> bool {
+    pub(super) fn stop_picking(&mut self) -> bool {
         std::mem::take(&mut self.picks)
     }
 
     /// The place of the picture under the mouse, from 0 to 1 across and up.
-    pub fn under(&self) -> Option<[f32; 2]> {
+    pub(super) fn under(&self) -> Option<[f32; 2]> {
         self.under
     }
 
-    pub fn mouse_is_down(&self) -> bool {
+    pub(super) fn mouse_is_down(&self) -> bool {
         self.mouse_is_down
     }
 
     /// Gives the keyboard to the picture in the next frame.
-    pub fn focus(&mut self) {
+    pub(super) fn focus(&mut self) {
         self.take_focus = true;
     }
 
     /// The texture was on a device that is lost.
-    pub fn forget_texture(&mut self) {
+    pub(super) fn forget_texture(&mut self) {
         self.texture = None;
     }
 
     /// Hands egui the picture as the engine has it now.
-    pub fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
+    pub(super) fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
         let whole = self.letterbox.is_none_or(|l| l.shows_whole_texels());
         let shows = (session.display_generation(), whole);
         if self.texture.is_some() && shows == self.shows {
@@ -111,7 +111,7 @@ impl Viewport {
     }
 
     /// Returns the picture's texture if its texels are other ones than in the last painting.
-    pub fn take_new_texels(&mut self, session: &Session) -> Option<TextureId> {
+    pub(super) fn take_new_texels(&mut self, session: &Session) -> Option<TextureId> {
         let shown = session.pictures_shown();
         let has_new_texels = std::mem::replace(&mut self.painted, shown) != shown;
         let is_new = std::mem::take(&mut self.is_texture_new) || has_new_texels;
@@ -119,7 +119,7 @@ impl Viewport {
     }
 
     /// Fills the space there is.
-    pub fn show(&mut self, ui: &mut Ui, session: &Session, mode: ViewportMode, out: &mut UiOutput) {
+    pub(super) fn show(&mut self, ui: &mut Ui, session: &Session, mode: ViewportMode, out: &mut UiOutput) {
         let alone = mode == ViewportMode::Window;
         let rect = ui.available_rect_before_wrap();
         let scale = ui.pixels_per_point();

@@ -11,7 +11,7 @@ const APP_ID: &str = "io.github.eddy_shaders.Eddy";
 const ICON: &[u8] = include_bytes!("../../packaging/icon/64.png");
 
 /// Returns the attributes with the name and the icon.
-pub fn identified(attributes: WindowAttributes) -> WindowAttributes {
+pub(super) fn identified(attributes: WindowAttributes) -> WindowAttributes {
     let icon = icon().inspect_err(|why| log::warn!("the icon of the window is not shown: {why}")).ok();
     named(attributes).with_window_icon(icon)
 }

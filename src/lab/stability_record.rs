@@ -155,7 +155,7 @@ impl Violation {
 }
 
 /// Formats four significant digits.
-pub fn short(x: f64) -> String {
+pub(crate) fn short(x: f64) -> String {
     match x.abs() {
         _ if !x.is_finite() => x.to_string(),
         0.0 => "0".into(),

@@ -38,7 +38,7 @@ pub(crate) fn path_of(uri: &str) -> PathBuf {
 }
 
 impl Documents {
-    pub fn open(&mut self, item: TextDocumentItem) -> PathBuf {
+    pub(crate) fn open(&mut self, item: TextDocumentItem) -> PathBuf {
         let path = path_of(&item.uri.0);
         let text: Arc<str> = item.text.into();
         self.texts.insert(path.clone(), text.clone());
@@ -48,7 +48,7 @@ impl Documents {
     }
 
     /// Applies changes in order. Those of a document that is not open are dropped.
-    pub fn change(
+    pub(crate) fn change(
         &mut self,
         of: &VersionedTextDocumentIdentifier,
         changes: Vec<TextDocumentContentChangeEvent>,
@@ -72,26 +72,26 @@ impl Documents {
         Some(path)
     }
 
-    pub fn close(&mut self, uri: &str) -> Option<PathBuf> {
+    pub(crate) fn close(&mut self, uri: &str) -> Option<PathBuf> {
         let path = path_of(uri);
         self.texts.remove(&path);
         self.open.remove(&path).map(|_| path)
     }
 
-    pub fn get(&self, path: &std::path::Path) -> Option<&Document> {
+    pub(crate) fn get(&self, path: &std::path::Path) -> Option<&Document> {
         self.open.get(path)
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = &Document> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Document> {
         self.open.values()
     }
 
-    pub fn texts(&self) -> &EditedTexts {
+    pub(crate) fn texts(&self) -> &EditedTexts {
         &self.texts
     }
 
     /// Returns the URI of a file, in the editor's spelling if it has it open.
-    pub fn uri(&self, path: &std::path::Path) -> String {
+    pub(crate) fn uri(&self, path: &std::path::Path) -> String {
         self.open.get(path).map_or_else(|| uris::uri(path), |document| document.uri.clone())
     }
 }

@@ -14,7 +14,7 @@ pub(crate) enum Encoding {
 
 impl Encoding {
     /// Returns the best encoding that an editor offers: bytes need no conversion.
-    pub fn choose(offered: &[String]) -> Self {
+    pub(crate) fn choose(offered: &[String]) -> Self {
         let has = |name: &str| offered.iter().any(|other| other == name);
         match (has("utf-8"), has("utf-16"), has("utf-32")) {
             (true, ..) => Self::Utf8,
@@ -23,7 +23,7 @@ impl Encoding {
         }
     }
 
-    pub fn kind(self) -> PositionEncodingKind {
+    pub(crate) fn kind(self) -> PositionEncodingKind {
         match self {
             Self::Utf8 => PositionEncodingKind::UTF8,
             Self::Utf16 => PositionEncodingKind::UTF16,
@@ -32,7 +32,7 @@ impl Encoding {
     }
 
     /// Returns the length of a text in units.
-    pub fn len(self, text: &str) -> u32 {
+    pub(crate) fn len(self, text: &str) -> u32 {
         let length = match self {
             _ if text.is_ascii() => text.len(),
             Self::Utf8 => text.len(),
@@ -70,7 +70,7 @@ pub(crate) struct Lines<'t> {
 }
 
 impl<'t> Lines<'t> {
-    pub fn new(text: &'t str, encoding: Encoding) -> Self {
+    pub(crate) fn new(text: &'t str, encoding: Encoding) -> Self {
         let bytes = text.as_bytes();
         let mut starts = vec![0];
         for (i, &byte) in bytes.iter().enumerate() {
@@ -90,7 +90,7 @@ impl<'t> Lines<'t> {
 
     /// Returns the byte at a position; a position past the end of a line is the line's end, one past the text the
     /// text's end.
-    pub fn offset(&self, position: Position) -> usize {
+    pub(crate) fn offset(&self, position: Position) -> usize {
         match self.starts.get(position.line as usize) {
             Some(start) => start + self.encoding.byte(self.line(position.line as usize), position.character),
             None => self.text.len(),
@@ -98,7 +98,7 @@ impl<'t> Lines<'t> {
     }
 
     /// Returns the position of a byte; for one past the end of the text, the text's end.
-    pub fn position(&self, offset: usize) -> Position {
+    pub(crate) fn position(&self, offset: usize) -> Position {
         let mut offset = offset.min(self.text.len());
         while !self.text.is_char_boundary(offset) {
             offset -= 1;
@@ -108,12 +108,12 @@ impl<'t> Lines<'t> {
         Position { line: line as u32, character: self.encoding.len(before.trim_end_matches(['\n', '\r'])) }
     }
 
-    pub fn range(&self, range: std::ops::Range<usize>) -> Range {
+    pub(crate) fn range(&self, range: std::ops::Range<usize>) -> Range {
         Range { start: self.position(range.start), end: self.position(range.end) }
     }
 
     /// Returns the bytes of a range; an empty one if its end is before its start.
-    pub fn bytes(&self, range: Range) -> std::ops::Range<usize> {
+    pub(crate) fn bytes(&self, range: Range) -> std::ops::Range<usize> {
         let start = self.offset(range.start);
         start..self.offset(range.end).max(start)
     }

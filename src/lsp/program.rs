@@ -28,7 +28,7 @@ pub(crate) enum Root {
 }
 
 impl Root {
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         match self {
             Root::Folder(path) | Root::File(path) => path,
         }
@@ -76,7 +76,7 @@ struct Media {
 }
 
 impl Program {
-    pub fn new(root: Root) -> Self {
+    pub(crate) fn new(root: Root) -> Self {
         Self {
             root,
             is_stale: true,
@@ -95,12 +95,12 @@ impl Program {
     }
 
     /// Returns the same program, unread, with the data kept for the next reading moved to it.
-    pub fn unread(&mut self) -> Self {
+    pub(crate) fn unread(&mut self) -> Self {
         Self { kept: std::mem::take(&mut self.kept), ..Self::new(self.root.clone()) }
     }
 
     /// Replaces an earlier reading of the same program.
-    pub fn follows(&mut self, earlier: &mut Self) {
+    pub(crate) fn follows(&mut self, earlier: &mut Self) {
         self.published = std::mem::take(&mut earlier.published);
         self.media = std::mem::take(&mut earlier.media);
         if self.project.is_none() {
@@ -109,12 +109,12 @@ impl Program {
     }
 
     /// Takes over the data that another reading of the program kept.
-    pub fn keep_of(&mut self, other: Self) {
+    pub(crate) fn keep_of(&mut self, other: Self) {
         self.kept = other.kept;
     }
 
     /// Reads the program again, unless it is cancelled.
-    pub fn read(&mut self, documents: &Documents, cancel: &Arc<AtomicBool>) {
+    pub(crate) fn read(&mut self, documents: &Documents, cancel: &Arc<AtomicBool>) {
         (self.is_stale, self.is_untold) = (false, true);
         let text = documents.get(self.root.path()).map(|document| document.text.clone());
         if let (Root::File(path), Some(text)) = (&self.root, text)
@@ -221,21 +221,21 @@ impl Program {
     }
 
     /// Returns all diagnostics, without duplicates.
-    pub fn diagnostics(&self) -> Vec<Diagnostic> {
+    pub(crate) fn diagnostics(&self) -> Vec<Diagnostic> {
         let mut all = self.reported.clone();
         diag::append(&mut all, self.media.reported.iter().cloned());
         all
     }
 
     /// Returns whether the pictures and models differ from those that were checked last.
-    pub fn has_unseen_media(&self) -> bool {
+    pub(crate) fn has_unseen_media(&self) -> bool {
         let Some(project) = &self.project else { return false };
         let now = project.passes.iter().map(|pass| (&pass.bindings, &pass.settings, &pass.body));
         self.media.of.as_ref().is_none_or(|of| !of.iter().map(|(c, s, b)| (c, s, b)).eq(now))
     }
 
     /// Checks pictures and models; the time depends on their size.
-    pub fn look_at_media(&mut self) {
+    pub(crate) fn look_at_media(&mut self) {
         let Some(project) = &self.project else { return };
         let of = project
             .passes
@@ -248,32 +248,32 @@ impl Program {
     }
 
     /// Marks pictures and models as unchecked, after files on disk have changed.
-    pub fn forget_media(&mut self) {
+    pub(crate) fn forget_media(&mut self) {
         self.media.of = None;
     }
 
     /// Returns the text of a file.
-    pub fn id_of(&self, path: &Path) -> Option<SourceId> {
+    pub(crate) fn id_of(&self, path: &Path) -> Option<SourceId> {
         let at = self.paths.iter().position(|other| other == path)?;
         Some(SourceId(at as u16))
     }
 
-    pub fn contains(&self, path: &Path) -> bool {
+    pub(crate) fn contains(&self, path: &Path) -> bool {
         self.id_of(path).is_some()
     }
 
     /// Returns the file of a text.
-    pub fn path_of(&self, id: SourceId) -> Option<&Path> {
+    pub(crate) fn path_of(&self, id: SourceId) -> Option<&Path> {
         self.paths.get(usize::from(id.0)).map(PathBuf::as_path).filter(|path| !path.as_os_str().is_empty())
     }
 
-    pub fn text(&self, id: SourceId) -> &str {
+    pub(crate) fn text(&self, id: SourceId) -> &str {
         self.texts.get(id).map_or("", |text| &text.text)
     }
 
     /// Returns the analysis of the stage that a text is read with: its own; for a text that several include, that of
     /// Image or the first.
-    pub fn analysis(&self, id: SourceId) -> Option<&Analysis> {
+    pub(crate) fn analysis(&self, id: SourceId) -> Option<&Analysis> {
         let Some(project) = &self.project else {
             return self.stages.get(usize::from(id.0)).map(|stage| &*stage.analysis);
         };
@@ -286,7 +286,7 @@ impl Program {
     }
 
     /// Returns the file for diagnostics without a place.
-    pub fn main_path(&self) -> Option<&Path> {
+    pub(crate) fn main_path(&self) -> Option<&Path> {
         let image = self.project.as_ref().and_then(|project| {
             let index = project.image_index()?;
             self.path_of(Project::pass_id(index))
@@ -299,13 +299,13 @@ impl Program {
     }
 
     /// Calls `work` with all stages together.
-    pub fn programs<T>(&self, work: impl FnOnce(&Programs<'_>) -> T) -> T {
+    pub(crate) fn programs<T>(&self, work: impl FnOnce(&Programs<'_>) -> T) -> T {
         let analyses: Vec<&Analysis> = self.stages.iter().map(|stage| &*stage.analysis).collect();
         work(&Programs { analyses: &analyses, uniforms: &self.uniforms, texts: &self.texts })
     }
 
     /// Returns the edits that rename the item at a byte of a text, or why it cannot be renamed.
-    pub fn rename(&self, at: (SourceId, usize), to: &str) -> Result<Fix, String> {
+    pub(crate) fn rename(&self, at: (SourceId, usize), to: &str) -> Result<Fix, String> {
         self.programs(|programs| {
             let (name, _) = programs.renamable(at.0, at.1)?;
             if let Some(place) = self.project.as_ref().and_then(|project| project.fill_that_names(&name)) {
@@ -337,7 +337,7 @@ impl Program {
     }
 
     /// Returns whether it is a file that belongs to no other program: a pass of its own, not one that others include.
-    pub fn is_whole(&self) -> bool {
+    pub(crate) fn is_whole(&self) -> bool {
         match &self.root {
             Root::Folder(_) => true,
             Root::File(path) => self.id_of(path).is_some_and(|id| has_entry(self.text(id))),

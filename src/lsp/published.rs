@@ -20,29 +20,29 @@ pub(crate) struct Places<'p> {
 }
 
 impl<'p> Places<'p> {
-    pub fn new(program: &'p Program, documents: &'p Documents, encoding: Encoding) -> Self {
+    pub(crate) fn new(program: &'p Program, documents: &'p Documents, encoding: Encoding) -> Self {
         Self { program, documents, encoding, lines: HashMap::new() }
     }
 
-    pub fn lines(&mut self, id: SourceId) -> &Lines<'p> {
+    pub(crate) fn lines(&mut self, id: SourceId) -> &Lines<'p> {
         let (program, encoding) = (self.program, self.encoding);
         self.lines.entry(id).or_insert_with(|| Lines::new(program.text(id), encoding))
     }
 
-    pub fn range(&mut self, span: Span) -> Range {
+    pub(crate) fn range(&mut self, span: Span) -> Range {
         self.lines(span.source).range(span.range())
     }
 
     /// Returns `None` for a text that is not in a file.
-    pub fn uri(&self, id: SourceId) -> Option<Uri> {
+    pub(crate) fn uri(&self, id: SourceId) -> Option<Uri> {
         Some(Uri(self.documents.uri(self.program.path_of(id)?)))
     }
 
-    pub fn location(&mut self, span: Span) -> Option<Location> {
+    pub(crate) fn location(&mut self, span: Span) -> Option<Location> {
         Some(Location { uri: self.uri(span.source)?, range: self.range(span) })
     }
 
-    pub fn diagnostic(&mut self, said: &Diagnostic) -> lsp::Diagnostic {
+    pub(crate) fn diagnostic(&mut self, said: &Diagnostic) -> lsp::Diagnostic {
         let mut message = said.message.clone();
         for hint in &said.hints {
             message.push_str("\nhelp: ");

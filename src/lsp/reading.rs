@@ -38,7 +38,7 @@ pub(crate) enum Progress {
 
 impl Reading {
     /// Starts to read a program, which has only the data kept from its previous reading.
-    pub fn start(mut program: Program, documents: Documents) -> io::Result<Self> {
+    pub(crate) fn start(mut program: Program, documents: Documents) -> io::Result<Self> {
         let (sender, result) = channel();
         let is_outdated = Arc::new(AtomicBool::new(false));
         let (root, flag) = (program.root.clone(), is_outdated.clone());
@@ -54,12 +54,12 @@ impl Reading {
     }
 
     /// Cancels the reading at the next statement, because a text of the program has changed.
-    pub fn give_up(&self) {
+    pub(crate) fn give_up(&self) {
         self.is_outdated.store(true, Ordering::Relaxed);
     }
 
     /// Waits for the result, at most for `patience`.
-    pub fn wait(&self, patience: Duration) -> Progress {
+    pub(crate) fn wait(&self, patience: Duration) -> Progress {
         match self.result.recv_timeout(patience) {
             Ok(Some(program)) => Progress::Read(program),
             Ok(None) => Progress::Ended { has_failed: false },

@@ -34,7 +34,7 @@ pub(crate) struct Workspace {
 
 impl Workspace {
     /// Called when a document was opened.
-    pub fn opened(&mut self, path: &Path) {
+    pub(crate) fn opened(&mut self, path: &Path) {
         self.changed(path);
         if !self.programs.iter().any(|program| program.contains(path)) {
             self.begin(root_of(path, self.documents.texts()));
@@ -42,14 +42,14 @@ impl Workspace {
     }
 
     /// Adds the program of a root, unless it exists.
-    pub fn begin(&mut self, root: Root) {
+    pub(crate) fn begin(&mut self, root: Root) {
         if !self.programs.iter().any(|program| program.root == root) {
             self.programs.push(Program::new(root));
         }
     }
 
     /// Called when the text of a document has changed.
-    pub fn changed(&mut self, path: &Path) {
+    pub(crate) fn changed(&mut self, path: &Path) {
         let holds = |program: &Program| {
             program.contains(path)
                 || match &program.root {
@@ -71,7 +71,7 @@ impl Workspace {
     }
 
     /// Called when files on disk have changed.
-    pub fn changed_on_disk(&mut self) {
+    pub(crate) fn changed_on_disk(&mut self) {
         for program in &mut self.programs {
             program.is_stale = true;
             program.forget_media();
@@ -82,12 +82,12 @@ impl Workspace {
     }
 
     /// Returns whether a program is being read.
-    pub fn is_reading(&self) -> bool {
+    pub(crate) fn is_reading(&self) -> bool {
         self.reading.is_some()
     }
 
     /// Cancels the current reading.
-    pub fn drop_reading(&mut self) {
+    pub(crate) fn drop_reading(&mut self) {
         if let Some(reading) = self.reading.take() {
             reading.give_up();
         }
@@ -95,7 +95,7 @@ impl Workspace {
 
     /// As [`Workspace::settle`] if programs are read on this thread. Otherwise reads on the other one, and returns
     /// false if a program takes longer than `patience`.
-    pub fn settle_within(&mut self, patience: Duration) -> bool {
+    pub(crate) fn settle_within(&mut self, patience: Duration) -> bool {
         if !self.is_threaded {
             self.settle();
             return true;
@@ -170,7 +170,7 @@ impl Workspace {
     }
 
     /// Returns the program that a document belongs to: for a text that others include, the one that includes it.
-    pub fn owner(&self, path: &Path) -> Option<usize> {
+    pub(crate) fn owner(&self, path: &Path) -> Option<usize> {
         if is_manifest(path) {
             let folder = path.parent()?;
             return self.programs.iter().position(|p| matches!(&p.root, Root::Folder(of) if of == folder));
@@ -184,7 +184,7 @@ impl Workspace {
     }
 
     /// Removes and returns the programs without documents.
-    pub fn take_left(&mut self, keep: impl Fn(&Root) -> bool) -> Vec<Program> {
+    pub(crate) fn take_left(&mut self, keep: impl Fn(&Root) -> bool) -> Vec<Program> {
         let owners: Vec<usize> = self.documents.iter().filter_map(|document| self.owner(&document.path)).collect();
         let mut index = 0;
         let (kept, left): (Vec<Program>, Vec<Program>) = mem::take(&mut self.programs).into_iter().partition(|p| {
@@ -196,7 +196,7 @@ impl Workspace {
     }
 
     /// Returns the program of a document, read, and the id of the document's text in it.
-    pub fn find(&mut self, path: &Path) -> Result<(&Program, SourceId), Unfound> {
+    pub(crate) fn find(&mut self, path: &Path) -> Result<(&Program, SourceId), Unfound> {
         if self.documents.get(path).is_none() {
             return Err(Unfound::Unknown);
         }

@@ -5,7 +5,7 @@
 
 /// A file of Shadertoy.
 #[derive(Clone, Copy, Debug)]
-pub struct SiteFile {
+pub(crate) struct SiteFile {
     pub id: &'static str,
     /// The first characters of the file's name, which is a hash; for JSON without ids.
     pub hash: &'static str,
@@ -24,7 +24,7 @@ const fn grey(id: &'static str, hash: &'static str, fallback: &'static str) -> S
 }
 
 /// Its 22 textures, six cubemaps and two volumes, each kind ordered by how often it is used.
-pub const SITE_FILES: [SiteFile; 30] = [
+pub(crate) const SITE_FILES: [SiteFile; 30] = [
     rgba("4dXGzr", "08b42b43ae9d", "font"),
     rgba("4dfGRn", "8de3a3924cb9", "street"),
     rgba("Xsf3zn", "f735bee5b64e", "noise-rgba-256"),
@@ -58,7 +58,7 @@ pub const SITE_FILES: [SiteFile; 30] = [
 ];
 
 /// Returns the file with an id, or with a path that ends in its name.
-pub fn site_file(id: &str, path: &str) -> Option<&'static SiteFile> {
+pub(crate) fn site_file(id: &str, path: &str) -> Option<&'static SiteFile> {
     let name = path.rsplit('/').next().unwrap_or_default();
     SITE_FILES.iter().find(|s| s.id == id).or_else(|| SITE_FILES.iter().find(|s| name.starts_with(s.hash)))
 }

@@ -25,7 +25,7 @@ use tempfile::NamedTempFile;
 const PREFIX: &str = ".eddy-save-";
 const SUFFIX: &str = ".tmp";
 
-pub enum Content {
+pub(crate) enum Content {
     Bytes(Vec<u8>),
     /// A file of a project's folder, by the folder and the name there.
     CopyOf(PathBuf, String),
@@ -40,14 +40,14 @@ impl Content {
     }
 }
 
-pub enum FileComparison {
+pub(crate) enum FileComparison {
     Absent,
     Same,
     Different,
 }
 
 /// Returns what stands at a path now, against what shall.
-pub fn compare(path: &Path, content: &Content) -> Result<FileComparison, ProjectError> {
+pub(crate) fn compare(path: &Path, content: &Content) -> Result<FileComparison, ProjectError> {
     let content = content.read()?;
     match confine::read_own(path, confine::exactly(content.len())) {
         Ok(bytes) => Ok(if *content == bytes { FileComparison::Same } else { FileComparison::Different }),
@@ -58,7 +58,7 @@ pub fn compare(path: &Path, content: &Content) -> Result<FileComparison, Project
 }
 
 /// Writes every file, making folders as needed.
-pub fn write_all(files: Vec<(PathBuf, Content)>) -> Result<(), ProjectError> {
+pub(crate) fn write_all(files: Vec<(PathBuf, Content)>) -> Result<(), ProjectError> {
     let folders: BTreeSet<PathBuf> = files.iter().map(|(path, _)| folder_of(path).to_owned()).collect();
     folders.iter().for_each(|folder| sweep(folder));
     let mut staged = Vec::new();
@@ -202,7 +202,7 @@ fn take_place(file: NamedTempFile, path: &Path) -> io::Result<()> {
 }
 
 /// Removes the temporary files that a killed process left in a folder. What cannot be removed stays.
-pub fn sweep(folder: &Path) {
+pub(crate) fn sweep(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.take(limits::FILES).flatten() {
         if is_temporary(&entry.file_name().to_string_lossy()) && entry.file_type().is_ok_and(|kind| kind.is_file()) {

@@ -47,16 +47,16 @@ pub(super) enum Read {
 }
 
 impl<'a> Files<'a> {
-    pub fn on_disk(folder: &'a Path) -> Self {
+    pub(crate) fn on_disk(folder: &'a Path) -> Self {
         Self::of(Storage::Disk(folder))
     }
 
     /// The files of several folders as if they lay in one. Where two have a file of the same name, the first one's counts.
-    pub fn embedded(folders: Vec<&'a include_dir::Dir<'a>>) -> Self {
+    pub(crate) fn embedded(folders: Vec<&'a include_dir::Dir<'a>>) -> Self {
         Self::of(Storage::Embedded(folders))
     }
 
-    pub fn in_memory(files: &'a BTreeMap<String, Vec<u8>>) -> Self {
+    pub(crate) fn in_memory(files: &'a BTreeMap<String, Vec<u8>>) -> Self {
         Self::of(Storage::Memory(files))
     }
 
@@ -65,7 +65,7 @@ impl<'a> Files<'a> {
     }
 
     /// Reads a folder on disk with these texts in place of what is there.
-    pub fn edited(folder: &'a Path, edited: &'a EditedTexts) -> Self {
+    pub(crate) fn edited(folder: &'a Path, edited: &'a EditedTexts) -> Self {
         Self { edited: Some(edited), ..Self::on_disk(folder) }
     }
 
@@ -77,7 +77,7 @@ impl<'a> Files<'a> {
 
     /// Names of the files directly in the folder, sorted. Links count as files wherever they lead. Fails for a folder
     /// of more than [`limits::FILES`].
-    pub fn names(&self) -> Result<Vec<String>, ProjectError> {
+    pub(crate) fn names(&self) -> Result<Vec<String>, ProjectError> {
         let mut names: Vec<String> = match self.place {
             Storage::Disk(path) => {
                 let mut names = Vec::new();
@@ -112,7 +112,7 @@ impl<'a> Files<'a> {
     }
 
     /// Reads a text of at most `limit` bytes. All that one `Files` reads is at most [`limits::ALL_TEXTS`].
-    pub fn read(&self, name: &str, limit: Limit) -> Read {
+    pub(crate) fn read(&self, name: &str, limit: Limit) -> Read {
         if let Some(text) = self.in_editor(name) {
             let smaller = limit.bytes.min(self.left.get());
             return match text.len() as u64 > smaller {
@@ -154,7 +154,7 @@ impl<'a> Files<'a> {
 
     /// Returns whether something other than a folder has this name directly in the folder, also where it is of no use:
     /// then reading says why.
-    pub fn exists(&self, name: &str) -> bool {
+    pub(crate) fn exists(&self, name: &str) -> bool {
         match self.place {
             Storage::Disk(_) if self.in_editor(name).is_some() => true,
             Storage::Disk(folder) => folder.join(name).symlink_metadata().is_ok_and(|m| !m.is_dir()),
@@ -166,7 +166,7 @@ impl<'a> Files<'a> {
     }
 
     /// The file behind a name, where there is one on disk.
-    pub fn path(&self, name: &str) -> Option<PathBuf> {
+    pub(crate) fn path(&self, name: &str) -> Option<PathBuf> {
         match self.place {
             Storage::Disk(folder) => Some(folder.join(name)),
             Storage::Embedded(_) | Storage::Memory(_) => None,

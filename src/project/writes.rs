@@ -63,13 +63,13 @@ pub(super) struct Writes {
 }
 
 impl Writes {
-    pub fn into(folder: &Path, own: BTreeSet<String>) -> Self {
+    pub(crate) fn into(folder: &Path, own: BTreeSet<String>) -> Self {
         Self { folder: folder.to_owned(), files: BTreeMap::new(), own }
     }
 
     /// The name under which `name` would be written, or why nothing may be written under it. It may not lead out of the
     /// folder; a new file also needs an ending of a project's file and a name that no system reserves.
-    pub fn checked(&self, name: &str) -> Result<String, ProjectError> {
+    pub(crate) fn checked(&self, name: &str) -> Result<String, ProjectError> {
         let refuse = |why: String| Err(ProjectError::Unwritable { path: self.folder.join(name), why });
         let name = match confine::relative("", name) {
             Ok(name) => name,
@@ -89,7 +89,7 @@ impl Writes {
 
     /// Returns whether `content` may have this name: nothing else of this save has it, on a disk that ignores case
     /// either.
-    pub fn is_free(&self, name: &str, content: &[u8]) -> bool {
+    pub(crate) fn is_free(&self, name: &str, content: &[u8]) -> bool {
         match self.files.get(name) {
             Some(Content::Bytes(there)) => there == content,
             Some(Content::CopyOf(..)) => false,
@@ -102,19 +102,19 @@ impl Writes {
     }
 
     /// Writes `content` under a name that [`Writes::checked`] lets pass.
-    pub fn add(&mut self, name: &str, content: Content) -> Result<(), ProjectError> {
+    pub(crate) fn add(&mut self, name: &str, content: Content) -> Result<(), ProjectError> {
         let name = self.checked(name)?;
         self.files.insert(name, content);
         Ok(())
     }
 
     /// Writes `content` to the file that the person at the machine named.
-    pub fn add_named(&mut self, file_name: String, content: Content) {
+    pub(crate) fn add_named(&mut self, file_name: String, content: Content) {
         self.files.insert(file_name, content);
     }
 
     /// Texts by name.
-    pub fn texts(&self) -> impl Iterator<Item = (&String, &Vec<u8>)> {
+    pub(crate) fn texts(&self) -> impl Iterator<Item = (&String, &Vec<u8>)> {
         self.files.iter().filter_map(|(name, content)| match content {
             Content::Bytes(bytes) => Some((name, bytes)),
             Content::CopyOf(..) => None,
@@ -122,7 +122,7 @@ impl Writes {
     }
 
     /// Checks that nothing foreign is in the way and that every file stays within the folder, then writes everything.
-    pub fn write(self, overwrite: Overwrite<'_>) -> Result<(), ProjectError> {
+    pub(crate) fn write(self, overwrite: Overwrite<'_>) -> Result<(), ProjectError> {
         let (mut changed, mut foreign) = (Vec::new(), Vec::new());
         for (name, content) in self.files {
             let path = self.folder.join(&name);

@@ -31,11 +31,11 @@ pub(super) struct Texts {
 }
 
 impl Texts {
-    pub fn of(project: &Project, index: usize, stage: Stage) -> Self {
+    pub(crate) fn of(project: &Project, index: usize, stage: Stage) -> Self {
         Self { project: project.clone(), index, stage }
     }
 
-    pub fn pass(&self) -> &Pass {
+    pub(crate) fn pass(&self) -> &Pass {
         &self.project.passes[self.index]
     }
 
@@ -45,7 +45,7 @@ impl Texts {
 
     /// Returns whether nothing has changed. Texts are shared until they are edited, so looking at where they are is
     /// enough.
-    pub fn is_same(&self, other: &Self) -> bool {
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
         let all = |p: &Project| -> Vec<Arc<str>> {
             let texts = p.tab_sources();
             texts.chain(p.includes.iter().map(|i| &i.source)).map(|s| s.text.clone()).collect()
@@ -117,7 +117,7 @@ pub(super) struct Analyst {
 }
 
 impl Analyst {
-    pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
+    pub(crate) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
         let mut preamble = KeptPreamble::default();
         let work = move |(texts, front): (Texts, Tab), _: &_| {
             let analysis = texts.analyse(&mut preamble);

@@ -72,24 +72,24 @@ pub(super) struct Auditing {
 }
 
 impl Auditing {
-    pub fn new(wake: Wake) -> std::io::Result<Self> {
+    pub(crate) fn new(wake: Wake) -> std::io::Result<Self> {
         let work = |(project, inspected): (Project, Inspected), _: &_| audit_pass(&project, inspected);
         let background = Background::new("audit", "the CPU interpreter", wake, work)?;
         Ok(Self { background, input: Ticket::default(), map: None, of_frame: 0 })
     }
 
-    pub fn request_input(&mut self, shown: &PassName, tasks: &mut Tasks) {
+    pub(crate) fn request_input(&mut self, shown: &PassName, tasks: &mut Tasks) {
         if self.background.take_request() {
             self.input = tasks.add(Inspect(shown.clone()));
         }
     }
 
     /// The device that the input was asked of is gone.
-    pub fn renew_request(&mut self) {
+    pub(crate) fn renew_request(&mut self) {
         self.background.renew_request();
     }
 
-    pub fn begin_next_project(&mut self) {
+    pub(crate) fn begin_next_project(&mut self) {
         self.background.clear();
         (self.input, self.map) = (Ticket::default(), None);
     }

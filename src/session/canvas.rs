@@ -35,18 +35,18 @@ impl Default for CanvasSize {
 
 impl Canvas {
     /// Each project begins with the size that was asked for before any was opened.
-    pub fn begin_next_project(&mut self) {
+    pub(crate) fn begin_next_project(&mut self) {
         *self = Self { viewport: self.viewport, asked: self.usual, usual: self.usual, ..Self::default() };
     }
 
-    pub fn set_viewport(&mut self, size: (u32, u32)) {
+    pub(crate) fn set_viewport(&mut self, size: (u32, u32)) {
         if self.viewport != Some(size) {
             (self.viewport, self.refused) = (Some(size), None);
         }
     }
 
     /// Makes both sides smaller.
-    pub fn shrink(&mut self, factor: f64) {
+    pub(crate) fn shrink(&mut self, factor: f64) {
         let side = |side: u32| ((f64::from(side) * factor) as u32).max(1);
         match &mut self.asked.fixed {
             Some((width, height)) => (*width, *height) = (side(*width), side(*height)),

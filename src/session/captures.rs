@@ -49,13 +49,13 @@ impl Default for Captures {
 }
 
 impl Captures {
-    pub fn request(&mut self, tasks: &mut Tasks) {
+    pub(crate) fn request(&mut self, tasks: &mut Tasks) {
         let due = self.due.drain(..);
         self.in_flight.extend(due.map(|capture| (capture.clone(), tasks.add(capture))));
     }
 
     /// The pictures of a device that was given up are read of the next one.
-    pub fn retry(&mut self) {
+    pub(crate) fn retry(&mut self) {
         self.due.splice(..0, self.in_flight.drain(..).map(|(capture, _)| capture));
     }
 }

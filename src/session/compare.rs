@@ -20,14 +20,14 @@ pub(super) struct Comparing {
 }
 
 impl Comparing {
-    pub fn new(wake: Wake) -> std::io::Result<Self> {
+    pub(crate) fn new(wake: Wake) -> std::io::Result<Self> {
         let work = |job: CompareJob, control: &_| compare(job, control).map(Arc::new);
         let background = Background::new("comparison", "the comparison", wake, work)?;
         Ok(Self { background, against: None, input: Ticket::default() })
     }
 
     /// Begins anew, or stops. The last comparison stays until there is another.
-    pub fn want(&mut self, against: Option<Baseline>) {
+    pub(crate) fn want(&mut self, against: Option<Baseline>) {
         self.background.cancel();
         if against.is_some() {
             self.background.request();
@@ -35,12 +35,12 @@ impl Comparing {
         (self.against, self.input) = (against, Ticket::default());
     }
 
-    pub fn begin_next_project(&mut self) {
+    pub(crate) fn begin_next_project(&mut self) {
         self.want(None);
         self.background.clear();
     }
 
-    pub fn request_input(&mut self, tasks: &mut Tasks) {
+    pub(crate) fn request_input(&mut self, tasks: &mut Tasks) {
         if self.background.take_request() {
             self.input = tasks.add(TakeRun);
         }

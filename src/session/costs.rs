@@ -32,22 +32,22 @@ pub(super) struct Costs {
 
 impl Costs {
     /// Returns the times of the newest frame that the device has finished.
-    pub fn newest(&self) -> &[PassTime] {
+    pub(crate) fn newest(&self) -> &[PassTime] {
         &self.newest
     }
 
     /// Nothing is measured yet.
-    pub fn watched(is_watched: bool) -> Self {
+    pub(crate) fn watched(is_watched: bool) -> Self {
         Self { is_watched, ..Self::default() }
     }
 
     /// Another program, or another project: what was measured is no longer of it.
-    pub fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         self.newest.clear();
         self.frames.clear();
     }
 
-    pub fn watch(&mut self, on: bool) {
+    pub(crate) fn watch(&mut self, on: bool) {
         if self.is_watched != on {
             self.is_watched = on;
             self.frames.clear();
@@ -57,12 +57,12 @@ impl Costs {
     }
 
     /// Somebody looks at them.
-    pub fn is_watched(&self) -> bool {
+    pub(crate) fn is_watched(&self) -> bool {
         self.is_watched
     }
 
     /// Adds the times of a frame, by a clock.
-    pub fn add(&mut self, times: Vec<PassTime>, clock: CostClock) {
+    pub(crate) fn add(&mut self, times: Vec<PassTime>, clock: CostClock) {
         if self.is_watched {
             self.frames.truncate(FRAMES - 1);
             self.frames.push_front(times.clone());
@@ -72,7 +72,7 @@ impl Costs {
     }
 
     /// Each pass with its median.
-    pub fn of(&self, passes: Vec<PassCost>, clock: CostClock) -> PassCosts {
+    pub(crate) fn of(&self, passes: Vec<PassCost>, clock: CostClock) -> PassCosts {
         let timed = |cost: PassCost| TimedPass { millis: self.median(&cost), cost };
         PassCosts { passes: passes.into_iter().map(timed).collect(), clock }
     }

@@ -13,44 +13,44 @@ pub(super) struct Debounce {
 }
 
 impl Debounce {
-    pub fn new(quiet: Duration) -> Self {
+    pub(crate) fn new(quiet: Duration) -> Self {
         Self { quiet, limit: None, touched: None }
     }
 
     /// One that a burst without an end (a log beside the sources, pictures being recorded) cannot put off for ever.
-    pub fn with_limit(quiet: Duration, limit: Duration) -> Self {
+    pub(crate) fn with_limit(quiet: Duration, limit: Duration) -> Self {
         Self { limit: Some(limit), ..Self::new(quiet) }
     }
 
     /// Waits for longer or shorter quiet from now on.
-    pub fn set_quiet(&mut self, quiet: Duration) {
+    pub(crate) fn set_quiet(&mut self, quiet: Duration) {
         self.quiet = quiet;
     }
 
-    pub fn quiet(&self) -> Duration {
+    pub(crate) fn quiet(&self) -> Duration {
         self.quiet
     }
 
-    pub fn touch(&mut self, now: Instant) {
+    pub(crate) fn touch(&mut self, now: Instant) {
         self.touched = Some((self.touched.map_or(now, |t| t.0), now));
     }
 
-    pub fn cancel(&mut self) {
+    pub(crate) fn cancel(&mut self) {
         self.touched = None;
     }
 
-    pub fn is_waiting(&self) -> bool {
+    pub(crate) fn is_waiting(&self) -> bool {
         self.touched.is_some()
     }
 
-    pub fn deadline(&self) -> Option<Instant> {
+    pub(crate) fn deadline(&self) -> Option<Instant> {
         let (first, last) = self.touched?;
         let quiet = last + self.quiet;
         Some(self.limit.map_or(quiet, |limit| quiet.min(first + limit)))
     }
 
     /// True once, when the quiet has lasted long enough.
-    pub fn take_due(&mut self, now: Instant) -> bool {
+    pub(crate) fn take_due(&mut self, now: Instant) -> bool {
         let due = self.deadline().is_some_and(|d| now >= d);
         if due {
             self.touched = None;

@@ -58,7 +58,7 @@ pub(super) struct Devices {
 }
 
 impl Devices {
-    pub fn camera(&self) -> Option<&Camera> {
+    pub(crate) fn camera(&self) -> Option<&Camera> {
         self.camera.as_ref().filter(|camera| camera.newest().is_some())
     }
 
@@ -70,7 +70,7 @@ impl Devices {
     }
 
     /// Turns everything off: another project has to ask again.
-    pub fn begin_next_project(&mut self) {
+    pub(crate) fn begin_next_project(&mut self) {
         self.turn_camera_off();
         *self = Devices { chosen: self.chosen.take(), found: std::mem::take(&mut self.found), ..Devices::default() };
     }

@@ -34,38 +34,38 @@ pub(super) struct LastPictures {
 }
 
 impl LastPictures {
-    pub fn new(cache_dir: Option<&Path>) -> Self {
+    pub(crate) fn new(cache_dir: Option<&Path>) -> Self {
         Self { folder: cache_dir.map(|dir| dir.join("pictures")), written: 0, is_due: false, ticket: Ticket::default() }
     }
 
     /// The open project's picture is wanted, and the project stays open.
-    pub fn want(&mut self) {
+    pub(crate) fn want(&mut self) {
         self.is_due = self.folder.is_some();
     }
 
     /// Asks for the picture where it is wanted, and is the project's own.
-    pub fn request(&mut self, is_of_project: bool, tasks: &mut Tasks) {
+    pub(crate) fn request(&mut self, is_of_project: bool, tasks: &mut Tasks) {
         if std::mem::take(&mut self.is_due) && is_of_project {
             self.ticket = tasks.add(ReadPicture);
         }
     }
 
-    pub fn written(&self) -> u64 {
+    pub(crate) fn written(&self) -> u64 {
         self.written
     }
 
     /// Returns the file of a project's picture. It may not be there.
-    pub fn file(&self, project: &Path) -> Option<PathBuf> {
+    pub(crate) fn file(&self, project: &Path) -> Option<PathBuf> {
         Some(self.folder.as_ref()?.join(kept_files::name(project, EXTENSION)))
     }
 
     /// Returns whether pictures are kept.
-    pub fn is_kept(&self) -> bool {
+    pub(crate) fn is_kept(&self) -> bool {
         self.folder.is_some()
     }
 
     /// Writes a project's picture, whole or not at all.
-    pub fn keep(&mut self, project: &Path, picture: &Picture) -> io::Result<()> {
+    pub(crate) fn keep(&mut self, project: &Path, picture: &Picture) -> io::Result<()> {
         let Some(path) = self.file(project) else { return Ok(()) };
         let Some(small) = small(picture) else { return Ok(()) };
         let folder = path.parent().unwrap_or(Path::new(""));

@@ -49,13 +49,13 @@ pub(super) struct Miniatures {
 
 impl Miniatures {
     /// Only these are wanted from now on.
-    pub fn watch(&mut self, targets: Vec<Target>) {
+    pub(crate) fn watch(&mut self, targets: Vec<Target>) {
         self.known.retain(|target, _| targets.contains(target));
         self.is_due |= targets.iter().any(|target| !self.known.contains_key(target));
         self.watched = targets;
     }
 
-    pub fn get(&self, pass: &PassName, index: usize) -> Option<(&Miniature, u64)> {
+    pub(crate) fn get(&self, pass: &PassName, index: usize) -> Option<(&Miniature, u64)> {
         self.known.get(&(pass.clone(), index)).map(|(picture, generation)| (picture, *generation))
     }
 

@@ -16,13 +16,13 @@ pub(super) struct Searching {
 }
 
 impl Searching {
-    pub fn new(wake: Wake) -> std::io::Result<Self> {
+    pub(crate) fn new(wake: Wake) -> std::io::Result<Self> {
         let background = Background::new("first NaN", "the search", wake, search)?;
         Ok(Self { background, input: Ticket::default() })
     }
 
     /// Begins anew, or ends.
-    pub fn want(&mut self, is_wanted: bool) {
+    pub(crate) fn want(&mut self, is_wanted: bool) {
         self.background.clear();
         self.input = Ticket::default();
         if is_wanted {
@@ -30,7 +30,7 @@ impl Searching {
         }
     }
 
-    pub fn request_input(&mut self, tasks: &mut Tasks) {
+    pub(crate) fn request_input(&mut self, tasks: &mut Tasks) {
         if self.background.take_request() {
             self.input = tasks.add(TakeReplay(ReplayFrom::Oldest));
         }

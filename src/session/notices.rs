@@ -16,20 +16,20 @@ pub(super) struct Notices {
 }
 
 impl Notices {
-    pub fn list(&self) -> &[Notice] {
+    pub(crate) fn list(&self) -> &[Notice] {
         &self.list
     }
 
-    pub fn last_mut(&mut self) -> Option<&mut Notice> {
+    pub(crate) fn last_mut(&mut self) -> Option<&mut Notice> {
         self.list.last_mut()
     }
 
-    pub fn dismiss(&mut self, id: u64) {
+    pub(crate) fn dismiss(&mut self, id: u64) {
         self.list.retain(|notice| notice.id != id);
     }
 
     /// A command begins: what is said from now on is said of what it does.
-    pub fn begin_command(&mut self) {
+    pub(crate) fn begin_command(&mut self) {
         self.command_began = self.next;
     }
 

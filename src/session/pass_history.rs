@@ -62,12 +62,12 @@ pub struct PassStep<'a> {
 }
 
 impl PassHistory {
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.undo.clear();
         self.redo.clear();
     }
 
-    pub fn push(
+    pub(crate) fn push(
         &mut self,
         title: String,
         before: Project,
@@ -87,7 +87,7 @@ impl PassHistory {
     }
 
     /// Notes that a uniform was turned, or several at once. One that is being dragged makes one step.
-    pub fn push_uniforms(&mut self, before: CustomUniformValues, name: Option<&str>) {
+    pub(crate) fn push_uniforms(&mut self, before: CustomUniformValues, name: Option<&str>) {
         let at = Instant::now();
         self.redo.clear();
         if let Some(last) = self.undo.last_mut()
@@ -103,7 +103,7 @@ impl PassHistory {
     }
 
     /// Notes that controls of devices turned uniforms. What moves without a pause makes one step, however many controls.
-    pub fn push_controls(&mut self, before: CustomUniformValues, names: BTreeSet<String>) {
+    pub(crate) fn push_controls(&mut self, before: CustomUniformValues, names: BTreeSet<String>) {
         let at = Instant::now();
         self.redo.clear();
         if let Some(last) = self.undo.last_mut()
@@ -118,7 +118,7 @@ impl PassHistory {
     }
 
     /// A uniform has another name from now on, on both sides of every step.
-    pub fn rename_uniform(&mut self, from: &str, to: &str) {
+    pub(crate) fn rename_uniform(&mut self, from: &str, to: &str) {
         for step in self.undo.iter_mut().chain(&mut self.redo) {
             let values = match &mut step.side {
                 UndoState::Passes(project) => &mut project.custom_uniform_values,
@@ -174,7 +174,7 @@ fn turning_all(names: &BTreeSet<String>) -> String {
 }
 
 impl Step {
-    pub fn shown(&self) -> PassStep<'_> {
+    pub(crate) fn shown(&self) -> PassStep<'_> {
         PassStep { serial: self.serial, title: &self.title }
     }
 }

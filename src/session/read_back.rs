@@ -57,7 +57,7 @@ impl ReadBacks {
     }
 
     /// Forgets what is of the project that is closed, but for pictures that are to be written.
-    pub fn begin_next_project(&mut self) {
+    pub(crate) fn begin_next_project(&mut self) {
         self.cpu_micros = 0.0;
         self.costs = Costs::watched(self.costs.is_watched());
         self.read_backs().into_iter().for_each(ReadBack::begin_next_project);

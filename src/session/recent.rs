@@ -74,18 +74,18 @@ pub(super) struct Recent {
 
 impl Recent {
     /// `state_dir`: what is remembered between two starts lies there. The second value says what is wrong with it.
-    pub fn open(state_dir: Option<&Path>) -> (Self, Option<String>) {
+    pub(crate) fn open(state_dir: Option<&Path>) -> (Self, Option<String>) {
         let mut recent = Self { path: state_dir.map(|dir| dir.join(NAME)), list: Vec::new() };
         let trouble = recent.read().err();
         (recent, trouble)
     }
 
-    pub fn list(&self) -> &[RecentProject] {
+    pub(crate) fn list(&self) -> &[RecentProject] {
         &self.list
     }
 
     /// Puts a project first, and returns what is known of it. One that lies in no file is not remembered.
-    pub fn opened(&mut self, origin: &Origin, dialect: Dialect) -> Result<Option<RecentProject>, String> {
+    pub(crate) fn opened(&mut self, origin: &Origin, dialect: Dialect) -> Result<Option<RecentProject>, String> {
         let Some(path) = place(origin) else { return Ok(None) };
         let mut known = None;
         self.change(|list| {
@@ -99,7 +99,7 @@ impl Recent {
     }
 
     /// Keeps where the time of a project stands.
-    pub fn left(&mut self, origin: &Origin, left: Left) -> Result<(), String> {
+    pub(crate) fn left(&mut self, origin: &Origin, left: Left) -> Result<(), String> {
         let Some(path) = place(origin) else { return Ok(()) };
         self.change(|list| {
             if let Some(project) = list.iter_mut().find(|project| project.path == path) {

@@ -27,17 +27,17 @@ pub(super) struct Runs {
 
 impl Runs {
     /// `state_dir`: what is remembered between two starts lies there.
-    pub fn new(state_dir: Option<&Path>) -> Self {
+    pub(crate) fn new(state_dir: Option<&Path>) -> Self {
         Self { folder: state_dir.map(|dir| dir.join("runs")) }
     }
 
     /// Returns whether a run of so many frames is kept of a project.
-    pub fn takes(&self, origin: &Origin, frames: u64) -> bool {
+    pub(crate) fn takes(&self, origin: &Origin, frames: u64) -> bool {
         frames <= LONGEST as u64 && self.file(origin).is_some()
     }
 
     /// Keeps a run from its first frame on.
-    pub fn keep(&self, origin: &Origin, project: String, frames: Vec<Frame>) -> io::Result<()> {
+    pub(crate) fn keep(&self, origin: &Origin, project: String, frames: Vec<Frame>) -> io::Result<()> {
         let Some(path) = self.file(origin) else { return Ok(()) };
         let one = |(index, frame): (usize, Frame)| RecordedFrame {
             inputs: frame.inputs,
@@ -58,7 +58,7 @@ impl Runs {
     }
 
     /// Forgets the run of a project.
-    pub fn forget(&self, origin: &Origin) {
+    pub(crate) fn forget(&self, origin: &Origin) {
         let Some(path) = self.file(origin) else { return };
         match fs::remove_file(&path) {
             Err(e) if e.kind() != io::ErrorKind::NotFound => log::warn!("cannot remove {}: {e}", path.display()),
@@ -67,7 +67,7 @@ impl Runs {
     }
 
     /// Returns the frames of a project's run, if one is kept. What cannot be read is none.
-    pub fn of(&self, origin: &Origin) -> Option<Vec<Frame>> {
+    pub(crate) fn of(&self, origin: &Origin) -> Option<Vec<Frame>> {
         let path = self.file(origin)?;
         let file = confine::open_state(&path, limits::RUN).ok()?;
         let recording = Recording::read_within(BufReader::new(file), limits::RUN, limits::RUN_BYTES)

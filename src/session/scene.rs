@@ -27,7 +27,7 @@ pub(super) struct PictureSource {
 
 impl PictureSource {
     /// Returns the scene of the picture that the renderer shows; none before its first frame.
-    pub fn scene(self, renderer: &mut Renderer) -> Option<Scene> {
+    pub(crate) fn scene(self, renderer: &mut Renderer) -> Option<Scene> {
         let Run { mut frames, is_whole } = renderer.history().run();
         if !self.has_state || !is_whole || frames.len() > LONGEST {
             frames.drain(..frames.len().saturating_sub(1));

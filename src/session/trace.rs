@@ -52,7 +52,7 @@ pub(super) struct Tracing {
 }
 
 impl Tracing {
-    pub fn new(wake: Wake) -> io::Result<Self> {
+    pub(crate) fn new(wake: Wake) -> io::Result<Self> {
         let work = |job: TraceJob, _: &_| {
             let TraceJob { project, at, frame, inspected: Inspected { pass, inputs, picture } } = job;
             Traced::new(project, &pass, frame, (inputs, &picture), at).map(Arc::new).map_err(|e| e.to_string())
@@ -62,7 +62,7 @@ impl Tracing {
     }
 
     /// Traces another pixel, or none.
-    pub fn want(&mut self, pixel: Option<TracedPixel>) {
+    pub(crate) fn want(&mut self, pixel: Option<TracedPixel>) {
         if pixel.is_none() {
             self.divergence.clear();
         }
@@ -77,7 +77,7 @@ impl Tracing {
         (self.pixel, self.input) = (pixel, Ticket::default());
     }
 
-    pub fn request_input(&mut self, tasks: &mut Tasks) {
+    pub(crate) fn request_input(&mut self, tasks: &mut Tasks) {
         if let Some(pixel) = &self.pixel
             && self.walk.take_request()
         {
@@ -86,13 +86,13 @@ impl Tracing {
     }
 
     /// The device that inputs were asked of is gone.
-    pub fn renew_request(&mut self) {
+    pub(crate) fn renew_request(&mut self) {
         self.walk.renew_request();
         self.divergence.background.renew_request();
     }
 
     /// Takes what has ended. Returns whether something is new.
-    pub fn poll(&mut self) -> bool {
+    pub(crate) fn poll(&mut self) -> bool {
         self.walk.poll() | self.divergence.background.poll()
     }
 
@@ -119,7 +119,7 @@ impl Divergence {
         (self.of, self.input) = (None, Ticket::default());
     }
 
-    pub fn request_input(&mut self, tasks: &mut Tasks) {
+    pub(crate) fn request_input(&mut self, tasks: &mut Tasks) {
         if self.background.take_request() {
             self.input = tasks.add(TakeReplay(ReplayFrom::Newest));
         }

@@ -23,7 +23,7 @@ pub fn is_animated(bytes: &[u8]) -> bool {
 }
 
 /// A file with the times of its frames.
-pub struct Animation {
+pub(crate) struct Animation {
     bytes: Arc<[u8]>,
     format: ImageFormat,
     /// The start time of each frame.
@@ -36,7 +36,7 @@ fn damaged(error: impl std::fmt::Display) -> VideoError {
 }
 
 impl Animation {
-    pub fn open(bytes: Vec<u8>) -> Result<Self, VideoError> {
+    pub(crate) fn open(bytes: Vec<u8>) -> Result<Self, VideoError> {
         let bytes: Arc<[u8]> = bytes.into();
         let format = image::guess_format(&bytes).map_err(damaged)?;
         let delays = delays(&bytes);

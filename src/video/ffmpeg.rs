@@ -26,20 +26,25 @@ use std::{
 };
 
 /// The path by which a child process opens the file on its standard input.
-pub const INPUT: &str = "file:/dev/stdin";
+pub(crate) const INPUT: &str = "file:/dev/stdin";
 /// Containers that contain their frames themselves. Those that refer to other files are excluded.
-pub const FORMATS: &str = "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,ogg,flv,mpeg,mpegts,asf,ivf,nut,yuv4mpegpipe,\
+pub(crate) const FORMATS: &str = "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,ogg,flv,mpeg,mpegts,asf,ivf,nut,yuv4mpegpipe,\
     m4v,mpegvideo,h264,hevc,mxf,rm,dv";
 /// Decoding starts this many seconds before a position: the frame shown there may start that early.
 const BEFORE: f64 = 1.0;
 
 /// Creates a command line that reads a video file. Returns it with the argument for `-i`.
-pub fn command(program: &Path, file: &File, real: &Path) -> Result<(Command, String), VideoError> {
+pub(crate) fn command(program: &Path, file: &File, real: &Path) -> Result<(Command, String), VideoError> {
     command_of(program, file, real, FORMATS)
 }
 
 /// Does the same for a file of one of these formats.
-pub fn command_of(program: &Path, file: &File, real: &Path, formats: &str) -> Result<(Command, String), VideoError> {
+pub(crate) fn command_of(
+    program: &Path,
+    file: &File,
+    real: &Path,
+    formats: &str,
+) -> Result<(Command, String), VideoError> {
     let failed = |reason: String| VideoError::Start { program: program.display().to_string(), reason };
     let mut command = Command::new(program);
     command.args(["-hide_banner", "-protocol_whitelist", "file,pipe", "-format_whitelist", formats]);
@@ -53,7 +58,7 @@ pub fn command_of(program: &Path, file: &File, real: &Path, formats: &str) -> Re
 }
 
 /// A file that was probed by ffprobe.
-pub struct FilmFile {
+pub(crate) struct FilmFile {
     file: File,
     real: PathBuf,
     tools: Tools,
@@ -61,7 +66,7 @@ pub struct FilmFile {
 }
 
 impl FilmFile {
-    pub fn open(file: File, real: PathBuf, tools: &Tools) -> Result<Self, VideoError> {
+    pub(crate) fn open(file: File, real: PathBuf, tools: &Tools) -> Result<Self, VideoError> {
         let probed = probe(&file, &real, tools)?;
         Ok(Self { file, real, tools: tools.clone(), probed })
     }
@@ -134,7 +139,7 @@ impl Decode for PeekedRun {
 
 /// The content of a log line.
 #[derive(Clone, Debug, PartialEq)]
-pub enum LogLine {
+pub(crate) enum LogLine {
     /// Seconds per tick of the filter's clock.
     Tick(f64),
     /// The time of a frame in ticks, if it has one, and its size.
@@ -143,7 +148,7 @@ pub enum LogLine {
 }
 
 /// Parses a line of `showinfo`; see `config_props` and `filter_frame` in ffmpeg's `libavfilter/vf_showinfo.c`.
-pub fn read_line(line: &str) -> LogLine {
+pub(crate) fn read_line(line: &str) -> LogLine {
     let Some((_, said)) = line.strip_prefix("[Parsed_showinfo_").and_then(|rest| rest.split_once("] ")) else {
         return LogLine::Other;
     };
@@ -162,14 +167,14 @@ pub fn read_line(line: &str) -> LogLine {
 }
 
 /// A message of a decoder, as it arrives.
-pub enum Message {
+pub(crate) enum Message {
     Line(LogLine),
     /// The last message that is not about the time of a frame.
     End(String),
 }
 
 /// Reads the messages of a decoder on a separate thread.
-pub fn messages(stderr: std::process::ChildStderr) -> Receiver<Message> {
+pub(crate) fn messages(stderr: std::process::ChildStderr) -> Receiver<Message> {
     let (sender, messages) = mpsc::channel();
     thread::spawn(move || {
         let mut last = String::new();

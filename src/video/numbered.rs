@@ -23,7 +23,7 @@ pub fn frame_rate_of(path: &Path) -> f64 {
     rate.filter(|rate| (0.01..=1000.0).contains(rate)).unwrap_or(FRAME_RATE)
 }
 
-pub struct Sequence {
+pub(crate) struct Sequence {
     first: PathBuf,
     read: ReadFile,
     info: VideoInfo,
@@ -31,7 +31,7 @@ pub struct Sequence {
 }
 
 impl Sequence {
-    pub fn open(place: &FileLocation<'_>, first: &[u8]) -> Result<Self, VideoError> {
+    pub(crate) fn open(place: &FileLocation<'_>, first: &[u8]) -> Result<Self, VideoError> {
         let (width, height) = reader(first)?.into_dimensions().map_err(damaged)?;
         check_size(width, height)?;
         let frame_rate = frame_rate_of(place.path);

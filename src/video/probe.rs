@@ -7,7 +7,7 @@ use std::{fs::File, path::Path};
 
 /// The properties of a file that are needed to decode it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Probed {
+pub(crate) struct Probed {
     pub info: VideoInfo,
     /// The time of the file's clock at position 0.
     pub start: f64,
@@ -74,7 +74,7 @@ struct SideData {
 }
 
 /// Runs ffprobe on an opened file.
-pub fn probe(file: &File, real: &Path, tools: &Tools) -> Result<Probed, VideoError> {
+pub(crate) fn probe(file: &File, real: &Path, tools: &Tools) -> Result<Probed, VideoError> {
     const ENTRIES: &str = "program_version=version:format=start_time,duration:stream=codec_name,width,height,\
         sample_aspect_ratio,color_space,avg_frame_rate,r_frame_rate,time_base,duration:stream_tags=alpha_mode,rotate:\
         stream_side_data=rotation";
@@ -194,7 +194,7 @@ fn end_of_packets(csv: &str) -> f64 {
 }
 
 /// Returns whether a version is older than 5.1. Builds between releases have no number and are new.
-pub fn is_old(version: &str) -> bool {
+pub(crate) fn is_old(version: &str) -> bool {
     let mut numbers = version.split(['.', '-']).map(|n| n.parse::<u32>().ok());
     match (numbers.next().flatten(), numbers.next().flatten()) {
         (Some(major), minor) => (major, minor.unwrap_or(0)) < (5, 1),

@@ -103,7 +103,7 @@ struct Shared {
 }
 
 /// Reads one video; see the module documentation.
-pub struct Reader {
+pub(crate) struct Reader {
     shared: Arc<Shared>,
     patience: Duration,
     last: Option<f64>,
@@ -111,7 +111,7 @@ pub struct Reader {
 
 impl Reader {
     /// Starts decoding from the beginning.
-    pub fn new(film: Arc<dyn Film>, pool: Pool, patience: Duration) -> Self {
+    pub(crate) fn new(film: Arc<dyn Film>, pool: Pool, patience: Duration) -> Self {
         let info = *film.info();
         let all = info.seconds * info.frame_rate * info.frame_bytes() as f64;
         let is_short = all <= 0.25 * pool.0.most as f64;
@@ -147,14 +147,14 @@ impl Reader {
     }
 
     /// Waits for the first frame.
-    pub fn first(&mut self) -> Result<Frame, VideoError> {
+    pub(crate) fn first(&mut self) -> Result<Frame, VideoError> {
         let frame = self.frame_at(0.0, Pace::Exact).frame;
         let state = self.shared.lock();
         frame.ok_or_else(|| state.error.clone().unwrap_or(VideoError::NoPicture))
     }
 
     /// See [`super::FrameSource::frame_at`].
-    pub fn frame_at(&mut self, seconds: f64, pace: Pace) -> FrameLookup {
+    pub(crate) fn frame_at(&mut self, seconds: f64, pace: Pace) -> FrameLookup {
         let shared = &self.shared;
         let info = shared.film.info();
         let wanted = if seconds.is_finite() { seconds.max(0.0) + info.tolerance } else { info.tolerance };

@@ -34,14 +34,14 @@ pub(crate) struct Inlined<'a> {
 }
 
 impl<'a> Inlined<'a> {
-    pub fn new(project: &'a Project, media: &'a MediaSet, media_dir: Option<&'a Path>) -> Self {
+    pub(crate) fn new(project: &'a Project, media: &'a MediaSet, media_dir: Option<&'a Path>) -> Self {
         let (keys, list, mesh_keys, meshes) = Default::default();
         Self { project, media, media_dir, keys, list, mesh_keys, meshes, warnings: Vec::new(), bytes: 0 }
     }
 
     /// Returns the index of a channel's medium; `None` if it is missing or not playable in a browser. `place` names the
     /// channel for a warning.
-    pub fn channel(&mut self, channel: &Channel, place: &str) -> Option<usize> {
+    pub(crate) fn channel(&mut self, channel: &Channel, place: &str) -> Option<usize> {
         let kind = channel.input.kind();
         let name = channel.input.media()?.clone();
         let vflip = channel.sampler.vflip && channel.input.row().has_vflip;
@@ -72,7 +72,7 @@ impl<'a> Inlined<'a> {
     }
 
     /// Returns the index of the picture of a fill.
-    pub fn fill(&mut self, path: &Path) -> Option<usize> {
+    pub(crate) fn fill(&mut self, path: &Path) -> Option<usize> {
         let key = Key::Texels(MediaKey::of_fill(path));
         if let Some(at) = self.keys.iter().position(|known| *known == key) {
             return Some(at);
@@ -82,7 +82,7 @@ impl<'a> Inlined<'a> {
     }
 
     /// Returns the index of the mesh of a draw.
-    pub fn mesh(&mut self, draw: &MeshDraw) -> Option<usize> {
+    pub(crate) fn mesh(&mut self, draw: &MeshDraw) -> Option<usize> {
         let key = (draw.mesh.clone(), draw.normals);
         if let Some(at) = self.mesh_keys.iter().position(|known| *known == key) {
             return Some(at);

@@ -20,7 +20,7 @@ pub(crate) struct Texts<'a> {
 }
 
 impl<'a> Texts<'a> {
-    pub fn new(project: &'a Project, sources: &'a Sources<'a>) -> Self {
+    pub(crate) fn new(project: &'a Project, sources: &'a Sources<'a>) -> Self {
         let map = project.texts();
         let (names, known) = (vec!["player".into()], vec![String::new()]);
         let mut texts = Self { project, sources, map, names, known, codes: Vec::new() };
@@ -30,7 +30,7 @@ impl<'a> Texts<'a> {
     }
 
     /// Returns the index of a text of the project in [`Texts::codes`].
-    pub fn code(&mut self, id: SourceId) -> usize {
+    pub(crate) fn code(&mut self, id: SourceId) -> usize {
         let code = self.glsl(id);
         let at = self.codes.iter().skip(1).position(|known| *known == code);
         at.map_or_else(
@@ -43,7 +43,7 @@ impl<'a> Texts<'a> {
     }
 
     /// Returns the program of a fill with an expression, or with a picture that channel 0 reads.
-    pub fn fill(&mut self, pass: usize, kind: FillKind, value: &FillValue) -> String {
+    pub(crate) fn fill(&mut self, pass: usize, kind: FillKind, value: &FillValue) -> String {
         let Some(text) = self.project.fill_text(pass, kind).filter(|_| matches!(value, FillValue::Expression(_)))
         else {
             return "void mainImage(out vec4 o,in vec2 p){bool s=textureSize(iChannel0,0)==ivec2(iResolution.xy);\

@@ -21,12 +21,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-pub const MIB: usize = 1 << 20;
+pub(crate) const MIB: usize = 1 << 20;
 /// The number of inputs of each kind.
 const INPUTS: u64 = 300;
 
 /// The results for the inputs of one kind.
-pub struct Row {
+pub(crate) struct Row {
     name: &'static str,
     inputs: u64,
     read: u64,
@@ -37,7 +37,7 @@ pub struct Row {
 }
 
 /// Reads `INPUTS` files made by `make`, and fails if one uses more than `most` bytes at once for its length.
-pub fn measure(
+pub(crate) fn measure(
     name: &'static str,
     file: &str,
     make: impl Fn(&mut Random) -> Vec<u8>,
@@ -67,7 +67,7 @@ pub fn measure(
 
 /// Compares every reader with its row. Part of the only test of this program, as memory is measured for the whole
 /// process.
-pub fn check() {
+pub(crate) fn check() {
     let mut rows = vec![pictures(), scenes(), checkpoints(), models()];
     rows.extend(super::readers::rows());
     rows.extend(super::streams::rows());

@@ -12,7 +12,7 @@ use std::{
     process::{Command, Stdio},
 };
 
-pub fn all() -> Vec<Seed> {
+pub(crate) fn all() -> Vec<Seed> {
     let mut seeds = textures();
     seeds.push(seed("animation", "pic.gif", "video", gif()));
     let tone = ["-f", "lavfi", "-i", "sine=440:duration=0.4"];

@@ -5,25 +5,25 @@ use std::{
     sync::atomic::{AtomicUsize, Ordering::Relaxed},
 };
 
-pub struct Counting {
+pub(crate) struct Counting {
     live: AtomicUsize,
     peak: AtomicUsize,
 }
 
 impl Counting {
-    pub const fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Counting { live: AtomicUsize::new(0), peak: AtomicUsize::new(0) }
     }
 
     /// Starts to measure; returns the number of bytes that are allocated now.
-    pub fn start(&self) -> usize {
+    pub(crate) fn start(&self) -> usize {
         let live = self.live.load(Relaxed);
         self.peak.store(live, Relaxed);
         live
     }
 
     /// Returns the peak of allocated bytes since then.
-    pub fn peak(&self) -> usize {
+    pub(crate) fn peak(&self) -> usize {
         self.peak.load(Relaxed)
     }
 
@@ -33,20 +33,23 @@ impl Counting {
     }
 }
 
-// Every call is forwarded unchanged to the system's allocator; only the counters are updated.
+// SAFETY: every call is forwarded unchanged to the system's allocator; only the counters are updated.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         self.took(layout.size());
+        // SAFETY: the caller's promises are those that the system's allocator asks for.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         self.took(layout.size());
+        // SAFETY: the caller's promises are those that the system's allocator asks for.
         unsafe { System.alloc_zeroed(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         self.live.fetch_sub(layout.size(), Relaxed);
+        // SAFETY: the caller's promises are those that the system's allocator asks for.
         unsafe { System.dealloc(pointer, layout) }
     }
 
@@ -59,6 +62,7 @@ unsafe impl GlobalAlloc for Counting {
             self.took(size);
             self.live.fetch_sub(layout.size(), Relaxed);
         }
+        // SAFETY: the caller's promises are those that the system's allocator asks for.
         unsafe { System.realloc(pointer, layout, size) }
     }
 }

@@ -1,10 +1,10 @@
 //! Mutations that damage a file.
 
 /// Reproducible numbers from a seed (xorshift64*).
-pub struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    pub fn new(seed: u64) -> Random {
+    pub(crate) fn new(seed: u64) -> Random {
         Random((seed + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
     }
 
@@ -16,7 +16,7 @@ impl Random {
     }
 
     /// Returns a number from 0 to `end` exclusive; 0 for an `end` of 0.
-    pub fn below(&mut self, end: usize) -> usize {
+    pub(crate) fn below(&mut self, end: usize) -> usize {
         (self.next() >> 33) as usize % end.max(1)
     }
 
@@ -56,7 +56,7 @@ const WORDS: [&str; 14] =
     ["[", "]", "{", "}", "\"", ",", ":", "null", "true", "\n", "\\u0000", "../", "builtin:cube", "é"];
 
 /// Damages the bytes in one way; `other` is another file.
-pub fn mutate(bytes: &mut Vec<u8>, other: &[u8], random: &mut Random) {
+pub(crate) fn mutate(bytes: &mut Vec<u8>, other: &[u8], random: &mut Random) {
     let length = bytes.len();
     match random.below(9) {
         0 => {
@@ -108,7 +108,7 @@ fn number(bytes: &mut Vec<u8>, random: &mut Random) {
 }
 
 /// Corrects the checksums of a PNG's chunks, as far as there are chunks.
-pub fn mend_png(bytes: &mut [u8]) {
+pub(crate) fn mend_png(bytes: &mut [u8]) {
     if !bytes.starts_with(b"\x89PNG") {
         return;
     }

@@ -17,7 +17,7 @@ use eddy_texture::Dimension;
 use image::{DynamicImage, ImageFormat, ImageReader};
 use std::{fs, io::Cursor, path::Path};
 
-pub fn rows() -> Vec<Row> {
+pub(crate) fn rows() -> Vec<Row> {
     vec![
         images(),
         textures(),

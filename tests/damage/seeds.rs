@@ -4,36 +4,37 @@ use image::{DynamicImage, ImageFormat, Rgb, Rgb32FImage, Rgba, RgbaImage};
 use std::io::Cursor;
 
 #[derive(Clone)]
-pub struct File {
+pub(crate) struct File {
     pub name: &'static str,
     pub bytes: Vec<u8>,
     /// The file may be damaged.
     pub is_target: bool,
 }
 
-pub struct Seed {
+pub(crate) struct Seed {
     pub name: &'static str,
     pub files: Vec<File>,
     /// The file to open, relative to the folder of the files.
     pub entry: &'static str,
 }
 
-pub fn target(name: &'static str, bytes: impl Into<Vec<u8>>) -> File {
+pub(crate) fn target(name: &'static str, bytes: impl Into<Vec<u8>>) -> File {
     File { name, bytes: bytes.into(), is_target: true }
 }
 
-pub fn fixed(name: &'static str, text: &str) -> File {
+pub(crate) fn fixed(name: &'static str, text: &str) -> File {
     File { name, bytes: text.into(), is_target: false }
 }
 
-pub const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p / iResolution.xy); }\n";
+pub(crate) const IMAGE: &str =
+    "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p / iResolution.xy); }\n";
 const VERTEX: &str = "in vec3 aPosition;\nin vec3 aNormal;\nin vec4 aTangent;\nin vec2 aUv;\nin vec4 aColor;\nout vec4 \
                       vColor;\n\
     void main() { vColor = aColor + aTangent + vec4(aNormal, aUv.x); gl_Position = iProjection * iView * iModel * \
     vec4(aPosition, 1.0); }\n";
 const FRAGMENT: &str = "in vec4 vColor;\nlayout(location = 0) out vec4 color;\nvoid main() { color = vColor; }\n";
 
-pub fn all() -> Vec<Seed> {
+pub(crate) fn all() -> Vec<Seed> {
     let mut seeds = vec![manifest(), json()];
     let formats = [
         ("png", "pic.png", ImageFormat::Png),

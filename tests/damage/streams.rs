@@ -19,7 +19,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-pub fn rows() -> Vec<Row> {
+pub(crate) fn rows() -> Vec<Row> {
     vec![khronos_textures(), midi(), language_server()]
 }
 

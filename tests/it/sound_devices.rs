@@ -25,7 +25,7 @@ const SONG: &str = "channels.0 = { file = \"song.wav\", kind = \"music\" }";
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, vec2(0.1, 0.75)); }\n";
 
 /// A WAV file of 16 bits, stereo, 44.1 kHz, with the same on both channels.
-pub fn wav(samples: impl ExactSizeIterator<Item = i16>) -> Vec<u8> {
+pub(crate) fn wav(samples: impl ExactSizeIterator<Item = i16>) -> Vec<u8> {
     let count = samples.len() as u32;
     let mut file = b"RIFF".to_vec();
     file.extend((36 + 4 * count).to_le_bytes());

@@ -1,10 +1,10 @@
 //! Numbers that look random and are the same for the same seed, and the keys that the window knows.
 
 /// splitmix64.
-pub struct Random(pub u64);
+pub(crate) struct Random(pub u64);
 
 impl Random {
-    pub fn below(&mut self, end: u64) -> u64 {
+    pub(crate) fn below(&mut self, end: u64) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut x = self.0;
         x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -12,18 +12,18 @@ impl Random {
         (x ^ (x >> 31)) % end
     }
 
-    pub fn of<'a, T: ?Sized>(&mut self, list: &[&'a T]) -> &'a T {
+    pub(crate) fn of<'a, T: ?Sized>(&mut self, list: &[&'a T]) -> &'a T {
         list[self.below(list.len() as u64) as usize]
     }
 }
 
 /// A number from the environment.
-pub fn number(name: &str, otherwise: u64) -> u64 {
+pub(crate) fn number(name: &str, otherwise: u64) -> u64 {
     std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(otherwise)
 }
 
 /// The keys of every action, in xdotool's names, as the table of actions has them. A new action is in it by itself.
-pub fn of_actions() -> Vec<String> {
+pub(crate) fn of_actions() -> Vec<String> {
     let table = include_str!("../../src/gui/actions/table.rs");
     let mut keys: Vec<String> = table.split('"').filter_map(xdotool).collect();
     keys.sort();

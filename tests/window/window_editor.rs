@@ -24,7 +24,7 @@ fn go_to(window: &mut Window, line: usize, column: usize) {
 }
 
 /// Saves, and gives a file's text.
-pub fn saved(window: &mut Window, home: &Path, file: &str) -> String {
+pub(crate) fn saved(window: &mut Window, home: &Path, file: &str) -> String {
     window.wait_until("the text to be unsaved", "dirty", |e| e["dirty"] == true);
     window.save();
     fs::read_to_string(home.join("project").join(file)).unwrap()

@@ -26,7 +26,7 @@ pub(super) enum Samples {
 
 impl Samples {
     /// Returns the sample format of a WAV format; `None` for a codec that is not read here.
-    pub fn of(format: &Format) -> Option<Result<Samples, AudioError>> {
+    pub(super) fn of(format: &Format) -> Option<Result<Samples, AudioError>> {
         let unsupported = || Err(AudioError::Unsupported(format!("samples of {} bits", format.bits)));
         Some(match (format.tag, format.bits) {
             (PCM, 1..=8) => Ok(Samples::Unsigned),
@@ -47,7 +47,7 @@ impl Samples {
     }
 
     /// Returns the number of bytes per sample.
-    pub fn bytes(self) -> usize {
+    pub(super) fn bytes(self) -> usize {
         match self {
             Samples::Unsigned | Samples::ALaw | Samples::MuLaw => 1,
             Samples::Signed(bytes) => bytes,
@@ -58,7 +58,7 @@ impl Samples {
 
     /// Returns a sample in -1 to 1; floats may be outside. Both ends of the range of integers up to 16 bits are those
     /// of Chromium: see [`super::scale_above_zero`].
-    pub fn value(self, bytes: &[u8], is_big: bool) -> f32 {
+    pub(super) fn value(self, bytes: &[u8], is_big: bool) -> f32 {
         // The same operations as for other files, so that a FLAC file of the same samples decodes to the same sound bit
         // for bit.
         let scaled = |value: i16, steps: f32| {

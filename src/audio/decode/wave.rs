@@ -136,7 +136,7 @@ fn read_format(numbers: Numbers<'_>, at: usize, size: u32) -> Result<Format, Aud
 
 impl Wave {
     /// Returns the same sound as a minimal file with correct sizes, for a reader that depends on them.
-    pub fn plain(&self, file: &[u8]) -> Vec<u8> {
+    pub(super) fn plain(&self, file: &[u8]) -> Vec<u8> {
         let (header, data) = (&file[self.header.clone()], &file[self.data.clone()]);
         let chunk = |name: &[u8; 4], bytes: &[u8]| {
             let padding = if bytes.len() % 2 == 1 { &[0][..] } else { &[] };

@@ -18,7 +18,7 @@ pub(super) struct Deck {
 }
 
 impl Deck {
-    pub fn new(scene: Arc<Scene>, position: f64, ratio: f64) -> Self {
+    pub(super) fn new(scene: Arc<Scene>, position: f64, ratio: f64) -> Self {
         let mut deck = Self { scene, position, gain: 0.0, target: 1.0, presence: [0.0; MOST_SOURCES] };
         for n in 0..deck.scene.sources.len().min(MOST_SOURCES) {
             deck.presence[n] = if deck.is_made(n, ratio, 0.0) { 1.0 } else { 0.0 };
@@ -27,7 +27,7 @@ impl Deck {
     }
 
     /// Returns whether it has faded out.
-    pub fn is_over(&self) -> bool {
+    pub(super) fn is_over(&self) -> bool {
         self.target == 0.0 && self.gain == 0.0
     }
 
@@ -40,7 +40,7 @@ impl Deck {
 
     /// Returns the next frame, `ratio` samples of the sources after the last one. `fade` is the change of gains per
     /// frame.
-    pub fn next(&mut self, kernel: &Kernel, ratio: f64, fade: f32) -> [f32; 2] {
+    pub(super) fn next(&mut self, kernel: &Kernel, ratio: f64, fade: f32) -> [f32; 2] {
         self.gain += (self.target - self.gain).clamp(-fade, fade);
         let mut sum = [0.0; 2];
         if self.gain > 0.0 {

@@ -12,7 +12,7 @@ pub enum HostProgram {
 
 /// A program that takes Shadertoy's GLSL.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Consumer {
+pub(crate) enum Consumer {
     /// The terminal Ghostty (`custom-shader`)
     Ghostty,
     /// The module xshadertoy of XScreenSaver
@@ -29,7 +29,7 @@ impl HostProgram {
 
 impl Consumer {
     /// Returns what a file is called that is to be read as this program reads it.
-    pub fn spec(self, file: &str) -> String {
+    pub(crate) fn spec(self, file: &str) -> String {
         match self {
             Consumer::Ghostty => HostProgram::Ghostty.spec(file),
             Consumer::Xscreensaver => file.to_owned(),
@@ -39,7 +39,7 @@ impl Consumer {
 
 impl Cli {
     /// Applies `--as` to every project.
-    pub fn with_guests(mut self) -> Self {
+    pub(crate) fn with_guests(mut self) -> Self {
         let (guest, projects) = match &mut self.command {
             None => (self.window.guest, self.window.project.iter_mut().collect()),
             Some(command) => command.hosted(),

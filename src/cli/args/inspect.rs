@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
-pub struct ProbeArgs {
+pub(crate) struct ProbeArgs {
     pub project: String,
     /// Position of the expression: tab, line and column, as in image:12:9 or common:3:14. Picks the innermost
     /// expression there; at a declaration, the initial value of the variable
@@ -54,7 +54,7 @@ pub struct ProbeArgs {
 
 impl ProbeArgs {
     /// Returns the pass that is drawn.
-    pub fn pass(&self) -> PassName {
+    pub(crate) fn pass(&self) -> PassName {
         match (&self.pass, &self.at.tab) {
             (Some(pass), _) => pass.pass.clone(),
             (None, Tab::Pass(pass)) => pass.clone(),
@@ -63,12 +63,12 @@ impl ProbeArgs {
     }
 
     /// Returns the face of a cubemap that is drawn; of another pass 0.
-    pub fn face(&self) -> Result<usize, String> {
+    pub(crate) fn face(&self) -> Result<usize, String> {
         face_of(&self.pass(), self.face)
     }
 
     /// The file of the values, if one is asked for.
-    pub fn file(&self) -> Option<PathBuf> {
+    pub(crate) fn file(&self) -> Option<PathBuf> {
         let TextPlace { tab, line, column } = &self.at;
         let tab = tab.pass().map_or("common", PassName::key);
         let named = |format: Format| {
@@ -79,7 +79,7 @@ impl ProbeArgs {
     }
 
     /// Returns the format of the file: what its name ends in, or what is asked for.
-    pub fn format(&self) -> Result<Format, String> {
+    pub(crate) fn format(&self) -> Result<Format, String> {
         let ending = self.out.as_ref().and_then(|path| path.extension());
         let named = ending.map(|e| if e.eq_ignore_ascii_case("png") { Format::Png } else { Format::Npy });
         match (named, self.format) {
@@ -95,7 +95,7 @@ impl ProbeArgs {
 
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
-pub struct TraceArgs {
+pub(crate) struct TraceArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
     /// The pixel to trace, counted from the bottom left
@@ -134,14 +134,14 @@ pub struct TraceArgs {
 
 impl TraceArgs {
     /// Returns the face of a cubemap that is traced; of another pass 0.
-    pub fn face(&self) -> Result<usize, String> {
+    pub(crate) fn face(&self) -> Result<usize, String> {
         face_of(&self.pass.pass, self.face)
     }
 }
 
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
-pub struct CompareArgs {
+pub(crate) struct CompareArgs {
     /// The project to compare
     pub project: String,
     /// The reference project
@@ -175,7 +175,7 @@ pub struct CompareArgs {
 
 /// The ways to show two pictures in one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum CompareView {
+pub(crate) enum CompareView {
     Side,
     Wipe,
     Difference,

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
-pub struct LabArgs {
+pub(crate) struct LabArgs {
     #[command(subcommand)]
     pub command: Option<LabCommand>,
     /// The studies to run [default: all]
@@ -35,7 +35,7 @@ pub struct LabArgs {
 
 #[derive(Debug, Subcommand)]
 #[expect(clippy::large_enum_variant, reason = "there is one, and it is made once")]
-pub enum LabCommand {
+pub(crate) enum LabCommand {
     /// Run simulations under hard conditions and report which leave their bounds
     Stability(StabilityArgs),
     /// Merge the results of several folders into one report; device, driver, version and extent must match
@@ -55,7 +55,7 @@ const AUDIT_STEPS: u64 = STEPS / 10;
 
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
-pub struct PrecisionArgs {
+pub(crate) struct PrecisionArgs {
     /// The projects to check [default: the study's presets, which need --out]
     pub project: Vec<String>,
     /// Number of frames to draw [default: 300; with --replay all recorded frames]
@@ -88,14 +88,14 @@ pub struct PrecisionArgs {
 }
 
 impl PrecisionArgs {
-    pub fn frames(&self) -> u32 {
+    pub(crate) fn frames(&self) -> u32 {
         self.frames.or(self.run.recorded()).unwrap_or(300)
     }
 }
 
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
-pub struct StabilityArgs {
+pub(crate) struct StabilityArgs {
     /// [default: every preset]
     pub project: Vec<String>,
     /// Folder for the results, a CSV and an HTML page; a stopped run resumes there

@@ -8,12 +8,12 @@ mod run;
 mod tools;
 mod values;
 
-pub use elsewhere::{Consumer, HostProgram};
-pub use inspect::{CompareArgs, CompareView, ProbeArgs, TraceArgs};
-pub use lab::{LabArgs, LabCommand, PrecisionArgs, StabilityArgs};
-pub use render::RenderArgs;
-pub use run::RunArgs;
-pub use tools::{CompletionsArgs, DoctorArgs, ListArgs, LspArgs, ManArgs, TranslateArgs, TryCompileArgs};
+pub(super) use elsewhere::{Consumer, HostProgram};
+pub(super) use inspect::{CompareArgs, CompareView, ProbeArgs, TraceArgs};
+pub(super) use lab::{LabArgs, LabCommand, PrecisionArgs, StabilityArgs};
+pub(super) use render::RenderArgs;
+pub(super) use run::RunArgs;
+pub(super) use tools::{CompletionsArgs, DoctorArgs, ListArgs, LspArgs, ManArgs, TranslateArgs, TryCompileArgs};
 
 use super::{command::Command, sweep::Sweep};
 use crate::{glsl::opt::PassSet, playback::script::ScriptedInputs, video::CameraSource};
@@ -21,13 +21,13 @@ use clap::{Args, CommandFactory, Parser, ValueEnum};
 use eddy_project::{EditedTexts, project_of};
 use run::DisabledPasses;
 use std::{net::SocketAddr, path::PathBuf, time::Duration};
-pub use values::face_of;
+pub(super) use values::face_of;
 use values::{PROJECT, folder, osc, seconds, size, webcam};
 
 /// Runs Shadertoy programs unchanged and says how fast and how wrong they are.
 #[derive(Debug, Parser)]
 #[command(name = "eddy", version, args_conflicts_with_subcommands = true, after_help = PROJECT)]
-pub struct Cli {
+pub(super) struct Cli {
     #[command(flatten)]
     pub window: Window,
     #[command(subcommand)]
@@ -90,13 +90,13 @@ impl Window {
 }
 
 /// Returns the names of all commands.
-pub fn command_names() -> Vec<String> {
+pub(super) fn command_names() -> Vec<String> {
     Cli::command().get_subcommands().map(|command| command.get_name().to_owned()).collect()
 }
 
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
-pub struct CheckArgs {
+pub(super) struct CheckArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
     /// Say what this program would make of it: ghostty, a terminal whose custom shaders are GLSL files, or xscreensaver
@@ -124,7 +124,7 @@ fn dumped_pass(name: &str) -> Result<String, String> {
 
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
-pub struct BenchArgs {
+pub(super) struct BenchArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
     /// Number of frames to measure after the warm-up [default: 60; with --replay all recorded frames]
@@ -141,18 +141,18 @@ pub struct BenchArgs {
 }
 
 impl BenchArgs {
-    pub fn frames(&self) -> u32 {
+    pub(super) fn frames(&self) -> u32 {
         self.frames.or(self.run.recorded()).unwrap_or(60)
     }
 
     /// Returns what the frames are drawn with. Err: what was asked for cannot be meant.
-    pub fn inputs(&self) -> Result<ScriptedInputs, String> {
+    pub(super) fn inputs(&self) -> Result<ScriptedInputs, String> {
         self.run.inputs_of(self.frames())
     }
 }
 
 #[derive(Debug, Args)]
-pub struct ImportArgs {
+pub(super) struct ImportArgs {
     #[arg(value_name = "FILE.json")]
     pub file: PathBuf,
     /// Project folder to create
@@ -165,7 +165,7 @@ pub struct ImportArgs {
 
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
-pub struct ExportArgs {
+pub(super) struct ExportArgs {
     pub project: String,
     /// File to write, which ends in .json, .html or .fs
     #[arg(long, value_name = "FILE")]
@@ -183,7 +183,7 @@ pub struct ExportArgs {
 
 /// A form that a project is exported in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ExportFormat {
+pub(super) enum ExportFormat {
     /// Shadertoy JSON
     Json,
     /// One HTML file that plays the project in a browser by WebGL 2

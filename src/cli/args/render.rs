@@ -21,7 +21,7 @@ use std::{path::PathBuf, time::Duration};
 
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
-pub struct RenderArgs {
+pub(crate) struct RenderArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
     /// File to write, or a folder for STEM.png of each project (with several frames STEM_0004.png, with more digits if
@@ -121,7 +121,7 @@ pub struct RenderArgs {
 
 /// The form of what is written.
 #[derive(Debug, Args)]
-pub struct StyleArgs {
+pub(crate) struct StyleArgs {
     /// png: as shown on a screen. exr: the floats of the pass. npy: float32, height x width x 4, row 0 at the bottom. gif,
     /// apng, webm, mp4, mov, mkv, y4m: a film. raw: 8-bit RGBA and nothing else [default: what --out ends in, else png, or
     /// y4m to standard output]
@@ -150,22 +150,22 @@ pub struct StyleArgs {
 
 impl RenderArgs {
     /// Returns how many times as wide and high pictures are drawn.
-    pub fn factor(&self) -> u32 {
+    pub(crate) fn factor(&self) -> u32 {
         self.supersample.unwrap_or(1)
     }
 
     /// Returns how progress is shown.
-    pub fn progress(&self) -> progress::Style {
+    pub(crate) fn progress(&self) -> progress::Style {
         if self.quiet { progress::Style::None } else { self.progress }
     }
 
     /// Returns what frames are drawn with. Err: a script that cannot be read.
-    pub fn inputs(&self) -> Result<ScriptedInputs, String> {
+    pub(crate) fn inputs(&self) -> Result<ScriptedInputs, String> {
         Ok(self.run.inputs()?.with_mouse_scale(self.factor()))
     }
 
     /// Returns the run with the resolution in which it is drawn, and in tiles where that is needed.
-    pub fn drawn(&self) -> RunArgs {
+    pub(crate) fn drawn(&self) -> RunArgs {
         let (width, height) = self.run.size;
         let size = (width.saturating_mul(self.factor()), height.saturating_mul(self.factor()));
         let tiles = match self.tile {
@@ -177,7 +177,7 @@ impl RenderArgs {
 }
 
 impl StyleArgs {
-    pub fn of(&self, format: Format) -> Style {
+    pub(crate) fn of(&self, format: Format) -> Style {
         let &StyleArgs { codec, quality, range, chroma, depth, .. } = self;
         Style { format, codec, quality, range, chroma, depth }
     }

@@ -17,11 +17,11 @@ use jiff::civil::DateTime;
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
 /// The default for frames per second of iTime.
-pub const DEFAULT_FPS: f64 = 60.0;
+pub(super) const DEFAULT_FPS: f64 = 60.0;
 
 /// Says how frames are drawn, wherever frames are drawn.
 #[derive(Clone, Debug, Args)]
-pub struct RunArgs {
+pub(crate) struct RunArgs {
     /// Draw files as custom shaders of this program, with a stand-in for what it draws: ghostty, a terminal
     #[arg(long = "as", value_name = "PROGRAM")]
     pub guest: Option<HostProgram>,
@@ -76,19 +76,19 @@ pub struct RunArgs {
 
 impl RunArgs {
     /// Returns how many frames were recorded, where a recording is drawn again.
-    pub fn recorded(&self) -> Option<u32> {
+    pub(crate) fn recorded(&self) -> Option<u32> {
         let recording = self.replay.as_ref()?;
         Some(u32::try_from(recording.frames.len()).unwrap_or(u32::MAX))
     }
 
     /// Returns the size of the canvas in frame 0.
-    pub fn canvas(&self) -> (u32, u32) {
+    pub(crate) fn canvas(&self) -> (u32, u32) {
         let first = self.replay.as_ref().and_then(|recording| recording.frames.first());
         first.map_or(self.size, |frame| frame.size)
     }
 
     /// Fails where a recording has fewer frames.
-    pub fn within_recording(&self, frames: u32) -> Result<(), String> {
+    pub(crate) fn within_recording(&self, frames: u32) -> Result<(), String> {
         match self.recorded() {
             Some(recorded) if recorded < frames => {
                 Err(format!("--replay: {frames} frames were requested, but only {recorded} were recorded"))
@@ -98,18 +98,18 @@ impl RunArgs {
     }
 
     /// Does the same as [`Self::inputs`] for a run of so many frames, which a recording must have.
-    pub fn inputs_of(&self, frames: u32) -> Result<ScriptedInputs, String> {
+    pub(crate) fn inputs_of(&self, frames: u32) -> Result<ScriptedInputs, String> {
         self.within_recording(frames)?;
         self.inputs()
     }
 
     /// Returns the frames per second of iTime.
-    pub fn fps(&self) -> f64 {
+    pub(crate) fn fps(&self) -> f64 {
         self.fps.unwrap_or(DEFAULT_FPS)
     }
 
     /// Returns what the scripts, the date and the rate make of frame 0, 1, 2 … Err: a script that cannot be read.
-    pub fn inputs(&self) -> Result<ScriptedInputs, String> {
+    pub(crate) fn inputs(&self) -> Result<ScriptedInputs, String> {
         let mouse = parse_mouse(&self.mouse).map_err(|e| format!("--mouse: {e}"))?;
         let keys = parse_keys(&self.keys).map_err(|e| format!("--keys: {e}"))?;
         Ok(ScriptedInputs::new(self.fps())
@@ -122,14 +122,14 @@ impl RunArgs {
 
 /// Passes of the shader compiler's optimiser that are left out: for who works on it.
 #[derive(Clone, Debug, Default, Args)]
-pub struct DisabledPasses {
+pub(crate) struct DisabledPasses {
     /// Skip an optimisation; may be repeated
     #[arg(long = "without-pass", value_name = "NAME", value_parser = PassSet::of, hide = true)]
     passes: Vec<PassSet>,
 }
 
 impl DisabledPasses {
-    pub fn set(&self) -> PassSet {
+    pub(crate) fn set(&self) -> PassSet {
         self.passes.iter().fold(PassSet::default(), |all, &set| all.with(set))
     }
 }

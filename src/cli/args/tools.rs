@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
-pub struct TranslateArgs {
+pub(crate) struct TranslateArgs {
     pub project: String,
     /// The language to write: wgsl, hlsl, msl, glsl or spirv
     #[arg(long, value_name = "LANGUAGE")]
@@ -28,7 +28,7 @@ pub struct TranslateArgs {
 
 impl TranslateArgs {
     /// Returns the language with its version. Err: what was asked for cannot be meant.
-    pub fn language(&self) -> Result<Language, String> {
+    pub(crate) fn language(&self) -> Result<Language, String> {
         let language = match self.to {
             LanguageName::Wgsl => Language::Wgsl,
             LanguageName::Hlsl => Language::Hlsl,
@@ -45,7 +45,7 @@ impl TranslateArgs {
 
 /// A language by its word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum LanguageName {
+pub(crate) enum LanguageName {
     Wgsl,
     Hlsl,
     Msl,
@@ -59,7 +59,7 @@ fn glsl_version(text: &str) -> Result<GlslVersion, String> {
 }
 
 #[derive(Debug, Args)]
-pub struct DoctorArgs {
+pub(crate) struct DoctorArgs {
     /// Print one JSON object instead of text
     #[arg(long)]
     pub json: bool,
@@ -69,13 +69,13 @@ pub struct DoctorArgs {
 }
 
 #[derive(Debug, Args)]
-pub struct CompletionsArgs {
+pub(crate) struct CompletionsArgs {
     /// The shell: bash, zsh, fish, powershell or elvish
     pub shell: clap_complete::Shell,
 }
 
 #[derive(Debug, Args)]
-pub struct ManArgs {
+pub(crate) struct ManArgs {
     /// Folder for eddy.1 and a page per command
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -85,10 +85,10 @@ pub struct ManArgs {
 }
 
 #[derive(Debug, Args)]
-pub struct ListArgs {}
+pub(crate) struct ListArgs {}
 
 #[derive(Debug, Args)]
-pub struct LspArgs {}
+pub(crate) struct LspArgs {}
 
 #[derive(Debug, Args)]
-pub struct TryCompileArgs {}
+pub(crate) struct TryCompileArgs {}

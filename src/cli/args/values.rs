@@ -17,17 +17,17 @@ use std::{
     time::Duration,
 };
 
-pub const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder with common.glsl, buffer_a.glsl … \
+pub(super) const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder with common.glsl, buffer_a.glsl … \
                            image.glsl, a .glsl file, the name of a preset (see `eddy list`) or a Shadertoy API \
                            .json file. If a project has the name of a command, write `eddy ./render`.";
 
 /// A pixel, as in 80,45.
-pub fn pixel(text: &str) -> Result<(u32, u32), String> {
+pub(super) fn pixel(text: &str) -> Result<(u32, u32), String> {
     let parts = text.split_once(',').and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
     parts.ok_or_else(|| format!("{text} is not a pixel: write column and row, as in 80,45"))
 }
 
-pub fn format(text: &str) -> Result<Format, String> {
+pub(super) fn format(text: &str) -> Result<Format, String> {
     let names = || Format::ALL.map(Format::name).join(", ");
     match text {
         "wav" | "flac" => Err("a sound's format is what --out ends in, as in --pass sound --out x.flac".into()),
@@ -36,7 +36,7 @@ pub fn format(text: &str) -> Result<Format, String> {
 }
 
 /// The format of a picture that the other commands write.
-pub fn picture_format(text: &str) -> Result<capture::Format, String> {
+pub(super) fn picture_format(text: &str) -> Result<capture::Format, String> {
     match text {
         "png" => Ok(capture::Format::Png),
         "npy" => Ok(capture::Format::Npy),
@@ -45,7 +45,7 @@ pub fn picture_format(text: &str) -> Result<capture::Format, String> {
 }
 
 /// Reads the name of a folder that is there.
-pub fn folder(text: &str) -> Result<PathBuf, String> {
+pub(super) fn folder(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match fs::metadata(&path) {
         Ok(found) if found.is_dir() => Ok(path),
@@ -56,12 +56,12 @@ pub fn folder(text: &str) -> Result<PathBuf, String> {
 }
 
 /// Reads the name of a file that a picture is written to.
-pub fn png_file(text: &str) -> Result<PathBuf, String> {
+pub(super) fn png_file(text: &str) -> Result<PathBuf, String> {
     named_file(text, &["png"])
 }
 
 /// Reads the name of a file that values are written to.
-pub fn values_file(text: &str) -> Result<PathBuf, String> {
+pub(super) fn values_file(text: &str) -> Result<PathBuf, String> {
     named_file(text, &["npy", "png"])
 }
 
@@ -76,49 +76,49 @@ fn named_file(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
     }
 }
 
-pub fn codec(text: &str) -> Result<Codec, String> {
+pub(super) fn codec(text: &str) -> Result<Codec, String> {
     Codec::of_name(text).ok_or_else(|| format!("unknown codec; use one of {}", Codec::ALL.map(Codec::name).join(", ")))
 }
 
-pub fn quality(text: &str) -> Result<Quality, String> {
+pub(super) fn quality(text: &str) -> Result<Quality, String> {
     Quality::parse(text).ok_or_else(|| "write low, medium, high, lossless or a number from 0 on".into())
 }
 
-pub fn range(text: &str) -> Result<ColorRange, String> {
+pub(super) fn range(text: &str) -> Result<ColorRange, String> {
     ColorRange::parse(text).ok_or_else(|| "write limited or full".into())
 }
 
-pub fn chroma(text: &str) -> Result<Chroma, String> {
+pub(super) fn chroma(text: &str) -> Result<Chroma, String> {
     Chroma::parse(text).ok_or_else(|| "write 420, 422 or 444".into())
 }
 
-pub fn fade(text: &str) -> Result<f64, String> {
+pub(super) fn fade(text: &str) -> Result<f64, String> {
     let secs = text.parse().ok().filter(|secs: &f64| secs.is_finite() && *secs >= 0.0 && *secs < 1e6);
     secs.ok_or_else(|| "write seconds from 0 on, as in 1.5".into())
 }
 
-pub fn shutter(text: &str) -> Result<f64, String> {
+pub(super) fn shutter(text: &str) -> Result<f64, String> {
     let part = text.parse().ok().filter(|part: &f64| *part > 0.0 && *part <= 1.0);
     part.ok_or_else(|| "a shutter is a number above 0 and at most 1, as in 0.5".into())
 }
 
-pub fn tile(text: &str) -> Result<u32, String> {
+pub(super) fn tile(text: &str) -> Result<u32, String> {
     let side = text.parse().ok().filter(|side: &u32| *side > 0 && side.is_multiple_of(4));
     side.ok_or_else(|| "the side of a tile is a multiple of 4 pixels, as in 1024".into())
 }
 
-pub fn shard(text: &str) -> Result<Shard, String> {
+pub(super) fn shard(text: &str) -> Result<Shard, String> {
     Shard::parse(text, |name| env::var(name).ok()).map_err(|error| error.to_string())
 }
 
 /// A pass, and which of its targets.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
+pub(crate) struct Picture {
     pub pass: PassName,
     pub target: usize,
 }
 
-pub fn picture(text: &str) -> Result<Picture, String> {
+pub(super) fn picture(text: &str) -> Result<Picture, String> {
     let (name, target) = match text.rsplit_once(':') {
         Some((name, number)) => {
             (name, number.parse().map_err(|_| format!("a target is a number from 0 on, not \"{number}\""))?)
@@ -129,7 +129,7 @@ pub fn picture(text: &str) -> Result<Picture, String> {
 }
 
 /// Returns the number of a cubemap's face, or says that the pass has none.
-pub fn face_of(pass: &PassName, face: Option<usize>) -> Result<usize, String> {
+pub(crate) fn face_of(pass: &PassName, face: Option<usize>) -> Result<usize, String> {
     match face {
         Some(_) if !pass.has_faces() => Err("--face: only a cubemap has faces; add --pass cube_a".into()),
         face => Ok(face.unwrap_or_default()),
@@ -137,17 +137,17 @@ pub fn face_of(pass: &PassName, face: Option<usize>) -> Result<usize, String> {
 }
 
 /// The number of a cubemap's face.
-pub fn face(text: &str) -> Result<usize, String> {
+pub(super) fn face(text: &str) -> Result<usize, String> {
     let face = Face::ALL.iter().position(|face| face.name().eq_ignore_ascii_case(text));
     face.ok_or_else(|| format!("a face is one of {}", Face::ALL.map(Face::name).join(", ")))
 }
 
-pub fn pass(text: &str) -> Result<PassName, String> {
+pub(super) fn pass(text: &str) -> Result<PassName, String> {
     PassName::parse(text)
         .ok_or_else(|| "unknown pass; write image, buffer_a, buffer_b … or the name of another buffer".into())
 }
 
-pub fn size(text: &str) -> Result<(u32, u32), String> {
+pub(super) fn size(text: &str) -> Result<(u32, u32), String> {
     let shape = || "write a size as WxH, as in 640x360".to_owned();
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(shape)?;
     let number = |s: &str| s.parse::<u32>().map_err(|_| shape());
@@ -157,25 +157,25 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
-pub fn recording(path: &str) -> Result<Arc<Recording>, String> {
+pub(super) fn recording(path: &str) -> Result<Arc<Recording>, String> {
     let file = File::open(path).map_err(|error| format!("cannot read {path}: {error}"))?;
     let recording =
         Recording::read(BufReader::new(file)).map_err(|error| format!("{path}: {error}; {}", error.remedy()))?;
     Ok(Arc::new(recording))
 }
 
-pub fn seconds(text: &str) -> Result<Duration, String> {
+pub(super) fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|secs: &f64| *secs > 0.0);
     let duration = seconds.and_then(|secs| Duration::try_from_secs_f64(secs).ok());
     duration.ok_or_else(|| "seconds must be a number above 0, as in 2.5".into())
 }
 
-pub fn webcam(text: &str) -> Result<CameraSource, String> {
+pub(super) fn webcam(text: &str) -> Result<CameraSource, String> {
     Ok(CameraSource::of_text(text))
 }
 
 /// Reads `9000`, `192.168.1.2:9000` or `[::1]:9000`.
-pub fn osc(text: &str) -> Result<SocketAddr, String> {
+pub(super) fn osc(text: &str) -> Result<SocketAddr, String> {
     let address = match text.parse() {
         Ok(port) => Ok(SocketAddr::from(([127, 0, 0, 1], port))),
         Err(_) => text.parse(),
@@ -184,7 +184,7 @@ pub fn osc(text: &str) -> Result<SocketAddr, String> {
     if address.port() == 0 { Err("the port must be from 1 to 65535".into()) } else { Ok(address) }
 }
 
-pub fn fps(text: &str) -> Result<f64, String> {
+pub(super) fn fps(text: &str) -> Result<f64, String> {
     Rate::parse(text).ok_or_else(|| "frames per second must be a number above 0, or a ratio as in 24000/1001".into())
 }
 

@@ -9,7 +9,7 @@ use std::{
 
 /// A folder and its state.
 #[derive(Debug, PartialEq, Eq, Serialize)]
-pub struct FolderLine {
+pub(super) struct FolderLine {
     pub what: &'static str,
     /// `None`: the system has no such folder.
     pub path: Option<String>,
@@ -18,7 +18,7 @@ pub struct FolderLine {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum FolderState {
+pub(super) enum FolderState {
     Writable,
     /// It is there, and no file can be made in it.
     ReadOnly,
@@ -30,7 +30,7 @@ pub enum FolderState {
 }
 
 /// Lists them. A file is made in each that is there, and removed.
-pub fn all() -> Vec<FolderLine> {
+pub(super) fn all() -> Vec<FolderLine> {
     let eddy = |folder: Option<PathBuf>| folder.map(|folder| folder.join("eddy"));
     [
         ("settings", eddy(dirs::config_dir())),
@@ -67,7 +67,7 @@ fn can_write(folder: &Path) -> bool {
 }
 
 /// Returns the reports of panics that are there, the newest last.
-pub fn reports() -> Vec<String> {
+pub(super) fn reports() -> Vec<String> {
     let Some(folder) = session::report_folder() else { return Vec::new() };
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut all: Vec<String> = entries.map(|entry| home_as_tilde(&entry.path().display().to_string())).collect();

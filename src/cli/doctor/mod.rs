@@ -59,7 +59,7 @@ const VARIABLES: [&str; 14] = [
 
 /// Everything that the command tells.
 #[derive(Debug, Serialize)]
-pub struct Doctor {
+pub(super) struct Doctor {
     build: Build,
     /// The device that Eddy draws with.
     device: Answer<Device>,
@@ -186,7 +186,7 @@ fn run(args: &DoctorArgs) -> io::Result<u8> {
 }
 
 /// Returns one line about the build, for reports of panics.
-pub fn build() -> String {
+pub(super) fn build() -> String {
     let Build { eddy, features, optimised, os, arch, .. } = Build::of_this();
     let profile = if optimised { "optimised" } else { "debug" };
     format!("eddy {eddy} ({profile}; {}), {os} {arch}", features.join(", "))

@@ -8,7 +8,7 @@ use crate::cli::terminal::one_line;
 use std::fmt::Write;
 
 /// Returns the lines of a report.
-pub fn of(doctor: &Doctor) -> String {
+pub(super) fn of(doctor: &Doctor) -> String {
     let mut out = String::new();
     let build = &doctor.build;
     let head = |title: &str| format!("\n{title}\n");

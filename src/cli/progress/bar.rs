@@ -8,7 +8,7 @@ use std::io;
 const COLUMNS: u16 = 80;
 
 /// Returns standard error as a terminal, whatever it is.
-pub fn target(hertz: u8) -> ProgressDrawTarget {
+pub(super) fn target(hertz: u8) -> ProgressDrawTarget {
     let target = ProgressDrawTarget::stderr_with_hz(hertz);
     if target.is_hidden() { ProgressDrawTarget::term_like_with_hz(Box::new(StandardError), hertz) } else { target }
 }

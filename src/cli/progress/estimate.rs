@@ -11,14 +11,14 @@ const SLOW: Duration = Duration::from_secs(30);
 
 /// Waits until the time can be told. The first step takes longer than the others: drivers compile in it.
 #[derive(Debug, Default)]
-pub struct Estimate {
+pub(super) struct Estimate {
     first: Option<Duration>,
     is_done: bool,
 }
 
 impl Estimate {
     /// Returns what to say when so many of all steps are done after a time; once, and nothing if it takes a minute or less.
-    pub fn step(&mut self, (done, all, unit): (u64, u64, &str), elapsed: Duration) -> Option<String> {
+    pub(super) fn step(&mut self, (done, all, unit): (u64, u64, &str), elapsed: Duration) -> Option<String> {
         if self.is_done || done == 0 {
             return None;
         }

@@ -24,7 +24,7 @@ const OPENJD_EVERY: Duration = Duration::from_secs(1);
 
 /// The ways to show progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Style {
+pub(super) enum Style {
     /// A bar where standard error is a terminal; elsewhere one line that says how long it takes, if that is over a minute
     Auto,
     /// A bar in any case
@@ -39,7 +39,7 @@ pub enum Style {
 
 impl Style {
     /// Says why the whole call failed, for a scheduler. Returns its argument.
-    pub fn failed<T: std::fmt::Display>(self, why: T) -> T {
+    pub(super) fn failed<T: std::fmt::Display>(self, why: T) -> T {
         if self == Style::Openjd {
             say(&openjd::fail(&why.to_string()));
         }
@@ -48,7 +48,7 @@ impl Style {
 }
 
 /// The progress of a call, which draws several projects one after the other.
-pub struct CallProgress {
+pub(super) struct CallProgress {
     style: Style,
     /// The pictures of the call, at least 1.
     pictures: u64,
@@ -59,12 +59,12 @@ pub struct CallProgress {
 
 impl CallProgress {
     /// `unit` is what is counted, in the plural.
-    pub fn new(style: Style, pictures: usize, unit: &'static str) -> CallProgress {
+    pub(super) fn new(style: Style, pictures: usize, unit: &'static str) -> CallProgress {
         CallProgress { style, pictures: pictures.max(1) as u64, done: Cell::new(0), unit }
     }
 
     /// A project is about to be read and compiled.
-    pub fn open(&self, title: &str) {
+    pub(super) fn open(&self, title: &str) {
         if self.style == Style::Openjd {
             say(&openjd::status(&format!("{title}: compiling")));
         }
@@ -72,7 +72,7 @@ impl CallProgress {
 
     /// Begins to draw a project of so many pictures, for which so many steps are needed. A single step has no bar unless
     /// that was asked for.
-    pub fn begin(&self, title: &str, pictures: usize, steps: u32) -> Progress<'_> {
+    pub(super) fn begin(&self, title: &str, pictures: usize, steps: u32) -> Progress<'_> {
         let target = match self.style {
             Style::Auto if steps > 1 => ProgressDrawTarget::stderr_with_hz(HERTZ),
             Style::Bar => bar::target(HERTZ),
@@ -97,7 +97,7 @@ impl CallProgress {
     }
 
     /// A project of so many pictures is done, or has failed.
-    pub fn end(&self, report: &Report, pictures: usize) {
+    pub(super) fn end(&self, report: &Report, pictures: usize) {
         self.done.set(self.done.get() + pictures as u64);
         if self.style != Style::Openjd {
             return;
@@ -113,7 +113,7 @@ impl CallProgress {
 }
 
 /// The progress of a project. Its bar disappears when it is dropped.
-pub struct Progress<'a> {
+pub(super) struct Progress<'a> {
     call: &'a CallProgress,
     bar: ProgressBar,
     title: String,
@@ -127,7 +127,7 @@ pub struct Progress<'a> {
 
 impl Progress<'_> {
     /// A frame is done, or is known to be there.
-    pub fn step(&self) {
+    pub(super) fn step(&self) {
         self.bar.inc(1);
         if let Some(estimate) = &self.estimate {
             let steps = (self.bar.position(), self.steps.into(), self.call.unit);

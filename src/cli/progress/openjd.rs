@@ -4,15 +4,15 @@
 use crate::diag::is_terminal_control;
 
 /// `openjd_progress`, in percent from 0 to 100 of a part from 0 to 1. It is rounded down: 100 is the end.
-pub fn progress(part: f64) -> String {
+pub(super) fn progress(part: f64) -> String {
     format!("openjd_progress: {:.1}", (part.clamp(0.0, 1.0) * 1000.0).floor() / 10.0)
 }
 
-pub fn status(words: &str) -> String {
+pub(super) fn status(words: &str) -> String {
     format!("openjd_status: {}", one_line(words))
 }
 
-pub fn fail(why: &str) -> String {
+pub(super) fn fail(why: &str) -> String {
     format!("openjd_fail: {}", one_line(why))
 }
 

@@ -5,7 +5,7 @@ use crate::playback::frames::{FrameList, Frames, film_step};
 
 /// The frames that are asked for.
 #[derive(Debug, PartialEq, Eq)]
-pub struct RequestedFrames {
+pub(super) struct RequestedFrames {
     /// Frames to write, rising, each once.
     pub at: Vec<u32>,
     /// Frames that are drawn in any case: from 0 to before this one.
@@ -17,7 +17,7 @@ pub struct RequestedFrames {
 }
 
 /// Err: what was asked for cannot be meant.
-pub fn of(args: &RenderArgs, is_film: bool) -> Result<RequestedFrames, String> {
+pub(super) fn of(args: &RenderArgs, is_film: bool) -> Result<RequestedFrames, String> {
     let listed = FrameList::joined(&args.at).map_err(|why| format!("--at: {why}"))?;
     let at = listed.numbers();
     let count = args.run.recorded();

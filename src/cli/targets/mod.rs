@@ -27,7 +27,7 @@ use std::{
 
 /// The files that one call writes.
 #[derive(Debug, PartialEq)]
-pub struct Targets {
+pub(super) struct Targets {
     pub format: Format,
     pub encoding: Encoding,
     /// Frames to write of each project, rising, each once. Of a film they are evenly spaced.
@@ -61,7 +61,7 @@ enum Output {
 
 /// Chooses the rate of a film whose format does not have the default one, where the call does not ask for a rate. What is
 /// wrong with the call is reported by [`Targets::of`].
-pub fn choose_rate(args: &mut RenderArgs) {
+pub(super) fn choose_rate(args: &mut RenderArgs) {
     let Ok((format, _)) = place(args) else { return };
     let (Some(fastest), Ok(asked)) = (format.max_fps(), frames::of(args, !format.is_still())) else { return };
     if args.run.fps.is_none() && args.run.fps() / f64::from(asked.step) > fastest {
@@ -74,7 +74,7 @@ pub fn choose_rate(args: &mut RenderArgs) {
 
 impl Targets {
     /// Err: what was asked for cannot be meant.
-    pub fn of(args: &RenderArgs) -> Result<Targets, String> {
+    pub(super) fn of(args: &RenderArgs) -> Result<Targets, String> {
         face_of(&args.pass.pass, args.face)?;
         let sweep = sweep::combinations(&args.sweep)?;
         let (format, place) = place(args)?;
@@ -129,7 +129,7 @@ impl Targets {
 
     /// Makes the folder, so that a place nothing can be written to is known before hours of drawing, and looks for the
     /// programs that are needed for pictures of a size.
-    pub fn prepare(&self, size: (u32, u32)) -> anyhow::Result<()> {
+    pub(super) fn prepare(&self, size: (u32, u32)) -> anyhow::Result<()> {
         match &self.place {
             Output::Nowhere | Output::Pipe => {}
             Output::File(file) => check_folder(file)?,
@@ -143,7 +143,7 @@ impl Targets {
     }
 
     /// Returns the frames of a project, in the drawing of number `swept`, that this call writes.
-    pub fn part(&self, project: usize, swept: usize) -> &[u32] {
+    pub(super) fn part(&self, project: usize, swept: usize) -> &[u32] {
         let (projects, frames) = (self.projects as u64, self.at.len() as u64);
         let part = self.shard.part_of(projects * self.sweep.len() as u64 * frames);
         let first = (project * self.sweep.len() + swept) as u64 * frames;
@@ -152,39 +152,39 @@ impl Targets {
     }
 
     /// Returns how many frames of all projects this call writes.
-    pub fn pictures(&self) -> usize {
+    pub(super) fn pictures(&self) -> usize {
         let parts = (0..self.projects).flat_map(|project| (0..self.sweep.len()).map(move |swept| (project, swept)));
         parts.map(|(project, swept)| self.part(project, swept).len()).sum()
     }
 
     /// Returns whether anything is written.
-    pub fn writes(&self) -> bool {
+    pub(super) fn writes(&self) -> bool {
         self.place != Output::Nowhere
     }
 
     /// Returns whether pictures go to standard output.
-    pub fn is_pipe(&self) -> bool {
+    pub(super) fn is_pipe(&self) -> bool {
         self.place == Output::Pipe
     }
 
     /// Returns whether files get their names from Eddy, in a folder.
-    pub fn is_folder(&self) -> bool {
+    pub(super) fn is_folder(&self) -> bool {
         matches!(self.place, Output::Folder(..))
     }
 
     /// Returns how a file is written: links in a folder are not followed.
-    pub fn output(&self, path: PathBuf) -> film::Output {
+    pub(super) fn output(&self, path: PathBuf) -> film::Output {
         if self.is_folder() { film::Output::Within(path) } else { film::Output::File(path) }
     }
 
     /// Fails where a file of a folder is a link out of it: nothing is written through such a link.
-    pub fn check(&self, path: &Path) -> anyhow::Result<()> {
+    pub(super) fn check(&self, path: &Path) -> anyhow::Result<()> {
         if let Output::Folder(folder, _) = &self.place { check_within(folder, path) } else { Ok(()) }
     }
 
     /// The file for a frame of a project, counted as on the command line, where `swept` is set. A film has all frames in
     /// one.
-    pub fn path(&self, project: usize, swept: &[String], frame: u32) -> Option<PathBuf> {
+    pub(super) fn path(&self, project: usize, swept: &[String], frame: u32) -> Option<PathBuf> {
         match &self.place {
             Output::Nowhere | Output::Pipe => None,
             Output::File(file) => Some(file.clone()),
@@ -256,7 +256,7 @@ fn foreign_format(out: &Path) -> Option<String> {
 /// Returns the name of each project's file without its ending.
 ///
 /// `case_counts`: whether the file system tells `Fluid.png` from `fluid.png`; asked only where it matters.
-pub fn stems(projects: &[String], case_counts: impl Fn() -> bool) -> Result<Vec<String>, String> {
+pub(super) fn stems(projects: &[String], case_counts: impl Fn() -> bool) -> Result<Vec<String>, String> {
     let stems: Vec<String> = projects.iter().map(|p| project::stem(p)).collect();
     let twice = |key: fn(&str) -> String| {
         let mut first = HashMap::new();
@@ -274,7 +274,7 @@ pub fn stems(projects: &[String], case_counts: impl Fn() -> bool) -> Result<Vec<
 
 /// Returns whether files whose names differ by case alone are two files in a folder that may not be there yet. Tried
 /// out, as one machine can have both kinds of file systems; where nothing can be written, no.
-pub fn tells_case_apart(folder: &Path) -> bool {
+pub(super) fn tells_case_apart(folder: &Path) -> bool {
     let there =
         folder.ancestors().map(|p| if p.as_os_str().is_empty() { Path::new(".") } else { p }).find(|p| p.is_dir());
     let file = there.and_then(|there| tempfile::Builder::new().prefix(".eddy-Case-").tempfile_in(there).ok());
@@ -285,7 +285,7 @@ pub fn tells_case_apart(folder: &Path) -> bool {
 }
 
 /// Writes a picture whole or not at all: a picture of the same name stays until the new one is complete.
-pub fn write(path: &Path, pixels: &Pixels, format: capture::Format) -> anyhow::Result<()> {
+pub(super) fn write(path: &Path, pixels: &Pixels, format: capture::Format) -> anyhow::Result<()> {
     let written = project::write_with(path, |file| {
         let mut out = BufWriter::new(file);
         capture::encode(&mut out, pixels, format)?;
@@ -295,7 +295,7 @@ pub fn write(path: &Path, pixels: &Pixels, format: capture::Format) -> anyhow::R
 }
 
 /// Fails for a file of a folder that is not there.
-pub fn check_folder(file: &Path) -> anyhow::Result<()> {
+pub(super) fn check_folder(file: &Path) -> anyhow::Result<()> {
     let folder = folder_of(file);
     if matches!(folder.try_exists(), Ok(false)) {
         let (shown, missing) = (file.display(), folder.display());
@@ -306,7 +306,7 @@ pub fn check_folder(file: &Path) -> anyhow::Result<()> {
 }
 
 /// Fails for a file of a folder that is a link out of it.
-pub fn check_within(folder: &Path, path: &Path) -> anyhow::Result<()> {
+pub(super) fn check_within(folder: &Path, path: &Path) -> anyhow::Result<()> {
     let Some(name) = path.file_name() else { return Ok(()) };
     let within = project::check_within(folder, &name.to_string_lossy());
     within.map(drop).with_context(|| format!("cannot write {}", path.display()))

@@ -37,7 +37,7 @@ impl Observer<Shadowed> for ExactOperation {
 }
 
 /// Repeats the walk with each suspect exact; `drawn` is the pixel's value, and `walk` runs it.
-pub fn find(
+pub(super) fn find(
     drawn: &[Shadowed; 4],
     watch: &Watch<'_>,
     walk: impl Fn(&mut dyn Observer<Shadowed>) -> Result<[Shadowed; 4], TraceError>,

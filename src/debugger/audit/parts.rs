@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 const MAX_PARTS: usize = 8;
 
 /// Returns the largest parts of a declaration that its shown scalars fill.
-pub fn names(walkable: &Walkable, shown: &Shown) -> String {
+pub(super) fn names(walkable: &Walkable, shown: &Shown) -> String {
     let call = if shown.origin.kind == UnsetKind::Result { "()" } else { "" };
     let mut parts = Vec::new();
     add(walkable, shown.origin.ty, &shown.cells, 0, &format!("{}{call}", shown.origin.name), &mut parts);

@@ -10,11 +10,15 @@ use eddy_glsl::{
 };
 
 /// A sentence about the undefined behaviour, and the operands that cause it.
-pub type Reason = (&'static str, String);
+pub(super) type Reason = (&'static str, String);
 
 /// Returns why the result of an operation is undefined, as far as the operation determines it. `size` returns the size
 /// of a level of a channel's texture.
-pub fn of_operation(view: &View<'_, '_, Shadowed>, value: Value, size: &dyn Fn(u8, i32) -> [i32; 3]) -> Option<Reason> {
+pub(super) fn of_operation(
+    view: &View<'_, '_, Shadowed>,
+    value: Value,
+    size: &dyn Fn(u8, i32) -> [i32; 3],
+) -> Option<Reason> {
     // The operations of an expanded function are undefined where the function is.
     if view.function().origin(value).builtin.is_some_and(|builtin| !builtin.gaps.is_empty()) {
         return None;
@@ -45,7 +49,7 @@ pub fn of_operation(view: &View<'_, '_, Shadowed>, value: Value, size: &dyn Fn(u
 }
 
 /// Returns why a precondition that lowering recorded is violated.
-pub fn of_precondition(view: &View<'_, '_, Shadowed>, precondition: &Precondition) -> Option<Reason> {
+pub(super) fn of_precondition(view: &View<'_, '_, Shadowed>, precondition: &Precondition) -> Option<Reason> {
     match *precondition {
         Precondition::Call(builtin, ref args) => of_call(view, builtin, args),
         Precondition::Divisor(divisor) => ints(view, divisor).any(|n| n == 0).then(|| (DIVISION, "… / 0".into())),

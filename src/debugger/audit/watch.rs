@@ -27,7 +27,7 @@ const LARGE_ANGLE: f32 = 1e4;
 
 /// An operation whose result is much less exact than its operands.
 #[derive(Clone, Debug)]
-pub struct RootCause {
+pub(super) struct RootCause {
     pub function: FuncId,
     pub value: Value,
     /// Relative error of the result.
@@ -38,13 +38,13 @@ pub struct RootCause {
 }
 
 /// An operation, a pixel's error, and the error that remains if the operation is exact.
-pub struct Blame {
+pub(super) struct Blame {
     pub cause: RootCause,
     pub error: f64,
     pub left: f64,
 }
 
-pub struct Watch<'w> {
+pub(super) struct Watch<'w> {
     walkable: &'w Walkable,
     inputs: &'w DrawInputs<'w>,
     root_causes: HashMap<(FuncId, Value), RootCause>,
@@ -54,19 +54,19 @@ pub struct Watch<'w> {
 
 impl<'w> Watch<'w> {
     /// `stored` is the number of components that each target stores.
-    pub fn new(walkable: &'w Walkable, inputs: &'w DrawInputs<'w>, stored: &'w [usize]) -> Self {
+    pub(super) fn new(walkable: &'w Walkable, inputs: &'w DrawInputs<'w>, stored: &'w [usize]) -> Self {
         Self { walkable, inputs, root_causes: HashMap::new(), found: Vec::new(), flow: Flow::new(walkable, stored) }
     }
 
     /// Returns the operations that cause errors, the largest first.
-    pub fn root_causes(&self) -> Vec<&RootCause> {
+    pub(super) fn root_causes(&self) -> Vec<&RootCause> {
         let mut root_causes: Vec<&RootCause> = self.root_causes.values().collect();
         root_causes.sort_by(|a, b| b.error.total_cmp(&a.error).then(a.span.cmp_place(&b.span)));
         root_causes
     }
 
     /// Returns the findings, and the unwritten values that the output depends on.
-    pub fn end(self, pixel: (u32, u32), born: Option<Blame>) -> (Vec<Finding>, Vec<Shown>) {
+    pub(super) fn end(self, pixel: (u32, u32), born: Option<Blame>) -> (Vec<Finding>, Vec<Shown>) {
         let finding = |(kind, span, numbers)| Finding { kind, span, pixels: 1, pixel, numbers, error: None };
         let mut all: Vec<Finding> = self.found.into_iter().map(finding).collect();
         if let Some(Blame { cause, error, left }) = born {

@@ -20,7 +20,7 @@ fn distance([x, y, z, w]: [f64; 4], plane: usize) -> f64 {
 
 /// Returns the part of a triangle inside the view volume, as a polygon with the same winding. Returns no corners if the
 /// triangle is outside, or if a position is not finite.
-pub fn clipped(triangle: [[f32; 4]; 3]) -> Vec<[f64; 4]> {
+pub(super) fn clipped(triangle: [[f32; 4]; 3]) -> Vec<[f64; 4]> {
     if triangle.as_flattened().iter().any(|number| !number.is_finite()) {
         return Vec::new();
     }

@@ -11,11 +11,11 @@ const SUBPIXEL_BITS: u32 = 8;
 const PIXEL: i32 = 1 << SUBPIXEL_BITS;
 
 /// A position in the picture in subpixels, from the left of its row 0.
-pub type Subpixel = [i32; 2];
+pub(super) type Subpixel = [i32; 2];
 
 /// Returns the place of a position in a picture of a size: the perspective division and the viewport, in single
 /// precision as on devices ("Coordinate Transformations" there). Row 0 is at y = w, as the engine negates y.
-pub fn subpixel([x, y, _, w]: [f32; 4], (width, height): (u32, u32)) -> Subpixel {
+pub(super) fn subpixel([x, y, _, w]: [f32; 4], (width, height): (u32, u32)) -> Subpixel {
     let over_w = 1.0 / w;
     let (half_width, half_height) = (width as f32 / 2.0, height as f32 / 2.0);
     let place = [(x * over_w).mul_add(half_width, half_width), (y * over_w).mul_add(-half_height, half_height)];
@@ -24,7 +24,7 @@ pub fn subpixel([x, y, _, w]: [f32; 4], (width, height): (u32, u32)) -> Subpixel
 
 /// A triangle in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Coverage {
+pub(super) struct Coverage {
     /// In counter-clockwise order where rows grow upward.
     corners: [Subpixel; 3],
     /// True if it is front-facing: its corners were in counter-clockwise order.
@@ -33,7 +33,7 @@ pub struct Coverage {
 
 impl Coverage {
     /// Returns `None` for a triangle without area, which covers nothing.
-    pub fn new([a, b, c]: [Subpixel; 3]) -> Option<Self> {
+    pub(super) fn new([a, b, c]: [Subpixel; 3]) -> Option<Self> {
         match doubled_area(a, b, c) {
             0 => None,
             area if area > 0 => Some(Self { corners: [a, b, c], is_front: true }),
@@ -42,7 +42,7 @@ impl Coverage {
     }
 
     /// Returns whether the triangle covers the pixel's centre.
-    pub fn covers(&self, (x, y): (u32, u32)) -> bool {
+    pub(super) fn covers(&self, (x, y): (u32, u32)) -> bool {
         let centre = [x, y].map(|at| at as i32 * PIXEL + PIXEL / 2);
         let is_beyond = |axis: usize| {
             let places = self.corners.map(|corner| corner[axis]);

@@ -16,7 +16,7 @@ mod vertices;
 mod weights;
 mod writer;
 
-pub use pass::{PassFragments, WalkError};
+pub(crate) use pass::{PassFragments, WalkError};
 pub(crate) use pixel::{Fragment, PixelContent};
 pub use pixel::{MeshFragment, Origin};
-pub use writer::own_texels;
+pub(crate) use writer::own_texels;

@@ -14,7 +14,7 @@ use eddy_glsl::{
 use eddy_project::PassSettings;
 
 /// The programs of a pass and, if it draws meshes, its triangles in the picture. Built once for all pixels.
-pub struct PassFragments<'p> {
+pub(crate) struct PassFragments<'p> {
     inputs: &'p PassInputs,
     body: Body<'p>,
     settings: PassSettings,
@@ -34,7 +34,7 @@ impl<'p> PassFragments<'p> {
     ///
     /// # Panics
     /// If there is no such pass.
-    pub fn new(
+    pub(crate) fn new(
         sources: &Sources<'_>,
         index: usize,
         inputs: &'p PassInputs,
@@ -51,7 +51,7 @@ impl<'p> PassFragments<'p> {
     }
 
     /// Returns what runs for a pixel, counted from the bottom left.
-    pub fn at(&self, pixel: (u32, u32)) -> Result<PixelContent<'_>, Stop> {
+    pub(crate) fn at(&self, pixel: (u32, u32)) -> Result<PixelContent<'_>, Stop> {
         let (walkable, inputs, origin) = match Writer::of(&self.settings, self.inputs.size, pixel) {
             Writer::Boundary => match &self.boundary {
                 Some(walkable) => (&**walkable, EntryInputs::of_pixel(pixel), Origin::Boundary),
@@ -78,7 +78,7 @@ impl<'p> PassFragments<'p> {
     }
 
     /// Returns every program of the pass.
-    pub fn programs(&self) -> impl Iterator<Item = &Walkable> {
+    pub(crate) fn programs(&self) -> impl Iterator<Item = &Walkable> {
         let (screen, meshes) = match &self.body {
             Body::Screen(walkable) => (Some(&**walkable), None),
             Body::Meshes(raster) => (None, Some(raster.programs())),
@@ -87,7 +87,7 @@ impl<'p> PassFragments<'p> {
     }
 
     /// Returns the program that runs for a pixel, consuming the pass.
-    pub fn into_walkable(self, origin: Origin) -> Walkable {
+    pub(crate) fn into_walkable(self, origin: Origin) -> Walkable {
         match self.body {
             Body::Screen(walkable) => *walkable,
             Body::Meshes(raster) => raster.into_walkable(origin.draw().unwrap_or_default()),

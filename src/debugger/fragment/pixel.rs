@@ -10,14 +10,14 @@ use eddy_project::Region;
 
 /// The content of a pixel.
 #[expect(clippy::large_enum_variant, reason = "there is one at a time, and nearly all are walked")]
-pub enum PixelContent<'p> {
+pub(crate) enum PixelContent<'p> {
     Fragment(Fragment<'p>),
     /// No program writes its value, or none that can be walked: the texels of a boundary may come from a picture.
     Undrawn(Origin),
 }
 
 /// The program that writes the value of a texel, and its inputs there.
-pub struct Fragment<'p> {
+pub(crate) struct Fragment<'p> {
     pub walkable: &'p Walkable,
     pub world: DrawInputs<'p>,
     pub inputs: EntryInputs,
@@ -30,12 +30,12 @@ pub struct Fragment<'p> {
 
 impl Fragment<'_> {
     /// Returns the machine that walks the pixel.
-    pub fn machine<R: Real>(&self) -> Machine<'_, R> {
+    pub(crate) fn machine<R: Real>(&self) -> Machine<'_, R> {
         Machine::new(&self.walkable.program, &self.world, self.inputs.clone(), self.limit)
     }
 
     /// Returns the pixel's output for the first target; `None` if it draws nothing.
-    pub fn value<R: Real>(&self, drawn: &Drawn<R>) -> Option<[R; 4]> {
+    pub(crate) fn value<R: Real>(&self, drawn: &Drawn<R>) -> Option<[R; 4]> {
         let cells = drawn.output(Output::Target(0), self.lane)?;
         (cells.len() == 4).then(|| std::array::from_fn(|i| cells[i].float()))
     }

@@ -46,7 +46,7 @@ struct FragmentStage {
 }
 
 /// The draws of a pass in one frame.
-pub struct Raster<'p> {
+pub(super) struct Raster<'p> {
     inputs: &'p PassInputs,
     vertices: Vec<(Stage, Walkable)>,
     fragments: Vec<FragmentStage>,
@@ -57,7 +57,7 @@ pub struct Raster<'p> {
 impl<'p> Raster<'p> {
     /// Lowers the stages of `project.passes[index]` and transforms all vertices. A program is stopped after `limit`
     /// statements.
-    pub fn new(
+    pub(super) fn new(
         sources: &Sources<'_>,
         (index, geometry): (usize, &Geometry),
         inputs: &'p PassInputs,
@@ -105,13 +105,13 @@ impl<'p> Raster<'p> {
     }
 
     /// Returns every stage of the draws.
-    pub fn programs(&self) -> impl Iterator<Item = &Walkable> {
+    pub(super) fn programs(&self) -> impl Iterator<Item = &Walkable> {
         let vertices = self.vertices.iter().map(|(_, walkable)| walkable);
         vertices.chain(self.fragments.iter().map(|stage| &stage.walkable))
     }
 
     /// Returns the fragment whose colour is in the first target's texel; `None` if there is none.
-    pub fn shown(&self, pixel: (u32, u32)) -> Result<Option<MeshFragment>, Stop> {
+    pub(super) fn shown(&self, pixel: (u32, u32)) -> Result<Option<MeshFragment>, Stop> {
         let lane = Machine::<f32>::lane_of(pixel);
         let (mut held, mut shown) = (FAR, None);
         for (number, draw) in self.draws.iter().enumerate() {
@@ -150,7 +150,7 @@ impl<'p> Raster<'p> {
 
     /// Returns the inputs of the quad of a pixel that shows a fragment. Its other pixels may be outside the triangle;
     /// their inputs are extrapolated on its plane.
-    pub fn entry(&self, fragment: MeshFragment, pixel: (u32, u32)) -> Result<EntryInputs, Stop> {
+    pub(super) fn entry(&self, fragment: MeshFragment, pixel: (u32, u32)) -> Result<EntryInputs, Stop> {
         let draw = &self.draws[fragment.draw];
         let corners = self.stage(fragment.draw, draw.vertices).corners(fragment.triangle)?;
         let singles = corners.each_ref().map(|corner| corner.position.map(|number| number.single.into()));
@@ -174,12 +174,12 @@ impl<'p> Raster<'p> {
     }
 
     /// Returns the fragment stage of a draw.
-    pub fn walkable(&self, draw: usize) -> &Walkable {
+    pub(super) fn walkable(&self, draw: usize) -> &Walkable {
         &self.fragments[self.draws[draw].fragments].walkable
     }
 
     /// Returns the fragment stage of a draw, consuming the raster.
-    pub fn into_walkable(mut self, draw: usize) -> Walkable {
+    pub(super) fn into_walkable(mut self, draw: usize) -> Walkable {
         self.fragments.swap_remove(self.draws[draw].fragments).walkable
     }
 
@@ -238,7 +238,7 @@ fn passes(test: DepthTest, depth: f32, held: f32) -> bool {
 
 /// Static facts about a fragment stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct FragmentFacts {
+pub(super) struct FragmentFacts {
     /// True if some path through it ends in `discard`.
     pub may_discard: bool,
     /// True if it sets `gl_FragDepth`.
@@ -248,7 +248,7 @@ pub struct FragmentFacts {
 }
 
 impl FragmentFacts {
-    pub fn of(program: &Module) -> Self {
+    pub(super) fn of(program: &Module) -> Self {
         let mut facts = Self::default();
         program.functions.iter().for_each(|function| facts.add(&function.body));
         facts

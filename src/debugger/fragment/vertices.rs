@@ -14,7 +14,7 @@ use std::thread;
 const MIN_VERTICES_PER_THREAD: usize = 1024;
 
 /// The vertex stage of a draw, and its inputs.
-pub struct VertexStage<'p> {
+pub(super) struct VertexStage<'p> {
     walkable: &'p Walkable,
     world: DrawInputs<'p>,
     mesh: &'p MeshInputs,
@@ -25,7 +25,7 @@ pub struct VertexStage<'p> {
 
 impl<'p> VertexStage<'p> {
     /// Returns a stage that stops a vertex after `limit` statements.
-    pub fn new(walkable: &'p Walkable, world: DrawInputs<'p>, mesh: &'p MeshInputs, limit: u64) -> Self {
+    pub(super) fn new(walkable: &'p Walkable, world: DrawInputs<'p>, mesh: &'p MeshInputs, limit: u64) -> Self {
         let reads = |attribute: &Attribute| {
             let mut entry = walkable.program.functions.iter().flat_map(|function| function.values());
             entry.any(|(_, op)| {
@@ -37,7 +37,7 @@ impl<'p> VertexStage<'p> {
     }
 
     /// Returns the clip-space positions of all vertices of the mesh, computed on all processors.
-    pub fn positions(&self) -> Result<Vec<[f32; 4]>, Stop> {
+    pub(super) fn positions(&self) -> Result<Vec<[f32; 4]>, Stop> {
         let count = self.mesh.mesh.vertices.len();
         let threads =
             thread::available_parallelism().map_or(1, |n| n.get()).min(count.div_ceil(MIN_VERTICES_PER_THREAD)).max(1);
@@ -64,7 +64,7 @@ impl<'p> VertexStage<'p> {
     }
 
     /// Returns the corners of a triangle of the mesh, in both precisions.
-    pub fn corners(&self, triangle: usize) -> Result<[Corner; 3], Stop> {
+    pub(super) fn corners(&self, triangle: usize) -> Result<[Corner; 3], Stop> {
         let [a, b, c] = self::triangle(self.mesh, triangle);
         let mut machine = self.machine::<Shadowed>();
         machine.set_inputs(self.inputs([a, b, c, c]));
@@ -99,7 +99,7 @@ impl<'p> VertexStage<'p> {
 }
 
 /// Returns the vertices of a triangle of a mesh; the first is the provoking one.
-pub fn triangle(mesh: &MeshInputs, triangle: usize) -> [u32; 3] {
+pub(super) fn triangle(mesh: &MeshInputs, triangle: usize) -> [u32; 3] {
     std::array::from_fn(|corner| mesh.mesh.indices[3 * triangle + corner])
 }
 
@@ -122,7 +122,7 @@ fn position<R: Real>(drawn: &Drawn<R>, lane: usize) -> [R; 4] {
 
 /// The outputs of a vertex stage for one vertex, in both precisions.
 #[derive(Clone, Debug)]
-pub struct Corner {
+pub(super) struct Corner {
     /// In the clip space of a device: y = w is row 0, and depth goes from 0 to w.
     pub position: [Shadowed; 4],
     /// By their locations.
@@ -131,7 +131,7 @@ pub struct Corner {
 
 /// The output of a vertex at one location.
 #[derive(Clone, Debug)]
-pub struct CornerVarying {
+pub(super) struct CornerVarying {
     pub location: u32,
     pub is_flat: bool,
     /// One to four components.

@@ -7,7 +7,7 @@
 
 /// The weights of a triangle's corners as functions of the position.
 #[derive(Clone, Copy, Debug)]
-pub struct Weights {
+pub(super) struct Weights {
     /// The coefficients of x, y and 1 for each corner, from -1 to 1 across and down.
     factors: [[f64; 3]; 3],
     size: (f64, f64),
@@ -15,13 +15,13 @@ pub struct Weights {
 
 impl Weights {
     /// Returns the weights for corners in clip space, in a picture of this size.
-    pub fn new(corners: [[f64; 4]; 3], (width, height): (u32, u32)) -> Self {
+    pub(super) fn new(corners: [[f64; 4]; 3], (width, height): (u32, u32)) -> Self {
         let [a, b, c] = corners.map(|[x, y, _, w]| [x, y, w]);
         Self { factors: [cross(b, c), cross(c, a), cross(a, b)], size: (width.into(), height.into()) }
     }
 
     /// Returns the weights at a position in pixels; their sum is 1. Outside the triangle some are negative.
-    pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 3] {
+    pub(super) fn at(&self, [x, y]: [f64; 2]) -> [f64; 3] {
         let place = [2.0 * x / self.size.0 - 1.0, 1.0 - 2.0 * y / self.size.1, 1.0];
         let weights = self.factors.map(|factors| dot(factors, place));
         let sum: f64 = weights.iter().sum();
@@ -30,12 +30,12 @@ impl Weights {
 }
 
 /// Interpolates between the values of the corners.
-pub fn mix(weights: [f64; 3], values: [f64; 3]) -> f64 {
+pub(super) fn mix(weights: [f64; 3], values: [f64; 3]) -> f64 {
     dot(weights, values)
 }
 
 /// Returns depth from 0 to 1 and 1 / w for these weights of the corners: `gl_FragCoord.zw`.
-pub fn depth(weights: [f64; 3], corners: [[f64; 4]; 3]) -> [f64; 2] {
+pub(super) fn depth(weights: [f64; 3], corners: [[f64; 4]; 3]) -> [f64; 2] {
     let w = mix(weights, corners.map(|[.., w]| w));
     [mix(weights, corners.map(|[_, _, z, _]| z)) / w, 1.0 / w]
 }

@@ -3,7 +3,7 @@
 use eddy_project::{PassSettings, Region};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Writer {
+pub(super) enum Writer {
     /// The programs of the pass.
     Programs,
     /// The value of the boundary, which is drawn over their output.
@@ -15,7 +15,7 @@ pub enum Writer {
 impl Writer {
     /// Returns the writer of a texel of a target of a size. A pass whose region contains no texel is not drawn at all,
     /// and neither is its boundary.
-    pub fn of(settings: &PassSettings, size: (u32, u32), (x, y): (u32, u32)) -> Self {
+    pub(super) fn of(settings: &PassSettings, size: (u32, u32), (x, y): (u32, u32)) -> Self {
         let region = settings.region.unwrap_or(whole(size));
         let Some(drawn) = region.within(size) else { return Writer::Nothing(region) };
         let edge = x.min(y).min(size.0 - 1 - x).min(size.1 - 1 - y);
@@ -29,7 +29,7 @@ impl Writer {
 }
 
 /// Returns the texels of a target of a size that the programs of the pass write; `None` if there are none.
-pub fn own_texels(settings: &PassSettings, size: (u32, u32)) -> Option<Region> {
+pub(crate) fn own_texels(settings: &PassSettings, size: (u32, u32)) -> Option<Region> {
     let drawn = settings.region.unwrap_or(whole(size)).within(size)?;
     let margin = settings.boundary.as_ref().map_or(0, |boundary| boundary.width);
     let between = |start: u32, count: u32, size: u32| {

@@ -11,7 +11,7 @@ use eddy_glsl::{
 };
 use eddy_project::limits;
 
-pub struct Recorder<'w> {
+pub(super) struct Recorder<'w> {
     walkable: &'w Walkable,
     /// The names of each function's values and variables, by [`Value::index`].
     names: Vec<Vec<Option<&'w str>>>,
@@ -26,7 +26,7 @@ pub struct Recorder<'w> {
 }
 
 impl<'w> Recorder<'w> {
-    pub fn new(walkable: &'w Walkable, most: usize) -> Self {
+    pub(super) fn new(walkable: &'w Walkable, most: usize) -> Self {
         let names = walkable.program.functions.iter().enumerate().map(|(index, function)| {
             let mut names = vec![None; function.len()];
             walkable.locals(FuncId::new(index)).for_each(|(name, value)| names[value.index()] = Some(name));
@@ -46,7 +46,7 @@ impl<'w> Recorder<'w> {
     }
 
     /// Returns the steps, and how many were left out.
-    pub fn end(self) -> (Vec<Step>, u64) {
+    pub(super) fn end(self) -> (Vec<Step>, u64) {
         (self.steps, self.left_out)
     }
 

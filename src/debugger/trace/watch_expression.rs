@@ -32,7 +32,7 @@ pub type Watched = Result<Value, String>;
 
 /// Compiled expressions of one history, each by the variables that it names.
 #[derive(Default)]
-pub struct Watches {
+pub(super) struct Watches {
     known: HashMap<String, Result<Compiled, String>>,
 }
 
@@ -48,7 +48,7 @@ struct Compiled {
 impl Watches {
     /// Returns the value of an expression at a moment of a history, in its pass, which may be one of the draws of
     /// meshes.
-    pub fn value(
+    pub(super) fn value(
         &mut self,
         (history, at): (&History, usize),
         (project, index, draw): (&Project, usize, Option<usize>),

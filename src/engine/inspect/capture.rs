@@ -22,17 +22,17 @@ pub(crate) struct Capture<'a> {
 }
 
 impl<'a> Capture<'a> {
-    pub fn new(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
+    pub(crate) fn new(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
         Self { pass, converter, is_past: false, taken: None }
     }
 
     /// Takes the inputs of a pass after the frame: they are there as long as nothing new is drawn.
-    pub fn of_the_past(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
+    pub(crate) fn of_the_past(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
         Self { pass, converter, is_past: true, taken: None }
     }
 
     /// Reads everything that a draw reads. What was encoded before has been handed in.
-    pub fn take(&mut self, running: &Running, shared: &Shared, index: usize) -> Result<(), EngineError> {
+    pub(crate) fn take(&mut self, running: &Running, shared: &Shared, index: usize) -> Result<(), EngineError> {
         let (compiled, draw) = (&running.program.draws[index], &running.program.plan.draws[index]);
         let mut channels = [const { None }; SLOTS];
         for (channel, copy) in channels.iter_mut().enumerate() {

@@ -73,7 +73,7 @@ pub(super) struct Queue<T> {
 impl<T: Send + 'static> Queue<T> {
     /// `work` receives jobs until there are no more. It ends with [`FilmError::Stopped`] if no [`Job::Finish`] was
     /// received.
-    pub fn start(
+    pub(crate) fn start(
         capacity: usize,
         work: impl FnOnce(Receiver<Job<T>>) -> Result<(), FilmError> + Send + 'static,
     ) -> Result<Queue<T>, FilmError> {
@@ -83,7 +83,7 @@ impl<T: Send + 'static> Queue<T> {
     }
 
     /// Blocks while the queue is full.
-    pub fn push(&mut self, job: Job<T>) -> Result<(), FilmError> {
+    pub(crate) fn push(&mut self, job: Job<T>) -> Result<(), FilmError> {
         match &self.jobs {
             Some(jobs) if jobs.send(job).is_ok() => Ok(()),
             // The thread has ended; `end` returns its error.
@@ -110,7 +110,7 @@ impl<T: Send + 'static> Queue<T> {
         }
     }
 
-    pub fn finish(&mut self) -> Result<(), FilmError> {
+    pub(crate) fn finish(&mut self) -> Result<(), FilmError> {
         self.push(Job::Finish)?;
         self.end()
     }

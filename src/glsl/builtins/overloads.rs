@@ -41,44 +41,44 @@ pub(super) mod patterns {
     use super::{Overload, Pattern, sig};
     use crate::types::{SamplerDim, Scalar, TypeId};
 
-    pub const MAT: Pattern = Pattern::Matrix;
-    pub const SQUARE: Pattern = Pattern::Square;
-    pub const TRANSPOSED: Pattern = Pattern::Transposed;
-    pub const G4: Pattern = Pattern::Texel;
-    pub const F: Pattern = Pattern::Gen(Scalar::Float);
-    pub const I: Pattern = Pattern::Gen(Scalar::Int);
-    pub const U: Pattern = Pattern::Gen(Scalar::Uint);
-    pub const B: Pattern = Pattern::Gen(Scalar::Bool);
-    pub const VF: Pattern = Pattern::Vector(Scalar::Float);
-    pub const VI: Pattern = Pattern::Vector(Scalar::Int);
-    pub const VU: Pattern = Pattern::Vector(Scalar::Uint);
-    pub const VB: Pattern = Pattern::Vector(Scalar::Bool);
-    pub const VOID: Pattern = Pattern::Exactly(TypeId::VOID);
-    pub const BOOL: Pattern = Pattern::Exactly(TypeId::BOOL);
-    pub const F1: Pattern = Pattern::Exactly(TypeId::FLOAT);
-    pub const F2: Pattern = Pattern::Exactly(TypeId::VEC2);
-    pub const F3: Pattern = Pattern::Exactly(TypeId::VEC3);
-    pub const F4: Pattern = Pattern::Exactly(TypeId::VEC4);
-    pub const I1: Pattern = Pattern::Exactly(TypeId::INT);
-    pub const I2: Pattern = Pattern::Exactly(TypeId::vector(Scalar::Int, 2));
-    pub const I3: Pattern = Pattern::Exactly(TypeId::vector(Scalar::Int, 3));
-    pub const U1: Pattern = Pattern::Exactly(TypeId::UINT);
-    pub const S2: Pattern = Pattern::Sampler(SamplerDim::D2, false);
-    pub const S3: Pattern = Pattern::Sampler(SamplerDim::D3, false);
-    pub const SC: Pattern = Pattern::Sampler(SamplerDim::Cube, false);
-    pub const SA: Pattern = Pattern::Sampler(SamplerDim::D2Array, false);
-    pub const D2: Pattern = Pattern::Sampler(SamplerDim::D2, true);
-    pub const DC: Pattern = Pattern::Sampler(SamplerDim::Cube, true);
-    pub const DA: Pattern = Pattern::Sampler(SamplerDim::D2Array, true);
+    pub(crate) const MAT: Pattern = Pattern::Matrix;
+    pub(crate) const SQUARE: Pattern = Pattern::Square;
+    pub(crate) const TRANSPOSED: Pattern = Pattern::Transposed;
+    pub(crate) const G4: Pattern = Pattern::Texel;
+    pub(crate) const F: Pattern = Pattern::Gen(Scalar::Float);
+    pub(crate) const I: Pattern = Pattern::Gen(Scalar::Int);
+    pub(crate) const U: Pattern = Pattern::Gen(Scalar::Uint);
+    pub(crate) const B: Pattern = Pattern::Gen(Scalar::Bool);
+    pub(crate) const VF: Pattern = Pattern::Vector(Scalar::Float);
+    pub(crate) const VI: Pattern = Pattern::Vector(Scalar::Int);
+    pub(crate) const VU: Pattern = Pattern::Vector(Scalar::Uint);
+    pub(crate) const VB: Pattern = Pattern::Vector(Scalar::Bool);
+    pub(crate) const VOID: Pattern = Pattern::Exactly(TypeId::VOID);
+    pub(crate) const BOOL: Pattern = Pattern::Exactly(TypeId::BOOL);
+    pub(crate) const F1: Pattern = Pattern::Exactly(TypeId::FLOAT);
+    pub(crate) const F2: Pattern = Pattern::Exactly(TypeId::VEC2);
+    pub(crate) const F3: Pattern = Pattern::Exactly(TypeId::VEC3);
+    pub(crate) const F4: Pattern = Pattern::Exactly(TypeId::VEC4);
+    pub(crate) const I1: Pattern = Pattern::Exactly(TypeId::INT);
+    pub(crate) const I2: Pattern = Pattern::Exactly(TypeId::vector(Scalar::Int, 2));
+    pub(crate) const I3: Pattern = Pattern::Exactly(TypeId::vector(Scalar::Int, 3));
+    pub(crate) const U1: Pattern = Pattern::Exactly(TypeId::UINT);
+    pub(crate) const S2: Pattern = Pattern::Sampler(SamplerDim::D2, false);
+    pub(crate) const S3: Pattern = Pattern::Sampler(SamplerDim::D3, false);
+    pub(crate) const SC: Pattern = Pattern::Sampler(SamplerDim::Cube, false);
+    pub(crate) const SA: Pattern = Pattern::Sampler(SamplerDim::D2Array, false);
+    pub(crate) const D2: Pattern = Pattern::Sampler(SamplerDim::D2, true);
+    pub(crate) const DC: Pattern = Pattern::Sampler(SamplerDim::Cube, true);
+    pub(crate) const DA: Pattern = Pattern::Sampler(SamplerDim::D2Array, true);
 
-    pub const fn mat(columns: u8, rows: u8) -> Pattern {
+    pub(crate) const fn mat(columns: u8, rows: u8) -> Pattern {
         Pattern::Exactly(TypeId::matrix(columns, rows))
     }
 
     /// `genType f(genType)`.
-    pub const FLOAT: &[Overload] = &[sig(F, &[F])];
+    pub(crate) const FLOAT: &[Overload] = &[sig(F, &[F])];
     /// `genType f(genType, genType)`.
-    pub const FLOATS: &[Overload] = &[sig(F, &[F, F])];
+    pub(crate) const FLOATS: &[Overload] = &[sig(F, &[F, F])];
 }
 
 /// The bindings of one overload's patterns, from the arguments so far.

@@ -108,7 +108,7 @@ pub(super) struct Checker<'a> {
 
 impl<'a> Checker<'a> {
     /// Creates a checker that continues from the checkpoint `begun`, or starts at the first text if there is none.
-    pub fn new(
+    pub(super) fn new(
         ast: &'a Ast,
         origins: &'a Origins,
         names: &'a Interner,
@@ -172,7 +172,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Checks the declarations that have not been checked yet.
-    pub fn declarations(&mut self) {
+    pub(super) fn declarations(&mut self) {
         while let Some(&item) = self.ast.items.get(self.items) {
             self.settings.cancel.check();
             self.global_declaration(item);
@@ -181,7 +181,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Checks the whole translation unit.
-    pub fn unit(&mut self) {
+    pub(super) fn unit(&mut self) {
         self.declare_pass();
         self.declarations();
         self.finish_outputs();
@@ -195,7 +195,7 @@ impl<'a> Checker<'a> {
 
     /// Reports an error; hints and labels are added to the returned diagnostic.
     #[cold]
-    pub fn error(&mut self, loc: impl Into<Loc>, message: impl Into<String>) -> &mut Diagnostic {
+    pub(super) fn error(&mut self, loc: impl Into<Loc>, message: impl Into<String>) -> &mut Diagnostic {
         let diagnostic = self.origins.error(self.names, loc, message);
         // The report keeps no more errors than that, so the slot of the last one is reused.
         if self.is_full() && self.diagnostics.last().is_some_and(Diagnostic::is_error) {
@@ -208,12 +208,12 @@ impl<'a> Checker<'a> {
 
     /// Returns whether there are more errors than are shown: diagnostics that need a search through the program are
     /// then skipped.
-    pub fn is_full(&self) -> bool {
+    pub(super) fn is_full(&self) -> bool {
         self.errors > MAX_ERRORS
     }
 
     #[cold]
-    pub fn warning(&mut self, loc: impl Into<Loc>, message: impl Into<String>) -> &mut Diagnostic {
+    pub(super) fn warning(&mut self, loc: impl Into<Loc>, message: impl Into<String>) -> &mut Diagnostic {
         let diagnostic = self.origins.warning(self.names, loc, message);
         self.diagnostics.push(diagnostic);
         self.diagnostics.last_mut().expect("just pushed")
@@ -221,7 +221,7 @@ impl<'a> Checker<'a> {
 
     /// Adds a second location to the diagnostic reported last.
     #[cold]
-    pub fn also(&mut self, loc: impl Into<Loc>, message: impl Into<String>) {
+    pub(super) fn also(&mut self, loc: impl Into<Loc>, message: impl Into<String>) {
         let span = self.origins.span(loc.into());
         if let Some(last) = self.diagnostics.last_mut() {
             last.labels.push(eddy_diag::Label { span, message: eddy_diag::shortened(message) });
@@ -230,7 +230,7 @@ impl<'a> Checker<'a> {
 
     /// Adds a hint to the diagnostic reported last.
     #[cold]
-    pub fn hint(&mut self, hint: impl Into<String>) {
+    pub(super) fn hint(&mut self, hint: impl Into<String>) {
         if let Some(last) = self.diagnostics.last_mut() {
             last.hints.push(eddy_diag::shortened(hint));
         }
@@ -238,14 +238,14 @@ impl<'a> Checker<'a> {
 
     /// Adds a fix that an editor can apply to the diagnostic reported last.
     #[cold]
-    pub fn fix(&mut self, fix: Option<Fix>) {
+    pub(super) fn fix(&mut self, fix: Option<Fix>) {
         if let Some(last) = self.diagnostics.last_mut() {
             last.fixes.extend(fix);
         }
     }
 
     /// Returns the span that the author wrote, unless a macro produced it: an edit of a macro affects all its uses.
-    pub fn written_at(&self, loc: impl Into<Loc>) -> Option<Span> {
+    pub(super) fn written_at(&self, loc: impl Into<Loc>) -> Option<Span> {
         let loc = loc.into();
         let (first, last) = (self.origins.tokens[loc.first.0 as usize], self.origins.tokens[loc.last.0 as usize]);
         let is_plain = first.expansion.is_none() && last.expansion.is_none();
@@ -254,40 +254,40 @@ impl<'a> Checker<'a> {
     }
 
     /// Adds the fix that replaces what is written with another text.
-    pub fn fix_with(&mut self, loc: impl Into<Loc>, text: &str) {
+    pub(super) fn fix_with(&mut self, loc: impl Into<Loc>, text: &str) {
         let span = self.written_at(loc);
         self.fix(span.map(|span| Fix::replace(span, text)));
     }
 
     /// Suggests a name as the correct spelling of another.
-    pub fn did_you_mean(&mut self, loc: impl Into<Loc>, near: &str) {
+    pub(super) fn did_you_mean(&mut self, loc: impl Into<Loc>, near: &str) {
         self.hint(format!("did you mean `{near}`?"));
         self.fix_with(loc, near);
     }
 
     /// Returns whether a location is in Common, which a vertex stage includes although parts of it may be for
     /// fragments: functions that are not called there are harmless.
-    pub fn is_shared(&self, loc: Loc) -> bool {
+    pub(super) fn is_shared(&self, loc: Loc) -> bool {
         self.settings.common == Some(self.origins.span(loc).source)
     }
 
     /// Records the target of a name in the text, for editors.
     #[inline]
-    pub fn uses(&mut self, token: ast::TokenId, target: hir::DeclRef) {
+    pub(super) fn uses(&mut self, token: ast::TokenId, target: hir::DeclRef) {
         self.module.uses.push(hir::Use { token, target });
     }
 
-    pub fn name(&self, symbol: Symbol) -> &'a str {
+    pub(super) fn name(&self, symbol: Symbol) -> &'a str {
         self.names.get(symbol)
     }
 
     #[inline]
-    pub fn ty(&self, expr: hir::ExprId) -> TypeId {
+    pub(super) fn ty(&self, expr: hir::ExprId) -> TypeId {
         self.module[expr].ty
     }
 
     #[inline]
-    pub fn loc(&self, expr: hir::ExprId) -> Loc {
+    pub(super) fn loc(&self, expr: hir::ExprId) -> Loc {
         self.module[expr].loc
     }
 }

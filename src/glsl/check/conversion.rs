@@ -288,7 +288,7 @@ impl Mend {
         }
     }
 
-    pub fn hint(&self) -> String {
+    pub(super) fn hint(&self) -> String {
         let text = &self.text;
         let what = if text.is_empty() {
             "add a `u` to the number".to_owned()

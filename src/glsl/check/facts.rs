@@ -38,7 +38,7 @@ pub(super) struct TypeFacts {
 
 impl TypeFacts {
     /// Adds the facts of one more member.
-    pub fn add(&mut self, member: TypeFacts) {
+    pub(super) fn add(&mut self, member: TypeFacts) {
         self.words = self.words.saturating_add(member.words);
         self.opaque |= member.opaque;
         self.arrays |= member.arrays;

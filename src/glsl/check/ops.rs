@@ -182,7 +182,7 @@ impl Checker<'_> {
 
     /// Returns the type and shape of `*` on a matrix and a matrix or vector (section 5.9); the outer `None` means that
     /// it is not such a product.
-    #[expect(clippy::option_option)]
+    #[expect(clippy::option_option, reason = "no product, and a product without a type, differ")]
     fn product_type(&self, left: TypeId, right: TypeId) -> Option<Option<(TypeId, Shape)>> {
         let types = &self.module.types;
         Some(match (types.get(left), types.get(right)) {

@@ -42,11 +42,11 @@ pub(super) enum LayoutOf {
 }
 
 impl Qualifiers {
-    pub fn is(&self, storage: Q) -> bool {
+    pub(super) fn is(&self, storage: Q) -> bool {
         self.storage.is_some_and(|(kind, _)| kind == storage)
     }
 
-    pub fn param_kind(&self) -> LocalKind {
+    pub(super) fn param_kind(&self) -> LocalKind {
         match self.storage {
             Some((Q::Out, _)) => LocalKind::Out,
             Some((Q::Inout, _)) => LocalKind::Inout,
@@ -56,7 +56,7 @@ impl Qualifiers {
     }
 
     /// Returns the precision as written, or the default of the type.
-    pub fn precision_of(&self, checker: &Checker<'_>, base: TypeId) -> Option<Precision> {
+    pub(super) fn precision_of(&self, checker: &Checker<'_>, base: TypeId) -> Option<Precision> {
         self.precision.map(|(precision, _)| precision).or_else(|| checker.default_precision(base))
     }
 }

@@ -51,39 +51,39 @@ pub(super) struct Scopes {
 
 impl Scopes {
     /// Returns the number of symbols for which the table has an entry.
-    pub fn symbols(&self) -> usize {
+    pub(super) fn symbols(&self) -> usize {
         self.table.len()
     }
 
     /// Adds table entries for this many symbols, the new ones unknown.
-    pub fn reserve_symbols(&mut self, symbols: usize) {
+    pub(super) fn reserve_symbols(&mut self, symbols: usize) {
         self.table.resize(symbols, (Binding::None, LANGUAGE));
     }
 
     #[inline]
-    pub fn get(&self, symbol: Symbol) -> Binding {
+    pub(super) fn get(&self, symbol: Symbol) -> Binding {
         self.table[symbol.0 as usize].0
     }
 
     /// Returns the meaning of `symbol` in the innermost scope itself, if it was declared there.
     #[inline]
-    pub fn here(&self, symbol: Symbol) -> Option<Binding> {
+    pub(super) fn here(&self, symbol: Symbol) -> Option<Binding> {
         let (binding, depth) = self.table[symbol.0 as usize];
         (depth == self.depth() && binding != Binding::None).then_some(binding)
     }
 
     /// Returns the depth of the innermost open scope; [`FILE`] outside functions.
     #[inline]
-    pub fn depth(&self) -> u32 {
+    pub(super) fn depth(&self) -> u32 {
         FILE + self.marks.len() as u32
     }
 
     #[inline]
-    pub fn push(&mut self) {
+    pub(super) fn push(&mut self) {
         self.marks.push(self.hidden.len());
     }
 
-    pub fn pop(&mut self) {
+    pub(super) fn pop(&mut self) {
         let mark = self.marks.pop().expect("a scope is open");
         while self.hidden.len() > mark {
             let (symbol, binding, depth) = self.hidden.pop().expect("longer than mark");
@@ -93,7 +93,7 @@ impl Scopes {
 
     /// Declares a name in the innermost scope; the caller has checked [`Scopes::here`].
     #[inline]
-    pub fn declare(&mut self, symbol: Symbol, binding: Binding) {
+    pub(super) fn declare(&mut self, symbol: Symbol, binding: Binding) {
         let depth = self.depth();
         let slot = &mut self.table[symbol.0 as usize];
         if !self.marks.is_empty() {
@@ -103,12 +103,12 @@ impl Scopes {
     }
 
     /// Declares a name of the language or the header.
-    pub fn give(&mut self, symbol: Symbol, binding: Binding, depth: u32) {
+    pub(super) fn give(&mut self, symbol: Symbol, binding: Binding, depth: u32) {
         self.table[symbol.0 as usize] = (binding, depth);
     }
 
     /// Returns all names that have a meaning here.
-    pub fn visible(&self) -> impl Iterator<Item = (Symbol, Binding)> {
+    pub(super) fn visible(&self) -> impl Iterator<Item = (Symbol, Binding)> {
         let named = self.table.iter().enumerate().filter(|(_, (binding, _))| *binding != Binding::None);
         named.map(|(i, (binding, _))| (Symbol(i as u32), *binding))
     }

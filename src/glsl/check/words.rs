@@ -19,20 +19,20 @@ pub(super) struct ScalarWords {
 
 impl ScalarWords {
     /// Returns `len` zeros.
-    pub fn zeros(len: usize) -> Self {
+    pub(super) fn zeros(len: usize) -> Self {
         Self { len: len as u8, ..Self::default() }
     }
 
-    pub fn as_mut_slice(&mut self) -> &mut [u32] {
+    pub(super) fn as_mut_slice(&mut self) -> &mut [u32] {
         &mut self.bits[..usize::from(self.len)]
     }
 
-    pub fn push(&mut self, bits: u32) {
+    pub(super) fn push(&mut self, bits: u32) {
         self.bits[usize::from(self.len)] = bits;
         self.len += 1;
     }
 
-    pub fn as_slice(&self) -> &[u32] {
+    pub(super) fn as_slice(&self) -> &[u32] {
         &self.bits[..usize::from(self.len)]
     }
 }

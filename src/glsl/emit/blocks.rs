@@ -31,7 +31,7 @@ pub(super) struct Block {
 
 impl Emitter<'_> {
     /// Returns the variable of a block, and the index in its type of a member of the block.
-    pub fn block_member(&mut self, block: u16, index: u16) -> (Handle<GlobalVariable>, u32) {
+    pub(super) fn block_member(&mut self, block: u16, index: u16) -> (Handle<GlobalVariable>, u32) {
         let made = match self.resources.blocks.remove(&block) {
             Some(made) => made,
             None => self.make_block(block),
@@ -129,7 +129,7 @@ impl Emitter<'_> {
     }
 
     /// Adds the declared blocks to the reflection, and removes undeclared samplers from it.
-    pub fn finish_blocks(&mut self) {
+    pub(super) fn finish_blocks(&mut self) {
         let mut blocks: Vec<_> = std::mem::take(&mut self.resources.blocks).into_iter().collect();
         blocks.sort_by_key(|(index, _)| *index);
         for (index, made) in blocks {

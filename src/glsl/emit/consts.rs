@@ -25,7 +25,7 @@ pub(super) fn literal(scalar: Scalar, bits: u32) -> Option<Literal> {
 
 impl Emitter<'_> {
     /// Returns a naga constant; `None` if it contains an infinity or NaN, or is long.
-    pub fn constant(&mut self, id: ConstId) -> Option<Handle<naga::Constant>> {
+    pub(super) fn constant(&mut self, id: ConstId) -> Option<Handle<naga::Constant>> {
         if let Some(made) = self.consts.constants[id.index()] {
             return Some(made);
         }
@@ -41,7 +41,7 @@ impl Emitter<'_> {
     }
 
     /// Returns a constant as a module-scope expression.
-    pub fn constant_init(&mut self, id: ConstId) -> Option<Handle<Expression>> {
+    pub(super) fn constant_init(&mut self, id: ConstId) -> Option<Handle<Expression>> {
         if let Some(init) = self.consts.inits[id.index()] {
             return init;
         }

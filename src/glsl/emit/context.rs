@@ -42,7 +42,7 @@ pub(super) struct Constants {
 }
 
 impl Constants {
-    pub fn new(count: usize) -> Self {
+    pub(super) fn new(count: usize) -> Self {
         Self {
             inits: vec![None; count],
             constants: vec![None; count],

@@ -61,7 +61,7 @@ fn interpolation(flat: bool) -> Option<Interpolation> {
 
 impl Builder<'_, '_> {
     /// Returns the index of the argument for an input, adding it if necessary.
-    pub fn argument_of(&mut self, input: Input) -> u32 {
+    pub(super) fn argument_of(&mut self, input: Input) -> u32 {
         let (ty, binding) = match input {
             Input::Position => (TypeId::VEC4, Binding::BuiltIn(POSITION)),
             Input::VertexIndex => (TypeId::UINT, Binding::BuiltIn(BuiltIn::VertexIndex)),
@@ -102,7 +102,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns all outputs at once.
-    pub fn output(&mut self, parts: &[(Output, Value)]) {
+    pub(super) fn output(&mut self, parts: &[(Output, Value)]) {
         if parts.is_empty() {
             self.push(Statement::Return { value: None });
             return;

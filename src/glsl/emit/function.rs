@@ -58,7 +58,7 @@ pub(super) fn emit(cx: &mut Emitter<'_>, function: &ir::Function) -> naga::Funct
 }
 
 impl<'m, 'a> Builder<'m, 'a> {
-    pub fn new(cx: &'m mut Emitter<'a>, function: &'m ir::Function) -> Self {
+    pub(super) fn new(cx: &'m mut Emitter<'a>, function: &'m ir::Function) -> Self {
         let mut f = naga::Function::default();
         let vars = function.vars.iter().map(|var| {
             let ty = cx.ty(var.ty);
@@ -92,7 +92,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         builder
     }
 
-    pub fn finish(mut self) -> naga::Function {
+    pub(super) fn finish(mut self) -> naga::Function {
         self.emit();
         self.f.body = self.block;
         self.cx.written_first.push(self.written_first);
@@ -100,19 +100,19 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     /// Ends the current run of expressions, so that later ones are not part of it.
-    pub fn emit(&mut self) {
+    pub(super) fn emit(&mut self) {
         if let Some((first, last)) = self.unemitted.take() {
             self.block.push(Statement::Emit(Range::new_from_bounds(first, last)), Span::UNDEFINED);
         }
     }
 
-    pub fn push(&mut self, statement: Statement) {
+    pub(super) fn push(&mut self, statement: Statement) {
         self.emit();
         self.block.push(statement, Span::UNDEFINED);
     }
 
     /// Adds an expression that is computed here.
-    pub fn add(&mut self, expression: Expression) -> Handle<Expression> {
+    pub(super) fn add(&mut self, expression: Expression) -> Handle<Expression> {
         let value = self.f.expressions.append(expression, Span::UNDEFINED);
         let first = self.unemitted.map_or(value, |(first, _)| first);
         self.unemitted = Some((first, value));
@@ -121,13 +121,13 @@ impl<'m, 'a> Builder<'m, 'a> {
 
     /// Adds an expression that no `Emit` may cover: it is available from the start of the function, or a statement
     /// computes it.
-    pub fn add_preemitted(&mut self, expression: Expression) -> Handle<Expression> {
+    pub(super) fn add_preemitted(&mut self, expression: Expression) -> Handle<Expression> {
         self.emit();
         self.f.expressions.append(expression, Span::UNDEFINED)
     }
 
     /// Returns the expression of a value or place.
-    pub fn value(&mut self, value: Value) -> Handle<Expression> {
+    pub(super) fn value(&mut self, value: Value) -> Handle<Expression> {
         if let Some(made) = self.values[value.index()] {
             return made;
         }
@@ -160,7 +160,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     /// Returns a scalar constant, bit for bit.
-    pub fn literal(&mut self, scalar: Scalar, bits: u32) -> Handle<Expression> {
+    pub(super) fn literal(&mut self, scalar: Scalar, bits: u32) -> Handle<Expression> {
         if let Some(&made) = self.literals.get(&(scalar as u8, bits)) {
             return made;
         }
@@ -178,7 +178,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     /// Composes a constant that naga cannot represent.
-    pub fn composed(&mut self, id: ir::ConstId) -> Handle<Expression> {
+    pub(super) fn composed(&mut self, id: ir::ConstId) -> Handle<Expression> {
         let ir = self.cx.ir;
         let constant = &ir[id];
         if self.cx.is_long(constant.ty)
@@ -205,12 +205,12 @@ impl<'m, 'a> Builder<'m, 'a> {
         self.compose(ty, components)
     }
 
-    pub fn compose(&mut self, ty: TypeId, components: Vec<Handle<Expression>>) -> Handle<Expression> {
+    pub(super) fn compose(&mut self, ty: TypeId, components: Vec<Handle<Expression>>) -> Handle<Expression> {
         let ty = self.cx.ty(ty);
         self.add(Expression::Compose { ty, components })
     }
 
-    pub fn block(&mut self, block: &[Stmt]) {
+    pub(super) fn block(&mut self, block: &[Stmt]) {
         for stmt in block {
             self.statement(stmt);
         }

@@ -26,13 +26,13 @@ enum Slot {
 
 impl Builder<'_, '_> {
     /// Returns the handle of a module-scope variable, or the pointer to it.
-    pub fn variable(&mut self, variable: Handle<GlobalVariable>) -> Handle<Expression> {
+    pub(super) fn variable(&mut self, variable: Handle<GlobalVariable>) -> Handle<Expression> {
         // naga generates no instruction for it, so duplicates are harmless.
         self.add_preemitted(Expression::GlobalVariable(variable))
     }
 
     /// Returns the variable of a global of the program; `None` for a member of a block.
-    pub fn global(&mut self, id: GlobalId) -> Option<Handle<GlobalVariable>> {
+    pub(super) fn global(&mut self, id: GlobalId) -> Option<Handle<GlobalVariable>> {
         match self.cx.ir[id].kind {
             GlobalKind::Private { .. } => Some(self.cx.private_global(id)),
             GlobalKind::Table(table) => match self.cx.table_place(table) {
@@ -48,7 +48,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns the pointer to a member of a block or buffer.
-    pub fn block_member_of(&mut self, id: GlobalId) -> Handle<Expression> {
+    pub(super) fn block_member_of(&mut self, id: GlobalId) -> Handle<Expression> {
         let (block, index) = match self.cx.ir[id].kind {
             GlobalKind::Uniform(uniform) => match uniform.geometry_member() {
                 Some(index) => (self.cx.geometry_block(), index),
@@ -89,7 +89,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns the pointer to a part of a place; `None` for an element that is only a part of its slot.
-    pub fn part_of_place(&mut self, place: Value) -> Option<Handle<Expression>> {
+    pub(super) fn part_of_place(&mut self, place: Value) -> Option<Handle<Expression>> {
         let ir = self.ir;
         let (Op::Part { base, .. } | Op::Element { base, .. }) = ir[place] else { unreachable!("it has a base") };
         if self.is_in_block(place) {
@@ -158,7 +158,7 @@ impl Builder<'_, '_> {
     }
 
     /// Loads the contents of a place.
-    pub fn load(&mut self, place: Value) -> Handle<Expression> {
+    pub(super) fn load(&mut self, place: Value) -> Handle<Expression> {
         let ir = self.ir;
         if self.is_in_block(place) {
             return self.load_in_block(place);
@@ -188,7 +188,7 @@ impl Builder<'_, '_> {
 
     /// Returns the int that is always zero, although the driver cannot know it: a uniform or, if the driver recompiles
     /// for each value of uniforms, the value computed by the entry point.
-    pub fn opaque_zero(&mut self) -> Handle<Expression> {
+    pub(super) fn opaque_zero(&mut self) -> Handle<Expression> {
         let is_made = self.cx.source.driver.opaque_uniforms || self.cx.source.kind.is_plain();
         let pointer = if is_made {
             let variable = self.cx.opaque_zero();

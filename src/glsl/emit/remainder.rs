@@ -14,7 +14,7 @@ use crate::{
 
 impl Builder<'_, '_> {
     /// Returns the remainder that has the divisor's sign.
-    pub fn modulo(&mut self, value: Value, left: Value, right: Value) -> Handle<Expression> {
+    pub(super) fn modulo(&mut self, value: Value, left: Value, right: Value) -> Handle<Expression> {
         use BinaryOperator as B;
         let ty = self.ir.ty(value);
         let scalar = self.cx.ir.scalar(ty);

@@ -102,7 +102,7 @@ impl Emitter<'_> {
     }
 
     /// Returns memory of one invocation, zero at its start unless `init` is given.
-    pub fn private(
+    pub(super) fn private(
         &mut self,
         ty: Handle<naga::Type>,
         init: Option<Handle<naga::Expression>>,
@@ -111,7 +111,7 @@ impl Emitter<'_> {
     }
 
     /// Returns the uniform block.
-    pub fn block(&mut self) -> Handle<GlobalVariable> {
+    pub(super) fn block(&mut self) -> Handle<GlobalVariable> {
         if let Some(block) = self.resources.block {
             return block;
         }
@@ -141,7 +141,7 @@ impl Emitter<'_> {
     }
 
     /// Returns the variable with the matrices and the camera that a mesh is drawn with.
-    pub fn geometry_block(&mut self) -> Handle<GlobalVariable> {
+    pub(super) fn geometry_block(&mut self) -> Handle<GlobalVariable> {
         if let Some(block) = self.resources.geometry {
             return block;
         }
@@ -168,12 +168,12 @@ impl Emitter<'_> {
     }
 
     /// Returns the number of slots up to the last that the pass may name.
-    pub fn custom_uniform_slots(&self) -> u32 {
+    pub(super) fn custom_uniform_slots(&self) -> u32 {
         self.source.custom_uniforms.iter().map(|k| u32::from(k.slot) + 1).max().unwrap_or(0)
     }
 
     /// Returns the custom uniforms: an array of slots, because every backend uses the same layout for that.
-    pub fn custom_uniform_block(&mut self) -> Handle<GlobalVariable> {
+    pub(super) fn custom_uniform_block(&mut self) -> Handle<GlobalVariable> {
         if let Some(block) = self.resources.custom_uniform_block {
             return block;
         }
@@ -187,7 +187,7 @@ impl Emitter<'_> {
     }
 
     /// Returns the texture of a channel.
-    pub fn texture(&mut self, channel: u8) -> Handle<GlobalVariable> {
+    pub(super) fn texture(&mut self, channel: u8) -> Handle<GlobalVariable> {
         if let Some(&texture) = self.resources.textures.get(&channel) {
             return texture;
         }
@@ -214,7 +214,7 @@ impl Emitter<'_> {
     }
 
     /// Returns the sampler of a channel.
-    pub fn sampler(&mut self, channel: u8) -> Handle<GlobalVariable> {
+    pub(super) fn sampler(&mut self, channel: u8) -> Handle<GlobalVariable> {
         if let Some(&sampler) = self.resources.samplers.get(&channel) {
             return sampler;
         }
@@ -239,7 +239,7 @@ impl Emitter<'_> {
     }
 
     /// Returns private memory, set to its constant value if it has one.
-    pub fn private_global(&mut self, id: GlobalId) -> Handle<GlobalVariable> {
+    pub(super) fn private_global(&mut self, id: GlobalId) -> Handle<GlobalVariable> {
         if let Some(&Some(made)) = self.resources.private.get(id.index()) {
             return made;
         }
@@ -261,7 +261,7 @@ impl Emitter<'_> {
     }
 
     /// Returns the variable with the zero that the driver cannot know; the entry point sets it.
-    pub fn opaque_zero(&mut self) -> Handle<GlobalVariable> {
+    pub(super) fn opaque_zero(&mut self) -> Handle<GlobalVariable> {
         if self.resources.opaque_zero.is_none() {
             let ty = self.ty(TypeId::INT);
             self.resources.opaque_zero = Some(self.private(ty, None));

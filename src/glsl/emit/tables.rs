@@ -41,11 +41,11 @@ pub(crate) struct TableBytes {
 
 impl Emitter<'_> {
     /// Returns whether values of a type are copied by loops, because the driver needs it ([`super::long_arrays`]).
-    pub fn is_long(&mut self, ty: TypeId) -> bool {
+    pub(super) fn is_long(&mut self, ty: TypeId) -> bool {
         self.source.driver.array_loops && self.layouts.is_aggregate_of(self.ir, ty, LEAST_COPY)
     }
 
-    pub fn table_place(&mut self, id: ConstId) -> TablePlace {
+    pub(super) fn table_place(&mut self, id: ConstId) -> TablePlace {
         let key = id.index() as u32;
         if let Some(&place) = self.tables.places.get(&key) {
             return place;
@@ -100,7 +100,7 @@ impl Emitter<'_> {
     }
 
     /// Returns the member of the storage buffer that contains a constant.
-    pub fn storage_index(&mut self, id: ConstId) -> u32 {
+    pub(super) fn storage_index(&mut self, id: ConstId) -> u32 {
         let key = id.index() as u32;
         if let Some(&index) = self.tables.stored.get(&key) {
             return index;
@@ -158,7 +158,7 @@ impl Emitter<'_> {
         }
     }
 
-    pub fn holds_booleans(&self, ty: TypeId) -> bool {
+    pub(super) fn holds_booleans(&self, ty: TypeId) -> bool {
         match self.ir.types.get(ty) {
             Type::Scalar(scalar) | Type::Vector { scalar, .. } => scalar == Scalar::Bool,
             Type::Array { element, .. } => self.holds_booleans(element),
@@ -167,7 +167,7 @@ impl Emitter<'_> {
         }
     }
 
-    pub fn uniform_tables(&mut self) -> Handle<GlobalVariable> {
+    pub(super) fn uniform_tables(&mut self) -> Handle<GlobalVariable> {
         if let Some(made) = self.tables.uniform.variable {
             return made;
         }
@@ -179,7 +179,7 @@ impl Emitter<'_> {
         *self.tables.uniform.variable.insert(made)
     }
 
-    pub fn storage_tables(&mut self) -> Handle<GlobalVariable> {
+    pub(super) fn storage_tables(&mut self) -> Handle<GlobalVariable> {
         if let Some(made) = self.tables.storage.variable {
             return made;
         }
@@ -194,7 +194,7 @@ impl Emitter<'_> {
     }
 
     /// Sets the types of the buffers, and returns their contents.
-    pub fn finish_tables(&mut self) -> TableBytes {
+    pub(super) fn finish_tables(&mut self) -> TableBytes {
         let (uniform, storage) = (std::mem::take(&mut self.tables.uniform), std::mem::take(&mut self.tables.storage));
         let align = storage.align.max(4);
         TableBytes { uniform: self.finish_buffer(uniform, SLOT), storage: self.finish_buffer(storage, align) }

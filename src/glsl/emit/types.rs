@@ -30,22 +30,22 @@ pub(super) fn vector_size(size: usize) -> VectorSize {
 
 impl Emitter<'_> {
     /// Returns the type with this `inner`, created at most once.
-    pub fn insert_type(&mut self, inner: TypeInner) -> Handle<naga::Type> {
+    pub(super) fn insert_type(&mut self, inner: TypeInner) -> Handle<naga::Type> {
         self.out.types.insert(naga::Type { name: None, inner }, naga::Span::UNDEFINED)
     }
 
     /// Returns a pointer to a variable of a function.
-    pub fn pointer_ty(&mut self, id: TypeId) -> Handle<naga::Type> {
+    pub(super) fn pointer_ty(&mut self, id: TypeId) -> Handle<naga::Type> {
         let base = self.ty(id);
         self.insert_type(TypeInner::Pointer { base, space: AddressSpace::Function })
     }
 
-    pub fn layout(&mut self, id: TypeId) -> Layout {
+    pub(super) fn layout(&mut self, id: TypeId) -> Layout {
         self.layouts.of(self.ir, id)
     }
 
     /// Returns naga's type of a value, which is not void, sampler or error.
-    pub fn ty(&mut self, id: TypeId) -> Handle<naga::Type> {
+    pub(super) fn ty(&mut self, id: TypeId) -> Handle<naga::Type> {
         if let Some(made) = self.types[id.0 as usize] {
             return made;
         }

@@ -24,12 +24,12 @@ mod declarations;
 mod ids;
 
 use super::ast::{self, Ident, List, Loc, Symbol, TokenId};
-pub use super::{
+pub(crate) use super::{
     builtins::{Builtin, BuiltinVar, Uniform},
     types::{SamplerDim, Scalar, StructId, Swizzle, Type, TypeId, TypeTable},
 };
-pub use declarations::{Const, Function, Global, GlobalStorage, Local, LocalKind, VarFlags};
-pub use ids::{ConstId, ExprId, FuncId, GlobalId, LocalId, StmtId};
+pub(crate) use declarations::{Const, Function, Global, GlobalStorage, Local, LocalKind, VarFlags};
+pub(crate) use ids::{ConstId, ExprId, FuncId, GlobalId, LocalId, StmtId};
 
 // ------------------------------------------------------------------------------------------------------------- module
 

@@ -36,12 +36,12 @@ pub(super) struct Lexer<'a> {
 }
 
 impl<'a> Lexer<'a> {
-    pub fn new(source: SourceId, text: &'a str) -> Self {
+    pub(crate) fn new(source: SourceId, text: &'a str) -> Self {
         Self::part(source, text, 0..text.len())
     }
 
     /// Returns a lexer of a part of a text, without its surroundings.
-    pub fn part(source: SourceId, text: &'a str, range: Range<usize>) -> Self {
+    pub(crate) fn part(source: SourceId, text: &'a str, range: Range<usize>) -> Self {
         let base = range.start as u32;
         let (text, splices) = join_lines(&text[range]);
         // A byte order mark is not part of the text.
@@ -50,22 +50,22 @@ impl<'a> Lexer<'a> {
     }
 
     /// Returns the empty span between the last token and the next one.
-    pub fn here(&mut self) -> Span {
+    pub(crate) fn here(&mut self) -> Span {
         self.span(self.pos, self.pos)
     }
 
     /// Makes the lexer return the end of this line as a token, once.
-    pub fn begin_directive(&mut self) {
+    pub(crate) fn begin_directive(&mut self) {
         self.in_directive = true;
     }
 
     /// Makes ends of lines white space again.
-    pub fn end_directive(&mut self) {
+    pub(crate) fn end_directive(&mut self) {
         self.in_directive = false;
     }
 
     /// Returns the unprocessed rest of the directive's line, up to where [`Lexer::next`] would return its end.
-    pub fn rest_of_line(&mut self) -> (String, Span) {
+    pub(crate) fn rest_of_line(&mut self) -> (String, Span) {
         let start = self.pos;
         let text = self.text.as_bytes();
         let length = text[start..].iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(text.len() - start);
@@ -91,7 +91,7 @@ impl<'a> Lexer<'a> {
 
     /// Skips the lines of a group that is not compiled: stops after the `#` of a directive (true), or at the end of the
     /// text (false).
-    pub fn skip_to_directive(&mut self) -> bool {
+    pub(crate) fn skip_to_directive(&mut self) -> bool {
         loop {
             let token = self.blank();
             if let Some(open) = token {
@@ -163,7 +163,7 @@ impl<'a> Lexer<'a> {
 
     /// Returns the next token; at the end always `Eof`.
     #[inline]
-    pub fn next(&mut self, names: &mut Interner) -> Token {
+    pub(crate) fn next(&mut self, names: &mut Interner) -> Token {
         let before = self.pos;
         if let Some(start) = self.blank() {
             let span = self.span(start, start + 2);

@@ -12,12 +12,12 @@ pub(super) struct Splices {
 }
 
 impl Splices {
-    pub fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
     /// Returns the author's positions of a range of the joined text.
-    pub fn original(&mut self, start: u32, end: u32) -> (u32, u32) {
+    pub(super) fn original(&mut self, start: u32, end: u32) -> (u32, u32) {
         while self.at > 0 && self.list[self.at - 1].0 > start {
             self.at -= 1;
         }

@@ -115,7 +115,7 @@ pub(crate) enum Kind {
 impl Kind {
     /// Returns whether it is a keyword: one of the language's words, including types and reserved words.
     #[inline]
-    pub fn is_keyword(self) -> bool {
+    pub(crate) fn is_keyword(self) -> bool {
         use Kind::*;
         self.is_qualifier()
             || matches!(
@@ -142,7 +142,7 @@ impl Kind {
 
     /// Returns whether it starts a qualifier of a declaration.
     #[inline]
-    pub fn is_qualifier(self) -> bool {
+    pub(crate) fn is_qualifier(self) -> bool {
         use Kind::*;
         matches!(
             self,
@@ -152,7 +152,7 @@ impl Kind {
 
     /// Returns whether it is an operator that has an operand on its right; `++` and `--` may follow theirs.
     #[inline]
-    pub fn is_operator(self) -> bool {
+    pub(crate) fn is_operator(self) -> bool {
         use Kind::*;
         matches!(
             self,
@@ -213,7 +213,7 @@ pub(crate) struct Token {
 }
 
 impl Token {
-    pub fn has(&self, flag: u8) -> bool {
+    pub(crate) fn has(&self, flag: u8) -> bool {
         self.flags & flag != 0
     }
 }

@@ -22,14 +22,14 @@ pub(super) struct Place {
 }
 
 impl Place {
-    pub fn of(pointer: Value, ty: TypeId) -> Self {
+    pub(super) fn of(pointer: Value, ty: TypeId) -> Self {
         Self { pointer, ty, swizzle: None }
     }
 }
 
 impl Builder<'_, '_> {
     /// Evaluates an l-value and its indices, once.
-    pub fn place(&mut self, expr: ExprId) -> Place {
+    pub(super) fn place(&mut self, expr: ExprId) -> Place {
         let (root, links) = self.chain(expr);
         let mut place = self.root(root, &links).expect("a place is in memory");
         for link in links.into_iter().rev() {
@@ -40,7 +40,7 @@ impl Builder<'_, '_> {
 
     /// Returns the value of a variable or of a part of one, if it is in memory; otherwise the links from the outermost
     /// to the root.
-    pub fn read(&mut self, expr: ExprId) -> Result<Value, Vec<ExprId>> {
+    pub(super) fn read(&mut self, expr: ExprId) -> Result<Value, Vec<ExprId>> {
         let (root, links) = self.chain(expr);
         let Some(mut place) = self.root(root, &links) else { return Err(links) };
         for link in links.into_iter().rev() {
@@ -56,7 +56,7 @@ impl Builder<'_, '_> {
     /// that is a chain of members, swizzles and indices stays one, with its indices evaluated, until its operator is
     /// applied; only then is it read. So `g * f()` multiplies by the value of `g` after `f`, and the same holds for
     /// arguments and constructors. Any other operand is evaluated immediately: `(g + 1.0) * f()` adds before.
-    pub fn read_late(&mut self, operand: ExprId, has_later_effects: bool) -> Option<Place> {
+    pub(super) fn read_late(&mut self, operand: ExprId, has_later_effects: bool) -> Option<Place> {
         if !has_later_effects {
             return None;
         }
@@ -72,7 +72,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns the values of operands that are evaluated from left to right; see [`Builder::read_late`].
-    pub fn values(&mut self, operands: &[ExprId]) -> Vec<Value> {
+    pub(super) fn values(&mut self, operands: &[ExprId]) -> Vec<Value> {
         let last_effect = last_effect(self.cx.hir, operands);
         let mut late = Vec::new();
         let mut values = Vec::with_capacity(operands.len());
@@ -198,7 +198,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns the value of a root that is not in memory.
-    pub fn root_value(&mut self, root: ExprId) -> Value {
+    pub(super) fn root_value(&mut self, root: ExprId) -> Value {
         let hir = self.cx.hir;
         let ty = hir[root].ty;
         match hir[root].kind {
@@ -272,7 +272,7 @@ impl Builder<'_, '_> {
         Place::of(pointer, ty)
     }
 
-    pub fn load_place(&mut self, place: Place) -> Value {
+    pub(super) fn load_place(&mut self, place: Place) -> Value {
         let value = self.load(place.pointer);
         match place.swizzle {
             Some(swizzle) => self.swizzle(value, place.ty, swizzle),
@@ -280,7 +280,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    pub fn store_place(&mut self, place: Place, value: Value) {
+    pub(super) fn store_place(&mut self, place: Place, value: Value) {
         let Some(swizzle) = place.swizzle else { return self.store(place.pointer, value) };
         for (i, component) in swizzle.iter().enumerate() {
             let part = self.add(Op::Part { base: value, index: i as u32 });
@@ -290,7 +290,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns a part of a value; `link` is the member, swizzle or index whose base has this value.
-    pub fn part_of_value(&mut self, base: Value, link: ExprId) -> Value {
+    pub(super) fn part_of_value(&mut self, base: Value, link: ExprId) -> Value {
         let hir = self.cx.hir;
         match hir[link].kind {
             ExprKind::Member { index, .. } => self.add(Op::Part { base, index }),
@@ -315,7 +315,7 @@ impl Builder<'_, '_> {
     }
 
     /// Selects components of a vector of type `ty`.
-    pub fn swizzle(&mut self, vector: Value, ty: TypeId, swizzle: Swizzle) -> Value {
+    pub(super) fn swizzle(&mut self, vector: Value, ty: TypeId, swizzle: Swizzle) -> Value {
         if swizzle.len() == 1 {
             return self.add(Op::Part { base: vector, index: swizzle.get(0) as u32 });
         }
@@ -326,7 +326,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns the number of elements of an array, columns of a matrix, or components of a vector.
-    pub fn extent(&self, ty: TypeId) -> u32 {
+    pub(super) fn extent(&self, ty: TypeId) -> u32 {
         match self.cx.hir.types.get(ty) {
             Type::Array { len, .. } => len,
             Type::Matrix { columns, .. } => columns.into(),
@@ -351,7 +351,7 @@ impl Builder<'_, '_> {
     }
 
     /// Adds the components of a vector, or a scalar itself.
-    pub fn components(&mut self, value: Value, ty: TypeId, out: &mut Vec<Value>) {
+    pub(super) fn components(&mut self, value: Value, ty: TypeId, out: &mut Vec<Value>) {
         match self.cx.hir.types.get(ty) {
             Type::Vector { size, .. } => {
                 for index in 0..u32::from(size) {
@@ -371,12 +371,12 @@ impl Builder<'_, '_> {
     }
 
     /// Reinterprets the bits of a scalar or vector.
-    pub fn bitcast(&mut self, value: Value, to: Scalar) -> Value {
+    pub(super) fn bitcast(&mut self, value: Value, to: Scalar) -> Value {
         self.add(Op::Bitcast { value, to })
     }
 
     /// Returns the variable of this function that an expression names as a whole, if it is in memory.
-    pub fn whole_local(&self, expr: ExprId) -> Option<(LocalId, Value)> {
+    pub(super) fn whole_local(&self, expr: ExprId) -> Option<(LocalId, Value)> {
         match self.cx.hir[expr].kind {
             ExprKind::Local(local) => match self.slot(local) {
                 Slot::Memory(pointer) => Some((local, pointer)),

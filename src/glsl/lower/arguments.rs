@@ -58,7 +58,7 @@ pub(super) struct Arguments {
 
 impl Arguments {
     /// `writes` contains the globals that each function itself writes, by [`FuncId::index`].
-    pub fn new(module: &Module, writes: Vec<FxHashSet<GlobalId>>, table: usize) -> Self {
+    pub(super) fn new(module: &Module, writes: Vec<FxHashSet<GlobalId>>, table: usize) -> Self {
         let mut written: Vec<_> = writes.into_iter().map(Some).collect();
         let mut work = 0;
         for &func in &module.call_order {
@@ -95,27 +95,27 @@ impl Arguments {
         self.named[id.index()] > 1 || module[module[id].words].len() >= self.table
     }
 
-    pub fn specializable(&self, func: FuncId) -> &[LocalId] {
+    pub(super) fn specializable(&self, func: FuncId) -> &[LocalId] {
         &self.specializable[func.index()]
     }
 
-    pub fn is_specializable(&self, module: &Module, param: LocalId) -> bool {
+    pub(super) fn is_specializable(&self, module: &Module, param: LocalId) -> bool {
         matches!(module.types.get(module[param].ty), Type::Sampler { .. }) || self.reads_in_place(module, param)
     }
 
     /// Returns whether a function or one of its callees writes a global.
-    pub fn writes(&self, func: FuncId, global: GlobalId) -> bool {
+    pub(super) fn writes(&self, func: FuncId, global: GlobalId) -> bool {
         self.written[func.index()].as_ref().is_none_or(|written| written.contains(&global))
     }
 
     /// Returns whether a local is indexed, in its function or in a callee that it is passed to as a whole.
-    pub fn is_indexed(&self, module: &Module, local: LocalId) -> bool {
+    pub(super) fn is_indexed(&self, module: &Module, local: LocalId) -> bool {
         module[local].flags.contains(VarFlags::INDEXED) || self.handed_on[local.index()]
     }
 
     /// Returns whether a parameter is only read, but indexed in a way that values cannot be: it is then a pointer to
     /// the caller's argument, or the argument itself, instead of a copy that each call fills element by element.
-    pub fn reads_in_place(&self, module: &Module, param: LocalId) -> bool {
+    pub(super) fn reads_in_place(&self, module: &Module, param: LocalId) -> bool {
         let declared = &module[param];
         !declared.kind.copies_out()
             && self.is_indexed(module, param)
@@ -124,7 +124,7 @@ impl Arguments {
     }
 
     /// Returns the arguments of a call in `caller` (`None` for an initialiser) for the specializable parameters.
-    pub fn passed(
+    pub(super) fn passed(
         &self,
         module: &Module,
         caller: Option<FuncId>,

@@ -12,20 +12,20 @@ use crate::{
 };
 
 impl Builder<'_, '_> {
-    pub fn math(&mut self, fun: Math, arg: Value) -> Value {
+    pub(super) fn math(&mut self, fun: Math, arg: Value) -> Value {
         self.add(Op::Math { fun, arg, arg1: None, arg2: None, arg3: None })
     }
 
-    pub fn math2(&mut self, fun: Math, arg: Value, arg1: Value) -> Value {
+    pub(super) fn math2(&mut self, fun: Math, arg: Value, arg1: Value) -> Value {
         self.add(Op::Math { fun, arg, arg1: Some(arg1), arg2: None, arg3: None })
     }
 
-    pub fn math3(&mut self, fun: Math, arg: Value, arg1: Value, arg2: Value) -> Value {
+    pub(super) fn math3(&mut self, fun: Math, arg: Value, arg1: Value, arg2: Value) -> Value {
         self.add(Op::Math { fun, arg, arg1: Some(arg1), arg2: Some(arg2), arg3: None })
     }
 
     /// Calls a built-in of result type `ty`; returns `None` for void ones.
-    pub fn builtin(&mut self, builtin: Builtin, ty: TypeId, args: &[ExprId]) -> Option<Value> {
+    pub(super) fn builtin(&mut self, builtin: Builtin, ty: TypeId, args: &[ExprId]) -> Option<Value> {
         match builtin.operation {
             Operation::Modf => return Some(self.modf(args)),
             Operation::Assert => {

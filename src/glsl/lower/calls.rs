@@ -28,7 +28,7 @@ impl Builder<'_, '_> {
     /// Section 6.1.1: arguments are evaluated in order, each once, and variables among them are read after all others
     /// ([`Builder::read_late`]); `inout` ones are copied in; after the call `out` and `inout` ones are copied back, in
     /// order. If the difference is not observable, the function works on the caller's variable itself.
-    pub fn call(&mut self, func: FuncId, args: &[ExprId]) -> Option<Value> {
+    pub(super) fn call(&mut self, func: FuncId, args: &[ExprId]) -> Option<Value> {
         let hir = self.cx.hir;
         let params = hir.params(func);
         let mut arguments = Vec::with_capacity(args.len());
@@ -128,7 +128,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns the channel of a sampler argument.
-    pub fn channel(&self, arg: ExprId) -> u8 {
+    pub(super) fn channel(&self, arg: ExprId) -> u8 {
         match self.cx.hir[arg].kind {
             ExprKind::Channel(channel) => channel,
             ExprKind::Local(local) => match self.slot(local) {

@@ -33,7 +33,7 @@ pub(super) struct Lowering<'a> {
 
 impl Lowering<'_> {
     /// Returns whether values of a type are passed by reference although a copy would be possible.
-    pub fn is_long(&mut self, ty: hir::TypeId) -> bool {
+    pub(super) fn is_long(&mut self, ty: hir::TypeId) -> bool {
         let least = self.options.by_reference;
         least.is_some_and(|scalars| self.layouts.is_aggregate_of(&self.out, ty, scalars))
     }
@@ -54,7 +54,7 @@ pub(super) struct Variables {
 }
 
 impl Variables {
-    pub fn new(globals: usize) -> Self {
+    pub(super) fn new(globals: usize) -> Self {
         Self {
             read_only: FxHashMap::default(),
             globals: vec![None; globals],
@@ -86,7 +86,7 @@ pub(super) struct Probed {
 }
 
 impl Probed {
-    pub fn new(out: &mut ir::Module, (expr, ty): (hir::ExprId, hir::TypeId), visit: u32) -> Self {
+    pub(super) fn new(out: &mut ir::Module, (expr, ty): (hir::ExprId, hir::TypeId), visit: u32) -> Self {
         let components = out.types.components(ty).map_or(4, |count| count.min(4) as u8);
         let kept = hir::TypeId::vector(hir::Scalar::Float, components);
         let value = out.add_global(kept, GlobalKind::Private(None));

@@ -8,7 +8,7 @@ use crate::{
 
 impl Builder<'_, '_> {
     /// Converts a scalar or vector to the same size of another component type.
-    pub fn convert(&mut self, value: Value, to: TypeId) -> Value {
+    pub(super) fn convert(&mut self, value: Value, to: TypeId) -> Value {
         let to = self.cx.hir.types.scalar(to).expect("a scalar or vector");
         // From float to uint, negative numbers become zero: GLSL leaves it undefined, Direct3D requires it, and devices
         // do it.
@@ -16,7 +16,7 @@ impl Builder<'_, '_> {
     }
 
     /// Lowers `vecN(..)` of scalars, vectors and matrices.
-    pub fn vector(&mut self, ty: TypeId, args: &[ExprId]) -> Value {
+    pub(super) fn vector(&mut self, ty: TypeId, args: &[ExprId]) -> Value {
         let hir = self.cx.hir;
         let size = self.extent(ty) as usize;
         let values: Vec<_> = self.values(args).into_iter().zip(args.iter().map(|&arg| hir[arg].ty)).collect();
@@ -46,7 +46,7 @@ impl Builder<'_, '_> {
     }
 
     /// Lowers `matCxR(..)` of scalars and vectors, column by column.
-    pub fn matrix(&mut self, ty: TypeId, args: &[ExprId]) -> Value {
+    pub(super) fn matrix(&mut self, ty: TypeId, args: &[ExprId]) -> Value {
         let hir = self.cx.hir;
         let Type::Matrix { columns, rows } = hir.types.get(ty) else { unreachable!("a matrix type") };
         let column_ty = TypeId::vector(Scalar::Float, rows);
@@ -63,7 +63,7 @@ impl Builder<'_, '_> {
         self.compose(ty, columns)
     }
 
-    pub fn matrix_diagonal(&mut self, ty: TypeId, of: ExprId) -> Value {
+    pub(super) fn matrix_diagonal(&mut self, ty: TypeId, of: ExprId) -> Value {
         let Type::Matrix { columns, rows } = self.cx.hir.types.get(ty) else { unreachable!("a matrix type") };
         let value = self.value(of);
         let zero = self.float(0.0);
@@ -76,7 +76,7 @@ impl Builder<'_, '_> {
         self.compose(ty, columns)
     }
 
-    pub fn matrix_resize(&mut self, ty: TypeId, of: ExprId) -> Value {
+    pub(super) fn matrix_resize(&mut self, ty: TypeId, of: ExprId) -> Value {
         let hir = self.cx.hir;
         let Type::Matrix { columns, rows } = hir.types.get(ty) else { unreachable!("a matrix type") };
         let Type::Matrix { columns: from_columns, rows: from_rows } = hir.types.get(hir[of].ty) else {

@@ -20,7 +20,7 @@ const MINUS_ONE: u32 = -1i32 as u32;
 
 impl Builder<'_, '_> {
     /// Lowers `/` and `%` of ints and uints.
-    pub fn int_division(&mut self, op: BinaryOp, shape: Shape, left: Typed, right: Typed) -> Value {
+    pub(super) fn int_division(&mut self, op: BinaryOp, shape: Shape, left: Typed, right: Typed) -> Value {
         let ty = if shape == Shape::ScalarLeft { right.0 } else { left.0 };
         let signed = self.cx.hir.types.scalar(ty) == Some(Scalar::Int);
         let dividend = if shape == Shape::ScalarLeft { self.splat(left.1, ty) } else { left.1 };
@@ -80,7 +80,7 @@ impl Builder<'_, '_> {
         self.op(Binary::Equal, divisor, minus_one)
     }
 
-    pub fn splat_to(&mut self, value: Value, from: TypeId, ty: TypeId) -> Value {
+    pub(super) fn splat_to(&mut self, value: Value, from: TypeId, ty: TypeId) -> Value {
         if from == ty { value } else { self.splat(value, ty) }
     }
 

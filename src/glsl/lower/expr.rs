@@ -8,7 +8,7 @@ use crate::{
 
 impl Builder<'_, '_> {
     /// Returns the value of an expression that is not void.
-    pub fn value(&mut self, expr: ExprId) -> Value {
+    pub(super) fn value(&mut self, expr: ExprId) -> Value {
         // Operations on several values have the location of the whole, not of the last operand.
         let outer = self.loc;
         // Left spines may be thousands of links long, so they are descended by a loop instead of recursion.
@@ -126,13 +126,13 @@ impl Builder<'_, '_> {
         }
     }
 
-    pub fn scalar_literal(&mut self, ty: TypeId, bits: u32) -> Value {
+    pub(super) fn scalar_literal(&mut self, ty: TypeId, bits: u32) -> Value {
         let scalar = self.cx.hir.types.scalar(ty).expect("a literal is a scalar");
         self.literal(scalar, bits)
     }
 
     /// Returns a folded value of any type.
-    pub fn folded(&mut self, id: ConstId) -> Value {
+    pub(super) fn folded(&mut self, id: ConstId) -> Value {
         let hir = self.cx.hir;
         match hir.types.get(hir[id].ty) {
             Type::Scalar(scalar) => self.literal(scalar, hir[hir[id].words][0]),
@@ -141,7 +141,7 @@ impl Builder<'_, '_> {
     }
 
     /// Evaluates an expression only for its effects; void expressions must be evaluated this way.
-    pub fn effect(&mut self, expr: ExprId) {
+    pub(super) fn effect(&mut self, expr: ExprId) {
         let hir = self.cx.hir;
         // A comma chain is a left spine.
         let mut rest = Vec::new();
@@ -222,20 +222,20 @@ impl Builder<'_, '_> {
         self.load(result)
     }
 
-    pub fn select(&mut self, condition: Value, accept: Value, reject: Value) -> Value {
+    pub(super) fn select(&mut self, condition: Value, accept: Value, reject: Value) -> Value {
         self.add(Op::Select { condition, accept, reject })
     }
 
-    pub fn not(&mut self, expr: Value) -> Value {
+    pub(super) fn not(&mut self, expr: Value) -> Value {
         self.add(Op::Unary { op: Unary::LogicalNot, operand: expr })
     }
 
-    pub fn op(&mut self, op: Binary, left: Value, right: Value) -> Value {
+    pub(super) fn op(&mut self, op: Binary, left: Value, right: Value) -> Value {
         self.add(Op::Binary { op, left, right })
     }
 
     /// Returns a scalar repeated to a vector of type `ty`, or the scalar itself if `ty` is a scalar.
-    pub fn splat(&mut self, value: Value, ty: TypeId) -> Value {
+    pub(super) fn splat(&mut self, value: Value, ty: TypeId) -> Value {
         match self.cx.hir.types.get(ty) {
             Type::Vector { size, .. } => self.add(Op::Splat { size, value }),
             _ => value,
@@ -243,13 +243,13 @@ impl Builder<'_, '_> {
     }
 
     /// Returns a literal number repeated to the float type `ty`.
-    pub fn float_of(&mut self, ty: TypeId, number: f32) -> Value {
+    pub(super) fn float_of(&mut self, ty: TypeId, number: f32) -> Value {
         let value = self.float(number);
         self.splat(value, ty)
     }
 
     /// Returns a literal repeated to the int or uint type `ty`.
-    pub fn int_of(&mut self, ty: TypeId, bits: u32) -> Value {
+    pub(super) fn int_of(&mut self, ty: TypeId, bits: u32) -> Value {
         let scalar = self.cx.hir.types.scalar(ty).unwrap_or(Scalar::Int);
         let value = self.literal(scalar, bits);
         self.splat(value, ty)

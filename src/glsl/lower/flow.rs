@@ -13,7 +13,7 @@ use crate::{
 };
 
 impl Builder<'_, '_> {
-    pub fn statements(&mut self, list: List<StmtId>) {
+    pub(super) fn statements(&mut self, list: List<StmtId>) {
         let hir = self.cx.hir;
         for &stmt in &hir[list] {
             // Statements after a jump are unreachable.
@@ -24,7 +24,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    pub fn statement(&mut self, stmt: StmtId) {
+    pub(super) fn statement(&mut self, stmt: StmtId) {
         let hir = self.cx.hir;
         self.loc = hir[stmt].loc;
         if !matches!(hir[stmt].kind, StmtKind::Block(_)) {

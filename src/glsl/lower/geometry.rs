@@ -13,7 +13,7 @@ use crate::{
 impl Builder<'_, '_> {
     /// Adds `((w w' + z z') + y y') + x x'`: the side of each sum matters for the terms that drivers fuse. Terms
     /// multiplied by a literal zero are left out.
-    pub fn dot(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
+    pub(super) fn dot(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
         let size = self.extent(ty);
         if size == 1 {
             return self.op(Binary::Multiply, a, b);
@@ -42,7 +42,7 @@ impl Builder<'_, '_> {
         sum
     }
 
-    pub fn length(&mut self, ty: TypeId, vector: Value) -> Value {
+    pub(super) fn length(&mut self, ty: TypeId, vector: Value) -> Value {
         if ty == TypeId::FLOAT {
             return self.math(Math::Abs, vector);
         }
@@ -50,14 +50,14 @@ impl Builder<'_, '_> {
         self.math(Math::Sqrt, square)
     }
 
-    pub fn normalize(&mut self, ty: TypeId, vector: Value) -> Value {
+    pub(super) fn normalize(&mut self, ty: TypeId, vector: Value) -> Value {
         let square = self.dot(ty, vector, vector);
         let scale = self.math(Math::InverseSqrt, square);
         self.op(Binary::Multiply, vector, scale)
     }
 
     /// Returns `i - 2 dot(n, i) n`.
-    pub fn reflect(&mut self, ty: TypeId, i: Value, n: Value) -> Value {
+    pub(super) fn reflect(&mut self, ty: TypeId, i: Value, n: Value) -> Value {
         let dot = self.dot(ty, n, i);
         let two = self.float(2.0);
         let twice = self.op(Binary::Multiply, two, dot);
@@ -66,7 +66,7 @@ impl Builder<'_, '_> {
     }
 
     /// Lowers `refract` (section 8.5): zero if all light is reflected.
-    pub fn refract(&mut self, ty: TypeId, i: Value, n: Value, eta: Value) -> Value {
+    pub(super) fn refract(&mut self, ty: TypeId, i: Value, n: Value, eta: Value) -> Value {
         let one = self.float(1.0);
         let dot = self.dot(ty, n, i);
         let dot_squared = self.op(Binary::Multiply, dot, dot);
@@ -87,7 +87,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns `matCxR * vecC`: columns times components, added from the first on.
-    pub fn matrix_times_vector(&mut self, (columns, _): (u8, u8), matrix: Value, vector: Value) -> Value {
+    pub(super) fn matrix_times_vector(&mut self, (columns, _): (u8, u8), matrix: Value, vector: Value) -> Value {
         let mut sum = None;
         for index in 0..u32::from(columns) {
             let column = self.add(Op::Part { base: matrix, index });
@@ -102,7 +102,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns `vecR * matCxR`: the dot product with each column.
-    pub fn vector_times_matrix(&mut self, (columns, rows): (u8, u8), vector: Value, matrix: Value) -> Value {
+    pub(super) fn vector_times_matrix(&mut self, (columns, rows): (u8, u8), vector: Value, matrix: Value) -> Value {
         let column_ty = TypeId::vector(Scalar::Float, rows);
         let parts = (0..u32::from(columns)).map(|index| {
             let column = self.add(Op::Part { base: matrix, index });
@@ -113,7 +113,13 @@ impl Builder<'_, '_> {
     }
 
     /// Returns `matKxR * matCxK`: the left one times each column of the right one.
-    pub fn matrix_times_matrix(&mut self, (columns, rows): (u8, u8), inner: u8, left: Value, right: Value) -> Value {
+    pub(super) fn matrix_times_matrix(
+        &mut self,
+        (columns, rows): (u8, u8),
+        inner: u8,
+        left: Value,
+        right: Value,
+    ) -> Value {
         let columns_of_right = (0..u32::from(columns)).map(|index| {
             let column = self.add(Op::Part { base: right, index });
             self.matrix_times_vector((inner, rows), left, column)

@@ -9,7 +9,7 @@ use crate::{
 
 impl Builder<'_, '_> {
     /// Returns the inverse of a square matrix: transposed cofactors over the determinant.
-    pub fn inverse(&mut self, ty: TypeId, matrix: Value) -> Value {
+    pub(super) fn inverse(&mut self, ty: TypeId, matrix: Value) -> Value {
         let m = self.elements(ty, matrix);
         let n = m.len();
         // Column j, row i of the inverse is the cofactor of m's row j, column i.
@@ -33,7 +33,7 @@ impl Builder<'_, '_> {
         self.compose(ty, columns)
     }
 
-    pub fn determinant(&mut self, ty: TypeId, matrix: Value) -> Value {
+    pub(super) fn determinant(&mut self, ty: TypeId, matrix: Value) -> Value {
         if self.extent(ty) < 4 {
             return self.math(Math::Determinant, matrix);
         }
@@ -98,7 +98,7 @@ impl Builder<'_, '_> {
         sum.expect("a minor has a row")
     }
 
-    pub fn matrix_comp_mult(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
+    pub(super) fn matrix_comp_mult(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
         let Type::Matrix { columns, .. } = self.cx.hir.types.get(ty) else { unreachable!("a matrix type") };
         let columns = (0..u32::from(columns)).map(|index| {
             let left = self.add(Op::Part { base: a, index });
@@ -110,7 +110,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns a matrix whose columns are `a` times each component of `b`.
-    pub fn outer_product(&mut self, ty: TypeId, b_ty: TypeId, a: Value, b: Value) -> Value {
+    pub(super) fn outer_product(&mut self, ty: TypeId, b_ty: TypeId, a: Value, b: Value) -> Value {
         let mut parts = Vec::new();
         self.components(b, b_ty, &mut parts);
         let columns = parts.into_iter().map(|part| self.op(Binary::Multiply, a, part)).collect();

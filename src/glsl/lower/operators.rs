@@ -10,7 +10,7 @@ use crate::{
 pub(super) type Typed = (TypeId, Value);
 
 impl Builder<'_, '_> {
-    pub fn unary(&mut self, op: UnaryOp, ty: TypeId, expr: Value) -> Value {
+    pub(super) fn unary(&mut self, op: UnaryOp, ty: TypeId, expr: Value) -> Value {
         let types = &self.cx.hir.types;
         match op {
             UnaryOp::Not => self.not(expr),
@@ -31,7 +31,7 @@ impl Builder<'_, '_> {
         self.add(Op::Unary { op: Unary::Negate, operand: expr })
     }
 
-    pub fn binary(&mut self, source: BinaryOp, shape: Shape, left: Typed, right: Typed) -> Value {
+    pub(super) fn binary(&mut self, source: BinaryOp, shape: Shape, left: Typed, right: Typed) -> Value {
         use BinaryOp as B;
         let op = source;
         let types = &self.cx.hir.types;
@@ -153,7 +153,7 @@ impl Builder<'_, '_> {
     }
 
     /// Lowers `==` of whole values of one type.
-    pub fn equal(&mut self, ty: TypeId, left: Value, right: Value) -> Value {
+    pub(super) fn equal(&mut self, ty: TypeId, left: Value, right: Value) -> Value {
         let hir = self.cx.hir;
         let parts: Vec<TypeId> = match hir.types.get(ty) {
             Type::Vector { .. } => {
@@ -179,14 +179,14 @@ impl Builder<'_, '_> {
         all.unwrap_or_else(|| self.literal(Scalar::Bool, 1))
     }
 
-    pub fn assign(&mut self, place: ExprId, value: ExprId) -> Value {
+    pub(super) fn assign(&mut self, place: ExprId, value: ExprId) -> Value {
         let place = self.place(place);
         let value = self.value(value);
         self.store_place(place, value);
         value
     }
 
-    pub fn assign_op(&mut self, op: BinaryOp, shape: Shape, place: ExprId, value: ExprId) -> Value {
+    pub(super) fn assign_op(&mut self, op: BinaryOp, shape: Shape, place: ExprId, value: ExprId) -> Value {
         let hir = self.cx.hir;
         let (place_ty, value_ty) = (hir[place].ty, hir[value].ty);
         let at = self.place(place);
@@ -197,7 +197,7 @@ impl Builder<'_, '_> {
         result
     }
 
-    pub fn inc_dec(&mut self, op: IncDec, place: ExprId) -> Value {
+    pub(super) fn inc_dec(&mut self, op: IncDec, place: ExprId) -> Value {
         let hir = self.cx.hir;
         let ty = hir[place].ty;
         let scalar = hir.types.scalar(ty).unwrap_or(Scalar::Int);
@@ -224,7 +224,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns the bits of a literal expression.
-    pub fn literal_bits(&self, expr: ExprId) -> Option<u32> {
+    pub(super) fn literal_bits(&self, expr: ExprId) -> Option<u32> {
         match self.cx.hir[expr].kind {
             ExprKind::Literal(bits) => Some(bits),
             _ => None,

@@ -10,14 +10,14 @@ use crate::{
 };
 
 impl Lowering<'_> {
-    pub fn is_probed(&self, expr: ExprId) -> bool {
+    pub(super) fn is_probed(&self, expr: ExprId) -> bool {
         self.probed.as_ref().is_some_and(|probed| probed.expr == expr)
     }
 }
 
 impl Builder<'_, '_> {
     /// Stores the value of an expression if it is the probed one.
-    pub fn probe(&mut self, expr: ExprId, value: Value) {
+    pub(super) fn probe(&mut self, expr: ExprId, value: Value) {
         if !self.cx.is_probed(expr) {
             return;
         }
@@ -64,7 +64,7 @@ impl Builder<'_, '_> {
 
     /// Loads the value that the pass draws: the probed one, with a scalar repeated three times; missing components are
     /// 0, and the last is 1. Four NaN if the probed visit did not happen.
-    pub fn probed_value(&mut self) -> Option<Value> {
+    pub(super) fn probed_value(&mut self) -> Option<Value> {
         let Probed { visit, value, components, visits, .. } = self.cx.probed?;
         let (value, visits) = (self.global(value), self.global(visits));
         let (value, visits) = (self.load(value), self.load(visits));

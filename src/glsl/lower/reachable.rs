@@ -40,7 +40,7 @@ struct Facts {
 impl Reachable {
     /// Finds the reachable part; a constant of at least `table` scalars can replace a parameter even if only one call
     /// passes it.
-    pub fn new(module: &Module, table: usize) -> (Self, Arguments) {
+    pub(super) fn new(module: &Module, table: usize) -> (Self, Arguments) {
         let entry = module.entry.expect("a program without errors has an entry point");
         let mut facts: Vec<Facts> = module.functions.iter().map(|_| Facts::default()).collect();
         for &func in &module.call_order {

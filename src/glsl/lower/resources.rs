@@ -24,39 +24,39 @@ impl Lowering<'_> {
         made
     }
 
-    pub fn uniform(&mut self, uniform: Uniform) -> ir::GlobalId {
+    pub(super) fn uniform(&mut self, uniform: Uniform) -> ir::GlobalId {
         // The checker has interned its array types.
         let ty = uniform.ty(&mut self.out.types);
         self.read_only(ty, GlobalKind::Uniform(uniform))
     }
 
     /// Returns the words of a custom uniform.
-    pub fn custom_uniform(&mut self, slot: u16) -> ir::GlobalId {
+    pub(super) fn custom_uniform(&mut self, slot: u16) -> ir::GlobalId {
         self.read_only(TypeId::vector(Scalar::Uint, 4), GlobalKind::CustomUniform(slot))
     }
 
     /// Returns a uniform that a plain shader declares.
-    pub fn plain_uniform(&mut self, id: GlobalId) -> ir::GlobalId {
+    pub(super) fn plain_uniform(&mut self, id: GlobalId) -> ir::GlobalId {
         let (block, index) = self.interface.resources.members[&id];
         self.read_only(self.hir[id].ty, GlobalKind::Member { block, index })
     }
 
-    pub fn cube_face(&mut self) -> ir::GlobalId {
+    pub(super) fn cube_face(&mut self) -> ir::GlobalId {
         self.read_only(TypeId::INT, GlobalKind::CubeFace)
     }
 
-    pub fn tile_origin(&mut self) -> ir::GlobalId {
+    pub(super) fn tile_origin(&mut self) -> ir::GlobalId {
         self.read_only(TypeId::vector(Scalar::Int, 2), GlobalKind::TileOrigin)
     }
 
     /// Returns a constant that is indexed.
-    pub fn table(&mut self, id: ir::ConstId) -> ir::GlobalId {
+    pub(super) fn table(&mut self, id: ir::ConstId) -> ir::GlobalId {
         let ty = self.out[id].ty;
         self.read_only(ty, GlobalKind::Table(id))
     }
 
     /// Returns the memory of a built-in variable of a stage.
-    pub fn stage_variable(&mut self, variable: BuiltinVar) -> ir::GlobalId {
+    pub(super) fn stage_variable(&mut self, variable: BuiltinVar) -> ir::GlobalId {
         if let Some(&made) = self.resources.stage.get(&variable) {
             return made;
         }
@@ -67,7 +67,7 @@ impl Lowering<'_> {
 
     /// Returns the memory of one of the author's globals (storage `Private` or `Out`, in a stage also `In`), set to its
     /// constant value if it has one. The entry point computes non-constant values.
-    pub fn global(&mut self, id: GlobalId) -> ir::GlobalId {
+    pub(super) fn global(&mut self, id: GlobalId) -> ir::GlobalId {
         if let Some(made) = self.resources.globals[id.index()] {
             return made;
         }
@@ -78,21 +78,21 @@ impl Lowering<'_> {
         made
     }
 
-    pub fn frag_coord(&mut self) -> ir::GlobalId {
+    pub(super) fn frag_coord(&mut self) -> ir::GlobalId {
         if self.resources.frag_coord.is_none() {
             self.resources.frag_coord = Some(self.private(TypeId::VEC4));
         }
         self.resources.frag_coord.expect("just set")
     }
 
-    pub fn frag_depth(&mut self) -> ir::GlobalId {
+    pub(super) fn frag_depth(&mut self) -> ir::GlobalId {
         if self.resources.frag_depth.is_none() {
             self.resources.frag_depth = Some(self.private(TypeId::FLOAT));
         }
         self.resources.frag_depth.expect("just set")
     }
 
-    pub fn failed_asserts(&mut self) -> ir::GlobalId {
+    pub(super) fn failed_asserts(&mut self) -> ir::GlobalId {
         if self.resources.failed_asserts.is_none() {
             self.resources.failed_asserts = Some(self.private(TypeId::UINT));
         }

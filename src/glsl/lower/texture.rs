@@ -9,7 +9,7 @@ use crate::{
 
 impl Builder<'_, '_> {
     /// Calls a function whose operation reads a texture.
-    pub fn texture(&mut self, operation: Operation, ty: TypeId, args: &[ExprId]) -> Value {
+    pub(super) fn texture(&mut self, operation: Operation, ty: TypeId, args: &[ExprId]) -> Value {
         let channel = self.channel(args[0]);
         match operation {
             Operation::Sample(form) => self.sample(channel, form, args),

@@ -84,12 +84,12 @@ impl Parsed {
 
     /// Returns whether the meaning of these texts is independent of what follows and of the unit: they end between two
     /// declarations, with all conditionals and comments closed, and do not use line numbers.
-    pub fn stands_alone(&self) -> bool {
+    pub(crate) fn stands_alone(&self) -> bool {
         !self.report.has_errors() && !self.reader.has_line_numbers
     }
 
     /// Returns for each symbol whether some token is this name.
-    pub fn mentioned(&self) -> Vec<bool> {
+    pub(crate) fn mentioned(&self) -> Vec<bool> {
         let mut mentioned = vec![false; self.names.len()];
         for token in self.reader.tokens.iter().filter(|token| token.kind == Kind::Ident) {
             mentioned[token.value as usize] = true;

@@ -59,28 +59,28 @@ pub(super) const MAX_LEVELS: u32 = 10_000;
 
 impl Parser<'_> {
     #[inline]
-    pub fn kind(&self) -> Kind {
+    pub(super) fn kind(&self) -> Kind {
         self.tokens[self.at].kind
     }
 
     #[inline]
-    pub fn kind_at(&self, i: usize) -> Kind {
+    pub(super) fn kind_at(&self, i: usize) -> Kind {
         self.tokens.get(i).map_or(Kind::Eof, |t| t.kind)
     }
 
     /// Returns the kind of the token after the next one.
     #[inline]
-    pub fn second(&self) -> Kind {
+    pub(super) fn second(&self) -> Kind {
         self.kind_at(self.at + 1)
     }
 
     #[inline]
-    pub fn value(&self) -> u32 {
+    pub(super) fn value(&self) -> u32 {
         self.tokens[self.at].value
     }
 
     #[inline]
-    pub fn bump(&mut self) {
+    pub(super) fn bump(&mut self) {
         // The parser never moves past the end token.
         if self.at + 1 < self.tokens.len() {
             self.at += 1;
@@ -88,7 +88,7 @@ impl Parser<'_> {
     }
 
     #[inline]
-    pub fn eat(&mut self, kind: Kind) -> bool {
+    pub(super) fn eat(&mut self, kind: Kind) -> bool {
         let found = self.kind() == kind;
         if found {
             self.bump();
@@ -98,35 +98,35 @@ impl Parser<'_> {
 
     /// Returns the partner of a bracket.
     #[inline]
-    pub fn partner(&self, i: usize) -> Option<usize> {
+    pub(super) fn partner(&self, i: usize) -> Option<usize> {
         let value = self.tokens[i].value;
         (value != brackets::ALONE).then_some(value as usize)
     }
 
     #[inline]
-    pub fn token(i: usize) -> TokenId {
+    pub(super) fn token(i: usize) -> TokenId {
         TokenId(i as u32)
     }
 
     /// Returns the range from a token to the last consumed one.
     #[inline]
-    pub fn loc(&self, first: usize) -> Loc {
+    pub(super) fn loc(&self, first: usize) -> Loc {
         Loc::new(Self::token(first), Self::token(self.at.saturating_sub(1).max(first)))
     }
 
     #[inline]
-    pub fn enter(&mut self) -> Parse<()> {
+    pub(super) fn enter(&mut self) -> Parse<()> {
         self.depth += 1;
         if self.depth > MAX_NESTING { Err(self.too_deep(self.at, MAX_NESTING)) } else { Ok(()) }
     }
 
     #[inline]
-    pub fn leave(&mut self) {
+    pub(super) fn leave(&mut self) {
         self.depth -= 1;
     }
 
     #[cold]
-    pub fn too_deep(&mut self, i: usize, most: u32) -> Failed {
+    pub(super) fn too_deep(&mut self, i: usize, most: u32) -> Failed {
         if !std::mem::replace(&mut self.reported_too_deep, true) {
             let message = format!("this is nested more than {most} levels deep");
             self.error(i, message, Some("move a part of it to a variable or a function".into()));
@@ -136,7 +136,7 @@ impl Parser<'_> {
     }
 
     /// Runs a part that may fail. If it does, its expressions are discarded, so that no incomplete tree is left.
-    pub fn attempt<T>(&mut self, part: impl FnOnce(&mut Self) -> Parse<T>) -> Parse<T> {
+    pub(super) fn attempt<T>(&mut self, part: impl FnOnce(&mut Self) -> Parse<T>) -> Parse<T> {
         let (depth, levels, exprs) = (self.depth, self.levels, self.ast.exprs.len());
         let (expr_stack, stmt_stack) = (self.expr_stack.len(), self.stmt_stack.len());
         let result = part(self);
@@ -150,7 +150,7 @@ impl Parser<'_> {
     }
 
     /// Parses the closing bracket for the opening one at `open`.
-    pub fn close(&mut self, open: usize, wanted: Kind) -> Parse<()> {
+    pub(super) fn close(&mut self, open: usize, wanted: Kind) -> Parse<()> {
         if self.eat(wanted) {
             return Ok(());
         }
@@ -171,7 +171,7 @@ impl Parser<'_> {
     }
 
     /// Parses the `;` after a statement or declaration. Before a new line it is only missing, and parsing continues.
-    pub fn semicolon(&mut self) -> Parse<()> {
+    pub(super) fn semicolon(&mut self) -> Parse<()> {
         if self.eat(Kind::Semicolon) {
             return Ok(());
         }
@@ -187,7 +187,7 @@ impl Parser<'_> {
     }
 
     /// Returns whether a token can start a statement or declaration.
-    pub fn begins_anew(&self, i: usize) -> bool {
+    pub(super) fn begins_anew(&self, i: usize) -> bool {
         !matches!(
             self.kind_at(i),
             Kind::RParen
@@ -211,7 +211,7 @@ impl Parser<'_> {
     }
 
     /// Parses a name that is being declared.
-    pub fn declared(&mut self, what: &str) -> Parse<Ident> {
+    pub(super) fn declared(&mut self, what: &str) -> Parse<Ident> {
         let i = self.at;
         let ident = self.ident(what)?;
         let name = self.names.get(ident.symbol);
@@ -234,7 +234,7 @@ impl Parser<'_> {
     }
 
     /// Parses a name. A reserved word is reported once and accepted as a name.
-    pub fn ident(&mut self, what: &str) -> Parse<Ident> {
+    pub(super) fn ident(&mut self, what: &str) -> Parse<Ident> {
         let i = self.at;
         match self.kind() {
             Kind::Ident => {}
@@ -258,7 +258,7 @@ impl Parser<'_> {
     }
 
     /// Reports a reserved word, once.
-    pub fn reserved(&mut self, i: usize) {
+    pub(super) fn reserved(&mut self, i: usize) {
         let symbol = self.tokens[i].value;
         if self.reported_reserved.contains(&symbol) {
             return;
@@ -269,7 +269,7 @@ impl Parser<'_> {
         self.error(i, format!("`{word}` is a reserved word of GLSL ES"), Some(hint));
     }
 
-    pub fn error_expr(&mut self, first: usize) -> ExprId {
+    pub(super) fn error_expr(&mut self, first: usize) -> ExprId {
         let loc = self.loc(first);
         self.ast.expr(ExprKind::Error, loc)
     }

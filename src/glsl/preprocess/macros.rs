@@ -45,7 +45,7 @@ pub(super) enum MacroOrigin {
 
 impl MacroOrigin {
     /// Returns the macros that are defined before the first line.
-    pub fn all(dialect: Dialect) -> Vec<(&'static str, MacroOrigin)> {
+    pub(super) fn all(dialect: Dialect) -> Vec<(&'static str, MacroOrigin)> {
         use MacroOrigin::{ByLanguage, BySite, FileNumber, LineNumber};
         let mut all = vec![("__LINE__", LineNumber), ("__FILE__", FileNumber)];
         all.extend(match dialect {

@@ -80,7 +80,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
     ///
     /// # Panics
     /// If there is none.
-    pub fn new(
+    pub(super) fn new(
         pieces: &'r [Piece<'a>],
         (unit, dialect, cancel): (Unit, Dialect, Cancel<'r>),
         done: Preprocessed,
@@ -130,7 +130,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         new
     }
 
-    pub fn run(&mut self, unit: Unit) {
+    pub(super) fn run(&mut self, unit: Unit) {
         loop {
             let token = self.next_expanded();
             if token.kind == Kind::Eof {
@@ -162,7 +162,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
 
     /// Passes a token to the parser.
     #[inline]
-    pub fn emit(&mut self, token: Token) {
+    pub(super) fn emit(&mut self, token: Token) {
         let (kind, value) = match token.kind {
             Kind::Ident => (words::kind(token.value), token.value),
             Kind::BadNumber
@@ -185,13 +185,13 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
 
     /// Returns the next token of the current text, unprocessed.
     #[inline]
-    pub fn raw(&mut self) -> Token {
+    pub(super) fn raw(&mut self) -> Token {
         self.lexer.next(self.names)
     }
 
     /// Returns the next token of the running text; directives before it are processed.
     #[inline]
-    pub fn running(&mut self) -> Token {
+    pub(super) fn running(&mut self) -> Token {
         if let Some(token) = self.peeked.take() {
             return token;
         }
@@ -216,14 +216,14 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
     }
 
     /// Continues with the next piece, if there is one.
-    pub fn next_piece(&mut self) -> bool {
+    pub(super) fn next_piece(&mut self) -> bool {
         let Some(next) = self.pieces.get(self.current + 1) else { return false };
         self.current += 1;
         self.lexer = lexer(next);
         true
     }
 
-    pub fn open_comment(&mut self, token: &Token) {
+    pub(super) fn open_comment(&mut self, token: &Token) {
         self.is_cut = true;
         self.error(
             token,
@@ -233,29 +233,29 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
     }
 
     #[inline]
-    pub fn defined(&self, symbol: u32) -> Option<MacroId> {
+    pub(super) fn defined(&self, symbol: u32) -> Option<MacroId> {
         match self.table.defined.get(symbol as usize) {
             Some(&id) if id > 0 => Some(MacroId::new(id as usize - 1)),
             _ => None,
         }
     }
 
-    pub fn text(&self, span: Span) -> &'a str {
+    pub(super) fn text(&self, span: Span) -> &'a str {
         self.pieces.iter().find(|p| p.text.id == span.source).and_then(|p| p.text.text.get(span.range())).unwrap_or("")
     }
 
     /// Returns whether a span is at the end of its text.
-    pub fn ends_text(&self, span: Span) -> bool {
+    pub(super) fn ends_text(&self, span: Span) -> bool {
         self.pieces.iter().any(|p| p.text.id == span.source && p.text.text.len() == span.range().end)
     }
 
     /// Returns the place where the author wrote the text of this token.
-    pub fn place(&self, token: &Token) -> Span {
+    pub(super) fn place(&self, token: &Token) -> Span {
         token.expansion.map_or(token.span, |id| self.origins[id].used_at)
     }
 
     /// Reports an error with the replacement text of the fix.
-    pub fn error_with(&mut self, token: &Token, message: String, hint: Option<String>, text: Option<&str>) {
+    pub(super) fn error_with(&mut self, token: &Token, message: String, hint: Option<String>, text: Option<&str>) {
         let before = self.report.diagnostics.len();
         self.error(token, message, hint);
         if let (Some(text), None) = (text, token.expansion)
@@ -269,7 +269,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         }
     }
 
-    pub fn diagnose(&mut self, severity: Severity, token: &Token, message: String, hint: Option<String>) {
+    pub(super) fn diagnose(&mut self, severity: Severity, token: &Token, message: String, hint: Option<String>) {
         let mut diagnostic = Diagnostic::new(severity, self.place(token), message);
         if let Some(id) = token.expansion {
             let name = self.names.get(self.origins[self.origins[id].macro_id].name);
@@ -279,16 +279,16 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         self.report.add_in_macro(token.expansion.map(|_| token.span), diagnostic);
     }
 
-    pub fn error(&mut self, token: &Token, message: impl Into<String>, hint: Option<String>) {
+    pub(super) fn error(&mut self, token: &Token, message: impl Into<String>, hint: Option<String>) {
         self.diagnose(Severity::Error, token, message.into(), hint);
     }
 
-    pub fn warning(&mut self, token: &Token, message: impl Into<String>, hint: Option<String>) {
+    pub(super) fn warning(&mut self, token: &Token, message: impl Into<String>, hint: Option<String>) {
         self.diagnose(Severity::Warning, token, message.into(), hint);
     }
 
     /// Reports an error that ends reading: the rest would be meaningless.
-    pub fn stop(&mut self, token: &Token, message: String, hint: Option<String>) {
+    pub(super) fn stop(&mut self, token: &Token, message: String, hint: Option<String>) {
         if !self.stopped {
             self.error(token, message, hint);
         }

@@ -37,7 +37,7 @@ pub(super) struct LineCount {
 }
 
 impl LineCount {
-    pub fn new(unit: Unit) -> Self {
+    pub(super) fn new(unit: Unit) -> Self {
         Self { ends: Vec::new(), shift: unit.header_lines(), file: 0, was_asked: false }
     }
 }

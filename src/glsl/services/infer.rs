@@ -28,7 +28,7 @@ pub(super) struct Infer<'a> {
 }
 
 impl<'a> Infer<'a> {
-    pub fn new(a: &'a Analysis, source: usize, at: Position) -> Self {
+    pub(super) fn new(a: &'a Analysis, source: usize, at: Position) -> Self {
         Self { a, text: &a.sources[source], at, depth: 0 }
     }
 
@@ -37,7 +37,7 @@ impl<'a> Infer<'a> {
     }
 
     /// Returns the type of the operand that ends before token `end`: `a.b[i]`, `f(x).y`, `(a + b)`.
-    pub fn before(&self, end: usize) -> Option<TypeId> {
+    pub(super) fn before(&self, end: usize) -> Option<TypeId> {
         let start = self.start_of_operand(end)?;
         let (ty, stop) = self.operand(start, end)?;
         (stop == end).then_some(ty)
@@ -70,7 +70,7 @@ impl<'a> Infer<'a> {
     }
 
     /// Returns the type of a whole expression.
-    pub fn expression(&self, range: Range<usize>) -> Option<TypeId> {
+    pub(super) fn expression(&self, range: Range<usize>) -> Option<TypeId> {
         let text = self.text;
         let mut result: Option<TypeId> = None;
         let mut op: Option<Kind> = None;
@@ -206,14 +206,14 @@ impl<'a> Infer<'a> {
     }
 
     /// Returns the types of arguments; the error type if unknown.
-    pub fn arguments(&self, open: usize, close: usize) -> Vec<TypeId> {
+    pub(super) fn arguments(&self, open: usize, close: usize) -> Vec<TypeId> {
         let Some(deeper) = self.nested(self.at_source()) else { return Vec::new() };
         let ranges = arguments(self.text, open, close);
         ranges.into_iter().map(|range| deeper.expression(range).unwrap_or(TypeId::ERROR)).collect()
     }
 
     /// Returns the overload that matches the arguments best: the right number, and most of the right types.
-    pub fn best(&self, all: &[FuncId], args: &[TypeId]) -> Option<FuncId> {
+    pub(super) fn best(&self, all: &[FuncId], args: &[TypeId]) -> Option<FuncId> {
         all.iter().copied().rev().max_by_key(|&id| {
             let params = self.a.module.params(id);
             let fitting = params.iter().zip(args).filter(|(p, arg)| p.ty == **arg).count();

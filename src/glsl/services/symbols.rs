@@ -36,25 +36,25 @@ pub(super) struct Symbols {
 
 impl Symbols {
     /// Adds an occurrence in text `source`; an empty one is ignored. [`Symbols::sort`] must be called after the last.
-    pub fn add(&mut self, source: usize, span: Span, target: Target, is_declaration: bool) {
+    pub(super) fn add(&mut self, source: usize, span: Span, target: Target, is_declaration: bool) {
         if span.start < span.end {
             let (start, end) = (span.start, span.end);
             self.list.push(Occurrence { source: source as u32, start, end, target, is_declaration });
         }
     }
 
-    pub fn add_local(&mut self, symbol: Symbol, id: LocalId) {
+    pub(super) fn add_local(&mut self, symbol: Symbol, id: LocalId) {
         self.locals.push((symbol, id));
     }
 
-    pub fn sort(&mut self) {
+    pub(super) fn sort(&mut self) {
         // A macro's name refers to the macro, whatever it expands to at that place.
         self.list.sort_by_key(|o| (o.source, o.start, !matches!(o.target, Target::Macro(_)), !o.is_declaration));
         self.locals.sort_by_key(|l| l.0);
     }
 
     /// Returns the occurrences of the word that starts at `start`. In a macro's replacement list there can be several.
-    pub fn at(&self, source: usize, start: u32) -> &[Occurrence] {
+    pub(super) fn at(&self, source: usize, start: u32) -> &[Occurrence] {
         let key = (source as u32, start);
         let first = self.list.partition_point(|o| (o.source, o.start) < key);
         let count = self.list[first..].iter().take_while(|o| (o.source, o.start) == key).count();
@@ -62,19 +62,19 @@ impl Symbols {
     }
 
     /// Returns every occurrence of a text.
-    pub fn of_source(&self, source: usize) -> &[Occurrence] {
+    pub(super) fn of_source(&self, source: usize) -> &[Occurrence] {
         let source = source as u32;
         let first = self.list.partition_point(|o| o.source < source);
         let end = self.list.partition_point(|o| o.source <= source);
         &self.list[first..end]
     }
 
-    pub fn all(&self) -> &[Occurrence] {
+    pub(super) fn all(&self) -> &[Occurrence] {
         &self.list
     }
 
     /// Returns the locals of a name, in every function.
-    pub fn locals(&self, symbol: Symbol) -> impl Iterator<Item = LocalId> {
+    pub(super) fn locals(&self, symbol: Symbol) -> impl Iterator<Item = LocalId> {
         let first = self.locals.partition_point(|l| l.0 < symbol);
         self.locals[first..].iter().take_while(move |l| l.0 == symbol).map(|l| l.1)
     }

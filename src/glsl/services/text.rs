@@ -44,15 +44,15 @@ pub(super) enum Directive {
 
 impl Lexeme {
     /// Returns whether it is a name, keyword or type.
-    pub fn is_word(&self) -> bool {
+    pub(super) fn is_word(&self) -> bool {
         self.kind == Kind::Ident || self.kind == Kind::BadName || self.kind.is_keyword()
     }
 
-    pub fn symbol(&self) -> Symbol {
+    pub(super) fn symbol(&self) -> Symbol {
         Symbol(self.value)
     }
 
-    pub fn range(&self) -> Range<usize> {
+    pub(super) fn range(&self) -> Range<usize> {
         self.start as usize..self.end as usize
     }
 }
@@ -67,7 +67,7 @@ pub(super) struct Source {
 }
 
 impl Source {
-    pub fn new(text: Text<'_>, origins: &Origins, names: &mut Interner) -> Self {
+    pub(super) fn new(text: Text<'_>, origins: &Origins, names: &mut Interner) -> Self {
         let inactive: Vec<Range<u32>> =
             origins.inactive.iter().filter(|s| s.source == text.id).map(|s| s.start..s.end).collect();
         let mut source = Self {
@@ -83,12 +83,12 @@ impl Source {
     }
 
     /// Returns the index of the first token that starts at or after `offset`.
-    pub fn first_from(&self, offset: usize) -> usize {
+    pub(super) fn first_from(&self, offset: usize) -> usize {
         self.tokens.partition_point(|t| (t.start as usize) < offset)
     }
 
     /// Returns the word that contains `offset` or has it at either end.
-    pub fn word_at(&self, offset: usize) -> Option<usize> {
+    pub(super) fn word_at(&self, offset: usize) -> Option<usize> {
         let next = self.first_from(offset + 1);
         let holds = |i: usize| self.tokens.get(i).is_some_and(|t| t.is_word() && t.end as usize >= offset);
         let last = next.checked_sub(1)?;
@@ -100,36 +100,36 @@ impl Source {
     }
 
     /// Returns the name that a span covers exactly.
-    pub fn token_of(&self, span: Span) -> Option<usize> {
+    pub(super) fn token_of(&self, span: Span) -> Option<usize> {
         let i = self.first_from(span.start as usize);
         self.tokens.get(i).filter(|t| t.start == span.start)?;
         Some(i)
     }
 
-    pub fn text_of(&self, token: usize) -> &str {
+    pub(super) fn text_of(&self, token: usize) -> &str {
         self.text.get(self.tokens[token].range()).unwrap_or("")
     }
 
-    pub fn span_of(&self, token: usize) -> Span {
+    pub(super) fn span_of(&self, token: usize) -> Span {
         Span::new(self.id, self.tokens[token].range())
     }
 
-    pub fn kind(&self, token: usize) -> Kind {
+    pub(super) fn kind(&self, token: usize) -> Kind {
         self.tokens.get(token).map_or(Kind::Eof, |t| t.kind)
     }
 
-    pub fn partner(&self, token: usize) -> Option<usize> {
+    pub(super) fn partner(&self, token: usize) -> Option<usize> {
         let partner = self.tokens.get(token)?.partner;
         (partner != brackets::ALONE).then_some(partner as usize)
     }
 
-    pub fn around(&self, token: usize) -> Option<usize> {
+    pub(super) fn around(&self, token: usize) -> Option<usize> {
         let around = self.tokens.get(token)?.around;
         (around != brackets::ALONE).then_some(around as usize)
     }
 
     /// Returns whether it is inside a comment, or at the end of one that extends to the end of its line.
-    pub fn is_comment(&self, offset: usize) -> bool {
+    pub(super) fn is_comment(&self, offset: usize) -> bool {
         let at = self.comments.partition_point(|c| (c.start as usize) < offset);
         let Some(comment) = at.checked_sub(1).map(|i| &self.comments[i]) else { return false };
         let text = self.text.get(comment.start as usize..comment.end as usize).unwrap_or("");
@@ -137,7 +137,7 @@ impl Source {
         offset < comment.end as usize || (reaches_on && offset == comment.end as usize)
     }
 
-    pub fn is_inactive(&self, offset: usize) -> bool {
+    pub(super) fn is_inactive(&self, offset: usize) -> bool {
         let at = self.inactive.partition_point(|r| (r.start as usize) <= offset);
         at > 0 && offset < self.inactive[at - 1].end as usize
     }

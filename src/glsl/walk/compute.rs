@@ -59,7 +59,7 @@ fn product<R: Real>(left: (Cell<R>, bool), right: (Cell<R>, bool)) -> Cell<R> {
 
 impl<R: Real> State<'_, R> {
     /// Computes the address of a part of a place in some lanes.
-    pub fn part_of_place(&self, frame: &mut Frame<R>, value: Value, lanes: Lanes) {
+    pub(super) fn part_of_place(&self, frame: &mut Frame<R>, value: Value, lanes: Lanes) {
         let layout = self.layout(frame);
         let (out, offset) = (layout.slots[value.index()].start as usize, layout.offsets[value.index()]);
         match self.module[frame.function][value] {
@@ -80,7 +80,7 @@ impl<R: Real> State<'_, R> {
     }
 
     /// Computes a value in some lanes.
-    pub fn compute(&self, frame: &mut Frame<R>, value: Value, lanes: Lanes, scratch: &mut Vec<Cell<R>>) {
+    pub(super) fn compute(&self, frame: &mut Frame<R>, value: Value, lanes: Lanes, scratch: &mut Vec<Cell<R>>) {
         let layout = self.layout(frame);
         let slot = |value: Value| layout.slots[value.index()];
         let out = slot(value);

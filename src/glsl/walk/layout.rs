@@ -17,7 +17,7 @@ pub fn cells(module: &Module, ty: TypeId) -> usize {
 }
 
 /// Returns the number of scalars before a part.
-pub fn offset(module: &Module, ty: TypeId, index: u32) -> usize {
+pub(super) fn offset(module: &Module, ty: TypeId, index: u32) -> usize {
     match module.types.get(ty) {
         Type::Struct(_) => (0..index).map(|i| cells(module, module.part(ty, i))).sum(),
         _ => index as usize * cells(module, module.part(ty, 0)),
@@ -25,7 +25,12 @@ pub fn offset(module: &Module, ty: TypeId, index: u32) -> usize {
 }
 
 /// Appends a constant, whose words are in memory order.
-pub fn constant<R: Real>(module: &Module, ty: TypeId, words: &mut impl Iterator<Item = u32>, out: &mut Vec<Cell<R>>) {
+pub(super) fn constant<R: Real>(
+    module: &Module,
+    ty: TypeId,
+    words: &mut impl Iterator<Item = u32>,
+    out: &mut Vec<Cell<R>>,
+) {
     match module.types.get(ty) {
         Type::Scalar(scalar) => {
             let word = words.next().expect("as many words as scalars");
@@ -37,7 +42,7 @@ pub fn constant<R: Real>(module: &Module, ty: TypeId, words: &mut impl Iterator<
 
 /// The location of a value.
 #[derive(Clone, Copy, Debug)]
-pub struct Slot {
+pub(super) struct Slot {
     pub kind: SlotKind,
     /// The first cell in the frame, of the first lane; for an address the index among the frame's places.
     pub start: u32,
@@ -48,7 +53,7 @@ pub struct Slot {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SlotKind {
+pub(super) enum SlotKind {
     /// Known statically.
     Constant,
     Register,
@@ -58,11 +63,11 @@ pub enum SlotKind {
 
 impl Slot {
     /// Returns the first cell of a value in a lane.
-    pub fn first(self, lane: usize) -> usize {
+    pub(super) fn first(self, lane: usize) -> usize {
         self.start as usize + lane * self.stride as usize
     }
 
-    pub fn cells(self, lane: usize) -> std::ops::Range<usize> {
+    pub(super) fn cells(self, lane: usize) -> std::ops::Range<usize> {
         let first = self.first(lane);
         first..first + self.size as usize
     }
@@ -70,14 +75,14 @@ impl Slot {
 
 /// The variable that a place refers to.
 #[derive(Clone, Copy, Debug)]
-pub enum Root {
+pub(super) enum Root {
     /// A variable of the function: the first cell relative to the base of its memory.
     Var(usize),
     Global(GlobalId),
 }
 
 /// The layout of one function, computed once instead of at each step.
-pub struct Layout<R> {
+pub(super) struct Layout<R> {
     /// By [`Value::index`].
     pub slots: Vec<Slot>,
     /// By [`Value::index`]: the cells before a part, and the cells of one element.
@@ -102,7 +107,7 @@ pub struct Layout<R> {
 }
 
 impl<R: Real> Layout<R> {
-    pub fn new(module: &Module, function: &Function) -> Self {
+    pub(super) fn new(module: &Module, function: &Function) -> Self {
         let mut layout = Self {
             slots: Vec::with_capacity(function.len()),
             offsets: Vec::with_capacity(function.len()),

@@ -386,7 +386,7 @@ impl<'a, R: Real> Machine<'a, R> {
         Ok(left)
     }
 
-    #[allow(clippy::too_many_arguments)]
+    #[expect(clippy::too_many_arguments, reason = "they are the parts of one statement")]
     fn cases<O: Observer<R> + ?Sized>(
         &mut self,
         frame: &mut Frame<R>,

@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// Computes a unary operator on each component.
-pub fn unary<R: Real>(op: Unary, operand: Cell<R>) -> Cell<R> {
+pub(super) fn unary<R: Real>(op: Unary, operand: Cell<R>) -> Cell<R> {
     match (op, operand) {
         (Unary::Negate, Cell::Float(value)) => Cell::Float(-value),
         (Unary::Negate, Cell::Bits(bits)) => Cell::Bits(bits.wrapping_neg()),
@@ -19,7 +19,7 @@ pub fn unary<R: Real>(op: Unary, operand: Cell<R>) -> Cell<R> {
 }
 
 /// Computes a binary operator on two scalars of one type; shift amounts are uints.
-pub fn binary<R: Real>(op: Binary, scalar: Scalar, left: Cell<R>, right: Cell<R>) -> Cell<R> {
+pub(super) fn binary<R: Real>(op: Binary, scalar: Scalar, left: Cell<R>, right: Cell<R>) -> Cell<R> {
     match scalar {
         Scalar::Float => float(op, left.float(), right.float()),
         Scalar::Int => int(op, left.bits() as i32, right.bits()),
@@ -92,7 +92,7 @@ const UINTS: (f64, f64) = (0.0, 4_294_967_040.0);
 
 /// Converts a scalar to another type. Floats beyond an int's range convert to the nearest number that both types have,
 /// and NaN converts to zero.
-pub fn convert<R: Real>(value: Cell<R>, from: Scalar, to: Scalar) -> Cell<R> {
+pub(super) fn convert<R: Real>(value: Cell<R>, from: Scalar, to: Scalar) -> Cell<R> {
     match (from, to) {
         (Scalar::Float, Scalar::Float) => value,
         (Scalar::Float, Scalar::Bool) => (value.float() != R::from_f64(0.0)).into(),
@@ -106,7 +106,7 @@ pub fn convert<R: Real>(value: Cell<R>, from: Scalar, to: Scalar) -> Cell<R> {
 }
 
 /// Reinterprets the bits as another type.
-pub fn bitcast<R: Real>(value: Cell<R>, to: Scalar) -> Cell<R> {
+pub(super) fn bitcast<R: Real>(value: Cell<R>, to: Scalar) -> Cell<R> {
     match to {
         Scalar::Float => Cell::Float(value.float()),
         _ => Cell::Bits(value.bits()),
@@ -114,7 +114,7 @@ pub fn bitcast<R: Real>(value: Cell<R>, to: Scalar) -> Cell<R> {
 }
 
 /// Computes a function of chapter 8; `ty` and `scalar` are those of the first argument.
-pub fn function<R: Real>(fun: Math, ty: Type, scalar: Scalar, args: &[&[Cell<R>]], out: &mut Vec<Cell<R>>) {
+pub(super) fn function<R: Real>(fun: Math, ty: Type, scalar: Scalar, args: &[&[Cell<R>]], out: &mut Vec<Cell<R>>) {
     let number = |arg: usize, i: usize| args[arg][i].float();
     let size = args[0].len();
     match fun {

@@ -11,15 +11,15 @@ use crate::ir::{FuncId, GlobalId, Module, Value};
 pub const LANES: usize = 4;
 
 /// A set of lanes.
-pub type Lanes = u8;
-pub const ALL: Lanes = 0b1111;
+pub(super) type Lanes = u8;
+pub(super) const ALL: Lanes = 0b1111;
 
-pub fn of(lanes: Lanes) -> impl Iterator<Item = usize> {
+pub(super) fn of(lanes: Lanes) -> impl Iterator<Item = usize> {
     (0..LANES).filter(move |lane| lanes & (1 << lane) != 0)
 }
 
 /// One activation of a function.
-pub struct Frame<R> {
+pub(super) struct Frame<R> {
     pub function: FuncId,
     /// The function's constants, followed by its computed values, lane by lane: everything that can be an operand.
     pub cells: Vec<Cell<R>>,
@@ -30,7 +30,7 @@ pub struct Frame<R> {
 }
 
 impl<R: Real> Frame<R> {
-    pub fn new(function: FuncId, layout: &Layout<R>) -> Self {
+    pub(super) fn new(function: FuncId, layout: &Layout<R>) -> Self {
         let mut cells = layout.constants.clone();
         cells.resize(layout.constants.len() + layout.registers * LANES, Cell::Bits(0));
         let (places, result) = (vec![[0; LANES]; layout.places], vec![Cell::Bits(0); layout.result * LANES]);
@@ -38,7 +38,7 @@ impl<R: Real> Frame<R> {
     }
 
     /// Resets the frame to its initial state.
-    pub fn clear(&mut self, layout: &Layout<R>) {
+    pub(super) fn clear(&mut self, layout: &Layout<R>) {
         self.cells[layout.constants.len()..].fill(Cell::Bits(0));
         self.places.fill([0; LANES]);
         self.result.fill(Cell::Bits(0));
@@ -46,7 +46,7 @@ impl<R: Real> Frame<R> {
 }
 
 /// The program and its memory.
-pub struct State<'a, R> {
+pub(super) struct State<'a, R> {
     pub module: &'a Module,
     pub world: &'a dyn World,
     pub layouts: Vec<Layout<R>>,
@@ -57,43 +57,43 @@ pub struct State<'a, R> {
 }
 
 impl<'a, R: Real> State<'a, R> {
-    pub fn new(module: &'a Module, world: &'a dyn World) -> Self {
+    pub(super) fn new(module: &'a Module, world: &'a dyn World) -> Self {
         let layouts = module.functions.iter().map(|function| Layout::new(module, function)).collect();
         Self { module, world, layouts, memory: Default::default(), globals: Vec::new() }
     }
 
-    pub fn layout(&self, frame: &Frame<R>) -> &Layout<R> {
+    pub(super) fn layout(&self, frame: &Frame<R>) -> &Layout<R> {
         &self.layouts[frame.function.index()]
     }
 
     /// Returns the cells of a computed value in a lane.
-    pub fn register_mut<'f>(&self, frame: &'f mut Frame<R>, value: Value, lane: usize) -> &'f mut [Cell<R>] {
+    pub(super) fn register_mut<'f>(&self, frame: &'f mut Frame<R>, value: Value, lane: usize) -> &'f mut [Cell<R>] {
         let slot = self.layout(frame).slots[value.index()];
         debug_assert!(slot.kind == SlotKind::Register, "{value:?} is computed");
         &mut frame.cells[slot.cells(lane)]
     }
 
     /// Returns the cells of a value in a lane.
-    pub fn value<'f>(&'f self, frame: &'f Frame<R>, value: Value, lane: usize) -> &'f [Cell<R>] {
+    pub(super) fn value<'f>(&'f self, frame: &'f Frame<R>, value: Value, lane: usize) -> &'f [Cell<R>] {
         let slot = self.layout(frame).slots[value.index()];
         debug_assert!(slot.kind != SlotKind::Place, "{value:?} is an address");
         &frame.cells[slot.cells(lane)]
     }
 
     /// Returns the cells of a place's contents in a lane.
-    pub fn memory(&self, frame: &Frame<R>, place: Value, lane: usize) -> &[Cell<R>] {
+    pub(super) fn memory(&self, frame: &Frame<R>, place: Value, lane: usize) -> &[Cell<R>] {
         let slot = self.layout(frame).slots[place.index()];
         let start = frame.places[slot.start as usize][lane] as usize;
         &self.memory[lane][start..start + slot.size as usize]
     }
 
     /// Returns the cells of a variable of the module in a lane.
-    pub fn global(&self, global: GlobalId, lane: usize) -> &[Cell<R>] {
+    pub(super) fn global(&self, global: GlobalId, lane: usize) -> &[Cell<R>] {
         let start = self.globals[global.index()];
         &self.memory[lane][start..start + layout::cells(self.module, self.module[global].ty)]
     }
 
-    pub fn place(&self, frame: &Frame<R>, place: Value) -> [u32; LANES] {
+    pub(super) fn place(&self, frame: &Frame<R>, place: Value) -> [u32; LANES] {
         let slot = self.layout(frame).slots[place.index()];
         debug_assert!(slot.kind == SlotKind::Place, "{place:?} is a value");
         frame.places[slot.start as usize]

@@ -42,7 +42,7 @@ pub trait World {
 }
 
 /// Returns the words of one of Shadertoy's uniforms, in memory order.
-pub fn uniform_words(world: &dyn World, uniform: Uniform) -> Vec<u32> {
+pub(super) fn uniform_words(world: &dyn World, uniform: Uniform) -> Vec<u32> {
     let block = world.uniforms();
     let floats = |numbers: &[f32]| numbers.iter().map(|number| number.to_bits()).collect();
     let first = |slots: &[[f32; 4]; 4], count: usize| -> Vec<u32> {

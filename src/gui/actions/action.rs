@@ -13,7 +13,7 @@ use crate::{
 };
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Action {
+pub(crate) enum Action {
     Compile,
     Save,
     SaveAs,
@@ -108,7 +108,7 @@ pub enum Action {
 
 /// Actions of the panel that has the keyboard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LayoutAction {
+pub(crate) enum LayoutAction {
     /// Narrower, wider, lower, higher: to the left, to the right, up, down.
     Resize(Side),
     /// To an edge of the window.
@@ -120,7 +120,7 @@ pub enum LayoutAction {
 
 /// Actions of time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TimeAction {
+pub(crate) enum TimeAction {
     /// Opens the menu with the time that is typed.
     GoTo,
     Slower,
@@ -138,7 +138,7 @@ pub enum TimeAction {
 
 /// Actions of the debugger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TraceAction {
+pub(crate) enum TraceAction {
     Go(Stride, Direction),
     /// To the next breakpoint.
     Continue(Direction),
@@ -152,7 +152,7 @@ pub enum TraceAction {
 
 /// Actions of the picture: its size, its shape, and what to do about a slow frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PictureAction {
+pub(crate) enum PictureAction {
     Shape(Shape),
     Scale(Scale),
     /// Always so many pixels.
@@ -167,14 +167,14 @@ pub enum PictureAction {
 
 /// The size of the picture relative to the view, in eighths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Scale(u8);
+pub(crate) struct Scale(u8);
 
 impl Scale {
-    pub fn factor(self) -> f32 {
+    pub(crate) fn factor(self) -> f32 {
         f32::from(self.0) / 8.0
     }
 
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self.0 {
             16 => "2x",
             8 => "1x",
@@ -187,7 +187,7 @@ impl Scale {
 }
 
 /// The scales that are offered.
-pub const SCALES: [Scale; 6] = [Scale(16), Scale(8), Scale(6), Scale(4), Scale(2), Scale(1)];
+pub(crate) const SCALES: [Scale; 6] = [Scale(16), Scale(8), Scale(6), Scale(4), Scale(2), Scale(1)];
 /// The sizes that are offered.
-pub const SIZES: [(u32, u32); 8] =
+pub(crate) const SIZES: [(u32, u32); 8] =
     [(256, 144), (640, 360), (800, 450), (1280, 720), (1920, 1080), (3840, 2160), (512, 512), (1024, 1024)];

@@ -5,7 +5,7 @@ use std::fmt;
 
 /// `Ctrl+Shift+P`. On a Mac, Ctrl is the Command key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Chord {
+pub(crate) struct Chord {
     /// Only `command`, `alt` and `shift` are used.
     pub modifiers: Modifiers,
     pub key: Key,
@@ -13,7 +13,7 @@ pub struct Chord {
 
 /// The reason why a text is no chord.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ChordError {
+pub(crate) enum ChordError {
     #[error("unknown key \"{0}\"; write keys as A, 7, F3, Up, PageDown, Space or /")]
     Key(String),
     #[error("unknown modifier \"{0}\"; use Ctrl, Alt or Shift")]
@@ -22,7 +22,7 @@ pub enum ChordError {
 
 impl Chord {
     /// Reads `Ctrl+Shift+P` and its like, in upper or lower case.
-    pub fn parse(text: &str) -> Result<Chord, ChordError> {
+    pub(crate) fn parse(text: &str) -> Result<Chord, ChordError> {
         let text = text.trim();
         // The plus key is what is left behind the last plus sign.
         let (held, key) = match text.strip_suffix("++") {
@@ -44,7 +44,7 @@ impl Chord {
     }
 
     /// Returns whether a key press is this chord.
-    pub fn is_pressed(&self, key: Key, modifiers: Modifiers) -> bool {
+    pub(crate) fn is_pressed(&self, key: Key, modifiers: Modifiers) -> bool {
         self.key == key && modifiers.matches_exact(self.modifiers)
     }
 }

@@ -4,7 +4,7 @@ use super::{Action, LayoutAction, TraceAction};
 
 /// Says where an action belongs in the help, and when its keys are listened to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Group {
+pub(crate) enum Group {
     Project,
     Picture,
     Window,
@@ -19,7 +19,7 @@ pub enum Group {
 }
 
 impl Group {
-    pub const ALL: [Group; 8] = [
+    pub(crate) const ALL: [Group; 8] = [
         Group::Project,
         Group::Picture,
         Group::Window,
@@ -30,7 +30,7 @@ impl Group {
         Group::Caret,
     ];
 
-    pub fn title(self) -> &'static str {
+    pub(crate) fn title(self) -> &'static str {
         match self {
             Group::Project => "Project",
             Group::Picture => "Picture",
@@ -46,7 +46,7 @@ impl Group {
 
 /// An action, what it is called, and the keys it has unless a person gives it others.
 #[derive(Clone, Copy, Debug)]
-pub struct Entry {
+pub(crate) struct Entry {
     pub action: Action,
     /// In the file of keys.
     pub name: &'static str,
@@ -59,12 +59,12 @@ pub struct Entry {
 }
 
 impl Entry {
-    pub const fn found_by(self, synonyms: &'static str) -> Entry {
+    pub(crate) const fn found_by(self, synonyms: &'static str) -> Entry {
         Entry { synonyms, ..self }
     }
 
     /// Returns whether a key that is held down does it again and again.
-    pub fn repeats(&self) -> bool {
+    pub(crate) fn repeats(&self) -> bool {
         use Action as A;
         let again = [
             A::Step,

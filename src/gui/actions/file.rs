@@ -6,7 +6,7 @@ use std::{fmt::Write as _, ops::Range};
 use toml_edit::{Document, Item, Value};
 
 /// Returns the keys that a file's text gives, and all mistakes in it. What is wrong leaves an action its own keys.
-pub fn read(text: &str) -> (Keymap, Vec<ConfigError>) {
+pub(super) fn read(text: &str) -> (Keymap, Vec<ConfigError>) {
     let mut keymap = Keymap::default();
     let mut mistakes = Vec::new();
     let lines = LineIndex::new(text);
@@ -75,7 +75,7 @@ fn texts(item: &Item) -> Option<Vec<Spanned<'_>>> {
 }
 
 /// Returns the text of a new file: every action with the keys it has, each as a comment.
-pub fn template() -> String {
+pub(super) fn template() -> String {
     let mut text = String::from(
         "# Keyboard shortcuts of Eddy. Remove the # from a line to change it; the others keep their defaults.\n\
          # name = \"Ctrl+K\"; several: [\"Ctrl+K\", \"F4\"]; none: \"\". On a Mac, Ctrl is the Command key.\n",

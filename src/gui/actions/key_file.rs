@@ -5,7 +5,7 @@ use crate::gui::config_file::{ConfigError, ConfigFile, Content};
 use std::sync::Arc;
 
 /// The keys as the file says, if there is one.
-pub type KeyFile = ConfigFile<Arc<Keymap>>;
+pub(crate) type KeyFile = ConfigFile<Arc<Keymap>>;
 
 impl Content for Arc<Keymap> {
     const NAME: &str = "keybindings.toml";
@@ -22,7 +22,7 @@ impl Content for Arc<Keymap> {
 }
 
 impl KeyFile {
-    pub fn keymap(&self) -> &Arc<Keymap> {
+    pub(crate) fn keymap(&self) -> &Arc<Keymap> {
         self.content()
     }
 }

@@ -6,7 +6,7 @@ use std::{ops::Deref, sync::Arc};
 
 /// Holds what is open and has the keyboard, and so whose keys are listened to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct KeyFocus {
+pub(crate) struct KeyFocus {
     pub code: bool,
     pub find_bar: bool,
     pub trace: bool,
@@ -22,23 +22,23 @@ impl KeyFocus {
 
 /// The keys as tips and menus say them: those that work where the keyboard is.
 #[derive(Clone, Debug, Default)]
-pub struct ActiveKeymap {
+pub(crate) struct ActiveKeymap {
     keymap: Arc<Keymap>,
     listening: KeyFocus,
 }
 
 impl ActiveKeymap {
-    pub fn new(keymap: Arc<Keymap>, listening: KeyFocus) -> Self {
+    pub(crate) fn new(keymap: Arc<Keymap>, listening: KeyFocus) -> Self {
         Self { keymap, listening }
     }
 
     /// Returns the key of an action as a tooltip says it: the first of several that work here, empty for none.
-    pub fn hint(&self, action: Action) -> String {
+    pub(crate) fn hint(&self, action: Action) -> String {
         self.keymap.hint_where(action, self.listening)
     }
 
     /// Returns a tip with the action's key after it.
-    pub fn tip(&self, tip: &str, action: Action) -> String {
+    pub(crate) fn tip(&self, tip: &str, action: Action) -> String {
         match self.hint(action) {
             key if key.is_empty() => tip.to_owned(),
             key => format!("{tip} ({key})"),
@@ -57,7 +57,7 @@ impl Deref for ActiveKeymap {
 
 /// The keys of every action.
 #[derive(Clone, Debug)]
-pub struct Keymap {
+pub(crate) struct Keymap {
     /// As many as [`ACTIONS`], in its order.
     chords: Vec<Vec<Chord>>,
 }
@@ -72,7 +72,7 @@ impl Default for Keymap {
 
 impl Keymap {
     /// Gives an action other keys, none of which is any other action's afterwards that is listened to at the same time.
-    pub fn give(&mut self, entry: &Entry, chords: Vec<Chord>) {
+    pub(crate) fn give(&mut self, entry: &Entry, chords: Vec<Chord>) {
         for (other, keys) in ACTIONS.iter().zip(&mut self.chords) {
             if level(other.group) == level(entry.group) {
                 keys.retain(|k| !chords.contains(k));
@@ -83,13 +83,13 @@ impl Keymap {
         }
     }
 
-    pub fn chords(&self, action: Action) -> &[Chord] {
+    pub(crate) fn chords(&self, action: Action) -> &[Chord] {
         ACTIONS.iter().position(|e| e.action == action).map_or(&[], |i| &self.chords[i])
     }
 
     /// Returns the first key of an action, empty for none.
     #[cfg(test)]
-    pub fn hint(&self, action: Action) -> String {
+    pub(crate) fn hint(&self, action: Action) -> String {
         self.chords(action).first().map(Chord::to_string).unwrap_or_default()
     }
 
@@ -104,7 +104,7 @@ impl Keymap {
     }
 
     /// Returns all keys of an action, with what stands in their way.
-    pub fn listed(&self, entry: &Entry) -> String {
+    pub(crate) fn listed(&self, entry: &Entry) -> String {
         let name = |chord: &Chord| {
             let is_taken = level(entry.group) > 0 && self.holder(0, chord.key, chord.modifiers).is_some();
             if is_taken { format!("{chord} (not while typing)") } else { chord.to_string() }
@@ -113,7 +113,7 @@ impl Keymap {
     }
 
     /// Returns what a key press means.
-    pub fn pressed(&self, event: &Event, listening: KeyFocus) -> Option<&'static Entry> {
+    pub(crate) fn pressed(&self, event: &Event, listening: KeyFocus) -> Option<&'static Entry> {
         let Event::Key { key, physical_key, pressed: true, modifiers, .. } = event else { return None };
         let find = |key: Key, m: Modifiers| listening.levels().find_map(|level| self.holder(level, key, m));
         // Letters and digits are called by one letter, signs by a word.

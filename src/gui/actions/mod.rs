@@ -12,9 +12,9 @@ mod key_file;
 mod keymap;
 mod table;
 
-pub use action::{Action, LayoutAction, PictureAction, SCALES, SIZES, TimeAction, TraceAction};
-pub use chord::Chord;
-pub use entry::{Entry, Group};
-pub use key_file::KeyFile;
-pub use keymap::{ActiveKeymap, KeyFocus, Keymap};
-pub use table::ACTIONS;
+pub(super) use action::{Action, LayoutAction, PictureAction, SCALES, SIZES, TimeAction, TraceAction};
+pub(super) use chord::Chord;
+pub(super) use entry::{Entry, Group};
+pub(super) use key_file::KeyFile;
+pub(super) use keymap::{ActiveKeymap, KeyFocus, Keymap};
+pub(super) use table::ACTIONS;

@@ -19,7 +19,7 @@ use crate::{
 
 impl Action {
     /// Returns what the palette, the help and menus call it.
-    pub fn title(self) -> &'static str {
+    pub(crate) fn title(self) -> &'static str {
         ACTIONS.iter().find(|e| e.action == self).map_or("", |e| e.title)
     }
 }
@@ -84,7 +84,7 @@ const fn or_mac(keys: &'static [&'static str], mac: &'static [&'static str]) -> 
 
 /// Keys are Shadertoy's where it has one, else those of VS Code. In the code, VS Code's come first: there Alt+Up moves
 /// a line, and F5 plays and pauses wherever one is.
-pub const ACTIONS: &[Entry] = &[
+pub(crate) const ACTIONS: &[Entry] = &[
     row(Action::Save, "save", "Save", &["Ctrl+S"], Group::Project).found_by("write store"),
     row(Action::SaveAs, "save-as", "Save as", &["Ctrl+Shift+S"], Group::Project).found_by("export copy duplicate"),
     row(Action::ExportJson, "export-json", "Export to Shadertoy JSON", &[], Group::Project)

@@ -16,7 +16,7 @@ use egui_wgpu::{Renderer, ScreenDescriptor};
 use occlusion::Part;
 
 #[derive(Default)]
-pub struct BackBuffer {
+pub(super) struct BackBuffer {
     texture: Option<wgpu::Texture>,
     damage: Damage,
     /// A number for each texture that has been changed, another one after each change.
@@ -24,7 +24,7 @@ pub struct BackBuffer {
 }
 
 /// A painting of egui's.
-pub struct Painting<'a> {
+pub(super) struct Painting<'a> {
     pub triangles: Vec<ClippedPrimitive>,
     pub screen: &'a ScreenDescriptor,
     pub format: wgpu::TextureFormat,
@@ -32,12 +32,12 @@ pub struct Painting<'a> {
 
 impl BackBuffer {
     /// The texels of a texture are other ones now.
-    pub fn touch(&mut self, texture: TextureId) {
+    pub(super) fn touch(&mut self, texture: TextureId) {
         *self.versions.entry(texture).or_default() += 1;
     }
 
     /// egui changes a texture of its own.
-    pub fn update(&mut self, texture: TextureId, delta: &ImageDelta) {
+    pub(super) fn update(&mut self, texture: TextureId, delta: &ImageDelta) {
         // A part of the fonts' atlas is a glyph that was not there before: nothing that is shown reads it. An atlas
         // that overflows takes the places of older glyphs, and is made anew as a whole in the next frame (epaint's
         // `TextureAtlas::allocate`).
@@ -47,7 +47,7 @@ impl BackBuffer {
     }
 
     /// Records what brings the contents up to date. They come back, with what is to be submitted before `encoder`.
-    pub fn paint(
+    pub(super) fn paint(
         &mut self,
         gpu: &Gpu,
         renderer: &mut Renderer,
@@ -81,7 +81,7 @@ impl BackBuffer {
 
 /// Records the painting of some areas of a target; the others keep their pixels. What is to be submitted before
 /// `encoder` comes back.
-pub fn paint_areas(
+pub(super) fn paint_areas(
     gpu: &Gpu,
     renderer: &mut Renderer,
     encoder: &mut wgpu::CommandEncoder,

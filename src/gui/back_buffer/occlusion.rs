@@ -8,14 +8,14 @@ use egui::{
 
 /// A part of an area, and the first of all triangles that are seen in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Part {
+pub(super) struct Part {
     pub area: Area,
     pub first: usize,
 }
 
 /// Cuts an area where the last picture over it begins and ends. Textures that are not egui's own are pictures, and
 /// these are opaque.
-pub fn parts(triangles: &[ClippedPrimitive], area: Area, scale: f32) -> Vec<Part> {
+pub(super) fn parts(triangles: &[ClippedPrimitive], area: Area, scale: f32) -> Vec<Part> {
     let cover = triangles.iter().enumerate().rev().find_map(|(index, ClippedPrimitive { clip_rect, primitive })| {
         let Primitive::Mesh(mesh) = primitive else { return None };
         let cover = common(area, inside(quad(mesh)?.intersect(*clip_rect), scale)?)?;

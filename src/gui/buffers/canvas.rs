@@ -25,7 +25,7 @@ const FLASHED: f32 = 5.0;
 const STEP: f32 = 1.5;
 
 /// `under_picture`: the place of the window's picture under the pointer.
-pub fn show(
+pub(super) fn show(
     state: &mut Buffers,
     ui: &mut Ui,
     session: &Session,

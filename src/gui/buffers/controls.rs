@@ -15,7 +15,7 @@ const STOPS: f32 = 24.0;
 /// So wide all of it is in one row.
 const ONE_ROW: f32 = 900.0;
 
-pub fn show(state: &mut Buffers, ui: &mut Ui, out: &mut UiOutput) {
+pub(super) fn show(state: &mut Buffers, ui: &mut Ui, out: &mut UiOutput) {
     let whole = ui.available_width();
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;

@@ -8,13 +8,13 @@ use crate::gui::{accessible, histogram, theme, ui_output::UiOutput};
 use egui::{Align2, Color32, FontId, Role, Sense, Ui, pos2, vec2};
 
 /// Points that the foot is high.
-pub const HEIGHT: f32 = 78.0;
+pub(super) const HEIGHT: f32 = 78.0;
 const ROW: f32 = 14.0;
 /// Columns of the table: the component, then its numbers.
 const FIRST: f32 = 18.0;
 const COLUMN: f32 = 74.0;
 
-pub fn show(state: &Buffers, ui: &mut Ui, out: &mut UiOutput) {
+pub(super) fn show(state: &Buffers, ui: &mut Ui, out: &mut UiOutput) {
     let Some(seen) = &state.seen else { return };
     ui.spacing_mut().item_spacing = vec2(12.0, 2.0);
     ui.add_space(3.0);

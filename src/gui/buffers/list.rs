@@ -14,7 +14,7 @@ const NUMBERS: f32 = 10.5;
 /// The least size of what flashes on a small picture.
 const FLASHED: f32 = 3.0;
 
-pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, live: &mut Live, out: &mut UiOutput) {
+pub(super) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, live: &mut Live, out: &mut UiOutput) {
     let shown = state.target(session.project());
     ui.spacing_mut().item_spacing.y = 2.0;
     ScrollArea::vertical().id_salt("targets").auto_shrink(false).show(ui, |ui| {

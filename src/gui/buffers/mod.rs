@@ -15,6 +15,6 @@ mod search;
 mod state;
 mod zoom;
 
-pub use panel::{Context, show};
-pub use report::report;
-pub use state::Buffers;
+pub(super) use panel::{Context, show};
+pub(super) use report::report;
+pub(super) use state::Buffers;

@@ -1,10 +1,10 @@
 //! Numbers in as many letters as there is room for.
 
 /// Is what the components of a texel are called.
-pub const COMPONENTS: [&str; 4] = ["r", "g", "b", "a"];
+pub(super) const COMPONENTS: [&str; 4] = ["r", "g", "b", "a"];
 
 /// A number as exactly as so many letters allow; what is not finite in words.
-pub fn fitted(x: f32, letters: usize) -> String {
+pub(super) fn fitted(x: f32, letters: usize) -> String {
     if x.is_nan() {
         return "NaN".into();
     }

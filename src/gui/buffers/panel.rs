@@ -11,14 +11,14 @@ use crate::{
 use egui::{Align2, FontId, Rect, Ui, UiBuilder, pos2, vec2};
 
 /// The parts of the window that the panel needs.
-pub struct Context<'a> {
+pub(crate) struct Context<'a> {
     /// Small pictures of passes.
     pub live: &'a mut Live,
     /// The place of the window's picture under the pointer, from 0 to 1.
     pub under_picture: Option<[f32; 2]>,
 }
 
-pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, context: Context<'_>, out: &mut UiOutput) {
+pub(crate) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, context: Context<'_>, out: &mut UiOutput) {
     out.stop("buffers", ui);
     state.begin();
     ui.spacing_mut().item_spacing = vec2(5.0, 4.0);

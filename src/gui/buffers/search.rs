@@ -11,7 +11,7 @@ use crate::{
 };
 use egui::{Label, RichText, Ui};
 
-pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(super) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let bad = state.seen.as_ref().and_then(|seen| seen.read.nonfinite);
     let search = session.search();
     if bad.is_none() && search.is_none() {

@@ -36,7 +36,7 @@ pub(super) struct ShownTarget {
 }
 
 /// The state of the panel.
-pub struct Buffers {
+pub(crate) struct Buffers {
     pub(super) page: Page,
     /// The one that is chosen; none: the first there is.
     chosen: Option<Target>,
@@ -122,7 +122,7 @@ impl Buffers {
     }
 
     /// The texture was on a device that is lost.
-    pub fn forget_texture(&mut self) {
+    pub(crate) fn forget_texture(&mut self) {
         self.seen = None;
     }
 
@@ -155,12 +155,12 @@ impl Buffers {
     }
 
     /// Returns whether what passes cost is looked at.
-    pub fn wants_costs(&self) -> bool {
+    pub(crate) fn wants_costs(&self) -> bool {
         self.is_shown && self.wants_costs
     }
 
     /// Ends a frame of the window: what was not looked at is not read back any more.
-    pub fn end_frame(&mut self, session: &Session) -> Option<Command> {
+    pub(crate) fn end_frame(&mut self, session: &Session) -> Option<Command> {
         let shown = std::mem::take(&mut self.is_shown) && self.page == Page::Texels;
         let watch = match self.target(session.project()).filter(|_| shown) {
             Some(target) => BufferWatch { shown: Some((target, self.look)), under: self.under },

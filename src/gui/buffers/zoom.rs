@@ -3,13 +3,13 @@
 use egui::{Pos2, Rect, Vec2, pos2, vec2};
 
 /// Points of a texel at most: four numbers of single precision have room in it.
-pub const OF_TEXELS: f32 = 256.0;
+pub(super) const OF_TEXELS: f32 = 256.0;
 /// And of a graph, which is laid out in points.
-pub const OF_GRAPH: f32 = 1.25;
+pub(super) const OF_GRAPH: f32 = 1.25;
 
 /// The place of a picture in an area. Texels count from the bottom left.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Zoom {
+pub(super) struct Zoom {
     /// Points of a texel at most.
     most: f32,
     /// Points of a texel; `None`: as large as the area allows.
@@ -20,7 +20,7 @@ pub struct Zoom {
 
 /// A picture of so many texels, where it is on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlacedPicture {
+pub(super) struct PlacedPicture {
     pub area: Rect,
     pub size: (u32, u32),
     /// Points of a texel.
@@ -30,21 +30,21 @@ pub struct PlacedPicture {
 
 impl Zoom {
     /// All of it is seen; a texel has so many points at most.
-    pub fn up_to(most: f32) -> Self {
+    pub(super) fn up_to(most: f32) -> Self {
         Self { most, scale: None, center: Vec2::ZERO }
     }
 
     /// All of the picture is seen.
-    pub fn fits(&self) -> bool {
+    pub(super) fn fits(&self) -> bool {
         self.scale.is_none()
     }
 
-    pub fn fit(&mut self) {
+    pub(super) fn fit(&mut self) {
         *self = Self::up_to(self.most);
     }
 
     /// Places a picture so.
-    pub fn place(&self, area: Rect, size: (u32, u32)) -> PlacedPicture {
+    pub(super) fn place(&self, area: Rect, size: (u32, u32)) -> PlacedPicture {
         let whole = vec2(size.0 as f32, size.1 as f32);
         let fitting = (area.width() / whole.x).min(area.height() / whole.y).clamp(1e-4, self.most);
         let Some(scale) = self.scale else { return PlacedPicture { area, size, scale: fitting, center: whole / 2.0 } };
@@ -54,7 +54,7 @@ impl Zoom {
     }
 
     /// Makes it larger or smaller; the place of the picture at a point stays there.
-    pub fn about(&mut self, placed: &PlacedPicture, at: Pos2, factor: f32) {
+    pub(super) fn about(&mut self, placed: &PlacedPicture, at: Pos2, factor: f32) {
         let (fitting, held) = (Self::up_to(self.most).place(placed.area, placed.size).scale, placed.texel(at));
         let scale = (placed.scale * factor).clamp(fitting.min(1.0), self.most);
         if factor < 1.0 && scale <= fitting {
@@ -66,33 +66,33 @@ impl Zoom {
     }
 
     /// Moves it by points of the screen.
-    pub fn drag(&mut self, placed: &PlacedPicture, by: Vec2) {
+    pub(super) fn drag(&mut self, placed: &PlacedPicture, by: Vec2) {
         let center = placed.center - vec2(by.x, -by.y) / placed.scale;
         let whole = vec2(placed.size.0 as f32, placed.size.1 as f32);
         *self = Self { scale: Some(placed.scale), most: self.most, center: center.clamp(Vec2::ZERO, whole) };
     }
 
     /// Brings a texel to the middle, so large that its numbers can be read.
-    pub fn show(&mut self, texel: (u32, u32), scale: f32) {
+    pub(super) fn show(&mut self, texel: (u32, u32), scale: f32) {
         *self = Self { scale: Some(scale), most: self.most, center: vec2(texel.0 as f32 + 0.5, texel.1 as f32 + 0.5) };
     }
 }
 
 impl PlacedPicture {
     /// Returns where a place of the picture is on the screen.
-    pub fn point(&self, texel: Pos2) -> Pos2 {
+    pub(super) fn point(&self, texel: Pos2) -> Pos2 {
         let offset = (texel.to_vec2() - self.center) * self.scale;
         self.area.center() + vec2(offset.x, -offset.y)
     }
 
     /// The place of the picture at a point of the screen, in texels.
-    pub fn texel(&self, at: Pos2) -> Pos2 {
+    pub(super) fn texel(&self, at: Pos2) -> Pos2 {
         let offset = (at - self.area.center()) / self.scale;
         (self.center + vec2(offset.x, -offset.y)).to_pos2()
     }
 
     /// The texel at a point of the screen, if the picture is there.
-    pub fn texel_at(&self, at: Pos2) -> Option<(u32, u32)> {
+    pub(super) fn texel_at(&self, at: Pos2) -> Option<(u32, u32)> {
         let place = self.texel(at);
         let is_inside = place.x >= 0.0 && place.y >= 0.0 && self.area.contains(at);
         let texel = (place.x as u32, place.y as u32);
@@ -100,19 +100,19 @@ impl PlacedPicture {
     }
 
     /// The texel in the middle.
-    pub fn middle(&self) -> (u32, u32) {
+    pub(super) fn middle(&self) -> (u32, u32) {
         let at = |center: f32, size: u32| (center as u32).min(size.saturating_sub(1));
         (at(self.center.x, self.size.0), at(self.center.y, self.size.1))
     }
 
     /// Returns where a texel is on the screen; several of a row from one to before the other.
-    pub fn rect(&self, columns: (u32, u32), row: u32) -> Rect {
+    pub(super) fn rect(&self, columns: (u32, u32), row: u32) -> Rect {
         let (left, right) = (columns.0 as f32, columns.1 as f32);
         Rect::from_two_pos(self.point(pos2(left, row as f32)), self.point(pos2(right, row as f32 + 1.0)))
     }
 
     /// The texels that are seen: the first of each side, and the one behind the last.
-    pub fn seen(&self) -> [(u32, u32); 2] {
+    pub(super) fn seen(&self) -> [(u32, u32); 2] {
         let (a, b) = (self.texel(self.area.left_bottom()), self.texel(self.area.right_top()));
         let side =
             |low: f32, high: f32, size: u32| (low.floor().max(0.0) as u32, (high.ceil().max(0.0) as u32).min(size));

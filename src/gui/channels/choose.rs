@@ -20,7 +20,7 @@ use egui::{ComboBox, FontId, Rect, ScrollArea, Sense, Ui, pos2, vec2};
 use std::time::Instant;
 
 /// The popup of a card.
-pub fn choose(
+pub(super) fn choose(
     ui: &mut Ui,
     pass: &PassName,
     index: usize,

@@ -24,7 +24,7 @@ fn reduced(picture: &CameraFrame) -> ColorImage {
 type Target = (PassName, usize);
 
 #[derive(Default)]
-pub struct Live {
+pub(crate) struct Live {
     textures: HashMap<Target, (TextureHandle, u64)>,
     /// Looked at in this frame.
     wanted: Vec<Target>,
@@ -40,7 +40,13 @@ const CAMERA_EVERY: Duration = Duration::from_millis(100);
 
 impl Live {
     /// Returns the newest picture of a target and the shape of what it shows (width to height), and asks for more.
-    pub fn get(&mut self, ui: &Ui, session: &Session, pass: &PassName, index: usize) -> Option<(TextureHandle, f32)> {
+    pub(crate) fn get(
+        &mut self,
+        ui: &Ui,
+        session: &Session,
+        pass: &PassName,
+        index: usize,
+    ) -> Option<(TextureHandle, f32)> {
         let target = (pass.clone(), index);
         if !self.wanted.contains(&target) {
             self.wanted.push(target.clone());
@@ -66,7 +72,7 @@ impl Live {
     }
 
     /// Returns a small picture of the camera that is on, and its shape.
-    pub fn camera(&mut self, ui: &Ui, session: &Session) -> Option<(TextureHandle, f32)> {
+    pub(crate) fn camera(&mut self, ui: &Ui, session: &Session) -> Option<(TextureHandle, f32)> {
         let Some(picture) = session.camera_picture() else {
             self.camera = None;
             return None;
@@ -90,12 +96,12 @@ impl Live {
     }
 
     /// Returns the texels of a target across and up, while its picture is asked for.
-    pub fn size(&self, session: &Session, pass: &PassName, index: usize) -> Option<(u32, u32)> {
+    pub(crate) fn size(&self, session: &Session, pass: &PassName, index: usize) -> Option<(u32, u32)> {
         session.miniature(pass, index).map(|(miniature, _)| miniature.of)
     }
 
     /// Ends a frame: what was not looked at is not read back any more.
-    pub fn end_frame(&mut self) -> Option<Command> {
+    pub(crate) fn end_frame(&mut self) -> Option<Command> {
         let wanted = std::mem::take(&mut self.wanted);
         if wanted == self.sent {
             return None;

@@ -6,7 +6,7 @@ mod names;
 mod sound;
 mod swatch;
 
-pub use live::Live;
+pub(super) use live::Live;
 
 use super::{theme, thumbnails::Thumbnails, ui_output::UiOutput};
 use crate::{
@@ -20,7 +20,7 @@ use names::{input_name, sampler_name};
 use swatch::Swatches;
 
 /// Is what the cards would like to be high, with the room around them.
-pub const HEIGHT: f32 = 92.0;
+pub(super) const HEIGHT: f32 = 92.0;
 /// Higher, they grow no more.
 const MOST: f32 = 128.0;
 /// A channel that reads nothing.
@@ -28,7 +28,7 @@ const EMPTY: f32 = 46.0;
 const GAP: f32 = 6.0;
 
 /// The panel's title: whose channels they are.
-pub fn title(session: &Session, tab: &Tab) -> String {
+pub(super) fn title(session: &Session, tab: &Tab) -> String {
     match pass(session, tab) {
         Some(pass) => format!("Channels of {}", pass.id.title()),
         None => "Channels".to_owned(),
@@ -44,7 +44,7 @@ fn pass<'s>(session: &'s Session, tab: &Tab) -> Option<&'s Pass> {
     }
 }
 
-pub fn show(
+pub(super) fn show(
     ui: &mut Ui,
     session: &Session,
     tab: &Tab,

@@ -2,7 +2,7 @@
 
 use crate::project::{Channel, Filter, Input, InputKind, Media, Wrap};
 
-pub fn input_name(input: &Input) -> String {
+pub(super) fn input_name(input: &Input) -> String {
     let title = input.row().title;
     match input {
         Input::Pass { id, target: 0 } => id.title(),
@@ -24,7 +24,7 @@ fn media_name(media: &Media) -> String {
     }
 }
 
-pub fn filter_name(filter: Filter) -> &'static str {
+pub(super) fn filter_name(filter: Filter) -> &'static str {
     match filter {
         Filter::Nearest => "nearest",
         Filter::Linear => "linear",
@@ -32,14 +32,14 @@ pub fn filter_name(filter: Filter) -> &'static str {
     }
 }
 
-pub fn wrap_name(wrap: Wrap) -> &'static str {
+pub(super) fn wrap_name(wrap: Wrap) -> &'static str {
     match wrap {
         Wrap::Clamp => "clamp",
         Wrap::Repeat => "repeat",
     }
 }
 
-pub fn sampler_name(channel: &Channel) -> String {
+pub(super) fn sampler_name(channel: &Channel) -> String {
     let sampler = channel.sampler();
     format!("{}, {}", filter_name(sampler.filter), wrap_name(sampler.wrap))
 }

@@ -22,7 +22,7 @@ const FLOOR: f32 = -48.0;
 type Outline = Arc<[f32]>;
 
 /// Shows music or the microphone. False: the input is neither, or nothing is known of it.
-pub fn show(ui: &Ui, session: &Session, place: Rect, input: &Input) -> bool {
+pub(super) fn show(ui: &Ui, session: &Session, place: Rect, input: &Input) -> bool {
     match input {
         Input::Media { kind: InputKind::Music, media } => {
             let Some(sound) = session.music(media) else { return false };

@@ -18,7 +18,7 @@ use std::path::PathBuf;
 const SMALL: f32 = 9.0;
 
 /// Holds what small pictures are made of.
-pub struct Swatches<'a> {
+pub(super) struct Swatches<'a> {
     pub session: &'a Session,
     pub thumbnails: &'a mut Thumbnails,
     pub live: &'a mut Live,
@@ -26,7 +26,7 @@ pub struct Swatches<'a> {
 
 impl Swatches<'_> {
     /// Shows an input in a place: a texture as it is, a pass as it was drawn a moment ago.
-    pub fn show(&mut self, ui: &Ui, place: Rect, input: &Input) {
+    pub(super) fn show(&mut self, ui: &Ui, place: Rect, input: &Input) {
         if let Some((pass, index)) = input.target()
             && let Some((texture, aspect)) = self.live.get(ui, self.session, pass, index)
         {

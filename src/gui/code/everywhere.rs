@@ -10,7 +10,7 @@ use std::ops::Range;
 
 impl CodePanel {
     /// Opens the bar for finding in all texts, or in the one in front again.
-    pub fn open_find_everywhere(&mut self) {
+    pub(crate) fn open_find_everywhere(&mut self) {
         let is_on = self.find.is_open() && self.find.is_everywhere();
         self.open_find(false);
         self.find.set_everywhere(!is_on);
@@ -95,7 +95,7 @@ pub(super) struct ProjectMatches {
 }
 
 impl ProjectMatches {
-    pub fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.places.len()
     }
 }

@@ -48,7 +48,7 @@ struct Found {
 
 impl FindBar {
     /// Opens it with what is selected, if that is a part of a line.
-    pub fn open(&mut self, selected: &str, replaces: bool) {
+    pub(super) fn open(&mut self, selected: &str, replaces: bool) {
         if !selected.is_empty() && !selected.contains('\n') {
             self.query.text = selected.to_owned();
             self.query.is_regex = false;
@@ -58,42 +58,42 @@ impl FindBar {
         self.takes_focus = true;
     }
 
-    pub fn close(&mut self) {
+    pub(super) fn close(&mut self) {
         self.is_open = false;
     }
 
-    pub fn is_open(&self) -> bool {
+    pub(super) fn is_open(&self) -> bool {
         self.is_open
     }
 
-    pub fn is_everywhere(&self) -> bool {
+    pub(super) fn is_everywhere(&self) -> bool {
         self.everywhere
     }
 
-    pub fn set_everywhere(&mut self, on: bool) {
+    pub(super) fn set_everywhere(&mut self, on: bool) {
         self.everywhere = on;
     }
 
-    pub fn query(&self) -> &Query {
+    pub(super) fn query(&self) -> &Query {
         &self.query
     }
 
     /// Returns what matches are replaced with.
-    pub fn with(&self) -> &str {
+    pub(super) fn with(&self) -> &str {
         &self.with
     }
 
     /// There is nothing to look for.
-    pub fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.query.text.is_empty()
     }
 
     /// Returns the places to tint: none while the bar is closed.
-    pub fn matches(&self) -> &[Range<usize>] {
+    pub(super) fn matches(&self) -> &[Range<usize>] {
         if self.is_open { &self.found.matches } else { &[] }
     }
 
-    pub fn switch(&mut self, switch: impl Fn(&mut Query)) {
+    pub(super) fn switch(&mut self, switch: impl Fn(&mut Query)) {
         switch(&mut self.query);
     }
 
@@ -110,7 +110,7 @@ impl FindBar {
     }
 
     /// Selects the next match, or the one before.
-    pub fn step(&mut self, tab: &Tab, editor: &mut CodeEditor, forward: bool) {
+    pub(super) fn step(&mut self, tab: &Tab, editor: &mut CodeEditor, forward: bool) {
         self.refresh(tab, editor);
         if editor.edit(|buffer| buffer.find(&self.found.matches, forward)).is_some() {
             editor.reveal();
@@ -118,14 +118,14 @@ impl FindBar {
     }
 
     /// Replaces the selected match if it is one.
-    pub fn replace_one(&mut self, tab: &Tab, editor: &mut CodeEditor) {
+    pub(super) fn replace_one(&mut self, tab: &Tab, editor: &mut CodeEditor) {
         self.refresh(tab, editor);
         if let Some(Ok(finder)) = &self.found.finder {
             editor.edit(|buffer| buffer.replace_match(finder, &self.found.matches, &self.with));
         }
     }
 
-    pub fn replace_all(&mut self, tab: &Tab, editor: &mut CodeEditor) {
+    pub(super) fn replace_all(&mut self, tab: &Tab, editor: &mut CodeEditor) {
         self.refresh(tab, editor);
         if let Some(Ok(finder)) = &self.found.finder {
             editor.edit(|buffer| buffer.replace_all(finder, &self.found.matches, &self.with));
@@ -134,7 +134,7 @@ impl FindBar {
     }
 
     /// Shows it. `everywhere`: the matches in all texts.
-    pub fn show(
+    pub(super) fn show(
         &mut self,
         ui: &mut Ui,
         tab: &Tab,

@@ -27,7 +27,7 @@ pub(super) enum FixesAction {
 impl Fixes {
     /// Returns the fixes for the line of a caret; those that the caret is in come first. `at`: its tab, byte and the
     /// revision of the text. `line`: from 0.
-    pub fn new(session: &Session, at: (Tab, usize, u64), line: usize) -> Self {
+    pub(super) fn new(session: &Session, at: (Tab, usize, u64), line: usize) -> Self {
         let places = session.diagnostics().iter().filter_map(|d| Some((d, d.place.as_ref()?)));
         let mut here: Vec<_> = places.filter(|(_, p)| p.tab.as_ref() == Some(&at.0) && p.line == line + 1).collect();
         here.sort_by_key(|(d, place)| {
@@ -43,7 +43,7 @@ impl Fixes {
     }
 
     /// Takes the keys that are for the list before the code sees them.
-    pub fn take_keys(&mut self, ui: &Ui) -> FixesAction {
+    pub(super) fn take_keys(&mut self, ui: &Ui) -> FixesAction {
         let count = |key| ui.input_mut(|i| i.count_and_consume_key(Modifiers::NONE, key));
         let (down, up) = (count(Key::ArrowDown), count(Key::ArrowUp));
         if !self.list.is_empty() {
@@ -59,7 +59,7 @@ impl Fixes {
     }
 
     /// Shows the list below the caret. `now`: where that is, as [`Fixes::new`] takes it.
-    pub fn show(&self, ui: &Ui, caret: Rect, now: &(Tab, usize, u64), out: &mut UiOutput) -> FixesAction {
+    pub(super) fn show(&self, ui: &Ui, caret: Rect, now: &(Tab, usize, u64), out: &mut UiOutput) -> FixesAction {
         if *now != self.at {
             return FixesAction::Closed;
         }

@@ -31,7 +31,7 @@ use rename_bar::RenameBar;
 use std::{collections::HashMap, ops::Range};
 
 #[derive(Default)]
-pub struct CodePanel {
+pub(super) struct CodePanel {
     editors: HashMap<Tab, CodeEditor>,
     current: Tab,
     /// The included files that are open as tabs.
@@ -70,29 +70,29 @@ pub struct CodePanel {
 }
 
 impl CodePanel {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self { font_size: 13.0, ..Self::default() }
     }
 
-    pub fn current(&self) -> &Tab {
+    pub(super) fn current(&self) -> &Tab {
         &self.current
     }
 
     /// The tab in front, and the line of its caret from 0.
     #[cfg(test)]
-    pub fn caret(&self) -> (Tab, usize) {
+    pub(super) fn caret(&self) -> (Tab, usize) {
         let buffer = self.editors[&self.current].buffer();
         let before = &buffer.text()[..buffer.selection().range().start];
         (self.current.clone(), before.matches('\n').count())
     }
 
     /// Takes what the debugger shows in the tab in front.
-    pub fn set_debug(&mut self, debug: Debug) {
+    pub(super) fn set_debug(&mut self, debug: Debug) {
         self.debug = debug;
     }
 
     /// Brings a line of a tab, from 0, into sight. The caret stays where it is.
-    pub fn reveal_line(&mut self, tab: Tab, line: usize) {
+    pub(super) fn reveal_line(&mut self, tab: Tab, line: usize) {
         if let Some(editor) = self.editors.get_mut(&tab) {
             editor.reveal_line(line);
             self.bring(tab);
@@ -100,23 +100,23 @@ impl CodePanel {
     }
 
     /// The tab in front, with the byte and the line from 0 where its caret is.
-    pub fn caret_place(&self) -> Option<(Tab, usize, usize)> {
+    pub(super) fn caret_place(&self) -> Option<(Tab, usize, usize)> {
         let buffer = self.buffer()?;
         let head = buffer.selection().head;
         Some((self.current.clone(), head, buffer.line_of(head)))
     }
 
     /// The text has the keyboard.
-    pub fn has_keys(&self, ctx: &egui::Context) -> bool {
+    pub(super) fn has_keys(&self, ctx: &egui::Context) -> bool {
         ctx.memory(|m| m.has_focus(Self::id(&self.current)))
     }
 
-    pub fn id(tab: &Tab) -> Id {
+    pub(super) fn id(tab: &Tab) -> Id {
         Id::unique(("code", tab.title()))
     }
 
     /// Brings a tab to the front, and its caret to a line and column from 0.
-    pub fn go_to(&mut self, tab: Tab, place: Option<(usize, usize)>) {
+    pub(super) fn go_to(&mut self, tab: Tab, place: Option<(usize, usize)>) {
         if let Some((line, column)) = place
             && let Some(editor) = self.editors.get_mut(&tab)
         {
@@ -138,14 +138,14 @@ impl CodePanel {
     }
 
     /// Closes the tab of an included file.
-    pub fn close_file(&mut self, tab: &Tab) {
+    pub(super) fn close_file(&mut self, tab: &Tab) {
         self.files.retain(|file| file.tab != *tab);
         if self.current == *tab {
             self.current = Tab::image();
         }
     }
 
-    pub fn go_aside(&mut self, session: &Session, by: isize) {
+    pub(super) fn go_aside(&mut self, session: &Session, by: isize) {
         let tabs = tabs::shown(session, &self.files);
         if let Some(at) = tabs.iter().position(|t| *t == self.current) {
             let to = (at as isize + by).rem_euclid(tabs.len() as isize) as usize;
@@ -155,7 +155,7 @@ impl CodePanel {
     }
 
     /// Goes to the next problem, or to the one before, round the ends of the list.
-    pub fn go_to_problem(&mut self, session: &Session, forward: bool) {
+    pub(super) fn go_to_problem(&mut self, session: &Session, forward: bool) {
         let list = session.diagnostics();
         let count = list.len();
         let order = (1..=count).map(|step| match (self.problem.filter(|i| *i < count), forward) {
@@ -174,29 +174,29 @@ impl CodePanel {
         }
     }
 
-    pub fn focus(&mut self) {
+    pub(super) fn focus(&mut self) {
         self.takes_focus = true;
     }
 
     /// `size`: points of a letter; `wraps`: lines go on in the next row where they are too long.
-    pub fn set_look(&mut self, size: f32, wraps: bool) {
+    pub(super) fn set_look(&mut self, size: f32, wraps: bool) {
         (self.font_size, self.wraps) = (size, wraps);
     }
 
     /// Opens the bar for finding, with what is selected in it; `replaces`: also for replacing.
-    pub fn open_find(&mut self, replaces: bool) {
+    pub(super) fn open_find(&mut self, replaces: bool) {
         let selected = self.editors.get(&self.current).map(|e| e.buffer().selected_text()).unwrap_or_default();
         self.find.open(selected, replaces);
         self.go_to_line = None;
         self.rename = None;
     }
 
-    pub fn is_finding(&self) -> bool {
+    pub(super) fn is_finding(&self) -> bool {
         self.find.is_open()
     }
 
     /// Goes to the next match or the one before, also while the bar is closed.
-    pub fn find_on(&mut self, forward: bool) {
+    pub(super) fn find_on(&mut self, forward: bool) {
         if self.find.is_empty() {
             self.open_find(false);
         }
@@ -208,11 +208,11 @@ impl CodePanel {
         }
     }
 
-    pub fn switch_find(&mut self, switch: impl Fn(&mut Query)) {
+    pub(super) fn switch_find(&mut self, switch: impl Fn(&mut Query)) {
         self.find.switch(switch);
     }
 
-    pub fn replace_all(&mut self, out: &mut UiOutput) {
+    pub(super) fn replace_all(&mut self, out: &mut UiOutput) {
         if self.find.is_everywhere() {
             return self.replace_everywhere(out);
         }
@@ -223,7 +223,7 @@ impl CodePanel {
     }
 
     /// Does what a key or the palette asks of the text in front.
-    pub fn act(&mut self, action: EditorAction, out: &mut UiOutput) {
+    pub(super) fn act(&mut self, action: EditorAction, out: &mut UiOutput) {
         if let Some(editor) = self.editors.get_mut(&self.current) {
             editor.act(action);
             editor.focus();
@@ -231,7 +231,7 @@ impl CodePanel {
         self.tell_changed(out);
     }
 
-    pub fn open_go_to_line(&mut self) {
+    pub(super) fn open_go_to_line(&mut self) {
         self.go_to_line = Some(String::new());
         self.find.close();
         self.rename = None;
@@ -239,7 +239,7 @@ impl CodePanel {
     }
 
     /// Takes over texts that were changed by something else than the editors.
-    pub fn prepare(&mut self, session: &Session) {
+    pub(super) fn prepare(&mut self, session: &Session) {
         let project = session.project();
         if std::mem::replace(&mut self.begun, session.begun()) != session.begun() {
             self.takes_focus = true;
@@ -305,7 +305,7 @@ impl CodePanel {
     }
 
     /// Fills the space there is. True: a hand begins to move it all by the row of tabs.
-    pub fn show(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) -> bool {
+    pub(super) fn show(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) -> bool {
         ui.spacing_mut().item_spacing.y = 0.0;
         let is_dragged = tabs::show(ui, session, &self.current, &self.files, out);
         let bar = Frame::NONE.fill(theme::of(ui).raised).inner_margin(Margin::symmetric(8, 5));

@@ -11,7 +11,7 @@ use std::{collections::BTreeMap, ops::Range};
 
 impl CodePanel {
     /// Makes all edits of a fix. Fails where one of the texts is another by now, and then changes none.
-    pub fn apply_fix(&mut self, fix: &TabFix, out: &mut UiOutput) -> Result<(), &'static str> {
+    pub(crate) fn apply_fix(&mut self, fix: &TabFix, out: &mut UiOutput) -> Result<(), &'static str> {
         let mut parts: BTreeMap<Tab, Vec<(Range<usize>, String)>> = BTreeMap::new();
         for TabEdit { tab, range, replaced, text } in &fix.edits {
             let there = self.editors.get(tab).and_then(|editor| editor.buffer().text().get(range.clone()));
@@ -35,7 +35,7 @@ impl CodePanel {
     }
 
     /// Pastes over what is selected in the text in front.
-    pub fn paste(&mut self, text: String) {
+    pub(crate) fn paste(&mut self, text: String) {
         if let Some(editor) = self.editors.get_mut(&self.current) {
             editor.paste(text);
         }

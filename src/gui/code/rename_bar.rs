@@ -32,12 +32,12 @@ pub(super) enum Renamed {
 
 impl RenameBar {
     /// Err: why what stands there keeps its name.
-    pub fn new(session: &Session, tab: Tab, at: usize) -> Result<Self, String> {
+    pub(super) fn new(session: &Session, tab: Tab, at: usize) -> Result<Self, String> {
         let name = session.renamable(&tab, at)?;
         Ok(Self { tab, at, text: name.clone(), name, takes_focus: true, wrong: None })
     }
 
-    pub fn show(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) -> Renamed {
+    pub(super) fn show(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) -> Renamed {
         let mut renamed = Renamed::Nothing;
         ui.horizontal_wrapped(|ui| {
             ui.label(format!("Rename {} to", self.name));

@@ -10,7 +10,7 @@ use egui::ColorImage;
 use std::sync::Arc;
 
 /// A comparison as the window shows it.
-pub struct Figures {
+pub(super) struct Figures {
     pub comparison: Arc<Comparison>,
     pub apart: PictureDifference,
     /// `None` where no turns were taken.
@@ -39,13 +39,13 @@ impl Figures {
 
 /// Makes them beside the window, which is woken when they are there: `None` where the pictures have different sizes. Without
 /// a thread there are no figures.
-pub fn start(comparison: Arc<Comparison>, wake: Wake) -> Option<Background<(), (), Option<Figures>>> {
+pub(super) fn start(comparison: Arc<Comparison>, wake: Wake) -> Option<Background<(), (), Option<Figures>>> {
     let work = move |_: &Control<()>| Ok(Figures::new(comparison));
     Some(Background::once("figures of a comparison", "the comparison's figures", wake, work).ok()?.detached())
 }
 
 /// A picture as the window shows it: without its alpha, as the site's canvas is.
-pub fn image(pixels: &Pixels) -> ColorImage {
+pub(super) fn image(pixels: &Pixels) -> ColorImage {
     let mut bytes = pixels.to_rgba8();
     bytes.chunks_exact_mut(4).for_each(|texel| texel[3] = 255);
     ColorImage::from_rgba_unmultiplied([pixels.width as usize, pixels.height as usize], &bytes)

@@ -9,6 +9,6 @@ mod pictures;
 mod report;
 mod state;
 
-pub use panel::show;
-pub use report::report;
-pub use state::Compare;
+pub(super) use panel::show;
+pub(super) use report::report;
+pub(super) use state::Compare;

@@ -20,7 +20,7 @@ const FOOT: f32 = 62.0;
 /// A difference is shown so many times as large.
 const GAINS: [u32; 4] = [1, 4, 16, 64];
 
-pub fn show(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(crate) fn show(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("compare", ui);
     ui.spacing_mut().item_spacing = vec2(5.0, 4.0);
     state.update(ui.ctx(), session);

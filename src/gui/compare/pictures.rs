@@ -12,7 +12,7 @@ const GAP: f32 = 4.0;
 /// The part of the width that an arrow key moves the line by.
 const STEP: f32 = 0.02;
 
-pub fn show(state: &mut Compare, ui: &mut Ui, area: Rect, out: &mut UiOutput) {
+pub(super) fn show(state: &mut Compare, ui: &mut Ui, area: Rect, out: &mut UiOutput) {
     let p = theme::of(ui);
     ui.painter().rect_filled(area, 0.0, p.surround);
     let response = ui.interact(area, Id::unique("comparison"), Sense::click_and_drag());

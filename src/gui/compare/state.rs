@@ -46,7 +46,7 @@ pub(super) struct HoveredPixel {
 }
 
 /// The state of the panel.
-pub struct Compare {
+pub(crate) struct Compare {
     wake: Arc<dyn Fn() + Send + Sync>,
     pub(super) choice: Choice,
     /// A folder, a file, or a preset's name.
@@ -66,7 +66,7 @@ pub struct Compare {
 }
 
 impl Compare {
-    pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+    pub(crate) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
         Self {
             wake,
             choice: Choice::LastSave,
@@ -84,12 +84,12 @@ impl Compare {
     }
 
     /// The textures were on a device that is lost. They are made again.
-    pub fn forget_textures(&mut self) {
+    pub(crate) fn forget_textures(&mut self) {
         (self.seen, self.coming, self.of) = (None, None, None);
     }
 
     /// The other project is in a folder or file that was chosen.
-    pub fn choose(&mut self, path: &Path) {
+    pub(crate) fn choose(&mut self, path: &Path) {
         self.choice = Choice::Project;
         self.project = path.display().to_string();
     }

@@ -20,7 +20,7 @@ const AGAIN: Duration = Duration::from_secs(10);
 
 /// The losses of the window's device so far.
 #[derive(Default)]
-pub struct DeviceLosses {
+pub(super) struct DeviceLosses {
     newest: Option<Instant>,
 }
 
@@ -28,7 +28,7 @@ impl DeviceLosses {
     /// Looks whether the window's device is still there. In the place of one that is lost comes another, which `renew`
     /// opens; the window ends if that fails or was done just before, after what was not saved has been. What the device
     /// refused is told of, and the window goes on.
-    pub fn watch(
+    pub(super) fn watch(
         &mut self,
         gpu: &Gpu,
         session: &mut Session,
@@ -59,7 +59,7 @@ impl DeviceLosses {
 
 /// Does a part of the window's work. A panic in it ends the window with an error that says so, after what was not saved
 /// has been: a bug in drawing is no reason to lose a text.
-pub fn caught<W, T>(
+pub(super) fn caught<W, T>(
     window: &mut W,
     work: impl FnOnce(&mut W) -> Result<T, GuiError>,
     session: impl FnOnce(&W) -> &Session,
@@ -78,7 +78,7 @@ pub fn caught<W, T>(
 
 /// Writes what is not saved into a new folder, beside the project where that can be written, else at home, else among
 /// the temporary files. Returns what to tell the user; nothing if nothing was unsaved.
-pub fn save_unsaved(session: &Session) -> String {
+pub(super) fn save_unsaved(session: &Session) -> String {
     if !session.is_dirty() {
         return String::new();
     }

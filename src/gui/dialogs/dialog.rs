@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 /// A dialog to be shown.
 #[derive(Clone, Debug)]
-pub struct Dialog {
+pub(crate) struct Dialog {
     pub title: &'static str,
     pub kind: Kind,
     /// The folder that it begins in.
@@ -12,7 +12,7 @@ pub struct Dialog {
 }
 
 #[derive(Clone, Debug)]
-pub enum Kind {
+pub(crate) enum Kind {
     OpenFolder,
     /// The name of the kind of files, and their endings.
     OpenFile(&'static str, &'static [&'static str]),
@@ -22,7 +22,7 @@ pub enum Kind {
 
 /// The end of a dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Outcome {
+pub(crate) enum Outcome {
     Path(PathBuf),
     Cancelled,
     /// The desktop has none, or it broke; nobody has chosen anything.

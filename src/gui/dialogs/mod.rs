@@ -12,10 +12,10 @@ mod portal;
 #[cfg(not(any(windows, target_os = "macos")))]
 mod zenity;
 
-pub use dialog::{Dialog, Kind, Outcome};
+pub(super) use dialog::{Dialog, Kind, Outcome};
 
 /// Shows a dialog and waits for its end.
-pub fn show(dialog: &Dialog) -> Outcome {
+pub(super) fn show(dialog: &Dialog) -> Outcome {
     #[cfg(any(windows, target_os = "macos"))]
     return native::show(dialog);
     #[cfg(not(any(windows, target_os = "macos")))]

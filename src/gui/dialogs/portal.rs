@@ -14,7 +14,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-pub fn show(dialog: &Dialog) -> Outcome {
+pub(super) fn show(dialog: &Dialog) -> Outcome {
     match pollster::block_on(ask(dialog)) {
         Ok(files) => match files.uris().first().and_then(|uri| path_of(uri.as_str())) {
             Some(path) => Outcome::Path(path),

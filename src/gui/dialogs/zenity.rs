@@ -8,7 +8,7 @@ use std::{
     process::{Command, Stdio},
 };
 
-pub fn show(dialog: &Dialog) -> Outcome {
+pub(super) fn show(dialog: &Dialog) -> Outcome {
     show_with(Path::new("zenity"), dialog)
 }
 

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 /// Holds what panels would like to be high, without their titles.
 #[derive(Clone, Copy, Debug)]
-pub struct Heights {
+pub(crate) struct Heights {
     /// The bar below the picture.
     pub transport: f32,
     pub uniforms: f32,
@@ -22,7 +22,7 @@ const LEAST_CHANNELS: f32 = 44.0;
 /// Channels grow to so much where nothing else wants the room.
 const MOST_CHANNELS: f32 = 150.0;
 /// Uniforms that are no higher than this show a line of advice and nothing to turn.
-pub const COLLAPSED: f32 = 44.0;
+pub(crate) const COLLAPSED: f32 = 44.0;
 /// A table of costs is so high.
 const COSTS: f32 = 170.0;
 /// The part of the height that a panel below the code has.
@@ -39,7 +39,7 @@ const LAB_WIDTH: f32 = 660.0;
 type Opened<'a> = (&'a BTreeSet<Panel>, &'a [Panel]);
 
 /// Returns where each open panel is.
-pub fn arrange(size: Vec2, open: &BTreeSet<Panel>, fronts: &[Panel], heights: Heights) -> Node {
+pub(super) fn arrange(size: Vec2, open: &BTreeSet<Panel>, fronts: &[Panel], heights: Heights) -> Node {
     let has_lab = open.contains(&Panel::Lab);
     let aside = in_one_place(open.iter().copied().filter(|panel| panel.is_below_picture()), fronts);
     let is_tall = |size: Vec2| size.y > size.x * 1.1;

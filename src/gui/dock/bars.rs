@@ -13,7 +13,7 @@ use egui_tiles::{
 use std::collections::BTreeSet;
 
 /// Says what is in the panels.
-pub trait Contents {
+pub(crate) trait Contents {
     /// Shows a panel. True: a hand begins to move it by its own row.
     fn show(&mut self, ui: &mut Ui, panel: Panel) -> bool;
     /// Shows what a panel has to offer at the right end of its row.
@@ -25,7 +25,7 @@ pub trait Contents {
     fn place(&mut self, name: String, rect: Rect);
 }
 
-pub struct Bars<'a> {
+pub(super) struct Bars<'a> {
     contents: &'a mut dyn Contents,
     /// Groups without such a row.
     bare: BTreeSet<u64>,
@@ -37,7 +37,7 @@ pub struct Bars<'a> {
 }
 
 impl<'a> Bars<'a> {
-    pub fn new(contents: &'a mut dyn Contents, tree: &Tree<Panel>) -> Self {
+    pub(super) fn new(contents: &'a mut dyn Contents, tree: &Tree<Panel>) -> Self {
         let (mut bare, mut shared) = (BTreeSet::new(), BTreeSet::new());
         for (id, tile) in tree.tiles.iter() {
             let Tile::Container(Container::Tabs(tabs)) = tile else { continue };

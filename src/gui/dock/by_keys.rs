@@ -12,7 +12,7 @@ const EDGE: f32 = 0.33;
 
 impl Dock {
     /// Returns the panel that a point is in, its title's row included.
-    pub fn panel_at(&self, at: Pos2) -> Option<Panel> {
+    pub(crate) fn panel_at(&self, at: Pos2) -> Option<Panel> {
         let place = |panel: &Panel| self.tree.tiles.rect(panel.tile());
         let is_in = |rect: Rect, panel: &Panel| {
             let row = if panel.has_own_row() { 0.0 } else { BAR };
@@ -22,7 +22,7 @@ impl Dock {
     }
 
     /// Makes a panel narrower or wider, lower or higher. Nothing where it has the whole width, or height.
-    pub fn resize(&mut self, panel: Panel, side: Side) {
+    pub(crate) fn resize(&mut self, panel: Panel, side: Side) {
         let (dir, by) = match side {
             Side::Left => (LinearDir::Horizontal, -STEP),
             Side::Right => (LinearDir::Horizontal, STEP),
@@ -33,7 +33,7 @@ impl Dock {
     }
 
     /// Puts a panel along an edge of the window, beside all others.
-    pub fn move_to_edge(&mut self, panel: Panel, side: Side) {
+    pub(crate) fn move_to_edge(&mut self, panel: Panel, side: Side) {
         let Some(rest) = tree::node(&self.tree).and_then(|node| node.without(panel)) else { return };
         let (moved, rest) = ((Node::Panel(panel), EDGE), (rest, 1.0 - EDGE));
         self.arrange(match side {
@@ -46,7 +46,7 @@ impl Dock {
 
     /// Puts a panel into the place of the one that comes next from left to right and from top to bottom, in front of
     /// it.
-    pub fn share_place(&mut self, panel: Panel) {
+    pub(crate) fn share_place(&mut self, panel: Panel) {
         let place = |panel: &Panel| self.tree.tiles.rect(panel.tile()).map_or((0.0, 0.0), |r| (r.left(), r.top()));
         let mut seen: Vec<Panel> = self.seen.iter().copied().collect();
         seen.sort_by(|a, b| place(a).partial_cmp(&place(b)).unwrap_or(std::cmp::Ordering::Equal));

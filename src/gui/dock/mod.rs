@@ -12,10 +12,10 @@ mod panel;
 mod separators;
 mod tree;
 
-pub use automatic::{COLLAPSED, Heights};
-pub use bars::Contents;
-pub use node::Node;
-pub use panel::{BAR, Panel, Side};
+pub(super) use automatic::{COLLAPSED, Heights};
+pub(super) use bars::Contents;
+pub(super) use node::Node;
+pub(super) use panel::{BAR, Panel, Side};
 
 use bars::Bars;
 use egui::Ui;
@@ -23,7 +23,7 @@ use egui_tiles::{Container, Tile, Tree};
 use std::collections::BTreeSet;
 
 /// The arrangement.
-pub struct Dock {
+pub(super) struct Dock {
     tree: Tree<Panel>,
     /// Says whether a person has moved or resized any; else the arrangement is made anew for each frame.
     is_manual: bool,
@@ -35,13 +35,13 @@ pub struct Dock {
 }
 
 impl Dock {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         let open = Panel::all().filter(|panel| panel.is_open_by_default()).collect();
         Self { tree: Tree::empty(tree::id()), is_manual: false, open, fronts: Vec::new(), seen: BTreeSet::new() }
     }
 
     /// Takes up what was kept from the last start. `arrangement`: as a person had made it.
-    pub fn restore(&mut self, open: Option<BTreeSet<Panel>>, arrangement: Option<&Node>) {
+    pub(super) fn restore(&mut self, open: Option<BTreeSet<Panel>>, arrangement: Option<&Node>) {
         if let Some(open) = open.filter(|open| !open.is_empty()) {
             self.open = open;
         }
@@ -52,26 +52,26 @@ impl Dock {
         }
     }
 
-    pub fn open_panels(&self) -> &BTreeSet<Panel> {
+    pub(super) fn open_panels(&self) -> &BTreeSet<Panel> {
         &self.open
     }
 
     /// The arrangement, if a person has made it.
-    pub fn arrangement(&self) -> Option<Node> {
+    pub(super) fn arrangement(&self) -> Option<Node> {
         self.is_manual.then(|| tree::node(&self.tree)).flatten()
     }
 
-    pub fn is_open(&self, panel: Panel) -> bool {
+    pub(super) fn is_open(&self, panel: Panel) -> bool {
         self.open.contains(&panel)
     }
 
     /// A panel is in sight: open, and not behind another.
-    pub fn is_seen(&self, panel: Panel) -> bool {
+    pub(super) fn is_seen(&self, panel: Panel) -> bool {
         self.seen.contains(&panel)
     }
 
     /// Opens a panel and brings it to the front of those it shares a place with, or closes it. The last one stays.
-    pub fn set_open(&mut self, panel: Panel, is_open: bool) {
+    pub(super) fn set_open(&mut self, panel: Panel, is_open: bool) {
         if is_open {
             self.open.insert(panel);
             self.bring_to_front([panel]);
@@ -84,7 +84,7 @@ impl Dock {
     }
 
     /// Everything where it is at first, and as large.
-    pub fn reset(&mut self) {
+    pub(super) fn reset(&mut self) {
         *self = Self { seen: std::mem::take(&mut self.seen), ..Self::new() };
     }
 
@@ -105,7 +105,7 @@ impl Dock {
     }
 
     /// Fills the space there is.
-    pub fn show(&mut self, ui: &mut Ui, contents: &mut dyn Contents) {
+    pub(super) fn show(&mut self, ui: &mut Ui, contents: &mut dyn Contents) {
         let area = ui.available_rect_before_wrap();
         if !self.is_manual {
             let node = automatic::arrange(area.size(), &self.open, &self.fronts, contents.heights());

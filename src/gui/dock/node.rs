@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use toml_edit::{Array, InlineTable, Value};
 
 #[derive(Clone, Debug, PartialEq)]
-pub enum Node {
+pub(crate) enum Node {
     Panel(Panel),
     /// Each with its share of the width.
     Row(Vec<(Node, f32)>),
@@ -19,7 +19,7 @@ pub enum Node {
 }
 
 impl Node {
-    pub fn panels(&self) -> BTreeSet<Panel> {
+    pub(crate) fn panels(&self) -> BTreeSet<Panel> {
         match self {
             Node::Panel(panel) => BTreeSet::from([*panel]),
             Node::Row(parts) | Node::Column(parts) => parts.iter().flat_map(|(node, _)| node.panels()).collect(),
@@ -99,7 +99,7 @@ impl Node {
         }
     }
 
-    pub fn to_value(&self) -> Value {
+    pub(crate) fn to_value(&self) -> Value {
         let mut table = InlineTable::new();
         match self {
             Node::Panel(panel) => return panel.name().into(),
@@ -120,7 +120,7 @@ impl Node {
     }
 
     /// Reads what [`Node::to_value`] writes. Err: what is wrong with it.
-    pub fn from_value(value: &Value) -> Result<Node, String> {
+    pub(crate) fn from_value(value: &Value) -> Result<Node, String> {
         let node = Node::read(value)?;
         let mut count = 0;
         node.count(&mut count);

@@ -3,11 +3,11 @@
 use egui_tiles::TileId;
 
 /// Height of a panel's title row.
-pub const BAR: f32 = 27.0;
+pub(crate) const BAR: f32 = 27.0;
 
 /// A direction in the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub(crate) enum Side {
     Left,
     Right,
     Up,
@@ -15,7 +15,7 @@ pub enum Side {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Panel {
+pub(crate) enum Panel {
     Picture,
     Code,
     Uniforms,
@@ -74,7 +74,7 @@ const PANELS: [Entry; 12] = [
 ];
 
 impl Panel {
-    pub fn all() -> impl Iterator<Item = Panel> {
+    pub(crate) fn all() -> impl Iterator<Item = Panel> {
         PANELS.iter().map(|entry| entry.panel)
     }
 
@@ -83,21 +83,21 @@ impl Panel {
     }
 
     /// Returns the name in files.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         self.entry().name
     }
 
-    pub fn named(name: &str) -> Option<Panel> {
+    pub(crate) fn named(name: &str) -> Option<Panel> {
         Panel::all().find(|panel| panel.name() == name)
     }
 
     /// Returns all names, for a message.
-    pub fn names() -> String {
+    pub(crate) fn names() -> String {
         PANELS.map(|entry| entry.name).join(", ")
     }
 
     /// Returns the name in the window.
-    pub fn title(self) -> &'static str {
+    pub(crate) fn title(self) -> &'static str {
         self.entry().title
     }
 

@@ -14,7 +14,7 @@ const LEAST_HEIGHT: f32 = 60.0;
 const REACH: f32 = 4.0;
 
 /// Shows the lines over the panels, and moves what is dragged. True: something was moved.
-pub fn show(ui: &Ui, tree: &mut Tree<Panel>) -> bool {
+pub(super) fn show(ui: &Ui, tree: &mut Tree<Panel>) -> bool {
     let ids: Vec<TileId> = tree.active_tiles();
     let mut is_moved = false;
     for id in ids {
@@ -35,7 +35,7 @@ pub fn show(ui: &Ui, tree: &mut Tree<Panel>) -> bool {
 }
 
 /// Makes a tile longer or shorter at the cost of the one behind it, or before it where it is the last. True: it is so.
-pub fn nudge(tree: &mut Tree<Panel>, tile: TileId, dir: LinearDir, by: f32) -> bool {
+pub(super) fn nudge(tree: &mut Tree<Panel>, tile: TileId, dir: LinearDir, by: f32) -> bool {
     let Some((id, at)) = line_of(&tree.tiles, tile, dir) else { return false };
     let Some(Tile::Container(Container::Linear(linear))) = tree.tiles.get(id) else { return false };
     let seen = |child: &&TileId| tree.tiles.is_visible_in_layout(**child) && tree.tiles.rect(**child).is_some();

@@ -4,12 +4,12 @@ use super::{Node, Panel};
 use egui::Id;
 use egui_tiles::{Container, Linear, LinearDir, Tabs, Tile, TileId, Tiles, Tree};
 
-pub fn id() -> Id {
+pub(super) fn id() -> Id {
     Id::unique("dock")
 }
 
 /// Tiles have the same names each time, so that what is kept for them stays theirs.
-pub fn of(node: &Node) -> Tree<Panel> {
+pub(super) fn of(node: &Node) -> Tree<Panel> {
     let mut tiles = Tiles::default();
     let mut next = 100;
     let root = insert(&mut tiles, &mut next, node, true);
@@ -61,7 +61,7 @@ fn insert(tiles: &mut Tiles<Panel>, next: &mut u64, node: &Node, needs_tabs: boo
 
 /// Returns the container with others beside a tile in a direction, the innermost one, and which of its children the
 /// tile is in.
-pub fn line_of(tiles: &Tiles<Panel>, tile: TileId, dir: LinearDir) -> Option<(TileId, usize)> {
+pub(super) fn line_of(tiles: &Tiles<Panel>, tile: TileId, dir: LinearDir) -> Option<(TileId, usize)> {
     let mut at = tile;
     loop {
         let parent = tiles.parent_of(at)?;
@@ -75,7 +75,7 @@ pub fn line_of(tiles: &Tiles<Panel>, tile: TileId, dir: LinearDir) -> Option<(Ti
     }
 }
 
-pub fn node(tree: &Tree<Panel>) -> Option<Node> {
+pub(super) fn node(tree: &Tree<Panel>) -> Option<Node> {
     node_of(&tree.tiles, tree.root()?)
 }
 

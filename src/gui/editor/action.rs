@@ -3,7 +3,7 @@
 use super::motion::{Motion, Vertical};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EditorAction {
+pub(crate) enum EditorAction {
     Go(Motion),
     Select(Motion),
     Delete(Motion),

@@ -36,7 +36,7 @@ impl Part {
 impl Buffer {
     /// Takes away the comment that a selection lies in, or that it is; where there is none, makes it one. What has a
     /// delimiter of a comment in it stays as it is: comments do not nest.
-    pub fn toggle_block_comment(&mut self) {
+    pub(crate) fn toggle_block_comment(&mut self) {
         let mut parts: Vec<Part> = Vec::new();
         let mut done = 0;
         for s in self.carets().list() {

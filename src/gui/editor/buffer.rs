@@ -11,7 +11,7 @@ use std::ops::Range;
 
 /// The ends of a text that are as they were, in bytes: what lies between has changed. They do not overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Unchanged {
+pub(crate) struct Unchanged {
     pub head: usize,
     pub tail: usize,
 }
@@ -28,7 +28,7 @@ pub(super) struct Replacement {
 
 impl Replacement {
     /// Leaves the caret behind what is put there.
-    pub fn new(range: Range<usize>, with: impl Into<String>) -> Self {
+    pub(super) fn new(range: Range<usize>, with: impl Into<String>) -> Self {
         let with = with.into();
         Self { range, anchor: with.len(), head: with.len(), with }
     }
@@ -36,7 +36,7 @@ impl Replacement {
 
 /// A text being edited.
 #[derive(Clone, Debug)]
-pub struct Buffer {
+pub(crate) struct Buffer {
     text: String,
     /// Byte at which each line begins; never empty.
     starts: Vec<usize>,
@@ -55,7 +55,7 @@ pub struct Buffer {
 }
 
 impl Buffer {
-    pub fn new(text: &str) -> Self {
+    pub(crate) fn new(text: &str) -> Self {
         Self {
             text: text.to_owned(),
             starts: line_starts(text),
@@ -69,35 +69,35 @@ impl Buffer {
         }
     }
 
-    pub fn text(&self) -> &str {
+    pub(crate) fn text(&self) -> &str {
         &self.text
     }
 
-    pub fn revision(&self) -> u64 {
+    pub(crate) fn revision(&self) -> u64 {
         self.revision
     }
 
-    pub fn carets(&self) -> &Carets {
+    pub(crate) fn carets(&self) -> &Carets {
         &self.carets
     }
 
     /// Returns the main selection.
-    pub fn selection(&self) -> Selection {
+    pub(crate) fn selection(&self) -> Selection {
         self.carets.main()
     }
 
     /// Returns what the main selection holds.
-    pub fn selected_text(&self) -> &str {
+    pub(crate) fn selected_text(&self) -> &str {
         &self.text[self.selection().range()]
     }
 
     /// Puts one selection somewhere; both ends are moved to the nearest places that exist.
-    pub fn select(&mut self, anchor: usize, head: usize) {
+    pub(crate) fn select(&mut self, anchor: usize, head: usize) {
         self.set_carets(Carets::one(Selection::new(anchor, head)));
     }
 
     /// Puts selections where they are wanted; ends are moved to the nearest places that exist.
-    pub fn set_carets(&mut self, carets: Carets) {
+    pub(crate) fn set_carets(&mut self, carets: Carets) {
         self.carets = carets.map(|s| Selection { anchor: self.snap(s.anchor), head: self.snap(s.head), ..s });
         self.selects_words = false;
         self.history.seal();
@@ -105,7 +105,7 @@ impl Buffer {
     }
 
     /// The nearest position at or before `at` that lies between two characters and not inside a `\r\n`.
-    pub fn snap(&self, at: usize) -> usize {
+    pub(crate) fn snap(&self, at: usize) -> usize {
         let mut at = at.min(self.text.len());
         while !self.text.is_char_boundary(at) {
             at -= 1;
@@ -114,16 +114,16 @@ impl Buffer {
         if at > 0 && bytes[at - 1] == b'\r' && bytes.get(at) == Some(&b'\n') { at - 1 } else { at }
     }
 
-    pub fn line_count(&self) -> usize {
+    pub(crate) fn line_count(&self) -> usize {
         self.starts.len()
     }
 
-    pub fn line_of(&self, at: usize) -> usize {
+    pub(crate) fn line_of(&self, at: usize) -> usize {
         self.starts.partition_point(|s| *s <= at) - 1
     }
 
     /// Bytes of a line without its end; the last line for one that is not there.
-    pub fn line_range(&self, line: usize) -> Range<usize> {
+    pub(crate) fn line_range(&self, line: usize) -> Range<usize> {
         let line = line.min(self.starts.len() - 1);
         let start = self.starts[line];
         let mut end = self.starts.get(line + 1).map_or(self.text.len(), |next| next - 1);
@@ -133,24 +133,24 @@ impl Buffer {
         start..end
     }
 
-    pub fn line(&self, line: usize) -> &str {
+    pub(crate) fn line(&self, line: usize) -> &str {
         &self.text[self.line_range(line)]
     }
 
     /// Line and column (in characters) of a position, both from 0.
-    pub fn line_column(&self, at: usize) -> (usize, usize) {
+    pub(crate) fn line_column(&self, at: usize) -> (usize, usize) {
         let line = self.line_of(at);
         (line, self.text[self.starts[line]..at].chars().count())
     }
 
     /// The position of a column (in characters) of a line, or the line's end if it is shorter.
-    pub fn position(&self, line: usize, column: usize) -> usize {
+    pub(crate) fn position(&self, line: usize, column: usize) -> usize {
         let range = self.line_range(line);
         self.text[range.clone()].char_indices().nth(column).map_or(range.end, |(i, _)| range.start + i)
     }
 
     /// Returns what ends a line in this text: of the first line, so that a file keeps its own.
-    pub fn line_end(&self) -> &'static str {
+    pub(crate) fn line_end(&self) -> &'static str {
         match self.starts.get(1) {
             Some(next) if *next >= 2 && self.text.as_bytes()[next - 2] == b'\r' => "\r\n",
             _ => "\n",
@@ -158,20 +158,20 @@ impl Buffer {
     }
 
     /// Puts `with` in the place of `range` and one caret behind it.
-    pub fn replace(&mut self, range: Range<usize>, with: &str, kind: Kind) {
+    pub(crate) fn replace(&mut self, range: Range<usize>, with: &str, kind: Kind) {
         let caret = Selection::caret(range.start + with.len());
         self.change(vec![(range, with.to_owned())], kind, |_| Carets::one(caret));
     }
 
     /// Returns whether the line of a byte includes a file.
-    pub fn names_file(&self, at: usize) -> bool {
+    pub(crate) fn names_file(&self, at: usize) -> bool {
         let line = &self.text[self.line_range(self.line_of(at))];
         let directive = line.trim_start().strip_prefix('#').map(str::trim_start);
         directive.is_some_and(|directive| directive.starts_with("include") && directive.contains('"'))
     }
 
     /// Replaces parts of the text, which are in order and apart, as one step of undo. Carets stay where they are.
-    pub fn replace_parts(&mut self, parts: Vec<(Range<usize>, String)>) {
+    pub(crate) fn replace_parts(&mut self, parts: Vec<(Range<usize>, String)>) {
         let changes: Vec<Change> = parts
             .iter()
             .map(|(range, with)| Change {
@@ -235,7 +235,7 @@ impl Buffer {
 
     /// Makes the text equal to `new` by the smallest single change, so that carets stay where they were when they can.
     /// Undo leads back. This is how a text that changed elsewhere arrives.
-    pub fn set_text(&mut self, new: &str) {
+    pub(crate) fn set_text(&mut self, new: &str) {
         if new == self.text {
             return;
         }
@@ -267,7 +267,7 @@ impl Buffer {
     }
 
     /// Takes the last step back. False if there is none.
-    pub fn undo(&mut self) -> bool {
+    pub(crate) fn undo(&mut self) -> bool {
         let Some(step) = self.history.undo() else { return false };
         for edit in step.into_iter().rev() {
             self.apply(&edit.inverse());
@@ -279,7 +279,7 @@ impl Buffer {
     }
 
     /// Does again what undo took back. False if there is nothing.
-    pub fn redo(&mut self) -> bool {
+    pub(crate) fn redo(&mut self) -> bool {
         let Some(step) = self.history.redo() else { return false };
         for edit in step {
             self.apply(&edit.changes);
@@ -291,13 +291,13 @@ impl Buffer {
     }
 
     /// Returns what has not changed since the last call; none if nothing has: what is derived from it can be kept.
-    pub fn take_unchanged(&mut self) -> Option<Unchanged> {
+    pub(crate) fn take_unchanged(&mut self) -> Option<Unchanged> {
         self.unchanged.take()
     }
 
     /// Returns the lines that have changed since [`Buffer::take_unchanged`], in order, if it is known that all others
     /// between them have not; else none.
-    pub fn take_touched(&mut self) -> Vec<usize> {
+    pub(crate) fn take_touched(&mut self) -> Vec<usize> {
         std::mem::take(&mut self.touched)
     }
 

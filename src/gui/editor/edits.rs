@@ -11,7 +11,7 @@ pub(super) const INDENT: &str = "    ";
 
 impl Buffer {
     /// Types text over the selections.
-    pub fn insert(&mut self, text: &str) {
+    pub(crate) fn insert(&mut self, text: &str) {
         let kind = if text.chars().count() == 1 { Kind::Typing } else { Kind::Other };
         let kind = if text == "}" && self.carets().list().iter().any(|s| s.is_empty() && self.dedent_at(s.head) > 0) {
             Kind::Other
@@ -31,7 +31,7 @@ impl Buffer {
     }
 
     /// Pastes: line ends become the file's own. As many lines as there are carets are dealt out among them.
-    pub fn paste(&mut self, text: &str) {
+    pub(crate) fn paste(&mut self, text: &str) {
         let text = text.replace("\r\n", "\n").replace('\r', "\n");
         let carets = self.carets().list().to_vec();
         let lines: Vec<&str> = text.strip_suffix('\n').unwrap_or(&text).split('\n').collect();
@@ -45,7 +45,7 @@ impl Buffer {
     }
 
     /// Enter: the new line is indented as this one, one step more after an opening brace.
-    pub fn new_line(&mut self) {
+    pub(crate) fn new_line(&mut self) {
         self.replace_at_carets(Kind::Other, |buffer, s| {
             let range = s.range();
             let line = buffer.line_range(buffer.line_of(range.start));
@@ -69,7 +69,7 @@ impl Buffer {
 
     /// Ctrl+Enter and Ctrl+Shift+Enter: a new line below the caret's or above it, indented as that one. The line itself
     /// stays whole.
-    pub fn open_line(&mut self, way: Vertical) {
+    pub(crate) fn open_line(&mut self, way: Vertical) {
         self.replace_at_carets(Kind::Other, |buffer, s| {
             let line = buffer.line_range(buffer.line_of(s.head));
             let text = &buffer.text()[line.clone()];
@@ -91,7 +91,7 @@ impl Buffer {
     }
 
     /// Backspace and Delete: the selections, or what `motion` passes over.
-    pub fn delete(&mut self, motion: Motion) {
+    pub(crate) fn delete(&mut self, motion: Motion) {
         let is_run = self.carets().list().iter().all(|s| s.is_empty());
         let kind = if is_run { Kind::Deleting } else { Kind::Other };
         self.replace_at_carets(kind, |buffer, s| {
@@ -118,7 +118,7 @@ impl Buffer {
     }
 
     /// Returns what Ctrl+C takes: what is selected, or the whole line of each caret that selects nothing.
-    pub fn copied_ranges(&self) -> Vec<Range<usize>> {
+    pub(crate) fn copied_ranges(&self) -> Vec<Range<usize>> {
         let mut ranges: Vec<Range<usize>> = Vec::new();
         for s in self.carets().list() {
             let range = if s.is_empty() { self.whole_line(s.head) } else { s.range() };
@@ -132,7 +132,7 @@ impl Buffer {
     }
 
     /// Returns the text that Ctrl+C takes: the parts of several carets in a line each.
-    pub fn copied_text(&self) -> String {
+    pub(crate) fn copied_text(&self) -> String {
         let parts: Vec<&str> = self.copied_ranges().into_iter().map(|r| &self.text()[r]).collect();
         match &parts[..] {
             [one] => (*one).to_owned(),
@@ -141,7 +141,7 @@ impl Buffer {
     }
 
     /// Takes away what Ctrl+C would take.
-    pub fn cut(&mut self) {
+    pub(crate) fn cut(&mut self) {
         let parts: Vec<_> = self.copied_ranges().into_iter().map(|range| (range, String::new())).collect();
         let carets = {
             let mut gone = 0;

@@ -10,7 +10,7 @@ use std::ops::Range;
 
 /// A text to find, and how.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Query {
+pub(crate) struct Query {
     pub text: String,
     pub match_case: bool,
     /// The text is a regular expression.
@@ -19,7 +19,7 @@ pub struct Query {
 
 /// A query that can be asked.
 #[derive(Clone, Debug)]
-pub struct Finder {
+pub(crate) struct Finder {
     /// `None` for an empty query, which is found nowhere.
     regex: Option<Regex>,
     /// `$1` in a replacement is what the first group found.
@@ -28,7 +28,7 @@ pub struct Finder {
 
 impl Query {
     /// Returns what finds it, or why the regular expression is none.
-    pub fn finder(&self) -> Result<Finder, String> {
+    pub(crate) fn finder(&self) -> Result<Finder, String> {
         let pattern = if self.is_regex { self.text.clone() } else { regex::escape(&self.text) };
         let regex = match self.text.is_empty() {
             true => None,
@@ -54,7 +54,7 @@ fn reason(error: &regex::Error) -> String {
 
 impl Finder {
     /// Every place where it stands, from the top.
-    pub fn matches(&self, text: &str) -> Vec<Range<usize>> {
+    pub(crate) fn matches(&self, text: &str) -> Vec<Range<usize>> {
         self.regex.iter().flat_map(|regex| regex.find_iter(text)).map(|m| m.range()).collect()
     }
 
@@ -95,7 +95,7 @@ fn unescaped(with: &str) -> String {
 impl Buffer {
     /// Selects the next match at or after the selection's end (before its start, going back), round the text's ends.
     /// The match's number.
-    pub fn find(&mut self, matches: &[Range<usize>], forward: bool) -> Option<usize> {
+    pub(crate) fn find(&mut self, matches: &[Range<usize>], forward: bool) -> Option<usize> {
         let now = self.selection().range();
         let index = if forward {
             matches.iter().position(|m| m.start >= now.end && *m != now).unwrap_or(0)
@@ -108,7 +108,7 @@ impl Buffer {
     }
 
     /// Replaces the selection if it is a match, and returns whether it was.
-    pub fn replace_match(&mut self, finder: &Finder, matches: &[Range<usize>], with: &str) -> bool {
+    pub(crate) fn replace_match(&mut self, finder: &Finder, matches: &[Range<usize>], with: &str) -> bool {
         let range = self.selection().range();
         let hit = matches.contains(&range);
         if hit {
@@ -119,7 +119,7 @@ impl Buffer {
     }
 
     /// Replaces every match as one step of undo.
-    pub fn replace_all(&mut self, finder: &Finder, matches: &[Range<usize>], with: &str) {
+    pub(crate) fn replace_all(&mut self, finder: &Finder, matches: &[Range<usize>], with: &str) {
         let part = |m: &Range<usize>| (m.clone(), finder.replacement(self.text(), m, with));
         let parts: Vec<_> = matches.iter().map(part).collect();
         let Some(last) = parts.last() else { return };

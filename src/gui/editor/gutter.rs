@@ -36,7 +36,7 @@ pub(super) enum Clicked {
 
 impl Gutter<'_> {
     /// Shows it. A click in it comes back.
-    pub fn show(&self, ui: &Ui, id: Id, buffer: &Buffer, look: &Look<'_>) -> Option<Clicked> {
+    pub(super) fn show(&self, ui: &Ui, id: Id, buffer: &Buffer, look: &Look<'_>) -> Option<Clicked> {
         let Gutter { rect, top, row_height, .. } = *self;
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         let p = theme::of(ui);

@@ -16,7 +16,7 @@ pub(super) struct Change {
 }
 
 impl Change {
-    pub fn range(&self) -> Range<usize> {
+    pub(super) fn range(&self) -> Range<usize> {
         self.at..self.at + self.removed.len()
     }
 }
@@ -38,7 +38,7 @@ impl Edit {
     }
 
     /// Returns the changes that lead back.
-    pub fn inverse(&self) -> Vec<Change> {
+    pub(super) fn inverse(&self) -> Vec<Change> {
         let mut shift = 0isize;
         let back = |c: &Change| {
             let at = c.at.saturating_add_signed(shift);
@@ -51,7 +51,7 @@ impl Edit {
 
 /// The kind of an edit, which decides whether it joins the one before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// A character typed: joins a word being typed.
     Typing,
     /// A character deleted: joins a run of deletions.
@@ -71,7 +71,7 @@ pub(super) struct History {
 }
 
 impl History {
-    pub fn push(&mut self, edit: Edit, kind: Kind) {
+    pub(super) fn push(&mut self, edit: Edit, kind: Kind) {
         self.undone.clear();
         self.size += edit.size();
         match self.done.back_mut() {
@@ -85,12 +85,12 @@ impl History {
     }
 
     /// The caret went elsewhere: what follows is a new step.
-    pub fn seal(&mut self) {
+    pub(super) fn seal(&mut self) {
         self.open = None;
     }
 
     /// Carets went on by what was typed, though the text was there already.
-    pub fn go_on(&mut self, carets: &Carets) {
+    pub(super) fn go_on(&mut self, carets: &Carets) {
         if let Some(edit) = self.done.back_mut().and_then(|step| step.last_mut())
             && self.open == Some(Kind::Typing)
         {
@@ -98,7 +98,7 @@ impl History {
         }
     }
 
-    pub fn undo(&mut self) -> Option<Vec<Edit>> {
+    pub(super) fn undo(&mut self) -> Option<Vec<Edit>> {
         self.open = None;
         let step = self.done.pop_back()?;
         self.size -= size(&step);
@@ -106,7 +106,7 @@ impl History {
         Some(step)
     }
 
-    pub fn redo(&mut self) -> Option<Vec<Edit>> {
+    pub(super) fn redo(&mut self) -> Option<Vec<Edit>> {
         self.open = None;
         let step = self.undone.pop()?;
         self.size += size(&step);

@@ -11,7 +11,7 @@ use std::ops::Range;
 
 impl Buffer {
     /// Tab: indents the lines of a selection of several, or adds spaces up to the next stop.
-    pub fn indent(&mut self) {
+    pub(crate) fn indent(&mut self) {
         let is_in_line = |s: &Selection| self.line_of(s.anchor) == self.line_of(s.head);
         if self.carets().list().iter().all(is_in_line) {
             self.replace_at_carets(Kind::Other, |buffer, s| {
@@ -24,13 +24,13 @@ impl Buffer {
     }
 
     /// Ctrl+]: puts one step of indent before every line of the selections.
-    pub fn indent_lines(&mut self) {
+    pub(crate) fn indent_lines(&mut self) {
         let indent = |line: &str| if line.trim().is_empty() { line.into() } else { format!("{INDENT}{line}") };
         self.edit_lines(|_, line| indent(line));
     }
 
     /// Shift+Tab: takes one step of indent from every line of the selections.
-    pub fn unindent(&mut self) {
+    pub(crate) fn unindent(&mut self) {
         self.edit_lines(|_, line| {
             let spaces = line.len() - line.trim_start_matches(' ').len();
             let cut = if line.starts_with('\t') { 1 } else { spaces.min(INDENT.len()) };
@@ -39,7 +39,7 @@ impl Buffer {
     }
 
     /// Turns every line of a selection into a comment, or back if all are.
-    pub fn toggle_comment(&mut self) {
+    pub(crate) fn toggle_comment(&mut self) {
         let blocks = self.blocks();
         let plan: Vec<(Range<usize>, bool, usize)> = blocks
             .into_iter()
@@ -65,7 +65,7 @@ impl Buffer {
     }
 
     /// Moves the lines of every selection past the line above or below them. Where one cannot go on, none does.
-    pub fn move_lines(&mut self, way: Vertical) {
+    pub(crate) fn move_lines(&mut self, way: Vertical) {
         let blocks = self.blocks();
         let is_stuck = |b: &Range<usize>| match way {
             Vertical::Up => b.start == 0,
@@ -105,7 +105,7 @@ impl Buffer {
     }
 
     /// Puts a copy of the lines of every selection above or below them, and goes to the copy.
-    pub fn copy_lines(&mut self, way: Vertical) {
+    pub(crate) fn copy_lines(&mut self, way: Vertical) {
         let blocks = self.blocks();
         let mut parts = Vec::new();
         let mut shifts = Vec::new();
@@ -129,7 +129,7 @@ impl Buffer {
     }
 
     /// Deletes the lines of every selection.
-    pub fn delete_lines(&mut self) {
+    pub(crate) fn delete_lines(&mut self) {
         let blocks = self.blocks();
         let columns: Vec<usize> = blocks.iter().map(|b| self.column_in(b).unwrap_or(0)).collect();
         let last = self.line_count();

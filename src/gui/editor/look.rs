@@ -8,7 +8,7 @@ use std::ops::Range;
 
 /// A diagnostic at a line.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mark {
+pub(crate) struct Mark {
     /// From 0.
     pub line: usize,
     /// The underlined bytes of the text; may be empty.
@@ -22,7 +22,7 @@ pub struct Mark {
 
 /// Says how a text is shown; not a part of it.
 #[derive(Clone, Copy, Debug)]
-pub struct Look<'a> {
+pub(crate) struct Look<'a> {
     /// Holds what it is called to those who do not see it.
     pub name: &'a str,
     pub font_size: f32,
@@ -40,7 +40,7 @@ pub struct Look<'a> {
 
 /// Holds what a debugger has to show in a text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Debug {
+pub(crate) struct Debug {
     /// The line, from 0, that is about to run.
     pub line: Option<usize>,
     /// The bytes of it that are.
@@ -51,11 +51,11 @@ pub struct Debug {
 
 /// Nothing.
 #[cfg(test)]
-pub const NO_DEBUG: Debug = Debug { line: None, range: None, breakpoints: Vec::new() };
+pub(super) const NO_DEBUG: Debug = Debug { line: None, range: None, breakpoints: Vec::new() };
 
 /// An analysis of the text that an editor shows.
 #[derive(Clone, Copy, Debug)]
-pub struct Help<'a> {
+pub(crate) struct Help<'a> {
     pub analysis: &'a Analysis,
     /// The editor's text in `analysis`.
     pub source: SourceId,

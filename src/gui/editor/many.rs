@@ -9,14 +9,14 @@ use std::ops::Range;
 
 impl Buffer {
     /// Back to the main caret; where it is the only one, to no selection.
-    pub fn one_caret(&mut self) {
+    pub(crate) fn one_caret(&mut self) {
         let main = self.selection();
         let is_one = self.carets().list().len() == 1;
         self.set_carets(Carets::one(if is_one { Selection::caret(main.head) } else { main }));
     }
 
     /// One more caret above or below each.
-    pub fn add_caret(&mut self, way: Vertical) {
+    pub(crate) fn add_caret(&mut self, way: Vertical) {
         let mut list = self.carets().list().to_vec();
         let main = self.carets().main_index();
         for i in 0..list.len() {
@@ -38,7 +38,7 @@ impl Buffer {
     }
 
     /// Selects the word of each caret; where something is selected, its next occurrence too.
-    pub fn add_next(&mut self) {
+    pub(crate) fn add_next(&mut self) {
         if self.select_words() {
             return;
         }
@@ -57,7 +57,7 @@ impl Buffer {
     }
 
     /// Selects every occurrence of what is selected, or of the word.
-    pub fn add_all(&mut self) {
+    pub(crate) fn add_all(&mut self) {
         self.select_words();
         let places = self.occurrences();
         let main = places.iter().position(|r| *r == self.selection().range());

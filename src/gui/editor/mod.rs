@@ -40,13 +40,13 @@ mod semantic;
 mod view;
 mod wrap;
 
-pub use action::EditorAction;
-pub use assist::Ask;
-pub use buffer::Buffer;
-pub use find::{Finder, Query};
-pub use look::{Debug, Help, Look, Mark};
-pub use motion::{Motion, Vertical};
-pub use view::CodeEditor;
+pub(super) use action::EditorAction;
+pub(super) use assist::Ask;
+pub(super) use buffer::Buffer;
+pub(super) use find::{Finder, Query};
+pub(super) use look::{Debug, Help, Look, Mark};
+pub(super) use motion::{Motion, Vertical};
+pub(super) use view::CodeEditor;
 
 #[cfg(test)]
 mod tests;

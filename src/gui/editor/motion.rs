@@ -3,7 +3,7 @@
 use super::{buffer::Buffer, selection::Selection};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motion {
+pub(crate) enum Motion {
     Left,
     Right,
     WordLeft,
@@ -21,14 +21,14 @@ pub enum Motion {
 
 /// Up or down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Vertical {
+pub(crate) enum Vertical {
     Up,
     Down,
 }
 
 impl Buffer {
     /// Moves every caret; `selecting` keeps the anchors.
-    pub fn go(&mut self, motion: Motion, selecting: bool) {
+    pub(crate) fn go(&mut self, motion: Motion, selecting: bool) {
         if let Motion::Lines(by) | Motion::Pages(by) = motion {
             return self.go_to(selecting, |buffer, s| buffer.lines_away(s, by));
         }
@@ -111,7 +111,7 @@ impl Buffer {
     }
 
     /// The word, run of spaces or punctuation around a position: what a double click takes.
-    pub fn word_at(&self, at: usize) -> std::ops::Range<usize> {
+    pub(crate) fn word_at(&self, at: usize) -> std::ops::Range<usize> {
         let line = self.line_range(self.line_of(at));
         let text = self.text();
         let right = text[at..line.end].chars().next().map(Class::of);
@@ -128,7 +128,7 @@ impl Buffer {
     }
 
     /// The part of a name that ends at the caret; empty where there is none.
-    pub fn word_before_caret(&self) -> std::ops::Range<usize> {
+    pub(crate) fn word_before_caret(&self) -> std::ops::Range<usize> {
         let caret = self.selection().head;
         let is_part = |c: &(usize, char)| c.1.is_ascii_alphanumeric() || c.1 == '_';
         let start = self.text()[..caret].char_indices().rev().take_while(is_part).last();

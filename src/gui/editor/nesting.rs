@@ -2,7 +2,7 @@
 
 /// Holds what a stretch of code does to the depth of one kind of bracket.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Depth {
+pub(super) struct Depth {
     /// Says how far below its beginning it goes: 0 or less.
     low: i32,
     /// Its end against its beginning.
@@ -11,28 +11,28 @@ pub struct Depth {
 
 impl Depth {
     /// Returns what this stretch and the one behind it do together.
-    pub fn then(self, next: Depth) -> Depth {
+    pub(super) fn then(self, next: Depth) -> Depth {
         Depth { low: self.low.min(self.net + next.low), net: self.net + next.net }
     }
 
     /// Returns how many brackets are opened and not closed again.
-    pub fn opened(self) -> i32 {
+    pub(super) fn opened(self) -> i32 {
         self.net - self.low
     }
 
     /// Returns how many brackets are closed that were not opened.
-    pub fn closed(self) -> i32 {
+    pub(super) fn closed(self) -> i32 {
         -self.low
     }
 
-    pub fn net(self) -> i32 {
+    pub(super) fn net(self) -> i32 {
         self.net
     }
 }
 
 /// A kind of bracket.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bracket {
+pub(super) enum Bracket {
     Round,
     Square,
     Curly,
@@ -40,7 +40,7 @@ pub enum Bracket {
 
 impl Bracket {
     /// Returns the kind of a bracket, and 1 for an opening and -1 for a closing one.
-    pub fn of(byte: u8) -> Option<(Bracket, i32)> {
+    pub(super) fn of(byte: u8) -> Option<(Bracket, i32)> {
         Some(match byte {
             b'(' => (Bracket::Round, 1),
             b')' => (Bracket::Round, -1),
@@ -55,21 +55,21 @@ impl Bracket {
 
 /// Holds what a stretch of code does to the depths of all kinds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Nesting([Depth; 3]);
+pub(super) struct Nesting([Depth; 3]);
 
 impl Nesting {
     /// Returns what this stretch and the one behind it do together.
-    pub fn then(self, next: Nesting) -> Nesting {
+    pub(super) fn then(self, next: Nesting) -> Nesting {
         Nesting(std::array::from_fn(|i| self.0[i].then(next.0[i])))
     }
 
-    pub fn of(self, kind: Bracket) -> Depth {
+    pub(super) fn of(self, kind: Bracket) -> Depth {
         self.0[kind as usize]
     }
 
     /// A byte of code follows.
     #[inline]
-    pub fn push(&mut self, byte: u8) {
+    pub(super) fn push(&mut self, byte: u8) {
         if let Some((kind, by)) = Bracket::of(byte) {
             let depth = &mut self.0[kind as usize];
             *depth = depth.then(Depth { low: by.min(0), net: by });

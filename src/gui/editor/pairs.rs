@@ -12,7 +12,7 @@ impl Buffer {
     /// Types a letter, with what closes it: an opening bracket brings its closing one, round what is selected too, and
     /// `/*` brings `*/`. A closing one that came so is typed over. `is_comment` says whether a byte lies in a comment,
     /// where nothing is closed.
-    pub fn type_closing(&mut self, text: &str, is_comment: &dyn Fn(&Self, usize) -> bool) {
+    pub(crate) fn type_closing(&mut self, text: &str, is_comment: &dyn Fn(&Self, usize) -> bool) {
         if self.types_over(text) {
             let past: Vec<usize> = self.carets().list().iter().map(|s| s.head).collect();
             self.replace_at_carets(Kind::Typing, |_, s| Replacement {

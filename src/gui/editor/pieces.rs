@@ -7,11 +7,11 @@ use super::nesting::Nesting;
 use crate::glsl::services::lines::{LexState, LineContext, Scanner};
 
 /// Bytes of a piece: cut at the next place between two tokens from here on, at twice as many wherever that is.
-pub const PIECE: usize = 1024;
+pub(super) const PIECE: usize = 1024;
 
 /// A part of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Piece {
+pub(super) struct Piece {
     /// In bytes.
     pub len: usize,
     /// The state at its beginning.
@@ -26,14 +26,14 @@ pub struct Piece {
 
 /// Pieces of a line as it was, and how many bytes at an end of it are as they were.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Reusable<'a> {
+pub(super) struct Reusable<'a> {
     pub pieces: &'a [Piece],
     pub bytes: usize,
 }
 
 /// A line in pieces.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Cut {
+pub(super) struct Cut {
     /// Together they cover the line; none for an empty one.
     pub pieces: Vec<Piece>,
     /// The state at the line's end.
@@ -43,7 +43,7 @@ pub struct Cut {
 /// Cuts a line that begins in `state`. `head` and `tail` are of the line as it was (of two lines, where they were
 /// joined): what they hold for is not looked at again. `tail_end` is the state at the end of the line that `tail` is
 /// of; `width` gives the width of a character that is not printable ASCII. Counts the bytes it looks at in `scanned`.
-pub fn cut(
+pub(super) fn cut(
     line: &str,
     state: LexState,
     head: Reusable<'_>,
@@ -127,7 +127,7 @@ fn is_between_tokens(byte: u8) -> bool {
 }
 
 /// Returns how wide a text is, in widths of a digit: a tab is as wide as four.
-pub fn columns(text: &str, width: &mut dyn FnMut(char) -> f32) -> f32 {
+pub(super) fn columns(text: &str, width: &mut dyn FnMut(char) -> f32) -> f32 {
     let mut plain = 0;
     let mut other = 0.0;
     for c in text.chars() {

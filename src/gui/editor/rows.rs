@@ -31,7 +31,7 @@ pub(super) struct Part {
 
 impl Rows {
     /// Takes in which lines were replaced, or that lines wrap elsewhere.
-    pub fn update(&mut self, buffer: &Buffer, index: &Highlight, replaced: Option<Replaced>) {
+    pub(super) fn update(&mut self, buffer: &Buffer, index: &Highlight, replaced: Option<Replaced>) {
         if let Some(replaced) = replaced {
             self.folds = std::mem::take(&mut self.folds)
                 .into_iter()
@@ -60,17 +60,17 @@ impl Rows {
     }
 
     /// Every line is one row.
-    pub fn is_plain(&self) -> bool {
+    pub(super) fn is_plain(&self) -> bool {
         self.above.is_empty()
     }
 
     /// Returns how many rows there are.
-    pub fn len(&self, buffer: &Buffer) -> usize {
+    pub(super) fn len(&self, buffer: &Buffer) -> usize {
         self.above.last().map_or(buffer.line_count(), |all| *all as usize)
     }
 
     /// Returns the first row of a line; that of the line above which stays, for one that is folded away.
-    pub fn of_line(&self, line: usize) -> usize {
+    pub(super) fn of_line(&self, line: usize) -> usize {
         match self.above.get(line) {
             None => line,
             Some(row) if self.is_hidden(line) => (*row as usize).saturating_sub(1),
@@ -79,7 +79,7 @@ impl Rows {
     }
 
     /// Returns the row that shows a place of the text.
-    pub fn of(&self, buffer: &Buffer, index: &Highlight, at: usize) -> usize {
+    pub(super) fn of(&self, buffer: &Buffer, index: &Highlight, at: usize) -> usize {
         let line = buffer.line_of(at);
         let first = self.of_line(line);
         if self.is_plain() || self.is_hidden(line) || index.rows(line) == 1 {
@@ -100,7 +100,7 @@ impl Rows {
     }
 
     /// Returns the line of a row, and the number of the row in it.
-    pub fn line_at(&self, buffer: &Buffer, row: usize) -> (usize, usize) {
+    pub(super) fn line_at(&self, buffer: &Buffer, row: usize) -> (usize, usize) {
         if self.is_plain() {
             return (row.min(buffer.line_count() - 1), 0);
         }
@@ -111,7 +111,7 @@ impl Rows {
     }
 
     /// Returns the part of the text that a row shows.
-    pub fn part(&self, buffer: &Buffer, index: &Highlight, row: usize) -> Part {
+    pub(super) fn part(&self, buffer: &Buffer, index: &Highlight, row: usize) -> Part {
         let (line, number) = self.line_at(buffer, row);
         let whole = buffer.line_range(line);
         let mut part = Part { line, bytes: whole.clone(), indent: 0.0, is_first: number == 0, is_last: true };
@@ -139,7 +139,7 @@ impl Rows {
     }
 
     /// A caret so many rows away, at the column of its row that this one wants to keep.
-    pub fn rows_away(&self, buffer: &Buffer, index: &Highlight, from: Selection, by: isize) -> Selection {
+    pub(super) fn rows_away(&self, buffer: &Buffer, index: &Highlight, from: Selection, by: isize) -> Selection {
         let row = self.of(buffer, index, from.head);
         let letters = |range: Range<usize>| buffer.text()[range].chars().count();
         let column = from.column.unwrap_or_else(|| {
@@ -164,17 +164,17 @@ impl Rows {
     }
 
     /// The line is folded away.
-    pub fn is_hidden(&self, line: usize) -> bool {
+    pub(super) fn is_hidden(&self, line: usize) -> bool {
         self.folds.iter().any(|fold| fold.contains(&line))
     }
 
     /// The block that the line opens is folded away.
-    pub fn is_folded(&self, line: usize) -> bool {
+    pub(super) fn is_folded(&self, line: usize) -> bool {
         self.folds.iter().any(|fold| fold.start == line + 1)
     }
 
     /// Folds the block that a line opens. False if there is nothing to fold.
-    pub fn fold(&mut self, buffer: &Buffer, index: &Highlight, line: usize) -> bool {
+    pub(super) fn fold(&mut self, buffer: &Buffer, index: &Highlight, line: usize) -> bool {
         let Some(hidden) = hidden_by(buffer, index, line).filter(|hidden| !self.folds.contains(hidden)) else {
             return false;
         };
@@ -183,25 +183,25 @@ impl Rows {
         true
     }
 
-    pub fn fold_all(&mut self, buffer: &Buffer, index: &Highlight) {
+    pub(super) fn fold_all(&mut self, buffer: &Buffer, index: &Highlight) {
         let blocks = brackets::blocks(index, buffer).into_iter();
         self.folds = blocks.map(|(first, last)| first + 1..last).filter(|hidden| !hidden.is_empty()).collect();
         self.count(buffer, index);
     }
 
-    pub fn unfold_all(&mut self, buffer: &Buffer, index: &Highlight) {
+    pub(super) fn unfold_all(&mut self, buffer: &Buffer, index: &Highlight) {
         self.folds.clear();
         self.count(buffer, index);
     }
 
     /// Unfolds the block that a line opens.
-    pub fn unfold(&mut self, buffer: &Buffer, index: &Highlight, line: usize) {
+    pub(super) fn unfold(&mut self, buffer: &Buffer, index: &Highlight, line: usize) {
         self.folds.retain(|fold| fold.start != line + 1);
         self.count(buffer, index);
     }
 
     /// Unfolds what hides a line.
-    pub fn reveal(&mut self, buffer: &Buffer, index: &Highlight, line: usize) {
+    pub(super) fn reveal(&mut self, buffer: &Buffer, index: &Highlight, line: usize) {
         if self.is_hidden(line) {
             self.folds.retain(|fold| !fold.contains(&line));
             self.count(buffer, index);

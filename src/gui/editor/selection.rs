@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// A caret (`head`) and the place where its selection began (`anchor`). They are equal when nothing is selected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Selection {
+pub(crate) struct Selection {
     pub anchor: usize,
     pub head: usize,
     /// The column it wants to keep while it moves up and down, in characters.
@@ -12,24 +12,24 @@ pub struct Selection {
 }
 
 impl Selection {
-    pub fn new(anchor: usize, head: usize) -> Self {
+    pub(crate) fn new(anchor: usize, head: usize) -> Self {
         Self { anchor, head, column: None }
     }
 
-    pub fn caret(at: usize) -> Self {
+    pub(crate) fn caret(at: usize) -> Self {
         Self::new(at, at)
     }
 
-    pub fn range(self) -> Range<usize> {
+    pub(crate) fn range(self) -> Range<usize> {
         self.anchor.min(self.head)..self.anchor.max(self.head)
     }
 
-    pub fn is_empty(self) -> bool {
+    pub(crate) fn is_empty(self) -> bool {
         self.anchor == self.head
     }
 
     /// Returns it with both ends moved.
-    pub fn map(self, to: impl Fn(usize) -> usize) -> Self {
+    pub(crate) fn map(self, to: impl Fn(usize) -> usize) -> Self {
         Self::new(to(self.anchor), to(self.head))
     }
 }
@@ -37,7 +37,7 @@ impl Selection {
 /// Selections in the order of the text: at least one, and none that overlap or touch where one is a caret. One of them
 /// is the main one, which the window follows.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Carets {
+pub(crate) struct Carets {
     list: Vec<Selection>,
     main: usize,
 }
@@ -49,13 +49,13 @@ impl Default for Carets {
 }
 
 impl Carets {
-    pub fn one(selection: Selection) -> Self {
+    pub(crate) fn one(selection: Selection) -> Self {
         Self { list: vec![selection], main: 0 }
     }
 
     /// Sorts selections and joins those that overlap; `main` is an index into `list`. An empty list is the text's
     /// start.
-    pub fn new(list: Vec<Selection>, main: usize) -> Self {
+    pub(crate) fn new(list: Vec<Selection>, main: usize) -> Self {
         let Some(chosen) = list.get(main).or(list.first()).copied() else { return Self::default() };
         let mut sorted = list;
         sorted.sort_by_key(|s| (s.range().start, s.range().end));
@@ -79,20 +79,20 @@ impl Carets {
         Self { list: joined, main }
     }
 
-    pub fn list(&self) -> &[Selection] {
+    pub(crate) fn list(&self) -> &[Selection] {
         &self.list
     }
 
-    pub fn main(&self) -> Selection {
+    pub(crate) fn main(&self) -> Selection {
         self.list[self.main]
     }
 
-    pub fn main_index(&self) -> usize {
+    pub(crate) fn main_index(&self) -> usize {
         self.main
     }
 
     /// Returns them with every selection changed; what then overlaps is joined.
-    pub fn map(&self, change: impl FnMut(Selection) -> Selection) -> Self {
+    pub(crate) fn map(&self, change: impl FnMut(Selection) -> Selection) -> Self {
         Self::new(self.list.iter().copied().map(change).collect(), self.main)
     }
 }

@@ -15,7 +15,7 @@ pub(super) struct Semantic<'a> {
 }
 
 impl<'a> Semantic<'a> {
-    pub fn new(help: Help<'a>, text: &str) -> Self {
+    pub(super) fn new(help: Help<'a>, text: &str) -> Self {
         let (old, new) = (help.text.as_bytes(), text.as_bytes());
         if old == new {
             return Self { classes: help.classes, head: new.len(), tail: 0, shift: 0 };
@@ -28,7 +28,7 @@ impl<'a> Semantic<'a> {
     }
 
     /// Tokens that cover a line, or a piece of one, whose bytes are `range`; `None` for one that was changed.
-    pub fn tokens(&self, range: Range<usize>, line: &str) -> Option<Vec<Token>> {
+    pub(super) fn tokens(&self, range: Range<usize>, line: &str) -> Option<Vec<Token>> {
         let shift = match () {
             // The line's end counts as a part of it: where it is new, so is the line.
             () if range.end < self.head || (self.shift == 0 && self.tail == 0) => 0,

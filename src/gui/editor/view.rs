@@ -24,11 +24,11 @@ use egui::{
 use std::ops::Range;
 
 /// Says what a key asks of the code.
-pub type Keys<'a> = &'a dyn Fn(&Event) -> Option<EditorAction>;
+pub(super) type Keys<'a> = &'a dyn Fn(&Event) -> Option<EditorAction>;
 
 /// The results of a frame.
 #[derive(Clone, Debug)]
-pub struct EditorOutput {
+pub(crate) struct EditorOutput {
     /// The area of the text without the numbers beside it.
     pub text_rect: Rect,
     /// The part of it that takes the keyboard.
@@ -50,7 +50,7 @@ pub struct EditorOutput {
 
 /// A text being edited, with all that outlives a frame.
 #[derive(Debug)]
-pub struct CodeEditor {
+pub(crate) struct CodeEditor {
     pub(super) buffer: Buffer,
     pub(super) highlight: Highlight,
     pub(super) assist: Assist,
@@ -91,7 +91,7 @@ pub(super) struct Work {
 }
 
 impl CodeEditor {
-    pub fn new(text: &str) -> Self {
+    pub(crate) fn new(text: &str) -> Self {
         Self {
             buffer: Buffer::new(text),
             highlight: Highlight::default(),
@@ -115,29 +115,29 @@ impl CodeEditor {
         }
     }
 
-    pub fn buffer(&self) -> &Buffer {
+    pub(crate) fn buffer(&self) -> &Buffer {
         &self.buffer
     }
 
     /// Changes the text, or what is selected in it.
-    pub fn edit<R>(&mut self, change: impl FnOnce(&mut Buffer) -> R) -> R {
+    pub(crate) fn edit<R>(&mut self, change: impl FnOnce(&mut Buffer) -> R) -> R {
         change(&mut self.buffer)
     }
 
     /// Takes over a text that was changed elsewhere.
-    pub fn take_text(&mut self, text: &str) {
+    pub(crate) fn take_text(&mut self, text: &str) {
         self.buffer.set_text(text);
         self.reported_revision = self.buffer.revision();
     }
 
     /// Returns the text if it has changed since the last call.
-    pub fn take_changed(&mut self) -> Option<&str> {
+    pub(crate) fn take_changed(&mut self) -> Option<&str> {
         let revision = self.buffer.revision();
         (std::mem::replace(&mut self.reported_revision, revision) != revision).then(|| self.buffer.text())
     }
 
     /// Does what a key or the palette asks.
-    pub fn act(&mut self, action: EditorAction) {
+    pub(crate) fn act(&mut self, action: EditorAction) {
         match action {
             EditorAction::Propose => self.assist.propose(),
             EditorAction::Signature => self.assist.show_signature(),
@@ -165,27 +165,27 @@ impl CodeEditor {
     }
 
     /// Pastes in the next frame.
-    pub fn paste(&mut self, text: String) {
+    pub(crate) fn paste(&mut self, text: String) {
         self.pasted = Some(text);
     }
 
     /// Brings the caret into sight in the next frame.
-    pub fn reveal(&mut self) {
+    pub(crate) fn reveal(&mut self) {
         self.follow_caret = true;
     }
 
     /// Brings a line, from 0, into sight in the next frame, and leaves the caret where it is.
-    pub fn reveal_line(&mut self, line: usize) {
+    pub(crate) fn reveal_line(&mut self, line: usize) {
         self.sought_line = Some(line);
     }
 
     /// Takes the keyboard in the next frame.
-    pub fn focus(&mut self) {
+    pub(crate) fn focus(&mut self) {
         self.take_focus = true;
     }
 
     /// Puts the caret at a line and column, both from 0.
-    pub fn go_to(&mut self, line: usize, column: usize) {
+    pub(crate) fn go_to(&mut self, line: usize, column: usize) {
         let at = self.buffer.position(line, column);
         self.buffer.select(at, at);
         self.reveal();
@@ -193,7 +193,7 @@ impl CodeEditor {
     }
 
     /// Selects bytes of the text, in sight and ready to type.
-    pub fn show_range(&mut self, range: Range<usize>) {
+    pub(crate) fn show_range(&mut self, range: Range<usize>) {
         self.buffer.select(range.start, range.end);
         self.assist.close_all();
         self.reveal();
@@ -201,7 +201,7 @@ impl CodeEditor {
     }
 
     /// Fills the space there is. `id` is the widget's own, the same in every frame.
-    pub fn show(&mut self, ui: &mut Ui, id: Id, look: Look<'_>, keys: Keys<'_>) -> EditorOutput {
+    pub(crate) fn show(&mut self, ui: &mut Ui, id: Id, look: Look<'_>, keys: Keys<'_>) -> EditorOutput {
         let font = FontId::monospace(look.font_size);
         let (row_height, glyph) = ui.fonts_mut(|f| (f.row_height(&font), f.glyph_width(&font, '0')));
         let row_height = (row_height * 1.12).round_to_pixels(ui.pixels_per_point());

@@ -5,14 +5,14 @@ use super::pieces;
 /// The rows of a piece: the bytes at which they begin, the first one at 0, and how far those behind the first are
 /// indented, in widths of a digit.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Breaks {
+pub(super) struct Breaks {
     pub starts: Vec<usize>,
     pub indent: f32,
 }
 
 /// Cuts a piece into rows no wider than `limit`, in widths of a digit: behind a blank or a sign where there is one, and
 /// indented as the piece is.
-pub fn breaks(text: &str, limit: f32, width: &mut dyn FnMut(char) -> f32) -> Breaks {
+pub(super) fn breaks(text: &str, limit: f32, width: &mut dyn FnMut(char) -> f32) -> Breaks {
     let blanks = &text[..text.len() - text.trim_start().len()];
     // Half of the width is left for text.
     let indent = Some(pieces::columns(blanks, width)).filter(|i| *i <= limit / 2.0).unwrap_or(0.0);

@@ -26,7 +26,7 @@ struct Left {
 }
 
 #[derive(Default)]
-pub struct Focus {
+pub(super) struct Focus {
     /// Those of the frame before, in reading order.
     stops: Vec<FocusStop>,
     /// Holds what had the keyboard last in each of them.
@@ -52,7 +52,7 @@ pub struct Focus {
 
 impl Focus {
     /// Takes the keys that move the keyboard within a panel, before any widget sees them.
-    pub fn take_keys(&mut self, ui: &Ui) {
+    pub(super) fn take_keys(&mut self, ui: &Ui) {
         if let Some(id) = self.brings_into_sight.take() {
             bring_into_sight(ui, id);
         }
@@ -126,7 +126,7 @@ impl Focus {
     }
 
     /// Gives the keyboard to the next panel, or to the one before, round the ends.
-    pub fn step(&mut self, ui: &Ui, out: &UiOutput, forward: bool) {
+    pub(super) fn step(&mut self, ui: &Ui, out: &UiOutput, forward: bool) {
         self.stops = ordered(&out.stops);
         let found = ui.ctx().viewport(|v| {
             let widgets = &v.this_pass.widgets;
@@ -157,7 +157,7 @@ impl Focus {
     /// Looks who has the keyboard when everything has been shown, and gives it back where nobody has it.
     ///
     /// `is_covered`: something is in front that has the keyboard to itself, or nothing is there that wants it.
-    pub fn settle(&mut self, ui: &Ui, out: &UiOutput, is_covered: bool) {
+    pub(super) fn settle(&mut self, ui: &Ui, out: &UiOutput, is_covered: bool) {
         self.stops = ordered(&out.stops);
         let is_popup_open = Popup::is_any_open(ui.ctx());
         self.place = None;
@@ -221,7 +221,7 @@ impl Focus {
     }
 
     /// Returns where what has the keyboard is: as a whole, and what of it is in sight.
-    pub fn place(&self) -> Option<[Rect; 2]> {
+    pub(super) fn place(&self) -> Option<[Rect; 2]> {
         self.place
     }
 

@@ -18,14 +18,14 @@ use std::{
 };
 
 /// The window's contents without a window.
-pub struct Contents {
+pub(super) struct Contents {
     pub shell: Shell,
     pub session: Session,
     renderer: Renderer,
     pub folder: tempfile::TempDir,
 }
 
-pub type Stage = Harness<'static, Contents>;
+pub(super) type Stage = Harness<'static, Contents>;
 
 /// Uniforms of every type, a warning and a second pass.
 const IMAGE: &str = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n#iUniform int count = 3 in { 1, 9 }\n\
@@ -36,12 +36,12 @@ const IMAGE: &str = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n#iUniform int co
     float unused; o = vec4(red * at.x * wide.x, tint.g, on ? 1.0 : 0.0, count); }";
 
 /// `None` where there is no device, after saying so.
-pub fn open(gallery: bool) -> Option<Stage> {
+pub(super) fn open(gallery: bool) -> Option<Stage> {
     open_with(gallery, SessionOptions::default())
 }
 
 /// The same, and for instance a place where unsaved work is kept.
-pub fn open_with(gallery: bool, options: SessionOptions) -> Option<Stage> {
+pub(super) fn open_with(gallery: bool, options: SessionOptions) -> Option<Stage> {
     let gpu = testing::gpu()?;
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("image.glsl"), IMAGE).unwrap();
@@ -79,12 +79,12 @@ pub fn open_with(gallery: bool, options: SessionOptions) -> Option<Stage> {
     Some(stage)
 }
 
-pub fn press(stage: &mut Stage, modifiers: Modifiers, key: Key) {
+pub(super) fn press(stage: &mut Stage, modifiers: Modifiers, key: Key) {
     stage.key_press_modifiers(modifiers, key);
     stage.run_steps(3);
 }
 
-pub fn click(stage: &mut Stage, widget: &str) {
+pub(super) fn click(stage: &mut Stage, widget: &str) {
     let at = stage.state().shell.place(widget).unwrap_or_else(|| panic!("no {widget}")).center();
     stage.hover_at(at);
     stage.drag_at(at);
@@ -93,7 +93,7 @@ pub fn click(stage: &mut Stage, widget: &str) {
 }
 
 /// Everything that can have the keyboard or be clicked, by its name.
-pub fn named(stage: &Stage, state: &str) -> Vec<String> {
+pub(super) fn named(stage: &Stage, state: &str) -> Vec<String> {
     let unnamed = stage.unnamed_widgets();
     assert!(unnamed.is_empty(), "{state}: without a name:\n{}", unnamed.join("\n"));
     let mut names = Vec::new();
@@ -114,11 +114,11 @@ pub fn named(stage: &Stage, state: &str) -> Vec<String> {
     names
 }
 
-pub const CTRL: Modifiers = Modifiers { ctrl: true, command: true, ..Modifiers::NONE };
-pub const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..CTRL };
+pub(super) const CTRL: Modifiers = Modifiers { ctrl: true, command: true, ..Modifiers::NONE };
+pub(super) const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..CTRL };
 
 /// Lets frames pass until something is so.
-pub fn until(stage: &mut Stage, what: &str, is_so: impl Fn(&Stage) -> bool) {
+pub(super) fn until(stage: &mut Stage, what: &str, is_so: impl Fn(&Stage) -> bool) {
     let end = Instant::now() + Duration::from_secs(60);
     while !is_so(stage) {
         stage.step();
@@ -128,14 +128,14 @@ pub fn until(stage: &mut Stage, what: &str, is_so: impl Fn(&Stage) -> bool) {
 }
 
 /// Every text that is shown.
-pub fn texts(stage: &Stage) -> Vec<String> {
+pub(super) fn texts(stage: &Stage) -> Vec<String> {
     let nodes = stage.root().children_recursive();
     let texts = nodes.map(|node| node.accesskit_node()).flat_map(|node| [node.label(), node.value()]);
     texts.flatten().collect()
 }
 
 /// Chooses what the palette finds by some letters.
-pub fn choose(stage: &mut Stage, letters: &str) {
+pub(super) fn choose(stage: &mut Stage, letters: &str) {
     press(stage, CTRL_SHIFT, Key::P);
     stage.event(egui::Event::Text(letters.to_owned()));
     stage.run_steps(2);
@@ -143,7 +143,7 @@ pub fn choose(stage: &mut Stage, letters: &str) {
 }
 
 /// Asserts that there are things of these names.
-pub fn has(names: &[String], wanted: &[&str]) {
+pub(super) fn has(names: &[String], wanted: &[&str]) {
     for name in wanted {
         assert!(names.iter().any(|n| n.trim_end() == *name), "no {name:?} among {names:?}");
     }

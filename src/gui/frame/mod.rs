@@ -11,7 +11,7 @@ use egui_wgpu::Renderer;
 use std::time::Instant;
 
 /// A frame that is ready to be painted.
-pub struct Frame {
+pub(super) struct Frame {
     pub output: FullOutput,
     pub tick: Tick,
     /// Panels that were shown after the picture was drawn want something more, which the next frame draws.
@@ -19,7 +19,7 @@ pub struct Frame {
 }
 
 /// Takes the input since the last frame through panels and session to a picture. `renderer` gets the picture's texture.
-pub fn run(
+pub(super) fn run(
     ctx: &egui::Context,
     shell: &mut Shell,
     session: &mut Session,

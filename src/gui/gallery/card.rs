@@ -18,7 +18,7 @@ const TITLE: f32 = 22.0;
 
 /// Holds what a card says of a preset.
 #[derive(Debug)]
-pub struct Card {
+pub(super) struct Card {
     /// The preset.
     pub name: &'static str,
     title: String,
@@ -30,12 +30,12 @@ pub struct Card {
 /// Reading them all takes milliseconds, which not every frame has.
 static CARDS: LazyLock<Vec<Card>> = LazyLock::new(|| presets::names().iter().map(|name| Card::new(name)).collect());
 
-pub fn of(name: &str) -> Option<&'static Card> {
+pub(super) fn of(name: &str) -> Option<&'static Card> {
     CARDS.iter().find(|card| card.name == name)
 }
 
 /// Height of a card with so much text.
-pub fn height(width: f32, text: f32) -> f32 {
+pub(super) fn height(width: f32, text: f32) -> f32 {
     picture(width).y + 9.0 + TITLE + text + MARGIN
 }
 
@@ -55,17 +55,17 @@ impl Card {
     }
 
     /// Returns whether each of some words, in lower case, is in it.
-    pub fn fits(&self, words: &[String]) -> bool {
+    pub(super) fn fits(&self, words: &[String]) -> bool {
         words.iter().all(|word| self.words.contains(word.as_str()))
     }
 
     /// The description as it is laid out on a card of this width.
-    pub fn text(&self, ui: &Ui, width: f32) -> Arc<Galley> {
+    pub(super) fn text(&self, ui: &Ui, width: f32) -> Arc<Galley> {
         words(ui, &self.about, width)
     }
 
     /// True while the pointer is on it.
-    pub fn show(
+    pub(super) fn show(
         &self,
         ui: &Ui,
         rect: Rect,
@@ -115,13 +115,13 @@ impl Card {
 }
 
 /// Lays the words of a card out below its title.
-pub fn words(ui: &Ui, text: &str, width: f32) -> Arc<Galley> {
+pub(super) fn words(ui: &Ui, text: &str, width: f32) -> Arc<Galley> {
     let job = LayoutJob::simple(text.to_owned(), FontId::proportional(12.0), theme::of(ui).weak, width - 2.0 * MARGIN);
     ui.painter().layout_job(job)
 }
 
 /// Paints a card: its picture whole, whatever its shape, its title, and its words. Returns where the picture is.
-pub fn paint(ui: &Ui, rect: Rect, is_hot: bool, picture: &Thumbnail, title: &str, text: Arc<Galley>) -> Rect {
+pub(super) fn paint(ui: &Ui, rect: Rect, is_hot: bool, picture: &Thumbnail, title: &str, text: Arc<Galley>) -> Rect {
     let p = theme::of(ui);
     let painter = ui.painter();
     painter.rect_filled(rect, 8.0, if is_hot { p.button } else { p.panel });

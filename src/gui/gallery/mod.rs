@@ -21,7 +21,7 @@ use std::time::Instant;
 const RESTS: f32 = 0.15;
 
 #[derive(Debug, Default)]
-pub struct Gallery {
+pub(super) struct Gallery {
     /// The one category that is shown; none: all.
     category: Option<&'static str>,
     search: String,
@@ -33,7 +33,7 @@ pub struct Gallery {
 
 impl Gallery {
     /// `can_close`: a project is open behind it.
-    pub fn show(
+    pub(super) fn show(
         &mut self,
         ui: &mut Ui,
         session: &Session,

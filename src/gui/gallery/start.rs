@@ -24,7 +24,13 @@ const HEIGHT: f32 = 54.0;
 const RECENT: usize = 24;
 
 /// `shows_all`: more than one row of recent projects.
-pub fn show(ui: &mut Ui, session: &Session, thumbnails: &mut Thumbnails, shows_all: &mut bool, out: &mut UiOutput) {
+pub(super) fn show(
+    ui: &mut Ui,
+    session: &Session,
+    thumbnails: &mut Thumbnails,
+    shows_all: &mut bool,
+    out: &mut UiOutput,
+) {
     ui.label(RichText::new("Start").size(17.0).color(theme::of(ui).strong));
     ui.add_space(4.0);
     let new = out.keys.hint(Action::New);

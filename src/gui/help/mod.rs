@@ -19,19 +19,19 @@ const WIDTH: f32 = 700.0;
 const KEYS: f32 = 190.0;
 
 /// The page while it is open.
-pub struct Help {
+pub(super) struct Help {
     sections: Vec<Section>,
     search: String,
     is_new: bool,
 }
 
 impl Help {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self { sections: text::sections(), search: String::new(), is_new: true }
     }
 
     /// Shows it; false when it is closed.
-    pub fn show(&mut self, ui: &Ui, out: &mut UiOutput) -> bool {
+    pub(super) fn show(&mut self, ui: &Ui, out: &mut UiOutput) -> bool {
         let window = ui.ctx().content_rect();
         let mut is_open = true;
         let height = (window.height() - 150.0).max(80.0);

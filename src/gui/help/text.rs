@@ -20,7 +20,7 @@ pub(super) enum Paragraph {
 }
 
 impl Paragraph {
-    pub fn text(&self) -> &str {
+    pub(super) fn text(&self) -> &str {
         let (Paragraph::Text(text) | Paragraph::Code(text)) = self;
         text
     }

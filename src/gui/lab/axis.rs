@@ -7,7 +7,7 @@ use egui_plot::{GridInput, GridMark};
 const SPARSE: [(f64, i64); 2] = [(40.0, 10), (14.0, 2)];
 
 /// Marks at the powers of ten, fainter ones at 2 to 9 times each, and within less than a decade at finer steps.
-pub fn marks(input: GridInput) -> Vec<GridMark> {
+pub(super) fn marks(input: GridInput) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     let span = high - low;
     // Also for bounds that are no numbers.
@@ -44,7 +44,7 @@ fn within(power: f64, span: f64, marks: &mut Vec<GridMark>) {
 }
 
 /// Returns what stands at a mark: powers of ten, and where the axis shows few of them other values too.
-pub fn label(mark: GridMark, span: f64) -> String {
+pub(super) fn label(mark: GridMark, span: f64) -> String {
     let value = 10f64.powf(mark.value);
     let whole = report::tick(value);
     let leading = value / 10f64.powf(mark.value.floor());
@@ -53,7 +53,7 @@ pub fn label(mark: GridMark, span: f64) -> String {
 }
 
 /// A number with three digits that count.
-pub fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     let size = x.abs();
     match size {
         _ if !x.is_finite() => "diverged".into(),

@@ -6,7 +6,7 @@ use crate::{
 };
 use egui::{Color32, Ui};
 
-pub struct Ink {
+pub(super) struct Ink {
     pub palette: &'static Palette,
     methods: [(u8, u8, u8); COLOURS],
     grey: (u8, u8, u8),
@@ -64,25 +64,25 @@ fn rgb((r, g, b): (u8, u8, u8)) -> Color32 {
 }
 
 impl Ink {
-    pub fn of(ui: &Ui) -> &'static Ink {
+    pub(super) fn of(ui: &Ui) -> &'static Ink {
         if theme::of(ui).is_dark { &ON_DARK } else { &ON_LIGHT }
     }
 
     /// The nth method's.
-    pub fn method(&self, n: usize) -> Color32 {
+    pub(super) fn method(&self, n: usize) -> Color32 {
         rgb(self.methods[n % COLOURS])
     }
 
-    pub fn frontier(&self) -> Color32 {
+    pub(super) fn frontier(&self) -> Color32 {
         rgb(self.frontier)
     }
 
-    pub fn grid(&self) -> Color32 {
+    pub(super) fn grid(&self) -> Color32 {
         rgb(self.grid)
     }
 
     /// The inside of a sign.
-    pub fn fill(&self, look: Look, color: Color32) -> Color32 {
+    pub(super) fn fill(&self, look: Look, color: Color32) -> Color32 {
         match look {
             Look::Full => color,
             Look::Grey => rgb(self.grey),

@@ -16,7 +16,7 @@ use egui::{Align, Button, ComboBox, Layout, Popup, ProgressBar, RichText, Ui, ve
 
 const HEIGHT: f32 = 28.0;
 
-pub fn show(ui: &mut Ui, lab: &mut Lab, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, lab: &mut Lab, out: &mut UiOutput) {
     ui.allocate_ui_with_layout(vec2(ui.available_width(), HEIGHT), Layout::left_to_right(Align::Center), |ui| {
         study(ui, lab, out);
         extent(ui, lab, out);

@@ -5,10 +5,10 @@ use crate::{gui::theme, lab::report::Look};
 use egui::{Color32, FontId, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 
 /// Width of the list.
-pub const WIDTH: f32 = 290.0;
+pub(super) const WIDTH: f32 = 290.0;
 
 /// The method under the pointer.
-pub fn show(ui: &mut Ui, shown: &PlotData) -> Option<usize> {
+pub(super) fn show(ui: &mut Ui, shown: &PlotData) -> Option<usize> {
     let mut hovered = None;
     ui.spacing_mut().item_spacing.y = 1.0;
     ScrollArea::vertical().id_salt("lab methods").auto_shrink(false).show(ui, |ui| {

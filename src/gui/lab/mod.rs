@@ -12,4 +12,4 @@ mod panel;
 mod plot;
 mod state;
 
-pub use state::Lab;
+pub(super) use state::Lab;

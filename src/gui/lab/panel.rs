@@ -8,7 +8,7 @@ use egui::{Align, Layout, RichText, Ui, vec2};
 const ROOM_FOR_LEGEND: f32 = 640.0;
 
 impl Lab {
-    pub fn show(&mut self, ui: &mut Ui, out: &mut UiOutput) {
+    pub(crate) fn show(&mut self, ui: &mut Ui, out: &mut UiOutput) {
         out.stop("lab", ui);
         ui.spacing_mut().item_spacing = vec2(6.0, 4.0);
         header::show(ui, self, out);

@@ -23,7 +23,7 @@ use egui_plot::{AxisHints, Plot, PlotPoint, PlotTransform};
 const REACH: f32 = 13.0;
 
 /// Holds what the panel knows besides.
-pub struct View<'a> {
+pub(super) struct View<'a> {
     pub opened: Option<&'a Point>,
     /// A method that is shown up.
     pub lit: Option<usize>,
@@ -31,7 +31,7 @@ pub struct View<'a> {
 }
 
 /// The nth method's sign.
-pub fn sign(painter: &Painter, at: Pos2, n: usize, scale: f32, edge: Color32, fill: Color32) {
+pub(super) fn sign(painter: &Painter, at: Pos2, n: usize, scale: f32, edge: Color32, fill: Color32) {
     let corner = |[x, y]: [f64; 2]| at + scale * vec2(x as f32, y as f32);
     let mut corners: Vec<Pos2> = report::sign(n).into_iter().map(corner).collect();
     corners.pop();
@@ -39,7 +39,7 @@ pub fn sign(painter: &Painter, at: Pos2, n: usize, scale: f32, edge: Color32, fi
 }
 
 /// The row whose point was clicked.
-pub fn show(ui: &mut Ui, shown: &PlotData, view: &View<'_>, out: &mut UiOutput) -> Option<usize> {
+pub(super) fn show(ui: &mut Ui, shown: &PlotData, view: &View<'_>, out: &mut UiOutput) -> Option<usize> {
     let (table, ink) = (&shown.table, Ink::of(ui));
     let tick = |mark: egui_plot::GridMark, range: &std::ops::RangeInclusive<f64>| {
         axis::label(mark, range.end() - range.start())

@@ -24,7 +24,7 @@ use std::{
 };
 
 /// The panel's state.
-pub struct Lab {
+pub(crate) struct Lab {
     pub(super) wake: Arc<dyn Fn() + Send + Sync>,
     pub(super) adapter: wgpu::AdapterInfo,
     pub(super) studies: Vec<&'static Study>,
@@ -64,7 +64,7 @@ pub(super) enum Folder {
 }
 
 impl Lab {
-    pub fn new(gpu: &Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+    pub(crate) fn new(gpu: &Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
         Self {
             wake,
             adapter: gpu.info.clone(),
@@ -96,7 +96,7 @@ impl Lab {
     }
 
     /// Takes in what the run has said since the last frame.
-    pub fn update(&mut self) {
+    pub(crate) fn update(&mut self) {
         if let Some((extent, Some(saved))) = self.saving.as_mut().map(|(extent, saving)| (*extent, saving.take())) {
             self.saving = None;
             self.message = Some(match saved {
@@ -186,7 +186,7 @@ impl Lab {
 
     /// Results are kept in this folder from now on: those it holds are shown, and an empty one gets those that are
     /// known.
-    pub fn keep_in(&mut self, folder: PathBuf) {
+    pub(crate) fn keep_in(&mut self, folder: PathBuf) {
         match self.try_keep_in(&folder) {
             Ok(()) => {
                 self.message = Some((format!("results are kept in {}", folder.display()), false));
@@ -219,12 +219,12 @@ impl Lab {
     }
 
     /// Returns whether there is anything to report.
-    pub fn has_results(&self) -> bool {
+    pub(crate) fn has_results(&self) -> bool {
         !self.known(self.extent).results.errors.is_empty() && self.saving.is_none()
     }
 
     /// Writes what is known as `eddy lab --out` does.
-    pub fn save_report(&mut self, folder: PathBuf) {
+    pub(crate) fn save_report(&mut self, folder: PathBuf) {
         let results = self.known(self.extent).results.clone();
         let is_own = matches!(&self.folder, Folder::Chosen(path) if *path == folder);
         let studies = self.studies.clone();
@@ -240,7 +240,7 @@ impl Lab {
     }
 
     /// The tab to show of a project that was opened from here, once it is open.
-    pub fn take_tab(&mut self, session: &Session) -> Option<Tab> {
+    pub(crate) fn take_tab(&mut self, session: &Session) -> Option<Tab> {
         let is_there = self.code.as_ref().is_some_and(|(name, _)| *name == session.project().name);
         if is_there { self.code.take().map(|(_, tab)| tab) } else { None }
     }
@@ -258,7 +258,7 @@ impl Lab {
     }
 
     /// For scripts that drive the window.
-    pub fn report(&self) -> Value {
+    pub(crate) fn report(&self) -> Value {
         let dots = self.shown.as_ref().map_or(&[][..], |s| &s.dots);
         json!({
             "study": self.study().name,

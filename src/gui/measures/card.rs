@@ -15,7 +15,7 @@ use egui::{Align, Frame, Label, Layout, Link, Margin, Rect, RichText, Ui};
 const LONGEST: usize = 40;
 
 /// Holds what a card shows it in.
-pub struct View {
+pub(super) struct View {
     /// From the top of the panel, for scripts.
     pub index: usize,
     pub axis: Axis,
@@ -24,7 +24,13 @@ pub struct View {
 }
 
 /// Returns the place of the card. `trouble`: why nothing is measured.
-pub fn show(ui: &mut Ui, measure: &Measure, trouble: Option<&Unmeasured>, view: &View, out: &mut UiOutput) -> Rect {
+pub(super) fn show(
+    ui: &mut Ui,
+    measure: &Measure,
+    trouble: Option<&Unmeasured>,
+    view: &View,
+    out: &mut UiOutput,
+) -> Rect {
     let p = theme::of(ui);
     let frame = Frame::NONE.fill(p.raised).corner_radius(5).inner_margin(Margin::symmetric(8, 5));
     let shown = frame.show(ui, |ui| {

@@ -10,6 +10,6 @@ mod plot;
 mod report;
 mod state;
 
-pub use panel::show;
-pub use report::report;
-pub use state::Measurements;
+pub(super) use panel::show;
+pub(super) use report::report;
+pub(super) use state::Measurements;

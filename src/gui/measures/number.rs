@@ -1,7 +1,7 @@
 //! Numbers as people read them.
 
 /// A number with as many digits as single precision has; what is not finite in words.
-pub fn words(x: f64) -> String {
+pub(super) fn words(x: f64) -> String {
     if x.is_nan() {
         return "NaN".into();
     }
@@ -21,7 +21,7 @@ pub fn words(x: f64) -> String {
 }
 
 /// Returns what stands at a mark of an axis whose marks are so far apart.
-pub fn tick(x: f64, step: f64) -> String {
+pub(super) fn tick(x: f64, step: f64) -> String {
     if x.abs() < step * 1e-3 {
         return "0".into();
     }

@@ -10,7 +10,7 @@ use crate::{
 };
 use egui::{Button, Label, RichText, ScrollArea, Ui, vec2};
 
-pub fn show(state: &mut Measurements, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(crate) fn show(state: &mut Measurements, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("measurements", ui);
     ui.spacing_mut().item_spacing = vec2(5.0, 5.0);
     let measures = session.measures();

@@ -15,12 +15,12 @@ use egui::{Painter, Pos2, Rangef, Rect, Role, Sense, Shape, Stroke, Ui, pos2, ve
 use egui_plot::{AxisHints, Plot, PlotPoint, PlotTransform};
 
 /// Height with the numbers of its axis.
-pub const HEIGHT: f32 = 104.0;
+pub(super) const HEIGHT: f32 = 104.0;
 /// Samples have dots where they stand so far apart.
 const APART: f32 = 5.0;
 
 /// `range`: what all plots go over.
-pub fn show(ui: &mut Ui, measure: &Measure, axis: Axis, range: (f64, f64)) -> Rect {
+pub(super) fn show(ui: &mut Ui, measure: &Measure, axis: Axis, range: (f64, f64)) -> Rect {
     let p = theme::of(ui);
     let record = &measure.record;
     let [x, y] = [AxisHints::new_x(), AxisHints::new_y().min_thickness(46.0)]

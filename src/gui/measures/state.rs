@@ -11,14 +11,14 @@ pub(super) enum Axis {
 }
 
 impl Axis {
-    pub fn of(self, sample: &Sample) -> f64 {
+    pub(super) fn of(self, sample: &Sample) -> f64 {
         match self {
             Axis::Frame => f64::from(sample.frame),
             Axis::Time => sample.time_secs,
         }
     }
 
-    pub fn name(self) -> &'static str {
+    pub(super) fn name(self) -> &'static str {
         match self {
             Axis::Frame => "iFrame",
             Axis::Time => "iTime",
@@ -28,7 +28,7 @@ impl Axis {
 
 /// The state of the panel.
 #[derive(Default)]
-pub struct Measurements {
+pub(crate) struct Measurements {
     pub(super) axis: Axis,
     /// The cards in sight in this frame, by the serials of their comments.
     pub(super) seen: Vec<u64>,
@@ -40,12 +40,12 @@ pub struct Measurements {
 
 impl Measurements {
     /// Returns whether what passes cost was looked at in the newest frame. Asked once for each.
-    pub fn take_costs_wish(&mut self) -> bool {
+    pub(crate) fn take_costs_wish(&mut self) -> bool {
         std::mem::take(&mut self.wants_costs)
     }
 
     /// Ends a frame of the window: what was not in sight is not measured any more.
-    pub fn end_frame(&mut self) -> Option<Command> {
+    pub(crate) fn end_frame(&mut self) -> Option<Command> {
         let seen = std::mem::take(&mut self.seen);
         if seen == self.sent {
             return None;

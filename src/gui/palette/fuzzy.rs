@@ -7,7 +7,7 @@ const ANYWHERE: u32 = 6;
 
 /// Returns a cost, smaller where `typed` fits better, and the bytes of the letters of `title` that it is; `None` where
 /// it does not fit. Letters stand in the title's order, in upper or lower case; words typed may stand in any order.
-pub fn fit(typed: &str, title: &str) -> Option<(u32, Vec<usize>)> {
+pub(super) fn fit(typed: &str, title: &str) -> Option<(u32, Vec<usize>)> {
     let mut letters = Vec::new();
     let mut cost = 0;
     let mut from = 0;
@@ -29,7 +29,7 @@ pub fn fit(typed: &str, title: &str) -> Option<(u32, Vec<usize>)> {
 /// Returns a cost like [`fit`]'s where at least one typed word begins one of the synonyms, which small letters and
 /// blanks make up, and the other typed words fit the title; with it the bytes of the title's letters that do, and the
 /// synonym. A word of fewer than two letters is too little for a synonym.
-pub fn fit_with<'a>(typed: &str, title: &str, synonyms: &'a str) -> Option<(u32, Vec<usize>, &'a str)> {
+pub(super) fn fit_with<'a>(typed: &str, title: &str, synonyms: &'a str) -> Option<(u32, Vec<usize>, &'a str)> {
     let typed = typed.to_lowercase();
     let mut rest = Vec::new();
     let (mut cost, mut found) = (0, None);

@@ -20,7 +20,7 @@ const ROW: f32 = 26.0;
 const ROWS: usize = 12;
 
 #[derive(Default)]
-pub struct Palette {
+pub(super) struct Palette {
     open: Option<Open>,
     /// Holds what had the keyboard before, and gets it back.
     before: Option<Id>,
@@ -48,7 +48,7 @@ struct Keys {
 }
 
 /// Something that only the open project has to offer, or only this machine.
-pub struct Offer {
+pub(super) struct Offer {
     /// For scripts that click on it.
     pub name: String,
     pub title: String,
@@ -72,16 +72,16 @@ struct Fit<'a> {
 }
 
 impl Palette {
-    pub fn open(&mut self, ui: &Ui) {
+    pub(super) fn open(&mut self, ui: &Ui) {
         self.before = ui.memory(|m| m.focused());
         self.open = Some(Open { takes_focus: true, ..Open::default() });
     }
 
-    pub fn is_open(&self) -> bool {
+    pub(super) fn is_open(&self) -> bool {
         self.open.is_some()
     }
 
-    pub fn close(&mut self, ui: &Ui) {
+    pub(super) fn close(&mut self, ui: &Ui) {
         self.open = None;
         if let Some(id) = self.before.take() {
             ui.memory_mut(|m| m.request_focus(id));
@@ -89,7 +89,7 @@ impl Palette {
     }
 
     /// Takes the keys that are for the list before any panel sees them.
-    pub fn take_keys(&mut self, ui: &Ui) {
+    pub(super) fn take_keys(&mut self, ui: &Ui) {
         let Some(open) = &mut self.open else { return };
         let count = |key| ui.input_mut(|i| i.count_and_consume_key(Modifiers::NONE, key)) as isize;
         open.keys = Keys {
@@ -102,7 +102,7 @@ impl Palette {
 
     /// Shows it while it is open, with `offers` behind the actions. The action that was chosen comes back, or what was
     /// offered is asked for, and the palette closes.
-    pub fn show(&mut self, ui: &Ui, offers: &[Offer], out: &mut UiOutput) -> Option<Action> {
+    pub(super) fn show(&mut self, ui: &Ui, offers: &[Offer], out: &mut UiOutput) -> Option<Action> {
         let open = self.open.as_mut()?;
         let fits = fits(&open.typed, &self.recent, offers);
         let window = ui.ctx().content_rect();

@@ -15,21 +15,21 @@ use egui::{ComboBox, DragValue, Grid, Key, Response, RichText, Role, TextEdit, U
 
 /// A name that is being typed.
 #[derive(Debug, Default)]
-pub struct Naming {
+pub(super) struct Naming {
     of: Option<Tab>,
     text: String,
 }
 
 /// Everything that is being typed.
 #[derive(Debug, Default)]
-pub struct Typed {
+pub(super) struct Typed {
     naming: Naming,
     condition: Naming,
     initial: Filling,
     boundary: Filling,
 }
 
-pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &mut UiOutput) {
     let naming = &mut typed.naming;
     let project = session.project();
     if naming.of.as_ref() != Some(tab) {

@@ -13,7 +13,7 @@ const FIRST: &str = "vec4(0.0)";
 
 /// A value that is being typed.
 #[derive(Debug, Default)]
-pub struct Filling {
+pub(super) struct Filling {
     /// The pass, and the value that it had when the text was taken from it.
     of: Option<(PassName, Option<FillValue>)>,
     text: String,
@@ -40,7 +40,7 @@ impl Form {
 }
 
 /// Shows one of both, in a cell of the grid.
-pub fn show(ui: &mut Ui, pass: &Pass, kind: FillKind, filling: &mut Filling, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, pass: &Pass, kind: FillKind, filling: &mut Filling, out: &mut UiOutput) {
     let now = pass.fill(kind).map(|fill| fill.value.clone());
     let width = pass.settings.boundary.as_ref().map_or(1, |boundary| boundary.width);
     let of = Some((pass.id.clone(), now.clone()));

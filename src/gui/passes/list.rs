@@ -15,7 +15,7 @@ use egui::{Align2, FontId, Id, Rect, Response, ScrollArea, Sense, Stroke, Stroke
 const ROW: f32 = 30.0;
 
 /// Shows the list. Returns what was chosen in it.
-pub fn show(ui: &mut Ui, session: &Session, chosen: &Tab, out: &mut UiOutput) -> Option<Tab> {
+pub(super) fn show(ui: &mut Ui, session: &Session, chosen: &Tab, out: &mut UiOutput) -> Option<Tab> {
     let project = session.project();
     let mut clicked = None;
     let height = (ui.available_height() - 34.0).max(2.0 * ROW);

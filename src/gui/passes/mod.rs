@@ -24,7 +24,7 @@ const LIST: f32 = 196.0;
 const SIZE: egui::Vec2 = vec2(600.0, 486.0);
 
 #[derive(Debug, Default)]
-pub struct Passes {
+pub(super) struct Passes {
     open: bool,
     chosen: Option<Tab>,
     typed: Typed,
@@ -34,7 +34,7 @@ pub struct Passes {
 
 impl Passes {
     /// Opens the window on a pass, or closes it if none is named and it is open.
-    pub fn toggle(&mut self, tab: Option<Tab>) {
+    pub(super) fn toggle(&mut self, tab: Option<Tab>) {
         self.open = tab.is_some() || !self.open;
         if tab.is_some() {
             self.chosen = tab;
@@ -42,7 +42,7 @@ impl Passes {
     }
 
     /// `current`: the tab in front, which is chosen first.
-    pub fn show(&mut self, ui: &Ui, session: &Session, current: &Tab, out: &mut UiOutput) {
+    pub(super) fn show(&mut self, ui: &Ui, session: &Session, current: &Tab, out: &mut UiOutput) {
         if !self.open {
             return;
         }
@@ -149,7 +149,7 @@ fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
 }
 
 /// A button with a menu that stays while one types in it.
-pub fn adding(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui)) -> Response {
+pub(super) fn adding(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui)) -> Response {
     let button = ui.button(label);
     menus::below(&button, contents);
     button
@@ -157,7 +157,7 @@ pub fn adding(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui)) -> Respo
 
 /// The passes that can be added: what the site has, and a buffer of any name. `chooses`: what is added is chosen in the
 /// window of passes, which is open; elsewhere nothing opens over the picture.
-pub fn add_menu(ui: &mut Ui, session: &Session, chooses: bool, out: &mut UiOutput) {
+pub(super) fn add_menu(ui: &mut Ui, session: &Session, chooses: bool, out: &mut UiOutput) {
     let id = Id::unique("name of a new buffer");
     ui.set_min_width(190.0);
     let add = |ui: &mut Ui, tab: Tab, out: &mut UiOutput| {
@@ -214,7 +214,7 @@ fn addable(tabs: &[Tab]) -> Vec<Tab> {
 }
 
 /// Returns the buffer that comes next: the site's four, then further letters.
-pub fn next_buffer(tabs: &[Tab]) -> Option<Tab> {
+pub(super) fn next_buffer(tabs: &[Tab]) -> Option<Tab> {
     addable(tabs).into_iter().find(Tab::is_buffer)
 }
 

@@ -39,7 +39,7 @@ impl Row<'_> {
 }
 
 /// Says what is wrong, below the fields.
-pub fn error(ui: &mut Ui, name: &str, why: &str, out: &mut UiOutput) {
+pub(super) fn error(ui: &mut Ui, name: &str, why: &str, out: &mut UiOutput) {
     ui.horizontal_top(|ui| {
         ui.add_space(TITLES + ui.spacing().item_spacing.x);
         let mut text = why.to_owned();
@@ -110,7 +110,7 @@ fn combo<T: Copy + PartialEq>(
 }
 
 /// Shows all fields. Returns whether somebody types in one.
-pub fn show(
+pub(super) fn show(
     recorder: &mut Recorder,
     ui: &mut Ui,
     (checked, facts): (&CheckedForm, &FilmFacts),

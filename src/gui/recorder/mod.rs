@@ -6,15 +6,15 @@ mod fields;
 mod panel;
 mod report;
 
-pub use panel::show;
-pub use report::report;
+pub(super) use panel::show;
+pub(super) use report::report;
 
 use super::{settings::Change, ui_output::ShellCommand};
 use crate::session::FilmForm;
 
 /// The choices while they are typed. They are the person's, and stay when another project is opened.
 #[derive(Debug, Default)]
-pub struct Recorder {
+pub(super) struct Recorder {
     form: FilmForm,
     /// As the settings have them.
     kept: Option<FilmForm>,

@@ -16,7 +16,7 @@ const RANGE: &str = "The frames of the range, from frame 0 without input, as edd
                      meanwhile.";
 
 /// Shows the panel. `settings` are the choices of last time.
-pub fn show(recorder: &mut Recorder, ui: &mut Ui, settings: &FilmForm, session: &Session, out: &mut UiOutput) {
+pub(crate) fn show(recorder: &mut Recorder, ui: &mut Ui, settings: &FilmForm, session: &Session, out: &mut UiOutput) {
     out.stop("recorder", ui);
     ui.spacing_mut().item_spacing = vec2(6.0, 5.0);
     recorder.follow(settings);

@@ -3,7 +3,7 @@
 use crate::session::{FilmView, Session};
 use serde_json::{Value, json};
 
-pub fn report(session: &Session) -> Value {
+pub(crate) fn report(session: &Session) -> Value {
     let Some(film) = session.film() else { return json!({ "state": null }) };
     let (state, frames) = match &film {
         FilmView::Live(live) => ("live", Some(live.frames)),

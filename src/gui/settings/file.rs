@@ -7,7 +7,7 @@ use toml_edit::{Document, DocumentMut, Item};
 
 /// Returns the settings that a file's text gives, and all mistakes in it. What is wrong leaves a setting as it is at
 /// first.
-pub fn read(text: &str) -> (Settings, Vec<ConfigError>) {
+pub(super) fn read(text: &str) -> (Settings, Vec<ConfigError>) {
     let mut settings = Settings::default();
     let mut mistakes = Vec::new();
     let lines = LineIndex::new(text);
@@ -44,7 +44,7 @@ pub fn read(text: &str) -> (Settings, Vec<ConfigError>) {
 }
 
 /// Returns the text with one setting changed, and everything else as it was. Err: the text is none that can be changed.
-pub fn change(text: &str, change: &Change) -> Result<String, ConfigError> {
+pub(super) fn change(text: &str, change: &Change) -> Result<String, ConfigError> {
     const NOT_SAVED: &str = "your change in the window is not saved";
     let line = |at: usize| 1 + text[..at].matches('\n').count();
     let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| {
@@ -98,7 +98,7 @@ fn uncommented(text: &str, name: &str, value: &toml_edit::Value) -> Option<Strin
 }
 
 /// Returns the text of a new file: every setting as it is at first, each as a comment.
-pub fn template() -> String {
+pub(super) fn template() -> String {
     let mut text = String::from(
         "# Settings of Eddy. Remove the # from a line to change it; the others keep their defaults.\n\
          # Eddy reads this file when you switch back to its window. Keyboard shortcuts are in keybindings.toml next to it.\n",

@@ -9,7 +9,7 @@ use toml_edit::Value;
 
 /// The window's colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Theme {
+pub(crate) enum Theme {
     /// Holds what the system prefers.
     #[default]
     System,
@@ -18,9 +18,9 @@ pub enum Theme {
 }
 
 impl Theme {
-    pub const ALL: [Theme; 3] = [Theme::System, Theme::Dark, Theme::Light];
+    pub(crate) const ALL: [Theme; 3] = [Theme::System, Theme::Dark, Theme::Light];
 
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Theme::System => "system",
             Theme::Dark => "dark",
@@ -29,7 +29,7 @@ impl Theme {
     }
 
     /// The next one round, for a key that switches.
-    pub fn next(self) -> Theme {
+    pub(crate) fn next(self) -> Theme {
         match self {
             Theme::System => Theme::Dark,
             Theme::Dark => Theme::Light,
@@ -39,7 +39,7 @@ impl Theme {
 }
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub(crate) struct Settings {
     pub theme: Theme,
     /// Points of the window to those of the system.
     pub zoom: f32,
@@ -73,7 +73,7 @@ pub struct Settings {
 
 impl Settings {
     /// Returns where OSC is listened to, if it is.
-    pub fn osc(&self) -> Option<SocketAddr> {
+    pub(crate) fn osc(&self) -> Option<SocketAddr> {
         self.osc.then(|| SocketAddr::new(self.osc_address, self.osc_port))
     }
 }
@@ -81,12 +81,12 @@ impl Settings {
 /// The port that controllers of OSC send to at first.
 const OSC_PORT: u16 = 9000;
 /// The setting that a build without gamepads does not show.
-pub const GAMEPADS: &str = "gamepads";
+pub(crate) const GAMEPADS: &str = "gamepads";
 const OFF: &str = "off";
 const ALL: &str = "all";
 
-pub const ZOOMS: std::ops::RangeInclusive<f32> = 0.5..=4.0;
-pub const CODE_SIZES: std::ops::RangeInclusive<f32> = 8.0..=32.0;
+pub(super) const ZOOMS: std::ops::RangeInclusive<f32> = 0.5..=4.0;
+pub(super) const CODE_SIZES: std::ops::RangeInclusive<f32> = 8.0..=32.0;
 const MOST_SECONDS: f64 = 86_400.0;
 
 impl Default for Settings {
@@ -116,7 +116,7 @@ impl Default for Settings {
 
 /// A setting that the window changes.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Change {
+pub(crate) enum Change {
     Theme(Theme),
     Zoom(f32),
     CodeSize(f32),
@@ -174,7 +174,7 @@ impl Change {
         }
     }
 
-    pub fn apply(&self, settings: &mut Settings) {
+    pub(crate) fn apply(&self, settings: &mut Settings) {
         match self {
             Change::Theme(theme) => settings.theme = *theme,
             Change::Zoom(zoom) => settings.zoom = zoom.clamp(*ZOOMS.start(), *ZOOMS.end()),
@@ -199,7 +199,7 @@ impl Change {
 }
 
 /// The widget by which the window changes a setting.
-pub enum Control {
+pub(crate) enum Control {
     Theme,
     Switch {
         get: fn(&Settings) -> bool,
@@ -223,7 +223,7 @@ pub enum Control {
     Recorder,
 }
 
-pub struct Number {
+pub(crate) struct Number {
     /// In the unit that the window shows.
     pub get: fn(&Settings) -> f64,
     pub change: fn(f64) -> Change,
@@ -235,7 +235,7 @@ pub struct Number {
 }
 
 /// A line of the file.
-pub struct Key {
+pub(crate) struct Key {
     pub name: &'static str,
     /// In the window.
     pub title: &'static str,
@@ -250,7 +250,7 @@ pub struct Key {
     pub read: fn(&Value) -> Result<Change, String>,
 }
 
-pub const KEYS: &[Key] = &[
+pub(crate) const KEYS: &[Key] = &[
     Key {
         name: "theme",
         title: "Theme",
@@ -484,7 +484,7 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// Says what an address must be.
-pub const ADDRESS: &str =
+pub(crate) const ADDRESS: &str =
     "must be an IP address of this computer, such as \"127.0.0.1\", or \"0.0.0.0\" for all of them";
 
 fn device(value: &Value) -> Result<Option<String>, String> {
@@ -494,16 +494,16 @@ fn device(value: &Value) -> Result<Option<String>, String> {
 
 impl Key {
     /// Returns whether a setting is as it is without the file.
-    pub fn is_usual(&self, settings: &Settings) -> bool {
+    pub(crate) fn is_usual(&self, settings: &Settings) -> bool {
         self.usual_change().written().1.to_string() == self.as_it_is(settings).written().1.to_string()
     }
 
     /// Returns the change that makes it so.
-    pub fn usual_change(&self) -> Change {
+    pub(crate) fn usual_change(&self) -> Change {
         self.as_it_is(&Settings::default())
     }
 
-    pub fn as_it_is(&self, settings: &Settings) -> Change {
+    pub(crate) fn as_it_is(&self, settings: &Settings) -> Change {
         match &self.control {
             Control::Theme => Change::Theme(settings.theme),
             Control::Switch { get, change } => change(get(settings)),

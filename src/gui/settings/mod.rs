@@ -9,6 +9,6 @@ mod keys;
 mod settings_file;
 mod window_file;
 
-pub use keys::{ADDRESS, Change, Control, GAMEPADS, KEYS, Key, Number, Settings, Theme};
-pub use settings_file::SettingsFile;
-pub use window_file::{UsualSizes, WindowFile, WindowPlace, WindowState};
+pub(super) use keys::{ADDRESS, Change, Control, GAMEPADS, KEYS, Key, Number, Settings, Theme};
+pub(super) use settings_file::SettingsFile;
+pub(super) use window_file::{UsualSizes, WindowFile, WindowPlace, WindowState};

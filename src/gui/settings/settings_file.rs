@@ -7,7 +7,7 @@ use super::{
 use crate::gui::config_file::{ConfigError, ConfigFile, Content};
 
 /// The settings as the file says, if there is one.
-pub type SettingsFile = ConfigFile<Settings>;
+pub(crate) type SettingsFile = ConfigFile<Settings>;
 
 impl Content for Settings {
     const NAME: &str = "settings.toml";
@@ -23,18 +23,18 @@ impl Content for Settings {
 }
 
 impl SettingsFile {
-    pub fn settings(&self) -> &Settings {
+    pub(crate) fn settings(&self) -> &Settings {
         self.content()
     }
 
     /// Changes a setting, here and in the file. Err: why it is not in the file, and so holds until the window closes.
-    pub fn change(&mut self, change: Change) -> Result<(), String> {
+    pub(crate) fn change(&mut self, change: Change) -> Result<(), String> {
         change.apply(self.content_mut());
         self.edit(|text| file::change(text, &change), "The setting applies until the window closes.")
     }
 
     /// Returns why no setting can be written: the file cannot be read, or not be understood.
-    pub fn trouble(&self) -> Option<&str> {
+    pub(crate) fn trouble(&self) -> Option<&str> {
         let is_broken = self.text().is_some_and(|text| toml_edit::Document::parse(text).is_err());
         let why = self.mistakes().first().filter(|_| is_broken || self.is_unreadable());
         why.map(String::as_str)

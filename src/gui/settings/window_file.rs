@@ -14,7 +14,7 @@ const KEYS: [&str; 7] = ["width", "height", "x", "y", "maximized", "open", "layo
 
 /// Says where the window is, in points of the system.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct WindowPlace {
+pub(crate) struct WindowPlace {
     pub size: Option<(f64, f64)>,
     /// The corner of its frame, where the system tells; physical pixels.
     pub corner: Option<(i32, i32)>,
@@ -26,13 +26,13 @@ pub struct WindowPlace {
 /// A window system says that a window is as large as the screen after it has made it so, or before: the newest size may
 /// be the screen's.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct UsualSizes {
+pub(crate) struct UsualSizes {
     newest: Option<WindowPlace>,
     before: Option<WindowPlace>,
 }
 
 impl UsualSizes {
-    pub fn note(&mut self, place: WindowPlace) {
+    pub(crate) fn note(&mut self, place: WindowPlace) {
         if self.newest.is_none_or(|newest| newest.size != place.size) {
             self.before = self.newest;
         }
@@ -40,14 +40,14 @@ impl UsualSizes {
     }
 
     /// Returns the newest that is not of a size.
-    pub fn other_than(&self, size: (f64, f64)) -> Option<WindowPlace> {
+    pub(crate) fn other_than(&self, size: (f64, f64)) -> Option<WindowPlace> {
         [self.newest, self.before].into_iter().flatten().find(|place| place.size != Some(size))
     }
 }
 
 /// Holds what is remembered of the window.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct WindowState {
+pub(crate) struct WindowState {
     pub place: WindowPlace,
     /// The panels that are open.
     pub open: Option<BTreeSet<Panel>>,
@@ -57,7 +57,7 @@ pub struct WindowState {
 
 /// The file.
 #[derive(Debug)]
-pub struct WindowFile {
+pub(crate) struct WindowFile {
     /// `None` where the system has no place for it.
     path: Option<PathBuf>,
     /// As it was read or written last.
@@ -66,12 +66,12 @@ pub struct WindowFile {
 
 impl WindowFile {
     /// `folder`: for what is remembered between two starts.
-    pub fn new(folder: Option<PathBuf>) -> Self {
+    pub(crate) fn new(folder: Option<PathBuf>) -> Self {
         Self { path: folder.map(|folder| folder.join(NAME)), known: WindowState::default() }
     }
 
     /// Reads the file. What is wrong in it comes back, one line each; the rest of it counts.
-    pub fn read(&mut self) -> (WindowState, Vec<String>) {
+    pub(crate) fn read(&mut self) -> (WindowState, Vec<String>) {
         let Some(path) = &self.path else { return Default::default() };
         let text = match confine::read_state_toml(path) {
             Ok(Some(text)) => text,
@@ -84,12 +84,12 @@ impl WindowFile {
         (remembered, mistakes.into_iter().map(with_place).collect())
     }
 
-    pub fn known(&self) -> &WindowState {
+    pub(crate) fn known(&self) -> &WindowState {
         &self.known
     }
 
     /// Writes the file if it would say something new.
-    pub fn keep(&mut self, remembered: WindowState) {
+    pub(crate) fn keep(&mut self, remembered: WindowState) {
         let Some(path) = &self.path else { return };
         if remembered == self.known {
             return;

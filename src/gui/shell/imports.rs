@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 impl Shell {
     /// True once after somebody asked for what is on the clipboard, which then comes as a paste.
-    pub fn take_clipboard_wish(&mut self) -> bool {
+    pub(crate) fn take_clipboard_wish(&mut self) -> bool {
         let wants = std::mem::take(&mut self.wants_clipboard);
         self.takes_paste |= wants;
         let pastes = std::mem::take(&mut self.wants_code_paste);

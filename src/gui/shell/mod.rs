@@ -44,7 +44,7 @@ use std::{
     time::Instant,
 };
 
-pub struct Shell {
+pub(super) struct Shell {
     viewport: Viewport,
     code: CodePanel,
     files: Files,
@@ -98,7 +98,7 @@ pub struct Shell {
 
 impl Shell {
     /// `gallery`: begin on the page of presets.
-    pub fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>, gallery: bool) -> Self {
+    pub(super) fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>, gallery: bool) -> Self {
         let mut viewport = Viewport::new();
         if !gallery {
             viewport.focus();
@@ -146,7 +146,7 @@ impl Shell {
 
     /// Takes up what was kept from the last start. `keeps_frame_limit`: the command line gave one; `osc`: it has OSC listened
     /// to at an address.
-    pub fn restore(
+    pub(super) fn restore(
         &mut self,
         settings: SettingsFile,
         remembered: &WindowState,
@@ -159,13 +159,13 @@ impl Shell {
     }
 
     /// Closes every panel but the picture and the uniforms, wherever they were.
-    pub fn show_picture_alone(&mut self) {
+    pub(super) fn show_picture_alone(&mut self) {
         self.dock.reset();
         self.dock.restore(Some([Panel::Picture, Panel::Uniforms].into()), None);
     }
 
     /// Begins with no texture: the window has another device. `wake` is called as before.
-    pub fn renew(&mut self, gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) {
+    pub(super) fn renew(&mut self, gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) {
         self.viewport.forget_texture();
         self.live = Live::default();
         self.kept.buffers.forget_texture();
@@ -174,30 +174,30 @@ impl Shell {
     }
 
     /// The panels, for the next start.
-    pub fn dock(&self) -> &Dock {
+    pub(super) fn dock(&self) -> &Dock {
         &self.dock
     }
 
-    pub fn is_fullscreen(&self) -> bool {
+    pub(super) fn is_fullscreen(&self) -> bool {
         self.fullscreen
     }
 
     /// The picture has the keyboard: keys are the shader's.
-    pub fn picture_has_keys(&self, ctx: &egui::Context) -> bool {
+    pub(super) fn picture_has_keys(&self, ctx: &egui::Context) -> bool {
         !self.gallery && ctx.memory(|m| m.has_focus(Viewport::id()))
     }
 
     /// A key press means something to the window as things stand: it is not the shader's.
-    pub fn is_action(&self, ctx: &egui::Context, event: &egui::Event) -> bool {
+    pub(super) fn is_action(&self, ctx: &egui::Context, event: &egui::Event) -> bool {
         self.keys.keymap().pressed(event, self.listening(ctx)).is_some()
     }
 
-    pub fn ask_save_as(&mut self, name: &str) {
+    pub(super) fn ask_save_as(&mut self, name: &str) {
         self.files.ask(Pick::SaveAs(name.to_owned()), None);
     }
 
     /// Takes over what the session has new, before it is shown or painted.
-    pub fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
+    pub(super) fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
         if std::mem::replace(&mut self.kept_of, session.projects_opened()) != session.projects_opened() {
             self.kept = OfProject::new(self.wake.clone());
             self.viewport.stop_picking();
@@ -212,12 +212,12 @@ impl Shell {
     }
 
     /// Returns the picture's texture if a painting of now differs from the last one there.
-    pub fn take_new_texels(&mut self, session: &Session) -> Option<egui::TextureId> {
+    pub(super) fn take_new_texels(&mut self, session: &Session) -> Option<egui::TextureId> {
         self.viewport.take_new_texels(session)
     }
 
     /// Shows everything once. What the session is to do comes back.
-    pub fn show(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
+    pub(super) fn show(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
         self.thumbnails.update(ui.ctx());
         self.lab.update();
         let looks = self.page_of_settings.as_mut().is_some_and(|page| page.looks(ui, Instant::now()));
@@ -307,7 +307,7 @@ impl Shell {
     }
 
     /// Puts the settings into effect, where they are others than before. What the session has to do with it comes back.
-    pub fn follow_settings(&mut self, ctx: &egui::Context) -> Vec<Command> {
+    pub(super) fn follow_settings(&mut self, ctx: &egui::Context) -> Vec<Command> {
         let settings = self.settings.settings();
         let before = self.in_effect.replace(settings.clone());
         if before.as_ref() == Some(settings) {
@@ -384,60 +384,60 @@ impl Shell {
 
     /// Returns where a named widget was shown last, in points.
     #[cfg(test)]
-    pub fn place(&self, name: &str) -> Option<egui::Rect> {
+    pub(super) fn place(&self, name: &str) -> Option<egui::Rect> {
         self.places.places.get(name).copied()
     }
 
     /// Returns every named place.
     #[cfg(test)]
-    pub fn places(&self) -> impl Iterator<Item = (&str, egui::Rect)> {
+    pub(super) fn places(&self) -> impl Iterator<Item = (&str, egui::Rect)> {
         self.places.places.iter().map(|(name, rect)| (name.as_str(), *rect))
     }
 
     /// Returns the innermost part of the window at a place, by its name.
     #[cfg(test)]
-    pub fn stop_at(&self, at: egui::Pos2) -> Option<&'static str> {
+    pub(super) fn stop_at(&self, at: egui::Pos2) -> Option<&'static str> {
         let here = self.places.stops.iter().filter(|stop| stop.rect.contains(at));
         here.min_by(|a, b| a.rect.area().total_cmp(&b.rect.area())).map(|stop| stop.name)
     }
 
     /// Returns the breakpoints: tabs and lines from 0.
     #[cfg(test)]
-    pub fn breakpoints(&self) -> Vec<(crate::project::Tab, usize)> {
+    pub(super) fn breakpoints(&self) -> Vec<(crate::project::Tab, usize)> {
         self.kept.debugger.lines()
     }
 
     #[cfg(test)]
-    pub fn ask_fix(&mut self, fix: crate::session::TabFix) {
+    pub(super) fn ask_fix(&mut self, fix: crate::session::TabFix) {
         self.shell_commands.push(ShellCommand::Fix(fix));
     }
 
     #[cfg(test)]
-    pub fn focus_code(&mut self) {
+    pub(super) fn focus_code(&mut self) {
         self.code.focus();
     }
 
     /// Has no dialogs of the desktop's.
     #[cfg(test)]
-    pub fn type_paths(&mut self) {
+    pub(super) fn type_paths(&mut self) {
         self.files = Files::without_desktop(Arc::new(|| ()));
     }
 
     /// The code has the keyboard.
     #[cfg(test)]
-    pub fn has_keys(&self, ctx: &egui::Context) -> bool {
+    pub(super) fn has_keys(&self, ctx: &egui::Context) -> bool {
         self.code.has_keys(ctx)
     }
 
     /// Opens a panel, in front of those that it shares a place with, or closes it.
     #[cfg(test)]
-    pub fn set_open(&mut self, panel: Panel, is_open: bool) {
+    pub(super) fn set_open(&mut self, panel: Panel, is_open: bool) {
         self.dock.set_open(panel, is_open);
     }
 
     /// The tab in front, and the line of its caret from 0.
     #[cfg(test)]
-    pub fn caret(&self) -> (crate::project::Tab, usize) {
+    pub(super) fn caret(&self) -> (crate::project::Tab, usize) {
         self.code.caret()
     }
 

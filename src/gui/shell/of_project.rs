@@ -20,7 +20,7 @@ pub(super) struct OfProject {
 
 impl OfProject {
     /// `wake` is called when there is something to show.
-    pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+    pub(super) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
         Self {
             debugger: Debugger::default(),
             buffers: Buffers::default(),

@@ -14,7 +14,7 @@ use std::time::Instant;
 
 impl Shell {
     /// Tells scripts what is new.
-    pub fn report(
+    pub(crate) fn report(
         &mut self,
         session: &Session,
         report: &mut Report,

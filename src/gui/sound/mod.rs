@@ -6,7 +6,7 @@ mod panel;
 mod range;
 mod wave;
 
-pub use panel::show;
+pub(super) use panel::show;
 
 use crate::{
     audio::{Peaks, TrackSpectrum},
@@ -16,7 +16,7 @@ use range::VisibleRange;
 
 /// The state of the panel.
 #[derive(Default)]
-pub struct Sound {
+pub(super) struct Sound {
     /// The outline of the newest track.
     peaks: Option<Peaks>,
     spectrum: TrackSpectrum,

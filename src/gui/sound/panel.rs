@@ -24,7 +24,7 @@ const STRIDE: f64 = 1.0;
 /// The analyser is asked in steps of a frame, so that it need not look at all of the sound again.
 const STEP: i64 = SAMPLE_RATE as i64 / 60;
 
-pub fn show(state: &mut Sound, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(crate) fn show(state: &mut Sound, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("sound", ui);
     ui.spacing_mut().item_spacing = vec2(6.0, 4.0);
     let Some(view) = session.sound() else {

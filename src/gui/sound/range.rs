@@ -5,7 +5,7 @@ const SHORTEST: f64 = 0.01;
 
 /// Seconds from the beginning of the track to the left edge, and of the width.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VisibleRange {
+pub(super) struct VisibleRange {
     pub from: f64,
     pub length: f64,
 }
@@ -19,25 +19,25 @@ impl Default for VisibleRange {
 
 impl VisibleRange {
     /// Keeps it inside a track of so many seconds.
-    pub fn within(self, whole: f64) -> Self {
+    pub(super) fn within(self, whole: f64) -> Self {
         let length = self.length.clamp(SHORTEST, whole.max(SHORTEST));
         Self { from: self.from.clamp(0.0, (whole - length).max(0.0)), length }
     }
 
     /// Zooms in by a factor, below 1 out, around a place from 0 at the left to 1 at the right.
-    pub fn zoomed(self, factor: f64, around: f64) -> Self {
+    pub(super) fn zoomed(self, factor: f64, around: f64) -> Self {
         let length = (self.length / factor).max(SHORTEST);
         Self { from: self.from + around * (self.length - length), length }
     }
 
     /// Moves right by a part of its length.
-    pub fn moved(self, by: f64) -> Self {
+    pub(super) fn moved(self, by: f64) -> Self {
         Self { from: self.from + by * self.length, ..self }
     }
 }
 
 /// Returns round steps in seconds for marks that are at least `least` seconds apart.
-pub fn step(least: f64) -> f64 {
+pub(super) fn step(least: f64) -> f64 {
     const STEPS: [f64; 16] =
         [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0];
     STEPS.into_iter().find(|step| *step >= least).unwrap_or(300.0)

@@ -13,7 +13,7 @@ const MARKS: f32 = 60.0;
 const COLUMNS: usize = BINS / 4;
 
 /// Holds what a waveform is painted with.
-pub struct Wave<'a> {
+pub(super) struct Wave<'a> {
     pub painter: &'a Painter,
     pub palette: &'a Palette,
     pub rect: Rect,
@@ -22,7 +22,7 @@ pub struct Wave<'a> {
 
 impl Wave<'_> {
     /// The left side above, the right one below. What is not made yet is left out.
-    pub fn outline(&self, peaks: &Peaks) {
+    pub(super) fn outline(&self, peaks: &Peaks) {
         let Self { painter, palette, rect, shown } = self;
         let columns = rect.width().floor().max(1.0) as usize;
         // Columns of many stretches begin where a stretch does: then no frame is looked at by itself.
@@ -50,7 +50,7 @@ impl Wave<'_> {
     }
 
     /// Round times, and the line between left and right.
-    pub fn scale(&self) {
+    pub(super) fn scale(&self) {
         let Self { painter, palette, rect, shown } = self;
         painter.hline(rect.x_range(), rect.center().y, Stroke::new(1.0, palette.line));
         let apart = step(shown.length * f64::from(MARKS / rect.width().max(1.0)));
@@ -67,24 +67,24 @@ impl Wave<'_> {
     }
 
     /// A line at a time, if that is in sight.
-    pub fn playhead(&self, secs: f64) {
+    pub(super) fn playhead(&self, secs: f64) {
         let x = self.x(secs);
         if self.rect.x_range().contains(x) {
             self.painter.vline(x, self.rect.y_range(), Stroke::new(1.5, self.palette.strong));
         }
     }
 
-    pub fn x(&self, secs: f64) -> f32 {
+    pub(super) fn x(&self, secs: f64) -> f32 {
         self.rect.left() + self.rect.width() * ((secs - self.shown.from) / self.shown.length) as f32
     }
 
-    pub fn secs(&self, x: f32) -> f64 {
+    pub(super) fn secs(&self, x: f32) -> f64 {
         self.shown.from + self.shown.length * f64::from((x - self.rect.left()) / self.rect.width().max(1.0))
     }
 }
 
 /// Paints the bytes of a spectrum from 0 to 11 kHz, -100 to -30 dB.
-pub fn spectrum(painter: &Painter, palette: &Palette, rect: Rect, spectrum: &Spectrum) {
+pub(super) fn spectrum(painter: &Painter, palette: &Palette, rect: Rect, spectrum: &Spectrum) {
     let mut mesh = Mesh::default();
     let width = rect.width() / COLUMNS as f32;
     for (column, bins) in spectrum[..BINS].chunks(BINS / COLUMNS).enumerate() {

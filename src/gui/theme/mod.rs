@@ -2,7 +2,7 @@
 
 mod palette;
 
-pub use palette::{DARK, LIGHT, Palette};
+pub(super) use palette::{DARK, LIGHT, Palette};
 
 use palette::{DARK_OVER_PICTURE, LIGHT_OVER_PICTURE};
 
@@ -12,12 +12,12 @@ use egui::{
 };
 
 /// Returns the colours of what is shown in a place.
-pub fn of(ui: &Ui) -> &'static Palette {
+pub(super) fn of(ui: &Ui) -> &'static Palette {
     of_visuals(ui.visuals())
 }
 
 /// Does the same where there is no place yet.
-pub fn of_visuals(visuals: &Visuals) -> &'static Palette {
+pub(super) fn of_visuals(visuals: &Visuals) -> &'static Palette {
     match (visuals.dark_mode, visuals.panel_fill.is_opaque()) {
         (true, true) => &DARK,
         (true, false) => &DARK_OVER_PICTURE,
@@ -27,13 +27,13 @@ pub fn of_visuals(visuals: &Visuals) -> &'static Palette {
 }
 
 /// Shows what follows in a place over a picture, which is seen through.
-pub fn put_over_picture(ui: &mut Ui) {
+pub(super) fn put_over_picture(ui: &mut Ui) {
     let palette = if ui.visuals().dark_mode { &DARK_OVER_PICTURE } else { &LIGHT_OVER_PICTURE };
     ui.style_mut().visuals = visuals(palette);
 }
 
 /// Puts both themes into effect; which one is shown is [`egui::Options::theme_preference`].
-pub fn apply(ctx: &egui::Context) {
+pub(super) fn apply(ctx: &egui::Context) {
     // A system that does not say what it prefers gets what pictures look best in.
     ctx.options_mut(|options| options.fallback_theme = Theme::Dark);
     for (theme, palette) in [(Theme::Dark, &DARK), (Theme::Light, &LIGHT)] {
@@ -106,6 +106,6 @@ fn visuals(p: &Palette) -> Visuals {
 }
 
 /// The frame of what stands in front of everything.
-pub fn dialog(style: &Style) -> egui::Frame {
+pub(super) fn dialog(style: &Style) -> egui::Frame {
     egui::Frame::popup(style).inner_margin(Margin::same(18)).corner_radius(8)
 }

@@ -5,7 +5,7 @@ use egui::{Color32, Stroke};
 
 /// A set of colours. Text of any of them is readable on the panel, the background and what is raised.
 #[derive(Clone, Debug)]
-pub struct Palette {
+pub(crate) struct Palette {
     pub is_dark: bool,
     /// Behind text that is typed.
     pub background: Color32,
@@ -38,7 +38,7 @@ pub struct Palette {
 
 /// Holds what is drawn behind code.
 #[derive(Clone, Debug)]
-pub struct CodeFills {
+pub(crate) struct CodeFills {
     pub selection: Color32,
     /// While something else has the keyboard.
     pub selection_idle: Color32,
@@ -54,16 +54,16 @@ pub struct CodeFills {
 
 impl Palette {
     /// The picture is seen through it.
-    pub fn is_over_picture(&self) -> bool {
+    pub(crate) fn is_over_picture(&self) -> bool {
         self.background == Color32::TRANSPARENT
     }
 
     /// The frame round what has the keyboard.
-    pub fn focus(&self) -> Stroke {
+    pub(crate) fn focus(&self) -> Stroke {
         Stroke::new(1.5, self.accent)
     }
 
-    pub fn of_severity(&self, severity: Severity) -> Color32 {
+    pub(crate) fn of_severity(&self, severity: Severity) -> Color32 {
         match severity {
             Severity::Error => self.error,
             Severity::Warning => self.warning,
@@ -77,7 +77,7 @@ const fn rgb(r: u8, g: u8, b: u8) -> Color32 {
 }
 
 /// Calm, so that the picture is what one looks at.
-pub const DARK: Palette = Palette {
+pub(crate) const DARK: Palette = Palette {
     is_dark: true,
     background: rgb(24, 26, 31),
     panel: rgb(31, 34, 40),
@@ -118,7 +118,7 @@ const fn part(r: u8, g: u8, b: u8, alpha: u8) -> Color32 {
 }
 
 /// Dark, and seen through. Behind text it is dense enough for any picture.
-pub const DARK_OVER_PICTURE: Palette = Palette {
+pub(super) const DARK_OVER_PICTURE: Palette = Palette {
     background: Color32::TRANSPARENT,
     panel: part(14, 16, 20, 205),
     raised: part(30, 33, 39, 235),
@@ -135,7 +135,7 @@ pub const DARK_OVER_PICTURE: Palette = Palette {
     ..DARK
 };
 
-pub const LIGHT: Palette = Palette {
+pub(crate) const LIGHT: Palette = Palette {
     is_dark: false,
     background: rgb(255, 255, 255),
     panel: rgb(242, 243, 246),
@@ -168,7 +168,7 @@ pub const LIGHT: Palette = Palette {
 };
 
 /// The same in light.
-pub const LIGHT_OVER_PICTURE: Palette = Palette {
+pub(super) const LIGHT_OVER_PICTURE: Palette = Palette {
     background: Color32::TRANSPARENT,
     panel: part(246, 247, 250, 226),
     raised: part(252, 252, 254, 240),

@@ -9,7 +9,7 @@ const LISTED: usize = 60;
 
 /// A file that a channel can read.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FolderFile {
+pub(crate) struct FolderFile {
     /// Relative to the folder.
     pub path: PathBuf,
     pub kind: FileKind,

@@ -28,7 +28,7 @@ const INTERVAL: Duration = Duration::from_millis(33);
 /// Steps that the thread takes back behind others where a processor draws: a window that is used goes first.
 const STEPS_BACK: i32 = 10;
 
-pub struct Live {
+pub(super) struct Live {
     gpu: Gpu,
     wake: Arc<dyn Fn() + Send + Sync>,
     wanted: Arc<LiveRequests>,
@@ -52,11 +52,11 @@ struct State {
 }
 
 impl Live {
-    pub fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+    pub(super) fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
         Self { gpu, wake, wanted: Arc::default(), frames: None, shown: None }
     }
 
-    pub fn want(&mut self, name: Option<&str>) {
+    pub(super) fn want(&mut self, name: Option<&str>) {
         let is_new = {
             let mut state = self.wanted.state.lock().unwrap_or_else(PoisonError::into_inner);
             let is_new = state.name.as_deref() != name;
@@ -103,7 +103,7 @@ impl Live {
     }
 
     /// Takes the newest frame.
-    pub fn update(&mut self, ctx: &egui::Context) {
+    pub(super) fn update(&mut self, ctx: &egui::Context) {
         let Some((name, image)) = self.frames.as_ref().and_then(|frames| frames.try_iter().last()) else { return };
         match &mut self.shown {
             Some((shown, texture)) if *shown == name => texture.set(image, TextureOptions::LINEAR),
@@ -115,7 +115,7 @@ impl Live {
         }
     }
 
-    pub fn frame(&self, name: &str) -> Option<TextureHandle> {
+    pub(super) fn frame(&self, name: &str) -> Option<TextureHandle> {
         self.shown.as_ref().filter(|(shown, _)| shown == name).map(|(_, texture)| texture.clone())
     }
 }

@@ -5,7 +5,7 @@ mod folder;
 mod live;
 mod made;
 
-pub use folder::FolderFile;
+pub(super) use folder::FolderFile;
 
 use crate::{gpu::Gpu, media::MediaKey, project::Media};
 use egui::{ColorImage, TextureHandle, TextureOptions};
@@ -28,7 +28,7 @@ const LIST_AGAIN: Duration = Duration::from_secs(2);
 
 /// The subject of a small picture.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum ThumbnailSource {
+pub(super) enum ThumbnailSource {
     Preset(String),
     /// The file of a recent project's picture, and which of those that were written there it is.
     Recent(PathBuf, u64),
@@ -42,14 +42,14 @@ pub enum ThumbnailSource {
 
 /// The state of a small picture.
 #[derive(Clone)]
-pub enum Thumbnail {
+pub(super) enum Thumbnail {
     Waiting,
     Ready(TextureHandle),
     /// The reason why there is none.
     Failed(String),
 }
 
-pub struct Thumbnails {
+pub(super) struct Thumbnails {
     known: HashMap<ThumbnailSource, CachedThumbnail>,
     wanted: Sender<ThumbnailRequest>,
     made: Receiver<ThumbnailResult>,
@@ -95,7 +95,7 @@ fn newest(orders: &Receiver<ThumbnailRequest>, waiting: &mut Vec<ThumbnailReques
 
 impl Thumbnails {
     /// Starts the thread that makes them. `wake` is called when there is a new one.
-    pub fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+    pub(super) fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
         let (wanted, wanted_here) = channel::<ThumbnailRequest>();
         let (made_here, made) = channel();
         let live = Live::new(gpu, wake.clone());
@@ -127,7 +127,7 @@ impl Thumbnails {
     }
 
     /// Takes in what has been made since.
-    pub fn update(&mut self, ctx: &egui::Context) {
+    pub(super) fn update(&mut self, ctx: &egui::Context) {
         self.frame += 1;
         while let Ok(made) = self.made.try_recv() {
             match made {
@@ -151,17 +151,17 @@ impl Thumbnails {
     }
 
     /// Says which preset's picture moves; none: all stand still.
-    pub fn animate(&mut self, name: Option<&str>) {
+    pub(super) fn animate(&mut self, name: Option<&str>) {
         self.live.want(name);
     }
 
     /// The newest frame of a preset's picture that moves.
-    pub fn live(&self, name: &str) -> Option<TextureHandle> {
+    pub(super) fn live(&self, name: &str) -> Option<TextureHandle> {
         self.live.frame(name)
     }
 
     /// The picture, as far as it is known; asks for it the first time.
-    pub fn get(&mut self, subject: ThumbnailSource) -> Thumbnail {
+    pub(super) fn get(&mut self, subject: ThumbnailSource) -> Thumbnail {
         let shown_in = self.frame;
         if let Some(known) = self.known.get_mut(&subject) {
             known.shown_in = shown_in;
@@ -182,7 +182,7 @@ impl Thumbnails {
 
     /// Returns the files of a project's folder that a channel can read, as far as they are known. The folder is listed again now
     /// and then while it is asked for.
-    pub fn files(&mut self, folder: &Path, now: Instant) -> Arc<[FolderFile]> {
+    pub(super) fn files(&mut self, folder: &Path, now: Instant) -> Arc<[FolderFile]> {
         if self.listed.folder != folder {
             self.listed = Listed { folder: folder.to_owned(), ..Listed::default() };
         }

@@ -23,7 +23,7 @@ fn typed() -> Id {
 }
 
 /// Opens the menu with the keyboard in its time.
-pub fn open(ctx: &egui::Context) {
+pub(super) fn open(ctx: &egui::Context) {
     Popup::open_id(ctx, popup());
     ctx.data_mut(|data| data.insert_temp(typed(), String::new()));
     // The field is not there yet.
@@ -39,7 +39,7 @@ fn field() -> Id {
 }
 
 /// The time as a number on a button, which opens the menu.
-pub fn button(ui: &mut Ui, width: f32, text: &str, session: &Session, out: &mut UiOutput) {
+pub(crate) fn button(ui: &mut Ui, width: f32, text: &str, session: &Session, out: &mut UiOutput) {
     let font = egui::FontId::monospace(12.0);
     let (rect, response) = ui.allocate_exact_size(vec2(width, 24.0), egui::Sense::click());
     accessible::name(&response, Role::Button, format!("Time {text}: go to, speed, loop"));

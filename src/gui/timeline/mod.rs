@@ -4,21 +4,21 @@
 mod menu;
 mod seconds;
 
-pub use menu::button;
-pub use seconds::written;
+pub(super) use menu::button;
+pub(super) use seconds::written;
 
 use super::{accessible, actions::TimeAction, theme, ui_output::UiOutput};
 use crate::session::{Command, Session, TimeRange};
 use egui::{Key, Rect, Role, Sense, Stroke, Ui, Vec2, pos2, vec2};
 
 /// Height of the line.
-pub const HEIGHT: f32 = 12.0;
+pub(super) const HEIGHT: f32 = 12.0;
 
 /// Seconds that a larger step of the keyboard goes.
 const STRIDE: f64 = 1.0;
 
 /// Fills the width there is. A hand goes to a time, with Shift it marks the part that is played again and again.
-pub fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let p = theme::of(ui);
     let (transport, reach, range) = (session.transport(), session.reach(), session.time_range());
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::CLICK | Sense::DRAG);
@@ -85,7 +85,7 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
 }
 
 /// Does what a key or the palette asks of time.
-pub fn act(ctx: &egui::Context, session: &Session, action: TimeAction, out: &mut UiOutput) {
+pub(super) fn act(ctx: &egui::Context, session: &Session, action: TimeAction, out: &mut UiOutput) {
     let (transport, range) = (session.transport(), session.time_range());
     let time = transport.time_secs;
     let fastest = menu::SPEEDS.last().map_or(1.0, |(speed, _)| *speed);

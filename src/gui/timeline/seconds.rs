@@ -1,7 +1,7 @@
 //! Times as people write them, and how long a line of time is.
 
 /// Returns how many seconds a line shows that holds all of these: a round number, with room to go on.
-pub fn end(all: impl IntoIterator<Item = f64>) -> f64 {
+pub(super) fn end(all: impl IntoIterator<Item = f64>) -> f64 {
     const ROUND: [f64; 9] = [10.0, 20.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0];
     let last = all.into_iter().filter(|secs| secs.is_finite()).fold(0.0, f64::max);
     let hours = || 3600.0 * (last / 3600.0).floor() + 3600.0;
@@ -9,7 +9,7 @@ pub fn end(all: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 /// Writes seconds, with minutes and hours where there are any: `9.25`, `1:02.50`, `1:00:00.00`.
-pub fn written(secs: f64) -> String {
+pub(crate) fn written(secs: f64) -> String {
     let hundredths = (secs.max(0.0) * 100.0).round() as u64;
     let (whole, part) = (hundredths / 100, hundredths % 100);
     let (hours, minutes, seconds) = (whole / 3600, whole / 60 % 60, whole % 60);
@@ -21,7 +21,7 @@ pub fn written(secs: f64) -> String {
 }
 
 /// Reads what [`written`] writes, or seconds alone, as in `90` or `12.5 s`. `None`: it is no time.
-pub fn read(text: &str) -> Option<f64> {
+pub(super) fn read(text: &str) -> Option<f64> {
     let text = text.trim().trim_end_matches('s').trim_end();
     let parts: Vec<&str> = text.split(':').collect();
     let (seconds, before) = parts.split_last()?;

@@ -27,7 +27,7 @@ const BACK: [TraceAction; 5] = [
 ];
 
 /// Shows those that go back, then those that go on.
-pub fn show(ui: &mut Ui, is_on: bool, out: &mut UiOutput) {
+pub(super) fn show(ui: &mut Ui, is_on: bool, out: &mut UiOutput) {
     ui.spacing_mut().item_spacing.x = 2.0;
     for (index, action) in BACK.into_iter().chain(FORWARD).enumerate() {
         if index == BACK.len() {

@@ -15,7 +15,7 @@ use std::{collections::HashMap, sync::Arc};
 
 /// The state of the debugger.
 #[derive(Default)]
-pub struct Debugger {
+pub(crate) struct Debugger {
     pub(super) examiner: Option<Examiner>,
     /// The moment, and the one that was shown before.
     pub(super) at: usize,
@@ -40,7 +40,7 @@ pub struct Debugger {
 
 impl Debugger {
     /// Takes over what the session has new.
-    pub fn prepare(&mut self, session: &Session) {
+    pub(crate) fn prepare(&mut self, session: &Session) {
         self.follow_texts(session);
         let traced = session.trace().traced;
         let known = self.examiner.as_ref().map(|examiner| &examiner.traced);
@@ -84,12 +84,12 @@ impl Debugger {
 
     /// Returns the breakpoints: tabs and lines from 0.
     #[cfg(test)]
-    pub fn lines(&self) -> Vec<(Tab, usize)> {
+    pub(crate) fn lines(&self) -> Vec<(Tab, usize)> {
         self.breakpoints.iter().map(|b| (b.tab.clone(), b.line)).collect()
     }
 
     /// There is a way to go.
-    pub fn is_on(&self) -> bool {
+    pub(crate) fn is_on(&self) -> bool {
         self.examiner.is_some()
     }
 
@@ -113,7 +113,7 @@ impl Debugger {
 
     /// Sets a breakpoint at a line from 0, or takes it away. A line without a statement has none: the next that has one
     /// gets it. Fails where there is none.
-    pub fn toggle(&mut self, session: &Session, tab: &Tab, line: usize) -> Result<(), &'static str> {
+    pub(crate) fn toggle(&mut self, session: &Session, tab: &Tab, line: usize) -> Result<(), &'static str> {
         self.forget();
         let at = |line: usize| self.breakpoints.iter().position(|b| b.tab == *tab && b.line == line);
         match at(line) {
@@ -134,7 +134,7 @@ impl Debugger {
 
     /// Does what a key or a button asks for. `caret`: the tab and line from 0 where it is.
     /// Fails as [`Debugger::toggle`] does.
-    pub fn act(
+    pub(crate) fn act(
         &mut self,
         session: &Session,
         action: TraceAction,
@@ -173,7 +173,7 @@ impl Debugger {
     }
 
     /// Goes to a moment.
-    pub fn go_to(&mut self, at: usize) {
+    pub(crate) fn go_to(&mut self, at: usize) {
         if at != self.at {
             self.before = Some(std::mem::replace(&mut self.at, at));
             self.forget();
@@ -195,7 +195,7 @@ impl Debugger {
     }
 
     /// Returns what the editor shows in a tab.
-    pub fn marks(&self, session: &Session, tab: &Tab) -> Debug {
+    pub(crate) fn marks(&self, session: &Session, tab: &Tab) -> Debug {
         let place = self.place(session).filter(|(of, ..)| of == tab);
         let of = self.breakpoints.iter().filter(|breakpoint| breakpoint.tab == *tab);
         Debug {
@@ -206,7 +206,7 @@ impl Debugger {
     }
 
     /// The tab and line that are to be brought into sight, once.
-    pub fn take_reveal(&mut self, session: &Session) -> Option<(Tab, usize)> {
+    pub(crate) fn take_reveal(&mut self, session: &Session) -> Option<(Tab, usize)> {
         let reveals = std::mem::take(&mut self.reveals);
         self.place(session).filter(|_| reveals).map(|(tab, line, _)| (tab, line))
     }

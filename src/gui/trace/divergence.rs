@@ -23,12 +23,12 @@ fn height_id() -> Id {
 }
 
 /// Returns what the foot of the panel took in the last frame: values wrap by the panel's width and their digits.
-pub fn height(ui: &Ui) -> f32 {
+pub(super) fn height(ui: &Ui) -> f32 {
     ui.data(|d| d.get_temp(height_id())).unwrap_or(40.0)
 }
 
 /// Shows both values, how far they are apart, and what a search for the first difference found.
-pub fn show(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut UiOutput) {
+pub(super) fn show(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut UiOutput) {
     let before = height(ui);
     let shown = ui.vertical(|ui| {
         foot(traced, session, ui, out);

@@ -12,5 +12,5 @@ mod parts;
 mod report;
 mod rows;
 
-pub use debugger::Debugger;
-pub use panel::show;
+pub(super) use debugger::Debugger;
+pub(super) use panel::show;

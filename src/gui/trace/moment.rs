@@ -12,7 +12,7 @@ const MOST_TURNS: usize = 2000;
 /// Variables of a loop's table.
 const COLUMNS: usize = 6;
 
-pub struct MomentState {
+pub(super) struct MomentState {
     pub variables: Vec<Variable>,
     pub watches: Vec<Watched>,
     /// The calls that it lies in, with moments to go to.
@@ -26,7 +26,7 @@ pub struct MomentState {
     pub place: Option<(Tab, usize)>,
 }
 
-pub struct Variable {
+pub(super) struct Variable {
     pub shown: NamedValue,
     /// It is another than at the moment that was shown before.
     pub is_changed: bool,
@@ -34,7 +34,7 @@ pub struct Variable {
 
 /// The turns of the loop around a moment.
 #[derive(Default)]
-pub struct Rows {
+pub(super) struct Rows {
     pub names: Vec<String>,
     pub rows: Vec<Row>,
     /// The turn that the moment is in.
@@ -42,7 +42,7 @@ pub struct Rows {
     pub is_cut: bool,
 }
 
-pub struct Row {
+pub(super) struct Row {
     pub turn: Iteration,
     pub values: Vec<Option<Value>>,
 }
@@ -55,7 +55,7 @@ impl Rows {
 
 impl MomentState {
     /// Returns what there is to see at a moment, and what has changed since the one that was shown before.
-    pub fn new(
+    pub(super) fn new(
         examiner: &mut Examiner,
         at: usize,
         before: Option<usize>,
@@ -138,7 +138,7 @@ fn table(turns: Vec<(Iteration, Vec<NamedValue>)>) -> Rows {
 }
 
 /// A value as it is shown: a number, or several in brackets.
-pub fn words(value: &Value) -> String {
+pub(super) fn words(value: &Value) -> String {
     let list = |numbers: &[Number]| numbers.iter().map(Number::to_string).collect::<Vec<_>>().join(", ");
     match &value.numbers[..] {
         [number] => number.to_string(),

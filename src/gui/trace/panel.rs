@@ -28,7 +28,7 @@ const WIDE: f32 = 560.0;
 /// The least height for what is above the foot.
 const LEAST: f32 = 110.0;
 
-pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(crate) fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("trace", ui);
     ui.spacing_mut().item_spacing = vec2(6.0, 3.0);
     ui.horizontal_wrapped(|ui| {

@@ -8,13 +8,13 @@ use crate::{
 use egui::{Color32, Label, Rect, Response, RichText, Sense, StrokeKind, Ui, vec2};
 
 /// A title over a part.
-pub fn title(ui: &mut Ui, text: &str) {
+pub(super) fn title(ui: &mut Ui, text: &str) {
     ui.add_space(4.0);
     ui.label(RichText::new(text).size(11.5).color(theme::of(ui).weak));
 }
 
 /// A name and its value in a line. `is_changed`: marked.
-pub fn value(ui: &mut Ui, name: &str, value: &Value, is_changed: bool) -> Rect {
+pub(super) fn value(ui: &mut Ui, name: &str, value: &Value, is_changed: bool) -> Rect {
     let p = theme::of(ui);
     let color = if is_changed { p.accent } else { p.text };
     let row = ui.horizontal(|ui| {
@@ -29,7 +29,7 @@ pub fn value(ui: &mut Ui, name: &str, value: &Value, is_changed: bool) -> Rect {
 }
 
 /// The colour that a vector is, where it is one.
-pub fn swatch(ui: &mut Ui, value: &Value) {
+pub(super) fn swatch(ui: &mut Ui, value: &Value) {
     if !value.is_vector {
         return;
     }
@@ -40,7 +40,7 @@ pub fn swatch(ui: &mut Ui, value: &Value) {
 }
 
 /// A small button with a text.
-pub fn button(ui: &mut Ui, place: &str, text: &str, tip: &str, out: &mut UiOutput) -> bool {
+pub(super) fn button(ui: &mut Ui, place: &str, text: &str, tip: &str, out: &mut UiOutput) -> bool {
     let response: Response = ui.small_button(text).on_hover_text(tip);
     out.clicked(place, &response)
 }

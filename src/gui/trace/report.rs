@@ -8,7 +8,7 @@ use crate::{
 use serde_json::{Map, Value, json};
 
 impl Debugger {
-    pub fn report(&mut self, session: &Session) -> Value {
+    pub(crate) fn report(&mut self, session: &Session) -> Value {
         let breakpoints: Vec<Value> = self
             .breakpoints
             .iter()

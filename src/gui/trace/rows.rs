@@ -13,14 +13,14 @@ const FIRST: f32 = 40.0;
 const PLOT: f32 = 64.0;
 
 /// Says what was asked for in the table.
-pub enum RowAction {
+pub(super) enum RowAction {
     /// A moment to go to.
     GoTo(usize),
     /// Another variable over the turns.
     Plot(String),
 }
 
-pub fn show(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut UiOutput) -> Option<RowAction> {
+pub(super) fn show(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut UiOutput) -> Option<RowAction> {
     let mut asked = None;
     let more = if rows.is_cut { ", the first" } else { "" };
     ui.horizontal(|ui| {

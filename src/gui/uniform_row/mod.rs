@@ -11,5 +11,5 @@ mod picker;
 mod row;
 mod scalar;
 
-pub use parts::HEIGHT;
-pub use row::show;
+pub(super) use parts::HEIGHT;
+pub(super) use row::show;

@@ -4,7 +4,7 @@ use crate::project::CustomUniformType;
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2};
 
 /// Height of a row.
-pub const HEIGHT: f32 = 27.0;
+pub(crate) const HEIGHT: f32 = 27.0;
 const GAP: f32 = 8.0;
 
 /// A part of the row, its contents from the left and in the middle of its height.

@@ -20,7 +20,7 @@ const RESET: f32 = 30.0;
 /// Between the name and what turns it.
 const GAP: f32 = 8.0;
 
-pub fn show(ui: &mut Ui, session: &Session, custom_uniform: &CustomUniform, out: &mut UiOutput) {
+pub(crate) fn show(ui: &mut Ui, session: &Session, custom_uniform: &CustomUniform, out: &mut UiOutput) {
     let now = session.custom_uniform_value(custom_uniform);
     let (row, whole) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT - 3.0), Sense::hover());
     let name_width = (row.width() * 0.28).clamp(56.0, 150.0);

@@ -24,14 +24,14 @@ const FEW: usize = 3;
 const MANY: usize = 10;
 
 /// The lines of an axis.
-pub struct Marks {
+pub(super) struct Marks {
     /// Lines with a label: powers of ten, on a short axis 2 and 5 times each too, on a very long one not every power.
     pub labelled: Vec<f64>,
     pub others: Vec<f64>,
 }
 
 /// Returns the marks of an axis of whole decades from `low` to `high`.
-pub fn marks((low, high): (f64, f64)) -> Marks {
+pub(super) fn marks((low, high): (f64, f64)) -> Marks {
     let [first, last] = [low, high].map(|v| v.log10().round() as i32);
     let count = usize::try_from(last - first).unwrap_or(0);
     let every = count.div_ceil(MANY).max(1);
@@ -53,7 +53,7 @@ pub fn marks((low, high): (f64, f64)) -> Marks {
 }
 
 /// Returns the label of a line: 1 to 9 times a power of ten.
-pub fn label(value: f64) -> String {
+pub(super) fn label(value: f64) -> String {
     // Rounding must not turn a power into slightly less than that power.
     let power = (value.log10() + 1e-9).floor();
     let leading = (value / 10f64.powf(power)).round();

@@ -6,7 +6,7 @@ use std::fmt::Write;
 const COLUMNS: &str = "study,method,setting,grid,ms,ms_min,ms_max,mtexel_per_s,roofline,bytes_per_texel,l1,l2,linf,order,\
                        ms_to_1_percent,best_error,ms_to_best,hard_passed,hard_cases,frontier,dominated";
 
-pub fn text(table: &Table) -> String {
+pub(super) fn text(table: &Table) -> String {
     let values = table.values();
     let names: Vec<String> = values.iter().map(|v| quoted(v)).collect();
     let mut out = COLUMNS.to_owned();

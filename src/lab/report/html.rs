@@ -17,7 +17,7 @@ tr.study small { display: inline }
 @media (max-width: 800px) { .wide svg { max-width: none; width: 900px } td:first-child { white-space: normal; min-width: 9rem } }
 ";
 
-pub fn page(sections: &[(Table, Option<String>)], results: &Results) -> String {
+pub(super) fn page(sections: &[(Table, Option<String>)], results: &Results) -> String {
     let mut out = String::new();
     let _ = write!(
         out,

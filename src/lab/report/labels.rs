@@ -8,7 +8,7 @@ const FAR: i32 = 64;
 
 /// A label's upper left corner, and whether it is so far from its line's end that it needs a leader line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Label {
+pub(super) struct Label {
     pub at: (i32, i32),
     pub is_led: bool,
 }
@@ -16,7 +16,7 @@ pub struct Label {
 /// Returns a label for each of `ends`, in pixels, y down, within the rectangle from `low` to `high`. `signs` are the
 /// centres of all points, and include `ends`. The nearest place that covers nothing is used, otherwise the one that
 /// covers least.
-pub fn placed(ends: &[(i32, i32)], signs: &[(i32, i32)], low: (i32, i32), high: (i32, i32)) -> Vec<Label> {
+pub(super) fn placed(ends: &[(i32, i32)], signs: &[(i32, i32)], low: (i32, i32), high: (i32, i32)) -> Vec<Label> {
     let mut labels: Vec<Label> = Vec::new();
     for &end in ends {
         let covered = |at: (i32, i32)| {
@@ -58,7 +58,7 @@ fn shared(at: (i32, i32), corner: (i32, i32), size: (i32, i32)) -> i32 {
 }
 
 /// Returns the middle of the label's side that faces a point: the end of a leader line.
-pub fn nearest_side(label: Label, (x, y): (i32, i32)) -> (i32, i32) {
+pub(super) fn nearest_side(label: Label, (x, y): (i32, i32)) -> (i32, i32) {
     let (left, top) = label.at;
     (x.clamp(left, left + SIZE.0), y.clamp(top, top + SIZE.1))
 }

@@ -44,7 +44,7 @@ const BLOWN_UP: f64 = 9.0;
 type Area<B> = DrawingArea<B, Shift>;
 
 /// Returns `None` if no point has both a cost and an error.
-pub fn svg(table: &Table) -> Result<Option<String>, LabError> {
+pub(super) fn svg(table: &Table) -> Result<Option<String>, LabError> {
     let mut text = String::new();
     let drawn = {
         let area = SVGBackend::with_string(&mut text, (WIDTH, height(table))).into_drawing_area();
@@ -54,7 +54,7 @@ pub fn svg(table: &Table) -> Result<Option<String>, LabError> {
 }
 
 /// Does the same as [`svg`], as a PNG file.
-pub fn png(table: &Table) -> Result<Option<Vec<u8>>, LabError> {
+pub(super) fn png(table: &Table) -> Result<Option<Vec<u8>>, LabError> {
     let size = (WIDTH, height(table));
     let mut rgb = vec![255; (size.0 * size.1 * 3) as usize];
     let drawn = {

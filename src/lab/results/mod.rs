@@ -240,7 +240,7 @@ fn line(record: &Record) -> String {
 }
 
 /// The file of a run, opened for appending.
-pub struct Journal {
+pub(crate) struct Journal {
     path: PathBuf,
     file: File,
 }
@@ -248,7 +248,7 @@ pub struct Journal {
 impl Journal {
     /// Opens the file of a folder, creates both if necessary, and returns its contents. Results of another device,
     /// version or extent are an error.
-    pub fn open(folder: &Path, run: &Provenance) -> Result<(Journal, Results), LabError> {
+    pub(crate) fn open(folder: &Path, run: &Provenance) -> Result<(Journal, Results), LabError> {
         make_folder(folder)?;
         let path = folder.join(FILE);
         let mut results = Results::read(folder)?;
@@ -272,7 +272,7 @@ impl Journal {
     }
 
     /// Writes a whole record immediately.
-    pub fn append(&mut self, record: &Record) -> Result<(), LabError> {
+    pub(crate) fn append(&mut self, record: &Record) -> Result<(), LabError> {
         self.file.write_all(line(record).as_bytes()).map_err(LabError::io("write", &self.path))
     }
 }

@@ -89,7 +89,7 @@ impl Steps {
 }
 
 /// The inputs of consecutive frames.
-pub struct Inputs {
+pub(super) struct Inputs {
     hand: MouseGesture,
     steps: Steps,
     /// The frames from the first to before the last.
@@ -101,12 +101,12 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    pub fn new(hand: MouseGesture, steps: Steps, disturbed: Option<(u32, u32)>) -> Inputs {
+    pub(super) fn new(hand: MouseGesture, steps: Steps, disturbed: Option<(u32, u32)>) -> Inputs {
         Inputs { hand, steps, disturbed, frame: 0, seconds: 0.0, mouse: [0.0, 0.0, -0.0, -0.0], drag: [0.0; 2] }
     }
 
     /// Returns the inputs of the next frame, on a canvas of this size.
-    pub fn next(&mut self, size: (u32, u32)) -> FrameInputs {
+    pub(super) fn next(&mut self, size: (u32, u32)) -> FrameInputs {
         let since = self.disturbed.filter(|(from, to)| (*from..*to).contains(&self.frame));
         let t = since.map(|(from, _)| self.frame - from);
         let delta = self.steps.seconds(t);

@@ -10,12 +10,12 @@ use crate::Number;
 use std::collections::BTreeMap;
 
 /// Returns the conditions of a case on which bounds depend.
-pub fn conditions(subject: &CheckedProject, case: &Case) -> CaseConditions {
+pub(super) fn conditions(subject: &CheckedProject, case: &Case) -> CaseConditions {
     subject.conditions(&case.values, case.size, case.steps.longest(), case.hand != MouseGesture::Away)
 }
 
 /// Returns whether the current ranges result in the recorded outcome for the recorded extremes.
-pub fn still_holds(subject: &CheckedProject, case: &Case, record: &StabilityRecord) -> bool {
+pub(super) fn still_holds(subject: &CheckedProject, case: &Case, record: &StabilityRecord) -> bool {
     let Some(outcome) = &record.outcome else { return true };
     let sizes: Vec<(u32, u32)> = case.resizes.iter().map(|(_, size)| *size).chain([case.size]).collect();
     let usual = conditions(subject, case);

@@ -25,7 +25,7 @@ fn steps(point: &Point) -> u32 {
     (TAU * f64::from(point.grid) / point.setting).round() as u32
 }
 
-pub static STUDY: Study = Study {
+pub(super) static STUDY: Study = Study {
     name: "advection",
     title: "Advection",
     text: "A Gaussian of standard deviation .05 and Zalesak's slotted disk are carried once round the centre. \

@@ -169,7 +169,7 @@ fn phases(n: usize, field: &[f64]) -> Phases {
     Phases { shift: worst, spread: (high - low) / mean, sigma: variance.sqrt() }
 }
 
-pub static STUDY: Study = Study {
+pub(super) static STUDY: Study = Study {
     name: "blur",
     title: "Blur",
     text: "Single bright texels at many places, against a Gaussian of standard deviation 2.138, which is that \

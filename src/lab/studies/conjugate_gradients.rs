@@ -14,7 +14,7 @@ const BLOCK: u32 = 4;
 ///
 /// # Panics
 /// If the project is not that of `poisson_cg`.
-pub fn chain(project: &mut Project, n: u32) {
+pub(super) fn chain(project: &mut Project, n: u32) {
     let (mut side, mut last, mut names, mut passes) = (n / BLOCK, "dots".to_owned(), Vec::new(), Vec::new());
     while side > BLOCK {
         side /= BLOCK;
@@ -38,7 +38,7 @@ pub fn chain(project: &mut Project, n: u32) {
 ///
 /// # Panics
 /// If the project is not that of `poisson_cg`.
-pub fn preconditioned(project: &mut Project, n: u32) {
+pub(super) fn preconditioned(project: &mut Project, n: u32) {
     chain(project, n);
     project.groups.clear();
     let end = cycle::pass("cycled", "", PassSize::Canvas, &[]);

@@ -11,7 +11,7 @@ const METHODS: &[Method] = &[
     Method { name: "non-local-means", title: "non-local means", settings: &[1.0, 2.0, 4.0, 6.0, 10.0], usual: 6.0 },
 ];
 
-pub static STUDY: Study = Study {
+pub(super) static STUDY: Study = Study {
     name: "denoise",
     title: "Denoising",
     text: "The preset denoise: its own scene of slopes, edges, fine lines and rings with normal noise of .1 on every channel, \

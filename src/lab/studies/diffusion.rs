@@ -34,7 +34,7 @@ fn steps(point: &Point) -> (u32, f64) {
     (steps as u32, steps * point.setting)
 }
 
-pub static STUDY: Study = Study {
+pub(super) static STUDY: Study = Study {
     name: "diffusion",
     title: "Diffusion",
     text: "A Gaussian of standard deviation N/32 on a torus of N x N texels spreads until its variance is 13.5 \

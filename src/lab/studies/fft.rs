@@ -11,7 +11,7 @@ const STAGE: &str = include_str!("../../../assets/lab/poisson_fft/stage.glsl");
 ///
 /// # Panics
 /// If the project is not that of `poisson_fft`.
-pub fn add(project: &mut Project, n: u32) {
+pub(super) fn add(project: &mut Project, n: u32) {
     let mut there = stages((n, n), Direction::There);
     if let Some(last) = there.last_mut() {
         last.insert_str(0, "#define DIVIDE\n");
@@ -26,14 +26,14 @@ pub fn add(project: &mut Project, n: u32) {
 
 /// The direction of a transform: from a picture to its waves, or back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Direction {
+pub(super) enum Direction {
     There,
     Back,
 }
 
 /// Returns for each pass of a transform along both axes the macros that precede the text of `stage.glsl`. Each side is
 /// a power of two.
-pub fn stages(size: (u32, u32), direction: Direction) -> Vec<String> {
+pub(super) fn stages(size: (u32, u32), direction: Direction) -> Vec<String> {
     let sign = if direction == Direction::There { "-1.0" } else { "1.0" };
     let mut stages = Vec::new();
     for (along, n) in [("x", size.0), ("y", size.1)] {
@@ -52,7 +52,7 @@ pub fn stages(size: (u32, u32), direction: Direction) -> Vec<String> {
 
 /// Returns buffers with these texts, each of which reads the previous one, and the first `from`; and the name of the
 /// last.
-pub fn chain(name: &str, texts: &[String], from: &str, format: TexelFormat) -> (Vec<Pass>, String) {
+pub(super) fn chain(name: &str, texts: &[String], from: &str, format: TexelFormat) -> (Vec<Pass>, String) {
     let (mut passes, mut last) = (Vec::new(), from.to_owned());
     for (number, text) in texts.iter().enumerate() {
         let name = format!("{name}{number}");

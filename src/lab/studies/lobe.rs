@@ -74,7 +74,7 @@ fn exact(n: usize, directions: usize) -> Vec<f64> {
     (0..n * n).map(value).collect()
 }
 
-pub static STUDY: Study = Study {
+pub(super) static STUDY: Study = Study {
     name: "lobe",
     title: "Reflections of a rough surface",
     text: "What a GGX lobe of roughness .4 about normals up to 50 degrees from the eye reflects of a sky that brightens \

@@ -51,7 +51,7 @@ fn compared(rig: &Rig, name: &'static str, grid: u32, bits: f64) -> Result<Compa
     })
 }
 
-pub static STUDY: Study = Study {
+pub(super) static STUDY: Study = Study {
     name: "precision",
     title: "16 bits against 32",
     text: "Presets with every 32-bit float format made a 16-bit one, against themselves as they are, \

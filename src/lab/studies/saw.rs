@@ -53,7 +53,7 @@ fn loudness(signal: &[f64], bin: usize, harmonic: usize) -> f64 {
     2.0 / n as f64 * sin_sum.hypot(cos_sum) / (2.0 / std::f64::consts::PI / harmonic as f64)
 }
 
-pub static STUDY: Study = Study {
+pub(super) static STUDY: Study = Study {
     name: "oscillator",
     title: "Oscillators",
     text: "A sawtooth of 2,480 Hz at 44,100 samples a second. The error is what of it is no harmonic of its own, which is \

@@ -11,27 +11,27 @@ const SIDES: (u32, u32) = (256, 64);
 
 type Color = [f32; 3];
 
-pub fn gallery() -> Texels {
+pub(super) fn gallery() -> Texels {
     sharp(gallery_color)
 }
 
-pub fn hall() -> Texels {
+pub(super) fn hall() -> Texels {
     sharp(hall_color)
 }
 
-pub fn forest() -> Texels {
+pub(super) fn forest() -> Texels {
     sharp(forest_color)
 }
 
-pub fn gallery_blurred() -> Texels {
+pub(super) fn gallery_blurred() -> Texels {
     blurred(gallery_color)
 }
 
-pub fn hall_blurred() -> Texels {
+pub(super) fn hall_blurred() -> Texels {
     blurred(hall_color)
 }
 
-pub fn forest_blurred() -> Texels {
+pub(super) fn forest_blurred() -> Texels {
     blurred(forest_color)
 }
 

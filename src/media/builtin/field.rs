@@ -4,17 +4,17 @@ use super::noise::hash2;
 use crate::Texels;
 use eddy_texture::TexelFormat;
 
-pub type Colour = [f32; 3];
+pub(super) type Colour = [f32; 3];
 
 /// Gradient noise after Perlin ("Improving Noise", SIGGRAPH 2002) on a periodic lattice of `columns` x `rows`.
-pub struct Noise {
+pub(super) struct Noise {
     columns: u32,
     rows: u32,
     gradients: Vec<[f32; 2]>,
 }
 
 impl Noise {
-    pub fn new(columns: u32, rows: u32, seed: u32) -> Noise {
+    pub(super) fn new(columns: u32, rows: u32, seed: u32) -> Noise {
         let gradients = (0..rows * columns)
             .map(|i| {
                 let bits = hash2(i % columns, i / columns, seed);
@@ -28,7 +28,7 @@ impl Noise {
     }
 
     /// Returns a value in about -1..1.
-    pub fn at(&self, u: f32, v: f32) -> f32 {
+    pub(super) fn at(&self, u: f32, v: f32) -> f32 {
         let (x, y) = (u * self.columns as f32, v * self.rows as f32);
         let (x0, y0) = (floor(x), floor(y));
         let (fx, fy) = (x - x0 as f32, y - y0 as f32);
@@ -62,15 +62,15 @@ fn wrapped(cell: i32, count: u32) -> u32 {
 }
 
 /// Octaves of noise, each twice as fine and half as strong as the previous one.
-pub struct Fractal(Vec<Noise>);
+pub(super) struct Fractal(Vec<Noise>);
 
 impl Fractal {
-    pub fn new(columns: u32, rows: u32, octaves: u32, seed: u32) -> Fractal {
+    pub(super) fn new(columns: u32, rows: u32, octaves: u32, seed: u32) -> Fractal {
         Fractal((0..octaves).map(|i| Noise::new(columns << i, rows << i, seed + i)).collect())
     }
 
     /// Returns a value in about -1..1.
-    pub fn at(&self, u: f32, v: f32) -> f32 {
+    pub(super) fn at(&self, u: f32, v: f32) -> f32 {
         let mut weight = 0.5;
         let mut sum = 0.0;
         for octave in &self.0 {
@@ -81,7 +81,7 @@ impl Fractal {
     }
 
     /// Returns sharp crests: 1 on a crest, towards 0 between them (Musgrave's ridges).
-    pub fn ridged(&self, u: f32, v: f32) -> f32 {
+    pub(super) fn ridged(&self, u: f32, v: f32) -> f32 {
         let mut weight = 0.5;
         let mut sum = 0.0;
         for octave in &self.0 {
@@ -94,14 +94,14 @@ impl Fractal {
 }
 
 /// One point in every cell of a periodic grid (Worley, "A Cellular Texture Basis Function", SIGGRAPH 1996).
-pub struct Cells {
+pub(super) struct Cells {
     count: u32,
     points: Vec<[f32; 2]>,
     seed: u32,
 }
 
 /// The points nearest to a place. Distances are in cells.
-pub struct Nearest {
+pub(super) struct Nearest {
     pub first: f32,
     pub second: f32,
     /// A number per point, evenly distributed over 0..1.
@@ -109,7 +109,7 @@ pub struct Nearest {
 }
 
 impl Cells {
-    pub fn new(count: u32, seed: u32) -> Cells {
+    pub(super) fn new(count: u32, seed: u32) -> Cells {
         let points = (0..count * count)
             .map(|i| {
                 let bits = hash2(i % count, i / count, seed);
@@ -119,7 +119,7 @@ impl Cells {
         Cells { count, points, seed }
     }
 
-    pub fn at(&self, u: f32, v: f32) -> Nearest {
+    pub(super) fn at(&self, u: f32, v: f32) -> Nearest {
         let (x, y) = (u * self.count as f32, v * self.count as f32);
         let (x0, y0) = (floor(x), floor(y));
         let (fx, fy) = (x - x0 as f32, y - y0 as f32);
@@ -143,37 +143,37 @@ impl Cells {
 }
 
 /// Returns a random number from 0 up to 1 for a place.
-pub fn random(x: u32, y: u32, seed: u32) -> f32 {
+pub(super) fn random(x: u32, y: u32, seed: u32) -> f32 {
     (hash2(x, y, seed) >> 8) as f32 / 16_777_216.0
 }
 
 #[inline(always)]
-pub fn mix(a: f32, b: f32, t: f32) -> f32 {
+pub(super) fn mix(a: f32, b: f32, t: f32) -> f32 {
     a + (b - a) * t
 }
 
-pub fn mix3(a: Colour, b: Colour, t: f32) -> Colour {
+pub(super) fn mix3(a: Colour, b: Colour, t: f32) -> Colour {
     [mix(a[0], b[0], t), mix(a[1], b[1], t), mix(a[2], b[2], t)]
 }
 
-pub fn scale(a: Colour, by: f32) -> Colour {
+pub(super) fn scale(a: Colour, by: f32) -> Colour {
     a.map(|c| c * by)
 }
 
-pub fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
+pub(super) fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
     let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 
 /// Returns a wave of period 1 between 0 and 1, as smooth as a sine but made without one.
-pub fn wave(x: f32) -> f32 {
+pub(super) fn wave(x: f32) -> f32 {
     let t = (x - x.floor()) * 2.0;
     let t = if t > 1.0 { 2.0 - t } else { t };
     t * t * (3.0 - 2.0 * t)
 }
 
 /// Interpolates between evenly spaced colours.
-pub fn ramp(t: f32, colours: &[Colour]) -> Colour {
+pub(super) fn ramp(t: f32, colours: &[Colour]) -> Colour {
     let last = colours.len() - 1;
     let x = t.clamp(0.0, 1.0) * last as f32;
     let i = (x as usize).min(last - 1);
@@ -181,17 +181,17 @@ pub fn ramp(t: f32, colours: &[Colour]) -> Colour {
 }
 
 /// Returns a colour from hexadecimal digits as in a style sheet.
-pub const fn rgb(hex: u32) -> Colour {
+pub(super) const fn rgb(hex: u32) -> Colour {
     [(hex >> 16) as f32 / 255.0, (hex >> 8 & 255) as f32 / 255.0, (hex & 255) as f32 / 255.0]
 }
 
-pub fn byte(value: f32) -> u8 {
+pub(super) fn byte(value: f32) -> u8 {
     (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
 }
 
 /// Renders an opaque picture of a surface, lit from the top left. `surface` returns height and colour of a place;
 /// `depth` is the size of a height of 1, in parts of the picture's width.
-pub fn lit(size: usize, depth: f32, surface: impl Fn(f32, f32) -> (f32, Colour) + Sync) -> Texels {
+pub(super) fn lit(size: usize, depth: f32, surface: impl Fn(f32, f32) -> (f32, Colour) + Sync) -> Texels {
     let mut surfaces = vec![(0.0, [0.0; 3]); size * size];
     rows(&mut surfaces, size, |y, row| {
         for (x, out) in row.iter_mut().enumerate() {

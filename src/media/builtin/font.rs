@@ -116,7 +116,7 @@ const SIZE: usize = 16 * CELL;
 const HALF_WIDTH: f32 = 2.9;
 const UNIT: f32 = 6.0;
 
-pub fn atlas() -> Texels {
+pub(super) fn atlas() -> Texels {
     let mut bytes = [0, 128, 128, 255].repeat(SIZE * SIZE);
     std::thread::scope(|scope| {
         for (row, band) in bytes.chunks_exact_mut(SIZE * CELL * 4).enumerate() {

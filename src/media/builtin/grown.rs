@@ -5,7 +5,7 @@ use crate::Texels;
 use eddy_texture::TexelFormat;
 
 /// Boards side by side, with their grain along them.
-pub fn wood() -> Texels {
+pub(super) fn wood() -> Texels {
     let (grain, fibre) = (Fractal::new(6, 2, 4, 501), Fractal::new(160, 6, 3, 511));
     let (sway, tone) = (Fractal::new(4, 3, 3, 521), Fractal::new(8, 4, 4, 531));
     lit(1024, 0.006, |u, v| {
@@ -29,7 +29,7 @@ pub fn wood() -> Texels {
 }
 
 /// Overlapping blades of grass.
-pub fn grass() -> Texels {
+pub(super) fn grass() -> Texels {
     const SIZE: i32 = 1024;
     const BLADES: u32 = 9_000;
     let mut pixels = vec![scale(rgb(0x1d2410), 0.6); (SIZE * SIZE) as usize];
@@ -73,7 +73,7 @@ fn opaque(size: u32, pixels: &[Colour]) -> Texels {
 }
 
 /// Cushions of moss.
-pub fn moss() -> Texels {
+pub(super) fn moss() -> Texels {
     let (cushion, tuft) = (Fractal::new(7, 7, 4, 551), Cells::new(90, 561));
     let (fine, damp) = (Fractal::new(48, 48, 3, 571), Fractal::new(4, 4, 4, 581));
     lit(1024, 0.03, |u, v| {
@@ -86,7 +86,7 @@ pub fn moss() -> Texels {
 }
 
 /// The walls of a coral.
-pub fn coral() -> Texels {
+pub(super) fn coral() -> Texels {
     let (wide, narrow) = (Cells::new(14, 591), Cells::new(40, 601));
     let (bend_x, bend_y, fine) = (Fractal::new(8, 8, 3, 611), Fractal::new(8, 8, 3, 621), Fractal::new(40, 40, 4, 631));
     lit(1024, 0.022, |u, v| {
@@ -102,7 +102,7 @@ pub fn coral() -> Texels {
 }
 
 /// A plain weave.
-pub fn fabric() -> Texels {
+pub(super) fn fabric() -> Texels {
     const THREADS: f32 = 40.0;
     let (loose_x, loose_y) = (Noise::new(9, 9, 641), Noise::new(9, 9, 651));
     let (fray, wear) = (Fractal::new(120, 120, 2, 661), Fractal::new(4, 4, 4, 671));

@@ -5,26 +5,26 @@ use eddy_texture::{TexelFormat, TextureShape};
 
 /// One round of the PCG hash (O'Neill 2014; as a hash: Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT
 /// 2020).
-pub fn hash(x: u32) -> u32 {
+pub(super) fn hash(x: u32) -> u32 {
     let state = x.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
     (word >> 22) ^ word
 }
 
 /// Returns a hash of a place and a seed.
-pub fn hash2(x: u32, y: u32, seed: u32) -> u32 {
+pub(super) fn hash2(x: u32, y: u32, seed: u32) -> u32 {
     hash(x.wrapping_add(hash(y.wrapping_add(hash(seed)))))
 }
 
 /// Returns independent, evenly distributed bytes.
-pub fn white(size: u32, format: TexelFormat, seed: u32) -> Texels {
+pub(super) fn white(size: u32, format: TexelFormat, seed: u32) -> Texels {
     let count = size * size * format.bytes() as u32;
     let bytes = (0..count).map(|i| (hash2(i, 0, seed) >> 24) as u8).collect();
     Texels::flat(size, size, format, bytes)
 }
 
 /// The same in 3D.
-pub fn white_volume(side: u32, format: TexelFormat, seed: u32) -> Texels {
+pub(super) fn white_volume(side: u32, format: TexelFormat, seed: u32) -> Texels {
     let shape = TextureShape::volume(side, side, side, format);
     let bytes = (0..shape.bytes() as u32).map(|i| (hash2(i, 0, seed) >> 24) as u8).collect();
     Texels { shape, bytes }
@@ -32,7 +32,7 @@ pub fn white_volume(side: u32, format: TexelFormat, seed: u32) -> Texels {
 
 /// Bayer's 8x8 matrix of thresholds (1973): the interleaved bits of column and row, the lowest bit being the most
 /// significant.
-pub fn bayer() -> Texels {
+pub(super) fn bayer() -> Texels {
     let bytes = (0..64u32)
         .map(|i| {
             let (x, y) = (i % 8, i / 8);
@@ -50,12 +50,12 @@ pub fn bayer() -> Texels {
 const TILE: usize = 64;
 
 /// Blue noise of 64x64, four channels.
-pub fn blue_tile() -> Texels {
+pub(super) fn blue_tile() -> Texels {
     repeat_tile(TILE)
 }
 
 /// The 64x64 tile repeated to 1024x1024 as on Shadertoy: equally free of low frequencies, but of period 64.
-pub fn blue() -> Texels {
+pub(super) fn blue() -> Texels {
     repeat_tile(1024)
 }
 

@@ -8,14 +8,14 @@ use crate::Texels;
 use eddy_texture::TexelFormat;
 
 /// Red increases to the right and green upwards, so that the colour encodes the position; blue is one half.
-pub fn gradient() -> Texels {
+pub(super) fn gradient() -> Texels {
     let size = 256u32;
     let bytes = (0..size * size).flat_map(|i| [(i % size) as u8, (255 - i / size) as u8, 128, 255]).collect();
     Texels::flat(size, size, TexelFormat::Rgba8, bytes)
 }
 
 /// A figure in six steps of a walk, 40 texels apart, on a transparent background.
-pub fn sprites() -> Texels {
+pub(super) fn sprites() -> Texels {
     const WIDTH: i32 = 256;
     const HEIGHT: i32 = 32;
     let mut bytes = vec![0u8; (WIDTH * HEIGHT * 4) as usize];
@@ -64,7 +64,7 @@ pub fn sprites() -> Texels {
 }
 
 /// A street at dusk, seen along its length.
-pub fn street() -> Texels {
+pub(super) fn street() -> Texels {
     let (cloud, rough) = (Fractal::new(3, 6, 5, 691), Fractal::new(32, 32, 4, 701));
     // Four samples per texel: edges that run to the vanishing point would show aliasing.
     let shift = 0.25 / 512.0;

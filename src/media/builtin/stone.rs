@@ -5,7 +5,7 @@ use crate::Texels;
 use eddy_texture::TexelFormat;
 
 /// Veins through folded stone.
-pub fn marble() -> Texels {
+pub(super) fn marble() -> Texels {
     let (fold_x, fold_y) = (Fractal::new(3, 3, 4, 11), Fractal::new(3, 3, 4, 31));
     let (body, vein) = (Fractal::new(4, 4, 6, 51), Fractal::new(3, 3, 5, 71));
     lit(1024, 0.012, |u, v| {
@@ -21,7 +21,7 @@ pub fn marble() -> Texels {
 }
 
 /// A wall of bricks in running bond.
-pub fn brick() -> Texels {
+pub(super) fn brick() -> Texels {
     let (edge_x, edge_y) = (Fractal::new(16, 16, 3, 101), Fractal::new(16, 16, 3, 111));
     let (rough, stain) = (Fractal::new(24, 24, 4, 121), Fractal::new(4, 4, 4, 131));
     lit(512, 0.014, |u, v| {
@@ -42,7 +42,7 @@ pub fn brick() -> Texels {
 }
 
 /// Rounded stones, as one channel.
-pub fn pebbles() -> Texels {
+pub(super) fn pebbles() -> Texels {
     let stones = Cells::new(10, 141);
     let (bend_x, bend_y, grain) = (Noise::new(9, 9, 161), Noise::new(9, 9, 171), Fractal::new(24, 24, 4, 181));
     let lit = lit(512, 0.05, |u, v| {
@@ -60,7 +60,7 @@ pub fn pebbles() -> Texels {
 }
 
 /// Grains of quartz, feldspar and mica.
-pub fn granite() -> Texels {
+pub(super) fn granite() -> Texels {
     let (coarse, middle, fine) = (Cells::new(48, 191), Cells::new(110, 201), Cells::new(220, 211));
     let (bend_x, bend_y) = (Fractal::new(32, 32, 2, 221), Fractal::new(32, 32, 2, 231));
     let cloud = Fractal::new(4, 4, 4, 241);
@@ -78,7 +78,7 @@ pub fn granite() -> Texels {
 }
 
 /// Brushed steel with patches of rust.
-pub fn rust() -> Texels {
+pub(super) fn rust() -> Texels {
     let (brush, patch) = (Fractal::new(4, 96, 3, 251), Fractal::new(4, 4, 6, 261));
     let (grit, bloom) = (Fractal::new(40, 40, 3, 271), Fractal::new(9, 9, 5, 281));
     lit(512, 0.008, |u, v| {
@@ -92,7 +92,7 @@ pub fn rust() -> Texels {
 }
 
 /// Rock with crusts of lichen, of two separate kinds.
-pub fn lichen() -> Texels {
+pub(super) fn lichen() -> Texels {
     let (rock, crack) = (Fractal::new(6, 6, 5, 291), Fractal::new(5, 5, 5, 301));
     let (spread, frill) = (Fractal::new(7, 7, 5, 311), Fractal::new(28, 28, 4, 321));
     let (kind, spots) = (Noise::new(4, 4, 331), Cells::new(70, 335));
@@ -118,7 +118,7 @@ pub fn lichen() -> Texels {
 }
 
 /// Sand rippled by wind.
-pub fn dunes() -> Texels {
+pub(super) fn dunes() -> Texels {
     let (bend, body, grain) = (Fractal::new(3, 3, 4, 331), Fractal::new(4, 4, 5, 341), Fractal::new(96, 96, 2, 351));
     lit(1024, 0.035, |u, v| {
         let (body, grain) = (body.at(u, v), grain.at(u, v));
@@ -133,7 +133,7 @@ pub fn dunes() -> Texels {
 }
 
 /// A night sky: a cloud of gas, near and far stars.
-pub fn stars() -> Texels {
+pub(super) fn stars() -> Texels {
     let (gas, dust) = (Fractal::new(3, 3, 6, 361), Fractal::new(4, 4, 6, 371));
     let layers = [(Cells::new(60, 381), 0.05, 0.7), (Cells::new(28, 391), 0.05, 1.0), (Cells::new(11, 401), 0.04, 1.5)];
     lit(512, 0.0, |u, v| {
@@ -155,7 +155,7 @@ pub fn stars() -> Texels {
 }
 
 /// Dark and light squares, eight per side.
-pub fn checkers() -> Texels {
+pub(super) fn checkers() -> Texels {
     let size = 256u32;
     let bytes = (0..size * size)
         .flat_map(|i| {

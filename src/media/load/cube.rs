@@ -7,7 +7,7 @@ use eddy_texture::{Face, TexelFormat, TextureShape};
 use half::f16;
 
 /// Makes a cubemap from a function of the direction, which is not normalised.
-pub fn of_directions(side: u32, format: TexelFormat, mut texel: impl FnMut([f32; 3], &mut Vec<u8>)) -> Texels {
+pub(crate) fn of_directions(side: u32, format: TexelFormat, mut texel: impl FnMut([f32; 3], &mut Vec<u8>)) -> Texels {
     let shape = TextureShape::cube(side, format);
     let mut bytes = Vec::with_capacity(shape.bytes() as usize);
     let center = |i: u32| f64::from(2 * i + 1) / f64::from(side) - 1.0;
@@ -22,7 +22,7 @@ pub fn of_directions(side: u32, format: TexelFormat, mut texel: impl FnMut([f32;
 }
 
 /// Joins six pictures, first row at the top, in the order of [`Face::ALL`]. `vflip`: see [`turned`].
-pub fn of_faces(faces: [Texels; 6], vflip: bool) -> Result<Texels, String> {
+pub(crate) fn of_faces(faces: [Texels; 6], vflip: bool) -> Result<Texels, String> {
     let first = faces[0].shape;
     if first.width != first.height {
         return Err(format!("a face must be square, and this one has {}x{} texels", first.width, first.height));
@@ -44,7 +44,7 @@ pub fn of_faces(faces: [Texels; 6], vflip: bool) -> Result<Texels, String> {
 }
 
 /// Turns a cubemap as Shadertoy does: each face is upside down, and the top and the bottom are swapped.
-pub fn turned(cube: Texels) -> Texels {
+pub(crate) fn turned(cube: Texels) -> Texels {
     let (row, face) = (cube.row_bytes(), cube.bytes.len() / 6);
     let faces: Vec<&[u8]> = cube.bytes.chunks_exact(face).collect();
     let order = [Face::PlusX, Face::MinusX, Face::MinusY, Face::PlusY, Face::PlusZ, Face::MinusZ];
@@ -56,7 +56,7 @@ pub fn turned(cube: Texels) -> Texels {
 /// Cuts a picture, first row at the top, into a cubemap. Its aspect ratio determines the layout: 4:3 and 3:4 are
 /// crosses with the front, +Z, in the middle, 6:1 and 1:6 strips in the order of [`Face::ALL`], and 2:1 is a panorama
 /// in latitude and longitude with +X in its middle and +Z a quarter to the right.
-pub fn of_picture(picture: Texels, vflip: bool) -> Result<Texels, String> {
+pub(crate) fn of_picture(picture: Texels, vflip: bool) -> Result<Texels, String> {
     let (width, height) = (picture.shape.width, picture.shape.height);
     let is = |across: u32, up: u32| width.is_multiple_of(across) && width / across * up == height;
     let cut = |side: u32, at: [(u32, u32); 6]| at.map(|(x, y)| part(&picture, (x * side, y * side), side));

@@ -76,7 +76,7 @@ fn brief(text: &str) -> String {
 
 impl Header {
     /// Returns the picture with the only header that the image crate reads, and its scanlines unchanged.
-    pub fn plain(&self, bytes: &[u8]) -> Vec<u8> {
+    pub(super) fn plain(&self, bytes: &[u8]) -> Vec<u8> {
         let head = format!("#?RADIANCE\n\n-Y {} +X {}\n", self.scanlines, self.texels);
         [head.as_bytes(), &bytes[self.length..]].concat()
     }

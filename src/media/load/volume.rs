@@ -11,7 +11,7 @@ const HEAD: usize = 20;
 /// Reads a file in Shadertoy's format: a signature of 4 bytes, three sides (u32), the number of channels and the layout
 /// (u8), the format (u16: 0 for bytes, 10 for floats), then the texels; all numbers are little-endian. `room` is the
 /// number of bytes that it may take.
-pub fn read(file: &[u8], room: u64) -> Result<Texels, String> {
+pub(super) fn read(file: &[u8], room: u64) -> Result<Texels, String> {
     let (head, texels) = file.split_at_checked(HEAD).ok_or("the file ends within its header of 20 bytes")?;
     if !head.starts_with(b"BIN\0") {
         return Err("it does not begin with the letters BIN and a zero".into());
@@ -36,7 +36,7 @@ pub fn read(file: &[u8], room: u64) -> Result<Texels, String> {
 }
 
 /// Joins slices of one size and format, in the order of w.
-pub fn of_slices(slices: Vec<Texels>, room: u64) -> Result<Texels, String> {
+pub(super) fn of_slices(slices: Vec<Texels>, room: u64) -> Result<Texels, String> {
     let Some(first) = slices.first().map(|slice| slice.shape) else { return Err("there are no slices".into()) };
     if let Some(n) = slices.iter().position(|slice| slice.shape != first) {
         let TextureShape { width, height, .. } = slices[n].shape;

@@ -19,7 +19,7 @@ pub(super) struct Grid {
 impl Grid {
     /// Returns the surface through `place`, seen from the side where u turns counter-clockwise into v, with smooth
     /// normals.
-    pub fn surface(&self, color: [f32; 3], place: impl Fn(f32, f32) -> Vec3) -> Mesh {
+    pub(super) fn surface(&self, color: [f32; 3], place: impl Fn(f32, f32) -> Vec3) -> Mesh {
         let mut raw = Raw { has_uv: true, ..Raw::default() };
         for j in 0..=self.rows {
             for i in 0..=self.columns {

@@ -86,45 +86,45 @@ const POSITION_BYTES: u64 = 12;
 
 impl Counts {
     /// Starts counting the contents of a file of this many bytes, including its buffers.
-    pub fn of_file(bytes: u64) -> Self {
+    pub(super) fn of_file(bytes: u64) -> Self {
         Self { most_zeros: limits::MODEL_ZEROS + bytes / POSITION_BYTES, ..Self::default() }
     }
 
     /// Adds elements that have no bytes in the file.
-    pub fn add_zeros(&mut self, elements: u64) -> Result<(), ModelError> {
+    pub(super) fn add_zeros(&mut self, elements: u64) -> Result<(), ModelError> {
         self.zeros = self.zeros.saturating_add(elements);
         at_most(self.zeros, self.most_zeros, "positions, indices and instances without data")
     }
 
-    pub fn add(&mut self, vertices: u64, triangles: u64) -> Result<(), ModelError> {
+    pub(super) fn add(&mut self, vertices: u64, triangles: u64) -> Result<(), ModelError> {
         self.vertices = self.vertices.saturating_add(vertices);
         self.triangles = self.triangles.saturating_add(triangles);
         at_most(self.vertices, limits::MODEL_VERTICES, "vertices")?;
         at_most(self.triangles, limits::MODEL_TRIANGLES, "triangles")
     }
 
-    pub fn add_parts(&mut self, parts: u64) -> Result<(), ModelError> {
+    pub(super) fn add_parts(&mut self, parts: u64) -> Result<(), ModelError> {
         self.parts = self.parts.saturating_add(parts);
         at_most(self.parts, limits::MODEL_PARTS, "parts")
     }
 
-    pub fn add_part(&mut self) -> Result<(), ModelError> {
+    pub(super) fn add_part(&mut self) -> Result<(), ModelError> {
         self.add_parts(1)
     }
 
-    pub fn add_joints(&mut self, joints: u64) -> Result<(), ModelError> {
+    pub(super) fn add_joints(&mut self, joints: u64) -> Result<(), ModelError> {
         self.joints = self.joints.saturating_add(joints);
         at_most(self.joints, limits::MODEL_JOINTS, "joints")
     }
 
     /// Adds vertices that morph targets and joints move, counted once for each.
-    pub fn add_moved(&mut self, vertices: u64) -> Result<(), ModelError> {
+    pub(super) fn add_moved(&mut self, vertices: u64) -> Result<(), ModelError> {
         self.moved = self.moved.saturating_add(vertices);
         at_most(self.moved, limits::MODEL_MOVED, "vertices of morph targets and sets of joints")
     }
 
     /// Returns an error if they do not fit into `room`.
-    pub fn fit(&self, room: u64) -> Result<(), ModelError> {
+    pub(super) fn fit(&self, room: u64) -> Result<(), ModelError> {
         if self.vertices * size_of::<Vertex>() as u64 + self.triangles * 12 <= room {
             return Ok(());
         }

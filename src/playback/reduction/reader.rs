@@ -1,23 +1,23 @@
 //! Reads a text word by word.
 
-pub struct Reader<'t> {
+pub(super) struct Reader<'t> {
     rest: &'t str,
 }
 
 impl<'t> Reader<'t> {
-    pub fn new(text: &'t str) -> Self {
+    pub(super) fn new(text: &'t str) -> Self {
         Self { rest: text.trim() }
     }
 
     /// Takes characters while they fit, and the blanks behind them.
-    pub fn take(&mut self, fits: impl Fn(char) -> bool) -> &'t str {
+    pub(super) fn take(&mut self, fits: impl Fn(char) -> bool) -> &'t str {
         let end = self.rest.find(|c| !fits(c)).unwrap_or(self.rest.len());
         let (taken, rest) = self.rest.split_at(end);
         self.rest = rest.trim_start();
         taken
     }
 
-    pub fn has(&mut self, mark: &str) -> bool {
+    pub(super) fn has(&mut self, mark: &str) -> bool {
         match self.rest.strip_prefix(mark) {
             Some(rest) => {
                 self.rest = rest.trim_start();
@@ -27,22 +27,22 @@ impl<'t> Reader<'t> {
         }
     }
 
-    pub fn want(&mut self, mark: &str, within: &str) -> Result<(), String> {
+    pub(super) fn want(&mut self, mark: &str, within: &str) -> Result<(), String> {
         if self.has(mark) { Ok(()) } else { Err(format!("expected `{mark}` {within}, {}", self.found())) }
     }
 
-    pub fn found(&self) -> String {
+    pub(super) fn found(&self) -> String {
         match self.rest.is_empty() {
             true => "but the text ends".into(),
             false => format!("found `{}`", self.rest.chars().take(20).collect::<String>()),
         }
     }
 
-    pub fn end(&self) -> Result<(), String> {
+    pub(super) fn end(&self) -> Result<(), String> {
         if self.rest.is_empty() { Ok(()) } else { Err(format!("unexpected `{}` after the end", self.rest)) }
     }
 
-    pub fn number(&mut self, what: &str) -> Result<f64, String> {
+    pub(super) fn number(&mut self, what: &str) -> Result<f64, String> {
         let found = self.found();
         let word = self.take(|c| c.is_ascii_alphanumeric() || matches!(c, '.' | '+' | '-'));
         word.parse().ok().filter(|x: &f64| !x.is_nan()).ok_or_else(|| format!("expected {what}, {found}"))

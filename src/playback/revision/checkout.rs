@@ -74,7 +74,7 @@ impl Checkout {
 }
 
 /// Returns the tree of a folder below a tree's.
-pub fn below(objects: &Objects, tree: ObjectId, folder: &Path) -> Result<Option<ObjectId>, RevisionError> {
+pub(super) fn below(objects: &Objects, tree: ObjectId, folder: &Path) -> Result<Option<ObjectId>, RevisionError> {
     let mut at = tree;
     for part in folder {
         let bytes = listed(objects, &at)?;
@@ -102,7 +102,7 @@ fn listed(objects: &Objects, id: &ObjectId) -> Result<Vec<u8>, RevisionError> {
 }
 
 /// Writes all that a tree holds. `revision` is for errors.
-pub fn write(objects: &Objects, tree: ObjectId, revision: &str) -> Result<Checkout, RevisionError> {
+pub(super) fn write(objects: &Objects, tree: ObjectId, revision: &str) -> Result<Checkout, RevisionError> {
     let folder = tempfile::tempdir()?;
     let writer = Writer { objects, revision, folder: folder.path() };
     let Found { folders, mut files, links, mut left_out } = writer.list(tree)?;

@@ -20,7 +20,7 @@ pub enum RevisionError {
 }
 
 /// A mend for a revision that Eddy does not read and git does.
-pub const WITH_GIT: &str = "if you trust the repository, write the revision to a folder with `git worktree add \
+pub(super) const WITH_GIT: &str = "if you trust the repository, write the revision to a folder with `git worktree add \
                             FOLDER REVISION` and compare with that folder";
 
 impl RevisionError {

@@ -28,9 +28,9 @@ use std::{
 const LOOK: u64 = 4 << 10;
 
 /// The hash of the repositories that are read.
-pub const HASH: Hash = Hash::Sha1;
+pub(super) const HASH: Hash = Hash::Sha1;
 
-pub struct Objects {
+pub(super) struct Objects {
     /// The folder with `objects` in it, after links.
     folder: PathBuf,
     loose: loose::Store,
@@ -47,7 +47,7 @@ struct Pack {
 }
 
 /// An object whose content has the hash it is named by.
-pub struct Object {
+pub(super) struct Object {
     pub kind: Kind,
     pub bytes: Vec<u8>,
 }
@@ -67,7 +67,7 @@ struct Announced {
 
 impl Objects {
     /// Opens the objects of the repository in `folder`.
-    pub fn open(folder: &Path) -> Result<Self, RevisionError> {
+    pub(super) fn open(folder: &Path) -> Result<Self, RevisionError> {
         let options =
             loose::Options { alloc_limit_bytes: Some(limits::MEDIA_FILE.bytes as usize), ..loose::Options::default() };
         let loose = loose::Store::at_opts(folder.join("objects"), HASH, options);
@@ -87,7 +87,7 @@ impl Objects {
     }
 
     /// Fails for a hash that a person wrote and nothing has.
-    pub fn check_named(&self, id: &oid) -> Result<(), RevisionError> {
+    pub(super) fn check_named(&self, id: &oid) -> Result<(), RevisionError> {
         if self.place(id)?.is_some() {
             return Ok(());
         }
@@ -97,13 +97,13 @@ impl Objects {
     }
 
     /// Returns what an object is, and of how many bytes.
-    pub fn header(&self, id: &oid) -> Result<(Kind, u64), RevisionError> {
+    pub(super) fn header(&self, id: &oid) -> Result<(Kind, u64), RevisionError> {
         let place = self.place(id)?.ok_or_else(|| self.missing(id))?;
         self.announced(id, &place).map(|announced| (announced.kind, announced.size))
     }
 
     /// Reads an object of at most `limit` bytes.
-    pub fn read(&self, id: &oid, limit: Limit) -> Result<Object, RevisionError> {
+    pub(super) fn read(&self, id: &oid, limit: Limit) -> Result<Object, RevisionError> {
         let place = self.place(id)?.ok_or_else(|| self.missing(id))?;
         let Announced { kind, size, rebuilt } = self.announced(id, &place)?;
         if size > limit.bytes {
@@ -129,7 +129,7 @@ impl Objects {
     }
 
     /// Returns the commits, tags and trees whose hash begins so; where there are none, other objects.
-    pub fn beginning(&self, prefix: Prefix) -> Result<Vec<ObjectId>, RevisionError> {
+    pub(super) fn beginning(&self, prefix: Prefix) -> Result<Vec<ObjectId>, RevisionError> {
         let mut found = HashSet::new();
         let folder = format!("objects/{}", prefix.as_oid().to_hex_with_len(2));
         let is_own = |real: PathBuf| real.starts_with(&self.folder);
@@ -236,13 +236,13 @@ impl Objects {
         Err(RevisionError::refused(said, "if you trust the repository, `git repack -a -d -f` repacks it"))
     }
 
-    pub fn missing(&self, id: &oid) -> RevisionError {
+    pub(super) fn missing(&self, id: &oid) -> RevisionError {
         let said = format!("object {id} is not in {}", self.folder.display());
         let hint = repository::why_missing(&self.folder);
         RevisionError::refused(said, hint.unwrap_or_else(|| "clone the repository again".into()))
     }
 
-    pub fn damaged(&self, id: &oid, why: impl std::fmt::Display) -> RevisionError {
+    pub(super) fn damaged(&self, id: &oid, why: impl std::fmt::Display) -> RevisionError {
         RevisionError::damaged(format!("object {id} in {}", self.folder.display()), why)
     }
 
@@ -288,6 +288,6 @@ fn made_by(file: &data::File, delta: &data::Entry) -> Option<u64> {
 }
 
 /// Returns what a library's error says of its cause.
-pub fn cause(error: &gix_error::Error) -> String {
+pub(super) fn cause(error: &gix_error::Error) -> String {
     error.probable_cause().to_string()
 }

@@ -23,24 +23,24 @@ const REF: Limit = Limit { bytes: 4 << 10, of: "a ref of git" };
 const LED: usize = 5;
 
 /// A ref and the object that it is of.
-pub struct Ref {
+pub(super) struct Ref {
     /// The whole name: `refs/heads/main`.
     pub name: String,
     pub id: ObjectId,
 }
 
-pub struct Refs<'a> {
+pub(super) struct Refs<'a> {
     repository: &'a Repository,
     packed: OnceCell<Option<packed::Buffer>>,
 }
 
 impl<'a> Refs<'a> {
-    pub fn of(repository: &'a Repository) -> Self {
+    pub(super) fn of(repository: &'a Repository) -> Self {
         Self { repository, packed: OnceCell::new() }
     }
 
     /// Returns the ref of a name that may lack its beginning, in git's order (`gitrevisions`).
-    pub fn find(&self, name: &str) -> Result<Option<Ref>, RevisionError> {
+    pub(super) fn find(&self, name: &str) -> Result<Option<Ref>, RevisionError> {
         if gix_validate::reference::name_partial(name.into()).is_err() {
             return Ok(None);
         }
@@ -58,7 +58,7 @@ impl<'a> Refs<'a> {
     }
 
     /// Returns the branch that is checked out, or `HEAD` where none is.
-    pub fn current(&self) -> Result<String, RevisionError> {
+    pub(super) fn current(&self) -> Result<String, RevisionError> {
         match self.target("HEAD")? {
             Some(Target::Symbolic(name)) => Ok(name.as_bstr().to_string()),
             _ => Ok("HEAD".into()),
@@ -66,7 +66,7 @@ impl<'a> Refs<'a> {
     }
 
     /// Returns what a ref was so many changes ago.
-    pub fn before(&self, name: &str, changes: usize) -> Result<Option<ObjectId>, RevisionError> {
+    pub(super) fn before(&self, name: &str, changes: usize) -> Result<Option<ObjectId>, RevisionError> {
         let log = self.log(name)?;
         let lines: Vec<_> = log::iter::forward(&log).collect();
         let damaged = |e: &gix_error::Error| self.damaged(&format!("logs/{name}"), cause(e));
@@ -83,7 +83,7 @@ impl<'a> Refs<'a> {
     }
 
     /// Returns the branch, or the commit's hash, that was checked out so many times of checking out ago.
-    pub fn left(&self, times: usize) -> Result<Option<String>, RevisionError> {
+    pub(super) fn left(&self, times: usize) -> Result<Option<String>, RevisionError> {
         let log = self.log("HEAD")?;
         let left: Vec<String> = log::iter::forward(&log)
             .flatten()

@@ -16,7 +16,7 @@ use std::{
 const PATH: Limit = Limit { bytes: 16 << 10, of: "a path that git keeps" };
 
 /// The place of a repository, after links.
-pub struct Repository {
+pub(super) struct Repository {
     /// The working tree.
     pub root: PathBuf,
     /// The folder of this working tree alone: of `HEAD`.
@@ -27,7 +27,7 @@ pub struct Repository {
 
 impl Repository {
     /// Returns the repository whose working tree a folder, after links, lies in: the nearest `.git` from there up.
-    pub fn of(folder: &Path) -> Result<Self, RevisionError> {
+    pub(super) fn of(folder: &Path) -> Result<Self, RevisionError> {
         for root in folder.ancestors() {
             let dot_git = root.join(".git");
             let Ok(metadata) = dot_git.symlink_metadata() else { continue };
@@ -107,7 +107,7 @@ fn joined(folder: &Path, path: &str, from: &Path) -> Result<PathBuf, RevisionErr
 }
 
 /// Returns why the repository may lack an object, with the mend, where it says that it lacks some.
-pub fn why_missing(common: &Path) -> Option<String> {
+pub(super) fn why_missing(common: &Path) -> Option<String> {
     let is_there = |name: &str| common.join(name).symlink_metadata().is_ok();
     let has_alternates = ["objects/info/alternates", "objects/info/http-alternates"].into_iter().any(is_there);
     if has_alternates {

@@ -24,7 +24,7 @@ use gix_revision::spec::{
 const EXAMPLES: &str = "use a branch, a tag, a hash, or one of these followed by ~1";
 
 /// Returns the tree of a revision.
-pub fn tree(repository: &Repository, objects: &Objects, revision: &str) -> Result<ObjectId, RevisionError> {
+pub(super) fn tree(repository: &Repository, objects: &Objects, revision: &str) -> Result<ObjectId, RevisionError> {
     let mut walk = Walk { objects, refs: Refs::of(repository), at: None, name: None, wrong: None };
     let parsed = spec::parse(revision.into(), &mut walk);
     if let (Ok(()), Some(at)) = (&parsed, walk.at) {

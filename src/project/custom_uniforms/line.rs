@@ -56,7 +56,7 @@ fn about(rest: &str) -> String {
 }
 
 impl Declaration {
-    pub fn custom_uniform(&self, source: SourceId) -> CustomUniform {
+    pub(super) fn custom_uniform(&self, source: SourceId) -> CustomUniform {
         CustomUniform {
             name: self.name.clone(),
             ty: self.ty,
@@ -71,7 +71,7 @@ impl Declaration {
     }
 
     /// Takes over what only `other` says. Err: what both say, and differently.
-    pub fn join(&mut self, other: &Declaration) -> Result<(), &'static str> {
+    pub(super) fn join(&mut self, other: &Declaration) -> Result<(), &'static str> {
         fn one<T: Copy + PartialEq>(
             mine: &mut Option<T>,
             theirs: Option<T>,
@@ -95,7 +95,7 @@ impl Declaration {
     }
 
     /// Gives a custom uniform everything, now that all lines are read.
-    pub fn complete(&self, custom_uniform: &mut CustomUniform, diagnostics: &mut Vec<Diagnostic>) {
+    pub(super) fn complete(&self, custom_uniform: &mut CustomUniform, diagnostics: &mut Vec<Diagnostic>) {
         custom_uniform.step = self.step;
         custom_uniform.about.clone_from(&self.about);
         let unit = CustomUniformRange { min: [0.0; 4], max: [1.0; 4] };

@@ -19,7 +19,7 @@ pub(crate) struct DirectiveScope<'p> {
 
 impl DirectiveScope<'_> {
     /// Returns the pass whose file a path leads to.
-    pub fn pass_of(&self, path: &str) -> Option<&PassName> {
+    pub(crate) fn pass_of(&self, path: &str) -> Option<&PassName> {
         let name = confine::relative(self.file, path).ok()?;
         // A file may be the text of two passes: of these a pass means itself.
         let mut found = self.passes.iter().filter(|(file, _)| *file == name).map(|(_, id)| id);

@@ -44,7 +44,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    pub const ALL: [(&str, Kind); 9] = [
+    pub(super) const ALL: [(&str, Kind); 9] = [
         ("event", Kind::Event),
         ("bool", Kind::Bool),
         ("long", Kind::Long),
@@ -57,7 +57,7 @@ impl Kind {
     ];
 
     /// It is a picture, and no uniform.
-    pub fn is_image(self) -> bool {
+    pub(super) fn is_image(self) -> bool {
         matches!(self, Kind::Image | Kind::Audio | Kind::AudioFft)
     }
 }

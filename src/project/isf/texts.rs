@@ -149,7 +149,7 @@ pub(super) struct TextWords<'t> {
 }
 
 impl<'t> TextWords<'t> {
-    pub fn of(text: &'t str) -> Self {
+    pub(super) fn of(text: &'t str) -> Self {
         let words = all_words(text);
         let defines = |line: &str| {
             line.trim_start().strip_prefix("#define").is_some_and(|rest| rest.trim_start().starts_with("mainImage"))

@@ -24,8 +24,8 @@ macro_rules! object {
     ($(#[$doc:meta])* $name:ident $(<$life:lifetime>)? { $($field:ident: $ty:ty = $key:literal,)* }) => {
         $(#[$doc])*
         #[derive(Default)]
-        pub struct $name $(<$life>)? {
-            $(pub $field: Option<$ty>,)*
+        pub(super) struct $name $(<$life>)? {
+            $(pub(super) $field: Option<$ty>,)*
         }
 
         impl<'de $(: $life, $life)?> Deserialize<'de> for $name $(<$life>)? {
@@ -118,7 +118,7 @@ object! {
 }
 
 /// Ids, numbers and truths come as texts from the site and bare from others.
-pub enum Scalar {
+pub(super) enum Scalar {
     Text(String),
     Number(serde_json::Number),
     Bool(bool),
@@ -153,7 +153,7 @@ impl<'de> Deserialize<'de> for Scalar {
 }
 
 impl Scalar {
-    pub fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         match self {
             Scalar::Text(t) => t.clone(),
             Scalar::Number(n) => n.to_string(),
@@ -163,7 +163,7 @@ impl Scalar {
 }
 
 /// A list of at most `MAX` entries.
-pub struct BoundedList<T, const MAX: usize>(pub Vec<T>);
+pub(super) struct BoundedList<T, const MAX: usize>(pub Vec<T>);
 
 impl<'de, T: Deserialize<'de>, const MAX: usize> Deserialize<'de> for BoundedList<T, MAX> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -189,7 +189,7 @@ impl<'de, T: Deserialize<'de>, const MAX: usize> Deserialize<'de> for BoundedLis
 }
 
 /// The content of a file before it is known to be a shader.
-pub enum RootContent<'t> {
+pub(super) enum RootContent<'t> {
     Object(Object<'t>),
     List(Shaders<'t>),
     Bare,
@@ -197,7 +197,7 @@ pub enum RootContent<'t> {
 
 /// The entries of a list, the first [`SHADERS`] of them, and how many there are.
 #[derive(Default)]
-pub struct Shaders<'t> {
+pub(super) struct Shaders<'t> {
     pub first: Vec<&'t RawValue>,
     pub count: usize,
 }
@@ -235,7 +235,7 @@ impl<'t> Deserialize<'t> for Shaders<'t> {
 
 /// The members by which the shapes are told apart.
 #[derive(Default)]
-pub struct Object<'t> {
+pub(super) struct Object<'t> {
     pub renderpass: bool,
     pub shader: Option<&'t RawValue>,
     /// The list of the file that a profile's page exports.
@@ -309,6 +309,6 @@ impl<'t> Visitor<'t> for Shape {
 }
 
 /// A text of the file's in a message: not too long, and in one line.
-pub fn shown(text: &str) -> String {
+pub(super) fn shown(text: &str) -> String {
     text.chars().take(80).collect::<String>().escape_debug().to_string()
 }

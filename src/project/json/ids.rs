@@ -7,7 +7,7 @@ const BUFFERS: [(&str, &str, &str); 4] =
     [("A", "4dXGR8", "257"), ("B", "XsXGR8", "258"), ("C", "4sXGR8", "259"), ("D", "XdfGR8", "260")];
 
 /// Id of a buffer's output. A further buffer, which the site does not have, is known by its key.
-pub fn of_buffer(name: &str) -> String {
+pub(super) fn of_buffer(name: &str) -> String {
     match BUFFERS.iter().find(|(n, ..)| *n == name) {
         Some((_, id, _)) => (*id).to_owned(),
         None => PassName::buffer(name).key().to_owned(),
@@ -15,7 +15,7 @@ pub fn of_buffer(name: &str) -> String {
 }
 
 /// The buffer an id stands for.
-pub fn buffer(id: &str) -> Option<String> {
+pub(super) fn buffer(id: &str) -> Option<String> {
     if let Some((name, ..)) = BUFFERS.iter().find(|(_, i, number)| *i == id || *number == id) {
         return Some((*name).to_owned());
     }
@@ -23,7 +23,7 @@ pub fn buffer(id: &str) -> Option<String> {
 }
 
 /// Path of a buffer's preview picture, which the site's inputs carry; empty for a buffer that the site does not have.
-pub fn preview(name: &str) -> String {
+pub(super) fn preview(name: &str) -> String {
     match BUFFERS.iter().position(|(n, ..)| *n == name) {
         Some(number) => format!("/media/previz/buffer0{number}.png"),
         None => String::new(),
@@ -31,7 +31,7 @@ pub fn preview(name: &str) -> String {
 }
 
 /// The buffer a preview picture's path stands for.
-pub fn buffer_of_preview(path: &str) -> Option<String> {
+pub(super) fn buffer_of_preview(path: &str) -> Option<String> {
     let number: usize = path.rsplit_once("buffer0")?.1.strip_suffix(".png")?.parse().ok()?;
     BUFFERS.get(number).map(|(name, ..)| (*name).to_owned())
 }

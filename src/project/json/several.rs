@@ -88,14 +88,14 @@ impl<'t> serde::Deserialize<'t> for Wrapped<'t> {
 const OF_FILE: char = '#';
 
 /// Returns how one of the shaders of a JSON file is named.
-pub fn one_of(path: &Path, wanted: &str) -> PathBuf {
+pub(crate) fn one_of(path: &Path, wanted: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(format!("{OF_FILE}{wanted}"));
     name.into()
 }
 
 /// The JSON file and the shader that a name means which [`one_of`] made.
-pub fn of_several(spec: &str) -> Option<(PathBuf, String)> {
+pub(crate) fn of_several(spec: &str) -> Option<(PathBuf, String)> {
     let is_json = |path: &&str| Path::new(path).extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
     let mut places = spec.match_indices(OF_FILE).map(|(at, _)| at);
     let at = places.find(|&at| is_json(&&spec[..at]) && Path::new(&spec[..at]).is_file())?;

@@ -39,7 +39,7 @@ const SETTINGS: [&str; 6] = ["filter", "wrap", "vflip", "kind", "site_id", "targ
 
 /// The project that `text`, an `eddy.toml`, makes of `files`. Errors of the author's come back as
 /// [`ProjectError::Invalid`].
-pub fn project(
+pub(crate) fn project(
     what: &str,
     folder_name: String,
     text: &str,
@@ -413,6 +413,6 @@ impl Reader<'_> {
 }
 
 /// The channel an entry of `channels` says, if it says one without a mistake.
-pub fn channel(item: &Item) -> Option<Channel> {
+pub(super) fn channel(item: &Item) -> Option<Channel> {
     silent(|reader| reader.channel(0, item)).flatten()
 }

@@ -19,21 +19,21 @@ pub(super) struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    pub fn span(&self, range: Option<Range<usize>>) -> Option<Span> {
+    pub(super) fn span(&self, range: Option<Range<usize>>) -> Option<Span> {
         range.map(|r| Span::new(self.id, r))
     }
 
     /// The whole text that an item stands in, and its place there.
-    pub fn span_text(&self, item: &Item) -> Option<(Arc<str>, Range<usize>)> {
+    pub(super) fn span_text(&self, item: &Item) -> Option<(Arc<str>, Range<usize>)> {
         Some((self.sources.get(self.id)?.text.clone(), item.span()?))
     }
 
-    pub fn error(&mut self, range: Option<Range<usize>>, message: impl Into<String>, hint: impl Into<String>) {
+    pub(super) fn error(&mut self, range: Option<Range<usize>>, message: impl Into<String>, hint: impl Into<String>) {
         let span = self.span(range);
         self.diagnostics.push(Diagnostic::error(span, message).hint(hint));
     }
 
-    pub fn source(&mut self, file: &str, title: &str, at: Option<Range<usize>>) -> Option<Source> {
+    pub(super) fn source(&mut self, file: &str, title: &str, at: Option<Range<usize>>) -> Option<Source> {
         match self.files.read(file, limits::GLSL_TEXT) {
             Read::Text(text) => Some(Source { name: file.to_owned(), path: self.files.path(file), text: text.into() }),
             Read::Missing => {
@@ -60,7 +60,7 @@ impl Reader<'_> {
         }
     }
 
-    pub fn table<'i>(&mut self, key: &str, item: &'i Item) -> Option<&'i dyn TableLike> {
+    pub(super) fn table<'i>(&mut self, key: &str, item: &'i Item) -> Option<&'i dyn TableLike> {
         let table = item.as_table_like();
         if table.is_none() {
             self.wrong_type(key, item, "a table");
@@ -68,7 +68,7 @@ impl Reader<'_> {
         table
     }
 
-    pub fn string(&mut self, table: &dyn TableLike, key: &str) -> Option<String> {
+    pub(super) fn string(&mut self, table: &dyn TableLike, key: &str) -> Option<String> {
         let item = table.get(key)?;
         let text = item.as_str().map(str::to_owned);
         if text.is_none() {
@@ -78,7 +78,7 @@ impl Reader<'_> {
     }
 
     /// Reads a length of time above 0.
-    pub fn seconds(&mut self, table: &dyn TableLike, key: &str) -> Option<f64> {
+    pub(super) fn seconds(&mut self, table: &dyn TableLike, key: &str) -> Option<f64> {
         let item = table.get(key)?;
         let secs = item.as_value().and_then(number).filter(|secs| *secs > 0.0);
         if secs.is_none() {
@@ -91,7 +91,7 @@ impl Reader<'_> {
         secs
     }
 
-    pub fn boolean(&mut self, table: &dyn TableLike, key: &str) -> Option<bool> {
+    pub(super) fn boolean(&mut self, table: &dyn TableLike, key: &str) -> Option<bool> {
         let item = table.get(key)?;
         if item.as_bool().is_none() {
             self.wrong_type(key, item, "true or false");
@@ -99,7 +99,7 @@ impl Reader<'_> {
         item.as_bool()
     }
 
-    pub fn one_of<'k>(&mut self, table: &dyn TableLike, key: &str, known: &[&'k str]) -> Option<&'k str> {
+    pub(super) fn one_of<'k>(&mut self, table: &dyn TableLike, key: &str, known: &[&'k str]) -> Option<&'k str> {
         let text = self.string(table, key)?;
         let found = known.iter().copied().find(|k| k.eq_ignore_ascii_case(&text));
         if found.is_none() {
@@ -112,12 +112,12 @@ impl Reader<'_> {
         found
     }
 
-    pub fn wrong_type(&mut self, key: &str, item: &Item, expected: &str) {
+    pub(super) fn wrong_type(&mut self, key: &str, item: &Item, expected: &str) {
         let message = format!("{key} is {}, not {expected}", article(item.type_name()));
         self.error(item.span(), message, format!("write {expected}"));
     }
 
-    pub fn check_keys(&mut self, place: &str, table: &dyn TableLike, known: &[&[&'static str]]) {
+    pub(super) fn check_keys(&mut self, place: &str, table: &dyn TableLike, known: &[&[&'static str]]) {
         let known: Vec<&'static str> = known.iter().flat_map(|k| k.iter().copied()).collect();
         let unknown: Vec<(String, Option<Range<usize>>)> = table
             .iter()

@@ -48,7 +48,7 @@ impl Reader<'_> {
 }
 
 /// The value an entry of `[uniforms]` says.
-pub fn custom_uniform_value(item: &Item) -> Option<CustomUniformValue> {
+pub(super) fn custom_uniform_value(item: &Item) -> Option<CustomUniformValue> {
     item.as_value().and_then(value)
 }
 

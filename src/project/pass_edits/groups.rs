@@ -4,7 +4,7 @@ use super::edit::PassEditError;
 use crate::{Group, PassName, Project};
 
 /// Draws a buffer so many times a frame, with the others of its group.
-pub fn set_steps(project: &mut Project, id: &PassName, steps: u32) -> Result<(), PassEditError> {
+pub(super) fn set_steps(project: &mut Project, id: &PassName, steps: u32) -> Result<(), PassEditError> {
     if steps == 0 {
         return Err(PassEditError::NoSteps);
     }
@@ -22,7 +22,7 @@ pub fn set_steps(project: &mut Project, id: &PassName, steps: u32) -> Result<(),
 }
 
 /// Puts a buffer and what is grouped with it into the group of the buffer before, or parts the two.
-pub fn join(project: &mut Project, id: &PassName, is_joined: bool) -> Result<(), PassEditError> {
+pub(super) fn join(project: &mut Project, id: &PassName, is_joined: bool) -> Result<(), PassEditError> {
     let before = place(project, id).and_then(|at| project.passes.get(at.checked_sub(1)?)).map(|p| p.id.clone());
     let Some(before) = before else { return Err(PassEditError::First(id.title())) };
     let (above, own) = (of(project, &before), of(project, id));
@@ -55,7 +55,7 @@ pub fn join(project: &mut Project, id: &PassName, is_joined: bool) -> Result<(),
 }
 
 /// After a buffer was moved: between two passes of a group it is one of them, and away from its own group it leaves it.
-pub fn settle_moved(project: &mut Project, id: &PassName) {
+pub(super) fn settle_moved(project: &mut Project, id: &PassName) {
     let Some(at) = place(project, id) else { return };
     let neighbour = |at: Option<usize>| of(project, &project.passes.get(at?)?.id);
     let (before, after) = (neighbour(at.checked_sub(1)), neighbour(Some(at + 1)));
@@ -82,7 +82,7 @@ pub fn settle_moved(project: &mut Project, id: &PassName) {
 }
 
 /// Takes a pass that is no more out of its group.
-pub fn forget(project: &mut Project, id: &PassName) {
+pub(super) fn forget(project: &mut Project, id: &PassName) {
     project.groups.iter_mut().for_each(|g| g.passes.retain(|p| p != id));
     project.groups.retain(|g| !g.passes.is_empty());
 }

@@ -30,12 +30,12 @@ pub(super) struct OutputMarker {
 pub(super) type UnfinishedOpen = Option<String>;
 
 impl OutputMarker {
-    pub fn new(state_dir: Option<&Path>) -> Self {
+    pub(super) fn new(state_dir: Option<&Path>) -> Self {
         Self { file: state_dir.map(|dir| dir.join(FILE)), is_written: Arc::default() }
     }
 
     /// Returns the device that the program was opening when it ended, if it did.
-    pub fn found(&self) -> Option<UnfinishedOpen> {
+    pub(super) fn found(&self) -> Option<UnfinishedOpen> {
         let text = confine::read_state(self.file.as_ref()?, limits::STATE_FILE).ok()??;
         let name = text.trim_end_matches('\n');
         Some((name != DEFAULT).then(|| name.to_owned()))
@@ -52,14 +52,14 @@ impl OutputMarker {
     }
 
     /// The device that was opened in this run plays, or was refused.
-    pub fn clear(&self) {
+    pub(super) fn clear(&self) {
         if self.is_written.swap(false, Ordering::AcqRel) {
             self.remove();
         }
     }
 
     /// Forgets what was found.
-    pub fn remove(&self) {
+    pub(super) fn remove(&self) {
         if let Some(file) = &self.file
             && let Err(e) = fs::remove_file(file)
             && e.kind() != std::io::ErrorKind::NotFound

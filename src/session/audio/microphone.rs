@@ -17,7 +17,7 @@ pub(super) fn reads_it(pass: &Pass) -> bool {
 impl Audio {
     /// Returns what a frame reads of the microphone. `is_new`: else it is one that is drawn while time stands, and reads
     /// what the one before did.
-    pub fn spectrum(&mut self, is_new: bool) -> Option<Arc<Spectrum>> {
+    pub(crate) fn spectrum(&mut self, is_new: bool) -> Option<Arc<Spectrum>> {
         if !self.is_recording {
             self.spectrum = None;
         } else if is_new && let Some(microphone) = &mut self.microphone {

@@ -33,7 +33,7 @@ const SPEEDS: std::ops::RangeInclusive<f64> = 0.25..=4.0;
 /// A device that has played for so long will not end the program by being opened.
 const SETTLES: Duration = Duration::from_secs(1);
 
-pub struct Audio {
+pub(crate) struct Audio {
     host: Option<Arc<dyn AudioHost>>,
     on_thread: bool,
     output: Option<String>,
@@ -71,7 +71,7 @@ pub struct Audio {
 }
 
 impl Audio {
-    pub fn new(host: Option<Arc<dyn AudioHost>>, on_thread: bool, state_dir: Option<&Path>) -> Self {
+    pub(crate) fn new(host: Option<Arc<dyn AudioHost>>, on_thread: bool, state_dir: Option<&Path>) -> Self {
         let marker = OutputMarker::new(state_dir.filter(|_| host.is_some()));
         let marked = |host| -> Arc<dyn AudioHost> { Arc::new(MarkedHost { host, marker: marker.clone() }) };
         Self {
@@ -103,7 +103,7 @@ impl Audio {
     }
 
     /// Nothing of the project before is heard, and the microphone is off: a person has switched it on for that project.
-    pub fn begin_next_project(&mut self) {
+    pub(crate) fn begin_next_project(&mut self) {
         // The next project is told of it again.
         self.is_end_told = false;
         (self.uses_microphone, self.input_is_missing) = (false, false);
@@ -116,33 +116,33 @@ impl Audio {
     }
 
     /// A program was built whose channels read this music.
-    pub fn expect(&mut self, sounds: Vec<ChannelSound>) {
+    pub(crate) fn expect(&mut self, sounds: Vec<ChannelSound>) {
         self.coming = Some(sounds);
     }
 
     /// It draws from now on.
-    pub fn program_is_there(&mut self) {
+    pub(crate) fn program_is_there(&mut self) {
         if let Some(sounds) = self.coming.take() {
             self.sounds = sounds;
         }
     }
 
     /// Returns the music of the program that draws.
-    pub fn music(&self) -> &[ChannelSound] {
+    pub(crate) fn music(&self) -> &[ChannelSound] {
         &self.sounds
     }
 
-    pub fn set_volume(&mut self, volume: f32) {
+    pub(crate) fn set_volume(&mut self, volume: f32) {
         if volume.is_finite() {
             self.volume = volume.clamp(0.0, 1.0);
         }
     }
 
-    pub fn set_mute(&mut self, on: bool) {
+    pub(crate) fn set_mute(&mut self, on: bool) {
         self.is_muted = on;
     }
 
-    pub fn choose_output(&mut self, device: Option<String>) {
+    pub(crate) fn choose_output(&mut self, device: Option<String>) {
         if self.ended_before.as_ref().is_some_and(|before| *before != device) {
             self.open_again();
         }
@@ -153,20 +153,20 @@ impl Audio {
     }
 
     /// A person wants the sound device that ended the run before to be opened again, or has chosen another one.
-    pub fn open_again(&mut self) {
+    pub(crate) fn open_again(&mut self) {
         if self.ended_before.take().is_some() {
             self.marker.remove();
         }
     }
 
-    pub fn choose_input(&mut self, device: Option<String>) {
+    pub(crate) fn choose_input(&mut self, device: Option<String>) {
         if let Some(microphone) = &mut self.microphone {
             microphone.choose(device.clone());
         }
         self.input = device;
     }
 
-    pub fn list_devices(&mut self, wake: &Arc<dyn Fn() + Send + Sync>) {
+    pub(crate) fn list_devices(&mut self, wake: &Arc<dyn Fn() + Send + Sync>) {
         if let Some(player) = self.player(wake) {
             player.ask_names();
         }

@@ -49,7 +49,7 @@ pub struct BufferRead {
 
 /// Holds what came back.
 #[derive(Clone, Debug, Default)]
-pub struct BuffersRead {
+pub(crate) struct BuffersRead {
     pub shown: Option<BufferRead>,
     pub under: Option<Vec<TexelAt>>,
 }
@@ -95,7 +95,7 @@ pub(crate) struct BufferReads {
 
 impl BufferReads {
     /// Only this is looked at from now on.
-    pub fn watch(&mut self, watch: BufferWatch) {
+    pub(crate) fn watch(&mut self, watch: BufferWatch) {
         self.is_shown_due |= watch.shown != self.watch.shown;
         self.is_place_due |= watch.under != self.watch.under;
         let target = |watch: &BufferWatch| watch.shown.as_ref().map(|(target, _)| target.clone());
@@ -109,12 +109,12 @@ impl BufferReads {
     }
 
     /// The newest of the target that is looked at, and a number that grows with each new one.
-    pub fn shown(&self) -> Option<(&Arc<BufferRead>, u64)> {
+    pub(crate) fn shown(&self) -> Option<(&Arc<BufferRead>, u64)> {
         self.shown.as_ref().map(|(read, generation)| (read, *generation))
     }
 
     /// The texels of all targets at the place that is looked at.
-    pub fn under(&self) -> &[TexelAt] {
+    pub(crate) fn under(&self) -> &[TexelAt] {
         &self.under
     }
 

@@ -77,7 +77,7 @@ pub(super) struct Source<'s> {
 }
 
 impl CompileControl {
-    pub fn new(device: Device, options: &SessionOptions, wake: Wake) -> io::Result<Self> {
+    pub(crate) fn new(device: Device, options: &SessionOptions, wake: Wake) -> io::Result<Self> {
         let jobs = Arc::<AtomicU64>::default();
         let worker = worker(device, options, jobs.clone(), wake)?;
         let longest_quiet = options.edit_debounce;
@@ -103,7 +103,7 @@ impl CompileControl {
         })
     }
 
-    pub fn begin_next_project(&mut self) {
+    pub(crate) fn begin_next_project(&mut self) {
         // A compile of the project that goes may end before the new one's begins.
         self.worker.clear();
         self.edits = Debounce::new(self.longest_quiet);
@@ -116,7 +116,7 @@ impl CompileControl {
     }
 
     /// Builds programs on another device. What the old one builds is waited for by nobody: it may wait for its device.
-    pub fn change_device(&mut self, device: Device, options: &SessionOptions, wake: Wake) -> io::Result<()> {
+    pub(crate) fn change_device(&mut self, device: Device, options: &SessionOptions, wake: Wake) -> io::Result<()> {
         self.newest_since = None;
         let worker = worker(device, options, self.jobs.clone(), wake)?;
         replace(&mut self.worker, worker).leave();
@@ -124,12 +124,12 @@ impl CompileControl {
     }
 
     /// Lets go of the thread.
-    pub fn leave(&mut self) {
+    pub(crate) fn leave(&mut self) {
         self.worker.leave();
     }
 
     /// A text was edited.
-    pub fn edit(&mut self) {
+    pub(crate) fn edit(&mut self) {
         if self.on_save {
             self.waits_for_save = true;
         } else {
@@ -139,14 +139,14 @@ impl CompileControl {
     }
 
     /// Compiles in the next tick.
-    pub fn soon(&mut self) {
+    pub(crate) fn soon(&mut self) {
         self.fallback = None;
         self.waits_for_save = false;
         self.is_wanted = true;
         self.state.compiling = true;
     }
 
-    pub fn set_on_save(&mut self, on: bool) {
+    pub(crate) fn set_on_save(&mut self, on: bool) {
         self.on_save = on;
         if !on {
             self.saved();
@@ -154,20 +154,20 @@ impl CompileControl {
     }
 
     /// Compiles what waited to be saved.
-    pub fn saved(&mut self) {
+    pub(crate) fn saved(&mut self) {
         if self.waits_for_save {
             self.soon();
         }
     }
 
     /// Returns the edit whose included files have not been read.
-    pub fn unread_includes(&self) -> Option<u64> {
+    pub(crate) fn unread_includes(&self) -> Option<u64> {
         (self.includes_read != self.include_edits).then_some(self.include_edits)
     }
 
     /// Compiles another project instead of the newest text, which only another edit, or who asks for it, tries again.
     /// Returns whether there is one.
-    pub fn fall_back(&mut self, to: Option<Project>) -> bool {
+    pub(crate) fn fall_back(&mut self, to: Option<Project>) -> bool {
         (self.is_wanted, self.is_edited) = (false, false);
         self.edits.cancel();
         self.fallback = to;
@@ -175,7 +175,7 @@ impl CompileControl {
     }
 
     /// Hands the worker what is due. Returns whether that is a compile.
-    pub fn start(&mut self, now: Instant, source: Source<'_>) -> bool {
+    pub(crate) fn start(&mut self, now: Instant, source: Source<'_>) -> bool {
         if take(&mut self.is_edited) {
             self.edits.touch(now);
             self.edited_at = Some(now);
@@ -207,7 +207,7 @@ impl CompileControl {
     }
 
     /// Takes what the worker has done; the error is a bug in it.
-    pub fn take(&mut self) -> Option<Result<Done, String>> {
+    pub(crate) fn take(&mut self) -> Option<Result<Done, String>> {
         let done = self.worker.take()?;
         if !matches!(done, Ok(Done { compiled: None, .. })) {
             self.newest_since = None;
@@ -216,13 +216,13 @@ impl CompileControl {
     }
 
     /// Returns whether a compile is due or under way.
-    pub fn is_busy(&self) -> bool {
+    pub(crate) fn is_busy(&self) -> bool {
         let is_due = self.is_edited || self.is_wanted || self.edits.is_waiting();
         is_due || self.worker.is_busy()
     }
 
     /// Returns whether something newer is to be drawn than what the compiler was given before.
-    pub fn is_newer_wanted(&self, now: Instant) -> bool {
+    pub(crate) fn is_newer_wanted(&self, now: Instant) -> bool {
         self.is_wanted
             || self.newest_since.is_some()
             || self.fallback.is_some()
@@ -231,18 +231,18 @@ impl CompileControl {
 
     /// Returns until when frames wait for the compile that is under way: one that takes longer than expected, as of a text
     /// that was pasted, does not hold the picture.
-    pub fn holds_frames_until(&self, now: Instant) -> Option<Instant> {
+    pub(crate) fn holds_frames_until(&self, now: Instant) -> Option<Instant> {
         let until = self.newest_since? + BRIEF;
         (self.edits.quiet() <= BRIEF && now < until).then_some(until)
     }
 
     /// Says whether the picture is of an older text than the newest. Returns whether that is news.
-    pub fn set_compiling(&mut self, is_compiling: bool) -> bool {
+    pub(crate) fn set_compiling(&mut self, is_compiling: bool) -> bool {
         replace(&mut self.state.compiling, is_compiling) != is_compiling
     }
 
     /// Takes what a compile of the newest text has said, and how long it took.
-    pub fn diagnose(&mut self, mut diagnostics: Vec<TabDiagnostic>, took: Duration) {
+    pub(crate) fn diagnose(&mut self, mut diagnostics: Vec<TabDiagnostic>, took: Duration) {
         diagnostics.extend(self.read.iter().cloned());
         diagnostics.sort_by_key(|d| Reverse(d.severity));
         self.diagnostics = diagnostics;
@@ -250,17 +250,17 @@ impl CompileControl {
     }
 
     /// The next compile is expected to take so long.
-    pub fn expect(&mut self, took: Duration) {
+    pub(crate) fn expect(&mut self, took: Duration) {
         self.edits.set_quiet(worker::quiet_after(took, self.longest_quiet));
     }
 
     /// Says first, about no text, why there is no program.
-    pub fn add_failure(&mut self, why: &str) {
+    pub(crate) fn add_failure(&mut self, why: &str) {
         self.diagnostics.insert(0, TabDiagnostic::nowhere(why));
     }
 
     /// The newest text gave a program.
-    pub fn succeed(&mut self, millis: f64) {
+    pub(crate) fn succeed(&mut self, millis: f64) {
         let warnings = self.count(Severity::Warning);
         self.state.last = Some(match self.count(Severity::Error) {
             0 => Outcome::Ok { millis, warnings },
@@ -269,7 +269,7 @@ impl CompileControl {
     }
 
     /// The newest text gave no program, for the reasons that are in the list.
-    pub fn fail(&mut self, has_program: bool) {
+    pub(crate) fn fail(&mut self, has_program: bool) {
         let meanwhile = if has_program { FallbackPicture::LastGood } else { FallbackPicture::Nothing };
         self.state.last = Some(Outcome::Failed { errors: self.count(Severity::Error), meanwhile });
     }
@@ -279,12 +279,12 @@ impl CompileControl {
     }
 
     #[cfg(test)]
-    pub fn set_newest_since(&mut self, since: Option<Instant>) {
+    pub(crate) fn set_newest_since(&mut self, since: Option<Instant>) {
         self.newest_since = since;
     }
 
     #[cfg(test)]
-    pub fn replace_worker(&mut self, worker: Background<Job, (), Done>) -> Background<Job, (), Done> {
+    pub(crate) fn replace_worker(&mut self, worker: Background<Job, (), Done>) -> Background<Job, (), Done> {
         replace(&mut self.worker, worker)
     }
 }

@@ -22,7 +22,7 @@ use std::{
 };
 
 /// One compile, or a look at whether one is due.
-pub struct Job {
+pub(crate) struct Job {
     pub project: Project,
     /// The pass that is shown besides Image.
     pub shown: PassName,
@@ -41,7 +41,7 @@ pub struct Job {
 }
 
 /// The result of a job.
-pub struct Done {
+pub(crate) struct Done {
     /// Pictures, models and the files these name, those among them that are not there.
     pub files: Vec<PathBuf>,
     /// True for a look that found other pictures or models than those of the last compile.
@@ -52,7 +52,7 @@ pub struct Done {
     pub compiled: Option<Compiled>,
 }
 
-pub struct Compiled {
+pub(crate) struct Compiled {
     /// The project that was compiled.
     pub project: Project,
     pub is_fallback: bool,
@@ -75,13 +75,13 @@ const UNFELT: Duration = Duration::from_millis(5);
 
 /// Returns how long to wait for the end of typing after a compile that took so long: not at all where compiling is not
 /// felt, else as long as it takes, so that it takes half of the time at most.
-pub fn quiet_after(took: Duration, longest: Duration) -> Duration {
+pub(super) fn quiet_after(took: Duration, longest: Duration) -> Duration {
     if took < UNFELT { Duration::ZERO } else { took.min(longest) }
 }
 
 /// The worker's work, with the pictures it has read so far. The first job waits for the device. `jobs` counts what was
 /// submitted: a trial compile that a newer job has overtaken is given up.
-pub fn work(
+pub(super) fn work(
     device: Device,
     options: &SessionOptions,
     jobs: Arc<AtomicU64>,

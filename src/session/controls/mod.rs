@@ -81,7 +81,7 @@ impl ControlsView {
 }
 
 impl Controls {
-    pub fn new(options: &SessionOptions, wake: Wake) -> Self {
+    pub(crate) fn new(options: &SessionOptions, wake: Wake) -> Self {
         Self {
             host: options.midi.clone(),
             on_thread: options.audio_on_thread,
@@ -103,7 +103,7 @@ impl Controls {
     }
 
     /// Nothing is learned any more: it was of the project before.
-    pub fn begin_next_project(&mut self) {
+    pub(crate) fn begin_next_project(&mut self) {
         (self.learning, self.part) = (None, None);
         self.takeovers.clear();
     }

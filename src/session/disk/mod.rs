@@ -4,7 +4,7 @@
 //! pictures and models ([`stamps`]). Texts are the documents'; what a change does to them is in `reload`.
 
 mod reload;
-pub mod stamps;
+pub(crate) mod stamps;
 mod watcher;
 
 use super::{debounce::Debounce, documents::Documents, options::SessionOptions};
@@ -60,7 +60,7 @@ enum Check {
 }
 
 impl DiskSync {
-    pub fn new(options: &SessionOptions) -> Self {
+    pub(crate) fn new(options: &SessionOptions) -> Self {
         let (watch_debounce, retry_for) = (options.watch_debounce, options.retry_for);
         Self {
             watch_debounce,
@@ -70,7 +70,7 @@ impl DiskSync {
         }
     }
 
-    pub fn begin_next_project(&mut self) {
+    pub(crate) fn begin_next_project(&mut self) {
         self.changes = Debounce::with_limit(self.watch_debounce, 8 * self.watch_debounce);
         (self.is_check_wanted, self.unsettled_since) = (false, None);
         (self.reported, self.manifest) = (None, None);
@@ -79,27 +79,27 @@ impl DiskSync {
     }
 
     /// The project lies in another place than before.
-    pub fn has_moved(&mut self) {
+    pub(crate) fn has_moved(&mut self) {
         self.opened += 1;
     }
 
     /// Counts the times a project was opened or took a new place.
-    pub fn opened(&self) -> u64 {
+    pub(crate) fn opened(&self) -> u64 {
         self.opened
     }
 
     /// Looks at the files in the next tick.
-    pub fn want_check(&mut self) {
+    pub(crate) fn want_check(&mut self) {
         self.is_check_wanted = true;
     }
 
     /// Returns when changes of the files have been quiet for long enough.
-    pub fn deadline(&self) -> Option<Instant> {
+    pub(crate) fn deadline(&self) -> Option<Instant> {
         self.changes.deadline()
     }
 
     /// Takes the pictures, models and other files that a compile has read. Returns whether they are others than before.
-    pub fn set_media_files(&mut self, files: Vec<PathBuf>) -> bool {
+    pub(crate) fn set_media_files(&mut self, files: Vec<PathBuf>) -> bool {
         let is_new = self.media_files != files;
         self.media_files = files;
         is_new

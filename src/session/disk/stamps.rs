@@ -13,14 +13,14 @@ use std::{
 };
 
 /// A file's content as a number; `None` for one that cannot be read.
-pub type Stamp = (PathBuf, Option<u64>);
+pub(crate) type Stamp = (PathBuf, Option<u64>);
 
 /// A file that was written so recently may be written again without another time of change.
 const RECENT: Duration = Duration::from_secs(2);
 
 /// Stamps as they were last taken, so that a file that has not changed is not read again.
 #[derive(Default)]
-pub struct Stamps {
+pub(crate) struct Stamps {
     taken: HashMap<PathBuf, StampedFile>,
 }
 
@@ -39,7 +39,7 @@ struct Attributes {
 
 impl Stamps {
     /// Returns the stamps of every picture and model that the project names, and of the files that its models name.
-    pub fn take(&mut self, project: &Project) -> Vec<Stamp> {
+    pub(crate) fn take(&mut self, project: &Project) -> Vec<Stamp> {
         let base = capture::base_folder(project);
         let files = files(project, base.as_deref());
         self.taken.retain(|path, _| files.contains_key(path));

@@ -13,7 +13,7 @@ use std::{
     },
 };
 
-pub struct FolderWatcher {
+pub(super) struct FolderWatcher {
     // Dropping it ends the watch.
     _watcher: notify::RecommendedWatcher,
     folders: BTreeSet<PathBuf>,
@@ -23,7 +23,7 @@ pub struct FolderWatcher {
 impl FolderWatcher {
     /// Watches each folder itself, not what lies deeper. `wake` is called from the watcher's thread. Folders that
     /// cannot be watched come back with the reason.
-    pub fn new(
+    pub(super) fn new(
         folders: BTreeSet<PathBuf>,
         wake: Arc<dyn Fn() + Send + Sync>,
     ) -> Result<(FolderWatcher, Vec<(PathBuf, notify::Error)>), notify::Error> {
@@ -44,12 +44,12 @@ impl FolderWatcher {
         Ok((FolderWatcher { _watcher: watcher, folders, changed }, failed))
     }
 
-    pub fn folders(&self) -> &BTreeSet<PathBuf> {
+    pub(super) fn folders(&self) -> &BTreeSet<PathBuf> {
         &self.folders
     }
 
     /// Returns whether anything has happened since the last call.
-    pub fn take_changed(&self) -> bool {
+    pub(super) fn take_changed(&self) -> bool {
         self.changed.swap(false, Ordering::Acquire)
     }
 }

@@ -47,19 +47,19 @@ pub(super) struct Merge {
 
 impl Merge {
     /// The picture must be compiled anew.
-    pub fn changes_project(&self) -> bool {
+    pub(crate) fn changes_project(&self) -> bool {
         !self.taken.is_empty() || self.took_structure
     }
 }
 
 impl Documents {
     /// A project as it was read or made: nothing unsaved.
-    pub fn new(project: Project) -> Self {
+    pub(crate) fn new(project: Project) -> Self {
         Self { saved: project.clone(), current: project, missing: BTreeSet::new(), revision: 0 }
     }
 
     /// A project with unsaved work, and what of it is on disk now.
-    pub fn restored(mut current: Project, saved: Project) -> Self {
+    pub(crate) fn restored(mut current: Project, saved: Project) -> Self {
         current.origin = saved.origin.clone();
         let mut saved = saved;
         let edited: Vec<Included> = current.includes.iter().filter(|i| i.is_edited).cloned().collect();
@@ -79,26 +79,26 @@ impl Documents {
     }
 
     /// Grows with every change, of texts and of what is known of the disk.
-    pub fn revision(&self) -> u64 {
+    pub(crate) fn revision(&self) -> u64 {
         self.revision
     }
 
-    pub fn current(&self) -> &Project {
+    pub(crate) fn current(&self) -> &Project {
         &self.current
     }
 
-    pub fn saved(&self) -> &Project {
+    pub(crate) fn saved(&self) -> &Project {
         &self.saved
     }
 
     /// For changes of passes, channels and texts alike.
-    pub fn current_mut(&mut self) -> &mut Project {
+    pub(crate) fn current_mut(&mut self) -> &mut Project {
         self.revision += 1;
         &mut self.current
     }
 
     /// Gives a tab another text.
-    pub fn set_text(&mut self, tab: &Tab, text: &str) {
+    pub(crate) fn set_text(&mut self, tab: &Tab, text: &str) {
         if let Some(source) = self.current_mut().source_mut(tab) {
             source.text = text.into();
         }
@@ -109,7 +109,7 @@ impl Documents {
 
     /// Takes the files that the texts include as they were just read. What was edited meanwhile stands. Returns whether a
     /// text that was there before is another now.
-    pub fn take_includes(&mut self, read: Vec<Included>) -> bool {
+    pub(crate) fn take_includes(&mut self, read: Vec<Included>) -> bool {
         self.revision += 1;
         let (before, saved) = (std::mem::take(&mut self.current.includes), std::mem::take(&mut self.saved.includes));
         let of = |list: &[Included], name: &str| list.iter().find(|i| i.source.name == name).cloned();
@@ -153,7 +153,7 @@ impl Documents {
     /// The project as it now lies on disk. Returns whether it reads otherwise than it stood here, as an ISF file does
     /// whose header was edited: its inputs are the project's uniforms and channels.
     #[must_use]
-    pub fn set_saved(&mut self, project: Project) -> bool {
+    pub(crate) fn set_saved(&mut self, project: Project) -> bool {
         let is_as_here =
             structure::is_same(&self.current, &project) && structure::has_same_texts(&self.current, &project);
         *self = Self { revision: self.revision + 1, ..Self::new(project) };
@@ -162,7 +162,7 @@ impl Documents {
 
     /// Returns the project on disk with the texts as they are edited, if there are such and each is of a file of it: what
     /// can be written where the rest cannot.
-    pub fn edited_texts(&self) -> Option<Project> {
+    pub(crate) fn edited_texts(&self) -> Option<Project> {
         let tabs = self.dirty_tabs();
         let mut project = self.saved.clone();
         for tab in &tabs {
@@ -175,7 +175,7 @@ impl Documents {
         (!tabs.is_empty()).then_some(project)
     }
 
-    pub fn is_tab_dirty(&self, tab: &Tab) -> bool {
+    pub(crate) fn is_tab_dirty(&self, tab: &Tab) -> bool {
         match self.current.source(tab) {
             None => false,
             Some(now) => self.missing.contains(tab) || self.saved_source(tab).is_none_or(|s| s.text != now.text),
@@ -183,34 +183,34 @@ impl Documents {
     }
 
     /// Passes, channels or names differ from those on disk.
-    pub fn is_structure_dirty(&self) -> bool {
+    pub(crate) fn is_structure_dirty(&self) -> bool {
         !structure::is_same(&self.current, &self.saved)
     }
 
     /// Returns what differs from disk, in words: tabs, then passes, channels and uniforms.
-    pub fn unsaved_parts(&self) -> Vec<String> {
+    pub(crate) fn unsaved_parts(&self) -> Vec<String> {
         let tabs = self.dirty_tabs().into_iter().map(|tab| tab.title());
         tabs.chain(structure::differences(&self.current, &self.saved)).collect()
     }
 
     /// The tab's file is known to be gone from disk.
-    pub fn is_missing(&self, tab: &Tab) -> bool {
+    pub(crate) fn is_missing(&self, tab: &Tab) -> bool {
         self.missing.contains(tab)
     }
 
     /// These tabs' files are gone, all others are there. Gives those that were not known to be gone.
-    pub fn set_missing(&mut self, missing: BTreeSet<Tab>) -> Vec<Tab> {
+    pub(crate) fn set_missing(&mut self, missing: BTreeSet<Tab>) -> Vec<Tab> {
         self.revision += u64::from(missing != self.missing);
         let new = missing.difference(&self.missing).cloned().collect();
         self.missing = missing;
         new
     }
 
-    pub fn dirty_tabs(&self) -> Vec<Tab> {
+    pub(crate) fn dirty_tabs(&self) -> Vec<Tab> {
         self.current.tabs().into_iter().filter(|t| self.is_tab_dirty(t)).collect()
     }
 
-    pub fn is_dirty(&self) -> bool {
+    pub(crate) fn is_dirty(&self) -> bool {
         self.is_structure_dirty()
             || !structure::has_same_texts(&self.current, &self.saved)
             || self.current.includes.iter().any(|i| i.is_edited)
@@ -219,7 +219,7 @@ impl Documents {
 
     /// Takes what is on disk now. Whatever was not edited since follows it; the rest comes back as conflicts, with the
     /// edited text standing.
-    pub fn merge(&mut self, mut disk: Project) -> Merge {
+    pub(crate) fn merge(&mut self, mut disk: Project) -> Merge {
         self.revision += 1;
         let mut merge = Merge::default();
         // Those that only a text here includes.
@@ -263,14 +263,14 @@ impl Documents {
     }
 
     /// Lets the structure follow the disk after all. Edited texts stay.
-    pub fn take_structure_of_saved(&mut self) {
+    pub(crate) fn take_structure_of_saved(&mut self) {
         self.revision += 1;
         let saved = self.saved.clone();
         self.take_structure(&saved);
     }
 
     /// The tab shows what is on disk.
-    pub fn take_text_of_saved(&mut self, tab: &Tab) {
+    pub(crate) fn take_text_of_saved(&mut self, tab: &Tab) {
         self.revision += 1;
         let text = self.saved_source(tab).map(|saved| saved.text.clone());
         if let (Some(text), Some(mine)) = (text, self.current.source_mut(tab)) {

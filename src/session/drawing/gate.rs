@@ -7,7 +7,7 @@ use std::{
 
 /// The next thing that a frame does that is being drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum FrameControl {
+pub(crate) enum FrameControl {
     #[default]
     GoOn,
     /// It waits, but not for longer.
@@ -18,7 +18,7 @@ pub enum FrameControl {
 
 /// Holds what the frame does next that is being drawn. Every clone is the same gate.
 #[derive(Clone, Default)]
-pub struct Gate(Arc<Shared>);
+pub(crate) struct Gate(Arc<Shared>);
 
 #[derive(Default)]
 struct Shared {
@@ -27,7 +27,7 @@ struct Shared {
 }
 
 impl Gate {
-    pub fn set(&self, control: FrameControl) {
+    pub(crate) fn set(&self, control: FrameControl) {
         let mut current = self.lock();
         if *current != control {
             *current = control;
@@ -36,12 +36,12 @@ impl Gate {
     }
 
     #[cfg(test)]
-    pub fn get(&self) -> FrameControl {
+    pub(crate) fn get(&self) -> FrameControl {
         *self.lock()
     }
 
     /// Waits as long as the frame is to wait. Says whether it goes on.
-    pub fn pass(&self) -> bool {
+    pub(crate) fn pass(&self) -> bool {
         let mut control = self.lock();
         loop {
             let left = match *control {

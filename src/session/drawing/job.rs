@@ -13,7 +13,7 @@ use std::time::Duration;
 
 /// Changes that wait for the engine, each the newest of its kind.
 #[derive(Default)]
-pub struct Changes {
+pub(crate) struct Changes {
     /// Begin with an engine that has drawn nothing.
     pub restart: bool,
     pub size: Option<(u32, u32)>,
@@ -31,7 +31,7 @@ pub struct Changes {
 }
 
 impl Changes {
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         let Self { restart, size, program, custom_uniforms, shown, look, reset, run, costs } = self;
         let is_asked = *restart || *reset || *costs || run.is_some();
         let is_shown_otherwise = shown.is_some() || look.is_some();
@@ -39,20 +39,20 @@ impl Changes {
     }
 
     /// Returns whether the targets are others after it, on a canvas of such a size.
-    pub fn touches_targets(&self, canvas: (u32, u32)) -> bool {
+    pub(crate) fn touches_targets(&self, canvas: (u32, u32)) -> bool {
         self.program.is_some() || self.size.is_some_and(|size| size != canvas)
     }
 }
 
 /// A program on its way to the engine.
-pub struct PendingProgram {
+pub(crate) struct PendingProgram {
     pub program: Program,
     /// Stays with the session when the program goes.
     pub origin: Option<ProgramOrigin>,
 }
 
 /// Holds what the session keeps of a program.
-pub struct ProgramOrigin {
+pub(crate) struct ProgramOrigin {
     /// The project that it was built of.
     pub project: Project,
     /// Milliseconds of the compile, if the program is of the newest text and not one to fall back to.
@@ -64,7 +64,7 @@ pub struct ProgramOrigin {
 }
 
 impl PendingProgram {
-    pub fn new(program: Program, project: Project, millis: Option<f64>) -> Self {
+    pub(crate) fn new(program: Program, project: Project, millis: Option<f64>) -> Self {
         let drawn = program.plan().targets.iter().map(|t| t.id.clone()).collect();
         let origin = ProgramOrigin { project, millis, custom_uniforms: program.custom_uniforms().to_vec(), drawn };
         Self { origin: Some(origin), program }
@@ -73,7 +73,7 @@ impl PendingProgram {
 
 /// One turn of the engine: first the changes in the order of their fields, then the frame, then the tasks.
 #[derive(Default)]
-pub struct Job {
+pub(crate) struct Job {
     pub changes: Changes,
     pub frame: Option<FrameInputs>,
     /// Another frame of the run is to be shown.
@@ -94,14 +94,14 @@ pub struct Job {
 
 /// Says when a program is too slow to be drawn whole unasked.
 #[derive(Clone, Copy, Debug)]
-pub struct TileLimit {
+pub(crate) struct TileLimit {
     /// The time that a whole frame may take.
     pub frame: Duration,
 }
 
 /// The answer to a job. `None` where it was not asked.
 #[derive(Default)]
-pub struct Done {
+pub(crate) struct Done {
     pub restarted: Option<Result<(), EngineError>>,
     pub resized: Option<((u32, u32), Result<(), EngineError>)>,
     pub program: Option<Result<(), EngineError>>,
@@ -133,7 +133,7 @@ pub struct Done {
 }
 
 /// A frame that was handed in; on a thread of its own, drawn.
-pub struct DrawnFrame {
+pub(crate) struct DrawnFrame {
     pub cpu_micros: f64,
     /// Milliseconds of each pass, of the newest frame for which they are known.
     pub times: Option<Vec<PassTime>>,

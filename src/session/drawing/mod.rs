@@ -86,14 +86,14 @@ struct Remote {
 
 impl Drawing {
     /// An engine that does each job at once.
-    pub fn inline(gpu: Gpu, size: (u32, u32)) -> Result<Self, EngineError> {
+    pub(crate) fn inline(gpu: Gpu, size: (u32, u32)) -> Result<Self, EngineError> {
         let clock = clock(&gpu);
         let (renderer, device) = (Box::new(Renderer::new(gpu.clone(), size, false)?), Device::open(gpu));
         Ok(Self::new(Backend::Inline { renderer, device, done: None }, size, clock))
     }
 
     /// An engine on a thread of its own, with another device of the adapter that the window's is on.
-    pub fn on_thread(
+    pub(crate) fn on_thread(
         window: Gpu,
         size: (u32, u32),
         open: Open,
@@ -121,16 +121,16 @@ impl Drawing {
     }
 
     /// Frames are drawn by the processor that paints the window, too.
-    pub fn shares_processor(&self) -> bool {
+    pub(crate) fn shares_processor(&self) -> bool {
         matches!(&self.backend, Backend::RenderThread(remote) if remote.window.is_cpu())
     }
 
-    pub fn is_apart(&self) -> bool {
+    pub(crate) fn is_apart(&self) -> bool {
         matches!(self.backend, Backend::RenderThread(_))
     }
 
     /// The device that shows the picture.
-    pub fn gpu(&self) -> &Gpu {
+    pub(crate) fn gpu(&self) -> &Gpu {
         match &self.backend {
             Backend::Inline { renderer, .. } => renderer.engine().gpu(),
             Backend::RenderThread(remote) => &remote.window,
@@ -138,7 +138,7 @@ impl Drawing {
     }
 
     /// The device that draws, once it is open.
-    pub fn device(&self) -> Device {
+    pub(crate) fn device(&self) -> Device {
         match &self.backend {
             Backend::Inline { device, .. } => device.clone(),
             Backend::RenderThread(remote) => remote.device.clone(),
@@ -146,7 +146,7 @@ impl Drawing {
     }
 
     /// The newest picture, its first row the top.
-    pub fn display(&self) -> &wgpu::TextureView {
+    pub(crate) fn display(&self) -> &wgpu::TextureView {
         match &self.backend {
             Backend::Inline { renderer, .. } => renderer.engine().display(),
             Backend::RenderThread(remote) => &remote.display.level_0,
@@ -154,76 +154,76 @@ impl Drawing {
     }
 
     /// The canvas of the newest picture.
-    pub fn size(&self) -> (u32, u32) {
+    pub(crate) fn size(&self) -> (u32, u32) {
         self.facts.size
     }
 
     /// The canvas of the engine once it has done its job.
-    pub fn coming_size(&self) -> (u32, u32) {
+    pub(crate) fn coming_size(&self) -> (u32, u32) {
         self.in_flight.as_ref().and_then(|job| job.size).unwrap_or(self.facts.size)
     }
 
     /// A program is there to draw.
-    pub fn has_program(&self) -> bool {
+    pub(crate) fn has_program(&self) -> bool {
         self.facts.program.is_some()
     }
 
     /// A program waits to be taken up.
-    pub fn is_program_coming(&self) -> bool {
+    pub(crate) fn is_program_coming(&self) -> bool {
         self.wanted.program.is_some() || self.in_flight.as_ref().is_some_and(|job| job.program.is_some())
     }
 
     /// The project of the program that draws.
-    pub fn project(&self) -> Option<&Project> {
+    pub(crate) fn project(&self) -> Option<&Project> {
         self.facts.program.as_ref().map(|program| &program.project)
     }
 
     /// The program that draws is of the newest text that compiled, and not one to fall back to.
-    pub fn is_newest_program(&self) -> bool {
+    pub(crate) fn is_newest_program(&self) -> bool {
         self.new_program_millis().is_some()
     }
 
     /// Milliseconds of the compile of such a program.
-    pub fn new_program_millis(&self) -> Option<f64> {
+    pub(crate) fn new_program_millis(&self) -> Option<f64> {
         self.facts.program.as_ref().and_then(|program| program.millis)
     }
 
     /// The author's own uniforms, as the program that draws declares them.
-    pub fn custom_uniforms(&self) -> &[CustomUniform] {
+    pub(crate) fn custom_uniforms(&self) -> &[CustomUniform] {
         self.facts.program.as_ref().map_or(&[], |program| &program.custom_uniforms)
     }
 
     /// The program draws a pass.
-    pub fn draws(&self, pass: &PassName) -> bool {
+    pub(crate) fn draws(&self, pass: &PassName) -> bool {
         self.facts.program.as_ref().is_some_and(|program| program.drawn.contains(pass))
     }
 
     /// The passes' costs as they were when somebody looked last.
-    pub fn costs(&self) -> &[PassCost] {
+    pub(crate) fn costs(&self) -> &[PassCost] {
         &self.facts.costs
     }
 
     /// The frames that one can go to.
-    pub fn reach(&self) -> Reach {
+    pub(crate) fn reach(&self) -> Reach {
         self.facts.reach
     }
 
-    pub fn clock(&self) -> CostClock {
+    pub(crate) fn clock(&self) -> CostClock {
         self.facts.clock
     }
 
     /// The engine has a job: no other can be handed in.
-    pub fn is_busy(&self) -> bool {
+    pub(crate) fn is_busy(&self) -> bool {
         self.in_flight.is_some()
     }
 
     /// Since when the engine draws, if it does.
-    pub fn draws_since(&self) -> Option<Instant> {
+    pub(crate) fn draws_since(&self) -> Option<Instant> {
         self.in_flight.as_ref().filter(|job| !job.is_opening).map(|job| job.since)
     }
 
     /// Begins anew, for another project. What was wanted of the one before is not wanted any more.
-    pub fn restart(&mut self) {
+    pub(crate) fn restart(&mut self) {
         // One that is being made is new.
         let restart = self.in_flight.as_ref().is_none_or(|job| !job.is_opening);
         self.wanted = Changes { restart, ..Changes::default() };
@@ -235,7 +235,7 @@ impl Drawing {
     }
 
     /// Says what the frame that is being drawn does, if it may wait.
-    pub fn steer(&self, control: FrameControl) {
+    pub(crate) fn steer(&self, control: FrameControl) {
         if let Backend::RenderThread(remote) = &self.backend {
             remote.gate.set(control);
         }
@@ -243,7 +243,7 @@ impl Drawing {
 
     /// Returns what the frame does that is being drawn.
     #[cfg(test)]
-    pub fn frame_control(&self) -> Option<FrameControl> {
+    pub(crate) fn frame_control(&self) -> Option<FrameControl> {
         match &self.backend {
             Backend::Inline { .. } => None,
             Backend::RenderThread(remote) => Some(remote.gate.get()),
@@ -252,7 +252,7 @@ impl Drawing {
 
     /// Hands in a job with everything that is wanted, and what else `fill` puts in. The engine has none. With
     /// `may_wait` its frame follows [`Drawing::steer`].
-    pub fn submit(&mut self, now: Instant, may_wait: bool, fill: impl FnOnce(&mut Job)) {
+    pub(crate) fn submit(&mut self, now: Instant, may_wait: bool, fill: impl FnOnce(&mut Job)) {
         let mut job = Job { changes: std::mem::take(&mut self.wanted), ..Job::default() };
         fill(&mut job);
         if let Backend::RenderThread(remote) = &self.backend {
@@ -270,7 +270,7 @@ impl Drawing {
     }
 
     /// Returns the answer to the job, once. Waits for a moment where the last one took no longer.
-    pub fn take(&mut self, is_just_handed_in: bool) -> Option<Done> {
+    pub(crate) fn take(&mut self, is_just_handed_in: bool) -> Option<Done> {
         self.in_flight.as_ref()?;
         let mut done = match &mut self.backend {
             Backend::Inline { done, .. } => done.take().map(|done| *done),
@@ -310,7 +310,7 @@ impl Drawing {
     }
 
     /// Shows a picture that came from the other device. Says whether the display is another texture now.
-    pub fn show(&mut self, picture: &Picture) -> Result<bool, GpuError> {
+    pub(crate) fn show(&mut self, picture: &Picture) -> Result<bool, GpuError> {
         let Backend::RenderThread(remote) = &mut self.backend else { return Ok(false) };
         let size = (picture.width, picture.height);
         let is_new = size != (remote.display.width(), remote.display.height());
@@ -322,7 +322,7 @@ impl Drawing {
     }
 
     /// Shows the picture on another device than before, which is lost. There is none until one is handed out.
-    pub fn show_on(&mut self, window: Gpu) -> Result<(), GpuError> {
+    pub(crate) fn show_on(&mut self, window: Gpu) -> Result<(), GpuError> {
         let Backend::RenderThread(remote) = &mut self.backend else { return Ok(()) };
         remote.display = Presenter::texture(&window, remote.display.width(), remote.display.height())?;
         (remote.window, remote.open) = (window.clone(), beside(window));
@@ -330,7 +330,7 @@ impl Drawing {
     }
 
     /// Draws nothing more of the program that is there. The picture stays until there is another.
-    pub fn drop_program(&mut self) {
+    pub(crate) fn drop_program(&mut self) {
         self.facts.program = None;
         if let Some(job) = &mut self.in_flight {
             job.program = None;
@@ -338,7 +338,7 @@ impl Drawing {
     }
 
     /// Gives up the thread and its device, and begins with others. The picture stays until there is another.
-    pub fn start_anew(&mut self, now: Instant) -> std::io::Result<()> {
+    pub(crate) fn start_anew(&mut self, now: Instant) -> std::io::Result<()> {
         let Backend::RenderThread(remote) = &mut self.backend else { return Ok(()) };
         let device = Device::default();
         let Remote { open, wake, window, .. } = &**remote;
@@ -352,13 +352,13 @@ impl Drawing {
     }
 
     /// The number of threads that were given up and have not come back.
-    pub fn lost_threads(&mut self) -> usize {
+    pub(crate) fn lost_threads(&mut self) -> usize {
         self.left.retain(|thread| !thread.is_finished());
         self.left.len()
     }
 
     /// Waits until the engine has ended its job, but not for long. False if it goes on.
-    pub fn rest(&mut self, patience: Duration) -> bool {
+    pub(crate) fn rest(&mut self, patience: Duration) -> bool {
         let end = Instant::now() + patience;
         while self.is_busy() && self.take(false).is_none() {
             if Instant::now() >= end {
@@ -370,7 +370,7 @@ impl Drawing {
     }
 
     /// Ends an engine that rests.
-    pub fn close(&mut self) {
+    pub(crate) fn close(&mut self) {
         if let Backend::RenderThread(remote) = &mut self.backend {
             remote.thread.end();
         }

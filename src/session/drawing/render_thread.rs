@@ -23,11 +23,11 @@ const STEPS_BACK: i32 = 5;
 const STACK_BYTES: usize = 256 << 20;
 
 /// Opens a device. Called on the thread that draws.
-pub type Open = Arc<dyn Fn() -> Result<Gpu, GpuError> + Send + Sync>;
+pub(crate) type Open = Arc<dyn Fn() -> Result<Gpu, GpuError> + Send + Sync>;
 
 /// Opens a device beside the window's, or gives the window's own where there is no other: then a slow frame holds the
 /// window's painting.
-pub fn beside(window: Gpu) -> Open {
+pub(crate) fn beside(window: Gpu) -> Open {
     Arc::new(move || {
         Gpu::another(&window.info, &GpuOptions::default()).or_else(|e| {
             log::warn!("frames are drawn on the window's own GPU device, as a second one could not be opened: {e}");
@@ -37,7 +37,7 @@ pub fn beside(window: Gpu) -> Open {
 }
 
 /// The thread. Dropped, it ends after the job under way, which nobody waits for.
-pub struct RenderThread {
+pub(super) struct RenderThread {
     /// `None` when no more will come.
     jobs: Option<Sender<Job>>,
     results: Receiver<Done>,
@@ -46,7 +46,7 @@ pub struct RenderThread {
 
 impl RenderThread {
     /// Starts the thread. Its first answer says whether there is an engine; `wake` is called after each.
-    pub fn start(
+    pub(super) fn start(
         open: Open,
         device: Device,
         size: (u32, u32),
@@ -97,7 +97,7 @@ impl RenderThread {
     }
 
     /// Hands in a job.
-    pub fn submit(&self, job: Job) {
+    pub(super) fn submit(&self, job: Job) {
         if let Some(jobs) = &self.jobs {
             // A thread that has ended said why, or its silence does.
             let _ = jobs.send(job);
@@ -105,7 +105,7 @@ impl RenderThread {
     }
 
     /// Returns the answer to the job that was handed in, if it comes within a time.
-    pub fn take(&self, within: Duration) -> Option<Done> {
+    pub(super) fn take(&self, within: Duration) -> Option<Done> {
         let ended = || Some(Done { gave_up: Some("the drawing thread has ended".into()), ..Done::default() });
         if within.is_zero() {
             return match self.results.try_recv() {
@@ -122,12 +122,12 @@ impl RenderThread {
     }
 
     /// Lets go of the thread, which ends as soon as it can.
-    pub fn leave(mut self) -> Option<JoinHandle<()>> {
+    pub(super) fn leave(mut self) -> Option<JoinHandle<()>> {
         self.thread.take()
     }
 
     /// Waits until the thread has ended, with its device.
-    pub fn end(&mut self) {
+    pub(super) fn end(&mut self) {
         self.jobs = None;
         if let Some(thread) = self.thread.take() {
             // A panic in it was told of.
@@ -146,23 +146,23 @@ fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
 
 /// Holds the place where a device will be once it is open. Every clone is the same place.
 #[derive(Clone, Default)]
-pub struct Device(Arc<OnceLock<Result<Gpu, String>>>);
+pub(crate) struct Device(Arc<OnceLock<Result<Gpu, String>>>);
 
 impl Device {
     /// A device that is open.
-    pub fn open(gpu: Gpu) -> Self {
+    pub(crate) fn open(gpu: Gpu) -> Self {
         let device = Self::default();
         device.set(Ok(gpu));
         device
     }
 
     /// Puts the device, or the reason why there is none, in its place. The first one counts.
-    pub fn set(&self, gpu: Result<Gpu, String>) {
+    pub(crate) fn set(&self, gpu: Result<Gpu, String>) {
         let _ = self.0.set(gpu);
     }
 
     /// Waits until it is open.
-    pub fn wait(&self) -> Result<Gpu, GpuError> {
+    pub(crate) fn wait(&self) -> Result<Gpu, GpuError> {
         self.0.wait().clone().map_err(|reason| GpuError::NoDevice { adapter: "the machine".into(), reason })
     }
 }

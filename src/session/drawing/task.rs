@@ -10,7 +10,7 @@ use std::{
 };
 
 /// A read-back, which runs behind the frame of the job that it goes with.
-pub trait RenderTask: Send + 'static {
+pub(crate) trait RenderTask: Send + 'static {
     type Output: Send + 'static;
 
     /// Runs on the thread that draws.
@@ -19,22 +19,22 @@ pub trait RenderTask: Send + 'static {
 
 /// An output, and how long it took.
 #[derive(Debug)]
-pub struct Finished<T> {
+pub(crate) struct Finished<T> {
     pub output: T,
     pub took: Duration,
 }
 
 /// Puts an output where its ticket finds it.
-pub type Delivery = Box<dyn FnOnce() + Send>;
+pub(super) type Delivery = Box<dyn FnOnce() + Send>;
 
 type Run = Box<dyn FnOnce(&mut Renderer) -> Delivery + Send>;
 
 /// The tasks of a job, in the order in which they run.
 #[derive(Default)]
-pub struct Tasks(Vec<Run>);
+pub(crate) struct Tasks(Vec<Run>);
 
 impl Tasks {
-    pub fn add<T: RenderTask>(&mut self, task: T) -> Ticket<T::Output> {
+    pub(crate) fn add<T: RenderTask>(&mut self, task: T) -> Ticket<T::Output> {
         let (sender, receiver) = channel();
         self.0.push(Box::new(move |renderer| {
             let began = Instant::now();
@@ -46,18 +46,18 @@ impl Tasks {
         Ticket(Some(receiver))
     }
 
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    pub fn run(self, renderer: &mut Renderer) -> Vec<Delivery> {
+    pub(crate) fn run(self, renderer: &mut Renderer) -> Vec<Delivery> {
         self.0.into_iter().map(|task| task(renderer)).collect()
     }
 }
 
 /// The place where the output of the newest task of a kind is found. The default is of no task.
 #[derive(Debug)]
-pub struct Ticket<T>(Option<Receiver<Finished<T>>>);
+pub(crate) struct Ticket<T>(Option<Receiver<Finished<T>>>);
 
 impl<T> Default for Ticket<T> {
     fn default() -> Self {
@@ -67,13 +67,13 @@ impl<T> Default for Ticket<T> {
 
 impl<T> Ticket<T> {
     /// Returns the output once, when the job's picture is back.
-    pub fn take(&mut self) -> Option<Finished<T>> {
+    pub(crate) fn take(&mut self) -> Option<Finished<T>> {
         self.0.as_ref()?.try_recv().ok().inspect(|_| self.0 = None)
     }
 
     /// A ticket with an output.
     #[cfg(test)]
-    pub fn finished(output: T, took: Duration) -> Self {
+    pub(crate) fn finished(output: T, took: Duration) -> Self {
         let (sender, receiver) = channel();
         sender.send(Finished { output, took }).unwrap_or_else(|_| unreachable!());
         Self(Some(receiver))

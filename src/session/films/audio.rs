@@ -28,7 +28,7 @@ pub(in super::super) struct FilmSoundPass {
 }
 
 impl FilmAudio {
-    pub fn new(music: &[ChannelSound], pass: Option<FilmSoundPass>) -> Self {
+    pub(super) fn new(music: &[ChannelSound], pass: Option<FilmSoundPass>) -> Self {
         let mut different: Vec<Arc<Sound>> = Vec::new();
         for sound in music.iter().map(|music| &music.sound) {
             if !different.iter().any(|known| Arc::ptr_eq(known, sound)) {
@@ -50,7 +50,7 @@ pub(super) struct HeardSounds {
 
 impl HeardSounds {
     /// A frame has a time. `key` tells whether it sounds as the frame before did.
-    pub fn note(&mut self, secs: f64, key: (u64, &[ChannelSound]), heard: impl FnOnce() -> FilmAudio) {
+    pub(super) fn note(&mut self, secs: f64, key: (u64, &[ChannelSound]), heard: impl FnOnce() -> FilmAudio) {
         let (number, music) = key;
         let is_same = self.newest.as_ref().is_some_and(|(newest, known)| {
             let mut pairs = known.iter().zip(music);
@@ -65,7 +65,7 @@ impl HeardSounds {
 
     /// Returns the samples of a film of so many frames; `None` where nothing is heard in it. `open` sets a sound pass up, and
     /// `goes_on` is asked before each of its blocks.
-    pub fn samples<E: From<OfflineError>>(
+    pub(super) fn samples<E: From<OfflineError>>(
         mut self,
         frames: u32,
         rate: Rate,

@@ -49,12 +49,12 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    pub fn new(fps: f64) -> Self {
+    pub(super) fn new(fps: f64) -> Self {
         Self { step: Duration::from_secs_f64(1.0 / fps), due: None, window: None, speed: None }
     }
 
     /// A frame is drawn now.
-    pub fn drawn(&mut self, now: Instant) {
+    pub(super) fn drawn(&mut self, now: Instant) {
         self.due = Some(self.due.map_or(now, |due| due.max(now.checked_sub(self.step).unwrap_or(now))) + self.step);
         let (since, frames) = self.window.get_or_insert((now, 0));
         let elapsed = now.saturating_duration_since(*since);
@@ -66,15 +66,15 @@ impl Pace {
     }
 
     /// Time stands still: what follows is not measured against what was before.
-    pub fn rest(&mut self) {
+    pub(super) fn rest(&mut self) {
         (self.due, self.window) = (None, None);
     }
 
-    pub fn due(&self) -> Option<Instant> {
+    pub(super) fn due(&self) -> Option<Instant> {
         self.due
     }
 
-    pub fn speed(&self) -> Option<f64> {
+    pub(super) fn speed(&self) -> Option<f64> {
         self.speed
     }
 }
@@ -104,7 +104,7 @@ pub(super) struct Live {
 }
 
 impl Live {
-    pub fn new(order: FilmOrder, target: Target, before: (CanvasSize, Option<f64>)) -> Self {
+    pub(super) fn new(order: FilmOrder, target: Target, before: (CanvasSize, Option<f64>)) -> Self {
         let holds_sound = matches!(&order.encoding, Encoding::Film(film) if film.holds_sound());
         Self {
             heard: (holds_sound && order.with_sound).then(HeardSounds::default),
@@ -125,27 +125,27 @@ impl Live {
     }
 
     /// Frames of the film so far.
-    pub fn frames(&self) -> u32 {
+    pub(super) fn frames(&self) -> u32 {
         self.pushed + self.waiting.len() as u32
     }
 
     /// No frame waits for the encoder.
-    pub fn has_room(&self) -> bool {
+    pub(super) fn has_room(&self) -> bool {
         self.waiting.is_empty()
     }
 
     /// The next frame may be drawn.
-    pub fn may_draw(&self, now: Instant) -> bool {
+    pub(super) fn may_draw(&self, now: Instant) -> bool {
         self.has_room() && self.pace.due().is_none_or(|due| due <= now)
     }
 
     /// Returns when to look again, where a frame waits for the encoder.
-    pub fn deadline(&self, now: Instant) -> Option<Instant> {
+    pub(super) fn deadline(&self, now: Instant) -> Option<Instant> {
         (!self.has_room()).then(|| now + RETRY)
     }
 
     /// The frame that is handed in next is one of running time, or a step of it.
-    pub fn note(&mut self, is_new: bool, now: Instant) {
+    pub(super) fn note(&mut self, is_new: bool, now: Instant) {
         self.is_new = is_new;
         if is_new {
             self.pace.drawn(now);
@@ -153,7 +153,7 @@ impl Live {
     }
 
     /// Adds the read-back of a frame that is noted.
-    pub fn request(&mut self, pass: PassName, tasks: &mut Tasks) {
+    pub(super) fn request(&mut self, pass: PassName, tasks: &mut Tasks) {
         if std::mem::take(&mut self.is_new) {
             self.ticket = tasks.add(TakeFrame(pass));
             self.awaits_frame = true;
@@ -161,12 +161,12 @@ impl Live {
     }
 
     /// The frame that is being drawn will not come.
-    pub fn lose_frame(&mut self) -> bool {
+    pub(super) fn lose_frame(&mut self) -> bool {
         std::mem::take(&mut self.awaits_frame)
     }
 
     /// Takes the frame that was read, and hands on what the encoder has room for.
-    pub fn feed(&mut self) -> Result<(), String> {
+    pub(super) fn feed(&mut self) -> Result<(), String> {
         if let Some(read) = self.ticket.take() {
             self.awaits_frame = false;
             let (pixels, texels) = read.output.map_err(|error| error.to_string())?;
@@ -205,7 +205,7 @@ impl Live {
     }
 
     /// Returns the work that is left when no more frames come.
-    pub fn finish(self) -> Finish {
+    pub(super) fn finish(self) -> Finish {
         Finish {
             writer: self.writer,
             pictures: self.pictures,

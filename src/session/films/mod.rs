@@ -57,7 +57,7 @@ enum Ended {
 }
 
 impl Films {
-    pub fn new(wake: &Wake) -> std::io::Result<Self> {
+    pub(crate) fn new(wake: &Wake) -> std::io::Result<Self> {
         let look = |(), _: &_| Tools::default().encoders().map_err(|error| FilmError::from(error).to_string());
         Ok(Self {
             live: None,
@@ -71,43 +71,43 @@ impl Films {
     }
 
     /// A film is not complete yet.
-    pub fn is_busy(&self) -> bool {
+    pub(crate) fn is_busy(&self) -> bool {
         self.live.is_some() || self.work.is_under_way()
     }
 
-    pub fn is_live(&self) -> bool {
+    pub(crate) fn is_live(&self) -> bool {
         self.live.is_some()
     }
 
     /// The next frame of the running picture may be drawn.
-    pub fn may_draw(&self, now: Instant) -> bool {
+    pub(crate) fn may_draw(&self, now: Instant) -> bool {
         self.live.as_ref().is_none_or(|live| live.may_draw(now))
     }
 
     /// No frame waits for the encoder.
-    pub fn has_room(&self) -> bool {
+    pub(crate) fn has_room(&self) -> bool {
         self.live.as_ref().is_none_or(Live::has_room)
     }
 
     /// Returns when the next frame is due; `None`: as soon as it can be drawn.
-    pub fn due(&self) -> Option<Instant> {
+    pub(crate) fn due(&self) -> Option<Instant> {
         self.live.as_ref()?.pace.due()
     }
 
     /// Returns when to look again.
-    pub fn deadline(&self, now: Instant) -> Option<Instant> {
+    pub(crate) fn deadline(&self, now: Instant) -> Option<Instant> {
         self.live.as_ref()?.deadline(now)
     }
 
     /// The next frame is one of running time, or a step of it.
-    pub fn note_frame(&mut self, is_new: bool, now: Instant) {
+    pub(crate) fn note_frame(&mut self, is_new: bool, now: Instant) {
         if let Some(live) = &mut self.live {
             live.note(is_new, now);
         }
     }
 
     /// Cancels everything, and waits for the end, but not for long. Returns whether the thread does not come back.
-    pub fn end(&mut self, patience: Duration) -> bool {
+    pub(crate) fn end(&mut self, patience: Duration) -> bool {
         self.cancel.cancel();
         self.live = None;
         self.tools.leave();

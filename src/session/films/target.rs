@@ -26,7 +26,7 @@ pub(super) enum Target {
 
 impl Target {
     /// The first place of a number that is free.
-    pub fn numbered(folder: &Path, stem: &str, format: Format) -> Result<Target, String> {
+    pub(super) fn numbered(folder: &Path, stem: &str, format: Format) -> Result<Target, String> {
         for n in 1..=MOST {
             let name =
                 if format.is_still() { format!("{stem}-{n:04}") } else { format!("{stem}-{n:04}.{}", format.name()) };
@@ -38,21 +38,21 @@ impl Target {
         Err(format!("{} has all numbers up to {MOST} for {stem}; move some files away", folder.display()))
     }
 
-    pub fn named(path: PathBuf, stem: &str, format: Format, replaces: bool) -> Target {
+    pub(super) fn named(path: PathBuf, stem: &str, format: Format, replaces: bool) -> Target {
         match format.is_still() {
             true => Target::Folder { path, stem: stem.to_owned(), extension: format.name() },
             false => Target::File { path, replaces },
         }
     }
 
-    pub fn path(&self) -> &Path {
+    pub(super) fn path(&self) -> &Path {
         match self {
             Target::File { path, .. } | Target::Folder { path, .. } => path,
         }
     }
 
     /// Returns the file of the picture of a frame; of a film the film.
-    pub fn picture(&self, frame: u32, last: u32) -> PathBuf {
+    pub(super) fn picture(&self, frame: u32, last: u32) -> PathBuf {
         match self {
             Target::File { path, .. } => path.clone(),
             Target::Folder { path, stem, extension } => path.join(picture_name(stem, frame, last, extension)),
@@ -60,13 +60,13 @@ impl Target {
     }
 
     /// Removes a film where nothing was before.
-    pub fn discard(&self) {
+    pub(super) fn discard(&self) {
         if let Target::File { path, replaces: false } = self {
             let _ = fs::remove_file(path);
         }
     }
 
-    pub fn destination(&self) -> Destination {
+    pub(super) fn destination(&self) -> Destination {
         match self {
             Target::File { path, replaces: true } => Destination::Film(Output::File(path.clone())),
             Target::File { path, replaces: false } => Destination::Film(Output::NewFile(path.clone())),
@@ -85,20 +85,20 @@ pub(super) struct Pictures {
 
 impl Pictures {
     /// Returns `None` where one film is written.
-    pub fn new(target: &Target) -> Option<Self> {
+    pub(super) fn new(target: &Target) -> Option<Self> {
         let Target::Folder { path, .. } = target else { return None };
         Some(Self { made: !path.exists(), folder: path.clone(), new: Vec::new(), is_kept: false })
     }
 
     /// A picture is about to be written.
-    pub fn note(&mut self, path: &Path) {
+    pub(super) fn note(&mut self, path: &Path) {
         if path.symlink_metadata().is_err() {
             self.new.push(path.to_owned());
         }
     }
 
     /// They stay.
-    pub fn keep(mut self) {
+    pub(super) fn keep(mut self) {
         self.is_kept = true;
     }
 }

@@ -9,7 +9,7 @@ use std::{
 };
 
 #[derive(Default)]
-pub struct Marker {
+pub(super) struct Marker {
     /// The folder of such files; without, none is written.
     folder: Option<PathBuf>,
     written: Option<PathBuf>,
@@ -17,12 +17,12 @@ pub struct Marker {
 
 impl Marker {
     /// `state_dir`: what is remembered between two starts lies there.
-    pub fn new(state_dir: Option<&Path>) -> Self {
+    pub(super) fn new(state_dir: Option<&Path>) -> Self {
         Self { folder: state_dir.map(|dir| dir.join("drawing")), written: None }
     }
 
     /// Says that code of a project is on the device whose first frame is not drawn yet.
-    pub fn set(&mut self, project: &Project) {
+    pub(super) fn set(&mut self, project: &Project) {
         let Some((file, path)) = self.file(project) else { return };
         if self.written.as_ref() == Some(&file) {
             return;
@@ -38,7 +38,7 @@ impl Marker {
     }
 
     /// Says that all is well.
-    pub fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         if let Some(file) = self.written.take()
             && let Err(e) = fs::remove_file(&file)
         {
@@ -47,12 +47,12 @@ impl Marker {
     }
 
     /// Lets the file stay for the next start.
-    pub fn leave(&mut self) {
+    pub(super) fn leave(&mut self) {
         self.written = None;
     }
 
     /// Returns whether a project froze or ended the process when it was open last, and takes over its file.
-    pub fn find(&mut self, project: &Project) -> bool {
+    pub(super) fn find(&mut self, project: &Project) -> bool {
         let found = self.file(project).map(|(file, _)| file).filter(|file| file.exists());
         let is_found = found.is_some();
         if is_found {

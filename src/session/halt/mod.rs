@@ -71,12 +71,12 @@ pub(super) enum OverdueAction {
 }
 
 impl HaltControl {
-    pub fn new(limit: Duration, state_dir: Option<&Path>) -> Self {
+    pub(crate) fn new(limit: Duration, state_dir: Option<&Path>) -> Self {
         Self { limit, marker: Marker::new(state_dir), ..Self::default() }
     }
 
     /// Begins with another project. `is_overdue`: the device still draws a frame of the one before.
-    pub fn begin_next_project(&mut self, is_overdue: bool) {
+    pub(crate) fn begin_next_project(&mut self, is_overdue: bool) {
         if self.halt.is_none() && !is_overdue {
             self.marker.clear();
         } else {
@@ -88,62 +88,62 @@ impl HaltControl {
     }
 
     /// Returns whether a project froze or ended the process when it was open last.
-    pub fn finds_trouble_of(&mut self, project: &Project) -> bool {
+    pub(crate) fn finds_trouble_of(&mut self, project: &Project) -> bool {
         self.marker.find(project)
     }
 
-    pub fn halt(&self) -> Option<&Halt> {
+    pub(crate) fn halt(&self) -> Option<&Halt> {
         self.halt.as_ref()
     }
 
-    pub fn is_halted(&self) -> bool {
+    pub(crate) fn is_halted(&self) -> bool {
         self.halt.is_some()
     }
 
     /// Nothing of the author's may reach the device yet.
-    pub fn is_held(&self) -> bool {
+    pub(crate) fn is_held(&self) -> bool {
         matches!(self.halt, Some(Halt::Opened { .. }))
     }
 
     /// The picture runs again once it is drawn fast.
-    pub fn resumes(&self) -> bool {
+    pub(crate) fn resumes(&self) -> bool {
         self.resumes
     }
 
     /// The picture does not go on after the halt.
-    pub fn forget_resuming(&mut self) {
+    pub(crate) fn forget_resuming(&mut self) {
         self.resumes = false;
     }
 
     /// Returns whether the picture goes on as it was before the halt, once.
-    pub fn take_resuming(&mut self) -> bool {
+    pub(crate) fn take_resuming(&mut self) -> bool {
         take(&mut self.resumes)
     }
 
-    pub fn good(&self) -> Option<&Project> {
+    pub(crate) fn good(&self) -> Option<&Project> {
         self.good.as_ref()
     }
 
-    pub fn set_limit(&mut self, limit: Duration) {
+    pub(crate) fn set_limit(&mut self, limit: Duration) {
         self.limit = limit;
     }
 
     /// The time that a frame may take.
-    pub fn limit(&self) -> Duration {
+    pub(crate) fn limit(&self) -> Duration {
         self.allowed.unwrap_or(self.limit)
     }
 
-    pub fn is_device_gone(&self) -> bool {
+    pub(crate) fn is_device_gone(&self) -> bool {
         self.is_device_gone
     }
 
     /// Nothing more is drawn. Returns whether that is news.
-    pub fn lose_device(&mut self) -> bool {
+    pub(crate) fn lose_device(&mut self) -> bool {
         !replace(&mut self.is_device_gone, true)
     }
 
     /// Halts the picture. `project`: its program draws.
-    pub fn start(&mut self, halt: Halt, was_playing: bool, project: Option<&Project>) {
+    pub(crate) fn start(&mut self, halt: Halt, was_playing: bool, project: Option<&Project>) {
         self.resumes |= was_playing;
         self.halt = Some(halt);
         if let Some(project) = project {
@@ -152,22 +152,22 @@ impl HaltControl {
     }
 
     /// Holds a project that nothing is drawn of before one plays it.
-    pub fn hold(&mut self, was_playing: bool, after_trouble: bool) {
+    pub(crate) fn hold(&mut self, was_playing: bool, after_trouble: bool) {
         self.resumes = was_playing;
         self.halt = Some(Halt::Opened { after_trouble });
     }
 
-    pub fn end(&mut self) -> Option<Halt> {
+    pub(crate) fn end(&mut self) -> Option<Halt> {
         self.halt.take()
     }
 
     /// Other code or another canvas: its frames take another time.
-    pub fn begin_pace(&mut self) {
+    pub(crate) fn begin_pace(&mut self) {
         self.pace.begin();
     }
 
     /// Lets frames take more time than the one that the picture was halted for.
-    pub fn allow_more(&mut self, now: Instant) {
+    pub(crate) fn allow_more(&mut self, now: Instant) {
         let Some(taken) = self.frame_time(now) else { return };
         self.pace.begin();
         self.allowed = Some((self.limit() * ALLOWED_LIMITS).max(taken.saturating_mul(ALLOWED_TIMES)));
@@ -185,7 +185,7 @@ impl HaltControl {
 
     /// Returns the factor of a side that brings a frame below the limit, by what the one took that the picture was halted
     /// for.
-    pub fn smaller_by(&self, now: Instant) -> f64 {
+    pub(crate) fn smaller_by(&self, now: Instant) -> f64 {
         let taken = self.frame_time(now).unwrap_or_default();
         let times = taken.as_secs_f64() / self.limit.as_secs_f64().max(1e-3);
         // Half a side is a quarter of the pixels.
@@ -194,13 +194,13 @@ impl HaltControl {
     }
 
     /// Returns how long a frame has been drawn, if that is too long.
-    pub fn overdue(&self, now: Instant, draws_since: Option<Instant>) -> Option<Duration> {
+    pub(crate) fn overdue(&self, now: Instant, draws_since: Option<Instant>) -> Option<Duration> {
         let age = now.saturating_duration_since(draws_since?);
         (age >= self.limit() * self.pace.patience()).then_some(age)
     }
 
     /// Returns what is done about a frame that is overdue by such an age.
-    pub fn judge_overdue(&self, age: Duration, is_newer_wanted: bool) -> OverdueAction {
+    pub(crate) fn judge_overdue(&self, age: Duration, is_newer_wanted: bool) -> OverdueAction {
         match () {
             () if is_newer_wanted => OverdueAction::MakeRoom,
             () if age >= self.patience() => OverdueAction::GiveUp,
@@ -214,7 +214,12 @@ impl HaltControl {
     }
 
     /// Returns when the frame that is being drawn is to be judged next.
-    pub fn deadline(&self, now: Instant, draws_since: Option<Instant>, is_newer_wanted: bool) -> Option<Instant> {
+    pub(crate) fn deadline(
+        &self,
+        now: Instant,
+        draws_since: Option<Instant>,
+        is_newer_wanted: bool,
+    ) -> Option<Instant> {
         let since = draws_since?;
         let over = since + self.limit() * self.pace.patience();
         Some(match () {
@@ -225,7 +230,7 @@ impl HaltControl {
     }
 
     /// Returns whether newer code may take the device of code that does not come back, where so many threads do not.
-    pub fn may_take_device(now: Instant, edited_at: Option<Instant>, lost_threads: usize) -> bool {
+    pub(crate) fn may_take_device(now: Instant, edited_at: Option<Instant>, lost_threads: usize) -> bool {
         let lost = u32::try_from(lost_threads).unwrap_or(u32::MAX);
         let quiet = edited_at.map_or(Duration::MAX, |at| now.saturating_duration_since(at));
         quiet >= QUIET.saturating_mul(lost)
@@ -233,14 +238,14 @@ impl HaltControl {
 
     /// A frame of the program that draws does not come back. Good code was fast enough until now, and would come to this
     /// again.
-    pub fn give_up_frame(&mut self) {
+    pub(crate) fn give_up_frame(&mut self) {
         if !self.is_new {
             self.good = None;
         }
     }
 
     /// The device is lost. Returns whether it was opened only just before, with no edit since.
-    pub fn device_is_lost(&mut self, now: Instant, edited_at: Option<Instant>) -> bool {
+    pub(crate) fn device_is_lost(&mut self, now: Instant, edited_at: Option<Instant>) -> bool {
         let before = self.lost_at.replace(now);
         before.is_some_and(|at| {
             now.saturating_duration_since(at) < LOST_AGAIN && edited_at.is_none_or(|edited| edited <= at)
@@ -248,12 +253,12 @@ impl HaltControl {
     }
 
     /// No frame of the newest code has been drawn yet.
-    pub fn is_new(&self) -> bool {
+    pub(crate) fn is_new(&self) -> bool {
         self.is_new
     }
 
     /// Code is about to reach the device. `project`: it is of the newest text.
-    pub fn begin_code(&mut self, project: Option<&Project>) {
+    pub(crate) fn begin_code(&mut self, project: Option<&Project>) {
         if let Some(project) = project {
             self.marker.set(project);
         }
@@ -262,7 +267,7 @@ impl HaltControl {
     }
 
     /// A frame has been drawn. `newest`: by the program of the newest text. `can_halt`: nobody waited for it.
-    pub fn frame_took(&mut self, took: Duration, newest: Option<&Project>, can_halt: bool) -> Verdict {
+    pub(crate) fn frame_took(&mut self, took: Duration, newest: Option<&Project>, can_halt: bool) -> Verdict {
         let limit = self.limit();
         if self.pace.is_too_slow(took, limit) && can_halt {
             return Verdict::Halt(Halt::Drawn { limit, took });
@@ -281,7 +286,7 @@ impl HaltControl {
     }
 
     /// The session ends, and no frame with it.
-    pub fn close(&mut self) {
+    pub(crate) fn close(&mut self) {
         if self.halt.is_none() {
             self.marker.clear();
         }

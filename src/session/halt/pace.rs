@@ -9,19 +9,19 @@ const TOO_MANY: u32 = 3;
 
 /// The newest frames of a program on a canvas, each by how many limits it has taken.
 #[derive(Clone, Debug, Default)]
-pub struct Pace {
+pub(super) struct Pace {
     newest: VecDeque<u32>,
 }
 
 impl Pace {
     /// Another program or another canvas: its frames take another time.
-    pub fn begin(&mut self) {
+    pub(super) fn begin(&mut self) {
         self.newest.clear();
     }
 
     /// Takes down a frame. Says whether the picture is to stop: three of five frames were too slow, or one of the first
     /// ones was. A frame of several limits counts as so many.
-    pub fn is_too_slow(&mut self, took: Duration, limit: Duration) -> bool {
+    pub(super) fn is_too_slow(&mut self, took: Duration, limit: Duration) -> bool {
         let is_known = self.is_known();
         self.newest.truncate(NEWEST - 1);
         self.newest.push_front(limits(took, limit));
@@ -29,7 +29,7 @@ impl Pace {
     }
 
     /// Returns the limits that a frame may take that is not drawn yet, before the picture is to stop.
-    pub fn patience(&self) -> u32 {
+    pub(super) fn patience(&self) -> u32 {
         let slow: u32 = self.newest.iter().take(NEWEST - 1).sum();
         if self.is_known() { TOO_MANY.saturating_sub(slow).max(1) } else { 1 }
     }

@@ -7,7 +7,7 @@ use std::{
 };
 
 /// Writes all records. A cell is empty where its quantity was not measured in that frame, or where that is not kept.
-pub fn write(out: &mut impl Write, measures: &[Measure]) -> io::Result<()> {
+pub(super) fn write(out: &mut impl Write, measures: &[Measure]) -> io::Result<()> {
     let columns: Vec<&Measure> = measures.iter().filter(|measure| measure.quantity.is_ok()).collect();
     let mut rows: BTreeMap<i32, (f64, Vec<Option<f64>>)> = BTreeMap::new();
     for (column, measure) in columns.iter().enumerate() {

@@ -39,7 +39,7 @@ impl Measure {
 
 /// Measures quantities of what the targets hold, by the serial of their comment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MeasureQuantities(pub Vec<(u64, Quantity)>);
+pub(super) struct MeasureQuantities(pub Vec<(u64, Quantity)>);
 
 impl RenderTask for MeasureQuantities {
     /// Nothing has a number before the first frame.
@@ -65,7 +65,7 @@ impl RenderTask for MeasureQuantities {
 
 /// Holds what came back of a frame. A quantity whose target is not drawn has no value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
+pub(super) struct Measured {
     pub frame: i32,
     pub time_secs: f64,
     pub values: Vec<(u64, Option<f64>)>,
@@ -94,7 +94,7 @@ pub(crate) struct Measuring {
 impl Measuring {
     /// Reads the comments again where the project has changed. A comment whose text stays keeps its record, wherever it
     /// stands. Says whether something may be another than before.
-    pub fn follow(&mut self, project: &Project, state: (u64, u64)) -> bool {
+    pub(crate) fn follow(&mut self, project: &Project, state: (u64, u64)) -> bool {
         if self.read_at.replace(state) == Some(state) {
             return false;
         }
@@ -123,27 +123,27 @@ impl Measuring {
     }
 
     /// Every record begins anew.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.measures.iter_mut().for_each(|measure| measure.record = Record::default());
     }
 
-    pub fn measures(&self) -> &[Measure] {
+    pub(crate) fn measures(&self) -> &[Measure] {
         &self.measures
     }
 
     /// Returns how many frames have been measured.
-    pub fn count(&self) -> u64 {
+    pub(crate) fn count(&self) -> u64 {
         self.count
     }
 
     /// Only these are looked at from now on.
-    pub fn watch(&mut self, seen: Vec<u64>) {
+    pub(crate) fn watch(&mut self, seen: Vec<u64>) {
         self.is_due |= seen.iter().any(|serial| !self.seen.contains(serial));
         self.seen = seen;
     }
 
     /// A new frame is about to be drawn. What was measured of it before, and of later ones, is of another run.
-    pub fn begin_frame(&mut self, frame: i32) {
+    pub(crate) fn begin_frame(&mut self, frame: i32) {
         let is_next = self.frame.is_none_or(|before| frame == before.saturating_add(1));
         for measure in &mut self.measures {
             measure.record.keep_before(frame);
@@ -153,13 +153,13 @@ impl Measuring {
     }
 
     /// The frame that is shown is drawn again: what was measured of it is measured anew.
-    pub fn draw_again(&mut self, frame: i32) {
+    pub(crate) fn draw_again(&mut self, frame: i32) {
         self.measures.iter_mut().for_each(|measure| measure.record.keep_before(frame));
         self.is_due = true;
     }
 
     /// A frame of the run is shown again; what lies ahead may come otherwise.
-    pub fn go_to(&mut self, frame: i32) {
+    pub(crate) fn go_to(&mut self, frame: i32) {
         let is_far = self.frame.is_none_or(|before| frame > before.saturating_add(1));
         for measure in &mut self.measures {
             measure.record.keep_before(frame.saturating_add(1));

@@ -4,12 +4,12 @@
 //! ([`replay`]) and the one that is made ([`record`]). Draws nothing and tells nobody anything: what it returns says what
 //! the session is to do.
 
-pub mod clock;
+pub(crate) mod clock;
 mod record;
 mod replay;
 mod seek;
 
-pub use record::Recorder;
+pub(crate) use record::Recorder;
 pub use replay::ReplayView;
 pub(crate) use replay::{Reading, Replay, ReplayedFrame, name};
 pub use seek::{Reach, TimeRange};
@@ -27,7 +27,7 @@ use std::{
 
 /// The time and the input of the open project's picture.
 #[derive(Default)]
-pub struct Playback {
+pub(crate) struct Playback {
     pub clock: Clock,
     pub mouse: Mouse,
     pub keyboard: Keyboard,
@@ -49,7 +49,7 @@ pub struct Playback {
 }
 
 impl Playback {
-    pub fn begin_next_project(&mut self) {
+    pub(crate) fn begin_next_project(&mut self) {
         let seeking = Seeking { keeps_inputs: self.seeking.keeps_inputs, ..Seeking::default() };
         // Pads stay plugged in.
         let gamepads = take(&mut self.gamepads);
@@ -57,17 +57,17 @@ impl Playback {
     }
 
     /// Time runs, and somebody sees the picture.
-    pub fn is_running(&self) -> bool {
+    pub(crate) fn is_running(&self) -> bool {
         self.clock.is_playing() && !self.is_covered
     }
 
     /// Time runs, or will once the time that is sought is reached.
-    pub fn is_playing(&self) -> bool {
+    pub(crate) fn is_playing(&self) -> bool {
         self.clock.is_playing() || self.seeking.resumes
     }
 
     /// Returns how `iTime` runs, while it does: for what is heard with the picture.
-    pub fn line(&self) -> Option<Timeline> {
+    pub(crate) fn line(&self) -> Option<Timeline> {
         if !self.is_running() || self.is_seeking() {
             return None;
         }
@@ -80,43 +80,43 @@ impl Playback {
     }
 
     /// Nothing but what is done to the project or the window changes the picture.
-    pub fn is_still(&self) -> bool {
+    pub(crate) fn is_still(&self) -> bool {
         !self.is_running() && !self.is_seeking() && self.has_drawn()
     }
 
     /// No frame is to be drawn.
-    pub fn is_settled(&self) -> bool {
+    pub(crate) fn is_settled(&self) -> bool {
         !self.is_running() && !self.is_frame_due && !self.is_again_due && self.steps == 0
     }
 
     /// A frame has been drawn since the reset.
-    pub fn has_drawn(&self) -> bool {
+    pub(crate) fn has_drawn(&self) -> bool {
         self.clock.next_frame_number() > 0
     }
 
     /// Returns the number of the frame that is shown.
-    pub fn frame(&self) -> i32 {
+    pub(crate) fn frame(&self) -> i32 {
         (self.clock.next_frame_number() - 1).max(0)
     }
 
-    pub fn play(&mut self) {
+    pub(crate) fn play(&mut self) {
         self.seeking.cancel();
         self.resume();
     }
 
     /// Lets time run; a time that is sought stays so.
-    pub fn resume(&mut self) {
+    pub(crate) fn resume(&mut self) {
         self.clock.play();
         self.fps.restart();
     }
 
-    pub fn pause(&mut self) {
+    pub(crate) fn pause(&mut self) {
         self.seeking.cancel();
         self.clock.pause();
     }
 
     /// Time to zero; the mouse and the keyboard stay. The first frame is due.
-    pub fn reset(&mut self) {
+    pub(crate) fn reset(&mut self) {
         self.seeking.cancel();
         self.clock.reset();
         self.fps.restart();
@@ -125,19 +125,19 @@ impl Playback {
     }
 
     /// The buffers are those of a device that has drawn nothing.
-    pub fn change_device(&mut self) {
+    pub(crate) fn change_device(&mut self) {
         self.seeking.cancel();
         self.clock.reset();
     }
 
     /// The next frame counts from the newest one's time, however much real time has passed.
-    pub fn rebase(&mut self) {
+    pub(crate) fn rebase(&mut self) {
         self.clock.rebase();
         self.fps.restart();
     }
 
     /// Something covers the picture, or does no more. Returns whether it was covered just now.
-    pub fn cover(&mut self, is_covered: bool) -> bool {
+    pub(crate) fn cover(&mut self, is_covered: bool) -> bool {
         let was_covered = replace(&mut self.is_covered, is_covered);
         if was_covered && !is_covered {
             self.rebase();
@@ -146,7 +146,7 @@ impl Playback {
     }
 
     /// The window lost the keyboard: the key-up of a key held now will go to another one.
-    pub fn release_keys(&mut self) {
+    pub(crate) fn release_keys(&mut self) {
         if self.keyboard.bytes()[..2 * Keyboard::WIDTH].iter().any(|b| *b != 0) {
             self.keyboard.release_all();
             self.is_frame_due = true;
@@ -154,29 +154,29 @@ impl Playback {
     }
 
     /// Changes the mouse, which forces a frame while paused.
-    pub fn move_mouse(&mut self, change: impl FnOnce(&mut Mouse)) {
+    pub(crate) fn move_mouse(&mut self, change: impl FnOnce(&mut Mouse)) {
         change(&mut self.mouse);
         self.is_frame_due = true;
     }
 
     /// Changes a key, which forces a frame unless it is half of a shortcut: stepping with Alt held must step by one.
-    pub fn press_key(&mut self, code: u8, change: impl FnOnce(&mut Keyboard)) {
+    pub(crate) fn press_key(&mut self, code: u8, change: impl FnOnce(&mut Keyboard)) {
         const MODIFIERS: [u8; 7] = [16, 17, 18, 91, 92, 93, 224];
         change(&mut self.keyboard);
         self.is_frame_due |= !MODIFIERS.contains(&code);
     }
 
-    pub fn forget_due_frames(&mut self) {
+    pub(crate) fn forget_due_frames(&mut self) {
         (self.is_frame_due, self.is_again_due) = (false, false);
     }
 
     /// Returns whether the frame that is shown is to be drawn again now, once: no other is due.
-    pub fn take_again(&mut self) -> bool {
+    pub(crate) fn take_again(&mut self) -> bool {
         self.is_still() && take(&mut self.is_again_due)
     }
 
     /// Returns the inputs of the frame that is due. `may_run`: one of the running picture may be.
-    pub fn next_frame(&mut self, now: Instant, is_step: bool, may_run: bool) -> Option<FrameInputs> {
+    pub(crate) fn next_frame(&mut self, now: Instant, is_step: bool, may_run: bool) -> Option<FrameInputs> {
         let time = if is_step {
             self.clock.step_frame()
         } else if self.is_running() {
@@ -213,12 +213,12 @@ impl Playback {
     }
 
     /// A frame was drawn. Returns whether the frames a second are others, or the frame is one of a picture that stands.
-    pub fn frame_is_drawn(&mut self, now: Instant) -> bool {
+    pub(crate) fn frame_is_drawn(&mut self, now: Instant) -> bool {
         !self.clock.is_playing() || self.fps.frame(now)
     }
 
     /// Returns frames a second over the last half second; `None` where there is nothing to measure.
-    pub fn fps(&self) -> Option<f64> {
+    pub(crate) fn fps(&self) -> Option<f64> {
         Some(self.fps.fps).filter(|fps| *fps > 0.0)
     }
 }

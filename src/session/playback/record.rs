@@ -6,7 +6,7 @@ use eddy_playback::recording::{RecordedFrame, Recording};
 use eddy_project::CustomUniformValues;
 
 /// Takes down what each frame is drawn with.
-pub struct Recorder {
+pub(crate) struct Recorder {
     pub recording: Recording,
     /// The values as the engine has them.
     values: CustomUniformValues,
@@ -16,13 +16,13 @@ pub struct Recorder {
 
 impl Recorder {
     /// Nothing has been drawn yet; the author's own uniforms have these values.
-    pub fn new(project: String, values: CustomUniformValues) -> Self {
+    pub(crate) fn new(project: String, values: CustomUniformValues) -> Self {
         Self { recording: Recording { project, frames: Vec::new() }, values, is_reset: false }
     }
 
     /// Takes down a job for the engine: its changes, the canvas that it has then, and its frame, or that it draws the
     /// last one again.
-    pub fn note(&mut self, changes: &Changes, size: (u32, u32), frame: Option<&FrameInputs>, again: bool) {
+    pub(crate) fn note(&mut self, changes: &Changes, size: (u32, u32), frame: Option<&FrameInputs>, again: bool) {
         self.is_reset |= changes.reset;
         if let Some(values) = &changes.custom_uniforms {
             self.values.clone_from(values);

@@ -37,7 +37,7 @@ const EARLY: Duration = Duration::from_millis(4);
 
 /// Everything about the recording that is played, or that was played last.
 #[derive(Default)]
-pub struct Replay {
+pub(crate) struct Replay {
     pub reading: Option<Reading>,
     pub playing: Option<Playing>,
     /// The engine has the values of uniforms that the recording gave it, and not the project's.
@@ -47,14 +47,14 @@ pub struct Replay {
 }
 
 /// A file that is being read.
-pub struct Reading {
+pub(crate) struct Reading {
     pub file: PathBuf,
     result: Background<(), (), Result<Recording, ReadError>>,
 }
 
 impl Reading {
     /// Starts to read, on a thread of its own: a long recording takes seconds. `wake` is called when it is there.
-    pub fn start(file: PathBuf, wake: Wake) -> std::io::Result<Self> {
+    pub(crate) fn start(file: PathBuf, wake: Wake) -> std::io::Result<Self> {
         let path = file.clone();
         let read = move |_: &Control<()>| {
             let read = |file| Recording::read(BufReader::new(file));
@@ -65,14 +65,14 @@ impl Reading {
     }
 
     /// Returns what was read, once it is.
-    pub fn take(&mut self) -> Option<Result<Recording, ReadError>> {
+    pub(crate) fn take(&mut self) -> Option<Result<Recording, ReadError>> {
         let read = self.result.take()?;
         Some(read.unwrap_or_else(|why| Err(ReadError::Io(std::io::Error::other(why)))))
     }
 }
 
 /// A recording that is being played.
-pub struct Playing {
+pub(crate) struct Playing {
     pub file: PathBuf,
     recording: Arc<Recording>,
     /// The frame that is drawn next.
@@ -96,47 +96,47 @@ pub struct ReplayView {
 }
 
 impl Playing {
-    pub fn new(file: PathBuf, recording: Recording) -> Self {
+    pub(crate) fn new(file: PathBuf, recording: Recording) -> Self {
         let recording = Arc::new(recording);
         Self { file, recording, next: 0, run: 0, anchor: None, newest: None, in_tick: (None, 0) }
     }
 
     /// Returns a time and the recorded time that belongs to it, while frames are drawn.
-    pub fn anchor(&self) -> Option<(Instant, f64)> {
+    pub(crate) fn anchor(&self) -> Option<(Instant, f64)> {
         self.anchor.filter(|_| !self.is_over())
     }
 
-    pub fn view(&self) -> ReplayView {
+    pub(crate) fn view(&self) -> ReplayView {
         ReplayView { file: self.file.clone(), drawn: self.next, frames: self.recording.frames.len() }
     }
 
-    pub fn is_at_start(&self) -> bool {
+    pub(crate) fn is_at_start(&self) -> bool {
         self.next == 0
     }
 
-    pub fn is_over(&self) -> bool {
+    pub(crate) fn is_over(&self) -> bool {
         self.next >= self.recording.frames.len()
     }
 
     /// Returns the frame that was drawn last, or before the first one that first one.
-    pub fn newest(&self) -> Option<&RecordedFrame> {
+    pub(crate) fn newest(&self) -> Option<&RecordedFrame> {
         self.recording.frames.get(self.next.saturating_sub(1))
     }
 
     /// Returns the values of uniforms that the picture is drawn with.
-    pub fn values(&self) -> Option<&CustomUniformValues> {
+    pub(crate) fn values(&self) -> Option<&CustomUniformValues> {
         self.newest().map(|frame| &frame.values)
     }
 
     /// The engine shows the frame of this number of its run: the one after it is next.
-    pub fn go_to(&mut self, number: u64) {
+    pub(crate) fn go_to(&mut self, number: u64) {
         let next = self.run.saturating_add(usize::try_from(number).unwrap_or(usize::MAX)).saturating_add(1);
         self.next = next.min(self.recording.frames.len());
         (self.anchor, self.newest) = (None, None);
     }
 
     /// Returns whether the next frame is due at a time, where recorded time runs at a speed.
-    pub fn is_due(&mut self, now: Instant, speed: f64) -> bool {
+    pub(crate) fn is_due(&mut self, now: Instant, speed: f64) -> bool {
         let Some(frame) = self.recording.frames.get(self.next) else { return false };
         let due = frame.inputs.time_secs;
         if self.in_tick.0 != Some(now) {
@@ -161,7 +161,7 @@ impl Playing {
     }
 
     /// Returns when the next frame is due, as far as a time knows that where recorded time runs at a speed.
-    pub fn due_at(&self, now: Instant, speed: f64) -> Instant {
+    pub(crate) fn due_at(&self, now: Instant, speed: f64) -> Instant {
         let secs = self.recording.frames.get(self.next).map(|frame| frame.inputs.time_secs);
         let Some(((since, from), secs)) = self.anchor.zip(secs) else { return now };
         let due = Duration::try_from_secs_f64((secs - from) / speed).ok().and_then(|wait| since.checked_add(wait));
@@ -170,7 +170,7 @@ impl Playing {
     }
 
     /// Takes the next frame, and says whether the canvas, the values and the buffers are others than before it.
-    pub fn take(&mut self, now: Instant) -> Option<(RecordedFrame, Change)> {
+    pub(crate) fn take(&mut self, now: Instant) -> Option<(RecordedFrame, Change)> {
         let (change, _) = self.recording.change(self.next)?;
         let frame = self.recording.frames[self.next].clone();
         if change.reset {
@@ -184,12 +184,12 @@ impl Playing {
 }
 
 /// Returns the name of a file, for a person.
-pub fn name(file: &Path) -> String {
+pub(crate) fn name(file: &Path) -> String {
     file.file_name().map_or_else(|| file.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
 /// The next frame of a recording, and what changes before it.
-pub struct ReplayedFrame {
+pub(crate) struct ReplayedFrame {
     pub frame: RecordedFrame,
     pub change: Change,
     /// It is the last one.
@@ -197,17 +197,17 @@ pub struct ReplayedFrame {
 }
 
 impl Playback {
-    pub fn is_replaying(&self) -> bool {
+    pub(crate) fn is_replaying(&self) -> bool {
         self.replay.playing.is_some()
     }
 
     /// Returns when the next frame of the recording that is played is due.
-    pub fn replay_due(&self, now: Instant) -> Option<Instant> {
+    pub(crate) fn replay_due(&self, now: Instant) -> Option<Instant> {
         Some(self.replay.playing.as_ref()?.due_at(now, self.clock.speed()))
     }
 
     /// Begins with a recording.
-    pub fn start_replay(&mut self, file: PathBuf, recording: Recording) {
+    pub(crate) fn start_replay(&mut self, file: PathBuf, recording: Recording) {
         self.release_inputs();
         self.clock.play();
         self.replay.playing = Some(Playing::new(file, recording));
@@ -221,7 +221,7 @@ impl Playback {
 
     /// Ends the recording that is played at the frame that is shown. The picture goes on from it as it was: playing or
     /// paused.
-    pub fn stop_replay(&mut self) -> Option<ReplayView> {
+    pub(crate) fn stop_replay(&mut self) -> Option<ReplayView> {
         let playing = self.replay.playing.take()?;
         let view = playing.view();
         if let Some(frame) = playing.newest().filter(|_| view.drawn > 0) {
@@ -235,7 +235,7 @@ impl Playback {
     }
 
     /// The last frame has been handed in: the picture stays there.
-    pub fn finish_replay(&mut self) -> Option<ReplayView> {
+    pub(crate) fn finish_replay(&mut self) -> Option<ReplayView> {
         let view = self.stop_replay()?;
         self.seeking.cancel();
         self.steps = 0;
@@ -245,7 +245,7 @@ impl Playback {
 
     /// Returns the frame of the recording that is due now. `is_step`: one is asked for, whatever the time. `may_run`: else
     /// one may be drawn. `may_start`: the newest text draws, on which what follows the first frame depends.
-    pub fn next_replayed(
+    pub(crate) fn next_replayed(
         &mut self,
         now: Instant,
         is_step: bool,
@@ -273,7 +273,7 @@ impl Playback {
     }
 
     /// Shows the recording at a time.
-    pub fn seek_in_replay(&mut self, secs: f64, reach: Reach) {
+    pub(crate) fn seek_in_replay(&mut self, secs: f64, reach: Reach) {
         let resumes = self.is_playing();
         let is_at_start = self.replay.playing.as_ref().is_some_and(Playing::is_at_start);
         self.seeking.cancel();

@@ -10,7 +10,7 @@ use std::{mem::take, time::Instant};
 
 /// A frame of the run that is to be shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SeekTarget {
+pub(crate) enum SeekTarget {
     /// So many frames after the one that is shown; negative: before it.
     By(i64),
     /// The frame of this number, the run's first being 0.
@@ -51,7 +51,7 @@ impl TimeRange {
 }
 
 #[derive(Default)]
-pub struct Seeking {
+pub(crate) struct Seeking {
     /// The frame that the engine is to be asked for.
     pub goal: Option<SeekTarget>,
     /// The engine has been asked.
@@ -72,19 +72,19 @@ pub struct Seeking {
 
 impl Seeking {
     /// Ends a seek wherever it has come to.
-    pub fn cancel(&mut self) {
+    pub(crate) fn cancel(&mut self) {
         (self.goal, self.is_under_way, self.until, self.resumes) = (None, false, None, false);
         (self.awaits_program, self.is_taking_up) = (false, false);
     }
 
-    pub fn is_seeking(&self) -> bool {
+    pub(crate) fn is_seeking(&self) -> bool {
         self.goal.is_some() || self.is_under_way || self.until.is_some()
     }
 }
 
 impl Playback {
     /// Goes so many frames back, and pauses.
-    pub fn step_back(&mut self, by: usize) {
+    pub(crate) fn step_back(&mut self, by: usize) {
         self.clock.pause();
         self.steps = 0;
         let before = self.take_steps_of_goal();
@@ -93,7 +93,7 @@ impl Playback {
 
     /// One frame further: the next one of the run, where one has gone back, else a new one. `ahead`: the frames of the
     /// run behind the one that is shown.
-    pub fn step_forward(&mut self, ahead: u64) {
+    pub(crate) fn step_forward(&mut self, ahead: u64) {
         self.clock.pause();
         let before = self.take_steps_of_goal();
         let is_ahead = i64::try_from(ahead).is_ok_and(|ahead| ahead > before);
@@ -113,7 +113,7 @@ impl Playback {
 
     /// Shows the picture at a time. Playing or paused stays as it is. Returns whether frames are drawn from the beginning:
     /// then the buffers are to be reset.
-    pub fn seek(&mut self, secs: f64, reach: Reach, has_state: bool) -> bool {
+    pub(crate) fn seek(&mut self, secs: f64, reach: Reach, has_state: bool) -> bool {
         let resumes = self.is_playing();
         self.seeking.cancel();
         self.steps = 0;
@@ -135,7 +135,7 @@ impl Playback {
     }
 
     /// Draws all frames since the reset again, up to the one of this number.
-    pub fn draw_anew(&mut self, shown: u64) {
+    pub(crate) fn draw_anew(&mut self, shown: u64) {
         let resumes = self.is_playing();
         self.seeking.cancel();
         self.clock.pause();
@@ -145,20 +145,20 @@ impl Playback {
     }
 
     /// Returns the beginning of the range that is played where the next frame would not lie before its end.
-    pub fn loop_start(&self, now: Instant) -> Option<f64> {
+    pub(crate) fn loop_start(&self, now: Instant) -> Option<f64> {
         let range = self.seeking.range?;
         (self.is_running() && self.clock.running_time(now) >= range.to).then_some(range.from)
     }
 
     /// Returns the frame that the engine is to be asked for, once.
-    pub fn take_goal(&mut self) -> Option<SeekTarget> {
+    pub(crate) fn take_goal(&mut self) -> Option<SeekTarget> {
         let goal = self.seeking.goal.take();
         self.seeking.is_under_way |= goal.is_some();
         goal
     }
 
     /// The engine shows another frame of the run, whose number is `shown`. Returns whether that is the goal.
-    pub fn travelled(&mut self, travelled: &SeekProgress, shown: u64) -> bool {
+    pub(crate) fn travelled(&mut self, travelled: &SeekProgress, shown: u64) -> bool {
         let is_wanted = take(&mut self.seeking.is_under_way);
         self.forget_due_frames();
         self.clock.go_to(travelled.inputs.frame, travelled.inputs.time_secs);
@@ -179,7 +179,7 @@ impl Playback {
     }
 
     /// Returns whether a frame at a fixed step is due: one that was asked for, or one before the time that is sought.
-    pub fn take_step(&mut self) -> bool {
+    pub(crate) fn take_step(&mut self) -> bool {
         if let Some(until) = self.seeking.until.filter(|_| !self.seeking.is_under_way) {
             let half = 0.5 / self.clock.step_rate();
             // The frame that is nearest to it.
@@ -201,7 +201,7 @@ impl Playback {
         }
     }
 
-    pub fn is_seeking(&self) -> bool {
+    pub(crate) fn is_seeking(&self) -> bool {
         self.seeking.is_seeking()
     }
 }

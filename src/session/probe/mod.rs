@@ -123,7 +123,7 @@ impl RenderTask for ReadNumbers {
 
 impl Probing {
     /// Asks for another expression, or for none. Says whether the program must be another.
-    pub fn want(&mut self, place: Option<ProbePlace>, project: &Project) -> bool {
+    pub(crate) fn want(&mut self, place: Option<ProbePlace>, project: &Project) -> bool {
         let is_new = place.as_ref() != self.wanted.as_ref().map(|wanted| &wanted.place);
         let is_other = place.as_ref().map(|p| (&p.tab, p.at))
             != self.wanted.as_ref().map(|wanted| (&wanted.place.tab, wanted.place.at));
@@ -143,7 +143,7 @@ impl Probing {
     }
 
     /// Follows the text's edits.
-    pub fn follow(&mut self, project: &Project) {
+    pub(crate) fn follow(&mut self, project: &Project) {
         let Some(wanted) = &mut self.wanted else { return };
         let Some(source) = project.source(&wanted.place.tab) else { return };
         if Arc::ptr_eq(&wanted.text, &source.text) {
@@ -159,12 +159,12 @@ impl Probing {
     }
 
     /// Returns what is to be built: the place, and whether there is nothing any more.
-    pub fn order(&self) -> Option<(ProbePlace, bool)> {
+    pub(crate) fn order(&self) -> Option<(ProbePlace, bool)> {
         self.wanted.as_ref().map(|wanted| (wanted.place.clone(), wanted.is_gone))
     }
 
     /// The program that draws from now on was built with this.
-    pub fn built(&mut self, built: Option<Result<ProbedValue, String>>) {
+    pub(crate) fn built(&mut self, built: Option<Result<ProbedValue, String>>) {
         self.built = built.filter(|_| self.wanted.is_some());
         self.is_due = true;
         if !self.is_drawn() {
@@ -173,24 +173,24 @@ impl Probing {
     }
 
     /// The running program draws a value.
-    pub fn is_drawn(&self) -> bool {
+    pub(crate) fn is_drawn(&self) -> bool {
         matches!(self.built, Some(Ok(_)))
     }
 
-    pub fn set_look(&mut self, look: ProbeLook) {
+    pub(crate) fn set_look(&mut self, look: ProbeLook) {
         self.look = look;
         self.is_due = true;
     }
 
     /// Returns how the engine is to show what it draws, where that is new to it; always with another program.
-    pub fn take_look(&mut self, is_other_program: bool) -> Option<Option<ValueLook>> {
+    pub(crate) fn take_look(&mut self, is_other_program: bool) -> Option<Option<ValueLook>> {
         let look = self.value_look();
         let is_new = std::mem::replace(&mut self.engine_look, look) != look;
         (is_new || is_other_program).then_some(look)
     }
 
     /// Returns whether numbers have come since the last call.
-    pub fn take_news(&mut self) -> bool {
+    pub(crate) fn take_news(&mut self) -> bool {
         std::mem::take(&mut self.has_news)
     }
 
@@ -203,7 +203,7 @@ impl Probing {
         Some(ValueLook { low, high, paint, channel, components: value.components, has_gaps: true })
     }
 
-    pub fn view(&self) -> Option<ProbeView<'_>> {
+    pub(crate) fn view(&self) -> Option<ProbeView<'_>> {
         let wanted = self.wanted.as_ref()?;
         let value = self.built.as_ref().map(|built| built.as_ref().map_err(String::as_str));
         Some(ProbeView { place: &wanted.place, value, look: self.look, numbers: self.numbers.as_deref() })

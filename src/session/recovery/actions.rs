@@ -27,7 +27,7 @@ pub(crate) struct UnsavedWork {
 
 impl UnsavedWork {
     /// Looks at once for what was left behind.
-    pub fn new(folder: Option<PathBuf>, wake: &Wake) -> io::Result<UnsavedWork> {
+    pub(crate) fn new(folder: Option<PathBuf>, wake: &Wake) -> io::Result<UnsavedWork> {
         let recovery = folder.map(|folder| Recovery::new(folder, wake.clone())).transpose()?;
         recovery.iter().for_each(Recovery::scan);
         Ok(UnsavedWork { recovery, ..UnsavedWork::default() })

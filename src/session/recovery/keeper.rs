@@ -50,7 +50,7 @@ pub(crate) struct Recovery {
 
 impl Recovery {
     /// `wake` is called on the thread when there are news.
-    pub fn new(folder: PathBuf, wake: Arc<dyn Fn() + Send + Sync>) -> io::Result<Recovery> {
+    pub(crate) fn new(folder: PathBuf, wake: Arc<dyn Fn() + Send + Sync>) -> io::Result<Recovery> {
         Self::with_retry(folder, wake, RETRY)
     }
 
@@ -69,36 +69,36 @@ impl Recovery {
     }
 
     /// Keeps a project that differs from the disk.
-    pub fn keep(&self, project: &Project) {
+    pub(crate) fn keep(&self, project: &Project) {
         self.send(Job::Keep(Box::new(project.clone())));
     }
 
     /// Nothing is unsaved any more.
-    pub fn forget(&self) {
+    pub(crate) fn forget(&self) {
         self.send(Job::Forget);
     }
 
     /// Looks for work that was left behind; [`News::Found`] says what there is.
-    pub fn scan(&self) {
+    pub(crate) fn scan(&self) {
         self.send(Job::Scan);
     }
 
     /// Work that was found is the open project's from now on: its file is kept up to date, and goes once all is saved.
-    pub fn adopt(&self, file: PathBuf) {
+    pub(crate) fn adopt(&self, file: PathBuf) {
         self.send(Job::Adopt(file));
     }
 
     /// Removes work that was found.
-    pub fn discard(&self, file: PathBuf) {
+    pub(crate) fn discard(&self, file: PathBuf) {
         self.send(Job::Discard(file));
     }
 
     /// Leaves work that was found for another time.
-    pub fn put_off(&self, file: PathBuf) {
+    pub(crate) fn put_off(&self, file: PathBuf) {
         self.send(Job::PutOff(file));
     }
 
-    pub fn take_news(&self) -> Option<News> {
+    pub(crate) fn take_news(&self) -> Option<News> {
         self.news.try_recv().ok()
     }
 

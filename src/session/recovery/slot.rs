@@ -27,7 +27,7 @@ pub(super) struct Slot {
 
 impl Slot {
     /// Takes a new slot for a project.
-    pub fn take(folder: &Path, project: &Project) -> io::Result<Slot> {
+    pub(super) fn take(folder: &Path, project: &Project) -> io::Result<Slot> {
         let _turn = turn(folder)?;
         let key = key(project);
         for n in 1.. {
@@ -44,7 +44,7 @@ impl Slot {
     }
 
     /// Returns every slot whose process is gone; they are this process's from now on.
-    pub fn left_behind(folder: &Path) -> io::Result<Vec<Slot>> {
+    pub(super) fn left_behind(folder: &Path) -> io::Result<Vec<Slot>> {
         let entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
             Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
@@ -69,7 +69,7 @@ impl Slot {
     }
 
     /// Removes the file and ends the slot.
-    pub fn end(self, folder: &Path) -> io::Result<()> {
+    pub(super) fn end(self, folder: &Path) -> io::Result<()> {
         let _turn = turn(folder)?;
         remove(&self.data)?;
         remove(&self.data.with_extension(LOCK))

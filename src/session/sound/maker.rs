@@ -26,7 +26,7 @@ const ROWS: (u32, u32) = (4, 128);
 const BLOCK_LIMIT: Duration = Duration::from_secs(60);
 
 /// The work of the thread, which opens its device with the first order.
-pub fn work(
+pub(super) fn work(
     open: Open,
     is_cpu: bool,
     trial: Option<Trial>,

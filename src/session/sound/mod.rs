@@ -203,7 +203,7 @@ pub struct SoundView {
 }
 
 impl Sounding {
-    pub fn new(open: Open, is_cpu: bool, wake: Wake) -> Self {
+    pub(crate) fn new(open: Open, is_cpu: bool, wake: Wake) -> Self {
         Self {
             thread: None,
             open,
@@ -222,12 +222,12 @@ impl Sounding {
         }
     }
 
-    pub fn begin_next_project(&mut self) {
+    pub(crate) fn begin_next_project(&mut self) {
         self.silence();
     }
 
     /// Opens devices otherwise from now on, and makes the sound again.
-    pub fn change_device(&mut self, open: Open) {
+    pub(crate) fn change_device(&mut self, open: Open) {
         self.open = open;
         self.separate();
         if let Some((project, media, _)) = self.kept.take() {
@@ -315,12 +315,12 @@ impl Sounding {
     }
 
     /// Returns the number of the newest order; 0: nothing is heard.
-    pub fn number(&self) -> u64 {
+    pub(crate) fn number(&self) -> u64 {
         self.shared.now().order
     }
 
     /// Returns the sound that is heard, for a film.
-    pub fn heard(&self) -> Option<FilmSoundPass> {
+    pub(crate) fn heard(&self) -> Option<FilmSoundPass> {
         let (project, media, date) = self.kept.as_ref()?;
         Some(FilmSoundPass { code: self.codes, project: project.clone(), media: media.clone(), date: *date })
     }
@@ -330,7 +330,7 @@ impl Sounding {
     }
 
     /// Ends the thread. Returns whether one does not come back.
-    pub fn end(&mut self, patience: Duration) -> bool {
+    pub(crate) fn end(&mut self, patience: Duration) -> bool {
         if let Some(mut thread) = self.thread.take() {
             self.has_lost |= !thread.end(patience);
         }

@@ -93,7 +93,7 @@ pub(crate) enum Image {
 }
 
 impl Image {
-    pub fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         match self {
             Image::Target(name) | Image::File(name, _) | Image::Input(name) => name,
         }

@@ -20,12 +20,12 @@ pub(super) struct Reads<'t> {
 const CHANNEL: &str = "iChannel";
 
 impl<'t> Reads<'t> {
-    pub fn new((text, id): (&'t str, SourceId), images: &'t SlotImages, bindings: &'t Bindings) -> Self {
+    pub(super) fn new((text, id): (&'t str, SourceId), images: &'t SlotImages, bindings: &'t Bindings) -> Self {
         Self { text, code: without_comments(text), id, images, bindings, found: Vec::new() }
     }
 
     /// Returns the text with every read of a channel replaced by one of its image.
-    pub fn replaced(&mut self) -> String {
+    pub(super) fn replaced(&mut self) -> String {
         self.part(0..self.text.len())
     }
 

@@ -7,7 +7,7 @@ use image::{
 };
 
 /// Returns an animated GIF whose frames have these lengths in milliseconds.
-pub fn gif(delays: &[u32]) -> Vec<u8> {
+pub(super) fn gif(delays: &[u32]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = GifEncoder::new(&mut bytes);
     encoder.set_repeat(Repeat::Infinite).unwrap();
@@ -41,7 +41,7 @@ fn chunk(kind: &[u8; 4], content: &[u8]) -> Vec<u8> {
 }
 
 /// Returns an animated PNG whose frames have these lengths in milliseconds.
-pub fn apng(delays: &[u16]) -> Vec<u8> {
+pub(super) fn apng(delays: &[u16]) -> Vec<u8> {
     let first = png(0);
     let parts = |bytes: &[u8]| -> Vec<([u8; 4], Vec<u8>)> {
         let (mut at, mut found) = (8, Vec::new());
@@ -79,7 +79,7 @@ pub fn apng(delays: &[u16]) -> Vec<u8> {
 }
 
 /// Returns an animated WebP whose frames have these lengths in milliseconds.
-pub fn webp(delays: &[u32]) -> Vec<u8> {
+pub(super) fn webp(delays: &[u32]) -> Vec<u8> {
     let riff = |kind: &[u8; 4], content: &[u8]| {
         let padding = &[0][..content.len() % 2];
         [&kind[..], &(content.len() as u32).to_le_bytes(), content, padding].concat()

@@ -9,7 +9,7 @@ use syn::{
 
 /// A path as it is written.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Named {
+pub(super) struct Named {
     /// The modules of the same file that it stands in, from outside in.
     pub within: Vec<String>,
     pub segments: Vec<String>,
@@ -17,14 +17,14 @@ pub struct Named {
 }
 
 /// Returns every path, single names among them. Comments and strings name nothing; what macros are given counts.
-pub fn of_file(file: &File) -> Vec<Named> {
+pub(super) fn of_file(file: &File) -> Vec<Named> {
     let mut reader = Reader::default();
     reader.visit_file(file);
     reader.found
 }
 
 /// As [`of_file`], of a text that is no whole file: single statements, for example.
-pub fn of_tokens(tokens: TokenStream) -> Vec<Named> {
+pub(super) fn of_tokens(tokens: TokenStream) -> Vec<Named> {
     let mut reader = Reader::default();
     reader.scan(tokens);
     reader.found

@@ -1,14 +1,14 @@
 //! Random operands: made of bits by the program and by the test alike, so that both have the same numbers.
 
 /// Pixels of a picture across and up, each with operands of its own.
-pub const SIDE: u32 = 16;
+pub(super) const SIDE: u32 = 16;
 
 /// Operands of an operation; each is a vector of four.
-pub const COUNT: usize = 3;
+pub(super) const COUNT: usize = 3;
 
 /// The magnitudes that an operand has.
 #[derive(Clone, Copy, Debug)]
-pub struct Span {
+pub(super) struct Span {
     /// Powers of two: from the first one up to the next behind the last.
     low: i32,
     high: i32,
@@ -18,15 +18,15 @@ pub struct Span {
 }
 
 impl Span {
-    pub const fn new(low: i32, high: i32) -> Self {
+    pub(super) const fn new(low: i32, high: i32) -> Self {
         Self { low, high, is_signed: false, has_zeros: false }
     }
 
-    pub const fn signed(self) -> Self {
+    pub(super) const fn signed(self) -> Self {
         Self { is_signed: true, ..self }
     }
 
-    pub const fn or_zero(self) -> Self {
+    pub(super) const fn or_zero(self) -> Self {
         Self { has_zeros: true, ..self }
     }
 
@@ -49,14 +49,14 @@ fn hash(n: u32) -> u32 {
 }
 
 /// The operands of a pixel.
-pub fn operands(seed: u32, (x, y): (u32, u32), spans: [Span; COUNT]) -> [[f64; 4]; COUNT] {
+pub(super) fn operands(seed: u32, (x, y): (u32, u32), spans: [Span; COUNT]) -> [[f64; 4]; COUNT] {
     let first = seed.wrapping_add(16 * (x + SIDE * y));
     let number = |k: usize, i: usize| spans[k].operand(first.wrapping_add((4 * k + i) as u32)).into();
     std::array::from_fn(|k| std::array::from_fn(|i| number(k, i)))
 }
 
 /// A program that draws the value of an expression over them, `a`, `b` and `c`.
-pub fn program(seed: u32, spans: [Span; COUNT], expression: &str) -> String {
+pub(super) fn program(seed: u32, spans: [Span; COUNT], expression: &str) -> String {
     let operand = |(k, span): (usize, Span)| {
         let Span { low, high, is_signed, has_zeros } = span;
         let parts: Vec<String> = (4 * k..4 * k + 4)

@@ -6,12 +6,12 @@
 
 use super::operands::{COUNT, Span};
 
-pub type Vector = [f64; 4];
-pub type Operands = [Vector; COUNT];
+pub(super) type Vector = [f64; 4];
+pub(super) type Operands = [Vector; COUNT];
 
 /// Who computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Grade {
+pub(super) enum Grade {
     /// Any device.
     Vulkan,
     Lavapipe,
@@ -20,7 +20,7 @@ pub enum Grade {
 
 /// How far a result may be from the exact one.
 #[derive(Clone, Copy)]
-pub enum Bound {
+pub(super) enum Bound {
     /// The nearest number of single precision.
     Rounded,
     Ulps(f64),
@@ -33,13 +33,13 @@ pub enum Bound {
 
 /// The exact results, in double precision.
 #[derive(Clone, Copy)]
-pub enum Exact {
+pub(super) enum Exact {
     /// Component by component.
     Each(fn(f64, f64, f64) -> f64),
     Whole(fn(&Operands) -> Vector),
 }
 
-pub struct Operation {
+pub(super) struct Operation {
     pub name: &'static str,
     /// An expression over `a`, `b` and `c`.
     pub text: &'static str,
@@ -53,14 +53,14 @@ pub struct Operation {
 }
 
 impl Operation {
-    pub fn exact(&self, operands: &Operands) -> Vector {
+    pub(super) fn exact(&self, operands: &Operands) -> Vector {
         match self.exact {
             Exact::Each(each) => std::array::from_fn(|i| each(operands[0][i], operands[1][i], operands[2][i])),
             Exact::Whole(whole) => whole(operands),
         }
     }
 
-    pub fn bound(&self, grade: Grade) -> Bound {
+    pub(super) fn bound(&self, grade: Grade) -> Bound {
         match grade {
             Grade::Vulkan => self.vulkan,
             Grade::Lavapipe => self.lavapipe,
@@ -70,17 +70,17 @@ impl Operation {
 }
 
 /// The distance of neighbouring numbers of single precision at a number.
-pub fn ulp(at: f64) -> f64 {
+pub(super) fn ulp(at: f64) -> f64 {
     let exponent = at.abs().max(f64::from(f32::MIN_POSITIVE)).log2().floor();
     (exponent - 23.0).exp2()
 }
 
 /// Half of the distance of neighbours, relative to the lesser one.
-pub const ROUNDING: f64 = 1.0 / (1u32 << 24) as f64;
+pub(super) const ROUNDING: f64 = 1.0 / (1u32 << 24) as f64;
 
 impl Bound {
     /// The absolute error that is allowed in a component.
-    pub fn allowed(&self, operands: &Operands, i: usize, exact: f64) -> f64 {
+    pub(super) fn allowed(&self, operands: &Operands, i: usize, exact: f64) -> f64 {
         // The last digit of the double precision beside it.
         let half = 0.5 * ulp(exact) * (1.0 + 1e-6);
         match *self {
@@ -167,7 +167,7 @@ fn cross(a: &Vector, b: &Vector, join: fn(f64, f64) -> f64) -> Vector {
     [part((1, 2)), part((2, 0)), part((0, 1)), 0.0]
 }
 
-pub fn operations() -> Vec<Operation> {
+pub(super) fn operations() -> Vec<Operation> {
     const VULKAN: &str = "3 + 2 |x| ULPs";
     const LOG: &str = "3 ULPs, in [0.5, 2] by 2^-21";
     let each = |name, text, span, exact, vulkan, source| row(name, text, span, Exact::Each(exact), vulkan, source);
@@ -373,7 +373,7 @@ pub fn operations() -> Vec<Operation> {
 }
 
 /// Vulkan's bound of `sin` and `cos`.
-pub const SINE: f64 = 1.0 / 2048.0;
+pub(super) const SINE: f64 = 1.0 / 2048.0;
 
 /// Where lavapipe was found to keep to less, about twice of what was seen; `log2` takes up to 2.7 of the 3 ULPs.
 const LAVAPIPE: &[(&str, Bound)] = &[

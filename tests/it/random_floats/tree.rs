@@ -6,17 +6,17 @@ use super::{
 };
 
 /// Of every leaf.
-pub const LEAVES: Span = Span::new(-2, 1).signed();
+pub(super) const LEAVES: Span = Span::new(-2, 1).signed();
 
 /// A number that differs from the exact one by no more than `off`.
 #[derive(Clone, Copy, Debug)]
-pub struct Near {
+pub(super) struct Near {
     pub exact: f64,
     pub off: f64,
 }
 
 #[derive(Clone, Debug)]
-pub enum Tree {
+pub(super) enum Tree {
     /// A component of an operand.
     Leaf(usize, usize),
     Node(Op, Vec<Tree>),
@@ -24,7 +24,7 @@ pub enum Tree {
 
 /// What a tree is made of. Arguments are kept where each is defined: above 0.5, or within a few units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Op {
+pub(super) enum Op {
     Add,
     Subtract,
     Multiply,
@@ -65,7 +65,7 @@ const OPS: [Op; 17] = [
 ];
 
 /// Random numbers by `SplitMix64`.
-pub struct Random(pub u64);
+pub(super) struct Random(pub u64);
 
 impl Random {
     fn below(&mut self, count: usize) -> usize {
@@ -223,7 +223,7 @@ const EXP2_OF_LAVAPIPE: f64 = 6.0;
 const LOG2: f64 = 1.0 / 2_097_152.0;
 
 impl Tree {
-    pub fn random(random: &mut Random, depth: usize) -> Self {
+    pub(super) fn random(random: &mut Random, depth: usize) -> Self {
         if depth == 0 || random.below(8) == 0 {
             return Tree::Leaf(random.below(3), random.below(4));
         }
@@ -231,14 +231,14 @@ impl Tree {
         Tree::Node(op, (0..op.arguments()).map(|_| Tree::random(random, depth - 1)).collect())
     }
 
-    pub fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         match self {
             Tree::Leaf(k, i) => format!("{}.{}", ["a", "b", "c"][*k], ["x", "y", "z", "w"][*i]),
             Tree::Node(op, args) => op.text(&args.iter().map(Tree::text).collect::<Vec<_>>()),
         }
     }
 
-    pub fn value(&self, grade: Grade, operands: &[[f64; 4]; 3]) -> Near {
+    pub(super) fn value(&self, grade: Grade, operands: &[[f64; 4]; 3]) -> Near {
         match self {
             Tree::Leaf(k, i) => Near { exact: operands[*k][*i], off: 0.0 },
             Tree::Node(op, args) => {

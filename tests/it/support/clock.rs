@@ -3,17 +3,17 @@
 use std::time::{Duration, Instant};
 
 /// Measures the thread that made it; the wall's time where the system does not say (`proc(5)`, `schedstat`).
-pub enum Clock {
+pub(crate) enum Clock {
     Thread(Duration),
     Wall(Instant),
 }
 
 impl Clock {
-    pub fn now() -> Clock {
+    pub(crate) fn now() -> Clock {
         thread().map_or_else(|| Clock::Wall(Instant::now()), Clock::Thread)
     }
 
-    pub fn elapsed(&self) -> Duration {
+    pub(crate) fn elapsed(&self) -> Duration {
         match self {
             Clock::Thread(began) => thread().unwrap_or_default().saturating_sub(*began),
             Clock::Wall(began) => began.elapsed(),

@@ -3,6 +3,6 @@
 use eddy::glsl::{self, Compiled, Driver, PassSource};
 
 /// The module of an Image pass without settings, for this driver.
-pub fn compiled(code: &str, driver: Driver) -> Compiled {
+pub(crate) fn compiled(code: &str, driver: Driver) -> Compiled {
     glsl::compile(&PassSource { driver, ..PassSource::image(code) }).unwrap_or_else(|errors| panic!("{errors:?}"))
 }

@@ -7,7 +7,7 @@ use eddy::{
 };
 
 /// Where a program says what it computed.
-pub struct Case {
+pub(crate) struct Case {
     /// Declarations at file scope.
     pub before: &'static str,
     /// Statements that set `vec4 r`.
@@ -15,17 +15,17 @@ pub struct Case {
     pub expected: [f32; 4],
 }
 
-pub const fn case(body: &'static str, expected: [f32; 4]) -> Case {
+pub(crate) const fn case(body: &'static str, expected: [f32; 4]) -> Case {
     Case { before: "", body, expected }
 }
 
-pub const fn with(before: &'static str, body: &'static str, expected: [f32; 4]) -> Case {
+pub(crate) const fn with(before: &'static str, body: &'static str, expected: [f32; 4]) -> Case {
     Case { before, body, expected }
 }
 
 /// Draws each case alone, and walks through it on the processor; tells of all that differ.
 #[track_caller]
-pub fn check(cases: &[Case]) {
+pub(crate) fn check(cases: &[Case]) {
     if let Some(gpu) = gpu() {
         check_on(&gpu, cases, true);
     }
@@ -33,7 +33,7 @@ pub fn check(cases: &[Case]) {
 
 /// Draws each case alone, and walks through none: what only the optimiser brings about.
 #[track_caller]
-pub fn check_optimised(cases: &[Case]) {
+pub(crate) fn check_optimised(cases: &[Case]) {
     if let Some(gpu) = gpu() {
         check_on(&gpu, cases, false);
     }
@@ -41,7 +41,7 @@ pub fn check_optimised(cases: &[Case]) {
 
 /// As [`check`] or [`check_optimised`] on this device.
 #[track_caller]
-pub fn check_on(gpu: &eddy::gpu::Gpu, cases: &[Case], is_walked: bool) {
+pub(crate) fn check_on(gpu: &eddy::gpu::Gpu, cases: &[Case], is_walked: bool) {
     let mut wrong = Vec::new();
     for case in cases {
         let code = format!(

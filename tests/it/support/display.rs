@@ -10,7 +10,7 @@ use std::{
 use tempfile::TempDir;
 
 /// A display that nobody sees. Ends with the value.
-pub struct Display {
+pub(crate) struct Display {
     server: Child,
     name: String,
     manager: Option<Manager>,
@@ -18,27 +18,27 @@ pub struct Display {
 
 impl Display {
     /// `None` after saying so where the machine has no Xvfb or xdotool; with `EDDY_REQUIRE_GPU=1` that is a failure.
-    pub fn open() -> Option<Display> {
+    pub(crate) fn open() -> Option<Display> {
         Self::of_size(1000, 700)
     }
 
     /// The same with a home folder for a window.
-    pub fn with_home() -> Option<(Display, TempDir)> {
+    pub(crate) fn with_home() -> Option<(Display, TempDir)> {
         Self::of_size_with_home(1000, 700)
     }
 
-    pub fn of_size_with_home(width: u32, height: u32) -> Option<(Display, TempDir)> {
+    pub(crate) fn of_size_with_home(width: u32, height: u32) -> Option<(Display, TempDir)> {
         Some((Self::of_size(width, height)?, tempfile::tempdir().unwrap()))
     }
 
     /// The same with a screen of so many pixels.
-    pub fn of_size(width: u32, height: u32) -> Option<Display> {
+    pub(crate) fn of_size(width: u32, height: u32) -> Option<Display> {
         Self::with(width, height, false)
     }
 
     /// The same with frames round windows, by which they have a place that people gave them. `None` without a window
     /// manager.
-    pub fn with_frames(width: u32, height: u32) -> Option<Display> {
+    pub(crate) fn with_frames(width: u32, height: u32) -> Option<Display> {
         let display = Self::with(width, height, true)?;
         if display.manager.is_none() {
             missing("openbox");
@@ -67,17 +67,17 @@ impl Display {
         Some(Display { server, name, manager })
     }
 
-    pub fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         &self.name
     }
 
     /// Windows are managed: they can fill the screen, and are maximised by Super+M and closed by Alt+F4.
-    pub fn is_managed(&self) -> bool {
+    pub(crate) fn is_managed(&self) -> bool {
         self.manager.is_some()
     }
 
     /// Gives the keyboard a layout, as `de`. False after saying so where the machine cannot.
-    pub fn layout(&self, name: &str) -> bool {
+    pub(crate) fn layout(&self, name: &str) -> bool {
         let set = Command::new("setxkbmap").env("DISPLAY", &self.name).arg(name).status();
         let is_set = set.is_ok_and(|status| status.success());
         if !is_set {
@@ -86,18 +86,18 @@ impl Display {
         is_set
     }
 
-    pub fn tool(&self, arguments: &[&str]) -> String {
+    pub(crate) fn tool(&self, arguments: &[&str]) -> String {
         let output = Command::new("xdotool").env("DISPLAY", &self.name).args(arguments).output().unwrap();
         String::from_utf8_lossy(&output.stdout).trim().to_owned()
     }
 
     /// A picture of the whole display, for a person to look at when something is wrong.
-    pub fn photograph(&self, path: &Path) {
+    pub(crate) fn photograph(&self, path: &Path) {
         let _ = Command::new("import").env("DISPLAY", &self.name).args(["-window", "root"]).arg(path).status();
     }
 
     /// A picture of the whole display in the folder that `EDDY_SHOTS` names, for a person to look at.
-    pub fn shot(&self, name: &str) {
+    pub(crate) fn shot(&self, name: &str) {
         if let Some(folder) = std::env::var_os("EDDY_SHOTS") {
             // Popups fade in.
             std::thread::sleep(Duration::from_millis(600));

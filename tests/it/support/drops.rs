@@ -22,13 +22,13 @@ use x11rb::{
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// A file manager's window, which nobody sees.
-pub struct Drops {
+pub(crate) struct Drops {
     connection: RustConnection,
     window: u32,
 }
 
 impl Drops {
-    pub fn of(display: &Display) -> Drops {
+    pub(crate) fn of(display: &Display) -> Drops {
         let (connection, screen) = RustConnection::connect(Some(display.name())).unwrap();
         let root = connection.setup().roots[screen].root;
         let window = connection.generate_id().unwrap();
@@ -38,7 +38,7 @@ impl Drops {
     }
 
     /// Drops a file on a place of the screen; false if the target refuses it.
-    pub fn drop_file(&self, target: u32, file: &Path, (x, y): (i64, i64)) -> bool {
+    pub(crate) fn drop_file(&self, target: u32, file: &Path, (x, y): (i64, i64)) -> bool {
         let (selection, list, copy) =
             (self.atom("XdndSelection"), self.atom("text/uri-list"), self.atom("XdndActionCopy"));
         let source = self.window;

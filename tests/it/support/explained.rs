@@ -11,15 +11,15 @@ use eddy::{
 };
 
 /// Statements of a pixel.
-pub const STATEMENTS: u64 = 3_000_000;
+pub(crate) const STATEMENTS: u64 = 3_000_000;
 /// A step of 8 bits: what a screen shows.
-pub const VISIBLE: f64 = 1.0 / 255.0;
+pub(crate) const VISIBLE: f64 = 1.0 / 255.0;
 
 /// Ways to move texels by steps of 8 bits.
 const PATTERNS: u64 = 8;
 
 /// A pass of a frame that has been drawn, whose pixels are asked for reasons.
-pub struct Explained<'p> {
+pub(crate) struct Explained<'p> {
     pub sources: &'p Sources<'p>,
     pub index: usize,
     pub read: &'p PassInputs,
@@ -27,7 +27,7 @@ pub struct Explained<'p> {
 
 impl Explained<'_> {
     /// Why a pixel differs by so much, as far as the walker finds out.
-    pub fn why(&self, pixel: (u32, u32), apart: f64) -> String {
+    pub(crate) fn why(&self, pixel: (u32, u32), apart: f64) -> String {
         let Ok(audit) = audit(self.sources, self.index, self.read, &[pixel], STATEMENTS) else {
             return "not audited".into();
         };

@@ -7,7 +7,7 @@ use std::{
 };
 
 /// Says whether ffmpeg is there, and counts a test that is left out.
-pub fn has_ffmpeg() -> bool {
+pub(crate) fn has_ffmpeg() -> bool {
     let runs = Command::new("ffmpeg").arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
     let is_here = runs.is_ok_and(|status| status.success());
     if !is_here {
@@ -23,19 +23,19 @@ fn output(command: &mut Command) -> Vec<u8> {
 }
 
 /// Returns what ffprobe says of a file and its streams.
-pub fn probed(film: &Path) -> serde_json::Value {
+pub(crate) fn probed(film: &Path) -> serde_json::Value {
     let mut command = Command::new("ffprobe");
     command.args(["-v", "error", "-show_streams", "-show_format", "-of", "json"]).arg(film);
     serde_json::from_slice(&output(&mut command)).unwrap()
 }
 
 /// Returns all pictures as RGB of 8 bits, the top row first, converted by the tags of the file.
-pub fn decoded(film: &Path) -> Vec<u8> {
+pub(crate) fn decoded(film: &Path) -> Vec<u8> {
     decoded_by(film, "")
 }
 
 /// Does the same with options of the filter that converts, each with a colon after it.
-pub fn decoded_by(film: &Path, options: &str) -> Vec<u8> {
+pub(crate) fn decoded_by(film: &Path, options: &str) -> Vec<u8> {
     let mut command = Command::new("ffmpeg");
     command.args(["-v", "error", "-i"]).arg(film).args(["-map", "0:v:0", "-fps_mode", "passthrough"]);
     let filter = format!("scale={options}flags=bilinear+accurate_rnd+full_chroma_int,format=rgb24");
@@ -44,7 +44,7 @@ pub fn decoded_by(film: &Path, options: &str) -> Vec<u8> {
 }
 
 /// Returns the left samples of a film's sound at 44,100 per second.
-pub fn decoded_sound(film: &Path) -> Vec<i16> {
+pub(crate) fn decoded_sound(film: &Path) -> Vec<i16> {
     let mut command = Command::new("ffmpeg");
     command.args(["-v", "error", "-i"]).arg(film).args(["-map", "0:a:0", "-af", "aresample=44100,pan=mono|c0=c0"]);
     command.args(["-f", "s16le", "-"]);

@@ -8,7 +8,7 @@ use std::{
 
 /// Draws one frame in a process of its own, without what the driver has kept of earlier runs, and gives its picture's
 /// bytes.
-pub fn first_frame(name: &str, text: &str, limit: Duration) -> Option<Vec<u8>> {
+pub(crate) fn first_frame(name: &str, text: &str, limit: Duration) -> Option<Vec<u8>> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("image.glsl"), text).unwrap();
     let out = folder.path().join("out.npy");

@@ -5,7 +5,7 @@ use gix_object::{Kind, Write};
 use std::{fs, path::Path};
 
 /// Commits all files of a folder, which becomes a git repository where it is none, to its branch `main`.
-pub fn commit_all(root: &Path) -> ObjectId {
+pub(crate) fn commit_all(root: &Path) -> ObjectId {
     let git = root.join(".git");
     for folder in ["objects", "refs/heads"] {
         fs::create_dir_all(git.join(folder)).unwrap();
@@ -16,7 +16,7 @@ pub fn commit_all(root: &Path) -> ObjectId {
 }
 
 /// Commits a tree, whatever is in it.
-pub fn commit(root: &Path, tree: ObjectId) -> ObjectId {
+pub(crate) fn commit(root: &Path, tree: ObjectId) -> ObjectId {
     let main = root.join(".git/refs/heads/main");
     let parent = fs::read_to_string(&main).map(|id| format!("parent {}\n", id.trim())).unwrap_or_default();
     let who = "a <a@b.c> 1700000000 +0000";
@@ -27,12 +27,12 @@ pub fn commit(root: &Path, tree: ObjectId) -> ObjectId {
 }
 
 /// Writes an object.
-pub fn object(root: &Path, kind: Kind, bytes: &[u8]) -> ObjectId {
+pub(crate) fn object(root: &Path, kind: Kind, bytes: &[u8]) -> ObjectId {
     gix_odb::loose::Store::at(root.join(".git/objects"), Hash::Sha1).write_buf(kind, bytes).unwrap()
 }
 
 /// The bytes of a tree's entry.
-pub fn entry(mode: &str, name: &str, id: ObjectId) -> Vec<u8> {
+pub(crate) fn entry(mode: &str, name: &str, id: ObjectId) -> Vec<u8> {
     [mode.as_bytes(), b" ", name.as_bytes(), b"\0", id.as_slice()].concat()
 }
 

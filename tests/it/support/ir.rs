@@ -4,7 +4,7 @@ use eddy::glsl::{self, Driver, Link, PassSource};
 use std::{collections::HashMap, fmt::Write};
 
 /// Returns the program of an Image pass after the last pass of the optimiser.
-pub fn optimised(code: &str, driver: Driver) -> String {
+pub(crate) fn optimised(code: &str, driver: Driver) -> String {
     let source = PassSource { driver, ..PassSource::image(code) };
     let text =
         glsl::dump_ir(&source, &Link::default(), None, None).unwrap_or_else(|errors| panic!("{code}: {errors:?}"));
@@ -13,7 +13,7 @@ pub fn optimised(code: &str, driver: Driver) -> String {
 }
 
 /// Returns the programs after the last pass, one for each stage that the text of `dump_ir` goes through.
-pub fn final_programs(dump: &str) -> Vec<&str> {
+pub(crate) fn final_programs(dump: &str) -> Vec<&str> {
     let sections: Vec<&str> = dump.split("; after ").skip(1).collect();
     let is_last = |next: Option<&&str>| next.is_none_or(|next| next.starts_with("lower\n"));
     let last = sections.iter().enumerate().filter(|&(n, _)| is_last(sections.get(n + 1)));
@@ -21,7 +21,7 @@ pub fn final_programs(dump: &str) -> Vec<&str> {
 }
 
 /// Returns the lines of a program that declare functions, variables and globals.
-pub fn declarations(program: &str) -> String {
+pub(crate) fn declarations(program: &str) -> String {
     let declares = |line: &&str| {
         let name = line.trim_start();
         let is_variable = name.starts_with(['$', '@']) && name.split_once(": ").is_some_and(|(n, _)| !n.contains(' '));
@@ -32,7 +32,7 @@ pub fn declarations(program: &str) -> String {
 
 /// Returns the indices that a program reads and writes elements at, each with all that it is computed from:
 /// `load $0[(subtract (load $1), 1)]`.
-pub fn indices(program: &str) -> String {
+pub(crate) fn indices(program: &str) -> String {
     let mut made = HashMap::new();
     let mut out = String::new();
     for line in program.lines().map(str::trim_start) {
@@ -80,7 +80,7 @@ fn expanded(text: &str, made: &HashMap<String, String>) -> String {
 ///
 /// The text after a function's number is compared as it is. What it calls, and which globals it uses, it says by
 /// number, so functions that only look the same may do different things.
-pub fn without_repeats(programs: &[(String, String)]) -> String {
+pub(crate) fn without_repeats(programs: &[(String, String)]) -> String {
     let mut seen: HashMap<&str, String> = HashMap::new();
     let mut out = String::new();
     for (title, program) in programs {

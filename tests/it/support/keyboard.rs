@@ -14,14 +14,14 @@ use x11rb::{
     rust_connection::RustConnection,
 };
 
-pub struct Keyboard {
+pub(crate) struct Keyboard {
     connection: RustConnection,
     /// Keysyms of each key, from the first keycode on.
     keys: Vec<Vec<u32>>,
 }
 
 impl Keyboard {
-    pub fn of(display: &Display) -> Keyboard {
+    pub(crate) fn of(display: &Display) -> Keyboard {
         let (connection, _) = RustConnection::connect(Some(display.name())).unwrap();
         let setup = connection.setup();
         let (least, most) = (setup.min_keycode, setup.max_keycode);
@@ -31,7 +31,7 @@ impl Keyboard {
     }
 
     /// Presses and releases the key of a character of ASCII that needs no other key. Returns when the server has both.
-    pub fn tap(&self, character: char) {
+    pub(crate) fn tap(&self, character: char) {
         // Keysyms of ASCII are its codes.
         let index = self.keys.iter().position(|symbols| symbols.first() == Some(&character.into())).unwrap();
         let code = self.connection.setup().min_keycode + u8::try_from(index).unwrap();
@@ -41,7 +41,7 @@ impl Keyboard {
     }
 
     /// Presses and releases a key with its modifiers, in xdotool's names: `ctrl+z`, `F12`, `Left`.
-    pub fn press(&self, name: &str) {
+    pub(crate) fn press(&self, name: &str) {
         let mut parts: Vec<&str> = name.split('+').collect();
         let key = parts.pop().unwrap();
         self.hold(&parts, KEY_PRESS_EVENT);
@@ -52,7 +52,7 @@ impl Keyboard {
     }
 
     /// Types ASCII.
-    pub fn type_text(&self, text: &str) {
+    pub(crate) fn type_text(&self, text: &str) {
         for character in text.chars() {
             let (code, is_shifted) = self.code(character.into()).unwrap_or_else(|| panic!("no key {character:?}"));
             let held: &[&str] = if is_shifted { &["shift"] } else { &[] };
@@ -64,27 +64,27 @@ impl Keyboard {
     }
 
     /// Moves the pointer to a place of the screen.
-    pub fn point(&self, (x, y): (i64, i64)) {
+    pub(crate) fn point(&self, (x, y): (i64, i64)) {
         let (x, y) = (x as i16, y as i16);
         self.connection.xtest_fake_input(MOTION_NOTIFY_EVENT, 0, 0, x11rb::NONE, x, y, 0).unwrap().check().unwrap();
     }
 
     /// Does something while modifiers are held.
-    pub fn holding(&self, modifiers: &[&str], act: impl FnOnce()) {
+    pub(crate) fn holding(&self, modifiers: &[&str], act: impl FnOnce()) {
         self.hold(modifiers, KEY_PRESS_EVENT);
         act();
         self.hold(modifiers, KEY_RELEASE_EVENT);
     }
 
-    pub fn button_down(&self, button: u8) {
+    pub(crate) fn button_down(&self, button: u8) {
         self.fake(BUTTON_PRESS_EVENT, button);
     }
 
-    pub fn button_up(&self, button: u8) {
+    pub(crate) fn button_up(&self, button: u8) {
         self.fake(BUTTON_RELEASE_EVENT, button);
     }
 
-    pub fn click(&self, button: u8) {
+    pub(crate) fn click(&self, button: u8) {
         self.button_down(button);
         self.button_up(button);
     }

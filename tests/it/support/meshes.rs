@@ -7,7 +7,7 @@ use eddy::project::{
 };
 
 /// A mesh before the camera, as a manifest that says nothing more has it.
-pub fn draw(mesh: &str) -> MeshDraw {
+pub(crate) fn draw(mesh: &str) -> MeshDraw {
     MeshDraw {
         mesh: MeshSource::parse(mesh),
         normals: None,
@@ -23,12 +23,12 @@ pub fn draw(mesh: &str) -> MeshDraw {
     }
 }
 
-pub fn source(name: &str, text: &str) -> Source {
+pub(crate) fn source(name: &str, text: &str) -> Source {
     Source { name: name.into(), path: None, text: text.into() }
 }
 
 /// A pass `scene` of 32-bit targets; its own text is the fragment stage, `stages` are further texts.
-pub fn scene(fragment: &str, stages: &[&str], targets: usize, camera: Camera, draws: Vec<MeshDraw>) -> Pass {
+pub(crate) fn scene(fragment: &str, stages: &[&str], targets: usize, camera: Camera, draws: Vec<MeshDraw>) -> Pass {
     let mut scene = pass(buffer("scene"), fragment, Default::default());
     scene.body = Body::Meshes(Geometry {
         draws,
@@ -40,7 +40,7 @@ pub fn scene(fragment: &str, stages: &[&str], targets: usize, camera: Camera, dr
 }
 
 /// A channel that reads a target of the scene.
-pub fn target(index: usize) -> Option<Channel> {
+pub(crate) fn target(index: usize) -> Option<Channel> {
     let input = match index {
         0 => Input::buffer("scene"),
         index => Input::Pass { id: PassName::buffer("scene"), target: index },
@@ -49,20 +49,20 @@ pub fn target(index: usize) -> Option<Channel> {
 }
 
 /// The sum of what four channels hold.
-pub const SUM: &str = "void mainImage(out vec4 o, in vec2 p) { ivec2 i = ivec2(p);
+pub(crate) const SUM: &str = "void mainImage(out vec4 o, in vec2 p) { ivec2 i = ivec2(p);
     o = texelFetch(iChannel0, i, 0) + texelFetch(iChannel1, i, 0) + texelFetch(iChannel2, i, 0) + \
     texelFetch(iChannel3, i, 0); }";
 
 /// A project of a scene, and Image that shows it.
-pub fn whole(scene: Pass) -> Project {
+pub(crate) fn whole(scene: Pass) -> Project {
     let count = scene.formats().len();
     project(vec![scene, image(SUM, [0, 1, 2, 3].map(|i| if i < count { target(i) } else { None }))])
 }
 
-pub fn camera() -> Camera {
+pub(crate) fn camera() -> Camera {
     Camera { yaw: 25.0, pitch: 35.0, distance: 5.0, target: [0.2, -0.1, 0.3], fov: 50.0, ..Camera::default() }
 }
 
-pub fn straight() -> Camera {
+pub(crate) fn straight() -> Camera {
     Camera { yaw: 0.0, pitch: 0.0, distance: 5.0, ..Camera::default() }
 }

@@ -1,29 +1,29 @@
 //! What several test files need: a device, and projects made in code.
 #![allow(dead_code, unused_imports, reason = "every program of tests uses its own part")]
 
-pub mod clock;
-pub mod compiled;
-pub mod compute;
-pub mod display;
-pub mod drops;
-pub mod env;
-pub mod explained;
-pub mod ffmpeg;
-pub mod first_frame;
-pub mod git;
-pub mod ir;
-pub mod keyboard;
-pub mod meshes;
-pub mod pings;
-pub mod preset;
-pub mod presets;
-pub mod program;
-pub mod programs;
-pub mod stage;
-pub mod walked;
-pub mod window;
+pub(crate) mod clock;
+pub(crate) mod compiled;
+pub(crate) mod compute;
+pub(crate) mod display;
+pub(crate) mod drops;
+pub(crate) mod env;
+pub(crate) mod explained;
+pub(crate) mod ffmpeg;
+pub(crate) mod first_frame;
+pub(crate) mod git;
+pub(crate) mod ir;
+pub(crate) mod keyboard;
+pub(crate) mod meshes;
+pub(crate) mod pings;
+pub(crate) mod preset;
+pub(crate) mod presets;
+pub(crate) mod program;
+pub(crate) mod programs;
+pub(crate) mod stage;
+pub(crate) mod walked;
+pub(crate) mod window;
 
-pub use eddy::gpu::testing::{gpu, gpu_with, missing, skipped};
+pub(crate) use eddy::gpu::testing::{gpu, gpu_with, missing, skipped};
 use eddy::{
     engine::{BuildOptions, Builder, DrawFor, Engine, FrameInputs, PassInputs, Pixels},
     gpu::Gpu,
@@ -34,65 +34,77 @@ use eddy::{
 use std::{fs, path::PathBuf};
 
 /// A device for studies.
-pub fn rig() -> Option<Rig> {
+pub(crate) fn rig() -> Option<Rig> {
     gpu().map(Rig::new)
 }
 
 /// Makes a folder with these files.
-pub fn folder_of(folder: PathBuf, files: &[(&str, &str)]) -> PathBuf {
+pub(crate) fn folder_of(folder: PathBuf, files: &[(&str, &str)]) -> PathBuf {
     fs::create_dir_all(&folder).unwrap();
     files.iter().for_each(|(name, text)| fs::write(folder.join(name), text).unwrap());
     folder
 }
 
-pub fn buffer(name: &str) -> PassName {
+pub(crate) fn buffer(name: &str) -> PassName {
     PassName::buffer(name)
 }
 
 /// A channel that reads a buffer.
-pub fn reads(name: &str, filter: Filter, wrap: Wrap) -> Option<Channel> {
+pub(crate) fn reads(name: &str, filter: Filter, wrap: Wrap) -> Option<Channel> {
     Some(Channel { input: Input::buffer(name), sampler: Sampler { filter, wrap, vflip: true } })
 }
 
-pub fn nearest(name: &str) -> Option<Channel> {
+pub(crate) fn nearest(name: &str) -> Option<Channel> {
     reads(name, Filter::Nearest, Wrap::Clamp)
 }
 
-pub fn pass(id: PassName, code: &str, channels: [Option<Channel>; 4]) -> Pass {
+pub(crate) fn pass(id: PassName, code: &str, channels: [Option<Channel>; 4]) -> Pass {
     let source = Source { name: id.title(), path: None, text: code.into() };
     Pass { bindings: channels.into(), ..Pass::new(id, source) }
 }
 
-pub fn image(code: &str, channels: [Option<Channel>; 4]) -> Pass {
+pub(crate) fn image(code: &str, channels: [Option<Channel>; 4]) -> Pass {
     pass(PassName::image(), code, channels)
 }
 
-pub fn project(passes: Vec<Pass>) -> Project {
+pub(crate) fn project(passes: Vec<Pass>) -> Project {
     Project::new("test", passes, Origin::Unsaved)
 }
 
 /// An engine at a size with the project's program in it.
 /// Draws a frame and returns what a pass reads in it.
-pub fn inspect(engine: &mut Engine, inputs: &FrameInputs, pass: &PassName) -> PassInputs {
+pub(crate) fn inspect(engine: &mut Engine, inputs: &FrameInputs, pass: &PassName) -> PassInputs {
     engine.draw_for(inputs, DrawFor::Inspect(pass)).unwrap().read.unwrap()
 }
 
-pub fn engine_with(gpu: &Gpu, project: &Project, media: &MediaSet, options: &BuildOptions, size: (u32, u32)) -> Engine {
+pub(crate) fn engine_with(
+    gpu: &Gpu,
+    project: &Project,
+    media: &MediaSet,
+    options: &BuildOptions,
+    size: (u32, u32),
+) -> Engine {
     Engines::new(gpu).with(project, media, options, size)
 }
 
 /// Makes engines of projects that have passes in common, which are compiled once.
-pub struct Engines {
+pub(crate) struct Engines {
     gpu: Gpu,
     builder: Builder,
 }
 
 impl Engines {
-    pub fn new(gpu: &Gpu) -> Engines {
+    pub(crate) fn new(gpu: &Gpu) -> Engines {
         Engines { gpu: gpu.clone(), builder: Builder::new(gpu.clone()) }
     }
 
-    pub fn with(&mut self, project: &Project, media: &MediaSet, options: &BuildOptions, size: (u32, u32)) -> Engine {
+    pub(crate) fn with(
+        &mut self,
+        project: &Project,
+        media: &MediaSet,
+        options: &BuildOptions,
+        size: (u32, u32),
+    ) -> Engine {
         let built = self.builder.build(project, media, options).unwrap_or_else(|e| panic!("{e}: {e:?}"));
         let mut engine = Engine::new(self.gpu.clone(), size.0, size.1).unwrap();
         engine.set_program(built.program).unwrap();
@@ -100,25 +112,25 @@ impl Engines {
     }
 }
 
-pub fn engine(gpu: &Gpu, project: &Project, size: (u32, u32)) -> Engine {
+pub(crate) fn engine(gpu: &Gpu, project: &Project, size: (u32, u32)) -> Engine {
     engine_with(gpu, project, &MediaSet::new(), &BuildOptions::default(), size)
 }
 
 /// Draws frames `from..to` at 60 frames a second.
-pub fn run(engine: &mut Engine, from: i32, to: i32) {
+pub(crate) fn run(engine: &mut Engine, from: i32, to: i32) {
     for frame in from..to {
         engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).unwrap();
     }
 }
 
 /// An engine with the project's program, after so many frames.
-pub fn ran(gpu: &Gpu, project: &Project, size: (u32, u32), frames: i32) -> Engine {
+pub(crate) fn ran(gpu: &Gpu, project: &Project, size: (u32, u32), frames: i32) -> Engine {
     let mut engine = engine(gpu, project, size);
     run(&mut engine, 0, frames);
     engine
 }
 
 /// The texel at (x, y), counted from the bottom left.
-pub fn texel(pixels: &Pixels, x: u32, y: u32) -> [f32; 4] {
+pub(crate) fn texel(pixels: &Pixels, x: u32, y: u32) -> [f32; 4] {
     pixels.texels[(y * pixels.width + x) as usize]
 }

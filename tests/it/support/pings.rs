@@ -12,7 +12,7 @@ use x11rb::{
     rust_connection::RustConnection,
 };
 
-pub struct Pings {
+pub(crate) struct Pings {
     connection: RustConnection,
     root: u32,
     window: u32,
@@ -22,7 +22,7 @@ pub struct Pings {
 }
 
 impl Pings {
-    pub fn of(display: &Display, window: u32) -> Pings {
+    pub(crate) fn of(display: &Display, window: u32) -> Pings {
         let (connection, screen) = RustConnection::connect(Some(display.name())).unwrap();
         let root = connection.setup().roots[screen].root;
         let atom = |name: &[u8]| connection.intern_atom(false, name).unwrap().reply().unwrap().atom;
@@ -34,7 +34,7 @@ impl Pings {
     }
 
     /// The time until the answer; none if it does not come in time, or if the window is gone.
-    pub fn ask(&mut self, patience: Duration) -> Option<Duration> {
+    pub(crate) fn ask(&mut self, patience: Duration) -> Option<Duration> {
         self.sent += 1;
         let data = [self.ping, self.sent, self.window, 0, 0];
         let message = ClientMessageEvent::new(32, self.window, self.protocols, data);

@@ -7,51 +7,51 @@ use eddy::{
     project::{PassName, Project},
 };
 
-pub use presets::{all_finite, preset_with as preset};
+pub(crate) use presets::{all_finite, preset_with as preset};
 
 /// Gives a buffer another text, one that a test knows all about.
-pub fn replace(project: &mut Project, name: &str, text: &str) {
+pub(crate) fn replace(project: &mut Project, name: &str, text: &str) {
     project.pass_mut(&buffer(name)).unwrap().source.text = text.into();
 }
 
 /// Puts `new` in place of `old` in Common, which must have it.
-pub fn patch_common(project: &mut Project, old: &str, new: &str) {
+pub(crate) fn patch_common(project: &mut Project, old: &str, new: &str) {
     let common = project.common.as_mut().unwrap();
     assert!(common.text.contains(old), "Common no longer says `{old}`");
     common.text = common.text.replace(old, new).into();
 }
 
 /// An engine in which every pass can be read.
-pub fn whole(gpu: &Gpu, project: &Project, size: (u32, u32)) -> Engine {
+pub(crate) fn whole(gpu: &Gpu, project: &Project, size: (u32, u32)) -> Engine {
     presets::whole(gpu, project, true, size)
 }
 
 /// Frame `frame`, with the mouse as the engine's uniform has it: held at `at`, or never touched.
-pub fn at_frame(frame: i32, at: Option<[f32; 2]>) -> FrameInputs {
+pub(crate) fn at_frame(frame: i32, at: Option<[f32; 2]>) -> FrameInputs {
     presets::held(frame, at.map(|[x, y]| ([x.max(1.0), y], [x, y])))
 }
 
-pub fn draw(engine: &mut Engine, frames: std::ops::Range<i32>) {
+pub(crate) fn draw(engine: &mut Engine, frames: std::ops::Range<i32>) {
     presets::draw(engine, frames, presets::untouched);
 }
 
 /// An engine with all buffers of a project, after these frames.
-pub fn drawn(gpu: &Gpu, project: &Project, size: (u32, u32), frames: std::ops::Range<i32>) -> Engine {
+pub(crate) fn drawn(gpu: &Gpu, project: &Project, size: (u32, u32), frames: std::ops::Range<i32>) -> Engine {
     let mut engine = whole(gpu, project, size);
     draw(&mut engine, frames);
     engine
 }
 
-pub fn read(engine: &mut Engine, name: &str) -> Pixels {
+pub(crate) fn read(engine: &mut Engine, name: &str) -> Pixels {
     engine.read(&buffer(name)).unwrap()
 }
 
-pub fn picture(engine: &mut Engine) -> Pixels {
+pub(crate) fn picture(engine: &mut Engine) -> Pixels {
     engine.read_image().unwrap()
 }
 
 /// Peak signal-to-noise ratio of the colours in dB, where 1 is the peak.
-pub fn psnr(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {
+pub(crate) fn psnr(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {
     assert_eq!(a.len(), b.len());
     let square = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).map(|i| f64::from(a[i] - b[i]).powi(2)).sum::<f64>();
     let mean = a.iter().zip(b).map(square).sum::<f64>() / (3 * a.len()) as f64;
@@ -59,7 +59,7 @@ pub fn psnr(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {
 }
 
 /// The mean of several pictures.
-pub fn mean(pictures: &[Pixels]) -> Vec<[f32; 4]> {
+pub(crate) fn mean(pictures: &[Pixels]) -> Vec<[f32; 4]> {
     let mut sum = vec![[0.0f64; 4]; pictures[0].texels.len()];
     for texels in pictures.iter().map(|p| &p.texels) {
         for (sum, texel) in sum.iter_mut().zip(texels) {

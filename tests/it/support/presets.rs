@@ -8,37 +8,37 @@ use eddy::{
     project::{CustomUniformValues, PassName, Project, presets},
 };
 
-pub fn preset(name: &str) -> Project {
+pub(crate) fn preset(name: &str) -> Project {
     presets::load(name).unwrap_or_else(|e| panic!("{e}")).project
 }
 
 /// A preset with its sliders set.
-pub fn preset_with(name: &str, custom_uniforms: &[&str]) -> Project {
+pub(crate) fn preset_with(name: &str, custom_uniforms: &[&str]) -> Project {
     let mut project = preset(name);
     turn(&mut project, custom_uniforms);
     project
 }
 
-pub fn turn(project: &mut Project, custom_uniforms: &[&str]) {
+pub(crate) fn turn(project: &mut Project, custom_uniforms: &[&str]) {
     for custom_uniform in custom_uniforms {
         project.set_custom_uniform(custom_uniform).unwrap();
     }
 }
 
 /// The values that sliders of a running program are turned to.
-pub fn values(name: &str, custom_uniforms: &[&str]) -> CustomUniformValues {
+pub(crate) fn values(name: &str, custom_uniforms: &[&str]) -> CustomUniformValues {
     preset_with(name, custom_uniforms).custom_uniform_values
 }
 
 /// Puts `new` in place of `old` in a pass's text, which must have it: a preset that changed shall not pass by accident.
-pub fn patch(project: &mut Project, id: &PassName, old: &str, new: &str) {
+pub(crate) fn patch(project: &mut Project, id: &PassName, old: &str, new: &str) {
     let source = &mut project.pass_mut(id).unwrap().source;
     assert!(source.text.contains(old), "{} no longer says `{old}`", source.name);
     source.text = source.text.replace(old, new).into();
 }
 
 /// The same in an included file.
-pub fn patch_file(project: &mut Project, file: &str, old: &str, new: &str) {
+pub(crate) fn patch_file(project: &mut Project, file: &str, old: &str, new: &str) {
     let included = project.includes.iter_mut().find(|i| i.source.name == file).unwrap();
     assert!(included.source.text.contains(old), "{file} no longer says `{old}`");
     included.source.text = included.source.text.replace(old, new).into();
@@ -46,7 +46,7 @@ pub fn patch_file(project: &mut Project, file: &str, old: &str, new: &str) {
 
 /// Lets `code` have the last word on what a pass writes: it sees `o`, the texel as the preset would have it, and its
 /// address `p`.
-pub fn overwrite(project: &mut Project, name: &str, code: &str) {
+pub(crate) fn overwrite(project: &mut Project, name: &str, code: &str) {
     let source = &mut project.pass_mut(&buffer(name)).unwrap().source;
     source.text = format!(
         "#define mainImage presetImage\n{}\n#undef mainImage\nvoid mainImage(out vec4 o, in vec2 c) {{\n\
@@ -57,10 +57,10 @@ pub fn overwrite(project: &mut Project, name: &str, code: &str) {
 }
 
 /// Numbers that are none, made from iFrame so that no compiler can know them beforehand: a NaN and both infinities.
-pub const BROKEN: [&str; 3] = ["0x7fc00000u", "0x7f800000u", "0xff800000u"];
+pub(crate) const BROKEN: [&str; 3] = ["0x7fc00000u", "0x7f800000u", "0xff800000u"];
 
 /// Writes one of [`BROKEN`] into one texel of a pass in frame `frame`.
-pub fn break_texel(project: &mut Project, name: &str, (x, y): (u32, u32), frame: i32, number: &str) {
+pub(crate) fn break_texel(project: &mut Project, name: &str, (x, y): (u32, u32), frame: i32, number: &str) {
     let code = format!(
         "if (iFrame == {frame} && p == ivec2({x}, {y})) o = vec4(uintBitsToFloat({number} + uint(iFrame - {frame})));"
     );
@@ -68,7 +68,7 @@ pub fn break_texel(project: &mut Project, name: &str, (x, y): (u32, u32), frame:
 }
 
 /// Frame `frame` with the mouse held at `at` since it was pressed at `from`, or never touched.
-pub fn held(frame: i32, mouse: Option<([f32; 2], [f32; 2])>) -> FrameInputs {
+pub(crate) fn held(frame: i32, mouse: Option<([f32; 2], [f32; 2])>) -> FrameInputs {
     let mut inputs = FrameInputs::at_fixed_step(frame, 60.0);
     inputs.mouse = match mouse {
         Some((from, at)) => [at[0], at[1], from[0], -from[1]],
@@ -77,44 +77,44 @@ pub fn held(frame: i32, mouse: Option<([f32; 2], [f32; 2])>) -> FrameInputs {
     inputs
 }
 
-pub fn untouched(frame: i32) -> FrameInputs {
+pub(crate) fn untouched(frame: i32) -> FrameInputs {
     held(frame, None)
 }
 
 /// A drag from (12, 9) to the right, pressed in frames 10 to 24 and never released before.
-pub fn drag(frame: i32) -> FrameInputs {
+pub(crate) fn drag(frame: i32) -> FrameInputs {
     let moved = (frame - 10).clamp(0, 14) as f32;
     held(frame, (10..25).contains(&frame).then_some(([12.0, 9.0], [12.0 + moved, 9.0])))
 }
 
-pub fn draw(engine: &mut Engine, frames: std::ops::Range<i32>, inputs: impl Fn(i32) -> FrameInputs) {
+pub(crate) fn draw(engine: &mut Engine, frames: std::ops::Range<i32>, inputs: impl Fn(i32) -> FrameInputs) {
     for frame in frames {
         engine.draw(&inputs(frame)).unwrap();
     }
 }
 
-pub fn bits(pixels: &Pixels) -> Vec<[u32; 4]> {
+pub(crate) fn bits(pixels: &Pixels) -> Vec<[u32; 4]> {
     pixels.texels.iter().map(|t| t.map(f32::to_bits)).collect()
 }
 
-pub fn buffers(project: &Project) -> impl Iterator<Item = &PassName> {
+pub(crate) fn buffers(project: &Project) -> impl Iterator<Item = &PassName> {
     project.passes.iter().map(|p| &p.id).filter(|id| id.is_picture())
 }
 
 /// An engine in which every pass can be read.
-pub fn whole(gpu: &Gpu, project: &Project, skip: bool, size: (u32, u32)) -> Engine {
+pub(crate) fn whole(gpu: &Gpu, project: &Project, skip: bool, size: (u32, u32)) -> Engine {
     Engines::new(gpu).whole(project, skip, size)
 }
 
 impl Engines {
-    pub fn whole(&mut self, project: &Project, skip: bool, size: (u32, u32)) -> Engine {
+    pub(crate) fn whole(&mut self, project: &Project, skip: bool, size: (u32, u32)) -> Engine {
         let options = BuildOptions { wanted: buffers(project).cloned().collect(), skip, ..BuildOptions::default() };
         self.with(project, &MediaSet::new(), &options, size)
     }
 }
 
 /// The same after these frames.
-pub fn drawn(
+pub(crate) fn drawn(
     gpu: &Gpu,
     project: &Project,
     skip: bool,
@@ -128,7 +128,7 @@ pub fn drawn(
 }
 
 /// Mean of a component over the texels that `at` takes, in f64.
-pub fn mean(pixels: &Pixels, component: usize, at: impl Fn(u32, u32) -> bool) -> f64 {
+pub(crate) fn mean(pixels: &Pixels, component: usize, at: impl Fn(u32, u32) -> bool) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for (i, texel) in pixels.texels.iter().enumerate() {
         if at(i as u32 % pixels.width, i as u32 / pixels.width) {
@@ -139,6 +139,6 @@ pub fn mean(pixels: &Pixels, component: usize, at: impl Fn(u32, u32) -> bool) ->
     sum / count
 }
 
-pub fn all_finite(pixels: &Pixels) -> bool {
+pub(crate) fn all_finite(pixels: &Pixels) -> bool {
     pixels.texels.iter().flatten().all(|v| v.is_finite())
 }

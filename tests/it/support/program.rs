@@ -10,7 +10,7 @@ use std::{
 
 /// What a run of the program left behind.
 #[derive(Debug)]
-pub struct Run {
+pub(crate) struct Run {
     pub code: Option<i32>,
     pub out: String,
     pub err: String,
@@ -18,13 +18,13 @@ pub struct Run {
 
 impl Run {
     /// Standard output as JSON, one object a line.
-    pub fn json(&self) -> Vec<serde_json::Value> {
+    pub(crate) fn json(&self) -> Vec<serde_json::Value> {
         let parse = |line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{line:?}: {e}\n{self:?}"));
         self.out.lines().map(parse).collect()
     }
 
     #[track_caller]
-    pub fn expect(self, code: i32) -> Run {
+    pub(crate) fn expect(self, code: i32) -> Run {
         assert_eq!(self.code, Some(code), "standard output:\n{}\nstandard error:\n{}", self.out, self.err);
         assert!(!self.err.contains("panicked"), "{}", self.err);
         self
@@ -32,57 +32,57 @@ impl Run {
 }
 
 /// A folder of its own for one test, and the program run in it.
-pub struct Bench {
+pub(crate) struct Bench {
     dir: tempfile::TempDir,
 }
 
 impl Bench {
-    pub fn new() -> Bench {
+    pub(crate) fn new() -> Bench {
         Bench { dir: tempfile::tempdir().unwrap() }
     }
 
     /// `None` where the machine has no device.
-    pub fn with_gpu() -> Option<Bench> {
+    pub(crate) fn with_gpu() -> Option<Bench> {
         gpu().map(|_| Bench::new())
     }
 
-    pub fn path(&self, name: impl AsRef<Path>) -> PathBuf {
+    pub(crate) fn path(&self, name: impl AsRef<Path>) -> PathBuf {
         self.dir.path().join(name)
     }
 
     /// Writes a file, and the folders it lies in.
-    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+    pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) {
         let path = self.path(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, content).unwrap();
     }
 
     /// One Image pass whose `mainImage` has this body.
-    pub fn image(&self, name: &str, body: &str) {
+    pub(crate) fn image(&self, name: &str, body: &str) {
         self.write(name, image(body));
     }
 
-    pub fn command(&self) -> Command {
+    pub(crate) fn command(&self) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_eddy"));
         command.current_dir(self.dir.path()).stdin(Stdio::null()).env_remove("RUST_BACKTRACE");
         command
     }
 
-    pub fn eddy<S: AsRef<OsStr>>(&self, args: impl IntoIterator<Item = S>) -> Run {
+    pub(crate) fn eddy<S: AsRef<OsStr>>(&self, args: impl IntoIterator<Item = S>) -> Run {
         run(self.command().args(args))
     }
 
     /// Arguments parted by blanks.
-    pub fn line(&self, args: &str) -> Run {
+    pub(crate) fn line(&self, args: &str) -> Run {
         self.eddy(args.split_whitespace())
     }
 
-    pub fn bytes(&self, name: &str) -> Vec<u8> {
+    pub(crate) fn bytes(&self, name: &str) -> Vec<u8> {
         fs::read(self.path(name)).unwrap_or_else(|e| panic!("{name}: {e}; there are {:?}", self.names(".")))
     }
 
     /// Sorted names of what lies in a folder.
-    pub fn names(&self, folder: &str) -> Vec<String> {
+    pub(crate) fn names(&self, folder: &str) -> Vec<String> {
         let mut names: Vec<String> = fs::read_dir(self.path(folder))
             .map(|d| d.map(|e| e.unwrap().file_name().into_string().unwrap()).collect())
             .unwrap_or_default();
@@ -90,20 +90,20 @@ impl Bench {
         names
     }
 
-    pub fn npy(&self, name: &str) -> Npy {
+    pub(crate) fn npy(&self, name: &str) -> Npy {
         Npy::parse(&self.bytes(name))
     }
 
-    pub fn png(&self, name: &str) -> image::RgbaImage {
+    pub(crate) fn png(&self, name: &str) -> image::RgbaImage {
         image::load_from_memory(&self.bytes(name)).unwrap().to_rgba8()
     }
 }
 
-pub fn image(body: &str) -> String {
+pub(crate) fn image(body: &str) -> String {
     format!("void mainImage(out vec4 fragColor, in vec2 fragCoord) {{\n{body}\n}}\n")
 }
 
-pub fn run(command: &mut Command) -> Run {
+pub(crate) fn run(command: &mut Command) -> Run {
     let output = command.output().unwrap_or_else(|e| panic!("{command:?}: {e}"));
     Run {
         code: output.status.code(),
@@ -113,7 +113,7 @@ pub fn run(command: &mut Command) -> Run {
 }
 
 /// A float picture as `--format npy` writes it. Row 0 is the bottom.
-pub struct Npy {
+pub(crate) struct Npy {
     pub width: usize,
     pub height: usize,
     pub texels: Vec<[f32; 4]>,
@@ -139,7 +139,7 @@ impl Npy {
     }
 
     /// `y` counts from the bottom.
-    pub fn at(&self, x: usize, y: usize) -> [f32; 4] {
+    pub(crate) fn at(&self, x: usize, y: usize) -> [f32; 4] {
         self.texels[y * self.width + x]
     }
 }

@@ -4,7 +4,7 @@ use super::{missing, skipped};
 use std::process::{Command, Stdio};
 
 /// Says whether a program is there, and counts a test that is left out.
-pub fn has(program: &str) -> bool {
+pub(crate) fn has(program: &str) -> bool {
     let is_here = runs(program);
     if !is_here {
         skipped(&format!("{program} is not installed"));
@@ -13,7 +13,7 @@ pub fn has(program: &str) -> bool {
 }
 
 /// Says the same of a program that `scripts/test` installs, and without which tests fail on CI.
-pub fn has_required(program: &str) -> bool {
+pub(crate) fn has_required(program: &str) -> bool {
     let is_here = runs(program);
     if !is_here {
         missing(program);
@@ -27,7 +27,7 @@ fn runs(program: &str) -> bool {
 }
 
 /// Runs a program, and returns what it says where it fails.
-pub fn failure(command: &mut Command) -> Option<String> {
+pub(crate) fn failure(command: &mut Command) -> Option<String> {
     let output = command.stdin(Stdio::null()).output().unwrap_or_else(|e| panic!("{command:?}: {e}"));
     let said = || [output.stdout.clone(), output.stderr.clone()].concat();
     (!output.status.success()).then(|| String::from_utf8_lossy(&said()).into_owned())

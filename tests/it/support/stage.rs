@@ -12,16 +12,16 @@ use std::{
     time::{Duration, Instant},
 };
 
-pub fn image_tab() -> Tab {
+pub(crate) fn image_tab() -> Tab {
     Tab::image()
 }
 
 /// An Image pass of one colour.
-pub fn plain(red: f32) -> String {
+pub(crate) fn plain(red: f32) -> String {
     format!("void mainImage(out vec4 o, in vec2 p) {{\n    o = vec4({red:?}, 0.0, 0.0, 1.0);\n}}\n")
 }
 
-pub struct Stage {
+pub(crate) struct Stage {
     pub session: Session,
     pub dir: tempfile::TempDir,
     frames: u32,
@@ -29,7 +29,7 @@ pub struct Stage {
 
 impl Stage {
     /// A paused session of 8x4 pixels with the given files open as a folder, its first frame drawn.
-    pub fn open(gpu: Gpu, files: &[(&str, &str)]) -> Stage {
+    pub(crate) fn open(gpu: Gpu, files: &[(&str, &str)]) -> Stage {
         let mut stage = Self::bare(gpu);
         for (name, text) in files {
             stage.write(name, text);
@@ -41,12 +41,12 @@ impl Stage {
         stage
     }
 
-    pub fn bare(gpu: Gpu) -> Stage {
+    pub(crate) fn bare(gpu: Gpu) -> Stage {
         Self::with_options(gpu, |_| SessionOptions::default())
     }
 
     /// As [`Stage::bare`] with more options, which may name paths in the stage's own folder.
-    pub fn with_options(gpu: Gpu, options: impl FnOnce(&Path) -> SessionOptions) -> Stage {
+    pub(crate) fn with_options(gpu: Gpu, options: impl FnOnce(&Path) -> SessionOptions) -> Stage {
         let dir = tempfile::tempdir().unwrap();
         fs::create_dir(dir.path().join("project")).unwrap();
         let options = SessionOptions {
@@ -59,43 +59,43 @@ impl Stage {
         Stage { session, dir, frames: 0 }
     }
 
-    pub fn folder(&self) -> PathBuf {
+    pub(crate) fn folder(&self) -> PathBuf {
         self.dir.path().join("project")
     }
 
-    pub fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.folder().join(name)
     }
 
-    pub fn write(&self, name: &str, text: impl AsRef<[u8]>) {
+    pub(crate) fn write(&self, name: &str, text: impl AsRef<[u8]>) {
         fs::write(self.path(name), text).unwrap();
     }
 
-    pub fn read(&self, name: &str) -> String {
+    pub(crate) fn read(&self, name: &str) -> String {
         fs::read_to_string(self.path(name)).unwrap()
     }
 
-    pub fn tick(&mut self) -> Tick {
+    pub(crate) fn tick(&mut self) -> Tick {
         let tick = self.session.tick(Instant::now());
         self.frames += u32::from(tick.frame_drawn);
         tick
     }
 
     /// Does what a command asks for, with a tick after it.
-    pub fn act(&mut self, command: Command) {
+    pub(crate) fn act(&mut self, command: Command) {
         self.session.apply(command);
         self.tick();
     }
 
     /// Does what a command asks for, and waits until what follows from it is compiled.
-    pub fn compile(&mut self, command: Command) {
+    pub(crate) fn compile(&mut self, command: Command) {
         self.session.apply(command);
         self.until_compiled();
     }
 
     /// Lets the watcher tell of what was written before the session began to watch: until nothing is pending for a
     /// while.
-    pub fn settle(&mut self) {
+    pub(crate) fn settle(&mut self) {
         let mut quiet = 0;
         while quiet < 15 {
             std::thread::sleep(Duration::from_millis(20));
@@ -104,12 +104,12 @@ impl Stage {
     }
 
     /// Frames drawn so far.
-    pub fn frames(&self) -> u32 {
+    pub(crate) fn frames(&self) -> u32 {
         self.frames
     }
 
     /// Ticks until something is so.
-    pub fn until(&mut self, what: &str, condition: impl Fn(&Session) -> bool) {
+    pub(crate) fn until(&mut self, what: &str, condition: impl Fn(&Session) -> bool) {
         let end = Instant::now() + Duration::from_secs(30);
         while !condition(&self.session) {
             assert!(Instant::now() < end, "never: {what}; notices: {:#?}", self.session.notices());
@@ -119,7 +119,7 @@ impl Stage {
     }
 
     /// Ticks for a while: for what must not happen.
-    pub fn for_a_while(&mut self) {
+    pub(crate) fn for_a_while(&mut self) {
         let end = Instant::now() + Duration::from_millis(700);
         while Instant::now() < end {
             self.tick();
@@ -127,37 +127,37 @@ impl Stage {
         }
     }
 
-    pub fn until_compiled(&mut self) {
+    pub(crate) fn until_compiled(&mut self) {
         self.until("a finished compile", |s| !s.compile_state().compiling && s.compile_state().last.is_some());
         self.tick();
     }
 
-    pub fn is_ok(&self) -> bool {
+    pub(crate) fn is_ok(&self) -> bool {
         matches!(self.session.compile_state().last, Some(Outcome::Ok { .. }))
     }
 
-    pub fn edit(&mut self, text: &str) {
+    pub(crate) fn edit(&mut self, text: &str) {
         self.session.apply(Command::EditText { tab: image_tab(), text: text.into() });
     }
 
-    pub fn notices(&self, level: Level) -> Vec<&str> {
+    pub(crate) fn notices(&self, level: Level) -> Vec<&str> {
         self.session.notices().iter().filter(|n| n.level == level).map(|n| n.text.as_str()).collect()
     }
 
     /// How many notices of any level begin so.
-    pub fn count(&self, start: &str) -> usize {
+    pub(crate) fn count(&self, start: &str) -> usize {
         self.session.notices().iter().filter(|n| n.text.starts_with(start)).count()
     }
 
     /// Red of the picture's first pixel, by the way of a screenshot.
-    pub fn red(&mut self) -> u8 {
+    pub(crate) fn red(&mut self) -> u8 {
         let path = self.screenshot();
         image::open(&path).unwrap().to_rgba8().get_pixel(0, 0).0[0]
     }
 
     /// Ticks until the picture's first pixel is so red. A compile can begin and end within one tick, so to wait for one
     /// to begin can be to wait for ever: what it leads to is what to wait for.
-    pub fn until_red(&mut self, red: u8) {
+    pub(crate) fn until_red(&mut self, red: u8) {
         let end = Instant::now() + Duration::from_secs(30);
         while self.red() != red {
             assert!(Instant::now() < end, "never {red}; notices: {:#?}", self.session.notices());
@@ -165,7 +165,7 @@ impl Stage {
         }
     }
 
-    pub fn screenshot(&mut self) -> PathBuf {
+    pub(crate) fn screenshot(&mut self) -> PathBuf {
         let before = self.session.notices().len();
         self.session.apply(Command::Screenshot);
         // A session that draws apart has it when the frame under way is drawn.
@@ -177,7 +177,7 @@ impl Stage {
 }
 
 /// As many editors save: a new file, renamed over the old one.
-pub fn replace(path: &Path, text: &str) {
+pub(crate) fn replace(path: &Path, text: &str) {
     let new = path.with_extension("tmp~");
     fs::write(&new, text).unwrap();
     fs::rename(new, path).unwrap();

@@ -10,10 +10,10 @@ use eddy::{
 };
 
 /// A place in a picture, counted from the bottom left.
-pub type Pixel = (u32, u32);
+pub(crate) type Pixel = (u32, u32);
 
 /// What a pass reads whose program asks for no uniform and no channel.
-pub fn nothing_read(size: (u32, u32)) -> PassInputs {
+pub(crate) fn nothing_read(size: (u32, u32)) -> PassInputs {
     PassInputs {
         face: 0,
         uniforms: UniformBlock::zeroed(),
@@ -26,7 +26,7 @@ pub fn nothing_read(size: (u32, u32)) -> PassInputs {
 
 /// Walks through a pass for these pixels; `None` where one is discarded.
 #[track_caller]
-pub fn walk(project: &Project, id: &PassName, read: &PassInputs, pixels: &[Pixel]) -> Vec<Option<[f32; 4]>> {
+pub(crate) fn walk(project: &Project, id: &PassName, read: &PassInputs, pixels: &[Pixel]) -> Vec<Option<[f32; 4]>> {
     let index = project.passes.iter().position(|pass| pass.id == *id).expect("the pass");
     let extent = Extent { steps: 0, ..Extent::default() };
     let tracer = Tracer::new(&Sources::new(project), index, read, extent);
@@ -36,18 +36,18 @@ pub fn walk(project: &Project, id: &PassName, read: &PassInputs, pixels: &[Pixel
 }
 
 /// All places of a picture.
-pub fn all_pixels((width, height): (u32, u32)) -> Vec<Pixel> {
+pub(crate) fn all_pixels((width, height): (u32, u32)) -> Vec<Pixel> {
     (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).collect()
 }
 
 /// The same number, of two zeros and two NaN too.
-pub fn is_same(a: f32, b: f32) -> bool {
+pub(crate) fn is_same(a: f32, b: f32) -> bool {
     a == b || a.is_nan() && b.is_nan()
 }
 
 /// Walks through a pass of the newest frame for all of its pixels: every component must be what was drawn.
 #[track_caller]
-pub fn assert_walked(engine: &mut Engine, project: &Project, id: &PassName) {
+pub(crate) fn assert_walked(engine: &mut Engine, project: &Project, id: &PassName) {
     let (read, drawn) = (engine.inspect(id).unwrap(), engine.read(id).unwrap());
     let pixels = all_pixels(read.size);
     for (&pixel, value) in pixels.iter().zip(walk(project, id, &read, &pixels)) {

@@ -1,6 +1,6 @@
 //! The real window on a display of its own: Xvfb, the `eddy` binary with `--json`, xdotool for hands.
 
-pub use super::{display::Display, folder_of};
+pub(crate) use super::{display::Display, folder_of};
 use serde_json::Value;
 use std::{
     ffi::OsStr,
@@ -23,10 +23,10 @@ const SETTLED: Duration = Duration::from_millis(400);
 const BEGINS: Duration = Duration::from_secs(4);
 
 /// The file in the home folder that a window's standard error goes to.
-pub const STANDARD_ERROR: &str = "stderr.txt";
+pub(crate) const STANDARD_ERROR: &str = "stderr.txt";
 
 /// A running `eddy` window.
-pub struct Window<'a> {
+pub(crate) struct Window<'a> {
     display: &'a Display,
     process: Child,
     lines: Receiver<Value>,
@@ -38,12 +38,12 @@ pub struct Window<'a> {
 
 impl<'a> Window<'a> {
     /// Opens a window with the given arguments, `home` being the home folder (and so where pictures go).
-    pub fn open(display: &'a Display, home: &Path, arguments: &[&str]) -> Window<'a> {
+    pub(crate) fn open(display: &'a Display, home: &Path, arguments: &[&str]) -> Window<'a> {
         Self::open_as(display, home, Some("760x440"), &[], arguments)
     }
 
     /// The same with a size, or as large as it was when it was closed last, and with further environment variables.
-    pub fn open_as(
+    pub(crate) fn open_as(
         display: &'a Display,
         home: &Path,
         size: Option<&str>,
@@ -59,7 +59,7 @@ impl<'a> Window<'a> {
     }
 
     /// The same where the picture's panel may have been closed before.
-    pub fn start(
+    pub(crate) fn start(
         display: &'a Display,
         home: &Path,
         size: Option<&str>,
@@ -72,7 +72,7 @@ impl<'a> Window<'a> {
     }
 
     /// The same by another program, which takes the arguments of `eddy`.
-    pub fn start_program(
+    pub(crate) fn start_program(
         program: &OsStr,
         display: &'a Display,
         home: &Path,
@@ -131,21 +131,21 @@ impl<'a> Window<'a> {
     }
 
     /// Opens a window with a project and waits until that is compiled.
-    pub fn open_project(display: &'a Display, home: &Path, project: &Path) -> Window<'a> {
+    pub(crate) fn open_project(display: &'a Display, home: &Path, project: &Path) -> Window<'a> {
         let mut window = Self::open(display, home, &[project.to_str().unwrap()]);
         window.compiled();
         window
     }
 
     /// The same with a window of a size.
-    pub fn of_size(display: &'a Display, home: &Path, size: &str, project: &str) -> Window<'a> {
+    pub(crate) fn of_size(display: &'a Display, home: &Path, size: &str, project: &str) -> Window<'a> {
         let mut window = Self::open_as(display, home, Some(size), &[], &[project]);
         window.compiled();
         window
     }
 
     /// Waits until the newest text of the project that was opened last is compiled without an error.
-    pub fn compiled(&mut self) {
+    pub(crate) fn compiled(&mut self) {
         self.drain();
         let fits = |e: &Value| e["event"] == "compiled" && e["compiling"] == false && e["ok"] == true;
         let newest = self.events.iter().rev().find(|e| e["event"] == "compiled" || e["event"] == "opened");
@@ -155,7 +155,7 @@ impl<'a> Window<'a> {
     }
 
     /// The first event from now on that fits; panics with what was said instead when patience ends.
-    pub fn wait_for(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
+    pub(crate) fn wait_for(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
         let end = Instant::now() + PATIENCE;
         loop {
             match self.lines.recv_timeout(end.saturating_duration_since(Instant::now())) {
@@ -172,7 +172,7 @@ impl<'a> Window<'a> {
     }
 
     /// As [`Window::wait_for`], but an event that was said already counts too if it is the newest of its name.
-    pub fn wait_until(&mut self, what: &str, name: &str, fits: impl Fn(&Value) -> bool) -> Value {
+    pub(crate) fn wait_until(&mut self, what: &str, name: &str, fits: impl Fn(&Value) -> bool) -> Value {
         self.drain();
         match self.newest(name) {
             Some(event) if fits(&event) => event,
@@ -181,23 +181,23 @@ impl<'a> Window<'a> {
     }
 
     /// Waits until a named widget is there.
-    pub fn shows(&mut self, widget: &str) {
+    pub(crate) fn shows(&mut self, widget: &str) {
         self.wait_until(&format!("{widget} to be shown"), "layout", |e| e["rects"][widget].is_array());
     }
 
     /// Waits until a named widget is gone.
-    pub fn hides(&mut self, widget: &str) {
+    pub(crate) fn hides(&mut self, widget: &str) {
         self.wait_until(&format!("{widget} to be hidden"), "layout", |e| e["rects"][widget].is_null());
     }
 
     /// Takes in what has been said meanwhile.
-    pub fn drain(&mut self) {
+    pub(crate) fn drain(&mut self) {
         while let Ok(event) = self.lines.try_recv() {
             self.events.push(event);
         }
     }
 
-    pub fn newest(&self, name: &str) -> Option<Value> {
+    pub(crate) fn newest(&self, name: &str) -> Option<Value> {
         self.events.iter().rev().find(|e| e["event"] == name).cloned()
     }
 
@@ -215,13 +215,13 @@ impl<'a> Window<'a> {
     }
 
     /// Where a named widget is: its centre, in pixels of the window.
-    pub fn centre(&mut self, widget: &str) -> (i64, i64) {
+    pub(crate) fn centre(&mut self, widget: &str) -> (i64, i64) {
         let r = self.rect(widget).map(|x| x as i64);
         (r[0] + r[2] / 2, r[1] + r[3] / 2)
     }
 
     /// Its place: x, y, width, height.
-    pub fn rect(&mut self, widget: &str) -> [f64; 4] {
+    pub(crate) fn rect(&mut self, widget: &str) -> [f64; 4] {
         let name = widget.to_owned();
         let has = |e: &Value| e["rects"][&name].is_array();
         let mut layout = self.wait_until(&format!("the widget {widget}"), "layout", has);
@@ -248,42 +248,42 @@ impl<'a> Window<'a> {
     }
 
     /// The picture's place in the window: x, y, width, height.
-    pub fn viewport(&mut self) -> [f64; 4] {
+    pub(crate) fn viewport(&mut self) -> [f64; 4] {
         self.drain();
         let layout = self.newest("layout").unwrap();
         std::array::from_fn(|i| layout["viewport"][i].as_f64().unwrap())
     }
 
     /// A point of the picture, from its bottom left, as fractions.
-    pub fn picture_point(&mut self, u: f64, v: f64) -> (i64, i64) {
+    pub(crate) fn picture_point(&mut self, u: f64, v: f64) -> (i64, i64) {
         let [x, y, width, height] = self.viewport();
         ((x + u * width) as i64, (y + (1.0 - v) * height) as i64)
     }
 
-    pub fn move_to(&self, (x, y): (i64, i64)) {
+    pub(crate) fn move_to(&self, (x, y): (i64, i64)) {
         self.display.tool(&["mousemove", "--sync", "--window", &self.id, &x.to_string(), &y.to_string()]);
     }
 
-    pub fn press(&self) {
+    pub(crate) fn press(&self) {
         self.display.tool(&["mousedown", "1"]);
     }
 
     /// Turns the wheel by one step where the pointer is.
-    pub fn wheel(&self, up: bool) {
+    pub(crate) fn wheel(&self, up: bool) {
         self.display.tool(&["click", if up { "4" } else { "5" }]);
     }
 
     /// Presses and releases a button of the mouse where the pointer is.
-    pub fn button(&self, number: &str) {
+    pub(crate) fn button(&self, number: &str) {
         self.display.tool(&["click", number]);
     }
 
-    pub fn release(&self) {
+    pub(crate) fn release(&self) {
         self.display.tool(&["mouseup", "1"]);
     }
 
     /// Draws short strokes all over the picture, one move a frame, until this frame is drawn.
-    pub fn draw_strokes_until(&mut self, frame: i64) {
+    pub(crate) fn draw_strokes_until(&mut self, frame: i64) {
         let mut step = 0;
         while self.newest("frame").is_none_or(|e| e["frame"].as_i64() < Some(frame)) {
             let at = |n: u32| 0.2 + 0.6 * f64::from(n * 37 % 100) / 100.0;
@@ -300,13 +300,13 @@ impl<'a> Window<'a> {
         self.release();
     }
 
-    pub fn click(&self, at: (i64, i64)) {
+    pub(crate) fn click(&self, at: (i64, i64)) {
         self.move_to(at);
         self.display.tool(&["click", "1"]);
     }
 
     /// Clicks while keys are held, in xdotool's names.
-    pub fn click_holding(&self, keys: &[&str], at: (i64, i64)) {
+    pub(crate) fn click_holding(&self, keys: &[&str], at: (i64, i64)) {
         self.move_to(at);
         self.hold(keys);
         self.display.tool(&["click", "1"]);
@@ -314,26 +314,26 @@ impl<'a> Window<'a> {
     }
 
     /// Holds keys down.
-    pub fn hold(&self, keys: &[&str]) {
+    pub(crate) fn hold(&self, keys: &[&str]) {
         keys.iter().for_each(|key| drop(self.display.tool(&["keydown", key])));
     }
 
-    pub fn let_go(&self, keys: &[&str]) {
+    pub(crate) fn let_go(&self, keys: &[&str]) {
         keys.iter().for_each(|key| drop(self.display.tool(&["keyup", key])));
     }
 
-    pub fn click_on(&mut self, widget: &str) {
+    pub(crate) fn click_on(&mut self, widget: &str) {
         let at = self.centre(widget);
         self.click(at);
     }
 
     /// Gives the window a size at once, without waiting for it to follow.
-    pub fn ask_size(&self, width: u32, height: u32) {
+    pub(crate) fn ask_size(&self, width: u32, height: u32) {
         self.display.tool(&["windowsize", &self.id, &width.to_string(), &height.to_string()]);
     }
 
     /// Gives it a size in pixels, and waits until it is laid out anew: a click on what is about to move would miss it.
-    pub fn resize(&mut self, width: u32, height: u32) {
+    pub(crate) fn resize(&mut self, width: u32, height: u32) {
         self.ask_size(width, height);
         let is = |e: &Value, i: usize, pixels: u32| {
             let points = e["window"][i].as_f64().zip(e["pixels_per_point"].as_f64());
@@ -343,13 +343,13 @@ impl<'a> Window<'a> {
     }
 
     /// Ends the process at once, as a power cut does (SIGKILL).
-    pub fn kill(mut self) {
+    pub(crate) fn kill(mut self) {
         self.process.kill().unwrap();
         self.process.wait().unwrap();
     }
 
     /// Processor time that the window has taken so far, on all cores.
-    pub fn busy(&self) -> Duration {
+    pub(crate) fn busy(&self) -> Duration {
         let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.process.id())).unwrap();
         // Behind the name in brackets, which may hold anything: the 12th and 13th, in hundredths of a second.
         let behind = stat.rsplit_once(')').unwrap().1;
@@ -358,37 +358,37 @@ impl<'a> Window<'a> {
     }
 
     /// Resident memory in bytes; nothing once the process has ended.
-    pub fn resident(&self) -> u64 {
+    pub(crate) fn resident(&self) -> u64 {
         let statm = std::fs::read_to_string(format!("/proc/{}/statm", self.process.id())).unwrap_or_default();
         statm.split_whitespace().nth(1).and_then(|pages| pages.parse::<u64>().ok()).unwrap_or(0) * 4096
     }
 
     /// The most resident memory so far, in bytes; nothing once the process has ended.
-    pub fn peak_resident(&self) -> u64 {
+    pub(crate) fn peak_resident(&self) -> u64 {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.process.id())).unwrap_or_default();
         let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB"));
         peak.and_then(|kilobytes| kilobytes.parse::<u64>().ok()).unwrap_or(0) * 1024
     }
 
     /// The server's number of it.
-    pub fn number(&self) -> u32 {
+    pub(crate) fn number(&self) -> u32 {
         self.id.parse().unwrap()
     }
 
     /// Lets go of what was said, but for the newest of each event.
-    pub fn forget_all_but_newest(&mut self) {
+    pub(crate) fn forget_all_but_newest(&mut self) {
         let mut named = std::collections::BTreeSet::new();
         let newest = self.events.drain(..).rev().filter(|e| named.insert(e["event"].to_string())).collect::<Vec<_>>();
         self.events.extend(newest.into_iter().rev());
     }
 
     /// What the window is called.
-    pub fn title(&self) -> String {
+    pub(crate) fn title(&self) -> String {
         self.display.tool(&["getwindowname", &self.id])
     }
 
     /// Waits for the process to end. Returns its exit code; none if a signal ended it, or nothing has.
-    pub fn ends(&mut self) -> Option<i32> {
+    pub(crate) fn ends(&mut self) -> Option<i32> {
         let end = Instant::now() + PATIENCE;
         while Instant::now() < end {
             if let Some(status) = self.process.try_wait().unwrap() {
@@ -400,65 +400,65 @@ impl<'a> Window<'a> {
     }
 
     /// The process has not ended.
-    pub fn lives(&mut self) -> bool {
+    pub(crate) fn lives(&mut self) -> bool {
         self.process.try_wait().unwrap().is_none()
     }
 
     /// What the window has written to standard error.
-    pub fn complaints(&self) -> String {
+    pub(crate) fn complaints(&self) -> String {
         std::fs::read_to_string(self.home.join(STANDARD_ERROR)).unwrap()
     }
 
     /// Presses and releases keys, in xdotool's names: `ctrl+z`, `F12`, `Left`.
-    pub fn keys(&self, keys: &[&str]) {
+    pub(crate) fn keys(&self, keys: &[&str]) {
         for key in keys {
             self.display.tool(&["key", "--clearmodifiers", key]);
         }
     }
 
     /// Does the same beside what is held down.
-    pub fn keys_as_held(&self, keys: &[&str]) {
+    pub(crate) fn keys_as_held(&self, keys: &[&str]) {
         keys.iter().for_each(|key| drop(self.display.tool(&["key", key])));
     }
 
     /// Types, and ends with Return.
-    pub fn submit(&self, text: &str) {
+    pub(crate) fn submit(&self, text: &str) {
         self.type_text(text);
         self.keys(&["Return"]);
     }
 
     /// Pauses the picture, and waits until it stands still.
-    pub fn pause(&mut self) {
+    pub(crate) fn pause(&mut self) {
         self.keys(&["alt+Up"]);
         self.wait_until("the pause", "frame", |e| e["playing"] == false);
     }
 
     /// Types over what the field with the keyboard holds, and ends with Return.
-    pub fn enter(&self, text: &str) {
+    pub(crate) fn enter(&self, text: &str) {
         self.keys(&["ctrl+a"]);
         self.submit(text);
     }
 
     /// Clicks on a field and types over what it holds.
-    pub fn fill(&mut self, field: &str, text: &str) {
+    pub(crate) fn fill(&mut self, field: &str, text: &str) {
         self.click_on(field);
         self.enter(text);
     }
 
     /// Opens the palette and types in it.
-    pub fn search_palette(&mut self, text: &str) {
+    pub(crate) fn search_palette(&mut self, text: &str) {
         self.keys(&["ctrl+shift+p"]);
         self.shows("field:palette");
         self.type_text(text);
     }
 
     /// Saves the project, and waits until that is done.
-    pub fn save(&mut self) {
+    pub(crate) fn save(&mut self) {
         self.keys(&["ctrl+s"]);
         self.wait_until("the save", "dirty", |e| e["dirty"] == false);
     }
 
-    pub fn type_text(&self, text: &str) {
+    pub(crate) fn type_text(&self, text: &str) {
         self.display.tool(&["type", "--delay", "15", text]);
     }
 }

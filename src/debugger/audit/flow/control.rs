@@ -4,7 +4,7 @@ use super::sets::{Set, Sets};
 use eddy_glsl::ir::{Stmt, Value};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub(super) enum Kind {
     Function,
     If,
     Switch,
@@ -24,57 +24,57 @@ struct Open {
 
 /// The open functions, branches and loops.
 #[derive(Default)]
-pub struct Control {
+pub(super) struct Control {
     open: Vec<Open>,
     /// The values that decided whether the pixel is discarded.
     discard: Set,
 }
 
 impl Control {
-    pub fn total(&self) -> Set {
+    pub(super) fn total(&self) -> Set {
         self.open.last().map_or(self.discard, |open| open.total)
     }
 
-    pub fn push(&mut self, kind: Kind) {
+    pub(super) fn push(&mut self, kind: Kind) {
         let total = self.total();
         self.open.push(Open { kind, own: Set::EMPTY, turn: Set::EMPTY, total });
     }
 
-    pub fn pop(&mut self) {
+    pub(super) fn pop(&mut self) {
         self.open.pop();
     }
 
     /// Ends a function with everything that is open in it.
-    pub fn pop_function(&mut self) {
+    pub(super) fn pop_function(&mut self) {
         while self.open.pop().is_some_and(|open| open.kind != Kind::Function) {}
     }
 
-    pub fn top(&self) -> Option<Kind> {
+    pub(super) fn top(&self) -> Option<Kind> {
         self.open.last().map(|open| open.kind)
     }
 
     /// Adds a set to the innermost open item of a kind, for the rest of its duration.
-    pub fn add(&mut self, set: Set, is_kind: impl Fn(Kind) -> bool, sets: &mut Sets) {
+    pub(super) fn add(&mut self, set: Set, is_kind: impl Fn(Kind) -> bool, sets: &mut Sets) {
         if let Some(at) = self.open.iter().rposition(|open| is_kind(open.kind)) {
             self.open[at].own = sets.union(self.open[at].own, set);
             self.refresh(at, sets);
         }
     }
 
-    pub fn add_turn(&mut self, set: Set, sets: &mut Sets) {
+    pub(super) fn add_turn(&mut self, set: Set, sets: &mut Sets) {
         if let Some(at) = self.open.iter().rposition(|open| matches!(open.kind, Kind::Loop { .. })) {
             self.open[at].turn = sets.union(self.open[at].turn, set);
             self.refresh(at, sets);
         }
     }
 
-    pub fn add_discard(&mut self, set: Set, sets: &mut Sets) {
+    pub(super) fn add_discard(&mut self, set: Set, sets: &mut Sets) {
         self.discard = sets.union(self.discard, set);
         self.refresh(0, sets);
     }
 
     /// Called when the iteration of the innermost loop reaches its `continuing` part, or the next iteration.
-    pub fn end_turn(&mut self, sets: &mut Sets) {
+    pub(super) fn end_turn(&mut self, sets: &mut Sets) {
         if let Some(at) = self.open.len().checked_sub(1)
             && !self.open[at].turn.is_empty()
         {

@@ -29,7 +29,7 @@ use writes::{Effects, Globals, Summary};
 
 /// A declaration that leaves a value undefined.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Origin {
+pub(super) struct Origin {
     pub kind: UnsetKind,
     pub name: String,
     /// The place of the name.
@@ -39,14 +39,14 @@ pub struct Origin {
 
 impl Origin {
     /// Returns whether it is the same declaration: a function that is compiled several times has several copies.
-    pub fn is_like(&self, other: &Origin) -> bool {
+    pub(super) fn is_like(&self, other: &Origin) -> bool {
         (self.kind, self.span, &self.name) == (other.kind, other.span, &other.name)
     }
 }
 
 /// A declaration, and those of its scalars that the output depends on.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shown {
+pub(super) struct Shown {
     pub origin: Origin,
     pub cells: BTreeSet<u32>,
 }
@@ -66,7 +66,7 @@ enum Argument {
     Place(Option<(Set, Range<usize>)>),
 }
 
-pub struct Flow<'w> {
+pub(super) struct Flow<'w> {
     walkable: &'w Walkable,
     sets: Sets,
     origins: Vec<Origin>,
@@ -86,7 +86,7 @@ pub struct Flow<'w> {
 }
 
 impl<'w> Flow<'w> {
-    pub fn new(walkable: &'w Walkable, stored: &'w [usize]) -> Self {
+    pub(super) fn new(walkable: &'w Walkable, stored: &'w [usize]) -> Self {
         Self {
             walkable,
             sets: Sets::new(),
@@ -105,7 +105,7 @@ impl<'w> Flow<'w> {
     }
 
     /// Returns the undefined values that the pixel shows.
-    pub fn shown(mut self) -> Vec<Shown> {
+    pub(super) fn shown(mut self) -> Vec<Shown> {
         if !self.has_drawn {
             self.drawn = self.control.total();
         }
@@ -121,7 +121,7 @@ impl<'w> Flow<'w> {
     }
 
     /// Returns whether some operand of an operation depends on an undefined value.
-    pub fn is_undefined(&self, view: &View<'_, '_, Shadowed>, op: &Op) -> bool {
+    pub(super) fn is_undefined(&self, view: &View<'_, '_, Shadowed>, op: &Op) -> bool {
         let Some(frame) = self.frames.last() else { return false };
         let mut found = false;
         op.operands(|operand| {
@@ -130,12 +130,12 @@ impl<'w> Flow<'w> {
         found
     }
 
-    pub fn is_undefined_value(&self, view: &View<'_, '_, Shadowed>, value: Value) -> bool {
+    pub(super) fn is_undefined_value(&self, view: &View<'_, '_, Shadowed>, value: Value) -> bool {
         let Some(frame) = self.frames.last() else { return false };
         !view.is_place(value) && frame.cells[view.cells_of(value)].iter().any(|set| !set.is_empty())
     }
 
-    pub fn calling(&mut self, view: &View<'_, '_, Shadowed>, arguments: &[Value]) {
+    pub(super) fn calling(&mut self, view: &View<'_, '_, Shadowed>, arguments: &[Value]) {
         let Some(frame) = self.frames.last() else { return };
         let argument = |&argument: &Value| match view.is_place(argument) {
             true => Argument::Place(frame.places.get(&argument).cloned()),
@@ -144,7 +144,7 @@ impl<'w> Flow<'w> {
         self.arguments = arguments.iter().map(argument).collect();
     }
 
-    pub fn enter(&mut self, view: &View<'_, '_, Shadowed>) {
+    pub(super) fn enter(&mut self, view: &View<'_, '_, Shadowed>) {
         let own = view.own_memory();
         self.memory.truncate(own.start);
         self.memory.resize(own.end, Set::EMPTY);
@@ -192,20 +192,20 @@ impl<'w> Flow<'w> {
         self.control.push(Kind::Function);
     }
 
-    pub fn returned(&mut self, view: &View<'_, '_, Shadowed>, value: Option<Value>) {
+    pub(super) fn returned(&mut self, view: &View<'_, '_, Shadowed>, value: Option<Value>) {
         let way = self.control.total();
         let Some(frame) = self.frames.last_mut() else { return };
         let cells = value.map_or(0..0, |value| view.cells_of(value));
         frame.result = frame.cells[cells].iter().map(|&set| self.sets.union(set, way)).collect();
     }
 
-    pub fn leave(&mut self) {
+    pub(super) fn leave(&mut self) {
         self.control.pop_function();
         self.returned = self.frames.pop().map(|frame| frame.result).unwrap_or_default();
     }
 
     /// Records the dependencies of a computed place.
-    pub fn place(&mut self, view: &View<'_, '_, Shadowed>, place: Value) {
+    pub(super) fn place(&mut self, view: &View<'_, '_, Shadowed>, place: Value) {
         let Some(frame) = self.frames.last_mut() else { return };
         let known = match *view.op(place) {
             Op::Part { base, .. } => frame.places.get(&base).cloned(),
@@ -227,7 +227,7 @@ impl<'w> Flow<'w> {
         }
     }
 
-    pub fn store(&mut self, view: &View<'_, '_, Shadowed>, place: Value, value: Value) {
+    pub(super) fn store(&mut self, view: &View<'_, '_, Shadowed>, place: Value, value: Value) {
         let way = self.control.total();
         let Some(frame) = self.frames.last() else { return };
         let through = frame.places.get(&place).cloned();
@@ -243,7 +243,7 @@ impl<'w> Flow<'w> {
         }
     }
 
-    pub fn output(&mut self, view: &View<'_, '_, Shadowed>, output: Output, value: Value) {
+    pub(super) fn output(&mut self, view: &View<'_, '_, Shadowed>, output: Output, value: Value) {
         let Some(frame) = self.frames.last() else { return };
         let cells = view.cells_of(value);
         let count = match output {
@@ -257,7 +257,7 @@ impl<'w> Flow<'w> {
         self.has_drawn = true;
     }
 
-    pub fn branch(&mut self, view: &View<'_, '_, Shadowed>, stmt: &Stmt) {
+    pub(super) fn branch(&mut self, view: &View<'_, '_, Shadowed>, stmt: &Stmt) {
         let (kind, condition) = match *stmt {
             Stmt::If { condition, .. } => (Kind::If, condition),
             Stmt::Switch { selector, .. } => (Kind::Switch, selector),
@@ -270,22 +270,22 @@ impl<'w> Flow<'w> {
         }
     }
 
-    pub fn branch_end(&mut self) {
+    pub(super) fn branch_end(&mut self) {
         self.control.pop();
     }
 
-    pub fn loop_start(&mut self, stmt: &Stmt) {
+    pub(super) fn loop_start(&mut self, stmt: &Stmt) {
         if let Stmt::Loop { break_if, .. } = *stmt {
             self.control.push(Kind::Loop { stmt, break_if });
         }
     }
 
-    pub fn turn(&mut self) {
+    pub(super) fn turn(&mut self) {
         self.control.end_turn(&mut self.sets);
     }
 
     /// Called for a deciding value; the test after an iteration of a loop is only reported here.
-    pub fn decide(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
+    pub(super) fn decide(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
         let Some(Kind::Loop { stmt, break_if }) = self.control.top() else { return };
         let set = self.frames.last().map_or(Set::EMPTY, |frame| frame.cells[view.cells_of(value).start]);
         if break_if != Some(value) || set.is_empty() {

@@ -10,7 +10,7 @@ use eddy_glsl::{
 
 impl Flow<'_> {
     /// Records the dependencies of a computed value.
-    pub fn value(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
+    pub(crate) fn value(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
         let op = view.op(value);
         let out = view.cells_of(value);
         let Some(frame) = self.frames.last_mut() else { return };
@@ -133,6 +133,6 @@ fn by_component(
     });
 }
 
-pub fn all(sets: &mut Sets, of: &[Set]) -> Set {
+pub(super) fn all(sets: &mut Sets, of: &[Set]) -> Set {
     of.iter().fold(Set::EMPTY, |all, &set| sets.union(all, set))
 }

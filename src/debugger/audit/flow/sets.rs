@@ -4,20 +4,20 @@ use std::collections::HashMap;
 
 /// A set, by its number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Set(u32);
+pub(super) struct Set(u32);
 
 impl Set {
     /// The empty set.
-    pub const EMPTY: Set = Set(0);
+    pub(super) const EMPTY: Set = Set(0);
 
-    pub fn is_empty(self) -> bool {
+    pub(super) fn is_empty(self) -> bool {
         self == Set::EMPTY
     }
 }
 
 /// One scalar of a declaration that leaves it undefined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Scalar {
+pub(super) struct Scalar {
     /// The declaration, by its number in order of discovery.
     pub origin: u32,
     /// The scalar among those of its type, in memory order.
@@ -31,28 +31,28 @@ const MAX_SCALARS: usize = 256;
 const MAX_SETS: usize = 1 << 16;
 
 /// All sets of a walk.
-pub struct Sets {
+pub(super) struct Sets {
     sets: Vec<Box<[Scalar]>>,
     numbers: HashMap<Box<[Scalar]>, Set>,
     unions: HashMap<(Set, Set), Set>,
 }
 
 impl Sets {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         let empty: Box<[Scalar]> = Box::default();
         Self { numbers: [(empty.clone(), Set::EMPTY)].into(), sets: vec![empty], unions: HashMap::new() }
     }
 
-    pub fn of(&self, set: Set) -> &[Scalar] {
+    pub(super) fn of(&self, set: Set) -> &[Scalar] {
         &self.sets[set.0 as usize]
     }
 
-    pub fn single(&mut self, scalar: Scalar) -> Set {
+    pub(super) fn single(&mut self, scalar: Scalar) -> Set {
         self.intern([scalar].into())
     }
 
     /// Returns the union of two sets.
-    pub fn union(&mut self, a: Set, b: Set) -> Set {
+    pub(super) fn union(&mut self, a: Set, b: Set) -> Set {
         if a == b || b.is_empty() {
             return a;
         }

@@ -10,7 +10,7 @@ use std::collections::HashSet;
 
 /// Cells of a variable, a parameter by reference or a global that may be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Written {
+pub(super) struct Written {
     /// The variable, as the value that is its address.
     pub root: Value,
     pub start: usize,
@@ -19,7 +19,7 @@ pub struct Written {
 
 /// The possible effects of a part of a program.
 #[derive(Clone, Debug, Default)]
-pub struct Effects {
+pub(super) struct Effects {
     pub writes: HashSet<Written>,
     pub breaks: bool,
     pub continues: bool,
@@ -29,7 +29,7 @@ pub struct Effects {
 
 /// The memory outside of a function that it may write.
 #[derive(Clone, Debug, Default)]
-pub struct Summary {
+pub(super) struct Summary {
     /// By parameter, or by global: the first cell, and the number of cells.
     params: HashSet<(u32, usize, usize)>,
     pub globals: HashSet<(eddy_glsl::ir::GlobalId, usize, usize)>,
@@ -37,7 +37,7 @@ pub struct Summary {
 }
 
 /// Returns the summaries of all functions; callees come first.
-pub fn summaries(module: &Module) -> Vec<Summary> {
+pub(super) fn summaries(module: &Module) -> Vec<Summary> {
     let mut all: Vec<Summary> = Vec::with_capacity(module.functions.len());
     for function in &module.functions {
         let mut effects = Effects::default();
@@ -59,10 +59,10 @@ pub fn summaries(module: &Module) -> Vec<Summary> {
 }
 
 /// Globals that callees write.
-pub type Globals = HashSet<(eddy_glsl::ir::GlobalId, usize, usize)>;
+pub(super) type Globals = HashSet<(eddy_glsl::ir::GlobalId, usize, usize)>;
 
 /// Adds the effects of the statements of a block. Jumps that stay inside of it are left out.
-pub fn add_block(
+pub(super) fn add_block(
     module: &Module,
     function: &Function,
     summaries: &[Summary],
@@ -75,7 +75,7 @@ pub fn add_block(
     }
 }
 
-pub fn add_stmt(
+pub(super) fn add_stmt(
     module: &Module,
     function: &Function,
     summaries: &[Summary],
@@ -139,7 +139,7 @@ fn written(module: &Module, function: &Function, place: Value) -> Written {
 
 /// Adds the effects that are skipped if a jump out of `stmt` is taken: the statements after it up to the jump's target,
 /// and the loops that it leaves. Returns whether the block contains `stmt`.
-pub fn add_rest(
+pub(super) fn add_rest(
     (module, function, summaries): (&Module, &Function, &[Summary]),
     block: &Block,
     stmt: *const Stmt,

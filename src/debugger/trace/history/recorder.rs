@@ -47,7 +47,7 @@ struct Active {
     last: Option<u32>,
 }
 
-pub struct HistoryRecorder<'w> {
+pub(crate) struct HistoryRecorder<'w> {
     out: Recorded,
     functions: Vec<Function>,
     ids: Vec<GlobalId>,
@@ -57,7 +57,7 @@ pub struct HistoryRecorder<'w> {
 }
 
 impl<'w> HistoryRecorder<'w> {
-    pub fn new(walkable: &'w Walkable) -> Self {
+    pub(crate) fn new(walkable: &'w Walkable) -> Self {
         let program = &walkable.program;
         let mut globals = Vec::new();
         let mut ids = Vec::new();
@@ -158,7 +158,7 @@ impl<'w> HistoryRecorder<'w> {
     }
 
     /// Returns the history after the walk has ended.
-    pub fn end(self) -> Recorded {
+    pub(crate) fn end(self) -> Recorded {
         self.out
     }
 
@@ -250,7 +250,7 @@ fn constant(walkable: &Walkable, function: FuncId, value: Value) -> Option<Vec<u
 
 /// A history without its program.
 #[derive(Default)]
-pub struct Recorded {
+pub(crate) struct Recorded {
     variables: Vec<Vec<Variable>>,
     globals: Vec<Variable>,
     moments: Vec<Moment>,
@@ -262,7 +262,7 @@ pub struct Recorded {
 }
 
 impl Recorded {
-    pub fn of(self, walkable: Walkable) -> History {
+    pub(crate) fn of(self, walkable: Walkable) -> History {
         let Self { variables, globals, moments, calls, writes, words, slots, is_cut } = self;
         History { walkable, moments, calls, is_cut, writes, words, slots, globals, variables }
     }

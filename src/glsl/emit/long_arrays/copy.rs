@@ -20,7 +20,7 @@ pub(super) struct Loads(Vec<(Value, Value)>);
 
 impl Loads {
     /// Adds the loads among expressions that are computed now.
-    pub fn note(&mut self, range: Range<Expression>, function: &Function) {
+    pub(super) fn note(&mut self, range: Range<Expression>, function: &Function) {
         self.0.extend(range.filter_map(|value| match function.expressions[value] {
             Expression::Load { pointer } => Some((value, root(function, pointer))),
             _ => None,
@@ -28,12 +28,12 @@ impl Loads {
     }
 
     /// Removes the loads of memory that is stored to by this pointer.
-    pub fn forget(&mut self, pointer: Value, function: &Function) {
+    pub(super) fn forget(&mut self, pointer: Value, function: &Function) {
         let written = root(function, pointer);
         self.0.retain(|&(_, read)| are_apart(function, written, read));
     }
 
-    pub fn forget_all(&mut self) {
+    pub(super) fn forget_all(&mut self) {
         self.0.clear();
     }
 }
@@ -59,7 +59,7 @@ fn are_apart(function: &Function, a: Value, b: Value) -> bool {
 
 impl Writer<'_> {
     /// Stores a value by loops; returns `false` if the original store must be kept.
-    pub fn store_long(&mut self, pointer: Value, value: Value, loads: &Loads, block: &mut Block) -> bool {
+    pub(super) fn store_long(&mut self, pointer: Value, value: Value, loads: &Loads, block: &mut Block) -> bool {
         let Some(ty) = self.pointee(pointer) else { return false };
         if self.sizes.longest(ty) < LEAST_ARRAY {
             return false;

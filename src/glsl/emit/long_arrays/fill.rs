@@ -17,7 +17,7 @@ const BLOCK: u32 = 32;
 
 impl Writer<'_> {
     /// Stores the zero that no driver knows: the first bit of this argument.
-    pub fn set_opaque(&mut self, (index, built_in): (u32, BuiltIn), block: &mut Block) {
+    pub(super) fn set_opaque(&mut self, (index, built_in): (u32, BuiltIn), block: &mut Block) {
         let Some(opaque) = self.opaque else { return };
         let mut value = self.expression(Expression::FunctionArgument(index));
         if let BuiltIn::Position { .. } = built_in {
@@ -32,7 +32,7 @@ impl Writer<'_> {
 
     /// Fills these globals, and all long locals except those in `written_first`, at the start, after `block`, and
     /// replaces stores of long values with loops.
-    pub fn rewrite(
+    pub(super) fn rewrite(
         mut self,
         globals: &[(Handle<GlobalVariable>, Handle<Type>)],
         written_first: &FxHashSet<Handle<LocalVariable>>,
@@ -95,7 +95,7 @@ impl Writer<'_> {
     }
 
     /// Writes zeros to all of the memory that `pointer` points to.
-    pub fn fill(&mut self, pointer: Value, ty: Handle<Type>, block: &mut Block) {
+    pub(super) fn fill(&mut self, pointer: Value, ty: Handle<Type>, block: &mut Block) {
         match self.types[ty].inner {
             TypeInner::Array { base, size: ArraySize::Constant(len), .. } if self.sizes.scalars(ty) >= LEAST_ARRAY => {
                 let opaque = self.opaque.filter(|_| self.in_blocks && self.sizes.scalars(base) <= BLOCK);

@@ -10,7 +10,7 @@ pub(super) struct Sizes {
 }
 
 impl Sizes {
-    pub fn new(types: &UniqueArena<Type>) -> Self {
+    pub(super) fn new(types: &UniqueArena<Type>) -> Self {
         let mut sizes = Self { scalars: Vec::new(), longest: Vec::new() };
         for (_, ty) in types.iter() {
             let (scalars, longest) = match &ty.inner {
@@ -32,11 +32,11 @@ impl Sizes {
         sizes
     }
 
-    pub fn scalars(&self, ty: Handle<Type>) -> u32 {
+    pub(super) fn scalars(&self, ty: Handle<Type>) -> u32 {
         self.scalars[ty.index()]
     }
 
-    pub fn longest(&self, ty: Handle<Type>) -> u32 {
+    pub(super) fn longest(&self, ty: Handle<Type>) -> u32 {
         self.longest[ty.index()]
     }
 }

@@ -30,7 +30,12 @@ pub(super) struct Writer<'a> {
 
 impl Writer<'_> {
     /// Adds `for (uint i = 0; i < len; i++) { iteration(i) }`.
-    pub fn count(&mut self, len: Value, block: &mut Block, iteration: impl FnOnce(&mut Self, Value, &mut Block)) {
+    pub(super) fn count(
+        &mut self,
+        len: Value,
+        block: &mut Block,
+        iteration: impl FnOnce(&mut Self, Value, &mut Block),
+    ) {
         let counter = LocalVariable { name: None, ty: self.uint, init: None };
         let counter = self.function.local_variables.append(counter, Span::UNDEFINED);
         let counter = self.expression(Expression::LocalVariable(counter));
@@ -48,16 +53,16 @@ impl Writer<'_> {
         block.push(Statement::Loop { body, continuing: Block::new(), break_if: None }, Span::UNDEFINED);
     }
 
-    pub fn uint(&mut self, number: u32) -> Value {
+    pub(super) fn uint(&mut self, number: u32) -> Value {
         self.expression(Expression::Literal(Literal::U32(number)))
     }
 
-    pub fn expression(&mut self, expression: Expression) -> Value {
+    pub(super) fn expression(&mut self, expression: Expression) -> Value {
         self.function.expressions.append(expression, Span::UNDEFINED)
     }
 
     /// Adds an expression that is computed here.
-    pub fn emit(&mut self, expression: Expression, block: &mut Block) -> Value {
+    pub(super) fn emit(&mut self, expression: Expression, block: &mut Block) -> Value {
         let value = self.expression(expression);
         block.push(Statement::Emit(Range::new_from_bounds(value, value)), Span::UNDEFINED);
         value

@@ -21,7 +21,7 @@ pub(in crate::lower) enum Part {
 
 impl Builder<'_, '_> {
     /// Returns a scalar constant, bit for bit.
-    pub fn literal(&mut self, scalar: Scalar, bits: u32) -> Value {
+    pub(crate) fn literal(&mut self, scalar: Scalar, bits: u32) -> Value {
         let key = (scalar as u8, bits);
         if let Some(&value) = self.literals.get(&key) {
             return value;
@@ -31,12 +31,12 @@ impl Builder<'_, '_> {
         value
     }
 
-    pub fn float(&mut self, value: f32) -> Value {
+    pub(crate) fn float(&mut self, value: f32) -> Value {
         self.literal(Scalar::Float, value.to_bits())
     }
 
     /// Returns the number of a value that is a literal float.
-    pub fn number(&self, value: Value) -> Option<f32> {
+    pub(crate) fn number(&self, value: Value) -> Option<f32> {
         match self.f[value] {
             Op::Literal(Scalar::Float, bits) => Some(f32::from_bits(bits)),
             _ => None,
@@ -44,14 +44,14 @@ impl Builder<'_, '_> {
     }
 
     /// Returns the bits of a literal int or uint.
-    pub fn integer(&self, value: Value) -> Option<u32> {
+    pub(crate) fn integer(&self, value: Value) -> Option<u32> {
         match self.f[value] {
             Op::Literal(Scalar::Int | Scalar::Uint, bits) => Some(bits),
             _ => None,
         }
     }
 
-    pub fn zero(&mut self, ty: TypeId) -> Value {
+    pub(crate) fn zero(&mut self, ty: TypeId) -> Value {
         if ty == TypeId::FLOAT {
             return self.float(0.0);
         }
@@ -65,7 +65,7 @@ impl Builder<'_, '_> {
 
     /// Returns the zero that WebGL uses where GLSL leaves a value undefined: a variable that was never written, the
     /// result of a function that ends without one. `name` is that of the declaration which should have initialised it.
-    pub fn undefined(&mut self, ty: TypeId, kind: UnsetKind, name: Ident) -> Value {
+    pub(crate) fn undefined(&mut self, ty: TypeId, kind: UnsetKind, name: Ident) -> Value {
         if !self.cx.marks.undefined {
             return self.zero(ty);
         }
@@ -75,7 +75,7 @@ impl Builder<'_, '_> {
     }
 
     /// As [`Builder::undefined`], for a local variable or a parameter.
-    pub fn undefined_local(&mut self, kind: UnsetKind, local: LocalId) -> Value {
+    pub(crate) fn undefined_local(&mut self, kind: UnsetKind, local: LocalId) -> Value {
         let declared = &self.cx.hir[local];
         match declared.name {
             Some(name) => self.undefined(declared.ty, kind, name),
@@ -91,12 +91,12 @@ impl Builder<'_, '_> {
     }
 
     /// Returns a folded composite.
-    pub fn constant(&mut self, id: ConstId) -> Value {
+    pub(crate) fn constant(&mut self, id: ConstId) -> Value {
         self.const_value(const_id(id))
     }
 
     /// Returns a constant of the module.
-    pub fn const_value(&mut self, id: ir::ConstId) -> Value {
+    pub(crate) fn const_value(&mut self, id: ir::ConstId) -> Value {
         let key = id.index() as u32;
         if let Some(&value) = self.constants.get(&key) {
             return value;
@@ -107,19 +107,19 @@ impl Builder<'_, '_> {
     }
 
     /// Returns whether a variable can be initialised with a constant: it is not long, and contains only finite numbers.
-    pub fn is_initialiser(&mut self, id: ConstId) -> bool {
+    pub(crate) fn is_initialiser(&mut self, id: ConstId) -> bool {
         let constant = &self.cx.out[const_id(id)];
         let ty = constant.ty;
         let is_number = |bits: &u32| f32::from_bits(*bits).is_finite();
         (constant.words.iter().all(is_number) || !self.cx.out.holds_floats(ty)) && !self.cx.is_long(ty)
     }
 
-    pub fn compose(&mut self, ty: TypeId, parts: Vec<Value>) -> Value {
+    pub(crate) fn compose(&mut self, ty: TypeId, parts: Vec<Value>) -> Value {
         self.add(Op::Compose { ty, parts: parts.into() })
     }
 
     /// Returns the place of a global.
-    pub fn global(&mut self, global: ir::GlobalId) -> Value {
+    pub(crate) fn global(&mut self, global: ir::GlobalId) -> Value {
         if let Some(&value) = self.globals.get(&global) {
             return value;
         }
@@ -129,7 +129,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns the components of a float constant; one for a scalar or a splat.
-    pub fn floats(&self, value: Value) -> Option<Vec<f32>> {
+    pub(crate) fn floats(&self, value: Value) -> Option<Vec<f32>> {
         match &self.f[value] {
             Op::Literal(..) => Some(vec![self.number(value)?]),
             Op::Splat { value, .. } => self.floats(*value),
@@ -149,7 +149,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    pub fn part(&self, value: Value, index: u32) -> Part {
+    pub(crate) fn part(&self, value: Value, index: u32) -> Part {
         if let Some(floats) = self.floats(value) {
             return Part::Known(floats[(index as usize).min(floats.len() - 1)]);
         }

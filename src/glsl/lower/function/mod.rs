@@ -93,7 +93,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> (ir::Function
 
 impl<'m, 'a> Builder<'m, 'a> {
     /// Creates a builder for a function whose locals are `count` from `first_local`.
-    pub fn new(cx: &'m mut Lowering<'a>, first_local: usize, count: usize) -> Self {
+    pub(super) fn new(cx: &'m mut Lowering<'a>, first_local: usize, count: usize) -> Self {
         Self {
             cx,
             f: ir::Function::new(TypeId::VOID),
@@ -117,13 +117,13 @@ impl<'m, 'a> Builder<'m, 'a> {
         }
     }
 
-    pub fn finish(mut self) -> ir::Function {
+    pub(super) fn finish(mut self) -> ir::Function {
         self.f.body = self.block;
         self.f
     }
 
     /// Declares the parameters of a function; `argument` returns the next one, of this type.
-    pub fn parameters(&mut self, func: FuncId, mut argument: impl FnMut(&mut Self, Param) -> Value) {
+    pub(super) fn parameters(&mut self, func: FuncId, mut argument: impl FnMut(&mut Self, Param) -> Value) {
         let hir = self.cx.hir;
         let specializable = self.cx.arguments.specializable(func).to_vec();
         for (local, specialization) in specializable.into_iter().zip(self.specializations.clone()) {
@@ -159,20 +159,20 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     /// Adds an operation that is computed here.
-    pub fn add(&mut self, op: Op) -> Value {
+    pub(super) fn add(&mut self, op: Op) -> Value {
         let ty = ir::infer::ty(&self.cx.out, &self.f, &op);
         self.add_typed(op, ty)
     }
 
     /// Adds an operation of this type that is computed here.
-    pub fn add_typed(&mut self, op: Op, ty: TypeId) -> Value {
+    pub(super) fn add_typed(&mut self, op: Op, ty: TypeId) -> Value {
         let value = self.f.append(op, ty, ir::Origin { loc: self.loc, builtin: self.builtin });
         self.block.push(Stmt::Let(value));
         value
     }
 
     /// Records a precondition of an operation, if preconditions are requested.
-    pub fn note(&mut self, value: Value, precondition: impl FnOnce() -> Precondition) {
+    pub(super) fn note(&mut self, value: Value, precondition: impl FnOnce() -> Precondition) {
         if self.cx.marks.undefined {
             let function = ir::FuncId::new(self.cx.out.functions.len());
             self.cx.names.preconditions.insert((function, value), precondition());
@@ -180,7 +180,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     /// Marks that control reaches a part of the text, if statements are marked.
-    pub fn mark(&mut self, event: fn(u32) -> StatementEvent, stmt: StmtId) {
+    pub(super) fn mark(&mut self, event: fn(u32) -> StatementEvent, stmt: StmtId) {
         if self.cx.marks.statements {
             let value = self.add(Op::OpaqueZero);
             self.marks.push((value, event(stmt.index() as u32)));
@@ -188,7 +188,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     /// Adds a free operation, which no statement computes.
-    pub fn free(&mut self, op: Op) -> Value {
+    pub(super) fn free(&mut self, op: Op) -> Value {
         debug_assert!(op.is_free());
         let ty = ir::infer::ty(&self.cx.out, &self.f, &op);
         self.f.append(op, ty, self.loc)
@@ -196,34 +196,34 @@ impl<'m, 'a> Builder<'m, 'a> {
 }
 
 impl Builder<'_, '_> {
-    pub fn push(&mut self, statement: Stmt) {
+    pub(super) fn push(&mut self, statement: Stmt) {
         self.ended = matches!(statement, Stmt::Break | Stmt::Continue | Stmt::Return(_) | Stmt::Discard);
         self.block.push(statement);
     }
 
     /// Reads a place.
-    pub fn load(&mut self, place: Value) -> Value {
+    pub(super) fn load(&mut self, place: Value) -> Value {
         self.add(Op::Load { place })
     }
 
     /// Writes to a place.
-    pub fn store(&mut self, place: Value, value: Value) {
+    pub(super) fn store(&mut self, place: Value, value: Value) {
         self.push(Stmt::Store { place, value });
     }
 
     /// Appends statements that were lowered before.
-    pub fn splice(&mut self, mut block: Block) {
+    pub(super) fn splice(&mut self, mut block: Block) {
         self.block.append(&mut block);
     }
 
     /// Calls a function; the result of a void one is not a value.
-    pub fn push_call(&mut self, function: ir::FuncId, args: Vec<Value>) -> Value {
+    pub(super) fn push_call(&mut self, function: ir::FuncId, args: Vec<Value>) -> Value {
         let ty = self.cx.out[function].result;
         self.add_typed(Op::Call { function, args: args.into() }, ty)
     }
 
     /// Returns a nested block, filled by `fill`, and whether its end is unreachable.
-    pub fn nested(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
+    pub(super) fn nested(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
         let outer = std::mem::take(&mut self.block);
         let outer_ended = std::mem::take(&mut self.ended);
         fill(self);

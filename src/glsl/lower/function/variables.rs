@@ -8,26 +8,26 @@ use crate::{
 };
 
 impl Builder<'_, '_> {
-    pub fn slot(&self, local: LocalId) -> Slot {
+    pub(crate) fn slot(&self, local: LocalId) -> Slot {
         self.slots[local.index() - self.first_local]
     }
 
-    pub fn set_slot(&mut self, local: LocalId, slot: Slot) {
+    pub(crate) fn set_slot(&mut self, local: LocalId, slot: Slot) {
         self.slots[local.index() - self.first_local] = slot;
     }
 
     /// Makes a local memory, whether or not it is written.
-    pub fn force_memory(&mut self, local: LocalId) {
+    pub(crate) fn force_memory(&mut self, local: LocalId) {
         self.forced[local.index() - self.first_local] = true;
     }
 
     /// Returns whether a local is memory, whether or not it is written.
-    pub fn is_forced(&self, local: LocalId) -> bool {
+    pub(crate) fn is_forced(&self, local: LocalId) -> bool {
         self.forced[local.index() - self.first_local]
     }
 
     /// Initialises a local.
-    pub fn declare(&mut self, local: LocalId, value: Value) {
+    pub(crate) fn declare(&mut self, local: LocalId, value: Value) {
         if self.needs_memory(local) {
             let pointer = self.address_of(local);
             self.store(pointer, value);
@@ -37,7 +37,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns whether a local is written, or indexed in a way that values cannot be.
-    pub fn needs_memory(&self, local: LocalId) -> bool {
+    pub(crate) fn needs_memory(&self, local: LocalId) -> bool {
         let declared = self.cx.hir[local];
         declared.flags.contains(VarFlags::WRITTEN)
             || self.is_forced(local)
@@ -45,7 +45,7 @@ impl Builder<'_, '_> {
     }
 
     /// Returns the pointer to a local that is memory.
-    pub fn address_of(&mut self, local: LocalId) -> Value {
+    pub(crate) fn address_of(&mut self, local: LocalId) -> Value {
         if let Slot::Memory(pointer) = self.slot(local) {
             return pointer;
         }
@@ -64,19 +64,19 @@ impl Builder<'_, '_> {
     }
 
     /// Initialises a variable of the function with a constant.
-    pub fn begin_with(&mut self, variable: Value, value: Value) {
+    pub(crate) fn begin_with(&mut self, variable: Value, value: Value) {
         if let Op::Var(id) = self.f[variable] {
             self.f.vars[id.index()].init = Some(value);
         }
     }
 
     /// Adds a variable to this function.
-    pub fn temporary(&mut self, ty: TypeId) -> Value {
+    pub(crate) fn temporary(&mut self, ty: TypeId) -> Value {
         let variable = self.f.add_var(ty);
         self.free(Op::Var(variable))
     }
 
-    pub fn is_vector_or_scalar(&self, ty: TypeId) -> bool {
+    pub(crate) fn is_vector_or_scalar(&self, ty: TypeId) -> bool {
         matches!(self.cx.hir.types.get(ty), Type::Scalar(_) | Type::Vector { .. })
     }
 

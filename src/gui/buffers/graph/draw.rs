@@ -28,7 +28,7 @@ struct Arrow<'a> {
     read: &'a PassRead,
 }
 
-pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(crate) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let passes = session.pass_costs().passes;
     let place = |pass: &PassName| passes.iter().position(|p| p.cost.pass == *pass);
     let mut arrows: Vec<Arrow<'_>> = Vec::new();

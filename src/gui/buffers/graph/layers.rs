@@ -5,14 +5,14 @@
 use std::collections::BTreeMap;
 
 /// From one node to another, by their numbers.
-pub type Edge = (usize, usize);
+pub(super) type Edge = (usize, usize);
 
 /// Sweeps over all layers, forth and back.
 const SWEEPS: usize = 12;
 
 /// Nodes in layers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Layers {
+pub(super) struct Layers {
     /// The layer of each node: first those that were given, then those on long edges.
     pub layer_of: Vec<usize>,
     /// The nodes of each layer from the top.
@@ -23,7 +23,7 @@ pub struct Layers {
 
 impl Layers {
     /// Takes nodes and edges that go round in no circle; one that would is left out of the layering.
-    pub fn new(nodes: usize, edges: &[Edge]) -> Self {
+    pub(super) fn new(nodes: usize, edges: &[Edge]) -> Self {
         let mut layer_of = longest_paths(nodes, edges);
         let mut ways = Vec::with_capacity(edges.len());
         // What is read by many goes one way as far as it can, and branches off to each.
@@ -49,7 +49,7 @@ impl Layers {
     }
 
     /// Edges between neighbouring layers, each once.
-    pub fn steps(&self) -> Vec<Edge> {
+    pub(super) fn steps(&self) -> Vec<Edge> {
         let mut steps: Vec<Edge> =
             self.ways.iter().flat_map(|way| way.windows(2).map(|step| (step[0], step[1]))).collect();
         steps.sort_unstable();
@@ -101,7 +101,7 @@ impl Layers {
     }
 
     /// Returns how many pairs of edges cross.
-    pub fn crossings(&self) -> usize {
+    pub(super) fn crossings(&self) -> usize {
         let place = self.places();
         let steps = self.steps();
         let cross = |a: &Edge, b: &Edge| {

@@ -5,7 +5,7 @@ use egui::{Pos2, Rect, Vec2, pos2, vec2};
 use rustc_hash::FxHashSet;
 
 /// Points of a node, and between nodes.
-pub const NODE: Vec2 = vec2(164.0, 68.0);
+pub(super) const NODE: Vec2 = vec2(164.0, 68.0);
 const BETWEEN_LAYERS: f32 = 46.0;
 const BETWEEN_NODES: f32 = 26.0;
 /// Between a node and an edge that passes it.
@@ -18,7 +18,7 @@ const MARGIN: f32 = 12.0;
 
 /// A graph on a sheet.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Layout {
+pub(super) struct Layout {
     pub nodes: Vec<Rect>,
     /// The corners of the way of each edge that leads on.
     pub forth: Vec<Vec<Pos2>>,
@@ -30,7 +30,7 @@ pub struct Layout {
 impl Layout {
     /// `forth`: edges that go round in no circle; `back`: all others. A long chain is broken into rows, like text, where
     /// it could not be read otherwise once it fits into `area`.
-    pub fn new(nodes: usize, forth: &[Edge], back: &[Edge], area: Vec2) -> Self {
+    pub(super) fn new(nodes: usize, forth: &[Edge], back: &[Edge], area: Vec2) -> Self {
         let layers = Layers::new(nodes, forth);
         let middles = middles(&layers, nodes);
         let rows = Rows::new(&layers, &middles, (nodes, forth, back), area);
@@ -83,7 +83,7 @@ impl Layout {
 }
 
 /// Below this scale a node's words cannot be read.
-pub const LEGIBLE: f32 = 0.6;
+pub(super) const LEGIBLE: f32 = 0.6;
 /// Below a row, beside its lanes.
 const BELOW: f32 = 18.0;
 

@@ -4,4 +4,4 @@ mod draw;
 mod layers;
 mod layout;
 
-pub use draw::show;
+pub(super) use draw::show;

@@ -26,14 +26,14 @@ pub(super) struct Popup {
 
 impl Popup {
     /// `None` where nothing fits. Unless asked for, also where all there is is there already.
-    pub fn open(list: Completions, buffer: &Buffer, asked_for: bool) -> Option<Self> {
+    pub(super) fn open(list: Completions, buffer: &Buffer, asked_for: bool) -> Option<Self> {
         let mut popup = Self { list, fitting: Vec::new(), selected: 0, top: 0, is_meant: asked_for };
         let opens = popup.filter(buffer) && (asked_for || !popup.is_complete(buffer));
         opens.then_some(popup)
     }
 
     /// Returns where the word begins that a proposal takes the place of.
-    pub fn start(&self) -> usize {
+    pub(super) fn start(&self) -> usize {
         self.list.replace.start
     }
 
@@ -42,7 +42,7 @@ impl Popup {
     }
 
     /// Keeps what fits the word as it is now; false if nothing is left, or the caret has left the word.
-    pub fn filter(&mut self, buffer: &Buffer) -> bool {
+    pub(super) fn filter(&mut self, buffer: &Buffer) -> bool {
         let typed = self.typed(buffer);
         let is_word = typed.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
         // With everything deleted again there is nothing left to help with.
@@ -61,7 +61,7 @@ impl Popup {
         self.fitting.get(row).map(|&i| &self.list.items[i])
     }
 
-    pub fn step(&mut self, by: isize) {
+    pub(super) fn step(&mut self, by: isize) {
         let last = self.fitting.len() as isize - 1;
         let to = self.selected as isize + by;
         // A single step goes round the ends, a page stops there.
@@ -73,7 +73,7 @@ impl Popup {
 
     /// Returns whether Enter is for the list and not for a new line: it must change something, and what it would put
     /// there must go on from what was typed unless it was picked by hand.
-    pub fn enter_accepts(&self, buffer: &Buffer) -> bool {
+    pub(super) fn enter_accepts(&self, buffer: &Buffer) -> bool {
         let typed = self.typed(buffer);
         self.item(self.selected).is_some_and(|item| {
             let goes_on = item.label.get(..typed.len()).is_some_and(|head| head.eq_ignore_ascii_case(typed));
@@ -82,14 +82,14 @@ impl Popup {
     }
 
     /// Returns what is selected, and what it takes the place of.
-    pub fn choice(&self, buffer: &Buffer) -> Option<(Range<usize>, String)> {
+    pub(super) fn choice(&self, buffer: &Buffer) -> Option<(Range<usize>, String)> {
         let label = self.item(self.selected)?.label.clone();
         Some((self.start()..buffer.selection().head, label))
     }
 
     /// Shows the list below `at`, the beginning of the word (above it where there is no room). True if a row was
     /// clicked.
-    pub fn show(&mut self, ui: &Ui, at: Rect, font: &FontId, placed: &mut Vec<(String, Rect)>) -> bool {
+    pub(super) fn show(&mut self, ui: &Ui, at: Rect, font: &FontId, placed: &mut Vec<(String, Rect)>) -> bool {
         let window = ui.ctx().content_rect();
         let row = (font.size * 1.55).round();
         let rows = self.fitting.len().min(ROWS);

@@ -16,7 +16,7 @@ use std::ops::Range;
 
 /// Something the editor wants of those who know the other tabs.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Ask {
+pub(crate) enum Ask {
     /// To a place of some text of the analysis.
     GoTo(Span),
     /// To the file that the `#include` line at this byte names.
@@ -61,7 +61,7 @@ pub(super) struct Assist {
 
 impl Assist {
     /// Takes an event if it is for what is open. Otherwise the editor gets it.
-    pub fn take(&mut self, event: &Event, buffer: &mut Buffer) -> bool {
+    pub(super) fn take(&mut self, event: &Event, buffer: &mut Buffer) -> bool {
         let Event::Key { key, pressed: true, modifiers: m, .. } = *event else { return false };
         self.hover.close();
         self.question = None;
@@ -97,23 +97,23 @@ impl Assist {
     }
 
     /// Opens the list of proposals, also where nothing is typed yet.
-    pub fn propose(&mut self) {
+    pub(super) fn propose(&mut self) {
         self.wanted = Some(true);
         self.dismissed = None;
     }
 
     /// Shows what the call around the caret takes.
-    pub fn show_signature(&mut self) {
+    pub(super) fn show_signature(&mut self) {
         self.signature_is_on = true;
     }
 
     /// Lists the uses of the name at the caret as soon as they are known.
-    pub fn list_uses(&mut self) {
+    pub(super) fn list_uses(&mut self) {
         self.question = Some(Question::Uses);
     }
 
     /// After the editor has taken an event: what opens, goes on or closes by it.
-    pub fn after(&mut self, event: &Event, buffer: &Buffer) {
+    pub(super) fn after(&mut self, event: &Event, buffer: &Buffer) {
         match event {
             Event::Text(text) => self.typed(text, buffer),
             Event::Key { key: Key::Backspace | Key::Delete, pressed: true, .. } => {
@@ -167,7 +167,7 @@ impl Assist {
         }
     }
 
-    pub fn close(&mut self) {
+    pub(super) fn close(&mut self) {
         self.popup = None;
         self.wanted = None;
     }
@@ -178,7 +178,7 @@ impl Assist {
     }
 
     /// The keyboard or the text went elsewhere.
-    pub fn close_all(&mut self) {
+    pub(super) fn close_all(&mut self) {
         self.close();
         self.close_signature();
         self.hover.close();
@@ -192,12 +192,12 @@ impl Assist {
     }
 
     /// Goes to the definition of the name at the caret as soon as it is known.
-    pub fn go_to_definition(&mut self) {
+    pub(super) fn go_to_definition(&mut self) {
         self.question = Some(Question::Definition);
     }
 
     /// Once a frame: opens what was wanted, if `help` is of the text as it is.
-    pub fn update(&mut self, buffer: &Buffer, help: Option<Help<'_>>) {
+    pub(super) fn update(&mut self, buffer: &Buffer, help: Option<Help<'_>>) {
         let Some(help) = help else {
             self.uses_of = None;
             self.uses.clear();
@@ -231,24 +231,24 @@ impl Assist {
     }
 
     /// The list of proposals is open.
-    pub fn is_open(&self) -> bool {
+    pub(super) fn is_open(&self) -> bool {
         self.popup.is_some()
     }
 
     /// Uses of the name at the caret in this text.
-    pub fn uses(&self) -> &[Range<usize>] {
+    pub(super) fn uses(&self) -> &[Range<usize>] {
         &self.uses
     }
 
     /// Takes the proposal that was clicked in the frame before: while lines are shown the text stays as it is.
-    pub fn take_chosen(&mut self, buffer: &mut Buffer) {
+    pub(super) fn take_chosen(&mut self, buffer: &mut Buffer) {
         if std::mem::take(&mut self.is_chosen) {
             self.accept(buffer);
         }
     }
 
     /// Shows what is open.
-    pub fn show(&mut self, ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, shown: Rect) {
+    pub(super) fn show(&mut self, ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, shown: Rect) {
         let caret = lines.caret_rect(buffer);
         let is_in_sight = shown.intersects(caret);
         if let Some(popup) = self.popup.as_mut().filter(|_| is_in_sight) {
@@ -267,7 +267,7 @@ impl Assist {
     }
 
     /// Returns what the name under the pointer is, once the pointer rests. True if the tip hangs below its line.
-    pub fn show_hover(
+    pub(super) fn show_hover(
         &mut self,
         ui: &Ui,
         lines: &Lines<'_>,

@@ -27,13 +27,13 @@ pub(super) struct Pointer {
 
 impl Pointer {
     /// Closes the tip until the pointer moves again.
-    pub fn close(&mut self) {
+    pub(super) fn close(&mut self) {
         self.open = None;
         self.asked = true;
     }
 
     /// Opens, keeps or closes the tip. True if it hangs below its line.
-    pub fn show(
+    pub(super) fn show(
         &mut self,
         ui: &Ui,
         lines: &Lines<'_>,

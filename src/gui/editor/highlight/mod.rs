@@ -15,7 +15,7 @@ use std::{
 
 /// Kept in step with a [`Buffer`] by [`Highlight::update`].
 #[derive(Clone, Debug, Default)]
-pub struct Highlight {
+pub(super) struct Highlight {
     lines: Vec<HighlightedLine>,
     /// Macros of this text, and how many lines define each.
     macros: HashMap<Box<str>, usize>,
@@ -33,7 +33,7 @@ pub struct Highlight {
 
 /// Lines that took the place of others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Replaced {
+pub(super) struct Replaced {
     pub first: usize,
     pub old: usize,
     pub new: usize,
@@ -54,7 +54,7 @@ struct HighlightedLine {
 impl Highlight {
     /// Takes in what changed since the last call, and gives how many bytes it looked at. `shared` is a text whose
     /// macros count here too: Common's. `width` is as [`pieces::cut`] takes it.
-    pub fn update(&mut self, buffer: &mut Buffer, shared: &str, width: &mut dyn FnMut(char) -> f32) -> usize {
+    pub(super) fn update(&mut self, buffer: &mut Buffer, shared: &str, width: &mut dyn FnMut(char) -> f32) -> usize {
         if self.shared_text != shared {
             self.shared_text = shared.to_owned();
             self.shared = shared.lines().filter_map(lines::defined_name).map(str::to_owned).collect();
@@ -206,12 +206,12 @@ impl Highlight {
     }
 
     /// Returns which lines the last update took out and put in, once.
-    pub fn take_replaced(&mut self) -> Option<Replaced> {
+    pub(super) fn take_replaced(&mut self) -> Option<Replaced> {
         self.replaced.take()
     }
 
     /// Wraps lines at a width, or not. True if that is new.
-    pub fn set_wrap(&mut self, buffer: &Buffer, wrap: Option<f32>) -> bool {
+    pub(super) fn set_wrap(&mut self, buffer: &Buffer, wrap: Option<f32>) -> bool {
         let is_new = self.wrap != wrap;
         if is_new {
             self.wrap = wrap;
@@ -221,17 +221,17 @@ impl Highlight {
         is_new
     }
 
-    pub fn wraps(&self) -> bool {
+    pub(super) fn wraps(&self) -> bool {
         self.wrap.is_some()
     }
 
     /// Returns in how many rows a line is shown where nothing is folded.
-    pub fn rows(&self, line: usize) -> u32 {
+    pub(super) fn rows(&self, line: usize) -> u32 {
         self.lines.get(line).map_or(1, |l| l.rows)
     }
 
     /// Returns the rows of a piece, whose bytes are counted from its beginning.
-    pub fn breaks(&self, text: &str, piece: &Piece) -> Breaks {
+    pub(super) fn breaks(&self, text: &str, piece: &Piece) -> Breaks {
         match self.wrap.filter(|wrap| piece.columns > *wrap) {
             Some(wrap) => wrap::breaks(text, wrap, &mut |c| self.widths.get(&c).copied().unwrap_or(1.0)),
             None => Breaks { starts: vec![0], indent: 0.0 },
@@ -260,7 +260,7 @@ impl Highlight {
     }
 
     /// Returns the state of a byte of the text.
-    pub fn state_at(&self, buffer: &Buffer, at: usize) -> LexState {
+    pub(super) fn state_at(&self, buffer: &Buffer, at: usize) -> LexState {
         let line = buffer.line_of(at);
         let range = buffer.line_range(line);
         let at = at.min(range.end) - range.start;
@@ -279,27 +279,27 @@ impl Highlight {
     }
 
     /// Returns whether a byte lies in a comment.
-    pub fn is_comment(&self, buffer: &Buffer, at: usize) -> bool {
+    pub(super) fn is_comment(&self, buffer: &Buffer, at: usize) -> bool {
         matches!(self.state_at(buffer, at).inside, LineContext::LineComment | LineContext::BlockComment)
     }
 
     /// Tokens of a piece of a line: `range` bytes of `text`, which begin in `state`.
-    pub fn tokens(&self, text: &str, range: Range<usize>, state: LexState) -> Vec<Token> {
+    pub(super) fn tokens(&self, text: &str, range: Range<usize>, state: LexState) -> Vec<Token> {
         lines::lex(text, range, state, &|name| self.macros.contains_key(name) || self.shared.contains(name))
     }
 
     /// The pieces that together are a line.
-    pub fn pieces(&self, line: usize) -> &[Piece] {
+    pub(super) fn pieces(&self, line: usize) -> &[Piece] {
         self.lines.get(line).map_or(&[], |l| &l.cut.pieces)
     }
 
     /// Returns what a line's brackets open and close.
-    pub fn nesting(&self, line: usize) -> Nesting {
+    pub(super) fn nesting(&self, line: usize) -> Nesting {
         self.pieces(line).iter().fold(Nesting::default(), |before, piece| before.then(piece.nesting))
     }
 
     /// The width of the widest line, in widths of a digit.
-    pub fn columns(&self) -> f32 {
+    pub(super) fn columns(&self) -> f32 {
         self.columns
     }
 }

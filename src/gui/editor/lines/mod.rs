@@ -61,7 +61,7 @@ pub(super) struct Run {
 
 impl Row {
     /// Bytes of the text that are laid out; `None` if nothing is.
-    pub fn bytes(&self) -> Option<Range<usize>> {
+    pub(super) fn bytes(&self) -> Option<Range<usize>> {
         Some(self.runs.first()?.bytes.start..self.runs.last()?.bytes.end)
     }
 }
@@ -69,7 +69,7 @@ impl Row {
 impl Lines<'_> {
     /// Lays out what is in sight of some rows; egui keeps what it has seen in the last frame, so what stands still
     /// costs its lexing. `shown` is what can be seen of the window.
-    pub fn lay_out(
+    pub(super) fn lay_out(
         &mut self,
         ui: &Ui,
         buffer: &Buffer,
@@ -198,7 +198,7 @@ impl Lines<'_> {
         );
     }
 
-    pub fn row(&self, row: usize) -> Option<&Row> {
+    pub(super) fn row(&self, row: usize) -> Option<&Row> {
         row.checked_sub(self.first).and_then(|i| self.rows.get(i))
     }
 
@@ -231,33 +231,33 @@ impl Lines<'_> {
     }
 
     /// Returns where a row ends.
-    pub fn end(&self, row: &Row) -> f32 {
+    pub(super) fn end(&self, row: &Row) -> f32 {
         self.in_window(row.width)
     }
 
     /// Returns where a run is painted in its row.
-    pub fn run_pos(&self, row: usize, run: &Run) -> Pos2 {
+    pub(super) fn run_pos(&self, row: usize, run: &Run) -> Pos2 {
         let y = self.top(row) + (self.row_height - run.galley.size().y) / 2.0;
         pos2(self.in_window(run.x), y)
     }
 
-    pub fn top(&self, row: usize) -> f32 {
+    pub(super) fn top(&self, row: usize) -> f32 {
         (f64::from(self.origin.y) + row as f64 * f64::from(self.row_height)) as f32
     }
 
-    pub fn caret_rect(&self, buffer: &Buffer) -> Rect {
+    pub(super) fn caret_rect(&self, buffer: &Buffer) -> Rect {
         self.rect_of(buffer, buffer.selection().head)
     }
 
     /// A caret at a position.
-    pub fn rect_of(&self, buffer: &Buffer, at: usize) -> Rect {
+    pub(super) fn rect_of(&self, buffer: &Buffer, at: usize) -> Rect {
         let at = buffer.snap(at);
         let row = self.folding.of(buffer, self.index, at);
         Rect::from_min_size(pos2(self.x(buffer, row, at), self.top(row)), vec2(1.0, self.row_height))
     }
 
     /// Left and right end of what is laid out of a part of a row; `None` where none of it is.
-    pub fn span(&self, buffer: &Buffer, row: usize, range: &Range<usize>) -> Option<(f32, f32)> {
+    pub(super) fn span(&self, buffer: &Buffer, row: usize, range: &Range<usize>) -> Option<(f32, f32)> {
         let laid_out = self.row(row)?.bytes()?;
         if range.end < laid_out.start || range.start > laid_out.end {
             return None;
@@ -267,7 +267,7 @@ impl Lines<'_> {
     }
 
     /// The position in the text nearest to a point.
-    pub fn position_at(&self, buffer: &Buffer, point: Pos2) -> usize {
+    pub(super) fn position_at(&self, buffer: &Buffer, point: Pos2) -> usize {
         let row = ((f64::from(point.y) - f64::from(self.origin.y)) / f64::from(self.row_height)).floor();
         if row < 0.0 {
             return 0;

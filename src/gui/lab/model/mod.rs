@@ -10,7 +10,7 @@ use egui::Pos2;
 
 /// Results of one extent, which those of the other are not mixed with.
 #[derive(Default)]
-pub struct ExtentResults {
+pub(super) struct ExtentResults {
     pub results: Results,
     /// Points whose cost is only estimated: milliseconds a frame.
     pub estimates: Vec<(Point, f64)>,
@@ -20,7 +20,7 @@ pub struct ExtentResults {
 
 /// A point in the plane.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Dot {
+pub(super) struct Dot {
     /// log10 of milliseconds and of the error.
     pub at: [f64; 2],
     /// The index in [`PlotData::table`].
@@ -33,7 +33,7 @@ pub struct Dot {
 }
 
 /// A study's results, ready to be drawn.
-pub struct PlotData {
+pub(super) struct PlotData {
     pub table: Table,
     pub methods: Vec<&'static Method>,
     pub dots: Vec<Dot>,
@@ -45,7 +45,7 @@ pub struct PlotData {
 
 impl ExtentResults {
     /// Takes in what a run says; whether there is something new to draw.
-    pub fn take(&mut self, event: &Event) -> bool {
+    pub(super) fn take(&mut self, event: &Event) -> bool {
         match event {
             Event::Resumed(results) => {
                 // A folder that was written by another run has more than this window has seen.
@@ -72,7 +72,7 @@ impl ExtentResults {
     }
 
     /// Returns whether every point of a study has its error, and those on its main grid their costs.
-    pub fn is_whole(&self, study: &Study, extent: Extent) -> bool {
+    pub(super) fn is_whole(&self, study: &Study, extent: Extent) -> bool {
         let main = study.main_grid(extent);
         study.points(extent).iter().all(|point| {
             self.results
@@ -82,7 +82,7 @@ impl ExtentResults {
     }
 
     /// `None` where nothing of the study is known.
-    pub fn shown(&self, study: &'static Study) -> Option<PlotData> {
+    pub(super) fn shown(&self, study: &'static Study) -> Option<PlotData> {
         let estimate = |point: &Point| self.estimates.iter().find(|(p, _)| p == point).map(|(_, millis)| *millis);
         Some(PlotData::new(Table::with_estimates(study, &self.results, estimate)?))
     }
@@ -115,31 +115,31 @@ impl PlotData {
         PlotData { methods, frontier: stairs, bounds, dots, table }
     }
 
-    pub fn row(&self, dot: &Dot) -> &Row {
+    pub(super) fn row(&self, dot: &Dot) -> &Row {
         &self.table.rows[dot.row]
     }
 
     /// The line of a method along its settings.
-    pub fn line(&self, method: usize) -> Vec<[f64; 2]> {
+    pub(super) fn line(&self, method: usize) -> Vec<[f64; 2]> {
         self.dots.iter().filter(|d| d.method == method).map(|d| d.at).collect()
     }
 
     /// Rows of a method that are measured and have no place in the plane: they diverged, failed, or wait for a cost.
-    pub fn without_place(&self, method: &Method) -> impl Iterator<Item = &Row> {
+    pub(super) fn without_place(&self, method: &Method) -> impl Iterator<Item = &Row> {
         self.table.of(method).filter(|r| r.place().is_none())
     }
 }
 
 /// The place nearest to a pointer, of those within a radius; the later of two that are equally near, which is drawn on
 /// top.
-pub fn nearest(places: impl IntoIterator<Item = Pos2>, pointer: Pos2, radius: f32) -> Option<usize> {
+pub(super) fn nearest(places: impl IntoIterator<Item = Pos2>, pointer: Pos2, radius: f32) -> Option<usize> {
     let far = places.into_iter().enumerate().map(|(n, place)| (n, place.distance(pointer)));
     let near = far.filter(|(_, distance)| *distance <= radius);
     near.reduce(|best, next| if next.1 <= best.1 { next } else { best }).map(|(n, _)| n)
 }
 
 /// Returns where a run stands, from 0 to 1, and in words.
-pub fn progress_text(progress: &Progress) -> (f32, String) {
+pub(super) fn progress_text(progress: &Progress) -> (f32, String) {
     match progress {
         Progress::Begins => (0.0, "opening a device".into()),
         Progress::Error { point, done, all } => {

@@ -25,7 +25,7 @@ pub(super) struct Keys {
 impl Keys {
     /// Takes out of `events` what is an action of the window, with what it types. The keys of the code are left to it, in
     /// their order with what is typed, and only their letters are taken out. The actions come back.
-    pub fn take(&mut self, events: &mut Vec<Event>, keymap: &Keymap, keyboard: Keyboard) -> Vec<Action> {
+    pub(super) fn take(&mut self, events: &mut Vec<Event>, keymap: &Keymap, keyboard: Keyboard) -> Vec<Action> {
         let mut actions = Vec::new();
         events.retain(|event| {
             let is_dropped = std::mem::take(&mut self.drops_text);

@@ -5,7 +5,7 @@ use eddy_project::PassName;
 
 /// The largest absolute value of a quantity if no better bound is known, and always if a case is expected to leave its
 /// own range.
-pub const HARD_LIMIT: f64 = 1e4;
+pub(super) const HARD_LIMIT: f64 = 1e4;
 
 /// A number that is computed from a pass's texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -182,7 +182,7 @@ pub struct WorstTexel {
 }
 
 /// Finds values outside of `low..=high`.
-pub fn find(quantity: Quantity, area: Area, pixels: &Pixels, low: f64, high: f64) -> Found {
+pub(super) fn find(quantity: Quantity, area: Area, pixels: &Pixels, low: f64, high: f64) -> Found {
     let mut found = Found { low: f64::INFINITY, high: f64::NEG_INFINITY, rms: 0.0, worst: None };
     let (mut squares, mut count, mut furthest) = (0.0, 0u64, f64::NEG_INFINITY);
     let mut take = |value: f64, texel: Option<(u32, u32)>| {

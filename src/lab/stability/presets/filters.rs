@@ -23,7 +23,7 @@ fn neon(s: &CaseConditions) -> f64 {
     (tubes * s.slider("neon") + 0.05).max(s.slider("constant"))
 }
 
-pub fn denoise() -> Vec<Check> {
+pub(super) fn denoise() -> Vec<Check> {
     // The largest of 2^24 numbers is 5.9 deviations from the mean.
     let noisy = |s: &CaseConditions| Allowed::new(-5.9 * s.slider("noise") - 0.01, 1.01 + 5.9 * s.slider("noise"));
     vec![
@@ -36,11 +36,11 @@ pub fn denoise() -> Vec<Check> {
     ]
 }
 
-pub fn sky_spheres() -> Vec<Check> {
+pub(super) fn sky_spheres() -> Vec<Check> {
     vec![picture(1.0, "the film's curve ends at 1")]
 }
 
-pub fn bloom() -> Vec<Check> {
+pub(super) fn bloom() -> Vec<Check> {
     let light = |s: &CaseConditions| Allowed::new(0.0, neon(s));
     let spread = |s: &CaseConditions| Allowed::new(0.0, neon(s).min(s.slider("brightest")) * 1.0001);
     let shines = "a tube's radiance and its core's, half as much again for the lamp, before a lit wall";
@@ -59,7 +59,7 @@ fn lanterns(s: &CaseConditions) -> f64 {
     (2.28 * s.slider("flame")).max(1.3).max(s.slider("constant")) * 1.001
 }
 
-pub fn bloom_sized() -> Vec<Check> {
+pub(super) fn bloom_sized() -> Vec<Check> {
     let light = |s: &CaseConditions| Allowed::new(0.0, lanterns(s));
     // Light is scaled so that the brightest relevant light uses 15 of the 16 bits' powers of two.
     let spread = |s: &CaseConditions| {
@@ -78,7 +78,7 @@ pub fn bloom_sized() -> Vec<Check> {
     ]
 }
 
-pub fn gaussian_blur() -> Vec<Check> {
+pub(super) fn gaussian_blur() -> Vec<Check> {
     let magnified = |s: &CaseConditions| {
         // The response to a texel is relative to the bell's peak; the sparks of a narrow card overlap it.
         let peak = 1.0 / (std::f64::consts::TAU * s.slider("sigma").powi(2));
@@ -102,14 +102,14 @@ fn gbuffer(materials: f64) -> Vec<Check> {
     ]
 }
 
-pub fn gbuffer_edges() -> Vec<Check> {
+pub(super) fn gbuffer_edges() -> Vec<Check> {
     let mut checks = gbuffer(6.0);
     checks.push(always("b", Quantity::Any, Area::All, (0.0, 1.0), "how much of a line there is"));
     checks.push(picture(1.0, "paper is at most 0.97, and pigment and ink only take from it"));
     checks
 }
 
-pub fn gbuffer_ssao_ssr() -> Vec<Check> {
+pub(super) fn gbuffer_ssao_ssr() -> Vec<Check> {
     // An albedo of at most 0.83 in the light of the sky and the sun, the reflection of the room, and a highlight that
     // is higher the narrower it is.
     fn light(s: &CaseConditions) -> f64 {
@@ -134,7 +134,7 @@ pub fn gbuffer_ssao_ssr() -> Vec<Check> {
     checks
 }
 
-pub fn toon_outline() -> Vec<Check> {
+pub(super) fn toon_outline() -> Vec<Check> {
     // The sheet is shaded from bottom to top by a tenth of its shade per unit, where a unit is the height of a
     // sufficiently wide picture.
     let sheet = |s: &CaseConditions| {

@@ -107,11 +107,11 @@ const COMPRESSIBLE: Courant = Courant {
 
 /// A case in which theory predicts that the published form is stable: nu >= K, nu dt <= 1/4, and a speed limit
 /// below 0.4 of the speed of sound.
-pub fn stable_classic() -> PresetCase {
+pub(super) fn stable_classic() -> PresetCase {
     PresetCase::new(Kind::Pairs, &[("form", 0.0), ("viscosity", 1.25), ("stiffness", 1.2), ("dt", 0.02)])
 }
 
-pub fn fluid() -> Bounds {
+pub(super) fn fluid() -> Bounds {
     let mut checks = compressible("c");
     let reason = "paint is a mean of paints: its colour and its thickness are at most 1";
     checks.push(always("d", Quantity::Any, FLUID, (0.0, 1.0001), reason));
@@ -120,7 +120,7 @@ pub fn fluid() -> Bounds {
     (checks, Some(COMPRESSIBLE))
 }
 
-pub fn fluid_dye() -> Bounds {
+pub(super) fn fluid_dye() -> Bounds {
     let mut checks = compressible("a");
     // Two nozzles and a brush of twice their weight, and the dye of each until it has decayed.
     let rule =
@@ -130,7 +130,7 @@ pub fn fluid_dye() -> Bounds {
     (checks, Some(COMPRESSIBLE))
 }
 
-pub fn fluid_lit() -> Bounds {
+pub(super) fn fluid_lit() -> Bounds {
     let mut checks = compressible("a");
     // An eddy of the jets rotates by 0.05 per unit of time on a canvas 360 high; smaller ones pass before they have a
     // visible effect. Vorticity confinement amplifies the smallest ones, the more the greater it is (the slider ends at
@@ -148,7 +148,7 @@ pub fn fluid_lit() -> Bounds {
     (checks, Some(COMPRESSIBLE))
 }
 
-pub fn fluid_accurate() -> Bounds {
+pub(super) fn fluid_accurate() -> Bounds {
     // Without forces the energy cannot grow. Jets, mouse and lid accelerate to a given speed and no further.
     fn jets(s: &CaseConditions) -> f64 {
         if s.slider("jets") > 0.0 { s.slider("jet_speed") } else { 0.0 }
@@ -218,7 +218,7 @@ pub fn fluid_accurate() -> Bounds {
 
 /// Returns the cases that a covering array of ends cannot contain: the box with no-slip walls and a lid is between the
 /// ends of `walls`, and the viscosities at which a splitting is known to explode are between those of `viscosity`.
-pub fn of_fluid_accurate() -> Vec<PresetCase> {
+pub(super) fn of_fluid_accurate() -> Vec<PresetCase> {
     let mut all = Vec::new();
     for lid in [-2.0, 2.0] {
         for viscosity in [0.0, 0.01] {
@@ -242,7 +242,7 @@ pub fn of_fluid_accurate() -> Vec<PresetCase> {
     all
 }
 
-pub fn mip_fluid() -> Bounds {
+pub(super) fn mip_fluid() -> Bounds {
     let checks = vec![
         always(
             "velocity",
@@ -291,7 +291,7 @@ fn leap(s: &CaseConditions) -> f64 {
     s.slider("strength") * s.slider("slope").powf(rings.clamp(0.0, (s.slider("scales") - 1.0).max(0.0))).max(1.0)
 }
 
-pub fn self_advection() -> Bounds {
+pub(super) fn self_advection() -> Bounds {
     const FRAYS: &str =
         "at a strength above 10, or as much by the weight of large rings, paint leaps over its eddies and frays";
     let smooth = |s: &CaseConditions| Allowed::new(0.0, 0.25).unless(leap(s) > 60.0, FRAYS);

@@ -3,7 +3,7 @@
 use super::declare::{Courant, always, by, mouse, picture};
 use crate::stability::check::{Allowed, Area, CaseConditions, Check, Quantity};
 
-pub fn reaction_diffusion() -> (Vec<Check>, Option<Courant>) {
+pub(super) fn reaction_diffusion() -> (Vec<Check>, Option<Courant>) {
     let checks = vec![
         always("a", Quantity::Component(0), Area::All, (0.0, 1.0), "1 - u, a part of what is fed"),
         always("a", Quantity::Component(1), Area::All, (0.0, 1.0), "v: what is not fed cannot be eaten"),
@@ -29,7 +29,7 @@ pub fn reaction_diffusion() -> (Vec<Check>, Option<Courant>) {
 
 const INK: &str = "ink is a mean of inks, times a strength of at most 1";
 
-pub fn mouse_state() -> Vec<Check> {
+pub(super) fn mouse_state() -> Vec<Check> {
     vec![
         always("a", Quantity::Any, Area::FromRow(1), (0.0, 1.0001), INK),
         always("b", Quantity::Any, Area::ButLast, (0.0, 1.0001), INK),
@@ -37,14 +37,14 @@ pub fn mouse_state() -> Vec<Check> {
     ]
 }
 
-pub fn feedback() -> Vec<Check> {
+pub(super) fn feedback() -> Vec<Check> {
     vec![
         always("a", Quantity::Any, Area::ButFirst, (0.0, 4.0), "a trail begins with 4 and fades"),
         picture(2.2, "four ribbons of at most 1.2 each over a ground of 0.024, as a square root"),
     ]
 }
 
-pub fn spectrum() -> Vec<Check> {
+pub(super) fn spectrum() -> Vec<Check> {
     let tilted = "a byte of the analyser from 0 to 1, and up to 0.32 more for high notes; or it falls below 0 by less than a step";
     vec![
         always("a", Quantity::Component(0), Area::All, (-0.2, 1.33), tilted),
@@ -53,11 +53,11 @@ pub fn spectrum() -> Vec<Check> {
     ]
 }
 
-pub fn nocturne() -> Vec<Check> {
+pub(super) fn nocturne() -> Vec<Check> {
     vec![picture(1.5, "x / (1 + x / 2) is below 2, to the power 1/2.2")]
 }
 
-pub fn brick_breaker() -> Vec<Check> {
+pub(super) fn brick_breaker() -> Vec<Check> {
     const CUT: &str = "a canvas of fewer than 16 x 7 pixels has no room for the game's state";
     // A canvas that has room for the state.
     fn room(s: &CaseConditions, low: f64, high: f64) -> Allowed {
@@ -98,7 +98,7 @@ pub fn brick_breaker() -> Vec<Check> {
     ]
 }
 
-pub fn particles() -> Vec<Check> {
+pub(super) fn particles() -> Vec<Check> {
     let lifetime = |s: &CaseConditions| Allowed::new(0.0, 14.0 * 1.4 * s.slider("lifetime") + 10.0 * s.longest_step);
     // Thrown up at 0.75 heights per second, for the longest life of a spark, from within the canvas (or its wider
     // previous size).
@@ -141,7 +141,7 @@ pub fn particles() -> Vec<Check> {
     ]
 }
 
-pub fn gallery_of_tricks() -> Vec<Check> {
+pub(super) fn gallery_of_tricks() -> Vec<Check> {
     const BALL: &str = "a ball is in a box of size 1";
     vec![
         always("discard", Quantity::Length(0, 1), Area::Block(0, 0, 24, 1), (0.0, 1.415), BALL),
@@ -168,7 +168,7 @@ pub fn gallery_of_tricks() -> Vec<Check> {
     ]
 }
 
-pub fn taa() -> Vec<Check> {
+pub(super) fn taa() -> Vec<Check> {
     vec![
         always("b", Quantity::Colour, Area::All, (0.0, 1.0001), "a screen has no more than 1"),
         always("b", Quantity::Component(3), Area::All, (0.0, 255.0), "an age in frames"),
@@ -177,7 +177,7 @@ pub fn taa() -> Vec<Check> {
     ]
 }
 
-pub fn scene_bloom_taa() -> Vec<Check> {
+pub(super) fn scene_bloom_taa() -> Vec<Check> {
     let light = |s: &CaseConditions| Allowed::new(0.0, 8.0 + 4.0 * s.slider("lamps"));
     vec![
         by(
@@ -194,7 +194,7 @@ pub fn scene_bloom_taa() -> Vec<Check> {
     ]
 }
 
-pub fn ssao() -> Vec<Check> {
+pub(super) fn ssao() -> Vec<Check> {
     vec![
         always("mode", Quantity::Component(0), Area::All, (0.0, 2.0), "which of three pictures is shown"),
         picture(1.0, "a screen has no more than 1"),

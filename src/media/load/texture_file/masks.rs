@@ -6,7 +6,7 @@ use image_dds::ddsfile::PixelFormatFlags;
 
 /// The bit masks of red, green, blue and alpha.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Masks {
+pub(super) struct Masks {
     /// Bytes per texel, 1 to 4.
     pub bytes: u32,
     channels: [u32; 4],
@@ -15,7 +15,7 @@ pub struct Masks {
 impl Masks {
     /// Returns the masks of a file, if it has any. The pixel format is parsed here, as the `ddsfile` crate ignores
     /// masks for luminance.
-    pub fn of(file: &[u8]) -> Option<Masks> {
+    pub(super) fn of(file: &[u8]) -> Option<Masks> {
         let field = |at: usize| Some(u32::from_le_bytes(file.get(at..at + 4)?.try_into().ok()?));
         let flags = PixelFormatFlags::from_bits_truncate(field(80)?);
         let has = |flag| flags.intersects(flag);
@@ -37,13 +37,13 @@ impl Masks {
     }
 
     /// Returns the format of the decoded texels: bytes if no channel has more bits.
-    pub fn kept(self) -> TexelFormat {
+    pub(super) fn kept(self) -> TexelFormat {
         let most = self.channels.iter().map(|mask| mask.count_ones()).max();
         if most > Some(8) { TexelFormat::Rgba32f } else { TexelFormat::Rgba8 }
     }
 
     /// Decodes the texels of a layer. A channel without bits is 0, and alpha 1.
-    pub fn decoded(self, layer: &[u8]) -> Vec<u8> {
+    pub(super) fn decoded(self, layer: &[u8]) -> Vec<u8> {
         let kept = self.kept();
         let mut out = Vec::with_capacity(layer.len() / self.bytes as usize * kept.bytes() as usize);
         for texel in layer.chunks_exact(self.bytes as usize) {

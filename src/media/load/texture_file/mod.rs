@@ -20,13 +20,13 @@ const KTX2: &[u8] = b"\xabKTX 20\xbb";
 const DDS: &[u8] = b"DDS ";
 
 /// Returns the format of a texture file by its first bytes.
-pub fn kind(bytes: &[u8]) -> Option<&'static str> {
+pub(super) fn kind(bytes: &[u8]) -> Option<&'static str> {
     [(KTX2, "KTX2"), (DDS, "DDS")].iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, kind)| *kind)
 }
 
 /// Reads a file as a texture of `dimension`, which may take `room` bytes while it is decoded. Rows of volumes stay in
 /// the file's order; those of pictures and faces start at the top.
-pub fn read(bytes: &[u8], dimension: Dimension, vflip: bool, room: u64) -> Result<Texels, String> {
+pub(super) fn read(bytes: &[u8], dimension: Dimension, vflip: bool, room: u64) -> Result<Texels, String> {
     let file = if bytes.starts_with(KTX2) { File::ktx2(bytes, room)? } else { File::dds(bytes, room)? };
     let held = file.dimension;
     let mut layers = file.layers()?;

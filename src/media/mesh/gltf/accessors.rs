@@ -83,22 +83,22 @@ const fn elements(dimensions: &'static [Dimensions], components: &'static [Compo
 }
 
 impl Elements {
-    pub const POSITIONS: Elements =
+    pub(super) const POSITIONS: Elements =
         Elements { quantized: &[I8, U8, I16, U16], integers: Integers::AsSaid, ..elements(&[Vec3], &[F32]) };
-    pub const NORMALS: Elements = Elements { quantized: &[I8, I16], ..elements(&[Vec3], &[F32]) };
-    pub const TANGENTS: Elements = Elements { quantized: &[I8, I16], ..elements(&[Vec4], &[F32]) };
+    pub(super) const NORMALS: Elements = Elements { quantized: &[I8, I16], ..elements(&[Vec3], &[F32]) };
+    pub(super) const TANGENTS: Elements = Elements { quantized: &[I8, I16], ..elements(&[Vec4], &[F32]) };
     /// Also those of morph targets: normalised if the file is not quantised.
-    pub const COORDINATES: Elements =
+    pub(super) const COORDINATES: Elements =
         Elements { quantized: &[I8, I16], integers: Integers::AsSaid, ..elements(&[Vec2], &[F32, U8, U16]) };
-    pub const COLORS: Elements = elements(&[Vec3, Vec4], &[F32, U8, U16]);
-    pub const COORDINATE_SHIFTS: Elements = elements(&[Vec2], &[F32, I8, U8, I16, U16]);
-    pub const COLOR_SHIFTS: Elements = elements(&[Vec3, Vec4], &[F32, I8, U8, I16, U16]);
-    pub const JOINTS: Elements = Elements { integers: Integers::Plain, ..elements(&[Vec4], &[U8, U16]) };
-    pub const WEIGHTS: Elements = elements(&[Vec4], &[F32, U8, U16]);
-    pub const INDICES: Elements = Elements { integers: Integers::Plain, ..elements(&[Scalar], &[U8, U16, U32]) };
-    pub const MATRICES: Elements = elements(&[Mat4], &[F32]);
-    pub const PLACES: Elements = elements(&[Vec3], &[F32]);
-    pub const TURNS: Elements = elements(&[Vec4], &[F32, I8, I16]);
+    pub(super) const COLORS: Elements = elements(&[Vec3, Vec4], &[F32, U8, U16]);
+    pub(super) const COORDINATE_SHIFTS: Elements = elements(&[Vec2], &[F32, I8, U8, I16, U16]);
+    pub(super) const COLOR_SHIFTS: Elements = elements(&[Vec3, Vec4], &[F32, I8, U8, I16, U16]);
+    pub(super) const JOINTS: Elements = Elements { integers: Integers::Plain, ..elements(&[Vec4], &[U8, U16]) };
+    pub(super) const WEIGHTS: Elements = elements(&[Vec4], &[F32, U8, U16]);
+    pub(super) const INDICES: Elements = Elements { integers: Integers::Plain, ..elements(&[Scalar], &[U8, U16, U32]) };
+    pub(super) const MATRICES: Elements = elements(&[Mat4], &[F32]);
+    pub(super) const PLACES: Elements = elements(&[Vec3], &[F32]);
+    pub(super) const TURNS: Elements = elements(&[Vec4], &[F32, I8, I16]);
 }
 
 /// The file's accessors and their bytes.
@@ -143,7 +143,7 @@ impl<'a> Bytes<'a> {
 
 impl<'a> Source<'a> {
     /// Returns the number of an accessor's elements that have no bytes in the file. Its index must be in range.
-    pub fn zeros(&self, index: Index) -> u64 {
+    pub(super) fn zeros(&self, index: Index) -> u64 {
         let accessor = &self.root.accessors[index as usize];
         match (accessor.buffer_view, &accessor.sparse) {
             (Some(_), _) => 0,
@@ -153,7 +153,7 @@ impl<'a> Source<'a> {
     }
 
     /// Returns the elements of an accessor, which must have this kind. Its index must be in range.
-    pub fn values(&self, index: Index, kind: Elements, what: &str) -> Result<Values<'a>, ModelError> {
+    pub(super) fn values(&self, index: Index, kind: Elements, what: &str) -> Result<Values<'a>, ModelError> {
         let accessor = &self.root.accessors[index as usize];
         let number = accessor.component_type;
         let Some(component) = Component::of(number) else {
@@ -277,7 +277,7 @@ impl<'a> Values<'a> {
     }
 
     /// Returns each element as floats, with missing components from `rest`.
-    pub fn floats<const N: usize>(&self, rest: [f32; N]) -> impl Iterator<Item = [f32; N]> + '_ {
+    pub(super) fn floats<const N: usize>(&self, rest: [f32; N]) -> impl Iterator<Item = [f32; N]> + '_ {
         let width = self.width.min(N);
         self.raw().map(move |bytes| {
             let mut element = rest;
@@ -290,18 +290,18 @@ impl<'a> Values<'a> {
     }
 
     /// Returns the first component of each element, of an accessor of unsigned integers.
-    pub fn integers(&self) -> impl Iterator<Item = u32> + '_ {
+    pub(super) fn integers(&self) -> impl Iterator<Item = u32> + '_ {
         let width = self.component.bytes();
         self.raw().map(move |bytes| bytes.iter().take(width).rev().fold(0, |sum, byte| sum << 8 | u32::from(*byte)))
     }
 
     /// Returns whether they are stored as integers.
-    pub fn are_integers(&self) -> bool {
+    pub(super) fn are_integers(&self) -> bool {
         self.component != F32
     }
 
     /// Returns the maximum index of this type: some programs use it to restart a strip.
-    pub fn restart(&self) -> u32 {
+    pub(super) fn restart(&self) -> u32 {
         match self.component {
             U8 => u32::from(u8::MAX),
             U16 => u32::from(u16::MAX),

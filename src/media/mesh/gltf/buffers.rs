@@ -25,7 +25,7 @@ pub(super) struct Buffers<'a>(Vec<Option<Cow<'a, [u8]>>>);
 
 impl<'a> Buffers<'a> {
     /// Loads all buffers. `taken` is the number of bytes of the model file itself.
-    pub fn load(
+    pub(super) fn load(
         root: &Root<'_>,
         mut binary: Option<&'a [u8]>,
         named: Named<'_>,
@@ -86,12 +86,12 @@ impl<'a> Buffers<'a> {
     }
 
     /// Returns the total number of bytes.
-    pub fn bytes(&self) -> u64 {
+    pub(super) fn bytes(&self) -> u64 {
         self.0.iter().flatten().map(|bytes| bytes.len() as u64).sum()
     }
 
     /// Returns the bytes of a buffer view, whose index must be in range.
-    pub fn view(&self, root: &Root<'_>, view: Index) -> Result<&[u8], ModelError> {
+    pub(super) fn view(&self, root: &Root<'_>, view: Index) -> Result<&[u8], ModelError> {
         let described = &root.buffer_views[view as usize];
         let buffer = described.buffer;
         let Some(whole) = &self.0[buffer as usize] else {

@@ -209,7 +209,7 @@ pub(super) struct Attributes {
 
 impl Attributes {
     /// Returns all of them, each with its semantic.
-    pub fn all(&self) -> impl Iterator<Item = (Cow<'static, str>, Index)> {
+    pub(super) fn all(&self) -> impl Iterator<Item = (Cow<'static, str>, Index)> {
         let plain = [
             ("POSITION", self.position),
             ("NORMAL", self.normal),
@@ -313,7 +313,7 @@ pub(super) struct InstanceAttributes {
 }
 
 impl InstanceAttributes {
-    pub fn all(&self) -> impl Iterator<Item = (&'static str, Index)> {
+    pub(super) fn all(&self) -> impl Iterator<Item = (&'static str, Index)> {
         let all = [("TRANSLATION", self.translation), ("ROTATION", self.rotation), ("SCALE", self.scale)];
         all.into_iter().filter_map(|(name, index)| Some((name, index?)))
     }

@@ -74,7 +74,7 @@ pub(super) struct IgnoredParts {
 
 impl IgnoredParts {
     /// Returns the words that follow "holds no triangles" in a message about a file without triangles.
-    pub fn only(self) -> String {
+    pub(super) fn only(self) -> String {
         match self.beside() {
             Some(what) => format!(", only {what}"),
             None if self.unplaced => ": its meshes have no positions".into(),
@@ -84,7 +84,7 @@ impl IgnoredParts {
     }
 
     /// Returns the name of the parts that are not triangles.
-    pub fn beside(self) -> Option<&'static str> {
+    pub(super) fn beside(self) -> Option<&'static str> {
         match (self.points, self.lines) {
             (true, true) => Some("points and lines"),
             (true, false) => Some("points"),

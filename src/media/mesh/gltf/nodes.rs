@@ -21,7 +21,7 @@ pub(super) struct Stage {
 }
 
 impl Stage {
-    pub fn of(root: &Root<'_>) -> Result<Stage, ModelError> {
+    pub(super) fn of(root: &Root<'_>) -> Result<Stage, ModelError> {
         let nodes = &root.nodes;
         let mut walk = Walk { nodes, reached: vec![None; nodes.len()], worlds: vec![None; nodes.len()] };
         let mut placed = Vec::new();

@@ -25,7 +25,7 @@ pub(super) enum Mode {
 }
 
 impl Mode {
-    pub fn of(primitive: &Primitive) -> Result<Mode, ModelError> {
+    pub(super) fn of(primitive: &Primitive) -> Result<Mode, ModelError> {
         Ok(match primitive.mode {
             0 => Mode::Points,
             1..=3 => Mode::Lines,
@@ -37,7 +37,7 @@ impl Mode {
     }
 
     /// Returns the number of triangles for this number of corners.
-    pub fn triangles(self, corners: u64) -> u64 {
+    pub(super) fn triangles(self, corners: u64) -> u64 {
         match self {
             Mode::Points | Mode::Lines => 0,
             Mode::Triangles => corners / 3,
@@ -66,16 +66,16 @@ pub(super) struct Part<'a> {
 
 impl<'a> Part<'a> {
     /// Returns the morph targets that affect the shape.
-    pub fn targets(&self) -> impl Iterator<Item = (&'a Attributes, f32)> {
+    pub(super) fn targets(&self) -> impl Iterator<Item = (&'a Attributes, f32)> {
         self.primitive.targets.iter().zip(self.weights.iter().copied()).filter(|(_, weight)| *weight != 0.0)
     }
 
     /// Returns whether its elements are stored by an extension that Eddy does not read, which [`Part::values`] reports.
-    pub fn is_compressed(&self) -> bool {
+    pub(super) fn is_compressed(&self) -> bool {
         self.primitive.extensions.draco.is_some()
     }
 
-    pub fn attributes(&self) -> &'a Attributes {
+    pub(super) fn attributes(&self) -> &'a Attributes {
         &self.primitive.attributes
     }
 
@@ -92,7 +92,7 @@ impl<'a> Part<'a> {
     }
 
     /// Reads it at `pose`.
-    pub fn raw(&self, pose: &Pose<'a>) -> Result<Raw, ModelError> {
+    pub(super) fn raw(&self, pose: &Pose<'a>) -> Result<Raw, ModelError> {
         let attributes = self.attributes();
         let mut raw = self.modelled()?;
         if let Pose::Bound(bound) = pose {

@@ -15,7 +15,7 @@ pub(super) struct Skins(HashMap<Index, Vec<DAffine3>>);
 
 impl Skins {
     /// Reads the skins of placed meshes. `counts` has counted their joints.
-    pub fn load(source: Source<'_>, stage: &Stage) -> Result<Skins, ModelError> {
+    pub(super) fn load(source: Source<'_>, stage: &Stage) -> Result<Skins, ModelError> {
         let mut skins = HashMap::new();
         for index in worn(source, &stage.placed) {
             if let std::collections::hash_map::Entry::Vacant(free) = skins.entry(index) {
@@ -26,7 +26,7 @@ impl Skins {
     }
 
     /// Counts the joints of the skins of placed meshes.
-    pub fn count(source: Source<'_>, stage: &Stage, counts: &mut Counts) -> Result<(), ModelError> {
+    pub(super) fn count(source: Source<'_>, stage: &Stage, counts: &mut Counts) -> Result<(), ModelError> {
         let mut is_counted = vec![false; source.root.skins.len()];
         for index in worn(source, &stage.placed) {
             if !std::mem::replace(&mut is_counted[index as usize], true) {
@@ -36,7 +36,7 @@ impl Skins {
         Ok(())
     }
 
-    pub fn joints(&self, skin: Index) -> &[DAffine3] {
+    pub(super) fn joints(&self, skin: Index) -> &[DAffine3] {
         self.0.get(&skin).map_or(&[], |joints| joints)
     }
 }
@@ -80,7 +80,7 @@ pub(super) struct Bound<'a> {
 
 impl<'a> Bound<'a> {
     /// Returns `None` for a primitive without joints, which is placed at its node.
-    pub fn of(
+    pub(super) fn of(
         source: Source<'a>,
         attributes: &Attributes,
         skin: Index,
@@ -102,14 +102,14 @@ impl<'a> Bound<'a> {
     }
 
     /// Returns the number of elements of each of its attributes.
-    pub fn counts(&self) -> impl Iterator<Item = (&'static str, usize)> {
+    pub(super) fn counts(&self) -> impl Iterator<Item = (&'static str, usize)> {
         self.sets.iter().flat_map(|(joints, weights)| [("joints", joints.count), ("weights", weights.count)])
     }
 
     /// Passes the transform of each vertex to `take`, in order: the mean of its joints' transforms by weight. The
     /// weights sum to 1 in files that conform to section 3.7.3.3. A vertex that is not bound follows its first joint,
     /// as in other viewers.
-    pub fn each(&self, mut take: impl FnMut(usize, DAffine3)) -> Result<(), ModelError> {
+    pub(super) fn each(&self, mut take: impl FnMut(usize, DAffine3)) -> Result<(), ModelError> {
         let count = self.sets.first().map_or(0, |(joints, _)| joints.count);
         let mut sets: Vec<_> = self.sets.iter().map(|(j, w)| j.floats([0.0; 4]).zip(w.floats([0.0; 4]))).collect();
         for vertex in 0..count {

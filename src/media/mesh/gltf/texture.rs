@@ -77,7 +77,7 @@ impl Material {
 
 impl Transform {
     /// Scales, then rotates, then translates, as in the extension's own shader.
-    pub fn apply(&self, [u, v]: [f32; 2]) -> [f32; 2] {
+    pub(super) fn apply(&self, [u, v]: [f32; 2]) -> [f32; 2] {
         let (sin, cos) = self.rotation.sin_cos();
         let (u, v) = (u * self.scale[0], v * self.scale[1]);
         [u * cos - v * sin + self.offset[0], u * sin + v * cos + self.offset[1]]

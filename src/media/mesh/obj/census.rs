@@ -31,7 +31,7 @@ pub(super) struct Census {
 }
 
 impl Census {
-    pub fn of(text: &[u8]) -> Result<Census, ModelError> {
+    pub(super) fn of(text: &[u8]) -> Result<Census, ModelError> {
         let mut census = Census::default();
         for statement in statements(text) {
             if let Some(keyword) = statement.words().next() {
@@ -74,12 +74,12 @@ impl Census {
 
     /// Returns the number of the first element: 1, but 0 if a face uses vertex 0, and counting from 0 leaves all
     /// numbers of faces in range.
-    pub fn first(&self) -> i64 {
+    pub(super) fn first(&self) -> i64 {
         let counts_from_zero = self.zero.is_some() && !self.is_relative && self.highest < self.counts.vertices as i64;
         i64::from(!counts_from_zero)
     }
 
-    pub fn warnings(&self) -> Vec<MeshWarning> {
+    pub(super) fn warnings(&self) -> Vec<MeshWarning> {
         let zero = self.zero.filter(|_| self.first() == 0).map(|line| MeshWarning {
             message: format!("line {line}: a face uses vertex 0, so all faces are read as counting from 0"),
             hint: "OBJ counts from 1: add 1 to every number of a face".into(),
@@ -92,7 +92,7 @@ impl Census {
     }
 
     /// Returns the warning for a file without triangles, or an error if it is not an OBJ file at all.
-    pub fn no_triangles(&self) -> Result<MeshWarning, ModelError> {
+    pub(super) fn no_triangles(&self) -> Result<MeshWarning, ModelError> {
         if !self.is_obj {
             return Err(ModelError::broken("it has no triangles"));
         }

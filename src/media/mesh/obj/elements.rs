@@ -28,7 +28,7 @@ enum Kind {
 }
 
 impl Elements {
-    pub fn of(text: &[u8], census: &Census) -> Result<Elements, ModelError> {
+    pub(super) fn of(text: &[u8], census: &Census) -> Result<Elements, ModelError> {
         let mut elements = Elements {
             positions: Vec::with_capacity(census.counts.vertices as usize),
             colors: Vec::new(),
@@ -100,15 +100,15 @@ impl Elements {
         }
     }
 
-    pub fn has_place(&self, position: u32) -> bool {
+    pub(super) fn has_place(&self, position: u32) -> bool {
         is_finite(&self.positions[position as usize])
     }
 
-    pub fn has_direction(&self, normal: u32) -> bool {
+    pub(super) fn has_direction(&self, normal: u32) -> bool {
         is_finite(&self.normals[normal as usize])
     }
 
-    pub fn vertex(&self, position: u32, uv: Option<u32>, normal: Option<u32>) -> Vertex {
+    pub(super) fn vertex(&self, position: u32, uv: Option<u32>, normal: Option<u32>) -> Vertex {
         let [r, g, b] = self.colors.get(position as usize).copied().unwrap_or(WHITE);
         let direction = |normal: u32| glam::Vec3::from(self.normals[normal as usize]).normalize_or(glam::Vec3::Y);
         Vertex {
@@ -121,11 +121,11 @@ impl Elements {
     }
 
     /// Returns a position of the file, if it has one.
-    pub fn somewhere(&self) -> [f32; 3] {
+    pub(super) fn somewhere(&self) -> [f32; 3] {
         self.positions.iter().copied().find(|place| is_finite(place)).unwrap_or_default()
     }
 
-    pub fn warnings(&self) -> Vec<MeshWarning> {
+    pub(super) fn warnings(&self) -> Vec<MeshWarning> {
         let done = [
             "faces with such a position are skipped",
             "such texture coordinates are read as 0",
@@ -141,7 +141,7 @@ impl Elements {
     }
 
     /// Returns the error of a file in which every face has a position that is not a number.
-    pub fn no_places(&self) -> ModelError {
+    pub(super) fn no_places(&self) -> ModelError {
         let (line, word) = self.broken[Kind::Position as usize].clone().unwrap_or_default();
         let reason = format!("the position of a vertex is not a number ({word}), and every face has such a vertex");
         ModelError::Line { line, reason, mend: "fix the model and re-export it".into() }

@@ -50,7 +50,7 @@ struct Kind {
 const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
 impl<'f> Faces<'f> {
-    pub fn new(elements: &'f Elements, census: &Census, room: u64) -> Self {
+    pub(super) fn new(elements: &'f Elements, census: &Census, room: u64) -> Self {
         Self {
             elements,
             first: census.first(),
@@ -66,7 +66,7 @@ impl<'f> Faces<'f> {
     }
 
     /// Passes on the faces of a text, part by part, and returns the number of triangles.
-    pub fn hand_over(
+    pub(super) fn hand_over(
         mut self,
         text: &[u8],
         take: &mut dyn FnMut(Raw) -> Result<(), ModelError>,

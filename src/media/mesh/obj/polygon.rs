@@ -21,7 +21,7 @@ pub(super) struct Cutter {
 impl Cutter {
     /// Computes the corners of the triangles of a face with corners at these places: a fan if that covers exactly the
     /// face. There are two triangles less than corners.
-    pub fn triangles(&mut self, places: &[[f32; 3]], out: &mut Vec<u32>) -> Result<(), ModelError> {
+    pub(super) fn triangles(&mut self, places: &[[f32; 3]], out: &mut Vec<u32>) -> Result<(), ModelError> {
         out.clear();
         let count = places.len() as u32;
         let fan = |first: u32| (2..count).map(move |i| [0, i - 1, i].map(|corner| (corner + first) % count));

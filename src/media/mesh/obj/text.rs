@@ -73,7 +73,7 @@ fn is_blank(byte: u8) -> bool {
 
 impl<'t> Statement<'t> {
     /// Returns the words up to a comment. A number sign starts one, except in Microsoft's `1.#IND`.
-    pub fn words(self) -> impl Iterator<Item = &'t [u8]> {
+    pub(super) fn words(self) -> impl Iterator<Item = &'t [u8]> {
         let mut is_over = false;
         self.text
             .split(|b| is_blank(*b))
@@ -90,7 +90,7 @@ impl<'t> Statement<'t> {
     }
 
     /// Returns the number of the line that contains a word of the statement.
-    pub fn line_of(self, word: &[u8]) -> usize {
+    pub(super) fn line_of(self, word: &[u8]) -> usize {
         let before = (word.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
         let mut text = &self.text[..before.min(self.text.len())];
         let mut line = self.line;
@@ -102,12 +102,12 @@ impl<'t> Statement<'t> {
     }
 
     /// Returns an error at a word of the statement.
-    pub fn error(self, word: &[u8], reason: impl Into<String>, mend: impl Into<String>) -> ModelError {
+    pub(super) fn error(self, word: &[u8], reason: impl Into<String>, mend: impl Into<String>) -> ModelError {
         ModelError::Line { line: self.line_of(word), reason: reason.into(), mend: mend.into() }
     }
 
     /// Returns an error of the whole statement.
-    pub fn whole_error(self, reason: impl Into<String>, mend: impl Into<String>) -> ModelError {
+    pub(super) fn whole_error(self, reason: impl Into<String>, mend: impl Into<String>) -> ModelError {
         let first = self.words().next().unwrap_or(self.text);
         self.error(first, reason, mend)
     }

@@ -11,20 +11,20 @@ use std::{
 };
 use tempfile::TempDir;
 
-pub const FILE: &str = "100644";
-pub const FOLDER: &str = "40000";
-pub const LINK: &str = "120000";
-pub const SUBMODULE: &str = "160000";
+pub(super) const FILE: &str = "100644";
+pub(super) const FOLDER: &str = "40000";
+pub(super) const LINK: &str = "120000";
+pub(super) const SUBMODULE: &str = "160000";
 
 /// A working tree `repo` in a folder that holds nothing else.
-pub struct Repo {
+pub(super) struct Repo {
     pub outside: TempDir,
     pub root: PathBuf,
     pub git: PathBuf,
 }
 
 impl Repo {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         let outside = tempfile::tempdir().unwrap();
         // As links would have it: some systems' temporary folder is behind one.
         let root = outside.path().canonicalize().unwrap().join("repo");
@@ -34,82 +34,82 @@ impl Repo {
         Self { outside, root, git }
     }
 
-    pub fn object(&self, kind: Kind, bytes: &[u8]) -> ObjectId {
+    pub(super) fn object(&self, kind: Kind, bytes: &[u8]) -> ObjectId {
         let id = gix_object::compute_hash(Hash::Sha1, kind, bytes).unwrap();
         self.loose(id, &[format!("{kind} {}\0", bytes.len()).as_bytes(), bytes].concat());
         id
     }
 
     /// Writes an object's file, whatever is in it.
-    pub fn loose(&self, id: ObjectId, bytes: &[u8]) {
+    pub(super) fn loose(&self, id: ObjectId, bytes: &[u8]) {
         let hex = id.to_string();
         self.write(&format!("objects/{}/{}", &hex[..2], &hex[2..]), deflated(bytes));
     }
 
-    pub fn blob(&self, text: &str) -> ObjectId {
+    pub(super) fn blob(&self, text: &str) -> ObjectId {
         self.object(Kind::Blob, text.as_bytes())
     }
 
-    pub fn tree<N: AsRef<[u8]>>(&self, entries: &[(&str, N, ObjectId)]) -> ObjectId {
+    pub(super) fn tree<N: AsRef<[u8]>>(&self, entries: &[(&str, N, ObjectId)]) -> ObjectId {
         self.object(Kind::Tree, &tree(entries))
     }
 
-    pub fn commit(&self, tree: ObjectId, parents: &[ObjectId]) -> ObjectId {
+    pub(super) fn commit(&self, tree: ObjectId, parents: &[ObjectId]) -> ObjectId {
         let parents: String = parents.iter().map(|id| format!("parent {id}\n")).collect();
         let who = "a <a@b.c> 1700000000 +0000";
         let text = format!("tree {tree}\n{parents}author {who}\ncommitter {who}\n\nA commit.\n");
         self.object(Kind::Commit, text.as_bytes())
     }
 
-    pub fn tag(&self, target: ObjectId, kind: Kind) -> ObjectId {
+    pub(super) fn tag(&self, target: ObjectId, kind: Kind) -> ObjectId {
         let text = format!("object {target}\ntype {kind}\ntag t\ntagger a <a@b.c> 1700000000 +0000\n\nA tag.\n");
         self.object(Kind::Tag, text.as_bytes())
     }
 
     /// Makes a commit of one `image.glsl` with this text.
-    pub fn image(&self, text: &str, parents: &[ObjectId]) -> ObjectId {
+    pub(super) fn image(&self, text: &str, parents: &[ObjectId]) -> ObjectId {
         let blob = self.blob(text);
         self.commit(self.tree(&[(FILE, "image.glsl", blob)]), parents)
     }
 
     /// Commits a tree to the branch that is checked out.
-    pub fn head(&self, tree: ObjectId) {
+    pub(super) fn head(&self, tree: ObjectId) {
         let commit = self.commit(tree, &[]);
         self.write("refs/heads/main", format!("{commit}\n"));
     }
 
     /// Commits `image.glsl` and one more entry.
-    pub fn head_with(&self, mode: &str, name: impl AsRef<[u8]>, id: ObjectId) {
+    pub(super) fn head_with(&self, mode: &str, name: impl AsRef<[u8]>, id: ObjectId) {
         let image = self.blob("image");
         let entries = [(FILE, b"image.glsl".as_slice(), image), (mode, name.as_ref(), id)];
         self.head(self.tree(&entries));
     }
 
-    pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+    pub(super) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
         let path = self.git.join(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, bytes).unwrap();
     }
 
     /// Writes a pack of these entries, and its index.
-    pub fn pack(&self, name: &str, entries: &[(ObjectId, Vec<u8>)]) {
+    pub(super) fn pack(&self, name: &str, entries: &[(ObjectId, Vec<u8>)]) {
         let (pack, index) = packed(entries);
         self.write(&format!("objects/pack/pack-{name}.pack"), pack);
         self.write(&format!("objects/pack/pack-{name}.idx"), index);
     }
 
-    pub fn at(&self, project: &str, revision: &str) -> Result<super::Checkout, String> {
+    pub(super) fn at(&self, project: &str, revision: &str) -> Result<super::Checkout, String> {
         super::at(self.root.join(project).to_str().unwrap(), revision).map_err(|e| e.to_string())
     }
 
     /// Returns what `image.glsl` says in a revision.
-    pub fn text(&self, revision: &str) -> Result<String, String> {
+    pub(super) fn text(&self, revision: &str) -> Result<String, String> {
         let copy = self.at("", revision)?;
         Ok(fs::read_to_string(copy.project.join("image.glsl")).unwrap())
     }
 
     /// Returns why there is no such revision, and fails where something was written anywhere else for it.
-    pub fn refusal(&self, revision: &str) -> String {
+    pub(super) fn refusal(&self, revision: &str) -> String {
         let before = names(self.outside.path());
         let said = self.at("", revision).expect_err("refused");
         assert_eq!(names(self.outside.path()), before);
@@ -118,20 +118,20 @@ impl Repo {
     }
 }
 
-pub fn init(git: &Path) {
+pub(super) fn init(git: &Path) {
     for folder in ["objects/info", "objects/pack", "refs/heads", "refs/tags"] {
         fs::create_dir_all(git.join(folder)).unwrap();
     }
     fs::write(git.join("HEAD"), "ref: refs/heads/main\n").unwrap();
 }
 
-pub fn tree<N: AsRef<[u8]>>(entries: &[(&str, N, ObjectId)]) -> Vec<u8> {
+pub(super) fn tree<N: AsRef<[u8]>>(entries: &[(&str, N, ObjectId)]) -> Vec<u8> {
     let entry =
         |(mode, name, id): &(&str, N, ObjectId)| [mode.as_bytes(), b" ", name.as_ref(), b"\0", id.as_slice()].concat();
     entries.iter().flat_map(entry).collect()
 }
 
-pub fn deflated(bytes: &[u8]) -> Vec<u8> {
+pub(super) fn deflated(bytes: &[u8]) -> Vec<u8> {
     let mut out = deflate::Write::new(Vec::new(), Compression::BEST_SPEED);
     out.write_all(bytes).unwrap();
     out.flush().unwrap();
@@ -139,7 +139,7 @@ pub fn deflated(bytes: &[u8]) -> Vec<u8> {
 }
 
 /// The bytes of a pack's entry: 1 to 4 are a commit, a tree, a blob and a tag, 6 and 7 deltas, whose base is `base`.
-pub fn entry(kind: u8, size: u64, base: &[u8], bytes: &[u8]) -> Vec<u8> {
+pub(super) fn entry(kind: u8, size: u64, base: &[u8], bytes: &[u8]) -> Vec<u8> {
     let mut out = vec![kind << 4 | (size & 15) as u8];
     let mut rest = size >> 4;
     while rest > 0 {
@@ -153,7 +153,7 @@ pub fn entry(kind: u8, size: u64, base: &[u8], bytes: &[u8]) -> Vec<u8> {
 }
 
 /// The bytes that say how far before a delta its base is.
-pub fn distance(mut by: u64) -> Vec<u8> {
+pub(super) fn distance(mut by: u64) -> Vec<u8> {
     let mut out = vec![(by & 127) as u8];
     while by > 127 {
         by = (by >> 7) - 1;
@@ -163,7 +163,7 @@ pub fn distance(mut by: u64) -> Vec<u8> {
 }
 
 /// A delta of something of `base` bytes that makes `made`.
-pub fn delta(base: u64, made: u64, instructions: &[u8]) -> Vec<u8> {
+pub(super) fn delta(base: u64, made: u64, instructions: &[u8]) -> Vec<u8> {
     let number = |mut n: u64| {
         let mut out = Vec::new();
         while n > 127 {
@@ -177,7 +177,7 @@ pub fn delta(base: u64, made: u64, instructions: &[u8]) -> Vec<u8> {
 }
 
 /// A pack and its index (git's documentation `gitformat-pack`).
-pub fn packed(entries: &[(ObjectId, Vec<u8>)]) -> (Vec<u8>, Vec<u8>) {
+pub(super) fn packed(entries: &[(ObjectId, Vec<u8>)]) -> (Vec<u8>, Vec<u8>) {
     let signed = |mut bytes: Vec<u8>| {
         let mut hasher = gix_hash::hasher(Hash::Sha1);
         hasher.update(&bytes);
@@ -205,7 +205,7 @@ pub fn packed(entries: &[(ObjectId, Vec<u8>)]) -> (Vec<u8>, Vec<u8>) {
 }
 
 /// Every file and folder below.
-pub fn names(folder: &Path) -> BTreeSet<PathBuf> {
+pub(super) fn names(folder: &Path) -> BTreeSet<PathBuf> {
     let mut found = BTreeSet::new();
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

@@ -18,7 +18,7 @@ impl History {
     /// Puts back what the targets held before the frame that is shown. False where that cannot be had any more, as of
     /// buffers too large to be kept; then nothing is changed. The canvas stays as it is, unless another size is coming:
     /// then it has the one that the most is kept of.
-    pub fn rewind(&mut self, engine: &mut Engine, is_size_coming: bool) -> Result<bool, EngineError> {
+    pub(crate) fn rewind(&mut self, engine: &mut Engine, is_size_coming: bool) -> Result<bool, EngineError> {
         let Some(number) = self.shown() else { return Ok(false) };
         if self.again.rewound.is_some() {
             return Ok(true);
@@ -87,7 +87,7 @@ impl History {
 
     /// Returns the inputs of the frame that is shown, for the engine to draw it again with the program, the canvas and
     /// the values of now; [`History::frame_drawn_again`] follows. `None` where what it was drawn from cannot be had any more.
-    pub fn prepare_again(&mut self, engine: &mut Engine) -> Result<Option<FrameInputs>, EngineError> {
+    pub(crate) fn prepare_again(&mut self, engine: &mut Engine) -> Result<Option<FrameInputs>, EngineError> {
         if !self.rewind(engine, false)? {
             return Ok(None);
         }
@@ -109,21 +109,21 @@ impl History {
     }
 
     /// The frame has been drawn again.
-    pub fn frame_drawn_again(&mut self, took: Duration) {
+    pub(crate) fn frame_drawn_again(&mut self, took: Duration) {
         self.again.rewound = None;
         self.drawn += 1;
         self.learn(took);
     }
 
     /// Takes up a run that was drawn before, by another process: its frames lie ahead of what the targets hold.
-    pub fn take_up(&mut self, frames: Vec<Frame>) {
+    pub(crate) fn take_up(&mut self, frames: Vec<Frame>) {
         self.begin(true);
         self.frames = frames.into();
     }
 
     /// Frames are drawn on the canvas that they had, on the way to another: it gets another size once that is there.
     /// False where that is not so.
-    pub fn resize_behind(&mut self, size: (u32, u32)) -> bool {
+    pub(crate) fn resize_behind(&mut self, size: (u32, u32)) -> bool {
         let is_on_the_way = self.canvas.is_some();
         if is_on_the_way {
             self.canvas = Some(size);
@@ -133,7 +133,7 @@ impl History {
 }
 
 /// Holds what the targets held before a frame, on the canvas that they had then.
-pub struct PriorState {
+pub(super) struct PriorState {
     /// The frame's number in the run.
     pub number: u64,
     pub size: (u32, u32),
@@ -142,7 +142,7 @@ pub struct PriorState {
 
 /// Holds what is needed to draw the frame again that is shown.
 #[derive(Default)]
-pub struct Again {
+pub(super) struct Again {
     /// The targets hold what they held before this frame, which is the one that is shown.
     pub rewound: Option<u64>,
     pub before: Option<PriorState>,
@@ -150,13 +150,13 @@ pub struct Again {
 
 impl Again {
     /// Another program draws from now on.
-    pub fn change_program(&mut self) {
+    pub(super) fn change_program(&mut self) {
         // Its targets may be others.
         self.before = None;
     }
 
     /// A frame is drawn that was not drawn before: what follows it is another run.
-    pub fn drop_behind(&mut self, number: u64) {
+    pub(super) fn drop_behind(&mut self, number: u64) {
         self.before.take_if(|before| before.number > number);
     }
 }

@@ -36,7 +36,7 @@ const KEPT_HEARD: usize = 1 << 16;
 
 /// The way to a goal, or a part of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SeekProgress {
+pub(crate) struct SeekProgress {
     /// The inputs of the frame that is shown now.
     pub inputs: FrameInputs,
     /// The number of the frame that is to be shown.
@@ -49,7 +49,7 @@ pub struct SeekProgress {
 
 /// A run of frames, without a break: a reset begins another. The canvas may get another size on the way; its buffers
 /// then hold what the smaller of both has in common.
-pub struct History {
+pub(crate) struct History {
     frames: VecDeque<Frame>,
     /// The number of frames that are forgotten: `frames[0]` is the frame of this number.
     forgotten: u64,
@@ -94,7 +94,7 @@ impl Default for History {
 
 impl History {
     /// Forgets everything: what is drawn from now on does not follow from what was.
-    pub fn begin(&mut self, is_reset: bool) {
+    pub(crate) fn begin(&mut self, is_reset: bool) {
         (self.forgotten, self.drawn, self.floor) = (0, 0, 0);
         (self.is_whole, self.is_from_reset) = (is_reset, is_reset);
         self.frames.clear();
@@ -103,7 +103,7 @@ impl History {
     }
 
     /// The canvas has another size from the next frame on.
-    pub fn resize(&mut self) {
+    pub(crate) fn resize(&mut self) {
         // One that is to be drawn again is drawn on the new canvas. Those of a run that was taken up have their own.
         let kept = self.drawn + u64::from(self.again.rewound.is_some());
         if self.drawn > 0 {
@@ -115,19 +115,19 @@ impl History {
 
     /// Another program draws from now on. What the frames were drawn with is kept: [`SeekTarget::Anew`] draws them by the new
     /// program.
-    pub fn change_program(&mut self) {
+    pub(crate) fn change_program(&mut self) {
         self.snapshots.clear();
         self.again.change_program();
         self.is_from_reset = false;
     }
 
-    pub fn set_values(&mut self, values: &CustomUniformValues) {
+    pub(crate) fn set_values(&mut self, values: &CustomUniformValues) {
         self.values = Arc::new(values.clone());
     }
 
     /// A new frame is about to be drawn: those behind the one that is shown are forgotten, and where it is time for one
     /// a snapshot is taken.
-    pub fn before_frame(&mut self, engine: &mut Engine) -> Result<(), EngineError> {
+    pub(crate) fn before_frame(&mut self, engine: &mut Engine) -> Result<(), EngineError> {
         // The frame that it follows has not been drawn by this program yet.
         if self.again.rewound.is_some()
             && let Some(inputs) = self.prepare_again(engine)?
@@ -174,7 +174,7 @@ impl History {
     }
 
     /// A frame has been drawn.
-    pub fn frame_drawn(&mut self, inputs: FrameInputs, size: (u32, u32), took: Duration) {
+    pub(crate) fn frame_drawn(&mut self, inputs: FrameInputs, size: (u32, u32), took: Duration) {
         self.learn(took);
         self.frames.push_back(Frame { inputs, values: self.values.clone(), size });
         self.drawn += 1;
@@ -210,7 +210,7 @@ impl History {
     }
 
     /// The frames up to the one that is shown, from a snapshot on; `None` where there is none.
-    pub fn replay(&self, from: ReplayFrom) -> Option<Replay> {
+    pub(crate) fn replay(&self, from: ReplayFrom) -> Option<Replay> {
         let (at, snapshot) = match from {
             ReplayFrom::Oldest => {
                 let first = self.drawn.saturating_sub(LOOKED_THROUGH * self.interval());
@@ -229,7 +229,7 @@ impl History {
     }
 
     /// Returns what all frames up to the one that is shown were drawn with, from the oldest that is kept.
-    pub fn run(&self) -> Run {
+    pub(crate) fn run(&self) -> Run {
         let count = (self.drawn - self.forgotten) as usize;
         Run { frames: self.frames.iter().take(count).cloned().collect(), is_whole: self.is_whole }
     }
@@ -254,7 +254,7 @@ impl History {
         self.forgotten + self.frames.len() as u64
     }
 
-    pub fn reach(&self) -> Reach {
+    pub(crate) fn reach(&self) -> Reach {
         let Some(shown) = self.shown() else { return Reach::default() };
         let secs = |number: u64| self.frame(number).map_or(0.0, |frame| frame.inputs.time_secs);
         let first = self.first().min(shown);
@@ -285,7 +285,7 @@ impl History {
 
     /// Goes towards a frame of the run and draws for as long as patience lasts, one frame at least where there is one
     /// to draw. `None`: the goal is out of reach, and nothing is changed.
-    pub fn travel(
+    pub(crate) fn travel(
         &mut self,
         engine: &mut Engine,
         goal: SeekTarget,

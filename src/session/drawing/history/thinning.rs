@@ -8,7 +8,7 @@ const FAR: usize = 4;
 /// its index. Around the frame `here` all stay. Of the rest the first stays, so that one can go as far back as ever,
 /// and one of the others goes where the gap that it leaves is the least part of the way to it; so the gaps grow with
 /// the distance, and a way back takes a bounded part of itself to be drawn again.
-pub fn surplus(kept: &[u64], here: u64, most: usize) -> Option<usize> {
+pub(super) fn surplus(kept: &[u64], here: u64, most: usize) -> Option<usize> {
     if kept.len() <= most {
         return None;
     }

@@ -22,7 +22,7 @@ const SQUARE: u32 = 64;
 /// Frames are drawn again for so long before the picture is shown and something else may be asked.
 const PATIENCE: Duration = Duration::from_millis(150);
 
-pub struct Renderer {
+pub(crate) struct Renderer {
     engine: Engine,
     /// The display's picture leaves the device.
     hands_out: bool,
@@ -37,31 +37,31 @@ pub struct Renderer {
 
 impl Renderer {
     /// `hands_out`: give each new picture of the display with the answers.
-    pub fn new(gpu: Gpu, (width, height): (u32, u32), hands_out: bool) -> Result<Self, EngineError> {
+    pub(crate) fn new(gpu: Gpu, (width, height): (u32, u32), hands_out: bool) -> Result<Self, EngineError> {
         let mut engine = Engine::new(gpu, width, height)?;
         engine.set_timing(true);
         let history = History::default();
         Ok(Self { engine, hands_out, history, shown: None, whole_took: Duration::ZERO, is_given_up: false })
     }
 
-    pub fn engine(&self) -> &Engine {
+    pub(crate) fn engine(&self) -> &Engine {
         &self.engine
     }
 
-    pub fn engine_mut(&mut self) -> &mut Engine {
+    pub(crate) fn engine_mut(&mut self) -> &mut Engine {
         &mut self.engine
     }
 
-    pub fn history(&self) -> &History {
+    pub(crate) fn history(&self) -> &History {
         &self.history
     }
 
     /// Returns `iFrame` and `iTime` of what the targets hold; `None` before the first frame.
-    pub fn shown(&self) -> Option<(i32, f64)> {
+    pub(crate) fn shown(&self) -> Option<(i32, f64)> {
         self.shown
     }
 
-    pub fn work(&mut self, job: Job) -> Done {
+    pub(crate) fn work(&mut self, job: Job) -> Done {
         let Job { changes, frame, travel, stays, again, tasks, costs_of, tile_limit, gate } = job;
         let mut done = Done::default();
         // Another program draws its own frame.

@@ -11,7 +11,7 @@ const RATE_WINDOW: Duration = Duration::from_millis(500);
 
 /// The four time uniforms of one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrameTime {
+pub(crate) struct FrameTime {
     pub frame: i32,
     pub time_secs: f64,
     pub time_delta_secs: f32,
@@ -20,7 +20,7 @@ pub struct FrameTime {
 
 /// Time of a running picture. Starts playing, at frame 0.
 #[derive(Clone, Debug)]
-pub struct Clock {
+pub(crate) struct Clock {
     is_playing: bool,
     /// Real time and `iTime` that belong together; `None` makes the next frame the one to count from.
     anchor: Option<(Instant, f64)>,
@@ -61,57 +61,57 @@ impl Default for Clock {
 impl Clock {
     /// A clock whose first frame is at a time and has a number; `None`: the one that a run at 60 frames a second has
     /// about then.
-    pub fn at(time_secs: f64, frame: Option<i32>, is_playing: bool) -> Self {
+    pub(crate) fn at(time_secs: f64, frame: Option<i32>, is_playing: bool) -> Self {
         let time_secs = if time_secs.is_finite() { time_secs.max(0.0) } else { 0.0 };
         let frame = frame.unwrap_or((time_secs * STEP_RATE).round() as i32).max(0);
         Self { is_playing, time_secs, frame, ..Self::default() }
     }
 
-    pub fn is_playing(&self) -> bool {
+    pub(crate) fn is_playing(&self) -> bool {
         self.is_playing
     }
 
     /// `iTime` of the newest frame.
-    pub fn time_secs(&self) -> f64 {
+    pub(crate) fn time_secs(&self) -> f64 {
         self.time_secs
     }
 
     /// Number of the next frame: how many have been drawn since the reset.
-    pub fn next_frame_number(&self) -> i32 {
+    pub(crate) fn next_frame_number(&self) -> i32 {
         self.frame
     }
 
     /// Goes on from the newest frame's time.
-    pub fn play(&mut self) {
+    pub(crate) fn play(&mut self) {
         if !self.is_playing {
             self.is_playing = true;
             self.rebase();
         }
     }
 
-    pub fn pause(&mut self) {
+    pub(crate) fn pause(&mut self) {
         self.is_playing = false;
     }
 
     /// Returns a time and the `iTime` that belongs to it. `None` before the first frame after a pause, and where frames
     /// take the same time however long they really take.
-    pub fn anchor(&self) -> Option<(Instant, f64)> {
+    pub(crate) fn anchor(&self) -> Option<(Instant, f64)> {
         self.anchor.filter(|_| self.is_playing && self.fixed_rate.is_none())
     }
 
     /// Time and frame number to zero. Playing or paused, speed and step stay as they are.
-    pub fn reset(&mut self) {
+    pub(crate) fn reset(&mut self) {
         let Self { is_playing, speed, fixed_rate, .. } = *self;
         *self = Self { is_playing, speed, fixed_rate, ..Self::default() };
     }
 
     /// Seconds of `iTime` in a second.
-    pub fn speed(&self) -> f64 {
+    pub(crate) fn speed(&self) -> f64 {
         self.speed
     }
 
     /// Has time run faster or slower than real time. What is no number above 0 changes nothing.
-    pub fn set_speed(&mut self, speed: f64) {
+    pub(crate) fn set_speed(&mut self, speed: f64) {
         if speed.is_finite() && speed > 0.0 {
             self.speed = speed;
             self.rebase();
@@ -119,13 +119,13 @@ impl Clock {
     }
 
     /// Frames in a second of `iTime`, if each takes the same time.
-    pub fn fixed_rate(&self) -> Option<f64> {
+    pub(crate) fn fixed_rate(&self) -> Option<f64> {
         self.fixed_rate
     }
 
     /// Has every frame take the same time; `None`: as long as it really takes. A rate that is no number above 0 changes
     /// nothing.
-    pub fn set_fixed_rate(&mut self, rate: Option<f64>) {
+    pub(crate) fn set_fixed_rate(&mut self, rate: Option<f64>) {
         if rate.is_none_or(|rate| rate.is_finite() && rate > 0.0) {
             self.fixed_rate = rate;
             self.rebase();
@@ -133,19 +133,19 @@ impl Clock {
     }
 
     /// Frames in a second of what [`step_frame`](Self::step_frame) draws.
-    pub fn step_rate(&self) -> f64 {
+    pub(crate) fn step_rate(&self) -> f64 {
         self.fixed_rate.unwrap_or(STEP_RATE)
     }
 
     /// The next frame is the one that a run at a fixed step has at about this time. Playing or paused stays as it is.
-    pub fn jump(&mut self, time_secs: f64) {
+    pub(crate) fn jump(&mut self, time_secs: f64) {
         self.rebase();
         self.time_secs = time_secs;
         self.frame = (time_secs * self.step_rate()).round() as i32;
     }
 
     /// A frame that was drawn before is shown again: the next one is the one after it. Pauses.
-    pub fn go_to(&mut self, frame: i32, time_secs: f64) {
+    pub(crate) fn go_to(&mut self, frame: i32, time_secs: f64) {
         self.pause();
         self.rebase();
         self.time_secs = time_secs;
@@ -153,7 +153,7 @@ impl Clock {
     }
 
     /// A frame with a time and a number of its own is drawn. Playing or paused stays as it is.
-    pub fn draw(&mut self, frame: i32, time_secs: f64, rate: f32) {
+    pub(crate) fn draw(&mut self, frame: i32, time_secs: f64, rate: f32) {
         self.rebase();
         (self.time_secs, self.rate) = (time_secs, rate);
         self.frame = frame.saturating_add(1);
@@ -161,14 +161,14 @@ impl Clock {
 
     /// The next frame counts from the newest one's time, however much real time has passed: after a pause, or when the
     /// window got the focus back.
-    pub fn rebase(&mut self) {
+    pub(crate) fn rebase(&mut self) {
         self.anchor = None;
         self.rate_window = None;
         self.steps = None;
     }
 
     /// Returns `iTime` of [`Self::running_frame`].
-    pub fn running_time(&self, now: Instant) -> f64 {
+    pub(crate) fn running_time(&self, now: Instant) -> f64 {
         match (self.fixed_rate, self.anchor) {
             (Some(rate), _) => self.stepped(rate).1,
             (None, None) => self.time_secs,
@@ -177,7 +177,7 @@ impl Clock {
     }
 
     /// A frame of the running picture.
-    pub fn running_frame(&mut self, now: Instant) -> FrameTime {
+    pub(crate) fn running_frame(&mut self, now: Instant) -> FrameTime {
         let (time, delta) = if self.fixed_rate.is_some() {
             self.step()
         } else {
@@ -198,12 +198,12 @@ impl Clock {
     }
 
     /// A frame forced while paused: `iTime` is frozen, `iFrame` is not.
-    pub fn forced_frame(&mut self) -> FrameTime {
+    pub(crate) fn forced_frame(&mut self) -> FrameTime {
         self.emit(self.time_secs, NOMINAL_DELTA_SECS)
     }
 
     /// One frame further by a step, and paused. The first frame after a reset is the one at 0.
-    pub fn step_frame(&mut self) -> FrameTime {
+    pub(crate) fn step_frame(&mut self) -> FrameTime {
         self.pause();
         let (time, delta) = self.step();
         self.emit(time, delta)

@@ -4,7 +4,7 @@
 use super::{Arg, Base, Expr, FUEL, Link, Logic, Mode, Op, Place, Prefix, Program, Stmt, Ty, VarId};
 
 /// What a pixel reads.
-pub struct Inputs<'a> {
+pub(crate) struct Inputs<'a> {
     /// Column, row, number of the frame.
     pub given: [i32; 3],
     /// What the channels hold: columns, and texels from the bottom left.
@@ -13,10 +13,10 @@ pub struct Inputs<'a> {
 
 /// The program takes longer than anybody would wait.
 #[derive(Debug)]
-pub struct TooLong;
+pub(crate) struct TooLong;
 
 /// The texel that the program gives; `steps` counts down.
-pub fn run(program: &Program, inputs: &Inputs<'_>, steps: &mut u32) -> Result<[f32; 4], TooLong> {
+pub(crate) fn run(program: &Program, inputs: &Inputs<'_>, steps: &mut u32) -> Result<[f32; 4], TooLong> {
     let mut machine = Machine {
         program,
         inputs,

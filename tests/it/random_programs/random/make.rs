@@ -6,15 +6,15 @@ use super::{
 
 /// Numbers that depend on the seed alone (Steele, Lea and Flood: SplitMix).
 #[derive(Default)]
-pub struct Rng(u64);
+pub(crate) struct Rng(u64);
 
 impl Rng {
-    pub fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         // Not the factor of the step, with which the numbers of one seed would be those of the next, one place on.
         Self(seed.wrapping_mul(0xd134_2543_de82_ef95))
     }
 
-    pub fn next(&mut self) -> u64 {
+    pub(crate) fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -22,22 +22,22 @@ impl Rng {
         z ^ (z >> 31)
     }
 
-    pub fn below(&mut self, count: usize) -> usize {
+    pub(crate) fn below(&mut self, count: usize) -> usize {
         (self.next() % count as u64) as usize
     }
 
     /// True in so many of a hundred.
-    pub fn percent(&mut self, percent: usize) -> bool {
+    pub(crate) fn percent(&mut self, percent: usize) -> bool {
         self.below(100) < percent
     }
 
-    pub fn pick<'a, T>(&mut self, of: &'a [T]) -> &'a T {
+    pub(crate) fn pick<'a, T>(&mut self, of: &'a [T]) -> &'a T {
         &of[self.below(of.len())]
     }
 }
 
 /// The program of a seed.
-pub fn make(seed: u64) -> Program {
+pub(crate) fn make(seed: u64) -> Program {
     let mut maker = Maker { rng: Rng::new(seed), scopes: vec![Vec::new()], ..Maker::default() };
     maker.program();
     maker.program
@@ -152,7 +152,7 @@ impl Maker {
     }
 
     /// What can be named here: not what something else of that name hides.
-    pub fn visible(&self) -> Vec<VarId> {
+    pub(super) fn visible(&self) -> Vec<VarId> {
         let mut found: Vec<VarId> = Vec::new();
         for &var in self.scopes.iter().rev().flat_map(|scope| scope.iter().rev()) {
             let name = &self.program.vars[var].name;
@@ -163,7 +163,7 @@ impl Maker {
         found
     }
 
-    pub fn scalar_type(&mut self) -> Ty {
+    pub(super) fn scalar_type(&mut self) -> Ty {
         [INT, INT, UINT, BOOL][self.rng.below(4)].clone()
     }
 
@@ -172,7 +172,7 @@ impl Maker {
         Ty::Num(*self.rng.pick(&[Base::Int, Base::Uint, Base::Float]), size)
     }
 
-    pub fn any_type(&mut self) -> Ty {
+    pub(super) fn any_type(&mut self) -> Ty {
         match self.rng.below(12) {
             0..=3 => self.scalar_type(),
             4 | 5 => self.number_type(),
@@ -273,7 +273,7 @@ impl Maker {
         out.push(stmt);
     }
 
-    pub fn condition(&mut self) -> Expr {
+    pub(super) fn condition(&mut self) -> Expr {
         loop {
             let cond = self.value(&BOOL, 2);
             if !cond.is_constant(&self.program.vars) {
@@ -419,7 +419,7 @@ impl Maker {
     }
 
     /// A counter as an int or uint.
-    pub fn counted(&mut self, counter: VarId) -> Expr {
+    pub(super) fn counted(&mut self, counter: VarId) -> Expr {
         let ty = self.program.vars[counter].ty.clone();
         let read = Expr::Read(Place::whole(counter), ty.clone());
         if ty == FLOAT { Expr::Convert(Base::Int, Box::new(read)) } else { read }

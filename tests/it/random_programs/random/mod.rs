@@ -5,15 +5,15 @@
 //! result only, on every device and in [`interpret`]; any difference is a fault. Order is from left to right, and
 //! variables among operands are read last, as Eddy promises it.
 
-pub mod interpret;
-pub mod make;
-pub mod print;
-pub mod shrink;
+pub(super) mod interpret;
+pub(super) mod make;
+pub(super) mod print;
+pub(super) mod shrink;
 mod values;
 
 /// What a scalar holds; each is one 32-bit word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Base {
+pub(super) enum Base {
     Int,
     Uint,
     Bool,
@@ -21,7 +21,7 @@ pub enum Base {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Ty {
+pub(super) enum Ty {
     /// A scalar, or a vector of 2 to 4.
     Num(Base, u8),
     /// Columns and rows.
@@ -31,18 +31,18 @@ pub enum Ty {
     Struct(usize),
 }
 
-pub const INT: Ty = Ty::Num(Base::Int, 1);
-pub const UINT: Ty = Ty::Num(Base::Uint, 1);
-pub const BOOL: Ty = Ty::Num(Base::Bool, 1);
-pub const FLOAT: Ty = Ty::Num(Base::Float, 1);
+pub(super) const INT: Ty = Ty::Num(Base::Int, 1);
+pub(super) const UINT: Ty = Ty::Num(Base::Uint, 1);
+pub(super) const BOOL: Ty = Ty::Num(Base::Bool, 1);
+pub(super) const FLOAT: Ty = Ty::Num(Base::Float, 1);
 
-pub type VarId = usize;
+pub(super) type VarId = usize;
 
 /// How often [`Stmt::Fuel`] lets a pixel pass.
-pub const FUEL: i32 = 40;
+pub(super) const FUEL: i32 = 40;
 
 #[derive(Clone, Debug)]
-pub struct Var {
+pub(super) struct Var {
     pub name: String,
     pub ty: Ty,
     /// Declared `const`.
@@ -51,20 +51,20 @@ pub struct Var {
 
 /// A variable, or a part of one.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub(super) struct Place {
     pub var: VarId,
     pub path: Vec<Link>,
 }
 
 #[derive(Clone, Debug)]
-pub enum Link {
+pub(super) enum Link {
     Field(usize),
     Index(Box<Expr>),
     Swizzle(Vec<u8>),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Op {
+pub(super) enum Op {
     Add,
     Sub,
     Mul,
@@ -84,21 +84,21 @@ pub enum Op {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Prefix {
+pub(super) enum Prefix {
     Negate,
     BitNot,
     Not,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Logic {
+pub(super) enum Logic {
     And,
     Or,
     Xor,
 }
 
 #[derive(Clone, Debug)]
-pub enum Expr {
+pub(super) enum Expr {
     /// A scalar's word.
     Literal(u32, Base),
     Read(Place, Ty),
@@ -140,14 +140,14 @@ pub enum Expr {
 }
 
 #[derive(Clone, Debug)]
-pub enum Arg {
+pub(super) enum Arg {
     In(Expr),
     /// To an `out` or `inout` parameter.
     Place(Place),
 }
 
 #[derive(Clone, Debug)]
-pub enum Stmt {
+pub(super) enum Stmt {
     Declare(VarId, Option<Expr>),
     Expr(Expr),
     If(Expr, Vec<Stmt>, Vec<Stmt>),
@@ -170,14 +170,14 @@ pub enum Stmt {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
+pub(super) enum Mode {
     In,
     Out,
     Inout,
 }
 
 #[derive(Clone, Debug)]
-pub struct Function {
+pub(super) struct Function {
     pub params: Vec<(VarId, Mode)>,
     /// `None`: void.
     pub result: Option<Ty>,
@@ -186,7 +186,7 @@ pub struct Function {
 
 /// One pass. Its results are two words for each pixel, in 16-bit halves.
 #[derive(Clone, Debug, Default)]
-pub struct Program {
+pub(super) struct Program {
     pub structs: Vec<Vec<Ty>>,
     pub vars: Vec<Var>,
     /// With their values, in order.
@@ -200,7 +200,7 @@ pub struct Program {
 
 impl Program {
     /// 32-bit words of a value.
-    pub fn words(&self, ty: &Ty) -> usize {
+    pub(super) fn words(&self, ty: &Ty) -> usize {
         match ty {
             Ty::Num(_, size) => usize::from(*size),
             Ty::Mat(columns, rows) => usize::from(columns * rows),
@@ -210,7 +210,7 @@ impl Program {
     }
 
     /// The type of a part.
-    pub fn part(&self, ty: &Ty, link: &Link) -> Ty {
+    pub(super) fn part(&self, ty: &Ty, link: &Link) -> Ty {
         match (ty, link) {
             (Ty::Struct(id), Link::Field(index)) => self.structs[*id][*index].clone(),
             (Ty::Array(element, _), Link::Index(_)) => (**element).clone(),
@@ -224,7 +224,7 @@ impl Program {
 
 impl Ty {
     /// Elements, columns or components.
-    pub fn extent(&self) -> u32 {
+    pub(super) fn extent(&self) -> u32 {
         match self {
             Ty::Num(_, size) => (*size).into(),
             Ty::Mat(columns, _) => (*columns).into(),
@@ -233,7 +233,7 @@ impl Ty {
         }
     }
 
-    pub fn base(&self) -> Option<Base> {
+    pub(super) fn base(&self) -> Option<Base> {
         match self {
             Ty::Num(base, _) => Some(*base),
             _ => None,
@@ -242,7 +242,7 @@ impl Ty {
 }
 
 impl Expr {
-    pub fn ty(&self) -> Ty {
+    pub(super) fn ty(&self) -> Ty {
         match self {
             Expr::Literal(_, base) | Expr::Convert(base, _) => Ty::Num(*base, 1),
             Expr::Logic(..) => BOOL,
@@ -293,13 +293,13 @@ impl Expr {
     }
 
     /// Whether it changes anything, or calls what may.
-    pub fn has_effects(&self) -> bool {
+    pub(super) fn has_effects(&self) -> bool {
         matches!(self, Expr::Assign(..) | Expr::AssignOp(..) | Expr::Step { .. } | Expr::Call(..))
             || self.parts().into_iter().any(Expr::has_effects)
     }
 
     /// Whether it is a constant expression.
-    pub fn is_constant(&self, vars: &[Var]) -> bool {
+    pub(super) fn is_constant(&self, vars: &[Var]) -> bool {
         let own = match self {
             Expr::Read(place, _) => vars[place.var].constant,
             Expr::Fetch { .. } | Expr::Given(_) => false,
@@ -310,11 +310,11 @@ impl Expr {
 }
 
 impl Place {
-    pub fn whole(var: VarId) -> Self {
+    pub(super) fn whole(var: VarId) -> Self {
         Place { var, path: Vec::new() }
     }
 
-    pub fn indices(&self) -> impl Iterator<Item = &Expr> {
+    pub(super) fn indices(&self) -> impl Iterator<Item = &Expr> {
         self.path.iter().filter_map(|link| match link {
             Link::Index(index) => Some(&**index),
             _ => None,

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 /// How much is said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub(crate) enum Form {
     Plain,
     /// Every index is clamped, every variable has its zero, every division and shift its guard in the text.
     Explicit,
@@ -27,7 +27,7 @@ uint remainder(uint n, uint d) { if (d == 0u) return 0u; return n % d; }
 ";
 
 /// The text of a pass.
-pub fn print(program: &Program, form: Form) -> String {
+pub(crate) fn print(program: &Program, form: Form) -> String {
     let mut printer = Printer { program, form, out: String::new(), depth: 0, result: None };
     printer.program();
     printer.out

@@ -3,7 +3,7 @@
 use super::{Program, Stmt};
 
 /// Leaves out statements, one after the other, while `fails` says that the fault stays; at most so many attempts.
-pub fn shrink(program: &Program, mut attempts: usize, mut fails: impl FnMut(&Program) -> bool) -> Program {
+pub(crate) fn shrink(program: &Program, mut attempts: usize, mut fails: impl FnMut(&Program) -> bool) -> Program {
     let mut best = program.clone();
     loop {
         let mut smaller = false;

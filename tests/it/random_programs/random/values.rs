@@ -7,7 +7,7 @@ use super::{
 
 impl Maker {
     /// An expression of this type, so deep at most.
-    pub fn value(&mut self, ty: &Ty, depth: usize) -> Expr {
+    pub(super) fn value(&mut self, ty: &Ty, depth: usize) -> Expr {
         if depth == 0 || self.rng.percent(25) {
             if let (true, Some(read)) = (self.rng.percent(75), self.read(ty, depth)) {
                 return read;
@@ -80,7 +80,7 @@ impl Maker {
     }
 
     /// A constant expression.
-    pub fn literals(&mut self, ty: &Ty) -> Expr {
+    pub(super) fn literals(&mut self, ty: &Ty) -> Expr {
         match ty {
             Ty::Num(Base::Bool, 1) => Expr::Literal(self.rng.below(2) as u32, Base::Bool),
             Ty::Num(Base::Float, 1) => number(self.rng.below(50) as i32, Base::Float),
@@ -114,7 +114,7 @@ impl Maker {
     }
 
     /// A constructor.
-    pub fn construct(&mut self, ty: &Ty, depth: usize) -> Expr {
+    pub(super) fn construct(&mut self, ty: &Ty, depth: usize) -> Expr {
         let depth = depth.saturating_sub(1);
         let parts: Vec<Ty> = match ty {
             Ty::Num(base, 1) => return self.value(&Ty::Num(*base, 1), depth),
@@ -359,7 +359,7 @@ impl Maker {
     }
 
     /// An expression that changes something.
-    pub fn effect(&mut self) -> Expr {
+    pub(super) fn effect(&mut self) -> Expr {
         for _ in 0..6 {
             if let (true, Some(call)) = (self.rng.percent(20), self.call(None, 2)) {
                 return call;

@@ -16,10 +16,10 @@ pub(super) enum State {
 }
 
 impl State {
-    pub const ZERO: State = State::Range(Interval::ZERO);
+    pub(super) const ZERO: State = State::Range(Interval::ZERO);
 
     /// Returns the union of both, where a driver knows which of the two it is.
-    pub fn or(self, other: State) -> State {
+    pub(super) fn or(self, other: State) -> State {
         match (self, other) {
             (Unseen, state) | (state, Unseen) => state,
             (State::Range(a), State::Range(b)) => State::Range(a.or(b)),
@@ -28,7 +28,7 @@ impl State {
     }
 
     /// Returns the known state where an unknown condition has selected one of both.
-    pub fn met(self, other: State) -> State {
+    pub(super) fn met(self, other: State) -> State {
         match (self, other) {
             (Unseen, state) | (state, Unseen) => state,
             (State::Range(a), State::Range(b)) if a == b && a.is_exact() => self,
@@ -37,18 +37,18 @@ impl State {
     }
 
     /// Returns the known state where two paths meet; a driver knows which one was taken if `is_known`.
-    pub fn join(self, other: State, is_known: bool) -> State {
+    pub(super) fn join(self, other: State, is_known: bool) -> State {
         if is_known { self.or(other) } else { self.met(other) }
     }
 
-    pub fn map(self, f: impl FnOnce(Interval) -> Interval) -> State {
+    pub(super) fn map(self, f: impl FnOnce(Interval) -> Interval) -> State {
         match self {
             State::Range(range) => State::Range(f(range)),
             state => state,
         }
     }
 
-    pub fn zip(self, other: State, f: impl FnOnce(Interval, Interval) -> Interval) -> State {
+    pub(super) fn zip(self, other: State, f: impl FnOnce(Interval, Interval) -> Interval) -> State {
         match (self, other) {
             (State::Range(a), State::Range(b)) => State::Range(f(a, b)),
             (Unknown, _) | (_, Unknown) => Unknown,
@@ -71,7 +71,7 @@ impl Merged {
     const MAX_GROWN: u8 = 3;
 
     /// Returns the known state where it is read.
-    pub fn state(&self) -> State {
+    pub(super) fn state(&self) -> State {
         match self.state {
             Unseen => Unknown,
             state => state,
@@ -79,13 +79,13 @@ impl Merged {
     }
 
     /// Adds a stored value; returns whether that changes the state.
-    pub fn add(&mut self, state: State) -> bool {
+    pub(super) fn add(&mut self, state: State) -> bool {
         self.add_growing(state, Self::MAX_GROWN)
     }
 
     /// Adds a value that an iteration of a loop stores. A value that grows in one most likely grows in each, so it is
     /// assumed to be unbounded.
-    pub fn add_in_loop(&mut self, state: State) -> bool {
+    pub(super) fn add_in_loop(&mut self, state: State) -> bool {
         self.add_growing(state, 0)
     }
 
