@@ -42,27 +42,27 @@ impl From<String> for CommandError {
 macro_rules! commands {
     ($($(#[$attribute:meta])* $name:ident($arguments:ty),)*) => {
         #[derive(Debug, Subcommand)]
-        pub enum Command {
+        pub(crate) enum Command {
             $($(#[$attribute])* $name($arguments),)*
         }
 
         impl Command {
             /// Returns whether the command opens a graphics device.
-            pub fn opens_device(&self) -> bool {
+            pub(crate) fn opens_device(&self) -> bool {
                 match self {
                     $(Self::$name(_) => <$arguments as Run>::OPENS_DEVICE,)*
                 }
             }
 
             /// Returns the value of `--as`, and the projects that it applies to.
-            pub fn hosted(&mut self) -> (Option<HostProgram>, Vec<&mut String>) {
+            pub(crate) fn hosted(&mut self) -> (Option<HostProgram>, Vec<&mut String>) {
                 match self {
                     $(Self::$name(arguments) => arguments.hosted(),)*
                 }
             }
 
             /// Runs the command and returns the exit code.
-            pub fn run(&mut self) -> Result<u8, CommandError> {
+            pub(crate) fn run(&mut self) -> Result<u8, CommandError> {
                 match self {
                     $(Self::$name(arguments) => arguments.run(),)*
                 }

@@ -98,12 +98,15 @@ fn any_project(seed: u64) -> Project {
     let source = |r: &mut Random, name: String| Source { name, path: None, text: r.text().into() };
     let passes = ids
         .into_iter()
-        .map(|id| Pass {
-            source: source(r, id.title()),
-            bindings: (0..SLOTS).filter_map(|slot| (r.below(2) == 0).then(|| (slot, any_channel(r)))).collect(),
-            settings: any_settings(r, &id),
-            body: Default::default(),
-            id,
+        .map(|id| {
+            let bound: Vec<usize> = (0..SLOTS).filter(|_| r.below(2) == 0).collect();
+            Pass {
+                source: source(r, id.title()),
+                bindings: bound.into_iter().map(|slot| (slot, any_channel(r))).collect(),
+                settings: any_settings(r, &id),
+                body: Default::default(),
+                id,
+            }
         })
         .collect();
     let extra = serde_json::json!({ "likes": 3, "parent": null, "text": r.text(), "deep": { "a": [1.5, true] } });
