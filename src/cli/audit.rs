@@ -2,7 +2,8 @@
 
 use super::{
     args::PrecisionArgs,
-    machine::{Machine, RunError, open, pass_over},
+    machine::{Machine, RunError, pass_over},
+    opening::{Opened, Opening},
     report::Report,
     source_excerpt::SourceExcerpt,
     targets,
@@ -102,7 +103,8 @@ pub(super) fn run(
 ) -> Result<Audited, RunError> {
     let wanted = &args.pass;
     let mut quiet = Report::new(spec);
-    let (project, mut offline) = open(machine, &mut quiet, spec, &args.run, &wanted.pass, inputs)?;
+    let opening = Opening::new(spec, &args.run, &inputs).pass(&wanted.pass);
+    let Opened { project, mut offline, .. } = opening.open(machine, &mut quiet)?;
     for _ in 1..args.frames() {
         pass_over(&mut offline, &args.run)?;
     }

@@ -4,7 +4,8 @@
 use super::{
     args::{BenchArgs, HostProgram},
     command::{CommandError, Run},
-    machine::{Machine, RunError, open},
+    machine::{Machine, RunError},
+    opening::{Opened, Opening},
     report::{Printer, Report},
     sweep,
 };
@@ -127,7 +128,7 @@ fn measure(
     spec: &str,
     inputs: ScriptedInputs,
 ) -> Result<Costs, RunError> {
-    let (project, mut offline) = open(machine, report, spec, &args.run, &PassName::image(), inputs)?;
+    let Opened { project, mut offline, .. } = Opening::new(spec, &args.run, &inputs).open(machine, report)?;
     // A recording is measured from its first frame on, once for each kind of time.
     let is_replay = args.run.replay.is_some();
     for _ in 0..if is_replay { WARM_UP.min(args.frames()) } else { WARM_UP } {

@@ -6,7 +6,8 @@
 use super::{
     args::{CompareArgs, CompareView, HostProgram, RunArgs},
     command::{CommandError, Run},
-    machine::{Machine, RunError, open},
+    machine::{Machine, RunError},
+    opening::Opening,
     report::{Printer, Report},
     targets,
     terminal::{one_line, shown_path},
@@ -122,9 +123,10 @@ fn compare(
     let pass = &args.pass;
     // What is timed is drawn, also where nothing changes; the pictures stay the same.
     let drawn = RunArgs { no_skip: args.run.no_skip || args.repeats > 0, ..args.run.clone() };
-    let (_, mut ours) = open(machine, report, &args.project, &drawn, &pass.pass, inputs.clone())?;
+    let opening = |spec| Opening::new(spec, &drawn, inputs).pass(&pass.pass);
+    let mut ours = opening(&args.project).open(machine, report)?.offline;
     let compile_ms = report.compile_ms;
-    let (_, mut theirs) = open(machine, report, &reference, &drawn, &pass.pass, inputs.clone())?;
+    let mut theirs = opening(&reference).open(machine, report)?.offline;
     report.compile_ms = compile_ms;
     for _ in 0..=args.frame {
         ours.draw()?;

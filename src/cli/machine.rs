@@ -4,29 +4,19 @@
 use super::{
     args::RunArgs,
     failure::error_chain,
-    memory,
     report::{Report, Status},
-    tiles::{self, TilePolicy},
 };
 use crate::{
     diag::{Diagnostic, SourceMap},
-    engine::{BuildError, BuildOptions, EngineError},
-    glsl::Probe,
+    engine::{BuildError, EngineError},
     gpu::{Gpu, GpuError, GpuOptions, loss},
     lab::Shard,
-    media::{self, MediaSet},
-    playback::{
-        offline::{DrawnFrame, Offline, OfflineError},
-        script::ScriptedInputs,
-        trial::TrialSettings,
-    },
-    project::{self, PassName, Project, ProjectError},
-    video::{Camera, CameraSource, Tools},
+    playback::offline::{DrawnFrame, Offline, OfflineError},
+    project::ProjectError,
 };
 use std::{
     env,
     panic::{AssertUnwindSafe, catch_unwind},
-    sync::Arc,
     time::{Duration, Instant},
 };
 
@@ -183,236 +173,6 @@ pub(super) fn shard_and_device(shard: &str) -> Result<(Shard, Gpu), String> {
 /// Goes on by a frame that nobody sees: only what later ones read of it is drawn, unless all passes are to be.
 pub(super) fn pass_over(offline: &mut Offline, run: &RunArgs) -> Result<DrawnFrame, OfflineError> {
     if run.no_skip { offline.draw() } else { offline.advance() }
-}
-
-/// Reads, compiles and sets up a project, its warnings going into the report, by which it is swept.
-pub(super) fn open(
-    machine: &mut Machine,
-    report: &mut Report,
-    spec: &str,
-    run: &RunArgs,
-    wanted: &PassName,
-    inputs: ScriptedInputs,
-) -> Result<(Project, Offline), RunError> {
-    is_picture(wanted)?;
-    let (project, offline, _) = open_with(machine, report, spec, run, (wanted, &|_| Vec::new(), None), inputs)?;
-    Ok((project, offline))
-}
-
-/// Does the same as [`open`] for the sound pass of a project.
-pub(super) fn open_sound(
-    machine: &mut Machine,
-    report: &mut Report,
-    spec: &str,
-    run: &RunArgs,
-    inputs: ScriptedInputs,
-) -> Result<Offline, RunError> {
-    let opened = open_with(machine, report, spec, run, (&PassName::sound(), &|_| Vec::new(), None), inputs);
-    opened.map(|(_, offline, _)| offline)
-}
-
-/// Says which passes of a project are read beside the wanted one.
-pub(super) type FindPasses<'a> = &'a dyn Fn(&Project) -> Vec<PassName>;
-
-/// Does the same as [`open`] where further passes are read. Returns what the channels read, too.
-pub(super) fn open_measured(
-    machine: &mut Machine,
-    report: &mut Report,
-    spec: &str,
-    run: &RunArgs,
-    (wanted, beside): (&PassName, FindPasses<'_>),
-    inputs: ScriptedInputs,
-) -> Result<(Project, Offline, MediaSet), RunError> {
-    is_picture(wanted)?;
-    open_with(machine, report, spec, run, (wanted, beside, None), inputs)
-}
-
-/// Says which value of a project is probed.
-pub(super) type FindProbe<'a> = &'a dyn Fn(&Project) -> anyhow::Result<Probe>;
-
-/// Does the same as [`open`] for a project of which a value of a pass is drawn.
-pub(super) fn open_probed(
-    machine: &mut Machine,
-    report: &mut Report,
-    spec: &str,
-    run: &RunArgs,
-    (pass, probe): (&PassName, FindProbe<'_>),
-    inputs: ScriptedInputs,
-) -> Result<Offline, RunError> {
-    is_picture(pass)?;
-    open_with(machine, report, spec, run, (pass, &|_| Vec::new(), Some(probe)), inputs).map(|(_, offline, _)| offline)
-}
-
-fn open_with(
-    machine: &mut Machine,
-    report: &mut Report,
-    spec: &str,
-    run: &RunArgs,
-    (wanted, beside, probe): (&PassName, FindPasses<'_>, Option<FindProbe<'_>>),
-    inputs: ScriptedInputs,
-) -> Result<(Project, Offline, MediaSet), RunError> {
-    let loaded = project::load(spec)?;
-    let mut project = loaded.project;
-    report.diagnose(&loaded.warnings, &loaded.sources, Some(&project));
-    let beside = beside(&project);
-    [wanted].into_iter().chain(&beside).try_for_each(|pass| is_there(&project, pass))?;
-    beside.iter().try_for_each(is_picture)?;
-    for (option, assignments) in [("--set", &run.set), ("--sweep", &report.sweep)] {
-        for assignment in assignments {
-            project.set_custom_uniform(assignment).map_err(|why| anyhow::anyhow!("{option} {why}"))?;
-        }
-    }
-    let (mut media, mut missing) = media::gather(&project, run.media.as_deref());
-    missing.extend(media::unrecorded(&project));
-    report.diagnose(&missing, &loaded.sources, Some(&project));
-    let cameras = camera(&mut media, &project, run.webcam.as_ref());
-    report.diagnose(&cameras, &loaded.sources, Some(&project));
-    let gpu = machine.gpu()?;
-    let policy = tiles::policy(run, &gpu, probe.is_some() || beside.contains(wanted))?;
-    let pass = wanted.title();
-    let probe = probe.map(|probe| anyhow::Ok((wanted.clone(), probe(&project)?))).transpose()?;
-    // Nobody looks at the picture of a pass of which a value is asked for.
-    let wanted = if probe.is_some() { BuildOptions::probed() } else { wanted.clone() };
-    let wanted = [wanted].into_iter().chain(beside).collect();
-    let passes = (wanted, probe);
-    let mut offline = offline(&gpu, run, policy, inputs.clone())?;
-    let mut built = build(&mut offline, (&project, &media), report, run, passes.clone());
-    if matches!(&built, Err(error) if error.is_undivided()) && matches!(policy, TilePolicy::Preferred(_)) {
-        offline = self::offline(&gpu, run, TilePolicy::Never, inputs)?;
-        built = build(&mut offline, (&project, &media), report, run, passes);
-    }
-    report.compile_ms = offline.build_millis();
-    built.map_err(|error| error.in_tiles(&pass, policy, &gpu))?;
-    Ok((project, offline, media))
-}
-
-/// Returns an engine for the pictures of a run.
-fn offline(gpu: &Gpu, run: &RunArgs, policy: TilePolicy, inputs: ScriptedInputs) -> Result<Offline, RunError> {
-    let available = memory::available();
-    let mut offline = match policy.tiling() {
-        Some(tiling) => Offline::tiled(gpu, run.size, tiling, inputs)?,
-        None => {
-            memory::check_whole(run.size, gpu.is_cpu(), available)?;
-            Offline::new(gpu, run.size, inputs)?
-        }
-    };
-    offline.set_frame_limit(run.frame_timeout);
-    offline.set_memory_limit(available);
-    Ok(offline)
-}
-
-impl RunError {
-    fn engine_error(&self) -> Option<&EngineError> {
-        if let RunError::Other(error) = self { error.downcast_ref() } else { None }
-    }
-
-    /// A pass cannot be drawn in tiles.
-    fn is_undivided(&self) -> bool {
-        matches!(self.engine_error(), Some(EngineError::Undivided { .. }))
-    }
-
-    /// Says why the picture of `pass` had to be drawn in tiles, or another one could not be.
-    fn in_tiles(self, pass: &str, policy: TilePolicy, gpu: &Gpu) -> RunError {
-        let limit = gpu.device.limits().max_texture_dimension_2d;
-        let error = match self.engine_error() {
-            Some(error @ EngineError::Undivided { .. }) => {
-                anyhow::anyhow!("{error} (this device draws at most {limit}x{limit} pixels in one piece)")
-            }
-            Some(error @ EngineError::Gpu(GpuError::TooLarge { .. })) if policy != TilePolicy::Never => {
-                anyhow::anyhow!(
-                    "{error}, and {pass} alone is drawn in tiles: give the pass a fixed size in eddy.toml, or choose a smaller \
-                 resolution"
-                )
-            }
-            _ => return self,
-        };
-        error.into()
-    }
-}
-
-/// Compiles a project, its diagnostics going into the report.
-fn build(
-    offline: &mut Offline,
-    (project, media): (&Project, &MediaSet),
-    report: &mut Report,
-    run: &RunArgs,
-    (wanted, probe): (Vec<PassName>, Option<(PassName, Probe)>),
-) -> Result<(), RunError> {
-    let trials = TrialSettings::of_this_program(run.compile_timeout);
-    let trial = trials.map(|trials| trials.trial(run.media.clone(), Arc::default()));
-    let options = BuildOptions {
-        wanted,
-        skip: !run.no_skip,
-        without: run.without_pass.set(),
-        probe,
-        trial,
-        tile: offline.tile(),
-    };
-    let (diagnostics, sources) = match offline.build(project, media, &options) {
-        Err(BuildError::Diagnostics { diagnostics, sources }) => {
-            report.diagnose(&diagnostics, &sources, Some(project));
-            return Err(RunError::Diagnostics(Vec::new(), sources));
-        }
-        other => other?,
-    };
-    report.diagnose(&diagnostics, &sources, Some(project));
-    Ok(())
-}
-
-/// Sets up the sound pass of a project that is open, to be drawn beside its pictures.
-pub(super) fn open_sound_of(
-    machine: &mut Machine,
-    report: &mut Report,
-    project: (&Project, &MediaSet),
-    run: &RunArgs,
-    inputs: ScriptedInputs,
-) -> Result<Offline, RunError> {
-    let mut offline = Offline::new(&machine.gpu()?, run.size, inputs)?;
-    offline.set_frame_limit(run.frame_timeout);
-    build(&mut offline, project, report, run, (vec![PassName::sound()], None))?;
-    Ok(offline)
-}
-
-/// Turns the camera on that was asked for, if a channel reads one, and waits for its first picture. Returns what to say of
-/// channels that show none.
-fn camera(media: &mut MediaSet, project: &Project, wanted: Option<&CameraSource>) -> Vec<Diagnostic> {
-    let of_channels = media.camera_warnings(project);
-    let Some(source) = wanted.filter(|_| !of_channels.is_empty()) else { return of_channels };
-    let camera = Camera::open(source.clone(), &Tools::default(), || ());
-    match camera.wait(CAMERA_PATIENCE) {
-        Ok(_) => {
-            media.set_camera(Some(camera));
-            Vec::new()
-        }
-        Err(error) => {
-            let message = format!("--webcam {source}: {error}; channels that read it are black");
-            vec![Diagnostic::warning(None, message).hint(error.hint())]
-        }
-    }
-}
-
-/// The first picture of a camera is waited for so long.
-const CAMERA_PATIENCE: Duration = Duration::from_secs(15);
-
-/// Fails for a pass that the project does not have.
-fn is_there(project: &Project, pass: &PassName) -> Result<(), RunError> {
-    match project.pass(pass) {
-        None => {
-            let there: Vec<&str> = project.passes.iter().map(|p| p.id.key()).collect();
-            let error = anyhow::anyhow!("there is no pass {}; there are {}", pass.key(), project::listed(&there));
-            Err(error.into())
-        }
-        Some(_) => Ok(()),
-    }
-}
-
-/// Fails for a pass that has no picture.
-fn is_picture(pass: &PassName) -> Result<(), RunError> {
-    if pass.is_picture() {
-        return Ok(());
-    }
-    let what = format!("{} makes no picture; `eddy render --pass sound --out x.wav` writes its samples", pass.title());
-    Err(RunError::Unsupported(what))
 }
 
 pub(super) fn millis_since(began: Instant) -> f64 {

@@ -21,6 +21,7 @@ mod manuals;
 mod measured;
 mod memory;
 mod nonfinite;
+mod opening;
 mod panic_hook;
 mod plan;
 mod precision;

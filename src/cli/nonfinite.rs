@@ -2,7 +2,8 @@
 
 use super::{
     args::TraceArgs,
-    machine::{Machine, RunError, open_measured},
+    machine::{Machine, RunError},
+    opening::{Opened, Opening},
     report::Report,
     source_excerpt::SourceExcerpt,
     terminal::one_line,
@@ -85,8 +86,8 @@ fn start(
     spec: &str,
     inputs: &ScriptedInputs,
 ) -> Result<(Project, Offline), RunError> {
-    let (project, offline, _) =
-        open_measured(machine, report, spec, &args.run, (&PassName::image(), &nonfinite::drawn), inputs.clone())?;
+    let opening = Opening::new(spec, &args.run, inputs).with_passes(&nonfinite::drawn);
+    let Opened { project, offline, .. } = opening.open(machine, report)?;
     Ok((project, offline))
 }
 

@@ -2,7 +2,8 @@
 
 use super::{
     args::RenderArgs,
-    machine::{Machine, RunError, millis_since, open_measured},
+    machine::{Machine, RunError, millis_since},
+    opening::Opening,
     report::{Printer, Report},
     targets::Targets,
     terminal::one_line,
@@ -71,8 +72,8 @@ fn plan(
     targets: &Targets,
     inputs: &ScriptedInputs,
 ) -> Result<Plan, RunError> {
-    let (_, mut offline, _) =
-        open_measured(machine, report, spec, &args.drawn(), (&args.pass.pass, &|_| Vec::new()), inputs.clone())?;
+    let drawn = args.drawn();
+    let mut offline = Opening::new(spec, &drawn, inputs).pass(&args.pass.pass).open(machine, report)?.offline;
     let (at, tasks) = (&targets.at, targets.shard.count);
     let blocks: Vec<(u32, u32)> = (0..tasks)
         .map(|index| Shard { index, count: tasks }.part_of(at.len() as u64))

@@ -3,7 +3,8 @@
 use super::{
     args::{HostProgram, ProbeArgs},
     command::{CommandError, Run},
-    machine::{Machine, RunError, open_probed, pass_over},
+    machine::{Machine, RunError, pass_over},
+    opening::Opening,
     report::{Printer, Report},
     targets,
     terminal::{one_line, shown_path},
@@ -96,7 +97,8 @@ fn probed(
         let (source, at) = args.at.find(project).map_err(anyhow::Error::msg)?;
         Ok(Probe { source, at, visit: args.visit })
     };
-    let mut offline = open_probed(machine, report, &args.project, &args.run, (&pass, &probe), inputs)?;
+    let opening = Opening::new(&args.project, &args.run, &inputs).pass(&pass).probe(&probe);
+    let mut offline = opening.open(machine, report)?.offline;
     for _ in 0..args.frame {
         pass_over(&mut offline, &args.run)?;
         report.frames += 1;

@@ -2,7 +2,8 @@
 
 use super::{
     args::RunArgs,
-    machine::{Machine, RunError, open_sound_of},
+    machine::{Machine, RunError},
+    opening::open_sound_of,
     render::note,
     report::Report,
 };

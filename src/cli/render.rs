@@ -5,8 +5,9 @@ use super::{
     checkpoints::Checkpoints,
     command::{CommandError, Run},
     failure::error_chain,
-    machine::{Machine, RunError, millis_since, open_measured, open_sound_of, pass_over},
+    machine::{Machine, RunError, millis_since, pass_over},
     measured::{self, Measured, Measures},
+    opening::{Opened, Opening, open_sound_of},
     plan,
     progress::CallProgress,
     recorded_sound::recorded_sound,
@@ -165,8 +166,9 @@ impl Job<'_> {
             args.probe.iter().chain(asserted).chain(&declared).map(|quantity| quantity.pass.clone()).collect()
         };
         let spec = &args.project[self.index];
-        let (project, mut offline, media) =
-            open_measured(machine, report, spec, &args.drawn(), (&picture.pass, &beside), inputs.clone())?;
+        let drawn = args.drawn();
+        let opening = Opening::new(spec, &drawn, inputs).pass(&picture.pass).with_passes(&beside);
+        let Opened { project, mut offline, media } = opening.open(machine, report)?;
         let (declared, unread) = measured::declared(&project);
         report.diagnose(&unread, &project.sources(), Some(&project));
         let mut measures = Measures::new(&project, args.probe.iter().cloned().chain(declared).collect(), &args.assert);
@@ -434,11 +436,9 @@ impl Job<'_> {
         let open = || {
             // What there is to say of the project was said when it was opened first.
             let mut quiet = Report::swept(&report.project, &report.sweep);
-            let wanted = (&args.pass.pass, &|_: &_| Vec::new() as Vec<_>);
-            let spec = &report.project;
-            let (wanted, beside) = wanted;
-            let opened = open_measured(machine, &mut quiet, spec, &args.drawn(), (wanted, beside), inputs.clone());
-            opened.map(|(_, offline, _)| offline)
+            let drawn = args.drawn();
+            let opening = Opening::new(&report.project, &drawn, inputs).pass(&args.pass.pass);
+            opening.open(machine, &mut quiet).map(|opened| opened.offline)
         };
         Seam::open(fade, frames, open, || Ok(()))
     }

@@ -3,7 +3,8 @@
 
 use super::{
     args::RenderArgs,
-    machine::{Machine, RunError, millis_since, open_sound},
+    machine::{Machine, RunError, millis_since},
+    opening::Opening,
     progress::CallProgress,
     report::{Printer, Report},
     targets::{check_folder, stems, tells_case_apart},
@@ -170,7 +171,8 @@ pub(super) fn run(args: &RenderArgs, sounds: &Sounds, inputs: &ScriptedInputs) -
         let mut report = Report::new(spec);
         progress.open(&report.title());
         let made = machine.attempt(&mut report, |machine, report| {
-            let mut offline = open_sound(machine, report, spec, &args.run, inputs.clone())?;
+            let opened = Opening::new(spec, &args.run, inputs).sound_pass().open(machine, report)?;
+            let mut offline = opened.offline;
             let (mut frames, mut millis) = (Vec::new(), Vec::new());
             let progress = progress.begin(&report.title(), blocks as usize, blocks);
             for block in 0..blocks {

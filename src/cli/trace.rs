@@ -4,8 +4,9 @@ use super::{
     args::{HostProgram, TraceArgs},
     command::{CommandError, Run},
     divergence::{self, DivergenceReport},
-    machine::{Machine, RunError, open, pass_over},
+    machine::{Machine, RunError, pass_over},
     nonfinite::{self, Begin},
+    opening::{Opened, Opening},
     printed::{self, Printed},
     report::{Printer, Report},
     source_excerpt::SourceExcerpt,
@@ -157,7 +158,8 @@ fn traced(
     inputs: ScriptedInputs,
 ) -> Result<Traced, RunError> {
     let pass = &args.pass.pass;
-    let (project, mut offline) = open(machine, report, spec, &args.run, pass, inputs.clone())?;
+    let opening = Opening::new(spec, &args.run, &inputs).pass(pass);
+    let Opened { project, mut offline, .. } = opening.open(machine, report)?;
     for _ in 0..args.frame {
         pass_over(&mut offline, &args.run)?;
     }
