@@ -11,7 +11,7 @@ use std::io;
 
 /// A command whose arguments have been parsed.
 pub(super) trait Run {
-    /// Whether the command opens a graphics device.
+    /// True for a command that opens a graphics device.
     const OPENS_DEVICE: bool = false;
 
     /// Returns the value of `--as`, and the projects that it applies to.

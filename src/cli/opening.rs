@@ -29,7 +29,7 @@ pub(super) type FindProbe<'a> = &'a dyn Fn(&Project) -> anyhow::Result<Probe>;
 pub(super) struct Opened {
     pub project: Project,
     pub offline: Offline,
-    /// What the channels read.
+    /// The pictures, sounds and models that channels and passes read.
     pub media: MediaSet,
 }
 

@@ -18,11 +18,11 @@ pub(super) struct FormatRow {
     pub depths: &'static [u32],
     /// The highest rate in frames per second, if it is lower than what people ask for.
     pub max_fps: Option<f64>,
-    /// Whether it is written from the first byte to the last, so that a pipe will do.
+    /// It is written from the first byte to the last, so that a pipe will do.
     pub is_sequential: bool,
 }
 
-/// What a file of a format contains.
+/// The content of a file.
 pub(super) enum FormatKind {
     /// One picture, by the bits of a component.
     Still(fn(u32) -> Still),
@@ -42,7 +42,7 @@ pub(super) struct Container {
     pub codecs: &'static [Codec],
     /// ffmpeg's options for the codec of its sound.
     pub sound: &'static [&'static str],
-    /// Whether it is of the ISO base media file format (ISO/IEC 14496-12), which has the options of ffmpeg's `mov` muxer.
+    /// It is of the ISO base media file format (ISO/IEC 14496-12), which has the options of ffmpeg's `mov` muxer.
     pub is_iso_media: bool,
 }
 

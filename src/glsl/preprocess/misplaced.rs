@@ -89,8 +89,8 @@ impl Preprocessor<'_, '_> {
             return false;
         }
         let line = rest.lines().next().unwrap_or_default();
-        let rest = line[ticks..].trim();
-        let is_alone = !rest.contains(|c: char| !(c.is_ascii_alphanumeric() || "+-_.#".contains(c)));
+        let after_ticks = line[ticks..].trim();
+        let is_alone = !after_ticks.contains(|c: char| !(c.is_ascii_alphanumeric() || "+-_.#".contains(c)));
         let mut span = Span { end: token.span.start + ticks as u32, ..token.span };
         let marks = span;
         if is_alone {
