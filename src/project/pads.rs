@@ -1,4 +1,5 @@
-//! Parts of a gamepad, as the standard gamepad of the W3C names and orders them (<https://www.w3.org/TR/gamepad/#remapping>).
+//! Parts of a gamepad, named and ordered as in the W3C's standard gamepad
+//! (<https://www.w3.org/TR/gamepad/#remapping>).
 
 /// The number of gamepads that are distinguished.
 pub const PADS: usize = 4;
