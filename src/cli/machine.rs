@@ -1,5 +1,5 @@
-//! This module holds what every command that draws shares: the one device of a call, and the trouble a project can
-//! bring without taking the others with it.
+//! Shared by all commands that draw: the one device of a call, and the errors of a project, which do not affect the
+//! others.
 
 use super::{
     args::RunArgs,
@@ -82,13 +82,13 @@ impl From<anyhow::Error> for RunError {
     }
 }
 
-/// The device of a call, made when the first project needs one.
+/// The device of a call, created when the first project needs one.
 #[derive(Default)]
 pub(super) struct Machine {
     gpu: Option<Gpu>,
-    /// The reason why there is no device, which is asked for once.
+    /// The reason why there is no device, which is determined once.
     refusal: Option<String>,
-    /// A device was lost, and no other has been opened since.
+    /// Set if a device was lost and no other has been opened since.
     loss: DeviceLoss,
 }
 
@@ -98,7 +98,7 @@ enum DeviceLoss {
     None,
     /// The driver may be resetting it.
     New,
-    /// Another was refused for as long as a reset takes.
+    /// Opening another one failed for as long as a reset takes.
     Lasting,
 }
 
@@ -127,14 +127,14 @@ impl Machine {
         }
     }
 
-    /// Lets go of the device: the next project gets another.
+    /// Drops the device: the next project gets a new one.
     fn drop_device(&mut self) {
         self.gpu = None;
         self.loss = DeviceLoss::New;
     }
 
-    /// Does a project's work, and puts what went wrong into its report. A panic is this project's alone, and a device
-    /// that was lost, or may have been left in disorder, is made anew for the next one.
+    /// Runs a project's work, and adds errors to its report. A panic only affects this project, and a device that was
+    /// lost, or may be in an inconsistent state, is reopened for the next one.
     pub(super) fn attempt<T>(
         &mut self,
         report: &mut Report,
@@ -150,7 +150,7 @@ impl Machine {
                     self.drop_device();
                 }
                 if let Some(OfflineError::TimedOut { .. } | OfflineError::SoundTimedOut { .. }) = error.downcast_ref() {
-                    // It is still at that frame.
+                    // The device is still busy with that frame.
                     self.drop_device();
                 }
                 report.fail(Status::Error, error_chain(&error));
@@ -162,7 +162,7 @@ impl Machine {
                 report.fail(Status::Error, format!("this is a bug in Eddy: {said}"));
             }
         }
-        // What the device said too late belongs to this project and not to the next.
+        // Late errors of the device belong to this project, not to the next.
         if let Some(gpu) = &self.gpu
             && let Err(GpuError::Lost(_)) = gpu.take_trouble("a failed project")
         {
@@ -172,20 +172,20 @@ impl Machine {
     }
 }
 
-/// Returns what a run of the lab begins with: its part of the work, by `--shard`, and the device. Err: one line that
-/// says what is wrong.
+/// Returns the initial state of a lab run: its part of the work, by `--shard`, and the device. On failure returns one
+/// line that describes the error.
 pub(super) fn shard_and_device(shard: &str) -> Result<(Shard, Gpu), String> {
     let shard = Shard::parse(shard, |name| env::var(name).ok()).map_err(|error| format!("--shard {error}"))?;
     let gpu = Machine::default().gpu().map_err(|error| error_chain(&error))?;
     Ok((shard, gpu))
 }
 
-/// Goes on by a frame that nobody sees: only what later ones read of it is drawn, unless all passes are to be.
+/// Advances by a frame that is not shown: only what later frames read of it is drawn, unless all passes are requested.
 pub(super) fn pass_over(offline: &mut Offline, run: &RunArgs) -> Result<DrawnFrame, OfflineError> {
     if run.no_skip { offline.draw() } else { offline.advance() }
 }
 
-/// Reads, compiles and sets up a project, its warnings going into the report, by which it is swept.
+/// Reads, compiles and sets up a project; the report, which has the values of the sweep, receives its warnings.
 pub(super) fn open(
     machine: &mut Machine,
     report: &mut Report,
@@ -211,10 +211,10 @@ pub(super) fn open_sound(
     opened.map(|(_, offline, _)| offline)
 }
 
-/// Says which passes of a project are read beside the wanted one.
+/// Selects the passes of a project that are read besides the requested one.
 pub(super) type FindPasses<'a> = &'a dyn Fn(&Project) -> Vec<PassName>;
 
-/// Does the same as [`open`] where further passes are read. Returns what the channels read, too.
+/// Does the same as [`open`] if further passes are read. Also returns the inputs of the channels.
 pub(super) fn open_measured(
     machine: &mut Machine,
     report: &mut Report,
@@ -227,10 +227,10 @@ pub(super) fn open_measured(
     open_with(machine, report, spec, run, (wanted, beside, None), inputs)
 }
 
-/// Says which value of a project is probed.
+/// Selects the probed value of a project.
 pub(super) type FindProbe<'a> = &'a dyn Fn(&Project) -> anyhow::Result<Probe>;
 
-/// Does the same as [`open`] for a project of which a value of a pass is drawn.
+/// Does the same as [`open`] for a project of which a pass's value is drawn.
 pub(super) fn open_probed(
     machine: &mut Machine,
     report: &mut Report,
@@ -271,7 +271,7 @@ fn open_with(
     let policy = tiles::policy(run, &gpu, probe.is_some() || beside.contains(wanted))?;
     let pass = wanted.title();
     let probe = probe.map(|probe| anyhow::Ok((wanted.clone(), probe(&project)?))).transpose()?;
-    // Nobody looks at the picture of a pass of which a value is asked for.
+    // If a value of a pass is probed, its picture is not used.
     let wanted = if probe.is_some() { BuildOptions::probed() } else { wanted.clone() };
     let wanted = [wanted].into_iter().chain(beside).collect();
     let passes = (wanted, probe);
@@ -306,12 +306,12 @@ impl RunError {
         if let RunError::Other(error) = self { error.downcast_ref() } else { None }
     }
 
-    /// A pass cannot be drawn in tiles.
+    /// Returns whether the error is that a pass cannot be drawn in tiles.
     fn is_undivided(&self) -> bool {
         matches!(self.engine_error(), Some(EngineError::Undivided { .. }))
     }
 
-    /// Says why the picture of `pass` had to be drawn in tiles, or another one could not be.
+    /// Returns the error of a picture of `pass` that needs tiles, or of another one that does not support them.
     fn in_tiles(self, pass: &str, policy: TilePolicy, gpu: &Gpu) -> RunError {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         let error = match self.engine_error() {
@@ -330,7 +330,7 @@ impl RunError {
     }
 }
 
-/// Compiles a project, its diagnostics going into the report.
+/// Compiles a project, adding its diagnostics to the report.
 fn build(
     offline: &mut Offline,
     (project, media): (&Project, &MediaSet),
@@ -359,7 +359,7 @@ fn build(
     Ok(())
 }
 
-/// Sets up the sound pass of a project that is open, to be drawn beside its pictures.
+/// Sets up the sound pass of an open project, to be drawn in addition to its pictures.
 pub(super) fn open_sound_of(
     machine: &mut Machine,
     report: &mut Report,
@@ -373,7 +373,7 @@ pub(super) fn open_sound_of(
     Ok(offline)
 }
 
-/// Turns the camera on that was asked for, if a channel reads one, and waits for its first picture. Returns what to say of
+/// Starts the requested camera, if a channel reads one, and waits for its first picture. Returns diagnostics about
 /// channels that show none.
 fn camera(media: &mut MediaSet, project: &Project, wanted: Option<&CameraSource>) -> Vec<Diagnostic> {
     let of_channels = media.camera_warnings(project);
@@ -391,10 +391,10 @@ fn camera(media: &mut MediaSet, project: &Project, wanted: Option<&CameraSource>
     }
 }
 
-/// The first picture of a camera is waited for so long.
+/// The timeout for a camera's first picture.
 const CAMERA_PATIENCE: Duration = Duration::from_secs(15);
 
-/// Fails for a pass that the project does not have.
+/// Fails if the project does not have the pass.
 fn is_there(project: &Project, pass: &PassName) -> Result<(), RunError> {
     match project.pass(pass) {
         None => {
@@ -424,7 +424,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_is_one_projects_bug_and_the_next_goes_on() {
+    fn a_panic_is_a_bug_of_one_project_and_the_next_continues() {
         let mut machine = Machine::default();
         let mut report = Report::new("x");
         let done = machine.attempt(&mut report, |_, _| -> Result<(), RunError> { panic!("by {}", "design") });
