@@ -74,8 +74,8 @@ fn run(args: &LabArgs) -> io::Result<u8> {
     finish(measured.and_then(|results| report(out, &studies, &results)))
 }
 
-/// Merges the results of `from` into those of an earlier merge in `out`. Of two results for the same measurement, the one
-/// for this build's texts is kept, else the one of `from`.
+/// Merges the results of `from` into those of an earlier merge in `out`. Of two results for the same measurement,
+/// the one for this build's texts is kept, else the one of `from`.
 fn merge(from: &[PathBuf], out: &Path) -> Result<String, LabError> {
     let before = out.join(RESULTS_FILE).exists().then(|| out.to_owned());
     let folders: Vec<PathBuf> = before.into_iter().chain(from.iter().cloned()).collect();

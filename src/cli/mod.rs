@@ -61,7 +61,7 @@ use std::{
 /// nest deeply; unused pages cost nothing.
 const STACK_BYTES: usize = 256 << 20;
 
-/// What the binary does after [`main`].
+/// The action of the binary after [`main`].
 pub enum Next {
     /// Exit with a code.
     Exit(ExitCode),

@@ -107,8 +107,8 @@ impl Running {
         Ok(())
     }
 
-    /// Installs new textures. They take over the contents of the present ones, and else start with those before frame
-    /// 0.
+    /// Installs new textures. They take over the contents of the present ones, and else start with those
+    /// before frame 0.
     fn take(&mut self, shared: &Shared, new: NewTextures) {
         self.depths = new.depths;
         self.is_blank.clear();

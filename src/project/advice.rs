@@ -13,8 +13,8 @@ pub fn advice(project: &Project) -> Vec<Diagnostic> {
     warnings
 }
 
-/// Returns a warning for each channel of a sound pass that reads black there, as on Shadertoy (`shadertoy.md`, section
-/// 8).
+/// Returns a warning for each channel of a sound pass that reads black there, as on Shadertoy
+/// (`shadertoy.md`, section 8).
 fn unheard(project: &Project) -> Vec<Diagnostic> {
     let Some(sound) = project.sound() else { return Vec::new() };
     let mut warnings = Vec::new();

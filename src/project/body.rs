@@ -1,4 +1,4 @@
-//! What a pass draws: every texel of its target, or meshes.
+//! The content that a pass draws: every texel of its target, or meshes.
 
 use super::{Geometry, MeshDraw, Source, Stage, TexelFormat};
 
