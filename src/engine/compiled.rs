@@ -51,7 +51,7 @@ impl CompiledPass {
         &self.programs
     }
 
-    /// Returns what the planner has to know of it.
+    /// Returns the properties that the planner needs.
     pub fn facts(&self) -> PassFacts {
         PassFacts {
             channels: self.reflection.channels.map(|c| ChannelFacts { is_read: c.is_read(), reaches_mips: c.mips }),
