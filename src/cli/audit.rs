@@ -1,4 +1,4 @@
-//! The part of `eddy lab precision` that holds a pass against double precision.
+//! The part of `eddy lab precision` that compares a pass with double precision.
 
 use super::{
     args::PrecisionArgs,
@@ -22,9 +22,9 @@ use crate::{
 use serde::Serialize;
 use std::{fmt::Write, path::PathBuf};
 
-/// Pixels that are listed.
+/// The number of listed pixels.
 const WORST: usize = 5;
-/// The errors that a picture of them shows as black and as white.
+/// The errors that an error map shows as black and as white.
 const BLACK: f32 = 1e-8;
 
 #[derive(Debug, Serialize)]
@@ -32,30 +32,30 @@ pub(super) struct Audited {
     pass: String,
     frame: u32,
     pixels: usize,
-    /// The median of the pixels' largest difference of a component, device against double precision.
+    /// The median over pixels of the largest difference of a component, GPU against double precision.
     median: Number,
     largest: Number,
-    /// Pixels that a screen of 8 bits would show otherwise.
+    /// Pixels that would look different on an 8-bit screen.
     visible: usize,
     worst: Vec<LeastPrecise>,
-    /// Baseline the walker; null where the pass stores fewer bits than it computes with.
+    /// Comparison with the walker in single precision; null if the pass stores fewer bits than it computes with.
     walker: Option<WalkerComparison>,
     findings: Vec<Found>,
     #[serde(skip_serializing_if = "Option::is_none")]
     written: Option<PathBuf>,
 }
 
-/// The device against the single precision of the walker: what is apart here is the device's own arithmetic.
+/// The GPU against the walker in single precision: the differences are the GPU's own arithmetic.
 #[derive(Debug, Serialize)]
 struct WalkerComparison {
-    /// Pixels of the same bits.
+    /// Pixels with equal bits.
     same: usize,
-    /// Numbers of single precision between the two, of a pixel's components that are furthest apart.
+    /// The median over pixels of the distance in ulps, of the component that differs most.
     median_ulps: u32,
     largest_ulps: u32,
-    /// Pixels that differ by more than 1/255, of themselves where they are larger than 1.
+    /// Pixels that differ by more than 1/255, relative to values larger than 1.
     visible: usize,
-    /// The pixel that is furthest apart, if any is.
+    /// The pixel with the largest difference, if there is one.
     furthest: Option<LargestDeviation>,
 }
 
@@ -81,15 +81,15 @@ struct Found {
     #[serde(flatten)]
     written: SourceExcerpt,
     numbers: String,
-    /// It is an operation on constants: every pixel that comes there has it.
+    /// True for an operation on constants: it affects every pixel that executes it.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     constant: bool,
-    /// The number of the pixels that show it, and the one that shows it most.
+    /// The number of the affected pixels, and the one most affected.
     pixels: usize,
     pixel: [u32; 2],
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<Number>,
-    /// The error where this operation alone is exact.
+    /// The remaining error if only this operation is exact.
     #[serde(skip_serializing_if = "Option::is_none")]
     error_left: Option<Number>,
 }
@@ -197,7 +197,7 @@ fn compare_with_walker(audit: &Audit, texel: impl Fn((u32, u32)) -> [f32; 4], st
     }
 }
 
-/// The logarithms, as greys of a screen, without alpha.
+/// The logarithms as greys of a screen, without alpha.
 fn shown(map: &Pixels) -> Pixels {
     let grey = |x: f32| if x > BLACK { 1.0 - x.log10() / BLACK.log10() } else { 0.0 };
     let texels = map.texels.iter().map(|t| [grey(t[0]), grey(t[1]), grey(t[2]), 1.0]).collect();

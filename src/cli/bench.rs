@@ -1,5 +1,5 @@
-//! `eddy bench`: what a frame costs, by the clock, by pass on the device, and in the engine itself; and what leaving
-//! out what nobody reads is worth.
+//! `eddy bench`: the cost of a frame, by the clock, by pass on the GPU, and in the engine itself; and the savings from
+//! omitting passes that are not read.
 
 use super::{
     args::{BenchArgs, HostProgram},
@@ -18,7 +18,7 @@ use crate::{
 use serde::Serialize;
 use std::{collections::HashMap, fmt::Write, io};
 
-/// Frames before the measured ones: the driver compiles, buffers fill, clocks rise.
+/// The number of frames before the measured ones: the driver compiles, buffers fill, clock rates rise.
 const WARM_UP: u32 = 10;
 
 /// Medians over the measured frames.
@@ -27,26 +27,26 @@ struct Costs {
     width: u32,
     height: u32,
     device: String,
-    /// Microseconds the engine itself needs on the processor for each pass it draws.
+    /// The engine's own CPU time in microseconds for each pass it draws.
     cpu_us_per_pass: f64,
     /// The slowest frame.
     worst_ms: f64,
-    /// The clock of the passes' `ms`: `timestamps` of the device, or `waited`: each pass handed in and waited for by
-    /// itself.
+    /// The clock of the passes' `ms`: `timestamps` of the GPU, or `waited`: each pass is submitted and waited for
+    /// separately.
     clock: &'static str,
     /// In drawing order.
     passes: Vec<PassCost>,
-    /// Sum of the passes'.
+    /// The sum over the passes.
     moved_bytes: u64,
-    /// Passes of the project that no wanted picture needs.
+    /// Passes of the project that no requested picture depends on.
     passes_skipped: Vec<String>,
     /// Passes that are not drawn because their conditions are false.
     passes_off: Vec<PassOff>,
-    /// Bytes of the targets, and how many more they were if nothing were left out.
+    /// The bytes of the targets, and how many more there would be if no pass were omitted.
     target_bytes: u64,
     target_bytes_saved: u64,
-    /// Passes that a frame left out because nothing they read had changed, and the bytes of texels not written for it;
-    /// means over the measured frames.
+    /// Passes that a frame skipped because their inputs had not changed, and the bytes of texels whose writes this
+    /// saved; means over the measured frames.
     passes_rested: f64,
     bytes_rested: f64,
 }
@@ -58,7 +58,7 @@ struct PassOff {
     #[serde(skip)]
     title: String,
     when: String,
-    /// The draws that a frame would do for it.
+    /// The number of draws that a frame would execute for it.
     steps: u32,
 }
 
@@ -67,20 +67,21 @@ struct PassCost {
     pass: String,
     #[serde(skip)]
     title: String,
-    /// `None` where the device has no timestamps.
+    /// `None` if the device has no timestamps.
     gpu_ms: Option<f64>,
-    /// Milliseconds by the `clock` of the project.
+    /// Milliseconds by the project's `clock`.
     ms: Option<f64>,
     /// Texels of its targets.
     width: u32,
     height: u32,
     /// The format of each of its targets, as `eddy.toml` spells them.
     formats: Vec<&'static str>,
-    /// The number of times that it is drawn in a frame.
+    /// The number of draws per frame.
     steps: u32,
-    /// Bytes its textures take, mip levels, the second one of a pair and the depth buffer among them.
+    /// The bytes of its textures, including mip levels, the second texture of a pair and the depth buffer.
     held_bytes: u64,
-    /// Fewest bytes that a frame moves for it: its texels written, those of each pass it reads read once, at each step.
+    /// The minimum bytes that a frame moves for it: its texels written, those of each pass it reads read once, at each
+    /// step.
     moved_bytes: u64,
 }
 
@@ -107,7 +108,7 @@ impl Run for BenchArgs {
     }
 }
 
-/// Measures every project at every combination of `sweep`.
+/// Measures every project with every combination of `sweep`.
 fn run(args: &BenchArgs, sweep: &[Vec<String>], inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
     let mut machine = Machine::default();
@@ -129,7 +130,7 @@ fn measure(
     inputs: ScriptedInputs,
 ) -> Result<Costs, RunError> {
     let Opened { project, mut offline, .. } = Opening::new(spec, &args.run, &inputs).open(machine, report)?;
-    // A recording is measured from its first frame on, once for each kind of time.
+    // A recording is measured from its first frame on, once for each clock.
     let is_replay = args.run.replay.is_some();
     for _ in 0..if is_replay { WARM_UP.min(args.frames()) } else { WARM_UP } {
         offline.draw()?;
@@ -147,7 +148,7 @@ fn measure(
         millis.push(frame.millis);
         report.frames += 1;
     }
-    // PictureDifference from the others: timestamps cost a little in every frame, and waiting for each pass more.
+    // Separately from the others: timestamps cost a little in every frame, and waiting for each pass more.
     let clock = offline.engine()?.cost_clock();
     if is_replay {
         offline.rewind()?;
@@ -207,7 +208,7 @@ fn measure(
     })
 }
 
-/// Median time of each pass in the frames in which it was drawn.
+/// The median time of each pass in the frames in which it was drawn.
 fn pass_times(offline: &mut Offline, frames: u32) -> Result<HashMap<PassName, f64>, RunError> {
     let mut times: HashMap<PassName, Vec<f64>> = HashMap::new();
     for _ in 0..frames {

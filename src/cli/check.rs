@@ -1,5 +1,5 @@
-//! `eddy check`: every pass of every project through the compiler, with no graphics device, and what the site would do
-//! differently.
+//! `eddy check`: compiles every pass of every project, without a graphics device, and reports differences from
+//! Shadertoy.
 
 use super::{
     args::{CheckArgs, Consumer},
@@ -28,7 +28,7 @@ impl Run for CheckArgs {
 
 fn run(args: &CheckArgs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
-    // No device is made; the machine only keeps one project's panic from the others.
+    // No device is created; the machine only isolates the projects from each other's panics.
     let mut machine = Machine::default();
     for spec in &args.project {
         let mut report = Report::new(spec);
@@ -63,7 +63,7 @@ fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String)
     let driver = Driver { without: args.without_pass.set(), ..Driver::default() };
     let (mut found, compiled) = compile(project, driver);
     report.compile_ms = Some(millis_since(began));
-    // A device would be asked this.
+    // The validation that a device would perform.
     found.extend(compiled.iter().filter_map(|pass| pass.validate().err()));
     if let Some(pass) = &args.dump_ir {
         *dumped = dump_ir(project, driver, Some(pass.as_str()).filter(|pass| !pass.is_empty()));
@@ -75,14 +75,14 @@ fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String)
         found.extend(xscreensaver::advice(project));
     }
     found.extend(media::diagnose(project));
-    // The reader has said some of it already, with its place in `eddy.toml`.
+    // The reader has already reported some of it, with its place in `eddy.toml`.
     let is_new = |d: &Diagnostic| !loaded.warnings.iter().any(|known| d.repeats(known));
     found.extend(project::advice(project).into_iter().filter(is_new));
     report.diagnose(&found, &project.sources(), Some(project));
     Ok(())
 }
 
-/// Returns what the compiler says of a plain shader, as the language server does; `None` for other files.
+/// Returns the compiler's diagnostics for a plain shader, like the language server; `None` for other files.
 fn check_plain(project: &Project) -> Option<Vec<Diagnostic>> {
     let (Origin::File(path), [pass]) = (&project.origin, project.passes.as_slice()) else { return None };
     let kind = match ShaderForm::of(path, &pass.source.text) {
@@ -106,7 +106,7 @@ fn dump_ir(project: &Project, driver: Driver, pass: Option<&str>) -> String {
     out
 }
 
-/// Returns everything the compiler says of Common alone and of every pass, each once, and what compiled.
+/// Returns the compiler's diagnostics of Common alone and of every pass, without duplicates, and the compiled passes.
 fn compile(project: &Project, driver: Driver) -> (Vec<Diagnostic>, Vec<CompiledPass>) {
     let mut found: Vec<Diagnostic> = Vec::new();
     let mut compiled = Vec::new();

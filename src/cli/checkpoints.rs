@@ -1,4 +1,4 @@
-//! States of a run on disk: written every so many frames by one call of `eddy render`, and gone on from by others.
+//! Checkpoints of a run on disk: written at intervals by one call of `eddy render`, and resumed by others.
 
 use super::{args::RenderArgs, machine::RunError, written::make_folder};
 use crate::{
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// The checkpoints of one project of a call.
 pub(super) struct Checkpoints<'a> {
     args: &'a RenderArgs,
-    /// The name of the project's files, with what a sweep sets.
+    /// The name of the project's files, including the values of a sweep.
     stem: String,
     moment: Moment,
 }
@@ -46,8 +46,8 @@ impl<'a> Checkpoints<'a> {
         Ok(made)
     }
 
-    /// Goes on from the checkpoint of `--resume` from which the fewest frames are drawn before `first`. Returns the frame
-    /// that is drawn next, and a remark.
+    /// Resumes from the checkpoint of `--resume` that leaves the fewest frames to draw before `first`. Returns the next
+    /// frame to draw, and a note.
     pub(super) fn resume(&self, offline: &mut Offline, first: u32) -> Result<(u32, Option<String>), RunError> {
         let Some(place) = &self.args.resume else { return Ok((0, None)) };
         let file = match place.is_dir() {

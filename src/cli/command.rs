@@ -1,4 +1,4 @@
-//! The table of commands. A row has a command's name, its help and its arguments; what it does is [`Run`] of the arguments, in
+//! The table of commands. A row has a command's name, its help and its arguments; the arguments implement [`Run`], in
 //! the command's own file.
 
 use super::args::{
@@ -23,10 +23,10 @@ pub(super) trait Run {
     fn run(&mut self) -> Result<u8, CommandError>;
 }
 
-/// A command did not run to its end.
+/// The reason why a command failed.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum CommandError {
-    /// The arguments contradict each other, or the whole call cannot be done.
+    /// The arguments contradict each other, or the whole call is impossible.
     #[error("{0}")]
     Refused(String),
     #[error("cannot write to standard output: {0}")]

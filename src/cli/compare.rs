@@ -1,7 +1,7 @@
-//! `eddy compare`: how far the pictures of two projects are apart, and how their times compare.
+//! `eddy compare`: the differences between the pictures of two projects, and between their times.
 //!
-//! Both get the same inputs and draw the same frames. Their times are taken in turns, so that a machine that is busy
-//! is busy for both, and as with `--no-skip`, so that a picture at rest costs what it costs to draw.
+//! Both get the same inputs and draw the same frames. Their times are measured alternately, so that a busy machine
+//! affects both equally, and as with `--no-skip`, so that a static picture costs as much as a changing one.
 
 use super::{
     args::{CompareArgs, CompareView, HostProgram, RunArgs},
@@ -28,7 +28,7 @@ use anyhow::anyhow;
 use serde::Serialize;
 use std::{fmt::Write, io, path::PathBuf};
 
-/// Frames that a project draws in its turn.
+/// The frames that a project draws per turn.
 const TURN: u32 = 4;
 
 /// The report of `render`, and the comparison.
@@ -49,15 +49,15 @@ struct Compared {
     height: u32,
     /// Texels that differ in any bit.
     texels_apart: usize,
-    /// Largest difference of a component.
+    /// The largest difference of a component.
     largest: Number,
-    /// Root of the mean square of the components' differences; 1 is the range of a screen.
+    /// The root mean square of the components' differences; 1 is the range of a screen.
     rmse: Number,
-    /// The ratio of the components as a screen shows them, in dB.
+    /// The peak signal-to-noise ratio of the components as shown on a screen, in dB.
     psnr: Number,
-    /// Structural similarity of luma; null for pictures of less than 11 pixels a side.
+    /// The structural similarity of luma; null for pictures of less than 11 pixels a side.
     ssim: Option<f64>,
-    /// Mean of the FLIP map.
+    /// The mean of the FLIP map.
     flip: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     time: Option<Time>,
@@ -65,12 +65,12 @@ struct Compared {
     written: Option<PathBuf>,
 }
 
-/// Milliseconds a frame, and the project's over the reference's.
+/// Milliseconds per frame, and the ratio of the project's to the reference's.
 #[derive(Debug, Serialize)]
 struct Time {
     project_ms: f64,
     reference_ms: f64,
-    /// Median over the turns, and the quartiles.
+    /// The median over the turns, and the quartiles.
     ratio: f64,
     ratio_low: f64,
     ratio_high: f64,
@@ -121,7 +121,7 @@ fn compare(
         (None, reference) => reference.clone().unwrap_or_default(),
     };
     let pass = &args.pass;
-    // What is timed is drawn, also where nothing changes; the pictures stay the same.
+    // Timed frames are drawn even if nothing changes; the pictures stay the same.
     let drawn = RunArgs { no_skip: args.run.no_skip || args.repeats > 0, ..args.run.clone() };
     let opening = |spec| Opening::new(spec, &drawn, inputs).pass(&pass.pass);
     let mut ours = opening(&args.project).open(machine, report)?.offline;
@@ -170,7 +170,7 @@ impl Compared {
     }
 }
 
-/// One picture of both.
+/// Combines both pictures in one.
 fn shown(view: CompareView, a: &Pixels, b: &Pixels, apart: &PictureDifference) -> Pixels {
     let (width, height) = (a.width as usize, a.height as usize);
     let rows =
@@ -183,7 +183,7 @@ fn shown(view: CompareView, a: &Pixels, b: &Pixels, apart: &PictureDifference) -
         }
         CompareView::Difference => return difference::difference(a, b, 1.0),
         CompareView::Flip => {
-            // A screen's rows go from the top down.
+            // The rows of a screen go from the top down.
             let grey = |&x: &f64| [x as f32, x as f32, x as f32, 1.0];
             apart.flip.chunks_exact(width).rev().flat_map(|row| row.iter().map(grey)).collect::<Vec<_>>()
         }
@@ -202,12 +202,12 @@ fn times(ours: &mut Offline, theirs: &mut Offline, repeats: u32) -> Result<Time,
         }
         Ok(millis.iter().sum::<f64>() / f64::from(TURN))
     };
-    // Drivers compile for the machine when a pipeline is first used.
+    // Drivers compile when a pipeline is first used.
     turn(ours)?;
     turn(theirs)?;
     let mut turns = Vec::new();
     for repeat in 0..repeats {
-        // Each goes first as often as the other.
+        // Each goes first equally often.
         let first = if repeat % 2 == 0 { Some(turn(ours)?) } else { None };
         let reference = turn(theirs)?;
         turns.push((first.map_or_else(|| turn(ours), Ok)?, reference));

@@ -1,4 +1,4 @@
-//! The first assignment of a traced pixel that the device makes otherwise than the walker.
+//! The first assignment of a traced pixel for which the GPU and the walker differ.
 
 use super::{args::TraceArgs, machine::RunError, source_excerpt::SourceExcerpt};
 use crate::{
@@ -14,32 +14,32 @@ use crate::{
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Holds what a search has found.
+/// The result of a search.
 #[derive(Debug, Serialize)]
 pub(super) struct DivergenceReport {
-    /// Assignments that were compared, of so many that the pixel has.
+    /// The number of compared assignments, and of all assignments of the pixel.
     compared: usize,
     assignments: usize,
-    /// Null where all that were compared are the same.
+    /// Null if all compared assignments are equal.
     first: Option<First>,
 }
 
-/// The first that was found.
+/// The first divergent assignment.
 #[derive(Debug, Serialize)]
 struct First {
     #[serde(flatten)]
     written: SourceExcerpt,
     name: String,
-    /// Says how often the expression had been evaluated before.
+    /// The number of earlier evaluations of the expression.
     visit: u32,
     walker: Vec<Number>,
-    /// Null where the device does not come there so often.
+    /// Null if the GPU does not evaluate it this often.
     device: Option<Vec<Number>>,
-    /// Numbers of single precision between the two.
+    /// The distances between the two in ulps of single precision.
     ulps: Vec<u32>,
 }
 
-/// Looks for it in the frame after those that are drawn: `before` is what the engine's targets held then.
+/// Searches the frame after those that are drawn: `before` is the contents of the engine's targets then.
 pub(super) fn find(
     args: &TraceArgs,
     project: &Project,

@@ -1,4 +1,4 @@
-//! `eddy lab`: studies run and reported, or the results of several machines joined.
+//! `eddy lab`: runs and reports studies, or merges the results of several machines.
 
 use super::{
     args::{HostProgram, LabArgs, LabCommand},
@@ -62,7 +62,7 @@ fn run(args: &LabArgs) -> io::Result<u8> {
     if args.list {
         return list(&studies);
     }
-    // clap asks for it.
+    // clap requires it.
     let Some(out) = &args.out else { return Ok(trouble("--out is missing")) };
     let (shard, gpu) = match shard_and_device(&args.shard) {
         Ok(both) => both,
@@ -74,7 +74,8 @@ fn run(args: &LabArgs) -> io::Result<u8> {
     finish(measured.and_then(|results| report(out, &studies, &results)))
 }
 
-/// Keeps what `out` holds of an earlier merge where `from` has nothing newer, and nothing of this build's texts.
+/// Merges the results of `from` into those of an earlier merge in `out`. Of two results for the same measurement,
+/// the one for this build's texts is kept, else the one of `from`.
 fn merge(from: &[PathBuf], out: &Path) -> Result<String, LabError> {
     let before = out.join(RESULTS_FILE).exists().then(|| out.to_owned());
     let folders: Vec<PathBuf> = before.into_iter().chain(from.iter().cloned()).collect();
@@ -85,7 +86,7 @@ fn merge(from: &[PathBuf], out: &Path) -> Result<String, LabError> {
 }
 
 fn report(out: &Path, studies: &[&'static Study], results: &Results) -> Result<String, LabError> {
-    // What other studies have left there is reported too.
+    // Results that other studies have left there are reported too.
     let all = studies::all();
     let known = all.iter().filter(|s| {
         studies.iter().any(|other| other.name == s.name) || results.errors.iter().any(|e| e.point.study == s.name)
@@ -123,7 +124,7 @@ fn list(studies: &[&Study]) -> io::Result<u8> {
     Ok(0)
 }
 
-/// Says on standard error what is measured: on a terminal in one line that is written over, else a line a point.
+/// Reports on standard error what is measured: on a terminal in one line that is overwritten, else one line per point.
 struct Progress {
     is_terminal: bool,
 }

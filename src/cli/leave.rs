@@ -1,7 +1,7 @@
-//! The end of the process where a driver hangs.
+//! Ends the process if a driver hangs.
 
-/// Ends the process without the exit handlers of libraries where a thread was left behind in a call of the driver: its
-/// handlers would wait for that thread, or free what it uses. Returns where there is none.
+/// Ends the process without the exit handlers of libraries if a thread is stuck in a call of the driver: the handlers
+/// would wait for that thread, or free memory that it uses. Returns if there is no such thread.
 #[cfg(target_os = "linux")]
 pub(super) fn end_process(code: u8) {
     use crate::{gpu::loss::OPENER, playback::offline::DRAWER};
@@ -14,7 +14,7 @@ pub(super) fn end_process(code: u8) {
     }
     let _ = std::io::stdout().flush();
     let _ = std::io::stderr().flush();
-    // SAFETY: it takes any code, and touches no memory of the process.
+    // SAFETY: `_exit` accepts any code, and accesses no memory of the process.
     unsafe { libc::_exit(code.into()) }
 }
 

@@ -1,4 +1,5 @@
-//! `eddy list`, `eddy import`, `eddy export`: presets by name, projects to and from the site's JSON, and as HTML.
+//! `eddy list`, `eddy import`, `eddy export`: lists presets, converts projects to and from Shadertoy's JSON, and to
+//! HTML.
 
 use super::{
     args::{ExportArgs, ExportFormat, ImportArgs, ListArgs},
@@ -79,7 +80,7 @@ fn export_json(args: &ExportArgs) -> io::Result<u8> {
         }
         let project = read(report, &args.project)?;
         check_directives(&project)?;
-        // A JSON file may be saved over itself in an editor; nobody who exports it means that.
+        // An editor may overwrite a JSON project in place; an export must not.
         if !args.force && args.out.symlink_metadata().is_ok() {
             return Err(mend(ProjectError::WouldOverwrite { paths: vec![args.out.clone()] }.into()));
         }
@@ -133,13 +134,13 @@ fn export_isf(args: &ExportArgs) -> io::Result<u8> {
     })
 }
 
-/// Refuses a project with a directive that cannot be obeyed.
+/// Rejects a project with an invalid directive.
 fn check_directives(project: &Project) -> Result<(), RunError> {
     let (found, sources) = session::directive_errors(project);
     if found.is_empty() { Ok(()) } else { Err(RunError::Diagnostics(found, sources)) }
 }
 
-/// Does the work of one project and prints what became of it.
+/// Processes one project and prints the result.
 fn one(spec: &str, work: impl FnOnce(&mut Report) -> Result<String, RunError>) -> io::Result<u8> {
     let mut report = Report::new(spec);
     let words = Machine::default().attempt(&mut report, |_, report| work(report));
@@ -159,7 +160,7 @@ fn save(project: &Project, to: &Path, force: bool) -> Result<(), RunError> {
     project::save(project, to, overwrite).map(drop).map_err(RunError::from).map_err(mend)
 }
 
-/// Names the option that allows what was refused.
+/// Adds the option that permits the rejected action.
 pub(super) fn mend(trouble: RunError) -> RunError {
     match trouble {
         RunError::Other(error) if matches!(error.downcast_ref(), Some(ProjectError::WouldOverwrite { .. })) => {

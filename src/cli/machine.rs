@@ -1,5 +1,5 @@
-//! This module holds what every command that draws shares: the one device of a call, and the trouble a project can
-//! bring without taking the others with it.
+//! Shared by all commands that draw: the one device of a call, and the errors of a project, which do not affect the
+//! others.
 
 use super::{
     args::RunArgs,
@@ -72,13 +72,13 @@ impl From<anyhow::Error> for RunError {
     }
 }
 
-/// The device of a call, made when the first project needs one.
+/// The device of a call, created when the first project needs one.
 #[derive(Default)]
 pub(super) struct Machine {
     gpu: Option<Gpu>,
-    /// The reason why there is no device, which is asked for once.
+    /// The reason why there is no device, which is determined once.
     refusal: Option<String>,
-    /// A device was lost, and no other has been opened since.
+    /// Set if a device was lost and no other has been opened since.
     loss: DeviceLoss,
 }
 
@@ -88,7 +88,7 @@ enum DeviceLoss {
     None,
     /// The driver may be resetting it.
     New,
-    /// Another was refused for as long as a reset takes.
+    /// Opening another one failed for as long as a reset takes.
     Lasting,
 }
 
@@ -117,14 +117,14 @@ impl Machine {
         }
     }
 
-    /// Lets go of the device: the next project gets another.
+    /// Drops the device: the next project gets a new one.
     fn drop_device(&mut self) {
         self.gpu = None;
         self.loss = DeviceLoss::New;
     }
 
-    /// Does a project's work, and puts what went wrong into its report. A panic is this project's alone, and a device
-    /// that was lost, or may have been left in disorder, is made anew for the next one.
+    /// Runs a project's work, and adds errors to its report. A panic only affects this project, and a device that was
+    /// lost, or may be in an inconsistent state, is reopened for the next one.
     pub(super) fn attempt<T>(
         &mut self,
         report: &mut Report,
@@ -140,7 +140,7 @@ impl Machine {
                     self.drop_device();
                 }
                 if let Some(OfflineError::TimedOut { .. } | OfflineError::SoundTimedOut { .. }) = error.downcast_ref() {
-                    // It is still at that frame.
+                    // The device is still busy with that frame.
                     self.drop_device();
                 }
                 report.fail(Status::Error, error_chain(&error));
@@ -152,7 +152,7 @@ impl Machine {
                 report.fail(Status::Error, format!("this is a bug in Eddy: {said}"));
             }
         }
-        // What the device said too late belongs to this project and not to the next.
+        // Late errors of the device belong to this project, not to the next.
         if let Some(gpu) = &self.gpu
             && let Err(GpuError::Lost(_)) = gpu.take_trouble("a failed project")
         {
@@ -162,15 +162,15 @@ impl Machine {
     }
 }
 
-/// Returns what a run of the lab begins with: its part of the work, by `--shard`, and the device. Err: one line that
-/// says what is wrong.
+/// Returns the initial state of a lab run: its part of the work, by `--shard`, and the device. On failure returns one
+/// line that describes the error.
 pub(super) fn shard_and_device(shard: &str) -> Result<(Shard, Gpu), String> {
     let shard = Shard::parse(shard, |name| env::var(name).ok()).map_err(|error| format!("--shard {error}"))?;
     let gpu = Machine::default().gpu().map_err(|error| error_chain(&error))?;
     Ok((shard, gpu))
 }
 
-/// Goes on by a frame that nobody sees: only what later ones read of it is drawn, unless all passes are to be.
+/// Advances by a frame that is not shown: only what later frames read of it is drawn, unless all passes are requested.
 pub(super) fn pass_over(offline: &mut Offline, run: &RunArgs) -> Result<DrawnFrame, OfflineError> {
     if run.no_skip { offline.draw() } else { offline.advance() }
 }
@@ -184,7 +184,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_is_one_projects_bug_and_the_next_goes_on() {
+    fn a_panic_is_a_bug_of_one_project_and_the_next_continues() {
         let mut machine = Machine::default();
         let mut report = Report::new("x");
         let done = machine.attempt(&mut report, |_, _| -> Result<(), RunError> { panic!("by {}", "design") });

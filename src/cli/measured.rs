@@ -1,4 +1,4 @@
-//! Numbers of passes that `eddy render` measures, and the claims that are held against them.
+//! Quantities of passes that `eddy render` measures, and the assertions that are checked against them.
 
 use super::report::{Report, Status};
 use crate::{
@@ -14,7 +14,7 @@ use crate::{
 use serde::Serialize;
 use std::collections::HashMap;
 
-/// A number of a frame.
+/// A measured value of a frame.
 #[derive(Debug, Serialize)]
 pub(super) struct Measured {
     pub quantity: String,
@@ -22,11 +22,11 @@ pub(super) struct Measured {
     pub value: Number,
 }
 
-/// Holds the numbers that are measured of a project while it is drawn.
+/// The quantities that are measured while a project is drawn.
 pub(super) struct Measures<'a> {
     assertions: &'a [Assertion],
     quantities: Vec<Quantity>,
-    /// The number of components that each of them may take.
+    /// The number of components that the target of each quantity stores.
     stored: Vec<usize>,
     /// The value of each assertion's quantity in the first frame.
     first: Vec<f64>,
@@ -39,8 +39,7 @@ impl Measures<'_> {
     }
 }
 
-/// Returns the quantities that `//@probe` comments of a project ask for, and what is wrong with those that cannot be
-/// measured.
+/// Returns the quantities that `//@probe` comments of a project request, and errors for those that cannot be measured.
 pub(super) fn declared(project: &Project) -> (Vec<Quantity>, Vec<Diagnostic>) {
     let (mut quantities, mut diagnostics) = (Vec::new(), Vec::new());
     for comment in reduction::declared(project) {
@@ -58,7 +57,7 @@ impl<'a> Measures<'a> {
         Self { assertions, quantities, stored, first: Vec::new(), taken: Vec::new() }
     }
 
-    /// Measures the frame that was drawn last. A claim that does not hold goes into the report.
+    /// Measures the frame that was drawn last. Failed assertions are added to the report.
     pub(super) fn take(
         &mut self,
         project: &Project,

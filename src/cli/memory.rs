@@ -1,33 +1,33 @@
-//! The memory that is left on the machine, so that a picture that does not fit is refused with its size and not by the
-//! system, which ends the process.
+//! The available memory, so that a picture that does not fit is rejected with a message about its size. Otherwise the
+//! system would kill the process.
 
 use std::fs;
 
-/// Pictures of fewer pixels are not checked: they take less than other programs do.
+/// Pictures with fewer pixels are not checked: they need less memory than other programs do.
 const LEAST_PIXELS: u64 = 1 << 24;
 
-/// Returns the bytes of memory that can be taken; `None` where the system does not say.
+/// Returns the available bytes of memory; `None` if the system does not report them.
 pub(super) fn available() -> Option<u64> {
     let machine = fs::read_to_string("/proc/meminfo").ok().and_then(|text| of_meminfo(&text));
     let number = |name: &str| -> Option<u64> {
         fs::read_to_string(format!("/sys/fs/cgroup/memory.{name}")).ok()?.trim().parse().ok()
     };
-    // A container's: there is no number where it has no limit.
+    // A container's limit: without one, there is no number.
     let container = number("max").zip(number("current")).map(|(most, taken)| most.saturating_sub(taken));
     machine.into_iter().chain(container).min()
 }
 
-/// Returns what Linux estimates to be free for new work (proc_meminfo(5), `MemAvailable`).
+/// Returns Linux's estimate of the memory that is available for new work (proc_meminfo(5), `MemAvailable`).
 fn of_meminfo(text: &str) -> Option<u64> {
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kibibytes| kibibytes << 10)
 }
 
-/// Fails for a picture that needs more than `available`, drawn and read in one piece. On a processor that draws
-/// (`is_cpu`) its textures take the same memory.
+/// Fails for a picture that needs more than `available`, drawn and read in one piece. On a CPU device (`is_cpu`) its
+/// textures use the same memory.
 pub(super) fn check_whole((width, height): (u32, u32), is_cpu: bool, available: Option<u64>) -> anyhow::Result<()> {
     let pixels = u64::from(width) * u64::from(height);
-    // What is read, the buffer that it is read through, and its bytes in a file; the target and the display texture.
+    // The pixels, the buffer that they are read through, and their bytes in a file; the target and the display texture.
     let needed = pixels.saturating_mul(16 + 16 + 4 + if is_cpu { 16 + 4 } else { 0 });
     match available.filter(|available| pixels > LEAST_PIXELS && needed > *available) {
         None => Ok(()),
@@ -40,7 +40,7 @@ pub(super) fn check_whole((width, height): (u32, u32), is_cpu: bool, available: 
     }
 }
 
-/// Returns bytes as people write them.
+/// Formats a number of bytes for users.
 pub(super) fn gibibytes(bytes: u64) -> String {
     format!("{:.1} GiB", bytes as f64 / (1u64 << 30) as f64)
 }
@@ -50,14 +50,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_estimate_of_linux_is_read() {
+    fn linux_meminfo_is_parsed() {
         let text = "MemTotal:       16384 kB\nMemFree:         1024 kB\nMemAvailable:    8192 kB\n";
         assert_eq!(of_meminfo(text), Some(8192 << 10));
         assert_eq!(of_meminfo("MemTotal: 1 kB"), None);
     }
 
     #[test]
-    fn a_picture_that_does_not_fit_is_refused_by_its_size() {
+    fn a_picture_that_does_not_fit_is_rejected_with_its_size() {
         let gib = Some(1 << 30);
         assert!(check_whole((3840, 2160), true, Some(0)).is_ok(), "small pictures are not checked");
         assert!(check_whole((16_384, 16_384), true, None).is_ok());

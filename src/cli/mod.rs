@@ -1,7 +1,7 @@
-//! The front end without a window: arguments, words and JSON lines, exit codes.
+//! The front end without a window: arguments, messages and JSON lines, exit codes.
 //!
-//! Owns what the command line says and prints. Opens no window: [`main`] hands that wish back to the binary, because
-//! the front ends do not know each other. Holds nothing another front end would need too; that lies in `session`.
+//! Owns the syntax and the output of the command line. Opens no window: [`main`] returns that request to the binary,
+//! because the front ends do not depend on each other. Code that another front end needs too is in `session`.
 
 mod args;
 mod audit;
@@ -58,18 +58,18 @@ use std::{
     process::ExitCode,
 };
 
-/// Stack of the thread that does the work. Compilers recurse as deep as an expression is nested, and a shader made by a
-/// program nests deeply; pages that are not used cost nothing.
+/// The stack size of the worker thread. Compilers recurse as deeply as an expression is nested, and generated shaders
+/// nest deeply; unused pages cost nothing.
 const STACK_BYTES: usize = 256 << 20;
 
-/// The work that is left to the binary after [`main`].
+/// The action of the binary after [`main`].
 pub enum Next {
-    /// Leave.
+    /// Exit with a code.
     Exit(ExitCode),
     Window(Window),
 }
 
-/// Reads the command line and does what it says. Usage errors, `--help` and `--version` end the process.
+/// Parses and executes the command line. Usage errors, `--help` and `--version` end the process.
 pub fn main() -> Next {
     let Cli { window, command } = parse().with_guests();
     let Some(mut command) = command else { return Next::Window(window.with_project_of_file()) };
@@ -87,25 +87,25 @@ pub fn main() -> Next {
     Next::Exit(ExitCode::from(code))
 }
 
-/// Reads the command line. clap repeats arguments in its errors, and a shell makes arguments of names of files: the error
-/// is made of arguments whose control characters are escaped.
+/// Parses the command line. clap repeats arguments in its errors, and a shell expands file names to arguments: control
+/// characters in the arguments of an error are escaped.
 fn parse() -> Cli {
     Cli::try_parse().unwrap_or_else(|error| {
         let escaped = env::args_os().map(|argument| escape_line(&argument.to_string_lossy()).into_owned());
         if let Err(error) = Cli::try_parse_from(escaped) {
             error.exit();
         }
-        // Only the control characters were wrong.
+        // The arguments are valid once the control characters are escaped.
         let _ = write!(terminal::stderr(), "{}", error.render());
         std::process::exit(error.exit_code())
     })
 }
 
-/// Returns the exit code of a command, after reporting why it was refused.
+/// Returns the exit code of a command, after reporting its error.
 fn exit_code(result: Result<u8, CommandError>) -> u8 {
     match result {
         Ok(code) => code,
-        // The reader of a pipe has closed it, as `head` does.
+        // The reader has closed the pipe, like `head`.
         Err(CommandError::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => 0,
         Err(error) => trouble(error),
     }

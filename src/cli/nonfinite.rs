@@ -1,4 +1,4 @@
-//! The first texel of a project that is no finite number: in which pass, in which frame, and by which operation.
+//! The first texel of a project that is NaN or infinite: its pass, its frame, and the operation that produced it.
 
 use super::{
     args::TraceArgs,
@@ -19,17 +19,17 @@ use crate::{
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Names the place where it begins.
+/// The first such texel.
 #[derive(Debug, Serialize)]
 pub(super) struct Begin {
     pass: String,
     frame: u32,
     texel: [u32; 2],
-    /// The value as it is stored; what JSON has no number for is a text.
+    /// The value as stored; values that JSON cannot represent are strings.
     value: [crate::lab::Number; 4],
-    /// The number of texels of the pass that are so in that frame.
+    /// The number of such texels of the pass in that frame.
     texels: usize,
-    /// The operation; none where nothing but the storage of the pass or a texel that it reads can have made it.
+    /// The operation; none if only the storage of the pass or a texel that it reads can have produced it.
     #[serde(skip_serializing_if = "Option::is_none")]
     born: Option<NonfiniteOrigin>,
 }
@@ -42,7 +42,7 @@ struct NonfiniteOrigin {
     numbers: String,
 }
 
-/// Looks for it in the frames up to and with `args.frame`. `None`: every texel is a finite number.
+/// Searches the frames up to and including `args.frame`. `None` if every texel is finite.
 pub(super) fn first(
     machine: &mut Machine,
     report: &mut Report,
@@ -58,7 +58,7 @@ pub(super) fn first(
         offline.draw()?;
         report.frames += 1;
         for pass in &passes {
-            // What no picture needs is not drawn, and has no texels.
+            // Passes that no picture depends on are not drawn, and have no texels.
             let Ok(pixels) = offline.read(pass, 0) else { continue };
             if let Some(bad) = NonfiniteTexels::find(&pixels, nonfinite::stored(&project, pass)) {
                 found = Some((pass.clone(), frame, bad.first, bad.count, pixels));
@@ -91,7 +91,7 @@ fn start(
     Ok((project, offline))
 }
 
-/// Draws everything again up to that frame and walks through the pass for that texel.
+/// Redraws everything up to that frame and walks the pass for that texel.
 fn born(
     machine: &mut Machine,
     args: &TraceArgs,

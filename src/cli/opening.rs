@@ -141,12 +141,12 @@ impl RunError {
         if let RunError::Other(error) = self { error.downcast_ref() } else { None }
     }
 
-    /// A pass cannot be drawn in tiles.
+    /// Returns whether the error is that a pass cannot be drawn in tiles.
     fn is_undivided(&self) -> bool {
         matches!(self.engine_error(), Some(EngineError::Undivided { .. }))
     }
 
-    /// Says why the picture of `pass` had to be drawn in tiles, or another one could not be.
+    /// Returns the error of a picture of `pass` that needs tiles, or of another one that does not support them.
     fn in_tiles(self, pass: &str, policy: TilePolicy, gpu: &Gpu) -> RunError {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         let error = match self.engine_error() {
@@ -165,7 +165,7 @@ impl RunError {
     }
 }
 
-/// Compiles a project, its diagnostics going into the report.
+/// Compiles a project, adding its diagnostics to the report.
 fn build(
     offline: &mut Offline,
     (project, media): (&Project, &MediaSet),
@@ -194,7 +194,7 @@ fn build(
     Ok(())
 }
 
-/// Sets up the sound pass of a project that is open, to be drawn beside its pictures.
+/// Sets up the sound pass of an open project, to be drawn in addition to its pictures.
 pub(super) fn open_sound_of(
     machine: &mut Machine,
     report: &mut Report,
@@ -208,7 +208,7 @@ pub(super) fn open_sound_of(
     Ok(offline)
 }
 
-/// Turns the camera on that was asked for, if a channel reads one, and waits for its first picture. Returns what to say of
+/// Starts the requested camera, if a channel reads one, and waits for its first picture. Returns diagnostics about
 /// channels that show none.
 fn camera(media: &mut MediaSet, project: &Project, wanted: Option<&CameraSource>) -> Vec<Diagnostic> {
     let of_channels = media.camera_warnings(project);
@@ -226,10 +226,10 @@ fn camera(media: &mut MediaSet, project: &Project, wanted: Option<&CameraSource>
     }
 }
 
-/// The first picture of a camera is waited for so long.
+/// The timeout for a camera's first picture.
 const CAMERA_PATIENCE: Duration = Duration::from_secs(15);
 
-/// Fails for a pass that the project does not have.
+/// Fails if the project does not have the pass.
 fn is_there(project: &Project, pass: &PassName) -> Result<(), RunError> {
     match project.pass(pass) {
         None => {

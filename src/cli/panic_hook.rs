@@ -1,6 +1,6 @@
-//! Panics leave a report in a file, and the log keeps its newest warnings for it.
+//! Panics write a report to a file, with the latest warnings of the log.
 //!
-//! The logger and the panic hook are the process's own: [`install`] is called once, by `main`.
+//! The logger and the panic hook are global to the process: `main` calls [`install`] once.
 
 use crate::{
     diag::{escape_line, escape_message},
@@ -23,30 +23,30 @@ use std::{
     thread,
 };
 
-/// Lines of the log that a report has.
+/// The number of log lines in a report.
 const KEPT_LINES: usize = 20;
 
-/// Reports that one process writes: what follows a panic is rarely news.
+/// The maximum number of reports per process: what follows a panic is rarely new.
 const MOST_REPORTS: usize = 3;
 
-/// The target of the line that names a device.
+/// The target of the log line that names a device.
 const DEVICE: &str = "eddy::device";
 
-/// The newest lines of the log.
+/// The latest lines of the log.
 #[derive(Default)]
 struct Recent {
     lines: VecDeque<String>,
     device: String,
 }
 
-/// Logs to standard error, and keeps what a report needs.
+/// Logs to standard error, and records the lines for a report.
 struct Logger {
     terminal: env_logger::Logger,
     recent: Arc<Mutex<Recent>>,
 }
 
 impl Logger {
-    /// Returns whether a report keeps a line: warnings and errors of Eddy's own.
+    /// Returns whether a report includes a line: warnings and errors of Eddy's own.
     fn keeps(metadata: &log::Metadata<'_>) -> bool {
         metadata.target() == DEVICE || metadata.level() <= log::Level::Warn && metadata.target().starts_with("eddy")
     }
@@ -83,9 +83,9 @@ impl log::Log for Logger {
     }
 }
 
-/// Starts the log, and has each panic leave a report.
+/// Starts the log, and makes each panic write a report.
 pub fn install() {
-    // What goes wrong inside is worth a line; what other libraries tell of themselves is not.
+    // Internal errors are worth a line; the messages of other libraries are not.
     let environment = env_logger::Env::default().default_filter_or("error,naga=off,symphonia=off,eddy=warn");
     let terminal = env_logger::Builder::from_env(environment).build();
     let recent = Arc::new(Mutex::new(Recent::default()));
@@ -96,12 +96,12 @@ pub fn install() {
     let before = std::panic::take_hook();
     let written = AtomicUsize::new(0);
     std::panic::set_hook(Box::new(move |panic| {
-        // It is caught, and told of as a lost device.
+        // It is caught, and reported as a lost device.
         if panic.payload_as_str().is_some_and(is_loss) {
             return;
         }
         match panic.payload_as_str() {
-            // A stranger's text, which the hook of the standard library would print as it is.
+            // An untrusted text, which the hook of the standard library would print unescaped.
             Some(said) if matches!(escape_line(said), Cow::Owned(_)) => {
                 let name = thread::current().name().unwrap_or("<unnamed>").to_owned();
                 let place = panic.location().map(ToString::to_string).unwrap_or_default();
@@ -118,7 +118,7 @@ pub fn install() {
     }));
 }
 
-/// Writes a report, and says where it is.
+/// Writes a report, and prints its path.
 fn tell(report: &PanicReport, folder: &Path) {
     let said = match report.write(folder) {
         Ok(path) => {
@@ -127,12 +127,12 @@ fn tell(report: &PanicReport, folder: &Path) {
         }
         Err(error) => format!("A report of this bug could not be written to {}: {error}", folder.display()),
     };
-    // Nobody is left to tell where standard error is closed.
+    // If standard error is closed, there is nowhere to report.
     let _ = writeln!(super::terminal::stderr(), "{said}");
 }
 
 fn report(panic: &PanicHookInfo<'_>, recent: &Mutex<Recent>) -> PanicReport {
-    // A panic within the log holds the lock; the lines are then left out.
+    // A panic in the logger holds the lock; then the lines are omitted.
     let (notices, device) = recent
         .try_lock()
         .map(|recent| (recent.lines.iter().cloned().collect(), recent.device.clone()))
@@ -149,7 +149,7 @@ fn report(panic: &PanicHookInfo<'_>, recent: &Mutex<Recent>) -> PanicReport {
     }
 }
 
-/// Returns a command by its name. Another first argument is a project, whose name is nobody's business.
+/// Returns the name of a command. Any other first argument is a project, whose name is private.
 fn command(first: Option<&str>) -> String {
     let is_command = |name: &str| super::args::command_names().iter().any(|known| known == name);
     first.filter(|name| is_command(name)).map_or_else(|| "the window".to_owned(), |name| format!("eddy {name}"))
@@ -160,7 +160,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_names_of_commands_are_told() {
+    fn only_names_of_commands_are_reported() {
         assert_eq!(command(Some("render")), "eddy render");
         assert_eq!(command(Some("secret-project")), "the window");
         assert_eq!(command(None), "the window");

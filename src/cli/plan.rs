@@ -1,4 +1,5 @@
-//! `eddy render --plan`: which frames depend on which, and what the tasks of an array cost, measured on a few frames.
+//! `eddy render --plan`: the dependencies between frames, and the cost of the tasks of an array, measured on a few
+//! frames.
 
 use super::{
     args::RenderArgs,
@@ -13,24 +14,25 @@ use crate::playback::{median, offline::Offline, script::ScriptedInputs, shard::S
 use serde::Serialize;
 use std::{io, time::Instant};
 
-/// Frames that are drawn to measure one.
+/// The number of frames that are drawn to measure one.
 const MEASURED: u32 = 8;
 
 /// The cost of a project's frames.
 #[derive(Debug, Serialize)]
 struct Plan {
-    /// Frames that are written, and the tasks that share them.
+    /// The number of written frames, and of tasks that share them.
     writes: usize,
     tasks: u64,
-    /// The passes by which frames depend on those before; none: every frame can be drawn by itself.
+    /// The passes that make frames depend on earlier ones; if empty, every frame can be drawn independently.
     state: Vec<String>,
-    /// Milliseconds of a frame without what only its picture needs; the same as `frame_ms` where that is nothing.
+    /// The milliseconds of a frame without the passes that only its picture needs; equal to `frame_ms` if there are
+    /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
     state_ms: Option<f64>,
-    /// Bytes of a checkpoint before it is compressed.
+    /// The bytes of a checkpoint before compression.
     #[serde(skip_serializing_if = "Option::is_none")]
     checkpoint_bytes: Option<u64>,
-    /// The most frames that a task draws: by itself, and from checkpoints every so many frames.
+    /// The maximum number of frames that a task draws: from the start, and from checkpoints at an interval.
     most_frames: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
     resumed: Option<Resumed>,
@@ -40,7 +42,7 @@ struct Plan {
 struct Resumed {
     checkpoint_every: u32,
     most_frames: u32,
-    /// Frames of the run that writes the checkpoints.
+    /// The frames of the run that writes the checkpoints.
     serial_frames: u32,
 }
 
@@ -109,14 +111,14 @@ fn plan(
         plan.resumed = Some(Resumed {
             checkpoint_every: every,
             most_frames: blocks.iter().map(drawn).max().unwrap_or_default(),
-            // The last checkpoint that a task goes on from.
+            // The last checkpoint that a task resumes from.
             serial_frames: blocks.last().map_or(0, |(first, _)| first / every * every),
         });
     }
     Ok(plan)
 }
 
-/// Returns the milliseconds of a frame, the first one left out.
+/// Returns the milliseconds of a frame, ignoring the first one.
 fn measure(
     offline: &mut Offline,
     report: &mut Report,
@@ -135,7 +137,7 @@ impl Plan {
     fn words(&self, report: &Report) -> String {
         let frame_ms = report.frame_ms.unwrap_or_default();
         let state_ms = self.state_ms.unwrap_or(frame_ms);
-        // Of the frames of a task some are written; of the others, only what later ones read is drawn.
+        // A task writes some of its frames; of the others, only what later frames read is drawn.
         let written = self.writes.div_ceil(self.tasks as usize) as u32;
         let each = |frames: u32| {
             let seen = written.min(frames);
@@ -168,7 +170,7 @@ impl Plan {
     }
 }
 
-/// Returns a time as people say it.
+/// Formats a duration for users.
 fn duration(secs: f64) -> String {
     match secs {
         secs if secs < 120.0 => format!("{secs:.1} s"),

@@ -1,5 +1,5 @@
-//! `eddy lab precision PROJECT`: what a project loses where its passes are stored in 16-bit floats, and how far its
-//! picture is from that of double precision.
+//! `eddy lab precision PROJECT`: the loss of a project if its passes are stored in 16-bit floats, and the difference of
+//! its picture from double precision.
 
 use super::{
     args::PrecisionArgs,
@@ -26,7 +26,7 @@ struct Compared {
     width: u32,
     height: u32,
     device: String,
-    /// The device does not round 16-bit stores but cuts them off.
+    /// True if the device truncates 16-bit stores instead of rounding.
     cuts_off: bool,
     #[serde(flatten)]
     comparison: Comparison,
@@ -39,7 +39,7 @@ struct JsonLine<'a> {
     report: &'a Report,
     #[serde(flatten)]
     compared: Option<&'a Compared>,
-    /// Baseline double precision.
+    /// Comparison with double precision.
     #[serde(skip_serializing_if = "Option::is_none")]
     double: Option<&'a Audited>,
 }

@@ -1,4 +1,4 @@
-//! The values that `//@print` comments of a pass ask for, at a pixel, are walked and printed here.
+//! Walks a pixel of a pass and prints the values that its `//@print` comments request.
 
 use super::terminal::one_line;
 use crate::{
@@ -10,22 +10,22 @@ use crate::{
 use serde::Serialize;
 use std::{fmt::Write, sync::Arc};
 
-/// A comment, and its value each time that its turn came.
+/// A comment, and its value at each evaluation.
 #[derive(Debug, Serialize)]
 pub(super) struct Printed {
     tab: String,
     line: usize,
     expression: String,
-    /// The numbers of each value; null where it has none.
+    /// The components of each value; null if it has no value.
     values: Vec<Option<Vec<Number>>>,
-    /// The reason why it has none, in the words of the compiler.
+    /// The compiler's error if it has no value.
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
-    /// There were more.
+    /// True if there were more.
     cut: bool,
 }
 
-/// Walks once more where there are such comments, by statements.
+/// Walks again by statements if there are such comments.
 pub(super) fn printed(
     project: &Project,
     pass: &PassName,
@@ -44,7 +44,7 @@ pub(super) fn printed(
     let (width, height) = inputs.size;
     let place = [(x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32];
     let traced = match Traced::new(project.clone(), pass, frame as i32, (inputs.clone(), device), place) {
-        // No program of the pass runs there, so no comment's turn comes.
+        // No program of the pass runs for this pixel, so no comment is evaluated.
         Err(TraceError::Clear(_) | TraceError::Kept { .. } | TraceError::Boundary { .. }) => return Ok(Vec::new()),
         other => other?,
     };

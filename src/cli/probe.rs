@@ -30,23 +30,23 @@ struct JsonLine<'a> {
 
 #[derive(Serialize)]
 struct Probed {
-    /// As it was asked for.
+    /// The place as given on the command line.
     at: String,
     visit: u32,
     frame: u32,
     width: u32,
     height: u32,
-    /// Pixels in which the expression was evaluated so often.
+    /// The number of pixels that evaluated the expression this often.
     visited: usize,
-    /// The least of each component over these pixels, without what is no number.
+    /// The minimum of each component over these pixels, ignoring NaN.
     min: [Number; 4],
     max: [Number; 4],
     mean: [Number; 4],
-    /// Components, over these pixels, that are NaN or infinite.
+    /// The number of components, over these pixels, that are NaN or infinite.
     nonfinite: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     pixel: Option<[u32; 2]>,
-    /// The value there; null where the expression was not evaluated so often.
+    /// The value at the pixel; null if it did not evaluate the expression this often.
     value: Option<[Number; 4]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     written: Option<PathBuf>,
@@ -88,7 +88,7 @@ fn probed(
     }
     let face = args.face().map_err(anyhow::Error::msg)?;
     let (out, format) = (args.file(), args.format().map_err(anyhow::Error::msg)?);
-    // A file that nobody named is written over nothing.
+    // A default file must not overwrite anything.
     if let Some(path) = out.as_ref().filter(|path| args.out.is_none() && path.exists()) {
         let path = path.display();
         return Err(anyhow::anyhow!("{path} already exists: to overwrite it, give it with --out").into());

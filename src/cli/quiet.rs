@@ -1,13 +1,13 @@
-//! Graphics libraries that complain of a window system nobody asked them for.
+//! Silences graphics libraries that complain about an unused window system.
 
-/// Keeps Mesa from looking for a Wayland server where there can be none.
+/// Keeps Mesa from looking for a Wayland server if there cannot be one.
 ///
 /// Its Vulkan layer `VK_LAYER_MESA_device_select` asks the server which device it draws with whenever devices are
 /// listed, and libwayland, without `XDG_RUNTIME_DIR`, then writes "XDG_RUNTIME_DIR is invalid or not set" to standard
-/// error, once for each of the two times that wgpu lists them. An absolute `WAYLAND_DISPLAY` needs no such folder, and
-/// one where nothing listens is passed over in silence. The C library reads the environment, which a program can change
-/// safely only for one that it starts: so this starts itself again in its own place, before anything was done. Where
-/// that fails, the lines are written.
+/// error, once for each of the two times that wgpu lists them. An absolute `WAYLAND_DISPLAY` does not need this folder,
+/// and if no server listens at that path, it is silently ignored. The C library reads the environment, which a program
+/// can safely change only for a process that it starts: so this function re-executes the program before doing anything
+/// else. If that fails, the lines are written.
 #[cfg(target_os = "linux")]
 pub(super) fn ask_for_no_wayland() {
     use std::{env, os::unix::process::CommandExt, path::Path, process::Command};

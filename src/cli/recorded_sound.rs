@@ -1,4 +1,4 @@
-//! The sound of a film of recorded frames: at the times that they were recorded at, with the values that sliders had.
+//! The sound of a film of recorded frames: at the recorded times, with the recorded values of sliders.
 
 use super::{
     args::RunArgs,
@@ -15,11 +15,11 @@ use crate::{
     project::{CustomUniformValues, Project},
 };
 
-/// A film is said to be slower or faster than its recording from this difference on.
+/// The relative difference in speed from which a film counts as slower or faster than its recording.
 const OTHER_SPEED: f64 = 0.05;
 
-/// Returns the samples of a film of these recorded frames. Where the film is slower or faster than the recording, the sound is,
-/// too, and a note says how both get the same speed.
+/// Returns the samples of a film of these recorded frames. If the film is slower or faster than the recording, so is
+/// the sound, and a note explains how to get the same speed.
 pub(super) fn recorded_sound(
     machine: &mut Machine,
     report: &mut Report,
@@ -54,7 +54,7 @@ pub(super) fn recorded_sound(
     samples.map(Some)
 }
 
-/// Says that picture and sound run at another speed than they were recorded at, and the rate at which they would not.
+/// Reports that picture and sound run at another speed than recorded, and the rate that avoids it.
 fn other_speed(speed: f64, fps: f64) -> String {
     let rate = (fps / speed * 100.0).round() / 100.0;
     format!("picture and sound run at {speed:.2} times the recorded speed; --fps {rate} plays the recording as it was")
@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn another_speed_is_said_with_the_rate_that_mends_it() {
+    fn a_different_speed_is_reported_with_the_matching_rate() {
         assert_eq!(
             other_speed(60.0 / 144.0, 60.0),
             "picture and sound run at 0.42 times the recorded speed; --fps 144 plays the recording as it was"

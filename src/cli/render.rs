@@ -1,4 +1,5 @@
-//! `eddy render`: frames of many projects, drawn one after the other on one device and written as pictures or films.
+//! `eddy render`: draws frames of projects, one project after the other on one device, and writes them as pictures or
+//! films.
 
 use super::{
     args::{HostProgram, RenderArgs},
@@ -37,14 +38,14 @@ use crate::{
 use serde::Serialize;
 use std::{io, path::PathBuf, time::Instant};
 
-/// The report, and what was measured.
+/// The report, and the measurements.
 #[derive(Serialize)]
 struct JsonLine<'a> {
     #[serde(flatten)]
     report: &'a Report,
     #[serde(skip_serializing_if = "<[Measured]>::is_empty")]
     measured: &'a [Measured],
-    /// Pictures that were there and have been kept.
+    /// Existing pictures that were kept.
     #[serde(skip_serializing_if = "is_zero")]
     kept: u32,
 }
@@ -64,7 +65,7 @@ impl Run for RenderArgs {
     fn run(&mut self) -> Result<u8, CommandError> {
         targets::choose_rate(self);
         let (args, style) = (&*self, self.progress());
-        // A scheduler reads on standard output why the call failed.
+        // A scheduler reads the reason of a failed call on standard output.
         let refused = |why: String| CommandError::Refused(style.failed(why));
         let inputs = args.inputs().map_err(refused)?;
         if let Some(sounds) = Sounds::of(args).map_err(refused)? {
@@ -104,7 +105,7 @@ fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Res
     Ok(printer.exit_code())
 }
 
-/// Returns the line of a project that was drawn.
+/// Formats the line of a drawn project.
 fn words(report: &Report, written: &[PathBuf], kept: u32) -> String {
     let frames = |count: u32| if count == 1 { "1 frame".into() } else { format!("{count} frames") };
     let mut words = format!("{}: {}", report.title(), frames(report.frames));
@@ -119,19 +120,19 @@ fn words(report: &Report, written: &[PathBuf], kept: u32) -> String {
     if paths.is_empty() { words } else { format!("{words}: {}", paths.join(" ")) }
 }
 
-/// A line for each number.
+/// Formats one line per measured value.
 fn measured_words(taken: &[Measured]) -> String {
     taken.iter().map(|m| format!("\n  {} = {} in frame {}", m.quantity, m.value, m.frame)).collect()
 }
 
-/// The outcome of a project.
+/// The result of a project.
 #[derive(Default)]
 struct Drawn {
-    /// The files that were written.
+    /// The written files.
     written: Vec<PathBuf>,
     kept: u32,
     measures: Vec<Measured>,
-    /// It gets a line.
+    /// True if it gets a line.
     mentioned: bool,
 }
 
@@ -140,7 +141,7 @@ struct Job<'a> {
     args: &'a RenderArgs,
     targets: &'a Targets,
     index: usize,
-    /// The frames that are this call's, rising.
+    /// The frames of this call, in ascending order.
     part: &'a [u32],
     progress: &'a CallProgress,
 }
@@ -198,7 +199,8 @@ impl Job<'_> {
             Some(secs) if targets.writes() => Some(self.seam(machine, report, (secs, &project), &missing, inputs)?),
             _ => None,
         };
-        // Of a frame that nobody sees, what later ones read is enough. A number of frames is drawn as it says.
+        // Of a frame that is not shown, only what later frames read is drawn. With a number of frames, all of them are
+        // drawn.
         let sees_none = !targets.writes() && measures.is_empty() && checkpoints.is_some();
         let draws_all = targets.drawn.is_some() && !sees_none;
         let mut writer = None;
@@ -299,7 +301,7 @@ impl Job<'_> {
         if millis.is_empty() {
             millis = unseen_millis;
         }
-        // The first frame is not like the others: drivers compile for the machine when a pipeline is first used.
+        // The first frame is not representative: drivers compile when a pipeline is first used.
         if millis.len() > 1 {
             millis.remove(0);
         }
@@ -307,7 +309,7 @@ impl Job<'_> {
         Ok(Drawn { written, kept, measures: measures.taken, mentioned: true })
     }
 
-    /// Returns the checkpoints that are written or gone on from. A project without a state needs none.
+    /// Returns the checkpoints that are written or resumed from. A project without a state needs none.
     fn checkpoints(
         &self,
         report: &mut Report,
@@ -328,7 +330,7 @@ impl Job<'_> {
         Checkpoints::new(args, spec, opened, offline, inputs).map(Some)
     }
 
-    /// Returns what is saved in pictures besides the texels, where they are frames as they are drawn.
+    /// Returns the data that is saved in pictures besides the texels, if they are frames as drawn.
     fn source(
         &self,
         project: &Project,
@@ -351,7 +353,7 @@ impl Job<'_> {
         }))
     }
 
-    /// Begins to write, now that the first picture is there.
+    /// Starts writing once the first picture exists.
     fn start(
         &self,
         machine: &mut Machine,
@@ -416,13 +418,13 @@ impl Job<'_> {
         film::soundtrack((project, media), &time, open, || Ok(()))
     }
 
-    /// Gives the fade of a film of these frames.
+    /// Returns the crossfade of a film of these frames.
     fn fade(&self, secs: f64, project: &Project, frames: &[u32]) -> Result<Fade, anyhow::Error> {
         let fade = Fade::new(secs, project.info.period, self.targets.rate, frames.len() as u32);
         fade.map_err(|why| anyhow::anyhow!("--loop {secs}: {why}"))
     }
 
-    /// Begins with the joint of a film of these frames, which fades for so many seconds.
+    /// Starts the seam of a film of these frames, which crossfades for this number of seconds.
     fn seam(
         &self,
         machine: &mut Machine,
@@ -434,7 +436,7 @@ impl Job<'_> {
         let args = self.args;
         let fade = self.fade(secs, project, frames)?;
         let open = || {
-            // What there is to say of the project was said when it was opened first.
+            // The diagnostics of the project were reported when it was first opened.
             let mut quiet = Report::swept(&report.project, &report.sweep);
             let drawn = args.drawn();
             let opening = Opening::new(&report.project, &drawn, inputs).pass(&args.pass.pass);
@@ -443,7 +445,7 @@ impl Job<'_> {
         Seam::open(fade, frames, open, || Ok(()))
     }
 
-    /// Draws a picture in tiles and writes it meanwhile. Returns its file.
+    /// Draws a picture in tiles and writes it at the same time. Returns its file.
     fn write_strips(
         &self,
         report: &Report,
@@ -485,7 +487,7 @@ impl Job<'_> {
     }
 }
 
-/// Whoever reads standard output has seen enough.
+/// Returns whether the reader of standard output has closed it.
 fn is_closed(error: &RunError) -> bool {
     matches!(error, RunError::Other(error) if matches!(error.downcast_ref(), Some(FilmError::Closed)))
 }
@@ -497,7 +499,7 @@ fn add_to_last(millis: &mut [f64], began: Instant) {
     }
 }
 
-/// Says why frames before those of a shard are drawn.
+/// Notes why frames before those of a shard are drawn.
 fn note_state(report: &mut Report, first: u32) {
     let what = format!(
         "the project has a state, so that its frames depend on those before: this shard draws frames 0 to {} first, and \
@@ -511,7 +513,7 @@ pub(super) fn note(report: &mut Report, what: String) {
     report.diagnose(&[Diagnostic::new(Severity::Note, None, what)], &SourceMap::default(), None);
 }
 
-/// Says why frames of a project with a state have no motion blur.
+/// Returns the reason why frames of a project with a state have no motion blur.
 fn blurred_state(project: &Project) -> RunError {
     let passes: Vec<String> = project.stateful_passes().iter().map(PassName::title).collect();
     let which = match passes.is_empty() {

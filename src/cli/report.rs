@@ -1,4 +1,4 @@
-//! A report says how one project fared, in words or as one JSON object a line.
+//! The report of one project, as text or as one JSON object per line.
 
 use super::terminal::{self, one_line};
 use crate::{
@@ -8,22 +8,22 @@ use crate::{
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// Says how a project fared. The order is how bad it is for the exit code.
+/// The result of a project, ordered by severity for the exit code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Status {
     #[default]
     Ok,
-    /// The author has something to mend.
+    /// Errors that the author must fix.
     Diagnostics,
-    /// Asks for what this version does not draw.
+    /// The project needs a feature that this version lacks.
     Unsupported,
-    /// The machine's trouble, or ours.
+    /// An error of the system, or a bug of Eddy's.
     Error,
 }
 
 impl Status {
-    /// 0 all well, 1 diagnostics, 2 machine or usage.
+    /// Returns 0 for success, 1 for diagnostics, 2 for errors of the system or usage.
     pub(super) fn exit_code(self) -> u8 {
         match self {
             Status::Ok => 0,
@@ -36,32 +36,32 @@ impl Status {
 /// One line of `--json`.
 #[derive(Debug, Default, Serialize)]
 pub(super) struct Report {
-    /// Its name on the command line.
+    /// The project's name on the command line.
     pub project: String,
     /// The values that `--sweep` set.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sweep: Vec<String>,
     pub status: Status,
     pub diagnostics: Vec<Message>,
-    /// Milliseconds; `None` where nothing was compiled.
+    /// Milliseconds; `None` if nothing was compiled.
     pub compile_ms: Option<f64>,
-    /// Median of the frames after the first, finished on the device; of the first where it is the only one.
+    /// The median of the frames after the first, finished on the device; of the first if there is only one.
     pub frame_ms: Option<f64>,
     /// Frames drawn.
     pub frames: u32,
-    /// The same diagnostics for a terminal.
+    /// The same diagnostics, formatted for a terminal.
     #[serde(skip)]
     pub carets: String,
 }
 
-/// A diagnostic whose place is spelled out.
+/// A diagnostic with its location spelled out.
 #[derive(Debug, PartialEq, Eq, Serialize)]
 pub(super) struct Message {
     pub severity: &'static str,
     pub message: String,
-    /// The text's name: a file, or a tab where the text has no file of its own.
+    /// The text's name: a file, or a tab if the text has no file.
     pub source: Option<String>,
-    /// The tab the text is shown in; `None` for one that is not a tab, as `eddy.toml`.
+    /// The tab that shows the text; `None` if it is not a tab, like `eddy.toml`.
     pub tab: Option<String>,
     /// Counted from 1, in characters.
     pub line: Option<usize>,
@@ -94,13 +94,13 @@ impl Report {
         Report { sweep: sweep.to_vec(), ..Report::new(project) }
     }
 
-    /// Returns the project, and what `--sweep` set, as one line that people read.
+    /// Formats the project, and the assignments of `--sweep`, as one line.
     pub(super) fn title(&self) -> String {
         let title = self.sweep.iter().fold(self.project.clone(), |title, set| format!("{title} {set}"));
         one_line(&title).into_owned()
     }
 
-    /// Adds diagnostics; an error among them is what became of the project.
+    /// Adds diagnostics; an error among them sets the status.
     pub(super) fn diagnose(&mut self, found: &[Diagnostic], sources: &SourceMap, project: Option<&Project>) {
         self.diagnostics.extend(found.iter().map(|d| Message::of(d, sources, project)));
         let carets = diag::render_all(found, sources);
@@ -113,13 +113,13 @@ impl Report {
         }
     }
 
-    /// Trouble that has no place in a text.
+    /// Adds an error that has no location in a text.
     pub(super) fn fail(&mut self, status: Status, message: impl std::fmt::Display) {
         self.diagnose(&[Diagnostic::error(None, message.to_string())], &SourceMap::default(), None);
         self.status = self.status.max(status);
     }
 
-    /// Returns the first error with its place, and how many there are beside it.
+    /// Returns the first error with its location, and the number of others.
     pub(super) fn first_error(&self) -> Option<String> {
         let Message { source, line, column, message, .. } =
             self.diagnostics.iter().find(|m| m.severity == Severity::Error.name())?;
@@ -140,11 +140,11 @@ impl Report {
     }
 }
 
-/// Prints reports as they come and remembers the worst.
+/// Prints reports as they arrive and remembers the worst status.
 #[derive(Debug)]
 pub(super) struct Printer {
     json: bool,
-    /// Standard output is a file, so that words go to standard error.
+    /// True if standard output is the file, so that text goes to standard error.
     is_piped: bool,
     worst: Status,
 }
@@ -154,17 +154,18 @@ impl Printer {
         Printer { json, is_piped: false, worst: Status::Ok }
     }
 
-    /// Returns one whose words go to standard error.
+    /// Returns a printer whose text goes to standard error.
     pub(super) fn beside_pipe() -> Printer {
         Printer { json: false, is_piped: true, worst: Status::Ok }
     }
 
-    /// One project is done. `words` is its line on standard output without `--json`; diagnostics go to standard error.
+    /// Prints one finished project. `words` is its line on standard output without `--json`; diagnostics go to standard
+    /// error.
     pub(super) fn print(&mut self, report: &Report, words: &str) -> io::Result<()> {
         self.print_as(report, report, words)
     }
 
-    /// The same with a JSON object that says more than the report.
+    /// Does the same with a JSON object that contains more than the report.
     pub(super) fn print_as(&mut self, line: &impl Serialize, report: &Report, words: &str) -> io::Result<()> {
         self.worst = self.worst.max(report.status);
         if self.json {
@@ -194,7 +195,7 @@ mod tests {
     use crate::diag::Span;
 
     #[test]
-    fn a_line_has_the_contracts_names_and_places_counted_from_one() {
+    fn a_line_has_the_documented_names_and_locations_counted_from_one() {
         let mut sources = SourceMap::default();
         let id = sources.add("image.glsl", "void f() {\n  bad\n}");
         let mut report = Report::new("./x");
@@ -213,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn the_worst_counts_and_a_warning_is_no_trouble() {
+    fn the_worst_status_wins_and_a_warning_is_not_an_error() {
         let mut report = Report::new("x");
         report.diagnose(&[Diagnostic::warning(None, "hm")], &SourceMap::default(), None);
         assert_eq!((report.status, report.errors(), report.first_error()), (Status::Ok, 0, None));

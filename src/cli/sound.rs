@@ -1,5 +1,5 @@
-//! `eddy render --pass sound`: the samples of sound passes, written as WAV or FLAC files of 16 bits and 44,100 samples per
-//! second.
+//! `eddy render --pass sound`: writes the samples of sound passes as WAV or FLAC files of 16 bits and 44,100 samples
+//! per second.
 
 use super::{
     args::RenderArgs,
@@ -32,11 +32,11 @@ enum Format {
     Flac,
 }
 
-/// The files that one call writes sounds to.
+/// The sound files that one call writes.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Sounds {
     format: Format,
-    /// Samples of each.
+    /// The number of samples of each.
     frames: u32,
     place: Output,
 }
@@ -50,8 +50,8 @@ enum Output {
 }
 
 impl Sounds {
-    /// Returns where a call writes sounds to; `None` for one that writes pictures. Err: what was asked for cannot be
-    /// meant.
+    /// Returns the sound files that a call writes; `None` if it writes pictures. Returns an error message if the
+    /// options contradict each other.
     pub(super) fn of(args: &RenderArgs) -> Result<Option<Sounds>, String> {
         let named = args.out.as_deref().filter(|out| !out.is_dir()).and_then(format_of);
         if !args.pass.pass.is_sound() {
@@ -103,7 +103,7 @@ impl Sounds {
         Ok(Some(Sounds { format: named.unwrap_or(Format::Wav), frames, place }))
     }
 
-    /// Makes the folder, so that a place nothing can be written to is known before anything is drawn.
+    /// Creates the folder, so that an unwritable location is detected before anything is drawn.
     pub(super) fn prepare(&self) -> anyhow::Result<()> {
         match &self.place {
             Output::Nowhere => Ok(()),
@@ -112,7 +112,7 @@ impl Sounds {
         }
     }
 
-    /// Writes a sound whole or not at all. Gives the file.
+    /// Writes a sound atomically. Returns the file.
     fn write(&self, project: usize, frames: &[[i16; 2]]) -> anyhow::Result<Option<PathBuf>> {
         let (path, within) = match &self.place {
             Output::Nowhere => return Ok(None),
@@ -135,7 +135,7 @@ impl Sounds {
     }
 }
 
-/// The form that a file's extension asks for.
+/// The format with a file's extension.
 fn format_of(path: &Path) -> Option<Format> {
     match path.extension()?.to_string_lossy().to_ascii_lowercase().as_str() {
         "wav" => Some(Format::Wav),
@@ -144,7 +144,7 @@ fn format_of(path: &Path) -> Option<Format> {
     }
 }
 
-/// The report, and what was made.
+/// The report, and the result.
 #[derive(Serialize)]
 struct JsonLine<'a> {
     #[serde(flatten)]
@@ -157,7 +157,7 @@ struct JsonLine<'a> {
 struct SoundReport {
     seconds: f64,
     samples: usize,
-    /// Median of the blocks, 6 s of sound each.
+    /// The median of the blocks, 6 s of sound each.
     block_ms: Option<f64>,
     file: Option<PathBuf>,
 }
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_meant_is_refused_with_the_fix() {
+    fn invalid_options_are_rejected_with_a_fix() {
         for (line, says) in [
             ("a --out x.wav", "add --pass sound"),
             ("a --out x.png --secs 3", "add --pass sound"),

@@ -1,4 +1,4 @@
-//! A place of a project's texts, and what the author wrote there.
+//! A range of a project's text, with its location and content.
 
 use super::terminal::one_line;
 use crate::{diag::Span, project::Project};
@@ -10,7 +10,7 @@ pub(super) struct SourceExcerpt {
     /// Counted from 1, in characters.
     pub line: Option<usize>,
     pub column: Option<usize>,
-    /// Its first line.
+    /// The first line of the range.
     pub text: String,
 }
 
@@ -28,7 +28,7 @@ impl SourceExcerpt {
         }
     }
 
-    /// `image.glsl:12:9`; `None` for what Eddy adds to the author's code.
+    /// Formats the location, as in `image.glsl:12:9`; `None` for code that Eddy adds to the author's.
     pub(super) fn place(&self) -> Option<String> {
         Some(format!("{}:{}:{}", one_line(self.source.as_ref()?), self.line?, self.column?))
     }

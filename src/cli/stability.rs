@@ -1,4 +1,4 @@
-//! `eddy lab stability`: simulations under hard conditions, and which of them leave their bounds.
+//! `eddy lab stability`: simulations under hard conditions, and the ones that leave their bounds.
 
 use super::{
     args::StabilityArgs,
@@ -18,7 +18,7 @@ use std::{
     path::Path,
 };
 
-/// Exit code 1: a bound was left that should have been kept, or a case could not be drawn.
+/// Exit code 1: a value left a bound that it should have kept, or a case could not be drawn.
 const LEFT: u8 = 1;
 
 pub(super) fn run(args: &StabilityArgs) -> io::Result<u8> {
@@ -65,12 +65,12 @@ pub(super) fn run(args: &StabilityArgs) -> io::Result<u8> {
     Ok(if of_these.iter().all(|c| c.is_right()) { 0 } else { LEFT })
 }
 
-/// The report of what stability there is among results.
+/// Writes the report of the stability results.
 pub(super) fn files(out: &Path, results: &Results, subjects: &[CheckedProject]) -> Result<Vec<String>, LabError> {
     stability::write_of(out, results, subjects)
 }
 
-/// Says on standard error what is drawn: on a terminal in one line that is written over, else a line a case.
+/// Reports on standard error what is drawn: on a terminal in one line that is overwritten, else one line per case.
 fn tell(step: Step<'_>) {
     let words = format!("{}/{} {}: {}", step.done + 1, step.all, step.project, step.case.name);
     terminal::replace_line(&words);

@@ -1,19 +1,19 @@
-//! `--sweep`: a project drawn once for each value of a uniform, or for every combination of several.
+//! `--sweep`: draws a project once for each value of a uniform, or for every combination of several.
 
 use std::collections::BTreeSet;
 
-/// Values of a uniform, as `--set` takes them.
+/// The values of a uniform, in the syntax of `--set`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Sweep {
     name: String,
     values: Vec<String>,
 }
 
-/// Most values of a range.
+/// The maximum number of values of a range.
 const MOST: u32 = 1 << 20;
 
 impl Sweep {
-    /// Reads `NAME=VALUE;VALUE` or `NAME=LOW..HIGH:COUNT`, with `:log` after that for even ratios.
+    /// Parses `NAME=VALUE;VALUE` or `NAME=LOW..HIGH:COUNT`, with `:log` after that for even ratios.
     pub(super) fn parse(text: &str) -> Result<Sweep, String> {
         let shape =
             || "write a sweep as NAME=VALUE;VALUE or NAME=LOW..HIGH:COUNT, as in viscosity=0..0.01:5".to_owned();
@@ -29,7 +29,7 @@ impl Sweep {
         if values.iter().any(String::is_empty) {
             return Err(shape());
         }
-        // Files are named after them, and not every disk tells a from A.
+        // Files are named after them, and not every file system distinguishes a from A.
         let mut seen = BTreeSet::new();
         match values.iter().find(|value| !seen.insert(value.to_lowercase())) {
             Some(twice) => Err(format!("{twice} is listed twice, which would give two files the same name")),
@@ -69,13 +69,13 @@ fn range(low: &str, rest: &str) -> Result<Vec<String>, String> {
     Ok((0..count).map(|k| short(value(k))).collect())
 }
 
-/// With nine digits that count: names of files are read by people.
+/// Formats a value with nine significant digits, to keep file names readable.
 fn short(value: f64) -> String {
     format!("{value:.8e}").parse::<f64>().unwrap_or(value).to_string()
 }
 
-/// Every combination of the sweeps' values, each as assignments for `--set`; the last sweep changes first. One without
-/// any assignment where there is no sweep.
+/// Returns every combination of the sweeps' values, each as assignments for `--set`; the last sweep changes first.
+/// Without a sweep, one combination without assignments.
 pub(super) fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<String>>, String> {
     let mut names = BTreeSet::new();
     if let Some(twice) = sweeps.iter().find(|sweep| !names.insert(&sweep.name)) {
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn lists_and_ranges_are_read() {
+    fn lists_and_ranges_are_parsed() {
         assert_eq!(values("tint=1,0,0; 0,1,0"), ["1,0,0", "0,1,0"]);
         assert_eq!(values("v=0..0.3:4"), ["0", "0.1", "0.2", "0.3"]);
         assert_eq!(values("v=5..1:3"), ["5", "3", "1"]);

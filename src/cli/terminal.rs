@@ -1,9 +1,9 @@
-//! The one way of the command line to standard output and standard error.
+//! The command line's access to standard output and standard error. No other code writes to them.
 //!
-//! A stranger's text may be in the output: names of folders and files, keys, messages of shaders. Its control characters
-//! are escaped here, whatever part of Eddy wrote it; line breaks and tabs stay. A text that must have one
-//! line is made so by its writer ([`escape_line`](crate::diag::escape_line)). Only bytes of films and pictures go to
-//! standard output as they are, by [`raw_stdout`].
+//! The output may contain untrusted text: names of folders and files, keys, messages of shaders. Its control characters
+//! are escaped here, whatever part of Eddy wrote it; line breaks and tabs stay. The writer of a text that must be on
+//! one line uses [`escape_line`](crate::diag::escape_line). Only bytes of films and pictures go to standard output
+//! unescaped, by [`raw_stdout`].
 
 use crate::diag::{escape_json, escape_line, escape_text};
 use serde::Serialize;
@@ -13,12 +13,12 @@ use std::{
     path::Path,
 };
 
-/// Writes text whose control characters are escaped. Bytes that are not UTF-8 are written as U+FFFD, as a terminal of 8 bits
-/// obeys some of them.
+/// Writes text with escaped control characters. Bytes that are not UTF-8 are written as U+FFFD, as 8-bit terminals
+/// interpret some of them.
 #[derive(Debug)]
 pub(super) struct EscapingWriter<W> {
     out: W,
-    /// The start of a character whose other bytes have not come yet.
+    /// The start of a character whose remaining bytes have not been written yet.
     pending: Vec<u8>,
 }
 
@@ -46,7 +46,7 @@ impl<W: Write> Write for EscapingWriter<W> {
     }
 }
 
-/// Returns where the last character starts if it is not complete; the length otherwise.
+/// Returns the offset of an incomplete last character, or else the length.
 fn incomplete_tail(bytes: &[u8]) -> usize {
     let mut at = 0;
     for chunk in bytes.utf8_chunks() {
@@ -68,12 +68,12 @@ pub(super) fn stderr() -> EscapingWriter<StderrLock<'static>> {
     EscapingWriter::new(io::stderr().lock())
 }
 
-/// Returns standard output for bytes that are not text.
+/// Returns standard output for binary data.
 pub(super) fn raw_stdout() -> io::Stdout {
     io::stdout()
 }
 
-/// Writes one object of JSON as a line on standard output.
+/// Writes a JSON object as a line on standard output.
 pub(super) fn print_json(value: &impl Serialize) -> io::Result<()> {
     let line = serde_json::to_string(value)?;
     let mut out = io::stdout().lock();
@@ -81,7 +81,7 @@ pub(super) fn print_json(value: &impl Serialize) -> io::Result<()> {
     out.flush()
 }
 
-/// Writes a line on standard error that takes the place of the one before; a line of its own where that is not a terminal.
+/// Writes a line on standard error that replaces the previous one; a separate line if it is not a terminal.
 pub(super) fn replace_line(words: &str) {
     let mut err = io::stderr().lock();
     let words = escape_line(words);
@@ -90,7 +90,7 @@ pub(super) fn replace_line(words: &str) {
     let _ = err.flush();
 }
 
-/// Writes codes that move the cursor, which are Eddy's own, around text that was escaped before.
+/// Writes Eddy's own codes that move the cursor, around text that was escaped before.
 pub(super) fn stderr_with_codes(text: &str) -> io::Result<()> {
     io::stderr().lock().write_all(text.as_bytes())
 }
@@ -99,12 +99,12 @@ pub(super) fn flush_stderr() -> io::Result<()> {
     io::stderr().flush()
 }
 
-/// Returns a path for a line that people read.
+/// Formats a path for a line of output.
 pub(super) fn shown_path(path: &Path) -> String {
     one_line(&path.to_string_lossy()).into_owned()
 }
 
-/// Returns a name for a line that people read.
+/// Formats a name for a line of output.
 pub(super) fn one_line(name: &str) -> Cow<'_, str> {
     escape_line(name)
 }
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn controls_are_escaped_wherever_a_write_is_cut() {
+    fn controls_are_escaped_wherever_a_write_is_split() {
         let text = "a\u{1b}[2J\u{9b}31m\u{202e}é\u{10ffff}\n\tb";
         let right = "a\\u{1b}[2J\\u{9b}31m\\u{202e}é\u{10ffff}\n\tb";
         for at in 0..text.len() {

@@ -1,11 +1,11 @@
-//! A place of a text as the command line names it: TAB:LINE:COLUMN.
+//! A position in a text on the command line: TAB:LINE:COLUMN.
 
 use crate::{
     diag::SourceId,
     project::{Pass, PassName, Project, Tab},
 };
 
-/// A place of a text: a tab, a line and a column, both from 1.
+/// A position in a text: a tab, a line and a column, both from 1.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct TextPlace {
     pub tab: Tab,
@@ -14,7 +14,7 @@ pub(super) struct TextPlace {
 }
 
 impl TextPlace {
-    /// Reads TAB:LINE:COLUMN.
+    /// Parses TAB:LINE:COLUMN.
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         let wrong = || format!("{text} is not a position: write tab, line and column, as in image:12:9");
         let mut parts = text.rsplitn(3, ':');
@@ -25,7 +25,7 @@ impl TextPlace {
         Ok(Self { tab, line, column })
     }
 
-    /// The tab's text and a byte of it. Err: what is wrong with the place.
+    /// Returns the id of the tab's text and the byte offset, or an error message for an invalid position.
     pub(super) fn find(&self, project: &Project) -> Result<(SourceId, u32), String> {
         let missing = || format!("there is no tab {}", self.tab.title());
         let source = match &self.tab {
@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_is_a_tab_a_line_and_a_column() {
+    fn a_position_is_a_tab_a_line_and_a_column() {
         let place = TextPlace::parse("image:12:9").unwrap();
         assert_eq!(place, TextPlace { tab: Tab::image(), line: 12, column: 9 });
         assert_eq!(TextPlace::parse("common:1:2").unwrap().tab, Tab::Common);

@@ -1,4 +1,4 @@
-//! Pictures that are drawn in tiles: which are, and their way from the tiles to files.
+//! Pictures that are drawn in tiles: the decision to use tiles, and writing the tiles to files.
 
 use super::{
     args::{RenderArgs, RunArgs},
@@ -18,26 +18,26 @@ use crate::{
 };
 use std::ops::Range;
 
-/// Says whether the pass that is written is drawn in tiles.
+/// The choice of tiles for the written pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Tiles {
     #[default]
     Never,
-    /// In tiles if its picture is too large to be drawn in one piece, or would take too much memory. Strips have whole blocks of
-    /// this many rows.
+    /// Uses tiles if the picture is too large to be drawn in one piece, or would need too much memory. Strips have a
+    /// multiple of this number of rows.
     Large(u32),
-    /// Always, with so many pixels along each side of a tile.
+    /// Always uses tiles, with this number of pixels along each side.
     Always(u32, u32),
 }
 
-/// Says whether a picture is drawn in tiles.
+/// The decision for one picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TilePolicy {
     /// In one piece.
     Never,
-    /// In tiles, if that can be; otherwise in one piece.
+    /// In tiles if possible; otherwise in one piece.
     Preferred(Tiling),
-    /// In tiles alone.
+    /// Only in tiles.
     Required(Tiling),
 }
 
@@ -50,7 +50,7 @@ impl TilePolicy {
     }
 }
 
-/// Decides how the pictures of a run are drawn. `is_measured`: somebody else reads all of the picture.
+/// Decides how the pictures of a run are drawn. `is_measured`: other code reads the whole picture.
 pub(super) fn policy(run: &RunArgs, gpu: &Gpu, is_measured: bool) -> Result<TilePolicy, RunError> {
     let recorded = run.replay.iter().flat_map(|recording| recording.frames.iter().map(|frame| frame.size));
     let sides = recorded.chain([run.size]).fold((0, 0), |(w, h), size| (w.max(size.0), h.max(size.1)));
@@ -93,7 +93,7 @@ pub(super) fn size(offline: &Offline, args: &RenderArgs) -> Result<(u32, u32), R
     Ok((width / args.factor(), height / args.factor()))
 }
 
-/// Draws rows of a picture. `parts`: the frame's inputs, where it is the mean of pictures.
+/// Draws rows of a picture. `parts`: the frame's inputs, if it is the mean of several pictures.
 fn strip(
     offline: &mut Offline,
     args: &RenderArgs,
@@ -119,7 +119,7 @@ fn strips(offline: &Offline, top_first: bool) -> Result<Vec<Range<u32>>, RunErro
     Ok(offline.tiling().zip(picture).map_or_else(Vec::new, |(tiling, picture)| tiling.strips(picture, top_first)))
 }
 
-/// Draws all of the newest frame's picture and drops it.
+/// Draws the whole picture of the newest frame and discards it.
 pub(super) fn draw_all(offline: &mut Offline) -> Result<(), RunError> {
     for rows in strips(offline, true)? {
         offline.draw_strip(rows)?;
@@ -127,7 +127,7 @@ pub(super) fn draw_all(offline: &mut Offline) -> Result<(), RunError> {
     Ok(())
 }
 
-/// Returns the whole picture of the newest frame, whether or not it is drawn in tiles, as it is written.
+/// Returns the whole picture of the newest frame, in tiles or not, in its written form.
 pub(super) fn whole(offline: &mut Offline, args: &RenderArgs, parts: Option<&FrameInputs>) -> Result<Pixels, RunError> {
     if offline.tiling().is_none() {
         let pixels = offline.read(&args.pass.pass, args.face.unwrap_or(args.pass.target))?;
@@ -151,7 +151,7 @@ pub(super) fn whole(offline: &mut Offline, args: &RenderArgs, parts: Option<&Fra
     Ok(Pixels { width, height, texels })
 }
 
-/// Draws the newest frame's picture and writes it meanwhile.
+/// Draws the newest frame's picture and writes it at the same time.
 pub(super) fn write(
     offline: &mut Offline,
     args: &RenderArgs,

@@ -1,4 +1,4 @@
-//! `eddy trace`: what a pass does for one pixel, step by step, and how far its value is from the device's.
+//! `eddy trace`: the execution of a pass for one pixel, step by step, and the difference of its value from the GPU's.
 
 use super::{
     args::{HostProgram, TraceArgs},
@@ -32,7 +32,7 @@ struct JsonLine<'a> {
     trace: Option<&'a Traced>,
 }
 
-/// The report, and where the first number is that is not finite; null where all are.
+/// The report, and the first value that is not finite; null if all are.
 #[derive(Serialize)]
 struct NonfiniteReport<'a> {
     #[serde(flatten)]
@@ -48,55 +48,55 @@ struct Traced {
     face: Option<&'static str>,
     pixel: [u32; 2],
     frame: u32,
-    /// The triangle whose fragment the texel holds, of a pass that draws meshes.
+    /// For a pass that draws meshes, the triangle whose fragment the texel contains.
     #[serde(skip_serializing_if = "Option::is_none")]
     mesh: Option<MeshReport>,
-    /// No triangle of a pass that draws meshes covers the pixel.
+    /// True if no triangle of a pass that draws meshes covers the pixel.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     clear: bool,
-    /// The texel lies outside of this region of the pass, x, y, width and height: nothing is drawn there.
+    /// The texel is outside this region of the pass (x, y, width and height): nothing is drawn there.
     #[serde(skip_serializing_if = "Option::is_none")]
     outside: Option<[u32; 4]>,
-    /// Holds what it held before frame 0 then, if that is not zeros.
+    /// The expression of the texel's contents before frame 0, which it then keeps, unless they are zeros.
     #[serde(skip_serializing_if = "Option::is_none")]
     initial: Option<SourceExcerpt>,
-    /// The texel lies in the boundary of the pass, which this writes.
+    /// The texel is in the boundary of the pass, which this expression writes.
     #[serde(skip_serializing_if = "Option::is_none")]
     boundary: Option<SourceExcerpt>,
-    /// Holds what the walker found; null where the pass draws nothing.
+    /// The walker's value; null if the pass draws nothing.
     value: Option<[Number; 4]>,
-    /// The same way in double precision.
+    /// The value in double precision along the same path.
     double: Option<[Number; 4]>,
-    /// The texel that the device drew, as it is stored.
+    /// The texel that the GPU drew, as stored.
     device: [Number; 4],
-    /// Says how it is stored.
+    /// The storage format.
     format: &'static str,
-    /// Numbers of single precision between the two, of the components that are stored; null where these are of fewer
+    /// The distances between the two in ulps of single precision, for the stored components; null if these have fewer
     /// bits.
     ulps: Option<Vec<u32>>,
-    /// Says where the device parts from the walker, if their values are not the same.
+    /// The first difference between the GPU and the walker, if their values differ.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[serde(rename = "parted")]
     divergence: Option<DivergenceReport>,
     statements: u64,
     left_out: u64,
     steps: Vec<PlacedStep>,
-    /// Holds what `//@print` comments ask for.
+    /// The values that `//@print` comments request.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     printed: Vec<Printed>,
 }
 
-/// A triangle of a mesh. Draws of the pass and triangles of the mesh are counted from 0.
+/// A triangle of a mesh. The draws of the pass and the triangles of the mesh are counted from 0.
 #[derive(Serialize)]
 struct MeshReport {
     draw: usize,
     name: String,
     triangle: usize,
-    /// Its front is seen.
+    /// True if its front is visible.
     front: bool,
 }
 
-/// A step with its place spelled out.
+/// A step with its location spelled out.
 #[derive(Serialize)]
 struct PlacedStep {
     kind: &'static str,
@@ -193,7 +193,7 @@ fn format_of(project: &Project, pass: &PassName) -> TexelFormat {
     project.pass(pass).and_then(|pass| pass.formats().first().copied()).unwrap_or_default()
 }
 
-/// The walker's value is not the texel that the device has stored, bit for bit.
+/// Returns whether the walker's value differs from the texel that the GPU has stored, bit for bit.
 fn parts(project: &Project, args: &TraceArgs, device: [f32; 4], trace: &Trace) -> bool {
     let format = format_of(project, &args.pass.pass);
     let is_apart = |value: [f32; 4]| (0..format.components()).any(|i| ulps(value[i], device[i]) > 0);

@@ -1,4 +1,4 @@
-//! `eddy translate`: the passes of a project in another shading language, into a folder.
+//! `eddy translate`: writes the passes of a project in another shading language, into a folder.
 
 use super::{
     args::TranslateArgs,
@@ -25,7 +25,7 @@ struct JsonLine<'a> {
     language_version: Option<&'static str>,
     /// The folder of the files.
     out: String,
-    /// Names of the files that were written; none if the project has errors.
+    /// The names of the written files; none if the project has errors.
     files: Vec<String>,
 }
 
@@ -39,7 +39,7 @@ impl Run for TranslateArgs {
 fn run(args: &TranslateArgs, language: Language) -> io::Result<u8> {
     let mut report = Report::new(&args.project);
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.project, language));
-    // No device is made; the machine only turns a panic into an error.
+    // No device is created; the machine only turns a panic into an error.
     let written = Machine::default().attempt(&mut report, |_, report| {
         let loaded = project::load(&args.project)?;
         let project = &loaded.project;

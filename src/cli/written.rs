@@ -1,9 +1,9 @@
-//! Files that a command writes into a folder of its own, all or none.
+//! Files that a command writes into its own folder, all or none.
 
 use crate::project::{self, ProjectError};
 use std::{fs, io::Write, path::Path};
 
-/// Makes the folder that `option` names, unless it is there.
+/// Creates the folder that `option` names, unless it exists.
 pub(super) fn make_folder(option: &str, folder: &Path) -> anyhow::Result<()> {
     check_is_no_file(option, folder)?;
     fs::create_dir_all(folder)
@@ -19,8 +19,8 @@ fn check_is_no_file(option: &str, folder: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Writes files into a folder, which is made where it is not there. One that is there already with other content is an
-/// error, unless `force` allows it; nothing is written then. The files are regular ones within the folder.
+/// Writes files into a folder, which is created if necessary. An existing file with different content is an error,
+/// unless `force` permits it; then nothing is written. The files must be regular ones within the folder.
 pub(super) fn write_all<'a>(
     folder: &Path,
     files: impl IntoIterator<Item = (&'a str, &'a [u8])> + Clone,

@@ -1,4 +1,4 @@
-//! Stages that are compiled side by side, before they are asked for one by one.
+//! Compiles stages in parallel before they are requested one by one.
 
 use super::{
     Sources,
@@ -16,12 +16,12 @@ use std::{
     thread,
 };
 
-/// Bytes of GLSL from which a further thread is worth its start: they compile in a third of a millisecond.
+/// The bytes of GLSL that justify another thread: they compile in a third of a millisecond.
 const TEXT_OF_A_THREAD: usize = 8 << 10;
 
-/// A stage that has to be compiled: of `project.passes[index]`, for the cache.
+/// A stage to compile: of `project.passes[index]`, for the cache.
 struct Job {
-    /// Bytes of its texts.
+    /// The total bytes of its texts.
     text: usize,
     index: usize,
     options: PassOptions,
@@ -29,8 +29,8 @@ struct Job {
 }
 
 impl Sources<'_> {
-    /// Compiles what the cache lacks of these passes, where it is enough for several threads. Programs that draw
-    /// meshes are left out: one stage waits for the other.
+    /// Compiles the stages of these passes that the cache lacks, if there is enough work for several threads. Programs
+    /// that draw meshes are omitted, as one stage depends on the other.
     pub(super) fn compile_ahead(&self, cache: &mut StageCache, passes: impl IntoIterator<Item = (usize, PassOptions)>) {
         let mut jobs: Vec<Job> = Vec::new();
         for (index, options) in passes {
@@ -50,7 +50,7 @@ impl Sources<'_> {
         let cores = || thread::available_parallelism().map_or(1, NonZero::get);
         let text: usize = jobs.iter().map(|job| job.text).sum();
         let threads = jobs.len().min(text / TEXT_OF_A_THREAD);
-        // So that no thread begins the longest when the others are about to end.
+        // Longest first, so that no thread starts the longest job when the others are nearly done.
         jobs.sort_by_key(|job| Reverse(job.text));
         if threads > 1 && cores() > 1 {
             let outcomes = self.compile_jobs(&jobs, threads.min(cores()));
@@ -62,7 +62,7 @@ impl Sources<'_> {
 
     /// Compiles the jobs; each thread takes the next one.
     fn compile_jobs(&self, jobs: &[Job], threads: usize) -> Vec<Outcome> {
-        // Here, so that one thread reads it and not each.
+        // Read it here once, instead of in each thread.
         let preamble = self.preamble();
         let next = AtomicUsize::new(0);
         let work = || {
@@ -86,7 +86,7 @@ impl Sources<'_> {
         done.into_iter().map(|(_, outcome)| outcome).collect()
     }
 
-    /// Gives `project.passes[index]`, which draws the whole target, as the compiler takes it.
+    /// Calls `work` with the compiler input for `project.passes[index]`, which draws the whole target.
     fn with_screen<T>(&self, index: usize, options: PassOptions, work: impl FnOnce(&PassSource<'_>) -> T) -> T {
         let kind = sources::pass_kind(&self.project.passes[index].id);
         let PassOptions { bilinear_by_hand, driver, probe, tiled } = options;
@@ -102,7 +102,7 @@ mod tests {
     use eddy_project as project;
 
     #[test]
-    fn threads_compile_what_one_thread_does() {
+    fn parallel_and_serial_compilation_agree() {
         for name in ["fluid", "scene-bloom-taa", "gallery-of-tricks"] {
             let project = project::presets::load(name).expect("a preset").project;
             let texts = Sources::new(&project);
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_compiled_ahead_is_in_the_cache() {
+    fn stages_compiled_ahead_are_in_the_cache() {
         let project = project::presets::load("fluid").expect("a preset").project;
         let texts = Sources::new(&project);
         let options = PassOptions::default();

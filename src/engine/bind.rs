@@ -1,5 +1,5 @@
-//! Bind groups: which textures the channels of each draw see. Made when first needed and kept for a program and a size,
-//! so that a frame only sets them.
+//! Bind groups: the textures that the channels of each draw read. Created when first needed and kept for a program and
+//! a size, so that a frame only sets them.
 
 use super::{
     pipelines::StagePipeline,
@@ -15,10 +15,10 @@ use eddy_project::{Filter, Wrap};
 
 /// The bind groups of one draw.
 pub(super) struct DrawBindings {
-    /// One for each program; of a cubemap pass, which has one, one for each face.
+    /// One per program; for a cubemap pass, which has one program, one per face.
     uniforms: Vec<wgpu::BindGroup>,
-    /// One for each choice of textures: bit i says which of its two the target of channel i shows. Made when first
-    /// needed.
+    /// One per selection of textures: bit i selects which of its two textures the target of channel i reads. Created
+    /// when first needed.
     channels: [Option<wgpu::BindGroup>; 16],
 }
 
@@ -32,7 +32,7 @@ impl DrawBindings {
         Self { uniforms: (0..layers).flat_map(of_layer).collect(), channels: Default::default() }
     }
 
-    /// Uniforms, and the channels as the targets stand now.
+    /// The bind groups of the uniforms, and of the channels for the current state of the targets.
     pub(crate) fn groups(
         &mut self,
         shared: &Shared,
@@ -50,7 +50,7 @@ impl DrawBindings {
     }
 }
 
-/// The fills of one draw, bound.
+/// The bind groups of one draw's fills.
 #[derive(Default)]
 pub(super) struct FillBindings {
     pub initial: Option<DrawBindings>,
@@ -61,7 +61,7 @@ pub(super) struct FillBindings {
 #[derive(Default)]
 pub(super) struct Bindings {
     pub draws: Vec<DrawBindings>,
-    /// One for each draw.
+    /// One per draw.
     pub fills: Vec<FillBindings>,
 }
 
@@ -81,7 +81,7 @@ impl Bindings {
     }
 }
 
-/// Draws a fill within the scissor that is set. A fill reads no target.
+/// Draws a fill within the current scissor rectangle. A fill reads no target.
 pub(super) fn draw_fill(
     bindings: &mut DrawBindings,
     shared: &Shared,
@@ -143,7 +143,7 @@ fn channel_group(shared: &Shared, compiled: &CompiledDraw, draw: &Draw, targets:
             });
         }
     }
-    // The same for every program of the pass, of which there is one at least.
+    // The layout is equal for every program of the pass, and there is at least one.
     let first = compiled.body.pipelines().next().expect("a pass has a program");
     shared.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("channels"),
@@ -159,10 +159,10 @@ fn view<'a>(
     targets: &'a [Target],
 ) -> &'a wgpu::TextureView {
     match read.map(|r| &r.source) {
-        // Whether that is this frame's or one before it is the plan's order.
+        // The order of the plan determines whether that is the current frame's or the previous one's.
         Some(TexelSource::Target { index, .. }) => {
             let texture = targets[*index].newest();
-            // FilterMode by hand goes by the levels it finds.
+            // Filtering in the shader uses the mip levels that exist.
             let is_linear = read.is_some_and(|r| r.sampler.filter == Filter::Linear);
             let one_level = is_linear && channel.filter_mode == FilterMode::Shader;
             if one_level { &texture.level_0 } else { &texture.all_levels }
@@ -177,7 +177,7 @@ fn view<'a>(
 fn sampler<'a>(shared: &'a Shared, channel: &BoundChannel, read: Option<&Read>) -> &'a wgpu::Sampler {
     let (filter, wrap) = read.map_or((Filter::Nearest, Wrap::Clamp), |r| (r.sampler.filter, r.sampler.wrap));
     let filtering = match (channel.filter_mode, filter) {
-        // The shader asks for the level.
+        // The shader selects the level.
         (FilterMode::Shader | FilterMode::Nearest, Filter::Mipmap) => Filtering::NearestOfLevel,
         (FilterMode::Shader | FilterMode::Nearest, _) | (_, Filter::Nearest) => Filtering::Nearest,
         (FilterMode::Sampler, Filter::Linear) => Filtering::Linear,

@@ -1,4 +1,4 @@
-//! A project becomes everything a frame needs that does not change from frame to frame.
+//! Builds everything that a frame of a project needs and that is constant from frame to frame.
 
 use super::{
     BuildError, EngineError, Sources,
@@ -21,29 +21,31 @@ use eddy_media::MediaSet;
 use eddy_project::{FillKind, Pass, PassName, PassSettings, Project};
 use eddy_texture::TexelFormat;
 
-/// The pictures that are wanted, and whether the others may be left out.
+/// The requested pictures, and whether other passes may be omitted.
 #[derive(Clone, Debug)]
 pub struct BuildOptions {
-    /// The passes whose pictures are wanted; nothing they do not need is compiled into the frame. Empty: Image. Sound
-    /// alone: see [`BuildOptions::sound`].
+    /// The passes whose pictures are requested; passes that they do not depend on are not in the frame. Empty: Image.
+    /// For sound only, see [`BuildOptions::sound`].
     pub wanted: Vec<PassName>,
-    /// Leave out what nobody reads. Off (`--no-skip`), everything is drawn, with the same bytes in every picture.
+    /// True to omit passes that are not read. If false (`--no-skip`), everything is drawn, with the same bytes in every
+    /// picture.
     pub skip: bool,
-    /// Passes of the shader compiler's optimiser that are left out: for who works on it.
+    /// Disabled passes of the shader compiler's optimiser: for debugging the compiler.
     pub without: PassSet,
     /// A value of a pass that is drawn into [`BuildOptions::probed`].
     pub probe: Option<(PassName, Probe)>,
-    /// Compiles large programs elsewhere first, where the driver compiles on the processor. A program whose value is
-    /// probed is not tried.
+    /// Compiles large programs in another process first, if the driver compiles on the CPU. Programs whose value is
+    /// probed are not tried.
     pub trial: Option<Trial>,
-    /// The width and height, multiples of 4, of the target that the first wanted pass is drawn into tile by tile, by
-    /// [`Engine::draw_tile`](super::Engine::draw_tile); `None`: its target is as large as its picture.
+    /// The width and height, multiples of 4, of the target that the first requested pass is drawn into tile by tile, by
+    /// [`Engine::draw_tile`](super::Engine::draw_tile); `None`: its target has the size of its picture.
     pub tile: Option<(u32, u32)>,
 }
 
 impl BuildOptions {
-    /// Builds the sound pass alone, for [`Engine::draw_sound`](super::Engine::draw_sound). No other pass is compiled, so
-    /// that their errors do not silence it; and in no other build is the sound pass, so that its errors stop no picture.
+    /// Builds only the sound pass, for [`Engine::draw_sound`](super::Engine::draw_sound). No other pass is compiled, so
+    /// that their errors do not silence it; and no other build includes the sound pass, so that its errors affect no
+    /// picture.
     pub fn sound() -> Self {
         Self { wanted: vec![PassName::sound()], ..Self::default() }
     }
@@ -52,20 +54,20 @@ impl BuildOptions {
         matches!(&self.wanted[..], [pass] if pass.is_sound())
     }
 
-    /// Returns whether a pass is compiled at all.
+    /// Returns whether a pass is compiled.
     fn compiles(&self, pass: &PassName) -> bool {
         pass.is_picture() != self.is_sound()
     }
 
-    /// Returns what the probed value is drawn into: 32-bit floats, NaN where the probe never was. A buffer draws it
-    /// beside its picture, as others read that, so both take one evaluation. Of Image it is drawn by a pass of its own,
-    /// behind all buffers: its picture is drawn only where it is wanted too.
+    /// Returns the target of the probed value: 32-bit floats, NaN where the probe was not evaluated. A buffer draws it
+    /// together with its picture, which other passes read, so both take one evaluation. The value of Image is drawn by
+    /// a separate pass after all buffers: the picture of Image is drawn only if it is requested too.
     pub fn probed() -> PassName {
         PassName::buffer("probe of a value")
     }
 
-    /// Draws the first value that the innermost expression at a byte of a text has in a pass, or the variable whose name
-    /// is declared there, and nothing else that it does not need.
+    /// Draws the first value that the innermost expression at a byte offset of a text has in a pass, or the variable
+    /// whose name is declared there, and only the passes that it depends on.
     #[must_use]
     pub fn probing(self, pass: PassName, source: SourceId, at: u32) -> Self {
         let probe = Some((pass, Probe { source, at, visit: 0 }));
@@ -77,7 +79,7 @@ impl BuildOptions {
         self.tile.map(|_| self.wanted.first().cloned().unwrap_or_default())
     }
 
-    /// The buffer that draws a probed value beside its picture.
+    /// The buffer that draws a probed value together with its picture.
     fn probed_buffer(&self) -> Option<(&PassName, Probe)> {
         self.probe.as_ref().filter(|(pass, _)| !pass.is_image()).map(|(pass, probe)| (pass, *probe))
     }
@@ -89,7 +91,7 @@ impl Default for BuildOptions {
     }
 }
 
-/// A program and what the compiler wants to say of it.
+/// A program and the compiler's diagnostics.
 pub struct Built {
     pub program: Program,
     /// Warnings and notes.
@@ -98,18 +100,17 @@ pub struct Built {
     pub work: BuildWork,
 }
 
-/// The number of things that a build had to make. Everything else was there from earlier builds of the same
-/// [`Builder`].
+/// The number of objects that a build created. All others were reused from earlier builds of the same [`Builder`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BuildWork {
-    /// Stages that were compiled: texts with their settings, each distinct one once.
+    /// Compiled stages: distinct texts with their settings.
     pub stages: usize,
-    /// Pipelines that were made of them.
+    /// Pipelines created from them.
     pub pipelines: usize,
 }
 
-/// Builds programs on one device, one after the other. Compiled stages, pipelines, pictures and meshes that the last
-/// two programs have are not made again.
+/// Builds successive programs on one device. Reuses compiled stages, pipelines, pictures and meshes of the last two
+/// programs.
 pub struct Builder {
     gpu: Gpu,
     stages: StageCache,
@@ -119,7 +120,7 @@ pub struct Builder {
 }
 
 impl Program {
-    /// Builds a program, with nothing from before; see [`Builder::build`].
+    /// Builds a program without a cache; see [`Builder::build`].
     pub fn build(gpu: &Gpu, project: &Project, media: &MediaSet, options: &BuildOptions) -> Result<Built, BuildError> {
         Builder::new(gpu.clone()).build(project, media, options)
     }
@@ -137,8 +138,8 @@ impl Builder {
         }
     }
 
-    /// Compiles every pass, plans the frame and makes the pipelines of the passes it needs. `media` holds the pictures
-    /// the channels name; one that is missing reads as the site's unloaded channel.
+    /// Compiles every pass, plans the frame and creates the pipelines of the passes it needs. `media` contains the
+    /// pictures that the channels name; a missing one reads as an unloaded channel of Shadertoy's.
     pub fn build(&mut self, project: &Project, media: &MediaSet, options: &BuildOptions) -> Result<Built, BuildError> {
         let built = self.build_program(project, media, options);
         let is_whole = built.is_ok();
@@ -171,7 +172,7 @@ impl Builder {
             }
         }
         let facts: Vec<PassFacts> = passes.iter().map(|p| p.compiled.facts()).collect();
-        // What Image's probe reads has been drawn by then, as for Image.
+        // The inputs of Image's probe have been drawn by then, as for Image.
         let last = BuildOptions::probed();
         let mut plan = FramePlan::ending_with(&drawable, &facts, &wanted, options.skip, Some(&last));
         if let Some(pass) = drawable.passes.iter().position(|pass| Some(&pass.id) == beside) {
@@ -215,7 +216,7 @@ impl Builder {
         Ok(Built { program, diagnostics, sources, work: BuildWork::default() })
     }
 
-    /// Returns what the compiler is told of `project.passes[index]` besides its texts.
+    /// Returns the compiler's options for `project.passes[index]`.
     fn options(&self, project: &Project, media: &MediaSet, index: usize, build: &BuildOptions) -> PassOptions {
         let filter_mode = filter_mode(&self.gpu, project, media, index);
         let driver = Driver { without: build.without, ..driver(&self.gpu, &project.passes[index]) };
@@ -243,7 +244,7 @@ impl Builder {
         let drawn = project.passes.iter().enumerate().filter(|(_, pass)| build.compiles(&pass.id));
         let options: Vec<_> = drawn.map(|(index, _)| (index, self.options(project, media, index, build))).collect();
         texts.compile_ahead(&mut self.stages, options);
-        // Image is drawn last, wherever it stands in the project: its probe is drawn after all buffers.
+        // Image is drawn last, wherever it is in the project: its probe is drawn after all buffers.
         let mut probe_of_image = None;
         for (index, pass) in project.passes.iter().enumerate().filter(|(_, pass)| build.compiles(&pass.id)) {
             let options = self.options(project, media, index, build);
@@ -302,14 +303,14 @@ impl Builder {
     }
 }
 
-/// The passes that can be drawn, compiled; the project with only these, and every warning.
+/// The compiled passes that can be drawn, the project with only these, and every warning.
 struct Compilation {
     drawable: Project,
     passes: Vec<CompiledParts>,
     diagnostics: Vec<Diagnostic>,
 }
 
-/// Returns what the device's driver needs of the code of a pass.
+/// Returns the driver properties that affect the code of a pass.
 fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
     let has_small_floats = pass.formats().into_iter().any(TexelFormat::is_small_float);
     Driver {
@@ -328,14 +329,14 @@ fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
     }
 }
 
-/// The sound pass with the channels that it can read: there are no frames yet that other passes could have drawn.
+/// The sound pass with the channels that it can read: other passes have not drawn a frame yet.
 fn heard(pass: &Pass) -> Pass {
     let mut pass = pass.clone();
     pass.bindings.retain(|channel| channel.input.kind().is_in_sound());
     pass
 }
 
-/// The pass that a value of Image is drawn by.
+/// The pass that draws a value of Image.
 fn probed(pass: &Pass) -> Pass {
     let PassSettings { size, region, .. } = pass.settings.clone();
     let settings = PassSettings { size, region, format: TexelFormat::Rgba32f, ..PassSettings::default() };

@@ -1,4 +1,4 @@
-//! A cache that one build leaves for the next. Values are found by content.
+//! A cache that is passed from one build to the next. Values are found by content.
 
 use std::{
     collections::HashMap,
@@ -6,8 +6,8 @@ use std::{
     sync::{Arc, Weak},
 };
 
-/// Values by all that they are made of. A value stays as long as the newest build or the newest whole one uses it, and
-/// the whole one before that until the next is done: what is kept is bounded by two programs and one that failed.
+/// Values keyed by everything that determines them. A value stays while the newest build or the newest complete one
+/// uses it, and the previous complete one until the next is done: at most two programs and one failed build are kept.
 pub(super) struct Cache<K, V> {
     entries: HashMap<K, Entry<V>>,
     build: u64,
@@ -17,7 +17,7 @@ struct Entry<V> {
     value: V,
     /// The newest build that used it.
     used_by: u64,
-    /// The newest whole build used it.
+    /// True if the newest complete build used it.
     is_of_whole: bool,
 }
 
@@ -28,14 +28,14 @@ impl<K, V> Default for Cache<K, V> {
 }
 
 impl<K: Eq + Hash, V> Cache<K, V> {
-    /// Returns the value of a key, which this build uses from now on.
+    /// Returns the value of a key, and marks it as used by this build.
     pub(crate) fn get(&mut self, key: &K) -> Option<&V> {
         let entry = self.entries.get_mut(key)?;
         entry.used_by = self.build;
         Some(&entry.value)
     }
 
-    /// Returns whether a value is there, which nothing uses by that.
+    /// Returns whether a value exists, without marking it as used.
     pub(crate) fn holds(&self, key: &K) -> bool {
         self.entries.contains_key(key)
     }
@@ -45,12 +45,12 @@ impl<K: Eq + Hash, V> Cache<K, V> {
         self.entries.insert(key, Entry { value, used_by: self.build, is_of_whole: false });
     }
 
-    /// Returns every value that is there.
+    /// Returns every value.
     pub(crate) fn values(&self) -> impl Iterator<Item = &V> {
         self.entries.values().map(|entry| &entry.value)
     }
 
-    /// Ends a build. Forgets what neither it nor the newest whole build before it used.
+    /// Ends a build. Drops values that neither it nor the newest complete build before it used.
     pub(crate) fn end_build(&mut self, is_whole: bool) {
         let build = self.build;
         self.entries.retain(|_, entry| entry.used_by == build || entry.is_of_whole);
@@ -67,8 +67,8 @@ impl<K: Eq + Hash, V> Cache<K, V> {
     }
 }
 
-/// A value by its place in memory, which stays taken as long as this lives: equal places hold the same value. Does not
-/// keep the value itself.
+/// A key by address that keeps the allocation reserved while it lives, so that equal addresses mean the same value.
+/// Does not keep the value itself alive.
 pub(super) struct ByAddress<T>(Weak<T>);
 
 impl<T> ByAddress<T> {
@@ -101,7 +101,7 @@ impl<T> Hash for ByAddress<T> {
 mod tests {
     use super::*;
 
-    /// Builds with these keys; returns those that had to be made.
+    /// Builds with these keys; returns the keys of newly created values.
     fn build(cache: &mut Cache<char, ()>, keys: &str, is_whole: bool) -> String {
         let mut made = String::new();
         for key in keys.chars() {
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_last_two_whole_builds_used_stays() {
+    fn values_of_the_last_two_complete_builds_stay() {
         let mut cache = Cache::default();
         assert_eq!(build(&mut cache, "abc", true), "abc");
         assert_eq!(build(&mut cache, "abd", true), "d");
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn builds_that_fail_take_nothing_from_the_program_that_runs_and_do_not_pile_up() {
+    fn failed_builds_keep_the_running_programs_values_and_do_not_accumulate() {
         let mut cache = Cache::default();
         build(&mut cache, "abc", true);
         for key in 'f'..='z' {
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn an_address_is_not_taken_again_while_a_key_has_it() {
+    fn addresses_are_not_reused_while_a_key_exists() {
         let first = Arc::new([1u8; 64]);
         let key = ByAddress::of(&first);
         assert!(key == ByAddress::of(&first));

@@ -1,4 +1,4 @@
-//! The textures that the channels of a pass are bound to, and the way they are read on a device.
+//! The textures that the channels of a pass are bound to, and how they are filtered on a device.
 
 use super::{
     external::{self, ChannelClock, External, ExternalKey, ExternalTexture, Picture},
@@ -13,7 +13,7 @@ use eddy_project::{Channel, Filter, Input, PassSize, Project};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
 use std::{path::Path, sync::Arc};
 
-/// Returns how each channel of `project.passes[pass]` mixes texels on a device: the one place that decides it.
+/// Returns the filtering of each channel of `project.passes[pass]` on a device: the one place that decides it.
 pub(super) fn filter_mode(gpu: &Gpu, project: &Project, media: &MediaSet, pass: usize) -> [FilterMode; SLOTS] {
     std::array::from_fn(|index| {
         let Some(sampler) = effective_sampler(project, pass, index) else { return FilterMode::Nearest };
@@ -24,7 +24,7 @@ pub(super) fn filter_mode(gpu: &Gpu, project: &Project, media: &MediaSet, pass: 
     })
 }
 
-/// Returns how the picture of a fill is mixed.
+/// Returns the filtering of a fill's picture.
 pub(super) fn filter_mode_of_fill(gpu: &Gpu, texels: &Texels) -> FilterMode {
     mixing_of(gpu, Filter::Linear, texels.shape.format.is_32_bit())
 }
@@ -43,13 +43,13 @@ pub(super) struct ChannelBinder<'a> {
     pub project: &'a Project,
     pub media: &'a MediaSet,
     pub uploads: &'a mut Uploads,
-    /// The textures of the channels so far.
+    /// The external textures of the channels so far.
     pub externals: Vec<External>,
 }
 
 impl ChannelBinder<'_> {
-    /// Returns one channel of a pass, whose texture is on the device if the program reads it. One of another dimension
-    /// than the channel is declared with cannot be read.
+    /// Returns one channel of a pass, whose texture is uploaded if the program reads it. A texture whose dimension
+    /// differs from the channel's declaration cannot be read.
     pub(crate) fn bind(
         &mut self,
         (channel, dimension): (Option<&Channel>, Dimension),
@@ -80,7 +80,7 @@ impl ChannelBinder<'_> {
         })
     }
 
-    /// Returns the one channel of a fill that is the picture of a file.
+    /// Returns the one channel of a fill that reads the picture of a file.
     pub(crate) fn bind_fill(
         &mut self,
         path: &Path,
@@ -99,7 +99,7 @@ impl ChannelBinder<'_> {
         })
     }
 
-    /// Returns the external texture of a key, made if there is none.
+    /// Returns the external texture of a key, created if necessary.
     fn external(&mut self, key: ExternalKey, source: Box<dyn ExternalTexture>) -> Result<BoundExternal, GpuError> {
         let index = match self.externals.iter().position(|made| made.key == key) {
             Some(index) => index,
@@ -112,7 +112,7 @@ impl ChannelBinder<'_> {
     }
 }
 
-/// Returns the channel's `iChannelResolution`. The site leaves that of a cubemap's files at zeros.
+/// Returns the channel's `iChannelResolution`. Shadertoy leaves that of a cubemap's files at zero.
 fn resolution(shape: TextureShape) -> [f32; 3] {
     match shape.dimension {
         Dimension::Cube => [0.0; 3],
@@ -131,12 +131,12 @@ fn target_of(project: &Project, channel: &Channel) -> Option<(PassSize, TexelFor
     Some((pass.size(), format))
 }
 
-/// Returns the bind group that the channels of a draw are laid out in.
+/// Returns the bind group layout of a draw's channels.
 pub(super) fn channel_bindings(channels: &[BoundChannel; SLOTS]) -> Vec<(u32, Binding)> {
     let mut bindings = Vec::new();
     for (index, channel) in channels.iter().enumerate() {
         let dimension = eddy_gpu::view_dimension(channel.dimension);
-        // An empty channel is an 8-bit texture and can always be filtered; it is bound like the others to need no third
+        // An empty channel is an 8-bit texture and can always be filtered; it is bound like the others to avoid a third
         // case.
         let filterable = channel.filter_mode == FilterMode::Sampler;
         if channel.texture {

@@ -1,4 +1,4 @@
-//! A project's texts become compiled passes.
+//! Compiles a project's texts to passes.
 
 use super::{
     Sources,
@@ -13,20 +13,20 @@ use std::sync::Arc;
 
 type Result<T> = std::result::Result<T, Vec<Diagnostic>>;
 
-/// The settings of a pass that its texts do not say.
+/// The settings of a pass that its texts do not contain.
 #[derive(Clone, Copy, Default)]
 pub(super) struct PassOptions {
     pub bilinear_by_hand: [bool; SLOTS],
     pub driver: Driver,
     /// A value that the pass draws too.
     pub probe: Option<Probe>,
-    /// The pass is drawn in tiles.
+    /// True if the pass is drawn in tiles.
     pub tiled: bool,
 }
 
 impl Sources<'_> {
-    /// Compiles `project.passes[index]` as it is, of whichever kind and reached or not. Needs no device, but is told
-    /// which channels the device that shall run it cannot filter, and what its driver needs.
+    /// Compiles `project.passes[index]`, whatever its kind and whether or not it is needed. Needs no device, but the
+    /// channels that the device cannot filter, and the properties of its driver.
     ///
     /// # Panics
     /// If there is no such pass.
@@ -35,8 +35,8 @@ impl Sources<'_> {
         self.compile_pass_with(&mut StageCache::default(), index, options)
     }
 
-    /// Compiles what fills texels of `project.passes[index]`, if something does. It sees Common, and of the author's
-    /// own uniforms those that Common declares. A file is what its one channel reads.
+    /// Compiles the fill of `project.passes[index]`, if there is one. It sees Common, and only those of the author's
+    /// own uniforms that Common declares. A file is the input of its one channel.
     pub fn compile_fill(
         &self,
         index: usize,
@@ -49,8 +49,8 @@ impl Sources<'_> {
         self.compile_fill_with(&mut StageCache::default(), index, kind, options)
     }
 
-    /// Compiles every pass, and behind each its fills, as [`Self::compile_pass`] and [`Self::compile_fill`] do; all
-    /// passes are drawn by the same driver.
+    /// Compiles every pass, each followed by its fills, like [`Self::compile_pass`] and [`Self::compile_fill`], for one
+    /// driver.
     pub fn compile_all(&self, driver: Driver) -> Vec<Result<CompiledPass>> {
         let mut cache = StageCache::default();
         let options = PassOptions { driver, ..PassOptions::default() };
@@ -65,7 +65,7 @@ impl Sources<'_> {
         outcomes
     }
 
-    /// Does the same as [`Self::compile_pass`], with the stages of earlier builds.
+    /// Does the same as [`Self::compile_pass`], reusing the stages of earlier builds.
     pub(super) fn compile_pass_with(
         &self,
         cache: &mut StageCache,
@@ -95,8 +95,8 @@ impl Sources<'_> {
         }
     }
 
-    /// Returns the name of the function that most of `project.passes[index]` lies in; of a pass of meshes, of its first
-    /// fragment stage.
+    /// Returns the name of the function with most of the code of `project.passes[index]`; for a pass of meshes, of its
+    /// first fragment stage.
     pub(super) fn bulk(&self, index: usize) -> Option<Span> {
         let pass = &self.project.passes[index];
         let (stage, kind) = match &pass.body {
@@ -106,7 +106,7 @@ impl Sources<'_> {
         self.with_source(index, self.stage_id(index, stage), kind, glsl::bulk)
     }
 
-    /// Does the same as [`Self::compile_fill`], with the stages of earlier builds.
+    /// Does the same as [`Self::compile_fill`], reusing the stages of earlier builds.
     pub(super) fn compile_fill_with(
         &self,
         cache: &mut StageCache,
@@ -125,7 +125,7 @@ impl Sources<'_> {
         })
     }
 
-    /// Compiles the program of every draw; each text once for each partner it has.
+    /// Compiles the program of every draw; each text once per partner stage.
     fn compile_meshes(
         &self,
         cache: &mut StageCache,
@@ -135,7 +135,7 @@ impl Sources<'_> {
     ) -> Result<CompiledPass> {
         let mut compile = |stage: Stage, kind: PassKind, link: &Link<'_>| {
             let mut options = options;
-            // A vertex stage can read no storage buffer on every device.
+            // Not every device lets a vertex stage read a storage buffer.
             options.driver.tables_in_memory |= kind == PassKind::Vertex;
             self.with_source(index, self.stage_id(index, stage), kind, |source| {
                 self.compile(cache, source, link, options)

@@ -1,4 +1,4 @@
-//! A pass out of the compiler, whether it is one full-screen program or the programs of several meshes.
+//! A compiled pass, whether it is one full-screen program or the programs of several meshes.
 
 use eddy_diag::Diagnostic;
 use eddy_glsl::{Compiled, Reflection, interface};
@@ -7,24 +7,24 @@ use std::sync::Arc;
 
 /// A pass that compiled.
 pub struct CompiledPass {
-    /// One, or one for each mesh the pass draws.
+    /// One program, or one per mesh that the pass draws.
     pub(super) programs: Vec<CompiledProgram>,
-    /// The reads of all programs together.
+    /// The merged reads of all programs.
     pub reflection: Reflection,
-    /// Warnings and notes; never an error.
+    /// Warnings and notes; never errors.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// One program of a pass. Its diagnostics are those of the pass.
+/// One program of a pass. Its diagnostics are stored in the pass.
 #[derive(Clone)]
 pub struct CompiledProgram {
-    /// `None`: the triangle over the whole target.
+    /// `None`: the triangle that covers the whole target.
     pub vertex: Option<Arc<Compiled>>,
     pub fragment: Arc<Compiled>,
 }
 
 impl CompiledProgram {
-    /// Returns the bytes of the constant tables of both stages by their bindings; only those that there are.
+    /// Returns the bytes of the constant tables of both stages by their bindings, omitting empty ones.
     pub fn tables(&self) -> impl Iterator<Item = (u32, &[u8])> {
         let vertex = self.vertex.as_ref().map(|v| (interface::VERTEX_TABLE_BINDING, &v.uniform_tables[..]));
         let fragment = [
@@ -46,12 +46,12 @@ impl CompiledProgram {
 }
 
 impl CompiledPass {
-    /// Returns its programs: one, or one for each mesh in the order in which they are drawn.
+    /// Returns its programs: one, or one per mesh in drawing order.
     pub fn programs(&self) -> &[CompiledProgram] {
         &self.programs
     }
 
-    /// Returns what the planner has to know of it.
+    /// Returns the properties that the planner needs.
     pub fn facts(&self) -> PassFacts {
         PassFacts {
             channels: self.reflection.channels.map(|c| ChannelFacts { is_read: c.is_read(), reaches_mips: c.mips }),
@@ -81,7 +81,7 @@ impl CompiledPass {
     }
 }
 
-/// Adds what a stage reads to what others of the pass read.
+/// Merges the reads of one stage into those of the pass.
 fn join(all: &mut Reflection, one: &Reflection) {
     all.uniforms.insert(one.uniforms);
     one.custom_uniforms.iter().for_each(|slot| all.custom_uniforms.insert(slot));

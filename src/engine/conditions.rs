@@ -1,15 +1,15 @@
-//! Passes that are drawn under a condition (`when` in `eddy.toml`): which are off, and what their targets hold then.
+//! Passes with a condition (`when` in `eddy.toml`): which of them are off, and the contents of their targets then.
 //!
-//! A target of a pass that is off holds what it holds before frame 0. So a frame depends on its inputs, on the values of
-//! uniforms and on what frames before it drew, and not on when a condition last was true: runs that are drawn again,
-//! snapshots and frames in any order give the same bytes.
+//! A target of a pass that is off has its contents before frame 0. So a frame depends on its inputs, on the values of
+//! uniforms and on what frames before it drew, and not on when a condition was last true: replayed runs, snapshots and
+//! frames in any order give the same bytes.
 
 use super::{EngineError, encode::NO_VALUE, program::Program, running::Running, shared::Shared};
 use eddy_graph::Traffic;
 use eddy_project::{CustomUniformType, PassName};
 
 impl Program {
-    /// Returns the value that a uniform has in its slot, as a condition sees it. `None`: no single number, or unknown.
+    /// Returns the value of a uniform's slot for a condition. `None` if it is unknown or not a single number.
     fn single_value(&self, slots: &[[u32; 4]], name: &str) -> Option<f64> {
         let at = self.custom_uniforms.iter().position(|uniform| uniform.name == name)?;
         let word = slots.get(at)?[0];
@@ -31,8 +31,8 @@ impl Running {
         condition.is_some_and(|condition| !condition.holds(&value, self.canvas))
     }
 
-    /// Returns for each draw whether its condition is false. Targets of those that have become so hold from here on what
-    /// they hold before frame 0.
+    /// Returns for each draw whether its condition is false. Resets the targets of those that have become false to
+    /// their contents before frame 0.
     pub(crate) fn turn_off(&mut self, shared: &Shared) -> Vec<bool> {
         let off: Vec<bool> = (0..self.program.draws.len()).map(|draw| self.is_off(draw)).collect();
         self.is_blank.resize(off.len(), false);
@@ -61,7 +61,7 @@ impl Running {
         off
     }
 
-    /// Gives an error for a pass whose condition is false: nothing runs for its texels.
+    /// Returns an error for a pass whose condition is false: its code runs for no texel.
     pub(crate) fn check_is_on(&self, pass: &PassName) -> Result<(), EngineError> {
         let off =
             (0..self.program.draws.len()).find(|draw| self.program.draws[*draw].id == *pass && self.is_off(*draw));
@@ -69,14 +69,14 @@ impl Running {
         when.map_or(Ok(()), |when| Err(EngineError::Off { pass: pass.title(), when: when.to_string() }))
     }
 
-    /// Has targets of passes that are off filled again whose initial texels may depend on uniforms.
+    /// Marks targets of passes that are off to be filled again if their initial texels may depend on uniforms.
     pub(crate) fn forget_blank_fills(&mut self) {
         for (is_blank, draw) in self.is_blank.iter_mut().zip(&self.program.plan.draws) {
             *is_blank &= !draw.has_initial;
         }
     }
 
-    /// Returns the least that a frame moves now in which everything is drawn whose condition holds.
+    /// Returns the minimum traffic of a frame in which every pass whose condition is true is drawn.
     pub(crate) fn traffic(&self) -> Traffic {
         let mut sum = Traffic::default();
         for draw in (0..self.program.draws.len()).filter(|draw| !self.is_off(*draw)) {

@@ -1,33 +1,33 @@
-//! The costs of each pass: the bytes that its textures hold, the bytes that it moves, and the time that it takes.
+//! The costs of each pass: the memory of its textures, its memory traffic, and its time.
 
 use super::Engine;
 use eddy_graph::{Draw, FramePlan, PassFacts, Read, ReadTiming, TexelSource, Traffic};
 use eddy_project::{Condition, PassName, Project};
 use eddy_texture::TexelFormat;
 
-/// Bytes a texel of a depth buffer.
+/// Bytes per texel of a depth buffer.
 const DEPTH_BYTES: u64 = 4;
 
-/// The clock that the milliseconds of passes are taken from.
+/// The clock that measures the milliseconds of passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CostClock {
     /// The device's timestamps before and after each pass.
     Timestamps,
-    /// The wall's clock, on a device without timestamps: each pass is handed in and waited for by itself, less the time
-    /// of handing in nothing. See [`DrawFor::Timed`](super::DrawFor::Timed).
+    /// The wall clock, on a device without timestamps: each pass is submitted and waited for separately, minus the time
+    /// of an empty submission. See [`DrawFor::Timed`](super::DrawFor::Timed).
     Waited,
 }
 
 /// The part of a pass in a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PassRole {
-    /// It is drawn; cached, if its picture of before did in the newest frame because nothing that it reads had changed.
+    /// It is drawn; `is_cached` if the newest frame reused its previous picture because none of its inputs had changed.
     Drawn { is_cached: bool },
-    /// Its region lies outside of its texels: there is nothing to draw.
+    /// Its region is outside its texels: there is nothing to draw.
     Outside,
-    /// Its condition is false: it is left out, and holds what it holds before frame 0.
+    /// Its condition is false: it is not drawn, and has its contents before frame 0.
     Off,
-    /// Nobody reads it: it is left out.
+    /// No pass reads it: it is not drawn.
     Unread,
 }
 
@@ -36,32 +36,33 @@ pub enum PassRole {
 pub struct PassRead {
     pub channel: usize,
     pub pass: PassName,
-    /// The target among those of that pass.
+    /// The index among the targets of that pass.
     pub index: usize,
     pub when: ReadTiming,
-    /// The pass is drawn, and its code reads the channel.
+    /// True if the pass is drawn and its code reads the channel.
     pub is_used: bool,
 }
 
-/// A pass's part of a frame, by its plan.
+/// The part of a pass in a frame, according to the plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassCost {
     pub pass: PassName,
     pub role: PassRole,
-    /// The condition by which it is drawn, if it has one.
+    /// The condition for drawing it, if it has one.
     pub when: Option<String>,
     /// Texels of its targets.
     pub size: (u32, u32),
     /// The format of each of its targets.
     pub formats: Vec<TexelFormat>,
-    /// The number of times that a frame draws it.
+    /// The number of draws per frame.
     pub steps: u32,
-    /// Bytes of its textures on the device, mip levels, the second one of a pair and the depth buffer among them.
+    /// The bytes of its textures on the device, including mip levels, the second texture of a pair and the depth
+    /// buffer.
     pub held_bytes: u64,
-    /// Fewest bytes that a frame moves for it, all steps together: its own texels written, and those of each distinct
-    /// pass that it reads read once a step. 0 where it is not drawn.
+    /// The minimum bytes that a frame moves for it, for all steps: its own texels are written, and those of each
+    /// distinct pass that it reads are read once per step. 0 if it is not drawn.
     pub moved_bytes: u64,
-    /// Texels that a frame draws of it, all steps together.
+    /// The texels that a frame draws of it, for all steps.
     pub texels: u64,
     /// The passes that its channels name.
     pub reads: Vec<PassRead>,
@@ -69,11 +70,11 @@ pub struct PassCost {
 
 impl Engine {
     /// Returns the costs of each pass of the running program in drawing order, then those of `project` that are not
-    /// drawn. Empty without a program. A sound pass is no part of a frame.
+    /// drawn. Empty without a program. Sound passes are not part of a frame.
     pub fn pass_costs(&self, project: &Project) -> Vec<PassCost> {
         let Some(running) = self.running() else { return Vec::new() };
         let (plan, canvas) = (&running.program.plan, running.canvas);
-        // What is read if nothing is left out: also by passes that are not drawn, and by channels that no code reads.
+        // The reads if nothing is omitted: also by passes that are not drawn, and by channels that no code reads.
         let anything = vec![PassFacts::ANYTHING; project.passes.len()];
         let whole = FramePlan::new(project, &anything, &[], false);
         let mut costs: Vec<PassCost> = Vec::new();
@@ -113,7 +114,7 @@ impl Engine {
                 size: pass.size().of(canvas),
                 formats: pass.formats(),
                 steps: 0,
-                // What reads a pass that is not drawn reads zeros, which take their room.
+                // Readers of a pass that is not drawn read zeros, which use memory, too.
                 held_bytes: plan.targets.iter().filter(|t| t.id == pass.id).map(|t| t.bytes(canvas)).sum(),
                 moved_bytes: 0,
                 texels: 0,
@@ -123,14 +124,14 @@ impl Engine {
         costs
     }
 
-    /// Returns the clock by which this device can say how long passes take: that of [`Engine::pass_times`] or of
+    /// Returns the clock that measures passes on this device: that of [`Engine::pass_times`] or of
     /// [`DrawFor::Timed`](super::DrawFor::Timed).
     pub fn cost_clock(&self) -> CostClock {
         if self.gpu().has_timestamps { CostClock::Timestamps } else { CostClock::Waited }
     }
 }
 
-/// The reads of a pass in a plan of everything, and which of them its draw does.
+/// The reads of a pass in a plan of everything, marking those that its draw performs.
 fn reads(whole: &FramePlan, project: &Project, pass: &PassName, drawn: Option<&Draw>) -> Vec<PassRead> {
     let is_it = |draw: &&Draw| project.passes[draw.pass].id == *pass;
     let Some(planned) = whole.draws.iter().find(is_it) else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! The author's own uniforms on their way into shaders: which a pass may name, and the block their values lie in.
+//! The author's own uniforms in shaders: their scope in passes, and the uniform block of their values.
 
 use eddy_diag::{Diagnostic, SourceId};
 use eddy_glsl::{self as glsl, CustomUniformKind, UniformValue, UntypedValue, interface::CUSTOM_UNIFORM_BYTES};
@@ -6,11 +6,11 @@ use eddy_project::{
     CustomUniform, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms, IncludeLines, Project,
 };
 
-/// Slots in the 64 KiB that a uniform buffer has on every device.
+/// The slots in 64 KiB, the size of a uniform buffer that every device supports.
 const MAX_CUSTOM_UNIFORMS: usize = (64 << 10) / CUSTOM_UNIFORM_BYTES as usize;
 
-/// Returns the uniforms that the texts of a project declare, with errors for names that the language has taken and for
-/// conditions that name others.
+/// Returns the uniforms that the texts of a project declare, with errors for reserved names and for conditions that use
+/// unknown names.
 pub(super) fn custom_uniforms(project: &Project) -> CustomUniforms {
     let mut custom_uniforms = project.custom_uniforms();
     for custom_uniform in &custom_uniforms.list {
@@ -41,8 +41,7 @@ pub(super) fn custom_uniforms(project: &Project) -> CustomUniforms {
     custom_uniforms
 }
 
-/// Returns those that the texts of a pass may name: its own, Common's, and those of what they include. `None`: Common
-/// alone.
+/// Returns those in the scope of a pass's texts: its own, Common's, and those of included files. `None`: Common alone.
 pub(super) fn in_scope<'k>(
     custom_uniforms: &'k CustomUniforms,
     lines: &IncludeLines,
@@ -65,7 +64,7 @@ pub(super) fn in_scope<'k>(
         .collect()
 }
 
-/// Returns the values for uniforms that the texts declare in GLSL's own way: those that are no custom uniform's.
+/// Returns the values of uniforms that the texts declare in plain GLSL: all except those of custom uniforms.
 pub(super) fn uniform_values(custom_uniforms: &CustomUniforms, values: &CustomUniformValues) -> Vec<UniformValue> {
     let others = values.iter().filter(|(name, _)| custom_uniforms.get(name).is_none());
     others.map(|(name, value)| UniformValue { name: name.clone(), value: untyped(value) }).collect()
@@ -92,7 +91,7 @@ pub(super) fn kind(ty: CustomUniformType) -> CustomUniformKind {
     }
 }
 
-/// Returns the block's slots for custom uniforms at these values.
+/// Returns the slots of the block for custom uniforms with these values.
 pub(super) fn block(custom_uniforms: &[CustomUniform], values: &CustomUniformValues) -> Vec<[u32; 4]> {
     let slot = |custom_uniform: &CustomUniform| {
         let mut words = [0; 4];

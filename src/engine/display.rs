@@ -4,19 +4,19 @@ use super::targets::Target;
 use eddy_gpu::{Gpu, GpuError, Presenter, Texture, ValueLook, ValuePainter};
 use eddy_project::PassName;
 
-/// Shows the newest texels of one pass.
+/// Displays the newest texels of one pass.
 pub(super) struct Display {
     presenter: Presenter,
     texture: Texture,
-    /// `None`: nobody looks.
+    /// `None` if nothing is displayed.
     shown: Option<PassName>,
-    /// The shown target's textures, bound for presenting.
+    /// The bind groups for presenting the target's textures.
     bound: Vec<wgpu::BindGroup>,
-    /// The place of the shown target in the plan.
+    /// The index of the displayed target in the plan.
     target: usize,
-    /// Made when numbers are first to be seen as such.
+    /// Created when values are first displayed.
     painter: Option<ValuePainter>,
-    /// The target holds numbers and no picture.
+    /// True if the target is displayed as values rather than as a picture.
     has_look: bool,
 }
 
@@ -26,7 +26,7 @@ impl Display {
         Ok(Self { presenter, texture, shown: None, bound: Vec::new(), target: 0, painter: None, has_look: false })
     }
 
-    /// The picture, its first row the top.
+    /// The picture, whose first row is the top.
     pub(crate) fn view(&self) -> &wgpu::TextureView {
         &self.texture.level_0
     }
@@ -36,17 +36,17 @@ impl Display {
         &self.texture
     }
 
-    /// Takes another texture for its own.
+    /// Replaces the texture of the picture.
     pub(crate) fn set_texture(&mut self, texture: Texture) {
         self.texture = texture;
     }
 
-    /// Chooses the pass that is shown.
+    /// Selects the displayed pass.
     pub(crate) fn show(&mut self, pass: PassName) {
         self.shown = Some(pass);
     }
 
-    /// Shows what the pass holds as numbers, so; none: as a picture. It must be bound anew.
+    /// Displays the pass's values with a look; `None`: as a picture. Requires rebinding.
     pub(crate) fn look(&mut self, gpu: &Gpu, look: Option<ValueLook>) {
         if let Some(look) = &look {
             self.painter.get_or_insert_with(|| ValuePainter::new(gpu)).set(gpu, look);
@@ -54,8 +54,8 @@ impl Display {
         self.has_look = look.is_some();
     }
 
-    /// Shows the chosen pass, if one is chosen, from these targets on; a pass without a target is black and of the
-    /// canvas's size.
+    /// Displays the selected pass, if there is one, from these targets; a pass without a target is black and has the
+    /// size of the canvas.
     pub(crate) fn rebind(&mut self, gpu: &Gpu, canvas: (u32, u32), targets: &[Target]) {
         let Some(shown) = &self.shown else { return };
         self.bound.clear();
@@ -85,7 +85,7 @@ impl Display {
         gpu.queue.submit([encoder.finish()]);
     }
 
-    /// Draws the shown pass's newest texels, if a pass is shown. Says whether one is.
+    /// Draws the displayed pass's newest texels. Returns whether a pass is displayed.
     pub(crate) fn present(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, targets: &[Target]) -> bool {
         let newest = targets.get(self.target).map_or(0, |t| t.front);
         let Some(bound) = self.bound.get(newest) else { return false };

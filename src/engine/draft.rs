@@ -1,4 +1,4 @@
-//! A draw on its way to its pipelines: what it reads is on the device, and what it asks for is known.
+//! A draw before its pipelines exist: its inputs are on the device, and its pipelines are specified.
 
 use super::{
     EngineError,
@@ -15,12 +15,12 @@ use eddy_project::{Body, Camera, FillKind, Pass};
 use eddy_texture::{Dimension, TexelFormat};
 use std::sync::Arc;
 
-/// A compiled pass, its fills in the order of [`FillKind::ALL`], and how its channels mix texels.
+/// A compiled pass, its fills in the order of [`FillKind::ALL`], and the filtering of its channels.
 pub(super) struct CompiledParts {
     pub compiled: CompiledPass,
     pub fills: [Option<CompiledPass>; 2],
     pub filter_mode: [FilterMode; SLOTS],
-    /// The dimensions that its channels are declared with.
+    /// The declared dimensions of its channels.
     pub dimensions: [Dimension; SLOTS],
 }
 
@@ -31,7 +31,7 @@ pub(super) struct DrawDraft {
 }
 
 impl DrawDraft {
-    /// Uploads what a draw reads, and says which pipelines it needs.
+    /// Uploads the inputs of a draw, and determines the pipelines that it needs.
     pub(crate) fn new(
         binder: &mut ChannelBinder<'_>,
         plan: &FramePlan,
@@ -65,7 +65,8 @@ impl DrawDraft {
                 channels[0] = binder.bind_fill(path, texels, compiled.reflection.channels[0])?;
             }
             let draw = draw.of_fill(picture.is_some());
-            // Boundaries are drawn with the pass. What is drawn before frame 0 has the pass's own target only.
+            // Boundaries are drawn with the pass. The contents before frame 0 are drawn into the pass's first target
+            // only.
             let formats = if kind == FillKind::Boundary { &formats[..] } else { &formats[..1] };
             let program = ProgramDraft::new(pass, compiled, channels, formats, BodyDraft::Screen);
             *drafted = Some((program, draw));
@@ -73,13 +74,13 @@ impl DrawDraft {
         Ok(Self { program, fills: drafted })
     }
 
-    /// Gives the orders of the pass, then those of its fills.
+    /// Returns the orders of the pass, then those of its fills.
     pub(crate) fn take_orders(&mut self) -> Vec<PipelineOrder> {
         let fills = self.fills.iter_mut().flatten().map(|(program, _)| program);
         [&mut self.program].into_iter().chain(fills).flat_map(|program| std::mem::take(&mut program.orders)).collect()
     }
 
-    /// Takes a pipeline for each of its orders from `made`, and adds its meshes to those of the draws before it.
+    /// Takes a pipeline for each of its orders from `made`, and appends its meshes to those of the previous draws.
     pub(crate) fn finish(
         self,
         made: &mut impl Iterator<Item = Arc<StagePipeline>>,
@@ -93,7 +94,7 @@ impl DrawDraft {
     }
 }
 
-/// The triangle or the meshes that a program is to draw.
+/// The triangle or the meshes that a program draws.
 enum BodyDraft {
     Screen,
     Meshes { camera: Camera, states: Vec<MeshState>, placed: Vec<PlacedMesh> },
@@ -156,7 +157,7 @@ impl ProgramDraft {
     }
 }
 
-/// Returns the bind group that the uniforms of a program are laid out in.
+/// Returns the bind group layout of a program's uniforms.
 fn uniform_bindings(program: &CompiledProgram, reflection: &Reflection) -> Vec<(u32, Binding)> {
     let mut bindings = vec![(0, Binding::Uniform { bytes: size_of::<interface::UniformBlock>() as u64 })];
     for (number, bytes) in program.tables() {

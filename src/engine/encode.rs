@@ -6,7 +6,7 @@ use eddy_gpu::Gpu;
 use eddy_graph::Draw;
 use eddy_project::{Boundary, Region};
 
-/// The value of a probe that never was there.
+/// The value of a probe that was not evaluated.
 pub(super) const NO_VALUE: wgpu::Color = wgpu::Color { r: f64::NAN, g: f64::NAN, b: f64::NAN, a: f64::NAN };
 
 impl Running {
@@ -29,7 +29,7 @@ impl Running {
         }
         let attach = |index: usize| {
             let load = match draw.beside {
-                // What is discarded has no value, nor what lies outside of the region.
+                // Discarded pixels, and those outside the region, have no value.
                 Some(beside) if beside == index && draw.keeps_content => wgpu::LoadOp::Clear(NO_VALUE),
                 Some(beside) if beside == index => shared.gpu.load_what_is_overwritten(),
                 _ if part.is_some() => wgpu::LoadOp::Load,
@@ -52,7 +52,7 @@ impl Running {
         };
         let boundary = bindings.fills[index].boundary.as_mut().zip(compiled.boundary.as_ref());
         shared.gpu.pass(encoder, descriptor, |pass| {
-            // Row 0 is the bottom, for a scissor too.
+            // Row 0 is the bottom, for a scissor rectangle too.
             if let Some(region) = draw.region.and_then(|r| r.within(size)) {
                 pass.set_scissor_rect(region.x, region.y, region.width, region.height);
             }
@@ -88,14 +88,14 @@ impl Running {
     }
 }
 
-/// Returns what the targets of a draw hold when it starts.
+/// Returns the load operation of the targets of a draw.
 fn load_op(gpu: &Gpu, draw: &Draw) -> wgpu::LoadOp<wgpu::Color> {
     if draw.keeps_content {
         wgpu::LoadOp::Load
     } else if draw.draws_meshes {
         wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)
     } else {
-        // The triangle covers all, and nothing of it is discarded.
+        // The triangle covers every texel, and none is discarded.
         gpu.load_what_is_overwritten()
     }
 }

@@ -5,7 +5,7 @@ use eddy_gpu::GpuError;
 use eddy_graph::Undivided;
 use eddy_media::mesh::MeshError;
 
-/// A frame could not be drawn or read.
+/// An error when drawing or reading a frame.
 #[derive(Debug, thiserror::Error)]
 pub enum EngineError {
     #[error(transparent)]
@@ -30,10 +30,10 @@ pub enum EngineError {
     Mesh(#[from] MeshError),
 }
 
-/// A program could not be built.
+/// An error when building a program.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildError {
-    /// The author's to mend: at least one error, all of all passes.
+    /// Errors of the author's: at least one, from all passes.
     #[error("the project does not compile")]
     Diagnostics { diagnostics: Vec<Diagnostic>, sources: SourceMap },
     #[error(transparent)]

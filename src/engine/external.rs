@@ -1,4 +1,4 @@
-//! Textures whose texels come from outside of the passes, and the table of what fills them.
+//! Textures whose texels come from outside the passes, and the table of their sources.
 
 use super::{
     FrameInputs,
@@ -13,41 +13,41 @@ use eddy_texture::{TexelFormat, TextureShape};
 use eddy_video::CameraFrame;
 use std::sync::Arc;
 
-/// A source of texels that is no pass.
+/// A source of texels that is not a pass.
 pub(super) trait ExternalTexture: Send {
     /// Returns the shape of the texture, without mip levels.
     fn shape(&self) -> TextureShape;
 
-    /// Takes the state of a frame. Returns whether the texels differ from those before.
+    /// Updates to the inputs of a frame. Returns whether the texels have changed.
     fn advance(&mut self, inputs: &FrameInputs) -> bool;
 
-    /// Returns the texels as [`Texture::write`] takes them. They are zeros before the first call of
+    /// Returns the texels in the form that [`Texture::write`] takes. They are zeros before the first call of
     /// [`ExternalTexture::advance`] that returns true.
     fn bytes(&self) -> &[u8];
 
-    /// Returns whether the texels of the newest frame had to be left out, as they were not there in time: the frame is
-    /// worth drawing again.
+    /// Returns whether the texels of the newest frame are missing because they were not decoded in time: the frame is
+    /// worth redrawing.
     fn is_late(&self) -> bool {
         false
     }
 
-    /// Returns the picture of a camera that the newest frame shows.
+    /// Returns the camera picture in the newest frame.
     fn camera_picture(&self) -> Option<CameraFrame> {
         None
     }
 
-    /// Says what `iChannelTime` is.
+    /// Returns the definition of its `iChannelTime`.
     fn clock(&self) -> ChannelClock {
         ChannelClock::Stopped
     }
 
-    /// Returns texels that are the same in every frame: programs share their texture.
+    /// Returns texels that never change: programs share their texture.
     fn constant(&self) -> Option<&Arc<Texels>> {
         None
     }
 }
 
-/// Returns what fills the texture of a channel; `None` for a pass and for what is not there.
+/// Returns the source of a channel's texture; `None` for a pass and for missing media.
 pub(super) fn of_channel(media: &MediaSet, channel: &Channel) -> Option<Box<dyn ExternalTexture>> {
     match channel.input.kind() {
         InputKind::Buffer | InputKind::CubemapPass => None,
@@ -102,17 +102,17 @@ impl ExternalTexture for Gamepads {
     }
 }
 
-/// Says what `iChannelTime` of a channel is.
+/// The definition of a channel's `iChannelTime`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum ChannelClock {
     /// Zero.
     #[default]
     Stopped,
-    /// The position in media that are played in a loop of so many seconds.
+    /// The position in media that loop with this duration in seconds.
     Looped(f64),
-    /// 10 s more than `iTime`, as the site has it for music that it may not play.
+    /// `iTime` plus 10 s, as on Shadertoy for music that it may not play.
     Synthetic,
-    /// Zero while there is a microphone, and as [`ChannelClock::Synthetic`] while there is none.
+    /// Zero while there is a microphone, and like [`ChannelClock::Synthetic`] while there is none.
     Microphone,
 }
 
@@ -128,7 +128,7 @@ impl ChannelClock {
     }
 }
 
-/// The spectrum and the wave of music that plays from `iTime` 0 on in a loop; without a file what the site makes up.
+/// The spectrum and the wave of looping music that starts at `iTime` 0; without a file, Shadertoy's synthetic ones.
 struct Music {
     sound: Option<Arc<Sound>>,
     analyser: Analyser,
@@ -149,7 +149,7 @@ impl ExternalTexture for Music {
 
     fn advance(&mut self, inputs: &FrameInputs) -> bool {
         let FrameInputs { time_secs, time_delta_secs, .. } = *inputs;
-        // A frame that is drawn again while time stands still asks the analyser for nothing.
+        // A frame that is redrawn at the same time does not run the analyser.
         if self.time_secs.replace(time_secs) == Some(time_secs) {
             return false;
         }
@@ -171,13 +171,13 @@ impl ExternalTexture for Music {
     }
 }
 
-/// Returns the texture of a file that cannot be read: no level at any frequency, and a wave that rests.
+/// Returns the texture of an unreadable file: a zero spectrum, and a flat wave.
 fn silence() -> Texels {
     let bytes = [[0; BINS], [128; BINS]].concat();
     Texels::flat(BINS as u32, 2, TexelFormat::R8, bytes)
 }
 
-/// The spectrum and the wave of the microphone, which come with the frame; without one what the site makes up.
+/// The spectrum and the wave of the microphone, which come with the frame; without one, Shadertoy's synthetic ones.
 struct Microphone(Spectrum);
 
 impl ExternalTexture for Microphone {
@@ -199,7 +199,7 @@ impl ExternalTexture for Microphone {
     }
 }
 
-/// A decoded file, or one of Eddy's own textures.
+/// A decoded file, or a built-in texture.
 pub(super) struct Picture(pub Arc<Texels>);
 
 impl ExternalTexture for Picture {
@@ -222,17 +222,17 @@ impl ExternalTexture for Picture {
 
 /// An external texture of a program, on the device.
 pub(super) struct External {
-    /// Channels that read the same share it.
+    /// Channels with the same input share it.
     pub key: ExternalKey,
     source: Box<dyn ExternalTexture>,
     pub texture: Texture,
-    /// The number of times that its texels have changed.
+    /// The number of times its texels have changed.
     pub version: u64,
-    /// Makes the mip levels of texels that change.
+    /// Generates the mip levels of changing texels.
     mips: Option<(MipMaker, MipChain)>,
 }
 
-/// Says which external texture it is: what is read, whether upside down, and whether with mip levels.
+/// The identity of an external texture: its input, whether it is flipped, and whether it has mip levels.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ExternalKey {
     pub input: Input,
@@ -264,22 +264,22 @@ impl External {
         Ok(Self { key, source, texture, version: 0, mips })
     }
 
-    /// The texels, where they are the same in every frame.
+    /// The texels, if they never change.
     pub(crate) fn texels(&self) -> Option<&Arc<Texels>> {
         self.source.constant()
     }
 
-    /// Returns whether the frame that is drawn shows other texels than it should: see [`ExternalTexture::is_late`].
+    /// Returns whether the drawn frame has outdated texels: see [`ExternalTexture::is_late`].
     pub(crate) fn is_late(&self) -> bool {
         self.source.is_late()
     }
 
-    /// Returns the picture of a camera that the frame shows: see [`ExternalTexture::camera_picture`].
+    /// Returns the camera picture in the frame: see [`ExternalTexture::camera_picture`].
     pub(crate) fn camera_picture(&self) -> Option<CameraFrame> {
         self.source.camera_picture()
     }
 
-    /// Writes the texels of a frame if they are other than before.
+    /// Writes the texels of a frame if they have changed.
     pub(crate) fn update(&mut self, gpu: &Gpu, inputs: &FrameInputs) {
         if self.source.advance(inputs) {
             self.texture.write(gpu, self.source.bytes());

@@ -8,24 +8,24 @@ use eddy_gpu::Gpu;
 use eddy_graph::{FrameOp, FrameState, Lap, Purpose};
 use eddy_project::{PassName, Region};
 
-/// Answers, before each part of a draw in bands, how many rows are drawn next; `None` stops there.
+/// A callback that, before each band of a draw, returns the number of rows to draw next; `None` stops there.
 pub type Rows<'a> = dyn FnMut() -> Option<u32> + 'a;
 
-/// The purpose of drawing a frame, and what that needs from the caller.
+/// The purpose of drawing a frame, and the callbacks that it needs.
 pub enum DrawFor<'a> {
     /// To show it. Does not wait for the device.
     Frame,
-    /// For the frames after it: those are the same as after [`DrawFor::Frame`], but only draws that they depend on are
-    /// done and nothing is shown. What other passes hold until the next frame is not specified.
+    /// For later frames: these are the same as after [`DrawFor::Frame`], but only draws that they depend on are done
+    /// and nothing is shown. The contents of other passes are unspecified until the next frame.
     Advance,
-    /// To know how long each pass takes on a device without timestamps: each pass is submitted by itself and waited for.
-    /// The function returns milliseconds since any moment. The frame takes longer this way.
+    /// To measure the time of each pass on a device without timestamps: each pass is submitted and waited for
+    /// separately. The function returns milliseconds from an arbitrary origin. The frame takes longer this way.
     Timed(&'a mut dyn FnMut() -> f64),
-    /// To read back what a pass reads when it is drawn; of a pass of several steps, what its last step reads. Waits for
-    /// the device.
+    /// To read back the inputs of a pass when it is drawn; for a pass of several steps, those of its last step. Waits
+    /// for the device.
     Inspect(&'a PassName),
-    /// To show it without holding the device for long: waits for the device, and draws a last pass that no other pass
-    /// reads in bands of rows. Where the caller stops, the display keeps the frame before, though everything that later
+    /// To show it without blocking the device for long: waits for the device, and draws a last pass that no other pass
+    /// reads in bands of rows. If the caller stops, the display keeps the previous frame, but everything that later
     /// frames read is drawn; [`Engine::resume`](super::Engine::resume) draws the rest.
     Bands(&'a mut Rows<'a>),
 }
@@ -38,19 +38,19 @@ pub struct Drawn {
     pub times: Vec<PassTime>,
     /// The inputs of the pass, for [`DrawFor::Inspect`].
     pub read: Option<PassInputs>,
-    /// All of it is drawn: the caller did not stop it.
+    /// True if the caller did not stop the frame.
     pub is_whole: bool,
 }
 
-/// The operations of the newest frame that are not executed yet.
+/// The remaining operations of the newest frame.
 #[derive(Debug, Default)]
 pub(super) struct Unfinished {
     ops: std::vec::IntoIter<FrameOp>,
-    /// The rows that are drawn of the first of them, an [`FrameOp::EncodeRows`].
+    /// The number of rows already drawn by the first of them, an [`FrameOp::EncodeRows`].
     rows: u32,
 }
 
-/// The caller's part in a frame.
+/// The caller's callbacks and results of a frame.
 pub(super) struct Caller<'a, 'c> {
     pub rows: &'a mut Rows<'a>,
     pub watch: Option<&'a mut Watch<'c>>,
@@ -58,8 +58,8 @@ pub(super) struct Caller<'a, 'c> {
 }
 
 impl Running {
-    /// Schedules a frame and executes it up to its end, or to where the caller stops it. Returns the work of the frame
-    /// and whether all of it is done. On a `display` the picture is shown.
+    /// Schedules a frame and executes it to its end, or until the caller stops it. Returns the work of the frame and
+    /// whether it is complete. With a `display`, the picture is presented.
     pub(crate) fn draw(
         &mut self,
         shared: &Shared,
@@ -72,7 +72,7 @@ impl Running {
         let off = self.turn_off(shared);
         self.program.externals.iter_mut().for_each(|external| external.update(&shared.gpu, inputs));
         self.set_uniforms(&shared.gpu, inputs);
-        // They are the same at every step.
+        // The inputs are the same at every step.
         let inputs: Vec<Vec<u8>> = (0..self.program.draws.len()).map(|index| self.inputs_of(index)).collect();
         let state = FrameState { canvas: self.canvas, off: &off, inputs: &inputs, lasting: &self.lasting };
         let schedule = self.program.plan.schedule(&state, &mut self.changes, purpose);
@@ -87,8 +87,8 @@ impl Running {
         Ok((stats, is_whole))
     }
 
-    /// Draws a tile of the picture of the pass that is drawn in tiles: `size` of its pixels from `origin` on, into the
-    /// first texels of its target, with the inputs of the newest frame.
+    /// Draws a tile of the picture of the tiled pass: `size` of its pixels starting at `origin`, into the first texels
+    /// of its target, with the inputs of the newest frame.
     pub(crate) fn draw_tile(
         &mut self,
         shared: &Shared,
@@ -104,8 +104,8 @@ impl Running {
         Ok(())
     }
 
-    /// Executes what is left of the newest frame. Returns whether all of it is done now; if not, the caller stopped it and
-    /// another call continues there.
+    /// Executes the rest of the newest frame. Returns whether it is complete; if not, the caller stopped it and another
+    /// call continues there.
     pub(crate) fn execute(
         &mut self,
         shared: &Shared,
@@ -163,7 +163,7 @@ impl Running {
         Ok(true)
     }
 
-    /// The targets of a draw hold what is encoded.
+    /// Records that the targets of a draw contain the encoded result.
     fn publish(&mut self, shared: &Shared, encoder: &mut wgpu::CommandEncoder, index: usize) {
         let draw = &self.program.plan.draws[index];
         for target in &mut self.targets[draw.targets.clone()] {
@@ -174,7 +174,7 @@ impl Running {
         }
     }
 
-    /// Returns the size of the picture of a draw, which in tiles is more than that of its target.
+    /// Returns the size of the picture of a draw, which for tiles is larger than its target.
     fn picture_size(&self, draw: usize) -> (u32, u32) {
         match self.program.plan.tiled.filter(|tiled| tiled.draw == draw) {
             Some(tiled) => tiled.size.of(self.canvas),
@@ -202,7 +202,7 @@ impl Running {
         self.uniforms.write(gpu);
     }
 
-    /// Returns everything a draw reads that is no target; for [`eddy_graph::Changes::must_draw`].
+    /// Returns all inputs of a draw other than targets; for [`eddy_graph::Changes::must_draw`].
     fn inputs_of(&self, index: usize) -> Vec<u8> {
         let (compiled, draw) = (&self.program.draws[index], &self.program.plan.draws[index]);
         let mut read = Vec::new();
@@ -220,7 +220,7 @@ fn new_encoder(gpu: &Gpu) -> wgpu::CommandEncoder {
     gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") })
 }
 
-/// Submits what is encoded. The encoder is empty afterwards.
+/// Submits the encoded commands. The encoder is empty afterwards.
 fn submit(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) {
     let full = std::mem::replace(encoder, new_encoder(gpu));
     gpu.queue.submit([full.finish()]);
@@ -228,12 +228,12 @@ fn submit(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) {
 
 /// The caller's clock, and the time of each draw by it.
 pub(super) struct Watch<'a> {
-    /// Returns milliseconds since any moment.
+    /// Returns milliseconds from an arbitrary origin.
     now: &'a mut dyn FnMut() -> f64,
     start: f64,
-    /// The milliseconds of an empty submission that is waited for.
+    /// The milliseconds to submit and wait for an empty command buffer.
     overhead: f64,
-    /// The milliseconds of each draw, all steps together.
+    /// The milliseconds of each draw, for all steps.
     millis: Vec<f64>,
 }
 

@@ -1,11 +1,11 @@
-//! Values that the program which the texts are written for sets beside Shadertoy's uniforms, where that is not Shadertoy: further
-//! uniforms behind the author's own, and other values.
+//! Values that the program the texts are written for sets besides Shadertoy's uniforms, if it is not Shadertoy: further
+//! uniforms after the author's own, and other values.
 
 use super::{FrameInputs, custom_uniforms::kind};
 use eddy_glsl::{self as glsl, CustomUniform, interface::UniformBlock};
 use eddy_project::{CustomUniformType, Dialect, ghostty};
 
-/// Returns what the compiler calls a dialect.
+/// Returns the compiler's dialect.
 pub(super) fn dialect(dialect: Dialect) -> glsl::Dialect {
     match dialect {
         Dialect::Shadertoy => glsl::Dialect::Shadertoy,
@@ -21,12 +21,12 @@ fn rows(dialect: Dialect) -> &'static [ghostty::HostUniform] {
     }
 }
 
-/// Returns how many slots the further uniforms take.
+/// Returns the number of slots of the further uniforms.
 pub(super) fn slots(dialect: Dialect) -> usize {
     rows(dialect).len()
 }
 
-/// Returns the further uniforms, whose slots begin behind this many of the author's own.
+/// Returns the further uniforms, whose slots start after this number of the author's own.
 pub(super) fn in_scope<'a>(dialect: Dialect, own: usize) -> Vec<CustomUniform<'a>> {
     let place = move |(n, row): (usize, &'static ghostty::HostUniform)| {
         let slot = u16::try_from(own + n).ok()?;
@@ -35,7 +35,7 @@ pub(super) fn in_scope<'a>(dialect: Dialect, own: usize) -> Vec<CustomUniform<'a
     rows(dialect).iter().enumerate().filter_map(place).collect()
 }
 
-/// Returns the values of the further uniforms in a frame, as their slots hold them.
+/// Returns the values of the further uniforms in a frame, in the form of their slots.
 pub(super) fn values(dialect: Dialect, inputs: &FrameInputs, canvas: (u32, u32)) -> Vec<[u32; 4]> {
     let values = match dialect {
         Dialect::Ghostty => ghostty::values(inputs.time_secs, canvas.1),
@@ -48,8 +48,8 @@ pub(super) fn values(dialect: Dialect, inputs: &FrameInputs, canvas: (u32, u32))
     rows(dialect).iter().zip(values).map(words).collect()
 }
 
-/// Gives uniforms of Shadertoy's the values that they have in the program: Ghostty counts frames from 1, and leaves the
-/// mouse, the date and the rates as they are at its start (`custom_shader_uniforms` in its `src/renderer/generic.zig`).
+/// Sets Shadertoy's uniforms to their values in the other program: Ghostty counts frames from 1, and leaves the mouse,
+/// the date and the rates at their initial values (`custom_shader_uniforms` in its `src/renderer/generic.zig`).
 pub(super) fn adapt(dialect: Dialect, block: &mut UniformBlock) {
     if dialect == Dialect::Ghostty {
         block.frame = block.frame.saturating_add(1);
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn uniforms_of_ghostty_stand_behind_the_authors_own() {
+    fn ghostty_uniforms_follow_the_authors_own() {
         let all = in_scope(Dialect::Ghostty, 3);
         assert_eq!((all[0].name, all[0].slot), ("iCurrentCursor", 3));
         assert_eq!(all.len(), slots(Dialect::Ghostty));

@@ -1,10 +1,10 @@
-//! Everything of one frame that is not the project's: time, mouse, keys, gamepads, date.
+//! The inputs of one frame besides the project: time, mouse, keys, gamepads, date.
 
 use eddy_audio::Spectrum;
 use eddy_media::{Gamepads, Keyboard};
 use std::sync::Arc;
 
-/// The values that the uniforms and the keyboard texture show in one frame. They are as in `shadertoy.md` sections 3 to
+/// The values of the uniforms and the keyboard texture in one frame. They are defined in `shadertoy.md`, sections 3 to
 /// 6.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameInputs {
@@ -14,22 +14,22 @@ pub struct FrameInputs {
     pub time_secs: f64,
     /// `iTimeDelta`, seconds.
     pub time_delta_secs: f32,
-    /// `iFrameRate`, frames a second.
+    /// `iFrameRate`, frames per second.
     pub frame_rate: f32,
     /// `iMouse`, canvas pixels from the bottom left.
     pub mouse: [f32; 4],
-    /// Canvas pixels the mouse has been dragged in all, to the right and up: what turns a camera.
+    /// The total distance in canvas pixels that the mouse was dragged, to the right and up: it rotates cameras.
     pub drag: [f32; 2],
     /// `iDate`: year, month 0-11, day 1-31, seconds since local midnight.
     pub date: [f32; 4],
     pub keyboard: Keyboard,
     pub gamepads: Gamepads,
-    /// The texture that the analyser made of the microphone; `None` where there is none, or nobody has switched it on.
+    /// The analyser's texture of the microphone; `None` if there is no microphone or it is switched off.
     pub microphone: Option<Arc<Spectrum>>,
 }
 
 impl FrameInputs {
-    /// Frame `frame` of a run at a fixed step of `1/fps` seconds: nothing pressed, date zero.
+    /// Returns frame `frame` of a run with a fixed step of `1/fps` seconds: no input, date zero.
     pub fn at_fixed_step(frame: i32, fps: f64) -> Self {
         Self {
             frame,

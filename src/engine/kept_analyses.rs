@@ -1,4 +1,4 @@
-//! The stages of a project as an editor understands them, kept while nothing that they were made of changes.
+//! A project's stages as analysed for an editor, cached while the inputs of the analysis are unchanged.
 
 use super::{
     Sources,
@@ -10,26 +10,26 @@ use eddy_glsl::{Driver, Link, services::Analysis};
 use eddy_project::{FillKind, Project, Stage};
 use std::sync::Arc;
 
-/// A stage of a pass, read.
+/// The analysis of a stage of a pass.
 #[derive(Clone, Debug)]
 pub struct StageAnalysis {
-    /// The pass, of [`Project::passes`].
+    /// The index in [`Project::passes`].
     pub index: usize,
     pub stage: Stage,
     pub analysis: Arc<Analysis>,
 }
 
-/// Analyses of every stage of a project, for who asks again after each edit.
+/// The analyses of every stage of a project, for callers that repeat them after each edit.
 #[derive(Default)]
 pub struct KeptAnalyses {
     kept: Vec<(CacheMiss, Arc<Analysis>)>,
     preamble: KeptPreamble,
-    /// Stages of passes that draw meshes: what a vertex stage hands on is known when it is compiled.
+    /// The stages of passes that draw meshes: the outputs of a vertex stage are known only after compiling it.
     stages: KeptStages,
 }
 
 impl KeptAnalyses {
-    /// Reads every stage of every pass. What was read last time and did not change since is not read again.
+    /// Analyses every stage of every pass, except those that have not changed since the last call.
     pub fn analyse(&mut self, project: &Project, texts: &Sources<'_>) -> Vec<StageAnalysis> {
         self.preamble.lend(texts);
         let before = std::mem::take(&mut self.kept);
@@ -49,8 +49,8 @@ impl KeptAnalyses {
         found
     }
 
-    /// Returns everything that the compiler says of Common alone, of every pass and of its fills, each once. `read` is
-    /// what [`Self::analyse`] returned of the same texts.
+    /// Returns all diagnostics of the compiler for Common alone, every pass and its fills, without duplicates. `read`
+    /// is the result of [`Self::analyse`] for the same texts.
     pub fn diagnose(&mut self, project: &Project, texts: &Sources<'_>, read: &[StageAnalysis]) -> Vec<Diagnostic> {
         let mut found: Vec<Diagnostic> = texts.diagnostics.clone();
         found.extend(texts.check_common());

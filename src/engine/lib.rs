@@ -1,8 +1,8 @@
 //! The one engine: a project and [`FrameInputs`] in, textures out.
 //!
-//! Owns the way from a [`Project`](eddy_project::Project) to a [`Program`] (compile, then plan, then pipelines) and
+//! Owns the steps from a [`Project`](eddy_project::Project) to a [`Program`] (compile, then plan, then pipelines) and
 //! the only code that encodes a frame. Reads no clock, no file and no environment variable: same project, same inputs,
-//! same bytes. Knows no window.
+//! same bytes. Does not depend on a window.
 
 mod ahead;
 mod bind;

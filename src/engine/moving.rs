@@ -8,7 +8,7 @@ use eddy_texture::{TexelFormat, TextureShape};
 use eddy_video::{Camera, CameraFrame, Frame, FrameSource, PLACEHOLDER, Pace};
 use std::sync::Arc;
 
-/// The frame of a video at `iTime`, in a loop.
+/// The frame of a looping video at `iTime`.
 pub(super) struct VideoTexture {
     source: Arc<dyn FrameSource>,
     pace: Pace,
@@ -16,7 +16,7 @@ pub(super) struct VideoTexture {
     is_late: bool,
 }
 
-/// Texels of a frame, turned as the texture has them.
+/// The texels of a frame, in the row order of the texture.
 struct Picture {
     size: (u32, u32),
     vflip: bool,
@@ -34,7 +34,7 @@ impl Picture {
         TextureShape::flat(self.size.0, self.size.1, TexelFormat::Rgba8)
     }
 
-    /// Takes a frame of the size. Returns whether it is another than before; the first time it always is.
+    /// Stores a frame of the right size. Returns whether it differs from the previous one, which the first always does.
     fn take(&mut self, frame: Option<Frame>) -> bool {
         let is_same = match (&self.of, &frame) {
             (Some(before), Some(frame)) => before.is(frame),
@@ -47,7 +47,7 @@ impl Picture {
         let row = self.size.0 as usize * 4;
         match &frame {
             None => self.bytes = [0, 0, 0, 255].repeat(self.size.0 as usize * self.size.1 as usize),
-            // The top row lies at v = 1: row 0 is the bottom.
+            // The top row is at v = 1: row 0 is the bottom.
             Some(frame) if self.vflip => {
                 self.bytes.clear();
                 frame.texels.rchunks_exact(row).for_each(|row| self.bytes.extend_from_slice(row));
@@ -90,7 +90,7 @@ impl ExternalTexture for VideoTexture {
     }
 }
 
-/// The newest picture of a camera; black and of the site's size where none is on.
+/// The newest picture of a camera; black and of Shadertoy's size if no camera is on.
 pub(super) struct Webcam {
     camera: Option<Camera>,
     shown: Picture,
@@ -111,7 +111,7 @@ impl ExternalTexture for Webcam {
 
     fn advance(&mut self, _: &FrameInputs) -> bool {
         let newest = self.camera.as_ref().and_then(Camera::newest);
-        // A camera that came on later is of the next program.
+        // A camera that was switched on later belongs to the next program.
         let newest = newest.filter(|newest| (newest.width, newest.height) == self.shown.size);
         self.shown.take(newest.map(|newest| newest.frame))
     }
@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_frame_is_turned_and_written_once() {
+    fn a_frame_is_flipped_and_uploaded_once() {
         let frame = |first: u8| Frame { texels: Arc::new((first..first + 8).collect()) };
         let (one, two) = (frame(0), frame(8));
         let mut upright = Picture::new((1, 2), true);

@@ -1,4 +1,4 @@
-//! Pipelines of compiled stages, found by all that they are made of.
+//! Pipelines of compiled stages, keyed by everything that determines them.
 
 use super::{
     EngineError,
@@ -27,16 +27,16 @@ use std::{
 /// The pipeline of one program.
 pub(super) struct StagePipeline {
     pub pipeline: Pipeline,
-    /// The constant tables of its stages, where they have any, by their bindings.
+    /// The constant tables of its stages, if any, by their bindings.
     pub tables: Vec<(u32, wgpu::Buffer)>,
 }
 
-/// Bindings of the uniform group and of the channel group.
+/// The bindings of the uniform group and of the channel group.
 pub(super) type Groups = [Vec<(u32, Binding)>; 2];
 
-/// Everything that a pipeline is made of.
+/// The description of a pipeline, which is also its key.
 pub(super) struct PipelineOrder {
-    /// Names the pipeline in messages; pipelines that differ in nothing else are one.
+    /// The pipeline's name in messages; it is not part of the pipeline's identity.
     pub label: String,
     pub program: CompiledProgram,
     pub groups: Groups,
@@ -44,7 +44,7 @@ pub(super) struct PipelineOrder {
     pub mesh: Option<MeshState>,
 }
 
-/// The state with which the triangles of a mesh are drawn.
+/// The render state for the triangles of a mesh.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct MeshState {
     cull: Cull,
@@ -69,17 +69,17 @@ struct PipelineKey {
     mesh: Option<MeshState>,
 }
 
-/// Pipelines of this build and those before it.
+/// The pipelines of this build and earlier ones.
 #[derive(Default)]
 pub(super) struct PipelineCache {
     made: Cache<PipelineKey, Arc<StagePipeline>>,
-    /// Number of pipelines that the current build has made.
+    /// The number of pipelines that the current build has created.
     built: usize,
 }
 
 impl PipelineCache {
-    /// Returns a pipeline for each order. Those that are not there are made side by side: a driver takes a tenth of a
-    /// second for one.
+    /// Returns a pipeline for each order. Missing ones are created in parallel: a driver takes a tenth of a second for
+    /// one.
     pub(crate) fn make(
         &mut self,
         gpu: &Gpu,
@@ -102,19 +102,19 @@ impl PipelineCache {
         Ok(keys.iter().filter_map(|key| self.made.get(key).cloned()).collect())
     }
 
-    /// Returns the orders whose pipelines are not there yet.
+    /// Returns the orders whose pipelines are missing.
     pub(crate) fn missing<'a>(&self, orders: &'a [PipelineOrder]) -> Vec<&'a PipelineOrder> {
         orders.iter().filter(|order| !self.made.holds(&order.key())).collect()
     }
 
-    /// Ends a build; see [`Cache::end_build`]. Returns the number of pipelines that it made.
+    /// Ends a build; see [`Cache::end_build`]. Returns the number of pipelines that it created.
     pub(crate) fn end_build(&mut self, is_whole: bool) -> usize {
         self.made.end_build(is_whole);
         std::mem::take(&mut self.built)
     }
 }
 
-/// Does work on as many threads as the machine runs at once. Results are in the order of the jobs.
+/// Runs jobs in parallel on as many threads as the machine has cores. The results are in job order.
 fn side_by_side<J: Sync, T: Send>(jobs: &[J], work: impl Fn(&J) -> T + Sync) -> Vec<T> {
     let threads = thread::available_parallelism().map_or(1, NonZero::get).min(jobs.len());
     if threads <= 1 {
@@ -148,7 +148,7 @@ impl PipelineOrder {
         }
     }
 
-    /// Returns the format of each target, and whether a fragment has an output for it.
+    /// Returns the format of each target, and whether the fragment stage writes it.
     fn targets(&self, gpu: &Gpu) -> Result<Vec<(wgpu::TextureFormat, bool)>, GpuError> {
         let formats: Vec<_> = self.formats.iter().map(|format| eddy_gpu::texture_format(*format)).collect();
         check_targets(gpu, &self.label, &formats)?;

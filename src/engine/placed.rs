@@ -1,4 +1,4 @@
-//! A mesh where it stands, and the camera's matrices.
+//! A mesh with its transform, and the camera's matrices.
 
 use super::FrameInputs;
 use eddy_glsl::interface::GeometryBlock;
@@ -8,9 +8,9 @@ use eddy_project::{Camera, MeshDraw};
 use glam::{Mat3, Mat4, Quat, Vec3, camera::rh};
 use std::sync::Arc;
 
-/// A mesh, and where it stands.
+/// A mesh with its transform.
 pub(super) struct PlacedMesh {
-    /// The contents of the buffers, for who asks what a draw read.
+    /// The contents of the buffers, for reading back the inputs of a draw.
     pub mesh: Arc<Mesh>,
     pub buffers: Arc<MeshBuffers>,
     model: Mat4,
@@ -21,7 +21,7 @@ impl PlacedMesh {
         Self { mesh, buffers, model: model(draw) }
     }
 
-    /// Returns what a program sees of it through a camera, in a picture of size `own` on a canvas.
+    /// Returns the uniforms of a mesh for a camera, in a picture of size `own` on a canvas.
     pub(crate) fn block(
         &self,
         camera: &Camera,
@@ -45,8 +45,8 @@ impl PlacedMesh {
     }
 }
 
-/// Returns the matrix from the world to the camera, and where the camera stands. Dragging across the canvas turns it
-/// once round, dragging up it half round, as far as just short of the poles.
+/// Returns the matrix from the world to the camera, and the position of the camera. Dragging across the canvas rotates
+/// it by 360 degrees, dragging up it by 180 degrees, stopping just short of the poles.
 fn view(camera: &Camera, drag: [f32; 2], canvas: (u32, u32)) -> (Mat4, Vec3) {
     let [x, y] = if camera.orbit { drag } else { [0.0; 2] };
     let yaw = (camera.yaw as f32 - 360.0 * x / canvas.0 as f32).to_radians();
@@ -73,12 +73,12 @@ mod tests {
     use eddy_project::{Cull, DepthTest, MeshSource};
 
     #[test]
-    fn a_drag_turns_the_camera_about_its_target() {
+    fn dragging_rotates_the_camera_about_its_target() {
         let camera = Camera { yaw: 90.0, pitch: 0.0, distance: 3.0, target: [1.0, 2.0, 0.0], ..Camera::default() };
         let at = |drag| view(&camera, drag, (200, 100)).1;
         let near = |a: Vec3, b: Vec3| assert!(a.distance(b) < 1e-5, "{a} is not {b}");
         near(at([0.0, 0.0]), Vec3::new(4.0, 2.0, 0.0));
-        // The scene follows the hand: the camera goes the other way, a quarter round for a quarter of the width.
+        // The scene follows the pointer: the camera moves the other way, by 90 degrees for a quarter of the width.
         near(at([50.0, 0.0]), Vec3::new(1.0, 2.0, 3.0));
         near(at([-50.0, 0.0]), Vec3::new(1.0, 2.0, -3.0));
         assert!(at([0.0, -25.0]).y > 2.0 && at([0.0, 1e6]).y > -1.0);
@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mesh_is_scaled_turned_and_moved_in_this_order() {
+    fn meshes_are_scaled_rotated_and_translated_in_this_order() {
         let draw = MeshDraw {
             mesh: MeshSource::Builtin("cube".into()),
             normals: None,
@@ -101,7 +101,7 @@ mod tests {
             rotation: [90.0, 90.0, 0.0],
             position: [0.0, 0.0, 10.0],
         };
-        // y goes to z about x, and z to x about y.
+        // Rotation about x takes y to z, and about y takes z to x.
         let there = model(&draw).transform_point3(Vec3::Y);
         assert!(there.distance(Vec3::new(2.0, 0.0, 10.0)) < 1e-5, "{there}");
     }

@@ -1,4 +1,4 @@
-//! Common as it was read last: an edit that leaves it alone need not read it again.
+//! Caches the compiled Common: edits elsewhere do not compile it again.
 
 use super::Sources;
 use eddy_diag::{Diagnostic, SourceId, Span};
@@ -6,13 +6,13 @@ use eddy_glsl::{Include, Preamble, UniformValue};
 use eddy_project::Dialect;
 use std::sync::Arc;
 
-/// Keeps what [`Sources`] have read of Common, for later ones with the same.
+/// Keeps the Common that [`Sources`] have compiled, for later ones with the same Common.
 #[derive(Default)]
 pub struct KeptPreamble {
     last: Option<(Key, Option<Arc<Preamble>>)>,
 }
 
-/// Everything that reading Common reads.
+/// All inputs of compiling Common.
 #[derive(PartialEq)]
 pub(super) struct Key {
     common: Arc<str>,
@@ -20,21 +20,21 @@ pub(super) struct Key {
     values: Vec<UniformValue>,
 }
 
-/// A line and the text in its place, or what is said where there is none.
+/// A line and the text that replaces it, or the diagnostic if there is none.
 type IncludeKey = (Span, Result<(SourceId, Arc<str>), Diagnostic>);
 
 impl KeptPreamble {
-    /// Gives these texts what was read of the same Common before.
+    /// Provides these texts with the compiled Common, if it is the same.
     pub fn lend(&self, texts: &Sources<'_>) {
         if let Some((key, preamble)) = &self.last
             && texts.preamble_key().as_ref() == Some(key)
         {
-            // What the texts have read themselves is as good.
+            // If the texts have compiled it themselves, the result is equal.
             let _ = texts.preamble.set(preamble.clone());
         }
     }
 
-    /// Keeps what these texts have of Common, if any of them needed it.
+    /// Stores the compiled Common of these texts, if they needed it.
     pub fn keep(&mut self, texts: &Sources<'_>) {
         if let (Some(key), Some(preamble)) = (texts.preamble_key(), texts.preamble.get()) {
             self.last = Some((key, preamble.clone()));
@@ -57,7 +57,7 @@ impl Sources<'_> {
         (include.line, include.text.map(|text| (text.id, self.shared(text))).map_err(Clone::clone))
     }
 
-    /// Common, read when it is first needed. `None`: there is none, or it has to be read with each pass.
+    /// The compiled Common, created when first needed. `None` if there is none, or if each pass must compile it.
     pub(super) fn preamble(&self) -> Option<&Preamble> {
         let read = || {
             if self.project.dialect != Dialect::Shadertoy {
@@ -77,7 +77,7 @@ mod tests {
     use eddy_glsl::Driver;
     use eddy_project as project;
 
-    /// Compiles a preset whose texts were edited before, and returns whether Common was read anew.
+    /// Compiles a preset after an edit of its texts, and returns whether Common was compiled again.
     fn reads(kept: &mut KeptPreamble, edit: impl FnOnce(&mut project::Project)) -> bool {
         let mut project = project::presets::load("fluid").expect("a preset").project;
         edit(&mut project);
@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edit_of_a_pass_leaves_common_unread() {
+    fn editing_a_pass_does_not_recompile_common() {
         let mut kept = KeptPreamble::default();
         assert!(reads(&mut kept, |_| {}), "nothing was read yet");
         assert!(!reads(&mut kept, |_| {}));
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_in_common_is_told_once() {
+    fn errors_in_common_are_reported_once() {
         for wrong in ["float wrong(float x) { return y; }", "float wrong(float x) { return x }"] {
             let mut project = project::presets::load("fluid").expect("a preset").project;
             let common = project.common.as_mut().expect("it has one");

@@ -12,34 +12,34 @@ use eddy_project::{Camera, CustomUniform, CustomUniformValues, Dialect, PassName
 use eddy_texture::Dimension;
 use std::{ops::Range, sync::Arc};
 
-/// A whole set of compiled passes and their plan. [`super::Builder`] makes it on any thread;
+/// A complete set of compiled passes and their plan. [`super::Builder`] builds it on any thread;
 /// [`super::Engine::set_program`] swaps it in at once.
 pub struct Program {
     pub(super) plan: FramePlan,
-    /// One for each of the plan's draws.
+    /// One for each draw of the plan.
     pub(super) draws: Vec<CompiledDraw>,
-    /// The textures that its channels read and no pass draws.
+    /// The textures that its channels read and that are not drawn by passes.
     pub(super) externals: Vec<External>,
-    /// The author's own uniforms, in the order of their slots.
+    /// The author's own uniforms, in slot order.
     pub(super) custom_uniforms: Vec<CustomUniform>,
-    /// The values that the program starts with.
+    /// The initial values.
     pub(super) custom_uniform_values: CustomUniformValues,
     /// The program that the texts are written for.
     pub(super) dialect: Dialect,
 }
 
-/// The pipelines of one draw and what its channels are bound to.
+/// The pipelines of one draw and the bindings of its channels.
 pub(super) struct CompiledDraw {
     pub id: PassName,
     pub body: DrawBody,
-    /// Some program reads what meshes are drawn with.
+    /// True if a program reads the geometry uniforms of meshes.
     pub reads_geometry: bool,
     pub channels: [BoundChannel; SLOTS],
-    /// Draws what its target holds before frame 0.
+    /// Draws the contents of its target before frame 0.
     pub initial: Option<Box<FillProgram>>,
     /// Draws its outermost texels.
     pub boundary: Option<Box<FillProgram>>,
-    /// The uniforms that are read: the site's, and the author's own by their slots.
+    /// The uniforms that it reads: Shadertoy's, and the author's own by their slots.
     pub uniforms: UniformSet,
     pub custom_uniforms: CustomUniformSet,
 }
@@ -51,10 +51,10 @@ pub(super) enum DrawBody {
     Meshes(Meshes),
 }
 
-/// Meshes as one camera sees them.
+/// Meshes that one camera views.
 pub(super) struct Meshes {
     pub camera: Camera,
-    /// Place of the first among those of all draws.
+    /// The index of its first mesh among those of all draws.
     pub first: usize,
     pub programs: Vec<(Arc<StagePipeline>, PlacedMesh)>,
 }
@@ -68,12 +68,12 @@ impl DrawBody {
         }
     }
 
-    /// The places of its meshes among those of all draws, each of which has a block of uniforms.
+    /// The indices of its meshes among those of all draws, each of which has a uniform block.
     pub(crate) fn geometry_blocks(&self) -> Range<usize> {
         self.geometry().map_or(0..0, |meshes| meshes.first..meshes.first + meshes.programs.len())
     }
 
-    /// Returns whether it is drawn over a depth buffer.
+    /// Returns whether it is drawn with a depth buffer.
     pub(crate) fn has_depth(&self) -> bool {
         self.geometry().is_some()
     }
@@ -88,21 +88,21 @@ impl DrawBody {
     }
 }
 
-/// A fill's program, and the draw it is done as.
+/// A fill's program, and the draw that executes it.
 pub(super) struct FillProgram {
     pub compiled: CompiledDraw,
     pub draw: Draw,
 }
 
-/// The way in which the texels that a channel reads are mixed.
+/// The filtering of the texels that a channel reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum FilterMode {
-    /// Each read takes one texel.
+    /// Each read returns one texel.
     #[default]
     Nearest,
-    /// The sampler mixes.
+    /// The sampler filters.
     Sampler,
-    /// The shader mixes, because the device cannot filter the texture's format.
+    /// The shader filters, because the device cannot filter the texture's format.
     Shader,
 }
 
@@ -113,24 +113,24 @@ pub(super) struct BoundChannel {
     pub texture: bool,
     pub sampler: bool,
     pub filter_mode: FilterMode,
-    /// The one of [`Program::externals`] that it reads.
+    /// The external texture that it reads, in [`Program::externals`].
     pub external: Option<BoundExternal>,
     /// The value of `iChannelResolution` if the channel does not read a buffer.
     pub resolution: [f32; 3],
-    /// Says what `iChannelTime` is.
+    /// The definition of `iChannelTime`.
     pub clock: ChannelClock,
     /// The size of the buffer the channel names, if it names one.
     pub buffer: Option<PassSize>,
 }
 
-/// One of a program's external textures, by its place there.
+/// A program's external texture, by its index there.
 pub(super) struct BoundExternal {
     pub index: usize,
     pub texture: Texture,
 }
 
 impl Program {
-    /// The author's own uniforms, in the order they are declared.
+    /// The author's own uniforms, in the order of their declarations.
     pub fn custom_uniforms(&self) -> &[CustomUniform] {
         &self.custom_uniforms
     }
@@ -140,7 +140,7 @@ impl Program {
         self.draws.iter().zip(&self.plan.draws)
     }
 
-    /// Returns the number of meshes that all passes together draw.
+    /// Returns the total number of meshes that the passes draw.
     pub(super) fn meshes(&self) -> usize {
         self.draws.iter().map(|draw| draw.body.geometry_blocks().len()).sum()
     }

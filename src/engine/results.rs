@@ -2,7 +2,7 @@
 
 use eddy_project::PassName;
 
-/// Time of one pass in one frame.
+/// The time of one pass in one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassTime {
     pub pass: PassName,
@@ -12,10 +12,10 @@ pub struct PassTime {
 /// The work of one frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FrameStats {
-    /// Passes drawn in this frame, every step of a group counted.
+    /// The number of passes drawn in this frame, counting every step of a group.
     pub passes_drawn: u64,
-    /// Passes left out because nothing they read has changed since they were drawn, and the bytes of texels that were
-    /// not written for it.
+    /// The number of passes skipped because their inputs have not changed since they were drawn, and the bytes of
+    /// texels whose writes this saved.
     pub passes_cached: u64,
     pub bytes_cached: u64,
 }
@@ -29,19 +29,19 @@ pub struct Pixels {
 }
 
 impl Pixels {
-    /// Returns the bytes that a PNG shows: clamped to 0..1, rounded to 8 bits, NaN as 0, the top row first. The one way
-    /// from a picture to bytes: screenshots, `eddy render` and the golden tests share it.
+    /// Returns the bytes of the picture for a PNG: clamped to 0..1, rounded to 8 bits, NaN as 0, the top row first.
+    /// This is the only conversion of a picture to bytes: screenshots, `eddy render` and the golden tests share it.
     pub fn to_rgba8(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.texels.len() * 4);
         for row in self.texels.chunks_exact(self.width as usize).rev() {
-            // `as` turns NaN into 0.
+            // `as` converts NaN to 0.
             bytes.extend(row.iter().flatten().map(|v| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8));
         }
         bytes
     }
 }
 
-/// A picture as a screen shows it: red, green, blue and alpha of 8 bits each, the top row first, no padding.
+/// A picture for a screen: red, green, blue and alpha of 8 bits each, the top row first, no padding.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     pub width: u32,
@@ -49,15 +49,15 @@ pub struct Picture {
     pub bytes: Vec<u8>,
 }
 
-/// A small picture of a target.
+/// A thumbnail of a target.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Miniature {
-    /// The picture, of one size whatever the target's shape.
+    /// The picture, whose size does not depend on the target's shape.
     pub picture: Picture,
-    /// The places where a texel of the target is NaN or infinite: from one column of the picture to before the other,
-    /// and the row from the top.
+    /// The positions of NaN or infinite texels of the target, as runs: from one column of the picture to before the
+    /// other, and the row from the top.
     pub nonfinite: Vec<(u32, u32, u32)>,
-    /// Texels of the target, across and up.
+    /// The size of the target in texels, across and up.
     pub of: (u32, u32),
 }
 
@@ -83,11 +83,11 @@ impl Miniature {
 #[derive(Clone, Debug, PartialEq)]
 pub struct TexelAt {
     pub pass: PassName,
-    /// The target among those of the pass.
+    /// The index among the targets of the pass.
     pub index: usize,
-    /// The place of the texel, from the left and from the bottom.
+    /// The position of the texel, from the left and from the bottom.
     pub texel: (u32, u32),
-    /// So many of the value's components are stored; what is missing reads as 0, alpha as 1.
+    /// The number of stored components of the value; missing ones read as 0, alpha as 1.
     pub components: u8,
     pub value: [f32; 4],
 }
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn marked_places_are_told_in_runs_and_shown_opaque() {
+    fn marked_texels_are_reported_in_runs_and_shown_opaque() {
         let alphas = [255, 0, 0, 0, 0, 255];
         let bytes = alphas.iter().flat_map(|alpha| [10, 20, 30, *alpha]).collect();
         let made = Miniature::new(Picture { width: 3, height: 2, bytes }, (640, 360));

@@ -1,4 +1,4 @@
-//! The engine: the program that is running, and what can be asked of it.
+//! The engine: the running program and its operations.
 
 use super::{
     DrawFor, Drawn, EngineError, FrameInputs, FrameStats, Miniature, PassTime, Picture, Pixels, Program, Rows, TexelAt,
@@ -22,29 +22,29 @@ use eddy_video::CameraFrame;
 pub struct Engine {
     pub(super) shared: Shared,
     canvas: (u32, u32),
-    /// The canvas may be larger than a target: see [`Engine::for_tiles`].
+    /// True if the canvas may be larger than a target: see [`Engine::for_tiles`].
     is_for_tiles: bool,
     pub(super) running: Option<Running>,
     pub(super) display: Display,
     is_timing: bool,
-    /// For reading back what is no rgba32float; made when first needed.
+    /// For reading back formats other than rgba32float; created when first needed.
     converter: Option<FloatConverter>,
     pub(super) readback: Readback,
-    /// For panels that show passes small; made when first asked for.
+    /// For panels that show thumbnails of passes; created when first used.
     miniatures: Option<(Miniatures, Readback)>,
-    /// For who looks at targets closely; made when first asked for.
+    /// For panels that show the values of targets; created when first used.
     viewer: Option<Viewer>,
 }
 
 impl Engine {
-    /// An engine with no program: its picture is black. Fails for a size no target can have.
+    /// Creates an engine without a program: its picture is black. Fails for a size that no target can have.
     pub fn new(gpu: Gpu, width: u32, height: u32) -> Result<Engine, EngineError> {
         gpu.check_size("the picture", width, height)?;
         Self::with_display(gpu, (width, height), (width, height))
     }
 
-    /// Returns an engine for a canvas that no target needs to have: one pass is drawn in tiles ([`BuildOptions::tile`]). It
-    /// shows nothing.
+    /// Returns an engine for a canvas that may be larger than any target: one pass is drawn in tiles
+    /// ([`BuildOptions::tile`]). It displays nothing.
     ///
     /// [`BuildOptions::tile`]: super::BuildOptions::tile
     pub fn for_tiles(gpu: Gpu, width: u32, height: u32) -> Result<Engine, EngineError> {
@@ -67,8 +67,8 @@ impl Engine {
         })
     }
 
-    /// Swaps the whole program. Buffers that the new one has too keep their texels, so an edit does not restart a
-    /// simulation; new ones start as the project says, else as zeros. On an error the old program goes on.
+    /// Swaps the whole program. Buffers that both programs have keep their texels, so an edit does not restart a
+    /// simulation; new ones start with their initial contents, else as zeros. On an error the old program continues.
     pub fn set_program(&mut self, program: Program) -> Result<(), EngineError> {
         let mut running = Running::start(&mut self.shared, program, self.canvas, &mut self.running)?;
         running.set_timing(&self.shared, self.is_timing);
@@ -77,8 +77,8 @@ impl Engine {
         Ok(())
     }
 
-    /// Draws one frame of a program that has never been drawn, on a canvas of its own, waits for it, and gives the
-    /// program back as it was. Passes of a size of their own have it here too. What is running stays as it is.
+    /// Draws one frame of a program that has never been drawn, on its own canvas, waits for it, and returns the program
+    /// unchanged. Passes with a fixed size have it here too. The running program is unaffected.
     pub fn try_out(
         &mut self,
         program: Program,
@@ -92,14 +92,14 @@ impl Engine {
         Ok(running.program)
     }
 
-    /// Sets the values of the author's own uniforms from the next frame on; what `values` does not name stands at its
-    /// default. Compiles nothing. Says whether anything is different now.
+    /// Sets the values of the author's own uniforms from the next frame on; uniforms missing in `values` have their
+    /// defaults. Does not compile. Returns whether any value has changed.
     pub fn set_custom_uniforms(&mut self, values: &CustomUniformValues) -> bool {
         self.running.as_mut().is_some_and(|running| running.set_custom_uniforms(&self.shared, values))
     }
 
-    /// New canvas size. Every buffer keeps the overlap, texel for texel from the bottom left; the rest is as before
-    /// frame 0. On an error everything stays as it was.
+    /// Changes the canvas size. Every buffer keeps the overlap, texel for texel from the bottom left; the rest is reset
+    /// to the contents before frame 0. On an error nothing changes.
     pub fn resize(&mut self, width: u32, height: u32) -> Result<(), EngineError> {
         if (width, height) == self.canvas {
             return Ok(());
@@ -122,14 +122,14 @@ impl Engine {
         Ok(())
     }
 
-    /// Every buffer as before frame 0: as the project says, else zeros.
+    /// Resets every buffer to its contents before frame 0: those that the project sets, else zeros.
     pub fn reset(&mut self) {
         if let Some(running) = &mut self.running {
             running.reset(&self.shared);
         }
     }
 
-    /// Draws one frame, to show it. Does not wait for the device. A pass that is drawn in tiles is left out:
+    /// Draws one frame to show it. Does not wait for the device. A pass that is drawn in tiles is skipped:
     /// [`Engine::draw_tile`] draws it.
     pub fn draw(&mut self, inputs: &FrameInputs) -> Result<FrameStats, EngineError> {
         Ok(self.draw_for(inputs, DrawFor::Frame)?.stats)
@@ -185,8 +185,8 @@ impl Engine {
         Ok(true)
     }
 
-    /// Returns the size of the picture that is drawn in tiles, and the largest tile; `None` where the running program has no
-    /// such pass.
+    /// Returns the size of the picture that is drawn in tiles, and the size of the largest tile; `None` if the running
+    /// program has no such pass.
     pub fn tiles(&self) -> Option<((u32, u32), (u32, u32))> {
         let running = self.running.as_ref()?;
         let tiled = running.program.plan.tiled?;
@@ -194,10 +194,10 @@ impl Engine {
         Some((tiled.size.of(self.canvas), target.size()))
     }
 
-    /// Draws and reads a tile of the pass that is drawn in tiles ([`BuildOptions::tile`](super::BuildOptions::tile)), of the
-    /// newest frame: the pixels from `x`, `y` on, which are multiples of 4, so that the
-    /// pixels that a device shades together are those of one piece. A tile that does not lie in the picture is cut. Before each
-    /// part of it, `rows` answers how many rows are drawn at once. Waits for the device.
+    /// Draws and reads a tile of the tiled pass ([`BuildOptions::tile`](super::BuildOptions::tile)), of the newest
+    /// frame: the pixels from `x`, `y` on, which are multiples of 4, so that the pixels that a device shades together
+    /// are in the same tile. The tile is clipped to the picture. Before each band of it, `rows` returns the number of
+    /// rows to draw at once. Waits for the device.
     pub fn draw_tile(&mut self, (x, y): (u32, u32), rows: &mut dyn FnMut() -> u32) -> Result<Pixels, EngineError> {
         let none = || EngineError::NoSuchPass("in tiles".into());
         let (picture, tile) = self.tiles().ok_or_else(none)?;
@@ -221,13 +221,13 @@ impl Engine {
         Ok(Pixels { width, height, texels: rows.flat_map(|row| &row[..width as usize]).copied().collect() })
     }
 
-    /// Copies what every target holds.
+    /// Copies the contents of every target.
     pub fn snapshot(&self) -> Result<Snapshot, EngineError> {
         self.take_snapshot(Extent::Everything)
     }
 
-    /// Copies what the frames to come read of the targets, and no more: a frame that is drawn after
-    /// [`Engine::restore`] is what it would have been, and until then targets hold anything.
+    /// Copies only the texels of targets that later frames read: a frame that is drawn after [`Engine::restore`] is
+    /// what it would have been, but until then the contents of targets are unspecified.
     pub fn checkpoint(&self) -> Result<Snapshot, EngineError> {
         self.take_snapshot(Extent::Carried)
     }
@@ -243,13 +243,13 @@ impl Engine {
         snapshot::bytes(self.running.as_ref(), Extent::Carried)
     }
 
-    /// Puts back what a snapshot holds. False, and nothing is changed, if the snapshot is one of another program's
-    /// targets or of another canvas.
+    /// Restores a snapshot. Returns false without changes if the snapshot is of another program's targets or of another
+    /// canvas.
     pub fn restore(&mut self, snapshot: &Snapshot) -> bool {
         self.running.as_mut().is_some_and(|running| running.restore(&self.shared, snapshot))
     }
 
-    /// Takes what a pass read when it was drawn last, and draws nothing. Waits for the device.
+    /// Captures the inputs of a pass's last draw, without drawing. Waits for the device.
     pub fn inspect(&mut self, pass: &PassName) -> Result<PassInputs, EngineError> {
         let none = || EngineError::NoSuchPass(pass.title());
         let running = self.running.as_ref().ok_or_else(none)?;
@@ -261,19 +261,19 @@ impl Engine {
         capture.taken.ok_or_else(none)
     }
 
-    /// Returns the texels of a pass, across and up.
+    /// Returns the size of a pass in texels, across and up.
     pub fn pass_size(&self, pass: &PassName) -> Option<(u32, u32)> {
         self.targets().iter().find(|t| t.id == *pass).map(Target::size)
     }
 
-    /// Overwrites a texel of a pass's newest ones by NaN, in a format of floats; in any other by its largest value. For
-    /// who asks how a project recovers. A place outside of the pass's texels is held inside.
+    /// Overwrites one of a pass's newest texels with NaN, in a float format, or else with its largest value. For
+    /// testing how a project recovers. The position is clamped to the pass's texels.
     pub fn poison(&mut self, pass: &PassName, place: (u32, u32)) -> Result<(), EngineError> {
         // All bits set: an exponent of ones and a mantissa that is not zero.
         self.overwrite(pass, place, |bytes, _| vec![0xff; bytes])
     }
 
-    /// As [`Engine::poison`], by infinity.
+    /// Does the same as [`Engine::poison`] with infinity.
     pub fn make_infinite(&mut self, pass: &PassName, place: (u32, u32)) -> Result<(), EngineError> {
         // An exponent of ones, a mantissa of zeros; the lowest byte comes first.
         self.overwrite(pass, place, |bytes, components| match bytes / components {
@@ -283,8 +283,8 @@ impl Engine {
         })
     }
 
-    /// Writes a texel of a pass's newest ones: `texel` gets how many bytes it has, and how many components. A pass that is off
-    /// keeps its texels: no frame could have broken one.
+    /// Overwrites one of a pass's newest texels: `texel` receives its number of bytes and of components. A pass that is
+    /// off keeps its texels: no frame could have broken one.
     fn overwrite(
         &mut self,
         pass: &PassName,
@@ -311,13 +311,13 @@ impl Engine {
         Ok(())
     }
 
-    /// Returns whether the newest frame shows an older frame of a video than it should, as that was not decoded in time:
+    /// Returns whether the newest frame shows an outdated frame of a video, as the right one was not decoded in time:
     /// see [`eddy_video::Pace::Live`].
     pub fn is_late(&self) -> bool {
         self.running.as_ref().is_some_and(|running| running.program.externals.iter().any(|external| external.is_late()))
     }
 
-    /// Returns the picture of a camera that the newest frame shows. Another engine gets it by
+    /// Returns the camera picture in the newest frame. Pass it to another engine by
     /// [`MediaSet::set_camera_picture`](eddy_media::MediaSet::set_camera_picture), so that it can draw the same frame.
     pub fn camera_picture(&self) -> Option<CameraFrame> {
         self.running.as_ref()?.program.externals.iter().find_map(|external| external.camera_picture())
@@ -327,7 +327,7 @@ impl Engine {
         self.canvas
     }
 
-    /// Returns the least that a frame moves now in which every pass is drawn whose condition holds; see
+    /// Returns the minimum traffic of a frame in which every pass whose condition is true is drawn; see
     /// [`FramePlan::traffic`](eddy_graph::FramePlan::traffic).
     pub fn traffic(&self) -> Traffic {
         self.running.as_ref().map_or_else(Traffic::default, Running::traffic)
@@ -337,7 +337,7 @@ impl Engine {
         &self.shared.gpu
     }
 
-    /// The program that is running.
+    /// The running program.
     pub fn program(&self) -> Option<&Program> {
         self.running.as_ref().map(|running| &running.program)
     }
@@ -350,8 +350,8 @@ impl Engine {
         self.running.as_ref().map_or(&[], |running| &running.targets)
     }
 
-    /// Measures the device's time of each pass from the next frame on, where it has timestamps. Off at first, as it
-    /// costs a little in every frame. Says whether it can.
+    /// Enables or disables measuring the device's time of each pass from the next frame on, if it has timestamps. Off
+    /// by default, as it costs a little in every frame. Returns whether it is supported.
     pub fn set_timing(&mut self, on: bool) -> bool {
         self.is_timing = on && self.shared.gpu.has_timestamps;
         if let Some(running) = &mut self.running {
@@ -360,7 +360,7 @@ impl Engine {
         self.is_timing
     }
 
-    /// GPU times of the passes, all steps of each together, of the newest frame the device has finished, where it has
+    /// The GPU times of the passes, for all steps of each, in the newest frame that the device has finished, if it has
     /// timestamps. Does not wait.
     pub fn pass_times(&mut self) -> Option<Vec<PassTime>> {
         let running = self.running.as_mut()?;
@@ -369,21 +369,21 @@ impl Engine {
         Some(draws.iter().zip(millis).map(|(d, gpu_millis)| PassTime { pass: d.id.clone(), gpu_millis }).collect())
     }
 
-    /// The picture of a pass for a window: rgba8unorm, turned so that its first row is the top, values as display
-    /// values. Made anew in [`Engine::draw`] for the pass chosen with [`Engine::show`]; black before that. A resize
-    /// makes a new view.
+    /// The picture of a pass for a window: rgba8unorm, flipped so that its first row is the top, values as display
+    /// values. [`Engine::draw`] updates it for the pass selected with [`Engine::show`]; black before that. A resize
+    /// creates a new view.
     pub fn display(&self) -> &wgpu::TextureView {
         self.display.view()
     }
 
-    /// Chooses which pass [`Engine::display`] shows, from its newest texels on. Nothing is made for showing before the
-    /// first call. A pass that is not drawn shows black.
+    /// Selects the pass that [`Engine::display`] shows, starting with its newest texels. Nothing is presented before
+    /// the first call. A pass that is not drawn is shown black.
     pub fn show(&mut self, pass: PassName) {
         self.display.show(pass);
         self.rebind_display();
     }
 
-    /// Shows what the shown pass holds as numbers, from its newest texels on; none: as a picture.
+    /// Shows the values of the shown pass, starting with its newest texels; `None`: as a picture.
     pub fn show_values(&mut self, look: Option<ValueLook>) {
         self.display.look(&self.shared.gpu, look);
         self.rebind_display();
@@ -401,7 +401,7 @@ impl Engine {
         Ok(Picture { width: texture.width(), height: texture.height(), bytes })
     }
 
-    /// Reads a small picture of one of a pass's targets back, of [`MINIATURE_SIZE`] whatever its shape; waits for the
+    /// Reads back a thumbnail of one of a pass's targets, of [`MINIATURE_SIZE`] whatever its shape; waits for the
     /// device.
     pub fn miniature(&mut self, pass: &PassName, index: usize) -> Result<Miniature, EngineError> {
         let gpu = &self.shared.gpu;
@@ -417,7 +417,7 @@ impl Engine {
         Ok(Miniature::new(Picture { width, height, bytes }, of))
     }
 
-    /// Reads a picture back of what one of a pass's targets holds, as `look` says; waits for the device.
+    /// Reads back a picture of the values of one of a pass's targets, in the style of `look`; waits for the device.
     pub fn picture_of_values(
         &mut self,
         pass: &PassName,
@@ -430,7 +430,7 @@ impl Engine {
         Ok(self.viewer.get_or_insert_with(|| Viewer::new(gpu)).paint(gpu, newest, layer, look)?)
     }
 
-    /// Reads the texel of each target that is drawn at a place, from 0 to 1 across and up; waits for the device once.
+    /// Reads the texel of each drawn target at a position from 0 to 1 across and up; waits for the device once.
     pub fn texels_at(&mut self, at: [f32; 2]) -> Result<Vec<TexelAt>, EngineError> {
         let gpu = &self.shared.gpu;
         let Some(running) = &self.running else { return Ok(Vec::new()) };
@@ -457,7 +457,7 @@ impl Engine {
         Ok(values.collect())
     }
 
-    /// Returns the format of one of a pass's targets or of a face of its cubemap, while the running program has it.
+    /// Returns the format of one of a pass's targets or of a face of its cubemap, if the running program has it.
     pub fn format(&self, pass: &PassName, index: usize) -> Option<TexelFormat> {
         self.running.as_ref()?.layer(pass, index).ok().map(|(texture, _)| texture.shape.format)
     }

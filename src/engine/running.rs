@@ -1,5 +1,4 @@
-//! A program that is running: its textures over time, what they are bound to, and what has changed. How a frame of it
-//! is drawn is in `frame`.
+//! A running program: its textures over time, their bindings, and its pending changes. `frame` draws its frames.
 
 use super::{
     EngineError, FrameInputs,
@@ -20,24 +19,24 @@ pub(super) struct Running {
     pub program: Program,
     pub canvas: (u32, u32),
     pub targets: Vec<Target>,
-    /// One for each draw; `None` for those without meshes.
+    /// One per draw; `None` for those without meshes.
     pub depths: Vec<Option<wgpu::TextureView>>,
     pub bindings: Bindings,
     pub uniforms: Uniforms,
     pub changes: Changes,
-    /// Says of each draw that its targets hold what they hold before frame 0, as its condition is false.
+    /// For each draw, whether its targets have their contents before frame 0 because its condition is false.
     pub is_blank: Vec<bool>,
-    /// Measures the passes, where that is asked for and the device can.
+    /// Measures the passes, if enabled and supported.
     pub timer: Option<PassTimer>,
-    /// The number of times that each draw was done in the newest frame.
+    /// The number of times that each draw was executed in the newest frame.
     pub steps_drawn: Vec<u32>,
-    /// The newest frame, where the caller stopped it.
+    /// The rest of the newest frame, if the caller stopped it.
     pub unfinished: Option<Unfinished>,
-    /// Says of each draw whether frames to come depend on it.
+    /// For each draw, whether later frames depend on it.
     pub lasting: Vec<bool>,
 }
 
-/// Textures that a program needs besides those that are there.
+/// The textures that a program needs in addition to the existing ones.
 struct NewTextures {
     targets: NewTargets,
     depths: Vec<Option<wgpu::TextureView>>,
@@ -65,8 +64,8 @@ impl NewTextures {
 }
 
 impl Running {
-    /// Starts a program in place of `before`. Targets that both have keep their texels; new ones start as the project
-    /// says, else as zeros. On an error `before` stays.
+    /// Starts a program in place of `before`. Targets that both have keep their texels; new ones start with their
+    /// initial contents, else as zeros. On an error `before` stays.
     pub(crate) fn start(
         shared: &mut Shared,
         program: Program,
@@ -97,8 +96,8 @@ impl Running {
         Ok(running)
     }
 
-    /// Goes on with another canvas. Targets keep the overlap; the rest is as before frame 0. On an error everything
-    /// stays.
+    /// Continues with another canvas. Targets keep the overlap; the rest is reset to the contents before frame 0. On an
+    /// error nothing changes.
     pub(crate) fn resize(&mut self, shared: &mut Shared, canvas: (u32, u32)) -> Result<(), EngineError> {
         let new = NewTextures::make(shared, &self.program, canvas, &self.targets)?;
         self.canvas = canvas;
@@ -108,7 +107,8 @@ impl Running {
         Ok(())
     }
 
-    /// Takes up new textures. They hold what the present ones held, and else what they hold before frame 0.
+    /// Installs new textures. They take over the contents of the present ones, and else start with those
+    /// before frame 0.
     fn take(&mut self, shared: &Shared, new: NewTextures) {
         self.depths = new.depths;
         self.is_blank.clear();
@@ -124,7 +124,7 @@ impl Running {
         }
     }
 
-    /// Sets values of the author's own uniforms. Says whether anything is different now.
+    /// Sets values of the author's own uniforms. Returns whether any has changed.
     pub(crate) fn set_custom_uniforms(&mut self, shared: &Shared, values: &CustomUniformValues) -> bool {
         let slots = custom_uniforms::block(&self.program.custom_uniforms, values);
         let is_changed = self.uniforms.set_custom_uniforms(&shared.gpu, slots);
@@ -134,7 +134,7 @@ impl Running {
         is_changed
     }
 
-    /// Drops what is left of a frame that was stopped. The next frame draws everything.
+    /// Drops the rest of a frame that was stopped. The next frame draws everything.
     pub(crate) fn drop_unfinished(&mut self) {
         if self.unfinished.take().is_some() {
             self.changes.invalidate();
@@ -154,7 +154,7 @@ impl Running {
         self.changes.invalidate();
     }
 
-    /// Draws what targets hold before frame 0, of those that are named by their place in the plan.
+    /// Draws the contents before frame 0 of the targets whose index in the plan is selected.
     pub(crate) fn fill_initial(&mut self, shared: &Shared, is_named: impl Fn(usize) -> bool) {
         let Self { program, canvas, targets, bindings, uniforms, .. } = self;
         if !program.draws.iter().any(|draw| draw.initial.is_some()) {
@@ -191,13 +191,13 @@ impl Running {
         shared.gpu.queue.submit([encoder.finish()]);
     }
 
-    /// Turns measuring on or off. Room is made for every draw of a frame.
+    /// Turns measuring on or off. Allocates queries for every draw of a frame.
     pub(crate) fn set_timing(&mut self, shared: &Shared, on: bool) {
         let draws = u32::try_from(self.program.plan.draws_a_frame().max(1)).unwrap_or(u32::MAX);
         self.timer = if on { PassTimer::new(&shared.gpu, draws) } else { None };
     }
 
-    /// The target of a pass by its place among the pass's targets.
+    /// The target of a pass by its index among the pass's targets.
     pub(crate) fn target(&self, pass: &PassName, index: usize) -> Result<&Target, EngineError> {
         let own = || self.targets.iter().filter(|t| t.id == *pass);
         if own().next().is_none() {
@@ -206,7 +206,7 @@ impl Running {
         own().find(|t| t.index == index).ok_or_else(|| EngineError::NoSuchTarget { pass: pass.title(), index })
     }
 
-    /// Returns the newest texture of one of a pass's targets, and layer 0 of it; of a cubemap its one target, and face
+    /// Returns the newest texture of one of a pass's targets, and layer 0 of it; for a cubemap its one target, and face
     /// `index` in the order of [`eddy_texture::Face::ALL`].
     pub(crate) fn layer(&self, pass: &PassName, index: usize) -> Result<(&Texture, u32), EngineError> {
         let first = self.target(pass, 0)?.newest();

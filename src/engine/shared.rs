@@ -1,4 +1,4 @@
-//! The parts that every program draws with: the device, samplers, and textures for channels that have none.
+//! The resources that all programs share: the device, samplers, and textures for empty channels.
 
 use eddy_gpu::{Gpu, GpuError, MipMaker, Samplers, Texture, TextureDescriptor};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
@@ -21,8 +21,8 @@ impl Shared {
     }
 }
 
-/// One opaque black texel in each dimension: what a channel with nothing in it reads, as OpenGL ES 3.0 has it for an
-/// incomplete texture (section 3.8.13). A buffer without a pass is no such channel: it is there, and its texels are zeros.
+/// One opaque black texel in each dimension, which an empty channel reads, as OpenGL ES 3.0 defines for an incomplete
+/// texture (section 3.8.13). A missing buffer is not such a channel: its texels exist and are zeros.
 pub(super) struct FallbackTextures {
     flat: Texture,
     volume: Texture,

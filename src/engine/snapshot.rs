@@ -1,4 +1,4 @@
-//! The texels of targets at one moment, to go back to.
+//! The texels of targets at one moment, for restoring them.
 
 use super::{running::Running, shared::Shared, targets::Target};
 use eddy_gpu::{Gpu, GpuError, Texture, TextureDescriptor};
@@ -6,8 +6,8 @@ use eddy_graph::{Carried, FramePlan};
 use eddy_project::PassName;
 use eddy_texture::TextureShape;
 
-/// Holds what a program's targets held between two frames. It belongs to the program and the canvas that it was taken
-/// of.
+/// The contents of a program's targets between two frames. It is only valid for the program and the canvas that it was
+/// taken of.
 pub struct Snapshot {
     targets: Vec<KeptTarget>,
     bytes: u64,
@@ -16,26 +16,26 @@ pub struct Snapshot {
 struct KeptTarget {
     id: PassName,
     index: usize,
-    /// The shapes of all its textures, and copies of the first levels of those that were asked for.
+    /// The shapes of all its textures, and copies of the first levels of the requested ones.
     textures: Vec<(TextureShape, Option<Texture>)>,
     front: usize,
 }
 
-/// Returns the shape of a copy. Texels fit into a texture of the same one.
+/// Returns the shape of a copy. Texels can be restored to a texture of the same shape.
 fn copied_shape(texture: &Texture) -> TextureShape {
     texture.shape.without_mips()
 }
 
-/// Says how much of the targets is copied.
+/// The part of the targets that is copied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Extent {
     Everything,
-    /// The texels that the frames to come read.
+    /// The texels that later frames read.
     Carried,
 }
 
 impl Extent {
-    /// Returns what is copied of the target at a place of the plan.
+    /// Returns the part to copy of the target at an index of the plan.
     fn of(self, plan: &FramePlan, target: usize) -> Carried {
         match self {
             Extent::Everything => Carried::All,
@@ -85,7 +85,7 @@ impl Snapshot {
         self.bytes
     }
 
-    /// It was taken of targets like these, and has what the frames to come read of them.
+    /// Returns whether it was taken of targets like these, and contains what later frames read of them.
     fn is_of(&self, running: &Running) -> bool {
         let fits = |(index, (kept, target)): (usize, (&KeptTarget, &Target))| {
             let is_same = || kept.textures.iter().map(|(shape, _)| *shape).eq(target.textures.iter().map(copied_shape));
@@ -116,7 +116,7 @@ pub(super) fn bytes(running: Option<&Running>, extent: Extent) -> u64 {
 }
 
 impl Running {
-    /// Puts the texels of a snapshot back. False, and nothing is changed, if it is one of other targets.
+    /// Restores the texels of a snapshot. Returns false without changes if it is of other targets.
     pub(super) fn restore(&mut self, shared: &Shared, snapshot: &Snapshot) -> bool {
         if !snapshot.is_of(self) {
             return false;

@@ -1,8 +1,9 @@
 //! Sound passes: a block of samples is drawn as a picture, one sample per texel, and read back.
 //!
-//! Blocks, times and the 16 bits of a sample are Shadertoy's (`shadertoy.md`, section 8). The shader's entry point writes
-//! the four bytes of a sample as Shadertoy's does (`glsl/lower/entry.rs`), into a target of the same format, so that the
-//! rounding is the same. A block is drawn in bands of rows, so that a device that draws pictures too is not held for long.
+//! Blocks, times and the 16 bits of a sample are Shadertoy's (`shadertoy.md`, section 8). The shader's entry point
+//! writes the four bytes of a sample as Shadertoy's does (`glsl/lower/entry.rs`), into a target of the same format, so
+//! that the rounding is the same. A block is drawn in bands of rows, so that a device that also draws pictures is not
+//! blocked for long.
 
 use super::{
     Engine, EngineError, FrameInputs, Program,
@@ -16,23 +17,23 @@ use eddy_graph::Purpose;
 use eddy_project::{CustomUniformValues, PassName};
 use std::sync::Arc;
 
-/// Samples of a block: 512x512 texels.
+/// The samples of a block: 512x512 texels.
 pub const BLOCK_FRAMES: u32 = 512 * 512;
 
-/// Seconds of a block.
+/// The duration of a block in seconds.
 pub const BLOCK_SECS: f64 = BLOCK_FRAMES as f64 / SAMPLE_RATE as f64;
 
-/// Samples of a whole sound pass: 180 s, after which it is silent.
+/// The samples of a whole sound pass: 180 s, after which it is silent.
 pub const SOUND_FRAMES: u32 = 180 * SAMPLE_RATE;
 
-/// Blocks of a whole sound pass. The last one goes beyond its end.
+/// The blocks of a whole sound pass. The last one extends beyond its end.
 pub const SOUND_BLOCKS: u32 = SOUND_FRAMES.div_ceil(BLOCK_FRAMES);
 
 impl Engine {
     /// Draws block `number` of the sound pass of a program that was built with
     /// [`BuildOptions::sound`](super::BuildOptions::sound), and waits for it: [`BLOCK_FRAMES`] samples, left and right.
-    /// `date` is `iDate`, whose seconds are whole there. Before each band, `rows` says how many of the 512 rows are drawn
-    /// next; `None` gives the block up.
+    /// `date` is `iDate`, whose seconds are whole there. Before each band, `rows` returns how many of the 512 rows to
+    /// draw next; `None` abandons the block.
     pub fn draw_sound(
         &mut self,
         number: u32,
@@ -61,8 +62,8 @@ impl Engine {
 }
 
 impl Engine {
-    /// Gives the author's own uniforms the values of the blocks to come, and returns those that the sound pass reads: of equal
-    /// ones come equal blocks.
+    /// Sets the author's own uniforms for later blocks, and returns the values that the sound pass reads: equal values
+    /// yield equal blocks.
     pub fn set_sound_values(&mut self, values: &CustomUniformValues) -> Vec<[u32; 4]> {
         self.set_custom_uniforms(values);
         let Some(program) = self.program() else { return Vec::new() };
@@ -71,27 +72,27 @@ impl Engine {
     }
 }
 
-/// The values that a draw reads, of all slots.
+/// The values that a draw reads, out of all slots.
 fn read_of(draw: &CompiledDraw, slots: &[[u32; 4]]) -> Vec<[u32; 4]> {
     draw.custom_uniforms.iter().filter_map(|slot| slots.get(usize::from(slot)).copied()).collect()
 }
 
-/// Sets what only sound passes have: block `iFrame` begins at `iTime`.
+/// Sets the uniforms of sound passes: block `iFrame` starts at `iTime`.
 pub(super) fn set_offsets(uniforms: &mut UniformBlock, inputs: &FrameInputs) {
     uniforms.time_offset = inputs.time_secs as f32;
     uniforms.sample_offset = inputs.frame.wrapping_mul(BLOCK_FRAMES as i32);
 }
 
-/// A sample of the two bytes of a texel, as Shadertoy writes it to a WAV file. 65,535 would be 32,768, one more than 16
-/// bits hold.
+/// Converts the two bytes of a texel to a sample, as Shadertoy writes it to a WAV file. 65,535 would be 32,768, one
+/// more than 16 bits can represent.
 fn sample(low: u8, high: u8) -> i16 {
     let value = i32::from(low) + 256 * i32::from(high) - 32_767;
     value.min(i32::from(i16::MAX)) as i16
 }
 
 impl Program {
-    /// Returns whether two programs of sound passes make the same samples: the same code reads the same textures and the
-    /// same values of uniforms. Equal code is known by the pipelines of one [`Builder`](super::Builder).
+    /// Returns whether two programs of sound passes generate the same samples: the same code reads the same textures
+    /// and the same values of uniforms. Equal code is identified by the pipelines of one [`Builder`](super::Builder).
     pub fn makes_same_sound(&self, other: &Program) -> bool {
         let is_same = |(a, b): (&CompiledDraw, &CompiledDraw)| {
             let is_same_code =
@@ -107,7 +108,7 @@ impl Program {
             && self.draws.iter().zip(&other.draws).all(is_same)
     }
 
-    /// Everything that a channel gives: how it is read, and its texels by their place in memory.
+    /// All properties of a channel: how it is read, and its texels by address.
     fn texels(&self, channel: &BoundChannel) -> impl PartialEq + use<> {
         let external = channel.external.as_ref().map(|bound| &self.externals[bound.index]);
         let texels = external.map(|external| (external.key.clone(), external.texels().map(Arc::as_ptr)));
@@ -125,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bytes_are_samples_as_the_site_has_them() {
+    fn bytes_are_converted_to_samples_as_on_shadertoy() {
         assert_eq!(SOUND_BLOCKS, 31);
         // 32,768 of 65,536 is 0, and is played as 2 * 32,768 / 65,535 - 1.
         assert_eq!([sample(0, 0), sample(0xff, 0x7f), sample(0, 0x80), sample(0xff, 0xff)], [-32_767, 0, 1, 32_767]);

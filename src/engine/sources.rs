@@ -1,4 +1,4 @@
-//! A project's texts as the compiler and the editor take them.
+//! A project's texts in the form for the compiler and the editor.
 
 use super::{custom_uniforms, fill_text::FillSource, host};
 use eddy_diag::{Diagnostic, SourceId, Span};
@@ -20,14 +20,14 @@ use std::{
     sync::{Arc, OnceLock, atomic::AtomicBool},
 };
 
-/// The texts of a project as the compiler takes them, what they include and what they declare.
+/// The texts of a project for the compiler, their includes and their declarations.
 pub struct Sources<'p> {
     pub(super) project: &'p Project,
-    /// The texts by [`SourceId`], each as long as the author's own.
+    /// The texts by [`SourceId`], each of the same length as the author's.
     texts: Vec<Arc<str>>,
     lines: IncludeLines,
     custom_uniforms: CustomUniforms,
-    /// The values of uniforms that are no custom uniforms.
+    /// The values of uniforms that are not custom uniforms.
     pub(super) values: Vec<UniformValue>,
     dialect: Dialect,
     cancel: Option<Arc<AtomicBool>>,
@@ -35,7 +35,7 @@ pub struct Sources<'p> {
     pub(super) preamble: OnceLock<Option<Arc<Preamble>>>,
     /// The texts of fills, each with its pass.
     fills: Vec<(usize, FillKind, FillText)>,
-    /// Errors and warnings that are found before any text is compiled.
+    /// Errors and warnings that are found before compilation.
     pub diagnostics: Vec<Diagnostic>,
 }
 
@@ -61,7 +61,7 @@ impl<'p> Sources<'p> {
         Self { project, dialect, cancel, texts, lines, custom_uniforms, values, preamble, fills, diagnostics }
     }
 
-    /// Returns the same texts, whose reading ends when the flag is set: see [`glsl::cancel`].
+    /// Returns the same texts, whose compilation stops when the flag is set: see [`glsl::cancel`].
     pub fn cancelled_by(self, flag: Arc<AtomicBool>) -> Self {
         Self { cancel: Some(flag), ..self }
     }
@@ -74,7 +74,7 @@ impl<'p> Sources<'p> {
         &self.custom_uniforms
     }
 
-    /// Returns a text of the project as the compiler takes it: lines that GLSL does not have are blank.
+    /// Returns a text of the project for the compiler: lines that are not GLSL are blank.
     ///
     /// # Panics
     /// If there is no such text.
@@ -82,18 +82,18 @@ impl<'p> Sources<'p> {
         self.text(id).text
     }
 
-    /// Returns which text stands in place of which line.
+    /// Returns which text replaces which line.
     pub fn include_lines(&self) -> &IncludeLines {
         &self.lines
     }
 
-    /// The text of what fills texels of `project.passes[index]`.
+    /// The text of a fill of `project.passes[index]`.
     pub(super) fn fill_text(&self, index: usize, kind: FillKind) -> Option<&FillText> {
         self.fills.iter().find(|(p, k, _)| (*p, *k) == (index, kind)).map(|(.., text)| text)
     }
 
-    /// Gives a text that stands in no tab as the compiler takes it. With a `value` it sees Common and what Common
-    /// includes.
+    /// Calls `work` with the compiler input for a text that is not a tab. With a `value` it sees Common and the files
+    /// that Common includes.
     pub(super) fn with_fill<T>(
         &self,
         code: Text<'_>,
@@ -114,7 +114,7 @@ impl<'p> Sources<'p> {
         })
     }
 
-    /// Gives a text of `project.passes[index]` as the compiler takes it.
+    /// Calls `work` with the compiler input for a text of `project.passes[index]`.
     pub(super) fn with_source<T>(
         &self,
         index: usize,
@@ -135,7 +135,7 @@ impl<'p> Sources<'p> {
         })
     }
 
-    /// Returns the uniforms that a pass may name beside Shadertoy's: the author's own, and behind them those of the program
+    /// Returns the uniforms in scope of a pass besides Shadertoy's: the author's own, followed by those of the program
     /// that the texts are written for. `None`: Common alone.
     fn uniforms_in_scope(&self, pass: Option<SourceId>) -> Vec<glsl::CustomUniform<'_>> {
         let mut all = custom_uniforms::in_scope(&self.custom_uniforms, &self.lines, pass);
@@ -162,7 +162,7 @@ impl<'p> Sources<'p> {
         own.body.drawn_stages().into_iter().map(|stage| dump(stage, stage_kind(own, stage))).collect()
     }
 
-    /// The pass as the author has it.
+    /// The pass in the author's project.
     ///
     /// # Panics
     /// If there is no such pass.
@@ -190,7 +190,7 @@ impl<'p> Sources<'p> {
         })
     }
 
-    /// Lowers the fragment stage of a draw of `project.passes[index]`, to which a vertex stage hands these varyings.
+    /// Lowers the fragment stage of a draw of `project.passes[index]` with the varyings that a vertex stage outputs.
     ///
     /// # Panics
     /// If there is no such pass or stage.
@@ -207,9 +207,9 @@ impl<'p> Sources<'p> {
         })
     }
 
-    /// Lowers what stands in `project.passes[index]`, of one that draws meshes the fragment stage of a draw, and behind
-    /// it `declarations` and an entry point of their own that does `body`. So further code is read with everything that
-    /// the text declares.
+    /// Lowers the text of `project.passes[index]`, for a pass with meshes the fragment stage of a draw, followed by
+    /// `declarations` and a new entry point with the body `body`. The added code sees everything that the text
+    /// declares.
     ///
     /// # Panics
     /// If there is no such pass or draw.
@@ -233,7 +233,7 @@ impl<'p> Sources<'p> {
         let vertices = self.walkable_vertices(index, draw.vertex)?;
         let link = Link { varyings: Some(&vertices.varyings), targets: None };
         self.lower_stage(index, (draw.fragment, PassKind::Fragment), |source| {
-            // The author's `main` stays as it is, by another name.
+            // The author's `main` is kept under another name.
             let text = format!(
                 "#define main eddy_main\n{}\n#undef main\n{declarations}void main() {{ {body}}}\n",
                 source.code.text
@@ -243,7 +243,7 @@ impl<'p> Sources<'p> {
         })
     }
 
-    /// Lowers the expression of the boundary of `project.passes[index]` for the walker; `None` where there is none.
+    /// Lowers the expression of the boundary of `project.passes[index]` for the walker; `None` if there is none.
     ///
     /// # Panics
     /// If there is no such pass.
@@ -270,7 +270,7 @@ impl<'p> Sources<'p> {
         self.with_source(index, self.stage_id(index, stage), kind, make)
     }
 
-    /// Returns what a probe of `project.passes[index]` means; `None` where there is no value.
+    /// Returns the expression of a probe of `project.passes[index]`; `None` if it has no value.
     ///
     /// # Panics
     /// If there is no such pass.
@@ -280,9 +280,8 @@ impl<'p> Sources<'p> {
         is_probed.then(|| self.lower_stage(index, own, |source| glsl::probed(source, self.preamble(), probe)))?
     }
 
-    /// Returns for each of these parts of the texts of `project.passes[index]` a byte at which a probe means the
-    /// expression there, and how many numbers its value has; see [`glsl::probe_places`]. A pass that draws meshes has
-    /// none.
+    /// Returns for each of these spans in the texts of `project.passes[index]` a byte at which a probe selects the
+    /// expression, and its number of components; see [`glsl::probe_places`]. A pass that draws meshes has none.
     ///
     /// # Panics
     /// If there is no such pass.
@@ -294,7 +293,7 @@ impl<'p> Sources<'p> {
         self.lower_stage(index, own, |source| glsl::probe_places(source, self.preamble(), spans))
     }
 
-    /// Analyses `project.passes[index]` as an editor understands it, whether it compiles or not.
+    /// Analyses `project.passes[index]` for an editor, whether it compiles or not.
     ///
     /// # Panics
     /// If there is no such pass.
@@ -310,13 +309,13 @@ impl<'p> Sources<'p> {
         self.with_stage(index, stage, |source| Analysis::behind(source, self.preamble()))
     }
 
-    /// Gives a stage of `project.passes[index]` as the compiler takes it.
+    /// Calls `work` with the compiler input for a stage of `project.passes[index]`.
     pub(super) fn with_stage<T>(&self, index: usize, stage: Stage, work: impl FnOnce(&PassSource<'_>) -> T) -> T {
         let pass = &self.project.passes[index];
         self.with_source(index, self.stage_id(index, stage), stage_kind(pass, stage), work)
     }
 
-    /// Returns what the site would refuse in Common; see [`glsl::check_common`].
+    /// Returns what Shadertoy would reject in Common; see [`glsl::check_common`].
     pub fn check_common(&self) -> Vec<Diagnostic> {
         if self.dialect != Dialect::Shadertoy {
             return Vec::new();
@@ -337,13 +336,14 @@ impl<'p> Sources<'p> {
         Text { id, text: &self.texts[usize::from(id.0)] }
     }
 
-    /// Returns a text of [`Self::with_source`] or [`Self::with_fill`] to be kept; those of the project are not copied.
+    /// Returns a text of [`Self::with_source`] or [`Self::with_fill`] to be stored; those of the project are not
+    /// copied.
     pub(super) fn shared(&self, text: Text<'_>) -> Arc<str> {
         let own = self.texts.get(usize::from(text.id.0)).filter(|own| std::ptr::eq(&***own, text.text));
         own.map_or_else(|| text.text.into(), Arc::clone)
     }
 
-    /// Returns the lines that include other texts in these texts and in what they include.
+    /// Returns the `#include` lines in these texts and in the files that they include.
     pub(super) fn includes(&self, of: impl IntoIterator<Item = SourceId>) -> Vec<Include<'_>> {
         let reached: BTreeSet<SourceId> = of.into_iter().flat_map(|id| self.lines.reach(id)).collect();
         let lines = self.lines.lines.iter().filter(|(line, _)| reached.contains(&line.source));
@@ -363,7 +363,7 @@ fn compile_text(source: &Source) -> Arc<str> {
     }
 }
 
-/// Returns the text of a stage of GLSL ES 3.00, which may begin with its version; here that goes without saying.
+/// Returns the text of a stage of GLSL ES 3.00, without its optional version line, which is implied here.
 fn stage_text(source: &Source) -> Arc<str> {
     let text = compile_text(source);
     let begin = text.len() - text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}').len();
@@ -376,7 +376,7 @@ fn stage_text(source: &Source) -> Arc<str> {
     format!("{}{blank}{}", &text[..begin], &text[begin + line.len()..]).into()
 }
 
-/// Returns what the compiler calls a text of a pass: of meshes the stage of vertices if some draw uses it so.
+/// Returns the compiler's kind of a text of a pass: for meshes a vertex stage if some draw uses it as one.
 fn stage_kind(pass: &Pass, stage: Stage) -> PassKind {
     match &pass.body {
         Body::Screen => pass_kind(&pass.id),
@@ -385,7 +385,7 @@ fn stage_kind(pass: &Pass, stage: Stage) -> PassKind {
     }
 }
 
-/// Returns what the compiler calls a pass.
+/// Returns the compiler's kind of a pass.
 pub fn pass_kind(id: &PassName) -> PassKind {
     match id.role() {
         Role::Image => PassKind::Image,
@@ -395,7 +395,7 @@ pub fn pass_kind(id: &PassName) -> PassKind {
     }
 }
 
-/// Returns an error for each channel of a pass in a slot that the language has no name for.
+/// Returns an error for each channel of a pass in a slot that the language cannot name.
 fn slots_beyond_language(pass: &Pass) -> impl Iterator<Item = Diagnostic> {
     pass.bindings.iter().filter(|(slot, _)| *slot >= SLOTS).map(|(slot, _)| {
         let message = format!("{} has an input for iChannel{slot}, which its language does not have", pass.id.title());
@@ -403,7 +403,7 @@ fn slots_beyond_language(pass: &Pass) -> impl Iterator<Item = Diagnostic> {
     })
 }
 
-/// Returns the types that `iChannel0..3` of a pass are declared with.
+/// Returns the declared types of `iChannel0..3` of a pass.
 pub fn channel_kinds(pass: &Pass) -> [ChannelKind; SLOTS] {
     declared_dimensions(pass).map(|dimension| match dimension {
         Dimension::D2 => ChannelKind::Sampler2D,
@@ -412,8 +412,8 @@ pub fn channel_kinds(pass: &Pass) -> [ChannelKind; SLOTS] {
     })
 }
 
-/// Returns the dimension that each channel of a pass is declared with. As on Shadertoy, a sound pass has no `sampler3D`:
-/// a volume is a `sampler2D` there, which reads black.
+/// Returns the declared dimension of each channel of a pass. As on Shadertoy, a sound pass has no `sampler3D`: there a
+/// volume is a `sampler2D`, which reads black.
 pub(super) fn declared_dimensions(pass: &Pass) -> [Dimension; SLOTS] {
     std::array::from_fn(|slot| {
         let dimension = pass.bindings.get(slot).map_or(Dimension::D2, |channel| channel.input.row().dimension);

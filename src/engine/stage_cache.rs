@@ -1,4 +1,4 @@
-//! Compiled stages, found by everything that compiling them reads.
+//! Compiled stages, keyed by all inputs of the compilation.
 
 use super::{Sources, cache::Cache, compile::PassOptions, compiled::CompiledPass};
 use eddy_diag::{Diagnostic, Severity, SourceId, Span};
@@ -12,23 +12,23 @@ use std::{
     sync::Arc,
 };
 
-/// Stages by their texts and settings. Passes of equal texts and settings share a stage.
+/// Stages by their texts and settings. Passes with equal texts and settings share a stage.
 #[derive(Default)]
 pub(super) struct StageCache {
     stages: Cache<StageKey, Kept>,
-    /// Passes of texts that compile to the same share a stage, too.
+    /// True if passes whose texts compile to the same code share a stage, too.
     joins: bool,
-    /// Number of stages that the current build has compiled.
+    /// The number of stages that the current build has compiled.
     compiled: usize,
 }
 
-/// Stages of passes that no program here draws, for who compiles a project again and again to say what is wrong.
+/// Stages of passes that are not drawn, for callers that repeatedly compile a project to report diagnostics.
 #[derive(Default)]
 pub struct KeptStages(StageCache);
 
 impl KeptStages {
-    /// Compiles `project.passes[index]` as [`Sources::compile_pass`] does. What did not change since the last call is not
-    /// compiled again.
+    /// Compiles `project.passes[index]` like [`Sources::compile_pass`]. Stages that have not changed since the last
+    /// call are not compiled again.
     ///
     /// # Panics
     /// If there is no such pass.
@@ -44,12 +44,12 @@ impl KeptStages {
 #[derive(PartialEq)]
 pub(super) struct CacheMiss {
     key: StageKey,
-    /// Its texts, rising.
+    /// The ids of its texts, in ascending order.
     ids: Vec<SourceId>,
 }
 
 impl CacheMiss {
-    /// Everything that reading a stage reads. `shared` returns a text of `source` as it is kept.
+    /// All inputs of compiling a stage. `shared` returns a text of `source` in the form to be stored.
     pub(crate) fn new(source: &PassSource<'_>, link: &Link<'_>, shared: impl Fn(Text<'_>) -> Arc<str>) -> Self {
         let ids = ids_of(source);
         Self { key: StageKey::new(source, link, &ids, shared), ids }
@@ -59,35 +59,35 @@ impl CacheMiss {
 /// The result of compiling a stage.
 pub(super) type Outcome = Result<Compiled, Vec<Diagnostic>>;
 
-/// The cache's answer for a stage: itself, or `None` where the diagnostics hold an error. These point into the texts
-/// that were asked about.
+/// The cached result for a stage: the stage, or `None` if the diagnostics contain an error. These point into the texts
+/// of the request.
 pub(super) type Found = (Option<Arc<Compiled>>, Vec<Diagnostic>);
 
-/// Compiles a stage behind a Common that may be read already.
+/// Compiles a stage after a Common that may already be compiled.
 pub(super) fn compile(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> Outcome {
     Ok(glsl::compile_linked(source, link, preamble)?)
 }
 
-/// The result of compiling a stage. Spans name the texts that it was compiled with.
+/// The result of compiling a stage. Its spans refer to the texts that it was compiled with.
 struct Kept {
-    /// `None`: there are errors.
+    /// `None` if there are errors.
     stage: Option<Arc<Compiled>>,
-    /// All of the stage as text; made when first needed.
+    /// The whole stage as text; created when first needed.
     content: OnceCell<String>,
     diagnostics: Vec<Diagnostic>,
     ids: Vec<SourceId>,
 }
 
 impl Kept {
-    /// Returns true if both compiled to the same. Types of naga cannot be compared, but their texts for debugging say
-    /// all.
+    /// Returns true if both compiled to the same code. naga's types cannot be compared, but their debug output contains
+    /// everything.
     fn is_same(&self, other: &Kept) -> bool {
         let content = |outcome: &Kept| format!("{:?}", outcome.stage);
         self.outline().is_some_and(|outline| other.outline() == Some(outline))
             && self.content.get_or_init(|| content(self)) == other.content.get_or_init(|| content(other))
     }
 
-    /// Returns what is quickly compared.
+    /// Returns the properties that are quick to compare.
     fn outline(&self) -> Option<[usize; 8]> {
         let Compiled { module, tables, uniform_tables, .. } = &**self.stage.as_ref()?;
         let entry = &module.entry_points.first()?.function;
@@ -105,8 +105,8 @@ impl Kept {
     }
 }
 
-/// Everything that the compiler reads of a stage: equal keys compile to equal stages. Ids of texts are their places
-/// among the ids of this stage, which say the same for every pass that has the texts.
+/// All inputs of compiling a stage: equal keys compile to equal stages. Ids of texts are replaced by their indices
+/// among the ids of this stage, which are equal for every pass with the same texts.
 #[derive(PartialEq, Eq)]
 struct StageKey {
     kind: PassKind,
@@ -126,27 +126,28 @@ struct StageKey {
     targets: Option<usize>,
 }
 
-/// A line and the text in its place, or what is said where there is none.
+/// A line and the text that replaces it, or the diagnostic if there is none.
 #[derive(PartialEq, Eq)]
 struct IncludeKey {
     line: (usize, u32, u32),
     text: Result<(usize, Arc<str>), NoText>,
 }
 
-/// The severity, the words and the hints of what is said where there is no text.
+/// The severity, the message and the hints of the diagnostic for a missing text.
 type NoText = (Severity, String, Vec<String>);
 
 impl Hash for StageKey {
-    /// Other members seldom differ where these agree.
+    /// If these members are equal, the others seldom differ.
     fn hash<H: Hasher>(&self, state: &mut H) {
         (self.kind, &self.code.1, &self.common).hash(state);
     }
 }
 
 impl StageKey {
-    /// The key of a stage whose texts have the given ids, rising. `shared` returns a text as the key keeps it.
+    /// The key of a stage whose texts have these ids, in ascending order. `shared` returns a text in the form that the
+    /// key stores.
     fn new(source: &PassSource<'_>, link: &Link<'_>, ids: &[SourceId], shared: impl Fn(Text<'_>) -> Arc<str>) -> Self {
-        // Every setting that the compiler knows stands here: a new one does not compile until it does.
+        // The pattern lists every setting of the compiler, so that a new one causes a compile error here.
         let PassSource {
             kind,
             dialect,
@@ -161,7 +162,7 @@ impl StageKey {
             tiled,
             plain,
             probe,
-            // It changes no result.
+            // It does not affect the result.
             cancel: _,
         } = *source;
         let Link { varyings, targets } = *link;
@@ -196,7 +197,7 @@ fn place(ids: &[SourceId], id: SourceId) -> usize {
     ids.binary_search(&id).unwrap_or(usize::MAX)
 }
 
-/// Returns every text of a stage once, rising.
+/// Returns the ids of a stage's texts, sorted and without duplicates.
 fn ids_of(source: &PassSource<'_>) -> Vec<SourceId> {
     let included = source.includes.iter().flat_map(|i| [Some(i.line.source), i.text.ok().map(|t| t.id)]).flatten();
     let mut ids: Vec<SourceId> = source.common.iter().map(|c| c.id).chain([source.code.id]).chain(included).collect();
@@ -205,7 +206,7 @@ fn ids_of(source: &PassSource<'_>) -> Vec<SourceId> {
     ids
 }
 
-/// Returns a value as words: equal words, equal values, bit for bit.
+/// Returns a value as words: equal words mean bitwise equal values.
 fn words(value: &UntypedValue) -> Vec<u64> {
     match value {
         UntypedValue::Bool(on) => vec![0, u64::from(*on)],
@@ -215,12 +216,13 @@ fn words(value: &UntypedValue) -> Vec<u64> {
 }
 
 impl StageCache {
-    /// A cache for stages that pipelines are made of: comparing stages takes less than a pipeline more.
+    /// A cache for stages of pipelines: comparing stages is cheaper than creating another pipeline.
     pub(crate) fn of_pipelines() -> Self {
         Self { joins: true, ..Self::default() }
     }
 
-    /// Returns a stage if an equal one is there. `shared` returns a text of `source` as the cache keeps it.
+    /// Returns a stage if an equal one is cached. `shared` returns a text of `source` in the form that the cache
+    /// stores.
     pub(crate) fn find(
         &mut self,
         source: &PassSource<'_>,
@@ -234,7 +236,7 @@ impl StageCache {
         }
     }
 
-    /// Adds a stage that was compiled.
+    /// Adds a compiled stage.
     pub(crate) fn add(&mut self, missing: Box<CacheMiss>, outcome: Outcome) -> Found {
         self.compiled += 1;
         let (stage, diagnostics) = match outcome {
@@ -246,7 +248,7 @@ impl StageCache {
         };
         let CacheMiss { key, ids } = *missing;
         let mut kept = Kept { stage, content: OnceCell::new(), diagnostics, ids };
-        // A comment, or a function of Common that the pass does not call, makes another text and the same stage.
+        // A comment, or a function of Common that the pass does not call, changes the text but not the stage.
         if self.joins
             && let Some(same) = self.stages.values().find(|other| other.is_same(&kept))
         {
@@ -264,7 +266,7 @@ impl StageCache {
     }
 }
 
-/// Returns diagnostics of a stage with texts `from` as they are for an equal one with texts `to`.
+/// Translates diagnostics of a stage with texts `from` to an equal one with texts `to`.
 fn moved(diagnostics: &[Diagnostic], from: &[SourceId], to: &[SourceId]) -> Vec<Diagnostic> {
     let mut diagnostics = diagnostics.to_vec();
     let turn = |span: &mut Span| {

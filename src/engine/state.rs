@@ -1,4 +1,4 @@
-//! The texels that the next frame reads, out of the device: to go on with them in another process.
+//! The texels that the next frame reads, copied from the device so that another process can continue with them.
 
 use super::{EngineError, run::Engine, running::Running, shared::Shared, targets::Target};
 use eddy_gpu::{GpuError, Readback};
@@ -6,40 +6,40 @@ use eddy_graph::Carried;
 use eddy_project::PassName;
 use eddy_texture::TextureShape;
 
-/// Holds what the next frame of a program reads of the frames before it.
+/// The texels of earlier frames that the next frame of a program reads.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
     pub targets: Vec<TargetState>,
 }
 
-/// Holds the texels of one target of a pass.
+/// The texels of one target of a pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetState {
     pub pass: PassName,
-    /// The place among the pass's targets.
+    /// The index among the pass's targets.
     pub index: usize,
     /// The shape of each texture: one level.
     pub shape: TextureShape,
-    /// The bytes of the texture that was drawn last, and of the one before where the pass keeps what it does not draw:
-    /// rows in texture order without padding, one layer after the other.
+    /// The bytes of the texture that was drawn last, and of the previous one if the pass keeps texels that it does not
+    /// draw: rows in texture order without padding, layer by layer.
     pub textures: Vec<Vec<u8>>,
 }
 
-/// Says what a program keeps of one target, by which a state is measured before it is read.
+/// The storage of one target, for checking the size of a state before it is read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetForm {
     pub pass: PassName,
-    /// The place among the pass's targets.
+    /// The index among the pass's targets.
     pub index: usize,
     /// The shape of each texture: one level.
     pub shape: TextureShape,
     /// The number of its textures.
     pub textures: usize,
-    /// True if the next frame reads what it holds.
+    /// True if the next frame reads its contents.
     pub is_read: bool,
 }
 
-/// A state that a program cannot go on with.
+/// The reason why a program cannot continue with a state.
 #[derive(Debug, thiserror::Error)]
 pub enum StateError {
     #[error("nothing is kept of {0}, which the next frame reads")]
@@ -50,7 +50,7 @@ pub enum StateError {
     Gpu(#[from] GpuError),
 }
 
-/// Returns how many textures of a target the next frame reads.
+/// Returns the number of a target's textures that the next frame reads.
 fn kept(carried: Carried, target: &Target) -> usize {
     match carried {
         Carried::Nothing => 0,
@@ -59,7 +59,7 @@ fn kept(carried: Carried, target: &Target) -> usize {
     }
 }
 
-/// The targets of which a frame reads something, with how many of their textures.
+/// The targets that a frame reads, with the number of their textures that it reads.
 fn carried(running: &Running) -> impl Iterator<Item = (usize, &Target, usize)> {
     let plan = &running.program.plan;
     let of = move |(index, target)| (index, target, kept(plan.carried(index), target));
@@ -67,7 +67,7 @@ fn carried(running: &Running) -> impl Iterator<Item = (usize, &Target, usize)> {
 }
 
 impl Engine {
-    /// Returns the passes of which the next frame reads what they drew in the frames before.
+    /// Returns the passes whose earlier frames the next frame reads.
     pub fn passes_with_state(&self) -> Vec<PassName> {
         let mut passes: Vec<PassName> = Vec::new();
         for (_, target, _) in self.running.iter().flat_map(carried) {
@@ -78,7 +78,7 @@ impl Engine {
         passes
     }
 
-    /// Returns the form of every target of the program.
+    /// Returns the storage of every target of the program.
     pub fn state_forms(&self) -> Vec<TargetForm> {
         let Some(running) = &self.running else { return Vec::new() };
         let form = |(index, target): (usize, &Target)| TargetForm {
@@ -91,7 +91,7 @@ impl Engine {
         running.targets.iter().enumerate().map(form).collect()
     }
 
-    /// Reads back what the next frame reads. Waits for the device.
+    /// Reads back the texels that the next frame reads. Waits for the device.
     pub fn state(&self) -> Result<State, EngineError> {
         let mut readback = Readback::default();
         let mut state = State::default();
@@ -108,8 +108,8 @@ impl Engine {
         Ok(state)
     }
 
-    /// Takes up a state: the next frame reads its texels. An error, and nothing is changed, where it does not have all
-    /// that the program reads, or has it in another shape. What more it has is left.
+    /// Restores a state: the next frame reads its texels. Fails without changes if it lacks texels that the program
+    /// reads, or has them in another shape. Extra targets are ignored.
     pub fn set_state(&mut self, state: &State) -> Result<(), StateError> {
         let shared = &self.shared;
         self.running.as_mut().map_or(Ok(()), |running| running.set_state(shared, state))

@@ -1,17 +1,17 @@
-//! The textures passes draw into, kept from frame to frame and, where it makes sense, from program to program.
+//! The textures that passes draw into, kept from frame to frame and, where possible, from program to program.
 
 use eddy_gpu::{Gpu, GpuError, MipChain, MipMaker, Texture, TextureDescriptor};
 use eddy_graph::{self as graph, FramePlan};
 use eddy_project::PassName;
 
-/// One or two textures of a pass. Of two, one holds what was drawn last and is read; the next draw goes into the other,
-/// and then they change places.
+/// One or two textures of a pass. With two, one contains the last picture and is read; the next draw goes into the
+/// other, and then they are swapped.
 pub(super) struct Target {
     pub id: PassName,
-    /// The place among the pass's targets.
+    /// The index among the pass's targets.
     pub index: usize,
     pub textures: Vec<Texture>,
-    /// For each texture, where the plan asks for mips.
+    /// One per texture, if the plan needs mip levels.
     pub chains: Vec<MipChain>,
     /// The index of the texture that was drawn last.
     pub front: usize,
@@ -30,12 +30,12 @@ impl Target {
         Ok(Target { id: planned.id.clone(), index: planned.index, textures, chains, front: 0 })
     }
 
-    /// Returns true if it is the target that a plan asks for.
+    /// Returns true if it is this target of a plan.
     fn is(&self, planned: &graph::Target) -> bool {
         self.id == planned.id && self.index == planned.index
     }
 
-    /// Returns true if its textures are as a plan asks.
+    /// Returns true if its textures match a plan.
     fn fits(&self, planned: &graph::Target, canvas: (u32, u32)) -> bool {
         self.textures[0].shape == planned.shape(canvas) && self.textures.len() == planned.textures()
     }
@@ -54,7 +54,7 @@ impl Target {
         (self.textures[0].width(), self.textures[0].height())
     }
 
-    /// Takes over what `old` held, if its texels are of the same kind.
+    /// Copies the contents of `old`, if its texels have the same format.
     pub(crate) fn take_over(&mut self, gpu: &Gpu, mips: &MipMaker, old: &Target) {
         if old.textures[0].shape.format != self.textures[0].shape.format {
             return;
@@ -81,11 +81,11 @@ impl Target {
     }
 }
 
-/// New targets of a plan, all zeros; `None` where the present one is as the plan asks.
+/// New targets of a plan, all zeros; `None` if the present one matches the plan.
 pub(super) struct NewTargets(Vec<Option<Target>>);
 
 impl NewTargets {
-    /// Makes those targets of a plan on a canvas that `present` lacks or has otherwise.
+    /// Creates the targets of a plan on a canvas for which `present` has no match.
     pub(crate) fn make(
         gpu: &Gpu,
         mips: &mut MipMaker,
@@ -94,15 +94,15 @@ impl NewTargets {
         present: &[Target],
     ) -> Result<Self, GpuError> {
         let make = |(index, planned): (usize, &graph::Target)| {
-            // What no pass draws holds zeros, also where a pass that has gone drew it before.
+            // Targets that no pass draws are zeros, even if a removed pass drew into them before.
             let is_kept = plan.is_drawn(index) && present.iter().any(|t| t.is(planned) && t.fits(planned, canvas));
             if is_kept { Ok(None) } else { Target::new(gpu, mips, planned, canvas).map(Some) }
         };
         plan.targets.iter().enumerate().map(make).collect::<Result<_, _>>().map(Self)
     }
 
-    /// Puts the targets of the plan in place of the present ones, of which it keeps those that are as the plan asks.
-    /// Returns the others, and for each target of the plan whether it is new.
+    /// Replaces the present targets by those of the plan, keeping the ones that match. Returns the others, and for each
+    /// target of the plan whether it is new.
     pub(crate) fn replace(self, plan: &FramePlan, present: &mut Vec<Target>) -> (Vec<Target>, Vec<bool>) {
         let is_new = self.0.iter().map(Option::is_some).collect();
         let mut old = std::mem::take(present);

@@ -1,30 +1,30 @@
-//! A compile by the driver where it can be given up.
+//! A trial compilation by the driver that can be aborted.
 //!
-//! Owns when a program is tried first, and the words for one that fails. A driver that compiles on the processor, in
-//! this process, can neither be stopped nor made to give its memory back. How a trial is made, in another process, is
-//! the caller's.
+//! Owns the decision which programs are tried first, and the messages for failures. A driver that compiles on the CPU,
+//! in this process, can neither be stopped nor made to release its memory. The caller implements the trial, in another
+//! process.
 
 use super::{pipelines::PipelineOrder, sources::Sources};
 use eddy_diag::Diagnostic;
 use eddy_project::{PassName, Project, limits};
 use std::{fmt, sync::Arc, time::Duration};
 
-/// Statements of a program, with all calls written out, that are compiled without a trial. Mesa's drivers for the
-/// processor take up to half a second for so many.
+/// The number of statements of a program, with all calls inlined, that are compiled without a trial. Mesa's CPU drivers
+/// take up to half a second for this number.
 const UNTRIED: u64 = 1 << 12;
 
-/// A build that is to be tried.
+/// A build to try.
 #[derive(Clone, Copy, Debug)]
 pub struct TrialOrder<'a> {
     pub project: &'a Project,
-    /// As in [`super::BuildOptions`].
+    /// The same as in [`super::BuildOptions`].
     pub wanted: &'a [PassName],
     pub skip: bool,
 }
 
 type Run = dyn Fn(TrialOrder<'_>) -> Result<(), TrialError> + Send + Sync;
 
-/// A trial: compiles a project and draws a frame of it, elsewhere.
+/// A trial: compiles a project and draws a frame of it outside this process.
 #[derive(Clone)]
 pub struct Trial(Arc<Run>);
 
@@ -33,7 +33,7 @@ impl Trial {
         Self(Arc::new(run))
     }
 
-    /// Tries a project with these texts whose build needs these pipelines made. The error is the author's to mend.
+    /// Tries a project with these texts whose build needs these pipelines. The error is the author's to fix.
     pub(super) fn of(
         &self,
         order: TrialOrder<'_>,
@@ -59,7 +59,7 @@ impl fmt::Debug for Trial {
     }
 }
 
-/// A trial that did not come to its end.
+/// The reason why a trial did not finish.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TrialError {
     #[error("it takes more than {} s of CPU time", .0.as_secs_f64())]
@@ -71,7 +71,7 @@ pub enum TrialError {
 }
 
 impl TrialError {
-    /// Returns what to do about it, for a program of so many statements.
+    /// Returns what to do about it, for a program with this number of statements.
     fn hint(self, size: u64) -> String {
         let written = format!("with all calls inlined the pass has {size} operations, most of them here");
         match self {

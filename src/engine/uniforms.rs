@@ -1,4 +1,4 @@
-//! The uniforms of the passes in one frame: the site's, the author's own, and those of meshes.
+//! The uniforms of the passes in one frame: Shadertoy's, the author's own, and those of meshes.
 
 use super::{
     FrameInputs, host,
@@ -11,23 +11,24 @@ use eddy_glsl::{
 use eddy_gpu::Gpu;
 use std::{mem::offset_of, ops::Range};
 
-/// Blocks lie this far apart in their buffers, which is what every device allows.
+/// The stride of blocks in their buffers, which every device allows.
 const STRIDE: u64 = 256;
 
 const _: () = assert!(size_of::<UniformBlock>() <= STRIDE as usize && size_of::<GeometryBlock>() <= STRIDE as usize);
 
-/// All passes' uniform blocks as bytes and in buffers, which are written once a frame.
+/// The uniform blocks of all passes, as bytes and in buffers, which are written once per frame.
 pub(super) struct Uniforms {
-    /// The site's uniforms, a block for each draw; of a cubemap pass one for each face.
+    /// Shadertoy's uniforms, one block per draw; for a cubemap pass one per face.
     blocks: Blocks,
     /// The first block of each draw.
     first: Vec<usize>,
-    /// The matrices of meshes, a block for each program of each pass.
+    /// The matrices of meshes, one block per program of each pass.
     meshes: Blocks,
-    /// The author's own, one block for all passes, written when one changes.
+    /// The author's own, one block for all passes, written when a value changes.
     custom_uniforms: wgpu::Buffer,
     custom_uniform_slots: Vec<[u32; 4]>,
-    /// The slots of the author's own; those behind them are of the program that the texts are written for.
+    /// The number of slots of the author's own; the following ones belong to the program that the texts are written
+    /// for.
     own: usize,
 }
 
@@ -39,7 +40,7 @@ struct Blocks {
 
 impl Blocks {
     fn new(gpu: &Gpu, label: &str, count: usize) -> Self {
-        // As a new buffer is.
+        // Like a new buffer.
         let bytes = vec![0; count.max(1) * STRIDE as usize];
         Self { buffer: uniform_buffer(gpu, label, bytes.len() as u64), bytes }
     }
@@ -89,7 +90,7 @@ impl Uniforms {
         }
     }
 
-    /// The blocks of draw `index`, one for each layer.
+    /// Sets the blocks of draw `index`, one per layer.
     pub(crate) fn set(&mut self, index: usize, layers: u32, block: &UniformBlock) {
         for face in 0..layers {
             let block = UniformBlock { cube_face: [face as i32, 0], ..*block };
@@ -97,29 +98,29 @@ impl Uniforms {
         }
     }
 
-    /// Sets the place of draw `index`'s target in its picture, in pixels.
+    /// Sets the position of draw `index`'s target in its picture, in pixels.
     pub(crate) fn set_tile_origin(&mut self, index: usize, (x, y): (u32, u32)) {
         let block = UniformBlock { tile_origin: [x as i32, y as i32, 0, 0], ..self.uniform_block(index) };
         self.blocks.set(self.first[index], bytemuck::bytes_of(&block));
     }
 
-    /// The block of a mesh, counted through all passes.
+    /// Sets the block of a mesh, by its index among all passes.
     pub(crate) fn set_mesh(&mut self, mesh: usize, block: &GeometryBlock) {
         self.meshes.set(mesh, bytemuck::bytes_of(block));
     }
 
-    /// Hands the blocks to the device.
+    /// Uploads the blocks to the device.
     pub(crate) fn write(&self, gpu: &Gpu) {
         gpu.queue.write_buffer(&self.blocks.buffer, 0, &self.blocks.bytes);
         gpu.queue.write_buffer(&self.meshes.buffer, 0, &self.meshes.bytes);
     }
 
-    /// Values of the author's own uniforms. Says whether any is different now.
+    /// Sets the author's own uniforms. Returns whether any value has changed.
     pub(crate) fn set_custom_uniforms(&mut self, gpu: &Gpu, slots: Vec<[u32; 4]>) -> bool {
         self.set_slots(gpu, 0, &slots)
     }
 
-    /// Values of the uniforms of the program that the texts are written for.
+    /// Sets the uniforms of the program that the texts are written for.
     pub(crate) fn set_host_uniforms(&mut self, gpu: &Gpu, slots: &[[u32; 4]]) {
         self.set_slots(gpu, self.own, slots);
     }
@@ -146,22 +147,22 @@ impl Uniforms {
         self.custom_uniforms.as_entire_binding()
     }
 
-    /// The site's uniforms as draw `index` reads them.
+    /// Shadertoy's uniforms of draw `index`.
     pub(crate) fn uniform_block(&self, index: usize) -> UniformBlock {
         bytemuck::pod_read_unaligned(&self.blocks.block(self.first[index])[..size_of::<UniformBlock>()])
     }
 
-    /// The matrices of a mesh, counted through all passes.
+    /// The matrices of a mesh, by its index among all passes.
     pub(crate) fn mesh_block(&self, mesh: usize) -> GeometryBlock {
         bytemuck::pod_read_unaligned(&self.meshes.block(mesh)[..size_of::<GeometryBlock>()])
     }
 
-    /// The words of the author's own, by their slots.
+    /// The words of the author's own, in slot order.
     pub(crate) fn custom_uniforms(&self) -> &[[u32; 4]] {
         &self.custom_uniform_slots
     }
 
-    /// Adds what draw `index` reads of all this, and nothing else: equal bytes, equal values.
+    /// Appends exactly the uniforms that draw `index` reads: equal bytes mean equal values.
     pub(crate) fn add_read_by(&self, index: usize, draw: &CompiledDraw, read: &mut Vec<u8>) {
         let block = self.blocks.block(self.first[index]);
         for range in places(draw.uniforms) {
@@ -210,9 +211,9 @@ pub(super) fn block(
     }
 }
 
-/// Returns where in a block the uniforms of a set lie.
+/// Returns the byte ranges in a block of the uniforms of a set.
 fn places(read: UniformSet) -> impl Iterator<Item = Range<usize>> {
-    /// Makes the places of fields, with the sizes of their types.
+    /// Builds the byte ranges of fields from the sizes of their types.
     macro_rules! places {
         ($($name:ident $field:ident;)*) => {
             [$((UniformSet::$name, offset_of!(UniformBlock, $field), size_of_field(|b| &b.$field))),*]
@@ -245,7 +246,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_uniform_has_a_place_of_its_own_and_nothing_else_lies_there() {
+    fn uniforms_have_disjoint_ranges_that_cover_the_block() {
         let mut taken = [0u8; size_of::<UniformBlock>()];
         for name in UniformSet::all().iter() {
             let places: Vec<_> = places(name).collect();

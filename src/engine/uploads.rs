@@ -1,4 +1,4 @@
-//! Pictures and meshes on the device, each once.
+//! Pictures and meshes on the device, without duplicates.
 
 use super::{
     EngineError,
@@ -14,10 +14,10 @@ use eddy_project::Geometry;
 use eddy_texture::Dimension;
 use std::sync::Arc;
 
-/// Pictures and meshes of this build and those before it.
+/// The pictures and meshes of this build and earlier ones.
 pub(super) struct Uploads {
     mips: MipMaker,
-    /// The key holds the texels, and whether the picture has mips.
+    /// The key is the texels, and whether the picture has mip levels.
     pictures: Cache<(ByAddress<Texels>, bool), Texture>,
     meshes: Cache<ByAddress<Mesh>, Arc<MeshBuffers>>,
 }

@@ -1,9 +1,9 @@
-//! Targets as somebody sees them who looks closely: as pictures of their values, and texel by texel.
+//! Shows targets in detail: pictures of their values, and single texels.
 
 use super::Picture;
 use eddy_gpu::{Gpu, GpuError, Presenter, Readback, TexelPicker, Texture, ValueLook, ValuePainter};
 
-/// Paints into a texture of its own, so that the picture that the window shows stays as it is.
+/// Paints into its own texture, so that the picture in the window is unaffected.
 pub(super) struct Viewer {
     painter: ValuePainter,
     picker: TexelPicker,
@@ -21,7 +21,7 @@ impl Viewer {
         }
     }
 
-    /// Returns a picture of a layer of a texture, of its size.
+    /// Returns a picture of a layer of a texture, of the same size.
     pub(crate) fn paint(
         &mut self,
         gpu: &Gpu,
@@ -45,7 +45,7 @@ impl Viewer {
         Ok(Picture { width, height, bytes: self.readback.rgba8(gpu, texture)? })
     }
 
-    /// Returns the texel of each picture at a place, from 0 to 1 across and up.
+    /// Returns the texel of each picture at a position from 0 to 1 across and up.
     pub(crate) fn texels(
         &mut self,
         gpu: &Gpu,

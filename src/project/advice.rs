@@ -1,11 +1,11 @@
-//! Some things are legal in a project and more often a slip: channels that read no pass, and channels that the site
-//! cannot have.
+//! Warnings about projects that are legal but probably mistaken: channels that read a missing pass, and channels
+//! that Shadertoy cannot have.
 
 use super::{Channel, Filter, Input, InputKind, PassName, Project, SamplerRules, Wrap, nearest};
 use eddy_diag::{Diagnostic, Span};
 use std::{collections::BTreeMap, fmt::Debug};
 
-/// Returns a warning for each. They are about no text.
+/// Returns a warning for each. They have no span.
 pub fn advice(project: &Project) -> Vec<Diagnostic> {
     let mut warnings = unread(project, |_, _| None);
     warnings.extend(shared_samplers(project));
@@ -13,8 +13,8 @@ pub fn advice(project: &Project) -> Vec<Diagnostic> {
     warnings
 }
 
-/// Returns a warning for each channel of a sound pass that reads black there, as it does on Shadertoy (`shadertoy.md`,
-/// section 8).
+/// Returns a warning for each channel of a sound pass that reads black there, as on Shadertoy
+/// (`shadertoy.md`, section 8).
 fn unheard(project: &Project) -> Vec<Diagnostic> {
     let Some(sound) = project.sound() else { return Vec::new() };
     let mut warnings = Vec::new();
@@ -35,14 +35,14 @@ fn unheard(project: &Project) -> Vec<Diagnostic> {
     warnings
 }
 
-/// The pass that an input reads and that the project does not have.
+/// The pass that an input reads, if the project does not have it.
 pub fn missing_pass(project: &Project, input: &Input) -> Option<PassName> {
     let (id, _) = input.target()?;
     project.pass(id).is_none().then(|| id.clone())
 }
 
-/// Returns a warning for each channel that reads a pass which is not there. `place`: where it is said what a channel
-/// of a pass reads, if in a text.
+/// Returns a warning for each channel that reads a missing pass. `place` returns the span that declares what a channel
+/// of a pass reads, if a text declares it.
 pub(super) fn unread(project: &Project, place: impl Fn(usize, usize) -> Option<Span>) -> Vec<Diagnostic> {
     let mut warnings = Vec::new();
     for (index, pass) in project.passes.iter().enumerate() {
@@ -66,15 +66,15 @@ pub(super) fn unread(project: &Project, place: impl Fn(usize, usize) -> Option<S
     warnings
 }
 
-/// Returns the buffer that was perhaps meant.
+/// Returns the buffer that was probably meant.
 fn near_buffer<'p>(project: &'p Project, missing: &PassName) -> Option<&'p str> {
     let buffers = project.passes.iter().filter_map(|p| p.id.buffer_name());
-    // A letter is as near to another as any.
+    // Names of one letter are all equally near to each other.
     missing.buffer_name().filter(|name| name.chars().count() > 1).and_then(|name| nearest(name, buffers))
 }
 
-/// Returns a warning where channels with samplers of their own read a buffer differently from each other, which the
-/// site cannot: there a buffer has one wrap, and one filter while a pass draws (`shadertoy.md`, section 7).
+/// Returns a warning where channels with their own samplers read one buffer differently, which Shadertoy cannot do:
+/// there a buffer has one wrap mode, and one filter while a pass draws (`shadertoy.md`, section 7).
 pub(super) fn shared_samplers(project: &Project) -> Vec<Diagnostic> {
     if project.sampler_rules == SamplerRules::Site {
         return Vec::new();

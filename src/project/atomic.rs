@@ -1,11 +1,11 @@
-//! Files written whole or not at all.
+//! Atomic file writes.
 //!
-//! A new content goes to a temporary file beside the old one, is flushed to the device and takes its place by renaming.
-//! Several files are all staged before the first takes its place, so that a full disk is found while every old file is
-//! there.
+//! New content goes to a temporary file next to the old one, is flushed to the device and then renamed over the old
+//! file. Several files are all staged before the first is renamed, so that a full disk is detected while every old file
+//! still exists.
 //!
-//! A process that is killed leaves its temporary files behind. Each is locked while it is in use, and a lock ends with
-//! its process: what is not locked is removed the next time that Eddy opens or writes the folder (see [`sweep`]).
+//! A killed process leaves its temporary files in the folder. Each is locked while in use, and a lock ends with its
+//! process: unlocked files are removed the next time Eddy opens or writes the folder (see [`sweep`]).
 
 use super::{
     ProjectError,
@@ -21,13 +21,13 @@ use std::{
 };
 use tempfile::NamedTempFile;
 
-/// A temporary file's name, around six letters and digits.
+/// The prefix of a temporary file's name; six letters and digits follow.
 const PREFIX: &str = ".eddy-save-";
 const SUFFIX: &str = ".tmp";
 
 pub(crate) enum Content {
     Bytes(Vec<u8>),
-    /// A file of a project's folder, by the folder and the name there.
+    /// A copy of a file of a project's folder: the folder, and the name in it.
     CopyOf(PathBuf, String),
 }
 
@@ -46,7 +46,7 @@ pub(crate) enum FileComparison {
     Different,
 }
 
-/// Returns what stands at a path now, against what shall.
+/// Compares the file at a path with the content to be written.
 pub(crate) fn compare(path: &Path, content: &Content) -> Result<FileComparison, ProjectError> {
     let content = content.read()?;
     match confine::read_own(path, confine::exactly(content.len())) {
@@ -57,7 +57,7 @@ pub(crate) fn compare(path: &Path, content: &Content) -> Result<FileComparison, 
     }
 }
 
-/// Writes every file, making folders as needed.
+/// Writes every file, creating folders as needed.
 pub(crate) fn write_all(files: Vec<(PathBuf, Content)>) -> Result<(), ProjectError> {
     let folders: BTreeSet<PathBuf> = files.iter().map(|(path, _)| folder_of(path).to_owned()).collect();
     folders.iter().for_each(|folder| sweep(folder));
@@ -73,36 +73,36 @@ pub(crate) fn write_all(files: Vec<(PathBuf, Content)>) -> Result<(), ProjectErr
     Ok(())
 }
 
-/// Writes one file: what is there stays until the new content is complete. An error does not name the file.
+/// Writes one file: the old content stays until the new content is complete. Errors do not name the file.
 pub fn write_with(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io::Result<()> {
     let path = real_path(path.to_owned());
     sweep(folder_of(&path));
     take_place(stage(&path, write)?, &path)
 }
 
-/// Writes one file whose path was checked. A link that is in its place by now is replaced, and not followed.
+/// Writes one file whose path was checked. A link that has appeared at the path since is replaced, not followed.
 pub(super) fn write_over(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io::Result<()> {
     sweep(folder_of(path));
     take_place(stage(path, write)?, path)
 }
 
-/// A file that is being written beside the place that it takes when it is complete. Dropped before that, it is gone and
-/// what was there stays.
+/// A file that is being written next to the path it replaces when complete. If dropped before that, it is deleted and
+/// the old file stays.
 pub struct Staged {
     file: NamedTempFile,
     path: PathBuf,
 }
 
 impl Staged {
-    /// Makes an empty file beside `path`, in a folder that is made if it is not there. An error does not name the file.
+    /// Creates an empty file next to `path`, and the folder if it does not exist. Errors do not name the file.
     pub fn new(path: &Path) -> io::Result<Staged> {
         let path = real_path(path.to_owned());
         sweep(folder_of(&path));
         Ok(Staged { file: begin(&path)?, path })
     }
 
-    /// Does the same for a file of a folder whose name the person at the machine did not choose, as
-    /// [`write_into`](super::write_into) does: no link leads out of the folder.
+    /// Does the same for a file in a folder whose name the user did not choose, like [`write_into`](super::write_into):
+    /// no link leads out of the folder.
     pub fn within(path: &Path) -> io::Result<Staged> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let path = place_within(folder_of(path), &name)?;
@@ -110,26 +110,26 @@ impl Staged {
         Ok(Staged { file: begin(&path)?, path })
     }
 
-    /// The file, to be written here.
+    /// The temporary file, open for writing.
     pub fn file(&mut self) -> &mut fs::File {
-        // Past the wrapper, whose errors name the temporary file: nobody has ever heard of that one.
+        // Bypass the wrapper, whose errors name the temporary file, which means nothing to users.
         self.file.as_file_mut()
     }
 
-    /// The temporary file's name, for a program that writes it. On Windows nobody else can write a locked file.
+    /// The temporary file's path, for a program that writes it. On Windows no other process can write a locked file.
     pub fn path(&self) -> &Path {
         #[cfg(windows)]
         let _ = self.file.as_file().unlock();
         self.file.path()
     }
 
-    /// Makes the content last, and takes the place.
+    /// Syncs the content to disk and renames the file to its path.
     pub fn commit(self) -> io::Result<()> {
         let file = complete(self.file, &self.path)?;
         take_place(file, &self.path)
     }
 
-    /// Does the same where nothing is in the place. Fails if something is.
+    /// Does the same if no file exists at the path, and fails otherwise.
     pub fn commit_new(self) -> io::Result<()> {
         let file = complete(self.file, &self.path)?;
         file.persist_noclobber(&self.path).map_err(|e| e.error)?;
@@ -138,7 +138,7 @@ impl Staged {
     }
 }
 
-/// Returns where a symbolic link leads, so that the link stays one.
+/// Returns the target of a symbolic link, so that the link stays a link.
 fn real_path(path: PathBuf) -> PathBuf {
     if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path }
 }
@@ -149,12 +149,12 @@ fn folder_of(path: &Path) -> &Path {
 
 fn stage(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io::Result<NamedTempFile> {
     let mut file = begin(path)?;
-    // Past the wrapper, whose errors name the temporary file: nobody has ever heard of that one.
+    // Bypass the wrapper, whose errors name the temporary file, which means nothing to users.
     write(file.as_file_mut())?;
     complete(file, path)
 }
 
-/// An empty temporary file for a path.
+/// Creates an empty temporary file for a path.
 fn begin(path: &Path) -> io::Result<NamedTempFile> {
     let folder = folder_of(path);
     fs::create_dir_all(folder)?;
@@ -166,7 +166,7 @@ fn begin(path: &Path) -> io::Result<NamedTempFile> {
     temporary(folder, old.is_none())
 }
 
-/// Makes the content last, with the permissions of the file whose place it takes.
+/// Syncs the content to disk, with the permissions of the file that it replaces.
 fn complete(file: NamedTempFile, path: &Path) -> io::Result<NamedTempFile> {
     if let Ok(old) = fs::metadata(path) {
         file.as_file().set_permissions(old.permissions())?;
@@ -175,20 +175,20 @@ fn complete(file: NamedTempFile, path: &Path) -> io::Result<NamedTempFile> {
     Ok(file)
 }
 
-/// A locked file that [`sweep`] leaves alone.
+/// Creates a locked file, which [`sweep`] ignores.
 fn temporary(folder: &Path, is_new: bool) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX).suffix(SUFFIX);
     #[cfg(unix)]
     if is_new {
-        // What the user's umask gives any new file; a temporary one would be its owner's alone.
+        // The permissions that the user's umask gives any new file; a temporary file would be private to its owner.
         builder.permissions(<fs::Permissions as std::os::unix::fs::PermissionsExt>::from_mode(0o666));
     }
     #[cfg(not(unix))]
     let _ = is_new;
     loop {
         let file = builder.tempfile_in(folder).map_err(|e| io::Error::from(e.kind()))?;
-        // Another Eddy may have swept it before it was locked.
+        // Another Eddy process may have swept it before it was locked.
         if file.as_file().lock().is_err() || file.path().exists() {
             return Ok(file);
         }
@@ -201,13 +201,13 @@ fn take_place(file: NamedTempFile, path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Removes the temporary files that a killed process left in a folder. What cannot be removed stays.
+/// Removes the temporary files that a killed process left in a folder. Files that cannot be removed stay.
 pub(crate) fn sweep(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.take(limits::FILES).flatten() {
         if is_temporary(&entry.file_name().to_string_lossy()) && entry.file_type().is_ok_and(|kind| kind.is_file()) {
             let path = entry.path();
-            // Nobody else's lock is on it: whoever wrote it is gone.
+            // No other process holds its lock: the process that wrote it has ended.
             if let Ok(file) = fs::OpenOptions::new().write(true).open(&path)
                 && file.try_lock().is_ok()
                 && let Err(e) = fs::remove_file(&path)
@@ -218,8 +218,8 @@ pub(crate) fn sweep(folder: &Path) {
     }
 }
 
-/// Returns a text in which the names of temporary files are those of the file that they are written for: a program that
-/// writes one says what it was given.
+/// Replaces names of temporary files in a text by the names of the files they are written for: a program that writes
+/// one reports the name it was given.
 pub fn rename_temporary(text: &str, name: &str) -> String {
     let (mut out, mut rest) = (String::with_capacity(text.len()), text);
     while let Some(at) = rest.find(PREFIX) {
@@ -238,7 +238,7 @@ fn is_temporary(name: &str) -> bool {
     random.is_some_and(|r| r.len() == 6 && r.bytes().all(|b| b.is_ascii_alphanumeric()))
 }
 
-/// Makes the renaming itself last. Not every file system can; the content is safe either way.
+/// Syncs the rename itself. Not every file system can; the content is safe either way.
 fn sync_folder(path: &Path) {
     #[cfg(unix)]
     if let Err(e) = fs::File::open(folder_of(path)).and_then(|folder| folder.sync_all()) {
@@ -259,7 +259,7 @@ mod tests {
         let left = [".eddy-save-aB3xYz.tmp", ".eddy-save-000000.tmp"];
         let others = [".eddy-save-notes.tmp", ".eddy-backup", ".eddy-save-aB3xYz.tmp.bak", "a.tmp"];
         left.iter().chain(&others).for_each(|name| write(name));
-        // One that another process writes just now.
+        // A file that another process is writing.
         let busy = temporary(dir.path(), true).unwrap();
         write_with(&dir.path().join("new"), |file| file.write_all(b"new")).unwrap();
         for name in left {

@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 /// [`Bindings`] itself has no limit.
 pub const SLOTS: usize = 4;
 
-/// The channels of a pass by their slots: slot n is `iChannelN`. A slot without a channel reads as a 2D texture that is
-/// opaque black and of size 0.
+/// The channels of a pass by slot: slot n is `iChannelN`. A slot without a channel reads as an opaque black 2D texture
+/// of size 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bindings(BTreeMap<usize, Channel>);
 
@@ -29,7 +29,7 @@ impl Bindings {
         }
     }
 
-    /// Empties the slots for whose channel `is_kept` is false.
+    /// Removes the channels for which `is_kept` returns false.
     pub fn retain(&mut self, is_kept: impl Fn(&Channel) -> bool) {
         self.0.retain(|_, channel| is_kept(channel));
     }
@@ -38,12 +38,12 @@ impl Bindings {
         self.0.is_empty()
     }
 
-    /// Every channel with its slot, in the order of slots.
+    /// Every channel with its slot, in slot order.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = (usize, &Channel)> {
         self.0.iter().map(|(slot, channel)| (*slot, channel))
     }
 
-    /// Every channel, in the order of slots.
+    /// Every channel, in slot order.
     pub fn channels(&self) -> impl DoubleEndedIterator<Item = &Channel> {
         self.0.values()
     }
@@ -59,7 +59,7 @@ impl FromIterator<(usize, Channel)> for Bindings {
     }
 }
 
-/// Binds the first slots in order; `None` leaves one empty.
+/// Binds the first slots in order; `None` leaves a slot empty.
 impl<const N: usize> From<[Option<Channel>; N]> for Bindings {
     fn from(channels: [Option<Channel>; N]) -> Self {
         channels.into_iter().enumerate().filter_map(|(slot, channel)| Some((slot, channel?))).collect()

@@ -1,19 +1,19 @@
-//! The content that a pass draws: all of its target, or meshes.
+//! The content that a pass draws: every texel of its target, or meshes.
 
 use super::{Geometry, MeshDraw, Source, Stage, TexelFormat};
 
-/// The content that a pass draws. Code outside of the engine uses the methods, which every body answers, instead of matching.
+/// The content of a pass. Code outside the engine uses the methods, which every body implements, instead of matching.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Body {
-    /// Every texel of its one target, as on the site.
+    /// Every texel of its one target, as on Shadertoy.
     #[default]
     Screen,
-    /// Meshes into its targets, which are cleared before, with a depth buffer.
+    /// Meshes, drawn with a depth buffer into its targets, which are cleared first.
     Meshes(Geometry),
 }
 
 impl Body {
-    /// The meshes with their camera, for code that shows or changes these.
+    /// The meshes and their camera, for code that shows or edits them.
     pub fn geometry(&self) -> Option<&Geometry> {
         match self {
             Body::Screen => None,
@@ -28,13 +28,13 @@ impl Body {
         }
     }
 
-    /// Returns whether one program computes each texel by itself, over the whole target. Such a pass can be drawn in tiles
-    /// and probed.
+    /// Returns whether one program computes each texel independently, over the whole target. Such a pass can be drawn
+    /// in tiles and probed.
     pub fn is_screen(&self) -> bool {
         matches!(self, Body::Screen)
     }
 
-    /// Returns whether the targets are cleared before it draws, so that nothing shows of the frame before.
+    /// Returns whether the targets are cleared before drawing, so that nothing of the previous frame is visible.
     pub fn is_cleared(&self) -> bool {
         !self.is_screen()
     }
@@ -48,12 +48,12 @@ impl Body {
         self.geometry_mut().map_or(&mut [], |geometry| &mut geometry.stages)
     }
 
-    /// Every text that may hold a stage: the pass's own, and those of [`Body::stages`].
+    /// Every text that may contain a stage: the pass's own, and those of [`Body::stages`].
     pub fn texts(&self) -> impl Iterator<Item = Stage> + use<> {
         [Stage::Own].into_iter().chain((0..self.stages().len()).map(Stage::File))
     }
 
-    /// The stages of all draws, in drawing order. A stage that several draws share is there several times.
+    /// The stages of all draws, in drawing order. A stage that several draws share is listed several times.
     pub fn drawn_stages(&self) -> Vec<Stage> {
         match self {
             Body::Screen => vec![Stage::Own],
@@ -70,7 +70,7 @@ impl Body {
         self.geometry_mut().map_or(&mut [], |geometry| &mut geometry.draws)
     }
 
-    /// Returns how many draws a frame takes, at least one.
+    /// Returns the number of draws per frame, at least one.
     pub fn draw_count(&self) -> u64 {
         self.draws().len().max(1) as u64
     }

@@ -1,8 +1,8 @@
 //! Controls of MIDI and OSC devices, and which of the author's own uniforms each one moves.
 //!
-//! A control is named by a [`ControlAddress`], a number of a uniform by a [`ControlTarget`]. The bindings of a project are
-//! in [`Project::controls`](super::Project::controls), and in `eddy.toml` under `[controls]`. What the devices send is decoded
-//! by the package `control`.
+//! A control is identified by a [`ControlAddress`], a component of a uniform by a [`ControlTarget`]. The bindings of a
+//! project are in [`Project::controls`](super::Project::controls), and in `eddy.toml` under `[controls]`. The package
+//! `control` decodes what the devices send.
 
 use super::{
     limits,
@@ -10,11 +10,11 @@ use super::{
 };
 use std::{collections::BTreeMap, fmt};
 
-/// Names of the components of a vector and of a colour, in order.
+/// Names of the components of vectors and of colours, in order.
 const COMPONENTS: [&str; 2] = ["xyzw", "rgba"];
-/// Letters that OSC 1.0 does not allow in an address: they have a meaning in patterns.
+/// Characters that OSC 1.0 does not allow in an address: they have a meaning in patterns.
 const NOT_IN_OSC: &[char] = &[' ', '#', '*', ',', '?', '[', ']', '{', '}'];
-/// Parameter numbers of MIDI, without the one of 16,383, which stands for none.
+/// The number of MIDI parameter numbers: 16,383 is excluded, as it means none.
 const PARAMETERS: u16 = 16_383;
 /// The forms of an address, for messages.
 pub(super) const FORMS: &str = "\"midi 1 cc 21\", \"midi 1 cc14 7\", \"midi 1 nrpn 300\", \"midi 1 note 60\", \"midi 1 bend\", \"pad 1 left-x\" or an OSC address such as \"/1/fader3\"";
@@ -22,23 +22,23 @@ pub(super) const FORMS: &str = "\"midi 1 cc 21\", \"midi 1 cc14 7\", \"midi 1 nr
 /// A control of a device, whichever device has it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ControlAddress {
-    /// A MIDI control change of 7 bits. Channels are 0 to 15 here and 1 to 16 where people read them.
+    /// A 7-bit MIDI control change. Channels are 0 to 15 here and 1 to 16 where users read them.
     ControlChange { channel: u8, number: u8 },
-    /// A MIDI control change of 14 bits: the controllers `number`, below 32, and `number` + 32.
+    /// A 14-bit MIDI control change: the controllers `number`, below 32, and `number` + 32.
     ControlChange14 { channel: u8, number: u8 },
-    /// A non-registered parameter (NRPN) of MIDI, 0 to 16,382: the controllers 99 and 98 say which, 6 and 38 its value.
+    /// A MIDI non-registered parameter (NRPN), 0 to 16,382: controllers 99 and 98 select it, 6 and 38 carry its value.
     Nrpn { channel: u8, number: u16 },
     /// A MIDI note.
     Note { channel: u8, key: u8 },
     /// The pitch bend of a MIDI channel.
     PitchBend { channel: u8 },
-    /// A part of a gamepad. Pads are 0 to 3 here and 1 to 4 where people read them.
+    /// A part of a gamepad. Pads are 0 to 3 here and 1 to 4 where users read them.
     Pad { pad: u8, part: PadPart },
     /// An argument of the messages of an OSC address, from 0.
     Osc { path: String, argument: usize },
 }
 
-/// One number of a uniform, or the whole of a uniform with one number.
+/// A component of a uniform, or the whole of a scalar uniform.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ControlTarget {
     pub uniform: String,
@@ -46,23 +46,23 @@ pub struct ControlTarget {
     pub component: Option<char>,
 }
 
-/// Controls by the number that each moves.
+/// The control that moves each target.
 pub type ControlBindings = BTreeMap<ControlTarget, ControlAddress>;
 
 impl ControlTarget {
-    /// A uniform with one number.
+    /// The target of a scalar uniform.
     pub fn whole(uniform: impl Into<String>) -> Self {
         Self { uniform: uniform.into(), component: None }
     }
 
-    /// A component by its name. `None`: no component has that name.
+    /// A component by its name. `None` if no component has that name.
     pub fn of_component(uniform: impl Into<String>, component: &str) -> Option<Self> {
         let mut letters = component.chars();
         let letter = letters.next().filter(|letter| letters.next().is_none() && index_of(*letter).is_some())?;
         Some(Self { uniform: uniform.into(), component: Some(letter) })
     }
 
-    /// Returns which of the uniform's numbers it is, from 0.
+    /// Returns the index of the component, from 0.
     pub fn index(&self) -> usize {
         self.component.and_then(index_of).unwrap_or(0)
     }
@@ -81,7 +81,7 @@ fn index_of(component: char) -> Option<usize> {
 }
 
 impl ControlAddress {
-    /// Reads an address as `eddy.toml` has it. `None`: it is not in one of these forms.
+    /// Parses an address in the form of `eddy.toml`. `None` if it has none of these forms.
     pub fn parse(text: &str) -> Option<Self> {
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
         let below = |word: &str, end: u8| word.parse::<u8>().ok().filter(|n| *n < end);
@@ -119,7 +119,7 @@ impl ControlAddress {
         }
     }
 
-    /// Returns the address as a row of the window has room for it: `CC 21`, `Note 60 ch 2`, `/1/fader3`.
+    /// Returns a short form of the address for a row of the window: `CC 21`, `Note 60 ch 2`, `/1/fader3`.
     pub fn label(&self) -> String {
         let of = |channel: u8| if channel == 0 { String::new() } else { format!(" ch {}", channel + 1) };
         match self {
@@ -136,15 +136,15 @@ impl ControlAddress {
 }
 
 impl ControlAddress {
-    /// Returns whether it is a knob or a fader that stays where a hand leaves it, so that its position may differ from the value
-    /// that it is to move.
+    /// Returns whether it is a knob or a fader that stays where it is left, so that its position may differ from the
+    /// value that it moves.
     pub fn stays_in_place(&self) -> bool {
         matches!(self, Self::ControlChange { .. } | Self::ControlChange14 { .. } | Self::Nrpn { .. })
     }
 }
 
 impl fmt::Display for ControlAddress {
-    /// As `eddy.toml` has it.
+    /// The form in `eddy.toml`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::ControlChange { channel, number } => write!(f, "midi {} cc {number}", channel + 1),
@@ -159,7 +159,7 @@ impl fmt::Display for ControlAddress {
     }
 }
 
-/// Returns whether a text is an OSC address that a control can have: OSC 1.0, "OSC Address Spaces".
+/// Returns whether a text is a valid OSC address for a control: OSC 1.0, "OSC Address Spaces".
 pub fn is_osc_path(text: &str) -> bool {
     let is_allowed = |c: char| c.is_ascii_graphic() && !NOT_IN_OSC.contains(&c);
     text.len() > 1 && text.starts_with('/') && text.len() <= limits::OSC_PATH && text.chars().all(is_allowed)
@@ -170,7 +170,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_address_is_read_as_it_is_written() {
+    fn addresses_round_trip_through_text() {
         let all = [
             ControlAddress::ControlChange { channel: 0, number: 127 },
             ControlAddress::ControlChange14 { channel: 15, number: 31 },
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn components_are_known_by_both_of_their_names() {
+    fn components_have_two_names() {
         for (name, index) in [("x", 0), ("w", 3), ("r", 0), ("b", 2)] {
             let target = ControlTarget::of_component("tint", name).unwrap();
             assert_eq!((target.index(), target.to_string()), (index, format!("tint.{name}")));

@@ -1,4 +1,4 @@
-//! The custom uniforms of a project, and how one is turned.
+//! The custom uniforms of a project, and how their values are set.
 
 use super::{
     custom_uniforms::{self, CustomUniform, CustomUniformValue, CustomUniforms},
@@ -7,21 +7,20 @@ use super::{
 use eddy_diag::{SourceId, Span};
 
 impl Project {
-    /// Returns what the texts declare in `#iUniform` lines. Spans point into [`Project::sources`].
+    /// Returns the uniforms that the texts declare in `#iUniform` lines. Spans point into [`Project::sources`].
     pub fn custom_uniforms(&self) -> CustomUniforms {
         let sources = self.texts();
         CustomUniforms::read(sources.iter().map(|(id, source)| (id, &*source.text)))
     }
 
-    /// Returns the names that `#iUniform` lines declare, one for each line, and where they stand. Spans point into
-    /// [`Project::sources`].
+    /// Returns the names that `#iUniform` lines declare, one for each line, with their spans in [`Project::sources`].
     pub fn custom_uniform_names(&self) -> Vec<(String, Span)> {
         self.texts().iter().flat_map(|(id, source)| CustomUniforms::names(id, &source.text)).collect()
     }
 
-    /// Hands values on to the new names of their uniforms, after a text of the project has changed from `before` to
-    /// `after`: a declaration that differs in its name alone is the same one. A name that is still declared elsewhere
-    /// keeps its value. Returns the old and the new names.
+    /// Moves values to the new names of their uniforms, after a text of the project has changed from `before` to
+    /// `after`: a declaration that differs only in its name is a rename. A name that is still declared elsewhere keeps
+    /// its value. Returns the old and the new names.
     pub fn follow_renamed_custom_uniforms(&mut self, before: &str, after: &str) -> Vec<(String, String)> {
         let mut renamed = renamed(before, after);
         if !renamed.is_empty() {
@@ -39,7 +38,7 @@ impl Project {
         renamed
     }
 
-    /// Hands the controls of a uniform on to its new name, where that has none of its own.
+    /// Moves the controls of a uniform to its new name, unless that has its own.
     fn rename_controls(&mut self, from: &str, to: &str) {
         if self.controls.keys().any(|target| target.uniform == to) {
             return;
@@ -53,8 +52,8 @@ impl Project {
         self.controls = renamed.collect();
     }
 
-    /// Sets one custom uniform from what a person writes: `viscosity=0.3`, `tint=1,0.5,0`, `tint=color3(1, .5, 0)`,
-    /// `on=true`. Err: one line that says what is wrong.
+    /// Sets one custom uniform from user input: `viscosity=0.3`, `tint=1,0.5,0`, `tint=color3(1, .5, 0)`, `on=true`.
+    /// Returns one line that describes the error.
     pub fn set_custom_uniform(&mut self, assignment: &str) -> Result<(), String> {
         let shape = || format!("{assignment}: write viscosity=0.3 or tint=1,0.5,0 to set a uniform");
         let (name, written) = assignment.split_once('=').ok_or_else(shape)?;
@@ -70,7 +69,7 @@ impl Project {
         Ok(())
     }
 
-    /// Sets a custom uniform; the default is kept as nothing, so that it follows the text.
+    /// Sets a custom uniform; the default is not stored, so that it follows the text.
     pub fn turn_custom_uniform(&mut self, custom_uniform: &CustomUniform, value: CustomUniformValue) {
         if value == custom_uniform.default {
             self.custom_uniform_values.remove(&custom_uniform.name);
@@ -80,7 +79,8 @@ impl Project {
     }
 }
 
-/// Returns the old and the new names of declarations that differ in nothing else, in texts that declare as many.
+/// Returns the old and the new names of declarations that differ only in the name, if both texts have the same number
+/// of declarations.
 fn renamed(before: &str, after: &str) -> Vec<(String, String)> {
     if !before.contains("iUniform") || !after.contains("iUniform") {
         return Vec::new();
@@ -94,7 +94,7 @@ fn renamed(before: &str, after: &str) -> Vec<(String, String)> {
     pairs.map(|(a, b)| (a.0, b.0)).collect()
 }
 
-/// Returns what stands before and behind a name in its line.
+/// Returns the text before and after a name in its line.
 fn around(text: &str, name: Span) -> (&str, &str) {
     let (before, behind) = (&text[..name.range().start], &text[name.range().end..]);
     (before.rsplit('\n').next().unwrap_or_default(), behind.lines().next().unwrap_or_default())

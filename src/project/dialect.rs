@@ -1,4 +1,5 @@
-//! The programs whose shaders Eddy draws as they are, beside Shadertoy's, and the one place that chooses among them for a file.
+//! The programs besides Shadertoy whose shaders Eddy draws unchanged, and the one place that selects a program for a
+//! file.
 
 use super::{file_names::is_vertex_extension, isf, words::find_word};
 use std::{ffi::OsStr, path::Path};
@@ -26,28 +27,29 @@ impl Dialect {
         }
     }
 
-    /// Returns the dialect of a name.
+    /// Returns the dialect with a name.
     pub fn of(name: &str) -> Option<Dialect> {
         Self::ALL.into_iter().find(|dialect| dialect.name().eq_ignore_ascii_case(name))
     }
 }
 
-/// The forms of a GLSL file that belongs to no project. Whatever reads a file asks [`ShaderForm::of`], so that the command line,
-/// the window and editors agree. A shader of Ghostty looks like one of Shadertoy's: the user says that it is one, by
-/// [`super::load`]'s `ghostty:`.
+/// The form of a GLSL file outside a project. All code that reads such files calls [`ShaderForm::of`], so that the
+/// command line, the window and editors agree. A Ghostty shader looks like a Shadertoy one: the user marks it with
+/// `ghostty:` in [`super::load`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShaderForm {
-    /// A pass of Shadertoy's. So is what has no other form: the compiler's messages name the program that it is written for.
+    /// A pass of Shadertoy's, and the fallback for other texts: the compiler's messages name the program it is written
+    /// for.
     Shadertoy,
     Isf,
-    /// A vertex shader of GLSL ES 3.00 with a `main` and uniforms of its own, which is checked but not drawn.
+    /// A GLSL ES 3.00 vertex shader with its own `main` and uniforms, which is checked but not drawn.
     PlainVertex,
-    /// A fragment shader of that kind.
+    /// A fragment shader of the same kind.
     PlainFragment,
 }
 
 impl ShaderForm {
-    /// Returns the form of a file by its text and the endings of its name.
+    /// Returns the form of a file by its text and its extensions.
     pub fn of(path: &Path, text: &str) -> ShaderForm {
         if isf::json_of(path, text).is_some() {
             return ShaderForm::Isf;
@@ -63,7 +65,7 @@ impl ShaderForm {
         }
         match text.trim_start_matches('\u{feff}').lines().map(str::trim).find(|line| line.starts_with('#')) {
             _ if has("gl_Position") => ShaderForm::PlainVertex,
-            // Without it, or with another one, a fragment shader is in another language.
+            // Without this line, or with another version, a fragment shader is in another language.
             Some(line) if line.split_whitespace().eq(["#version", "300", "es"]) => ShaderForm::PlainFragment,
             _ => ShaderForm::Shadertoy,
         }
@@ -75,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_has_a_form_by_its_name_and_its_text() {
+    fn the_form_depends_on_the_name_and_the_text() {
         let of = |name: &str, text: &str| ShaderForm::of(Path::new(name), text);
         let (image, main) = ("void mainImage(out vec4 c, in vec2 p) {}", "#version 300 es\nvoid main() {}");
         assert_eq!(of("a.glsl", image), ShaderForm::Shadertoy);

@@ -1,4 +1,4 @@
-//! The folders inside the binary, and the texts that several projects in them share.
+//! The embedded project folders, and the files that several projects in them share.
 
 use super::files::{Files, MANIFEST};
 use include_dir::{Dir, include_dir};
@@ -6,35 +6,34 @@ use std::sync::LazyLock;
 
 static PRESETS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/../../presets");
 
-/// Name of the folder whose folders are sets of shared files.
+/// The folder whose subfolders are sets of shared files.
 const SHARED: &str = "shared";
 
-/// Name of the file that lists the projects of each set, in the form of [`listed`].
+/// The file that lists the projects of each set, in the form of [`listed`].
 const SETS: &str = "shared.txt";
 
-/// A folder inside the binary whose folders are projects.
+/// An embedded folder whose subfolders are projects.
 ///
-/// A file that several projects have alike is there once: in a folder of `shared/`, a set. `shared.txt` lists the projects of
-/// each set. A project has the files of its own folder and those of its sets; where both have a file of the same name,
-/// the project's own counts. So a project that is read from here is the same as if every file lay in its folder, and
-/// all of them are written when it is saved.
+/// A file that several projects share exists once: in a folder of `shared/`, a set. `shared.txt` lists the projects of
+/// each set. A project has the files of its own folder and those of its sets; if both have a file of the same name, the
+/// project's own wins. So an embedded project reads as if all files were in its folder, and saving writes all of them.
 pub struct Library {
     root: &'static Dir<'static>,
 }
 
 impl Library {
-    /// `root`: embedded by `include_dir!`. Its sets may be those of the presets too.
+    /// `root`: embedded by `include_dir!`. Its sets may contain files of the presets, too.
     pub const fn new(root: &'static Dir<'static>) -> Self {
         Self { root }
     }
 
-    /// Returns whether it has a project of this name.
+    /// Returns whether a project of this name exists.
     pub fn has(&self, name: &str) -> bool {
         self.root.get_dir(name).is_some_and(is_project)
     }
 
-    /// Returns the folders that hold the files of a project: its own, then its sets in the order of `shared.txt`. `None`
-    /// where there is no such project.
+    /// Returns the folders with the files of a project: its own, then its sets in the order of `shared.txt`. `None` if
+    /// the project does not exist.
     fn folders(&self, name: &str) -> Option<Vec<&'static Dir<'static>>> {
         let own = self.root.get_dir(name).filter(|dir| is_project(dir))?;
         let sets = listed(self.text(SETS)).into_iter().filter(|(_, projects)| projects.contains(&name));
@@ -45,12 +44,12 @@ impl Library {
         Some([own].into_iter().chain(sets.filter_map(|(name, _)| set(name))).collect())
     }
 
-    /// Returns the files of a project, its sets' included.
+    /// Returns the files of a project, including those of its sets.
     pub(super) fn files(&self, name: &str) -> Option<Files<'static>> {
         self.folders(name).map(Files::embedded)
     }
 
-    /// A text directly in the folder; empty where there is none.
+    /// Returns a text file directly in the folder; empty if it does not exist.
     fn text(&self, name: &str) -> &'static str {
         self.root.get_file(name).and_then(|f| f.contents_utf8()).unwrap_or_default()
     }
@@ -60,7 +59,8 @@ fn is_project(dir: &Dir<'_>) -> bool {
     dir.files().any(|f| f.path().file_name().is_some_and(|n| n == MANIFEST))
 }
 
-/// Reads a list with headings: a line with `#` is a heading, the lines below it are its members. Empty lines are skipped.
+/// Parses a list with headings: a line with `#` is a heading, the lines below it are its members. Empty lines are
+/// skipped.
 fn listed(text: &'static str) -> Vec<(&'static str, Vec<&'static str>)> {
     let mut list: Vec<(&str, Vec<&str>)> = Vec::new();
     for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
@@ -79,7 +79,7 @@ pub(super) static LIBRARY: Library = Library::new(&PRESETS);
 /// A picture of each preset, `NAME.jpg`.
 static THUMBNAILS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/../../assets/thumbnails");
 
-/// Presets of a kind.
+/// A category of presets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Category {
     pub title: String,
@@ -87,8 +87,8 @@ pub struct Category {
     pub names: Vec<&'static str>,
 }
 
-/// Categories in gallery order, as `presets/gallery.txt` lists them (see [`listed`]). A preset that it leaves out comes
-/// last, by name.
+/// The categories in gallery order, as `presets/gallery.txt` lists them (see [`listed`]). Presets that it does not list
+/// come last, by name.
 static CATEGORIES: LazyLock<Vec<Category>> = LazyLock::new(|| {
     let mut left: Vec<&'static str> =
         PRESETS.dirs().filter(|d| is_project(d)).filter_map(|d| d.path().file_name()?.to_str()).collect();
@@ -111,12 +111,12 @@ pub fn names() -> &'static [&'static str] {
     &NAMES
 }
 
-/// The presets by what they are.
+/// The presets by category.
 pub fn categories() -> &'static [Category] {
     &CATEGORIES
 }
 
-/// The picture of a preset, a JPEG.
+/// The thumbnail of a preset, a JPEG.
 pub fn thumbnail(name: &str) -> Option<&'static [u8]> {
     THUMBNAILS.get_file(format!("{name}.jpg")).map(include_dir::File::contents)
 }
@@ -126,7 +126,7 @@ mod tests {
     use super::*;
     use std::path::Path;
 
-    /// Names of the files in these folders, the first one's first, each once.
+    /// The names of the files in these folders, in folder order, without duplicates.
     fn names_in(folders: &[&'static Dir<'static>]) -> Vec<&'static Path> {
         folders.iter().flat_map(|dir| dir.files()).map(|f| Path::new(f.path().file_name().unwrap())).collect()
     }
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_set_is_no_project() {
+    fn a_set_is_not_a_project() {
         assert!(LIBRARY.has("fluid") && !LIBRARY.has(SHARED) && !LIBRARY.has("shared/one-pass-fluid"));
         assert!(LIBRARY.files("shared/one-pass-fluid").is_none() && !names().contains(&SHARED));
     }

@@ -1,4 +1,4 @@
-//! Errors of reading and writing a project.
+//! Errors when reading and writing a project.
 
 use super::{FileError, limits};
 use eddy_diag::{Diagnostic, SourceMap, render_all};
@@ -7,41 +7,41 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Failure of [`super::load`] or [`super::save`]. Its text is complete: file, place and mend.
+/// A failure of [`super::load`] or [`super::save`]. Its text is complete: file, location and fix.
 #[derive(Debug, thiserror::Error)]
 pub enum ProjectError {
-    /// The machine's: permissions, a full disk, a file that vanished.
+    /// An error of the system: permissions, a full disk, a file that vanished.
     #[error("cannot {action} {}: {source}", path.display())]
     Io { action: &'static str, path: PathBuf, source: io::Error },
-    /// The author's: what the files say makes no project. Holds at least one error.
+    /// An error of the author: the files are not a valid project. Contains at least one error.
     #[error("{what} is not a usable project\n{}", render_all(diagnostics, sources))]
     Invalid { what: String, diagnostics: Vec<Diagnostic>, sources: SourceMap },
-    /// A name that means nothing here.
+    /// A name that does not resolve to a project.
     #[error(
         "{spec}: not a file, a folder or a preset{}; presets are {}",
         did_you_mean(near.as_deref()),
         presets_listed(presets)
     )]
     NotFound { spec: String, near: Option<String>, presets: Vec<String> },
-    /// A file that is there, of a kind no project comes in.
+    /// An existing file of a kind that is not a project.
     #[error(
         "{}: {}not a project file; a project is a folder, a .glsl file, a Shadertoy .json file or a preset's name",
         path.display(),
         foreign(path)
     )]
     UnknownKind { path: PathBuf },
-    /// A file that may not be read: it lies outside the folder, is no regular file, or is too large.
+    /// A file that must not be read: it is outside the folder, is not a regular file, or is too large.
     #[error("{error}; {}", error.hint())]
     File {
         #[from]
         error: FileError,
     },
-    /// A name under which nothing may be written.
+    /// A name under which no file may be written.
     #[error("cannot write {}: {why}", path.display())]
     Unwritable { path: PathBuf, why: String },
     #[error("{} has more than {} files; choose a folder with only the project", path.display(), limits::FILES)]
     TooManyFiles { path: PathBuf },
-    /// Saving would replace these files, all that are not this project's; at least one.
+    /// Saving would replace these files, which do not belong to this project; at least one.
     #[error("{}; choose another place or allow overwriting", in_the_way(paths))]
     WouldOverwrite { paths: Vec<PathBuf> },
     /// Saving in this form would lose something.
@@ -53,7 +53,7 @@ fn did_you_mean(near: Option<&str>) -> String {
     near.map(|n| format!(" (did you mean {n}?)")).unwrap_or_default()
 }
 
-/// Says which files are in the way, each by its name.
+/// Formats the list of files in the way, by name.
 fn in_the_way(paths: &[PathBuf]) -> String {
     let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
     let of_project = if names.len() == 1 { "exists and is" } else { "exist and are" };
@@ -70,7 +70,7 @@ impl ProjectError {
         move |source| ProjectError::Io { action, path, source }
     }
 
-    /// Returns what the author has to mend, where it is theirs.
+    /// Returns the diagnostics that the author has to fix, if there are any.
     pub fn diagnostics(&self) -> Option<(&[Diagnostic], &SourceMap)> {
         match self {
             ProjectError::Invalid { diagnostics, sources, .. } => Some((diagnostics, sources)),
@@ -79,7 +79,7 @@ impl ProjectError {
     }
 }
 
-/// Returns what a file of another tool is, by its ending.
+/// Describes a file of another tool, by its extension.
 fn foreign(path: &Path) -> String {
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let is = match ending.as_str() {

@@ -1,4 +1,4 @@
-//! A file is a pass by its name; the convention is in [`super::folder`].
+//! Maps file names to passes; the convention is in [`super::folder`].
 
 use super::PassName;
 use eddy_diag::Diagnostic;
@@ -8,12 +8,12 @@ pub(super) fn is_glsl_extension(extension: &OsStr) -> bool {
     ["glsl", "frag", "fs"].iter().any(|e| extension.eq_ignore_ascii_case(e))
 }
 
-/// The endings of vertex shaders, which are no passes.
+/// The extensions of vertex shaders, which are not passes.
 pub(super) fn is_vertex_extension(extension: &OsStr) -> bool {
     ["vert", "vs", "vertex"].iter().any(|e| extension.eq_ignore_ascii_case(e))
 }
 
-/// The pass a file is by its stem; `None` for Common and for files that are not of the convention.
+/// Returns the pass that a file stem names; `None` for Common and for other files.
 pub(super) fn pass_of_stem(stem: &str) -> Option<PassName> {
     PassName::parse(stem).filter(|pass| !pass.is_buffer() || is_buffer(stem))
 }
@@ -24,7 +24,7 @@ fn is_buffer(stem: &str) -> bool {
         || lower.strip_prefix("buf").is_some_and(|rest| rest.len() == 1 || rest.starts_with([' ', '_', '-']))
 }
 
-/// Returns what is wrong with a file that would be a buffer if its name were one.
+/// Returns the error for a file that would be a buffer if its name were valid.
 pub(super) fn misnamed(file: &str) -> Option<Diagnostic> {
     let path = Path::new(file);
     let stem = path.file_stem()?.to_str().filter(|stem| is_buffer(stem) && PassName::parse(stem).is_none())?;
@@ -33,7 +33,7 @@ pub(super) fn misnamed(file: &str) -> Option<Diagnostic> {
     Some(Diagnostic::warning(None, message).hint(PassName::NAMES))
 }
 
-/// Says which text of a project a file is by convention.
+/// The role that a file's name gives to its text.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum FileRole {
     Common,
@@ -49,7 +49,7 @@ pub(super) fn role_of_file(name: &str) -> Option<FileRole> {
     if stem.eq_ignore_ascii_case("common") { Some(FileRole::Common) } else { pass_of_stem(stem).map(FileRole::Pass) }
 }
 
-/// Returns whether a file is the Image pass by its name.
+/// Returns whether a file's name makes it the Image pass.
 pub(super) fn is_image_file(name: &str) -> bool {
     matches!(role_of_file(name), Some(FileRole::Pass(pass)) if pass.is_image())
 }

@@ -1,4 +1,4 @@
-//! The text files of a project: in a folder on disk, inside the binary, or in memory.
+//! The text files of a project: in a folder on disk, embedded in the binary, or in memory.
 
 use super::{
     FileError, ProjectError,
@@ -15,33 +15,33 @@ use std::{
     sync::Arc,
 };
 
-/// Name of the file that describes a folder.
+/// The name of the file that describes a folder.
 pub(super) const MANIFEST: &str = "eddy.toml";
 
-/// Texts that an editor holds and has not saved, by the paths of their files. They stand for what is on disk.
+/// Unsaved texts of an editor, by the paths of their files. They override the files on disk.
 pub type EditedTexts = BTreeMap<PathBuf, Arc<str>>;
 
 /// The text files of a project, by name relative to its folder.
 pub(super) struct Files<'a> {
     place: Storage<'a>,
     edited: Option<&'a EditedTexts>,
-    /// Bytes that may still be read: see [`limits::ALL_TEXTS`].
+    /// The remaining budget of bytes to read: see [`limits::ALL_TEXTS`].
     left: Cell<u64>,
 }
 
 enum Storage<'a> {
     Disk(&'a Path),
-    /// Folders in the binary: a file is taken from the first that has it.
+    /// Embedded folders: a file is taken from the first that has it.
     Embedded(Vec<&'a include_dir::Dir<'a>>),
-    /// A folder as it will be once it is saved.
+    /// A folder as it will be after saving.
     Memory(&'a BTreeMap<String, Vec<u8>>),
 }
 
-/// A text file's content, or why it has none.
+/// A text file's content, or the reason why it cannot be read.
 pub(super) enum Read {
     Text(String),
     Missing,
-    /// Byte offset of the first byte that is not UTF-8, and the text with every such byte replaced.
+    /// The offset of the first byte that is not UTF-8, and the text with every such byte replaced.
     NotUtf8(usize, String),
     Refused(FileError),
 }
@@ -51,7 +51,7 @@ impl<'a> Files<'a> {
         Self::of(Storage::Disk(folder))
     }
 
-    /// The files of several folders as if they lay in one. Where two have a file of the same name, the first one's counts.
+    /// The merged files of several folders. If two have a file of the same name, the first one wins.
     pub(crate) fn embedded(folders: Vec<&'a include_dir::Dir<'a>>) -> Self {
         Self::of(Storage::Embedded(folders))
     }
@@ -64,19 +64,19 @@ impl<'a> Files<'a> {
         Self { place, edited: None, left: Cell::new(limits::ALL_TEXTS.bytes) }
     }
 
-    /// Reads a folder on disk with these texts in place of what is there.
+    /// Reads a folder on disk; these texts override its files.
     pub(crate) fn edited(folder: &'a Path, edited: &'a EditedTexts) -> Self {
         Self { edited: Some(edited), ..Self::on_disk(folder) }
     }
 
-    /// The text that an editor has of a file.
+    /// The editor's text of a file.
     fn in_editor(&self, name: &str) -> Option<&Arc<str>> {
         let (Storage::Disk(folder), Some(edited)) = (&self.place, self.edited) else { return None };
         edited.get(&folder.join(confine::relative("", name).ok()?))
     }
 
-    /// Names of the files directly in the folder, sorted. Links count as files wherever they lead. Fails for a folder
-    /// of more than [`limits::FILES`].
+    /// The names of the files directly in the folder, sorted. Links count as files whatever their target. Fails for a
+    /// folder of more than [`limits::FILES`].
     pub(crate) fn names(&self) -> Result<Vec<String>, ProjectError> {
         let mut names: Vec<String> = match self.place {
             Storage::Disk(path) => {
@@ -84,7 +84,7 @@ impl<'a> Files<'a> {
                 let start = if path.as_os_str().is_empty() { Path::new(".") } else { path };
                 for entry in fs::read_dir(start).map_err(ProjectError::io("list", path))? {
                     let entry = entry.map_err(ProjectError::io("list", path))?;
-                    // A name that is not UTF-8 is no name of a pass.
+                    // A name that is not UTF-8 cannot name a pass.
                     if let Ok(name) = entry.file_name().into_string()
                         && entry.file_type().is_ok_and(|kind| !kind.is_dir())
                     {
@@ -111,7 +111,7 @@ impl<'a> Files<'a> {
         Ok(names)
     }
 
-    /// Reads a text of at most `limit` bytes. All that one `Files` reads is at most [`limits::ALL_TEXTS`].
+    /// Reads a text of at most `limit` bytes. One `Files` reads at most [`limits::ALL_TEXTS`] in total.
     pub(crate) fn read(&self, name: &str, limit: Limit) -> Read {
         if let Some(text) = self.in_editor(name) {
             let smaller = limit.bytes.min(self.left.get());
@@ -152,8 +152,8 @@ impl<'a> Files<'a> {
         decode(bytes)
     }
 
-    /// Returns whether something other than a folder has this name directly in the folder, also where it is of no use:
-    /// then reading says why.
+    /// Returns whether an entry other than a folder has this name directly in the folder, even an unusable one: reading
+    /// reports the reason.
     pub(crate) fn exists(&self, name: &str) -> bool {
         match self.place {
             Storage::Disk(_) if self.in_editor(name).is_some() => true,
@@ -165,7 +165,7 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// The file behind a name, where there is one on disk.
+    /// The path of a file, if it is on disk.
     pub(crate) fn path(&self, name: &str) -> Option<PathBuf> {
         match self.place {
             Storage::Disk(folder) => Some(folder.join(name)),
@@ -181,7 +181,7 @@ pub(super) fn decode(bytes: Vec<u8>) -> Read {
     }
 }
 
-/// The diagnostic for a text that is not UTF-8, into `sources`.
+/// Returns the diagnostic for a text that is not UTF-8, and adds the text to `sources`.
 pub(super) fn not_utf8(sources: &mut SourceMap, name: &str, at: usize, lossy: String) -> Diagnostic {
     let id = sources.add(name, lossy);
     Diagnostic::error(Span::new(id, at..at + '\u{fffd}'.len_utf8()), format!("{name} is not UTF-8 text"))

@@ -1,4 +1,4 @@
-//! The fills of a project's passes, and the texts that diagnostics about them point into.
+//! The fills of a project's passes, and the texts into which their diagnostics point.
 
 use super::{Fill, FillKind, FillValue, Pass, Project};
 use eddy_diag::{SourceId, Span};
@@ -20,7 +20,7 @@ impl Pass {
     }
 }
 
-/// A text to compile, and which of its bytes are a fill's value.
+/// A text to compile, and the byte range of a fill's value in it.
 pub struct FillText {
     pub id: SourceId,
     pub text: Arc<str>,
@@ -35,15 +35,15 @@ impl Project {
         })
     }
 
-    /// The text a fill of `passes[pass]` is written in, by its id in [`Project::sources`].
+    /// The text that contains a fill of `passes[pass]`, by its id in [`Project::sources`].
     pub fn fill_text(&self, pass: usize, kind: FillKind) -> Option<FillText> {
         let (n, (.., fill)) = self.fills().enumerate().find(|(_, (p, k, _))| (*p, *k) == (pass, kind))?;
         let (text, range) = fill.text();
         Some(FillText { id: self.fill_id(n), text, range })
     }
 
-    /// Returns the first expression of `eddy.toml`, in words, that uses one of the author's own uniforms: no edit of a
-    /// text reaches it.
+    /// Describes the first expression of `eddy.toml` that uses one of the author's own uniforms: an edit of
+    /// a text cannot change it.
     pub fn fill_that_names(&self, uniform: &str) -> Option<String> {
         self.custom_uniforms().get(uniform)?;
         let tested = self.conditions().find(|(_, condition)| condition.names(uniform));
@@ -62,7 +62,7 @@ impl Project {
         })
     }
 
-    /// Returns where a fill is written.
+    /// Returns the span of a fill.
     pub fn fill_span(&self, pass: usize, kind: FillKind) -> Option<Span> {
         let FillText { id, range, .. } = self.fill_text(pass, kind)?;
         Some(Span::new(id, range))

@@ -1,4 +1,4 @@
-//! Texels of a pass that its own program does not draw: what it holds before frame 0, and its outermost texels.
+//! Texels of a pass that its own program does not draw: its contents before frame 0, and its outermost texels.
 
 use std::{
     ops::Range,
@@ -10,21 +10,21 @@ use std::{
 #[derive(Clone, Debug)]
 pub struct Fill {
     pub value: FillValue,
-    /// `None`: made in code.
+    /// `None` if created in code.
     pub written: Option<Written>,
 }
 
 /// A value for every texel of a pass.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FillValue {
-    /// A GLSL expression of type `vec4`. It sees Common, the site's uniforms, and `fragCoord` as `mainImage` has it.
+    /// A GLSL expression of type `vec4`. It sees Common, Shadertoy's uniforms, and `fragCoord` as in `mainImage`.
     Expression(Arc<str>),
-    /// A picture or a `.npy` file, by its name in the project's folder. Where its size is the pass's it is taken
-    /// texel for texel, else stretched over the pass with linear filtering.
+    /// A picture or a `.npy` file, by its name in the project's folder. If its size is the pass's, it is copied texel
+    /// for texel, else stretched over the pass with linear filtering.
     File(PathBuf),
-    /// The bytes of an `.npy` file that is nowhere yet, and the name it will have. Lives in memory alone: saving writes
-    /// the file into the project's folder and makes a [`FillValue::File`] of it, and nothing that is read from a
-    /// project is one.
+    /// The bytes of an `.npy` file that is not on disk yet, and its future name. Exists in memory only: saving writes
+    /// the file into the project's folder and replaces this by a [`FillValue::File`], and loading a project never
+    /// creates one.
     InMemory { name: PathBuf, npy: Arc<[u8]> },
 }
 
@@ -43,11 +43,11 @@ impl FillValue {
 pub struct Written {
     /// The whole text of `eddy.toml`.
     pub manifest: Arc<str>,
-    /// Bytes of the value, its quotes among them.
+    /// The bytes of the value, including its quotes.
     pub range: Range<usize>,
 }
 
-/// Two fills are the same if they fill with the same, wherever they are written.
+/// Fills are equal if their values are, wherever they are written.
 impl PartialEq for Fill {
     fn eq(&self, other: &Fill) -> bool {
         self.value == other.value
@@ -63,8 +63,8 @@ impl Fill {
         Fill { value: FillValue::File(path.into()), written: None }
     }
 
-    /// The text that diagnostics about it point into, and where in it the value stands: the manifest, where that holds
-    /// the value as it is; else the value alone, at the manifest's line.
+    /// The text into which its diagnostics point, and the value's range in it: the manifest, if it contains the value
+    /// verbatim; else the value alone, at the manifest's line.
     pub(super) fn text(&self) -> (Arc<str>, Range<usize>) {
         let value: Arc<str> = match &self.value {
             FillValue::Expression(text) => text.clone(),
@@ -74,19 +74,19 @@ impl Fill {
     }
 }
 
-/// A value with escapes has a text of its own, with a line break for each line before it in the manifest, up to so many: a
-/// manifest of a million empty lines may have a thousand such values.
+/// The limit for line breaks before a value. A value with escapes gets a text of its own, with a line break for each
+/// line before it in the manifest, and a manifest of a million empty lines may have a thousand such values.
 const MOST_LINES: usize = 1 << 16;
 
 impl Written {
-    /// Returns the text that diagnostics about a value point into, and where in it the value stands.
+    /// Returns the text into which diagnostics about a value point, and the value's range in it.
     pub(super) fn located(value: &Arc<str>, written: Option<&Written>) -> (Arc<str>, Range<usize>) {
         let Some(Written { manifest, range }) = written else { return (value.clone(), 0..value.len()) };
         let written = manifest.get(range.clone()).unwrap_or_default();
         if let Some(at) = written.find(&**value).map(|at| range.start + at) {
             return (manifest.clone(), at..at + value.len());
         }
-        // Escapes: what is compiled is not what is written.
+        // With escapes, the compiled text differs from the written one.
         let before = &manifest[..range.start.min(manifest.len())];
         let lines = before.matches('\n').count().min(MOST_LINES);
         let text = "\n".repeat(lines) + value;
@@ -97,13 +97,13 @@ impl Written {
 /// The outermost texels of a pass, overwritten after each draw.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
-    /// Texels from each edge, at least 1.
+    /// The width in texels from each edge, at least 1.
     pub width: u32,
     pub value: Fill,
 }
 
 impl Boundary {
-    /// The texels of a picture that it covers, as at most four rectangles (x, y, width, height) that do not overlap.
+    /// The texels of a picture that it covers, as at most four disjoint rectangles (x, y, width, height).
     pub fn rectangles(width: u32, (w, h): (u32, u32)) -> Vec<[u32; 4]> {
         if 2 * u64::from(width) >= u64::from(w.min(h)) {
             return vec![[0, 0, w, h]];
@@ -113,7 +113,7 @@ impl Boundary {
     }
 }
 
-/// Names one of a pass's fills.
+/// One of a pass's fills.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FillKind {
     Initial,
@@ -137,7 +137,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rectangles_cover_the_edge_once_and_nothing_else() {
+    fn rectangles_cover_each_edge_texel_exactly_once() {
         for (width, size) in
             [(1, (5, 4)), (2, (5, 5)), (2, (4, 9)), (3, (3, 3)), (1, (1, 7)), (1, (3, 3)), (9, (64, 20))]
         {

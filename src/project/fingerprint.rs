@@ -1,18 +1,18 @@
-//! A number for what is measured: what was measured of other texts says nothing about these.
+//! A hash that identifies a measured project: measurements of other texts do not apply to it.
 
 use super::{Body, Channel, Dialect, Group, Input, InputKind, PassName, PassSettings, Project, SLOTS};
 use std::fmt;
 
-/// FNV-1a of 64 bits (G. Fowler, L. Noll, K.-P. Vo).
+/// 64-bit FNV-1a (G. Fowler, L. Noll, K.-P. Vo).
 pub struct Fingerprint(u64);
 
 impl Fingerprint {
-    /// Returns that of a project's texts, groups, slider values, channels and settings.
+    /// Hashes a project's texts, groups, slider values, channels and settings.
     pub fn of(project: &Project) -> Fingerprint {
         let mut print = Fingerprint(0xcbf2_9ce4_8422_2325);
-        // Of conditions the settings below say what counts, and not the rest of the file that they stand in.
+        // Conditions are hashed with the settings below; the rest of the file that contains them is not.
         let counted = project.sources().iter().count() - project.conditions().count();
-        // The texts around an ISF file are made of it, and may be others in the next version.
+        // Eddy generates the texts around an ISF file, and the next version may generate different ones.
         let made = if project.dialect == Dialect::Isf { 1 + project.passes.len() } else { 0 };
         for (_, source) in project.sources().iter().take(counted).skip(made) {
             print.eat(source.text.as_bytes());
@@ -23,7 +23,7 @@ impl Fingerprint {
             let slots = pass.bindings.iter().map(|(slot, _)| slot + 1).max().unwrap_or_default().max(SLOTS);
             let text = |slot| pass.bindings.get(slot).map_or("None".into(), channel_text);
             let channels: Vec<String> = (0..slots).map(text).collect();
-            // Where the files lie does not count: another machine has them elsewhere.
+            // The paths of the files are not hashed: they differ on other machines.
             let mut body = pass.body.clone();
             body.stages_mut().iter_mut().for_each(|stage| stage.path = None);
             let settings = SettingsText(&pass.settings, &body);
@@ -32,7 +32,7 @@ impl Fingerprint {
         print
     }
 
-    /// Takes in what else counts, and where it ends.
+    /// Hashes further bytes, and their end.
     pub fn eat(&mut self, bytes: &[u8]) {
         for byte in bytes.iter().chain(&[0xff]) {
             self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
@@ -44,8 +44,8 @@ impl Fingerprint {
     }
 }
 
-/// Spells how a pass is drawn, as [`channel_text`] does a channel. A setting that came later is not in the text where it has
-/// its default.
+/// Formats a pass's settings, as [`channel_text`] does a channel. Settings that were added later are omitted at their
+/// defaults.
 struct SettingsText<'p>(&'p PassSettings, &'p Body);
 
 impl fmt::Debug for SettingsText<'_> {
@@ -61,15 +61,15 @@ impl fmt::Debug for SettingsText<'_> {
     }
 }
 
-/// Spells a group, as [`channel_text`] does a channel.
+/// Formats a group, as [`channel_text`] does a channel.
 fn group_text(group: &Group) -> String {
     let pass = |pass: &PassName| pass.buffer_name().map_or_else(|| pass.title(), |name| format!("Buffer({name:?})"));
     let passes: Vec<String> = group.passes.iter().map(pass).collect();
     format!("Group {{ name: {:?}, passes: [{}], steps: {} }}", group.name, passes.join(", "), group.steps)
 }
 
-/// Spells a channel. Results on disk are known by numbers of these texts, so the words never change, whatever the types
-/// are called.
+/// Formats a channel. Stored results are keyed by hashes of these texts, so the wording never changes, whatever the
+/// types are called.
 fn channel_text(channel: &Channel) -> String {
     let input = match &channel.input {
         Input::Pass { id, target } => match (id.buffer_name(), target) {
@@ -90,7 +90,7 @@ mod tests {
     use crate::{Condition, Cull, DepthTest, MeshDraw, MeshSource, Normals, Origin, Pass, Source, Stage};
 
     #[test]
-    fn a_setting_that_came_later_changes_no_number_of_projects_without_it() {
+    fn newer_settings_at_their_default_do_not_change_fingerprints() {
         let text =
             "PassSettings { size: Canvas, format: Rgba32f, region: None, initial: None, boundary: None, body: Screen }";
         assert_eq!(format!("{:?}", SettingsText(&PassSettings::default(), &Body::Screen)), text);
@@ -115,7 +115,7 @@ mod tests {
         spelled("Target { buffer: \"scene\", index: 1 }, ", input(second));
     }
 
-    /// Results of projects with meshes were measured before a draw said what normals it makes.
+    /// Results of projects with meshes were measured before a draw had a normals setting.
     #[test]
     fn normals_count_where_a_model_may_have_none() {
         let draw = |mesh, normals| MeshDraw {
@@ -136,7 +136,7 @@ mod tests {
                     depth_write: true, color_write: true, scale: 0.5, rotation: [0.0, 14.0, 0.0], position: [0.0, 0.0, 0.0] }";
         assert_eq!(format!("{:?}", draw(cube.clone(), None)), text);
         assert_ne!(format!("{:?}", draw(cube, Some(Normals::Flat))), text);
-        // The same text has drawn a file's model without normals otherwise since.
+        // Since then, the same text has drawn a file's model without normals differently.
         let model = format!("{:?}", draw(MeshSource::File("a.obj".into()), None));
         assert!(model.contains("normals: None"), "{model}");
     }

@@ -1,4 +1,4 @@
-//! The convention that names passes after files.
+//! The convention that derives passes from file names.
 //!
 //! Owns the project of a folder without `eddy.toml`:
 //!
@@ -10,9 +10,9 @@
 //! | `sound.glsl` | Sound |
 //! | `image.glsl` | Image, which must be there |
 //!
-//! Case does not matter, and `.frag` is as good as `.glsl`. A pass whose text has `#iChannel` lines reads what they say
-//! (see [`super::directives`]); any other pass reads Buffer A, B, C and D in iChannel0, 1, 2 and 3, as far as these
-//! exist. A GLSL file of another name is a buffer where such a line names it.
+//! Case does not matter, and `.frag` is equivalent to `.glsl`. A pass whose text has `#iChannel` lines reads what they
+//! declare (see [`super::directives`]); any other pass reads Buffer A, B, C and D in iChannel0, 1, 2 and 3, as far as
+//! these exist. A GLSL file of another name is a buffer if such a line names it.
 
 use super::{
     Bindings, Channel, Input, Origin, Pass, PassName, Project, Source,
@@ -23,15 +23,15 @@ use super::{
 };
 use eddy_diag::{Diagnostic, Span};
 
-/// The facts that a convention makes of texts by file name, besides the texts.
+/// The result of applying the convention to file names, besides the texts.
 pub(super) struct ByConvention {
     pub common: Option<Source>,
     pub passes: Vec<Pass>,
-    /// About things that span several files; the directives' own come from [`declare_channels`].
+    /// Diagnostics that span several files; those of directives come from [`declare_channels`].
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Sorts texts into passes by their file names. Names that are not of the convention are left out.
+/// Sorts texts into passes by their file names. Other names are omitted.
 pub(super) fn by_convention(files: Vec<Source>) -> ByConvention {
     let mut found = ByConvention { common: None, passes: Vec::new(), diagnostics: Vec::new() };
     for source in files {
@@ -81,17 +81,17 @@ pub fn declare_channels(project: &mut Project) -> Vec<Diagnostic> {
     diagnostics
 }
 
-/// Reads the passes that texts name by their files, then does the same as [`declare_channels`].
+/// Adds the passes that texts name by their files, then does the same as [`declare_channels`].
 pub(super) fn channels(project: &mut Project, files: &Files<'_>) -> Vec<Diagnostic> {
     let mut diagnostics = directives::passes_beside(project, files);
-    // A file that cannot be had was told of, with the reason.
+    // A file that cannot be read was already reported, with the reason.
     let declared_at: Vec<Option<Span>> = diagnostics.iter().map(|d| d.span).collect();
     diagnostics
         .extend(declare_channels(project).into_iter().filter(|d| d.span.is_none() || !declared_at.contains(&d.span)));
     diagnostics
 }
 
-/// A folder without `eddy.toml`, its texts already read.
+/// Builds the project of a folder without `eddy.toml` from its texts.
 pub(super) fn project(
     name: String,
     texts: Vec<Source>,
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn file_names_name_passes_whatever_their_case() {
+    fn file_names_are_matched_case_insensitively() {
         let role = |n: &str| role_of_file(n);
         assert_eq!(role("Common.GLSL"), Some(FileRole::Common));
         assert_eq!(role("Buffer A.glsl"), Some(FileRole::Pass(PassName::buffer("A"))));
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn buffers_are_drawn_in_the_order_of_their_names_and_read_by_letter() {
+    fn buffers_are_drawn_in_name_order_and_read_by_letter() {
         let files =
             ["buffer_zoom.glsl", "image.glsl", "buffer_c.glsl", "buffer_a.glsl", "sound.glsl"].map(|n| source(n, ""));
         let (project, diagnostics) = project("p".into(), files.into(), Origin::Unsaved, None);
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn two_files_for_one_pass_and_a_missing_image_are_errors() {
+    fn duplicate_passes_and_a_missing_image_are_errors() {
         let files = ["buffer_a.glsl", "Buffer A.glsl"].map(|n| source(n, "")).into();
         let (_, diagnostics) = project("p".into(), files, Origin::Unsaved, None);
         let messages: Vec<&str> = diagnostics.iter().map(|d| d.message.as_str()).collect();

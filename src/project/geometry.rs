@@ -12,15 +12,15 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Targets a pass may have at once: what every device takes.
+/// The number of targets that a pass may have at once: every device supports this many.
 pub const MAX_TARGETS: usize = 4;
 
-/// The meshes of a pass, drawn into its targets over a depth buffer that each frame begins at the far plane.
+/// The meshes of a pass, drawn into its targets with a depth buffer that is cleared to the far plane each frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Geometry {
     /// In drawing order; at least one.
     pub draws: Vec<MeshDraw>,
-    /// Formats of the targets behind the first, whose format is [`super::PassSettings::format`].
+    /// Formats of the targets after the first, whose format is [`super::PassSettings::format`].
     pub more_targets: Vec<TexelFormat>,
     pub camera: Camera,
     /// Texts of stages other than the pass's own text, each file once.
@@ -28,8 +28,8 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// Leaves out the stages that no draw has, as they are once read from a manifest: in the order in which draws name
-    /// them.
+    /// Drops the stages that no draw uses and sorts the others as when a manifest is read: in the order in which draws
+    /// name them.
     pub fn drop_unused_stages(&mut self) {
         let all = std::mem::take(&mut self.stages);
         let mut order = Vec::new();
@@ -58,24 +58,24 @@ pub enum Stage {
 #[derive(Clone, PartialEq)]
 pub struct MeshDraw {
     pub mesh: MeshSource,
-    /// `None`: flat for glTF, as its specification wants them (section 3.7.2.1), and smooth for OBJ.
+    /// `None`: flat for glTF, as its specification requires (section 3.7.2.1), and smooth for OBJ.
     pub normals: Option<Normals>,
     pub vertex: Stage,
     pub fragment: Stage,
     pub cull: Cull,
     pub depth: DepthTest,
-    /// Texels that pass the test leave their depth.
+    /// True if texels that pass the test write their depth.
     pub depth_write: bool,
-    /// Colours reach the targets; off, only depth is laid down.
+    /// True if colours are written to the targets; if not, only depth is.
     pub color_write: bool,
-    /// `iModel`: scaled, then turned about x, y and z in this order (degrees), then moved.
+    /// `iModel`: scaled, then rotated about x, y and z in this order (degrees), then translated.
     pub scale: f64,
     pub rotation: [f64; 3],
     pub position: [f64; 3],
 }
 
-/// Spells a draw for a [`Fingerprint`](super::Fingerprint). Normals came later than results on disk: a built-in mesh has
-/// its own, and its text stays what it was.
+/// Formats a draw for a [`Fingerprint`](super::Fingerprint). Normals were added after results were stored: built-in
+/// meshes have their own normals, and their text has not changed.
 impl fmt::Debug for MeshDraw {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let MeshDraw {
@@ -105,19 +105,19 @@ impl fmt::Debug for MeshDraw {
 /// The source of a mesh.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum MeshSource {
-    /// One of Eddy's own, by name: see `media::mesh`.
+    /// A built-in mesh, by name: see `media::mesh`.
     Builtin(String),
     /// A glTF or OBJ file of the project, relative to its folder: see [`super::confine`].
     File(PathBuf),
-    /// A file that the person at the machine picked, wherever it lies, by its whole path. Lives in memory alone, as
-    /// [`super::Media::Picked`] does.
+    /// A file that the user picked, by its absolute path, wherever it is. Exists in memory only, like
+    /// [`super::Media::Picked`].
     Picked(PathBuf),
 }
 
 impl MeshSource {
     const BUILTIN: &'static str = "builtin:";
 
-    /// Reads the spelling of `eddy.toml`: `builtin:torus`, or a file's path.
+    /// Parses the spelling of `eddy.toml`: `builtin:torus`, or a file's path.
     pub fn parse(text: &str) -> MeshSource {
         match text.strip_prefix(Self::BUILTIN) {
             Some(name) => MeshSource::Builtin(name.to_owned()),
@@ -125,7 +125,7 @@ impl MeshSource {
         }
     }
 
-    /// The opposite of [`MeshSource::parse`], with forward slashes.
+    /// The inverse of [`MeshSource::parse`], with forward slashes.
     pub fn name(&self) -> String {
         match self {
             MeshSource::Builtin(name) => format!("{}{name}", Self::BUILTIN),
@@ -133,18 +133,18 @@ impl MeshSource {
                 let path = path.to_string_lossy();
                 if cfg!(windows) { path.replace('\\', "/") } else { path.into_owned() }
             }
-            // As saving calls the copy, unless that name is taken.
+            // The name that saving gives the copy, unless it is taken.
             MeshSource::Picked(path) => path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
         }
     }
 }
 
-/// The normals that are made where a model file has none.
+/// The normals that are generated if a model file has none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Normals {
-    /// Each triangle's own: its edges show.
+    /// The triangle's own normal: edges are visible.
     Flat,
-    /// The mean of those of the triangles around a place: edges do not show.
+    /// The mean of the normals of the adjacent triangles: edges are smoothed.
     Smooth,
 }
 
@@ -160,7 +160,7 @@ impl Normals {
     }
 }
 
-/// Says which triangles are left out. The front is the side on which a triangle's corners turn counter-clockwise.
+/// The triangles that are culled. The front is the side on which a triangle's corners turn counter-clockwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Cull {
     #[default]
@@ -220,22 +220,22 @@ impl DepthTest {
     }
 }
 
-/// A perspective camera on a sphere about what it looks at. The world's y is up.
+/// A perspective camera on a sphere around its target. The world's y axis is up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Degrees about the world's y; at 0 the camera stands on the positive z side, at 90 on the positive x side.
+    /// Degrees about the world's y axis; at 0 the camera is on the positive z side, at 90 on the positive x side.
     pub yaw: f64,
     /// Degrees above the horizon, within -89 and 89.
     pub pitch: f64,
     pub distance: f64,
-    /// The point that it looks at.
+    /// The point that the camera looks at.
     pub target: [f64; 3],
     /// The vertical field of view, in degrees.
     pub fov: f64,
     /// Distances of the clip planes.
     pub near: f64,
     pub far: f64,
-    /// Dragging with the mouse turns it.
+    /// True if dragging with the mouse rotates it.
     pub orbit: bool,
 }
 
@@ -254,9 +254,9 @@ impl Default for Camera {
     }
 }
 
-/// Files that a model needs besides itself: the buffers and pictures a glTF file names, by their names from the project's
-/// `folder`, as `model` is. None for a file that cannot be read, and no name that leads out of the folder; whoever
-/// loads the model says why.
+/// The files that a model needs besides itself: the buffers and pictures that a glTF file names, as names from the
+/// project's `folder`, like `model`. Empty for a file that cannot be read, and without names that lead out of the
+/// folder; loading the model reports the reason.
 pub fn files_beside(folder: &Path, model: &str) -> Vec<String> {
     let is = |ending: &str| Path::new(model).extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
     if !is("gltf") && !is("glb") {
@@ -268,7 +268,7 @@ pub fn files_beside(folder: &Path, model: &str) -> Vec<String> {
     files.filter_map(|file| confine::relative(model, &file).ok()).collect()
 }
 
-/// The JSON text of a glTF file: its first chunk where it is binary (glTF 2.0, section 4.4), whatever its name.
+/// The JSON text of a glTF file: its first chunk if it is binary (glTF 2.0, section 4.4), whatever its name.
 fn gltf_text(bytes: &[u8]) -> &[u8] {
     const TEXT: usize = 20;
     if !bytes.starts_with(b"glTF") {
@@ -278,7 +278,7 @@ fn gltf_text(bytes: &[u8]) -> &[u8] {
     bytes.get(TEXT..).and_then(|text| text.get(..length as usize)).unwrap_or_default()
 }
 
-/// The addresses in a `.gltf`: the rest may be large.
+/// The URIs in a `.gltf`: the rest may be large.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct Named {
@@ -286,7 +286,7 @@ struct Named {
     images: Uris,
 }
 
-/// The addresses of files in a list, one after the other: what has none takes no memory.
+/// The URIs of files in a list; entries without one take no memory.
 #[derive(Default)]
 struct Uris(Vec<String>);
 
@@ -317,7 +317,7 @@ impl<'de> Deserialize<'de> for Uris {
     }
 }
 
-/// An address with its `%20` and the like written out.
+/// A URI with its percent-encoding decoded.
 pub fn unescaped(uri: &str) -> String {
     let bytes = uri.as_bytes();
     let (mut out, mut i) = (Vec::with_capacity(bytes.len()), 0);
@@ -335,7 +335,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_gltf_names_the_files_beside_it() {
+    fn gltf_dependencies_are_listed() {
         let dir = tempfile::tempdir().unwrap();
         std::fs::create_dir(dir.path().join("m")).unwrap();
         let write = |text: &str| std::fs::write(dir.path().join("m/a.gltf"), text).unwrap();
@@ -356,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mesh_is_named_as_it_is_read() {
+    fn mesh_names_round_trip() {
         for name in ["builtin:torus", "models/fox.glb", "/a/b.obj"] {
             assert_eq!(MeshSource::parse(name).name(), name);
         }

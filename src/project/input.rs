@@ -1,5 +1,5 @@
-//! Owns what a channel can read: [`Input`], and the table of its kinds. A kind is a row of [`ROWS`]; whoever needs to
-//! know something of a kind asks its row.
+//! Owns the inputs that a channel can read: [`Input`], and the table of its kinds. A kind is a row of [`ROWS`]; code
+//! that depends on a property of a kind reads its row.
 
 use super::{Filter, Media, PassName, Role, Sampler, Wrap, role};
 use eddy_texture::Dimension;
@@ -7,15 +7,15 @@ use eddy_texture::Dimension;
 /// A source of texels.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
-    /// One of the targets of a pass, counted from 0. A pass that the project does not have reads zeros.
+    /// One of the targets of a pass, counted from 0. A missing pass reads as zeros.
     Pass { id: PassName, target: usize },
-    /// Something that is loaded.
+    /// Media loaded from a file or another source.
     Media { kind: InputKind, media: Media },
-    /// A device of the machine.
+    /// A hardware device.
     Device(InputKind),
 }
 
-/// A kind of input. What is known of each stands in its [`InputRow`].
+/// A kind of input. Its properties are in its [`InputRow`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum InputKind {
     Buffer,
@@ -39,41 +39,41 @@ pub enum InputSource {
     Device,
 }
 
-/// Everything that is known of a kind of input.
+/// The properties of a kind of input.
 #[derive(Debug)]
 pub struct InputRow {
     pub kind: InputKind,
     pub source: InputSource,
-    /// The name for people; of passes and image files, whose own names say enough, a general one.
+    /// The name for users; a general one for passes and image files, whose own names are specific enough.
     pub title: &'static str,
-    /// Stands for it where there is no small picture.
+    /// The glyph that is shown if there is no thumbnail.
     pub glyph: &'static str,
-    /// The key of a channel in `eddy.toml`; of media also the value of `kind`.
+    /// The key of a channel in `eddy.toml`; for media also the value of `kind`.
     pub key: &'static str,
-    /// The type in the site's JSON.
+    /// The type in Shadertoy's JSON.
     pub json_type: &'static str,
-    /// Shadertoy has it.
+    /// True if Shadertoy has it.
     pub is_on_shadertoy: bool,
-    /// The type there of media that are streamed from another site.
+    /// The type in that JSON of media that are streamed from another site.
     pub json_stream_type: Option<&'static str>,
-    /// The id and the path that the site's JSON has for the only input of this kind.
+    /// The id and the path in Shadertoy's JSON if there is only one input of this kind.
     pub json_id: Option<(&'static str, &'static str)>,
-    /// The word of an `#iChannel` line. Buffers and files are named there by their own names.
+    /// The word in an `#iChannel` line. Buffers and files are named there by their own names.
     pub directive: Option<&'static str>,
     pub dimension: Dimension,
     /// The sampler of a new channel.
     pub sampler: Sampler,
-    /// It is always read by [`InputRow::sampler`], whatever is stored.
+    /// True if [`InputRow::sampler`] is always used, whatever is stored.
     pub has_fixed_sampler: bool,
-    /// [`Sampler::vflip`] means something.
+    /// True if [`Sampler::vflip`] has an effect.
     pub has_vflip: bool,
-    /// Files that one of media is made of, none for others.
+    /// The number of files that form one input, 0 if it is not from files.
     pub files: usize,
 }
 
 const LINEAR_CLAMP: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
 
-/// A row to start from: a single 2D picture that Eddy reads.
+/// A base row: a single 2D picture that Eddy reads.
 const PICTURE: InputRow = InputRow {
     kind: InputKind::Texture,
     source: InputSource::Media,
@@ -91,12 +91,12 @@ const PICTURE: InputRow = InputRow {
     has_vflip: true,
     files: 1,
 };
-/// The same of a pass.
+/// The base row of a pass.
 const PASS: InputRow = InputRow { source: InputSource::Pass, has_vflip: false, files: 0, ..PICTURE };
-/// The same of a device.
+/// The base row of a device.
 const DEVICE: InputRow = InputRow { source: InputSource::Device, files: 0, ..PICTURE };
 
-/// Every kind, in the order in which messages list them and in which [`InputKind`] has them.
+/// Every kind, in the order of [`InputKind`], in which messages list them.
 static ROWS: [InputRow; 11] = [
     InputRow {
         kind: InputKind::Buffer,
@@ -213,18 +213,18 @@ impl InputKind {
         &ROWS[self as usize]
     }
 
-    /// Returns whether a sound pass has it as Shadertoy does: what is there before anything is drawn. A volume only has
-    /// a size there, as its channel is declared as a `sampler2D`.
+    /// Returns whether a sound pass can read it, as on Shadertoy: inputs that exist before anything is drawn. Of a
+    /// volume it can only read the size, as its channel is declared as a `sampler2D`.
     pub fn is_in_sound(self) -> bool {
         matches!(self, InputKind::Texture | InputKind::Cubemap | InputKind::Volume)
     }
 
-    /// Returns the kind whose row is as asked.
+    /// Returns the first kind whose row satisfies the predicate.
     pub(crate) fn find(is_it: impl Fn(&InputRow) -> bool) -> Option<InputKind> {
         ROWS.iter().find(|row| is_it(row)).map(|row| row.kind)
     }
 
-    /// Returns the input of this kind that has no name of its own: a device, or the cubemap pass.
+    /// Returns the input of this kind if it needs no name: a device, or the cubemap pass.
     pub(crate) fn unnamed(self) -> Option<Input> {
         match self.row().source {
             InputSource::Device => Some(Input::Device(self)),
@@ -264,12 +264,12 @@ impl Input {
         }
     }
 
-    /// Returns what is known of its kind.
+    /// Returns the row of its kind.
     pub fn row(&self) -> &'static InputRow {
         self.kind().row()
     }
 
-    /// Returns what is read from outside the passes.
+    /// Returns the media that it reads, if it is not a pass or a device.
     pub fn media(&self) -> Option<&Media> {
         match self {
             Input::Media { media, .. } => Some(media),
@@ -284,7 +284,7 @@ impl Input {
         }
     }
 
-    /// The pass that is read, and which of its targets.
+    /// The pass that it reads, and the index of the target.
     pub fn target(&self) -> Option<(&PassName, usize)> {
         match self {
             Input::Pass { id, target } => Some((id, *target)),
@@ -312,7 +312,7 @@ mod tests {
         Project::new("p", vec![Pass { bindings, ..Pass::new(PassName::image(), source) }], Origin::Unsaved)
     }
 
-    /// An input of a kind.
+    /// An input of each kind, for tests.
     fn example(row: &InputRow) -> Input {
         let media = Media::File("a.bin".into());
         match row.source {
@@ -326,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn a_row_is_found_by_its_kind_and_says_everything() {
+    fn rows_are_complete_and_found_by_their_kind() {
         for (index, row) in ROWS.iter().enumerate() {
             assert_eq!((row.kind as usize, row.kind.row().key, example(row).kind()), (index, row.key, row.kind));
             assert!(![row.title, row.glyph, row.key, row.json_type].contains(&""), "{row:?}");
@@ -336,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn every_kind_goes_through_every_form_of_a_project() {
+    fn every_kind_round_trips_through_every_form_of_a_project() {
         let files = BTreeMap::from([("image.glsl".to_owned(), Vec::new())]);
         for row in &ROWS {
             let channel = Channel::new(example(row));

@@ -1,24 +1,24 @@
-//! Comments that ask to see a value: `//@print EXPR`. The site and every other tool reads them as comments.
+//! Comments that inspect a value: `//@print EXPR`. Shadertoy and other tools treat them as ordinary comments.
 
 use std::ops::Range;
 
-/// A comment that asks for something, as `//@print dist` does.
+/// A comment that requests an inspection, such as `//@print dist`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InspectComment<'t> {
-    /// The word that says what is asked for: `print`.
+    /// The kind of request: `print`.
     pub kind: &'t str,
-    /// The text behind that word, without blanks around it and without a semicolon.
+    /// The text after that word, without surrounding blanks and semicolon.
     pub argument: &'t str,
-    /// The bytes of the argument.
+    /// The byte range of the argument.
     pub range: Range<usize>,
-    /// The place where the comment begins: what stands before it has happened when it is its turn.
+    /// The offset at which the comment starts: the code before it has been executed when it is evaluated.
     pub at: usize,
-    /// The line, from 0.
+    /// The line, counted from 0.
     pub line: usize,
 }
 
-/// The comments of a text that ask for something, in its order. Block comments are not among them, nor what stands in
-/// one; neither are those without an argument.
+/// The inspection comments of a text, in source order. Block comments and their contents are ignored; so are comments
+/// without an argument.
 pub fn inspect_comments(text: &str) -> Vec<InspectComment<'_>> {
     let mut found = Vec::new();
     let mut at = 0;
@@ -49,7 +49,7 @@ fn one(text: &str, at: usize, end: usize, line: usize) -> Option<InspectComment<
     if kind.is_empty() || argument.is_empty() || !is_apart {
         return None;
     }
-    // Both are parts of one text.
+    // Both are slices of one text.
     let start = argument.as_ptr() as usize - text.as_ptr() as usize;
     Some(InspectComment { kind, argument, range: start..start + argument.len(), at, line })
 }
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_asked_for_is_found_with_its_place() {
+    fn requests_are_found_with_their_range() {
         let text = "float d = map(p); //@print d\n/* //@print x */\n  // @print  vec2(d, 1.) ;\r\n//@probe sum(a.x)\n";
         let listed: Vec<_> =
             inspect_comments(text).into_iter().map(|c| (c.kind, c.argument, c.line, &text[c.range], c.at)).collect();
@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn other_comments_ask_for_nothing() {
+    fn other_comments_are_ignored() {
         for text in ["// print d", "//@print", "//@print ;", "// by a@print d", "//@print(d)", "a / b", "/*", "//", "/"]
         {
             assert_eq!(inspect_comments(text), [], "{text}");

@@ -1,10 +1,10 @@
-//! Counts the values of a JSON text before they are made: two bytes of a text can be hundreds in memory.
+//! Counts the values of a JSON text before they are allocated: two bytes of text can take hundreds in memory.
 
-/// Values inside one another that are read: serde_json's own limit.
+/// The limit for nested values, which is serde_json's own.
 const DEPTH: u32 = 128;
 
-/// Returns what is wrong with a JSON text that has more than `most` values, or too many inside one another. Texts that are not
-/// JSON pass: their reader says so.
+/// Returns an error for a JSON text that has more than `most` values, or nests them too deeply. Texts that are not JSON
+/// pass: their parser reports them.
 pub fn check_json_values(text: &str, most: u64) -> Result<(), String> {
     let (mut values, mut depth) = (1u64, 0u32);
     let (mut is_string, mut is_escaped) = (false, false);
@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_and_depth_are_counted_outside_of_strings() {
+    fn values_and_depth_are_counted_outside_strings() {
         assert_eq!(check_json_values(r#"{"a":[1,2,"],[,\"{"],"b":3}"#, 6), Ok(()));
         assert!(check_json_values(r#"{"a":[1,2,3],"b":3}"#, 5).unwrap_err().contains("more than 5 values"));
         assert!(check_json_values(&"[".repeat(1 << 20), 1 << 21).unwrap_err().contains("128 lists and objects"));

@@ -1,7 +1,7 @@
 //! A project is what the author wrote, as pure data, with its forms on disk.
 //!
-//! Owns [`Project`], `eddy.toml`, folders of GLSL files, Shadertoy JSON in and out, the presets inside the binary.
-//! Knows nothing of wgpu or naga; reads files only where a caller names them.
+//! Owns [`Project`], `eddy.toml`, folders of GLSL files, import and export of Shadertoy JSON, and the presets inside
+//! the binary. Does not depend on wgpu or naga; reads files only where a caller names them.
 
 mod advice;
 mod atomic;

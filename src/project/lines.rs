@@ -1,19 +1,19 @@
-//! Lines of a GLSL text that begin with `#`, as Eddy's own directives do. Knows comments and lines that a backslash
-//! joins, and neither macros nor conditionals.
+//! Lines of a GLSL text that start with `#`, like Eddy's own directives. Handles comments and lines joined by a
+//! backslash, but neither macros nor conditionals.
 
 use std::ops::Range;
 
-/// One line that begins with `#`, outside comments.
+/// One line that starts with `#`, outside comments.
 pub(super) struct HashLine<'a> {
-    /// The whole line without its line break. With a `\` at its end, it goes on in the next one.
+    /// The whole line without its line break. A `\` at its end continues it on the next line.
     pub range: Range<usize>,
-    /// The text behind `#`, without blanks around it.
+    /// The text after `#`, trimmed.
     pub body: &'a str,
     /// The offset of `body` in the text.
     pub body_at: usize,
 }
 
-/// Lines whose first character that is neither blank nor comment is `#`.
+/// The lines whose first character that is neither blank nor comment is `#`.
 pub(super) fn hash_lines(text: &str) -> Vec<HashLine<'_>> {
     let mut lines = Vec::new();
     let mut in_comment = false;
@@ -22,8 +22,8 @@ pub(super) fn hash_lines(text: &str) -> Vec<HashLine<'_>> {
     let mut comment_begin = Mark::new(text, "/*");
     let mut comment_end = Mark::new(text, "*/");
     loop {
-        // Texts may be long, and few lines matter: those with a `#`, and up to the last of them those where a comment
-        // begins or ends.
+        // Texts may be long, and few lines matter: those with a `#`, and before the last of them those in which a
+        // comment starts or ends.
         let next = match in_comment {
             true => comment_end.from(start),
             false => hash.from(start).map(|hash| comment_begin.from(start).map_or(hash, |begin| begin.min(hash))),
@@ -49,7 +49,7 @@ pub(super) fn hash_lines(text: &str) -> Vec<HashLine<'_>> {
                 if first.is_none() && !c.is_whitespace() && c != '\u{feff}' && !is_joint {
                     first = Some((rest, c));
                 }
-                // A quoted "file://…" is no comment. GLSL proper has no strings, so this touches directives only.
+                // A quoted "file://…" is not a comment. GLSL has no strings, so this affects only directives.
                 let closing =
                     (c == '"' && matches!(first, Some((_, '#')))).then(|| content[rest + 1..].find('"')).flatten();
                 rest += closing.map_or(c.len_utf8(), |i| i + 2);
@@ -65,13 +65,13 @@ pub(super) fn hash_lines(text: &str) -> Vec<HashLine<'_>> {
     lines
 }
 
-/// Returns what follows a `\` at the end of a line, which the text begins with (section 3.1: the two lines are one).
+/// Returns the text after a leading line continuation, a `\` at the end of a line (section 3.1: the two lines are one).
 fn after_joint(text: &str) -> Option<&str> {
     let rest = text.strip_prefix('\\')?;
     rest.strip_prefix('\n').or_else(|| rest.strip_prefix("\r\n"))
 }
 
-/// Returns a text without the blanks that it begins with; a `\` at the end of a line is one.
+/// Returns a text without leading blanks; a line continuation counts as a blank.
 pub(super) fn trim_start(text: &str) -> &str {
     let mut rest = text.trim_start();
     while let Some(after) = after_joint(rest) {
@@ -80,8 +80,8 @@ pub(super) fn trim_start(text: &str) -> &str {
     rest
 }
 
-/// Returns where the line begins in which `at` lies, with the lines that are joined to it. It is not before `least`,
-/// where a line begins.
+/// Returns the start of the line that contains `at`, including the lines joined to it. It is not before `least`, which
+/// is the start of a line.
 fn line_begin(text: &str, least: usize, at: usize) -> usize {
     let mut begin = at;
     loop {
@@ -95,7 +95,7 @@ fn line_begin(text: &str, least: usize, at: usize) -> usize {
     }
 }
 
-/// Returns the length of the line that a text begins with, its line break counted, and of those that are joined to it.
+/// Returns the length of a text's first line with its line break, including the lines joined to it.
 fn line_len(text: &str) -> usize {
     let mut len = 0;
     for line in text.split_inclusive('\n') {
@@ -107,10 +107,10 @@ fn line_len(text: &str) -> usize {
     len
 }
 
-/// The next place of a word in a text that is read from its begin to its end.
+/// An iterator over the offsets of a word in a text that is scanned from start to end.
 struct Mark<'t> {
     places: memchr::memmem::FindIter<'t, 'static>,
-    /// The newest found.
+    /// The last match.
     at: Option<usize>,
 }
 
@@ -121,7 +121,7 @@ impl<'t> Mark<'t> {
         Self { places, at }
     }
 
-    /// Returns the first place that is not before `start`, which only grows from call to call.
+    /// Returns the first match at or after `start`, which never decreases from call to call.
     fn from(&mut self, start: usize) -> Option<usize> {
         while self.at.is_some_and(|at| at < start) {
             self.at = self.places.next();
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_begin_with_a_hash_where_comments_are_left_out() {
+    fn hash_lines_are_found_outside_comments() {
         assert_eq!(bodies(""), [""; 0]);
         assert_eq!(bodies("a # b\n x"), [""; 0]);
         assert_eq!(bodies("#a\n  # b  \r\nx\n/* c */ # d\n#e"), ["a", "b", "d", "e"]);
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn places_are_those_of_the_text() {
+    fn ranges_refer_to_the_text() {
         let text = "float x;\n/*\n*/  #  a b \r\n#";
         let lines = hash_lines(text);
         assert_eq!(&text[lines[0].range.clone()], "*/  #  a b ");

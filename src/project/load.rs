@@ -1,4 +1,4 @@
-//! Files become a [`Project`].
+//! Loads files as a [`Project`].
 
 use super::{
     Origin, Pass, PassName, Project, ProjectError, Source,
@@ -26,7 +26,7 @@ pub(super) fn load_folder(path: &Path) -> Result<Loaded, ProjectError> {
     of_folder(path, &Files::on_disk(path))
 }
 
-/// A folder with texts of an editor in place of what is on disk. Nothing in it is removed.
+/// Loads a folder; texts of an editor override its files. Removes nothing from it.
 pub(super) fn load_edited_folder(path: &Path, edited: &EditedTexts) -> Result<Loaded, ProjectError> {
     of_folder(path, &Files::edited(path, edited))
 }
@@ -37,7 +37,7 @@ fn of_folder(path: &Path, files: &Files<'_>) -> Result<Loaded, ProjectError> {
     load_files(&path.display().to_string(), folder_name(path), files, origin)
 }
 
-/// A folder on disk or in the binary. `what` names it in errors.
+/// Loads a folder on disk or in the binary. `what` names it in errors.
 pub(super) fn load_files(what: &str, name: String, files: &Files<'_>, origin: Origin) -> Result<Loaded, ProjectError> {
     let manifest_text = match files.read(MANIFEST, limits::MANIFEST) {
         Read::Refused(error) => return Err(error.into()),
@@ -74,7 +74,7 @@ fn by_convention(what: &str, name: String, files: &Files<'_>, origin: Origin) ->
             }
             Read::Text(text) => texts.push(Source { path: files.path(&file), name: file, text: text.into() }),
             Read::NotUtf8(at, lossy) => diagnostics.push(files::not_utf8(&mut sources, &file, at, lossy)),
-            // Removed between the listing and the reading: not there, then.
+            // Removed between the listing and the reading: treat it as missing.
             Read::Missing => {}
         }
     }
@@ -87,7 +87,7 @@ fn by_convention(what: &str, name: String, files: &Files<'_>, origin: Origin) ->
     Ok(Loaded { sources: project.sources(), project, warnings })
 }
 
-/// The project of one GLSL file, whatever lines in it say of other files.
+/// Loads the project of one GLSL file, ignoring the files that lines in it name.
 pub(super) fn load_glsl_alone(path: &Path) -> Result<Loaded, ProjectError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let text = read_text(path, &name, limits::GLSL_TEXT)?;
@@ -123,7 +123,7 @@ pub(super) fn load_glsl(path: &Path, edited: &EditedTexts) -> Result<Loaded, Pro
     finish(&what, Loaded { sources: project.sources(), project, warnings })
 }
 
-/// A file of the site's JSON. `wanted`: which shader of several, as [`json::import_one`] takes it.
+/// Loads a Shadertoy JSON file. `wanted` selects one of several shaders, as in [`json::import_one`].
 pub(super) fn load_json(path: &Path, wanted: Option<&str>) -> Result<Loaded, ProjectError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -137,7 +137,7 @@ pub(super) fn load_json(path: &Path, wanted: Option<&str>) -> Result<Loaded, Pro
         project.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     }
     project.origin = Origin::Json(match wanted {
-        // So it is found again.
+        // So that it can be opened again.
         Some(wanted) => json::one_of(path, wanted),
         None => path.to_owned(),
     });
@@ -145,7 +145,7 @@ pub(super) fn load_json(path: &Path, wanted: Option<&str>) -> Result<Loaded, Pro
     Ok(Loaded { sources: project.sources(), project, warnings })
 }
 
-/// The text of a project that is one file. Its folder is the file's own.
+/// Reads the text of a project that is one file. Its folder is the file's own.
 fn read_text(path: &Path, name: &str, limit: Limit) -> Result<String, ProjectError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     text_of(path, name, confine::read(folder, name, limit)?)
@@ -163,7 +163,7 @@ fn text_of(path: &Path, name: &str, bytes: Vec<u8>) -> Result<String, ProjectErr
     }
 }
 
-/// Turns errors among the diagnostics into a refusal.
+/// Fails if there are errors among the diagnostics.
 fn finish(what: &str, loaded: Loaded) -> Result<Loaded, ProjectError> {
     if loaded.warnings.iter().any(Diagnostic::is_error) {
         let Loaded { warnings: diagnostics, sources, .. } = loaded;
@@ -172,12 +172,12 @@ fn finish(what: &str, loaded: Loaded) -> Result<Loaded, ProjectError> {
     Ok(loaded)
 }
 
-/// A project and what there is to say of it.
+/// A project and the diagnostics about it.
 #[derive(Debug)]
 pub struct Loaded {
     pub project: Project,
-    /// Warnings and notes, never an error.
+    /// Warnings and notes, never errors.
     pub warnings: Vec<Diagnostic>,
-    /// [`Project::sources`], and after them the files that `warnings` point into besides.
+    /// [`Project::sources`], followed by the other files that `warnings` point into.
     pub sources: SourceMap,
 }

@@ -1,4 +1,4 @@
-//! The files that one name in a project stands for: the faces of a cubemap, the slices of a volume, the images of a
+//! The files that one name in a project includes: the faces of a cubemap, the slices of a volume, the images of a
 //! sequence.
 
 use super::{FileKind, InputKind, confine, kind_of_file, limits};
@@ -7,7 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Returns the name after one that ends in digits: `brain_010.png` after `brain_009.png`.
+/// Returns the next name in a numbered sequence: `brain_010.png` after `brain_009.png`.
 pub fn next_numbered(path: &Path) -> Option<PathBuf> {
     let stem = path.file_stem()?.to_str()?;
     let digits = stem.len() - stem.trim_end_matches(|c: char| c.is_ascii_digit()).len();
@@ -16,7 +16,7 @@ pub fn next_numbered(path: &Path) -> Option<PathBuf> {
     Some(with_stem(path, format!("{prefix}{next:0digits$}").into()))
 }
 
-/// Returns the file of face `n` (1 to 5) of a cubemap of six files: the first one's name with `_1` to `_5` before the
+/// Returns the file of face `n` (1 to 5) of a cubemap of six files: the first file's name with `_1` to `_5` before the
 /// extension for -X, +Y, -Y, +Z and -Z. The first one is +X.
 pub fn face_file(path: &Path, n: usize) -> PathBuf {
     let mut stem = path.file_stem().unwrap_or_default().to_owned();
@@ -32,8 +32,7 @@ fn with_stem(path: &Path, mut name: OsString) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// Returns the files of the folder `base` that belong to `first`, the file that a channel of this kind names, without
-/// that file itself.
+/// Returns the other files in the folder `base` that belong to `first`, the file that a channel of this kind names.
 pub(super) fn companions(base: &Path, first: &str, kind: InputKind) -> Vec<String> {
     let is_there = |name: &str| confine::resolve(base, name).is_ok();
     let text = |path: PathBuf| path.to_str().and_then(|name| confine::relative("", name).ok());
@@ -57,7 +56,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_count_up_with_the_digits_they_have() {
+    fn numbered_names_are_incremented() {
         let next = |name: &str| next_numbered(Path::new(name)).map(|path| path.display().to_string());
         assert_eq!(next("a/brain_009.png").as_deref(), Some("a/brain_010.png"));
         assert_eq!(next("99.png").as_deref(), Some("100.png"));
@@ -66,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn a_channel_has_the_files_that_its_kind_reads() {
+    fn a_channel_has_the_files_of_its_kind() {
         let dir = tempfile::tempdir().unwrap();
         for name in ["s.png", "s_1.png", "s_2.png", "s_4.png", "w/1.png", "w/2.png", "w/4.png", "c1.mp4", "c2.mp4"] {
             std::fs::create_dir_all(dir.path().join("w")).unwrap();

@@ -7,52 +7,52 @@ use super::{
 use eddy_texture::{Dimension, Face, TexelFormat};
 use std::{borrow::Cow, collections::BTreeSet, path::PathBuf};
 
-/// All that the author wrote: enough to compile, plan and draw, and to write it back unchanged.
+/// Everything the author wrote: enough to compile, plan and draw, and to write it back unchanged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Project {
-    /// Shown in the title bar and the gallery; never empty.
+    /// The title in the title bar and the gallery; never empty.
     pub name: String,
     pub info: Info,
     pub dialect: Dialect,
-    /// Text put before every pass's own.
+    /// The text that precedes every pass's own.
     pub common: Option<Source>,
-    /// Buffers in the order they are drawn each frame, then the cubemap pass, then Image. (Sound passes lie here too
-    /// and are not drawn.) Exactly one Image.
+    /// Buffers in drawing order, then the cubemap pass, then Image. (Sound passes are in this list too, but are not
+    /// drawn.) Exactly one Image.
     pub passes: Vec<Pass>,
     pub sampler_rules: SamplerRules,
-    /// Passes drawn several times a frame; those in none are drawn once.
+    /// Passes that are drawn several times a frame; passes outside a group are drawn once.
     pub groups: Vec<Group>,
-    /// Values of the author's own uniforms by name: of [`Project::custom_uniforms`] those that differ from the default,
-    /// and those of uniforms that a text declares in GLSL's own way.
+    /// Values of the author's own uniforms by name: those of [`Project::custom_uniforms`] that differ from the default,
+    /// and those of uniforms that a text declares in plain GLSL.
     pub custom_uniform_values: CustomUniformValues,
     /// Controls of MIDI and OSC devices that move uniforms.
     pub controls: ControlBindings,
-    /// Files that the texts have in them, as [`Project::read_includes`] last found them.
+    /// The files that the texts include, as [`Project::read_includes`] last found them.
     pub includes: Vec<Included>,
     pub origin: Origin,
 }
 
-/// The part of the site's JSON that says more of a shader than its passes. It is kept so that an export gives back what
-/// an import took.
+/// The members of Shadertoy's JSON that describe a shader besides its passes. They are kept so that an export preserves
+/// what was imported.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Info {
     pub id: String,
     pub author: String,
     pub description: String,
     pub tags: Vec<String>,
-    /// Seconds after which the picture is the same again. In `eddy.toml` alone.
+    /// The period in seconds after which the picture repeats. Only in `eddy.toml`.
     pub period: Option<f64>,
     /// Every other member of the JSON's `info` object, as read.
     pub extra: serde_json::Map<String, serde_json::Value>,
 }
 
-/// The place that a project was read from, and that saving writes to.
+/// The location that a project was read from, and that saving writes to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Origin {
-    /// Nowhere yet: new, or a copy of something that is not written in place.
+    /// Not on disk: new, or a copy of a project that is not written in place.
     #[default]
     Unsaved,
-    /// A preset inside the binary. Editing one edits a copy; saving asks where to.
+    /// A preset inside the binary. Edits apply to a copy; saving asks for a destination.
     Preset(String),
     /// A folder with `eddy.toml`, or with GLSL files named by convention.
     Folder { path: PathBuf, has_manifest: bool },
@@ -74,7 +74,7 @@ pub struct Pass {
 }
 
 impl Pass {
-    /// Returns a pass that reads nothing and is drawn as on the site.
+    /// Returns a pass without inputs that is drawn as on Shadertoy.
     pub fn new(id: PassName, source: Source) -> Pass {
         Pass { id, source, bindings: Default::default(), settings: Default::default(), body: Body::Screen }
     }
@@ -90,7 +90,7 @@ impl Pass {
         if self.settings.size == PassSize::Canvas { self.id.row().size } else { self.settings.size }
     }
 
-    /// Returns how many pictures it draws: its targets, or the faces of a cubemap.
+    /// Returns the number of pictures that it draws: its targets, or the faces of a cubemap.
     pub fn layers(&self) -> usize {
         match self.id.row().target {
             Some(Dimension::Cube) => Face::ALL.len(),
@@ -98,8 +98,8 @@ impl Pass {
         }
     }
 
-    /// Returns what tells picture `index` from the pass's others: the number of a target, the name of a face; empty for
-    /// one alone.
+    /// Returns the label that distinguishes picture `index` from the pass's others: the number of a target, the name of
+    /// a face; empty if there is only one.
     pub fn layer_name(&self, index: usize) -> String {
         match (self.id.row().target, self.layers()) {
             (Some(Dimension::Cube), _) => Face::ALL.get(index).map_or_else(String::new, |face| face.name().to_owned()),
@@ -117,12 +117,12 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// A channel as it is made new: with the sampler that its kind of input has on the site.
+    /// Creates a channel with the default sampler of its kind of input on Shadertoy.
     pub fn new(input: Input) -> Channel {
         Channel { sampler: input.row().sampler, input }
     }
 
-    /// Returns the sampler that a channel of no buffer is read by.
+    /// Returns the sampler of a channel that does not read a buffer.
     pub fn sampler(&self) -> Sampler {
         let row = self.input.row();
         if row.has_fixed_sampler { row.sampler } else { self.sampler }
@@ -132,34 +132,33 @@ impl Channel {
 /// The source of a picture, volume or sound.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Media {
-    /// One of Eddy's own, by name (`noise-rgba-256`): see `media::builtin`.
+    /// A built-in one, by name (`noise-rgba-256`): see `media::builtin`.
     Builtin(String),
     /// A file of the project, relative to its folder: see [`super::confine`].
     File(PathBuf),
-    /// A file that the person at the machine picked, wherever it lies, by its whole path. Lives in memory alone: saving
-    /// copies the file into the project's folder and makes a [`Media::File`] of it, and nothing that is read from a
-    /// project is one.
+    /// A file that the user picked, by its absolute path, wherever it is. Exists in memory only: saving copies the file
+    /// into the project's folder and replaces this by a [`Media::File`], and loading a project never creates one.
     Picked(PathBuf),
-    /// A texture of the site. Stands for a built-in of the same size and kind, or a file of that name in
+    /// A texture of Shadertoy's. Replaced by a built-in one of the same size and kind, or by a file of that name in
     /// `--media`.
     Site { id: String, path: String },
 }
 
-/// Says how texels are read between and beyond texel centres.
+/// The interpolation between texels, and the addressing beyond the edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Sampler {
     pub filter: Filter,
     pub wrap: Wrap,
-    /// The picture's top row lies at v = 1. Means something for pictures, cubemaps and video only.
+    /// True if the picture's top row is at v = 1. Only affects pictures, cubemaps and video.
     pub vflip: bool,
 }
 
 impl Sampler {
-    /// The sampler of a new channel that reads a buffer on the site.
+    /// Shadertoy's sampler for a new channel that reads a buffer.
     pub const BUFFER: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
-    /// The sampler of a new channel that reads a picture on the site.
+    /// Shadertoy's sampler for a new channel that reads a picture.
     pub const TEXTURE: Sampler = Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: true };
-    /// The keyboard is always read so, whatever is stored.
+    /// The sampler of the keyboard, whatever is stored.
     pub const KEYBOARD: Sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true };
 }
 
@@ -168,7 +167,7 @@ pub enum Filter {
     Nearest,
     #[default]
     Linear,
-    /// Linear, between mip levels too.
+    /// Linear within and between mip levels.
     Mipmap,
 }
 
@@ -179,19 +178,19 @@ pub enum Wrap {
     Repeat,
 }
 
-/// Says whose samplers count when several channels read one buffer.
+/// The rule for several channels that read one buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SamplerRules {
     /// Every channel has its own (`eddy.toml`, and GLSL files without one).
     #[default]
     PerChannel,
-    /// The site's rules, for projects read from its JSON: the filter belongs to the buffer while a pass draws (the
-    /// pass's last channel wins), the wrap to the buffer for good (the last channel of the whole project wins).
+    /// Shadertoy's rules, for projects read from its JSON: the filter belongs to the buffer while a pass draws (the
+    /// pass's last channel wins), the wrap mode to the buffer permanently (the last channel of the whole project wins).
     Site,
 }
 
 impl Origin {
-    /// The folder that relative media paths start from; `None` where there is none on disk.
+    /// The folder that relative media paths start from; `None` if it is not on disk.
     pub fn base_dir(&self) -> Option<&std::path::Path> {
         match self {
             Origin::Unsaved | Origin::Preset(_) => None,
@@ -201,22 +200,22 @@ impl Origin {
     }
 }
 
-/// Returns what [`super::load`] is given to read a file as a shader of this dialect. Other dialects than Ghostty's are
-/// known by the text.
+/// Returns the argument of [`super::load`] that reads a file as a shader of this dialect. Dialects other than Ghostty's
+/// are recognised by the text.
 pub fn spec_of(path: &std::path::Path, dialect: Dialect) -> String {
     let prefix = if dialect == Dialect::Ghostty { ghostty::PREFIX } else { "" };
     format!("{prefix}{}", path.display())
 }
 
 impl Project {
-    /// Returns whether `#iChannel` lines of the texts say what channels read. An `eddy.toml`, the site's JSON, a preset,
-    /// another dialect and the window say it otherwise.
+    /// Returns whether `#iChannel` lines of the texts declare the inputs of channels. For an `eddy.toml`, Shadertoy's
+    /// JSON, a preset, another dialect and the window, they are declared elsewhere.
     pub fn has_channels_in_texts(&self) -> bool {
         let origin = matches!(self.origin, Origin::File(_) | Origin::Folder { has_manifest: false, .. });
         origin && self.dialect == Dialect::Shadertoy
     }
 
-    /// Returns what [`super::load`] is given to read the project of a file or folder again.
+    /// Returns the argument of [`super::load`] that reads the project of a file or folder again.
     pub fn spec(&self) -> Option<String> {
         match &self.origin {
             Origin::Unsaved | Origin::Preset(_) => None,
@@ -225,8 +224,8 @@ impl Project {
         }
     }
 
-    /// Returns the passes of which one reads what the last frame left in them, itself or one that is drawn before it:
-    /// the project's state. A project without any draws the same picture at a time, whatever it drew before.
+    /// Returns the passes whose previous frame some pass reads, itself or one that is drawn before it: the project's
+    /// state. A project without any draws the same picture at a given time, whatever it drew before.
     pub fn stateful_passes(&self) -> BTreeSet<PassName> {
         let passes = &self.passes;
         let read = |index: usize| {
@@ -235,12 +234,12 @@ impl Project {
                 passes.iter().position(|p| p.id == *id)
             })
         };
-        // A pass that is drawn later still holds the last frame.
+        // A pass that is drawn later still contains the previous frame.
         let pairs = (0..passes.len()).flat_map(|index| read(index).filter(move |of| *of >= index));
         pairs.map(|of| passes[of].id.clone()).collect()
     }
 
-    /// Returns a project of these passes alone.
+    /// Returns a project with only these passes.
     pub fn new(name: impl Into<String>, passes: Vec<Pass>, origin: Origin) -> Project {
         Project {
             name: name.into(),
@@ -257,7 +256,7 @@ impl Project {
         }
     }
 
-    /// Returns a project of one Image pass that is nowhere on disk.
+    /// Returns a project of one Image pass that is not on disk.
     pub fn of_image(name: String, text: String) -> Project {
         let id = PassName::image();
         let source = Source { name: id.title(), path: None, text: text.into() };
@@ -278,13 +277,13 @@ impl Project {
         self.passes.iter().position(|p| p.id.is_image())
     }
 
-    /// The pass that is heard.
+    /// The pass that produces sound.
     pub fn sound(&self) -> Option<&Pass> {
         self.passes.iter().find(|p| p.id.is_sound())
     }
 
-    /// Returns Image and `shown`, each once: what is drawn while `shown` is looked at. A pass that the project lacks is left
-    /// out.
+    /// Returns Image and `shown`, without duplicates: the passes to draw while `shown` is displayed. A pass that the
+    /// project lacks is omitted.
     pub fn image_and(&self, shown: &PassName) -> Vec<PassName> {
         let other = Some(shown).filter(|pass| !pass.is_image() && self.pass(pass).is_some());
         [PassName::image()].into_iter().chain(other.cloned()).collect()
@@ -294,7 +293,8 @@ impl Project {
         self.passes.iter().find(|p| p.id == *id)
     }
 
-    /// The pass of a name. Where the project lacks it, a pass with default settings and no text: channels read zeros of it.
+    /// The pass with a name. If the project lacks it, a pass with default settings and no text, which channels read as
+    /// zeros.
     pub fn pass_or_empty(&self, id: &PassName) -> Cow<'_, Pass> {
         let empty = || Pass::new(id.clone(), Source { name: id.title(), path: None, text: "".into() });
         self.pass(id).map_or_else(|| Cow::Owned(empty()), Cow::Borrowed)
@@ -305,14 +305,14 @@ impl Project {
     }
 }
 
-/// A text of the project as the editor shows it.
+/// A text of the project that the editor shows.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Tab {
     Common,
     Pass(PassName),
-    /// A stage of a geometry pass that lies in a file of its own, by the file's name.
+    /// A stage of a geometry pass that is in its own file, by the file's name.
     Stage(PassName, String),
-    /// A file that others include, by its path from the project's folder.
+    /// An included file, by its path from the project's folder.
     Included(String),
 }
 
@@ -363,14 +363,14 @@ impl Tab {
     }
 }
 
-/// The texts of a project. Their ids are given out in `source_ids`.
+/// The texts of a project. `source_ids` assigns their ids.
 impl Project {
-    /// Every stage that lies in a file of its own, with the index of its pass.
+    /// Every stage in its own file, with the index of its pass.
     pub fn stages(&self) -> impl Iterator<Item = (usize, &Source)> {
         self.passes.iter().enumerate().flat_map(|(index, pass)| pass.body.stages().iter().map(move |s| (index, s)))
     }
 
-    /// Every text that the project itself names: Common, the passes', the stages'. What these include is in
+    /// Every text that the project itself names: Common, the passes', the stages'. Files that these include are in
     /// [`Project::includes`].
     pub fn tab_sources(&self) -> impl Iterator<Item = &Source> {
         let passes = self.passes.iter().map(|p| &p.source);
@@ -386,8 +386,8 @@ impl Project {
         all
     }
 
-    /// Every text of the project, and behind them, once for each fill (see [`Project::fills`]) and for each condition
-    /// (see [`Project::conditions`]), the text it is written in.
+    /// Every text of the project, followed by the text that contains each fill (see [`Project::fills`]) and each
+    /// condition (see [`Project::conditions`]), once for each.
     pub fn sources(&self) -> eddy_diag::SourceMap {
         let mut map = self.texts();
         for (pass, kind, _) in self.fills() {
@@ -401,7 +401,7 @@ impl Project {
         map
     }
 
-    /// Returns the same as [`Project::sources`], GLSL alone.
+    /// Returns only the GLSL texts of [`Project::sources`].
     pub fn texts(&self) -> eddy_diag::SourceMap {
         let mut map = eddy_diag::SourceMap::default();
         match &self.common {
@@ -420,7 +420,7 @@ impl Project {
         map
     }
 
-    /// The included files that have a text.
+    /// The included files that could be read.
     fn readable_includes(&self) -> impl Iterator<Item = &Source> {
         self.includes.iter().filter(|i| i.trouble.is_none()).map(|i| &i.source)
     }
@@ -446,7 +446,7 @@ impl Project {
         }
     }
 
-    /// Returns the project with the edits of a fix made in its texts.
+    /// Returns the project after applying the edits of a fix to its texts.
     pub fn with_edits(&self, fix: &eddy_diag::Fix) -> Project {
         let mut edited = self.clone();
         let mut sources: Vec<_> = fix.edits.iter().map(|edit| edit.span.source).collect();
@@ -460,8 +460,8 @@ impl Project {
         edited
     }
 
-    /// Every tab there is: Common, then passes as they are drawn; a pass's stages behind it. Behind all of them come the
-    /// files that they include.
+    /// Every tab: Common, then passes in drawing order, each followed by its stages. The files that they include come
+    /// last.
     pub fn tabs(&self) -> Vec<Tab> {
         let mut ids: Vec<_> = self.passes.iter().map(|p| p.id.clone()).collect();
         ids.sort_by(PassName::drawing_order);
@@ -475,7 +475,8 @@ impl Project {
         tabs
     }
 
-    /// Returns the tab that an editor begins with: Image, or the file of an ISF project, as the texts of its passes are made.
+    /// Returns the editor's initial tab: Image, or the file of an ISF project, since the texts of its passes are
+    /// generated.
     pub fn main_tab(&self) -> Tab {
         let file = match (&self.origin, self.dialect) {
             (Origin::File(path), Dialect::Isf) => path.file_name(),

@@ -1,7 +1,7 @@
-//! Names people mistype: which known one they meant.
+//! Suggestions for mistyped names.
 
-/// The known name closest to `name`, unless all are too far away to be what was meant. Letter case and the difference
-/// between `-`, `_` and a space count for nothing.
+/// The known name closest to `name`, unless all are too different. Letter case and the difference between `-`, `_` and
+/// a space are ignored.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let fold = |s: &str| s.to_lowercase().replace(['-', ' '], "_");
     let name = fold(name);
@@ -11,7 +11,7 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .map(|k| {
             let folded = fold(k);
             let distance = strsim::osa_distance(&name, &folded);
-            // The start of a longer name ("noise" for "noise-rgba-256") is a fair guess too, but a worse one.
+            // The start of a longer name ("noise" for "noise-rgba-256") is a plausible guess too, but a worse one.
             let is_start = name.chars().count() >= 3 && folded.starts_with(&name);
             (if is_start { distance.min(allowed) } else { distance }, k)
         })
@@ -20,7 +20,7 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .map(|(_, k)| k)
 }
 
-/// Names in one line for a message: "a, b and c".
+/// Joins names for a message: "a, b and c".
 pub fn listed<S: AsRef<str>>(names: &[S]) -> String {
     match names {
         [] => String::new(),
@@ -37,7 +37,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nearest_finds_a_typo_and_nothing_where_nothing_is_near() {
+    fn nearest_finds_a_typo_but_no_distant_name() {
         let known = ["filter", "wrap", "vflip"];
         assert_eq!(nearest("fliter", known), Some("filter"));
         assert_eq!(nearest("Wrap", known), Some("wrap"));

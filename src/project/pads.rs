@@ -1,12 +1,13 @@
-//! Parts of a gamepad, as the standard gamepad of the W3C names and orders them (<https://www.w3.org/TR/gamepad/#remapping>).
+//! Parts of a gamepad, named and ordered as in the W3C's standard gamepad
+//! (<https://www.w3.org/TR/gamepad/#remapping>).
 
-/// Gamepads that are told apart.
+/// The number of gamepads that are distinguished.
 pub const PADS: usize = 4;
 
-/// The axes of both sticks. They go from -1 to 1, to the right and up.
+/// The axes of both sticks. They range from -1 to 1, to the right and up.
 pub const PAD_AXES: [&str; 4] = ["left-x", "left-y", "right-x", "right-y"];
 
-/// The buttons. Triggers go from 0 to 1, the others are 0 or 1.
+/// The buttons. Triggers range from 0 to 1, the others are 0 or 1.
 pub const PAD_BUTTONS: [&str; 17] = [
     "south",
     "east",
@@ -27,7 +28,7 @@ pub const PAD_BUTTONS: [&str; 17] = [
     "guide",
 ];
 
-/// A part of a gamepad that moves, by its place in [`PAD_AXES`] or [`PAD_BUTTONS`].
+/// An axis or a button of a gamepad, by its index in [`PAD_AXES`] or [`PAD_BUTTONS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PadPart {
     Axis(u8),
@@ -35,7 +36,7 @@ pub enum PadPart {
 }
 
 impl PadPart {
-    /// Returns the part of a name. `None`: there is no such part.
+    /// Returns the part with a name. `None` if there is no such part.
     pub fn parse(name: &str) -> Option<Self> {
         let place = |names: &[&str]| names.iter().position(|known| *known == name).map(|place| place as u8);
         place(&PAD_AXES).map(Self::Axis).or_else(|| place(&PAD_BUTTONS).map(Self::Button))
@@ -49,7 +50,7 @@ impl PadPart {
         name.copied().unwrap_or_default()
     }
 
-    /// Returns a position of it as a part of its way, from 0 to 1.
+    /// Returns a position normalized to the range of 0 to 1.
     pub fn part_of_way(self, value: f32) -> f64 {
         match self {
             Self::Axis(_) => f64::midpoint(f64::from(value), 1.0),

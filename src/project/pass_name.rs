@@ -4,12 +4,12 @@ use super::{Role, RoleRow, limits};
 use eddy_texture::Dimension;
 use std::{cmp::Ordering, fmt, sync::Arc};
 
-/// The name of a pass, unique in its project: channels, settings, files and commands refer to a pass by it. As in file
-/// names, the role is part of the name. Cheap to clone.
+/// The name of a pass, unique in its project: channels, settings, files and commands refer to a pass by it. It includes
+/// the role, as in file names. Cheap to clone.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct PassName {
     role: Role,
-    /// In the spelling of files' names.
+    /// The spelling in file names.
     key: Arc<str>,
 }
 
@@ -27,12 +27,12 @@ impl PassName {
         PassName::new(Role::Sound, "")
     }
 
-    /// A buffer: `A` to `D` as on the site, or any further name that a project gives.
+    /// A buffer: `A` to `D` as on Shadertoy, or any further name that a project chooses.
     pub fn buffer(name: impl AsRef<str>) -> PassName {
         PassName::new(Role::Buffer, name.as_ref())
     }
 
-    /// A pass of a role. `own` is what tells passes of this role apart; empty where a project has only one.
+    /// A pass of a role. `own` distinguishes the passes of this role; empty if a project has only one.
     pub(crate) fn new(role: Role, own: &str) -> PassName {
         PassName { role, key: format!("{}{}", role.row().key, own.to_lowercase()).into() }
     }
@@ -41,7 +41,7 @@ impl PassName {
         self.role
     }
 
-    /// Returns what is known of its role.
+    /// Returns the row of its role.
     pub fn row(&self) -> &'static RoleRow {
         self.role.row()
     }
@@ -61,8 +61,8 @@ impl PassName {
         self.is_buffer().then(|| self.own())
     }
 
-    /// The part of the name that tells passes of one role apart. A site buffer is one capital letter; further names are in
-    /// lower case, as file names fold case.
+    /// The part of the name that distinguishes passes of one role. A Shadertoy buffer is one capital letter; other
+    /// names are in lower case, as file names fold case.
     fn own(&self) -> &str {
         const LETTERS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
         let own = self.key.get(self.row().key.len()..).unwrap_or_default();
@@ -72,7 +72,7 @@ impl PassName {
         }
     }
 
-    /// Returns whether it is one of the project's buffers, which people add, name, order and remove.
+    /// Returns whether it is one of the project's buffers, which users add, name, order and remove.
     pub fn is_buffer(&self) -> bool {
         self.role == Role::Buffer
     }
@@ -82,7 +82,7 @@ impl PassName {
         self.role == Role::Image
     }
 
-    /// Returns whether it is heard, and drawn apart from frames.
+    /// Returns whether it is a sound pass, which is drawn separately from frames.
     pub fn is_sound(&self) -> bool {
         self.role == Role::Sound
     }
@@ -102,23 +102,23 @@ impl PassName {
         self.row().input.is_some()
     }
 
-    /// Compares by when in a frame passes are drawn. All buffers are equal: a stable sort leaves them in the project's
-    /// order, which an author chooses.
+    /// Compares by drawing order. All buffers are equal: a stable sort leaves them in the project's order, which the
+    /// author chooses.
     pub fn drawing_order(&self, other: &PassName) -> Ordering {
         self.row().order.cmp(&other.row().order)
     }
 
-    /// Compares by the places of tabs: as passes are drawn, buffers by name.
+    /// Compares by the order of tabs: drawing order, with buffers by name.
     pub fn tab_order(&self, other: &PassName) -> Ordering {
         self.drawing_order(other).then_with(|| self.cmp(other))
     }
 
-    /// The rule for buffers' names, as a message says it.
+    /// The rule for buffer names, for messages.
     pub const NAMES: &str = "use letters, digits, _, - and spaces, at most 64 of them";
 
-    /// Reads either spelling, without regard to case, spaces or underscores; a bare letter is a buffer. Names become
-    /// parts of files' names, so `None` for one with anything but letters, digits, blanks, `_` and `-`, or longer than
-    /// [`limits::NAME`].
+    /// Parses either spelling, ignoring case, spaces and underscores; a bare letter is a buffer. Names become parts of
+    /// file names, so this returns `None` for names with characters other than letters, digits, blanks, `_` and `-`, or
+    /// longer than [`limits::NAME`].
     pub fn parse(text: &str) -> Option<PassName> {
         if text.chars().nth(limits::NAME + "buffer_".len()).is_some() {
             return None;
@@ -131,8 +131,8 @@ impl PassName {
         PassName::is_name(name).then(|| PassName::buffer(name))
     }
 
-    /// The buffer that a person calls so: `glow`, `Buffer glow`, `Velocity field`. Names are kept without blanks, `_`
-    /// and `-`, and in lower case unless they are one letter.
+    /// The buffer with a name in user input: `glow`, `Buffer glow`, `Velocity field`. Names are stored without blanks,
+    /// `_` and `-`, and in lower case unless they are one letter.
     pub fn buffer_named(text: &str) -> Option<PassName> {
         let text = text.trim();
         let rest = text.split_once([' ', '_', '-']).filter(|(first, _)| first.eq_ignore_ascii_case("buffer"));
@@ -140,20 +140,20 @@ impl PassName {
         PassName::parse(&format!("buffer_{name}")).filter(PassName::is_buffer)
     }
 
-    /// Returns whether a buffer may be called so: letters and digits, not too many.
+    /// Returns whether a buffer may have this name: letters and digits, within the length limit.
     pub fn is_name(name: &str) -> bool {
         !name.is_empty() && name.chars().count() <= limits::NAME && name.chars().all(char::is_alphanumeric)
     }
 }
 
-/// Image, which is shown where no pass is asked for.
+/// Image, which is shown unless another pass is selected.
 impl Default for PassName {
     fn default() -> Self {
         PassName::image()
     }
 }
 
-/// Buffers by name, the site's letters first; then the passes of other roles.
+/// Buffers by name, Shadertoy's letters first; then the passes of other roles.
 impl Ord for PassName {
     fn cmp(&self, other: &Self) -> Ordering {
         self.role.cmp(&other.role).then_with(|| self.own().cmp(other.own()))
@@ -177,7 +177,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_buffer_may_be_called_what_another_pass_is() {
+    fn a_buffer_may_have_the_name_of_another_role() {
         let named = |text: &str| PassName::buffer_named(text).map(|id| id.title());
         let cases = [("glow", "glow"), ("Buffer glow", "glow"), ("b", "B"), ("Velocity Field", "velocityfield")];
         for (text, name) in cases.into_iter().chain([("image", "image"), ("bufx", "bufx"), ("buffer", "buffer")]) {
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_ordered_by_role_and_site_buffers_precede_named_ones() {
+    fn names_are_ordered_by_role_and_shadertoy_buffers_come_first() {
         let mut names: Vec<PassName> = ["image", "sound", "cube_a", "buffer_aa", "buffer_b", "buffer_1", "buffer_a"]
             .map(|k| PassName::parse(k).unwrap())
             .into();

@@ -1,7 +1,7 @@
-//! Pictures that the person at the machine picked from anywhere: how they become files of the project.
+//! Pictures that the user picked from anywhere, and how they become files of the project.
 //!
-//! A picked picture is shown at once from where it lies. Saving copies it into the project's folder and names the copy,
-//! so that the project never names anything outside its folder.
+//! A picked picture is shown at once from its location. Saving copies it into the project's folder and names the copy,
+//! so that the project never names a file outside its folder.
 
 use super::{
     Fill, FillKind, FillValue, Input, Media, MeshSource, Project, ProjectError, atomic::Content, confine, files_beside,
@@ -9,13 +9,13 @@ use super::{
 };
 use std::path::Path;
 
-/// An input with the whole path of its picked picture, or with the picture's name where it lies in the project's folder
-/// already.
+/// Returns an input with the absolute path of its picked picture, or with the picture's name if it is already in the
+/// project's folder.
 pub fn at_home(mut input: Input, folder: Option<&Path>) -> Input {
     if let Some(media) = input.media_mut()
         && let Media::Picked(path) = media
     {
-        // Typed by hand, it may be relative to where Eddy was started.
+        // If typed by hand, it may be relative to Eddy's working directory.
         *path = std::path::absolute(&*path).unwrap_or_else(|_| path.clone());
         if let Some(name) = folder.and_then(|folder| name_within(folder, path)) {
             *media = Media::File(name.into());
@@ -24,7 +24,7 @@ pub fn at_home(mut input: Input, folder: Option<&Path>) -> Input {
     input
 }
 
-/// Everything that was picked for a project, as [`at_home`] has it.
+/// Applies [`at_home`] to every picked file of a project.
 pub fn bring_home(project: &mut Project, folder: Option<&Path>) {
     for pass in &mut project.passes {
         for channel in pass.bindings.channels_mut() {
@@ -41,7 +41,7 @@ pub fn bring_home(project: &mut Project, folder: Option<&Path>) {
     }
 }
 
-/// The name, from the folder, of a file that lies in it.
+/// The name, relative to the folder, of a file in it.
 fn name_within(folder: &Path, path: &Path) -> Option<String> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let (home, real) = (folder.canonicalize().ok()?, path.canonicalize().ok()?);
@@ -50,7 +50,7 @@ fn name_within(folder: &Path, path: &Path) -> Option<String> {
     confine::resolve(folder, &name).is_ok().then_some(name)
 }
 
-/// Returns where the picked pictures of a project lie.
+/// Returns the paths of the picked pictures of a project.
 pub(super) fn paths(project: &Project) -> impl Iterator<Item = &Path> {
     let channels = project.passes.iter().flat_map(|p| p.bindings.channels());
     channels.filter_map(|c| match c.input.media() {
@@ -59,8 +59,9 @@ pub(super) fn paths(project: &Project) -> impl Iterator<Item = &Path> {
     })
 }
 
-/// Copies the picked pictures into `target` and names the copies. A file of another content is never replaced: the copy
-/// then gets a number. A picture that cannot be read is named and not there, so that the rest of the project is saved.
+/// Copies the picked pictures into `target` and names the copies. A file with different content is never replaced: the
+/// copy then gets a number. For a picture that cannot be read only the name is set, so that the rest of the project is
+/// saved.
 pub(super) fn copy_in(project: &mut Project, target: &Path, writes: &mut Writes) -> Result<(), ProjectError> {
     for channel in project.passes.iter_mut().flat_map(|p| p.bindings.channels_mut()) {
         let Some(media @ Media::Picked(_)) = channel.input.media_mut() else { continue };
@@ -74,9 +75,9 @@ pub(super) fn copy_in(project: &mut Project, target: &Path, writes: &mut Writes)
     Ok(())
 }
 
-/// Copies the picked models into `target` with the files that they name, and names the copies. These are named from the
-/// model, so that where one of the names is taken, all of them go into a folder of their own. A model that cannot be
-/// read is named and not there.
+/// Copies the picked models into `target` with the files that they name, and names the copies. The models contain these
+/// names, so if one of them is taken, all files go into a new folder. For a model that cannot be read only the name is
+/// set.
 pub(super) fn copy_models_in(project: &mut Project, target: &Path, writes: &mut Writes) -> Result<(), ProjectError> {
     for pass in &mut project.passes {
         for draw in pass.body.draws_mut() {
@@ -96,7 +97,7 @@ fn copy_model(path: &Path, target: &Path, writes: &mut Writes) -> Result<String,
     let own = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
     for name in std::iter::once(own.clone()).chain(files_beside(folder, &own)) {
-        // What is not there is left out, and told of when the model is drawn.
+        // Missing files are omitted; drawing the model reports them.
         if let Ok(bytes) = confine::read(folder, &name, limits::MEDIA_FILE)
             && super::writes::is_media(&name)
         {
@@ -122,7 +123,7 @@ fn copy_model(path: &Path, target: &Path, writes: &mut Writes) -> Result<String,
     Ok(own)
 }
 
-/// Writes what a project holds in memory of the files that fill its passes, and names these files, as [`copy_in`] does.
+/// Writes the in-memory files that fill the project's passes, and names these files, like [`copy_in`].
 pub(super) fn write_held(project: &mut Project, target: &Path, writes: &mut Writes) -> Result<(), ProjectError> {
     for pass in &mut project.passes {
         for kind in FillKind::ALL {
@@ -143,7 +144,7 @@ fn copy(path: &Path, target: &Path, writes: &mut Writes) -> Result<String, Proje
     }
 }
 
-/// Writes bytes under this name, or one with a number where it is taken.
+/// Writes bytes under this name, or under a numbered one if it is taken.
 fn add(
     (stem, extension): (String, String),
     bytes: Vec<u8>,
@@ -164,7 +165,7 @@ fn add(
     }
 }
 
-/// The name and the ending of a picture's copy, which every system takes.
+/// The name and the extension of a picture's copy, which every system accepts.
 fn parts(path: &Path) -> (String, String) {
     let fit = |text: Option<&std::ffi::OsStr>| -> String {
         let text = text.unwrap_or_default().to_string_lossy();
@@ -176,7 +177,7 @@ fn parts(path: &Path) -> (String, String) {
         stem = format!("picture_{stem}");
     }
     if !super::writes::is_media(&format!("x.{extension}")) {
-        // What a picture is stands in its first bytes; its name need not say it.
+        // The first bytes of a picture identify its format; its name need not.
         extension = "png".into();
     }
     (stem, extension)

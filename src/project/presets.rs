@@ -1,4 +1,4 @@
-//! The presets inside the binary: each a folder of `presets/`, read as any folder with `eddy.toml`.
+//! The embedded presets: each is a folder of `presets/`, read like any folder with `eddy.toml`.
 
 use super::embedded::LIBRARY;
 pub use super::embedded::{Category, Library, categories, names, thumbnail};
@@ -9,7 +9,7 @@ pub fn load(name: &str) -> Result<Loaded, ProjectError> {
     load_from(&LIBRARY, name, Origin::Preset(name.to_owned()))
 }
 
-/// Reads a project of another folder in the binary. It belongs to no gallery.
+/// Reads a project of another embedded folder. It is not in a gallery.
 pub fn load_embedded(library: &Library, name: &str) -> Result<Loaded, ProjectError> {
     load_from(library, name, Origin::Unsaved)
 }
@@ -37,9 +37,9 @@ mod tests {
         }
     }
 
-    /// A preset that shares texts with others takes them along wherever it goes.
+    /// A preset that shares texts with others includes them wherever it is saved.
     #[test]
-    fn every_preset_is_complete_outside_the_binary() {
+    fn presets_are_complete_outside_the_binary() {
         let dir = tempfile::tempdir().unwrap();
         for name in names() {
             let project = load(name).unwrap().project;
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_preset_says_what_there_is() {
+    fn an_unknown_preset_lists_the_known_ones() {
         let error = load("no-such-preset").unwrap_err().to_string();
         assert!(error.contains("not a file, a folder or a preset"), "{error}");
         for name in names() {

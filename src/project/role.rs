@@ -1,9 +1,9 @@
-//! Owns the table of the roles of passes: what is known of each.
+//! Owns the table of the roles of passes and their properties.
 
 use super::{InputKind, PassName, PassSize};
 use eddy_texture::{Dimension, TexelFormat};
 
-/// The purpose of a pass. Everything that is known of a role is in its [`RoleRow`].
+/// The purpose of a pass. The properties of a role are in its [`RoleRow`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Role {
     Buffer,
@@ -12,37 +12,37 @@ pub enum Role {
     Image,
 }
 
-/// Everything that is known of a role.
+/// The properties of a role.
 #[derive(Debug)]
 pub struct RoleRow {
     pub role: Role,
-    /// A project has several passes of it, each with a name of its own.
+    /// True if a project may have several passes of it, each with its own name.
     pub is_named: bool,
-    /// The title of tabs; of buffers what stands before the name.
+    /// The title of tabs; for buffers the prefix of the name.
     pub title: &'static str,
-    /// The spelling of file names, `eddy.toml` and `--pass`; of buffers what stands before the name.
+    /// The spelling of file names, `eddy.toml` and `--pass`; for buffers the prefix of the name.
     pub key: &'static str,
-    /// Its other names, in lower case without blanks.
+    /// Its alternative names, in lower case without blanks.
     pub(crate) spellings: &'static [&'static str],
-    /// The type in the site's JSON.
+    /// The type in Shadertoy's JSON.
     pub json_type: &'static str,
-    /// The id of its output there.
+    /// The id of its output in that JSON.
     pub json_output: &'static str,
-    /// Its place in a frame: the least is drawn first.
+    /// Its place in a frame: the lowest is drawn first.
     pub order: u8,
-    /// The kind of the input that reads it, if any can.
+    /// The kind of the input that reads it, if channels can read it.
     pub input: Option<InputKind>,
-    /// The dimension of its target; `None`: it makes no picture.
+    /// The dimension of its target; `None`: it has no picture.
     pub target: Option<Dimension>,
-    /// The size of its target, where it is given no other. That of a sound holds a block of samples, one per texel.
+    /// The default size of its target. The target of a sound pass stores a block of samples, one per texel.
     pub size: PassSize,
-    /// The format of its target; `None`: its settings say.
+    /// The format of its target; `None`: its settings decide.
     pub format: Option<TexelFormat>,
-    /// The function that it begins with.
+    /// Its entry point.
     pub entry: &'static str,
-    /// Keys of `eddy.toml` that it has not, and why.
+    /// Keys of `eddy.toml` that it does not have, and why.
     pub(crate) refused: &'static [(&'static [&'static str], &'static str)],
-    /// A sentence for people who look for what it has not.
+    /// A sentence for users who look for a missing feature.
     pub note: &'static str,
 }
 
@@ -137,7 +137,7 @@ const IMAGE: RoleRow = RoleRow {
     ..BUFFER
 };
 
-/// Every role, in the order in which [`Role`] has them.
+/// Every role, in the order of [`Role`].
 static ROWS: [RoleRow; 4] = [BUFFER, CUBEMAP, SOUND, IMAGE];
 
 impl Role {
@@ -149,19 +149,19 @@ impl Role {
         &ROWS[self as usize]
     }
 
-    /// Returns the role whose row is as asked.
+    /// Returns the first role whose row satisfies the predicate.
     pub(crate) fn find(is_it: impl Fn(&RoleRow) -> bool) -> Option<Role> {
         ROWS.iter().find(|row| is_it(row)).map(|row| row.role)
     }
 
-    /// Returns the one pass of this role; `None` for buffers, of which there are many.
+    /// Returns the one pass of this role; `None` for buffers, of which there may be many.
     pub fn only_pass(self) -> Option<PassName> {
         (!self.row().is_named).then(|| PassName::new(self, ""))
     }
 }
 
 impl RoleRow {
-    /// Returns why it has no such key in `eddy.toml`; `None` if it has.
+    /// Returns the reason why it does not have such a key in `eddy.toml`; `None` if it does.
     pub fn refusal(&self, key: &str) -> Option<&'static str> {
         self.refused.iter().find(|(keys, _)| keys.contains(&key)).map(|(_, why)| *why)
     }
@@ -172,7 +172,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_row_is_found_by_its_role_and_by_each_of_its_names() {
+    fn rows_are_found_by_their_role_and_all_of_its_names() {
         for (index, row) in ROWS.iter().enumerate() {
             let id = row.role.only_pass().unwrap_or_else(|| PassName::buffer("A"));
             assert_eq!((row.role as usize, id.role(), id.row().key), (index, row.role, row.key));

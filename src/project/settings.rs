@@ -1,20 +1,20 @@
-//! Settings in `eddy.toml` say how a pass is drawn: its size, the format of its texels, which of them are drawn, how
-//! often a frame.
+//! Settings in `eddy.toml` for drawing a pass: its size, the format of its texels, the region that is drawn, how often
+//! per frame.
 
 use super::{Boundary, Condition, Fill, Pass, PassName, TexelFormat};
 
-/// Says how a pass is drawn. The default is what the site does.
+/// The way a pass is drawn. The default is Shadertoy's behaviour.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PassSettings {
     pub size: PassSize,
     pub format: TexelFormat,
-    /// Only these texels are drawn, as far as the pass has them; the others keep what they held. `None`: all.
+    /// Only these texels are drawn, as far as the pass has them; the others keep their values. `None`: all.
     pub region: Option<Region>,
-    /// The content of the pass's texture of the frame before in frame 0. `None`: zeros.
+    /// The contents of the pass's previous frame in frame 0. `None`: zeros.
     pub initial: Option<Fill>,
     /// Texels at the edge that are overwritten after each draw.
     pub boundary: Option<Boundary>,
-    /// While it is false the pass is not drawn, and holds what it holds before frame 0. `None`: it is always drawn.
+    /// While it is false the pass is not drawn, and has its contents before frame 0. `None`: it is always drawn.
     pub when: Option<Condition>,
 }
 
@@ -23,16 +23,16 @@ pub struct PassSettings {
 pub enum PassSize {
     #[default]
     Canvas,
-    /// The canvas times this, rounded, at least one texel each way.
+    /// The canvas scaled by this factor, rounded, at least one texel each way.
     Scale(f64),
     /// Width and height in texels, whatever the canvas.
     Fixed(u32, u32),
 }
 
 impl PassSize {
-    /// Width and height in texels for a canvas.
+    /// Returns the width and height in texels for a canvas.
     pub fn of(self, (width, height): (u32, u32)) -> (u32, u32) {
-        // `as` keeps within u32; a size no device has is refused where textures are made.
+        // `as` saturates at u32; creating the texture fails for a size that no device supports.
         let scaled = |v: u32, by: f64| ((f64::from(v) * by).round() as u32).max(1);
         match self {
             PassSize::Canvas => (width, height),
@@ -52,7 +52,7 @@ pub struct Region {
 }
 
 impl Region {
-    /// The part of it that a picture of this size has; `None` if that is no texel.
+    /// The part of it inside a picture of this size; `None` if it is empty.
     pub fn within(self, (width, height): (u32, u32)) -> Option<Region> {
         let w = width.saturating_sub(self.x).min(self.width);
         let h = height.saturating_sub(self.y).min(self.height);
@@ -60,19 +60,19 @@ impl Region {
     }
 }
 
-/// Passes that follow each other and are drawn several times a frame: all once, in order, then all again. Every time
-/// they see the same uniforms, and of each other what was drawn last.
+/// Consecutive passes that are drawn several times a frame: all once, in order, then all again. Each time they see the
+/// same uniforms, and the latest pictures of each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
     /// The name in the file.
     pub name: String,
-    /// In the order they are drawn; each of them buffers of the project, without another pass between them.
+    /// Buffers of the project in drawing order, without another pass between them.
     pub passes: Vec<PassName>,
     /// At least 1.
     pub steps: u32,
 }
 
-/// The passes and meshes that are drawn for one frame: those of a group count as often as the group has steps.
+/// Returns the number of passes and meshes that are drawn for one frame: those of a group count once per step.
 pub(super) fn draws(passes: &[Pass], groups: &[Group]) -> u64 {
     let draws = |pass: &Pass| {
         let steps = groups.iter().find(|g| g.passes.contains(&pass.id)).map_or(1, |g| u64::from(g.steps));

@@ -1,6 +1,6 @@
-//! A [`SourceId`] names a text of a project: Common (an empty text where there is none), then the passes in order, then
-//! the stages of passes that draw meshes in order, then the files they include, then the texts of fills, then those of conditions. Nothing
-//! else counts them. A [`TextLocation`] is a place in one of them, as people are told it.
+//! A [`SourceId`] identifies a text of a project: Common (an empty text if there is none), then the passes in order,
+//! then the stages of passes that draw meshes in order, then the files they include, then the texts of fills, then
+//! those of conditions. Only this module assigns them. A [`TextLocation`] is a location in one of them, for display.
 
 use super::{Included, PassName, Project, Stage, Tab};
 use eddy_diag::{SourceId, SourceMap, Span};
@@ -26,17 +26,17 @@ impl Project {
         }
     }
 
-    /// Returns the id of the text that the `n`-th of [`Project::fills`] is written in.
+    /// Returns the id of the text that contains the `n`-th of [`Project::fills`].
     pub(super) fn fill_id(&self, n: usize) -> SourceId {
         id(self.first_included() + self.includes.len() + n)
     }
 
-    /// Returns the id of the text that the `n`-th of [`Project::conditions`] is written in.
+    /// Returns the id of the text that contains the `n`-th of [`Project::conditions`].
     pub(super) fn condition_id(&self, n: usize) -> SourceId {
         self.fill_id(self.fills().count() + n)
     }
 
-    /// Returns the file of a text that others include.
+    /// Returns the included file with an id.
     pub(super) fn included(&self, source: SourceId) -> Option<&Included> {
         self.includes.get(usize::from(source.0).checked_sub(self.first_included())?)
     }
@@ -84,7 +84,7 @@ impl Project {
     }
 }
 
-/// A project holds far fewer texts than there are ids; see [`super::limits`].
+/// A project has far fewer texts than there are ids; see [`super::limits`].
 fn id(place: usize) -> SourceId {
     SourceId(place as u16)
 }
@@ -92,14 +92,14 @@ fn id(place: usize) -> SourceId {
 /// A location in a text of the project.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextLocation {
-    /// `None`: the text is no tab, as an included file is not.
+    /// `None` if the text is not a tab.
     pub tab: Option<Tab>,
     /// The text's name.
     pub text: String,
     /// Line and column of the start, counted from 1; columns count characters.
     pub line: usize,
     pub column: usize,
-    /// Bytes of the text as it was compiled.
+    /// The byte range in the compiled text.
     pub range: Range<usize>,
 }
 
@@ -112,7 +112,7 @@ impl TextLocation {
         Some(Self { tab, text, line: at.line, column: at.column, range: span.range() })
     }
 
-    /// The tab's title, or the text's own name where it is no tab.
+    /// The tab's title, or the text's own name if it is not a tab.
     pub fn title(&self) -> String {
         self.tab.as_ref().map_or_else(|| self.text.clone(), Tab::title)
     }

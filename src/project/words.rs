@@ -1,13 +1,13 @@
-//! Words in the text of a shader, found without reading its language.
+//! Finds words in the text of a shader without parsing its language.
 
 use std::collections::HashSet;
 
-/// Returns whether a word stands in a text outside of comments.
+/// Returns whether a text contains a word outside comments.
 pub fn names_word(text: &str, name: &str) -> bool {
     find_word(text, name).is_some()
 }
 
-/// Returns where a word stands first outside of comments.
+/// Returns the first offset of a word outside comments.
 pub(crate) fn find_word(text: &str, word: &str) -> Option<usize> {
     let is_letter = |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_');
     let bytes = text.as_bytes();
@@ -31,7 +31,7 @@ pub(crate) fn find_word(text: &str, word: &str) -> Option<usize> {
     None
 }
 
-/// Returns every word of a text outside of comments: letters, digits and `_`.
+/// Returns every word of a text outside comments: letters, digits and `_`.
 pub(crate) fn all_words(text: &str) -> HashSet<&str> {
     let bytes = text.as_bytes();
     let is_letter = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
@@ -46,7 +46,7 @@ pub(crate) fn all_words(text: &str) -> HashSet<&str> {
         } else {
             let length = rest.iter().position(|byte| !is_letter(byte)).unwrap_or(rest.len());
             if length > 0 {
-                // Both ends are beside ASCII, or are the text's.
+                // Both ends are next to ASCII characters, or are the ends of the text.
                 found.extend(text.get(at..at + length));
             }
             length.max(1)
@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_word_is_whole_and_no_comment() {
+    fn whole_words_outside_comments_are_found() {
         for (text, at) in [
             ("main", Some(0)),
             ("void main()", Some(5)),

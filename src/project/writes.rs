@@ -1,9 +1,9 @@
-//! The one way from a project to files that are written.
+//! Collects and checks the files that a save writes. No other code writes files of projects.
 //!
-//! Everything that one save writes is gathered here by its name from the destination, checked, and written together. A
-//! name comes from the project, which may be a stranger's: it may not lead out of the destination, also not through
-//! links that lie there, and a new file is of a kind that projects are made of. Files that are the project's own
-//! already keep their names.
+//! Everything that one save writes is collected here by its name relative to the destination, checked, and written
+//! together. A name comes from the project, which may be a stranger's: it may not lead out of the destination, even
+//! through links there, and a new file must be of a kind that projects contain. Files that already belong to the
+//! project keep their names.
 
 use super::{
     ProjectError,
@@ -18,23 +18,23 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The rule for files in the way that are not this project's.
+/// The policy for files in the way that do not belong to this project.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overwrite<'a> {
-    /// Fail with [`ProjectError::WouldOverwrite`], having written nothing.
+    /// Fail with [`ProjectError::WouldOverwrite`] without writing anything.
     Refuse,
     Allow,
-    /// Replace them, each copied into this folder before anything is written. The folder is made where there is
-    /// something to keep, and holds nothing else.
+    /// Replace them, after copying each into this folder before anything is written. The folder is created if there is
+    /// something to keep, and contains nothing else.
     KeepIn(&'a Path),
 }
 
-/// Endings of texts besides those of passes.
+/// Extensions of texts besides those of passes.
 const TEXTS: [&str; 16] = [
     "vert", "comp", "geom", "tesc", "tese", "vs", "gs", "fsh", "vsh", "glslf", "glslv", "glslh", "inc", "h", "hlsl",
     "txt",
 ];
-/// Endings of pictures, music, videos, models, and what these name.
+/// Extensions of pictures, music, videos, models, and the files that these name.
 const MEDIA: [&str; 37] = [
     "png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr", "exr", "ktx", "ktx2", "dds", "glb", "gltf", "obj", "mtl",
     "bin", "npy", "mp3", "ogg", "oga", "opus", "wav", "flac", "m4a", "aac", "aif", "aiff", "mp4", "webm", "ogv", "mkv",
@@ -47,7 +47,7 @@ pub(super) fn is_text(name: &str) -> bool {
     is_glsl_extension(extension) || TEXTS.iter().any(|e| extension.eq_ignore_ascii_case(e))
 }
 
-/// Returns whether a new file of this name may be a picture or a model of a project, or what a model names.
+/// Returns whether a new file of this name may be a picture or a model of a project, or a file that a model names.
 pub(super) fn is_media(name: &str) -> bool {
     let extension = Path::new(name).extension().unwrap_or_default();
     MEDIA.iter().any(|e| extension.eq_ignore_ascii_case(e))
@@ -56,9 +56,9 @@ pub(super) fn is_media(name: &str) -> bool {
 /// Files to be written into one folder.
 pub(super) struct Writes {
     folder: PathBuf,
-    /// By name from the folder.
+    /// By name relative to the folder.
     files: BTreeMap<String, Content>,
-    /// Names of files that are the project's already.
+    /// Names of files that already belong to the project.
     own: BTreeSet<String>,
 }
 
@@ -67,8 +67,8 @@ impl Writes {
         Self { folder: folder.to_owned(), files: BTreeMap::new(), own }
     }
 
-    /// The name under which `name` would be written, or why nothing may be written under it. It may not lead out of the
-    /// folder; a new file also needs an ending of a project's file and a name that no system reserves.
+    /// Returns the name under which `name` would be written, or why it must not be written. It may not lead out of the
+    /// folder; a new file also needs the extension of a project's file and a name that no system reserves.
     pub(crate) fn checked(&self, name: &str) -> Result<String, ProjectError> {
         let refuse = |why: String| Err(ProjectError::Unwritable { path: self.folder.join(name), why });
         let name = match confine::relative("", name) {
@@ -87,8 +87,8 @@ impl Writes {
         Ok(name)
     }
 
-    /// Returns whether `content` may have this name: nothing else of this save has it, on a disk that ignores case
-    /// either.
+    /// Returns whether `content` may have this name: no other file of this save has it, even on a file system that
+    /// ignores case.
     pub(crate) fn is_free(&self, name: &str, content: &[u8]) -> bool {
         match self.files.get(name) {
             Some(Content::Bytes(there)) => there == content,
@@ -101,14 +101,14 @@ impl Writes {
         }
     }
 
-    /// Writes `content` under a name that [`Writes::checked`] lets pass.
+    /// Adds `content` under a name that [`Writes::checked`] accepts.
     pub(crate) fn add(&mut self, name: &str, content: Content) -> Result<(), ProjectError> {
         let name = self.checked(name)?;
         self.files.insert(name, content);
         Ok(())
     }
 
-    /// Writes `content` to the file that the person at the machine named.
+    /// Adds `content` for the file that the user named.
     pub(crate) fn add_named(&mut self, file_name: String, content: Content) {
         self.files.insert(file_name, content);
     }
@@ -121,7 +121,7 @@ impl Writes {
         })
     }
 
-    /// Checks that nothing foreign is in the way and that every file stays within the folder, then writes everything.
+    /// Checks that no foreign file is in the way and that every file stays within the folder, then writes everything.
     pub(crate) fn write(self, overwrite: Overwrite<'_>) -> Result<(), ProjectError> {
         let (mut changed, mut foreign) = (Vec::new(), Vec::new());
         for (name, content) in self.files {
@@ -146,8 +146,7 @@ impl Writes {
     }
 }
 
-/// Writes one file that the person at the machine named, whole or not at all. One that is there with the same bytes is not
-/// in the way.
+/// Atomically writes one file that the user named. An existing file with the same bytes is not in the way.
 pub fn write_named(path: &Path, bytes: Vec<u8>, overwrite: Overwrite<'_>) -> Result<(), ProjectError> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut writes = Writes::into(folder, BTreeSet::new());
@@ -155,7 +154,7 @@ pub fn write_named(path: &Path, bytes: Vec<u8>, overwrite: Overwrite<'_>) -> Res
     writes.write(overwrite)
 }
 
-/// Copies a file of `folder` into `kept`, under the same name. What is there already stays.
+/// Copies a file of `folder` into `kept`, under the same name. Existing copies stay.
 fn keep(folder: &Path, name: &str, kept: &Path) -> Result<(), ProjectError> {
     let (from, to) = (folder.join(name), kept.join(name));
     let copy = || {
@@ -167,7 +166,7 @@ fn keep(folder: &Path, name: &str, kept: &Path) -> Result<(), ProjectError> {
     copy().map_err(ProjectError::io("keep what would be replaced in", &to))
 }
 
-/// Makes a folder that its owner alone may read, for what may be private.
+/// Creates a folder that only its owner may read, for private data.
 pub fn make_private(folder: &Path) -> io::Result<()> {
     let mut builder = fs::DirBuilder::new();
     builder.recursive(true);
@@ -176,14 +175,14 @@ pub fn make_private(folder: &Path) -> io::Result<()> {
     builder.create(folder)
 }
 
-/// Writes one file into a folder that the person at the machine named, whole or not at all. What lies in the folder
-/// already may be a stranger's: see [`check_within`]. An error does not name the file.
+/// Atomically writes one file into a folder that the user named. Existing files in the folder may be a stranger's: see
+/// [`check_within`]. Errors do not name the file.
 pub fn write_into(folder: &Path, name: &str, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io::Result<()> {
     atomic::write_over(&place_within(folder, name)?, write)
 }
 
-/// Returns the path of a file of a folder after links, none of which leads out of the folder. It is not to be resolved again:
-/// another link may have come since.
+/// Returns the path of a file of a folder after resolving links, none of which leads out of the folder. Do not resolve
+/// it again: another link may have been created since.
 pub(super) fn place_within(folder: &Path, name: &str) -> io::Result<PathBuf> {
     check_within(folder, name)?;
     let path = folder.join(name);
@@ -194,8 +193,8 @@ pub(super) fn place_within(folder: &Path, name: &str) -> io::Result<PathBuf> {
     if real.starts_with(home) { Ok(real) } else { Err(io::Error::other("the file became a link meanwhile")) }
 }
 
-/// Checks that a file of a folder, where it is there, is a regular one, and that no link leads from the folder to a file
-/// elsewhere, which would be read or written in its place.
+/// Checks that a file of a folder, if it exists, is a regular one, and that no link leads from the folder to a file
+/// elsewhere, which would be read or written instead.
 pub fn check_within(folder: &Path, name: &str) -> io::Result<()> {
     let path = folder.join(name);
     stays_within(folder, &path).map_err(|e| match e {
@@ -215,10 +214,10 @@ fn with_hint(error: &FileError) -> String {
     format!("{error}; {}", error.hint())
 }
 
-/// Returns whether what lies on the way to a file, and the file itself where it is a link, stays within the folder.
+/// Returns whether the path to a file, and the file itself if it is a link, stays within the folder.
 fn stays_within(folder: &Path, path: &Path) -> Result<(), ProjectError> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    // A folder that is not there yet holds no links.
+    // A folder that does not exist yet contains no links.
     let Ok(home) = folder.canonicalize() else { return Ok(()) };
     let there = path.ancestors().find(|p| p.symlink_metadata().is_ok()).unwrap_or(folder);
     let there = if there.as_os_str().is_empty() { Path::new(".") } else { there };
@@ -259,12 +258,12 @@ mod tests {
             assert!(Staged::within(&at(name)).is_err(), "{name}");
         }
         write_into(&folder, "inside", |file| file.write_all(b"new")).unwrap();
-        // As a person may have made it.
+        // A link that the user made.
         assert!(at("inside").is_symlink());
         assert_eq!(fs::read_to_string(at("notes")).unwrap(), "new");
         assert_eq!(fs::read_to_string(&outside).unwrap(), "precious");
         assert!(!dir.path().join("gone").exists());
-        // One that the person at the machine named stays a link.
+        // A link that the user named stays a link.
         write_with(&at("out"), |file| file.write_all(b"named")).unwrap();
         assert_eq!(fs::read_to_string(&outside).unwrap(), "named");
     }

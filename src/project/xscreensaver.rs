@@ -1,22 +1,23 @@
-//! The `xshadertoy` module of XScreenSaver, as far as it takes a project. Source: `hacks/glx/xshadertoy.c` and its manual
-//! (<https://www.jwz.org/xscreensaver/>).
+//! The `xshadertoy` module of XScreenSaver, and the projects that it accepts. Source: `hacks/glx/xshadertoy.c` and its
+//! manual (<https://www.jwz.org/xscreensaver/>).
 //!
-//! It runs up to four buffers and Image, each from a file, in the order of its options `--program0` to `--program4`. Channel N of
-//! every program is what program N drew; nothing else can be read, and not what a program itself drew before.
+//! It runs up to four buffers and Image, each from a file, in the order of its options `--program0` to `--program4`.
+//! Channel N of every program reads the picture of program N; no other inputs exist, and a program cannot read its own
+//! previous frame.
 
 use super::{
     Filter, InputKind, PassName, Project, Wrap, custom_uniforms, includes, lines::hash_lines, words::find_word,
 };
 use eddy_diag::{Diagnostic, Severity, Span};
 
-/// Buffers that it runs.
+/// The number of buffers that it runs.
 const BUFFERS: usize = 4;
 
-/// Uniforms that it declares and does not set, and names of Shadertoy's that it does not have.
+/// Uniforms that it declares but does not set, and Shadertoy names that it lacks.
 const UNSET: [&str; 3] = ["iChannelTime", "iChannelResolution", "iSampleRate"];
 const MISSING: [&str; 6] = ["iGlobalTime", "iCh0", "iCh1", "iCh2", "iCh3", "st_assert"];
 
-/// Returns what XScreenSaver refuses of a project that compiles, as errors, and what it does otherwise, as warnings and notes.
+/// Returns errors for what XScreenSaver rejects in a project that compiles, and warnings and notes for what differs.
 pub fn advice(project: &Project) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     let buffers: Vec<&PassName> = project.passes.iter().map(|pass| &pass.id).filter(|id| id.is_buffer()).collect();
@@ -86,7 +87,7 @@ pub fn advice(project: &Project) -> Vec<Diagnostic> {
     found
 }
 
-/// Adds what there is to say of a text.
+/// Adds the diagnostics about a text.
 fn texts(found: &mut Vec<Diagnostic>, (id, text): (eddy_diag::SourceId, &str)) {
     for line in hash_lines(text) {
         let said = if custom_uniforms::is_declaration(&line) {
@@ -136,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chain_of_buffers_is_taken() {
+    fn a_chain_of_buffers_is_accepted() {
         let image = pass(PassName::image(), &[(0, Input::buffer("A")), (1, Input::buffer("B"))], "float t = iTime;");
         let all = said(image, vec![buffer("A", &[]), buffer("B", &[(0, Input::buffer("A"))])]);
         assert!(all.iter().all(|line| line.starts_with("note: ")), "{all:?}");
@@ -144,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn what_it_lacks_is_an_error() {
+    fn unsupported_features_are_errors() {
         let image = |reads: &[(usize, Input)], text: &str| pass(PassName::image(), reads, text);
         let cases: [(Pass, Vec<Pass>, &str); 9] = [
             (image(&[(0, Input::KEYBOARD)], ""), vec![], "error: iChannel0 of Image reads Keyboard"),

@@ -1,4 +1,4 @@
-//! Programs whose shaders Eddy draws or checks as they are.
+//! Options for programs whose shaders Eddy draws or checks unchanged.
 
 use super::Cli;
 use clap::ValueEnum;
@@ -20,7 +20,7 @@ pub(crate) enum Consumer {
 }
 
 impl HostProgram {
-    /// Returns what a file is called that is to be read so.
+    /// Returns the name by which a file is opened as a shader of this program.
     fn spec(self, file: &str) -> String {
         let HostProgram::Ghostty = self;
         if file.starts_with("ghostty:") { file.to_owned() } else { format!("ghostty:{file}") }
@@ -28,7 +28,7 @@ impl HostProgram {
 }
 
 impl Consumer {
-    /// Returns what a file is called that is to be read as this program reads it.
+    /// Returns the name by which a file is opened as this program reads it.
     pub(crate) fn spec(self, file: &str) -> String {
         match self {
             Consumer::Ghostty => HostProgram::Ghostty.spec(file),
@@ -62,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn files_are_named_for_the_program_that_they_are_of() {
+    fn file_names_get_the_prefix_of_their_program() {
         assert_eq!(parse("eddy --as ghostty glow.glsl").window.project.as_deref(), Some("ghostty:glow.glsl"));
         let Some(Command::Render(args)) = parse("eddy render --as ghostty a.glsl b.glsl --out o").command else {
             panic!()

@@ -1,4 +1,4 @@
-//! Commands that look into a project.
+//! Commands that inspect a project.
 
 use super::{
     run::RunArgs,
@@ -62,12 +62,12 @@ impl ProbeArgs {
         }
     }
 
-    /// Returns the face of a cubemap that is drawn; of another pass 0.
+    /// Returns the face of a cubemap that is drawn; 0 for any other pass.
     pub(crate) fn face(&self) -> Result<usize, String> {
         face_of(&self.pass(), self.face)
     }
 
-    /// The file of the values, if one is asked for.
+    /// The file of the values, if one is requested.
     pub(crate) fn file(&self) -> Option<PathBuf> {
         let TextPlace { tab, line, column } = &self.at;
         let tab = tab.pass().map_or("common", PassName::key);
@@ -78,7 +78,7 @@ impl ProbeArgs {
         self.out.clone().or_else(|| self.format.map(named))
     }
 
-    /// Returns the format of the file: what its name ends in, or what is asked for.
+    /// Returns the format of the file: the requested one, or that of its extension.
     pub(crate) fn format(&self) -> Result<Format, String> {
         let ending = self.out.as_ref().and_then(|path| path.extension());
         let named = ending.map(|e| if e.eq_ignore_ascii_case("png") { Format::Png } else { Format::Npy });
@@ -133,7 +133,7 @@ pub(crate) struct TraceArgs {
 }
 
 impl TraceArgs {
-    /// Returns the face of a cubemap that is traced; of another pass 0.
+    /// Returns the face of a cubemap that is traced; 0 for any other pass.
     pub(crate) fn face(&self) -> Result<usize, String> {
         face_of(&self.pass.pass, self.face)
     }

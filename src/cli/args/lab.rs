@@ -1,4 +1,4 @@
-//! The lab's commands.
+//! The commands of the lab.
 
 use super::{
     run::RunArgs,
@@ -50,7 +50,7 @@ pub(crate) enum LabCommand {
     Precision(PrecisionArgs),
 }
 
-/// Statements of a pixel that is audited: a tenth of those of a pixel that is traced, as there are many.
+/// The limit of statements for an audited pixel: a tenth of that for a traced pixel, as many pixels are audited.
 const AUDIT_STEPS: u64 = STEPS / 10;
 
 #[derive(Debug, Args)]

@@ -1,4 +1,4 @@
-//! This module declares the command line for clap. Scripts rely on it: an option is added here, never changed.
+//! The clap declaration of the command line. Scripts rely on it: options are added here, but never changed.
 
 mod elsewhere;
 mod inspect;
@@ -74,7 +74,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// With `--follow`, an editor names the file that it has open: the project is the one that has it.
+    /// With `--follow`, an editor passes the file that is open in it: opens the project that contains the file.
     pub fn with_project_of_file(mut self) -> Self {
         let folder_of = |project: &String| {
             let file = std::path::absolute(project).ok().filter(|file| file.is_file())?;
@@ -114,7 +114,7 @@ pub(super) struct CheckArgs {
     pub without_pass: DisabledPasses,
 }
 
-/// The name of a pass, or nothing.
+/// Parses the name of a pass, or nothing.
 fn dumped_pass(name: &str) -> Result<String, String> {
     if !name.is_empty() {
         PassSet::of(name)?;
@@ -145,7 +145,7 @@ impl BenchArgs {
         self.frames.or(self.run.recorded()).unwrap_or(60)
     }
 
-    /// Returns what the frames are drawn with. Err: what was asked for cannot be meant.
+    /// Returns the inputs of the frames, or an error message if the options contradict each other.
     pub(super) fn inputs(&self) -> Result<ScriptedInputs, String> {
         self.run.inputs_of(self.frames())
     }
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn every_option_of_the_contract_is_read() {
+    fn every_option_of_the_contract_is_parsed() {
         let r = render(
             "eddy render a b --size 320x180 --frames 9 --out o --at 0,4,8 --pass buffer_b --format npy --fps 30 \
              --date 2024-12-31T23:59:00 --media src --no-skip --json --mouse 0:down --keys 0:up --set a=1 --set b=1,2 \
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_meant_is_refused_with_the_mend() {
+    fn invalid_options_are_rejected_with_a_fix() {
         for (line, hint) in [
             ("eddy render", "PROJECT"),
             ("eddy render a", "--out"),

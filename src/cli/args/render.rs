@@ -1,4 +1,4 @@
-//! `eddy render`: which frames are drawn, and what is written of them.
+//! The options of `eddy render`: the frames to draw, and the files to write.
 
 use super::{
     run::RunArgs,
@@ -149,22 +149,22 @@ pub(crate) struct StyleArgs {
 }
 
 impl RenderArgs {
-    /// Returns how many times as wide and high pictures are drawn.
+    /// Returns the factor by which the width and height of pictures are enlarged when drawn.
     pub(crate) fn factor(&self) -> u32 {
         self.supersample.unwrap_or(1)
     }
 
-    /// Returns how progress is shown.
+    /// Returns the style of progress output.
     pub(crate) fn progress(&self) -> progress::Style {
         if self.quiet { progress::Style::None } else { self.progress }
     }
 
-    /// Returns what frames are drawn with. Err: a script that cannot be read.
+    /// Returns the inputs of the frames, or an error for an invalid script.
     pub(crate) fn inputs(&self) -> Result<ScriptedInputs, String> {
         Ok(self.run.inputs()?.with_mouse_scale(self.factor()))
     }
 
-    /// Returns the run with the resolution in which it is drawn, and in tiles where that is needed.
+    /// Returns the run with the resolution at which it is drawn, and with tiles if needed.
     pub(crate) fn drawn(&self) -> RunArgs {
         let (width, height) = self.run.size;
         let size = (width.saturating_mul(self.factor()), height.saturating_mul(self.factor()));

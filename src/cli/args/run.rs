@@ -1,4 +1,4 @@
-//! The options of drawing frames are the same wherever frames are drawn.
+//! The options that all commands which draw frames share.
 
 use super::elsewhere::HostProgram;
 use super::values::{folder, fps, recording, seconds, size, webcam};
@@ -75,7 +75,7 @@ pub(crate) struct RunArgs {
 }
 
 impl RunArgs {
-    /// Returns how many frames were recorded, where a recording is drawn again.
+    /// Returns the number of recorded frames, if a recording is replayed.
     pub(crate) fn recorded(&self) -> Option<u32> {
         let recording = self.replay.as_ref()?;
         Some(u32::try_from(recording.frames.len()).unwrap_or(u32::MAX))
@@ -87,7 +87,7 @@ impl RunArgs {
         first.map_or(self.size, |frame| frame.size)
     }
 
-    /// Fails where a recording has fewer frames.
+    /// Fails if a recording has fewer frames.
     pub(crate) fn within_recording(&self, frames: u32) -> Result<(), String> {
         match self.recorded() {
             Some(recorded) if recorded < frames => {
@@ -97,7 +97,7 @@ impl RunArgs {
         }
     }
 
-    /// Does the same as [`Self::inputs`] for a run of so many frames, which a recording must have.
+    /// Does the same as [`Self::inputs`] for a run of this number of frames, which a recording must have.
     pub(crate) fn inputs_of(&self, frames: u32) -> Result<ScriptedInputs, String> {
         self.within_recording(frames)?;
         self.inputs()
@@ -108,7 +108,8 @@ impl RunArgs {
         self.fps.unwrap_or(DEFAULT_FPS)
     }
 
-    /// Returns what the scripts, the date and the rate make of frame 0, 1, 2 … Err: a script that cannot be read.
+    /// Returns the inputs of frames 0, 1, 2 … from the scripts, the date and the rate, or an error for an invalid
+    /// script.
     pub(crate) fn inputs(&self) -> Result<ScriptedInputs, String> {
         let mouse = parse_mouse(&self.mouse).map_err(|e| format!("--mouse: {e}"))?;
         let keys = parse_keys(&self.keys).map_err(|e| format!("--keys: {e}"))?;

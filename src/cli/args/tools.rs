@@ -27,7 +27,7 @@ pub(crate) struct TranslateArgs {
 }
 
 impl TranslateArgs {
-    /// Returns the language with its version. Err: what was asked for cannot be meant.
+    /// Returns the language with its version, or an error message if the options contradict each other.
     pub(crate) fn language(&self) -> Result<Language, String> {
         let language = match self.to {
             LanguageName::Wgsl => Language::Wgsl,

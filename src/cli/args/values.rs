@@ -1,4 +1,4 @@
-//! Values of options, as a person writes them.
+//! Parsers of option values.
 
 use crate::{
     film::{Chroma, Codec, ColorRange, Format, Quality, Rate},
@@ -21,7 +21,7 @@ pub(super) const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder
                            image.glsl, a .glsl file, the name of a preset (see `eddy list`) or a Shadertoy API \
                            .json file. If a project has the name of a command, write `eddy ./render`.";
 
-/// A pixel, as in 80,45.
+/// Parses a pixel, as in 80,45.
 pub(super) fn pixel(text: &str) -> Result<(u32, u32), String> {
     let parts = text.split_once(',').and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
     parts.ok_or_else(|| format!("{text} is not a pixel: write column and row, as in 80,45"))
@@ -35,7 +35,7 @@ pub(super) fn format(text: &str) -> Result<Format, String> {
     }
 }
 
-/// The format of a picture that the other commands write.
+/// Parses the format of a picture that the other commands write.
 pub(super) fn picture_format(text: &str) -> Result<capture::Format, String> {
     match text {
         "png" => Ok(capture::Format::Png),
@@ -44,7 +44,7 @@ pub(super) fn picture_format(text: &str) -> Result<capture::Format, String> {
     }
 }
 
-/// Reads the name of a folder that is there.
+/// Parses the name of an existing folder.
 pub(super) fn folder(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match fs::metadata(&path) {
@@ -55,17 +55,17 @@ pub(super) fn folder(text: &str) -> Result<PathBuf, String> {
     }
 }
 
-/// Reads the name of a file that a picture is written to.
+/// Parses the name of a picture file to write.
 pub(super) fn png_file(text: &str) -> Result<PathBuf, String> {
     named_file(text, &["png"])
 }
 
-/// Reads the name of a file that values are written to.
+/// Parses the name of a values file to write.
 pub(super) fn values_file(text: &str) -> Result<PathBuf, String> {
     named_file(text, &["npy", "png"])
 }
 
-/// A name without an ending is let through.
+/// Rejects other extensions; a name without one is accepted.
 fn named_file(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()) {
@@ -111,7 +111,7 @@ pub(super) fn shard(text: &str) -> Result<Shard, String> {
     Shard::parse(text, |name| env::var(name).ok()).map_err(|error| error.to_string())
 }
 
-/// A pass, and which of its targets.
+/// A pass, and the index of one of its targets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Picture {
     pub pass: PassName,
@@ -128,7 +128,7 @@ pub(super) fn picture(text: &str) -> Result<Picture, String> {
     Ok(Picture { pass: pass(name)?, target })
 }
 
-/// Returns the number of a cubemap's face, or says that the pass has none.
+/// Returns the index of a cubemap's face, or an error if the pass has no faces.
 pub(crate) fn face_of(pass: &PassName, face: Option<usize>) -> Result<usize, String> {
     match face {
         Some(_) if !pass.has_faces() => Err("--face: only a cubemap has faces; add --pass cube_a".into()),
@@ -136,7 +136,7 @@ pub(crate) fn face_of(pass: &PassName, face: Option<usize>) -> Result<usize, Str
     }
 }
 
-/// The number of a cubemap's face.
+/// Parses a cubemap's face.
 pub(super) fn face(text: &str) -> Result<usize, String> {
     let face = Face::ALL.iter().position(|face| face.name().eq_ignore_ascii_case(text));
     face.ok_or_else(|| format!("a face is one of {}", Face::ALL.map(Face::name).join(", ")))
@@ -174,7 +174,7 @@ pub(super) fn webcam(text: &str) -> Result<CameraSource, String> {
     Ok(CameraSource::of_text(text))
 }
 
-/// Reads `9000`, `192.168.1.2:9000` or `[::1]:9000`.
+/// Parses `9000`, `192.168.1.2:9000` or `[::1]:9000`.
 pub(super) fn osc(text: &str) -> Result<SocketAddr, String> {
     let address = match text.parse() {
         Ok(port) => Ok(SocketAddr::from(([127, 0, 0, 1], port))),
@@ -193,7 +193,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn osc_is_heard_at_the_loopback_address_unless_another_one_is_given() {
+    fn osc_listens_on_the_loopback_address_by_default() {
         let read = |text: &str| osc(text).map(|address| address.to_string()).map_err(|_| ());
         assert_eq!(read("9000"), Ok("127.0.0.1:9000".into()));
         assert_eq!(read("0.0.0.0:8000"), Ok("0.0.0.0:8000".into()));
@@ -203,7 +203,7 @@ mod tests {
         }
     }
     #[test]
-    fn a_folder_that_is_read_is_there() {
+    fn a_folder_to_read_must_exist() {
         let dir = tempfile::tempdir().unwrap();
         let read = |name: &str| folder(dir.path().join(name).to_str().unwrap()).map(drop);
         fs::write(dir.path().join("file"), "").unwrap();
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_whose_ending_promises_another_format_is_refused() {
+    fn an_extension_of_another_format_is_rejected() {
         let read = |name: &str| (png_file(name).is_ok(), values_file(name).is_ok());
         assert_eq!(read("a/x.png"), (true, true));
         assert_eq!(read("x.PNG"), (true, true));

@@ -1,4 +1,4 @@
-//! The folders that Eddy keeps files in, and whether they can be written.
+//! The folders that Eddy stores files in, and whether they are writable.
 
 use crate::session::{self, home_as_tilde};
 use serde::Serialize;
@@ -11,7 +11,7 @@ use std::{
 #[derive(Debug, PartialEq, Eq, Serialize)]
 pub(super) struct FolderLine {
     pub what: &'static str,
-    /// `None`: the system has no such folder.
+    /// `None` if the system has no such folder.
     pub path: Option<String>,
     pub state: FolderState,
 }
@@ -20,16 +20,16 @@ pub(super) struct FolderLine {
 #[serde(rename_all = "snake_case")]
 pub(super) enum FolderState {
     Writable,
-    /// It is there, and no file can be made in it.
+    /// It exists, but no file can be created in it.
     ReadOnly,
-    /// It is not there yet; Eddy makes it when it needs it, which the folder above allows.
+    /// It does not exist; Eddy creates it when needed, which the parent folder allows.
     CanBeMade,
-    /// It is not there, and cannot be made.
+    /// It does not exist, and cannot be created.
     CannotBeMade,
     Unknown,
 }
 
-/// Lists them. A file is made in each that is there, and removed.
+/// Lists them. Creates and removes a file in each that exists.
 pub(super) fn all() -> Vec<FolderLine> {
     let eddy = |folder: Option<PathBuf>| folder.map(|folder| folder.join("eddy"));
     [
@@ -66,7 +66,7 @@ fn can_write(folder: &Path) -> bool {
     tempfile::Builder::new().prefix(".eddy-doctor").tempfile_in(folder).is_ok()
 }
 
-/// Returns the reports of panics that are there, the newest last.
+/// Returns the existing reports of panics, the newest last.
 pub(super) fn reports() -> Vec<String> {
     let Some(folder) = session::report_folder() else { return Vec::new() };
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_folder_that_is_there_is_writable_and_left_as_it_was() {
+    fn an_existing_folder_is_writable_and_left_unchanged() {
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(state(folder.path()), FolderState::Writable);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);

@@ -1,5 +1,5 @@
-//! `eddy doctor`: what a report about this machine has to say. Nothing leaves the machine, no sound device is opened, and
-//! the home folder is shown as `~`.
+//! `eddy doctor`: the information about this machine for a report. Nothing is sent anywhere, no sound device is opened,
+//! and the home folder is shown as `~`.
 
 mod folders;
 mod text;
@@ -24,7 +24,7 @@ use std::{
     process::{Command, Stdio},
 };
 
-/// Encoders of ffmpeg that films are made by, and what each is for.
+/// The encoders of ffmpeg for films, and their purposes.
 const ENCODERS: [(&str, &str); 11] = [
     ("libx264", "h264"),
     ("libx264rgb", "h264 without loss"),
@@ -39,7 +39,7 @@ const ENCODERS: [(&str, &str); 11] = [
     ("flac", "sound of mkv"),
 ];
 
-/// Environment variables that change what Eddy does. Their values name no person.
+/// Environment variables that affect Eddy. Their values contain no personal data.
 const VARIABLES: [&str; 14] = [
     "WGPU_BACKEND",
     "WGPU_ADAPTER_NAME",
@@ -57,7 +57,7 @@ const VARIABLES: [&str; 14] = [
     "LC_ALL",
 ];
 
-/// Everything that the command tells.
+/// The output of the command.
 #[derive(Debug, Serialize)]
 pub(super) struct Doctor {
     build: Build,
@@ -66,7 +66,7 @@ pub(super) struct Doctor {
     adapters: Vec<Adapter>,
     display: Display,
     fonts: Vec<FontFolder>,
-    /// `None`: this build has no sound devices.
+    /// `None` if this build has no sound devices.
     audio: Option<Audio>,
     ffmpeg: Ffmpeg,
     folders: Vec<FolderLine>,
@@ -75,7 +75,7 @@ pub(super) struct Doctor {
     reports: Vec<String>,
 }
 
-/// Something, or the reason why it is missing.
+/// A value, or the reason why it is missing.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 enum Answer<T> {
@@ -110,7 +110,7 @@ struct Device {
     backend: String,
     features: Vec<String>,
     limits: BTreeMap<&'static str, u64>,
-    /// Names of faults of the driver, with what Eddy does about them.
+    /// The names of the driver's faults, with Eddy's workarounds.
     faults: BTreeMap<&'static str, &'static str>,
 }
 
@@ -136,7 +136,7 @@ struct Display {
 #[derive(Debug, Serialize)]
 struct FontFolder {
     folder: String,
-    /// Files of fonts in it and in folders within; `None`: it is not there.
+    /// The number of font files in it and its subfolders; `None` if it does not exist.
     files: Option<usize>,
 }
 
@@ -148,13 +148,13 @@ struct Audio {
 
 #[derive(Debug, Serialize)]
 struct Ffmpeg {
-    /// The first line that ffmpeg says of itself; the reason where it cannot be run.
+    /// The first line of ffmpeg's version, or the reason why it cannot be run.
     version: Answer<String>,
     ffprobe: Answer<String>,
     encoders: Vec<EncoderLine>,
 }
 
-/// An encoder that films are made by.
+/// An encoder for films.
 #[derive(Debug, Serialize)]
 struct EncoderLine {
     name: &'static str,
@@ -181,7 +181,7 @@ fn run(args: &DoctorArgs) -> io::Result<u8> {
         out.write_all(home_as_tilde(&text::of(&doctor)).as_bytes())?;
         out.flush()?;
     }
-    // A machine without a device draws nothing.
+    // A machine without a device cannot draw.
     Ok(if matches!(doctor.device, Answer::Is(_)) { 0 } else { super::TROUBLE })
 }
 
@@ -252,7 +252,7 @@ fn system() -> Option<String> {
     Some(if kernel.is_empty() { name } else { format!("{name}, kernel {}", kernel.trim()) })
 }
 
-/// Returns the versions of libraries that a fault could lie in, as this build has them.
+/// Returns the versions of libraries that may be at fault, as in this build.
 fn libraries() -> BTreeMap<String, String> {
     const NAMES: [&str; 6] = ["clap", "cpal", "egui", "naga", "wgpu", "winit"];
     let lock = include_str!("../../../Cargo.lock");
@@ -277,7 +277,7 @@ fn adapter(found: AdapterReport) -> Adapter {
 
 impl Display {
     fn of_environment() -> Display {
-        // `quiet` has put the second there.
+        // `quiet` has set the second.
         let is_set = |name: &str| env::var_os(name).is_some_and(|value| !value.is_empty() && value != "/dev/null");
         let server = match () {
             () if cfg!(windows) => "windows",
@@ -290,7 +290,7 @@ impl Display {
     }
 }
 
-/// Returns where the fonts of the system are.
+/// Returns the system's font folders.
 fn fonts() -> Vec<FontFolder> {
     let system: &[&str] = match () {
         () if cfg!(windows) => &["C:\\Windows\\Fonts"],
@@ -306,7 +306,7 @@ fn fonts() -> Vec<FontFolder> {
     folders.map(line).collect()
 }
 
-/// Folders of fonts nest no deeper than this; one that links to itself would.
+/// The maximum depth of font folders, which stops at one that links to itself.
 const FONT_DEPTH: u32 = 6;
 
 fn count_fonts(folder: &Path, depth: u32) -> usize {
@@ -323,7 +323,7 @@ fn count_fonts(folder: &Path, depth: u32) -> usize {
     entries.map(count).sum()
 }
 
-/// Lists devices by their names, and opens none.
+/// Lists devices by name without opening any.
 #[cfg(feature = "audio")]
 fn audio() -> Option<Audio> {
     use crate::audio::{device::Machine, host::AudioHost};

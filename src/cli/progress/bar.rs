@@ -1,10 +1,11 @@
-//! A bar where standard error is no terminal, as of a remote shell or a viewer of logs that reads control codes.
+//! A progress bar if standard error is not a terminal, such as a remote shell or a log viewer that interprets control
+//! codes.
 
 use crate::cli::terminal::stderr_with_codes;
 use indicatif::{ProgressDrawTarget, TermLike};
 use std::io;
 
-/// Columns of such a place, which cannot be asked.
+/// The assumed number of columns, which cannot be queried.
 const COLUMNS: u16 = 80;
 
 /// Returns standard error as a terminal, whatever it is.
@@ -13,7 +14,7 @@ pub(super) fn target(hertz: u8) -> ProgressDrawTarget {
     if target.is_hidden() { ProgressDrawTarget::term_like_with_hz(Box::new(StandardError), hertz) } else { target }
 }
 
-/// Control codes are those of ECMA-48, section 8.3: CUU, CUD, CUF, CUB and EL.
+/// The control codes are those of ECMA-48, section 8.3: CUU, CUD, CUF, CUB and EL.
 #[derive(Debug)]
 struct StandardError;
 

@@ -1,15 +1,15 @@
-//! The time that a long call will take, said once where nothing else says how far it is.
+//! The estimated time of a long call, printed once if there is no other progress output.
 
 use std::time::Duration;
 
-/// A call that takes no longer is not announced.
+/// Calls of at most this duration are not announced.
 const LEAST: Duration = Duration::from_secs(60);
-/// Steps after the first one that are measured, and for how long at least; slow ones are measured by one step alone.
+/// The number of measured steps after the first one, and their minimum duration; slow steps are measured by one alone.
 const STEPS: u64 = 3;
 const MEASURED: Duration = Duration::from_secs(3);
 const SLOW: Duration = Duration::from_secs(30);
 
-/// Waits until the time can be told. The first step takes longer than the others: drivers compile in it.
+/// Waits until the time can be estimated. The first step takes longer than the others: drivers compile in it.
 #[derive(Debug, Default)]
 pub(super) struct Estimate {
     first: Option<Duration>,
@@ -17,7 +17,7 @@ pub(super) struct Estimate {
 }
 
 impl Estimate {
-    /// Returns what to say when so many of all steps are done after a time; once, and nothing if it takes a minute or less.
+    /// Returns the message after a number of steps and a time; once, and none if the call takes a minute or less.
     pub(super) fn step(&mut self, (done, all, unit): (u64, u64, &str), elapsed: Duration) -> Option<String> {
         if self.is_done || done == 0 {
             return None;
@@ -34,7 +34,7 @@ impl Estimate {
     }
 }
 
-/// Returns a length of time in words, to the minute, and from two days on to the hour.
+/// Formats a duration, to the minute, and from two days on to the hour.
 fn length(secs: f64) -> String {
     let minutes = (secs / 60.0).round().min(1e12) as u64;
     let (hours, minutes) = (minutes / 60, minutes % 60);
@@ -47,7 +47,7 @@ fn length(secs: f64) -> String {
     }
 }
 
-/// Returns a number with a comma between each three digits.
+/// Returns a number with thousands separators.
 fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut out = String::new();
@@ -64,7 +64,7 @@ fn grouped(number: u64) -> String {
 mod tests {
     use super::*;
 
-    /// Returns what is said of steps of a length, and after how many, by a clock of our own.
+    /// Simulates steps of given durations; returns the message, and after how many steps it is printed.
     fn said(all: u64, first: f64, step: f64) -> Option<(u64, String)> {
         let mut estimate = Estimate::default();
         let mut found = None;
@@ -79,11 +79,11 @@ mod tests {
     }
 
     #[test]
-    fn a_long_call_says_once_how_long_it_takes() {
+    fn a_long_call_is_announced_once() {
         assert_eq!(said(10_000, 8.0, 1.2), Some((4, "about 3 h 20 min for 10,000 frames".into())));
         assert_eq!(said(600, 1.0, 0.25), Some((13, "about 3 min for 600 frames".into())), "3 s are measured");
         assert_eq!(said(40, 90.0, 45.0), Some((2, "about 31 min for 40 frames".into())), "one slow frame is enough");
-        // The first frame is no measure of the others.
+        // The first frame does not count for the estimate.
         assert_eq!(said(1_000, 50.0, 0.1), Some((31, "about 2 min for 1,000 frames".into())));
     }
 
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn lengths_are_words() {
+    fn durations_are_formatted() {
         let of = |secs: u64| length(secs as f64);
         assert_eq!([61, 89, 90, 3_569].map(of), ["1 min", "1 min", "2 min", "59 min"]);
         assert_eq!([3_600, 12_000, 86_400 + 7_200].map(of), ["1 h", "3 h 20 min", "26 h"]);

@@ -1,4 +1,4 @@
-//! Progress of `eddy render` on standard error: a bar, lines for a log, or lines that a scheduler reads.
+//! The progress of `eddy render` on standard error: a bar, lines for a log, or lines for a scheduler.
 
 mod bar;
 mod estimate;
@@ -16,9 +16,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Draws of the bar per second, at most.
+/// The maximum number of redraws of the bar per second.
 const HERTZ: u8 = 5;
-/// The time between two lines of a log, and between two reports to a scheduler.
+/// The interval of log lines, and of reports to a scheduler.
 const PLAIN_EVERY: Duration = Duration::from_secs(5);
 const OPENJD_EVERY: Duration = Duration::from_secs(1);
 
@@ -38,7 +38,7 @@ pub(super) enum Style {
 }
 
 impl Style {
-    /// Says why the whole call failed, for a scheduler. Returns its argument.
+    /// Reports to a scheduler why the whole call failed. Returns its argument.
     pub(super) fn failed<T: std::fmt::Display>(self, why: T) -> T {
         if self == Style::Openjd {
             say(&openjd::fail(&why.to_string()));
@@ -50,28 +50,28 @@ impl Style {
 /// The progress of a call, which draws several projects one after the other.
 pub(super) struct CallProgress {
     style: Style,
-    /// The pictures of the call, at least 1.
+    /// The number of pictures of the call, at least 1.
     pictures: u64,
-    /// Those of projects that are done, drawn or not.
+    /// The number of pictures of finished projects, drawn or not.
     done: Cell<u64>,
     unit: &'static str,
 }
 
 impl CallProgress {
-    /// `unit` is what is counted, in the plural.
+    /// `unit` is the counted unit, in the plural.
     pub(super) fn new(style: Style, pictures: usize, unit: &'static str) -> CallProgress {
         CallProgress { style, pictures: pictures.max(1) as u64, done: Cell::new(0), unit }
     }
 
-    /// A project is about to be read and compiled.
+    /// Reports that a project is about to be read and compiled.
     pub(super) fn open(&self, title: &str) {
         if self.style == Style::Openjd {
             say(&openjd::status(&format!("{title}: compiling")));
         }
     }
 
-    /// Begins to draw a project of so many pictures, for which so many steps are needed. A single step has no bar unless
-    /// that was asked for.
+    /// Starts drawing a project with this number of pictures and steps. A single step has no bar unless that was
+    /// requested.
     pub(super) fn begin(&self, title: &str, pictures: usize, steps: u32) -> Progress<'_> {
         let target = match self.style {
             Style::Auto if steps > 1 => ProgressDrawTarget::stderr_with_hz(HERTZ),
@@ -85,7 +85,7 @@ impl CallProgress {
         }
         bar.set_prefix(title.to_owned());
         let now = Instant::now();
-        // Where nobody sees a bar, a call that takes hours says so once.
+        // If the bar is not visible, a call that takes hours prints an estimate once.
         let estimate = (self.style == Style::Auto && bar.is_hidden()).then(RefCell::default);
         let title = title.to_owned();
         let progress =
@@ -96,7 +96,7 @@ impl CallProgress {
         progress
     }
 
-    /// A project of so many pictures is done, or has failed.
+    /// Records that a project with this number of pictures is done, or has failed.
     pub(super) fn end(&self, report: &Report, pictures: usize) {
         self.done.set(self.done.get() + pictures as u64);
         if self.style != Style::Openjd {
@@ -126,7 +126,7 @@ pub(super) struct Progress<'a> {
 }
 
 impl Progress<'_> {
-    /// A frame is done, or is known to be there.
+    /// Records that a frame is done, or already exists.
     pub(super) fn step(&self) {
         self.bar.inc(1);
         if let Some(estimate) = &self.estimate {
@@ -146,7 +146,7 @@ impl Progress<'_> {
         }
     }
 
-    /// Writes how far it is, in lines.
+    /// Prints the progress as a line.
     fn tell(&self, steps: u64) {
         let words = words(&self.title, (steps, self.steps.into(), self.call.unit), self.began.elapsed());
         if self.call.style == Style::Plain {
@@ -165,7 +165,7 @@ impl Drop for Progress<'_> {
     }
 }
 
-/// Returns how many steps are done, at which rate, and how long the others take at that rate.
+/// Formats the number of finished steps, their rate, and the remaining time at that rate.
 fn words(title: &str, (done, all, unit): (u64, u64, &str), elapsed: Duration) -> String {
     let rate = done as f64 / elapsed.as_secs_f64().max(1e-9);
     if done == 0 {
@@ -175,8 +175,8 @@ fn words(title: &str, (done, all, unit): (u64, u64, &str), elapsed: Duration) ->
     format!("{title}: {done} of {all} {unit}, {rate:.1} per second, {} left", indicatif::HumanDuration(left))
 }
 
-/// Writes a line at once, so that lines of others do not come between. Nobody is left to tell where standard error is
-/// closed.
+/// Writes a line at once, so that it is not interleaved with other lines. If standard error is closed, there is nowhere
+/// to report.
 fn say(line: &str) {
     let _ = writeln!(terminal::stderr(), "{}", one_line(line));
 }
@@ -186,7 +186,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_says_the_rate_and_what_is_left() {
+    fn a_line_has_the_rate_and_the_remaining_time() {
         let line = |done, secs| words("a", (done, 60, "frames"), Duration::from_secs(secs));
         assert_eq!(line(0, 0), "a: 0 of 60 frames");
         assert_eq!(line(20, 10), "a: 20 of 60 frames, 2.0 per second, 20 seconds left");

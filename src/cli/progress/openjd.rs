@@ -1,9 +1,9 @@
-//! Lines by which a task tells a scheduler of Open Job Description how it fares: specification 2023-09, "How Jobs Are Run",
-//! section "Stdout/Stderr Messages". Each stands at the beginning of a line, on either stream.
+//! The lines by which a task reports to a scheduler of Open Job Description: specification 2023-09, "How Jobs Are Run",
+//! section "Stdout/Stderr Messages". Each is at the start of a line, on either stream.
 
 use crate::diag::is_terminal_control;
 
-/// `openjd_progress`, in percent from 0 to 100 of a part from 0 to 1. It is rounded down: 100 is the end.
+/// `openjd_progress`, in percent from 0 to 100 of a fraction from 0 to 1. It is rounded down: 100 is the end.
 pub(super) fn progress(part: f64) -> String {
     format!("openjd_progress: {:.1}", (part.clamp(0.0, 1.0) * 1000.0).floor() / 10.0)
 }
@@ -16,7 +16,7 @@ pub(super) fn fail(why: &str) -> String {
     format!("openjd_fail: {}", one_line(why))
 }
 
-/// Returns a text without line breaks, so that no part of it is read as a message of its own.
+/// Returns a text without line breaks, so that no part of it is parsed as a separate message.
 fn one_line(text: &str) -> String {
     let words: Vec<&str> =
         text.split(|c: char| c.is_whitespace() || is_terminal_control(c)).filter(|w| !w.is_empty()).collect();
@@ -28,7 +28,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn progress_is_a_percentage_that_is_full_at_the_end_only() {
+    fn progress_reaches_100_percent_only_at_the_end() {
         for (part, line) in [(0.0, "0.0"), (0.5, "50.0"), (0.999_99, "99.9"), (1.0, "100.0"), (1.5, "100.0")] {
             assert_eq!(progress(part), format!("openjd_progress: {line}"));
         }

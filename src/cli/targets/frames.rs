@@ -1,22 +1,22 @@
-//! The frames that a call is about, from `--frames` and `--at`.
+//! The requested frames of a call, from `--frames` and `--at`.
 
 use super::RenderArgs;
 use crate::playback::frames::{FrameList, Frames, film_step};
 
-/// The frames that are asked for.
+/// The requested frames.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct RequestedFrames {
-    /// Frames to write, rising, each once.
+    /// The frames to write, in ascending order, without duplicates.
     pub at: Vec<u32>,
     /// Frames that are drawn in any case: from 0 to before this one.
     pub drawn: Option<u32>,
-    /// They are named one by one.
+    /// True if the frames are listed one by one.
     pub is_range: bool,
-    /// The distance of two of a film's.
+    /// The distance between two frames of a film.
     pub step: u32,
 }
 
-/// Err: what was asked for cannot be meant.
+/// Returns an error message if the options contradict each other.
 pub(super) fn of(args: &RenderArgs, is_film: bool) -> Result<RequestedFrames, String> {
     let listed = FrameList::joined(&args.at).map_err(|why| format!("--at: {why}"))?;
     let at = listed.numbers();
@@ -33,7 +33,7 @@ pub(super) fn of(args: &RenderArgs, is_film: bool) -> Result<RequestedFrames, St
             }
             asked(frames_of(at, *count, is_film), Some(*count), listed.has_range())
         }
-        // What a list without a range draws is what it always has drawn.
+        // For a list without a range, the drawn frames are the same as in earlier versions.
         None if !at.is_empty() => {
             let drawn = at.last().map(|last| last + 1).filter(|_| !listed.has_range());
             asked(at, drawn, listed.has_range())
@@ -57,7 +57,7 @@ pub(super) fn of(args: &RenderArgs, is_film: bool) -> Result<RequestedFrames, St
     Ok(asked)
 }
 
-/// Returns the frames to write of so many that are drawn, where `at` may name some.
+/// Returns the frames to write out of this number of drawn frames, unless `at` lists some.
 fn frames_of(at: Vec<u32>, count: u32, is_film: bool) -> Vec<u32> {
     match at.is_empty() {
         false => at,

@@ -1,5 +1,5 @@
-//! The files that pictures and films are written to. They are worked out for all frames of all projects before anything is
-//! drawn, so that no file of a call is written over another one of it.
+//! The files of pictures and films. They are determined for all frames of all projects before anything is drawn, so
+//! that no file of a call overwrites another one of it.
 
 mod frames;
 #[cfg(test)]
@@ -30,17 +30,17 @@ use std::{
 pub(super) struct Targets {
     pub format: Format,
     pub encoding: Encoding,
-    /// Frames to write of each project, rising, each once. Of a film they are evenly spaced.
+    /// The frames to write of each project, in ascending order, without duplicates. Those of a film are evenly spaced.
     pub at: Vec<u32>,
     /// Frames to draw even if they are not written: from 0 to before this one.
     pub drawn: Option<u32>,
     /// Frames per second of a film.
     pub rate: Rate,
-    /// Files that are there are kept.
+    /// True if existing files are kept.
     pub keeps: bool,
     /// The part of all frames of all projects that this call writes.
     pub shard: Shard,
-    /// Names have numbers of frames even where there is one.
+    /// True if names contain frame numbers even for a single frame.
     is_numbered: bool,
     /// The assignments of each drawing of a project.
     pub sweep: Vec<Vec<String>>,
@@ -59,8 +59,8 @@ enum Output {
     Folder(PathBuf, Vec<String>),
 }
 
-/// Chooses the rate of a film whose format does not have the default one, where the call does not ask for a rate. What is
-/// wrong with the call is reported by [`Targets::of`].
+/// Selects the rate of a film whose format does not support the default one, if the call does not set a rate. Errors in
+/// the call are reported by [`Targets::of`].
 pub(super) fn choose_rate(args: &mut RenderArgs) {
     let Ok((format, _)) = place(args) else { return };
     let (Some(fastest), Ok(asked)) = (format.max_fps(), frames::of(args, !format.is_still())) else { return };
@@ -73,7 +73,7 @@ pub(super) fn choose_rate(args: &mut RenderArgs) {
 }
 
 impl Targets {
-    /// Err: what was asked for cannot be meant.
+    /// Returns an error message if the options contradict each other.
     pub(super) fn of(args: &RenderArgs) -> Result<Targets, String> {
         face_of(&args.pass.pass, args.face)?;
         let sweep = sweep::combinations(&args.sweep)?;
@@ -127,8 +127,8 @@ impl Targets {
         })
     }
 
-    /// Makes the folder, so that a place nothing can be written to is known before hours of drawing, and looks for the
-    /// programs that are needed for pictures of a size.
+    /// Creates the folder, so that an unwritable location is detected before hours of drawing, and looks for the
+    /// programs that pictures of this size need.
     pub(super) fn prepare(&self, size: (u32, u32)) -> anyhow::Result<()> {
         match &self.place {
             Output::Nowhere | Output::Pipe => {}
@@ -151,13 +151,13 @@ impl Targets {
         &self.at[within(part.start)..within(part.end)]
     }
 
-    /// Returns how many frames of all projects this call writes.
+    /// Returns the number of frames of all projects that this call writes.
     pub(super) fn pictures(&self) -> usize {
         let parts = (0..self.projects).flat_map(|project| (0..self.sweep.len()).map(move |swept| (project, swept)));
         parts.map(|(project, swept)| self.part(project, swept).len()).sum()
     }
 
-    /// Returns whether anything is written.
+    /// Returns whether any files are written.
     pub(super) fn writes(&self) -> bool {
         self.place != Output::Nowhere
     }
@@ -167,7 +167,7 @@ impl Targets {
         self.place == Output::Pipe
     }
 
-    /// Returns whether files get their names from Eddy, in a folder.
+    /// Returns whether Eddy names the files, in a folder.
     pub(super) fn is_folder(&self) -> bool {
         matches!(self.place, Output::Folder(..))
     }
@@ -177,13 +177,13 @@ impl Targets {
         if self.is_folder() { film::Output::Within(path) } else { film::Output::File(path) }
     }
 
-    /// Fails where a file of a folder is a link out of it: nothing is written through such a link.
+    /// Fails if a file of a folder is a link out of it, which must not be written through.
     pub(super) fn check(&self, path: &Path) -> anyhow::Result<()> {
         if let Output::Folder(folder, _) = &self.place { check_within(folder, path) } else { Ok(()) }
     }
 
-    /// The file for a frame of a project, counted as on the command line, where `swept` is set. A film has all frames in
-    /// one.
+    /// Returns the file for a frame of a project, counted as on the command line, with the assignments `swept`. All
+    /// frames of a film are in one file.
     pub(super) fn path(&self, project: usize, swept: &[String], frame: u32) -> Option<PathBuf> {
         match &self.place {
             Output::Nowhere | Output::Pipe => None,
@@ -193,7 +193,7 @@ impl Targets {
                 swept.iter().for_each(|set| stem.push_str(&format!("_{set}")));
                 Some(folder.join(match self.is_numbered && self.format.is_still() {
                     false => format!("{stem}.{extension}"),
-                    // They do not depend on the shard.
+                    // The names do not depend on the shard.
                     true => film::picture_name(&stem, frame, self.at.last().copied().unwrap_or_default(), extension),
                 }))
             }
@@ -201,7 +201,7 @@ impl Targets {
     }
 }
 
-/// Returns where a call writes to, and in which format.
+/// Returns the destination and the format of a call.
 fn place(args: &RenderArgs) -> Result<(Format, Output), String> {
     let asked = args.style.format;
     let Some(out) = &args.out else { return Ok((asked.unwrap_or(Format::Png), Output::Nowhere)) };
@@ -221,7 +221,7 @@ fn place(args: &RenderArgs) -> Result<(Format, Output), String> {
             let stems = stems(&args.project, || tells_case_apart(out))?;
             Ok((asked.unwrap_or(Format::Png), Output::Folder(out.clone(), stems)))
         }
-        // An animated PNG is often called one.
+        // Animated PNG files often have the extension .png.
         (Some(Format::Png), Some(Format::Apng)) => Ok((Format::Apng, Output::File(out.clone()))),
         (Some(named), Some(asked)) if asked != named => {
             Err(format!("--out {} and --format {} do not agree", out.display(), asked.name()))
@@ -230,14 +230,14 @@ fn place(args: &RenderArgs) -> Result<(Format, Output), String> {
     }
 }
 
-/// Endings of pictures and films that others write.
+/// Extensions of pictures and films that other programs write.
 const FOREIGN: [&str; 27] = [
     "avi", "avif", "bmp", "dds", "flv", "hdr", "heic", "jpe", "jpeg", "jpg", "jxl", "ktx2", "m4v", "mpeg", "mpg",
     "ogv", "pdf", "pgm", "ppm", "psd", "svg", "tga", "tif", "tiff", "ts", "webp", "wmv",
 ];
 
-/// Says what to write in the place of a name that promises a format which is not written. A name with another ending, or
-/// with a slash behind it, is a folder's.
+/// Returns a fix for a name whose extension is that of an unsupported format. A name with any other extension, or with
+/// a trailing slash, is a folder's.
 fn foreign_format(out: &Path) -> Option<String> {
     let ending = out.extension()?.to_string_lossy().to_ascii_lowercase();
     let shown = out.display();
@@ -253,9 +253,9 @@ fn foreign_format(out: &Path) -> Option<String> {
     })
 }
 
-/// Returns the name of each project's file without its ending.
+/// Returns the name of each project's file without its extension.
 ///
-/// `case_counts`: whether the file system tells `Fluid.png` from `fluid.png`; asked only where it matters.
+/// `case_counts`: whether the file system distinguishes `Fluid.png` from `fluid.png`; called only if it matters.
 pub(super) fn stems(projects: &[String], case_counts: impl Fn() -> bool) -> Result<Vec<String>, String> {
     let stems: Vec<String> = projects.iter().map(|p| project::stem(p)).collect();
     let twice = |key: fn(&str) -> String| {
@@ -272,8 +272,8 @@ pub(super) fn stems(projects: &[String], case_counts: impl Fn() -> bool) -> Resu
     Ok(stems)
 }
 
-/// Returns whether files whose names differ by case alone are two files in a folder that may not be there yet. Tried
-/// out, as one machine can have both kinds of file systems; where nothing can be written, no.
+/// Returns whether files whose names differ only by case are two files in a folder that may not exist yet. This is
+/// tested with a file, as one machine can have both kinds of file systems; false if no file can be written.
 pub(super) fn tells_case_apart(folder: &Path) -> bool {
     let there =
         folder.ancestors().map(|p| if p.as_os_str().is_empty() { Path::new(".") } else { p }).find(|p| p.is_dir());
@@ -284,7 +284,7 @@ pub(super) fn tells_case_apart(folder: &Path) -> bool {
     })
 }
 
-/// Writes a picture whole or not at all: a picture of the same name stays until the new one is complete.
+/// Writes a picture atomically: a picture of the same name stays until the new one is complete.
 pub(super) fn write(path: &Path, pixels: &Pixels, format: capture::Format) -> anyhow::Result<()> {
     let written = project::write_with(path, |file| {
         let mut out = BufWriter::new(file);
@@ -294,7 +294,7 @@ pub(super) fn write(path: &Path, pixels: &Pixels, format: capture::Format) -> an
     written.with_context(|| format!("cannot write {}", path.display()))
 }
 
-/// Fails for a file of a folder that is not there.
+/// Fails if the folder of a file does not exist.
 pub(super) fn check_folder(file: &Path) -> anyhow::Result<()> {
     let folder = folder_of(file);
     if matches!(folder.try_exists(), Ok(false)) {
@@ -305,7 +305,7 @@ pub(super) fn check_folder(file: &Path) -> anyhow::Result<()> {
     fs::read_dir(folder).map(drop).with_context(what)
 }
 
-/// Fails for a file of a folder that is a link out of it.
+/// Fails if a file of a folder is a link out of it.
 pub(super) fn check_within(folder: &Path, path: &Path) -> anyhow::Result<()> {
     let Some(name) = path.file_name() else { return Ok(()) };
     let within = project::check_within(folder, &name.to_string_lossy());

@@ -17,7 +17,7 @@ fn path(line: &str, project: usize, frame: u32) -> String {
 }
 
 #[test]
-fn one_frame_has_the_stem_and_several_have_numbers() {
+fn a_single_frame_has_the_stem_and_several_have_numbers() {
     assert_eq!(path("fluid x/a.b.json --out o --frames 9", 0, 8), "o/fluid.png");
     assert_eq!(path("fluid x/a.b.json --out o --frames 9", 1, 8), "o/a.b.png");
     assert_eq!(path("fluid --out o --at 4,9999 --format npy", 0, 4), "o/fluid_0004.npy");
@@ -38,7 +38,7 @@ fn one_frame_has_the_stem_and_several_have_numbers() {
 }
 
 #[test]
-fn a_name_that_promises_another_format_is_no_folder() {
+fn a_name_with_an_unsupported_extension_is_not_a_folder() {
     for (name, said) in [
         ("x.jpg", "--out x.jpg: .jpg is not a format that is written; use .png, .exr, "),
         ("o/x.JPEG", "or o/x.JPEG/ for a folder"),
@@ -58,7 +58,7 @@ fn a_name_that_promises_another_format_is_no_folder() {
 }
 
 #[test]
-fn frames_follow_what_is_written() {
+fn the_output_determines_the_frames() {
     let of = |line| targets(line).map(|t| (t.at, t.drawn, t.keeps));
     assert_eq!(of("a --out o"), Ok((vec![0], Some(1), false)));
     assert_eq!(of("a --out o --frames 9"), Ok((vec![8], Some(9), false)));
@@ -87,12 +87,12 @@ fn shards_share_the_frames_of_all_projects() {
 }
 
 #[test]
-fn a_film_shows_a_step_at_its_own_rate() {
+fn a_film_of_steps_has_its_own_rate() {
     let rate = |line| targets(line).unwrap().rate.per_second();
     assert_eq!(rate("a --out x.mp4 --frames 9"), 60.0);
     assert_eq!(rate("a --out x.mp4 --frames 0-9:2 --fps 25"), 12.5);
     assert_eq!(rate("a --out x.mp4 --frames 9 --fps 24000/1001"), 24_000.0 / 1001.0);
-    // A GIF has no 60 frames per second: it gets the most that it can have, unless a rate is asked for.
+    // A GIF cannot have 60 frames per second: it gets the maximum, unless a rate is requested.
     assert_eq!(rate("a --out x.gif --frames 9"), 50.0);
     assert_eq!(rate("a --out o --format gif --frames 9"), 50.0);
     assert_eq!(rate("a --out x.gif --frames 0-9:2"), 30.0);
@@ -101,7 +101,7 @@ fn a_film_shows_a_step_at_its_own_rate() {
 }
 
 #[test]
-fn no_file_is_written_over_another_of_the_same_call_and_nonsense_is_refused() {
+fn colliding_files_and_invalid_options_are_rejected() {
     for (line, says) in [
         ("a b --out x.png", "2 pictures"),
         ("a --out x.png --at 1,2", "2 pictures"),
@@ -132,7 +132,7 @@ fn no_file_is_written_over_another_of_the_same_call_and_nonsense_is_refused() {
 }
 
 #[test]
-fn names_that_differ_by_case_alone_are_two_where_the_files_are() {
+fn case_sensitive_file_systems_distinguish_names_by_case() {
     let list = |names: &[&str]| -> Vec<String> { names.iter().map(|n| (*n).to_owned()).collect() };
     let pair = list(&["x/a.json", "x/A.json"]);
     assert_eq!(stems(&pair, || true), Ok(list(&["a", "A"])));

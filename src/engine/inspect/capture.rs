@@ -1,4 +1,4 @@
-//! Reads back what a draw is about to read.
+//! Reads back the inputs of a draw before it runs.
 
 use super::{LevelBy, MeshInputs, PassInputs, TextureCopy, texture::Level};
 use crate::{
@@ -12,11 +12,11 @@ use eddy_project::{Filter, PassName, Wrap};
 use eddy_texture::{Dimension, TextureShape};
 use std::sync::Arc;
 
-/// Takes the inputs of one pass while a frame is drawn; of a pass of several steps, those of its last.
+/// Captures the inputs of one pass while a frame is drawn; for a pass of several steps, those of its last.
 pub(crate) struct Capture<'a> {
     pass: &'a PassName,
     converter: &'a FloatConverter,
-    /// The pass has been drawn already.
+    /// True if the pass has been drawn already.
     is_past: bool,
     pub taken: Option<PassInputs>,
 }
@@ -26,12 +26,12 @@ impl<'a> Capture<'a> {
         Self { pass, converter, is_past: false, taken: None }
     }
 
-    /// Takes the inputs of a pass after the frame: they are there as long as nothing new is drawn.
+    /// Captures the inputs of a pass after the frame: they exist until something new is drawn.
     pub(crate) fn of_the_past(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
         Self { pass, converter, is_past: true, taken: None }
     }
 
-    /// Reads everything that a draw reads. What was encoded before has been handed in.
+    /// Reads all inputs of a draw. Previously encoded commands have been submitted.
     pub(crate) fn take(&mut self, running: &Running, shared: &Shared, index: usize) -> Result<(), EngineError> {
         let (compiled, draw) = (&running.program.draws[index], &running.program.plan.draws[index]);
         let mut channels = [const { None }; SLOTS];
@@ -91,7 +91,7 @@ impl<'a> Capture<'a> {
         Ok(TextureCopy { dimension, levels, filter, wrap, level_by: LevelBy::Pixel })
     }
 
-    /// Returns what a target held when draw `reader` read it, which is done before the target is drawn.
+    /// Returns the texture of a target that draw `reader` read, which happens before the target is drawn.
     fn before<'r>(&self, running: &'r Running, reader: usize, target: usize) -> Result<&'r Texture, EngineError> {
         let plan = &running.program.plan;
         let held = &running.targets[target];
@@ -100,7 +100,7 @@ impl<'a> Capture<'a> {
         };
         let run_of = |draw: usize| plan.runs.iter().position(|run| run.draws.contains(&draw));
         match running.steps_drawn.get(drawer) {
-            // It was left out, as nothing that it reads had changed.
+            // It was not drawn, as none of its inputs had changed.
             None | Some(0) => Ok(held.newest()),
             Some(&steps) if steps > 1 && run_of(drawer) != run_of(reader) => {
                 Err(EngineError::Overwritten { reader: self.pass.title(), read: held.id.title() })
@@ -120,7 +120,7 @@ impl<'a> Capture<'a> {
     }
 }
 
-/// The levels of a volume, as they were written to the device.
+/// The levels of a volume, as they were uploaded to the device.
 fn volume_levels(texels: &Arc<Texels>, shape: TextureShape) -> Vec<Level> {
     let levels = std::iter::successors(Some(Texels::clone(texels)), |finer| Some(finer.halved()));
     let level = |texels: Texels| {

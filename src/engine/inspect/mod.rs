@@ -1,6 +1,6 @@
-//! The inputs of a draw are copied to memory: they are the world of [`eddy_glsl::walk`].
+//! The inputs of a draw, copied to memory: they are the world of [`eddy_glsl::walk`].
 //!
-//! Owns the copies of a draw's uniforms, textures and meshes as they were when it began, and the reference of a
+//! Owns the copies of a draw's uniforms, textures and meshes from its start, and the reference implementation of a
 //! sampler.
 
 mod capture;

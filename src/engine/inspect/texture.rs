@@ -1,5 +1,5 @@
 //! A texture in memory, and how a sampler reads it: sections 3.8.10 and 3.8.11 of the OpenGL ES 3.0 specification, in
-//! double precision. A device may weigh texels with as few as 8 bits.
+//! double precision. A device may weight texels with as few as 8 bits.
 
 use eddy_glsl::walk::Lod;
 use eddy_project::{Filter, Wrap};
@@ -10,20 +10,19 @@ use eddy_texture::{Dimension, Face};
 pub struct Level {
     pub width: u32,
     pub height: u32,
-    /// Slices of a volume, the six faces of a cube, else 1.
+    /// The slices of a volume, the six faces of a cube, else 1.
     pub depth: u32,
     pub texels: Vec<[f32; 4]>,
 }
 
-/// Says what the level of a read follows from, where the read says none.
+/// The method that computes the level of a read with implicit level.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LevelBy {
-    /// The specification has each pixel's own differences, and the logarithm to base 2.
+    /// The specification uses each pixel's own differences, and the logarithm to base 2.
     #[default]
     Pixel,
-    /// llvmpipe has those of a quad's first row and column (`lp_bld_sample.c`, `lp_build_rho`), and half the logarithm
-    /// of the squared length, which between two powers of two is taken for a line: up to 0.043 less
-    /// (`lp_build_lod_selector`).
+    /// llvmpipe uses those of a quad's first row and column (`lp_bld_sample.c`, `lp_build_rho`), and half the logarithm
+    /// of the squared length, interpolated linearly between powers of two: up to 0.043 less (`lp_build_lod_selector`).
     Quad,
 }
 
@@ -31,7 +30,7 @@ pub enum LevelBy {
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureCopy {
     pub dimension: Dimension,
-    /// One at least; the others if the channel's reads may reach them.
+    /// At least one; the others if the channel's reads may reach them.
     pub levels: Vec<Level>,
     pub filter: Filter,
     pub wrap: Wrap,
@@ -39,7 +38,7 @@ pub struct TextureCopy {
 }
 
 impl LevelBy {
-    /// The level at which texels are as far apart as pixels, which are so many texels of the finest level apart.
+    /// Returns the level whose texel spacing equals that of the pixels, which is `texels` texels of the finest level.
     fn level(self, texels: f64) -> f64 {
         let square = texels * texels;
         match self {
@@ -53,21 +52,21 @@ impl LevelBy {
 }
 
 impl TextureCopy {
-    /// Returns what a channel with nothing in it reads: one opaque black texel.
+    /// Returns the texture of an empty channel: one opaque black texel.
     pub fn black() -> Self {
         let level = Level { width: 1, height: 1, depth: 1, texels: vec![[0.0, 0.0, 0.0, 1.0]] };
         let (dimension, filter, wrap) = (Dimension::D2, Filter::Nearest, Wrap::Clamp);
         Self { dimension, levels: vec![level], filter, wrap, level_by: LevelBy::Pixel }
     }
 
-    /// A texel; zeros outside of the texture.
+    /// Returns a texel; zeros outside the texture.
     pub fn fetch(&self, [x, y, z]: [i32; 3], level: i32) -> [f32; 4] {
         let level = usize::try_from(level).ok().and_then(|level| self.levels.get(level));
         let slice = if self.dimension == Dimension::D3 { z } else { 0 };
         level.and_then(|level| level.at(x, y, slice)).unwrap_or([0.0; 4])
     }
 
-    /// A filtered read at a coordinate from 0 to 1 across the texture, of a cube at a direction; `offset` is in texels.
+    /// Samples the texture at a coordinate from 0 to 1, or a cube in a direction; `offset` is in texels.
     pub fn sample(&self, at: [f64; 3], lod: Lod, offset: [i32; 3]) -> [f64; 4] {
         let lod = match self.filter {
             Filter::Mipmap => self.lod(at, lod),
@@ -90,7 +89,7 @@ impl TextureCopy {
         std::array::from_fn(|i| near[i] + weight * (far[i] - near[i]))
     }
 
-    /// The level between 0 and the last, with a fraction.
+    /// Returns the level between 0 and the last, with a fraction.
     fn lod(&self, at: [f64; 3], lod: Lod) -> f64 {
         let [width, height, depth] = self.levels[0].sides();
         let lod = match lod {
@@ -99,7 +98,7 @@ impl TextureCopy {
                 let length = |d: [f64; 3]| match self.dimension {
                     Dimension::D2 => (d[0] * width).hypot(d[1] * height),
                     Dimension::D3 => (d[0] * width).hypot(d[1] * height).hypot(d[2] * depth),
-                    // By the quotient rule, of the coordinates on the face.
+                    // The derivatives of the coordinates on the face, by the quotient rule.
                     Dimension::Cube => {
                         let face = Face::of(at);
                         let ([s, t, m], [ds, dt, dm]) = (face.components(at), face.components(d));
@@ -111,7 +110,7 @@ impl TextureCopy {
             }
         };
         let last = (self.levels.len() - 1) as f64;
-        // Of a coordinate that does not change, and of NaN, the finest.
+        // For a constant coordinate, and for NaN, the finest.
         if lod > 0.0 { lod.min(last) } else { 0.0 }
     }
 
@@ -140,7 +139,7 @@ impl TextureCopy {
         let weight: [f64; 2] = std::array::from_fn(|i| place[i] - 0.5 - corner[i]);
         let texels = [[0, 0], [1, 0], [0, 1], [1, 1]]
             .map(|[dx, dy]| level.beyond_faces(face, corner[0] as i32 + dx, corner[1] as i32 + dy));
-        // Three faces meet in a corner, where a fourth texel is missing: their mean stands for it.
+        // Three faces meet in a corner, where a fourth texel is missing: the mean of the others replaces it.
         let known: Vec<[f64; 4]> = texels.iter().flatten().copied().collect();
         let mean = std::array::from_fn(|i| known.iter().map(|t| t[i]).sum::<f64>() / known.len().max(1) as f64);
         let [a, b, c, d] = texels.map(|t| t.unwrap_or(mean));
@@ -151,7 +150,7 @@ impl TextureCopy {
         })
     }
 
-    /// Reads a picture, or a slice of a volume.
+    /// Samples a picture, or a slice of a volume.
     fn read(&self, level: &Level, slice: i32, at: [f64; 3], offset: [i32; 3]) -> [f64; 4] {
         let size = [f64::from(level.width), f64::from(level.height)];
         let place: [f64; 2] = std::array::from_fn(|i| at[i] * size[i] + f64::from(offset[i]));
@@ -193,7 +192,7 @@ impl Level {
         [self.width, self.height, self.depth].map(f64::from)
     }
 
-    /// A texel of a face, or the one of its neighbour that lies at the other side of the edge; `None` beyond a corner.
+    /// Returns a texel of a face, or that of its neighbour across the edge; `None` beyond a corner.
     fn beyond_faces(&self, face: Face, x: i32, y: i32) -> Option<[f64; 4]> {
         let side = self.width as i32;
         let is_outside = |c: i32| c < 0 || c >= side;
@@ -219,7 +218,7 @@ impl Level {
 mod tests {
     use super::*;
 
-    /// 2 x 2 texels whose red is 0, 1, 2, 3; then one of 10.
+    /// Returns 2 x 2 texels whose red is 0, 1, 2, 3; then one of 10.
     fn texture(filter: Filter, wrap: Wrap) -> TextureCopy {
         let texels = (0..4).map(|i| [i as f32, 0.0, 0.0, 1.0]).collect();
         let coarse = Level { width: 1, height: 1, depth: 1, texels: vec![[10.0, 0.0, 0.0, 1.0]] };
@@ -232,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn texels_are_weighed_by_distance_and_wrapped() {
+    fn texels_are_weighted_by_distance_and_wrapped() {
         let linear = texture(Filter::Linear, Wrap::Clamp);
         assert_eq!([red(&linear, [0.25, 0.25], 0.0), red(&linear, [0.5, 0.5], 5.0)], [0.0, 1.5]);
         assert_eq!([red(&linear, [-3.0, 0.25], 0.0), red(&linear, [0.375, 9.0], 0.0)], [0.0, 2.25]);
@@ -244,13 +243,13 @@ mod tests {
     }
 
     #[test]
-    fn a_level_is_chosen_by_the_larger_derivative() {
+    fn the_larger_derivative_selects_the_level() {
         let mipmap = texture(Filter::Mipmap, Wrap::Clamp);
         let at = |x: f64, bias| {
             let lod = Lod::Derivatives { x: [x, 0.0, 0.0], y: [0.0, x / 4.0, 0.0], bias };
             mipmap.sample([0.25, 0.25, 0.0], lod, [0; 3])[0]
         };
-        // One texel a pixel, two, and half a level between.
+        // One texel per pixel, two, and half a level between.
         assert_eq!(
             [at(0.5, 0.0), at(1.0, 0.0), at(0.5, 0.5), at(0.0, 0.0), at(99.0, 0.0)],
             [0.0, 10.0, 5.0, 0.0, 10.0]
@@ -259,20 +258,20 @@ mod tests {
     }
 
     #[test]
-    fn a_level_by_lines_is_exact_at_powers_of_two_of_the_square() {
+    fn the_piecewise_linear_level_is_exact_at_powers_of_two() {
         let levels = |by: LevelBy| [1.0, 2.0, 8.0, 0.5, 2.0f64.sqrt()].map(|texels| by.level(texels));
         assert!(levels(LevelBy::Quad).iter().zip(levels(LevelBy::Pixel)).all(|(a, b)| (a - b).abs() < 1e-12));
         let apart = |texels: f64| LevelBy::Pixel.level(texels) - LevelBy::Quad.level(texels);
         let most = (0..1000).map(|i| apart(2.0 + f64::from(i) / 100.0)).fold(0.0, f64::max);
         assert!((most - 0.043).abs() < 1e-4, "{most}");
-        // Of a coordinate that does not change, the finest.
+        // The finest for a constant coordinate.
         let mipmap = TextureCopy { level_by: LevelBy::Quad, ..texture(Filter::Mipmap, Wrap::Clamp) };
         let still = Lod::Derivatives { x: [0.0; 3], y: [0.0; 3], bias: 0.0 };
         assert_eq!(mipmap.sample([0.25, 0.25, 0.0], still, [0; 3])[0], 0.0);
     }
 
     #[test]
-    fn outside_of_a_texture_a_fetch_is_zero() {
+    fn fetches_outside_a_texture_return_zero() {
         let texture = texture(Filter::Nearest, Wrap::Repeat);
         assert_eq!([texture.fetch([1, 1, 0], 0)[0], texture.fetch([0, 0, 0], 1)[0]], [3.0, 10.0]);
         for (at, level) in [([2, 0], 0), ([-1, 0], 0), ([0, 0], 2), ([0, 0], -1), ([1, 0], 1)] {
@@ -281,10 +280,10 @@ mod tests {
         }
     }
 
-    /// A cube whose texels hold their own directions: read anywhere, seams and corners too, it gives about the direction
-    /// that it is asked for.
+    /// A cube whose texels contain their own directions: a sample in any direction, across seams and corners too,
+    /// returns about that direction.
     #[test]
-    fn a_cube_is_read_over_its_seams() {
+    fn cubes_are_seamless() {
         let side = 16;
         let center = |n: u32| f64::from(2 * n + 1) / f64::from(side) - 1.0;
         let texels = Face::ALL.iter().flat_map(|face| {
@@ -306,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn a_volume_is_read_between_slices() {
+    fn volumes_are_interpolated_between_slices() {
         let texels = (0..8).map(|i| [i as f32, 0.0, 0.0, 1.0]).collect();
         let levels = vec![Level { width: 2, height: 2, depth: 2, texels }];
         let volume = TextureCopy { dimension: Dimension::D3, levels, ..texture(Filter::Linear, Wrap::Repeat) };

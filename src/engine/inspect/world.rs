@@ -1,4 +1,4 @@
-//! Holds everything that one draw of a pass reads.
+//! All inputs of one draw of a pass.
 
 use super::texture::{LevelBy, TextureCopy};
 use eddy_glsl::{
@@ -10,22 +10,22 @@ use eddy_media::mesh::Mesh;
 use eddy_project::Filter;
 use std::sync::Arc;
 
-/// The uniforms and textures that a draw reads, as they were when it began.
+/// The uniforms and textures that a draw reads, as they were at its start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassInputs {
     pub uniforms: UniformBlock,
-    /// The author's own, by their slots.
+    /// The author's own, in slot order.
     pub custom_uniforms: Vec<[u32; 4]>,
     pub channels: [TextureCopy; SLOTS],
-    /// The texels that are drawn, across and up.
+    /// The drawn texels, across and up.
     pub size: (u32, u32),
-    /// The face of a cubemap that is walked, in the order of [`eddy_texture::Face::ALL`]; 0 for any other pass.
+    /// The selected face of a cubemap, in the order of [`eddy_texture::Face::ALL`]; 0 for any other pass.
     pub face: u32,
-    /// The further inputs of each draw of a pass that draws meshes, in drawing order; empty for any other pass.
+    /// The further inputs of each draw of a pass with meshes, in drawing order; empty for any other pass.
     pub meshes: Vec<MeshInputs>,
 }
 
-/// A mesh, and the matrices that it is drawn with.
+/// A mesh and its matrices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshInputs {
     pub mesh: Arc<Mesh>,
@@ -33,14 +33,14 @@ pub struct MeshInputs {
 }
 
 impl PassInputs {
-    /// Returns what the programs of a draw read; `None` for the one of a pass that draws no meshes.
+    /// Returns the inputs of a draw's programs; `None` for the one draw of a pass without meshes.
     pub fn of_draw(&self, draw: Option<usize>) -> DrawInputs<'_> {
         let mesh = draw.and_then(|draw| self.meshes.get(draw));
         DrawInputs { pass: self, geometry: mesh.map_or_else(GeometryBlock::default, |mesh| mesh.geometry) }
     }
 }
 
-/// The inputs of a pass as the programs of one of its draws read them.
+/// The inputs of a pass for the programs of one of its draws.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawInputs<'i> {
     pass: &'i PassInputs,
@@ -48,7 +48,7 @@ pub struct DrawInputs<'i> {
 }
 
 impl DrawInputs<'_> {
-    /// Returns whether it matters for a channel which level of its texture a read asks for.
+    /// Returns whether the level of a read from a channel affects its result.
     pub fn is_of_levels(&self, channel: u8) -> bool {
         let texture = &self.pass.channels[usize::from(channel)];
         texture.filter == Filter::Mipmap && texture.levels.len() > 1
@@ -74,7 +74,7 @@ impl World for DrawInputs<'_> {
 
     fn size(&self, channel: u8, level: i32) -> [i32; 3] {
         let base = self.pass.channels[usize::from(channel)].levels.first();
-        // Levels that a texture does not have included (`glsl/emit/expression.rs`).
+        // Also for levels that a texture does not have (`glsl/emit/expression.rs`).
         let shift = (level as u32).min(31);
         let of_level = |side: u32| (side >> shift).max(1) as i32;
         base.map_or([0; 3], |base| [base.width, base.height, base.depth].map(of_level))

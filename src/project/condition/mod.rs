@@ -1,9 +1,9 @@
 //! The condition of a pass (`when` in `eddy.toml`): an expression over the author's own uniforms and the size of the
-//! picture, which says in each frame whether the pass is drawn.
+//! picture that is evaluated each frame and decides whether the pass is drawn.
 //!
-//! Owns its form, its value, and what is said of names that it cannot have. The grammar is GLSL's: `||`, `&&`, `==`
-//! `!=`, `<` `<=` `>` `>=`, `!` `-`, parentheses, numbers, `true`, `false` and names, in this order of precedence. Numbers
-//! are compared as a shader compares them, in single precision.
+//! Owns its form, its evaluation, and the diagnostics about unknown names. The grammar is GLSL's: `||`, `&&`, `==`
+//! `!=`, `<` `<=` `>` `>=`, `!` `-`, parentheses, numbers, `true`, `false` and names, in this order of precedence.
+//! Numbers are compared in single precision, as in a shader.
 
 mod parse;
 #[cfg(test)]
@@ -15,18 +15,18 @@ use super::{
 use eddy_diag::{Diagnostic, Span};
 use std::{fmt, ops::Range, sync::Arc};
 
-/// The names of the width and the height of the picture in pixels. A uniform of the author's with such a name comes
-/// first.
+/// The names of the width and the height of the picture in pixels. A uniform of the author's with the same name takes
+/// precedence.
 const CANVAS: [&str; 2] = ["width", "height"];
 
-/// An expression that says whether a pass is drawn, and its place in `eddy.toml`.
+/// An expression that decides whether a pass is drawn, and its place in `eddy.toml`.
 #[derive(Clone, Debug)]
 pub struct Condition {
     text: Arc<str>,
     root: Term,
-    /// Every name with its bytes in the text.
+    /// Every name with its byte range in the text.
     names: Vec<(String, Range<usize>)>,
-    /// `None`: made in code.
+    /// `None` if created in code.
     written: Option<Written>,
 }
 
@@ -55,7 +55,7 @@ pub enum Operator {
 }
 
 impl Operator {
-    /// Returns how GLSL writes it.
+    /// Returns its GLSL spelling.
     pub fn symbol(self) -> &'static str {
         match self {
             Operator::Or => "||",
@@ -84,7 +84,7 @@ impl Operator {
 }
 
 impl Term {
-    /// Returns its value; that of a comparison is 1 or 0.
+    /// Evaluates the term; a comparison is 1 or 0.
     fn value(&self, of: &dyn Fn(&str) -> f64) -> f64 {
         match self {
             Term::Number(number) => *number,
@@ -96,17 +96,17 @@ impl Term {
     }
 }
 
-/// A mistake in the text of a condition.
+/// An error in the text of a condition.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}: {hint}")]
 pub struct ConditionError {
-    /// Bytes of the text.
+    /// A byte range of the text.
     pub range: Range<usize>,
     pub message: String,
     pub hint: String,
 }
 
-/// Two conditions are the same if they say the same, wherever they are written.
+/// Conditions are equal if their expressions are, wherever they are written.
 impl PartialEq for Condition {
     fn eq(&self, other: &Condition) -> bool {
         self.text == other.text
@@ -122,7 +122,7 @@ impl fmt::Display for Condition {
 }
 
 impl Condition {
-    /// Reads an expression.
+    /// Parses an expression.
     pub fn parse(text: &str) -> Result<Condition, ConditionError> {
         let (root, names) = parse::parse(text)?;
         Ok(Condition { text: text.into(), root, names, written: None })
@@ -134,7 +134,7 @@ impl Condition {
         Condition { written, ..self }
     }
 
-    /// Returns the expression as it is written.
+    /// Returns the expression's source text.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -143,8 +143,8 @@ impl Condition {
         &self.root
     }
 
-    /// Returns whether it is true. `value` gives the value of a uniform, `None` for a name that is none; a name that
-    /// nothing has is 0.
+    /// Evaluates the condition. `value` returns the value of a uniform, or `None` if no uniform has the name; unknown
+    /// names are 0.
     pub fn holds(&self, value: &dyn Fn(&str) -> Option<f64>, canvas: (u32, u32)) -> bool {
         let of_canvas = |name: &str| match name {
             "width" => f64::from(canvas.0),
@@ -154,7 +154,7 @@ impl Condition {
         self.root.value(&|name| value(name).unwrap_or_else(|| of_canvas(name))) != 0.0
     }
 
-    /// Returns whether it names a uniform.
+    /// Returns whether it uses a uniform.
     pub fn names(&self, uniform: &str) -> bool {
         self.names.iter().any(|(name, _)| name == uniform)
     }
@@ -166,7 +166,7 @@ impl Project {
         self.passes.iter().enumerate().filter_map(|(index, pass)| Some((index, pass.settings.when.as_ref()?)))
     }
 
-    /// Returns the texts that conditions are written in, by their ids in [`Project::sources`].
+    /// Returns the texts that contain conditions, by their ids in [`Project::sources`].
     pub(super) fn condition_texts(&self) -> impl Iterator<Item = FillText> {
         self.conditions().enumerate().map(|(n, (_, condition))| {
             let (text, range) = Written::located(&condition.text, condition.written.as_ref());
@@ -174,7 +174,7 @@ impl Project {
         })
     }
 
-    /// Returns errors for names in conditions that no uniform has, and for uniforms of several numbers. Spans point into
+    /// Returns errors for names that are not uniforms, and for uniforms with several components. Spans point into
     /// [`Project::sources`].
     pub fn check_conditions(&self, uniforms: &CustomUniforms) -> Vec<Diagnostic> {
         let mut found = Vec::new();

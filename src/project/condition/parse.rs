@@ -1,11 +1,11 @@
-//! The text of a condition becomes its terms.
+//! The parser of conditions.
 
 use super::{ConditionError, Operator, Term};
 use crate::limits;
 use std::ops::Range;
 
-/// The operators between terms, the loosest first. Those of a level that compare stand once: `1 < a < 3` is no
-/// comparison in GLSL either.
+/// The binary operators by precedence, lowest first. Comparisons do not chain: `1 < a < 3` is not a comparison in GLSL
+/// either.
 const LEVELS: [&[Operator]; 4] = [
     &[Operator::Or],
     &[Operator::And],
@@ -15,7 +15,7 @@ const LEVELS: [&[Operator]; 4] = [
 
 type Names = Vec<(String, Range<usize>)>;
 
-/// Reads a whole text. Returns its terms, and every name with its place.
+/// Parses a whole text. Returns its terms, and every name with its range.
 pub(super) fn parse(text: &str) -> Result<(Term, Names), ConditionError> {
     let mut parser = Parser { text, at: 0, depth: 0, names: Vec::new() };
     if text.len() > limits::CONDITION {
@@ -53,7 +53,7 @@ impl<'t> Parser<'t> {
         ConditionError { range, message: message.into(), hint: hint.into() }
     }
 
-    /// Takes a symbol if it comes next.
+    /// Consumes a symbol if it comes next.
     fn takes(&mut self, symbol: &str) -> bool {
         self.skip_blanks();
         let is_next = self.rest().starts_with(symbol);
@@ -63,12 +63,12 @@ impl<'t> Parser<'t> {
         is_next
     }
 
-    /// Takes an operator of a level if it comes next.
+    /// Consumes an operator of a level if it comes next.
     fn operator(&mut self, level: &[Operator]) -> Option<Operator> {
         level.iter().copied().find(|operator| self.takes(operator.symbol()))
     }
 
-    /// Reads what a level and all tighter ones make.
+    /// Parses operators of a level and of all levels that bind more tightly.
     fn level(&mut self, level: usize) -> Result<Term, ConditionError> {
         let Some(operators) = LEVELS.get(level) else { return self.sign() };
         let mut left = self.level(level + 1)?;
@@ -88,7 +88,7 @@ impl<'t> Parser<'t> {
         Ok(left)
     }
 
-    /// Reads what `!`, `-` and parentheses stand before or around.
+    /// Parses `!`, `-` and parenthesised expressions.
     fn sign(&mut self) -> Result<Term, ConditionError> {
         self.depth += 1;
         if self.depth > limits::CONDITION_DEPTH {
@@ -159,7 +159,7 @@ impl<'t> Parser<'t> {
             let message = format!("{written} is not a number");
             return Err(self.error(begin..self.at, message, "write for example 3, 0.5 or 1e-4"));
         };
-        // A whole number may be compared with an int, which single precision does not hold.
+        // An integer may be compared with an int, which single precision cannot represent exactly.
         Ok(Term::Number(if number.fract() == 0.0 { number } else { f64::from(number as f32) }))
     }
 

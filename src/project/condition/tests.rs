@@ -42,7 +42,7 @@ fn operators_bind_as_in_glsl() {
 }
 
 #[test]
-fn a_mistake_is_said_at_its_place_with_its_mend() {
+fn syntax_errors_have_a_span_and_a_fix() {
     for (text, range, message, hint) in [
         ("", 0..0, "empty", "for example"),
         ("  ", 0..2, "empty", "for example"),
@@ -70,13 +70,13 @@ fn a_mistake_is_said_at_its_place_with_its_mend() {
 }
 
 #[test]
-fn what_is_too_long_or_too_deep_is_refused() {
+fn long_or_deeply_nested_conditions_are_rejected() {
     let deep = |n: usize| format!("{}on{}", "(".repeat(n), ")".repeat(n));
     assert!(Condition::parse(&deep(limits::CONDITION_DEPTH - 1)).is_ok());
     assert!(Condition::parse(&deep(limits::CONDITION_DEPTH)).unwrap_err().message.contains("in one another"));
     assert!(Condition::parse(&"!".repeat(900)).unwrap_err().message.contains("in one another"));
     assert!(Condition::parse(&"on && ".repeat(400)).unwrap_err().message.contains("longer"));
-    // Side by side there may be many.
+    // Many parentheses that are not nested are fine.
     assert!(Condition::parse(&format!("{}on", "(on) && ".repeat(100))).is_ok());
 }
 

@@ -1,12 +1,12 @@
-//! The one way from a name that a project says to a file.
+//! Resolves the names of files that a project mentions. No other code does.
 //!
-//! A project may be a stranger's, so it reads only what lies in its own folder: pass files, Common, stages, included
-//! files, pictures, models and the files that models name. A name is relative to the folder, with `/`. It may not be
-//! absolute, nor lead above the folder, also not through links: these are followed first. What it leads to must be a
-//! regular file, as a device never ends and a pipe never begins. Reading is bounded.
+//! A project may be a stranger's, so it reads only files in its own folder: pass files, Common, stages, included files,
+//! pictures, models and the files that models name. A name is relative to the folder, with `/`. It may not be absolute,
+//! nor lead above the folder, even through links, which are resolved first. It must lead to a regular file: a device
+//! may never reach its end and a pipe may never deliver a byte. Reading is bounded.
 //!
-//! [`relative`] decides by the name alone, [`resolve`] by what is on the disk, and [`read`] reads. [`read_own`] is for
-//! a path that the person at the machine says, who may name any regular file.
+//! [`relative`] checks the name alone, [`resolve`] checks the disk, and [`read`] reads. [`read_own`] is for a path that
+//! the user gives, who may name any regular file.
 
 use super::limits::{self, Limit};
 use std::{
@@ -15,39 +15,39 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// An error of reading a file. The text names the file and the reason; [`FileError::hint`] says the mend.
+/// An error when reading a file. The text names the file and the reason; [`FileError::hint`] returns the fix.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}", self.message())]
 pub struct FileError {
-    /// The file as the project names it, or as the machine does where the project's name is good.
+    /// The file as the project names it, or the system's path if the project's name is valid.
     pub file: String,
     pub reason: Reason,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// No name is given.
+    /// The name is empty.
     Empty,
-    /// The name begins at a root or a drive.
+    /// The name starts at a root or a drive.
     Absolute,
     /// `..` leads above the project's folder.
     Above,
-    /// `\` stands in it.
+    /// It contains `\`.
     Backslash,
-    /// A character stands in it that no name has, or the whole is not Unicode.
+    /// It contains a character that no file name may have, or is not Unicode.
     Characters,
-    /// A device of Windows has this name.
+    /// It is the name of a Windows device.
     Reserved,
-    /// A link on the way leads out of the folder.
+    /// A link on the path leads out of the folder.
     Link,
-    /// Nothing is there.
+    /// The file does not exist.
     Missing,
-    /// Something is there, and no regular file: "a folder", "a pipe".
+    /// It exists but is not a regular file: "a folder", "a pipe".
     NotAFile(&'static str),
     TooLarge(Limit),
-    /// With what was read before it is more than the limit.
+    /// With the bytes read before, it exceeds the limit.
     TooMuch(Limit),
-    /// The machine refused.
+    /// The system returned an error.
     Io(String),
 }
 
@@ -64,7 +64,7 @@ impl FileError {
         FileError::new(path.display().to_string(), reason)
     }
 
-    /// The machine could not do what was asked of a file.
+    /// Returns the error for a failed operation of the system on a file.
     pub fn of_machine(path: &Path, error: &io::Error) -> Self {
         FileError::io(path, error)
     }
@@ -89,7 +89,7 @@ impl FileError {
         }
     }
 
-    /// Returns how to mend it.
+    /// Returns how to fix it.
     pub fn hint(&self) -> String {
         match &self.reason {
             Reason::Empty => "write the file name, relative to the project's folder".into(),
@@ -106,7 +106,7 @@ impl FileError {
         }
     }
 
-    /// The machine refused, for want of permission or by a fault: nothing that the project says is wrong.
+    /// Returns whether the system refused, for lack of permission or because of a fault: the project itself is correct.
     pub fn is_of_machine(&self) -> bool {
         matches!(self.reason, Reason::Io(_))
     }
@@ -120,8 +120,8 @@ impl FileError {
     }
 }
 
-/// The name, from the project's folder and with `/`, of what the file `from` of the project calls `name`. `from` is
-/// itself a name from the folder; an empty one stands for a file directly in it. Looks at the text alone.
+/// The name, from the project's folder and with `/`, of the file that the project's file `from` calls `name`. `from` is
+/// itself a name from the folder; an empty one means a file directly in it. Checks only the text of the names.
 pub fn relative(from: &str, name: &str) -> Result<String, FileError> {
     let refuse = |reason| Err(FileError::new(name, reason));
     let bytes = name.as_bytes();
@@ -138,7 +138,7 @@ pub fn relative(from: &str, name: &str) -> Result<String, FileError> {
     if name.contains('\\') {
         return refuse(Reason::Backslash);
     }
-    // A stream of a file.
+    // An alternate data stream of NTFS.
     if cfg!(windows) && name.contains(':') {
         return refuse(Reason::Characters);
     }
@@ -151,7 +151,7 @@ pub fn relative(from: &str, name: &str) -> Result<String, FileError> {
                     return refuse(Reason::Above);
                 }
             }
-            // Windows drops dots and blanks at the end of a name.
+            // Windows drops trailing dots and blanks of a name.
             part if part.trim_end_matches(['.', ' ']).is_empty() => return refuse(Reason::Characters),
             part if cfg!(windows) && is_reserved(part) => return refuse(Reason::Reserved),
             part => parts.push(part),
@@ -163,7 +163,7 @@ pub fn relative(from: &str, name: &str) -> Result<String, FileError> {
     Ok(parts.join("/"))
 }
 
-/// Returns whether Windows takes this name, with any extension, for a device.
+/// Returns whether Windows treats this name, with any extension, as a device.
 pub fn is_reserved(name: &str) -> bool {
     let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_uppercase();
     match stem.as_str() {
@@ -175,8 +175,8 @@ pub fn is_reserved(name: &str) -> bool {
     }
 }
 
-/// The file that a project in `folder` calls `name`: a regular file within the folder, after links. Returns its path as
-/// `folder` begins it. An empty `folder` is the current one.
+/// The file that a project in `folder` calls `name`: a regular file within the folder, after resolving links. The
+/// returned path starts with `folder` as given. An empty `folder` is the current one.
 pub fn resolve(folder: &Path, name: impl AsRef<Path>) -> Result<PathBuf, FileError> {
     find(folder, name.as_ref()).map(|found| found.called)
 }
@@ -187,36 +187,36 @@ pub fn read(folder: &Path, name: impl AsRef<Path>, limit: Limit) -> Result<Vec<u
     read_regular(&found.real, &found.called, limit)
 }
 
-/// Opens the file that a project in `folder` calls `name`, which has at most `limit` bytes, for a reader that takes it
-/// piece by piece. Returns its path, after links, with it.
+/// Opens the file that a project in `folder` calls `name`, which has at most `limit` bytes, for streaming. Returns its
+/// path, after resolving links, with it.
 pub fn open(folder: &Path, name: impl AsRef<Path>, limit: Limit) -> Result<(File, PathBuf), FileError> {
     let found = find(folder, name.as_ref())?;
     Ok((open_checked(&found.real, &found.called, limit)?.0, found.real))
 }
 
-/// Opens a file that the person at the machine named in the same way.
+/// Opens a file that the user named, for streaming.
 pub fn open_own(path: &Path, limit: Limit) -> Result<(File, PathBuf), FileError> {
     let real = path.canonicalize().map_err(|e| FileError::io(path, &e))?;
     check_kind(path, &real)?;
     Ok((open_checked(&real, path, limit)?.0, real))
 }
 
-/// Reads a file that the person at the machine named: any regular file, at most `limit` bytes of it.
+/// Reads a file that the user named: any regular file, at most `limit` bytes of it.
 pub fn read_own(path: &Path, limit: Limit) -> Result<Vec<u8>, FileError> {
     let real = path.canonicalize().map_err(|e| FileError::io(path, &e))?;
     check_kind(path, &real)?;
     read_regular(&real, path, limit)
 }
 
-/// Reads a text of Eddy's own, such as settings: a regular file, at most `limit` bytes of it. `None` where it is not there.
-/// An error does not name the file.
+/// Reads one of Eddy's own text files, such as settings: a regular file, at most `limit` bytes of it. `None` if it does
+/// not exist. Errors do not name the file.
 pub fn read_state(path: &Path, limit: Limit) -> io::Result<Option<String>> {
     let text = |bytes| String::from_utf8(bytes).map_err(|e| io::Error::new(io::ErrorKind::InvalidData, e));
     read_state_bytes(path, limit)?.map(text).transpose()
 }
 
-/// Reads a TOML file of Eddy's own likewise. It has at most [`limits::STATE_FILE`] bytes and [`limits::STATE_VALUES`] values:
-/// a value takes a hundred times its text once it is parsed.
+/// Reads one of Eddy's own TOML files likewise. It has at most [`limits::STATE_FILE`] bytes and
+/// [`limits::STATE_VALUES`] values: a parsed value takes a hundred times the memory of its text.
 pub fn read_state_toml(path: &Path) -> io::Result<Option<String>> {
     let Some(text) = read_state(path, limits::STATE_FILE)? else { return Ok(None) };
     if limits::toml_values(&text) > limits::STATE_VALUES {
@@ -225,7 +225,7 @@ pub fn read_state_toml(path: &Path) -> io::Result<Option<String>> {
     Ok(Some(text))
 }
 
-/// Does the same for a file that is not a text.
+/// Does the same for a binary file.
 pub fn read_state_bytes(path: &Path, limit: Limit) -> io::Result<Option<Vec<u8>>> {
     match read_own(path, limit) {
         Ok(bytes) => Ok(Some(bytes)),
@@ -241,22 +241,22 @@ pub fn read_state_bytes(path: &Path, limit: Limit) -> io::Result<Option<Vec<u8>>
     }
 }
 
-/// Opens a file of Eddy's own that is read piece by piece, if it is a regular one of at most `limit` bytes.
+/// Opens one of Eddy's own files for streaming, if it is a regular file of at most `limit` bytes.
 pub fn open_state(path: &Path, limit: Limit) -> Result<File, FileError> {
     let real = path.canonicalize().map_err(|e| FileError::io(path, &e))?;
     check_kind(path, &real)?;
     open_checked(&real, path, limit).map(|(file, _)| file)
 }
 
-/// A limit for a file that shall hold as many bytes: a longer one is another.
+/// A limit for a file that should have this number of bytes: a longer one is a different file.
 pub(super) fn exactly(bytes: usize) -> Limit {
     Limit { bytes: bytes as u64, of: "a file of the same content" }
 }
 
 struct Found {
-    /// The path from the folder as it was given.
+    /// The path from the folder as given.
     called: PathBuf,
-    /// After links.
+    /// The path after resolving links.
     real: PathBuf,
 }
 
@@ -276,7 +276,8 @@ fn find(folder: &Path, name: &Path) -> Result<Found, FileError> {
     Ok(Found { called, real })
 }
 
-/// Looks before the file is opened: opening a pipe waits for a writer, and opening a device may do something.
+/// Checks the kind before the file is opened: opening a pipe waits for a writer, and opening a device may have side
+/// effects.
 fn check_kind(called: &Path, real: &Path) -> Result<(), FileError> {
     let metadata = fs::symlink_metadata(real).map_err(|e| FileError::io(called, &e))?;
     match kind(&metadata.file_type()) {
@@ -285,7 +286,7 @@ fn check_kind(called: &Path, real: &Path) -> Result<(), FileError> {
     }
 }
 
-/// Returns what a thing is that is no regular file.
+/// Returns the kind of a file that is not regular.
 fn kind(file: &fs::FileType) -> Option<&'static str> {
     if file.is_file() {
         return None;
@@ -306,7 +307,7 @@ fn kind(file: &fs::FileType) -> Option<&'static str> {
     Some(if file.is_dir() { "a folder" } else { "something else" })
 }
 
-/// Opens a file, and looks at the thing that was really opened. Returns its length with it.
+/// Opens a file, and checks the kind of what was actually opened. Returns its length with it.
 fn open_checked(real: &Path, called: &Path, limit: Limit) -> Result<(File, u64), FileError> {
     let failed = |e: io::Error| FileError::io(called, &e);
     let refuse = |reason| Err(FileError::new(called.display().to_string(), reason));
@@ -324,7 +325,7 @@ fn open_checked(real: &Path, called: &Path, limit: Limit) -> Result<(File, u64),
 fn read_regular(real: &Path, called: &Path, limit: Limit) -> Result<Vec<u8>, FileError> {
     let (file, length) = open_checked(real, called, limit)?;
     let mut bytes = Vec::with_capacity(length as usize);
-    // A file may grow while it is read, and some say a length of 0 whatever they hold.
+    // A file may grow while it is read, and some report length 0 whatever they contain.
     let read = file.take(limit.bytes.saturating_add(1)).read_to_end(&mut bytes);
     read.map_err(|e| FileError::io(called, &e))?;
     if bytes.len() as u64 > limit.bytes {
@@ -333,7 +334,7 @@ fn read_regular(real: &Path, called: &Path, limit: Limit) -> Result<Vec<u8>, Fil
     Ok(bytes)
 }
 
-/// Opens for reading without waiting, should the path have become a pipe since it was looked at.
+/// Opens for reading without blocking, in case the path has become a pipe since it was checked.
 #[cfg(unix)]
 fn open_regular(real: &Path) -> io::Result<File> {
     use rustix::fs::{Mode, OFlags};

@@ -1,4 +1,4 @@
-//! Every way out of a project's folder, and every thing in it that is no file.
+//! Tests of every way out of a project's folder, and of every kind of entry that is not a regular file.
 
 use super::*;
 
@@ -11,7 +11,7 @@ fn said(result: Result<impl std::fmt::Debug, FileError>) -> String {
 }
 
 #[test]
-fn names_are_taken_from_where_they_stand() {
+fn names_are_relative_to_the_naming_file() {
     assert_eq!(relative("", "a.glsl").unwrap(), "a.glsl");
     assert_eq!(relative("lib/noise.glsl", "hash.glsl").unwrap(), "lib/hash.glsl");
     assert_eq!(relative("lib/noise.glsl", "../a b.glsl").unwrap(), "a b.glsl");
@@ -20,7 +20,7 @@ fn names_are_taken_from_where_they_stand() {
 }
 
 #[test]
-fn names_that_lead_out_are_refused_whatever_their_form() {
+fn names_that_lead_out_are_rejected_in_every_form() {
     for (from, name, says) in [
         ("", "/etc/passwd", "absolute path"),
         ("", "\\\\server\\share", "absolute path"),
@@ -59,7 +59,7 @@ fn a_file_is_read_up_to_its_limit() {
     assert!(message.contains("eleven is larger than 10 bytes, the limit for a test"), "{message}");
     assert_eq!(read_own(&dir.path().join("sub/ten"), SMALL).unwrap(), [7; 10]);
     assert!(said(read_own(&dir.path().join("eleven"), SMALL)).contains("larger"));
-    // A file that is all holes: the length is looked at before any memory is taken.
+    // A sparse file: its length is checked before any memory is allocated.
     File::create(dir.path().join("holes")).unwrap().set_len(1 << 40).unwrap();
     assert!(said(read(dir.path(), "holes", SMALL)).contains("larger"));
     assert!(read(dir.path(), "none", SMALL).unwrap_err().is_missing());
@@ -87,9 +87,9 @@ fn links_are_followed_and_must_stay_within() {
     assert_eq!(read(&home, "inner", SMALL).unwrap(), b"own");
     assert!(read(&home, "dangling", SMALL).unwrap_err().is_missing());
     assert!(read(&home, "loop", SMALL).is_err());
-    // `folder/..` is the parent of where the link leads, for the system; here it is the project's folder.
+    // To the system, `folder/..` is the parent of the link's target; here it is the project's folder.
     assert_eq!(read(&home, "folder/../sub/own", SMALL).unwrap(), b"own");
-    // The project's own folder may be called by a link.
+    // The project's own folder may be reached through a link.
     symlink(&home, dir.path().join("called")).unwrap();
     assert_eq!(read(&dir.path().join("called"), "sub/own", SMALL).unwrap(), b"own");
 }
@@ -105,7 +105,7 @@ fn pipes_sockets_and_devices_are_never_opened() {
     assert!(said(read(dir.path(), "socket", SMALL)).contains("a socket"));
     assert!(said(read(Path::new("/dev"), "zero", SMALL)).contains("a device"));
     assert!(said(read_own(&pipe, SMALL)).contains("a pipe"));
-    // One that takes a file's place after it was looked at does not wait for a writer either.
+    // A pipe that replaces a file after the check does not block either.
     assert!(said(read_regular(&pipe, &pipe, SMALL)).contains("a pipe"));
 }
 
@@ -146,7 +146,7 @@ fn files_of_settings_are_regular_and_small() {
 }
 
 #[test]
-fn windows_devices_are_known_with_any_extension() {
+fn windows_devices_are_recognised_with_any_extension() {
     for name in ["con", "NUL", "aux.vert", "Com1.glsl", "LPT9", "nul .txt"] {
         assert!(is_reserved(name), "{name}");
     }

@@ -1,11 +1,11 @@
-//! Custom uniforms as constants, for where nobody can turn them: the site.
+//! Custom uniforms as constants, for Shadertoy, which cannot set them.
 
 use super::CustomUniform;
 use crate::{CustomUniformValues, lines::hash_lines};
 use std::fmt::Write;
 
 /// A text with plain GLSL constants at its top in place of the custom uniforms it declares. The declaring lines stay as
-/// comments. Uniforms in GLSL's own way become constants where they stand, if they have a value.
+/// comments. Uniforms declared in plain GLSL become constants in place, if they have a value.
 pub(crate) fn text<'k>(
     text: &str,
     custom_uniforms: impl Iterator<Item = &'k CustomUniform>,

@@ -1,10 +1,9 @@
-//! Uniforms that texts declare in GLSL's own way, told by their words alone: the compiler knows better, and comes
-//! later.
+//! Uniforms that texts declare in plain GLSL, found by a scan for words: the compiler knows better, but runs later.
 
 use crate::{CustomUniformValue, CustomUniformValues};
 use std::{collections::BTreeSet, ops::Range};
 
-/// Every word of the declarations `uniform .. name ..;` of a text, names of uniforms among them.
+/// Every word of the declarations `uniform .. name ..;` of a text, including the names of uniforms.
 pub(crate) fn words_of_uniforms(text: &str) -> BTreeSet<String> {
     let text = blanked(text);
     declarations(&text)
@@ -13,8 +12,8 @@ pub(crate) fn words_of_uniforms(text: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// A text with a constant in place of each uniform that has a value, as for the site, where nobody gives it one. Left
-/// alone is a declaration of several names at once, or of another shape than the value's.
+/// A text with a constant in place of each uniform that has a value, for Shadertoy, which does not set them.
+/// Declarations of several names, or of another shape than the value's, are unchanged.
 pub(super) fn as_constants(text: &str, values: &CustomUniformValues) -> String {
     let blank = blanked(text);
     let mut out = String::with_capacity(text.len());
@@ -36,7 +35,7 @@ fn constant(declaration: &str, values: &CustomUniformValues) -> Option<String> {
     let mut words = words(declaration).skip(1).filter(|w| !["highp", "mediump", "lowp"].contains(w));
     let ty = words.next()?;
     let is_array = declaration.contains('[');
-    // A length may stand between type and name, and behind it.
+    // An array length may come between type and name, or after the name.
     let value = words.find_map(|word| values.get(word))?;
     if !is_array {
         return of_type(ty, value);
@@ -64,7 +63,7 @@ fn of_type(ty: &str, value: &CustomUniformValue) -> Option<String> {
     })
 }
 
-/// Returns the ranges from each word `uniform` to before the end of its declaration; blocks are none.
+/// Returns the ranges from each word `uniform` to before the end of its declaration, except blocks.
 fn declarations(blank: &str) -> Vec<Range<usize>> {
     let mut all = Vec::new();
     let mut at = 0;
@@ -74,7 +73,7 @@ fn declarations(blank: &str) -> Vec<Range<usize>> {
         if !is_word {
             continue;
         }
-        // Without an end there is none for any word after it.
+        // If this declaration has no end, no later one has.
         let Some(end) = blank[at..].find([';', '{', '}']).map(|n| at + n) else { break };
         if blank[end..].starts_with(';') {
             all.push(start..end);
@@ -92,11 +91,11 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c| !is_of_word(c)).filter(|w| !w.is_empty())
 }
 
-/// With blanks in place of comments, as many as they have bytes.
+/// Replaces comments by blanks, byte for byte.
 fn blanked(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut done = 0;
-    // Each byte is looked at once, whichever kind of comment the text has.
+    // Each byte is visited once, whichever kind of comment the text has.
     let slashes = memchr::memchr_iter(b'/', text.as_bytes());
     for at in slashes {
         if at < done {
@@ -120,7 +119,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn declarations_are_told_from_other_mentions() {
+    fn declarations_are_distinguished_from_other_mentions() {
         for text in [
             "uniform vec3 kernel[64];",
             "uniform highp float a, kernel;",

@@ -9,10 +9,10 @@
 //! #iUniform bool wrapped = true                           // this type the extension does not have
 //! ```
 //!
-//! The comment after a declaration describes it to who turns it. A line `//@group Light` puts the declarations after it
-//! in the same text into a group of that name, until the next such line; one without a name ends the group.
+//! The comment after a declaration describes it to users. A line `//@group Light` puts the following declarations of
+//! the same text into a group of that name, until the next such line; one without a name ends the group.
 //!
-//! Without a default it is the least of the range, else zero.
+//! The default is the minimum of the range, or zero without a range.
 
 use super::types::{CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue};
 use crate::{
@@ -28,7 +28,7 @@ pub(crate) fn is_declaration(line: &HashLine<'_>) -> bool {
     line.body.strip_prefix("iUniform").is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
 }
 
-/// The parts of a line; one that it leaves out is `None`.
+/// The parts of a line; omitted parts are `None`.
 pub(super) struct Declaration {
     pub name: String,
     pub ty: CustomUniformType,
@@ -37,19 +37,19 @@ pub(super) struct Declaration {
     pub step: Option<[f64; 4]>,
     /// The comment after it.
     pub about: String,
-    /// The group that it stands in.
+    /// The group that it is in.
     pub group: String,
-    /// The name.
+    /// The span of the name.
     pub span: Span,
 }
 
-/// Returns the name that a line `//@group NAME` gives to what follows; empty: it ends a group.
+/// Returns the name that a line `//@group NAME` gives to the following declarations; empty if it ends a group.
 pub(super) fn group(line: &str) -> Option<&str> {
     let rest = line.trim_start().strip_prefix("//")?.trim_start().strip_prefix("@group")?;
     (rest.is_empty() || rest.starts_with(char::is_whitespace)).then(|| rest.trim())
 }
 
-/// Returns the words of the comment at the end of a declaration; those of `//@print` and its like are not for people.
+/// Returns the text of the comment at the end of a declaration; comments such as `//@print` are not descriptions.
 fn about(rest: &str) -> String {
     let comment = rest.split_once("//").map_or("", |(_, comment)| comment.trim_start_matches(['/', '!', '<']).trim());
     if comment.starts_with('@') { String::new() } else { comment.to_owned() }
@@ -70,7 +70,8 @@ impl Declaration {
         }
     }
 
-    /// Takes over what only `other` says. Err: what both say, and differently.
+    /// Adopts the parts that only `other` has. Returns an error that names the part in which they contradict each
+    /// other.
     pub(super) fn join(&mut self, other: &Declaration) -> Result<(), &'static str> {
         fn one<T: Copy + PartialEq>(
             mine: &mut Option<T>,
@@ -94,7 +95,7 @@ impl Declaration {
         one(&mut self.step, other.step, "step")
     }
 
-    /// Gives a custom uniform everything, now that all lines are read.
+    /// Completes a custom uniform after all lines are read.
     pub(super) fn complete(&self, custom_uniform: &mut CustomUniform, diagnostics: &mut Vec<Diagnostic>) {
         custom_uniform.step = self.step;
         custom_uniform.about.clone_from(&self.about);
@@ -113,7 +114,7 @@ impl Declaration {
     }
 }
 
-/// A value as a person writes it outside of a line: `0.3`, `true`, `1,0.5,0`, `vec3(1)` (which is one number for all).
+/// Parses a value in the form of user input: `0.3`, `true`, `1,0.5,0`, `vec3(1)` (one number for all components).
 pub(crate) fn value(text: &str) -> Option<CustomUniformValue> {
     let text = text.trim();
     match text {
@@ -154,7 +155,7 @@ pub(crate) fn value(text: &str) -> Option<CustomUniformValue> {
     }
 }
 
-/// Reads a line that [`is_declaration`], in a group.
+/// Parses a line for which [`is_declaration`] is true, in a group.
 pub(super) fn parse(line: &HashLine<'_>, source: SourceId, group: &str) -> Result<Declaration, Diagnostic> {
     let skipped = "iUniform".len();
     let mut words = WordReader::new(&line.body[skipped..], line.body_at + skipped, source);
@@ -180,9 +181,9 @@ pub(super) fn parse(line: &HashLine<'_>, source: SourceId, group: &str) -> Resul
     }
     out.about = about(&words.text[words.at..]);
     match words.peek() {
-        // Some write it as the end of a declaration.
+        // Some authors end the declaration with a semicolon.
         Word::End | Word::Sign(';') => Ok(out),
-        // The extension's tag for its own time line, in both spellings it reads.
+        // The extension's tag for its own timeline, in both spellings it accepts.
         Word::Name("sequencer" | "sequncer") => Ok(out),
         _ => {
             words.next();
@@ -203,10 +204,10 @@ enum Word<'a> {
     End,
 }
 
-/// The words of a line.
+/// A reader of a line's tokens.
 struct WordReader<'a> {
     text: &'a str,
-    /// Place of the next word, and of the one before it.
+    /// The offset of the next token, and the range of the previous one.
     at: usize,
     last: Range<usize>,
     /// The offset of `text` in its source.
@@ -257,9 +258,9 @@ impl<'a> WordReader<'a> {
         word
     }
 
-    /// At the word that was read last.
+    /// Returns an error at the previous token.
     fn error(&self, message: impl Into<String>) -> Diagnostic {
-        // At the end of the line there is nothing to mark but what stands before it.
+        // At the end of the line, mark the last token instead.
         let place = if self.last.is_empty() {
             let before = self.text[..self.last.start].trim_end().len();
             before.saturating_sub(1)..before
@@ -308,7 +309,7 @@ impl<'a> WordReader<'a> {
         }
     }
 
-    /// Numbers in parentheses; constructors among them count as the numbers they hold.
+    /// Parses numbers in parentheses; constructors among them count as their components.
     fn arguments(&mut self) -> Result<Vec<f64>, Diagnostic> {
         self.expect('(', "after the type")?;
         let mut depth = 1;
@@ -334,7 +335,7 @@ impl<'a> WordReader<'a> {
         }
     }
 
-    /// A value of a type; one number stands for all components.
+    /// Parses a value of a type; one number sets all components.
     fn value(&mut self, ty: CustomUniformType) -> Result<[f64; 4], Diagnostic> {
         let begin = self.look().1.start;
         let mut all = match self.peek() {
@@ -386,7 +387,7 @@ impl<'a> WordReader<'a> {
     }
 }
 
-/// Length of the number a text begins with, as GLSL writes it, with a sign.
+/// Returns the length of the GLSL number that starts a text, including its sign.
 fn number_end(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits = |mut i: usize| {

@@ -1,13 +1,12 @@
-//! The author's own uniforms: declared by a line of a text, turned by a person, saved with the project.
+//! The author's own uniforms: declared by a line of a text, set by users, saved with the project.
 //!
-//! A custom uniform is one uniform that `#iUniform` lines declare. Users read "uniform", and "slider" for what turns
-//! it.
+//! A custom uniform is one uniform that `#iUniform` lines declare. Users read "uniform", and "slider" for its widget.
 //!
-//! Owns what `#iUniform` lines say ([`Project::custom_uniforms`](super::Project::custom_uniforms); the form is in
-//! [`line`]) and which values fit them. A custom uniform that Common declares is there for every pass, one that a pass
-//! declares for that pass; one name is one custom uniform wherever it stands. Values that are not the default lie in
+//! Owns the meaning of `#iUniform` lines ([`Project::custom_uniforms`](super::Project::custom_uniforms); the form is in
+//! [`line`]) and which values fit them. A custom uniform that Common declares exists in every pass, one that a pass
+//! declares only in that pass; a name means the same custom uniform everywhere. Values other than the default are in
 //! [`Project::custom_uniform_values`](super::Project::custom_uniform_values), and in `eddy.toml` under `[uniforms]`.
-//! How a value reaches a shader is the engine's matter.
+//! The engine passes the values to shaders.
 
 pub(super) mod constants;
 mod declared;
@@ -25,16 +24,16 @@ pub use types::{CustomUniform, CustomUniformRange, CustomUniformType, CustomUnif
 /// The uniforms that the texts of a project declare in `#iUniform` lines.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CustomUniforms {
-    /// In the order they are first declared: Common, then the passes.
+    /// In order of first declaration: Common, then the passes.
     pub list: Vec<CustomUniform>,
-    /// Lines that cannot be read, and lines that contradict each other.
+    /// Errors for lines that cannot be parsed, and for lines that contradict each other.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Lines with errors that are reported, as many as the compiler reports of a text.
+/// The limit of reported lines with errors: the compiler's limit for a text.
 const ERRORS: usize = 100;
 
-/// The lines of each custom uniform of a list joined, and where each name is in the list.
+/// The merged lines of each custom uniform, and the index of each name.
 #[derive(Default)]
 struct Said {
     lines: Vec<Declaration>,
@@ -42,16 +41,16 @@ struct Said {
 }
 
 impl CustomUniforms {
-    /// Reads the declarations of texts, which come in the order of their ids.
+    /// Reads the declarations of texts, which are in the order of their ids.
     pub(super) fn read<'t>(texts: impl IntoIterator<Item = (SourceId, &'t str)>) -> CustomUniforms {
         let mut custom_uniforms = CustomUniforms::default();
-        // What the lines of each custom uniform say so far, since one may leave to another what it does not say.
+        // The merged lines of each custom uniform so far, since each line may omit what another one declares.
         let mut said = Said::default();
         for (source, text) in texts {
             let mut groups = groups(text).into_iter().peekable();
             let mut group = "";
             for hash in hash_lines(text).iter().filter(|l| is_declaration(l)) {
-                // Both lists are in the order of the text.
+                // Both lists are in source order.
                 while let Some((_, name)) = groups.next_if(|(at, _)| *at < hash.range.start) {
                     group = name;
                 }
@@ -85,7 +84,7 @@ impl CustomUniforms {
                 let diagnostic = Diagnostic::error(line.span, message).label(known.span, "declared here too");
                 self.report(diagnostic.hint("a name has one slider: make both lines equal, or choose another name"));
             }
-            // Texts come one after the other.
+            // Texts are read one after the other.
             None if known.declared_in.last() == Some(&source) => {}
             None => known.declared_in.push(source),
         }
@@ -97,7 +96,7 @@ impl CustomUniforms {
         }
     }
 
-    /// Returns the names that lines of a text declare, contradictory ones too, and where each name stands.
+    /// Returns the names that lines of a text declare, contradictory ones included, with their spans.
     pub(super) fn names(source: SourceId, text: &str) -> Vec<(String, Span)> {
         let lines = hash_lines(text);
         let declared = lines.iter().filter(|line| is_declaration(line));
@@ -108,7 +107,7 @@ impl CustomUniforms {
         self.list.iter().find(|k| k.name == name)
     }
 
-    /// Returns why `name` is no custom uniform of this project, with the one that may be meant.
+    /// Returns the error for a `name` that is not a custom uniform of this project, with a suggested name.
     pub(super) fn unknown(&self, name: &str) -> (String, String) {
         let message = format!("no #iUniform line declares `{name}`");
         let names: Vec<&str> = self.list.iter().map(|k| k.name.as_str()).collect();
@@ -121,7 +120,7 @@ impl CustomUniforms {
     }
 }
 
-/// Returns the lines of a text that name a group, by where they begin. One inside of a `/* */` is a comment.
+/// Returns the lines of a text that name a group, by their offsets. Lines inside `/* */` are comments.
 fn groups(text: &str) -> Vec<(usize, &str)> {
     let mut found = Vec::new();
     if !text.contains("@group") {

@@ -28,7 +28,7 @@ fn project(common: Option<&str>, image: &str) -> Project {
 }
 
 #[test]
-fn a_line_goes_on_behind_a_backslash() {
+fn a_backslash_continues_a_line() {
     let k = one("#iUniform float speed = 1.5 \\\r\n  in { 0.0, \\\n 5.0 }\n");
     assert_eq!((k.default, k.range), (CustomUniformValue::Float(1.5), range([0.0; 4], [5.0, 0.0, 0.0, 0.0])));
     let text = "#iUniform float speed = 1.5 \\\n in { 0.0, 5.0 }\nfloat f;";
@@ -38,7 +38,7 @@ fn a_line_goes_on_behind_a_backslash() {
 }
 
 #[test]
-fn lines_as_the_extension_has_them() {
+fn lines_of_the_vs_code_extension_are_parsed() {
     let k = one("  #iUniform float speed = 1.5 in { 0.0, 5.0 } step 0.25 // note");
     assert_eq!((k.name.as_str(), k.ty, k.default), ("speed", CustomUniformType::Float, CustomUniformValue::Float(1.5)));
     assert_eq!((k.range, k.step), (range([0.0; 4], [5.0, 0.0, 0.0, 0.0]), Some([0.25, 0.0, 0.0, 0.0])));
@@ -65,7 +65,7 @@ fn lines_as_the_extension_has_them() {
 }
 
 #[test]
-fn a_comment_describes_and_a_line_groups() {
+fn comments_describe_and_group_lines_group() {
     assert_eq!(
         one("#iUniform float a = 1.0 in { 0.0, 5.0 } step 0.25 // how dense, per metre").about,
         "how dense, per metre"
@@ -88,7 +88,7 @@ fn a_comment_describes_and_a_line_groups() {
 }
 
 #[test]
-fn a_wrong_line_says_where_and_how_to_mend_it() {
+fn syntax_errors_have_a_span_and_a_fix() {
     for (line, marked, message) in [
         ("#iUniform flaot a", "flaot", "unknown slider type flaot"),
         ("#iUniform float", "t", "the uniform's name"),
@@ -128,7 +128,7 @@ fn a_wrong_line_says_where_and_how_to_mend_it() {
 }
 
 #[test]
-fn one_name_is_one_custom_uniform_and_a_contradiction_is_told_at_its_line() {
+fn contradictory_declarations_are_reported_at_their_line() {
     let a = "#iUniform float a = 1.0";
     let custom_uniforms = read(&[a, "#iUniform float b\n#iUniform float a in { 0, 2 }", a]);
     assert_eq!(custom_uniforms.diagnostics, []);
@@ -151,7 +151,7 @@ fn one_name_is_one_custom_uniform_and_a_contradiction_is_told_at_its_line() {
 }
 
 #[test]
-fn values_are_set_as_people_write_them() {
+fn values_are_parsed_from_user_input() {
     let lines = "#iUniform float speed = 1.0 in { 0.0, 5.0 }\n#iUniform color3 tint\n#iUniform bool on\n\
     #iUniform int n in { 1, 9 }\n#iUniform vec2 at";
     let mut p = project(Some(lines), "");
@@ -192,7 +192,7 @@ fn values_are_set_as_people_write_them() {
 }
 
 #[test]
-fn a_value_the_text_no_longer_allows_is_kept_and_stands_within_the_range() {
+fn a_value_out_of_range_is_kept_and_clamped_when_read() {
     let mut p = project(None, "#iUniform float a = 1 in { 0, 9 }");
     p.set_custom_uniform("a=7").unwrap();
     let narrower = read(&["#iUniform float a = 1 in { 0, 3 }"]);
@@ -202,7 +202,7 @@ fn a_value_the_text_no_longer_allows_is_kept_and_stands_within_the_range() {
 }
 
 #[test]
-fn the_sites_json_has_constants_with_the_values() {
+fn shadertoy_json_has_constants_with_the_values() {
     let mut p = project(
         Some("float f() { return speed; }\n#iUniform float speed = 1.0 in { 0.0, 5.0 } // how fast\n"),
         "\u{feff}#iUniform color3 tint\n#iUniform float speed\n#ifdef X\n#iUniform bool on = true\n#endif\nint i;",
@@ -224,7 +224,7 @@ fn the_sites_json_has_constants_with_the_values() {
 }
 
 #[test]
-fn a_value_follows_a_line_that_differs_in_its_name_alone() {
+fn a_value_follows_a_renamed_uniform() {
     let line = |name: &str| format!("#iUniform float {name} = 1.0 in {{ 0.0, 5.0 }} // {name}\n#iUniform bool on\n");
     let bare = |name: &str| format!("int i; #no\n  #iUniform float {name} = 1.0\n");
     let twice = format!("{}#iUniform float speed = 1.0", bare("pace"));
@@ -232,7 +232,7 @@ fn a_value_follows_a_line_that_differs_in_its_name_alone() {
     for (before, after, wanted) in [
         (bare("speed"), bare("pace"), Some("pace")),
         (bare("speed"), format!("float x;\n{}", bare("pace")), Some("pace")),
-        // The comment differs too.
+        // The comment differs, too.
         (line("speed"), line("pace"), None),
         (bare("speed"), bare("pace").replace("1.0", "2.0"), None),
         (bare("speed"), "int i;".to_owned(), None),

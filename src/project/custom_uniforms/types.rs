@@ -26,7 +26,7 @@ impl CustomUniformType {
         CustomUniformType::Color3,
     ];
 
-    /// Returns the name that an `#iUniform` line spells.
+    /// Returns its spelling in `#iUniform` lines.
     pub fn name(self) -> &'static str {
         match self {
             CustomUniformType::Color3 => "color3",
@@ -34,7 +34,7 @@ impl CustomUniformType {
         }
     }
 
-    /// Returns the name in GLSL.
+    /// Returns its GLSL name.
     pub fn glsl_name(self) -> &'static str {
         match self {
             CustomUniformType::Bool => "bool",
@@ -46,7 +46,7 @@ impl CustomUniformType {
         }
     }
 
-    /// Numbers in a value of it.
+    /// Returns the number of components of a value.
     pub fn components(self) -> usize {
         match self {
             CustomUniformType::Bool | CustomUniformType::Int | CustomUniformType::Float => 1,
@@ -57,24 +57,24 @@ impl CustomUniformType {
     }
 }
 
-/// A value, in the form it is saved in.
+/// A value, in the form in which it is saved.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CustomUniformValue {
     Bool(bool),
     Int(i32),
     Float(f64),
-    /// Two to four numbers.
+    /// Two to four components.
     Vector(Vec<f64>),
-    /// A value that no custom uniform takes but a `uniform` that a text declares: longer lists of numbers, truth
-    /// values, lists of lists.
+    /// A value for a plain `uniform` declaration only, never for a custom uniform: longer lists of numbers, booleans,
+    /// lists of lists.
     List(Vec<CustomUniformValue>),
 }
 
-/// Values by the name of their custom uniform.
+/// Values by the names of their custom uniforms.
 pub type CustomUniformValues = BTreeMap<String, CustomUniformValue>;
 
 impl CustomUniformValue {
-    /// A value of a type from its components, as many as the type has; a bool is true from 0.5 on.
+    /// Builds a value of a type from the type's number of components; a bool is true from 0.5 on.
     pub fn new(ty: CustomUniformType, components: &[f64]) -> CustomUniformValue {
         match ty {
             CustomUniformType::Bool => CustomUniformValue::Bool(components[0] >= 0.5),
@@ -84,7 +84,7 @@ impl CustomUniformValue {
         }
     }
 
-    /// Its numbers; a bool is 0 or 1.
+    /// Returns its components; a bool is 0 or 1.
     pub fn components(&self) -> Vec<f64> {
         match self {
             CustomUniformValue::Bool(on) => vec![f64::from(u8::from(*on))],
@@ -95,7 +95,7 @@ impl CustomUniformValue {
         }
     }
 
-    /// Returns the value as GLSL writes a constant of type `ty`, which it must be of.
+    /// Returns the value as a GLSL constant of its type `ty`.
     pub fn glsl(&self, ty: CustomUniformType) -> String {
         let float = |x: &f64| format!("{:?}", *x as f32);
         match self {
@@ -110,8 +110,7 @@ impl CustomUniformValue {
     }
 }
 
-/// The least and the greatest value, both included, of each component; beyond the type's components the numbers mean
-/// nothing.
+/// The inclusive minimum and maximum of each component; entries beyond the type's components are unused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CustomUniformRange {
     pub min: [f64; 4],
@@ -124,23 +123,23 @@ pub struct CustomUniform {
     pub name: String,
     pub ty: CustomUniformType,
     pub default: CustomUniformValue,
-    /// `None`: any number. A `color3` that says nothing has 0 to 1.
+    /// `None`: unlimited. A `color3` without a range has 0 to 1.
     pub range: Option<CustomUniformRange>,
-    /// The step of a slider, where the author gives one.
+    /// The step of a slider, if the author set one.
     pub step: Option<[f64; 4]>,
     /// The author's description: the `//` comment after the first declaration that has one, else empty.
     pub about: String,
-    /// The group that it is shown in: that of the `//@group` line before its first declaration, else empty.
+    /// The group in which it is shown: that of the `//@group` line before its first declaration, else empty.
     pub group: String,
-    /// The name, where it is first declared.
+    /// The name in its first declaration.
     pub span: Span,
     /// The texts that declare it.
     pub declared_in: Vec<SourceId>,
 }
 
 impl CustomUniform {
-    /// The value in the form this custom uniform's type has. Err: why it does not fit, a sentence that follows the
-    /// name.
+    /// Converts the value to the form of this custom uniform's type. If it does not fit, returns the reason as a
+    /// sentence that follows the name.
     pub fn fit(&self, value: &CustomUniformValue) -> Result<CustomUniformValue, String> {
         let value = self.shaped(value)?;
         if self.clamped(&value) == value {
@@ -154,8 +153,8 @@ impl CustomUniform {
         })
     }
 
-    /// Returns what the custom uniform stands at: its value where one is set that has the right shape, within the
-    /// range; else the default.
+    /// Returns the current value: the one that is set, if it has the right shape, clamped to the range; else the
+    /// default.
     pub fn value(&self, values: &CustomUniformValues) -> CustomUniformValue {
         let set = values.get(&self.name).and_then(|v| self.shaped(v).ok());
         set.map_or_else(|| self.default.clone(), |v| self.clamped(&v))

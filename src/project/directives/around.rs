@@ -1,4 +1,4 @@
-//! Tells which lines are directives, and which passes they may name.
+//! The context of directives: which lines are directives, and which passes they may name.
 
 use crate::{PassName, Project, confine, lines::HashLine};
 
@@ -9,7 +9,7 @@ pub(super) fn is_channel(line: &HashLine<'_>) -> bool {
 /// The passes that a text's directives may name.
 #[derive(Clone, Copy)]
 pub(crate) struct DirectiveScope<'p> {
-    /// The pass whose text it is.
+    /// The pass that owns the text.
     pub id: &'p PassName,
     /// The text's own file.
     pub file: &'p str,
@@ -18,10 +18,10 @@ pub(crate) struct DirectiveScope<'p> {
 }
 
 impl DirectiveScope<'_> {
-    /// Returns the pass whose file a path leads to.
+    /// Returns the pass whose file has a path.
     pub(crate) fn pass_of(&self, path: &str) -> Option<&PassName> {
         let name = confine::relative(self.file, path).ok()?;
-        // A file may be the text of two passes: of these a pass means itself.
+        // A file may be the text of two passes: each of these means itself.
         let mut found = self.passes.iter().filter(|(file, _)| *file == name).map(|(_, id)| id);
         let first = found.next()?;
         Some(if first == self.id || found.any(|id| id == self.id) { self.id } else { first })

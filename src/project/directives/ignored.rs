@@ -1,4 +1,4 @@
-//! Lines that count for nothing where they stand.
+//! Warnings about `#iChannel` lines that have no effect.
 
 use super::{
     around::{DirectiveScope, files_of_passes, is_channel},
@@ -7,8 +7,8 @@ use super::{
 use crate::{Channel, Dialect, Origin, Project, lines::hash_lines};
 use eddy_diag::{Diagnostic, Severity, SourceId, Span};
 
-/// Returns what to say of `#iChannel` lines that are not obeyed: those in texts that are no pass, which have no
-/// channels, and those that say something else than what the project is read from. Spans are of [`Project::sources`].
+/// Returns warnings for `#iChannel` lines that are ignored: those in texts that are not passes, which have no channels,
+/// and those that contradict the project file. Spans are of [`Project::sources`].
 pub fn ignored_channel_lines(project: &Project) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     let counts = project.has_channels_in_texts();

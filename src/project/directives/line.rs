@@ -1,4 +1,4 @@
-//! One `#iChannel` line: its parts, the input that it names, and the setting that it gives.
+//! One `#iChannel` line: its parts, the input that it names, and the sampler setting that it makes.
 
 use super::around::DirectiveScope;
 use crate::{
@@ -9,7 +9,7 @@ use crate::{
 use eddy_diag::{Diagnostic, Span};
 use std::path::{Path, PathBuf};
 
-/// The channel, the setting if it gives one, and the quoted text.
+/// The channel, the setting if there is one, and the quoted text.
 type Parsed<'a> = (usize, Option<&'a str>, &'a str);
 
 pub(super) fn parse<'a>(line: &HashLine<'a>) -> Result<Parsed<'a>, impl FnOnce(Span) -> Diagnostic + use<>> {
@@ -38,13 +38,13 @@ pub(super) fn parse<'a>(line: &HashLine<'a>) -> Result<Parsed<'a>, impl FnOnce(S
     }
 }
 
-/// Returns whether nothing but a comment follows.
+/// Returns whether only a comment follows.
 fn is_end(after: &str) -> bool {
     let after = trim_start(after);
     after.is_empty() || after.starts_with("//") || after.starts_with("/*")
 }
 
-/// Returns the path of a text that names a GLSL file, as `"file://noise.glsl"` and `"noise.glsl"` do.
+/// Returns the path if a text names a GLSL file, as `"file://noise.glsl"` and `"noise.glsl"` do.
 pub(super) fn glsl_path(value: &str) -> Option<&str> {
     let path = value.strip_prefix("file://").unwrap_or(value);
     let is_url = path.contains("://");
@@ -55,14 +55,14 @@ fn is_glsl(path: &str) -> bool {
     Path::new(path).extension().is_some_and(file_names::is_glsl_extension)
 }
 
-/// Returns what a channel reads that a text names so; `None` for nothing, which was reported.
+/// Returns the channel that a text declares, or `None` after reporting an error.
 pub(super) fn input(
     value: &str,
     around: DirectiveScope<'_>,
     span: Span,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Channel> {
-    // Which kind it is stands in its ending; an animated image plays where a `Type` line says so.
+    // The extension decides the kind; an animated image plays only with a `Type` line.
     let picture = |path: &str| {
         let kind = match kind_of_file(Path::new(path)) {
             FileKind::Video => InputKind::Video,
@@ -138,7 +138,7 @@ pub(super) fn input(
     None
 }
 
-/// The channel that reads a pass.
+/// Returns the channel that reads a pass.
 fn pass(id: &PassName, around: DirectiveScope<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
     let (message, hint) = match id.row().input {
         Some(_) => return Some(Channel::new(Input::pass(id.clone()))),
@@ -165,7 +165,7 @@ pub(super) fn set(channel: &mut Channel, setting: &str, value: &str, span: Span,
     };
     let folded = value.to_lowercase();
     match setting.to_lowercase().as_str() {
-        // Min decides between mipmap and not; Mag says no more than nearest or linear.
+        // MinFilter decides whether mipmaps are used; MagFilter only chooses between nearest and linear.
         "minfilter" => match folded.as_str() {
             f if f.contains("mipmap") => sampler.filter = Filter::Mipmap,
             "nearest" => sampler.filter = Filter::Nearest,

@@ -1,8 +1,8 @@
-//! `#iChannelN "…"` lines: what a channel reads, said in the GLSL text itself.
+//! `#iChannelN "…"` lines: GLSL texts that declare the inputs of their channels.
 //!
-//! Owns the reading of these lines, in the form the VS Code extension "Shader Toy" made common, and their removal
-//! before a compiler sees the text. They count only where there is no `eddy.toml`. Not a preprocessor: it knows
-//! comments, and no conditionals.
+//! Owns the parsing of these lines, in the form the VS Code extension "Shader Toy" made common, and their removal
+//! before compilation. They count only if the project has no `eddy.toml`. This is not a preprocessor: it knows
+//! comments, but not conditionals.
 //!
 //! ```glsl
 //! #iChannel0 "buffer_a"               // a buffer, by pass or file name; also "file://buffer_a.glsl"
@@ -21,8 +21,8 @@
 //! #iChannel3::WrapMode "Clamp"        // or "Repeat"
 //! ```
 //!
-//! A line that is read is obeyed, or it is an error or a warning at its place ([`read`], and [`ignored_channel_lines`]
-//! for the texts where these lines count for nothing).
+//! Every parsed line takes effect, or is reported as an error or a warning ([`read`], and [`ignored_channel_lines`] for
+//! the texts in which these lines have no effect).
 
 mod around;
 mod ignored;
@@ -38,7 +38,7 @@ pub(super) use read::read;
 use std::{borrow::Cow, ops::Range};
 
 /// `text` with `#iChannel`, `#iUniform` and `#include` lines and a byte order mark overwritten with spaces, byte for
-/// byte. Line breaks stay, and so do `#include` lines that name no file, of which the compiler says what is wrong.
+/// byte. Line breaks stay, and so do `#include` lines that do not name a file: the compiler reports these.
 pub fn blank(text: &str) -> Cow<'_, str> {
     let mut ranges: Vec<Range<usize>> = hash_lines(text)
         .into_iter()
@@ -65,7 +65,7 @@ pub fn blank(text: &str) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// `text` with its `#iChannel` lines as comments, for where they mean nothing: the site, which refuses them.
+/// `text` with its `#iChannel` lines commented out, for Shadertoy, which rejects them.
 pub(super) fn commented(text: &str) -> Cow<'_, str> {
     let lines = hash_lines(text).into_iter().filter(around::is_channel);
     let places: Vec<usize> = lines.map(|line| line.body_at).collect();
@@ -84,9 +84,8 @@ pub(super) fn commented(text: &str) -> Cow<'_, str> {
 }
 
 impl Source {
-    /// Returns what a compiler gets: the text with every `#iChannel`, `#iUniform` and `#include` line (see the module's
-    /// page) and a byte order mark overwritten with spaces, byte for byte, so that offsets and lines are those of
-    /// `text`.
+    /// Returns the text for the compiler: every `#iChannel`, `#iUniform` and `#include` line (see the module's docs)
+    /// and a byte order mark are overwritten with spaces, byte for byte, so that offsets and lines are those of `text`.
     pub fn compile_text(&self) -> Cow<'_, str> {
         blank(&self.text)
     }

@@ -1,4 +1,4 @@
-//! Passes that a directive names by their files, as the VS Code extension has them: `#iChannel0 "file://blur.glsl"`.
+//! Passes that directives name by their files, as in the VS Code extension: `#iChannel0 "file://blur.glsl"`.
 
 use super::{around::is_channel, line};
 use crate::{
@@ -11,13 +11,13 @@ use crate::{
 use eddy_diag::{Diagnostic, Span};
 use std::{collections::BTreeMap, ops::Range};
 
-/// Adds a buffer for every GLSL file that a directive names and that is no pass yet, and for those that these name.
-/// Each is drawn before the pass that names it. Returns what is wrong with files that cannot be had.
+/// Adds a buffer for every GLSL file that a directive names and that is not a pass yet, and for those that these name.
+/// Each is drawn before the pass that names it. Returns errors for files that cannot be read.
 pub(crate) fn passes_beside(project: &mut Project, files: &Files<'_>) -> Vec<Diagnostic> {
     let known = project.passes.len();
-    // By pass: the passes behind `known` that it names.
+    // By pass: the passes after `known` that it names.
     let mut names: Vec<Vec<usize>> = Vec::new();
-    // By the file of the text that they stand in.
+    // By the file of the text with the directive.
     let mut troubles: Vec<(String, Range<usize>, Diagnostic)> = Vec::new();
     while let Some(pass) = project.passes.get(names.len()) {
         let (file, text) = (pass.source.name.clone(), pass.source.text.clone());
@@ -44,8 +44,8 @@ pub(crate) fn passes_beside(project: &mut Project, files: &Files<'_>) -> Vec<Dia
     placed.collect()
 }
 
-/// Returns the pass that a path in the text of the file `from` leads to, added if need be; `None` where it is the
-/// convention's to say which.
+/// Returns the pass for a path in the text of the file `from`, added if necessary; `None` if the path follows the
+/// naming convention, which then decides.
 fn find(project: &mut Project, files: &Files<'_>, from: &str, path: &str) -> Result<Option<usize>, Diagnostic> {
     let refuse = |message: String, hint: String| Err(Diagnostic::error(None, message).hint(hint));
     let name = match confine::relative(from, path) {
@@ -87,7 +87,7 @@ fn find(project: &mut Project, files: &Files<'_>, from: &str, path: &str) -> Res
     Ok(Some(project.passes.len() - 1))
 }
 
-/// A name for the pass of a file, which no other pass has.
+/// Returns an unused name for the pass of a file.
 fn free_id(project: &Project, usual: Option<PassName>, stem: &str) -> PassName {
     let is_free = |id: &PassName| project.pass(id).is_none();
     if let Some(id) = usual.filter(|id| id.is_readable() && is_free(id)) {
@@ -103,13 +103,13 @@ fn free_id(project: &Project, usual: Option<PassName>, stem: &str) -> PassName {
     PassName::buffer(name)
 }
 
-/// Sorts passes so that those behind the first ones, which are named, are drawn before the pass that names them.
+/// Reorders passes so that the added ones, which are named, are drawn before the passes that name them.
 fn draw_first_what_is_named(project: &mut Project, names: &[Vec<usize>]) {
     let mut turns: Vec<Option<usize>> = vec![None; names.len()];
     let mut is_open = vec![false; names.len()];
     let mut next_turn = 0;
     for root in 0..names.len() {
-        // Depth first, without recursion: chains may be long.
+        // Depth-first, without recursion: chains may be long.
         let mut way: Vec<(usize, usize)> = vec![(root, 0)];
         while let Some((at, child)) = way.last_mut() {
             let at = *at;

@@ -1,4 +1,4 @@
-//! The directives of one pass, taken together.
+//! The directives of one pass, combined.
 
 use super::{
     around::{DirectiveScope, is_channel},
@@ -11,17 +11,17 @@ use std::collections::BTreeMap;
 /// The directives of one pass.
 #[derive(Debug, Default)]
 pub(crate) struct Declared {
-    /// `None` where no directive names what a channel reads.
+    /// `None` if no directive declares a channel's input.
     pub channels: Option<Bindings>,
-    /// The line that says what each channel reads.
+    /// The line that declares each channel's input.
     pub places: BTreeMap<usize, Span>,
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Reads the directives of a pass. `default`: what its channels read where no directive says it.
+/// Reads the directives of a pass. `default`: the inputs of its channels if no directive declares one.
 pub(crate) fn read(text: &str, source: SourceId, around: DirectiveScope<'_>, default: &Bindings) -> Declared {
     let mut found = Declared::default();
-    // Inputs first, settings after: a setting may stand above the line that names the input.
+    // Inputs first, then settings: a setting may come before the line that names the input.
     let mut settings: Vec<(usize, &str, &str, Span)> = Vec::new();
     let mut channels = Bindings::default();
     let mut is_any = false;
@@ -54,7 +54,7 @@ pub(crate) fn read(text: &str, source: SourceId, around: DirectiveScope<'_>, def
                 line::set(channel, setting, value, span, &mut found.diagnostics);
                 is_any = true;
             }
-            // What it reads cannot be had, which was said.
+            // The input is invalid, which was reported.
             None if found.places.contains_key(&n) => {}
             None => found.diagnostics.push(
                 Diagnostic::warning(span, format!("iChannel{n} has no input, so this line is ignored"))

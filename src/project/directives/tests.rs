@@ -5,7 +5,7 @@ use crate::{Channel, PassName};
 use crate::{Filter, Input, InputKind, Media, Sampler, Wrap};
 use eddy_diag::SourceId;
 
-/// Reads a text of Buffer A, beside which Buffer B and Image are.
+/// Reads a text of Buffer A in a project with Buffer B and Image.
 fn of_a(text: &str) -> Declared {
     let id = PassName::buffer("A");
     let passes = [("buffer_a.glsl", id.clone()), ("buffer_b.glsl", PassName::buffer("B"))];
@@ -41,7 +41,7 @@ fn directives_name_inputs_and_samplers() {
 }
 
 #[test]
-fn music_is_known_by_its_ending() {
+fn music_is_recognised_by_its_extension() {
     let c = channels("#iChannel0 \"file://sub/song.MP3\"\n#iChannel1 \"tune.ogg\"\n#iChannel2 \"Microphone\"\n");
     let music = |path: &str| Input::Media { kind: InputKind::Music, media: Media::File(path.into()) };
     let read: Vec<(usize, Input)> = c.iter().map(|(slot, channel)| (slot, channel.input.clone())).collect();
@@ -56,7 +56,7 @@ fn a_text_without_directives_declares_nothing() {
 }
 
 #[test]
-fn blanking_keeps_every_other_byte_where_it_was() {
+fn blanking_preserves_all_other_bytes() {
     let text = "\u{feff}a\n#iChannel0 \"file://é.png\"\r\nb // #iChannel0\n#define iChannel0 x\n";
     let out = blank(text);
     assert_eq!(out.len(), text.len());
@@ -67,7 +67,7 @@ fn blanking_keeps_every_other_byte_where_it_was() {
 }
 
 #[test]
-fn a_wrong_directive_says_where_and_how_to_mend_it() {
+fn invalid_directives_have_a_span_and_a_fix() {
     for (line, message, hint) in [
         ("#iChannel4 \"self\"", "there is no iChannel4", "write #i"),
         ("#iChannel0 self", "double quotes", "write #i"),
@@ -101,7 +101,7 @@ fn a_wrong_directive_says_where_and_how_to_mend_it() {
 }
 
 #[test]
-fn every_spelling_of_a_pass_means_it() {
+fn every_spelling_of_a_pass_is_accepted() {
     for (value, buffer) in [
         ("self", "A"),
         ("Self", "A"),
@@ -121,7 +121,7 @@ fn every_spelling_of_a_pass_means_it() {
 }
 
 #[test]
-fn a_setting_alone_is_one_of_the_usual_channels() {
+fn a_setting_without_an_input_applies_to_the_default_channel() {
     let id = PassName::image();
     let around = DirectiveScope { id: &id, file: "image.glsl", passes: &[] };
     let usual = [Some(Channel::new(Input::buffer("A")))].into();
@@ -132,7 +132,7 @@ fn a_setting_alone_is_one_of_the_usual_channels() {
 }
 
 #[test]
-fn a_channel_that_is_said_twice_is_told_of() {
+fn a_channel_that_is_set_twice_is_reported() {
     let said = of_a("#iChannel0 \"self\"\n#iChannel0 \"buffer_b\"\n#iChannel1 \"self\"\n#iChannel1 \"buffer_a\"\n");
     assert_eq!(said.diagnostics.len(), 1, "two lines that say the same do no harm: {:?}", said.diagnostics);
     assert!(said.diagnostics[0].message.contains("iChannel0") && said.diagnostics[0].labels.len() == 1);
@@ -140,7 +140,7 @@ fn a_channel_that_is_said_twice_is_told_of() {
 }
 
 #[test]
-fn channel_lines_are_comments_where_they_mean_nothing() {
+fn unused_channel_lines_become_comments() {
     let text = "/* a */ #iChannel0 \"self\"\n // #iChannel1 \"self\"\n#define A\n";
     let said = "/* a */ // #iChannel0 \"self\"\n // #iChannel1 \"self\"\n#define A\n";
     assert_eq!(commented(text), said);

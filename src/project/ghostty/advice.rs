@@ -1,9 +1,10 @@
-//! Differences that Ghostty makes to a custom shader that compiles: uniforms that it leaves alone, and lines that are Eddy's.
+//! Differences between Ghostty and Eddy for a custom shader that compiles: uniforms that Ghostty does not set, and
+//! lines that only Eddy reads.
 
 use crate::{Project, custom_uniforms, includes, lines::hash_lines, words::find_word};
 use eddy_diag::{Diagnostic, Severity, Span};
 
-/// Uniforms that Ghostty declares and does not set, with the value that they keep and what to use.
+/// Uniforms that Ghostty declares but does not set, with the value that they keep and what to use instead.
 const UNSET: [(&str, &str, &str); 6] = [
     ("iMouse", "vec4(0.0)", "there is no mouse in a custom shader"),
     ("iDate", "vec4(0.0)", "use iTime"),
@@ -17,7 +18,7 @@ const UNSET: [(&str, &str, &str); 6] = [
     ),
 ];
 
-/// Returns what to say of the Image pass, whose text is the custom shader.
+/// Returns diagnostics about the Image pass, whose text is the custom shader.
 pub fn advice(project: &Project) -> Vec<Diagnostic> {
     let Some(index) = project.image_index() else { return Vec::new() };
     let (id, text) = (Project::pass_id(index), &*project.passes[index].source.text);

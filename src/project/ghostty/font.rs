@@ -1,4 +1,4 @@
-//! The font of the stand-in terminal: dots of five columns and seven rows.
+//! The font of the simulated terminal: dots in five columns and seven rows.
 
 /// A character, and its rows from the top; bit 4 is the leftmost dot.
 type Glyph = (char, [u8; 7]);
@@ -50,7 +50,7 @@ pub(super) const GLYPHS: &[Glyph] = &[
     ('~', [0x00, 0x00, 0x08, 0x15, 0x02, 0x00, 0x00]),
 ];
 
-/// Returns the place of a character; that of the blank for one that the font does not have.
+/// Returns the index of a character; that of the blank for a character that the font does not have.
 pub(super) fn index(character: char) -> usize {
     GLYPHS.iter().position(|(known, _)| *known == character).unwrap_or(0)
 }

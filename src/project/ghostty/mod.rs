@@ -1,12 +1,13 @@
-//! Custom shaders of the terminal Ghostty: Shadertoy's `mainImage`, with the terminal's picture in `iChannel0` and uniforms
-//! that tell of its cursor and colours. Source: `src/renderer/shaders/shadertoy_prefix.glsl`, `src/renderer/generic.zig` and the
-//! documentation of `custom-shader` in `src/config/Config.zig` of <https://github.com/ghostty-org/ghostty> (August 2026).
+//! Custom shaders of the terminal Ghostty: Shadertoy's `mainImage`, with the terminal's picture in `iChannel0` and
+//! uniforms for its cursor and colours. Source: `src/renderer/shaders/shadertoy_prefix.glsl`,
+//! `src/renderer/generic.zig` and the documentation of `custom-shader` in `src/config/Config.zig` of
+//! <https://github.com/ghostty-org/ghostty> (August 2026).
 //!
-//! Owns a stand-in for the terminal, a pure function of time and resolution: what is typed and where the cursor goes
-//! ([`script`]), the picture of it, which is a buffer of the project in GLSL ([`screen`]), and the values of the uniforms
+//! Owns a simulated terminal, a pure function of time and resolution: what is typed and where the cursor goes
+//! ([`script`]), its picture, which a buffer of the project draws in GLSL ([`screen`]), and the values of the uniforms
 //! ([`uniforms`]).
 //!
-//! Positions are in pixels. y points up, as Ghostty has it with OpenGL; with Metal, on macOS, it points down there.
+//! Positions are in pixels. y points up, as in Ghostty with OpenGL; with Metal, on macOS, it points down there.
 
 mod advice;
 mod font;
@@ -23,14 +24,14 @@ pub use uniforms::{HostUniform, uniforms, values};
 
 use super::{Channel, Dialect, Filter, Input, Pass, PassName, Project, Sampler, Source, TexelFormat, Wrap};
 
-/// The name of the buffer that draws the stand-in terminal.
+/// The name of the buffer that draws the simulated terminal.
 pub const TERMINAL: &str = "terminal";
 
-/// Begins the name of a file that is to be read as a custom shader of Ghostty.
+/// The prefix of a file's name that marks it as a custom shader of Ghostty.
 pub(super) const PREFIX: &str = "ghostty:";
 
-/// Makes a custom shader of the project of one GLSL file: it gets the prelude that Ghostty puts before it as Common, and the
-/// stand-in terminal as the buffer that it reads.
+/// Turns the project of one GLSL file into that of a custom shader: adds the prelude that Ghostty puts before it as
+/// Common, and the simulated terminal as the buffer that it reads.
 pub(super) fn dress(project: &mut Project) {
     let generated = |name: &str, text: String| Source { name: name.into(), path: None, text: text.into() };
     let terminal = PassName::buffer(TERMINAL);

@@ -1,4 +1,4 @@
-//! The picture of the stand-in terminal, as the GLSL of a buffer.
+//! The picture of the simulated terminal, as the GLSL of a buffer.
 
 use super::{
     font::{self, GLYPHS},
@@ -9,7 +9,7 @@ use std::fmt::Write;
 /// Returns the text of the buffer.
 pub(super) fn text() -> String {
     let glyphs: Vec<u32> = GLYPHS.iter().flat_map(|(_, rows)| font::packed(rows)).collect();
-    // Four characters a number, the first in the lowest byte.
+    // Four characters per number, the first in the lowest byte.
     let characters: Vec<u8> = SPANS.iter().flat_map(|s| s.text.chars()).map(|c| font::index(c) as u8).collect();
     let words: Vec<u32> =
         characters.chunks(4).map(|four| four.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte))).collect();
@@ -28,7 +28,7 @@ pub(super) fn text() -> String {
         .zip(&starts)
         .map(|(s, start)| format!("    ivec4({}, {}, {}, {start})", s.row, s.column, s.text.len()));
     let times = SPANS.iter().map(|s| format!("    vec3({:?}, {:?}, {:?})", s.at, s.step, f64::from(s.color)));
-    // A String takes all that is written to it.
+    // Writing to a String cannot fail.
     let _ = write!(
         out,
         "const uint GLYPHS[{}] = uint[](\n    {}\n);\n\

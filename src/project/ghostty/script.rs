@@ -1,8 +1,8 @@
-//! The script of the stand-in terminal: what is typed, what is printed and where the cursor goes, over and over.
+//! The script of the simulated terminal: what is typed, what is printed and where the cursor goes, in a loop.
 
 use std::sync::LazyLock;
 
-/// Seconds after which the script begins again.
+/// The period of the loop in seconds.
 pub const PERIOD: f64 = 16.0;
 
 /// Text in one row of the terminal.
@@ -10,9 +10,9 @@ pub struct Span {
     pub row: u32,
     pub column: u32,
     pub text: &'static str,
-    /// The second at which it is there, or at which typing begins.
+    /// The second at which it appears, or at which typing starts.
     pub at: f64,
-    /// Seconds from one character to the next; 0: all of it is there at once.
+    /// Seconds between characters; 0 if all appear at once.
     pub step: f64,
     /// Index into the palette.
     pub color: u32,
@@ -28,7 +28,7 @@ const BLUE: u32 = 4;
 const GRAY: u32 = 8;
 const WHITE: u32 = 15;
 
-/// All text. What is typed moves the cursor.
+/// All text. Typed text moves the cursor.
 pub const SPANS: &[Span] = &[
     span(0, 0, "~/aurora $", 0.0, 0.0, GREEN),
     span(0, 11, "cargo build", 0.6, 0.09, WHITE),
@@ -65,7 +65,7 @@ pub enum Style {
     Underline = 3,
 }
 
-/// The cursor from a moment on.
+/// The state of the cursor from a moment on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cursor {
     /// The second.
@@ -78,8 +78,8 @@ pub struct Cursor {
 }
 
 impl Cursor {
-    /// Returns whether Ghostty takes `other` for another cursor: it lies elsewhere, or has another colour or shape, which
-    /// gives it another size. That it is hidden changes nothing.
+    /// Returns whether Ghostty treats `other` as a changed cursor: its position, colour or shape differs, and with the
+    /// shape its size. Hiding it is not a change.
     fn differs(&self, other: &Cursor) -> bool {
         (self.row, self.column, self.style, self.color) != (other.row, other.column, other.style, other.color)
     }
@@ -88,10 +88,10 @@ impl Cursor {
 const ORANGE: [f32; 3] = [1.0, 0.55, 0.2];
 pub(super) const CREAM: [f32; 3] = [0.95, 0.9, 0.75];
 
-/// The second at which the window loses the focus, and the one at which it has it back.
+/// The seconds at which the window loses and regains the focus.
 pub const UNFOCUSED: (f64, f64) = (11.4, 12.4);
 
-/// The jumps and changes that are not typing: the second, where to, what else changes.
+/// The jumps and changes that are not typing: the second, the new position, and what else changes.
 type Jump = (f64, u32, u32, Style, [f32; 3], bool);
 
 const JUMPS: &[Jump] = &[
@@ -118,7 +118,7 @@ const JUMPS: &[Jump] = &[
     (15.0, 7, 23, Style::Block, CREAM, true),
 ];
 
-/// The cursors of one period, by their seconds.
+/// The cursors of one period, in order of time.
 static CURSORS: LazyLock<Vec<Cursor>> = LazyLock::new(|| {
     let jump =
         |&(at, row, column, style, color, is_visible): &Jump| Cursor { at, row, column, style, color, is_visible };
@@ -142,9 +142,9 @@ static CURSORS: LazyLock<Vec<Cursor>> = LazyLock::new(|| {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moment {
     pub cursor: Cursor,
-    /// The cursor before it last changed; `None` before any change.
+    /// The cursor before the last change; `None` before any change.
     pub previous: Option<Cursor>,
-    /// The second of that change.
+    /// The second of the last change.
     pub changed_at: f64,
     pub is_focused: bool,
     /// The second at which the window last got the focus.
@@ -158,7 +158,7 @@ pub fn at(secs: f64) -> Moment {
     let (begin, within) = (round * PERIOD, secs - round * PERIOD);
     let index = CURSORS.partition_point(|cursor| cursor.at <= within).saturating_sub(1);
     let cursor = CURSORS[index];
-    // The last one that is another, in this round or at the end of the one before.
+    // The last change, in this period or at the end of the previous one.
     let change = (1..=index).rev().find(|&i| CURSORS[i].differs(&CURSORS[i - 1]));
     let (previous, changed_at) = match change {
         Some(i) => (Some(CURSORS[i - 1]), begin + CURSORS[i].at),
@@ -174,16 +174,16 @@ pub fn at(secs: f64) -> Moment {
     Moment { cursor, previous, changed_at, is_focused: !(lost..found).contains(&within), focused_at }
 }
 
-/// The place of the terminal's cells on a canvas of this height, in pixels.
+/// The layout of the terminal's cells in a picture of this height, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grid {
-    /// Pixels of a dot of the font.
+    /// The size of a dot of the font in pixels.
     pub dot: u32,
 }
 
-/// Dots of a cell, across and down.
+/// The size of a cell in dots, across and down.
 pub const CELL: (u32, u32) = (6, 12);
-/// Dots between the edge of the canvas and the first cell.
+/// Dots between the edge of the picture and the first cell.
 pub const PADDING: u32 = 4;
 
 impl Grid {
@@ -191,8 +191,8 @@ impl Grid {
         Grid { dot: ((f64::from(height) / 240.0 + 0.5) as u32).max(1) }
     }
 
-    /// Returns the rectangle of a cursor: its left and its upper edge, y up from the bottom of the canvas, then width and
-    /// height.
+    /// Returns the rectangle of a cursor: its left and its upper edge, y up from the bottom of the picture, then width
+    /// and height.
     pub fn rectangle(self, cursor: &Cursor, height: u32) -> [f32; 4] {
         let dots = |n: u32| (n * self.dot) as f32;
         let left = dots(PADDING + cursor.column * CELL.0);

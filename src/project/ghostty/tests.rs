@@ -23,17 +23,17 @@ fn the_palette_is_that_of_xterm_beyond_the_sixteen_names() {
 }
 
 #[test]
-fn the_cursor_follows_what_is_typed_and_remembers_where_it_was() {
+fn the_cursor_follows_typing_and_remembers_its_previous_state() {
     let start = script::at(0.0);
     assert_eq!((start.previous, start.changed_at), (None, 0.0));
-    // Three characters of "cargo build" are there.
+    // At this time three characters of "cargo build" are typed.
     let typed = script::at(0.6 + 2.5 * 0.09);
     assert_eq!((typed.cursor.row, typed.cursor.column), (0, 14));
     assert_eq!(typed.previous.map(|cursor| cursor.column), Some(13));
     assert!((typed.changed_at - 0.78).abs() < 1e-9);
     let bar = script::at(9.1);
     assert_eq!((bar.cursor.style, bar.previous.map(|cursor| cursor.style)), (Style::Bar, Some(Style::Block)));
-    // That it is hidden is no change.
+    // Hiding it is not a change.
     let (hidden, shown) = (script::at(12.9), script::at(13.3));
     assert!(!hidden.cursor.is_visible && shown.cursor.is_visible);
     assert_eq!((hidden.changed_at, shown.changed_at), (12.4, 12.4));
@@ -45,7 +45,7 @@ fn the_cursor_follows_what_is_typed_and_remembers_where_it_was() {
 }
 
 #[test]
-fn the_focus_goes_and_comes_back() {
+fn the_focus_is_lost_and_regained() {
     assert!(script::at(11.0).is_focused && !script::at(11.5).is_focused);
     assert_eq!(script::at(11.0).focused_at, 0.0);
     assert_eq!(script::at(12.5).focused_at, 12.4);
@@ -53,14 +53,14 @@ fn the_focus_goes_and_comes_back() {
 }
 
 #[test]
-fn a_cursor_is_given_by_its_left_and_upper_edge() {
+fn cursor_positions_are_the_left_and_upper_edge() {
     let cursor = script::at(0.0).cursor;
     assert_eq!(Grid::of(360).dot, 2);
     assert_eq!(Grid::of(360).rectangle(&cursor, 360), [140.0, 352.0, 12.0, 24.0]);
     let at = |name: &str, secs| values(secs, 360)[uniforms().iter().position(|row| row.name == name).unwrap()];
     assert_eq!(at("iCurrentCursor", 0.0), [140.0, 352.0, 12.0, 24.0]);
     assert_eq!(at("iCurrentCursorStyle", 10.9)[0], 3.0);
-    // An underline is a dot high, and stands at the foot of its cell.
+    // An underline is one dot high, at the bottom of its cell.
     assert_eq!(at("iCurrentCursor", 10.9), [44.0, 360.0 - 8.0 - 240.0 - 20.0, 12.0, 2.0]);
 }
 
@@ -73,7 +73,7 @@ fn project(text: &str) -> Project {
 
 #[test]
 fn a_file_becomes_image_with_the_terminal_in_its_channel() {
-    // Lines that say what channels read mean nothing in Ghostty.
+    // `#iChannel` lines have no effect in Ghostty.
     let project = project("#iChannel0 \"keyboard\"\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(0.0); }\n");
     assert_eq!(project.dialect, Dialect::Ghostty);
     assert!(matches!(&project.origin, Origin::File(path) if path.ends_with("glow.glsl")));
@@ -84,14 +84,14 @@ fn a_file_becomes_image_with_the_terminal_in_its_channel() {
 }
 
 #[test]
-fn eddy_toml_keeps_the_dialect() {
+fn eddy_toml_stores_the_dialect() {
     let text = manifest::write(&project("void mainImage(out vec4 c, in vec2 p) {}"), None, "glow", false);
     assert!(text.contains("dialect = \"ghostty\""), "{text}");
 }
 
-/// A change that a file of Ghostty has no place for is refused, as it would be lost; a folder has it all.
+/// Changes that a Ghostty file cannot store are rejected, as they would be lost; a folder stores everything.
 #[test]
-fn a_file_is_saved_if_nothing_is_lost_by_it() {
+fn a_file_is_saved_only_if_nothing_is_lost() {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("glow.glsl");
     let text = "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.0); }\n";

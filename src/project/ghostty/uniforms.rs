@@ -1,5 +1,5 @@
-//! The uniforms that Ghostty adds to Shadertoy's, and their values. `iPalette` is not here: it is an array, which never
-//! changes, and a constant of the prelude.
+//! The uniforms that Ghostty adds to Shadertoy's, and their values. `iPalette` is not among them: it is a constant
+//! array, which the prelude declares.
 
 use super::{
     prelude,
@@ -7,7 +7,7 @@ use super::{
 };
 use crate::CustomUniformType as Type;
 
-/// A uniform that the program which the texts are written for sets.
+/// A uniform that is set by the program the texts are written for.
 pub struct HostUniform {
     pub name: &'static str,
     pub ty: Type,
@@ -32,7 +32,7 @@ fn rectangle(cursor: &Cursor, height: u32) -> [f32; 4] {
     Grid::of(height).rectangle(cursor, height)
 }
 
-/// Ghostty's colours of a cursor have an alpha.
+/// Ghostty's cursor colours have an alpha.
 fn opaque([r, g, b]: [f32; 3]) -> [f32; 4] {
     [r, g, b, 1.0]
 }
@@ -90,8 +90,8 @@ pub fn uniforms() -> &'static [HostUniform] {
     &*ROWS
 }
 
-/// Returns the values at `secs` on a canvas of this height; the components that a type does not have are 0, and an `int` is
-/// a whole number.
+/// Returns the values at `secs` in a picture of this height; unused components are 0, and an `int` is stored as a whole
+/// number.
 pub fn values(secs: f64, height: u32) -> Vec<[f32; 4]> {
     let moment = script::at(secs);
     ROWS.iter().map(|row| (row.value)(&moment, height)).collect()

@@ -1,6 +1,6 @@
-//! A person brings things from outside: files that are dropped, texts that are pasted.
+//! Imports: dropped files and pasted texts.
 //!
-//! Owns what each of them is: a project, something that a pass reads, or nothing Eddy knows, with the reason. Asks no
+//! Owns the classification of each: a project, an input of a pass, or unknown, with the reason. Does not use the
 //! network: of an address only the name is read.
 
 mod text;
@@ -12,36 +12,36 @@ pub use wire::{Fit, new_for};
 use super::{file_names, files::MANIFEST};
 use std::path::Path;
 
-/// Says what a file is to who brings it.
+/// The kind of a file that a user brings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
     /// A folder, a GLSL file, a Shadertoy JSON file, an `eddy.toml`.
     Project,
-    /// A channel reads it.
+    /// A channel can read it.
     Picture,
-    /// A pass draws it.
+    /// A pass can draw it.
     Model,
-    /// The input of a run, which is played in the open project.
+    /// Recorded input of a run, which is replayed in the open project.
     Recording,
-    /// A channel plays it.
+    /// A channel can play it.
     Video,
-    /// A channel reads it as music.
+    /// A channel can read it as music.
     Sound,
     Unknown,
 }
 
-/// Endings of pictures that a channel can read.
+/// File extensions of pictures that a channel can read.
 pub const PICTURES: [&str; 11] = ["png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr", "exr", "ktx2", "dds"];
-/// Endings of models that a pass can draw.
+/// File extensions of models that a pass can draw.
 pub const MODELS: [&str; 3] = ["glb", "gltf", "obj"];
-/// Ending of recordings of input.
+/// The file extension of recordings of input.
 pub const RECORDING: &str = "replay";
-/// Endings of videos that a channel can play. Animated images have those of images.
+/// File extensions of videos that a channel can play. Animated images have those of images.
 pub const VIDEOS: [&str; 9] = ["mp4", "webm", "mkv", "mov", "m4v", "ogv", "avi", "mpg", "mpeg"];
-/// Endings of sounds that a channel can read as music.
+/// File extensions of sounds that a channel can read as music.
 pub const SOUNDS: [&str; 10] = ["mp3", "ogg", "oga", "opus", "wav", "flac", "m4a", "aac", "aif", "aiff"];
 
-/// Says by its name what a file is; whether it is a folder is asked of the disk.
+/// Classifies a file by its name, and folders by asking the disk.
 pub fn kind_of_file(path: &Path) -> FileKind {
     let extension = path.extension().unwrap_or_default();
     let is_one_of = |list: &[&str]| list.iter().any(|e| extension.eq_ignore_ascii_case(e));
@@ -64,8 +64,8 @@ pub fn kind_of_file(path: &Path) -> FileKind {
     }
 }
 
-/// Returns whether the files are parts of one project, which is then their folder: one of them is its Image pass or its
-/// `eddy.toml`, and the others lie beside it.
+/// Returns the common folder if the files are parts of one project: one of them is its Image pass or its `eddy.toml`,
+/// and the others are in the same folder.
 pub fn folder_of_parts<'p>(paths: &[&'p Path]) -> Option<&'p Path> {
     let folder = paths.first()?.parent()?;
     let is_main = |path: &&Path| {

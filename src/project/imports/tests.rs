@@ -20,7 +20,7 @@ fn refused(text: &str) -> String {
 }
 
 #[test]
-fn json_of_the_site_is_a_project_with_its_channels() {
+fn shadertoy_json_is_a_project_with_its_channels() {
     for text in [SHADER.to_owned(), format!("\u{feff}\n  {SHADER}\n"), format!("[{SHADER}]")] {
         let project = project(&text);
         assert_eq!((&*project.name, &project.origin), ("Rings", &Origin::Unsaved));
@@ -32,19 +32,19 @@ fn json_of_the_site_is_a_project_with_its_channels() {
 }
 
 #[test]
-fn glsl_is_an_image_pass_and_its_lines_say_what_it_reads() {
+fn glsl_is_an_image_pass_with_channel_lines() {
     let text = "#iChannel1 \"keyboard\"\r\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\r\n";
     let project = project(text);
     let image = project.image().unwrap();
     assert_eq!(image.bindings.get(1).unwrap().input, Input::KEYBOARD);
     assert!(!image.source.text.contains('\r'));
-    // In one line, too.
+    // Also on a single line.
     self::project("void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }");
     self::project("// a shader\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }");
 }
 
 #[test]
-fn places_are_opened_and_addresses_are_told_the_way() {
+fn paths_are_opened_and_web_addresses_are_explained() {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("a b.glsl");
     std::fs::write(&file, "").unwrap();
@@ -69,7 +69,7 @@ fn places_are_opened_and_addresses_are_told_the_way() {
 }
 
 #[test]
-fn files_are_known_by_their_names() {
+fn files_are_classified_by_their_names() {
     let dir = tempfile::tempdir().unwrap();
     let kind = |name: &str| kind_of_file(&dir.path().join(name));
     assert_eq!(kind_of_file(dir.path()), FileKind::Project);
@@ -107,7 +107,7 @@ fn files_that_are_dropped_together_may_be_one_project() {
 }
 
 #[test]
-fn a_picture_goes_where_it_is_read_and_never_over_what_is_there() {
+fn a_picture_goes_to_a_free_channel() {
     let mut project = new_for(Path::new("/there/photo.png"), false);
     assert_eq!(project.name, "photo");
     assert_eq!(project.free_channel(&PassName::image()), Some(0));

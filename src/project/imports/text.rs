@@ -1,24 +1,24 @@
-//! A pasted text is Shadertoy JSON, GLSL, the name of a file, or an address.
+//! Pasted text: Shadertoy JSON, GLSL, the name of a file, or an address.
 
 use crate::{Loaded, Project, ProjectError, Role, folder, json, limits, presets, unescaped};
 use eddy_diag::Diagnostic;
 use std::path::Path;
 
-/// A text that is something.
+/// A recognised text.
 #[derive(Debug)]
 pub enum TextImport {
-    /// The text is a project; it lies nowhere else.
+    /// The text is itself a project, which is not on disk.
     Project(Box<Loaded>),
-    /// The text names one, as [`crate::load`] takes it, or a file of another kind.
+    /// The text names a project, as [`crate::load`] accepts it, or a file of another kind.
     Place(String),
 }
 
-/// A text that nothing can be made of.
+/// A text that cannot be imported.
 #[derive(Debug, thiserror::Error)]
 pub enum ImportError {
     #[error("the clipboard is empty; copy the JSON of a shader, GLSL code or the path of a file first")]
     Empty,
-    /// An address of the site, with the shader's id where it has one.
+    /// An address on Shadertoy, with the shader's id if it has one.
     #[error(
         "{address} is a web address, and Eddy does not download. Open the page in a browser, save the shader with \
          the bookmarklet (\"Open Shadertoy bookmarklet page\" in the command palette), and drop or paste the JSON here"
@@ -40,7 +40,7 @@ pub enum ImportError {
     },
 }
 
-/// Says what a pasted text is.
+/// Classifies a pasted text.
 pub fn import_of_text(text: &str) -> Result<TextImport, ImportError> {
     let trimmed = text.trim_start_matches('\u{feff}').trim();
     if trimmed.is_empty() {
@@ -69,7 +69,7 @@ fn of_json(text: &str) -> Result<TextImport, ProjectError> {
     Ok(TextImport::Project(Box::new(Loaded { sources: project.sources(), project, warnings })))
 }
 
-/// One line: an address, or the name of a file or a preset. `None`: neither.
+/// A single line: an address, or the name of a file or a preset. `None` if it is neither.
 fn of_line(line: &str) -> Option<Result<TextImport, ImportError>> {
     let lower = line.to_lowercase();
     if let Some(rest) = lower.starts_with("file://").then(|| &line["file://".len()..]) {
@@ -97,12 +97,12 @@ fn shown(line: &str) -> String {
     line.chars().take(120).collect()
 }
 
-/// Returns whether a text has a function that a pass begins with.
+/// Returns whether a text has the entry point of a pass.
 fn has_main(text: &str) -> bool {
     Role::all().map(|kind| kind.row().entry).chain(["void main"]).any(|main| text.contains(main))
 }
 
-/// A project whose Image pass is the text; its `#iChannel` lines say what it reads.
+/// A project whose Image pass is the text; its `#iChannel` lines declare its inputs.
 fn of_glsl(text: &str) -> Result<TextImport, ProjectError> {
     let too_large = |diagnostics: Vec<Diagnostic>, sources| {
         Err(ProjectError::Invalid { what: "the pasted text".into(), diagnostics, sources })
@@ -113,7 +113,7 @@ fn of_glsl(text: &str) -> Result<TextImport, ProjectError> {
     }
     let text = text.replace("\r\n", "\n");
     let mut project = Project::of_image("Pasted shader".into(), text);
-    // What is wrong in such a line shows when it is compiled.
+    // Errors in such lines appear when the project is compiled.
     let warnings = folder::declare_channels(&mut project).into_iter().filter(|d| !d.is_error()).collect();
     project.read_includes();
     Ok(TextImport::Project(Box::new(Loaded { sources: project.sources(), project, warnings })))

@@ -1,4 +1,4 @@
-//! Pictures and models on their way into a project: which channel reads a picture, which pass draws a model.
+//! Adds pictures and models to a project: selects the channel that reads a picture, and the pass that draws a model.
 
 use crate::{
     Body, Camera, Channel, Cull, DepthTest, Geometry, Input, InputKind, Media, MeshDraw, MeshSource, Pass, PassName,
@@ -59,7 +59,7 @@ void main()
 }
 ";
 
-/// The place of a model in the world.
+/// The transform that places a model in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
     pub scale: f64,
@@ -67,19 +67,19 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// Puts what lies between two corners into the middle, as large as the default camera sees it well.
+    /// Centres a bounding box and scales it to the view of the default camera.
     pub fn of_corners(least: [f32; 3], most: [f32; 3]) -> Fit {
         let middle = [0, 1, 2].map(|i| f64::from(least[i] + most[i]) / 2.0);
         let half = [0, 1, 2].map(|i| f64::from(most[i] - least[i]) / 2.0);
         let radius = half.iter().map(|h| h * h).sum::<f64>().sqrt();
         let scale = if radius.is_finite() && radius > 0.0 { 1.4 / radius } else { 1.0 };
-        // As many digits as anybody wants to read in eddy.toml.
+        // Round to a readable number of digits in eddy.toml.
         let scale = format!("{scale:.3e}").parse().unwrap_or(1.0);
         Fit { scale, position: middle.map(|m| if m.is_finite() { (-m * scale * 1e4).round() / 1e4 } else { 0.0 }) }
     }
 }
 
-/// A project for what is brought while none is open: its Image pass shows iChannel0.
+/// A new project for a file that is brought while no project is open: its Image pass shows iChannel0.
 pub fn new_for(path: &Path, is_model: bool) -> Project {
     let text = if is_model { COPY } else { PICTURE };
     let name = path.file_stem().map(|s| s.to_string_lossy().trim().to_owned()).filter(|s| !s.is_empty());
@@ -87,8 +87,7 @@ pub fn new_for(path: &Path, is_model: bool) -> Project {
 }
 
 impl Project {
-    /// The channel of a pass that something new goes to: an empty one that its text reads already, else the first empty
-    /// one.
+    /// The channel of a pass for a new input: an empty one that its text already reads, else the first empty one.
     pub fn free_channel(&self, id: &PassName) -> Option<usize> {
         let pass = self.pass(id)?;
         let is_empty = |n: &usize| pass.bindings.get(*n).is_none();
@@ -96,19 +95,19 @@ impl Project {
         (0..SLOTS).filter(is_empty).find(reads).or_else(|| (0..SLOTS).find(is_empty))
     }
 
-    /// Lets a channel read a picture.
+    /// Binds a picture to a channel.
     pub fn read_picture(&mut self, id: &PassName, channel: usize, picture: &Path) {
         if let Some(pass) = self.pass_mut(id).filter(|_| channel < SLOTS) {
             pass.bindings.set(channel, Some(Channel::new(Input::texture(Media::Picked(picture.to_owned())))));
         }
     }
 
-    /// Lets a channel play a video.
+    /// Binds a video to a channel.
     pub fn read_video(&mut self, id: &PassName, channel: usize, video: &Path) {
         self.read_picked(InputKind::Video, id, channel, video);
     }
 
-    /// Lets a channel read a sound as music.
+    /// Binds a sound to a channel as music.
     pub fn read_sound(&mut self, id: &PassName, channel: usize, sound: &Path) {
         self.read_picked(InputKind::Music, id, channel, sound);
     }
@@ -120,7 +119,7 @@ impl Project {
         }
     }
 
-    /// Adds a buffer that draws a model, with texts to begin with. `None` where there are too many passes.
+    /// Adds a buffer that draws a model, with initial texts. `None` if the project has too many passes.
     pub fn add_model(&mut self, model: &Path, fit: Fit) -> Option<PassName> {
         if self.passes.len() >= limits::PASSES {
             return None;
@@ -134,7 +133,7 @@ impl Project {
             normals: None,
             vertex: Stage::File(0),
             fragment: Stage::Own,
-            // Models of unknown make are often seen from inside, too.
+            // Unknown models are often viewed from inside, too.
             cull: Cull::None,
             depth: DepthTest::Less,
             depth_write: true,
@@ -157,7 +156,7 @@ impl Project {
         Some(id)
     }
 
-    /// Lets a channel read what a buffer has drawn.
+    /// Binds a buffer to a channel.
     pub fn read_buffer(&mut self, id: &PassName, channel: usize, buffer: &PassName) {
         if let Some(pass) = self.pass_mut(id).filter(|_| channel < SLOTS) {
             pass.bindings.set(channel, Some(Channel::new(Input::pass(buffer.clone()))));
@@ -165,7 +164,7 @@ impl Project {
     }
 }
 
-/// Puts a buffer behind the other buffers.
+/// Adds a buffer after the other buffers.
 fn append_buffer(project: &mut Project, pass: Pass) {
     let at = project.passes.iter().position(|p| !p.id.is_buffer()).unwrap_or(project.passes.len());
     project.passes.insert(at, pass);

@@ -1,12 +1,12 @@
 //! `#include "file"` lines: texts inside texts.
 //!
 //! A path is relative to the file whose line names it, and stays within the project's folder; an included file may
-//! include others. The lines count wherever they stand outside comments, in conditionals too; only what is missing is
-//! reported by the preprocessor, where a line is compiled. A file that is a tab of
-//! the project is taken as the tab has it; Common, which stands before every pass anyway, is not put in again.
+//! include others. The lines count everywhere outside comments, in conditionals too; only missing files are reported by
+//! the preprocessor, when the line is compiled. For a file that is a tab of the project, the tab's text is used;
+//! Common, which comes before every pass anyway, is not inserted again.
 //!
-//! Owns which files are read ([`Project::read_includes`]), what the lines lead to ([`Project::include_lines`]) and the
-//! text that comes of it ([`Project::inlined`]).
+//! Owns which files are read ([`Project::read_includes`]), the targets of the lines ([`Project::include_lines`]) and
+//! the resulting text ([`Project::inlined`]).
 
 use super::{
     Included, Project, Source, Tab,
@@ -36,14 +36,14 @@ impl From<String> for IncludeFailure {
     }
 }
 
-/// The texts that the `#include` lines of a project lead to.
+/// The targets of the `#include` lines of a project.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IncludeLines {
-    /// A line, and the text that stands in its place; no text leads to itself.
+    /// Lines with the texts that replace them, without cycles.
     pub lines: Vec<(Span, SourceId)>,
-    /// The lines that have no text, each with what is said of it where it is compiled; the span is the line.
+    /// The lines without a text, each with the diagnostic to report if it is compiled; its span is the line.
     pub missing: Vec<Diagnostic>,
-    /// Errors wherever their lines stand.
+    /// Errors that are reported whether or not the lines are compiled.
     pub diagnostics: Vec<Diagnostic>,
 }
 
@@ -51,8 +51,8 @@ fn is_include(line: &HashLine<'_>) -> bool {
     line.body.strip_prefix("include").is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
 }
 
-/// Returns whether a line names a file, as it must. Any other form is left to the compiler, which skips it where another
-/// language's text stands in a group that is not compiled.
+/// Returns whether a line names a file, as it must. Any other form is left to the compiler, which skips it in an
+/// inactive conditional group, for example in text of another language.
 pub(super) fn is_named(line: &HashLine<'_>) -> bool {
     is_include(line) && named(line).is_some()
 }
@@ -74,14 +74,14 @@ pub fn include_names(text: &str) -> Vec<&str> {
     hash_lines(text).iter().filter(|l| is_include(l)).filter_map(named).map(str::trim).collect()
 }
 
-/// Reads every file that texts of the project name, and those that these name.
+/// Reads every file that texts of the project include, and those that these include.
 pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
     let tabs: BTreeSet<String> = tab_sources(project).map(|s| s.name.clone()).collect();
     let mut queue: VecDeque<(String, std::sync::Arc<str>)> =
         tab_sources(project).map(|s| (s.name.clone(), s.text.clone())).collect();
     let mut known = tabs.clone();
     let mut found: Vec<Included> = Vec::new();
-    // What was edited is nowhere else: it stays, also while no text includes it.
+    // Edited texts exist only here: they stay, even while no text includes them.
     let edited: BTreeMap<String, Source> =
         project.includes.iter().filter(|i| i.is_edited).map(|i| (i.source.name.clone(), i.source.clone())).collect();
     'texts: while let Some((from, text)) = queue.pop_front() {
@@ -121,11 +121,11 @@ pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
     let is_left = |name: &String| !found.iter().any(|i| i.source.name == *name) && !tabs.contains(name);
     let left: Vec<Source> = edited.into_iter().filter(|(name, _)| is_left(name)).map(|(_, source)| source).collect();
     let left = left.into_iter().map(|source| Included { source, trouble: None, is_limit: false, is_edited: true });
-    // A limit is told by the last.
+    // If there is a failure of a limit, it is the last entry.
     project.includes = left.chain(found).collect();
 }
 
-/// Files that are not there for which a like name is looked for: looking for one reads the folder.
+/// The number of missing files for which a similar name is suggested: each suggestion reads the folder.
 const HINTS: usize = 20;
 
 fn content(files: Option<&Files<'_>>, name: &str, with_hint: bool) -> Result<String, IncludeFailure> {
@@ -155,7 +155,7 @@ fn tab_sources(project: &Project) -> impl Iterator<Item = &Source> {
 }
 
 impl Project {
-    /// Reads the files that the texts include, from where the project lies.
+    /// Reads the files that the texts include, relative to the project's folder.
     pub fn read_includes(&mut self) {
         match &self.origin {
             super::Origin::Preset(name) => {
@@ -169,8 +169,8 @@ impl Project {
         }
     }
 
-    /// Reads these files, which some text includes that is not this project's, and adds them to those that are included.
-    /// One that cannot be read is left out.
+    /// Reads files that a text outside this project includes, and adds them to the included files. Unreadable files are
+    /// omitted.
     pub fn read_included(&mut self, names: impl IntoIterator<Item = String>) {
         let base = self.origin.base_dir().map(Path::to_owned);
         let files = match &self.origin {
@@ -190,12 +190,12 @@ impl Project {
         }
     }
 
-    /// Returns what every `#include` line leads to, and what is wrong with those that lead to no text. Spans and ids are
-    /// of [`Project::sources`].
+    /// Returns the target of every `#include` line, and diagnostics for those without one. Spans and ids are of
+    /// [`Project::sources`].
     pub fn include_lines(&self) -> IncludeLines {
         let mut found = IncludeLines::default();
         let sources = self.texts();
-        // A buffer and another may share a file: the first is as good as the second.
+        // If two buffers share a file, the first id is used; their text is the same.
         let mut ids: BTreeMap<&str, SourceId> = BTreeMap::new();
         for (id, source) in sources.iter().filter(|(id, _)| *id != Self::COMMON_ID || self.common.is_some()) {
             ids.entry(&source.name).or_insert(id);
@@ -237,14 +237,14 @@ impl Project {
             }
         }
         if self.includes.last().is_some_and(|i| i.is_limit) {
-            // Not even those that were read are put together: the error is there already.
+            // Discard even the resolved lines: the limit is already reported as an error.
             found.lines.clear();
         }
         self.cut_cycles(&mut found);
         found
     }
 
-    /// Takes out lines that lead back to a text they stand in, each with an error that shows the way.
+    /// Removes lines that form cycles, each with an error that shows the cycle.
     fn cut_cycles(&self, found: &mut IncludeLines) {
         let sources = self.texts();
         let count = sources.iter().count();
@@ -254,11 +254,11 @@ impl Project {
             lines[usize::from(span.source.0)].push((span, usize::from(target.0)));
         }
         let mut cut: BTreeSet<(u16, u32)> = BTreeSet::new();
-        // How many texts each has in it, itself counted, and their bytes; 0: not known yet.
+        // The number of texts inlined into each, itself included, and their total bytes; 0 if not yet computed.
         let mut sizes = vec![0u64; count];
         let mut bytes: Vec<u64> = sources.iter().map(|(_, s)| s.text.len() as u64).collect();
         for root in 0..count {
-            // Depth first, without recursion: chains may be long.
+            // Depth-first, without recursion: chains may be long.
             let mut way: Vec<(usize, usize)> = vec![(root, 0)];
             while let Some(&(at, next)) = way.last() {
                 if sizes[at] > 0 {
@@ -307,7 +307,7 @@ impl Project {
         }
     }
 
-    /// Returns the tabs whose texts have an included file in them, directly or by way of others: Common, passes, stages.
+    /// Returns the tabs whose texts include a file, directly or indirectly: Common, passes, stages.
     pub fn tabs_that_include(&self, included: &Tab) -> Vec<Tab> {
         let Some(id) = self.id_of(included) else { return Vec::new() };
         let lines = self.include_lines();
@@ -315,7 +315,7 @@ impl Project {
         self.tabs().into_iter().filter(|tab| !matches!(tab, Tab::Included(_)) && has_it(tab)).collect()
     }
 
-    /// Returns the tab that the `#include` line at a byte of a tab's text leads to.
+    /// Returns the target tab of the `#include` line at a byte offset of a tab's text.
     pub fn included_at(&self, tab: &Tab, at: usize) -> Option<Tab> {
         let text = &self.source(tab)?.text;
         let line =
@@ -324,7 +324,7 @@ impl Project {
         self.tabs().into_iter().find(|tab| self.source(tab).is_some_and(|s| s.name == name))
     }
 
-    /// A text with every file it includes in the place of its line.
+    /// A text with every `#include` line replaced by the included file.
     pub fn inlined(&self, id: SourceId, lines: &IncludeLines) -> Cow<'_, str> {
         let text = self.source_text(id);
         let mut own = lines.lines.iter().filter(|(span, _)| span.source == id).peekable();
@@ -353,7 +353,7 @@ impl Project {
 }
 
 impl IncludeLines {
-    /// The text `id` and all that it has in it.
+    /// The text `id` and all texts that it includes.
     pub fn reach(&self, id: SourceId) -> BTreeSet<SourceId> {
         let mut reached = BTreeSet::new();
         let mut todo = vec![id];

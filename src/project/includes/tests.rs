@@ -35,7 +35,7 @@ const TREE: &[(&str, &str)] = &[
 ];
 
 #[test]
-fn files_are_found_from_where_their_line_stands() {
+fn paths_are_relative_to_the_including_file() {
     let project = open(&folder(TREE));
     assert_eq!(said(&project), "");
     assert_eq!(image(&project), "// top\n// #include \"none\"\nint h;\nint a;\nint n;\n\nint i;\nint a;\n");
@@ -48,7 +48,7 @@ fn files_are_found_from_where_their_line_stands() {
 }
 
 #[test]
-fn what_leads_nowhere_is_told_at_its_line() {
+fn missing_files_are_reported_at_their_line() {
     for (line, message) in [
         ("#include \"nose.glsl\"", "there is no file nose.glsl; did you mean noise.glsl?"),
         ("#include \"../p/noise.glsl\"", "leads out of the project's folder"),
@@ -81,7 +81,7 @@ fn what_leads_nowhere_is_told_at_its_line() {
 }
 
 #[test]
-fn a_circle_is_an_error_with_the_way_round_it() {
+fn a_cycle_is_an_error_that_shows_the_cycle() {
     let project = open(&folder(&[
         ("image.glsl", "#include \"a.glsl\"\n#include \"d.glsl\"\n"),
         ("a.glsl", "int a;\n#include \"b.glsl\"\n"),
@@ -97,7 +97,7 @@ fn a_circle_is_an_error_with_the_way_round_it() {
 }
 
 #[test]
-fn files_that_double_and_double_are_refused() {
+fn exponential_includes_are_rejected() {
     let mut files = vec![("image.glsl".to_owned(), "#include \"f0\"\n".to_owned())];
     files.extend((0..40).map(|i| (format!("f{i}"), format!("#include \"f{0}\"\n#include \"f{0}\"\n", i + 1))));
     files.push(("f40".into(), "int i;".into()));
@@ -108,7 +108,7 @@ fn files_that_double_and_double_are_refused() {
 }
 
 #[test]
-fn a_copy_in_another_folder_has_the_files_too() {
+fn a_copy_in_another_folder_contains_the_included_files() {
     let dir = folder(TREE);
     let project = open(&dir);
     let to = dir.path().join("copy");
@@ -120,9 +120,9 @@ fn a_copy_in_another_folder_has_the_files_too() {
     assert!(save(&project, &dir.path().join("alone.glsl"), Overwrite::Refuse).is_err());
 }
 
-/// Some shaders hold a program in another language too, in a group that is not compiled.
+/// Some shaders contain a program in another language in an inactive conditional group.
 #[test]
-fn other_languages_include_in_other_ways() {
+fn includes_of_other_languages_are_ignored() {
     let text = "#ifdef C\n#include <stdio.h>\n#endif\nvoid mainImage(out vec4 o, vec2 p) { o = vec4(1); }\n";
     let project = open(&folder(&[("image.glsl", text)]));
     assert_eq!(said(&project), "");

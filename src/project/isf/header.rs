@@ -1,10 +1,10 @@
-//! The JSON object of an ISF file.
+//! The JSON header of an ISF file.
 
 use crate::limits;
 use eddy_diag::{Diagnostic, SourceId, Span};
 use serde_json::{Map, Value};
 
-/// The description that an ISF file gives of itself.
+/// The metadata of an ISF file.
 #[derive(Debug, Default)]
 pub(super) struct Header {
     pub description: String,
@@ -13,7 +13,7 @@ pub(super) struct Header {
     pub inputs: Vec<IsfInput>,
     pub passes: Vec<IsfPass>,
     pub imported: Vec<Imported>,
-    /// Things in it that some hosts refuse.
+    /// Warnings about syntax that some hosts reject.
     pub warnings: Vec<Diagnostic>,
 }
 
@@ -22,11 +22,11 @@ pub(super) struct IsfInput {
     pub name: String,
     pub label: String,
     pub kind: Kind,
-    /// One number for each component; none where the file gives none.
+    /// One number per component; empty if the file has no default.
     pub default: Vec<f64>,
     pub min: Vec<f64>,
     pub max: Vec<f64>,
-    /// The numbers that a `long` may be, as the file lists them.
+    /// The allowed values of a `long`, in file order.
     pub values: Vec<f64>,
 }
 
@@ -56,7 +56,7 @@ impl Kind {
         ("audioFFT", Kind::AudioFft),
     ];
 
-    /// It is a picture, and no uniform.
+    /// Returns whether it is a picture rather than a uniform.
     pub(super) fn is_image(self) -> bool {
         matches!(self, Kind::Image | Kind::Audio | Kind::AudioFft)
     }
@@ -64,7 +64,7 @@ impl Kind {
 
 #[derive(Debug, Default)]
 pub(super) struct IsfPass {
-    /// The buffer that it draws; empty for one that draws the picture.
+    /// The buffer that it draws; empty if it draws the picture.
     pub target: String,
     pub is_float: bool,
     pub width: Option<String>,
@@ -77,7 +77,7 @@ pub(super) struct Imported {
     pub path: String,
 }
 
-/// Reads the header, of which byte 0 is at `start` of a text. Err: what is wrong, each with its place.
+/// Parses the header, whose byte 0 is at `start` of a text. Returns the errors, each with its span.
 pub(super) fn parse(json: &str, (id, start): (SourceId, usize)) -> Result<Header, Vec<Diagnostic>> {
     let whole = Span::new(id, start..start + json.len());
     if json.len() as u64 > limits::ISF_HEADER.bytes {
@@ -121,7 +121,7 @@ pub(super) fn parse(json: &str, (id, start): (SourceId, usize)) -> Result<Header
     if reader.found.iter().any(Diagnostic::is_error) { Err(reader.found) } else { Ok(header) }
 }
 
-/// Returns where commas stand outside of strings after which an object or a list ends.
+/// Returns the offsets of trailing commas outside strings, before the end of an object or a list.
 fn trailing_commas(json: &str) -> Vec<usize> {
     let bytes = json.as_bytes();
     let (mut found, mut last) = (Vec::new(), None);
@@ -143,14 +143,14 @@ fn trailing_commas(json: &str) -> Vec<usize> {
     found
 }
 
-/// Returns whether a text ends with a value.
+/// Returns whether a text ends with a complete value.
 fn ends_with_value(before: &[u8]) -> bool {
     before.iter().rev().find(|byte| !byte.is_ascii_whitespace()).is_some_and(|byte| !b"[{,:".contains(byte))
 }
 
-/// Categories that are read.
+/// The limit for categories that are read.
 const CATEGORIES: usize = 1_000;
-/// Errors in a header that are said.
+/// The limit for reported errors of a header.
 const ERRORS: usize = 100;
 
 struct Reader<'t> {
@@ -162,7 +162,7 @@ struct Reader<'t> {
 
 impl Reader<'_> {
     fn header(&mut self, object: &Map<String, Value>) -> Header {
-        // One more than is allowed is enough to say that there are too many.
+        // One more than the limit is enough to report that there are too many.
         let list = |key: &str, most: usize| {
             let all = object.get(key).and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
             &all[..all.len().min(most + 1)]
@@ -182,7 +182,7 @@ impl Reader<'_> {
     }
 
     fn error(&mut self, at: &str, message: String, hint: impl Into<String>) {
-        // Each takes a search through the header.
+        // Each error searches the header.
         if self.found.len() >= ERRORS {
             return;
         }
@@ -219,7 +219,7 @@ impl Reader<'_> {
         })
     }
 
-    /// Version 2 has an object of name to file, some converters write a list of objects with names.
+    /// Version 2 has an object of names and files; some converters write a list of objects with names.
     fn imported(&mut self, value: Option<&Value>) -> Vec<Imported> {
         let mut all = Vec::new();
         let mut add = |reader: &mut Self, name: String, file: &Value| {
@@ -249,7 +249,7 @@ impl Reader<'_> {
     }
 }
 
-/// Returns whether a name is an identifier of GLSL.
+/// Returns whether a name is a GLSL identifier.
 pub(super) fn is_name(name: &str) -> bool {
     let mut letters = name.chars();
     letters.next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_')
@@ -280,7 +280,7 @@ fn text(value: Option<&Value>) -> String {
     value.and_then(Value::as_str).unwrap_or_default().trim().to_owned()
 }
 
-/// Returns the numbers of a value: one, or a list; `true` is 1.
+/// Returns the components of a value: a number, or a list; `true` is 1.
 fn numbers(value: &Value) -> Vec<f64> {
     match value {
         Value::Bool(on) => vec![f64::from(u8::from(*on))],

@@ -1,9 +1,9 @@
-//! Interactive Shader Format, version 2: a fragment shader with a JSON object in its first comment, which describes inputs and
-//! passes. Source: <https://github.com/mrRay/ISF_Spec>.
+//! Interactive Shader Format, version 2: a fragment shader with a JSON object in its first comment, which describes
+//! inputs and passes. Source: <https://github.com/mrRay/ISF_Spec>.
 //!
-//! A file becomes a project whose passes include it: nothing of its text is changed, and an edit of the included file is an edit
-//! of the ISF file. Owns the header ([`header`]), the sizes of passes ([`size`]), the texts around the file ([`texts`]) and the
-//! project ([`read`]). The way back is in the package `translate`.
+//! A file becomes a project whose passes include it: its text is unchanged, and an edit of the included file is an edit
+//! of the ISF file. Owns the header ([`header`]), the sizes of passes ([`size`]), the texts around the file ([`texts`])
+//! and the project ([`read`]). The conversion back is in the package `translate`.
 
 mod header;
 mod read;
@@ -23,9 +23,9 @@ use super::{
 use super::{lines::trim_start, words::find_word};
 use std::path::{Path, PathBuf};
 
-/// Returns the JSON of an ISF file and where it begins, if it is in the first comment between `/*` and `*/`, and the text has an
-/// entry point of a whole fragment shader. Lines of `//` may stand before it. All keys are optional: an object without any is
-/// one in a file with the ending of ISF, `.fs`.
+/// Returns the JSON of an ISF file and its offset, if it is in the first comment between `/*` and `*/`, and the text
+/// has the entry point of a complete fragment shader. `//` comments may precede it. All keys are optional: an object
+/// with none of them counts if the file has the extension of ISF, `.fs`.
 pub(super) fn json_of<'t>(path: &Path, text: &'t str) -> Option<(usize, &'t str)> {
     let mut start = trim_start(text.trim_start_matches('\u{feff}'));
     while let Some(line) = start.strip_prefix("//") {
@@ -46,8 +46,8 @@ pub(super) fn json_of<'t>(path: &Path, text: &'t str) -> Option<(usize, &'t str)
     (is_isf && is_whole).then(|| (text.len() - comment.len(), json))
 }
 
-/// Returns the ISF file that a vertex shader belongs to: `a.fs` beside `a.vs`, with texts of an editor in place of what is on
-/// disk.
+/// Returns the ISF file that a vertex shader belongs to: `a.fs` next to `a.vs`; texts of an editor override the files
+/// on disk.
 pub fn isf_of_vertex_shader(path: &Path, edited: &EditedTexts) -> Option<PathBuf> {
     path.extension().filter(|ending| ending.eq_ignore_ascii_case("vs"))?;
     let fragment = path.with_extension("fs");

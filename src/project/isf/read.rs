@@ -1,4 +1,4 @@
-//! An ISF file becomes a project, and is written again.
+//! Loads an ISF file as a project, and saves it.
 
 use super::{
     header::{self, Header, Kind},
@@ -17,13 +17,12 @@ use std::{
     path::Path,
 };
 
-/// Channels of a pass.
-/// Images that a message lists at most.
+/// The number of images that a message lists at most.
 const SHOWN: usize = 12;
-/// Textures that stand in for images that the person does not choose, one after the other.
+/// Built-in textures that replace images until the user chooses others, in rotation.
 const STAND_INS: [&str; 4] = ["street", "marble", "coral", "pebbles"];
 
-/// Returns the project of a text of a file, if that is an ISF file. Err: what is wrong with its header.
+/// Returns the project of a file's text if it is an ISF file, or the errors in its header.
 pub(crate) fn load(path: &Path, (name, text): (&str, &str), files: &Files<'_>) -> Option<Result<Loaded, ProjectError>> {
     let (start, json) = json_of(path, text)?;
     let mut sources = SourceMap::default();
@@ -63,7 +62,7 @@ struct Maker<'t> {
     name: &'t str,
     text: &'t str,
     words: texts::TextWords<'t>,
-    /// The header.
+    /// The span of the header.
     at: Span,
     found: Vec<Diagnostic>,
 }
@@ -135,7 +134,7 @@ impl Maker<'_> {
         project
     }
 
-    /// The buffers that passes draw, each once.
+    /// The buffers that passes draw, without duplicates.
     fn targets(&mut self) -> Vec<String> {
         let mut targets: Vec<String> = Vec::new();
         let mut buffers: HashSet<String> = HashSet::new();
@@ -155,7 +154,7 @@ impl Maker<'_> {
         targets
     }
 
-    /// The names of the images that the text reads, in the order of their channels.
+    /// The names of the images that the text reads, in channel order.
     fn images(&mut self, targets: &[String], vertex: Option<&str>) -> Vec<String> {
         let inputs = self.header.inputs.iter().filter(|input| input.kind.is_image()).map(|input| &input.name);
         let imported = self.header.imported.iter().map(|image| &image.name);
@@ -176,7 +175,7 @@ impl Maker<'_> {
             );
             self.error(message, "read at most four images, buffers among them");
         }
-        // An image may be called as a channel is, and is then that one.
+        // An image may have the name of a channel, and then gets that channel.
         for n in 0..read.len().min(SLOTS) {
             let own = read.iter().position(|name| *name == format!("iChannel{n}"));
             if let Some(own) = own {
@@ -203,9 +202,9 @@ impl Maker<'_> {
         }
     }
 
-    /// The images of the person that are drawn at the size of the canvas first: a host gives a filter images of the size that
-    /// it draws, so texts take pixels of the one for pixels of the other. Where a text reads no pixel by its number, that makes
-    /// no difference.
+    /// The user's images that are first drawn at the resolution of the picture: hosts give a filter images of the size
+    /// that it draws, so texts use pixel coordinates of one for the other. If a text reads no pixel by its coordinates,
+    /// this makes no difference.
     fn scaled(&self, images: &[String], targets: &[String], vertex: Option<&str>) -> Vec<String> {
         let reads = ["IMG_PIXEL", "IMG_SIZE", "texture2DRect"];
         let has_pixels = |name: &str| {
@@ -218,7 +217,7 @@ impl Maker<'_> {
         inputs.filter(|name| images.contains(name) && has_pixels(name) && is_free(name)).cloned().collect()
     }
 
-    /// The buffers that make images of sounds.
+    /// The buffers that convert sounds to images.
     fn audio_passes(&self, images: &[String]) -> Vec<Pass> {
         let inputs = self.header.inputs.iter().filter(|input| matches!(input.kind, Kind::Audio | Kind::AudioFft));
         let read = inputs.filter(|input| images.contains(&input.name));
@@ -271,7 +270,7 @@ fn generated(id: &PassName, text: String) -> Source {
     Source { name: id.title(), path: None, text: text.into() }
 }
 
-/// Returns what the buffer of a target is called: names of buffers have letters and digits alone.
+/// Returns the buffer name for a target: buffer names contain only letters and digits.
 fn buffer_name(target: &str) -> String {
     let known = PassName::buffer_named(&format!("buffer_{target}"));
     known.as_ref().and_then(PassName::buffer_name).unwrap_or("isf").to_owned()
@@ -281,7 +280,7 @@ fn linear(input: Input) -> Channel {
     Channel { input, sampler: Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true } }
 }
 
-/// Writes what was edited of an ISF file, and of the files that it includes; the texts around it are Eddy's.
+/// Saves the edits of an ISF file and of the files that it includes; Eddy generates the texts around it.
 pub(crate) fn save(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {
     let fresh = load_again(target)?;
     let is_drawn_the_same = |a: &Pass, b: &Pass| a.settings == b.settings && a.body == b.body;

@@ -2,8 +2,8 @@
 
 use crate::{PassSize, limits};
 
-/// Returns the value of an expression with + - * / %, parentheses, the functions floor, ceil, round, abs, sqrt, min, max, pow and
-/// mod, and `$NAME` for what `value` knows. Err: what cannot be understood.
+/// Evaluates an expression with + - * / %, parentheses, the functions floor, ceil, round, abs, sqrt, min, max, pow and
+/// mod, and `$NAME`, which `value` looks up. Returns an error for invalid syntax.
 pub(super) fn evaluate(text: &str, value: &dyn Fn(&str) -> Option<f64>) -> Result<f64, String> {
     let mut reader = Reader { rest: text.trim(), value, depth: 0 };
     let result = reader.sum()?;
@@ -116,8 +116,8 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// Returns the size of a pass by its expressions, where `None` stands for the canvas's own, and what to say of it. Err: the
-/// canvas determines it in a way that Eddy does not have.
+/// Returns the size of a pass from its expressions, where `None` is the size of the picture, and a warning if there is
+/// one. Fails if the size depends on that of the picture in a way that Eddy does not support.
 pub(super) fn size(
     (width, height): (Option<&str>, Option<&str>),
     input: &dyn Fn(&str) -> Option<f64>,
@@ -148,7 +148,7 @@ pub(super) fn size(
     if is_row || !sizes.iter().zip(&CANVASES).all(is_scaled) {
         return Err("it is neither fixed nor a part of the resolution in both directions".to_owned());
     }
-    // What is rounded down differs in the last digits.
+    // Rounding down makes the last digits inexact.
     let (x, y) = (tidy(x), tidy(y));
     let by = x.max(y);
     let said =
@@ -156,7 +156,7 @@ pub(super) fn size(
     Ok((if by == 1.0 { PassSize::Canvas } else { PassSize::Scale(by) }, said))
 }
 
-/// Returns the fraction of small whole numbers that a factor most likely is, else the factor.
+/// Returns the fraction of small integers that most likely equals a factor, else the factor.
 fn tidy(factor: f64) -> f64 {
     let near = (1..=512).map(f64::from).map(|n| (factor * n).round() / n).find(|part| (part - factor).abs() < 1e-4);
     near.filter(|part| *part > 0.0).unwrap_or(factor)
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn expressions_have_the_usual_rules() {
+    fn expressions_have_the_usual_precedence() {
         assert_eq!(value("floor($WIDTH / 3.0) + 2 * -1"), Ok(211.0));
         assert_eq!(value("max(8.0, floor($WIDTH*$amount))"), Ok(320.0));
         assert_eq!(value("2 * (3 - 1) % 3"), Ok(1.0));
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_are_fixed_or_parts_of_the_canvas() {
+    fn sizes_are_fixed_or_fractions_of_the_picture() {
         let of = |w, h| size((w, h), &|name| (name == "quality").then_some(0.25));
         assert_eq!(of(None, None), Ok((PassSize::Canvas, None)));
         assert_eq!(of(Some("floor($WIDTH/3.0)"), Some("floor($HEIGHT/3.0)")), Ok((PassSize::Scale(1.0 / 3.0), None)));

@@ -15,7 +15,7 @@ fn project(text: &str) -> Project {
     open(tempfile::tempdir().unwrap().path(), "a.fs", text).unwrap().project
 }
 
-/// The messages of what is wrong with a header, with the text that each points to.
+/// Returns the error messages for a header, with the text that each points to.
 fn wrong(text: &str) -> Vec<(String, String)> {
     match open(tempfile::tempdir().unwrap().path(), "a.fs", text) {
         Err(ProjectError::Invalid { diagnostics, sources, .. }) => {
@@ -75,7 +75,7 @@ fn passes_become_buffers_and_inputs_sliders() {
     assert_eq!(of("inverted").default.components(), [1.0]);
     assert_eq!(of("center").default.components(), [0.5, 0.25]);
     assert_eq!(of("tint").default.components(), [1.0, 0.5, 0.0, 1.0]);
-    // A name that GLSL has is another one there, and a default widens its range.
+    // A GLSL name is mapped to another one, and a default widens the range.
     assert_eq!(of("isf_mix").default.components(), [2.0]);
     assert!(project.common.as_ref().unwrap().text.contains("#define mix isf_mix"));
     let included: Vec<&str> = project.includes.iter().map(|i| &*i.source.name).collect();
@@ -96,7 +96,7 @@ fn a_last_pass_with_a_target_is_shown() {
 }
 
 #[test]
-fn audio_is_an_image_of_one_row() {
+fn audio_is_an_image_with_one_row() {
     let project = project(
         "/*{\"INPUTS\": [{\"NAME\": \"fft\", \"TYPE\": \"audioFFT\", \"MAX\": 64}]}*/\n\
          void main() { gl_FragColor = IMG_NORM_PIXEL(fft, vec2(0.5)); }",
@@ -123,7 +123,7 @@ fn a_vertex_shader_beside_it_is_included_too() {
 }
 
 #[test]
-fn lines_of_comment_may_stand_before_the_header() {
+fn line_comments_may_precede_the_header() {
     let text = "// Somebody\n\n// 2016\n/*{\"ISFVSN\": \"2\"}*/\nvoid main() { gl_FragColor = vec4(1.0); }";
     let (start, json) = json_of(Path::new("a.fs"), text).unwrap();
     assert_eq!((json, &text[start..start + 3]), ("{\"ISFVSN\": \"2\"}", "{\"I"));
@@ -131,7 +131,7 @@ fn lines_of_comment_may_stand_before_the_header() {
 }
 
 #[test]
-fn a_comma_too_many_is_a_warning() {
+fn a_trailing_comma_is_a_warning() {
     let text = "/*{\"CREDIT\": \"a,]\", \"INPUTS\": [{\"NAME\": \"b\", \"TYPE\": \"float\", }, ],}*/\n\
                 void main() { gl_FragColor = vec4(b); }";
     let loaded = open(tempfile::tempdir().unwrap().path(), "a.fs", text).unwrap();
@@ -144,7 +144,7 @@ fn a_comma_too_many_is_a_warning() {
 }
 
 #[test]
-fn an_image_whose_pixels_are_counted_has_the_size_of_the_canvas() {
+fn images_read_by_pixel_have_the_resolution_of_the_picture() {
     let text = "/*{\"INPUTS\": [{\"NAME\": \"inputImage\", \"TYPE\": \"image\"}]}*/\n\
                 void main() { gl_FragColor = IMG_PIXEL(inputImage, gl_FragCoord.xy); }";
     let scaled = project(text);
@@ -158,7 +158,7 @@ fn an_image_whose_pixels_are_counted_has_the_size_of_the_canvas() {
 }
 
 #[test]
-fn uniforms_of_images_and_names_of_shadertoy_are_there() {
+fn image_uniforms_and_shadertoy_names_are_defined() {
     let project = project(
         "/*{\"INPUTS\": [{\"NAME\": \"left\", \"TYPE\": \"image\"}, {\"NAME\": \"smooth\", \"TYPE\": \"float\"}]}*/\n\
          void mainImage(out vec4 c) { c = IMG_NORM_PIXEL(left, _left_imgRect.zw / _left_imgSize); }\n\
@@ -179,7 +179,7 @@ fn uniforms_of_images_and_names_of_shadertoy_are_there() {
 }
 
 #[test]
-fn what_is_wrong_with_a_header_is_told_at_its_place() {
+fn header_errors_have_a_span() {
     let file =
         |header: &str| format!("/*{header}*/\nvoid main() {{ gl_FragColor = vec4(isf_FragNormCoord, a, 1.0); }}");
     let said = wrong(&file("{\"INPUTS\": [ , ]}"));
@@ -199,12 +199,12 @@ fn what_is_wrong_with_a_header_is_told_at_its_place() {
         + &inputs.join(", ")
         + "]}*/\nvoid main() { gl_FragColor = IMG_THIS_PIXEL(a0) + IMG_THIS_PIXEL(a1) + IMG_THIS_PIXEL(a2) + IMG_THIS_PIXEL(a3) + IMG_THIS_PIXEL(a4); }";
     assert!(wrong(&reads)[0].0.contains("reads 5 images"));
-    // Images that the text does not read take no channel.
+    // Images that the text does not read use no channel.
     assert!(project(&reads.replace(" + IMG_THIS_PIXEL(a4)", "")).image().is_some());
 }
 
 #[test]
-fn other_texts_with_a_comment_are_left_alone() {
+fn texts_with_other_comments_are_not_isf() {
     for text in [
         "/* a shader */ void main() { gl_FragColor = vec4(1.0); }",
         "/*{\"INPUTS\": []}*/\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }",
@@ -217,7 +217,7 @@ fn other_texts_with_a_comment_are_left_alone() {
 }
 
 #[test]
-fn an_empty_header_is_isf_in_a_file_with_its_ending() {
+fn an_empty_header_needs_the_isf_extension() {
     let of = |name: &str, text: &str| ShaderForm::of(Path::new(name), text);
     let text = "/* { } */\nvoid main() { gl_FragColor = vec4(1.0); }";
     assert_eq!((of("a.fs", text), of("a.glsl", text)), (ShaderForm::Isf, ShaderForm::Shadertoy));
@@ -227,7 +227,7 @@ fn an_empty_header_is_isf_in_a_file_with_its_ending() {
 }
 
 #[test]
-fn an_import_without_a_path_is_not_called_a_cubemap() {
+fn an_import_without_a_path_is_not_a_cubemap() {
     let said = |import: &str| {
         let text = format!("/*{{\"IMPORTED\": {{\"buf\": {import}}}}}*/\nvoid main() {{ gl_FragColor = vec4(1.0); }}");
         let dir = tempfile::tempdir().unwrap();
@@ -238,7 +238,7 @@ fn an_import_without_a_path_is_not_called_a_cubemap() {
 }
 
 #[test]
-fn saving_writes_the_file_as_it_was_edited() {
+fn saving_writes_the_edited_file() {
     let dir = tempfile::tempdir().unwrap();
     let mut project = open(dir.path(), "a.fs", TRAILS).unwrap().project;
     let file = dir.path().join("a.fs");
@@ -258,7 +258,7 @@ fn saving_writes_the_file_as_it_was_edited() {
     assert!(matches!(save(&other, &file, Overwrite::Refuse), Err(ProjectError::CannotHold { .. })));
     project.custom_uniform_values.insert("decay".into(), crate::CustomUniformValue::Float(0.5));
     assert!(matches!(save(&project, &file, Overwrite::Refuse), Err(ProjectError::CannotHold { .. })));
-    // As a folder it is a project like others, with the file in it.
+    // As a folder it is an ordinary project that contains the file.
     let folder = dir.path().join("as_folder");
     let moved = save(&project, &folder, Overwrite::Refuse).unwrap();
     assert_eq!(moved.dialect, Dialect::Isf);

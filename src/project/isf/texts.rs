@@ -1,10 +1,10 @@
-//! The GLSL that stands around the text of an ISF file: what an ISF host declares, in terms of Shadertoy's.
+//! The GLSL around the text of an ISF file: the declarations of an ISF host, in terms of Shadertoy's.
 
 use super::header::{Header, IsfInput, Kind};
 use crate::words::all_words;
 use std::{collections::HashSet, fmt::Write};
 
-/// Names that Eddy or GLSL ES has taken, which an input of ISF may have all the same.
+/// Names that Eddy or GLSL ES reserves, but that an ISF input may have.
 const TAKEN: [&str; 52] = [
     "iResolution",
     "iTime",
@@ -60,7 +60,7 @@ const TAKEN: [&str; 52] = [
     "trunc",
 ];
 
-/// Returns what the uniform of an input is called.
+/// Returns the uniform name of an input.
 fn uniform_name(name: &str) -> String {
     if TAKEN.contains(&name) { format!("isf_{name}") } else { name.to_owned() }
 }
@@ -107,7 +107,7 @@ fn declaration(name: &str, input: &IsfInput) -> String {
             let range = first(&input.min).zip(first(&input.max)).filter(|(min, max)| min < max);
             let default = first(&input.default).or(range.map(|(min, _)| min)).unwrap_or(0.0);
             match range {
-                // Hosts take a default beyond the range.
+                // Hosts accept a default outside the range.
                 Some((min, max)) => {
                     let (min, max) = (min.min(default), max.max(default));
                     format!("#iUniform float {name} = {default:?} in {{ {min:?}, {max:?} }}{about}")
@@ -140,11 +140,11 @@ fn declaration(name: &str, input: &IsfInput) -> String {
     }
 }
 
-/// The facts of a text that all its passes need, which is read once for them.
+/// Properties of a text that all its passes need, computed once.
 pub(super) struct TextWords<'t> {
     pub words: HashSet<&'t str>,
-    /// It has an entry point of Shadertoy's that it calls itself. One that it names otherwise by a macro, as exported files
-    /// do, needs no other name.
+    /// The text has an entry point of Shadertoy's that it calls itself. If a macro renames it, as in exported files, it
+    /// needs no other name.
     has_main_image: bool,
 }
 
@@ -159,8 +159,8 @@ impl<'t> TextWords<'t> {
     }
 }
 
-/// Returns the text of a pass: which images lie in which channels, and the files whose text it is, of which `of` tells about
-/// the fragment shader's.
+/// Returns the text of a pass: binds `images` to channels and includes the files; `of` describes the fragment shader's
+/// text.
 pub(super) fn pass(
     index: usize,
     images: &[String],
@@ -172,7 +172,8 @@ pub(super) fn pass(
     for (channel, name) in images.iter().enumerate().filter(|(n, name)| **name != format!("iChannel{n}")) {
         let _ = writeln!(out, "#define {name} iChannel{channel}");
     }
-    // Uniforms that hosts set for each image: its rectangle in its texture in texels, its size, and whether it is upside down.
+    // Uniforms that hosts set for each image: its rectangle in its texture in texels, its size, and whether it is
+    // flipped.
     for (channel, name) in images.iter().enumerate() {
         for (ending, value) in [
             ("imgRect", format!("vec4(vec2(0.0), IMG_SIZE(iChannel{channel}))")),
@@ -185,12 +186,12 @@ pub(super) fn pass(
             }
         }
     }
-    // The array of outputs is the older form of the one colour (GLSL 1.20, section 7.2).
+    // The output array is the older form of the single colour (GLSL 1.20, section 7.2).
     let has_outputs = of.words.contains("gl_FragData");
     if has_outputs {
         out.push_str("vec4 isf_FragData[1];\n#define gl_FragData isf_FragData\n");
     }
-    // A function of the text may be called as the entry point below is.
+    // A function of the text may have the same name as the entry point below.
     if of.has_main_image {
         out.push_str("#define mainImage isf_mainImage\n");
     }
@@ -210,8 +211,8 @@ pub(super) fn pass(
     out
 }
 
-/// Returns the text of a buffer that makes the image of an audio input of the texture of a sound in channel 0: Shadertoy's
-/// has the spectrum in its lower row and the wave in its upper one.
+/// Returns the text of a buffer that converts the sound texture in channel 0 to the image of an audio input:
+/// Shadertoy's texture has the spectrum in its lower row and the wave in its upper one.
 pub(super) fn audio(kind: Kind) -> String {
     let (row, what) = if kind == Kind::AudioFft { (0.25, "spectrum") } else { (0.75, "wave") };
     format!(

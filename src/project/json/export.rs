@@ -1,4 +1,4 @@
-//! [`Project`] to the site's own JSON.
+//! Exports a [`Project`] as Shadertoy's own JSON.
 
 use super::ids;
 use crate::{
@@ -8,9 +8,10 @@ use eddy_diag::SourceId;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 
-/// The project as the site's own export writes it. A picture that the site does not have (a file, one of Eddy's own) is
-/// written as an address of its own kind, which [`super::import`] reads and the site does not; so is a fifth buffer.
-/// The author's own uniforms become constants of the value they have, and included files stand in place of their lines.
+/// The project in the form of Shadertoy's own export. A picture that Shadertoy does not have (a file, a built-in one)
+/// is written as an address of its own kind, which [`super::import`] reads and Shadertoy does not; so is a fifth
+/// buffer. The author's own uniforms become constants with their current values, and included files replace their
+/// lines.
 pub fn export(project: &Project) -> String {
     let mut info: Map<String, Value> = project.info.extra.clone();
     info.insert("id".into(), json!(project.info.id));
@@ -32,7 +33,7 @@ pub fn export(project: &Project) -> String {
         constants::text(&directives::commented(&text), here, &project.custom_uniform_values)
     };
     let pass = |(index, pass): (usize, &Pass)| self::pass(pass, text(Project::pass_id(index)));
-    // Image first, as the site writes it.
+    // Image first, as Shadertoy writes it.
     let image = project.passes.iter().enumerate().filter(|(_, p)| p.id.is_image());
     let others = project.passes.iter().enumerate().filter(|(_, p)| !p.id.is_image());
     let mut passes: Vec<Value> = image.map(pass).collect();
@@ -64,7 +65,7 @@ fn input(n: usize, channel: &Channel) -> Value {
     let row = channel.input.row();
     let of_row = || row.json_id.map(|(id, path)| (id.to_owned(), path.to_owned())).unwrap_or_default();
     let (id, path) = match &channel.input {
-        // Only geometry passes have further targets, and a project with one is not exported.
+        // Only geometry passes have further targets, and projects with one are not exported.
         Input::Pass { id, .. } => {
             id.buffer_name().map_or_else(of_row, |name| (ids::of_buffer(name), ids::preview(name)))
         }
@@ -104,7 +105,7 @@ fn of_media(media: &Media) -> (String, String) {
     match media {
         Media::Builtin(name) => (String::new(), format!("builtin://{name}")),
         Media::File(path) => (String::new(), format!("file://{}", path.to_string_lossy().replace('\\', "/"))),
-        // Where the picture lies on this machine is nobody else's to know.
+        // The location of the picture on this machine is private.
         Media::Picked(path) => (String::new(), format!("file://{}", file_name(path))),
         Media::Site { id, path } => (id.clone(), path.clone()),
     }

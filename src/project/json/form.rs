@@ -1,7 +1,7 @@
-//! The shapes of the site's JSON, as far as Eddy reads them.
+//! The structure of Shadertoy's JSON, as far as Eddy reads it.
 //!
-//! A file may be a stranger's. What is not read is passed over without taking memory, every list has a limit, and what
-//! a shader says besides its passes is kept as text until its length is known.
+//! A file may be a stranger's. Unknown members are skipped without allocating, every list has a limit, and the members
+//! of a shader besides its passes are kept as text until their length is known.
 
 use crate::limits;
 use serde::{
@@ -11,15 +11,15 @@ use serde::{
 use serde_json::value::RawValue;
 use std::{borrow::Cow, fmt, marker::PhantomData};
 
-/// Inputs and outputs that a pass may list; it has four of the one and one of the other.
+/// The limit for a pass's inputs, and for its outputs; Shadertoy has four inputs and one output.
 const INPUTS: usize = 64;
-/// Passes and Common.
+/// The limit for passes, including Common.
 const PASSES: usize = limits::PASSES + 1;
-/// Shaders of a list among which one can be named.
+/// The limit for shaders in a list from which one can be selected.
 const SHADERS: usize = 100_000;
 
-/// Reads an object member by member. `JSON.parse` lets the last of several members of one name count, and takes `null`
-/// for nothing here.
+/// Deserializes an object member by member. As with `JSON.parse`, the last of several members with the same name wins;
+/// `null` counts as absent.
 macro_rules! object {
     ($(#[$doc:meta])* $name:ident $(<$life:lifetime>)? { $($field:ident: $ty:ty = $key:literal,)* }) => {
         $(#[$doc])*
@@ -104,7 +104,7 @@ object! {
 }
 
 object! {
-    /// By what one of several shaders is told from the others.
+    /// The members that identify one of several shaders.
     Head {
         info: HeadInfo = "info",
     }
@@ -117,7 +117,7 @@ object! {
     }
 }
 
-/// Ids, numbers and truths come as texts from the site and bare from others.
+/// Ids, numbers and booleans are strings in Shadertoy's files and bare values in others.
 pub(super) enum Scalar {
     Text(String),
     Number(serde_json::Number),
@@ -188,14 +188,14 @@ impl<'de, T: Deserialize<'de>, const MAX: usize> Deserialize<'de> for BoundedLis
     }
 }
 
-/// The content of a file before it is known to be a shader.
+/// The content of a file before it is known whether it is a shader.
 pub(super) enum RootContent<'t> {
     Object(Object<'t>),
     List(Shaders<'t>),
     Bare,
 }
 
-/// The entries of a list, the first [`SHADERS`] of them, and how many there are.
+/// The first [`SHADERS`] entries of a list, and the number of all entries.
 #[derive(Default)]
 pub(super) struct Shaders<'t> {
     pub first: Vec<&'t RawValue>,
@@ -233,15 +233,15 @@ impl<'t> Deserialize<'t> for Shaders<'t> {
     }
 }
 
-/// The members by which the shapes are told apart.
+/// The members that distinguish the formats.
 #[derive(Default)]
 pub(super) struct Object<'t> {
     pub renderpass: bool,
     pub shader: Option<&'t RawValue>,
-    /// The list of the file that a profile's page exports.
+    /// The list in the file that a profile's page exports.
     pub shaders: Option<&'t RawValue>,
     pub error: Option<&'t RawValue>,
-    /// The first members' names.
+    /// The names of the first members.
     pub keys: Vec<String>,
 }
 
@@ -308,7 +308,7 @@ impl<'t> Visitor<'t> for Shape {
     }
 }
 
-/// A text of the file's in a message: not too long, and in one line.
+/// Formats a text of the file for a message: shortened, and on one line.
 pub(super) fn shown(text: &str) -> String {
     text.chars().take(80).collect::<String>().escape_debug().to_string()
 }

@@ -1,8 +1,8 @@
-//! Shadertoy JSON to [`Project`].
+//! Imports Shadertoy JSON as a [`Project`].
 //!
-//! Four shapes come by: the site's own (`ver`, `info`, `renderpass`), the API's (that, wrapped in `Shader`), a list of
-//! either, and the file that a profile's page exports (`shaders`, a list). Spellings of all are read everywhere. A pass is known by its type and its output's id, never by
-//! its name, which is free text.
+//! There are four formats: Shadertoy's own (`ver`, `info`, `renderpass`), the API's (the same, wrapped in `Shader`), a
+//! list of either, and the file that a profile's page exports (`shaders`, a list). The spellings of all are accepted
+//! everywhere. A pass is identified by its type and its output's id, never by its name, which is free text.
 
 use super::{
     form::{BoundedList, Object, RenderInput, RenderPass, RenderSampler, RootContent, Scalar, Shader, Shaders, shown},
@@ -21,21 +21,20 @@ use std::{
     path::PathBuf,
 };
 
-/// The type of the text that is put before every pass.
+/// The type of the text that precedes every pass.
 const COMMON: &str = "common";
 
-/// The `ver` that the site writes, and the only one that it reads.
+/// The `ver` that Shadertoy writes, and the only one that it reads.
 const VERSION: &str = "0.1";
 
-/// A project from `text`, whose file is called `name` in messages. The project's origin is [`Origin::Unsaved`].
-/// Fails with [`ProjectError::Invalid`] for anything that is none of the four shapes. Of several shaders the first is
-/// read.
+/// Imports a project from `text`, whose file is called `name` in messages. The project's origin is [`Origin::Unsaved`].
+/// Fails with [`ProjectError::Invalid`] if the text has none of the four formats. Of several shaders the first is read.
 pub fn import(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), ProjectError> {
     import_one(text, name, None)
 }
 
-/// Does the same as [`import`], with the shader of several that a person asked for, by its id, its number from 1 or
-/// its name.
+/// Does the same as [`import`], with the shader that the user selected of several, by its id, its number from 1 or its
+/// name.
 pub fn import_one(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Diagnostic>), ProjectError> {
     read(text, name, wanted).map_err(|diagnostics| {
         let mut sources = SourceMap::default();
@@ -44,7 +43,7 @@ pub fn import_one(text: &str, name: &str, wanted: Option<&str>) -> Result<(Proje
     })
 }
 
-/// Returns whether a file holds more shaders than one.
+/// Returns whether a file contains more than one shader.
 pub fn holds_several(text: &str) -> bool {
     let body = readable(text.strip_prefix('\u{feff}').unwrap_or(text));
     match serde_json::from_str(&body) {
@@ -68,7 +67,7 @@ fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Di
         |offset: usize, length: usize| Span::new(eddy_diag::SourceId(0), skipped + offset..skipped + offset + length);
     // `part` is a slice of `body`.
     let begin_of = |part: &str| part.as_ptr() as usize - body.as_ptr() as usize;
-    // The key's place where it is found; the part's start where it is not.
+    // The offset of the key if it is found, else the start of the part.
     let at_key = |part: &str, key: &str| {
         let begin = begin_of(part);
         part.find(&format!("\"{key}\"")).map_or(at(begin, 0), |i| at(begin + i, key.len() + 2))
@@ -88,7 +87,7 @@ fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Di
     let mut warnings = Vec::new();
     let mut part: &str = body;
     let mut is_chosen = false;
-    // A list may hold what the API answers, each in its own wrapping.
+    // A list may contain API responses, each in its own wrapper.
     let shader = loop {
         let list = match serde_json::from_str::<RootContent<'_>>(part).map_err(|e| failed(part, "not JSON", &e))? {
             RootContent::Object(object) if object.renderpass => {
@@ -168,14 +167,15 @@ fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Di
         d.span = Some(at_key(part, "renderpass"));
         vec![d]
     })?;
-    // Warnings point into the JSON, which is none of the project's own texts: keep the words, drop the place.
+    // Warnings point into the JSON, which is not one of the project's texts: keep the messages, drop the spans.
     for warning in &mut warnings {
         warning.span = None;
     }
     Ok((project, warnings))
 }
 
-/// The members of `info`, which is what a shader says besides its passes. A member that nests deeper than serde_json reads is left out.
+/// Parses the members of `info`, the metadata of a shader. A member that nests more deeply than serde_json reads is
+/// omitted.
 fn members(text: &str, warnings: &mut Vec<Diagnostic>) -> Result<Map<String, Value>, serde_json::Error> {
     let raw: BTreeMap<String, &RawValue> = serde_json::from_str(text)?;
     let mut all = Map::new();
@@ -194,7 +194,7 @@ fn members(text: &str, warnings: &mut Vec<Diagnostic>) -> Result<Map<String, Val
     Ok(all)
 }
 
-/// Byte offset of serde_json's line and column: both from 1, columns in bytes.
+/// The byte offset of serde_json's line and column: both from 1, columns in bytes.
 fn offset_of(text: &str, line: usize, column: usize) -> usize {
     let start: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
     let mut offset = (start + column.saturating_sub(1)).min(text.len());
@@ -213,7 +213,7 @@ fn project(
     let mut names = BufferNames::new(&passes_read, warnings);
     let mut common: Option<Source> = None;
     let mut passes: Vec<Pass> = Vec::new();
-    // Reads of buffers in the order the site loads them, as (place in `passes`, channel).
+    // Reads of buffers in the order in which Shadertoy loads them, as (index in `passes`, channel).
     let mut reads: Vec<(usize, usize)> = Vec::new();
     let mut covered = covered_images(&passes_read, warnings);
     for pass in passes_read {
@@ -283,7 +283,8 @@ fn project(
     Ok(Project { info, common, sampler_rules: SamplerRules::Site, ..Project::new(name, passes, Origin::Unsaved) })
 }
 
-/// Returns how many Image passes the last one covers. The site draws all of them into its canvas, in the order of the file.
+/// Returns the number of Image passes that the last one covers. Shadertoy draws all of them into its canvas, in file
+/// order.
 fn covered_images(passes: &[RenderPass], warnings: &mut Vec<Diagnostic>) -> usize {
     let is_image = |pass: &&RenderPass| kind(pass).is_ok_and(|kind| kind == Role::Image.row().json_type);
     let count = passes.iter().filter(is_image).count();
@@ -295,7 +296,7 @@ fn covered_images(passes: &[RenderPass], warnings: &mut Vec<Diagnostic>) -> usiz
     count.saturating_sub(1)
 }
 
-/// The type of a pass, in lower case. Where there is none, the name says it as far as the site gives it: "Buf A".
+/// Returns the type of a pass, in lower case. Without a type it is derived from a name in Shadertoy's form: "Buf A".
 fn kind(pass: &RenderPass) -> Result<String, Diagnostic> {
     if let Some(kind) = &pass.r#type {
         return Ok(kind.trim().to_lowercase());
@@ -318,9 +319,9 @@ fn types() -> String {
     format!("the types are {}", listed(&types))
 }
 
-/// On the site a buffer has one wrap, that of the channel loaded last in the order of the JSON's list. That order is
-/// not kept (Image stands first in the list and is drawn last), so every channel gets the wrap that wins; pictures stay
-/// the same, there and here.
+/// On Shadertoy a buffer has one wrap mode, that of the channel loaded last in the order of the JSON's list. That order
+/// is not kept (Image is first in the list and is drawn last), so every channel gets the wrap mode that wins; the
+/// pictures are the same on Shadertoy and in Eddy.
 fn settle_wraps(passes: &mut [Pass], reads: &[(usize, usize)]) {
     let mut wraps: HashMap<PassName, Wrap> = HashMap::new();
     for &(pass, n) in reads {
@@ -339,15 +340,15 @@ fn settle_wraps(passes: &mut [Pass], reads: &[(usize, usize)]) {
 
 /// The names of the buffers.
 struct BufferNames {
-    /// The name of each pass of type "buffer", in the list's order.
+    /// The name of each pass of type "buffer", in list order.
     of_passes: VecDeque<String>,
-    /// By an output's id that means nothing to the site.
+    /// Names by the ids of outputs that Shadertoy does not know.
     of_ids: HashMap<String, String>,
 }
 
 impl BufferNames {
-    /// A buffer's name by its output's id. A pass whose id says nothing that is a name, or what another one already
-    /// has, gets the first letter that no pass claims; what reads that id reads this pass.
+    /// Returns the buffer names by output id. A pass whose id does not specify a name, or specifies a name that is
+    /// taken, gets the first unused letter; inputs with that id read this pass.
     fn new(passes: &[RenderPass], warnings: &mut Vec<Diagnostic>) -> BufferNames {
         let outputs = |p: &RenderPass| -> Vec<String> {
             p.outputs.iter().flat_map(|o| &o.0).filter_map(|o| o.id.as_ref().map(Scalar::text)).collect()
@@ -368,7 +369,7 @@ impl BufferNames {
             let name = match own {
                 Some(name) if !taken.contains(name) => name.clone(),
                 other => {
-                    // Never ends, and never gives one twice.
+                    // The iterator never ends, and never repeats a name.
                     let name = free.next().unwrap_or_default();
                     let said = match (other, outputs.first()) {
                         (Some(other), _) => format!("writes Buffer {other}, as another pass does"),
@@ -443,7 +444,7 @@ fn channel(
             Some("mipmap") => Filter::Mipmap,
             _ => Filter::Linear,
         },
-        // Whatever is not "clamp" repeats, on the site too.
+        // Any value other than "clamp" means repeat, on Shadertoy too.
         wrap: match word(|s| s.wrap.as_ref()).as_deref() {
             Some("clamp") | None => Wrap::Clamp,
             Some(_) => Wrap::Repeat,
@@ -462,7 +463,7 @@ fn input_kind(json_type: &str, id: &str, path: &str) -> Option<InputKind> {
     })
 }
 
-/// A path of the site, or one that [`super::export`] wrote for a picture the site does not have.
+/// A path on Shadertoy, or one that [`super::export`] wrote for a picture that Shadertoy does not have.
 fn media(id: &str, path: &str) -> Media {
     if let Some(name) = path.strip_prefix("builtin://").filter(|_| id.is_empty()) {
         Media::Builtin(name.to_owned())

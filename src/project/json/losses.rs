@@ -1,11 +1,12 @@
-//! Lists what the site's JSON cannot express of a project, so that it is told before the file is written.
+//! Lists the parts of a project that Shadertoy's JSON cannot express, so that they are reported before the file is
+//! written.
 
 use crate::{Input, Media, Pass, PassName, Project, advice, listed};
 
-/// The buffers that the site has.
+/// The buffers that Shadertoy has.
 const BUFFERS: [&str; 4] = ["A", "B", "C", "D"];
 
-/// Returns a sentence for each thing that Shadertoy does not have: what becomes of it there. Empty: nothing is lost.
+/// Returns a sentence for each feature that Shadertoy lacks, with what it becomes there. Empty if nothing is lost.
 pub fn losses(project: &Project) -> Vec<String> {
     let mut lost = Vec::new();
     let uniforms: Vec<String> = project.custom_uniforms().list.into_iter().map(|uniform| uniform.name).collect();
@@ -48,7 +49,7 @@ fn is_further(id: &PassName) -> bool {
     id.buffer_name().is_some_and(|name| !BUFFERS.contains(&name))
 }
 
-/// Says which settings of a pass are left out.
+/// Lists the settings of a pass that are omitted.
 fn settings(pass: &Pass) -> Option<String> {
     let (own, usual) = (&pass.settings, crate::PassSettings::default());
     let all = [
@@ -68,7 +69,7 @@ fn is_or_are(names: &[&str]) -> &'static str {
     if names.len() == 1 { "is" } else { "are" }
 }
 
-/// Says what becomes of an input that the site does not have.
+/// Describes what an input that Shadertoy does not have becomes.
 fn picture(input: &Input) -> Option<String> {
     let row = input.row();
     if !row.is_on_shadertoy {

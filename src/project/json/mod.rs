@@ -1,7 +1,7 @@
-//! The JSON that Shadertoy's API, its export and its plugins speak.
+//! The JSON of Shadertoy's API, its export and its plugins.
 //!
-//! Owns both directions between that JSON and a [`super::Project`], and the site's fixed ids. What Eddy does not
-//! understand of `info` it keeps and gives back.
+//! Owns the conversion between that JSON and a [`super::Project`] in both directions, and Shadertoy's fixed ids.
+//! Unknown members of `info` are preserved.
 
 mod export;
 mod form;

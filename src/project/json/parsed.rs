@@ -1,11 +1,11 @@
-//! Reads what `JSON.parse` reads and serde_json does not: half of a surrogate pair in an escape, and numbers that are too
-//! large for a double. Both come out of JavaScript, whose texts are UTF-16 and whose large numbers are infinite.
+//! Accepts what `JSON.parse` accepts and serde_json rejects: unpaired surrogates in escapes, and numbers too large for
+//! a double. JavaScript produces both: its strings are UTF-16 and its large numbers are infinite.
 
 use std::borrow::Cow;
 
-/// Returns a JSON text that serde_json reads as `JSON.parse` reads the given one, byte for byte as long: half a pair
-/// becomes U+FFFD, as where JavaScript writes such a text as UTF-8, and an infinite number `null`, as where it writes
-/// such a number as JSON.
+/// Rewrites a JSON text, keeping its length, so that serde_json reads it as `JSON.parse` reads the original: an
+/// unpaired surrogate becomes U+FFFD, as when JavaScript encodes it as UTF-8, and an infinite number `null`, as when
+/// JavaScript serializes it as JSON.
 pub(super) fn readable(text: &str) -> Cow<'_, str> {
     let bytes = text.as_bytes();
     let mut changes: Vec<(usize, usize, &'static str)> = Vec::new();
@@ -19,7 +19,7 @@ pub(super) fn readable(text: &str) -> Cow<'_, str> {
                         .iter()
                         .position(|b| !matches!(b, b'0'..=b'9' | b'-' | b'+' | b'.' | b'e' | b'E'))
                         .unwrap_or(bytes.len() - at);
-                // The least that is too large is 2e308: five letters, or more than 300 digits.
+                // The smallest number that is too large is 2e308: five characters, or more than 300 digits.
                 let may_be = end - at > 300 || bytes[at..end].iter().any(|b| matches!(b, b'e' | b'E'));
                 if may_be && text[at..end].parse::<f64>().is_ok_and(f64::is_infinite) {
                     changes.push((at, end, "null"));
@@ -43,7 +43,7 @@ pub(super) fn readable(text: &str) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// Notes the halves of surrogate pairs in a string, whose first byte is at `at`. Returns the place behind its end.
+/// Records the unpaired surrogates in a string, whose first byte is at `at`. Returns the offset after its end.
 fn string(bytes: &[u8], mut at: usize, changes: &mut Vec<(usize, usize, &'static str)>) -> usize {
     while let Some(&byte) = bytes.get(at) {
         match byte {
@@ -62,15 +62,15 @@ fn string(bytes: &[u8], mut at: usize, changes: &mut Vec<(usize, usize, &'static
     at
 }
 
-/// Returns the unit of UTF-16 that an escape of `\u` and four hexadecimal digits there stands for.
+/// Returns the UTF-16 code unit of a `\u` escape with four hexadecimal digits.
 fn escaped(bytes: &[u8], at: usize) -> Option<u16> {
     let digits = bytes.get(at..at + 6)?.strip_prefix(b"\\u")?;
     let digits = std::str::from_utf8(digits).ok().filter(|d| d.bytes().all(|b| b.is_ascii_hexdigit()))?;
     u16::from_str_radix(digits, 16).ok()
 }
 
-/// Returns the text of a file in UTF-16, as PowerShell writes what it fetches; `None` for any other. It is known by its
-/// byte order mark, or by the zero in its first letter, which is of ASCII.
+/// Decodes the text of a UTF-16 file, as PowerShell writes downloads; `None` for any other. UTF-16 is detected by its
+/// byte order mark, or by the zero byte in its first character, which is ASCII.
 pub(crate) fn utf16(bytes: &[u8]) -> Option<String> {
     let (is_little, skipped) = match bytes {
         [0xff, 0xfe, ..] => (true, 2),
@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_javascript_writes_is_read() {
+    fn output_of_javascript_is_accepted() {
         for (text, readable_as) in [
             (r#""\ud83d""#, r#""\ufffd""#),
             (r#""\uDE00x""#, r#""\ufffdx""#),
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn utf_16_is_known_by_its_mark_or_its_first_letter() {
+    fn utf_16_is_detected_by_its_mark_or_its_first_character() {
         let bytes = |text: &str, big: bool| -> Vec<u8> {
             text.encode_utf16().flat_map(|u| if big { u.to_be_bytes() } else { u.to_le_bytes() }).collect()
         };

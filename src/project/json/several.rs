@@ -1,4 +1,4 @@
-//! One shader of a file that holds several.
+//! Selects one shader of a file that contains several.
 
 use super::form::{Head, HeadInfo, RootContent, Scalar, Shaders, shown};
 use crate::listed;
@@ -6,10 +6,10 @@ use eddy_diag::Diagnostic;
 use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
 
-/// Shaders that a message lists.
+/// The number of shaders that a message lists.
 const SHOWN: usize = 8;
 
-/// Returns the shader that is wanted, the first where none is. Err: a message and its mend.
+/// Returns the selected shader, or the first if none is selected. Returns a message and its fix on failure.
 pub(super) fn choose<'t>(
     list: &Shaders<'t>,
     file: &str,
@@ -37,7 +37,7 @@ pub(super) fn choose<'t>(
     }
 }
 
-/// Returns whether a shader is the one that is wanted, by its id, its number from 1 or its name.
+/// Returns whether a selection names a shader, by its id, its number from 1 or its name.
 pub(super) fn is_called(shader: &str, number: usize, wanted: &str) -> bool {
     let (id, name) = head(shader);
     id == wanted || wanted == number.to_string() || name.eq_ignore_ascii_case(wanted)
@@ -51,7 +51,7 @@ fn head(shader: &str) -> (String, String) {
     (text(id), text(name))
 }
 
-/// Returns how the others are named.
+/// Describes how to select the other shaders.
 fn others(list: &Shaders<'_>, file: &str) -> String {
     let mut ids: Vec<String> = Vec::new();
     let all: Vec<String> = list
@@ -72,7 +72,7 @@ fn others(list: &Shaders<'_>, file: &str) -> String {
     format!("choose one by its id or number after #: {all}{more}")
 }
 
-/// The shader in the API's wrapping, if it is one.
+/// The shader inside the API's wrapper, if it is wrapped.
 struct Wrapped<'t>(Option<&'t RawValue>);
 
 impl<'t> serde::Deserialize<'t> for Wrapped<'t> {
@@ -84,17 +84,17 @@ impl<'t> serde::Deserialize<'t> for Wrapped<'t> {
     }
 }
 
-/// The sign between a JSON file and one of its shaders.
+/// The separator between a JSON file and one of its shaders.
 const OF_FILE: char = '#';
 
-/// Returns how one of the shaders of a JSON file is named.
+/// Returns the path that names one of the shaders of a JSON file.
 pub(crate) fn one_of(path: &Path, wanted: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(format!("{OF_FILE}{wanted}"));
     name.into()
 }
 
-/// The JSON file and the shader that a name means which [`one_of`] made.
+/// Parses a path made by [`one_of`] into the JSON file and the shader.
 pub(crate) fn of_several(spec: &str) -> Option<(PathBuf, String)> {
     let is_json = |path: &&str| Path::new(path).extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
     let mut places = spec.match_indices(OF_FILE).map(|(at, _)| at);

@@ -1,4 +1,4 @@
-//! Tests of the site's JSON: what is read, what is written, and that nothing is lost on the way there and back.
+//! Tests of Shadertoy's JSON: import, export, and lossless round trips.
 
 use super::{export, holds_several, import, import_one};
 use crate::{
@@ -34,7 +34,7 @@ fn refusal(text: &str) -> String {
 }
 
 #[test]
-fn the_three_shapes_give_the_same_project() {
+fn the_three_formats_yield_the_same_project() {
     let site = shader(&[
         pass("image", None, &[input(1, "buffer", "XsXGR8", "", "clamp"), input(0, "keyboard", "4dXGRr", "", "clamp")]),
         pass("common", None, &[]),
@@ -55,7 +55,7 @@ fn the_three_shapes_give_the_same_project() {
 }
 
 #[test]
-fn the_api_spelling_is_read_too() {
+fn the_api_spelling_is_accepted() {
     let api = json!({ "Shader": { "ver": "0.1", "info": {}, "renderpass": [
         { "type": "image", "code": "", "outputs": [{ "id": 37, "channel": 0 }], "inputs": [
             { "id": 257, "src": "/media/previz/buffer00.png", "ctype": "buffer", "channel": 0,
@@ -73,7 +73,7 @@ fn the_api_spelling_is_read_too() {
 }
 
 #[test]
-fn one_wrap_a_buffer_and_the_last_of_the_list_wins() {
+fn the_last_wrap_mode_of_a_buffer_wins() {
     let project = read(&shader(&[
         pass("image", None, &[input(0, "buffer", "4dXGR8", "", "clamp")]),
         pass("buffer", Some("4dXGR8"), &[input(0, "buffer", "4dXGR8", "", "repeat")]),
@@ -100,7 +100,7 @@ fn buffers_without_a_usable_id_get_a_free_letter_and_a_warning() {
 }
 
 #[test]
-fn inputs_that_mean_nothing_are_left_out_with_a_warning() {
+fn unknown_inputs_are_dropped_with_a_warning() {
     let value = shader(&[pass(
         "image",
         None,
@@ -116,7 +116,7 @@ fn inputs_that_mean_nothing_are_left_out_with_a_warning() {
 }
 
 #[test]
-fn the_last_of_several_images_is_the_picture() {
+fn the_last_of_several_image_passes_wins() {
     let image = |code: &str| {
         let mut image = pass("image", None, &[]);
         image["code"] = code.into();
@@ -132,7 +132,7 @@ fn the_last_of_several_images_is_the_picture() {
 }
 
 #[test]
-fn what_is_no_shader_is_refused_with_place_and_expectation() {
+fn invalid_json_is_rejected_with_a_span() {
     let no_image = shader(&[pass("common", None, &[])]).to_string();
     let two_sounds =
         shader(&[pass("sound", None, &[]), pass("sound", None, &[]), pass("image", None, &[])]).to_string();
@@ -280,7 +280,7 @@ fn called(id: Value, name: &str, code: &str) -> Value {
 }
 
 #[test]
-fn one_of_several_shaders_is_read_by_id_number_or_name() {
+fn one_of_several_shaders_is_selected_by_id_number_or_name() {
     let list = [
         called(json!("aaaaaa"), "first", "1"),
         called(json!(42), "second", "2"),
@@ -310,7 +310,7 @@ fn one_of_several_shaders_is_read_by_id_number_or_name() {
 }
 
 #[test]
-fn what_other_tools_write_is_read() {
+fn json_of_other_tools_is_accepted() {
     let bare = json!({ "renderpass": [{ "code": "x\r\n", "name": "Image" }, { "code": "", "name": "Buf A", "inputs": null,
         "outputs": null, "type": null }, { "code": "", "type": "Common ", "name": 7 }], "info": null, "extra": [1] });
     let (project, warnings) = import(&bare.to_string(), "x.json").unwrap();
@@ -319,7 +319,7 @@ fn what_other_tools_write_is_read() {
     let ids: Vec<&str> = project.passes.iter().map(|p| p.id.key()).collect();
     assert_eq!((ids.join(" "), &*project.passes[1].source.text), ("buffer_a image".to_owned(), "x\r\n"));
     let read = |text: &str| import(text, "x.json").unwrap().0;
-    // As `JSON.parse`: the last member counts, half a pair of surrogates is a letter, and a number may be infinite.
+    // As with `JSON.parse`, the last member wins, an unpaired surrogate is a character, and a number may be infinite.
     let twice = r#"{ "ver": 0.1, "ver": "0.1", "renderpass": [], "renderpass": [ { "type": "image", "code": "a",
         "code": "\/\/ \ud83d \ud83d\ude00", "inputs": [ { "channel": 2.0, "ctype": "keyboard", "type": null, "id": 33 } ] } ],
         "info": { "name": "n", "viewed": 1e999, "likes": 4 } }"#;
@@ -336,7 +336,7 @@ fn what_other_tools_write_is_read() {
 }
 
 #[test]
-fn files_in_utf_16_and_one_shader_of_a_file_are_opened() {
+fn utf_16_files_and_single_shaders_of_a_file_are_opened() {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("all.json");
     let text = exported(&[called(json!("a"), "first", "1"), called(json!("b"), "second", "2")]).to_string();

@@ -1,4 +1,4 @@
-//! A name that a person gives on the command line leads to a [`Project`](super::Project).
+//! Resolves a name on the command line to a [`Project`](super::Project).
 
 use super::{
     Loaded, ProjectError, file_names,
@@ -12,11 +12,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Reads a project by what a person calls it: a folder with `eddy.toml`, a folder of GLSL files (or one of these named
-/// directly: `eddy.toml`), one GLSL file, a Shadertoy JSON file, a preset's name. A path wins over a preset, except
-/// that a bare preset's name is not taken for a folder of that name that holds no project. Of a JSON file that holds
-/// several shaders, `FILE.json#ID` is one, by its id, its number from 1 or its name. `ghostty:FILE.glsl` is a custom shader of
-/// the terminal Ghostty.
+/// Loads a project by the name a user gives: a folder with `eddy.toml`, a folder of GLSL files (or one of these named
+/// directly: `eddy.toml`), one GLSL file, a Shadertoy JSON file, a preset's name. A path takes precedence over a
+/// preset, except that a bare preset's name does not resolve to a folder of that name without a project. In a JSON file
+/// with several shaders, `FILE.json#ID` selects one, by its id, its number from 1 or its name. `ghostty:FILE.glsl` is a
+/// custom shader of the terminal Ghostty.
 pub fn load(spec: &str) -> Result<Loaded, ProjectError> {
     if let Some(path) = of_ghostty(spec) {
         return load_ghostty(path);
@@ -29,12 +29,12 @@ pub fn load(spec: &str) -> Result<Loaded, ProjectError> {
     }
 }
 
-/// Returns the path of a file that is to be read as a custom shader of Ghostty.
+/// Returns the path after the prefix that marks a custom shader of Ghostty.
 fn of_ghostty(spec: &str) -> Option<&Path> {
     spec.strip_prefix(ghostty::PREFIX).filter(|_| !Path::new(spec).exists()).map(Path::new)
 }
 
-/// Reads a custom shader of Ghostty, and puts around it what the terminal does.
+/// Loads a custom shader of Ghostty, and adds the terminal's prelude and picture.
 fn load_ghostty(path: &Path) -> Result<Loaded, ProjectError> {
     if !path.exists() {
         let (spec, presets) = (path.display().to_string(), Vec::new());
@@ -48,15 +48,15 @@ fn load_ghostty(path: &Path) -> Result<Loaded, ProjectError> {
     Ok(Loaded { sources: project.sources(), project, warnings: Vec::new() })
 }
 
-/// Reads the project of a folder, or of one GLSL file, as [`load`] does, with texts of an editor in place of what is on
-/// disk. Their paths begin as `path` does.
+/// Loads the project of a folder, or of one GLSL file, like [`load`]; texts of an editor override the files on disk.
+/// Their paths start with `path`.
 pub fn load_edited(path: &Path, edited: &EditedTexts) -> Result<Loaded, ProjectError> {
     let is_file = edited.contains_key(path) || fs::metadata(path).is_ok_and(|m| !m.is_dir());
     if is_file { load_glsl(path, edited) } else { load_edited_folder(path, edited) }
 }
 
 /// Returns the folder of the project that a file most likely belongs to: the nearest one with an `eddy.toml`, from the
-/// file's own upwards; where there is none, its own if that holds the Image pass of a project.
+/// file's own upwards; without one, the file's own folder if it contains the Image pass of a project.
 pub fn folder_around(file: &Path) -> Option<PathBuf> {
     let folders = file.ancestors().skip(1).filter(|folder| !folder.as_os_str().is_empty());
     let described = folders.take(limits::FOLDERS_UP).find(|folder| Files::on_disk(folder).exists(MANIFEST));
@@ -64,8 +64,8 @@ pub fn folder_around(file: &Path) -> Option<PathBuf> {
 }
 
 /// Returns the folder of the project that has this file among its texts: that of an `eddy.toml`, of a pass or of an
-/// included file, with texts of an editor in place of what is on disk. `None` for a shader of its own. The files beside an
-/// `eddy.toml` with a mistake belong to it, so that the mistake is told.
+/// included file; texts of an editor override the files on disk. `None` for a standalone shader. Files next to an
+/// `eddy.toml` with an error belong to it, so that the error is reported.
 pub fn project_of(file: &Path, edited: &EditedTexts) -> Option<PathBuf> {
     if is_manifest(file) {
         return Some(file.parent().unwrap_or(Path::new("")).to_owned());
@@ -87,8 +87,7 @@ pub fn is_manifest(file: &Path) -> bool {
     file.file_name().is_some_and(|name| name == MANIFEST)
 }
 
-/// Returns what an output of `spec` is named after: the preset's, the folder's or the file's name without its
-/// extension.
+/// Returns the base name for outputs of `spec`: the preset's, the folder's or the file's name without its extension.
 pub fn stem(spec: &str) -> String {
     let spec = of_ghostty(spec).and_then(Path::to_str).unwrap_or(spec);
     let path = match locate(spec) {
@@ -109,7 +108,7 @@ enum Location {
     Preset(&'static str),
     Folder(PathBuf),
     Glsl(PathBuf),
-    /// And which of its shaders, if one is asked for.
+    /// A Shadertoy JSON file, and the selected shader if there is one.
     Json(PathBuf, Option<String>),
 }
 

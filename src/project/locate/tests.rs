@@ -1,4 +1,4 @@
-//! Tests of opening: every kind of project, and what is said of those that are broken.
+//! Tests of opening: every kind of project, and the errors of broken ones.
 
 use super::*;
 use crate::{Channel, Filter, Input, Media, Origin, PassSize, Region, Sampler, TexelFormat, Wrap};
@@ -17,7 +17,7 @@ fn load_path(path: &Path) -> Result<Loaded, ProjectError> {
     load(path.to_str().unwrap())
 }
 
-/// The one message of a project that the author has to mend, in caret form.
+/// The only error of a project, in caret form.
 fn complaint(path: &Path) -> String {
     let error = load_path(path).expect_err("the project is wrong");
     assert!(error.diagnostics().is_some(), "{error}");
@@ -58,7 +58,7 @@ fn one_glsl_file_is_an_image_pass() {
 }
 
 #[test]
-fn eddy_toml_says_what_the_texts_cannot() {
+fn eddy_toml_adds_what_texts_cannot_express() {
     let dir = folder(&[
         (
             "eddy.toml",
@@ -100,7 +100,7 @@ fn eddy_toml_says_what_the_texts_cannot() {
 }
 
 #[test]
-fn a_wrong_eddy_toml_names_line_and_mend() {
+fn eddy_toml_errors_have_a_line_and_a_fix() {
     for (toml, expected) in [
         ("[passes.image\n", vec!["eddy.toml:1:", "= help"]),
         ("\nnmae = \"x\"\n[passes.image]", vec!["eddy.toml:2:1", "no key nmae", "did you mean name?"]),
@@ -136,14 +136,14 @@ fn a_wrong_eddy_toml_names_line_and_mend() {
 }
 
 #[test]
-fn every_mistake_of_an_eddy_toml_is_told_at_once() {
+fn all_eddy_toml_errors_are_reported_at_once() {
     let dir = folder(&[("eddy.toml", "nmae = 1\nauthr = 2\n[passes.image]\nfiel = 1\n"), ("image.glsl", "")]);
     let said = complaint(dir.path());
     assert_eq!(said.matches("error: ").count(), 3, "{said}");
 }
 
 #[test]
-fn a_read_of_a_buffer_without_a_pass_is_a_warning_at_its_line() {
+fn reading_a_missing_buffer_is_a_warning_at_its_line() {
     let dir = folder(&[("eddy.toml", "[passes.image]\nchannels.0 = { buffer = \"A\" }\n"), ("image.glsl", "")]);
     let loaded = load_path(dir.path()).unwrap();
     let [warning] = loaded.warnings.as_slice() else { panic!("{:?}", loaded.warnings) };
@@ -155,7 +155,7 @@ fn a_read_of_a_buffer_without_a_pass_is_a_warning_at_its_line() {
 }
 
 #[test]
-fn a_text_that_is_not_utf8_is_named_with_its_line() {
+fn text_that_is_not_utf8_is_reported_with_its_line() {
     let dir = folder(&[("image.glsl", "")]);
     fs::write(dir.path().join("common.glsl"), b"ok\n// caf\xe9\n").unwrap();
     let said = complaint(dir.path());
@@ -167,7 +167,7 @@ fn a_text_that_is_not_utf8_is_named_with_its_line() {
 }
 
 #[test]
-fn what_is_no_project_says_what_would_be_one() {
+fn errors_for_other_files_list_the_valid_kinds() {
     let error = load("flooid-that-is-not").unwrap_err().to_string();
     assert!(error.starts_with("flooid-that-is-not: not a file, a folder or a preset"), "{error}");
     assert!(matches!(load(""), Err(ProjectError::NotFound { .. })));
@@ -181,7 +181,7 @@ fn what_is_no_project_says_what_would_be_one() {
 }
 
 #[test]
-fn the_stem_names_outputs() {
+fn stems_name_outputs() {
     let dir = folder(&[("image.glsl", ""), ("a.b.json", "")]);
     let inner = dir.path().join("my.project");
     fs::create_dir(&inner).unwrap();
@@ -193,7 +193,7 @@ fn the_stem_names_outputs() {
 }
 
 #[test]
-fn eddy_toml_says_how_passes_are_drawn() {
+fn eddy_toml_sets_how_passes_are_drawn() {
     let toml = "[passes.buffer_a]\nsize = 0.5\nformat = \"rgba16f\"\n[passes.buffer_b]\nsize = [256, 1]\n\
     [passes.image]\nregion = [1, 2, 3, 4]\n\
                 [groups.solver]\npasses = [\"buffer_a\", \"buffer_b\"]\nsteps = 20\n";
@@ -241,7 +241,7 @@ fn eddy_toml_says_how_passes_are_drawn() {
 }
 
 #[test]
-fn a_period_is_a_length_of_time() {
+fn a_period_is_a_duration() {
     let dir = folder(&[("eddy.toml", ""), ("image.glsl", "")]);
     let manifest = |value: &str| {
         fs::write(dir.path().join("eddy.toml"), format!("period = {value}\n[passes.image]\n")).unwrap();
@@ -258,7 +258,7 @@ fn a_period_is_a_length_of_time() {
 }
 
 #[test]
-fn a_file_belongs_to_the_project_that_has_it() {
+fn a_file_belongs_to_the_project_that_contains_it() {
     let dir = folder(&[
         ("common.glsl", "#include \"lib/noise.glsl\"\n"),
         ("image.glsl", "void mainImage() {}"),
@@ -270,7 +270,7 @@ fn a_file_belongs_to_the_project_that_has_it() {
     fs::write(root.join("lib/noise.glsl"), "float noise;").unwrap();
     let of = |name: &str| project_of(&root.join(name), &EditedTexts::new());
     assert_eq!((of("common.glsl"), of("image.glsl")), (Some(root.clone()), Some(root.clone())));
-    // Only a manifest is looked for in folders above: other files of a name such as `image.glsl` are often nothing to it.
+    // Only a manifest is looked for in parent folders: other files with names such as `image.glsl` are often unrelated.
     assert_eq!((of("study.glsl"), of("toy.json"), of("lib/noise.glsl"), of("missing.glsl")), (None, None, None, None));
     let manifest = root.join("eddy.toml");
     fs::write(&manifest, "[passes.image]\n").unwrap();
@@ -278,7 +278,7 @@ fn a_file_belongs_to_the_project_that_has_it() {
         assert_eq!(of(name), Some(root.clone()), "{name}");
     }
     assert_eq!(of("study.glsl"), None);
-    // With texts of an editor, as with those that are saved.
+    // Texts of an editor count like saved ones.
     let edited = EditedTexts::from([(root.join("common.glsl"), "// nothing is included".into())]);
     assert_eq!(project_of(&root.join("lib/noise.glsl"), &edited), None);
     fs::write(&manifest, "[passes.image\n").unwrap();

@@ -51,7 +51,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Controls of uniforms that no text declares. Only warnings, as of `[uniforms]`.
+    /// Warns about controls of undeclared uniforms. These are only warnings, as for `[uniforms]`.
     pub(super) fn check_controls(&mut self, root: &dyn TableLike, project: &Project) {
         let Some(table) = root.get("controls").and_then(Item::as_table_like) else { return };
         let custom_uniforms = project.custom_uniforms();
@@ -89,7 +89,7 @@ impl Reader<'_> {
     }
 }
 
-/// Writes the bindings of a project; entries that say the same stay as they are written.
+/// Writes the bindings of a project; unchanged entries keep their formatting.
 pub(super) fn write_controls(root: &mut Table, project: &Project) {
     let bindings = &project.controls;
     if bindings.is_empty() {
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_read_again_and_the_rest_stays() {
+    fn written_controls_read_back_and_other_text_is_unchanged() {
         let text = format!(
             "[controls]\nspeed = \"MIDI 1 CC 21\" # knob\ncenter.x = \"/1/xy\"\ncenter.y = \"/1/xy 2\"\n{PASSES}"
         );
@@ -175,7 +175,7 @@ mod tests {
         let changed = write_manifest(&project, Some(&text), "p", false);
         assert!(changed.contains("speed = \"midi 2 bend\" # knob") && !changed.contains("center.y"), "{changed}");
         assert_eq!(whole(&changed).controls, project.controls);
-        // A new file says the same.
+        // A new file has the same content.
         let new = write_manifest(&project, None, "p", false);
         assert!(new.contains("center.x = \"/1/xy\""), "{new}");
         assert_eq!(whole(&new).controls, project.controls);
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_told_with_their_mend() {
+    fn errors_are_reported_with_their_fix() {
         let said = |controls: &str| match read(&format!("[controls]\n{controls}\n{PASSES}")) {
             Ok(loaded) => loaded.warnings,
             Err(ProjectError::Invalid { diagnostics, .. }) => diagnostics,

@@ -1,10 +1,9 @@
-//! Changing a manifest's text no more than needed.
+//! Minimal edits of a manifest's text.
 
 use crate::{PassName, file_names::pass_of_stem};
 use toml_edit::{Item, Table, TableLike, Value};
 
-/// Sets, replaces or removes a value. One that says the same stays as it is written; a comment beside it stays in any
-/// case.
+/// Sets, replaces or removes a value. An equal value keeps its formatting; a comment next to it stays in any case.
 pub(super) fn set(table: &mut dyn TableLike, key: &str, value: Option<Value>) {
     let Some(mut value) = value else {
         table.remove(key);
@@ -24,7 +23,7 @@ pub(super) fn set(table: &mut dyn TableLike, key: &str, value: Option<Value>) {
     }
 }
 
-/// A value without its decoration, for comparing.
+/// A value without its decoration, for comparison.
 fn plain(value: &Value) -> String {
     match value {
         Value::String(text) => format!("\"{}", text.value()),
@@ -33,7 +32,7 @@ fn plain(value: &Value) -> String {
     }
 }
 
-/// The table at `key`, made where there is none.
+/// The table at `key`, created if it does not exist.
 pub(super) fn child<'t>(table: &'t mut dyn TableLike, key: &str, is_implicit: bool) -> Option<&'t mut dyn TableLike> {
     if table.get(key).is_none_or(|item| !item.is_table_like()) {
         let mut new = Table::new();
@@ -43,7 +42,7 @@ pub(super) fn child<'t>(table: &'t mut dyn TableLike, key: &str, is_implicit: bo
     table.get_mut(key)?.as_table_like_mut()
 }
 
-/// The key by which a table has a pass already, or the one it shall get.
+/// The key under which a table already has a pass, or the one for a new entry.
 pub(super) fn key_of(table: &dyn TableLike, id: &PassName) -> String {
     let old = table.iter().map(|(key, _)| key).find(|key| pass_of_stem(key).as_ref() == Some(id));
     old.map_or_else(|| id.key().to_owned(), str::to_owned)

@@ -90,7 +90,7 @@ pub(super) fn write_fills(table: &mut dyn TableLike, settings: &PassSettings) {
             inline.insert("value", value(&boundary.value));
             Value::InlineTable(inline)
         });
-        // A table with a heading of its own cannot be replaced in place.
+        // A table with its own heading cannot be replaced in place.
         table.remove("boundary");
         set(table, "boundary", boundary);
     }
@@ -106,7 +106,7 @@ fn value(fill: &Fill) -> Value {
     match &fill.value {
         FillValue::Expression(text) => Value::from(&**text),
         FillValue::File(path) | FillValue::InMemory { name: path, .. } => {
-            // Forward slashes are understood everywhere.
+            // Every system understands forward slashes.
             let path = path.to_string_lossy();
             let path = if cfg!(windows) { path.replace('\\', "/") } else { path.into_owned() };
             let mut table = InlineTable::new();

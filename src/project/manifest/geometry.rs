@@ -29,24 +29,24 @@ const DRAW: [&str; 11] = [
 ];
 const CAMERA: [&str; 8] = ["yaw", "pitch", "distance", "target", "fov", "near", "far", "orbit"];
 
-/// An entry of `draw` as it is written: stages by the names of their files.
+/// An entry of `draw` as written: stages by the names of their files.
 #[derive(Clone, Debug, PartialEq)]
 struct Entry {
     mesh: String,
     vertex: String,
     /// `None`: the pass's own text.
     fragment: Option<String>,
-    /// Stages are not yet told apart.
+    /// The draw, whose stages are not resolved yet.
     draw: MeshDraw,
 }
 
-/// The file of a pass that names none though it draws meshes: its first draw's fragment stage.
+/// The file of a pass with meshes that names none: its first draw's fragment stage.
 pub(super) fn own_file(pass: &dyn TableLike) -> Option<String> {
     let draws = tables(pass.get("draw")?)?;
     draws.first()?.get("fragment")?.as_str().map(str::to_owned)
 }
 
-/// `[{..}, {..}]`, or tables that begin with `[[passes.x.draw]]`.
+/// Returns the tables of `[{..}, {..}]`, or of `[[passes.x.draw]]`.
 fn tables(item: &Item) -> Option<Vec<&dyn TableLike>> {
     if let Some(tables) = item.as_array_of_tables() {
         return Some(tables.iter().map(|t| t as &dyn TableLike).collect());
@@ -61,7 +61,7 @@ fn span_of(table: &dyn TableLike) -> Option<Range<usize>> {
 }
 
 impl Reader<'_> {
-    /// The geometry of a pass whose own text lies in `file`. `settings` gets the format of its first target.
+    /// Reads the geometry of a pass whose own text is in `file`. Stores the format of its first target in `settings`.
     pub(super) fn geometry(
         &mut self,
         id: &PassName,
@@ -259,7 +259,7 @@ fn targets(item: &Item) -> Option<Vec<TexelFormat>> {
     (1..=MAX_TARGETS).contains(&formats.len()).then_some(formats)
 }
 
-/// Changes no more of a pass's table than needed.
+/// Updates a pass's table with minimal changes.
 pub(super) fn write_geometry(table: &mut dyn TableLike, of: &Pass) {
     let Some(geometry) = of.body.geometry() else {
         KEYS.iter().for_each(|key| drop(table.remove(key)));

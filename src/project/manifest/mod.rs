@@ -1,6 +1,6 @@
-//! `eddy.toml`: the file that says of a folder what its GLSL texts cannot.
+//! `eddy.toml`: the file that describes what the GLSL texts of a folder cannot.
 //!
-//! Owns the file's form, both ways. Everything in it is optional but a pass named `image`.
+//! Owns the file's format, for reading and writing. Everything in it is optional except a pass named `image`.
 //!
 //! ```toml
 //! eddy = 1                        # version of this form; a newer one is refused
@@ -44,13 +44,13 @@
 //! channels.3 = { keyboard = true }                # also cube_a, microphone, webcam, gamepad
 //! ```
 //!
-//! `initial` and the `value` of `boundary` are GLSL expressions of type vec4, which see Common, `fragCoord` and the
-//! site's uniforms, or `{ file = "state.npy" }`: a picture, or an array of shape (height, width) or (height, width, 1
-//! to 4), row 0 at the bottom. A file of another size than the pass is stretched over it.
+//! `initial` and the `value` of `boundary` are GLSL expressions of type vec4, which see Common, `fragCoord` and
+//! Shadertoy's uniforms, or `{ file = "state.npy" }`: a picture, or an array of shape (height, width) or (height,
+//! width, 1 to 4), row 0 at the bottom. A file of another size than the pass is stretched over it.
 //!
 //! A pass of its own size has that as `iResolution`, and its readers as `iChannelResolution`; `iMouse` stays in canvas
-//! pixels. What a format lacks is read as 0, alpha as 1. The steps of a group see the same uniforms, and of each other
-//! what was drawn last.
+//! pixels. Components that a format lacks read as 0, alpha as 1. The steps of a group see the same uniforms, and the
+//! latest pictures of each other.
 //!
 //! A buffer that draws meshes instead of a full-screen triangle (a geometry pass):
 //!
@@ -64,15 +64,15 @@
 //! ]
 //! ```
 //!
-//! A mesh is `builtin:NAME` or a glTF (`.glb`, `.gltf`) or OBJ file. `fragment` may be left out: then it is the pass's
-//! `file`. Further keys of a draw: `normals` ("flat", "smooth": those that are made where a model file has none, flat
-//! by default for glTF and smooth for OBJ), `cull` ("back", "front", "none"), `depth` ("less", "less_equal", "equal",
+//! A mesh is `builtin:NAME` or a glTF (`.glb`, `.gltf`) or OBJ file. `fragment` may be omitted: then it is the pass's
+//! `file`. Further keys of a draw: `normals` ("flat", "smooth": those that are generated if a model file has none, by
+//! default flat for glTF and smooth for OBJ), `cull` ("back", "front", "none"), `depth` ("less", "less_equal", "equal",
 //! "greater_equal", "greater", "not_equal", "always"), `depth_write`, `color_write`, `scale`, `rotation` (degrees about
 //! x, y, z), `position`. A channel reads another target than the first by `{ buffer = "scene", target = 1 }`.
 //!
 //! A `file` is a picture unless `kind` says otherwise (`"cubemap"`, `"volume"`, `"video"`, `"music"`); a texture of
-//! the site is `site = "/media/a/…"` with its `site_id`. `[shadertoy]` keeps what the site's JSON said and Eddy has no
-//! use for.
+//! Shadertoy is `site = "/media/a/…"` with its `site_id`. `[shadertoy]` keeps the members of Shadertoy's JSON that Eddy
+//! does not use.
 
 mod controls;
 mod edit;
@@ -89,5 +89,5 @@ pub(super) use read::project;
 pub(super) use renamed::follow_renames;
 pub use write::write;
 
-/// Version of the form this build writes and the newest it reads.
+/// The version of the format that this build writes, and the newest that it reads.
 const VERSION: i64 = 1;

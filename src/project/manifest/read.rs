@@ -1,4 +1,4 @@
-//! Reading `eddy.toml`. Every complaint is a diagnostic at its place, and all of them come at once.
+//! Reads `eddy.toml`. Every error is a diagnostic with a span, and all are reported at once.
 
 use super::{
     VERSION, fills, geometry,
@@ -33,11 +33,11 @@ const TOP: [&str; 15] = [
     "groups",
     "shadertoy",
 ];
-/// Keys of inputs that are of the kind that `kind` says.
+/// Keys of inputs whose kind the key `kind` sets.
 const PLACES: [&str; 2] = ["file", "site"];
 const SETTINGS: [&str; 6] = ["filter", "wrap", "vflip", "kind", "site_id", "target"];
 
-/// The project that `text`, an `eddy.toml`, makes of `files`. Errors of the author's come back as
+/// Builds the project that `text`, an `eddy.toml`, describes, with `files`. Errors of the author's are returned as
 /// [`ProjectError::Invalid`].
 pub(crate) fn project(
     what: &str,
@@ -48,7 +48,7 @@ pub(crate) fn project(
 ) -> Result<Loaded, ProjectError> {
     let mut reader =
         Reader { files, sources: SourceMap::default(), id: SourceId(0), diagnostics: Vec::new(), refused: None };
-    // While the project is not whole, the only text that spans can point into is this one.
+    // Until the project is complete, this is the only text that spans can point into.
     reader.id = reader.sources.add(MANIFEST, text);
     let project = reader.read(folder_name, text, origin);
     let Reader { mut diagnostics, sources: own, id, refused, .. } = reader;
@@ -83,7 +83,7 @@ impl Reader<'_> {
             }
         };
         let root = document.as_table();
-        // A newer file may differ in anything: say so once instead of complaining of every new key.
+        // A newer file may differ in anything: report its version once instead of every unknown key.
         match root.get("eddy") {
             Some(item) if item.as_integer().is_none_or(|v| v < 1) => {
                 self.wrong_type("eddy", item, "a whole number from 1")
@@ -155,7 +155,7 @@ impl Reader<'_> {
         if self.files.exists(&file) { self.source(&file, "Common", None) } else { None }
     }
 
-    /// The file of a role that is there, whatever its case and extension; else the name a new one would get.
+    /// The existing file of a role, whatever its case and extension; else the name for a new one.
     fn conventional(&self, role: &FileRole) -> String {
         let key = match role {
             FileRole::Common => "common",
@@ -229,7 +229,7 @@ impl Reader<'_> {
         passes
     }
 
-    /// Channels that read a pass the project does not have: legal, but more often a slip.
+    /// Warns about channels that read a missing pass: legal, but probably a mistake.
     fn check_reads(&mut self, table: &dyn TableLike, passes: &[Pass]) {
         let mut found = Vec::new();
         for pass in passes {
@@ -257,7 +257,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Channels that read a target their pass does not have.
+    /// Reports channels that read a target their pass does not have.
     fn check_targets(&mut self, table: &dyn TableLike, passes: &[Pass]) {
         for pass in passes {
             for (n, channel) in pass.bindings.iter() {
@@ -358,7 +358,7 @@ impl Reader<'_> {
         Some(Channel { input, sampler })
     }
 
-    /// Returns the buffer that a channel names; the cubemap pass may be named so, too.
+    /// Returns the buffer that a channel names; the cubemap pass may be named the same way.
     fn buffer(&mut self, channel: &dyn TableLike, key: &str) -> Option<Input> {
         let name = self.string(channel, key)?;
         match PassName::parse(&name) {
@@ -372,7 +372,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns the target of a buffer that a channel reads. `None`: said wrongly.
+    /// Returns the target of a buffer that a channel reads. `None` if it is invalid.
     fn target(&mut self, channel: &dyn TableLike) -> Option<usize> {
         let Some(item) = channel.get("target") else { return Some(0) };
         let index = item.as_integer().and_then(|n| usize::try_from(n).ok()).filter(|n| *n < MAX_TARGETS);
@@ -392,7 +392,7 @@ impl Reader<'_> {
         })
     }
 
-    /// `[shadertoy] info = '{…}'`: JSON inside TOML, because TOML has no null and only its own numbers.
+    /// `[shadertoy] info = '{…}'`: JSON inside TOML, because TOML has no null and different numbers.
     fn extra(&mut self, root: &dyn TableLike) -> serde_json::Map<String, serde_json::Value> {
         let Some(table) = root.get("shadertoy").and_then(|item| self.table("shadertoy", item)) else {
             return serde_json::Map::default();
@@ -412,7 +412,7 @@ impl Reader<'_> {
     }
 }
 
-/// The channel an entry of `channels` says, if it says one without a mistake.
+/// The channel of an entry of `channels`, if the entry is valid.
 pub(super) fn channel(item: &Item) -> Option<Channel> {
     silent(|reader| reader.channel(0, item)).flatten()
 }

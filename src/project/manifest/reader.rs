@@ -1,4 +1,4 @@
-//! The reading of single values of an `eddy.toml`: every complaint is a diagnostic at its place.
+//! Reads single values of an `eddy.toml`: every error is a diagnostic with a span.
 
 use crate::{
     FileError, Source,
@@ -14,7 +14,7 @@ pub(super) struct Reader<'a> {
     pub sources: SourceMap,
     pub id: SourceId,
     pub diagnostics: Vec<Diagnostic>,
-    /// The file that the machine refused, if any.
+    /// The error of the system for a file, if there is one.
     pub refused: Option<FileError>,
 }
 
@@ -23,7 +23,7 @@ impl Reader<'_> {
         range.map(|r| Span::new(self.id, r))
     }
 
-    /// The whole text that an item stands in, and its place there.
+    /// The whole text that contains an item, and its range there.
     pub(super) fn span_text(&self, item: &Item) -> Option<(Arc<str>, Range<usize>)> {
         Some((self.sources.get(self.id)?.text.clone(), item.span()?))
     }
@@ -77,7 +77,7 @@ impl Reader<'_> {
         text
     }
 
-    /// Reads a length of time above 0.
+    /// Reads a duration above 0.
     pub(super) fn seconds(&mut self, table: &dyn TableLike, key: &str) -> Option<f64> {
         let item = table.get(key)?;
         let secs = item.as_value().and_then(number).filter(|secs| *secs > 0.0);
@@ -134,7 +134,7 @@ impl Reader<'_> {
     }
 }
 
-/// Returns what `read` makes of a part of a file, if it finds no mistake there.
+/// Returns the result of `read` for a part of a file, if it reports no errors.
 pub(super) fn silent<T>(read: impl FnOnce(&mut Reader<'_>) -> T) -> Option<T> {
     let none = BTreeMap::new();
     let mut reader = Reader {
@@ -148,7 +148,7 @@ pub(super) fn silent<T>(read: impl FnOnce(&mut Reader<'_>) -> T) -> Option<T> {
     reader.diagnostics.is_empty().then_some(made)
 }
 
-/// Returns the value of a finite number, with or without a decimal point.
+/// Returns a finite number, with or without a decimal point.
 pub(super) fn number(value: &Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64)).filter(|number| number.is_finite())
 }

@@ -1,4 +1,4 @@
-//! Tables of passes that were renamed.
+//! Tables of renamed passes.
 
 use super::geometry;
 use crate::{
@@ -7,8 +7,8 @@ use crate::{
 };
 use toml_edit::{DocumentMut, Item};
 
-/// The text with the tables of renamed passes under their new names, so that the author's comments in them stay. A pass
-/// is known by the file that it is in.
+/// The text with the tables of renamed passes under their new names, so that the author's comments in them stay. Passes
+/// are matched by their files.
 pub(crate) fn follow_renames(text: &str, project: &Project) -> String {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_owned() };
     let Some(table) = document.get_mut("passes").and_then(Item::as_table_like_mut) else { return text.to_owned() };

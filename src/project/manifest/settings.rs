@@ -1,5 +1,5 @@
-//! The keys of `eddy.toml` that say how passes are drawn: `size`, `format`, `region` and `when` of a pass,
-//! and `[groups]`.
+//! The keys of `eddy.toml` that set how passes are drawn: `size`, `format`, `region` and `when` of a pass, and
+//! `[groups]`.
 
 use super::{
     edit::{child, key_of, set},
@@ -64,7 +64,7 @@ impl Reader<'_> {
         match Condition::parse(text) {
             Ok(condition) => Some(condition.at(written)),
             Err(error) => {
-                // Where the text stands as it is written, the part of it that is wrong.
+                // If the text is written verbatim, the part of it that is wrong.
                 let verbatim = written.as_ref().and_then(|w| {
                     let at = w.range.start + w.manifest.get(w.range.clone())?.find(text)?;
                     Some(at + error.range.start..at + error.range.end)
@@ -122,7 +122,7 @@ impl Reader<'_> {
         groups
     }
 
-    /// Refuses a project whose frame draws more than the limit.
+    /// Rejects a project whose frame exceeds the limit of draws.
     fn check_draws(&mut self, passes: &[Pass], groups: &[Group], table: Option<&dyn TableLike>) {
         let all = draws(passes, groups);
         if all > limits::DRAWS {
@@ -134,7 +134,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The passes of a group, in the order they are drawn, which the list must be in.
+    /// The passes of a group, which must be listed in drawing order.
     fn group_passes(
         &mut self,
         item: &Item,
@@ -217,7 +217,7 @@ pub(super) fn write_settings(table: &mut dyn TableLike, pass: &Pass) {
         );
     }
     let written = table.get("format").and_then(Item::as_str).map(str::to_ascii_lowercase);
-    // Of several targets `targets` says it.
+    // With several targets, `targets` sets it.
     if table.contains_key("targets") || !pass.body.more_targets().is_empty() {
         table.remove("format");
     } else if written.as_deref().unwrap_or(TexelFormat::default().name()) != settings.format.name() {

@@ -24,8 +24,8 @@ impl Reader<'_> {
         values
     }
 
-    /// Values that no custom uniform takes. Only warnings: a text may be changed so at any time, and the project must
-    /// go on opening.
+    /// Warns about values that fit no custom uniform. These are only warnings: a text may change at any time, and the
+    /// project must still open.
     pub(super) fn check_uniforms(&mut self, root: &dyn TableLike, project: &Project) {
         let Some(table) = root.get("uniforms").and_then(Item::as_table_like) else { return };
         let custom_uniforms = project.custom_uniforms();
@@ -47,7 +47,7 @@ impl Reader<'_> {
     }
 }
 
-/// The value an entry of `[uniforms]` says.
+/// The value of an entry of `[uniforms]`.
 pub(super) fn custom_uniform_value(item: &Item) -> Option<CustomUniformValue> {
     item.as_value().and_then(value)
 }

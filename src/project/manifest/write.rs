@@ -1,4 +1,4 @@
-//! Writing `eddy.toml`: an old text changed no more than needed, so that the author's comments and order stay.
+//! Writes `eddy.toml` with minimal changes to the old text, so that the author's comments and order stay.
 
 use super::{
     VERSION, controls,
@@ -14,9 +14,9 @@ use crate::{
 };
 use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
-/// The text of `eddy.toml` for a project whose sources are called by their file names. `old` is the text it had; where
-/// the project says the same, so does the new one, byte for byte. `folder_name` is the name of a project that gives
-/// none; `has_common_file`: a file lies in the folder that would be read as Common if nothing were said.
+/// The text of `eddy.toml` for a project whose sources are called by their file names. `old` is the previous text; if
+/// the project is unchanged, so is the text, byte for byte. `folder_name` is the name of a project that sets none;
+/// `has_common_file`: the folder contains a file that would be read as Common by default.
 pub fn write(project: &Project, old: Option<&str>, folder_name: &str, has_common_file: bool) -> String {
     let mut document: DocumentMut = old.and_then(|text| text.parse().ok()).unwrap_or_default();
     let is_new = document.is_empty();
@@ -86,7 +86,7 @@ fn written(value: &CustomUniformValue) -> Value {
     }
 }
 
-/// `is_new`: there was no file. One that does not name Common reads its default file.
+/// `is_new`: there was no file. A file that does not mention Common reads its default file.
 fn common(root: &mut Table, project: &Project, has_common_file: bool, is_new: bool) {
     match &project.common {
         Some(source) if !is_new && source.name == "common.glsl" && !root.contains_key("common") => {}
@@ -136,7 +136,7 @@ fn passes(root: &mut Table, project: &Project) {
     order(table, project);
 }
 
-/// Puts the pass tables into the project's order where they do not stand in it already.
+/// Sorts the pass tables into the project's order if they are not already.
 fn order(table: &mut dyn TableLike, project: &Project) {
     let wanted: Vec<String> = project.passes.iter().map(|p| key_of(table, &p.id)).collect();
     let is_buffer = |key: &&str| pass_of_stem(key).is_some_and(|id| id.is_buffer());
@@ -245,12 +245,12 @@ fn media(table: &mut InlineTable, row: &InputRow, media: &Media) {
             return;
         }
         Media::File(path) => {
-            // Forward slashes are understood everywhere.
+            // Every system understands forward slashes.
             let path = path.to_string_lossy();
             let path = if cfg!(windows) { path.replace('\\', "/") } else { path.into_owned() };
             table.insert("file", path.into());
         }
-        // As saving calls the copy, unless that name is taken.
+        // The name that saving gives the copy, unless it is taken.
         Media::Picked(path) => {
             table.insert("file", path.file_name().unwrap_or_default().to_string_lossy().into_owned().into());
         }

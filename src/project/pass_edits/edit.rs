@@ -1,4 +1,4 @@
-//! The edits, and what each does.
+//! The edits and their implementation.
 
 use super::groups;
 use crate::{
@@ -13,45 +13,44 @@ use std::path::Path;
 /// A change of a project's passes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PassEdit {
-    /// Gives a buffer another name, as a person writes it: see [`PassName::buffer_named`]. What reads it reads it under
-    /// the new one.
+    /// Renames a buffer, from user input: see [`PassName::buffer_named`]. Its readers read it under the new name.
     Rename { pass: PassName, name: String },
-    /// Puts a buffer at a place among the buffers, which are counted from 0 in drawing order.
+    /// Moves a buffer to an index among the buffers, counted from 0 in drawing order.
     Move { pass: PassName, to: usize },
     /// Sets the size of a buffer's texture.
     Size(PassName, PassSize),
     /// Sets the format of its texels.
     Format(PassName, TexelFormat),
-    /// Sets the part of it that is drawn; `None`: all.
+    /// Sets the region that is drawn; `None`: all.
     Region(PassName, Option<Region>),
-    /// Sets the condition by which it is drawn, as a person writes it; `None`: in every frame.
+    /// Sets the condition for drawing, from user input; `None`: drawn in every frame.
     When(PassName, Option<String>),
-    /// Sets what a buffer holds before frame 0; `None`: zeros.
+    /// Sets the contents of a buffer before frame 0; `None`: zeros.
     Initial(PassName, Option<FillValue>),
-    /// The outermost texels of a pass, and how many from each edge; `None`: as drawn.
+    /// Sets the outermost texels of a pass, and the width from each edge; `None`: as drawn.
     Boundary(PassName, Option<(u32, FillValue)>),
-    /// Sets how often a frame a buffer is drawn, with the others of its group.
+    /// Sets the number of draws of a buffer per frame, together with the others of its group.
     Steps(PassName, u32),
-    /// Draws a buffer in one group with the buffer before it, or begins another group with it.
+    /// Adds a buffer to the group of the previous buffer, or starts another group with it.
     WithPrevious(PassName, bool),
-    /// The filter of every channel that reads a buffer.
+    /// Sets the filter of every channel that reads a buffer.
     Filter(PassName, Filter),
-    /// The wrap of every channel that reads a buffer.
+    /// Sets the wrap mode of every channel that reads a buffer.
     Wrap(PassName, Wrap),
-    /// Takes away Common or a pass. Channels that read it stay, and read zeros.
+    /// Removes Common or a pass. Channels that read it stay, and read zeros.
     Remove(Tab),
 }
 
-/// Says what an edit did besides.
+/// The effects of an edit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PassEdited {
-    /// The project is another one now.
+    /// True if the project has changed.
     pub is_changed: bool,
-    /// A pass has another name: the old one, the new one.
+    /// The old and the new name of a renamed pass.
     pub renamed: Option<(PassName, PassName)>,
 }
 
-/// The reason why passes cannot be edited so.
+/// The reason why an edit of passes is invalid.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PassEditError {
     #[error("there is no {0}")]
@@ -91,7 +90,7 @@ pub enum PassEditError {
 }
 
 impl PassEdit {
-    /// Returns what it is about, as a menu says it behind "Undo".
+    /// Returns the subject of the edit for a menu, after "Undo".
     pub fn title(&self) -> String {
         let of = |what: &str, pass: &PassName| format!("{what} of {}", pass.title());
         match self {
@@ -111,7 +110,7 @@ impl PassEdit {
         }
     }
 
-    /// Returns whether `next` goes on with what this one began, as the values of a number that is being dragged do.
+    /// Returns whether `next` continues this edit, as when a number is dragged.
     pub fn is_same_kind(&self, next: &PassEdit) -> bool {
         match (self, next) {
             (PassEdit::Size(a, a_size), PassEdit::Size(b, b_size)) => {
@@ -128,7 +127,7 @@ impl PassEdit {
 }
 
 impl Project {
-    /// Edits the passes. On an error nothing has changed.
+    /// Edits the passes. On an error nothing changes.
     pub fn edit_passes(&mut self, edit: &PassEdit) -> Result<PassEdited, PassEditError> {
         let mut next = self.clone();
         let renamed = next.edit(edit)?;
@@ -216,10 +215,10 @@ impl Project {
         if is_buffer { Ok(found) } else { Err(PassEditError::NotHere { pass: id.title(), what }) }
     }
 
-    /// A pass whose texels can be filled from outside its own program.
+    /// Returns a pass whose texels can be filled from outside its own program.
     fn filled(&mut self, id: &PassName, what: &'static str) -> Result<&mut Pass, PassEditError> {
         let found = self.found(id)?;
-        // One that draws meshes is cleared in every frame.
+        // A pass that draws meshes is cleared in every frame.
         if !id.is_picture() || found.body.is_cleared() {
             return Err(PassEditError::NotHere { pass: id.title(), what });
         }
@@ -290,7 +289,7 @@ impl Project {
     }
 }
 
-/// Returns a fill with a value. One that says the same keeps its place in `eddy.toml`.
+/// Returns a fill with a value. An equal one keeps its place in `eddy.toml`.
 fn fill(value: Option<&FillValue>, now: Option<&Fill>) -> Result<Option<Fill>, PassEditError> {
     let Some(value) = value else { return Ok(None) };
     match value {
@@ -308,9 +307,8 @@ fn fill(value: Option<&FillValue>, now: Option<&Fill>) -> Result<Option<Fill>, P
 }
 
 impl Source {
-    /// Calls a text as its pass is called now. A file that is named after the pass gets the new name when it is saved:
-    /// until then its path is the file that is there, and its name the one that it shall have. A file of any other name
-    /// keeps it.
+    /// Renames a text with its pass. A file that is named after the pass gets the new name when it is saved: until then
+    /// its path is the existing file, and its name the new one. A file with any other name keeps it.
     pub fn follow_rename(&mut self, from: &PassName, to: &PassName) {
         if self.path.is_none() {
             if self.name == from.title() {

@@ -1,15 +1,15 @@
-//! Groups while passes are edited: their passes follow each other, and none is empty.
+//! Keeps groups valid while passes are edited: the passes of a group are consecutive, and no group is empty.
 
 use super::edit::PassEditError;
 use crate::{Group, PassName, Project};
 
-/// Draws a buffer so many times a frame, with the others of its group.
+/// Sets the number of draws of a buffer per frame, together with the others of its group.
 pub(super) fn set_steps(project: &mut Project, id: &PassName, steps: u32) -> Result<(), PassEditError> {
     if steps == 0 {
         return Err(PassEditError::NoSteps);
     }
     match of(project, id) {
-        // A group of one pass and one step says nothing.
+        // A group of one pass and one step has no effect.
         Some(at) if steps == 1 && project.groups[at].passes.len() == 1 => drop(project.groups.remove(at)),
         Some(at) => project.groups[at].steps = steps,
         None if steps == 1 => {}
@@ -21,7 +21,7 @@ pub(super) fn set_steps(project: &mut Project, id: &PassName, steps: u32) -> Res
     Ok(())
 }
 
-/// Puts a buffer and what is grouped with it into the group of the buffer before, or parts the two.
+/// Merges the group of a buffer into that of the previous buffer, or splits the two.
 pub(super) fn join(project: &mut Project, id: &PassName, is_joined: bool) -> Result<(), PassEditError> {
     let before = place(project, id).and_then(|at| project.passes.get(at.checked_sub(1)?)).map(|p| p.id.clone());
     let Some(before) = before else { return Err(PassEditError::First(id.title())) };
@@ -54,7 +54,8 @@ pub(super) fn join(project: &mut Project, id: &PassName, is_joined: bool) -> Res
     Ok(())
 }
 
-/// After a buffer was moved: between two passes of a group it is one of them, and away from its own group it leaves it.
+/// Updates groups after a buffer was moved: between two passes of a group it joins that group, and away from its own
+/// group it leaves it.
 pub(super) fn settle_moved(project: &mut Project, id: &PassName) {
     let Some(at) = place(project, id) else { return };
     let neighbour = |at: Option<usize>| of(project, &project.passes.get(at?)?.id);
@@ -81,13 +82,13 @@ pub(super) fn settle_moved(project: &mut Project, id: &PassName) {
     project.groups.retain(|g| !g.passes.is_empty());
 }
 
-/// Takes a pass that is no more out of its group.
+/// Removes a deleted pass from its group.
 pub(super) fn forget(project: &mut Project, id: &PassName) {
     project.groups.iter_mut().for_each(|g| g.passes.retain(|p| p != id));
     project.groups.retain(|g| !g.passes.is_empty());
 }
 
-/// The group that a pass is in.
+/// The index of a pass's group.
 fn of(project: &Project, id: &PassName) -> Option<usize> {
     project.groups.iter().position(|g| g.passes.contains(id))
 }

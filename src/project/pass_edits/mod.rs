@@ -1,7 +1,7 @@
-//! Edits of a project's passes: other names, another order, how each is drawn and read, and taking one away.
+//! Edits of a project's passes: renaming, reordering, removal, and how each pass is drawn and read.
 //!
-//! Owns what else of the project an edit changes, so that what is edited here is saved and opened again: a name also
-//! stands in channels and groups, and the passes of a group follow each other.
+//! Owns the consequences of an edit for the rest of the project, so that the result can be saved and opened again:
+//! channels and groups also contain names, and the passes of a group are consecutive.
 
 mod edit;
 mod groups;

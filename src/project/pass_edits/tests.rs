@@ -53,7 +53,7 @@ fn order(project: &Project) -> Vec<&str> {
     project.passes.iter().map(|p| p.id.key()).collect()
 }
 
-/// Saves, opens again, and asks for the same.
+/// Saves and reopens the project, and asserts that it is unchanged.
 fn saved(project: &Project, folder: &Path) -> Project {
     let saved = project::save(project, folder, Overwrite::Refuse).unwrap();
     let read = project::load(folder.to_str().unwrap()).unwrap();
@@ -63,7 +63,7 @@ fn saved(project: &Project, folder: &Path) -> Project {
 }
 
 #[test]
-fn a_new_name_goes_to_what_reads_the_pass_and_to_its_file() {
+fn renaming_a_pass_updates_its_readers_and_its_file() {
     let (dir, mut project) = on_disk();
     let before = project.clone();
     let done = project.edit_passes(&PassEdit::Rename { pass: buffer("A"), name: " Velocity Field ".into() }).unwrap();
@@ -85,7 +85,7 @@ fn a_new_name_goes_to_what_reads_the_pass_and_to_its_file() {
     }
     assert!(text.find("velocityfield").unwrap() < text.find("buffer_b]").unwrap(), "it kept its place:\n{text}");
 
-    // The old file goes when the new one is there, and only if nobody has written into it meanwhile.
+    // The old file is removed once the new one exists, and only if nothing else has written to it.
     let old = dir.path().join("buffer_a.glsl");
     fs::write(&old, "// somebody else's\n").unwrap();
     assert_eq!(project::remove_renamed(&before, &project, &after), Vec::<PathBuf>::new());
@@ -97,7 +97,7 @@ fn a_new_name_goes_to_what_reads_the_pass_and_to_its_file() {
 }
 
 #[test]
-fn a_file_that_is_not_named_after_its_pass_keeps_its_name_and_its_comments() {
+fn a_file_not_named_after_its_pass_keeps_its_name_and_comments() {
     let (dir, _) = on_disk();
     fs::rename(dir.path().join("buffer_a.glsl"), dir.path().join("waves.glsl")).unwrap();
     let manifest = MANIFEST.replace("# Slow is fine here.", "file = \"waves.glsl\" # Slow is fine here.");
@@ -113,7 +113,7 @@ fn a_file_that_is_not_named_after_its_pass_keeps_its_name_and_its_comments() {
 }
 
 #[test]
-fn a_new_name_never_takes_somebody_elses_file() {
+fn renaming_never_overwrites_a_foreign_file() {
     let (dir, mut project) = on_disk();
     fs::write(dir.path().join("buffer_glow.glsl"), "// not a pass of this project\n").unwrap();
     project.edit_passes(&PassEdit::Rename { pass: buffer("A"), name: "glow".into() }).unwrap();
@@ -124,7 +124,7 @@ fn a_new_name_never_takes_somebody_elses_file() {
 }
 
 #[test]
-fn names_that_cannot_be_are_refused_with_the_reason() {
+fn invalid_names_are_rejected_with_the_reason() {
     let (_dir, mut project) = on_disk();
     let before = project.clone();
     let mut rename = |pass: PassName, name: &str| {
@@ -141,15 +141,15 @@ fn names_that_cannot_be_are_refused_with_the_reason() {
 }
 
 #[test]
-fn buffers_move_and_groups_stay_in_one_piece() {
+fn moving_buffers_keeps_groups_consecutive() {
     let (dir, mut project) = on_disk();
     let mut go = |pass: &str, to: usize| project.edit_passes(&PassEdit::Move { pass: buffer(pass), to }).unwrap();
-    // C goes between A and B, which are one group: it is drawn with them.
+    // Moving C between A and B, which are one group, adds it to the group.
     go("C", 1);
     assert_eq!(order(&project), ["buffer_a", "buffer_c", "buffer_b", "image"]);
     assert_eq!(project.groups[0].passes, [buffer("A"), buffer("C"), buffer("B")]);
     saved(&project, dir.path());
-    // B leaves for the front and stays, as it still follows its group; A leaves for good.
+    // B moves to the front and stays in its group, as they are still consecutive; A leaves its group.
     let mut go = |pass: &str, to: usize| project.edit_passes(&PassEdit::Move { pass: buffer(pass), to }).unwrap();
     go("B", 0);
     assert_eq!(order(&project), ["buffer_b", "buffer_a", "buffer_c", "image"]);
@@ -163,7 +163,7 @@ fn buffers_move_and_groups_stay_in_one_piece() {
 }
 
 #[test]
-fn steps_and_groups_are_made_joined_parted_and_forgotten() {
+fn groups_are_created_joined_split_and_removed() {
     let (dir, mut project) = on_disk();
     let group = |name: &str, passes: &[&str], steps: u32| Group {
         name: name.into(),
@@ -185,7 +185,7 @@ fn steps_and_groups_are_made_joined_parted_and_forgotten() {
     let mut edit = |edit: PassEdit| project.edit_passes(&edit).unwrap();
     edit(PassEdit::Steps(buffer("A"), 1));
     edit(PassEdit::Remove(Tab::Pass(buffer("B"))));
-    // What read it would be warned of.
+    // Its readers would cause warnings.
     edit(PassEdit::Remove(Tab::Pass(buffer("A"))));
     project.pass_mut(&buffer("C")).unwrap().bindings = Default::default();
     project.image_mut().unwrap().bindings.set(0, None);
@@ -242,7 +242,7 @@ fn how_a_pass_is_drawn_and_read_is_saved() {
 }
 
 #[test]
-fn what_a_pass_begins_with_and_its_edges_are_saved() {
+fn initial_contents_and_edges_are_saved() {
     let (dir, mut project) = on_disk();
     let expression = |text: &str| FillValue::Expression(text.into());
     fs::write(dir.path().join("state.npy"), b"not read here").unwrap();
@@ -263,7 +263,7 @@ fn what_a_pass_begins_with_and_its_edges_are_saved() {
     assert_eq!((boundary.width, boundary.value.value), (2, expression("vec4(fragCoord, 0.0, 1.0)")));
     let written = |project: &Project| settings(project, &buffer("A")).boundary.unwrap().value.written.is_some();
     assert!(written(&project), "a mistake in it is shown where it stands");
-    // Another width leaves the value where it is.
+    // Changing the width keeps the value's place.
     let edit = PassEdit::Boundary(buffer("A"), Some((3, expression("vec4(fragCoord, 0.0, 1.0)"))));
     project.edit_passes(&edit).unwrap();
     assert!(written(&project) && settings(&project, &buffer("A")).boundary.unwrap().width == 3);
@@ -285,7 +285,7 @@ fn what_a_pass_begins_with_and_its_edges_are_saved() {
     ] {
         assert!(project.edit_passes(&edit).is_err(), "{edit:?}");
     }
-    // The values of a width that is dragged are one step.
+    // Dragging the width is one undo step.
     let dragged = |width| PassEdit::Boundary(buffer("A"), Some((width, expression("vec4(0.0)"))));
     assert!(dragged(1).is_same_kind(&dragged(2)));
 }

@@ -1,4 +1,4 @@
-//! Tests of saving: what is written reads back the same, and nothing else is touched.
+//! Tests of saving: written projects read back unchanged, and no other file is touched.
 
 use super::*;
 use crate::{
@@ -10,7 +10,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// A small generator of numbers, so that a failing case comes back with its seed.
+/// A small random number generator with a seed, so that failing cases can be reproduced.
 struct Random(u64);
 
 impl Random {
@@ -46,7 +46,7 @@ impl Random {
     }
 }
 
-/// Settings the file may have for a pass.
+/// Random valid settings of a pass.
 fn any_settings(r: &mut Random, id: &PassName) -> PassSettings {
     let mut settings = PassSettings::default();
     if id.is_buffer() {
@@ -171,7 +171,7 @@ fn saved_folder(at: &Path) -> Project {
 }
 
 #[test]
-fn every_project_comes_back_from_a_folder_as_it_was() {
+fn folders_round_trip() {
     let dir = tempfile::tempdir().unwrap();
     for seed in 0..20 {
         let project = any_project(seed);
@@ -190,7 +190,7 @@ fn every_project_comes_back_from_a_folder_as_it_was() {
         sources(&mut back);
         sources(&mut original);
         assert_eq!(back, original, "seed {seed}: nothing but places changed");
-        // Another project over the first one's files: what the old eddy.toml says does not stay in the new one.
+        // Another project over the first one's files: the old eddy.toml's content does not stay in the new one.
         let mut next = any_project(seed + 10_000);
         next.origin = saved.origin.clone();
         for pass in &mut next.passes {
@@ -204,7 +204,7 @@ fn every_project_comes_back_from_a_folder_as_it_was() {
 }
 
 #[test]
-fn every_project_comes_back_from_eddy_toml_as_it_was() {
+fn eddy_toml_round_trips() {
     for seed in 1_000..3_000 {
         let mut project = any_project(seed);
         project.info.period = (seed % 2 == 0).then_some(seed as f64 / 7.0);
@@ -225,7 +225,7 @@ fn every_project_comes_back_from_eddy_toml_as_it_was() {
 }
 
 #[test]
-fn saving_keeps_the_authors_comments_order_and_spelling() {
+fn saving_keeps_comments_order_and_spelling() {
     let dir = tempfile::tempdir().unwrap();
     let toml = "# my shader\nname = 'Ink' # a name\ntags = [ \"a\",\n  \"b\" ]\nperiod = 8 # a loop\n\n[passes.image] # last\n\
     channels = { 0 = { buffer = 'a', filter=\"linear\" } }\n\n# the flow\n[passes.Buffer_A]\nfile = \"flow.glsl\"\n\
@@ -249,7 +249,7 @@ fn saving_keeps_the_authors_comments_order_and_spelling() {
 }
 
 #[test]
-fn buffers_keep_their_new_order_and_their_comments() {
+fn reordered_buffers_keep_their_comments() {
     let dir = tempfile::tempdir().unwrap();
     let toml = "eddy = 1\nname = \"x\"\n\n# first\n[passes.buffer_a]\nfile = \"image.glsl\"\n\n\
     # second\n[passes.buffer_b]\nfile = \"image.glsl\"\n\n[passes.image]\n";
@@ -264,7 +264,7 @@ fn buffers_keep_their_new_order_and_their_comments() {
 }
 
 #[test]
-fn a_folder_without_eddy_toml_gets_one_only_when_the_texts_no_longer_say_it_all() {
+fn eddy_toml_is_added_only_if_the_texts_do_not_suffice() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("image.glsl"), "i").unwrap();
     fs::write(dir.path().join("buffer_a.glsl"), "a").unwrap();
@@ -280,7 +280,7 @@ fn a_folder_without_eddy_toml_gets_one_only_when_the_texts_no_longer_say_it_all(
 }
 
 #[test]
-fn a_pass_that_was_removed_stays_removed_and_its_file_stays_there() {
+fn a_removed_pass_stays_removed_and_its_file_stays() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("image.glsl"), "i").unwrap();
     fs::write(dir.path().join("buffer_a.glsl"), "a").unwrap();
@@ -295,7 +295,7 @@ fn a_pass_that_was_removed_stays_removed_and_its_file_stays_there() {
 }
 
 #[test]
-fn what_is_not_the_projects_own_is_not_overwritten_unasked() {
+fn foreign_files_are_not_overwritten_without_asking() {
     let dir = tempfile::tempdir().unwrap();
     let project = saved_folder(&dir.path().join("mine"));
     let other = dir.path().join("other");
@@ -310,7 +310,7 @@ fn what_is_not_the_projects_own_is_not_overwritten_unasked() {
     assert_eq!(fs::read_dir(&other).unwrap().count(), 1, "nothing was written at all");
     save(&project, &other, Overwrite::Allow).unwrap();
     assert_eq!(fs::read_to_string(other.join("image.glsl")).unwrap(), "image");
-    // Where several are in the way, all of them are named, and each is kept.
+    // If several are in the way, all of them are named and kept.
     fs::write(other.join("image.glsl"), "precious").unwrap();
     fs::write(other.join("eddy.toml"), "eddy = 1\nname = \"precious\"\n").unwrap();
     let error = save(&project, &other, Overwrite::Refuse).unwrap_err();
@@ -323,14 +323,14 @@ fn what_is_not_the_projects_own_is_not_overwritten_unasked() {
     let texts = |name: &str| [&other, &kept].map(|at| fs::read_to_string(at.join(name)).unwrap());
     assert_eq!(texts("image.glsl"), ["image", "precious"]);
     assert!(!texts("eddy.toml")[0].contains("precious") && texts("eddy.toml")[1].contains("precious"));
-    // What cannot be kept is not replaced.
+    // A file that cannot be kept is not replaced.
     fs::write(other.join("image.glsl"), "again").unwrap();
     let blocked = dir.path().join("mine/image.glsl/below");
     let error = save(&project, &other, Overwrite::KeepIn(&blocked)).unwrap_err().to_string();
     assert!(error.starts_with("cannot keep what would be replaced in "), "{error}");
     assert_eq!(fs::read_to_string(other.join("image.glsl")).unwrap(), "again");
     save(&project, &other, Overwrite::Allow).unwrap();
-    // A file that appeared in the project's own folder is not its own either.
+    // A file that appeared in the project's own folder is foreign, too.
     let mut grown = project.clone();
     fs::write(dir.path().join("mine/buffer_b.glsl"), "precious").unwrap();
     let source = Source { name: "Buffer B".into(), path: None, text: "b".into() };
@@ -343,7 +343,7 @@ fn what_is_not_the_projects_own_is_not_overwritten_unasked() {
 }
 
 #[test]
-fn one_file_holds_a_lone_image_and_says_so_when_it_cannot() {
+fn one_file_stores_a_lone_image_and_rejects_more() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("plasma.glsl");
     fs::write(&path, "#iChannel0 \"keyboard\"\n").unwrap();
@@ -363,7 +363,7 @@ fn one_file_holds_a_lone_image_and_says_so_when_it_cannot() {
 }
 
 #[test]
-fn json_is_written_as_a_file_and_its_project_as_a_folder() {
+fn json_is_saved_as_a_file_and_its_project_as_a_folder() {
     let dir = tempfile::tempdir().unwrap();
     let project = saved_folder(&dir.path().join("p"));
     let json = dir.path().join("p.json");
@@ -378,7 +378,7 @@ fn json_is_written_as_a_file_and_its_project_as_a_folder() {
 }
 
 #[test]
-fn pictures_go_along_into_a_new_folder() {
+fn pictures_are_copied_into_a_new_folder() {
     let dir = tempfile::tempdir().unwrap();
     let old = dir.path().join("old");
     fs::create_dir_all(old.join("pics")).unwrap();
@@ -402,7 +402,7 @@ fn pictures_go_along_into_a_new_folder() {
 
 #[cfg(unix)]
 #[test]
-fn links_stay_links_permissions_stay_and_a_write_protected_file_is_refused() {
+fn links_and_permissions_stay_and_read_only_files_are_rejected() {
     use std::os::unix::fs::{PermissionsExt, symlink};
     let dir = tempfile::tempdir().unwrap();
     let real = dir.path().join("real.glsl");
@@ -424,14 +424,14 @@ fn links_stay_links_permissions_stay_and_a_write_protected_file_is_refused() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_made_is_an_error_with_its_path() {
+fn failure_to_create_a_folder_names_its_path() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("file"), "").unwrap();
     let error = save(&any_project(1), &dir.path().join("file/below"), Overwrite::Allow).unwrap_err().to_string();
     assert!(error.contains("file/below"), "{error}");
 }
 
-/// Part of the next test, run in a process whose files may not grow past a small size.
+/// Part of the next test, run in a process with a small limit for file sizes.
 #[cfg(unix)]
 #[test]
 #[ignore = "started by a_full_disk_loses_nothing"]
@@ -445,7 +445,7 @@ fn save_on_a_full_disk() {
     assert!(matches!(&error, ProjectError::Io { path, .. } if path.ends_with("image.glsl")), "{error}");
 }
 
-/// A limit on the size of files fails a write the way a full disk does, and needs no rights to set up.
+/// A limit for file sizes fails writes like a full disk, and needs no privileges to set up.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_loses_nothing() {

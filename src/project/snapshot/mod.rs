@@ -1,9 +1,9 @@
-//! A snapshot is a whole project in one text, with everything that is not on disk yet.
+//! A snapshot is a whole project in one text, including everything that is not on disk yet.
 //!
-//! Owns the text's form, both ways: JSON with the project's place, an `eddy.toml` for all that is not text, and each
-//! tab's text under the tab's own name, so that two passes of one file may differ while they are edited. Of the files that
-//! the texts include those are in it that were edited; of a fill that is in memory alone (see
-//! [`super::FillValue::InMemory`]) only the name is.
+//! Owns the text's format, for reading and writing: JSON with the project's location, an `eddy.toml` for everything
+//! that is not text, and each tab's text under the tab's own name, so that two passes of one file may differ while they
+//! are edited. Of the included files it contains the edited ones; of a fill that is only in memory (see
+//! [`super::FillValue::InMemory`]) only the name.
 
 use super::{
     Included, Media, MeshSource, Origin, Project, ProjectError, Source, Tab, confine, file_names::pass_of_stem,
@@ -12,10 +12,10 @@ use super::{
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, path::PathBuf};
 
-/// Version of the form that this build writes, and the only one it reads.
+/// The version of the format that this build writes, and the only one it reads.
 const VERSION: u32 = 1;
 
-/// A text that is no snapshot.
+/// A text that is not a snapshot.
 #[derive(Debug, thiserror::Error)]
 pub enum SnapshotError {
     #[error("not a snapshot of a project: {0}")]
@@ -33,13 +33,13 @@ struct Form {
     eddy_snapshot: u32,
     name: String,
     origin: SavedOrigin,
-    /// The project as `eddy.toml` says it.
+    /// The project in the form of `eddy.toml`.
     manifest: String,
     texts: Vec<Text>,
-    /// Files that others include, as they were edited.
+    /// Included files that were edited.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     included: Vec<IncludedText>,
-    /// Channels that read a picture from anywhere on this machine, which no `eddy.toml` names.
+    /// Channels that read a picture from anywhere on this machine, which `eddy.toml` cannot name.
     picked: Vec<Picked>,
     /// Draws of a model from anywhere on this machine, likewise.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -68,7 +68,7 @@ struct Text {
 
 #[derive(Serialize, Deserialize)]
 struct IncludedText {
-    /// From the project's folder.
+    /// Relative to the project's folder.
     name: String,
     path: Option<PathBuf>,
     text: String,
@@ -88,7 +88,7 @@ struct PickedModel {
     path: PathBuf,
 }
 
-/// Returns the snapshot of a project. Relative paths become whole ones: who reads it may have been started elsewhere.
+/// Returns the snapshot of a project. Relative paths become absolute: its reader may have another working directory.
 pub fn write_snapshot(project: &Project) -> Result<String, SnapshotError> {
     let named = named(project);
     let text = |(tab, source): (Tab, &Source)| Text {
@@ -126,8 +126,7 @@ pub fn write_snapshot(project: &Project) -> Result<String, SnapshotError> {
     Ok(serde_json::to_string(&form)?)
 }
 
-/// Returns the project that [`write_snapshot`] was given. Of the files that it includes only those are there that were
-/// edited.
+/// Returns the project that was passed to [`write_snapshot`]. Of the included files it only has the edited ones.
 pub fn read_snapshot(text: &str) -> Result<Project, SnapshotError> {
     #[derive(Deserialize)]
     struct Version {
@@ -142,7 +141,7 @@ pub fn read_snapshot(text: &str) -> Result<Project, SnapshotError> {
     if form.manifest.len() as u64 > limits::MANIFEST.bytes {
         return Err(SnapshotError::TooLarge(format!("its eddy.toml is larger than {}", limits::MANIFEST)));
     }
-    // Names as `named` made them.
+    // Names made by `named`.
     let file = |text: &Text| match (&text.pass, &text.stage, &text.path) {
         (_, Some(stage), _) => stage.clone(),
         (None, ..) => "common.glsl".to_owned(),
@@ -177,7 +176,7 @@ pub fn read_snapshot(text: &str) -> Result<Project, SnapshotError> {
             draw.mesh = MeshSource::Picked(path);
         }
     }
-    // A name may come from anywhere.
+    // A name may come from an untrusted source.
     let is_inside = |text: &IncludedText| confine::relative("", &text.name).is_ok_and(|name| name == text.name);
     let included = form.included.into_iter().filter(is_inside).map(|text| Included {
         source: Source { name: text.name, path: text.path, text: text.text.into() },
@@ -189,7 +188,7 @@ pub fn read_snapshot(text: &str) -> Result<Project, SnapshotError> {
     Ok(project)
 }
 
-/// The project with names of files for its texts.
+/// Returns the project with file names for its texts.
 fn named(project: &Project) -> Project {
     let mut named = project.clone();
     if let Some(common) = &mut named.common {
@@ -200,7 +199,7 @@ fn named(project: &Project) -> Project {
     }
     for channel in named.passes.iter_mut().flat_map(|p| p.bindings.channels_mut()) {
         if let Some(media @ Media::Picked(_)) = channel.input.media_mut() {
-            // Its own name may be one that no project may have.
+            // Its own name may be invalid in a project.
             *media = Media::File("picked.png".into());
         }
     }

@@ -1,4 +1,4 @@
-//! The tests hold what a snapshot gives back.
+//! Tests of round trips through snapshots.
 
 use super::*;
 use crate::{self as project, Channel, Input, PassName, presets};
@@ -12,7 +12,7 @@ fn without_includes(project: &Project) -> Project {
 }
 
 #[test]
-fn every_preset_comes_back_as_it_was_with_each_text_edited() {
+fn every_preset_round_trips_with_each_text_edited() {
     for name in presets::names() {
         let mut project = presets::load(name).unwrap().project;
         for source in project.tab_sources_mut() {
@@ -23,7 +23,7 @@ fn every_preset_comes_back_as_it_was_with_each_text_edited() {
 }
 
 #[test]
-fn files_on_disk_and_pictures_from_elsewhere_come_back_with_whole_paths() {
+fn files_and_picked_pictures_round_trip_with_absolute_paths() {
     let folder = tempfile::tempdir().unwrap();
     for name in ["common.glsl", "Buffer A.frag", "image.glsl"] {
         std::fs::write(folder.path().join(name), "// text\n").unwrap();
@@ -49,14 +49,14 @@ fn two_passes_of_one_file_keep_their_own_texts() {
 }
 
 #[test]
-fn what_is_no_snapshot_is_refused_with_its_reason() {
+fn invalid_snapshots_are_rejected_with_the_reason() {
     assert!(matches!(read_snapshot("{\"eddy_snapshot\": 1, \"name\": \"cut"), Err(SnapshotError::Json(_))));
     let newer = read_snapshot("{\"eddy_snapshot\": 2}").unwrap_err();
     assert!(newer.to_string().contains("version 2"), "{newer}");
 }
 
 #[test]
-fn a_model_from_elsewhere_and_a_new_name_come_back() {
+fn a_picked_model_and_a_new_name_round_trip() {
     let folder = tempfile::tempdir().unwrap();
     for name in ["buffer_a.glsl", "image.glsl"] {
         std::fs::write(folder.path().join(name), "// text\n").unwrap();
