@@ -66,7 +66,7 @@ pub(crate) struct Audio {
     /// The device whose driver crashed the previous run. It is opened only when the user requests it.
     ended_before: Option<UnfinishedOpen>,
     is_end_told: bool,
-    /// When the output was opened.
+    /// The time at which the output was opened.
     open_since: Option<Instant>,
 }
 

@@ -1,4 +1,4 @@
-//! How the values of a buffer are mapped to colours, as the user chooses.
+//! The mapping of a buffer's values to colours, as the user chooses.
 
 use crate::probe::Statistics;
 use eddy_engine::{Paint, ValueLook};

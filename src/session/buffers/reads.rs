@@ -85,7 +85,7 @@ pub(crate) struct BufferReads {
     /// The newest drawn frame or request is newer than the result.
     is_shown_due: bool,
     is_place_due: bool,
-    /// When they were last requested.
+    /// The time of the last request.
     shown_at: Option<Instant>,
     place_at: Option<Instant>,
     /// The duration of the last read-back.

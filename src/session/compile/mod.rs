@@ -55,7 +55,7 @@ pub(super) struct CompileControl {
     pub resets: bool,
     /// The project to compile instead of the newest text.
     fallback: Option<Project>,
-    /// When the worker started on the newest text, if it is compiling it.
+    /// The time at which the worker started on the newest text, if it is compiling it.
     newest_since: Option<Instant>,
     /// Counts the edits that changed the `#include` lines, and how many of them have been read.
     pub include_edits: u64,
