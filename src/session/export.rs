@@ -117,7 +117,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_without_an_ending_gets_one() {
+    fn missing_extension_is_added() {
         for (given, wanted) in [("/a/b", "/a/b.json"), ("/a/b.JSON", "/a/b.JSON"), ("/a/v1.2", "/a/v1.2.json")] {
             assert_eq!(as_json(Path::new(given)), Path::new(wanted));
         }

@@ -94,7 +94,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_without_an_ending_gets_one() {
+    fn missing_extension_is_added() {
         for (given, wanted) in [("/a/b", "/a/b.html"), ("/a/b.HTM", "/a/b.HTM"), ("/a/v1.2", "/a/v1.2.html")] {
             assert_eq!(as_html(Path::new(given)), Path::new(wanted));
         }

@@ -226,7 +226,7 @@ impl Session {
             Origin::Unsaved | Origin::Preset(_) => project.name.clone(),
         };
         if self.documents.set_saved(project) {
-            // The last compile was of the version before the save.
+            // The last compile was of the edited version, which differs.
             self.passes.clear();
             self.after_reload();
         }

@@ -20,7 +20,7 @@ pub(crate) struct Changes {
     pub program: Option<PendingProgram>,
     pub custom_uniforms: Option<CustomUniformValues>,
     pub shown: Option<PassName>,
-    /// How the shown pass is displayed: as numbers, or as a picture.
+    /// The display of the shown pass: as numbers, or as a picture.
     pub look: Option<Option<ValueLook>>,
     /// Reset every buffer to its state before frame 0.
     pub reset: bool,

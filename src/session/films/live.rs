@@ -144,7 +144,7 @@ impl Live {
         (!self.has_room()).then(|| now + RETRY)
     }
 
-    /// Sets whether the next submitted frame is one of running time, or a single step.
+    /// Sets whether the next submitted frame advances time, by playing or by a step.
     pub(super) fn note(&mut self, is_new: bool, now: Instant) {
         self.is_new = is_new;
         if is_new {

@@ -98,7 +98,7 @@ impl Films {
         self.live.as_ref()?.deadline(now)
     }
 
-    /// Sets whether the next frame is one of running time, or a single step.
+    /// Sets whether the next frame advances time, by playing or by a step.
     pub(crate) fn note_frame(&mut self, is_new: bool, now: Instant) {
         if let Some(live) = &mut self.live {
             live.note(is_new, now);
