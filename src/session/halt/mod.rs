@@ -265,8 +265,8 @@ impl HaltControl {
         self.pace.begin();
     }
 
-    /// Records a drawn frame. `newest`: set if it is by the program of the newest text. `can_halt`: the user did not
-    /// explicitly request it.
+    /// Records a drawn frame. `newest`: set if it is by the program of the newest text. `can_halt`: the session
+    /// did not block on it.
     pub(crate) fn frame_took(&mut self, took: Duration, newest: Option<&Project>, can_halt: bool) -> Verdict {
         let limit = self.limit();
         if self.pace.is_too_slow(took, limit) && can_halt {
@@ -285,7 +285,7 @@ impl HaltControl {
         if matches!(self.halt, Some(Halt::Drawing { .. })) { Verdict::EndHalt } else { Verdict::GoOn }
     }
 
-    /// The session ends with no frame in progress.
+    /// The session ends without a hung frame: removes the marker, unless the picture is halted.
     pub(crate) fn close(&mut self) {
         if self.halt.is_none() {
             self.marker.clear();
