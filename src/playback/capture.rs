@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn a_failed_write_leaves_no_half_file() {
+    fn failed_write_leaves_no_partial_file() {
         let dir = tempfile::tempdir().unwrap();
         let result = write_new(
             dir.path(),

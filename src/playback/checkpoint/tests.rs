@@ -99,7 +99,7 @@ fn mismatched_run_is_rejected_with_the_reason() {
 }
 
 #[test]
-fn damaged_files_are_refused() {
+fn damaged_files_are_rejected() {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("a.eddystate");
     write(dir.path(), "a.eddystate", &moment(), &state()).unwrap();

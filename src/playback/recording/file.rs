@@ -1,4 +1,4 @@
-//! The file of a recording: JSON lines, a head and then a line a frame with what is new in it.
+//! The file format of a recording: JSON lines, a header followed by a line per frame with its changes.
 //!
 //! ```text
 //! {"eddy_recording":1,"project":"fluid"}
@@ -6,10 +6,10 @@
 //! {"time":0.016,"delta":0.016,"mouse":[320,180,320,180],"held":[32],"pressed":[32],"toggled":[32]}
 //! ```
 //!
-//! `pads` has the texels of the gamepads' texture that are not 0, each as its number, the columns of row 0 first, and its value.
-//! `mic` is the texture of the microphone, 1,024 bytes in base64; empty while there is none.
-//! A member that is left out is as in the line before; `frame` counts up by itself, `reset` is left out where it is
-//! false. Members that a later version of Eddy adds are passed over.
+//! `pads` lists the non-zero texels of the gamepads' texture, each as its number, the columns of row 0 first, and its
+//! value. `mic` is the texture of the microphone, 1,024 bytes in base64; empty while there is none. An omitted member
+//! has the value of the previous line; `frame` increments implicitly, and `reset` is omitted if it is false. Members
+//! that a later version of Eddy adds are ignored.
 
 use super::{RecordedFrame, Recording, base64};
 use eddy_audio::Spectrum;

@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn reads_what_the_help_shows() {
+fn examples_of_the_help_are_parsed() {
     assert_eq!(
         parse_mouse("0:down 40,40; 4:move 80,45; 10:up").unwrap(),
         [

@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn sees_every_way_of_saving_and_not_our_reading() {
+    fn every_way_of_saving_is_seen_and_own_reads_are_not() {
         let dir = tempfile::tempdir().unwrap();
         let file = dir.path().join("image.glsl");
         fs::write(&file, "a").unwrap();

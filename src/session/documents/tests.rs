@@ -212,7 +212,7 @@ fn a_diff_names_each_side() {
 
 /// A read of files that started before a save completes after it.
 #[test]
-fn included_files_that_were_read_before_a_save_change_nothing_after_it() {
+fn stale_read_of_included_files_does_not_undo_a_save() {
     let included = |text: &str, is_edited: bool| Included {
         source: Source { name: "lib.glsl".into(), path: None, text: text.into() },
         trouble: None,

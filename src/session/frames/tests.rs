@@ -106,7 +106,7 @@ fn open_apart(gpu: Gpu) -> Session {
 }
 
 #[test]
-fn a_lost_device_is_replaced_and_another_lost_right_after_it_is_not() {
+fn lost_device_is_replaced_unless_lost_again_at_once() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     let first = session.drawing.device().wait().unwrap();
@@ -126,7 +126,7 @@ fn a_lost_device_is_replaced_and_another_lost_right_after_it_is_not() {
 }
 
 #[test]
-fn a_compile_that_takes_longer_than_the_one_before_holds_no_frames() {
+fn slower_compile_than_expected_blocks_no_frames() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     let began = Instant::now();

@@ -114,7 +114,7 @@ fn going_back_drops_later_samples() {
 }
 
 #[test]
-fn gaps_stay_where_they_are_longer_than_a_cell() {
+fn gaps_longer_than_a_cell_are_kept() {
     let mut record = recorded((0..3_000).map(noise));
     (10_000..13_000).for_each(|frame| record.push(sample(frame, noise(frame)), frame == 10_000));
     let gaps: Vec<i32> = record

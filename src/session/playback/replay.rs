@@ -1,9 +1,9 @@
 //! Plays a recording in the open project: every frame gets its recorded time, date, mouse, keys, canvas and
 //! values of uniforms, from frame 0 on, and is drawn as [`eddy_playback::offline`] draws it.
 //!
-//! Input on the picture does not reach it meanwhile. A person takes over by [`Command::StopReplay`]: the
-//! picture goes on live from the frame that is shown. Nothing of the project is changed by it: canvas and values are
-//! the recording's until the picture is reset, or another size is asked for.
+//! Live input on the picture is ignored meanwhile. The user takes over by [`Command::StopReplay`]: the picture
+//! continues live from the shown frame. The project is not changed: canvas and values are the recording's until the
+//! picture is reset, or another size is requested.
 //!
 //! [`Command::StopReplay`]: crate::Command::StopReplay
 

@@ -127,7 +127,7 @@ fn commands_in_a_repository_are_never_run() {
 }
 
 #[test]
-fn no_folder_elsewhere_is_read_unless_it_names_the_working_tree_too() {
+fn outside_folders_are_read_only_if_they_name_the_working_tree() {
     // Another user's repository, whose text must not be shown.
     let (own, [one, ..]) = history();
     let says = |repo: &Repo, what: &str| {
@@ -181,7 +181,7 @@ fn no_folder_elsewhere_is_read_unless_it_names_the_working_tree_too() {
 
 #[cfg(unix)]
 #[test]
-fn links_out_of_the_repository_and_pipes_in_it_are_refused() {
+fn links_out_of_the_repository_and_pipes_are_rejected() {
     use std::os::unix::fs::symlink;
     let (own, [one, ..]) = history();
     let pipe = |path: &Path| {

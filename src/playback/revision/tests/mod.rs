@@ -222,7 +222,7 @@ fn packs_with_deltas_and_packed_refs_are_read() {
 }
 
 #[test]
-fn a_working_tree_of_git_worktree_and_a_submodule_are_read() {
+fn worktrees_and_submodules_are_read() {
     let (repo, [one, two, ..]) = history();
     // As `git worktree add ../more` creates it.
     let more = repo.root.with_file_name("more");

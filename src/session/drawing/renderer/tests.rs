@@ -11,7 +11,7 @@ use eddy_media as media;
 use eddy_project::{PassName, presets};
 
 #[test]
-fn a_resize_or_a_program_is_shown_with_the_frame_that_follows_it() {
+fn resize_or_new_program_is_shown_with_its_first_frame() {
     let Some(gpu) = testing::gpu() else { return };
     let project = presets::load("feedback").unwrap().project;
     let (media, _) = media::gather(&project, None);
