@@ -18,7 +18,7 @@ use std::{
 
 /// Frames that a project draws per turn.
 const TURN: i32 = 4;
-/// The number of turns that are timed, and the minimum, which limits the user's waiting time.
+/// The number of turns that are timed, and the minimum if they are slow: the user is waiting.
 const TURNS: usize = 12;
 const LEAST_TURNS: usize = 3;
 const PATIENCE: Duration = Duration::from_secs(2);

@@ -32,7 +32,7 @@ pub enum ReplayFrom {
 
 /// A run of frames that can be drawn again in another engine on the same device.
 pub struct Replay {
-    /// The targets before the first of the frames.
+    /// A snapshot of the targets before the first of the frames.
     pub snapshot: Arc<Snapshot>,
     pub frames: Vec<Frame>,
 }

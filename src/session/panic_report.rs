@@ -15,7 +15,7 @@ const KEPT: usize = 20;
 /// The prefix of reports' file names.
 const PREFIX: &str = "panic-";
 
-/// Everything that is known of a panic.
+/// The details of a panic.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PanicReport {
     /// The version of Eddy, its features and the system.

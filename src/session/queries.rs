@@ -113,7 +113,7 @@ impl Session {
         }
     }
 
-    /// The tab's text differs from the one on disk.
+    /// Returns whether the tab's text differs from the one on disk.
     pub fn is_tab_dirty(&self, tab: &Tab) -> bool {
         self.documents.is_tab_dirty(tab)
     }

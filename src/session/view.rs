@@ -70,7 +70,7 @@ pub enum About {
     Microphone,
     /// OSC that cannot be received.
     Osc,
-    /// Devices of MIDI.
+    /// MIDI devices.
     Midi,
     Gamepads,
     /// A control that was learned.
@@ -151,7 +151,7 @@ pub struct TabLabel {
 }
 
 impl TabDiagnostic {
-    /// Makes an error that has no place in any text.
+    /// Creates an error without a place in a text.
     pub(super) fn nowhere(message: &str) -> Self {
         Self {
             severity: Severity::Error,
@@ -219,7 +219,7 @@ pub enum FallbackPicture {
 pub enum Halt {
     /// A frame is taking longer than the limit, and the device is still drawing it.
     Drawing { limit: Duration, since: Instant },
-    /// A frame took longer.
+    /// A frame took longer than the limit.
     Drawn { limit: Duration, took: Duration },
     /// A frame of the new code would take longer, extrapolated from a small tile. None was drawn.
     Forecast { limit: Duration, would_take: Duration },

@@ -246,7 +246,7 @@ impl Scene {
             pass: PassName::parse(&form.pass).unwrap_or_default(),
             frame: form.frame,
             size: form.size,
-            // A snapshot may name a place.
+            // The snapshot may contain a path.
             project: portable(&project),
             inputs,
         })

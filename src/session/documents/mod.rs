@@ -182,12 +182,12 @@ impl Documents {
         }
     }
 
-    /// Passes, channels or names differ from those on disk.
+    /// Returns whether passes, channels or names differ from those on disk.
     pub(crate) fn is_structure_dirty(&self) -> bool {
         !structure::is_same(&self.current, &self.saved)
     }
 
-    /// Returns what differs from disk, in words: tabs, then passes, channels and uniforms.
+    /// Returns the differences from the disk, in words: tabs, then passes, channels and uniforms.
     pub(crate) fn unsaved_parts(&self) -> Vec<String> {
         let tabs = self.dirty_tabs().into_iter().map(|tab| tab.title());
         tabs.chain(structure::differences(&self.current, &self.saved)).collect()

@@ -183,7 +183,7 @@ impl Drawing {
         self.new_program_millis().is_some()
     }
 
-    /// Milliseconds of the compile of such a program.
+    /// Milliseconds of its compile, if the current program is of the newest text.
     pub(crate) fn new_program_millis(&self) -> Option<f64> {
         self.facts.program.as_ref().and_then(|program| program.millis)
     }

@@ -119,7 +119,7 @@ impl Session {
         self.changed = true;
     }
 
-    /// Allows all later frames to be slow.
+    /// Ends the halt, so that drawing continues.
     fn end_halt(&mut self) {
         let Some(halt) = self.halting.end() else { return };
         self.changed = true;
@@ -232,7 +232,7 @@ impl Session {
         }
     }
 
-    /// Another project has been opened.
+    /// Resets the halt for a newly opened project, and holds it if it hung or crashed the process last time.
     pub(crate) fn halt_for_new_project(&mut self) {
         let is_overdue = self.overdue().is_some();
         self.halting.begin_next_project(is_overdue);

@@ -119,7 +119,7 @@ impl Record {
 }
 
 impl Cell {
-    /// At most three, in the order of frames.
+    /// Returns at most three samples, in the order of frames.
     pub fn samples(&self) -> impl DoubleEndedIterator<Item = Sample> + use<> {
         let largest = self.largest.filter(|largest| self.least.is_none_or(|least| least.frame != largest.frame));
         let mut all = [self.least, largest, self.nonfinite];

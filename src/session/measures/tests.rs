@@ -225,7 +225,7 @@ fn reset_or_seek_back_truncates_the_record() {
     assert_eq!(frames(&measuring), [0, 1, 2, 3]);
     draw(&mut measuring, 4, now, false);
     assert_eq!(frames(&measuring), [0, 1, 2, 3, 4]);
-    // A frame that is not measured counts too.
+    // A frame that is not measured truncates the record as well.
     measuring.begin_frame(0);
     assert!(frames(&measuring).is_empty());
     measuring.receive(true);

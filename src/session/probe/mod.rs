@@ -294,7 +294,7 @@ pub(super) fn options(
     Ok((BuildOptions { wanted, probe: Some((pass, probe)), ..BuildOptions::default() }, value))
 }
 
-/// The buffers that Image and the probed pass read, and those that these read.
+/// Returns the buffers that Image and the probed pass read, and those that these read in turn.
 fn needed(project: &Project, probed: &PassName) -> Vec<PassName> {
     let mut found = project.image_and(probed);
     let mut next = 0;

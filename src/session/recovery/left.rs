@@ -21,7 +21,7 @@ pub(super) enum Read {
     Work(Box<Left>),
     /// The disk has the same content by now.
     Nothing,
-    /// With the reason.
+    /// The file cannot be read, for this reason.
     Unreadable(String),
 }
 

@@ -230,7 +230,7 @@ fn links_out_of_the_repository_and_pipes_are_rejected() {
             let _ = fs::remove_file(own.git.join("commondir"));
         }
     }
-    // `.git` itself.
+    // `.git` itself is replaced.
     let repo = Repo::new();
     fs::remove_dir_all(&repo.git).unwrap();
     pipe(&repo.git);

@@ -66,7 +66,7 @@ pub(crate) struct History {
     /// Each with the number of frames that were drawn before it.
     snapshots: VecDeque<(u64, Arc<Snapshot>)>,
     again: Again,
-    /// The values of the author's own uniforms.
+    /// The current values of the author's own uniforms.
     values: Arc<CustomUniformValues>,
     /// The duration of a frame.
     took: Duration,
@@ -102,7 +102,7 @@ impl History {
         self.again = Again::default();
     }
 
-    /// The canvas has another size from the next frame on.
+    /// Applies a new canvas size, from the next frame on.
     pub(crate) fn resize(&mut self) {
         // A frame that is to be drawn again uses the new canvas. The frames of a run that was taken over have their
         // own.
