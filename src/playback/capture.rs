@@ -1,8 +1,8 @@
-//! Pictures written to disk, never over anything that is there.
+//! Writes pictures to disk, never over existing files.
 //!
-//! A project on disk keeps its pictures in its own folder, beside its sources; one that is not (new, a preset) in
-//! the user's pictures folder, or where there is none in the home folder. The file is `NAME-0001.png`, with the first
-//! number that is free; NAME is the project's, with `-buffer_a` for a pass other than Image.
+//! A project on disk stores its pictures in its own folder, next to its sources; any other (new, a preset) in the
+//! user's pictures folder, or if there is none in the home folder. The file is `NAME-0001.png`, with the first free
+//! number; NAME is the project's, with `-buffer_a` for a pass other than Image.
 
 use crate::{npy, scene::Scene};
 use eddy_engine::Pixels;
@@ -16,9 +16,9 @@ use std::{
 /// The file format of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// 8 bits a channel, as the screen shows it.
+    /// 8 bits per channel, as displayed.
     Png,
-    /// The texels as they are.
+    /// The unconverted float texels.
     Npy,
 }
 
@@ -31,7 +31,7 @@ impl Format {
     }
 }
 
-/// A picture could not be written. Nothing that was there has been touched.
+/// A picture could not be written. No existing file has been changed.
 #[derive(Debug, thiserror::Error)]
 pub enum CaptureError {
     #[error("cannot write {}: {source}", path.display())]
@@ -42,7 +42,7 @@ pub enum CaptureError {
 
 const NAME_LIMIT: u32 = 999_999;
 
-/// Writes pixels in the given format to any writer: one way for screenshots and `eddy render`.
+/// Writes pixels in the given format to any writer: used by screenshots and `eddy render`.
 pub fn encode(out: &mut impl Write, pixels: &Pixels, format: Format) -> io::Result<()> {
     match format {
         Format::Npy => npy::write(out, pixels),
@@ -58,7 +58,7 @@ pub fn encode(out: &mut impl Write, pixels: &Pixels, format: Format) -> io::Resu
     }
 }
 
-/// Does the same with the scene in the file, where its format has a place for it.
+/// Does the same with the scene embedded in the file, if its format supports it.
 pub fn encode_scene(out: &mut impl Write, pixels: &Pixels, format: Format, scene: Option<&Scene>) -> io::Result<()> {
     match scene {
         Some(scene) if format == Format::Png => {
@@ -70,7 +70,7 @@ pub fn encode_scene(out: &mut impl Write, pixels: &Pixels, format: Format, scene
     }
 }
 
-/// Writes to a new numbered file in `folder` (made if it is not there) and gives its path.
+/// Writes to a new numbered file in `folder` (created if necessary) and returns its path.
 pub fn save_new(
     folder: &Path,
     stem: &str,
@@ -82,7 +82,7 @@ pub fn save_new(
     write_new(folder, name, stem, |out| encode_scene(out, pixels, format, scene))
 }
 
-/// Writes to the first file of `name(1)`, `name(2)` … that is not there yet.
+/// Writes to the first of `name(1)`, `name(2)` … that does not exist.
 pub fn write_new(
     folder: &Path,
     name: impl Fn(u32) -> String,
@@ -106,7 +106,7 @@ pub fn write_new(
                 return match written {
                     Ok(()) => Ok(path),
                     Err(e) => {
-                        // Half a picture is none; the name was free before.
+                        // A partial picture is useless; no file of this name existed before.
                         let _ = fs::remove_file(&path);
                         Err(failed(&path)(e))
                     }
@@ -117,19 +117,19 @@ pub fn write_new(
     Err(CaptureError::NoNameLeft { folder: folder.to_owned(), stem: stem.to_owned() })
 }
 
-/// The folder for pictures of this project; `pictures` where it has none of its own.
+/// The folder for pictures of this project; `pictures` if it has none of its own.
 pub fn folder_for(project: &Project, pictures: &Path) -> PathBuf {
     base_folder(project).unwrap_or_else(|| pictures.to_owned())
 }
 
-/// The folder a project on disk lies in.
+/// The folder that contains a project on disk.
 pub fn base_folder(project: &Project) -> Option<PathBuf> {
     let dir = match &project.origin {
         Origin::Unsaved | Origin::Preset(_) => return None,
         Origin::Folder { path, .. } => path.as_path(),
         Origin::File(path) | Origin::Json(path) => path.parent()?,
     };
-    // The parent of a bare file name is the empty path, which stands for the current folder.
+    // The parent of a bare file name is the empty path, which means the current folder.
     Some(if dir.as_os_str().is_empty() { PathBuf::from(".") } else { dir.to_owned() })
 }
 
@@ -143,7 +143,7 @@ pub fn stem_for(project: &Project, pass: &PassName) -> String {
     stem
 }
 
-/// A name that any file system takes: letters, digits, `-`, `_` and `.`; other runs become one `-`.
+/// A name that is valid in any file system: letters, digits, `-`, `_` and `.`; other runs become one `-`.
 pub fn file_stem(name: &str) -> String {
     let mut stem = String::new();
     for c in name.chars().take(100) {
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_go_on_and_nothing_is_overwritten() {
+    fn numbers_increase_and_nothing_is_overwritten() {
         let dir = tempfile::tempdir().unwrap();
         fs::write(dir.path().join("a-0001.png"), "mine").unwrap();
         fs::write(dir.path().join("a-0003.png"), "mine too").unwrap();
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn a_failed_write_leaves_no_half_file() {
+    fn failed_write_leaves_no_partial_file() {
         let dir = tempfile::tempdir().unwrap();
         let result = write_new(
             dir.path(),
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_safe() {
+    fn file_stems_are_safe() {
         assert_eq!(file_stem("Fluid / Stars: 2"), "Fluid-Stars-2");
         assert_eq!(file_stem("../.."), "picture");
         assert_eq!(file_stem("nul.x"), "picturenul.x");

@@ -1,5 +1,5 @@
-//! The open project held against another one: both draw the frames since the reset from the same inputs, beside the
-//! picture, which goes on.
+//! Compares the open project with another one: both draw the frames since the reset from the same inputs, in the
+//! background while the picture continues.
 
 use crate::{
     revision,
@@ -16,17 +16,17 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Frames that a project draws in its turn.
+/// Frames that a project draws per turn.
 const TURN: i32 = 4;
-/// Turns that are timed, and when there are no more: a person waits.
+/// The number of turns that are timed, and the minimum if they are slow: the user is waiting.
 const TURNS: usize = 12;
 const LEAST_TURNS: usize = 3;
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// Names what the open project is compared with.
+/// The project that the open one is compared with.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Baseline {
-    /// The project as it was last saved, read or begun.
+    /// The project as it was last saved, read or created.
     LastSave,
     /// A PROJECT of the command line: a folder, a file, or a preset's name.
     Project(String),
@@ -35,7 +35,7 @@ pub enum Baseline {
 }
 
 impl Baseline {
-    /// Returns the name of the reference.
+    /// Returns the name of the baseline.
     pub fn name(&self) -> String {
         match self {
             Baseline::LastSave => "the last save".to_owned(),
@@ -45,7 +45,7 @@ impl Baseline {
     }
 }
 
-/// The pictures of two projects, and the times that they took in turns.
+/// The pictures of two projects, and their times in alternating turns.
 #[derive(Debug)]
 pub struct Comparison {
     pub against: Baseline,
@@ -54,19 +54,19 @@ pub struct Comparison {
     pub frame: i32,
     pub ours: Pixels,
     pub theirs: Pixels,
-    /// Milliseconds a frame of ours and of theirs, one pair a turn.
+    /// Milliseconds per frame of ours and of theirs, one pair per turn.
     pub turns: Vec<(f64, f64)>,
     /// Frames that both have drawn for it.
     pub frames: usize,
-    /// Several frames were drawn with one picture of the camera, the last: those before are not kept.
+    /// Several frames were drawn with the last camera picture: earlier ones are not kept.
     pub is_camera_still: bool,
-    /// The run's first frames are no longer kept: both began later, from empty buffers.
+    /// The run's first frames are no longer kept: both started later, from empty buffers.
     pub is_cut: bool,
     /// The revision of the project that was compared.
     pub revision: u64,
 }
 
-/// Holds the projects that are to be compared, and the frames that both draw.
+/// The projects to compare, and the frames that both draw.
 pub struct CompareJob {
     pub gpu: Gpu,
     pub project: Project,
@@ -76,19 +76,19 @@ pub struct CompareJob {
     pub revision: u64,
     pub shown: PassName,
     pub media_dir: Option<PathBuf>,
-    /// The other project may be one that the driver takes minutes for.
+    /// The driver may take minutes to compile the other project.
     pub trial: Option<Trial>,
     pub run: Run,
-    /// The picture of a camera that the last of the frames showed.
+    /// The camera picture that the last of the frames showed.
     pub camera: Option<CameraFrame>,
 }
 
-/// Compares two projects; counts frames. Fails where there is no other project, or one of both cannot be drawn.
+/// Compares two projects, counting frames. Fails if the other project does not exist, or one of both cannot be drawn.
 pub fn compare(job: CompareJob, control: &Control<Count>) -> Result<Comparison, String> {
     let CompareJob { gpu, project, saved, against, revision, shown, media_dir, trial, run, camera } = job;
     let Run { mut frames, is_whole } = run;
     let last = frames.last().cloned().ok_or("no frame has been drawn yet")?;
-    // Files of a revision are there for as long as they are read.
+    // Keeps the files of a revision alive while they are read.
     let copy;
     let other = match (&against, &project.origin) {
         (Baseline::LastSave, _) => saved,
@@ -101,14 +101,13 @@ pub fn compare(job: CompareJob, control: &Control<Count>) -> Result<Comparison, 
         (Baseline::Revision(_), _) => return Err("only a project saved in a git repository has revisions".into()),
     };
     let pass = if project.pass(&shown).is_some() && other.pass(&shown).is_some() { shown } else { PassName::default() };
-    // What a frame leaves nothing to the next is drawn alone.
+    // If no frame depends on earlier ones, only the last is drawn.
     let is_stateless = project.stateful_passes().is_empty() && other.stateful_passes().is_empty();
     if is_stateless {
         frames.drain(..frames.len() - 1);
     }
     let is_cut = !is_whole && !is_stateless;
-    // A project that nobody has drawn yet may lose its device: it is not the one that draws the picture, where there is
-    // another.
+    // A project that has never been drawn may lose its device: use a separate one from the picture's, if possible.
     let gpu = Gpu::another(&gpu.info, &GpuOptions::default()).unwrap_or(gpu);
     let side = |project: &Project, name: &str| {
         let media = || media::gather(project, media_dir.as_deref()).0;
@@ -145,7 +144,7 @@ fn load(spec: &str, name: &str) -> Result<Project, String> {
     Ok(project::load(spec).map_err(|e| format!("cannot open {name}: {e}"))?.project)
 }
 
-/// An engine that draws one of both.
+/// An engine that draws one of the two projects.
 struct ComparedEngine {
     engine: Engine,
 }
@@ -161,7 +160,7 @@ impl ComparedEngine {
     ) -> Result<Self, String> {
         media.set_camera_picture(camera);
         let wanted = project.image_and(pass);
-        // Also what does not change: it is timed.
+        // Passes that do not change are not skipped: they are timed as well.
         let options = BuildOptions { wanted, skip: false, trial, ..BuildOptions::default() };
         let built = Program::build(gpu, project, &media, &options).map_err(|error| first_error(&error))?;
         let mut engine = Engine::new(gpu.clone(), width, height).map_err(|e| e.to_string())?;
@@ -170,7 +169,7 @@ impl ComparedEngine {
         Ok(Self { engine })
     }
 
-    /// Draws a frame as it was drawn, and waits for it.
+    /// Draws a frame of the run, and waits for it.
     fn draw(&mut self, frame: &Frame) -> Result<(), EngineError> {
         if frame.size != self.engine.size() {
             self.engine.resize(frame.size.0, frame.size.1)?;
@@ -180,7 +179,7 @@ impl ComparedEngine {
         Ok(self.engine.gpu().wait()?)
     }
 
-    /// The milliseconds of a frame: the mean of the turn that begins so many frames behind the last.
+    /// Returns the milliseconds per frame: the mean of the turn that starts this many frames after the last.
     fn turn(&mut self, last: &FrameInputs, ahead: i32) -> Result<f64, EngineError> {
         let began = Instant::now();
         for by in ahead + 1..=ahead + TURN {
@@ -193,14 +192,14 @@ impl ComparedEngine {
     }
 }
 
-/// Times of both, in turns, so that a machine that is busy is busy for both.
+/// Times both in alternating turns, so that other load on the machine affects both.
 fn take_turns(
     ours: &mut ComparedEngine,
     theirs: &mut ComparedEngine,
     last: &FrameInputs,
     control: &Control<Count>,
 ) -> Result<Vec<(f64, f64)>, EngineError> {
-    // Drivers compile for the machine when a pipeline is first used.
+    // Warm up: drivers compile for the machine when a pipeline is first used.
     ours.turn(last, 0)?;
     theirs.turn(last, 0)?;
     let began = Instant::now();
@@ -210,7 +209,7 @@ fn take_turns(
             break;
         }
         let ahead = TURN * (turns.len() as i32 + 1);
-        // Each goes first as often as the other.
+        // Each goes first equally often.
         turns.push(if turns.len() % 2 == 0 {
             let first = ours.turn(last, ahead)?;
             (first, theirs.turn(last, ahead)?)
@@ -222,7 +221,7 @@ fn take_turns(
     Ok(turns)
 }
 
-/// Returns the first of what an author has to mend, with its place.
+/// Returns the first error of the author's code, with its place.
 pub fn first_error(error: &BuildError) -> String {
     match error {
         BuildError::Engine(error) => error.to_string(),

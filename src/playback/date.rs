@@ -1,25 +1,26 @@
-//! `iDate` from a point in local time.
+//! `iDate` from a local date and time.
 
 use jiff::civil::DateTime;
 
-/// Year, month 0-11, day 1-31, seconds since local midnight with milliseconds, as `shadertoy.md` section 4 has it.
+/// Returns year, month 0-11, day 1-31, and seconds since local midnight with milliseconds, as defined in section 4 of
+/// `shadertoy.md`.
 pub fn i_date(at: DateTime) -> [f32; 4] {
     let seconds = f64::from(i32::from(at.hour()) * 3600 + i32::from(at.minute()) * 60 + i32::from(at.second()));
     let millis = f64::from(at.millisecond()) / 1000.0;
     [f32::from(at.year()), f32::from(at.month() - 1), f32::from(at.day()), (seconds + millis) as f32]
 }
 
-/// Local time as the machine has it now.
+/// The machine's current local time.
 pub fn now() -> DateTime {
     jiff::Zoned::now().datetime()
 }
 
-/// Returns what `--date` takes: `2024-02-29`, `2024-02-29T13:45` or with seconds.
+/// Parses the value of `--date`: `2024-02-29`, `2024-02-29T13:45` or with seconds.
 pub fn parse(text: &str) -> Result<DateTime, DateError> {
     text.trim().parse().map_err(|e: jiff::Error| DateError { text: text.into(), reason: e.to_string() })
 }
 
-/// `--date` is no date.
+/// The value of `--date` is invalid.
 #[derive(Debug, thiserror::Error)]
 #[error("{text:?} is not a date and time ({reason}); write it as 2024-02-29 or 2024-02-29T13:45:00")]
 pub struct DateError {
@@ -38,7 +39,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_date_is_refused_with_the_form_to_write() {
+    fn invalid_dates_are_rejected_with_the_expected_form() {
         for bad in ["yesterday", "", "2024-13-01", "2024-02-30"] {
             let text = parse(bad).unwrap_err().to_string();
             assert!(text.contains("2024-02-29T13:45:00"), "{text}");

@@ -1,18 +1,18 @@
-//! Lists of frame numbers as they are written on a command line: `7`, `0-59`, `0-599:2`, and several of them with commas.
+//! Lists of frame numbers on the command line: `7`, `0-59`, `0-599:2`, and several of them separated by commas.
 
-/// Numbers are below this one.
+/// The exclusive upper bound of frame numbers.
 const END: u32 = 1 << 30;
-/// The most frames of a list: 77 hours at 60 frames per second.
+/// The maximum length of a list: 77 hours at 60 frames per second.
 const MOST: u64 = 1 << 24;
 
-/// Frame numbers, as parts in the order in which they were written.
+/// Frame numbers, as ranges in the order in which they were written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FrameList {
     parts: Vec<Part>,
     has_range: bool,
 }
 
-/// The numbers from `first` to `last`, `step` apart. `last` is one of them where `step` divides the distance.
+/// The numbers from `first` to `last` in steps of `step`. `last` is included if `step` divides the distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Part {
     first: u32,
@@ -27,7 +27,7 @@ impl Part {
 }
 
 impl FrameList {
-    /// Reads `A`, `A-B` (with both ends), `A-B:S` (every `S`th of them, from `A` on), and several with commas between.
+    /// Parses `A`, `A-B` (inclusive), `A-B:S` (every `S`th of them, from `A` on), and several separated by commas.
     pub fn parse(text: &str) -> Result<FrameList, String> {
         let parts = text.split(',').map(part).collect::<Result<Vec<_>, _>>()?;
         FrameList { parts, has_range: text.contains('-') }.check()
@@ -40,9 +40,9 @@ impl FrameList {
         }
     }
 
-    /// Reads frames as a person writes them for a film with so many frames per second: a number of them from frame 0 on
-    /// (`600`), a list as [`FrameList::parse`] reads it, or a time: `10s`, `2.5s-10s`, `0s-10s:2`. A time's end is not a part
-    /// of it, so that `0s-1s` has as many frames as a second.
+    /// Parses the frames of a film with this frame rate: a count from frame 0 on (`600`), a list as for
+    /// [`FrameList::parse`], or a time: `10s`, `2.5s-10s`, `0s-10s:2`. The end of a time is exclusive, so that `0s-1s`
+    /// has as many frames as a second.
     pub fn of_film(text: &str, fps: f64) -> Result<FrameList, String> {
         let text = text.trim();
         if !text.contains('s') {
@@ -64,7 +64,7 @@ impl FrameList {
             Some((from, to)) => (secs(from)?, secs(to)?),
             None => (0.0, secs(range)?),
         };
-        // What lies within a thousandth of a frame is that frame: 0.1 s of 30 frames per second are 3.
+        // A time within a thousandth of a frame is rounded to it: 0.1 s at 30 frames per second are 3.
         let first_at = |secs: f64| (secs * fps - 1e-3).ceil().max(0.0);
         let (first, end) = (first_at(from), first_at(to));
         if end <= first {
@@ -81,7 +81,7 @@ impl FrameList {
         self.has_range
     }
 
-    /// Returns the number where the list is a single one.
+    /// Returns the number if the list has only one.
     pub fn single(&self) -> Option<u32> {
         match self.parts[..] {
             [Part { first, last, .. }] if first == last => Some(first),
@@ -89,13 +89,13 @@ impl FrameList {
         }
     }
 
-    /// Puts several lists together.
+    /// Concatenates several lists.
     pub fn joined(lists: &[FrameList]) -> Result<FrameList, String> {
         let parts = lists.iter().flat_map(|list| list.parts.clone()).collect();
         FrameList { parts, has_range: lists.iter().any(|list| list.has_range) }.check()
     }
 
-    /// Returns the numbers, rising, each once.
+    /// Returns the distinct numbers in ascending order.
     pub fn numbers(&self) -> Vec<u32> {
         let of = |part: &Part| (part.first..=part.last).step_by(part.step as usize);
         let mut numbers: Vec<u32> = self.parts.iter().flat_map(of).collect();
@@ -105,7 +105,7 @@ impl FrameList {
     }
 }
 
-/// Returns the distance of a film's frames, which are rising. Err: they are not evenly spaced.
+/// Returns the spacing of a film's frames, which are in ascending order. Fails if they are not evenly spaced.
 pub fn film_step(frames: &[u32]) -> Result<u32, String> {
     let step = frames.windows(2).next().map_or(1, |pair| pair[1] - pair[0]);
     match frames.windows(2).all(|pair| pair[1] - pair[0] == step) {
@@ -117,7 +117,7 @@ pub fn film_step(frames: &[u32]) -> Result<u32, String> {
     }
 }
 
-/// A frame of a run on its way to those that are wanted.
+/// A frame of a run on the way to the requested ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Step {
     pub frame: u32,
@@ -126,7 +126,8 @@ pub struct Step {
     pub is_skipped: bool,
 }
 
-/// Returns the frames of a run up to the last one. `wanted` is rising; `jumps`: no frame depends on another.
+/// Returns the frames of a run up to the last one. `wanted` is in ascending order; `jumps`: no frame depends on
+/// another.
 pub fn steps(range: std::ops::Range<u32>, wanted: &[u32], jumps: bool) -> impl Iterator<Item = Step> {
     range.map(move |frame| {
         let is_wanted = wanted.binary_search(&frame).is_ok();
@@ -134,16 +135,16 @@ pub fn steps(range: std::ops::Range<u32>, wanted: &[u32], jumps: bool) -> impl I
     })
 }
 
-/// The frames that are asked for as a number of them, or one by one.
+/// The requested frames, as a count or a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Frames {
-    /// So many, from frame 0 on.
+    /// This many, from frame 0 on.
     Count(u32),
     List(FrameList),
 }
 
 impl Frames {
-    /// Reads `N`, which is a number of frames, or a list of more than one number.
+    /// Parses `N`, which is a count, or a list of more than one number.
     pub fn parse(text: &str) -> Result<Frames, String> {
         let is_number = !text.contains([',', '-', ':']);
         match FrameList::parse(text)? {
@@ -203,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_of_frames_is_no_list() {
+    fn single_number_is_a_count() {
         assert_eq!(Frames::parse("60"), Ok(Frames::Count(60)));
         for list in ["0-59", "5-5", "3,8"] {
             assert_eq!(Frames::parse(list), Ok(Frames::List(FrameList::parse(list).unwrap())), "{list}");
@@ -212,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn a_films_frames_are_a_number_a_list_or_a_time() {
+    fn film_frames_are_a_count_a_list_or_a_time() {
         let of = |text: &str, fps: f64| FrameList::of_film(text, fps).map(|list| list.numbers());
         assert_eq!(of("3", 60.0), Ok(vec![0, 1, 2]));
         assert_eq!(of("2-4", 60.0), Ok(vec![2, 3, 4]));
@@ -240,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_skips_what_nobody_needs() {
+    fn run_skips_frames_that_no_other_depends_on() {
         let of = |jumps| steps(0..4, &[1, 3], jumps).map(|s| (s.frame, s.is_wanted, s.is_skipped)).collect::<Vec<_>>();
         assert_eq!(of(true), [(0, false, true), (1, true, false), (2, false, true), (3, true, false)]);
         assert!(of(false).iter().all(|step| !step.2));
@@ -249,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_meant_is_refused_with_the_fix() {
+    fn invalid_lists_are_rejected_with_the_fix() {
         for (text, says) in [
             ("", "0-59"),
             ("a", "\"a\""),

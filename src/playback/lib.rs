@@ -1,10 +1,10 @@
 //! Runs of frames: scripted or recorded input, drawn again, measured, compared and written to files.
 //!
-//! Owns scripts of input ([`script`]) and recordings ([`recording`]), the offline run ([`offline`]) that `eddy render`,
-//! `eddy bench` and the tests use, reductions of a picture to a number ([`reduction`]), comparison with another version of
-//! a project ([`comparing`], [`revision`]), pictures on disk ([`capture`], [`npy`]) and those that open again ([`scene`]),
-//! states of runs on disk ([`checkpoint`]), and which frames of a run are a machine's ([`frames`], [`shard`]). Needs no
-//! session; time is an argument.
+//! Owns input scripts ([`script`]) and recordings ([`recording`]), the offline run ([`offline`]) that `eddy render`,
+//! `eddy bench` and the tests use, reductions of a picture to a number ([`reduction`]), comparison with another version
+//! of a project ([`comparing`], [`revision`]), pictures on disk ([`capture`], [`npy`]) and those that embed their
+//! project ([`scene`]), states of runs on disk ([`checkpoint`]), and which frames of a run a machine draws ([`frames`],
+//! [`shard`]). Needs no session; time is an argument.
 
 pub mod capture;
 pub mod checkpoint;
@@ -24,7 +24,7 @@ pub mod shard;
 pub mod tiles;
 pub mod trial;
 
-/// Returns the middle one of values, the upper of two; `None` of none.
+/// Returns the median of values, the upper of the middle two; `None` if there are none.
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied()
@@ -33,7 +33,7 @@ pub fn median(mut values: Vec<f64>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn the_median_is_the_middle() {
+    fn median_is_the_middle_value() {
         assert_eq!(super::median(vec![3.0, 1.0, 2.0]), Some(2.0));
         assert_eq!(super::median(vec![2.0, 1.0]), Some(2.0));
         assert_eq!(super::median(vec![]), None);

@@ -1,4 +1,4 @@
-//! `iMouse` over time, as `shadertoy.md` section 5 has it.
+//! `iMouse` over time, as defined in section 5 of `shadertoy.md`.
 
 /// The mouse's state between frames. Points are canvas pixels from the bottom left.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -8,7 +8,7 @@ pub struct Mouse {
     is_down: bool,
     /// No frame has been rendered since the press.
     is_fresh: bool,
-    /// All drags together.
+    /// The sum of all drags.
     dragged: [f32; 2],
 }
 
@@ -20,7 +20,7 @@ impl Mouse {
         self.is_fresh = true;
     }
 
-    /// Counts only while the button is down.
+    /// Has an effect only while the button is down.
     pub fn move_to(&mut self, x: f32, y: f32) {
         if self.is_down {
             let to = whole(x, y);
@@ -35,7 +35,7 @@ impl Mouse {
         self.is_down = false;
     }
 
-    /// Takes over from a mouse that was recorded: released, where it was.
+    /// Continues from the state of a recorded mouse, with the button released.
     pub fn follow(&mut self, imouse: [f32; 4], dragged: [f32; 2]) {
         let [x, y, z, w] = imouse;
         *self = Self { at: [x, y], pressed_at: [z.abs(), w.abs()], is_down: false, is_fresh: false, dragged };
@@ -45,13 +45,13 @@ impl Mouse {
         self.is_down
     }
 
-    /// Pixels moved while down, to the right and up, since the beginning.
+    /// Returns the total distance dragged, to the right and up.
     pub fn dragged(&self) -> [f32; 2] {
         self.dragged
     }
 
-    /// `iMouse` of the frame that is drawn now, which uses up the press. A press that was released before any frame saw
-    /// it shows in w alone, as on the site.
+    /// Returns `iMouse` of the frame that is drawn now, which consumes the press. A press that was released before any
+    /// frame appears in w alone, as on Shadertoy.
     pub fn next_frame(&mut self) -> [f32; 4] {
         let sign = |positive, v: f32| if positive { v.abs() } else { -v.abs() };
         let z = sign(self.is_down, self.pressed_at[0]);
@@ -60,7 +60,7 @@ impl Mouse {
     }
 }
 
-/// The site counts whole pixels from the bottom left; a point that is no number stands at 0.
+/// Shadertoy counts whole pixels from the bottom left; a non-finite coordinate becomes 0.
 fn whole(x: f32, y: f32) -> [f32; 2] {
     [x, y].map(|v| if v.is_finite() { v.floor() } else { 0.0 })
 }
@@ -69,13 +69,13 @@ fn whole(x: f32, y: f32) -> [f32; 2] {
 mod tests {
     use super::*;
 
-    /// Bits, because 0.0 and -0.0 are the same number and not the same sign.
+    /// Compares bits, because 0.0 and -0.0 are equal but differ in sign.
     fn bits(v: [f32; 4]) -> [u32; 4] {
         v.map(f32::to_bits)
     }
 
     #[test]
-    fn follows_the_sites_table() {
+    fn matches_the_table_of_shadertoy() {
         let mut m = Mouse::default();
         assert_eq!(bits(m.next_frame()), bits([0.0, 0.0, -0.0, -0.0]), "never clicked");
         m.move_to(5.0, 6.0);

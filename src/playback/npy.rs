@@ -12,12 +12,12 @@ pub fn write(out: &mut impl Write, pixels: &Pixels) -> io::Result<()> {
     write_texels(out, &pixels.texels)
 }
 
-/// Writes what precedes the texels of a picture of this width and height.
+/// Writes the header for a picture of this width and height.
 pub fn write_header(out: &mut impl Write, (width, height): (u32, u32)) -> io::Result<()> {
     out.write_all(&media::npy_header("<f4", &[height, width, 4]))
 }
 
-/// Writes texels behind those that are written.
+/// Appends texels.
 pub fn write_texels(out: &mut impl Write, texels: &[[f32; 4]]) -> io::Result<()> {
     if cfg!(target_endian = "little") {
         out.write_all(bytemuck::cast_slice(texels))
@@ -31,7 +31,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn header_and_bytes_are_as_the_format_says() {
+    fn header_and_bytes_follow_the_format() {
         let pixels = Pixels { width: 2, height: 1, texels: vec![[0.0, 1.0, -2.5, f32::NAN], [3.0; 4]] };
         let mut file = Vec::new();
         write(&mut file, &pixels).unwrap();

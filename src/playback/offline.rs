@@ -1,7 +1,7 @@
-//! A project drawn without a window, at a fixed step: what `eddy render`, `eddy bench` and the tests use.
+//! Draws a project without a window, at a fixed step: used by `eddy render`, `eddy bench` and the tests.
 //!
-//! Same project, pictures, inputs and size: same bytes. A run of N frames and one of N/2 with N/2 more after it draw
-//! the same.
+//! The same project, pictures, inputs and size produce the same bytes. A run of N frames and one of N/2 followed by N/2
+//! more draw the same.
 
 use crate::{
     recording::Change,
@@ -21,37 +21,37 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Drivers compile on the thread that draws, and recurse as deep as an expression is nested. Pages that are not used
-/// cost nothing.
+/// Drivers compile on the thread that draws, and recurse as deeply as an expression is nested. Untouched pages cost
+/// nothing.
 const STACK_BYTES: usize = 256 << 20;
 
-/// The name of a thread that draws a frame and may be left behind.
+/// The name of a thread that draws a frame and may be abandoned.
 pub const DRAWER: &str = "frame";
 
-/// A block of sound, 6 s of it, is given up after this time where nothing else is said: it could not be played as fast
-/// as it is made.
+/// The default time after which a block of sound, which plays for 6 s, is abandoned: rendering would be slower than
+/// playing.
 pub const SOUND_LIMIT: Duration = Duration::from_secs(60);
 
 /// Rows of a block that are drawn at once.
 const SOUND_ROWS: u32 = 64;
 
-/// A project being drawn frame after frame.
+/// A project that is drawn frame by frame.
 pub struct Offline {
-    /// `None` once a frame has not come back in time.
+    /// `None` once a frame has timed out.
     engine: Option<Engine>,
     frame_limit: Option<Duration>,
     inputs: ScriptedInputs,
     build_millis: Option<f64>,
     /// `iDate` of all blocks of sound.
     sound_date: Option<[f32; 4]>,
-    /// The device takes the passes' times; not known before they are asked for.
+    /// True if the device supports timestamps of passes; `None` until they are first requested.
     has_stamps: Option<bool>,
     /// One pass is drawn in tiles.
     tiling: Option<Tiling>,
     pub(crate) pace: Pace,
-    /// The newest frame's number, and when it was begun.
+    /// The newest frame's number, and when it was started.
     newest: (i32, Option<Instant>),
-    /// The bytes that textures may take in the machine's own memory.
+    /// The maximum bytes of textures in system memory.
     memory: Option<u64>,
 }
 
@@ -61,19 +61,19 @@ pub struct DrawnFrame {
     /// `iFrame`.
     pub number: i32,
     pub stats: FrameStats,
-    /// Milliseconds of the processor until the frame was handed in, and of the clock until the device had finished it.
+    /// Milliseconds of CPU time until the frame was submitted, and of wall-clock time until the device had finished it.
     pub cpu_millis: f64,
     pub millis: f64,
 }
 
 impl Offline {
-    /// Makes the engine for a canvas of so many pixels. Fails for a size that the device cannot draw.
+    /// Creates the engine for a canvas of this size. Fails for a size that the device cannot draw.
     pub fn new(gpu: &Gpu, (width, height): (u32, u32), inputs: ScriptedInputs) -> Result<Offline, EngineError> {
         Ok(Self::of(Engine::new(gpu.clone(), width, height)?, inputs))
     }
 
-    /// Does the same for a canvas of any size, where the one pass that is drawn in tiles has to be drawn: see
-    /// [`Offline::draw_strip`]. Programs are built with [`Offline::tile`].
+    /// Does the same for a canvas of any size, whose picture's pass is drawn in tiles: see [`Offline::draw_strip`].
+    /// Programs are built with [`Offline::tile`].
     pub fn tiled(
         gpu: &Gpu,
         (width, height): (u32, u32),
@@ -99,31 +99,30 @@ impl Offline {
         }
     }
 
-    /// Returns how the one pass is drawn that is drawn in tiles.
+    /// Returns the tiling of the pass that is drawn in tiles.
     pub fn tiling(&self) -> Option<Tiling> {
         self.tiling
     }
 
-    /// Returns what [`BuildOptions::tile`] is for this canvas.
+    /// Returns the value of [`BuildOptions::tile`] for this canvas.
     pub fn tile(&self) -> Option<(u32, u32)> {
         let width = self.engine.as_ref()?.size().0;
         self.tiling.map(|tiling| tiling.tile(width))
     }
 
-    /// Refuses programs whose textures take more bytes, where they take the machine's own memory. A driver that has no
-    /// memory of its own does not refuse them: it is killed.
+    /// Rejects programs whose textures take more bytes, if they use system memory. A driver without memory of its own
+    /// does not reject them: the process is killed.
     pub fn set_memory_limit(&mut self, bytes: Option<u64>) {
         self.memory = bytes;
     }
 
-    /// Gives a frame up that takes longer, and the engine with it: no other can be drawn. The device stays as busy as
-    /// it is.
+    /// Abandons a frame that takes longer, together with the engine: no other can be drawn. The device stays busy.
     pub fn set_frame_limit(&mut self, limit: Option<Duration>) {
         self.frame_limit = limit;
     }
 
-    /// Compiles a project and takes it for the frames to come. Gives warnings and notes with the texts that they point
-    /// into. Fails with the author's diagnostics, or for a pass the project does not have.
+    /// Compiles a project and uses it for the next frames. Returns warnings and notes with the texts that they point
+    /// into. Fails with the author's diagnostics, or for a pass that the project does not have.
     pub fn build(
         &mut self,
         project: &Project,
@@ -143,13 +142,12 @@ impl Offline {
         Ok((built.diagnostics, built.sources))
     }
 
-    /// Returns the milliseconds that the newest compile took, whether or not it made a program.
+    /// Returns the duration of the newest compile in milliseconds, whether or not it produced a program.
     pub fn build_millis(&self) -> Option<f64> {
         self.build_millis
     }
 
-    /// Returns what the next frame is drawn with. A recording may give it another canvas and other values of uniforms
-    /// first.
+    /// Returns the inputs of the next frame. A recording may first change the canvas and the values of uniforms.
     pub fn next_inputs(&mut self) -> Result<FrameInputs, EngineError> {
         if let Some(change_of_frame) = self.inputs.next_change() {
             change(self.engine.as_mut().ok_or_else(gone)?, &change_of_frame)?;
@@ -157,21 +155,21 @@ impl Offline {
         Ok(self.inputs.next_frame())
     }
 
-    /// Begins a recording anew once all its frames have been drawn; where none is drawn again, nothing.
+    /// Restarts a recording once all its frames have been drawn; without one, does nothing.
     pub fn rewind_at_end(&mut self) -> Result<(), EngineError> {
         let is_over = |count: usize| usize::try_from(self.inputs.frame()).is_ok_and(|frame| frame >= count);
         if self.inputs.recorded_frames().is_some_and(is_over) { self.rewind() } else { Ok(()) }
     }
 
-    /// Begins anew: with frame 0 and every buffer as before it.
+    /// Restarts at frame 0, with every buffer as before it.
     pub fn rewind(&mut self) -> Result<(), EngineError> {
         self.inputs.rewind();
         self.engine.as_mut().ok_or_else(gone)?.reset();
         Ok(())
     }
 
-    /// Goes on at a frame without drawing those before it: the state is that of a run which has drawn them. Fails for a
-    /// frame that is over.
+    /// Resumes at a frame without drawing those before it: the state is that of a run which has drawn them. Fails for a
+    /// frame that has passed.
     pub fn resume(&mut self, frame: u32, state: &State) -> Result<(), ResumeError> {
         let over = || ResumeError::Over { frame, next: self.inputs.frame() };
         let frame = i32::try_from(frame).ok().filter(|frame| *frame >= self.inputs.frame()).ok_or_else(over)?;
@@ -187,7 +185,7 @@ impl Offline {
         self.draw_with(inputs)
     }
 
-    /// Does of the next frame what frames to come depend on, and draws no picture that only it would show: see
+    /// Computes the state that later frames depend on, without drawing pictures that only this frame shows: see
     /// [`DrawFor::Advance`]. Waits until the device has finished.
     pub fn advance(&mut self) -> Result<DrawnFrame, OfflineError> {
         let inputs = self.next_inputs()?;
@@ -198,7 +196,7 @@ impl Offline {
         self.finish(inputs, Engine::draw)
     }
 
-    /// Does a frame's work and waits for the device.
+    /// Executes a frame's work and waits for the device.
     fn finish(
         &mut self,
         inputs: FrameInputs,
@@ -215,8 +213,9 @@ impl Offline {
         })
     }
 
-    /// Draws the next frame `parts` times, in the middles of as many parts of `secs`, which begin at its own time, and hands each
-    /// to `each`. So the mean of what moves evenly is where it is in the middle of that time: see the study `shutter`. Of a project with a state, each part counts as a frame.
+    /// Draws the next frame `parts` times, at the midpoints of as many parts of `secs` that start at its own time, and
+    /// passes each to `each`. So the mean of a steady motion is centred in that time: see the study `shutter`. In a
+    /// project with state, each part counts as a frame.
     pub fn draw_parts<E: From<OfflineError>>(
         &mut self,
         parts: u32,
@@ -227,7 +226,7 @@ impl Offline {
         self.draw_parts_of(&inputs, parts, secs, each)
     }
 
-    /// Does the same for a frame of these inputs.
+    /// Does the same for a frame with these inputs.
     pub fn draw_parts_of<E: From<OfflineError>>(
         &mut self,
         inputs: &FrameInputs,
@@ -249,18 +248,18 @@ impl Offline {
         Ok(DrawnFrame { number, stats, cpu_millis, millis })
     }
 
-    /// Passes over the next frame: its input happens, and nothing is drawn.
+    /// Skips the next frame: its input is applied, and nothing is drawn.
     pub fn skip(&mut self) -> Result<(), EngineError> {
         self.next_inputs().map(drop)
     }
 
-    /// Returns whether a frame depends on the frames before it: through passes that read what they drew last, or that keep a
+    /// Returns whether a frame depends on earlier frames: through passes that read their last picture, or that keep a
     /// part of it.
     pub fn has_state(&self) -> Result<bool, EngineError> {
         Ok(self.engine()?.checkpoint_bytes() > 0)
     }
 
-    /// Draws the next frame, and takes what a pass reads when it is drawn.
+    /// Draws the next frame, and returns the inputs of a pass.
     pub fn draw_inspected(&mut self, pass: &PassName) -> Result<PassInputs, OfflineError> {
         let (inputs, pass) = (self.next_inputs()?, pass.clone());
         self.within(inputs.frame, move |engine| {
@@ -269,8 +268,8 @@ impl Offline {
         })
     }
 
-    /// Draws the next frame and gives the time of each pass: by the device's timestamps, or, where it has none, each
-    /// pass handed in and waited for by itself.
+    /// Draws the next frame and returns the time of each pass: by the device's timestamps, or, if it has none, by
+    /// submitting each pass and waiting for it.
     pub fn draw_timed(&mut self) -> Result<Vec<PassTime>, OfflineError> {
         if self.has_stamps.is_none() {
             self.has_stamps = Some(self.engine.as_mut().ok_or_else(gone)?.set_timing(true));
@@ -286,14 +285,14 @@ impl Offline {
         })
     }
 
-    /// Gives all blocks of sound a date in the place of that of the first frame.
+    /// Sets the date of all blocks of sound, instead of that of the first frame.
     pub fn set_sound_date(&mut self, date: [f32; 4]) {
         self.sound_date = Some(date);
     }
 
-    /// Gives the author's own uniforms values for the blocks of sound to come. Returns those that the sound pass reads.
+    /// Sets the author's own uniforms for the next blocks of sound. Returns the values that the sound pass reads.
     pub fn set_sound_values(&mut self, values: &CustomUniformValues) -> Result<Vec<[u32; 4]>, OfflineError> {
-        // The first frame of a recording brings values of its own.
+        // The first frame of a recording sets its own values.
         self.sound_date()?;
         Ok(self.engine.as_mut().ok_or_else(gone)?.set_sound_values(values))
     }
@@ -308,8 +307,8 @@ impl Offline {
     }
 
     /// Draws block `number` of the sound pass of a program that was built with [`BuildOptions::sound`]: see
-    /// [`Engine::draw_sound`]. A block is given up after [`Offline::set_frame_limit`]'s time, else after
-    /// [`SOUND_LIMIT`]. `iDate` is that of the run's first frame.
+    /// [`Engine::draw_sound`]. A block is abandoned after the time of [`Offline::set_frame_limit`], or after
+    /// [`SOUND_LIMIT`] if there is none. `iDate` is that of the run's first frame.
     pub fn draw_sound(&mut self, number: u32) -> Result<Vec<[i16; 2]>, OfflineError> {
         let date = self.sound_date()?;
         let limit = self.frame_limit.unwrap_or(SOUND_LIMIT);
@@ -320,22 +319,22 @@ impl Offline {
         }
     }
 
-    /// Reads the texels of a pass's target as the newest frame left them; 0 is the first target.
+    /// Reads the texels of a pass's target after the newest frame; 0 is the first target.
     pub fn read(&mut self, pass: &PassName, target: usize) -> Result<Pixels, EngineError> {
         self.engine.as_mut().ok_or_else(gone)?.read_target(pass, target)
     }
 
-    /// Returns the engine, for what the passes cost and what the plan leaves out. Fails once a frame was given up.
+    /// Returns the engine, for the cost of passes and what the plan leaves out. Fails once a frame was abandoned.
     pub fn engine(&self) -> Result<&Engine, EngineError> {
         self.engine.as_ref().ok_or_else(gone)
     }
 
-    /// Gives the engine away. Fails once a frame was given up.
+    /// Returns the engine by value. Fails once a frame was abandoned.
     pub fn into_engine(self) -> Result<Engine, EngineError> {
         self.engine.ok_or_else(gone)
     }
 
-    /// Does a frame's work, on a thread that can be left behind where there is a limit.
+    /// Executes a frame's work, on a thread that can be abandoned if there is a limit.
     fn within<T: Send + 'static>(
         &mut self,
         frame: i32,
@@ -345,7 +344,7 @@ impl Offline {
         self.within_limit(limit, work)?.ok_or(OfflineError::TimedOut { frame, limit })
     }
 
-    /// Does a part of the newest frame's work, for which the limit counts as a whole.
+    /// Executes a part of the newest frame's work, to which the limit applies as a whole.
     pub(crate) fn within_frame<T: Send + 'static>(
         &mut self,
         work: impl FnOnce(&mut Engine) -> Result<T, EngineError> + Send + 'static,
@@ -356,7 +355,7 @@ impl Offline {
         self.within_limit(left, work)?.ok_or(OfflineError::TimedOut { frame, limit })
     }
 
-    /// Returns `None` where the work takes longer. It is left behind, with the engine.
+    /// Returns `None` if the work takes longer. The thread is abandoned, with the engine.
     fn within_limit<T: Send + 'static>(
         &mut self,
         limit: Duration,
@@ -366,8 +365,8 @@ impl Offline {
         let (sender, receiver) = channel();
         let work = move || {
             let done = work(&mut engine);
-            // Nobody waits any more. A driver that has lost its device is not asked to take it apart: the process may be
-            // leaving, and the driver with it.
+            // The receiver is gone. A driver that has lost its device is not called to destroy it: the process may be
+            // exiting, and unloading the driver.
             if let Err(SendError((engine, _))) = sender.send((engine, done))
                 && engine.gpu().is_lost()
             {
@@ -390,7 +389,7 @@ impl Offline {
     }
 }
 
-/// Does what a recording changes of an engine before a frame.
+/// Applies a recording's changes to an engine before a frame.
 pub fn change(engine: &mut Engine, change: &Change) -> Result<(), EngineError> {
     if let Some((width, height)) = change.size {
         engine.resize(width, height)?;
@@ -404,7 +403,7 @@ pub fn change(engine: &mut Engine, change: &Change) -> Result<(), EngineError> {
     Ok(())
 }
 
-/// A run cannot go on from a state.
+/// The reason why a run cannot resume from a state.
 #[derive(Debug, thiserror::Error)]
 pub enum ResumeError {
     #[error(transparent)]

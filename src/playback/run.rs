@@ -1,10 +1,10 @@
-//! Frames that can be drawn again: what each was drawn with, and a snapshot that they begin with.
+//! Frames that can be drawn again: the inputs of each, and the snapshot that they start from.
 
 use eddy_engine::{FrameInputs, Snapshot};
 use eddy_project::CustomUniformValues;
 use std::sync::Arc;
 
-/// Holds what a frame was drawn with.
+/// The inputs of a frame.
 #[derive(Clone)]
 pub struct Frame {
     pub inputs: FrameInputs,
@@ -13,26 +13,26 @@ pub struct Frame {
     pub size: (u32, u32),
 }
 
-/// Holds what the frames up to the one that is shown were drawn with.
+/// The inputs of the frames up to the shown one.
 pub struct Run {
     pub frames: Vec<Frame>,
     /// The first of them is the first since a reset.
     pub is_whole: bool,
 }
 
-/// Says where a run of frames begins that is drawn again.
+/// The start of a run of frames to draw again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReplayFrom {
-    /// With a snapshot of some ten seconds of drawing ago, or the oldest after it.
+    /// A snapshot from about ten seconds of drawing ago, or the oldest after it.
     Oldest,
-    /// With the newest snapshot that lies more than a frame before the one that is shown, where there is one: after a
-    /// frame the targets hold also what later frames do not read.
+    /// The newest snapshot that is more than a frame before the shown one, if there is one: after a frame the targets
+    /// also contain data that later frames do not read.
     Newest,
 }
 
-/// A run of frames that can be drawn again elsewhere on the same device.
+/// A run of frames that can be drawn again in another engine on the same device.
 pub struct Replay {
-    /// The targets before the first of the frames.
+    /// A snapshot of the targets before the first of the frames.
     pub snapshot: Arc<Snapshot>,
     pub frames: Vec<Frame>,
 }

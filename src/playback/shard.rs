@@ -1,4 +1,4 @@
-//! Says which part of the work is this machine's, where several share it.
+//! The distribution of work over several machines, and this machine's part.
 
 use std::ops::Range;
 
@@ -9,26 +9,26 @@ pub struct Shard {
     pub count: u64,
 }
 
-/// A shard that cannot be, or that no scheduler names. The text goes behind the option's name.
+/// An invalid shard, or one that no scheduler defines. The text follows the option's name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct ShardError(String);
 
-/// The environment variables by which a scheduler's array job says which of its tasks this is.
+/// The environment variables by which a scheduler's array job tells a task its index.
 struct Scheduler {
     name: &'static str,
     index: &'static str,
-    /// The number of tasks, by the first of these that is set; none where the scheduler does not say it.
+    /// The number of tasks, by the first of these that is set; empty if the scheduler does not provide it.
     counts: &'static [&'static str],
-    /// The index of the first task, where arrays may begin anywhere, that of the last, and the distance of two.
+    /// The index of the first task, if arrays may start anywhere, that of the last, and the step between two.
     first: Option<&'static str>,
     last: Option<&'static str>,
     step: Option<&'static str>,
-    /// The index of the first task where it is always the same.
+    /// The index of the first task if it is fixed.
     begins_at: u64,
 }
 
-/// In the order in which they are asked. GNU parallel comes first: it also runs within tasks of the others.
+/// In the order in which they are queried. GNU parallel comes first: it also runs within tasks of the others.
 const SCHEDULERS: [Scheduler; 4] = [
     // Job numbers count from 1: `man parallel`, "PARALLEL_SEQ".
     Scheduler {
@@ -60,7 +60,7 @@ const SCHEDULERS: [Scheduler; 4] = [
         step: None,
         begins_at: 0,
     },
-    // An indexed Job of Kubernetes says no count; its manifest may hand `completions` in.
+    // An indexed Job of Kubernetes has no count; its manifest may pass `completions`.
     Scheduler {
         name: "Kubernetes",
         index: "JOB_COMPLETION_INDEX",
@@ -76,8 +76,8 @@ impl Shard {
     /// All of the work.
     pub const WHOLE: Shard = Shard { index: 0, count: 1 };
 
-    /// Reads `i/n`, counted from 0, `auto`, which asks `variable` for what a scheduler says, or `auto/n`, for schedulers
-    /// that do not say how many tasks there are.
+    /// Parses `i/n`, counted from 0, `auto`, which queries the scheduler's environment with `variable`, or `auto/n`,
+    /// for schedulers that do not provide the number of tasks.
     pub fn parse(text: &str, variable: impl Fn(&str) -> Option<String>) -> Result<Shard, ShardError> {
         let form = || ShardError(format!("{text}: a shard is written i/n, from 0/n, auto or auto/n"));
         let number = |t: &str| t.trim().parse::<u64>().map_err(|_| form());
@@ -114,7 +114,7 @@ impl Shard {
                     return Err(ShardError(format!("{what}; write auto/{counted}, or auto")));
                 }
                 (Some(count), _) | (None, Some(count)) => count,
-                // Perhaps another one says it all.
+                // Another scheduler may provide both.
                 (None, None) => continue,
             };
             let (first, step) = (optional(first)?.unwrap_or(begins_at), optional(step)?.unwrap_or(1).max(1));
@@ -125,7 +125,7 @@ impl Shard {
                     count.max(1) - 1
                 ))
             };
-            // Of a list, as in --array=3,7, Slurm says a step of 1, and no task knows the others.
+            // For a list, as in --array=3,7, Slurm reports a step of 1, and no task knows the others.
             if let Some(last) = optional(last)?
                 && last.checked_sub(first).map(|distance| distance / step) != count.checked_sub(1)
             {
@@ -159,12 +159,12 @@ impl Shard {
         }))
     }
 
-    /// Returns whether the work's `n`th part is this shard's, where shards take turns.
+    /// Returns whether the `n`th piece of work is this shard's, if shards take turns.
     pub fn owns(&self, n: usize) -> bool {
         n as u64 % self.count == self.index
     }
 
-    /// Returns this shard's part of so many pieces of work, where each shard has neighbours. Shards differ by at most one
+    /// Returns this shard's part of this many pieces of work, if each shard is contiguous. Shards differ by at most one
     /// piece.
     pub fn part_of(&self, pieces: u64) -> Range<u64> {
         let border = |index: u64| (u128::from(pieces) * u128::from(index) / u128::from(self.count)) as u64;
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn schedulers_are_understood() {
+    fn schedulers_are_recognised() {
         let shard = |index, count| Ok(Shard { index, count });
         assert_eq!(auto(&[("SLURM_ARRAY_TASK_ID", "3"), ("SLURM_ARRAY_TASK_COUNT", "8")]), shard(3, 8));
         let from_one = [("SLURM_ARRAY_TASK_ID", "8"), ("SLURM_ARRAY_TASK_COUNT", "8"), ("SLURM_ARRAY_TASK_MIN", "1")];
@@ -235,12 +235,12 @@ mod tests {
         assert_eq!(shard_of("auto/7", &[("PARALLEL_SEQ", "7")]), shard(6, 7));
         assert_eq!(shard_of("auto/2", &[("AWS_BATCH_JOB_ARRAY_INDEX", "1")]), shard(1, 2));
         assert_eq!(shard_of("auto/8", &from_one), shard(7, 8));
-        // parallel within a task of Slurm does not say how many there are, but Slurm does.
+        // parallel within a task of Slurm does not provide the count, but Slurm does.
         assert_eq!(auto(&[&from_one[..], &[("PARALLEL_SEQ", "3")]].concat()), shard(7, 8));
     }
 
     #[test]
-    fn what_no_scheduler_says_is_told_with_the_fix() {
+    fn missing_scheduler_variables_are_reported_with_the_fix() {
         assert!(auto(&[]).unwrap_err().contains("SLURM_ARRAY_TASK_ID"));
         assert!(auto(&[]).unwrap_err().contains("write i/n"));
         for alone in ["JOB_COMPLETION_INDEX", "PARALLEL_SEQ"] {
@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shard_that_cannot_be_is_refused() {
+    fn invalid_shards_are_rejected() {
         let parse = |text| Shard::parse(text, |_| None).map_err(|e| e.to_string());
         assert_eq!(parse("1/3"), Ok(Shard { index: 1, count: 3 }));
         for (text, expected) in [

@@ -1,5 +1,5 @@
-//! Pictures that are drawn tile by tile and given out in strips of whole rows: larger than a texture of the device, and
-//! than the memory that all of their texels would take.
+//! Pictures that are drawn tile by tile and returned in strips of whole rows: larger than a texture of the device, and
+//! than fits in memory as a whole.
 
 use crate::offline::{Offline, OfflineError};
 use eddy_engine::{Engine, EngineError, Pixels};
@@ -9,23 +9,24 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Pixels across and up of a tile, where nobody asks for others.
+/// The default width and height of a tile in pixels.
 const TILE: u32 = 2048;
 
-/// Edges of tiles have places that are multiples of this. Derivatives are taken in quads of 2x2 pixels, and Mesa's llvmpipe
-/// shades blocks of 4x4, whose quads share mip levels of cubemaps.
+/// Edges of tiles are at multiples of this. Derivatives are taken in quads of 2x2 pixels, and Mesa's llvmpipe shades
+/// blocks of 4x4, whose quads share mip levels of cubemaps.
 const GRAIN: u32 = 4;
 
 /// Bytes of a texel as it is read.
 const TEXEL_BYTES: u64 = 16;
 
-/// A draw takes about so long: drivers give up what takes seconds.
+/// The approximate duration of a draw: drivers abort draws that take seconds.
 const DRAW: Duration = Duration::from_millis(100);
 
 /// Rows of a first draw.
 const FIRST_ROWS: u32 = 64;
 
-/// The tiles and strips of a picture. The blocks of pixels that a device shades together are those of the whole picture.
+/// The tiles and strips of a picture. The blocks of pixels that a device shades together are those of the whole
+/// picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tiling {
     /// Pixels along each side of a tile.
@@ -35,8 +36,8 @@ pub struct Tiling {
 }
 
 impl Tiling {
-    /// `side`: pixels along each side of a tile, rounded up to a multiple of 4. No tile has more than `limit`, as no texture
-    /// of the device has. Strips consist of whole blocks of `factor` rows.
+    /// `side`: pixels along each side of a tile, rounded up to a multiple of 4. No tile is larger than `limit`, the
+    /// device's maximum texture size. Strips consist of whole blocks of `factor` rows.
     pub fn new(side: Option<u32>, limit: u32, factor: u32) -> Tiling {
         let most = (limit / GRAIN * GRAIN).max(GRAIN);
         let side = side.unwrap_or(TILE).clamp(GRAIN, most).next_multiple_of(GRAIN).min(most);
@@ -59,7 +60,8 @@ impl Tiling {
         rows.max(self.unit)
     }
 
-    /// Returns the strips of a picture, as rows counted from the bottom: the topmost strip first, or the bottom one.
+    /// Returns the strips of a picture, as rows counted from the bottom: starting with the topmost strip, or the bottom
+    /// one.
     pub fn strips(self, (width, height): (u32, u32), top_first: bool) -> Vec<Range<u32>> {
         let rows = self.rows(width);
         let begins = (0..height).step_by(rows as usize);
@@ -71,7 +73,7 @@ impl Tiling {
     }
 }
 
-/// The rows that are drawn at once, by the time that it took.
+/// The number of rows per draw, adapted to the measured time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pace {
     rows: u32,
@@ -85,7 +87,7 @@ impl Default for Pace {
 }
 
 impl Pace {
-    /// Ends a draw, if one has begun.
+    /// Ends a draw, if one was started.
     fn end(&mut self) {
         if let Some(begun) = self.begun.take() {
             self.took(begun.elapsed());
@@ -100,7 +102,7 @@ impl Pace {
         }
     }
 
-    /// Begins a draw, and returns its rows.
+    /// Starts a draw, and returns its rows.
     fn begin(&mut self) -> u32 {
         self.end();
         self.begun = Some(Instant::now());
@@ -109,7 +111,7 @@ impl Pace {
 }
 
 impl Offline {
-    /// Draws rows of the picture that is drawn in tiles, of the newest frame. They are rows of [`Tiling::strips`].
+    /// Draws rows of the tiled picture of the newest frame. They are rows of [`Tiling::strips`].
     pub fn draw_strip(&mut self, rows: Range<u32>) -> Result<Pixels, OfflineError> {
         let none = || EngineError::NoSuchPass("in tiles".into());
         let ((width, height), tile) = self.engine()?.tiles().ok_or_else(none)?;
@@ -128,7 +130,7 @@ impl Offline {
                 self.pace = pace;
                 let below = (y - rows.start) as usize;
                 for (row, texels) in tile.texels.chunks_exact(tile.width.max(1) as usize).enumerate() {
-                    // A tile may be higher than what is left of the strip.
+                    // A tile may be higher than the rest of the strip.
                     let Some(line) = strip.texels.chunks_exact_mut(width as usize).nth(below + row) else { break };
                     line[x as usize..][..texels.len()].copy_from_slice(texels);
                 }
@@ -143,7 +145,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn strips_are_of_whole_blocks_and_no_larger_than_they_may_be() {
+    fn strips_have_whole_blocks_within_the_limit() {
         for (side, factor, size) in [
             (None, 1, (16_384, 16_384)),
             (Some(7), 3, (101, 99)),
@@ -168,14 +170,14 @@ mod tests {
     }
 
     #[test]
-    fn tiles_are_as_large_as_asked_for_and_as_the_device_has_them() {
+    fn tile_size_is_the_requested_one_within_the_device_limit() {
         assert_eq!(Tiling::new(Some(7), 16_384, 1).tile(100), (8, 8));
         assert_eq!(Tiling::new(Some(9), 5, 1).tile(100), (4, 4));
         assert_eq!(Tiling::new(None, 16_384, 1).tile(16_384), (2048, 256));
     }
 
     #[test]
-    fn draws_become_longer_until_they_take_their_time() {
+    fn draws_grow_until_they_reach_the_target_duration() {
         let mut pace = Pace::default();
         pace.took(Duration::from_millis(1));
         assert_eq!(pace.rows, 2 * FIRST_ROWS);

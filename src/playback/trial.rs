@@ -1,8 +1,8 @@
-//! Trial compiles in a process of their own, which is ended where the driver takes too long or too much memory.
+//! Trial compiles in a separate process, which is killed if the driver takes too long or too much memory.
 //!
-//! Owns both ends: the parent, which starts this program once more and waits for it ([`TrialSettings::trial`]), and the
-//! child, which compiles a project as the parent would and draws one pixel of each pass ([`serve`]). Mesa keeps what it
-//! compiled in a cache on disk, so that the parent does not compile it a second time.
+//! Owns both ends: the parent, which starts this program again and waits for it ([`TrialSettings::trial`]), and the
+//! child, which compiles a project as the parent would and draws one pixel of each pass ([`serve`]). Mesa caches
+//! compiled shaders on disk, so that the parent does not compile them a second time.
 
 use eddy_engine::{BuildOptions, DrawFor, FrameInputs, Trial, TrialError, TrialOrder};
 use eddy_gpu::{Gpu, GpuOptions};
@@ -23,46 +23,47 @@ use std::{
 
 use crate::{offline::Offline, script::ScriptedInputs};
 
-/// The command of this program that [`serve`] answers.
+/// The command of this program that [`serve`] implements.
 pub const COMMAND: &str = "try-compile";
 
-/// The processor time that a driver may take for a pass.
+/// The CPU time that a driver may take for a pass.
 const LIMIT: Duration = Duration::from_secs(8);
-/// A process that takes so many times its limit by the clock waits for something: a machine that is as busy as that
-/// says nothing about the shader.
+/// A process that takes this many times its limit in wall-clock time is waiting for something: a machine that busy
+/// tells nothing about the shader.
 const PATIENCE: u32 = 8;
-/// Frames a second of the frame that is drawn.
+/// The frame rate of the frame that is drawn.
 const FPS: f64 = 60.0;
 const LOOK: Duration = Duration::from_millis(4);
 
-/// The words of a child that ends itself.
+/// The messages of a child that ends itself.
 const OVER_TIME: &str = "time";
 const OVER_MEMORY: &str = "memory";
 
 /// The settings of trials of large programs, before the driver gets them in this process.
 #[derive(Clone, Debug)]
 pub struct TrialSettings {
-    /// An Eddy.
+    /// The path of an Eddy executable.
     pub program: PathBuf,
-    /// The processor time that a driver may take for a pass.
+    /// The CPU time that a driver may take for a pass.
     pub limit: Duration,
 }
 
 impl TrialSettings {
-    /// Trials by this program, with a limit other than the default where there is one. `None` where it cannot be found.
+    /// Trials by this program, with a limit other than the default if one is given. `None` if its executable cannot be
+    /// found.
     pub fn of_this_program(limit: Option<Duration>) -> Option<Self> {
         let program = std::env::current_exe().ok()?;
         Some(Self { program, limit: limit.unwrap_or(LIMIT) })
     }
 
-    /// Returns the trial for builds with pictures of the site from `media`. One that is under way when `jobs` changes
-    /// is given up: its result is not wanted any more.
+    /// Returns the trial for builds with Shadertoy's pictures from `media`. A running trial is cancelled when `jobs`
+    /// changes: its result is no longer needed.
     pub fn trial(&self, media: Option<PathBuf>, jobs: Arc<AtomicU64>) -> Trial {
         let settings = self.clone();
         Trial::new(move |order| settings.run(order, media.clone(), &jobs))
     }
 
-    /// A project that cannot be handed over, and a machine that starts no process, are no reasons to refuse a program.
+    /// A project that cannot be passed on, or a machine that cannot start a process, does not reject a program.
     fn run(
         &self,
         TrialOrder { project, wanted, skip }: TrialOrder<'_>,
@@ -101,7 +102,7 @@ impl TrialSettings {
         }
     }
 
-    /// `None` for a process that was given up.
+    /// `None` for a process that was killed.
     fn wait(&self, child: &mut Child, jobs: &AtomicU64) -> Option<ExitStatus> {
         let (job, began) = (jobs.load(Ordering::Relaxed), Instant::now());
         loop {
@@ -135,7 +136,7 @@ fn crashed(_: ExitStatus) -> bool {
     false
 }
 
-/// The project and the settings that the child is handed.
+/// The project and the settings that the child receives.
 #[derive(Serialize, Deserialize)]
 struct Request {
     snapshot: String,
@@ -145,8 +146,8 @@ struct Request {
     limit_secs: f64,
 }
 
-/// Compiles the project of a request and draws it, in a process that ends itself where the driver goes too far. Errors
-/// mean nothing to the parent, which will see them itself.
+/// Compiles the project of a request and draws it, in a process that ends itself if the driver exceeds a limit. Errors
+/// are ignored by the parent, which will encounter them itself.
 pub fn serve(mut request: impl Read) -> Result<(), Box<dyn std::error::Error>> {
     let mut text = String::new();
     request.read_to_string(&mut text)?;
@@ -181,9 +182,9 @@ pub fn serve(mut request: impl Read) -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Ends the process where it takes too much.
+/// Ends the process if it takes too much.
 struct Guard {
-    /// Each change gives the driver its whole time again.
+    /// Each change restarts the driver's time limit.
     step: Arc<AtomicU64>,
     limit: Duration,
 }
@@ -193,7 +194,7 @@ impl Guard {
         #[cfg(unix)]
         {
             use rustix::process::{Resource, Rlimit, setrlimit};
-            // It ends by a signal, and leaves no core file behind.
+            // It ends by a signal, and must not leave a core file.
             let _ = setrlimit(Resource::Core, Rlimit { current: Some(0), maximum: Some(0) });
         }
         thread::Builder::new().name("guard".into()).spawn(move || self.watch())?;
@@ -218,14 +219,14 @@ impl Guard {
     }
 }
 
-/// Ends the process at once: the driver's threads do not come to an end.
+/// Ends the process at once: the driver's threads do not end by themselves.
 fn leave(word: &str) -> ! {
     let mut out = std::io::stdout();
     let _ = writeln!(out, "{word}").and_then(|()| out.flush());
     std::process::abort()
 }
 
-/// Returns the processor time that this process has taken.
+/// Returns the CPU time that this process has taken.
 #[cfg(unix)]
 fn processor_time() -> Duration {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
@@ -237,7 +238,7 @@ fn processor_time() -> Duration {
     Duration::ZERO
 }
 
-/// Returns the bytes that this process holds in memory; 0 where that is not known.
+/// Returns this process's memory use in bytes; 0 if that is unknown.
 fn memory() -> u64 {
     let pages = std::fs::read_to_string("/proc/self/statm").ok();
     let resident = pages.as_deref().and_then(|text| text.split(' ').nth(1)?.parse::<u64>().ok());
@@ -274,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn the_child_says_why_it_ended() {
+    fn child_reports_why_it_ended() {
         let jobs = AtomicU64::new(0);
         assert_eq!(tried("exit 0", &jobs), Ok(()));
         assert_eq!(tried("echo time; kill -ABRT $$", &jobs), Err(TrialError::Time(Duration::from_secs(60))));
@@ -282,9 +283,9 @@ mod tests {
         assert_eq!(tried("kill -SEGV $$", &jobs), Err(TrialError::Crash));
     }
 
-    /// Its errors are not the shader's: the parent will see them itself.
+    /// Its errors are not the shader's: the parent will encounter them itself.
     #[test]
-    fn a_child_that_fails_or_does_not_start_refuses_nothing() {
+    fn failing_child_rejects_no_program() {
         assert_eq!(tried("exit 1", &AtomicU64::new(0)), Ok(()));
         let settings = TrialSettings { program: "/nonexistent/eddy".into(), limit: Duration::from_secs(60) };
         let project = Project::of_image("Untitled".into(), IMAGE.into());
@@ -293,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn a_newer_job_ends_the_trial_of_the_one_before() {
+    fn newer_job_cancels_the_previous_trial() {
         let jobs = AtomicU64::new(0);
         thread::scope(|scope| {
             let trial = scope.spawn(|| tried("exec sleep 600", &jobs));

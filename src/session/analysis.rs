@@ -1,5 +1,5 @@
-//! The texts as an editor understands them: the tab in front with its Common, analysed anew after each change, on a
-//! thread of its own so that no keystroke waits for it.
+//! Editor analysis of the project's texts: the front tab with its Common is re-analysed after each change, on a thread
+//! of its own so that no keystroke waits for it.
 
 use super::{Session, rename};
 use eddy_background::Background;
@@ -11,11 +11,11 @@ use std::{collections::BTreeSet, ops::Range, sync::Arc};
 
 pub(super) const COMMON: SourceId = Project::COMMON_ID;
 
-/// The answers that an editor can have about a tab; see [`Analysis`].
+/// The editor's answers about a tab; see [`Analysis`].
 #[derive(Debug)]
 pub struct TabAnalysis {
     pub analysis: Analysis,
-    /// The tab that was in front, and the colours of its text.
+    /// The tab that was in front, and the syntax classes of its text.
     pub front: Tab,
     pub classes: Vec<ClassSpan>,
     pub(super) texts: Texts,
@@ -26,7 +26,7 @@ pub struct TabAnalysis {
 pub(super) struct Texts {
     project: Project,
     index: usize,
-    /// The text of the pass that is read.
+    /// The stage whose text is analysed.
     stage: Stage,
 }
 
@@ -43,8 +43,7 @@ impl Texts {
         self.project.stage_id(self.index, self.stage)
     }
 
-    /// Returns whether nothing has changed. Texts are shared until they are edited, so looking at where they are is
-    /// enough.
+    /// Returns whether nothing has changed. Texts are shared until they are edited, so comparing pointers is enough.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         let all = |p: &Project| -> Vec<Arc<str>> {
             let texts = p.tab_sources();
@@ -60,7 +59,7 @@ impl Texts {
             && engine::channel_kinds(self.pass()) == engine::channel_kinds(other.pass())
     }
 
-    /// Analyses them, with Common as it was read last where it is the same.
+    /// Analyses the texts, reusing the last analysis of Common if Common is the same.
     fn analyse(&self, preamble: &mut KeptPreamble) -> Analysis {
         let sources = Sources::new(&self.project);
         preamble.lend(&sources);
@@ -71,7 +70,7 @@ impl Texts {
 }
 
 impl TabAnalysis {
-    /// The source of a tab in [`TabAnalysis::analysis`]; `None` for a tab it knows nothing of.
+    /// The source of a tab in [`TabAnalysis::analysis`]; `None` for a tab that was not analysed.
     pub fn source_of(&self, tab: &Tab) -> Option<SourceId> {
         match tab {
             Tab::Common => self.texts.project.common.as_ref().map(|_| COMMON),
@@ -91,7 +90,7 @@ impl TabAnalysis {
         self.texts.project.tab_of(source)
     }
 
-    /// The text of the tab in front that the answers are about: where it is not the editor's, it is older.
+    /// The text of the front tab that was analysed: older than the editor's if the two differ.
     pub fn text(&self) -> &Arc<str> {
         match &self.front {
             Tab::Common => self.texts.project.common.as_ref().map_or(&self.texts.pass().source.text, |c| &c.text),
@@ -104,13 +103,13 @@ impl TabAnalysis {
     }
 }
 
-/// The analyst at work.
+/// The background analysis and its input.
 pub(super) struct Analyst {
     pub background: Background<(Texts, Tab), (), TabAnalysis>,
     pub front: Option<Tab>,
-    /// The pass that Common is read with.
+    /// The pass that Common is analysed with.
     pub pass: PassName,
-    /// And the stage of it.
+    /// The stage of that pass.
     pub stage: Option<String>,
     pub asked: Option<(Texts, Tab)>,
     pub newest: Option<Arc<TabAnalysis>>,
@@ -135,13 +134,13 @@ impl Analyst {
 }
 
 impl Session {
-    /// Returns the newest analysis of the tab in front, which may be of an older text.
+    /// Returns the newest analysis of the front tab, which may be of an older text.
     pub fn analysis(&self) -> Option<&Arc<TabAnalysis>> {
         self.analyst.newest.as_ref()
     }
 
-    /// Every place in the project where what a place of `of` stands for is named. What is declared in a text that several
-    /// passes have in them is looked for in every pass, which takes about a millisecond for a thousand lines.
+    /// Every place in the project that names the symbol at a place of `of`. A symbol that is declared in a text shared
+    /// by several passes is searched for in every pass, which takes about a millisecond for a thousand lines.
     pub fn uses(&self, of: &TabAnalysis, source: SourceId, offset: usize) -> Vec<(Tab, Range<usize>)> {
         let project = self.project();
         let here = of.analysis.uses(source, offset);
@@ -157,14 +156,15 @@ impl Session {
             let all = all.into_iter().map(|(id, start, end)| (id, start as usize..end as usize));
             places.extend(all);
         }
-        // What the pass in front has stands first, in its own order.
+        // Uses in the front pass come first, in their own order.
         let mut known = BTreeSet::new();
         places.retain(|(id, range)| known.insert((id.0, range.start)));
         places.into_iter().filter_map(|(id, range)| Some((project.tab_of(id)?, range))).collect()
     }
 
-    /// Returns the line, from 0, at which a breakpoint in a line of a tab stops: its own, or the next one with a statement.
-    /// `None` where none comes any more. Reads the text anew, which takes about a millisecond for a thousand lines.
+    /// Returns the line, from 0, at which a breakpoint in a line of a tab stops: its own, or the next one with a
+    /// statement. `None` if no statement follows. Parses the text again, which takes about a millisecond for a thousand
+    /// lines.
     pub fn stop_line(&self, tab: &Tab, line: usize) -> Option<usize> {
         let project = self.project();
         let text = self.text(tab);
@@ -177,7 +177,8 @@ impl Session {
         Some(text.get(..at)?.matches('\n').count())
     }
 
-    /// Returns the pass, and the stage of it, that a tab is read with: its own, for what several have in them one of those.
+    /// Returns the pass and the stage that a tab is analysed with: its own, or for a shared text one of those that
+    /// include it.
     fn read_with(&self, tab: &Tab) -> Option<(usize, Stage)> {
         let project = self.project();
         let users = match tab {
@@ -199,7 +200,7 @@ impl Session {
         Some((index, stages.iter().position(|s| Some(&s.name) == file).map_or(Stage::Own, Stage::File)))
     }
 
-    /// The tab whose text is analysed from now on.
+    /// Sets the tab whose text is analysed from now on.
     pub(super) fn bring_to_front(&mut self, tab: Tab) {
         if let Some((index, stage)) = self.read_with(&tab).filter(|_| tab != Tab::Common) {
             let pass = &self.documents.current().passes[index];
@@ -215,7 +216,7 @@ impl Session {
         self.analyst.front = Some(tab);
     }
 
-    /// Hands the newest texts to the analyst if they are new to it.
+    /// Submits the newest texts for analysis if they have changed.
     pub(super) fn analyse(&mut self) {
         let Some(front) = self.analyst.front.clone() else { return };
         let project = self.documents.current();
@@ -239,7 +240,7 @@ impl Session {
         match self.analyst.background.take() {
             None => return,
             Some(Ok(done)) => self.analyst.newest = Some(Arc::new(done)),
-            // The editor does without; the compiler will say so aloud if it stumbles as well.
+            // The editor works without an analysis; the compiler reports the bug to the user if it panics as well.
             Some(Err(why)) => log::error!("{why}"),
         }
         self.changed = true;

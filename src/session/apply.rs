@@ -1,5 +1,4 @@
-//! Commands of the front ends that concern the open project, its picture and its input. Those about files are in
-//! `files`.
+//! Commands of the front ends about the open project, its picture and its input. Commands about files are in `files`.
 
 use super::{
     Session,
@@ -12,12 +11,12 @@ use eddy_playback::{capture, mouse::Mouse};
 use eddy_project::{self as project, Bindings, Channel, PassName, SLOTS, Tab, include_names};
 
 impl Session {
-    /// Does what the user asked. Never fails: trouble becomes a notice.
+    /// Executes a command of the user. Never fails: errors become notices.
     pub fn apply(&mut self, command: Command) {
         self.changed |= !is_input(&command);
         self.notices.begin_command();
         self.execute(command);
-        // Not in a tick, which a slow frame may put off.
+        // Not in a tick, which a slow frame may delay.
         self.keep_unsaved();
     }
 
@@ -116,7 +115,7 @@ impl Session {
             Command::EditPasses(edit) => self.edit_passes(edit),
             Command::UndoPassEdit => self.undo_pass_edit(),
             Command::RedoPassEdit => self.redo_pass_edit(),
-            // The recorded hand's are drawn.
+            // While a recording plays, its mouse is drawn.
             Command::MouseDown { .. }
             | Command::MouseMove { .. }
             | Command::MouseUp
@@ -191,7 +190,7 @@ impl Session {
         }
     }
 
-    /// True if the channel reads something else now.
+    /// Returns whether the channel reads something else now.
     pub(super) fn set_channel(&mut self, pass: &PassName, index: usize, channel: Option<Channel>) -> bool {
         let folder = capture::base_folder(self.project());
         let channel = channel.map(|c| Channel { input: project::at_home(c.input, folder.as_deref()), ..c });
@@ -218,12 +217,12 @@ impl Session {
         if *source.text == *text {
             return;
         }
-        // Without `eddy.toml` the text says what its channels read; with one these lines count for nothing.
+        // Without `eddy.toml`, `#iChannel` lines in the text define the channels; with one they are ignored.
         let declares = |text: &str| text.contains("#iChannel");
         let is_asked = self.project().has_channels_in_texts() && (declares(&source.text) || declares(text));
         let before = is_asked.then(|| self.declared_channels(tab));
         let old = source.text.clone();
-        // The worker reads them when it compiles: a keystroke waits for no file.
+        // The worker reads included files when it compiles, so that no keystroke waits for a file.
         if include_names(&source.text) != include_names(text) {
             self.compile.include_edits += 1;
         }
@@ -241,7 +240,7 @@ impl Session {
         self.compile.edit();
     }
 
-    /// Returns what the tab's pass reads by its text alone.
+    /// Returns the channels that the tab's pass declares in its text.
     fn declared_channels(&self, tab: &Tab) -> Option<Bindings> {
         let Tab::Pass(id) = tab else { return None };
         let mut project = self.project().clone();
@@ -252,8 +251,8 @@ impl Session {
     fn focus(&mut self, focused: bool) {
         if focused {
             self.playback.rebase();
-            // A watch can miss things (a network drive, a folder that was replaced); coming back is a good time to
-            // look.
+            // A watcher can miss changes (a network drive, a folder that was replaced), so check when the window
+            // regains focus.
             self.disk.want_check();
         } else {
             self.playback.release_keys();
@@ -267,7 +266,7 @@ impl Session {
         let is_drawn = self.drawing.draws(&pass);
         self.picture.shown = pass.clone();
         if self.watched.probing.want(None, self.documents.current()) {
-            // Its program does not draw what is shown now.
+            // The program does not draw the pass that is shown now.
             return self.compile_soon();
         }
         self.drawing.wanted.shown = Some(pass);
@@ -278,7 +277,7 @@ impl Session {
     }
 }
 
-/// Returns whether only the shader sees it: no panel shows where the mouse is or which keys are down.
+/// Returns whether only the shader sees the command: no panel shows the mouse position or which keys are down.
 fn is_input(command: &Command) -> bool {
     matches!(
         command,

@@ -1,5 +1,5 @@
-//! The audit that a person asks for of the picture that is shown: taken of the pass after a frame, done on a thread of
-//! its own, listed with the problems until the next compile.
+//! The audit of the shown picture, at the user's request: its input is read from the pass after a frame, it runs on a
+//! thread of its own, and its findings are listed with the problems until the next compile.
 
 use super::{
     Session,
@@ -17,12 +17,12 @@ use eddy_engine::{EngineError, Sources};
 use eddy_project::{PassName, Project};
 use std::collections::HashMap;
 
-/// Says how many pixels are looked at, across and up.
+/// The number of pixels that are audited, across and up.
 const PIXELS: (u32, u32) = (32, 18);
-/// Pixels that are listed.
+/// The number of pixels that are listed.
 const WORST: usize = 5;
 
-/// Holds what came of it.
+/// The result of an audit.
 pub(super) struct AuditSummary {
     pub pass: PassName,
     pub pixels: usize,
@@ -32,7 +32,7 @@ pub(super) struct AuditSummary {
     pub map: AuditMap,
 }
 
-/// Says how far pixels of a pass are off double precision, and where.
+/// The errors of a pass's pixels against double precision, by position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AuditMap {
     pub pass: PassName,
@@ -40,20 +40,20 @@ pub struct AuditMap {
     pub size: (u32, u32),
     pub pixels: usize,
     pub cells: Vec<AuditCell>,
-    /// The largest errors, the largest first; those without any are left out.
+    /// The largest errors in descending order; pixels without an error are left out.
     pub worst: Vec<WorstPixel>,
 }
 
-/// A part of a picture that one pixel stands for: its corners, from 0 to 1 across and up.
+/// The part of a picture that one pixel represents: its corners, from 0 to 1 across and up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AuditCell {
     pub from: [f32; 2],
     pub to: [f32; 2],
-    /// The largest difference of a component; infinite where the device or double precision alone has a number.
+    /// The largest difference of a component; infinite if only one of the device and double precision yields a number.
     pub error: f64,
 }
 
-/// A pixel, what the device has drawn there, and what double precision makes of it.
+/// A pixel, the device's value for it, and the value in double precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorstPixel {
     pub pixel: (u32, u32),
@@ -65,9 +65,9 @@ pub struct WorstPixel {
 pub(super) struct Auditing {
     background: Background<(Project, Inspected), (), AuditSummary>,
     input: Ticket<Result<Inspected, EngineError>>,
-    /// Holds what is shown of the newest one, as long as that frame is.
+    /// The newest map, shown while its frame is.
     pub map: Option<AuditMap>,
-    /// The count of frames when the input was taken.
+    /// The frame count when the input was read.
     of_frame: u64,
 }
 
@@ -84,7 +84,7 @@ impl Auditing {
         }
     }
 
-    /// The device that the input was asked of is gone.
+    /// Requests the input again: the device that was to deliver it is lost.
     pub(crate) fn renew_request(&mut self) {
         self.background.renew_request();
     }
@@ -96,8 +96,8 @@ impl Auditing {
 }
 
 impl Session {
-    /// Returns how far the audited pixels ([`Command::Audit`](super::Command::Audit)) are off double precision, while
-    /// what was found of them is listed.
+    /// Returns the errors of the audited pixels ([`Command::Audit`](super::Command::Audit)) while its findings are
+    /// listed.
     pub fn audit_map(&self) -> Option<&AuditMap> {
         self.auditing.map.as_ref()
     }
@@ -110,7 +110,7 @@ impl Session {
         self.auditing.background.request();
     }
 
-    /// Hands on what the audited pass read.
+    /// Submits the input that the audited pass read.
     pub(super) fn audit(&mut self) {
         let Some(input) = self.auditing.input.take() else { return };
         match (input.output, self.drawing.project().cloned()) {
@@ -126,7 +126,7 @@ impl Session {
         }
     }
 
-    /// Takes an audit that has ended.
+    /// Takes a finished audit.
     pub(super) fn take_audited(&mut self) {
         let Some(result) = self.auditing.background.take() else { return };
         self.changed = true;
@@ -134,7 +134,7 @@ impl Session {
             Ok(summary) => summary,
             Err(why) => return self.not_checked(&why),
         };
-        // A frame of another size was drawn meanwhile, and is the picture that is shown.
+        // A frame of another size was drawn meanwhile, and is shown now.
         let is_shown = self.auditing.of_frame == self.picture.frames_drawn;
         if !is_shown && !self.is_playing() {
             self.auditing.background.request();
@@ -155,7 +155,7 @@ impl Session {
         self.auditing.map = Some(map).filter(|_| is_shown);
     }
 
-    /// Another picture is shown than the one that the map is of.
+    /// Drops the map: another picture is shown than the one that was audited.
     pub(super) fn picture_is_other(&mut self) {
         self.picture.frames_drawn += 1;
         self.auditing.map = None;

@@ -1,4 +1,4 @@
-//! The size of the picture: what is asked for, and what the device takes.
+//! The size of the picture: the requested size, and the size that the device accepts.
 
 use super::{
     Session,
@@ -6,23 +6,23 @@ use super::{
 };
 use eddy_engine::EngineError;
 
-/// The size that the picture shall have.
+/// The size that the picture should have.
 #[derive(Default)]
 pub(super) struct Canvas {
     pub viewport: Option<(u32, u32)>,
     pub asked: CanvasSize,
-    /// The size that was asked for before any project was opened: each begins with it.
+    /// The size requested before any project was opened: each project starts with it.
     pub usual: CanvasSize,
-    /// The size of a recording that is played, or was until now.
+    /// The size of the recording that plays, or played until now.
     pub replayed: Option<(u32, u32)>,
-    /// A size the device did not take; not tried again.
+    /// A size that the device did not accept; it is not retried.
     pub refused: Option<(u32, u32)>,
 }
 
-/// The size that a person has asked for, for the open project.
+/// The size that the user has requested for the open project.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CanvasSize {
-    /// Canvas pixels to viewport pixels.
+    /// Ratio of canvas pixels to viewport pixels.
     pub scale: f32,
     pub fixed: Option<(u32, u32)>,
 }
@@ -34,7 +34,7 @@ impl Default for CanvasSize {
 }
 
 impl Canvas {
-    /// Each project begins with the size that was asked for before any was opened.
+    /// Resets to the size requested before any project was opened.
     pub(crate) fn begin_next_project(&mut self) {
         *self = Self { viewport: self.viewport, asked: self.usual, usual: self.usual, ..Self::default() };
     }
@@ -54,7 +54,7 @@ impl Canvas {
         }
     }
 
-    /// Pixels, at least one each way; `None` before the viewport is known.
+    /// Size in pixels, at least one each way; `None` before the viewport is known.
     fn size(&self) -> Option<(u32, u32)> {
         let scaled = |v: u32| ((f64::from(v) * f64::from(self.asked.scale)).floor() as u32).max(1);
         self.replayed.or(self.asked.fixed).or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
@@ -71,7 +71,7 @@ impl Session {
         }
     }
 
-    /// Another size of the canvas is asked for: for the open project, or before there is one for each to come.
+    /// Sets the requested canvas size: of the open project, or if there is none, of each project to come.
     pub(super) fn ask_size(&mut self, size: CanvasSize) {
         self.end_replay("the resolution was changed");
         self.canvas.replayed = None;
@@ -82,7 +82,7 @@ impl Session {
         self.canvas.refused = None;
     }
 
-    /// Gives the engine the size the canvas shall have.
+    /// Resizes the engine to the canvas size.
     pub(super) fn fit_canvas(&mut self) {
         let Some(size) = self.canvas.size() else { return };
         let is_new = size != self.drawing.coming_size() && self.canvas.refused != Some(size);
@@ -92,7 +92,7 @@ impl Session {
         }
     }
 
-    /// The device does not take a size for the canvas.
+    /// Handles a canvas size that the device does not accept.
     pub(super) fn size_refused(&mut self, size: (u32, u32), error: &EngineError) {
         self.canvas.refused = Some(size);
         let (width, height) = self.drawing.size();

@@ -1,4 +1,4 @@
-//! Pictures of the shown pass are written to new files.
+//! Pictures of the shown pass, written to new files.
 
 use super::{
     Session,
@@ -11,18 +11,18 @@ use eddy_playback::{capture, scene::Scene};
 use eddy_project::PassName;
 use std::path::PathBuf;
 
-/// A picture that is to be written to a file.
+/// A picture to be written to a file.
 #[derive(Clone, Debug)]
 struct Capture {
     pass: PassName,
     format: capture::Format,
     folder: PathBuf,
     stem: String,
-    /// The project that is saved in the file.
+    /// The project to embed in the file.
     source: Option<PictureSource>,
 }
 
-/// A picture, and what it was drawn from.
+/// A picture and the scene that it was drawn from.
 type Captured = (Result<Pixels, EngineError>, Option<Scene>);
 
 impl RenderTask for Capture {
@@ -34,9 +34,9 @@ impl RenderTask for Capture {
     }
 }
 
-/// The pictures that are to be written, oldest first. Another project changes none of them.
+/// The pictures to be written, oldest first. Opening another project keeps them.
 pub(super) struct Captures {
-    /// The project is saved in them.
+    /// The project is embedded in PNG files.
     pub with_project: bool,
     due: Vec<Capture>,
     in_flight: Vec<(Capture, Ticket<Captured>)>,
@@ -54,21 +54,21 @@ impl Captures {
         self.in_flight.extend(due.map(|capture| (capture.clone(), tasks.add(capture))));
     }
 
-    /// The pictures of a device that was given up are read of the next one.
+    /// Reads the pictures that a lost device did not deliver from the next one.
     pub(crate) fn retry(&mut self) {
         self.due.splice(..0, self.in_flight.drain(..).map(|(capture, _)| capture));
     }
 }
 
 impl Session {
-    /// Writes the shown pass to a new file, as soon as the engine has time.
+    /// Writes the shown pass to a new file, as soon as the engine is free.
     pub(super) fn capture(&mut self, format: capture::Format) {
         if !self.drawing.has_program() {
             self.notice_about(About::Drawing, Level::Warning, "there is no picture to save yet");
             return;
         }
         let project = self.documents.current();
-        // A value that is looked at is no picture of the project.
+        // A picture of a probed value does not represent the project.
         let is_asked = self.watched.captures.with_project && format == capture::Format::Png;
         let source = (is_asked && self.pictured() == self.picture.shown).then(|| PictureSource {
             project: project.clone(),
@@ -90,7 +90,7 @@ impl Session {
         }
     }
 
-    /// Writes the pictures that came with a job. Those that did not are lost with their device.
+    /// Writes the pictures that came with a job. Pictures that did not come are lost with their device.
     pub(super) fn write_captures(&mut self) {
         for (capture, mut ticket) in std::mem::take(&mut self.watched.captures.in_flight) {
             if let Some(read) = ticket.take() {

@@ -1,4 +1,4 @@
-//! The open project is compared with another one, from the inputs that its frames had.
+//! Comparison of the open project with another one, from the recorded inputs of its frames.
 
 use super::{
     Session,
@@ -26,7 +26,7 @@ impl Comparing {
         Ok(Self { background, against: None, input: Ticket::default() })
     }
 
-    /// Begins anew, or stops. The last comparison stays until there is another.
+    /// Starts or stops a comparison. The last result stays until there is another.
     pub(crate) fn want(&mut self, against: Option<Baseline>) {
         self.background.cancel();
         if against.is_some() {
@@ -53,12 +53,12 @@ impl Session {
         self.comparing.background.status()
     }
 
-    /// The newest comparison is not of the project as it stands now.
+    /// The newest comparison is of an older revision of the project.
     pub fn is_comparison_old(&self) -> bool {
         matches!(self.comparison(), Some(Status::Ended(Ok(done))) if done.revision != self.documents.revision())
     }
 
-    /// Hands on the frames that both projects draw.
+    /// Submits the frames that both projects draw.
     pub(super) fn compare(&mut self) {
         let Comparing { background, against, input } = &mut self.comparing;
         let (Some(input), Some(against)) = (input.take(), against.clone()) else { return };

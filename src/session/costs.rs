@@ -1,12 +1,12 @@
-//! The costs of each pass are gathered while somebody looks.
+//! The cost of each pass, gathered while a view shows it.
 
 use eddy_engine::{CostClock, PassCost, PassTime};
 use std::collections::VecDeque;
 
-/// Frames whose median counts: half a second at 60 a second.
+/// The median is over this many frames: half a second at 60 per second.
 const FRAMES: usize = 30;
 
-/// A pass, and how long it takes.
+/// A pass and its time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimedPass {
     pub cost: PassCost,
@@ -14,15 +14,15 @@ pub struct TimedPass {
     pub millis: Option<f64>,
 }
 
-/// All passes of the open project.
+/// The costs of all passes of the open project.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassCosts {
-    /// In drawing order; then those that are not drawn.
+    /// In drawing order, followed by passes that are not drawn.
     pub passes: Vec<TimedPass>,
     pub clock: CostClock,
 }
 
-/// Times of the newest frames.
+/// The times of the newest frames.
 #[derive(Default)]
 pub(super) struct Costs {
     newest: Vec<PassTime>,
@@ -36,12 +36,12 @@ impl Costs {
         &self.newest
     }
 
-    /// Nothing is measured yet.
+    /// Starts with no measurements.
     pub(crate) fn watched(is_watched: bool) -> Self {
         Self { is_watched, ..Self::default() }
     }
 
-    /// Another program, or another project: what was measured is no longer of it.
+    /// Clears the measurements, which are of another program or project.
     pub(crate) fn forget(&mut self) {
         self.newest.clear();
         self.frames.clear();
@@ -51,27 +51,27 @@ impl Costs {
         if self.is_watched != on {
             self.is_watched = on;
             self.frames.clear();
-            // While paused no other frame comes.
+            // While paused no other frame follows.
             self.frames.extend((on && !self.newest.is_empty()).then(|| self.newest.clone()));
         }
     }
 
-    /// Somebody looks at them.
+    /// Returns whether a view shows the costs.
     pub(crate) fn is_watched(&self) -> bool {
         self.is_watched
     }
 
-    /// Adds the times of a frame, by a clock.
+    /// Adds the times of a frame, measured by a clock.
     pub(crate) fn add(&mut self, times: Vec<PassTime>, clock: CostClock) {
         if self.is_watched {
             self.frames.truncate(FRAMES - 1);
             self.frames.push_front(times.clone());
         }
-        // Waited for, the passes are no measure of a frame.
+        // If each pass is waited for, their times do not add up to a frame.
         self.newest = if clock == CostClock::Timestamps { times } else { Vec::new() };
     }
 
-    /// Each pass with its median.
+    /// Returns each pass with its median.
     pub(crate) fn of(&self, passes: Vec<PassCost>, clock: CostClock) -> PassCosts {
         let timed = |cost: PassCost| TimedPass { millis: self.median(&cost), cost };
         PassCosts { passes: passes.into_iter().map(timed).collect(), clock }
@@ -79,7 +79,7 @@ impl Costs {
 
     fn median(&self, cost: &PassCost) -> Option<f64> {
         let of_frame = |times: &Vec<PassTime>| times.iter().find(|t| t.pass == cost.pass).map(|t| t.gpu_millis);
-        // A pass that rested took nothing in that frame.
+        // A skipped pass took no time in that frame.
         let mut all: Vec<f64> = self.frames.iter().filter_map(of_frame).filter(|millis| *millis > 0.0).collect();
         all.sort_by(f64::total_cmp);
         all.get(all.len() / 2).copied()

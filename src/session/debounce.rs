@@ -1,12 +1,12 @@
-//! Waiting for quiet: a burst of events becomes one, a while after its last.
+//! Debouncing: a burst of events becomes one, a while after its last.
 
 use std::time::{Duration, Instant};
 
-/// Due once, `quiet` after the last touch.
+/// A timer that is due once, `quiet` after the last touch.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Debounce {
     quiet: Duration,
-    /// The longest time that touches which follow each other closely can put it off.
+    /// The longest delay that touches in quick succession can cause.
     limit: Option<Duration>,
     /// The first and the last touch.
     touched: Option<(Instant, Instant)>,
@@ -17,12 +17,12 @@ impl Debounce {
         Self { quiet, limit: None, touched: None }
     }
 
-    /// One that a burst without an end (a log beside the sources, pictures being recorded) cannot put off for ever.
+    /// A timer that an endless burst (a log file next to the sources, pictures being recorded) cannot delay for ever.
     pub(crate) fn with_limit(quiet: Duration, limit: Duration) -> Self {
         Self { limit: Some(limit), ..Self::new(quiet) }
     }
 
-    /// Waits for longer or shorter quiet from now on.
+    /// Changes the quiet time.
     pub(crate) fn set_quiet(&mut self, quiet: Duration) {
         self.quiet = quiet;
     }
@@ -49,7 +49,7 @@ impl Debounce {
         Some(self.limit.map_or(quiet, |limit| quiet.min(first + limit)))
     }
 
-    /// True once, when the quiet has lasted long enough.
+    /// Returns true once, when the quiet time has passed.
     pub(crate) fn take_due(&mut self, now: Instant) -> bool {
         let due = self.deadline().is_some_and(|d| now >= d);
         if due {
@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn another_quiet_holds_from_the_next_look_on() {
+    fn changed_quiet_time_applies_at_the_next_check() {
         let start = Instant::now();
         let at = |ms| start + Duration::from_millis(ms);
         let mut d = Debounce::new(Duration::from_millis(200));
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn a_burst_without_an_end_is_due_at_its_limit() {
+    fn endless_burst_is_due_at_its_limit() {
         let start = Instant::now();
         let at = |ms| start + Duration::from_millis(ms);
         let mut d = Debounce::with_limit(Duration::from_millis(100), Duration::from_millis(1000));

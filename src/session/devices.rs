@@ -1,7 +1,7 @@
-//! Devices that see or hear: which of them the person has allowed, and the camera that is on.
+//! Cameras and microphones: which kinds of device the user has allowed, and the active camera.
 //!
-//! A device is used only after the person has turned it on for the open project in this run. A project that asks for it shows
-//! black until then, and another project asks again.
+//! A device is used only after the user has turned it on for the open project in this run. A project that reads one
+//! shows black until then, and another project asks again.
 
 use super::{
     Session,
@@ -10,7 +10,7 @@ use super::{
 use eddy_project::{InputKind, Project};
 use eddy_video::{Camera, CameraDevice, CameraFrame, CameraSource, Tools, VideoError};
 
-/// The devices that the person has allowed the open project to use.
+/// The kinds of device that the user has allowed the open project to use.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct DeviceConsent {
     allowed: Vec<InputKind>,
@@ -35,9 +35,9 @@ impl DeviceConsent {
 /// The state of a device that a project reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CameraState {
-    /// Nobody has turned it on.
+    /// The user has not turned it on.
     Off,
-    /// It is on and has given nothing yet.
+    /// It is on and has delivered nothing yet.
     Starting,
     On,
 }
@@ -47,13 +47,13 @@ pub enum CameraState {
 pub(super) struct Devices {
     pub consent: DeviceConsent,
     camera: Option<Camera>,
-    /// The camera that the person has chosen, if one.
+    /// The camera that the user has chosen, if any.
     chosen: Option<CameraSource>,
-    /// Cameras of the machine, as the newest one that was on has found them.
+    /// The machine's cameras, as found when a camera was last turned on.
     found: Vec<CameraDevice>,
-    /// A program shows the camera's pictures.
+    /// The program shows the camera's pictures.
     is_shown: bool,
-    /// The person has heard that it has ended.
+    /// The user was told that it has stopped.
     is_end_told: bool,
 }
 
@@ -62,7 +62,7 @@ impl Devices {
         self.camera.as_ref().filter(|camera| camera.newest().is_some())
     }
 
-    /// Turns the camera off, now and whoever draws its pictures still. Returns whether one was on.
+    /// Turns the camera off at once, also for programs that still draw its pictures. Returns whether one was on.
     fn turn_camera_off(&mut self) -> bool {
         let camera = self.camera.take();
         camera.iter().for_each(Camera::turn_off);
@@ -90,17 +90,17 @@ impl Session {
         }
     }
 
-    /// Returns the newest picture of the camera that is on.
+    /// Returns the newest picture of the active camera.
     pub fn camera_picture(&self) -> Option<CameraFrame> {
         self.devices.camera.as_ref().and_then(Camera::newest)
     }
 
-    /// Returns the cameras that there are, known once one has been on, and which one is on.
+    /// Returns the available cameras, known once one has been on, and the active one.
     pub fn cameras(&self) -> (&[CameraDevice], Option<&CameraSource>) {
         (&self.devices.found, self.devices.camera.as_ref().map(Camera::source))
     }
 
-    /// The person turns a device on or off.
+    /// Turns a device on or off, at the user's request.
     pub(super) fn use_device(&mut self, kind: InputKind, on: bool) {
         if kind != InputKind::Webcam {
             return;
@@ -117,7 +117,7 @@ impl Session {
         self.open_camera();
     }
 
-    /// The person chooses a camera, which turns it on.
+    /// Chooses a camera and turns it on, at the user's request.
     pub(super) fn choose_camera(&mut self, id: String) {
         self.devices.chosen = Some(CameraSource::Device(id));
         self.devices.turn_camera_off();
@@ -134,7 +134,7 @@ impl Session {
         (self.devices.is_shown, self.devices.is_end_told) = (false, false);
     }
 
-    /// Shows a camera that has begun, and tells of one that has ended.
+    /// Shows a camera that has started, and reports one that has stopped.
     pub(super) fn follow_devices(&mut self) {
         let Some(camera) = &self.devices.camera else { return };
         if camera.newest().is_some() && !std::mem::replace(&mut self.devices.is_shown, true) {

@@ -1,4 +1,4 @@
-//! A session hands the engine its jobs, and takes what comes back.
+//! Submits jobs to the engine and takes its results.
 
 use super::{
     Session,
@@ -10,14 +10,14 @@ use eddy_gpu::{Gpu, GpuError};
 use std::time::Duration;
 
 impl Session {
-    /// Takes what the engine has done since. Says whether a frame was drawn.
+    /// Takes the engine's result, if there is one. Returns whether a frame was drawn.
     pub(super) fn take_drawn(&mut self, is_just_handed_in: bool) -> bool {
         let Some(done) = self.drawing.take(is_just_handed_in) else { return false };
         self.take_done(done)
     }
 
-    /// Hands in what is wanted and what is due, one job after the other, while the engine takes them: while playing one
-    /// frame a call. Says whether a frame was drawn.
+    /// Submits pending changes and due frames, one job after the other, as long as the engine accepts them: while
+    /// playing one frame per call. Returns whether a frame was drawn.
     ///
     /// `runs`: a frame of the running picture may be among them.
     pub(super) fn draw_due_frames(&mut self, runs: bool) -> bool {
@@ -45,7 +45,7 @@ impl Session {
         is_drawn
     }
 
-    /// Returns the frame that is due now. A new program, or a new project's engine, is handed in before its first one.
+    /// Returns the frame that is due now. A new program, or a new project's engine, is submitted before its first one.
     fn next_frame(&mut self, has_run: &mut bool) -> Option<FrameInputs> {
         let wanted = &self.drawing.wanted;
         let is_other_coming = wanted.restart || wanted.program.is_some();
@@ -70,10 +70,10 @@ impl Session {
         Some(inputs)
     }
 
-    /// `again`: the frame that is shown is drawn again.
+    /// `again`: the shown frame is drawn again.
     pub(super) fn hand_in(&mut self, frame: Option<FrameInputs>, again: bool, tasks: Tasks) {
         let stays = self.stays() && !std::mem::take(&mut self.playback.replay.follows);
-        // Before a further frame the one that is shown is drawn again, with what was changed meanwhile.
+        // Before a new frame the shown one is drawn again, with what was changed meanwhile.
         self.note_job(frame.as_ref(), again || (stays && frame.is_some()));
         if let Some(frame) = &frame {
             self.watched.measuring.begin_frame(frame.frame);
@@ -92,8 +92,8 @@ impl Session {
         });
     }
 
-    /// The next frame is followed by others like it. The first one of a program is seen however fast another follows, and
-    /// so is one that is drawn while time stands.
+    /// Returns whether the next frame is followed by similar ones, so that it may be dropped. The first frame of a
+    /// program is always shown, however soon another follows, and so is a frame that is drawn while time is paused.
     pub(super) fn is_one_of_many(&self) -> bool {
         self.playback.clock.is_playing() && !self.picture.is_program_new && self.drawing.wanted.is_empty()
     }
@@ -147,13 +147,13 @@ impl Session {
             None => {}
         }
         self.playback.is_again_due |= done.custom_uniforms_changed && !has_frame;
-        // While the picture runs the next frame shows it.
+        // While the picture runs, the next frame shows it.
         self.playback.is_again_due |= done.is_late && has_frame && !self.playback.is_running();
         self.changed |= self.watched.costs.is_watched();
         match done.frame.transpose().and_then(|frame| Ok((frame, done.picture.transpose()?))) {
             Ok((frame, picture)) => {
                 if let Some(picture) = picture {
-                    // Also without a frame, where it is shown otherwise than before.
+                    // Also without a frame, if the display mode has changed.
                     self.changed |= frame.is_none();
                     match self.drawing.show(&picture) {
                         Ok(is_new) => self.picture.generation += u64::from(is_new),
@@ -173,7 +173,7 @@ impl Session {
         }
     }
 
-    /// Tells the engine how a probe is shown, if that is another way than before.
+    /// Tells the engine how to display a probe, if that has changed.
     pub(super) fn look_anew(&mut self) {
         if let Some(look) = self.watched.probing.take_look(false) {
             self.drawing.wanted.look = Some(look);
@@ -212,13 +212,13 @@ impl Session {
                 self.keep_inputs();
             }
         } else {
-            // What is drawn is older than what the errors are about.
+            // The picture is older than the text of the errors.
             self.compile.fail(self.drawing.has_program());
         }
         self.halt_for_new_program(forecast);
     }
 
-    /// A frame could not be drawn: the picture stands, everything else goes on.
+    /// Handles a frame that could not be drawn: the picture stops, everything else continues.
     pub(super) fn stop_drawing(&mut self, error: &EngineError) {
         let is_lost = matches!(error, EngineError::Gpu(GpuError::Lost(_)));
         if is_lost && self.drawing.is_apart() {
@@ -239,11 +239,11 @@ impl Session {
         }
     }
 
-    /// Shows the picture on another device of the window's, whose own was lost. What draws is another device still.
+    /// Shows the picture on a new device of the window, whose previous one was lost. Drawing uses a separate device.
     pub fn show_on(&mut self, window: Gpu) -> Result<(), GpuError> {
         self.drawing.show_on(window.clone())?;
         self.sounding.change_device(beside(window));
-        // Handed out once more, also while paused.
+        // Request it again, also while paused.
         self.drawing.wanted.shown = Some(self.pictured());
         self.picture.generation += 1;
         self.picture.shown_count += 1;

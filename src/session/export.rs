@@ -1,5 +1,5 @@
-//! Exports the open project as Shadertoy JSON. What this form cannot express is named before anything is written, and no
-//! file is replaced unasked.
+//! Exports the open project as Shadertoy JSON. Features that it cannot express are listed before anything is written,
+//! and no file is replaced without asking.
 
 use super::{
     Session,
@@ -14,8 +14,8 @@ use eddy_project::{self as project, Project, ProjectError};
 use std::path::{Path, PathBuf};
 
 impl Session {
-    /// Writes the project to a JSON file, where nothing is lost by it and nothing is there; else asks first. The project
-    /// stays where it is, saved or not.
+    /// Writes the project to a JSON file if nothing is lost and the file does not exist; asks first otherwise. The
+    /// project's origin and unsaved state stay.
     pub(super) fn export_json(&mut self, file: &Path) {
         self.settled(About::Export);
         let file = as_json(&std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
@@ -33,7 +33,7 @@ impl Session {
         }
     }
 
-    /// `replaces`: the user lets it replace the file that is there.
+    /// `replaces`: the user allows replacing the existing file.
     pub(super) fn write_json(&mut self, file: &Path, replaces: bool) {
         let replaced = if replaces { vec![file.to_owned()] } else { Vec::new() };
         match save_over(self.project(), file, &replaced, self.options.recovery.as_deref()) {
@@ -48,7 +48,7 @@ impl Session {
                     self.tell_of_kept(1, kept);
                 }
             }
-            // It came there while the question stood.
+            // The file was created while the question was open.
             Err(ProjectError::WouldOverwrite { .. }) if !replaces => {
                 let lost = project::json_losses(self.project());
                 self.ask(Question::Export { file: file.to_owned(), exists: true, lost });
@@ -72,7 +72,7 @@ fn exportable(project: &Project, file: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns a file with the ending that makes it JSON.
+/// Returns a file name with the JSON extension.
 fn as_json(file: &Path) -> PathBuf {
     if file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json")) {
         return file.to_owned();
@@ -82,8 +82,8 @@ fn as_json(file: &Path) -> PathBuf {
     file.with_file_name(name)
 }
 
-/// Returns the errors of directives that cannot be obeyed: what these ask for would be missing in an export. Other
-/// mistakes of a project's texts are exported as they are.
+/// Returns the errors of directives that cannot be followed: the export would lack what they request. Other errors in a
+/// project's texts are exported as they are.
 pub fn directive_errors(project: &Project) -> (Vec<Diagnostic>, SourceMap) {
     let texts = engine::Sources::new(project);
     let sources = project.sources();
@@ -96,7 +96,7 @@ pub fn directive_errors(project: &Project) -> (Vec<Diagnostic>, SourceMap) {
     (found, sources)
 }
 
-/// Returns whether a message is about a directive that GLSL itself does not have.
+/// Returns whether a message is about a directive that is not part of GLSL.
 fn is_of_directive(diagnostic: &Diagnostic, sources: &SourceMap) -> bool {
     const GLSL: [&str; 12] =
         ["define", "undef", "if", "ifdef", "ifndef", "elif", "else", "endif", "error", "line", "version", "extension"];
@@ -106,7 +106,7 @@ fn is_of_directive(diagnostic: &Diagnostic, sources: &SourceMap) -> bool {
         text[begin..].lines().next().map(str::trim_start)
     });
     let word = line.and_then(|line| line.strip_prefix('#')).map(str::trim_start);
-    // Text may stand in front of an `#include`: a comment that ends in its line.
+    // Text may precede an `#include`: a comment that ends in its line.
     diagnostic.message.starts_with("#include ")
         || word
             .is_some_and(|rest| !GLSL.contains(&rest.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default()))
@@ -117,7 +117,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_without_an_ending_gets_one() {
+    fn missing_extension_is_added() {
         for (given, wanted) in [("/a/b", "/a/b.json"), ("/a/b.JSON", "/a/b.JSON"), ("/a/v1.2", "/a/v1.2.json")] {
             assert_eq!(as_json(Path::new(given)), Path::new(wanted));
         }

@@ -1,5 +1,5 @@
-//! Exports the open project as an HTML file that plays it. What the page cannot show is named before anything is written,
-//! and no file is replaced unasked.
+//! Exports the open project as an HTML file that plays it. Features that the page cannot show are listed before
+//! anything is written, and no file is replaced without asking.
 
 use super::{
     Session,
@@ -13,8 +13,8 @@ use eddy_web as web;
 use std::path::{Path, PathBuf};
 
 impl Session {
-    /// Writes the project to an HTML file, where it shows everything and nothing is there; else asks first. The project
-    /// stays where it is, saved or not.
+    /// Writes the project to an HTML file if the page shows everything and the file does not exist; asks first
+    /// otherwise. The project's origin and unsaved state stay.
     pub(super) fn export_page(&mut self, file: &Path) {
         self.settled(About::Export);
         let file = as_html(&std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
@@ -33,7 +33,7 @@ impl Session {
         }
     }
 
-    /// `replaces`: the user lets it replace the file that is there.
+    /// `replaces`: the user allows replacing the existing file.
     pub(super) fn write_page(&mut self, file: &Path, replaces: bool) {
         let Some((html, lost)) = self.page() else { return };
         let kept = replaces.then(|| place_for_replaced(self.options.recovery.as_deref(), file));
@@ -46,7 +46,7 @@ impl Session {
                     self.tell_of_kept(1, kept);
                 }
             }
-            // It came there while the question stood.
+            // The file was created while the question was open.
             Err(ProjectError::WouldOverwrite { .. }) if !replaces => {
                 self.ask(Question::Export { file: file.to_owned(), exists: true, lost });
             }
@@ -54,7 +54,8 @@ impl Session {
         }
     }
 
-    /// Returns the page of the project and what it does not show, each as a sentence. `None`: it has errors, which are told.
+    /// Returns the page of the project and the features that it does not show, each as a sentence. `None`: the project
+    /// has errors, which are reported.
     fn page(&mut self) -> Option<(String, Vec<String>)> {
         match web::export(self.project(), self.options.media_dir.as_deref()) {
             Ok(page) => {
@@ -73,12 +74,12 @@ impl Session {
     }
 }
 
-/// Returns whether a file is a page by its ending.
+/// Returns whether a file has the extension of a page.
 pub(super) fn is_page(file: &Path) -> bool {
     file.extension().is_some_and(|e| e.eq_ignore_ascii_case("html") || e.eq_ignore_ascii_case("htm"))
 }
 
-/// Returns a file with the ending that makes it a page.
+/// Returns a file name with the HTML extension.
 fn as_html(file: &Path) -> PathBuf {
     if is_page(file) {
         return file.to_owned();
@@ -93,7 +94,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_without_an_ending_gets_one() {
+    fn missing_extension_is_added() {
         for (given, wanted) in [("/a/b", "/a/b.html"), ("/a/b.HTM", "/a/b.HTM"), ("/a/v1.2", "/a/v1.2.html")] {
             assert_eq!(as_html(Path::new(given)), Path::new(wanted));
         }

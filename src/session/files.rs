@@ -1,4 +1,4 @@
-//! Opening, saving, leaving; the questions that keep anything unsaved from being lost, and their answers.
+//! Opening, saving, closing, and the questions that protect unsaved work, with their answers.
 
 use super::{
     Session,
@@ -22,7 +22,7 @@ impl Session {
     pub(super) fn apply_to_files(&mut self, command: Command) {
         match command {
             Command::Answer(answer) => self.answer(answer),
-            // A front end shows nothing else while a question stands; a script may still try.
+            // A front end shows nothing else while a question is open; a script may still send commands.
             _ if self.question().is_some() => {
                 self.notice_about(About::Question, Level::Warning, "answer the open question first");
             }
@@ -94,7 +94,7 @@ impl Session {
         }
     }
 
-    /// Writes the project where it came from. True if nothing unsaved is left.
+    /// Writes the project to where it came from. Returns whether nothing unsaved is left.
     fn save(&mut self) -> bool {
         self.settled(About::Saving);
         let home = match &self.project().origin {
@@ -118,12 +118,12 @@ impl Session {
                 self.saved(saved);
                 true
             }
-            // A pass that was added here has the name of a file that is not this project's.
+            // The name of a pass that was added here is that of a file outside this project.
             Err(ProjectError::WouldOverwrite { paths }) => {
                 self.ask(Question::Overwrite { folder: home, files: paths });
                 false
             }
-            // Code is written where it can be, whatever else is not.
+            // Texts are written if they can be, even if the rest cannot.
             Err(ProjectError::CannotHold { what, .. })
                 if self.dialog.after_save.is_none() && self.save_texts(&home) =>
             {
@@ -146,7 +146,7 @@ impl Session {
         }
     }
 
-    /// Returns whether the project's own files hold nothing that the user has not seen.
+    /// Returns whether the project's own files contain nothing that the user has not seen.
     fn may_overwrite(&mut self) -> bool {
         let is_asked = self.dialog.questions.iter().any(|q| matches!(q, Question::Conflict { .. }));
         let may = !is_asked && self.disk_is_as_read();
@@ -156,10 +156,10 @@ impl Session {
         may
     }
 
-    /// `replaced`: the foreign files that the user lets it replace.
+    /// `replaced`: the foreign files that the user allows replacing.
     fn save_as(&mut self, folder: &Path, replaced: &[PathBuf]) {
         self.settled(About::Saving);
-        // Typed by hand, it may be relative to where Eddy was started.
+        // A typed path may be relative to where Eddy was started.
         let folder = &std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         let home = capture::base_folder(self.project()).and_then(|home| home.canonicalize().ok());
         let is_home = home.is_some_and(|home| folder.canonicalize().is_ok_and(|folder| folder == home));
@@ -177,7 +177,7 @@ impl Session {
                 if let Some(kept) = kept {
                     self.tell_of_kept(replaced.len(), kept);
                 }
-                // Pictures are read from the new place, and the compile's texts have new names.
+                // Pictures are read from the new place, and the texts have new names in diagnostics.
                 self.disk.has_moved();
                 self.compile_soon();
                 self.finish_save();
@@ -189,7 +189,7 @@ impl Session {
         }
     }
 
-    /// Says where the files are that a save has replaced.
+    /// Reports where the files that a save has replaced are kept.
     pub(super) fn tell_of_kept(&mut self, count: usize, kept: PathBuf) {
         let files =
             if count == 1 { "the file that was replaced is".into() } else { format!("the {count} replaced files are") };
@@ -198,7 +198,7 @@ impl Session {
         self.notice_with_path(About::Saving, Level::Info, text, kept);
     }
 
-    /// Writes the edited texts alone. False: there are none, or they have no place there either.
+    /// Writes the edited texts alone. Returns false if there are none, or they cannot be written there.
     fn save_texts(&mut self, home: &Path) -> bool {
         let Some(project) = self.documents.edited_texts() else { return false };
         if project::save(&project, home, Overwrite::Refuse).is_err() {
@@ -226,7 +226,7 @@ impl Session {
             Origin::Unsaved | Origin::Preset(_) => project.name.clone(),
         };
         if self.documents.set_saved(project) {
-            // The last compile was of what stood here.
+            // The last compile was of the edited version, which differs.
             self.passes.clear();
             self.after_reload();
         }
@@ -264,7 +264,7 @@ impl Session {
             }
             (Question::Unsaved { .. } | Question::Overwrite { .. }, Answer::Cancel) => self.dialog.after_save = None,
             (Question::Conflict { tab, file, mine, disk, diff }, answer) => {
-                // The text may have been edited since the question was put.
+                // The text may have been edited since the question was asked.
                 let mine_now = tab.as_ref().map_or_else(|| mine.to_string(), |t| self.text(t).to_owned());
                 if let Err(why) = self.settle(tab.as_ref(), &file, &mine_now, &disk, answer) {
                     if let Some(why) = why {
@@ -282,8 +282,8 @@ impl Session {
         }
     }
 
-    /// Settles a conflict, with the other text in a file of its own first. Fails with what to say, or silently for an
-    /// answer that does not fit; then the question stands on.
+    /// Resolves a conflict after writing the other text to a file of its own. Fails with a message, or silently for an
+    /// answer that does not fit; then the question stays open.
     fn settle(
         &mut self,
         tab: Option<&Tab>,
@@ -316,8 +316,8 @@ impl Session {
         Ok(())
     }
 
-    /// Keeps what reading the open project had to say, for the list of problems. What each compile says again is left
-    /// out.
+    /// Keeps the warnings from loading the open project for the list of problems, without those that each compile
+    /// repeats.
     pub(super) fn note_reading(&mut self, warnings: &[Diagnostic], sources: &SourceMap) {
         let mut project = self.documents.saved().clone();
         let mut again = project::advice(&project);
@@ -334,8 +334,8 @@ impl Session {
     }
 }
 
-/// Saves a project over the files that the user has been shown, and over no others that are not its own. What is
-/// replaced is kept in the folder that comes back.
+/// Saves a project over the files that the user was shown, and over no other files that are not its own. Replaced files
+/// are kept in the folder that is returned.
 pub(super) fn save_over(
     project: &Project,
     target: &Path,
@@ -352,14 +352,14 @@ pub(super) fn save_over(
     }
 }
 
-/// Returns whether a project that is saved to `target` stays where it is.
+/// Returns whether a project saved to `target` keeps its origin.
 fn is_same_place(origin: &Origin, target: &Path) -> bool {
     let (Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path)) = origin else { return false };
     let target = if target.ends_with("eddy.toml") { target.parent().unwrap_or(target) } else { target };
     matches!((path.canonicalize(), target.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
-/// Writes a text to a new numbered file beside `file`; its ending keeps it from being taken for a pass.
+/// Writes a text to a new numbered file next to `file`; its extension keeps it from being loaded as a pass.
 fn keep_beside(file: &Path, whose: &str, text: &str) -> Result<PathBuf, String> {
     let folder = file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();

@@ -1,7 +1,7 @@
-//! A person brings files that are dropped or picked, and texts that are pasted.
+//! Imports of files that the user drops or picks, and of pasted texts.
 //!
-//! The project's layer says what each of them is; here it is opened, or put into the open project as one edit that can
-//! be taken back.
+//! The project's layer identifies each of them; here it is opened, or added to the open project as a single edit that
+//! can be undone.
 
 use super::{
     Session,
@@ -13,11 +13,11 @@ use eddy_media::mesh;
 use eddy_project::{self as project, FileKind, Fit, MeshSource, PassName, Project, TextImport, listed};
 use std::path::{Path, PathBuf};
 
-/// A model of more bytes is not measured before it is drawn: the window would wait for it.
+/// A model of more bytes is not measured before it is drawn: the window would block.
 const MEASURED: u64 = 48 << 20;
 
 impl Session {
-    /// Takes a text that was pasted.
+    /// Imports a pasted text.
     pub(super) fn paste(&mut self, text: &str) {
         self.settled(About::Opening);
         match project::import_of_text(text) {
@@ -37,8 +37,8 @@ impl Session {
         }
     }
 
-    /// Takes files. `to`: the pass in front and the channel they were dropped on, or none where no project is shown:
-    /// then a picture or a model makes a new one.
+    /// Imports files. `to`: the front pass and the channel that they were dropped on, or `None` if no project is shown:
+    /// then a picture or a model creates a new one.
     pub(super) fn bring(&mut self, paths: Vec<PathBuf>, to: Option<(PassName, Option<usize>)>) {
         self.settled(About::Opening);
         let of = |kind: FileKind| paths.iter().filter(move |p| project::kind_of_file(p) == kind);
@@ -58,7 +58,7 @@ impl Session {
             let place = parts.unwrap_or(first).display().to_string();
             return self.apply_to_files(Command::Open(place));
         }
-        // On a channel a picture is a picture.
+        // Dropped on a channel, a picture is only a picture.
         let is_on_channel = matches!(&to, Some((_, Some(_))));
         if let Some(picture) = of(FileKind::Picture).find(|path| !is_on_channel && scene::holds_project(path)) {
             return self.open_picture(picture);
@@ -107,7 +107,7 @@ impl Session {
         self.notice_about(About::Opening, Level::Warning, text);
     }
 
-    /// Puts pictures, music and models into a project. Says what reads them.
+    /// Adds pictures, music and models to a project. Returns sentences about what reads them.
     fn put_in(
         &self,
         project: &mut Project,
@@ -181,7 +181,7 @@ impl Session {
     }
 }
 
-/// Returns whether a file plays: it is a video by its name, or an image file with more than one frame.
+/// Returns whether a file has a time axis: a video by its extension, or an image file with more than one frame.
 fn is_video(path: &Path) -> bool {
     let is_animated = || {
         let bytes = project::confine::read_own(path, project::limits::MEDIA_FILE);
@@ -190,7 +190,7 @@ fn is_video(path: &Path) -> bool {
     project::kind_of_file(path) == FileKind::Video || is_animated()
 }
 
-/// Says what a channel reads now, and how its text gets at it.
+/// Returns a sentence that says what a channel reads now, and how its text accesses it.
 fn reads(project: &Project, pass: &PassName, channel: usize, what: &str) -> String {
     let text = project.pass(pass).map_or("", |p| &p.source.text);
     let hint = if text.contains(&format!("iChannel{channel}")) {
@@ -205,13 +205,13 @@ fn name(path: &Path) -> String {
     path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned())
 }
 
-/// Returns where a model is put, so that the camera sees all of it.
+/// Returns the position and scale of a model with which the camera sees all of it.
 fn measured(model: &Path) -> Fit {
     let plain = Fit { scale: 1.0, position: [0.0; 3] };
     if std::fs::metadata(model).map_or(u64::MAX, |m| m.len()) > MEASURED {
         return plain;
     }
-    // What is wrong with it is told when it is drawn.
+    // Errors in it are reported when it is drawn.
     let Ok(mesh) = mesh::load(&MeshSource::Picked(model.to_owned()), None, None) else { return plain };
     let bound = |pick: fn(f32, f32) -> f32, from: f32| {
         mesh.vertices.iter().fold([from; 3], |b, v| [0, 1, 2].map(|i| pick(b[i], v.position[i])))

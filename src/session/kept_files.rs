@@ -1,4 +1,4 @@
-//! Folders that hold a file for each project, named by where the project lies: how it is named, and that the oldest go.
+//! Folders that contain a file per project, named by a hash of the project's path, from which the oldest are removed.
 
 use eddy_project::Origin;
 use std::{
@@ -8,20 +8,20 @@ use std::{
     time::SystemTime,
 };
 
-/// Returns where a project lies; `None` where it lies in no file.
+/// Returns the path of a project; `None` if it is not stored in a file.
 pub(super) fn path_of(origin: &Origin) -> Option<&Path> {
     let (Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path)) = origin else { return None };
     Some(path)
 }
 
-/// Returns the name of a project's file, the same however the project was named.
+/// Returns the file name for a project, independent of how its path was written.
 pub(super) fn name(path: &Path, extension: &str) -> String {
     let mut hasher = DefaultHasher::new();
     path.canonicalize().unwrap_or_else(|_| path.to_owned()).hash(&mut hasher);
     format!("{:016x}.{extension}", hasher.finish())
 }
 
-/// Removes the oldest files where there are more than so many.
+/// Removes the oldest files if there are more than `most`.
 pub(super) fn sweep(folder: &Path, extension: &str, most: usize) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     let is_ours = |path: &PathBuf| path.extension().is_some_and(|e| e == extension);

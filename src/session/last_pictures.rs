@@ -1,7 +1,7 @@
-//! The picture of each project as it was seen last, small, for the list of recent projects.
+//! A small picture of each project as it was last seen, for the list of recent projects.
 //!
-//! Owns the files, one a project, in the folder for what can be made again: so many of so many pixels at most. One is
-//! written when its project is closed, or covered by that list.
+//! Owns the files, one per project, in the cache folder: a limited number of limited size. A picture is written when
+//! its project is closed, or covered by that list.
 
 use super::{
     drawing::{Tasks, Ticket},
@@ -17,18 +17,18 @@ use std::{
 };
 
 const EXTENSION: &str = "jpg";
-/// The most pixels across and up.
+/// The maximum size in pixels, across and up.
 const SIZE: (u32, u32) = (320, 180);
-/// So many projects have one; the oldest go.
+/// The number of pictures that are kept; the oldest are removed.
 const MOST: usize = 60;
 
 /// The folder of these pictures.
 pub(super) struct LastPictures {
-    /// `None`: none are kept.
+    /// `None`: no pictures are kept.
     folder: Option<PathBuf>,
-    /// Counts those that were written.
+    /// Counts the pictures that were written.
     written: u64,
-    /// The open project's is to be written when the engine has time.
+    /// The open project's picture is to be written when the engine is free.
     is_due: bool,
     pub ticket: Ticket<Result<Picture, EngineError>>,
 }
@@ -38,12 +38,12 @@ impl LastPictures {
         Self { folder: cache_dir.map(|dir| dir.join("pictures")), written: 0, is_due: false, ticket: Ticket::default() }
     }
 
-    /// The open project's picture is wanted, and the project stays open.
+    /// Requests a picture of the open project, which stays open.
     pub(crate) fn want(&mut self) {
         self.is_due = self.folder.is_some();
     }
 
-    /// Asks for the picture where it is wanted, and is the project's own.
+    /// Adds the read-back of a requested picture, if the project's own picture is shown.
     pub(crate) fn request(&mut self, is_of_project: bool, tasks: &mut Tasks) {
         if std::mem::take(&mut self.is_due) && is_of_project {
             self.ticket = tasks.add(ReadPicture);
@@ -54,7 +54,7 @@ impl LastPictures {
         self.written
     }
 
-    /// Returns the file of a project's picture. It may not be there.
+    /// Returns the file of a project's picture. It may not exist.
     pub(crate) fn file(&self, project: &Path) -> Option<PathBuf> {
         Some(self.folder.as_ref()?.join(kept_files::name(project, EXTENSION)))
     }
@@ -64,7 +64,7 @@ impl LastPictures {
         self.folder.is_some()
     }
 
-    /// Writes a project's picture, whole or not at all.
+    /// Writes a project's picture atomically.
     pub(crate) fn keep(&mut self, project: &Path, picture: &Picture) -> io::Result<()> {
         let Some(path) = self.file(project) else { return Ok(()) };
         let Some(small) = small(picture) else { return Ok(()) };
@@ -79,7 +79,7 @@ impl LastPictures {
     }
 }
 
-/// Returns a picture in its own shape with as many pixels as are kept. `None`: it has none.
+/// Returns a picture scaled to fit the maximum size, keeping its aspect ratio. `None` if it is empty.
 fn small(picture: &Picture) -> Option<RgbImage> {
     let rgb = picture.bytes.chunks_exact(4).flat_map(|texel| [texel[0], texel[1], texel[2]]).collect();
     let whole = RgbImage::from_raw(picture.width, picture.height, rgb).filter(|image| !image.is_empty())?;
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_are_small_in_their_own_shape() {
+    fn pictures_are_scaled_keeping_aspect_ratio() {
         let size = |width, height| small(&picture(width, height, [9, 8, 7, 0])).unwrap().dimensions();
         let sizes = [size(1920, 1080), size(1080, 1920), size(64, 36), size(8000, 1)];
         assert_eq!(sizes, [(320, 180), (101, 180), (64, 36), (320, 1)]);
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn so_many_are_kept_and_the_oldest_go() {
+    fn oldest_pictures_beyond_the_limit_are_removed() {
         let dir = tempfile::tempdir().unwrap();
         let mut kept = LastPictures::new(Some(dir.path()));
         let project = |n: usize| PathBuf::from(format!("/nowhere/{n}"));

@@ -1,9 +1,9 @@
 //! An open project over time.
 //!
-//! Owns the clock, the mouse and the keyboard as Shadertoy's uniforms show them; the open documents and what of them is
-//! unsaved; the compile worker; the watch on the project's folder; pictures written to disk; scripted runs without a
-//! window. A front end hands it [`Command`]s and calls [`Session::tick`]; everything it shows it reads from
-//! `&Session`. Draws no widget and knows no window.
+//! Owns the clock, the mouse and the keyboard as Shadertoy's uniforms show them; the open documents and their unsaved
+//! parts; the compile worker; the watcher of the project's folder; pictures written to disk; scripted runs without a
+//! window. A front end sends it [`Command`]s and calls [`Session::tick`]; everything that it shows is read from
+//! `&Session`. Draws no widgets and knows no window.
 
 mod analysis;
 mod apply;

@@ -1,4 +1,4 @@
-//! Small pictures of passes for panels that show them: which are wanted, when, and the newest of each.
+//! Small pictures of passes for panels: which are watched, when they are due, and the newest of each.
 
 use super::{
     drawing::{Finished, RenderTask, Renderer, Tasks, Ticket},
@@ -11,9 +11,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// While time runs, they are read back so often: each waits for the device.
+/// The minimum interval of read-backs while time runs: each one waits for the device.
 const EVERY: Duration = Duration::from_millis(100);
-/// And they take this part of the time at most: each looks at all texels of its target.
+/// Read-backs take at most one part in this many of the time: each processes all texels of its target.
 const SHARE: u32 = 10;
 
 type Target = (PassName, usize);
@@ -23,12 +23,12 @@ type Target = (PassName, usize);
 struct DrawMiniatures(Vec<Target>);
 
 impl RenderTask for DrawMiniatures {
-    /// One for each that was asked for and is drawn.
+    /// One for each requested target that is drawn.
     type Output = Vec<(Target, Miniature)>;
 
     fn run(self, renderer: &mut Renderer) -> Self::Output {
         let engine = renderer.engine_mut();
-        // A pass that nobody reads is not drawn, and has none.
+        // A pass that is read by no other is not drawn, and has no miniature.
         let picture = |target: Target| Some((engine.miniature(&target.0, target.1).ok()?, target));
         self.0.into_iter().filter_map(picture).map(|(picture, target)| (target, picture)).collect()
     }
@@ -39,16 +39,16 @@ pub(super) struct Miniatures {
     watched: Vec<Target>,
     known: HashMap<Target, (Miniature, u64)>,
     generation: u64,
-    /// The frame that was drawn is newer than they are.
+    /// The drawn frame is newer than the miniatures.
     is_due: bool,
     taken_at: Option<Instant>,
-    /// The time that the last ones took.
+    /// The duration of the last read-back.
     took: Duration,
     ticket: Ticket<Vec<(Target, Miniature)>>,
 }
 
 impl Miniatures {
-    /// Only these are wanted from now on.
+    /// Sets the targets that are watched.
     pub(crate) fn watch(&mut self, targets: Vec<Target>) {
         self.known.retain(|target, _| targets.contains(target));
         self.is_due |= targets.iter().any(|target| !self.known.contains_key(target));
@@ -59,7 +59,7 @@ impl Miniatures {
         self.known.get(&(pass.clone(), index)).map(|(picture, generation)| (picture, *generation))
     }
 
-    /// Returns what is to be read back now. While time runs, another frame comes anyway, and they wait for their turn.
+    /// Returns what to read back now. While time runs, another frame follows anyway, so read-backs are rate-limited.
     fn due(&mut self, now: Instant, is_running: bool) -> Option<DrawMiniatures> {
         let is_early = self.taken_at.is_some_and(|at| now.saturating_duration_since(at) < EVERY.max(SHARE * self.took));
         if self.watched.is_empty() || !self.is_due || (is_running && is_early) {
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_is_watched_is_read_and_no_more_often_than_it_is_seen() {
+    fn only_watched_targets_are_read_at_a_limited_rate() {
         let (a, now) = ((PassName::buffer("A"), 0), Instant::now());
         let wanted = || Some(DrawMiniatures(vec![a.clone()]));
         let mut small = Miniatures::default();

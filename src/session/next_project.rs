@@ -1,9 +1,9 @@
-//! Another project takes the place of the open one: what belongs to a project goes with it as a whole.
+//! Replacement of the open project by another: all state that belongs to the project is replaced with it.
 //!
-//! Owns the line between the two. Each part of a session that has both is made anew here, member by member, so that one
-//! that is added is asked about by the compiler: is it the project's, or the window's? The window's are the device, what
-//! is watched of the disk, the folders, counters, and what a person has set for all projects (the limit of a frame,
-//! whether a reload begins anew, whether an edit keeps the inputs).
+//! Owns the distinction between state of the project and of the window. Each part of a session that has both is rebuilt
+//! here, field by field, so that the compiler requires a decision for a new field. The window's are the device, the
+//! watcher of the disk, the folders, counters, and the user's settings for all projects (the frame limit, whether a
+//! reload resets, whether an edit keeps the inputs).
 
 use super::{
     Session,
@@ -16,7 +16,7 @@ use super::{
 use eddy_project::PassName;
 
 impl Session {
-    /// Another project takes the place of this one, from where its time stood when it was open last.
+    /// Replaces the project by another, which continues from its time when it was last open.
     pub(super) fn replace(&mut self, documents: Documents) {
         self.end_recording();
         self.stop_film();
@@ -56,7 +56,7 @@ impl Session {
 impl Dialog {
     fn begin_next_project(&mut self) {
         let Dialog { questions, requests, after_save } = self;
-        // What was left behind is of other projects.
+        // Recovery questions are about other projects.
         questions.retain(|question| matches!(question, Question::Recover(_)));
         requests.retain(|request| !matches!(request, Request::SaveAs { .. }));
         *after_save = None;

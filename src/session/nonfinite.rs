@@ -1,4 +1,4 @@
-//! The search for the first NaN, in frames that are drawn again beside the picture.
+//! The search for the first NaN, in frames that are drawn again in the background.
 
 use super::{
     Session,
@@ -21,7 +21,7 @@ impl Searching {
         Ok(Self { background, input: Ticket::default() })
     }
 
-    /// Begins anew, or ends.
+    /// Starts or ends the search.
     pub(crate) fn want(&mut self, is_wanted: bool) {
         self.background.clear();
         self.input = Ticket::default();
@@ -43,7 +43,7 @@ impl Session {
         self.searching.background.status()
     }
 
-    /// Hands on the frames among which the first NaN is looked for.
+    /// Submits the frames to search for the first NaN.
     pub(super) fn search_frames(&mut self) {
         let Searching { background, input } = &mut self.searching;
         let Some(input) = input.take() else { return };

@@ -1,4 +1,4 @@
-//! Notices: what a person is told once, and when it is no news any more.
+//! Notices: messages that are shown once, and when they are dismissed.
 
 use super::{
     Session,
@@ -6,11 +6,11 @@ use super::{
 };
 use std::{path::PathBuf, time::Instant};
 
-/// The notices that stand, oldest first.
+/// The current notices, oldest first.
 #[derive(Default)]
 pub(super) struct Notices {
     list: Vec<Notice>,
-    /// The number of the next one, and of the next one when the command under way began.
+    /// The number of the next one, and of the next one when the current command started.
     next: u64,
     command_began: u64,
 }
@@ -28,7 +28,7 @@ impl Notices {
         self.list.retain(|notice| notice.id != id);
     }
 
-    /// A command begins: what is said from now on is said of what it does.
+    /// Marks the start of a command: later notices are about its effects.
     pub(crate) fn begin_command(&mut self) {
         self.command_began = self.next;
     }
@@ -38,7 +38,7 @@ impl Notices {
         self.next += 1;
     }
 
-    /// Keeps some. Returns whether others were there.
+    /// Keeps some of the notices. Returns whether any were removed.
     fn retain(&mut self, keep: impl FnMut(&Notice) -> bool) -> bool {
         let before = self.list.len();
         self.list.retain(keep);
@@ -47,12 +47,12 @@ impl Notices {
 }
 
 impl Session {
-    /// Says something of the open project.
+    /// Shows a notice about the open project.
     pub(super) fn notice(&mut self, level: Level, text: impl Into<String>) {
         self.notice_about(About::Project, level, text);
     }
 
-    /// Says something that is gone once [`Session::settled`] is told of `about`.
+    /// Shows a notice that is dismissed when [`Session::settled`] is called with its `about`.
     pub(super) fn notice_about(&mut self, about: About, level: Level, text: impl Into<String>) {
         let text = text.into();
         log::log!(
@@ -67,14 +67,14 @@ impl Session {
         self.changed = true;
     }
 
-    /// Says something unless it stands there already.
+    /// Shows a notice unless it is shown already.
     pub(super) fn notice_once(&mut self, about: About, level: Level, text: &str) {
         if self.notices.list.iter().all(|notice| notice.text != text) {
             self.notice_about(about, level, text);
         }
     }
 
-    /// Says something with a file that can be opened.
+    /// Shows a notice with a file that can be opened.
     pub(super) fn notice_with_path(&mut self, about: About, level: Level, text: impl Into<String>, path: PathBuf) {
         self.notice_about(about, level, text);
         if let Some(notice) = self.notices.last_mut() {
@@ -82,19 +82,21 @@ impl Session {
         }
     }
 
-    /// It is mended, or tried again: what was said of it is no news any more. Good news goes by itself.
+    /// The problem was fixed or the operation is retried: dismisses the notices about it. Success notices expire.
     pub(super) fn settled(&mut self, about: About) {
         self.changed |= self.notices.retain(|notice| notice.about != about || notice.level == Level::Info);
     }
 
-    /// A program of a text that was edited after them draws: notices about code are of an older text.
+    /// A program of a text that was edited after the notices draws: dismisses notices about code, which are about an
+    /// older text.
     pub(super) fn settled_by_edit(&mut self) {
         if let Some(edited) = self.compile.edited_at {
             self.changed |= self.notices.retain(|notice| notice.about != About::Code || notice.at > edited);
         }
     }
 
-    /// Another project takes the place of the one that they are of. What the same command has said is of the new one.
+    /// Another project is opened: dismisses notices of the previous one. Notices of the current command are about the
+    /// new one.
     pub(super) fn forget_notices(&mut self) {
         let first = self.notices.command_began;
         self.notices.retain(|notice| notice.about == About::Window || notice.id >= first);

@@ -1,4 +1,4 @@
-//! The settings that a session starts with, and the reasons why it may not start.
+//! The options that a session starts with, and the errors that prevent it from starting.
 
 use super::drawing;
 use eddy_audio::host::AudioHost;
@@ -8,45 +8,45 @@ use eddy_playback::trial::TrialSettings;
 use eddy_video::CameraSource;
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
-/// Holds how a session is set up. The defaults are what the window uses, but for recovery files.
+/// The setup of a session. The defaults are those of the window, except for recovery files.
 #[derive(Clone, Debug)]
 pub struct SessionOptions {
-    /// The longest quiet time after the last keystroke before a compile. It is shorter where compiling is fast, down to
+    /// The longest debounce time between the last keystroke and a compile. It is shorter if compiling is fast, down to
     /// none.
     pub edit_debounce: Duration,
-    /// Quiet time after the last change on disk before a reload.
+    /// Debounce time between the last change on disk and a reload.
     pub watch_debounce: Duration,
-    /// The time for which files that make no whole project are read again before the user hears of it: an editor may be
-    /// half way through writing them.
+    /// The time for which incomplete projects are read again before the user is notified: an editor may still be
+    /// writing them.
     pub retry_for: Duration,
-    /// The folder for pictures of a project that has none of its own.
+    /// The folder for pictures of a project without a folder.
     pub pictures: PathBuf,
-    /// The user's own copies of the site's textures.
+    /// The user's own copies of Shadertoy's textures.
     pub media_dir: Option<PathBuf>,
-    /// The camera that is used where a person turns one on and chooses none.
+    /// The camera to use if the user turns one on without choosing.
     pub camera: CameraSource,
-    /// The folder for recovery files; `None`: unsaved work ends with the process. The window's is
+    /// The folder for recovery files; `None`: unsaved work is lost with the process. The window's is
     /// [`recovery_folder`](super::recovery_folder).
     pub recovery: Option<PathBuf>,
-    /// Draw on a thread and a device of their own, so that no tick waits for a frame. Off, each frame is drawn in the
-    /// tick that it is due in.
+    /// Draw on a thread and a device of their own, so that no tick waits for a frame. If false, each frame is drawn in
+    /// the tick in which it is due.
     pub draws_on_thread: bool,
-    /// A frame that is drawn apart and takes longer pauses the picture.
+    /// A frame drawn on the thread that takes longer pauses the picture.
     pub frame_limit: Duration,
-    /// The settings of trials of large programs in a process of their own, where the driver compiles on the processor;
-    /// without, there are none.
+    /// The settings for trial compiles of large programs in a separate process, if the driver compiles on the
+    /// processor; `None` disables them.
     pub trials: Option<TrialSettings>,
-    /// The folder for what is remembered between two starts; without, nothing is.
+    /// The folder for state that is kept between runs; `None`: none is kept.
     pub state_dir: Option<PathBuf>,
-    /// The folder for what can be made again, as small pictures of projects; without, nothing is.
+    /// The cache folder, such as for small pictures of projects; `None`: nothing is cached.
     pub cache_dir: Option<PathBuf>,
-    /// The sound of the machine; without, nothing is heard and nothing recorded.
+    /// The machine's sound; `None`: nothing is played or recorded.
     pub audio: Option<Arc<dyn AudioHost>>,
-    /// The MIDI of the machine; without, no control of a MIDI device moves anything.
+    /// The machine's MIDI; `None`: MIDI controls have no effect.
     pub midi: Option<Arc<dyn MidiHost>>,
-    /// The gamepads of the machine; without, channels that read them read zeros.
+    /// The machine's gamepads; `None`: channels that read them read zeros.
     pub gamepads: Option<Arc<dyn PadHost>>,
-    /// Open devices of sound and MIDI on threads of their own, so that no tick waits for one. Off, ticks open them.
+    /// Open sound and MIDI devices on threads of their own, so that no tick waits for one. If false, ticks open them.
     pub audio_on_thread: bool,
 }
 
@@ -73,7 +73,7 @@ impl Default for SessionOptions {
     }
 }
 
-/// The session cannot start.
+/// The errors that prevent a session from starting.
 #[derive(Debug, thiserror::Error)]
 pub enum SessionError {
     #[error(transparent)]

@@ -1,4 +1,4 @@
-//! A text about a panic that a person can read, and send to whoever works on Eddy. Nothing sends it by itself.
+//! A readable report of a panic, which the user can send to the developers. It is never sent automatically.
 
 use super::recovery;
 use eddy_diag::escape_text;
@@ -9,13 +9,13 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Reports that are kept; with the next one the oldest goes.
+/// The number of reports that are kept; the oldest are removed.
 const KEPT: usize = 20;
 
-/// Names of reports begin so.
+/// The prefix of reports' file names.
 const PREFIX: &str = "panic-";
 
-/// Everything that is known of a panic.
+/// The details of a panic.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PanicReport {
     /// The version of Eddy, its features and the system.
@@ -24,27 +24,27 @@ pub struct PanicReport {
     pub command: String,
     pub thread: String,
     pub message: String,
-    /// The file of the source and the line.
+    /// The source file and the line.
     pub place: String,
-    /// The newest device that was opened; empty: none was.
+    /// The newest device that was opened; empty if none was.
     pub device: String,
     /// Warnings and errors before it, oldest first.
     pub notices: Vec<String>,
     pub backtrace: String,
 }
 
-/// Returns the folder for reports, beside that for recovery files. `None` where there is no such place.
+/// Returns the folder for reports, next to that for recovery files. `None` if there is no such place.
 pub fn folder() -> Option<PathBuf> {
     Some(recovery::folder()?.with_file_name("reports"))
 }
 
-/// Returns a text in which the home folder is `~`, as names of files tell who somebody is.
+/// Returns a text in which the home folder is replaced by `~`, as file names reveal the user's name.
 pub fn home_as_tilde(text: &str) -> String {
     let home = dirs::home_dir().map(|home| home.to_string_lossy().into_owned()).unwrap_or_default();
     without(text, &home)
 }
 
-/// Replaces a folder by `~`, but no folder whose name only begins alike.
+/// Replaces a folder by `~`, but not folders whose names only start with the same characters.
 fn without(text: &str, home: &str) -> String {
     if home.len() < 2 {
         return text.to_owned();
@@ -82,11 +82,11 @@ impl PanicReport {
             or_none(device),
             if notices.is_empty() { "  none\n".into() } else { notices },
         );
-        // People look at it with `cat`.
+        // The report may be shown by `cat`.
         escape_text(&home_as_tilde(&text)).into_owned()
     }
 
-    /// Writes the report into a new file of a folder, which is made where it is not there. Old reports beyond the twentieth
+    /// Writes the report into a new file of a folder, which is created if necessary. Reports beyond the newest twenty
     /// are removed.
     pub fn write(&self, folder: &Path) -> io::Result<PathBuf> {
         make_private(folder)?;
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn a_report_says_what_happened_and_no_report_replaces_another() {
+    fn report_describes_panic_and_replaces_no_other_report() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path().join("reports");
         let first = report().write(&folder).unwrap();
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn the_oldest_reports_go_and_other_files_stay() {
+    fn oldest_reports_are_removed_and_other_files_stay() {
         let folder = tempfile::tempdir().unwrap();
         for n in 0..KEPT + 3 {
             fs::write(folder.path().join(format!("{PREFIX}2001-01-{n:02}.txt")), "").unwrap();
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn home_is_a_tilde_and_other_folders_are_not() {
+    fn home_is_replaced_by_tilde_in_whole_names_only() {
         let text = "in /home/ann/x, /home/anna/y and \"/home/ann\"";
         assert_eq!(without(text, "/home/ann"), "in ~/x, /home/anna/y and \"~\"");
         assert_eq!(without("/usr", "/"), "/usr");

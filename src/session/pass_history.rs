@@ -1,4 +1,4 @@
-//! Steps back from edits of passes, channels and uniforms, and forth again.
+//! Undo and redo of edits of passes, channels and uniforms.
 
 use eddy_project::{CustomUniformValues, PassEdit, PassName, Project, listed};
 use std::{
@@ -6,12 +6,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Steps that are kept; each is a project whose texts are shared with the next.
+/// The number of steps that are kept; each is a project whose texts are shared with the next.
 const STEPS: usize = 200;
-/// A number that is being dragged makes one step, however many values it has on its way.
+/// Dragging a number makes one step, however many values it passes through.
 const PAUSE: Duration = Duration::from_millis(800);
 
-/// Steps back and forth.
+/// The undo and redo steps.
 #[derive(Debug, Default)]
 pub(super) struct PassHistory {
     pub undo: Vec<Step>,
@@ -20,16 +20,16 @@ pub(super) struct PassHistory {
     serial: u64,
 }
 
-/// The other side of a step.
+/// The state that a step restores.
 #[derive(Clone, Debug)]
 pub(super) enum UndoState {
     /// The project on the other side of the step.
     Passes(Box<Project>),
-    /// The values of uniforms there, and what turned them.
+    /// The values of uniforms there, and what changed them.
     Uniforms(CustomUniformValues, UniformChange),
 }
 
-/// The way in which uniforms were turned.
+/// The way in which uniforms were changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum UniformChange {
     /// One by hand.
@@ -43,21 +43,21 @@ pub(super) enum UniformChange {
 #[derive(Clone, Debug)]
 pub(super) struct Step {
     pub serial: u64,
-    /// The title that a menu says behind "Undo".
+    /// The title that a menu shows after "Undo".
     pub title: String,
     pub side: UndoState,
-    /// A pass has another name here than on the other side: there, here.
+    /// A pass whose name differs on the other side: its name there, and its name here.
     pub renamed: Option<(PassName, PassName)>,
     pub edit: Option<PassEdit>,
     pub at: Instant,
 }
 
-/// A step that can be taken, as a front end shows it.
+/// A possible step, as a front end shows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PassStep<'a> {
-    /// Tells it from any other.
+    /// Unique among all steps.
     pub serial: u64,
-    /// The title that a menu says behind "Undo" or "Redo".
+    /// The title that a menu shows after "Undo" or "Redo".
     pub title: &'a str,
 }
 
@@ -86,7 +86,7 @@ impl PassHistory {
         self.add(title, UndoState::Passes(Box::new(before)), renamed, edit, at);
     }
 
-    /// Notes that a uniform was turned, or several at once. One that is being dragged makes one step.
+    /// Records that a uniform was changed, or several at once. Dragging makes one step.
     pub(crate) fn push_uniforms(&mut self, before: CustomUniformValues, name: Option<&str>) {
         let at = Instant::now();
         self.redo.clear();
@@ -102,7 +102,8 @@ impl PassHistory {
         self.add(title, UndoState::Uniforms(before, turned), None, None, at);
     }
 
-    /// Notes that controls of devices turned uniforms. What moves without a pause makes one step, however many controls.
+    /// Records that controls of devices changed uniforms. Movements without a pause make one step, however many
+    /// controls move.
     pub(crate) fn push_controls(&mut self, before: CustomUniformValues, names: BTreeSet<String>) {
         let at = Instant::now();
         self.redo.clear();
@@ -117,7 +118,7 @@ impl PassHistory {
         self.add(turning_all(&names), UndoState::Uniforms(before, UniformChange::ByControls(names)), None, None, at);
     }
 
-    /// A uniform has another name from now on, on both sides of every step.
+    /// Renames a uniform on both sides of every step.
     pub(crate) fn rename_uniform(&mut self, from: &str, to: &str) {
         for step in self.undo.iter_mut().chain(&mut self.redo) {
             let values = match &mut step.side {
@@ -161,7 +162,7 @@ impl PassHistory {
     }
 }
 
-/// The title of a step that turned a uniform.
+/// The title of a step that changed a uniform.
 fn turning(name: &str) -> String {
     format!("change {name}")
 }

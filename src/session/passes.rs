@@ -1,8 +1,7 @@
-//! Edits of passes and channels, and the way back from them.
+//! Edits of passes and channels, and their undo.
 //!
-//! A step back brings the passes, channels and groups of before it; what was typed since
-//! stays, also in a pass that has had another name since. The history ends where another project is opened or the
-//! disk's passes are taken.
+//! Undo restores the passes, channels and groups; text typed since then stays, also in a pass that has been renamed
+//! since. The history is cleared when another project is opened or the disk's passes are taken.
 
 use super::{
     Session,
@@ -15,17 +14,17 @@ use eddy_project::{PassEdit, PassName, Project, Tab};
 use std::time::Instant;
 
 impl Session {
-    /// The edit of passes or channels that [`Command::UndoPassEdit`](super::Command::UndoPassEdit) takes back.
+    /// The edit of passes or channels that [`Command::UndoPassEdit`](super::Command::UndoPassEdit) undoes.
     pub fn pass_undo(&self) -> Option<PassStep<'_>> {
         self.passes.undo.last().map(Step::shown)
     }
 
-    /// The edit that [`Command::RedoPassEdit`](super::Command::RedoPassEdit) does again.
+    /// The edit that [`Command::RedoPassEdit`](super::Command::RedoPassEdit) redoes.
     pub fn pass_redo(&self) -> Option<PassStep<'_>> {
         self.passes.redo.last().map(Step::shown)
     }
 
-    /// Every pass that got another name since the session began: the old one, the new one. Grows only.
+    /// Every pass that was renamed since the session started: the old name, the new name. Only grows.
     pub fn renamed_passes(&self) -> &[(PassName, PassName)] {
         &self.renamed
     }
@@ -58,7 +57,7 @@ impl Session {
         self.passes_changed();
     }
 
-    /// Adds Common or a pass with a starting text, if there is none.
+    /// Adds Common or a pass with a starting text, if it does not exist.
     pub(super) fn add_tab(&mut self, tab: &Tab) {
         let before = self.project().clone();
         if template::add(self.documents.current_mut(), tab) {
@@ -67,12 +66,12 @@ impl Session {
         }
     }
 
-    /// Notes an edit that `before` is to be brought back of.
+    /// Records an edit whose undo restores `before`.
     pub(super) fn note_pass_edit(&mut self, title: String, before: Project) {
         self.passes.push(title, before, None, None);
     }
 
-    /// Says that something was done which the newest step takes back.
+    /// Shows a notice about a change that the newest undo step reverts.
     pub(super) fn notice_with_undo(&mut self, text: String) {
         let serial = self.pass_undo().map(|step| step.serial);
         self.notice(Level::Info, text);
@@ -95,7 +94,7 @@ impl Session {
         }
     }
 
-    /// Goes to the other side of a step. Returns the way back.
+    /// Restores the other side of a step. Returns the step back.
     fn take_step(&mut self, step: Step) -> Step {
         let project = match step.side {
             UndoState::Passes(project) => *project,
@@ -127,7 +126,7 @@ impl Session {
         Step { serial, title, side: UndoState::Passes(Box::new(here)), renamed, edit: None, at: Instant::now() }
     }
 
-    /// Lets what is known of a pass by its name go on under its new one.
+    /// Updates everything that refers to a pass by its name.
     fn follow_rename(&mut self, from: &PassName, to: &PassName) {
         self.renamed.push((from.clone(), to.clone()));
         if self.picture.shown == *from {
@@ -143,7 +142,7 @@ impl Session {
         self.changed = true;
     }
 
-    /// Shows Image where the shown pass is no more.
+    /// Shows Image if the shown pass no longer exists.
     pub(super) fn show_image_if_gone(&mut self) {
         if self.project().pass(&self.picture.shown).is_none() {
             self.picture.shown = PassName::image();
@@ -151,12 +150,12 @@ impl Session {
     }
 }
 
-/// Returns whether a text is nobody's work.
+/// Returns whether a text was not written by the user.
 fn is_untouched(text: &str, tab: &Tab) -> bool {
     text.trim().is_empty() || text == template::text(tab)
 }
 
-/// The passes of `there` with what was typed since. `renamed`: a pass's name there, and here.
+/// Returns the passes of `there` with the text typed since. `renamed`: a pass's name there, and here.
 fn returned(documents: &Documents, mut there: Project, renamed: Option<&(PassName, PassName)>) -> Project {
     let (here, saved) = (documents.current(), documents.saved());
     for tab in there.tabs() {
@@ -166,7 +165,7 @@ fn returned(documents: &Documents, mut there: Project, renamed: Option<&(PassNam
         };
         let Some(source) = there.source_mut(&tab) else { continue };
         if let Some(now) = here.source(&tab_here) {
-            // Where it lies is known here: it may have been saved since.
+            // Its place is known here: it may have been saved since.
             source.clone_from(now);
             if let (Some(there), Some(here)) = (tab.pass(), tab_here.pass())
                 && there != here

@@ -1,4 +1,4 @@
-//! A front end reads here what it shows of a [`Session`]. Nothing is changed.
+//! The read-only interface of a [`Session`] for front ends.
 
 use super::{
     Session,
@@ -19,8 +19,8 @@ use std::{
 };
 
 impl Session {
-    /// The newest picture of the shown pass: rgba8unorm, its first row the top, values as display values. Ask anew
-    /// after each tick: a resize makes another one.
+    /// The newest picture of the shown pass: rgba8unorm, with its first row at the top, as display values. Call it
+    /// again after each tick: a resize creates another texture.
     pub fn display(&self) -> &wgpu::TextureView {
         self.drawing.display()
     }
@@ -44,67 +44,67 @@ impl Session {
         self.documents.current()
     }
 
-    /// Every tab in the site's order.
+    /// Every tab in Shadertoy's order.
     pub fn tabs(&self) -> Vec<Tab> {
         self.project().tabs()
     }
 
-    /// A tab's text; empty for a tab there is not.
+    /// A tab's text; empty if the tab does not exist.
     pub fn text(&self, tab: &Tab) -> &str {
         self.project().source(tab).map_or("", |s| &s.text)
     }
 
-    /// Returns how many programs have drawn a frame so far, each of the text that was the newest: it grows when an edit
-    /// is in the picture.
+    /// Returns the number of programs of the newest text that have drawn a frame: it grows when an edit is visible in
+    /// the picture.
     pub fn programs_drawn(&self) -> u64 {
         self.picture.programs_drawn
     }
 
-    /// Returns how long typing has to rest before it is compiled.
+    /// Returns the debounce time between typing and a compile.
     pub fn edit_debounce(&self) -> Duration {
         self.compile.edits.quiet()
     }
 
-    /// Returns a number that grows whenever a text was changed by something else than
-    /// [`Command::EditText`](super::Command::EditText) (opened, reloaded, taken from disk): then an editor must take it
-    /// anew.
+    /// Returns a number that grows whenever a text was changed by something other than
+    /// [`Command::EditText`](super::Command::EditText) (opened, reloaded, taken from disk): an editor must then reload
+    /// it.
     pub fn text_generation(&self) -> u64 {
         self.text_generation
     }
 
-    /// The projects that were open before, the newest first; those that are gone meanwhile too.
+    /// The recently opened projects, newest first, including those that no longer exist.
     pub fn recent(&self) -> &[RecentProject] {
         self.recent.list()
     }
 
-    /// Returns the file of a small picture of a recent project, as it was seen last, and a number that grows with each
-    /// one that is written. The file may be missing, or damaged.
+    /// Returns the file of a small picture of a recent project as it was last seen, and a number that grows with each
+    /// one that is written. The file may be missing or damaged.
     pub fn last_picture(&self, project: &Path) -> Option<(PathBuf, u64)> {
         Some((self.last_pictures.file(project)?, self.last_pictures.written()))
     }
 
-    /// Counts the shaders that were begun by [`Command::New`](super::Command::New).
+    /// Counts the shaders created by [`Command::New`](super::Command::New).
     pub fn begun(&self) -> u64 {
         self.begun
     }
 
-    /// Counts the times that a project was opened or took a new place.
+    /// Counts the times that a project was opened or moved.
     pub fn opened(&self) -> u64 {
         self.disk.opened()
     }
 
-    /// Counts the projects that have taken the place of another: what a front end keeps of one is to be forgotten.
+    /// Counts the projects that have replaced another: a front end then resets its state of the project.
     pub fn projects_opened(&self) -> u64 {
         self.projects_opened
     }
 
-    /// Edits wait to be compiled until they are saved: see
+    /// Returns whether edits wait to be saved before they are compiled: see
     /// [`Command::SetCompileOnSave`](super::Command::SetCompileOnSave).
     pub fn waits_for_save(&self) -> bool {
         self.compile.waits_for_save
     }
 
-    /// The author's own uniforms, as the running program declares them. Where it declares none, or there is no program
+    /// The author's own uniforms, as the running program declares them. If it declares none, or there is no program
     /// yet, as the texts do.
     pub fn custom_uniforms(&self) -> &[CustomUniform] {
         match self.drawing.custom_uniforms() {
@@ -113,18 +113,17 @@ impl Session {
         }
     }
 
-    /// The tab's text differs from the one on disk.
+    /// Returns whether the tab's text differs from the one on disk.
     pub fn is_tab_dirty(&self, tab: &Tab) -> bool {
         self.documents.is_tab_dirty(tab)
     }
 
-    /// Returns what differs from what is on disk, in words that people read: tabs by their titles, then passes, channels
-    /// and uniforms.
+    /// Returns the parts that differ from the disk, in words: tabs by their titles, then passes, channels and uniforms.
     pub fn unsaved_parts(&self) -> Vec<String> {
         self.documents.unsaved_parts()
     }
 
-    /// Anything at all differs from what is on disk: texts, passes, channels.
+    /// Returns whether anything differs from the disk: texts, passes, channels.
     pub fn is_dirty(&self) -> bool {
         self.documents.is_dirty()
     }
@@ -141,7 +140,7 @@ impl Session {
     pub fn transport(&self) -> Transport {
         let times = self.pass_times();
         let playing = self.playback.is_playing();
-        // Nothing is measured of what is not drawn.
+        // Without drawing there is nothing to measure.
         let is_drawn = playing && self.drawing.has_program() && self.playback.has_drawn();
         Transport {
             playing,
@@ -159,42 +158,42 @@ impl Session {
         }
     }
 
-    /// Device time of each pass, of the newest frame the device has finished; empty where it cannot tell.
+    /// GPU time of each pass, for the newest frame that the device has finished; empty if the device cannot measure it.
     pub fn pass_times(&self) -> &[PassTime] {
         self.watched.costs.newest()
     }
 
-    /// Returns what each pass of the running program costs, in drawing order, then those that are not drawn. They are
-    /// gathered once [`Command::WatchCosts`](super::Command::WatchCosts) has been given; milliseconds are there when a
-    /// frame was drawn since.
+    /// Returns the cost of each pass of the running program, in drawing order, followed by passes that are not drawn.
+    /// Costs are gathered after [`Command::WatchCosts`](super::Command::WatchCosts); times are available once a frame
+    /// was drawn since.
     pub fn pass_costs(&self) -> PassCosts {
         self.watched.costs.of(self.drawing.costs().to_vec(), self.drawing.clock())
     }
 
-    /// Returns a small picture of one of a pass's targets, while it is watched
+    /// Returns a small picture of one of a pass's targets while it is watched
     /// ([`Command::WatchTargets`](super::Command::WatchTargets)), and a number that grows with each new one.
     pub fn miniature(&self, pass: &PassName, index: usize) -> Option<(&Miniature, u64)> {
         self.watched.miniatures.get(pass, index)
     }
 
-    /// Returns the target that is looked at closely ([`Command::WatchBuffers`](super::Command::WatchBuffers)), and a
-    /// number that grows with each new one.
+    /// Returns the target that is inspected ([`Command::WatchBuffers`](super::Command::WatchBuffers)), and a number
+    /// that grows with each new one.
     pub fn buffer(&self) -> Option<(&Arc<BufferRead>, u64)> {
         self.watched.buffers.shown()
     }
 
-    /// Returns the texel of each target at the place that is looked at.
+    /// Returns the texel of each target at the inspected place.
     pub fn texels_under(&self) -> &[TexelAt] {
         self.watched.buffers.under()
     }
 
-    /// Returns what is drawn instead of the picture, while somebody has asked for it: see
+    /// Returns the value that is drawn instead of the picture, if requested: see
     /// [`Command::Probe`](super::Command::Probe).
     pub fn probe(&self) -> Option<ProbeView<'_>> {
         self.watched.probing.view()
     }
 
-    /// Returns what the display shows: the shown pass, or a value of the code.
+    /// Returns the pass that the display shows: the shown pass, or that of a probed value.
     pub(super) fn pictured(&self) -> PassName {
         if self.watched.probing.is_drawn() { BuildOptions::probed() } else { self.picture.shown.clone() }
     }
@@ -207,22 +206,22 @@ impl Session {
         self.disk.reset_on_reload
     }
 
-    /// Oldest first; stay until dismissed.
+    /// Oldest first; kept until dismissed.
     pub fn notices(&self) -> &[Notice] {
         self.notices.list()
     }
 
-    /// Returns why the picture stands still though nobody has paused it.
+    /// Returns why the picture is halted, if it is.
     pub fn halt(&self) -> Option<&Halt> {
         self.halting.halt()
     }
 
-    /// Returns whether there is code to go back to.
+    /// Returns whether there is earlier code that was fast enough.
     pub fn has_last_good(&self) -> bool {
         self.halting.good().is_some()
     }
 
-    /// Returns what must be answered before anything else.
+    /// Returns the question that must be answered first.
     pub fn question(&self) -> Option<&Question> {
         self.dialog.questions.front()
     }

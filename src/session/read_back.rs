@@ -1,6 +1,6 @@
-//! Read-backs behind frames: who asks, in which order, and who takes the outputs.
+//! Read-backs after frames: who requests them, their order, and who takes the outputs.
 //!
-//! Owns the list of what somebody watches ([`ReadBack`]), and the tasks that several parts of a session ask for.
+//! Owns the watched read-backs ([`ReadBack`]), and the tasks that several parts of a session request.
 
 use super::{
     Session,
@@ -17,7 +17,7 @@ use eddy_playback::run::{Replay, ReplayFrom, Run};
 use eddy_project::PassName;
 use std::time::Instant;
 
-/// The job that tasks go with.
+/// The circumstances of the job that tasks are added to.
 pub(super) struct Moment {
     pub now: Instant,
     /// A frame is drawn before them.
@@ -26,19 +26,19 @@ pub(super) struct Moment {
     pub is_seeking: bool,
 }
 
-/// Something that is read back again and again while somebody watches it, the newest only.
+/// A repeated read-back of something that is watched, of which only the newest is kept.
 pub(super) trait ReadBack {
-    /// Adds a task where one is due.
+    /// Adds a task if one is due.
     fn request(&mut self, at: &Moment, tasks: &mut Tasks);
 
-    /// Takes the output that came with a job, with a frame or without one. Returns whether there is something new to see.
+    /// Takes the output of a job, with or without a frame. Returns whether there is something new to show.
     fn receive(&mut self, has_frame: bool) -> bool;
 
-    /// Forgets what is of the project that is closed.
+    /// Resets the state of the project that is closed.
     fn begin_next_project(&mut self);
 }
 
-/// Holds what is read back of the picture.
+/// Everything that is read back of the picture.
 #[derive(Default)]
 pub(super) struct ReadBacks {
     pub captures: Captures,
@@ -51,12 +51,12 @@ pub(super) struct ReadBacks {
 }
 
 impl ReadBacks {
-    /// Returns what is read again and again, in its order.
+    /// Returns the repeated read-backs, in their order.
     fn read_backs(&mut self) -> [&mut dyn ReadBack; 4] {
         [&mut self.miniatures, &mut self.probing, &mut self.buffers, &mut self.measuring]
     }
 
-    /// Forgets what is of the project that is closed, but for pictures that are to be written.
+    /// Resets the state of the project that is closed, except for pictures to be written.
     pub(crate) fn begin_next_project(&mut self) {
         self.cpu_micros = 0.0;
         self.costs = Costs::watched(self.costs.is_watched());
@@ -65,13 +65,13 @@ impl ReadBacks {
 }
 
 impl Session {
-    /// Returns what is due to be read now, behind the frame that is due, if one is.
+    /// Returns the tasks that are due now, after the frame that is due if there is one.
     pub(super) fn due_tasks(&mut self, has_frame: bool) -> Tasks {
         let is_playing = self.playback.is_running();
-        // Another project's engine says that it has no program.
+        // The engine of another project reports that it has no program.
         let is_there = self.drawing.has_program() && !self.drawing.is_program_coming();
         let mut tasks = Tasks::default();
-        // A canvas between two pictures has none.
+        // During a resize there is no valid picture.
         let is_between = self.drawing.wanted.size.is_some() || self.playback.is_again_due;
         if is_between && !has_frame && is_there && !self.halting.is_halted() {
             return tasks;
@@ -85,7 +85,7 @@ impl Session {
         tasks
     }
 
-    /// Asks for pictures and numbers, which are of the newest program, after the frame that is due.
+    /// Requests pictures and numbers of the newest program, after the frame that is due.
     fn request_pictures(&mut self, has_frame: bool, is_playing: bool, tasks: &mut Tasks) {
         self.watched.captures.request(tasks);
         let is_of_project = self.is_picture_of_project();
@@ -94,7 +94,7 @@ impl Session {
         self.watched.read_backs().into_iter().for_each(|read_back| read_back.request(&at, tasks));
     }
 
-    /// Asks for what the newest program was drawn with. A trace waits until nothing more is to be drawn.
+    /// Requests the inputs that the newest program was drawn with. A trace waits until nothing more is to be drawn.
     fn request_inputs(&mut self, tasks: &mut Tasks) {
         self.searching.request_input(tasks);
         self.tracing.divergence.request_input(tasks);
@@ -105,7 +105,7 @@ impl Session {
         }
     }
 
-    /// Asks once more for what was asked for once and has not come: the device that was to give it is gone.
+    /// Requests single read-backs again that have not arrived: the device that was to deliver them is lost.
     pub(super) fn renew_requests(&mut self) {
         self.watched.captures.retry();
         self.searching.background.renew_request();
@@ -114,7 +114,7 @@ impl Session {
         self.tracing.renew_request();
     }
 
-    /// Takes the outputs that came with a job.
+    /// Takes the outputs of a job.
     pub(super) fn take_outputs(&mut self, has_frame: bool) {
         let is_new = self.watched.read_backs().map(|read_back| read_back.receive(has_frame)).contains(&true);
         self.changed |= is_new;
@@ -129,7 +129,7 @@ impl Session {
     }
 }
 
-/// Reads the picture that is shown.
+/// Reads the shown picture.
 pub(super) struct ReadPicture;
 
 impl RenderTask for ReadPicture {
@@ -140,7 +140,7 @@ impl RenderTask for ReadPicture {
     }
 }
 
-/// Hands out the frames up to the newest, with the picture of a camera that the newest shows; `None`: none are kept.
+/// Returns the frames up to the newest, with the camera picture that the newest shows; `None`: none are kept.
 pub(super) struct TakeReplay(pub ReplayFrom);
 
 impl RenderTask for TakeReplay {
@@ -152,7 +152,7 @@ impl RenderTask for TakeReplay {
     }
 }
 
-/// Hands out the inputs of all frames up to the newest, with the picture of a camera that the newest shows.
+/// Returns the inputs of all frames up to the newest, with the camera picture that the newest shows.
 pub(super) struct TakeRun;
 
 impl RenderTask for TakeRun {
@@ -164,7 +164,7 @@ impl RenderTask for TakeRun {
     }
 }
 
-/// Takes what a pass read as it was drawn last, and its picture.
+/// Reads the inputs of a pass when it was last drawn, and its picture.
 pub(super) struct Inspect(pub PassName);
 
 pub(super) struct Inspected {

@@ -1,6 +1,6 @@
-//! The projects that were open before, the newest first, where their time stood and how large their picture was.
+//! The recently opened projects, newest first, with their last time and picture size.
 //!
-//! Owns the file that keeps them from one start to the next, which people can read and several windows write.
+//! Owns the file that stores them between runs, which is human-readable and written by several windows.
 
 use eddy_project::{Dialect, Origin, confine};
 use serde::{Deserialize, Serialize};
@@ -10,16 +10,16 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// In the folder for what is remembered between two starts.
+/// The file in the folder for state that is kept between runs.
 const NAME: &str = "projects.toml";
-/// The largest number of them, more than anybody looks through; the file is read and written whole.
+/// The maximum number of projects, more than anyone looks through; the file is read and written whole.
 const MOST: usize = 500;
 const HEADER: &str = "# Recently opened projects, newest first, with their last time.\n\n";
 
 /// A project that was open before.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RecentProject {
-    /// A folder, a `.glsl` or a `.json` file. It may be gone.
+    /// A folder, a `.glsl` or a `.json` file. It may no longer exist.
     pub path: PathBuf,
     /// `iTime` when it was closed.
     #[serde(default, rename = "time")]
@@ -29,29 +29,29 @@ pub struct RecentProject {
     pub frame: Option<i32>,
     #[serde(default)]
     pub paused: bool,
-    /// The resolution, where it did not follow the window.
+    /// The resolution, if it did not follow the window.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<(u32, u32)>,
-    /// Pixels of the picture to those of the view, where it was not the usual scale.
+    /// Ratio of picture pixels to view pixels, if it was not the default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<f32>,
-    /// It was open as a custom shader of Ghostty, which its text does not tell.
+    /// It was open as a custom shader of Ghostty, which its text does not show.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub ghostty: bool,
 }
 
 impl RecentProject {
-    /// Returns what [`Command::Open`](super::Command::Open) takes to open it as it was open.
+    /// Returns the argument of [`Command::Open`](super::Command::Open) that opens it in the same way.
     pub fn spec(&self) -> String {
         eddy_project::spec_of(&self.path, if self.ghostty { Dialect::Ghostty } else { Dialect::Shadertoy })
     }
 }
 
-/// Says where the time of a project stands when it is closed, and how large its picture is.
+/// The time of a project when it is closed, and the size of its picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Left {
     pub time_secs: f64,
-    /// The number of the frame that is shown; below 0, none is.
+    /// The number of the shown frame; below 0 if there is none.
     pub frame: i32,
     pub is_paused: bool,
     pub size: Option<(u32, u32)>,
@@ -64,16 +64,16 @@ struct File {
     projects: Vec<RecentProject>,
 }
 
-/// The list, and the file it is in.
+/// The list and its file.
 #[derive(Debug, Default)]
 pub(super) struct Recent {
-    /// `None`: nothing is kept.
+    /// `None`: nothing is stored.
     path: Option<PathBuf>,
     list: Vec<RecentProject>,
 }
 
 impl Recent {
-    /// `state_dir`: what is remembered between two starts lies there. The second value says what is wrong with it.
+    /// `state_dir`: the folder for state that is kept between runs. The second value is an error of reading the file.
     pub(crate) fn open(state_dir: Option<&Path>) -> (Self, Option<String>) {
         let mut recent = Self { path: state_dir.map(|dir| dir.join(NAME)), list: Vec::new() };
         let trouble = recent.read().err();
@@ -84,7 +84,7 @@ impl Recent {
         &self.list
     }
 
-    /// Puts a project first, and returns what is known of it. One that lies in no file is not remembered.
+    /// Moves a project to the front, and returns its entry. A project that is not stored in a file is not listed.
     pub(crate) fn opened(&mut self, origin: &Origin, dialect: Dialect) -> Result<Option<RecentProject>, String> {
         let Some(path) = place(origin) else { return Ok(None) };
         let mut known = None;
@@ -98,7 +98,7 @@ impl Recent {
         Ok(known)
     }
 
-    /// Keeps where the time of a project stands.
+    /// Stores the time of a project.
     pub(crate) fn left(&mut self, origin: &Origin, left: Left) -> Result<(), String> {
         let Some(path) = place(origin) else { return Ok(()) };
         self.change(|list| {
@@ -156,7 +156,7 @@ impl Recent {
     }
 }
 
-/// Returns where a project lies: the same path however it was named. A path that is no text cannot be written down.
+/// Returns the path of a project, independent of how it was written. A path that is not valid Unicode cannot be stored.
 fn place(origin: &Origin) -> Option<PathBuf> {
     let (Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path)) = origin else { return None };
     let path = path.canonicalize().or_else(|_| std::path::absolute(path)).ok()?;
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn projects_are_remembered_newest_first_with_their_time_by_several_windows() {
+    fn several_windows_store_projects_newest_first_with_their_time() {
         let dir = tempfile::tempdir().unwrap();
         let state = dir.path().join("state");
         let [a, b] = ["a.glsl", "b.glsl"].map(|name| {
@@ -192,7 +192,7 @@ mod tests {
         let known = second.opened(&a, Dialect::Shadertoy).unwrap().unwrap();
         assert_eq!((known.time_secs, known.frame, known.paused), (12.5, Some(750), true));
         assert_eq!((known.size, known.scale), (Some((1080, 1920)), Some(0.5)));
-        // As an earlier version has written it.
+        // As an earlier version wrote it.
         let file = state.join(NAME);
         let text = std::fs::read_to_string(&file).unwrap().replace("frame = 750\n", "");
         std::fs::write(&file, text).unwrap();
@@ -200,7 +200,7 @@ mod tests {
         assert_eq!(paths(&Recent::open(Some(&state)).0), [path(&a), path(&b)]);
         assert_eq!(second.opened(&Origin::Preset("fluid".into()), Dialect::Shadertoy), Ok(None));
         assert_eq!(second.list().len(), 2);
-        // One is opened as it was open last.
+        // A project is opened as it was last open.
         let spec = |recent: &Recent| recent.list()[0].spec();
         assert_eq!(spec(&second), path(&a).display().to_string());
         second.opened(&a, Dialect::Ghostty).unwrap();
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_cannot_be_read_is_told_of_and_left_alone() {
+    fn unreadable_file_is_reported_and_unchanged() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join(NAME);
         let text = "# mine\n[[project]]\npath = 3\n";
@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn files_of_earlier_versions_are_read_and_lose_nothing() {
+    fn files_of_earlier_versions_are_read_without_loss() {
         for text in [
             include_str!("../../tests/saved/recents/two.toml"),
             include_str!("../../tests/saved/recents/all-members.toml"),

@@ -1,4 +1,4 @@
-//! A name of the author's gets another one, wherever in the project it stands for the same.
+//! Renaming of a symbol of the author's everywhere in the project.
 
 use super::{
     Session,
@@ -10,15 +10,15 @@ use eddy_glsl::services::{Analysis, Places, Programs};
 use eddy_project::{Project, Tab};
 
 impl Session {
-    /// Returns the name at a byte of a tab that can have another one, or why it cannot.
+    /// Returns the symbol at a byte of a tab that can be renamed, or why it cannot.
     pub fn renamable(&self, tab: &Tab, at: usize) -> Result<String, String> {
         let project = self.project();
         let source = project.id_of(tab).ok_or_else(|| "there is no name here".to_owned())?;
         Read::new(project).programs(|programs| programs.renamable(source, at).map(|(name, _)| name))
     }
 
-    /// Returns the edits that give what is named at a byte of a tab another name. Fails where that is not the author's to
-    /// name, and where the new name would change what something means.
+    /// Returns the edits that rename the symbol at a byte of a tab. Fails if the symbol is not the author's, and if the
+    /// new name would change the meaning of something.
     pub fn rename(&self, tab: &Tab, at: usize, to: &str) -> Result<TabFix, String> {
         let project = self.project();
         let source = project.id_of(tab).ok_or_else(|| "there is no name here".to_owned())?;
@@ -45,12 +45,12 @@ impl Session {
     }
 }
 
-/// Every place where what is named at a byte of a text is named, in all passes; none for what no text declares.
+/// Every place that names the symbol at a byte of a text, in all passes; none for a symbol that no text declares.
 pub(super) fn everywhere(project: &Project, source: SourceId, at: usize) -> Places {
     Read::new(project).programs(|programs| programs.places(source, at))
 }
 
-/// Every stage of every pass, read.
+/// Every stage of every pass, analysed.
 struct Read {
     analyses: Vec<Analysis>,
     uniforms: Vec<(String, Span)>,

@@ -1,9 +1,10 @@
-//! Owns where the time of a project stands when it is closed and opened again, how large its picture is, and how it looked.
+//! Stores the time of a project, the size of its picture and a thumbnail when it is closed, and restores them when it
+//! is opened again.
 //!
-//! The rule: a project without a state goes on at the time and the frame where it was. One whose passes read what the
-//! last frame left begins at frame 0, as its buffers do; where it was closed while paused, the frames that led to what
-//! was shown are drawn again from the inputs that they had, on the way to that frame, and it is paused there. Where
-//! these are not known, as of a run of more than ten minutes, it is paused at frame 0.
+//! The rule: a project without state continues at the time and frame where it was. A project whose passes read the last
+//! frame starts at frame 0, as its buffers do; if it was closed while paused, the frames up to the shown one are drawn
+//! again from their recorded inputs, and it is paused there. If these are not available, as for a run of more than ten
+//! minutes, it is paused at frame 0.
 
 use super::{
     Session,
@@ -22,11 +23,11 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The inputs of the run are waited for so long when a project is closed.
+/// The maximum wait for the inputs of the run when a project is closed.
 const PATIENCE: Duration = Duration::from_millis(500);
 
 impl Session {
-    /// Notes where the open project lies, if it lies anywhere, and returns what is known of it.
+    /// Records the path of the open project, if it has one, and returns its entry.
     pub(super) fn place_known(&mut self) -> Option<RecentProject> {
         let project = self.documents.current();
         match self.recent.opened(&project.origin, project.dialect) {
@@ -38,15 +39,15 @@ impl Session {
         }
     }
 
-    /// Keeps where the open project's time stands.
+    /// Stores the time of the open project.
     pub(super) fn keep_time(&mut self) {
-        // What was left last time has not been drawn again yet: it is what is left.
+        // The frames of the last session have not been drawn again yet: keep what is stored.
         if self.playback.seeking.is_taking_up {
             return;
         }
         self.keep_picture();
         let clock = &self.playback.clock;
-        // A picture that a halt has paused runs again once it is drawn fast.
+        // A picture that was halted while playing plays again once it is drawn fast enough.
         let is_paused = !self.is_playing() && !self.halting.resumes();
         let (CanvasSize { scale, fixed }, usual) = (self.canvas.asked, self.canvas.usual);
         let left = Left {
@@ -63,7 +64,7 @@ impl Session {
         self.keep_run(is_paused);
     }
 
-    /// Keeps the inputs that led to the frame that is shown, where they are needed to show it again.
+    /// Stores the inputs up to the shown frame, if they are needed to show it again.
     fn keep_run(&mut self, is_paused: bool) {
         let (reach, origin) = (self.drawing.reach(), self.documents.current().origin.clone());
         let is_kept = is_paused && reach.is_whole && self.has_state() && self.runs.takes(&origin, reach.shown + 1);
@@ -79,7 +80,7 @@ impl Session {
         }
     }
 
-    /// Keeps the picture that is shown, before its project is closed.
+    /// Stores the shown picture before its project is closed.
     fn keep_picture(&mut self) {
         // A device that is too slow is not waited for.
         if !self.last_pictures.is_kept() || self.halting.is_halted() || !self.is_picture_of_project() {
@@ -91,8 +92,8 @@ impl Session {
         }
     }
 
-    /// Returns whether the picture is what the project draws: not that of the project before, nor a probe, nor a frame on
-    /// the way to another.
+    /// Returns whether the picture is the project's own: not that of the previous project, a probe, or a frame on the
+    /// way of a seek.
     pub(super) fn is_picture_of_project(&self) -> bool {
         let is_drawn = self.drawing.has_program() && !self.drawing.is_program_coming() && !self.picture.is_program_new;
         let is_passing = self.watched.probing.view().is_some() || self.playback.is_seeking();
@@ -107,17 +108,17 @@ impl Session {
         }
     }
 
-    /// Asks the engine for the run, and waits for it, but not for long.
+    /// Requests the run from the engine, and waits for it up to a limit.
     fn take_run(&mut self) -> Option<Run> {
         self.ask_engine(Instant::now() + PATIENCE, TakeRun).map(|(run, _)| run)
     }
 
-    /// Asks the engine for something that it has, and waits for it until then.
+    /// Requests a read-back from the engine, and waits for it until `end`.
     fn ask_engine<T: RenderTask>(&mut self, end: Instant, task: T) -> Option<T::Output> {
         self.rest_until(end)?;
         let mut tasks = Tasks::default();
         let mut ticket = tasks.add(task);
-        // What else is wanted is done later, if the project stays.
+        // Other pending changes are submitted later, if the project stays open.
         let wanted = std::mem::take(&mut self.drawing.wanted);
         self.drawing.submit(self.now, false, |job| job.tasks = tasks);
         self.drawing.wanted = wanted;
@@ -132,7 +133,7 @@ impl Session {
         }
     }
 
-    /// Waits for the job under way. `None`: it goes on.
+    /// Waits for the job in progress. `None` if it does not end in time.
     fn rest_until(&mut self, end: Instant) -> Option<()> {
         while self.drawing.is_busy() {
             self.take_drawn(false);
@@ -144,7 +145,7 @@ impl Session {
         Some(())
     }
 
-    /// Goes on from where the time of the project stood that has just been opened.
+    /// Restores the time of the project that has just been opened.
     pub(super) fn take_time_up(&mut self) {
         let Some(RecentProject { time_secs, frame, paused, size, scale, .. }) = self.place_known() else { return };
         self.take_size_up(size, scale);
@@ -162,7 +163,7 @@ impl Session {
         self.drawing.wanted.run = Some(frames);
     }
 
-    /// Gives the picture the size that it had. A person writes the file, too: what is not a size counts for nothing.
+    /// Restores the size of the picture. The file can be edited by hand: invalid sizes are ignored.
     fn take_size_up(&mut self, size: Option<(u32, u32)>, scale: Option<f32>) {
         let usual = self.canvas.usual;
         let fixed = size.filter(|(width, height)| *width > 0 && *height > 0).or(usual.fixed);

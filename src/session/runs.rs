@@ -1,8 +1,7 @@
-//! The inputs of projects that were closed while paused, so that the next start shows the frame that was left: it is
-//! drawn again from them.
+//! The inputs of projects that were closed while paused, from which the next start draws the shown frame again.
 //!
-//! Owns the files, one a project, in the folder of what is remembered between two starts. Each is a recording
-//! ([`Recording`]). A project whose passes read nothing of the last frame needs none.
+//! Owns the files, one per project, in the folder for state that is kept between runs. Each is a recording
+//! ([`Recording`]). A project whose passes do not read the last frame needs none.
 
 use super::kept_files;
 use eddy_playback::recording::{EXTENSION, RecordedFrame, Recording};
@@ -16,27 +15,27 @@ use std::{
     sync::Arc,
 };
 
-/// So many projects have one; the oldest go.
+/// The maximum number of stored runs; the oldest are removed.
 const MOST: usize = 50;
 
 /// The folder of the runs.
 pub(super) struct Runs {
-    /// `None`: nothing is kept.
+    /// `None`: nothing is stored.
     folder: Option<PathBuf>,
 }
 
 impl Runs {
-    /// `state_dir`: what is remembered between two starts lies there.
+    /// `state_dir`: the folder for state that is kept between runs.
     pub(crate) fn new(state_dir: Option<&Path>) -> Self {
         Self { folder: state_dir.map(|dir| dir.join("runs")) }
     }
 
-    /// Returns whether a run of so many frames is kept of a project.
+    /// Returns whether a run of this many frames is stored for a project.
     pub(crate) fn takes(&self, origin: &Origin, frames: u64) -> bool {
         frames <= LONGEST as u64 && self.file(origin).is_some()
     }
 
-    /// Keeps a run from its first frame on.
+    /// Stores a run from its first frame.
     pub(crate) fn keep(&self, origin: &Origin, project: String, frames: Vec<Frame>) -> io::Result<()> {
         let Some(path) = self.file(origin) else { return Ok(()) };
         let one = |(index, frame): (usize, Frame)| RecordedFrame {
@@ -57,7 +56,7 @@ impl Runs {
         Ok(())
     }
 
-    /// Forgets the run of a project.
+    /// Removes the run of a project.
     pub(crate) fn forget(&self, origin: &Origin) {
         let Some(path) = self.file(origin) else { return };
         match fs::remove_file(&path) {
@@ -66,7 +65,7 @@ impl Runs {
         }
     }
 
-    /// Returns the frames of a project's run, if one is kept. What cannot be read is none.
+    /// Returns the frames of a project's run, if one is stored and readable.
     pub(crate) fn of(&self, origin: &Origin) -> Option<Vec<Frame>> {
         let path = self.file(origin)?;
         let file = confine::open_state(&path, limits::RUN).ok()?;
@@ -78,7 +77,7 @@ impl Runs {
         }
         let mut values = Arc::default();
         let one = |frame: RecordedFrame| {
-            // Frames of the same values share them.
+            // Frames with the same values share them.
             if *values != frame.values {
                 values = Arc::new(frame.values);
             }

@@ -1,4 +1,4 @@
-//! Pictures that hold their project: saved with it, and opened as the frame that they show.
+//! Pictures that embed their project, and opening them at the frame that they show.
 
 use super::{
     Session,
@@ -16,17 +16,17 @@ use eddy_playback::{
 use eddy_project::{PassName, Project, confine, limits};
 use std::{ffi::OsStr, path::Path, sync::Arc};
 
-/// Holds the project of a picture that is to be read from the device.
+/// The project of a picture that is to be read from the device.
 #[derive(Clone, Debug)]
 pub(super) struct PictureSource {
     pub project: Project,
     pub pass: PassName,
-    /// Frames are of one another.
+    /// Its frames depend on one another.
     pub has_state: bool,
 }
 
 impl PictureSource {
-    /// Returns the scene of the picture that the renderer shows; none before its first frame.
+    /// Returns the scene of the picture that the renderer shows; `None` before its first frame.
     pub(crate) fn scene(self, renderer: &mut Renderer) -> Option<Scene> {
         let Run { mut frames, is_whole } = renderer.history().run();
         if !self.has_state || !is_whole || frames.len() > LONGEST {
@@ -53,7 +53,7 @@ impl PictureSource {
     }
 }
 
-/// Returns whether a file is a picture that holds a project.
+/// Returns whether a file is a picture that embeds a project.
 pub(super) fn holds_project(path: &Path) -> bool {
     let has_place = |extension: &OsStr| ["png", "exr"].iter().any(|kind| extension.eq_ignore_ascii_case(kind));
     path.extension().is_some_and(has_place)

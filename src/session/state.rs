@@ -1,5 +1,5 @@
-//! [`Session`] itself: its parts, and how it starts. What it does is in `apply`, `frames`, `files` and `reload`, and
-//! front ends read it by `queries`.
+//! [`Session`] itself: its parts, and its construction. Its behaviour is in `apply`, `frames`, `files` and `reload`,
+//! and front ends read it through `queries`.
 
 use super::{
     SessionError, SessionOptions,
@@ -39,7 +39,7 @@ use std::{collections::VecDeque, sync::Arc, time::Instant};
 pub struct Session {
     pub(super) options: SessionOptions,
     pub(super) wake: Arc<dyn Fn() + Send + Sync>,
-    // Before the drawing: its thread uses the device until it has ended.
+    // Before the drawing in drop order: its thread uses the device until it has ended.
     pub(super) compile: CompileControl,
     pub(super) analyst: Analyst,
     pub(super) drawing: Drawing,
@@ -61,24 +61,24 @@ pub struct Session {
     pub(super) watched: ReadBacks,
     pub(super) tracing: Tracing,
     pub(super) auditing: Auditing,
-    /// The first NaN is looked for.
+    /// The search for the first NaN.
     pub(super) searching: Searching,
     pub(super) comparing: Comparing,
     pub(super) films: Films,
     pub(super) sounding: Sounding,
     pub(super) notices: Notices,
-    /// Counts the projects that have taken the place of another.
+    /// Counts the projects that have replaced another.
     pub(super) projects_opened: u64,
     pub(super) text_generation: u64,
-    /// Counts the shaders begun by [`Command::New`](super::Command::New).
+    /// Counts the shaders created by [`Command::New`](super::Command::New).
     pub(super) begun: u64,
-    /// Edits of passes and channels.
+    /// The history of edits of passes and channels.
     pub(super) passes: PassHistory,
-    /// Passes that got another name, oldest first.
+    /// Passes that were renamed, oldest first.
     pub(super) renamed: Vec<(PassName, PassName)>,
-    /// Something a panel shows has changed since the last tick.
+    /// Something that a panel shows has changed since the last tick.
     pub(super) changed: bool,
-    /// The time of the newest tick: the only time there is between ticks.
+    /// The time of the newest tick, which is the current time until the next one.
     pub(super) now: Instant,
 }
 
@@ -87,11 +87,11 @@ pub struct Session {
 pub(super) struct Dialog {
     pub questions: VecDeque<Question>,
     pub requests: VecDeque<Request>,
-    /// The action that goes on after a Save As that a question led to.
+    /// The action that follows a Save As that a question led to.
     pub after_save: Option<PendingAction>,
 }
 
-/// The picture that is shown.
+/// The state of the shown picture.
 #[derive(Default)]
 pub(super) struct Picture {
     pub shown: PassName,
@@ -99,11 +99,11 @@ pub(super) struct Picture {
     pub is_program_new: bool,
     /// There is a new picture, to be painted before another is drawn.
     pub is_new: bool,
-    /// The next frame is handed in when that has been painted.
+    /// The next frame is submitted after that was painted.
     pub waits_for_painting: bool,
     /// A frame was drawn between two ticks.
     pub has_drawn: bool,
-    /// Grows with each other texture, and with each picture in it.
+    /// Grows with each new texture, and with each new picture in it.
     pub generation: u64,
     pub shown_count: u64,
     /// Counts the programs of the newest text that have drawn a frame.
@@ -113,8 +113,8 @@ pub(super) struct Picture {
 }
 
 impl Session {
-    /// A session with a new project, playing. `wake` is called from other threads when a tick is worth it (a compile
-    /// has ended, a file has changed).
+    /// Creates a session with a new project, playing. `wake` is called from other threads when a tick is needed (a
+    /// compile has finished, a file has changed).
     pub fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Result<Session, SessionError> {
         Self::with_options(gpu, wake, SessionOptions::default())
     }
@@ -125,7 +125,7 @@ impl Session {
         options: SessionOptions,
     ) -> Result<Session, SessionError> {
         let sounding = Sounding::new(drawing::beside(gpu.clone()), gpu.is_cpu(), wake.clone());
-        // Any size does until the first tick, which knows the viewport.
+        // An arbitrary size until the first tick, which knows the viewport.
         let size = (640, 360);
         let drawing = if options.draws_on_thread {
             Drawing::on_thread(gpu.clone(), size, drawing::beside(gpu), wake.clone())?
@@ -191,7 +191,7 @@ impl Session {
         Ok(session)
     }
 
-    /// Takes the oldest thing that the front end is asked to do.
+    /// Takes the oldest pending request to the front end.
     pub fn take_request(&mut self) -> Option<Request> {
         self.dialog.requests.pop_front()
     }

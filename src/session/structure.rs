@@ -1,12 +1,12 @@
-//! The structure of a project is all that is not text: passes, channels, settings, names. It is compared without a
-//! copy, as the window asks in each frame.
+//! The structure of a project is everything except texts: passes, channels, settings, names. It is compared without
+//! copying, as the window does so in each frame.
 
 use eddy_project::{Body, Geometry, Pass, Project, listed};
 use std::collections::BTreeSet;
 
-/// Returns whether two projects are the same but for their texts and their places on disk.
+/// Returns whether two projects differ at most in their texts and their places on disk.
 pub(super) fn is_same(a: &Project, b: &Project) -> bool {
-    // Taken apart whole, here and below: a member that is added finds its place here or does not compile.
+    // Destructured completely, here and below: a new field must be handled here or the code does not compile.
     let Project {
         name,
         info,
@@ -31,7 +31,7 @@ pub(super) fn is_same(a: &Project, b: &Project) -> bool {
         && *controls == b.controls
 }
 
-/// Returns what differs but the texts, in words that follow "Unsaved changes: ".
+/// Returns the differences except texts, in words that follow "Unsaved changes: ".
 pub(super) fn differences(now: &Project, saved: &Project) -> Vec<String> {
     let mut found = Vec::new();
     let mut say = |differs: bool, what: &str| {
@@ -66,7 +66,7 @@ pub(super) fn differences(now: &Project, saved: &Project) -> Vec<String> {
     found
 }
 
-/// Returns whether two projects of one structure have the same texts.
+/// Returns whether two projects of the same structure have the same texts.
 pub(super) fn has_same_texts(a: &Project, b: &Project) -> bool {
     a.tab_sources().map(|s| &s.text).eq(b.tab_sources().map(|s| &s.text))
 }
@@ -86,7 +86,7 @@ fn is_same_body(a: &Body, b: &Body) -> bool {
 
 fn is_same_geometry(a: &Geometry, b: &Geometry) -> bool {
     let Geometry { draws, more_targets, camera, stages } = a;
-    // Which file a draw names is structure.
+    // The file that a draw names belongs to the structure.
     *draws == b.draws
         && *more_targets == b.more_targets
         && *camera == b.camera

@@ -1,4 +1,4 @@
-//! The texts that new projects and new passes begin with. They are Eddy's own.
+//! The initial texts of new projects and new passes. They are Eddy's own.
 
 use super::documents::insert_pass;
 use eddy_project::{Origin, Pass, PassName, Project, Role, Source, Tab, limits};
@@ -44,14 +44,14 @@ const COMMON: &str = "\
 // Shared code, inserted before every pass.
 ";
 
-/// A project of one Image pass, nowhere on disk.
+/// A project of one Image pass that is not stored on disk.
 pub(super) fn project() -> Project {
     let mut project = Project::new("Untitled", Vec::new(), Origin::Unsaved);
     add(&mut project, &Tab::image());
     project
 }
 
-/// Returns what a tab's text begins as.
+/// Returns the initial text of a tab.
 pub(super) fn text(tab: &Tab) -> &'static str {
     match tab {
         Tab::Common => COMMON,
@@ -65,7 +65,7 @@ pub(super) fn text(tab: &Tab) -> &'static str {
     }
 }
 
-/// Adds a tab with its starting text; false if it is there already.
+/// Adds a tab with its initial text; returns false if it exists already.
 pub(super) fn add(project: &mut Project, tab: &Tab) -> bool {
     let is_named_so = tab.pass().and_then(PassName::buffer_name).is_none_or(PassName::is_name);
     if project.source(tab).is_some() || !is_named_so || project.passes.len() >= limits::PASSES {
@@ -74,7 +74,7 @@ pub(super) fn add(project: &mut Project, tab: &Tab) -> bool {
     let source = Source { name: tab.title(), path: None, text: text(tab).into() };
     match tab {
         Tab::Common => project.common = Some(source),
-        // A stage is there because a draw of its pass names it.
+        // A stage exists because a draw of its pass names it.
         Tab::Stage(..) | Tab::Included(_) => return false,
         Tab::Pass(id) => insert_pass(project, Pass::new(id.clone(), source)),
     }

@@ -1,8 +1,8 @@
-//! A pixel of the picture that is being traced: from the click to the way that led to its value, and to the first
-//! assignment that the device computes otherwise.
+//! Traces a pixel of the picture: from the click to the execution that led to its value, and to the first assignment
+//! that differs on the device.
 //!
-//! The inputs of the pass are taken after the frame, from textures that still hold them, so that nothing is drawn anew
-//! and no simulation goes on. The walk and the search are done on threads of their own.
+//! The inputs of the pass are read after the frame, from textures that still have them, so that nothing is drawn again
+//! and no simulation advances. The interpreter and the search run on threads of their own.
 
 use super::{
     Session,
@@ -19,7 +19,7 @@ use eddy_playback::run::{Replay, ReplayFrom};
 use eddy_project::{PassName, Project};
 use std::{io, sync::Arc};
 
-/// A pixel of a pass: where in its picture, from 0 to 1 across and up.
+/// A pixel of a pass: its place in the picture, from 0 to 1 across and up.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TracedPixel {
     pub pass: PassName,
@@ -33,10 +33,10 @@ struct TraceJob {
     inspected: Inspected,
 }
 
-/// Holds what a front end shows of a trace.
+/// The state of a trace as a front end shows it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TraceView<'s> {
-    /// The newest, while another one is under way too.
+    /// The newest result, even while another trace is running.
     pub traced: Option<&'s Arc<Traced>>,
     pub is_under_way: bool,
     /// The reason why there is none.
@@ -45,7 +45,7 @@ pub struct TraceView<'s> {
 
 pub(super) struct Tracing {
     walk: Background<TraceJob, (), Arc<Traced>>,
-    /// The pixel that is traced, again after each change of what it shows.
+    /// The traced pixel; it is traced again whenever its picture changes.
     pixel: Option<TracedPixel>,
     input: Ticket<Result<Inspected, EngineError>>,
     pub divergence: Divergence,
@@ -67,7 +67,7 @@ impl Tracing {
             self.divergence.clear();
         }
         match self.walk.result() {
-            // The trace of the pixel before stays until there is the next.
+            // The trace of the previous pixel stays until there is a new one.
             Some(Ok(_)) if pixel.is_some() => self.walk.cancel(),
             _ => self.walk.clear(),
         }
@@ -85,13 +85,13 @@ impl Tracing {
         }
     }
 
-    /// The device that inputs were asked of is gone.
+    /// Requests the input again: the device that was to deliver it is lost.
     pub(crate) fn renew_request(&mut self) {
         self.walk.renew_request();
         self.divergence.background.renew_request();
     }
 
-    /// Takes what has ended. Returns whether something is new.
+    /// Takes finished results. Returns whether there is a new one.
     pub(crate) fn poll(&mut self) -> bool {
         self.walk.poll() | self.divergence.background.poll()
     }
@@ -127,7 +127,7 @@ impl Divergence {
 }
 
 impl Session {
-    /// The pixel that is traced ([`Command::Trace`](super::Command::Trace)).
+    /// The trace of the chosen pixel ([`Command::Trace`](super::Command::Trace)).
     pub fn trace(&self) -> TraceView<'_> {
         TraceView {
             traced: self.tracing.traced(),
@@ -137,14 +137,14 @@ impl Session {
     }
 
     /// The search for the first difference from the device in the traced pixel
-    /// ([`Command::FindDivergence`](super::Command::FindDivergence)); `None`: nobody has asked for it.
+    /// ([`Command::FindDivergence`](super::Command::FindDivergence)); `None` if it was not requested.
     pub fn divergence(&self) -> Option<Status<'_, (), DivergenceFound>> {
         let Divergence { background, of, .. } = &self.tracing.divergence;
         of.as_ref().zip(self.tracing.traced()).filter(|(of, traced)| Arc::ptr_eq(of, traced))?;
         background.status()
     }
 
-    /// Begins that search.
+    /// Starts that search.
     pub(super) fn want_divergence(&mut self) {
         let traced = self.tracing.traced().cloned();
         let divergence = &mut self.tracing.divergence;
@@ -155,7 +155,7 @@ impl Session {
         divergence.of = traced;
     }
 
-    /// Hands on what the traced pass read; after a further frame the pixel is traced again.
+    /// Submits the inputs that the traced pass read; after another frame the pixel is traced again.
     pub(super) fn trace_pixel(&mut self, has_frame: bool) {
         let Tracing { walk, pixel: Some(pixel), input, .. } = &mut self.tracing else { return };
         let Some(input) = input.take() else {
@@ -175,7 +175,7 @@ impl Session {
         }
     }
 
-    /// Hands on the frames that lead to the traced one.
+    /// Submits the frames up to the traced one.
     pub(super) fn find_divergence(&mut self) {
         let Some(input) = self.tracing.divergence.input.take() else { return };
         self.changed = true;

@@ -1,5 +1,5 @@
-//! A session plays, pauses, seeks, records and replays: [`Playback`](super::playback) says how, and here is done what else
-//! follows of it for the picture, the canvas and the notices.
+//! Playing, pausing, seeking, recording and replaying: [`Playback`](super::playback) decides how, and this module
+//! applies the consequences to the picture, the canvas and the notices.
 
 use super::{
     Session,
@@ -36,7 +36,7 @@ impl Session {
         self.drawing.wanted.reset = true;
     }
 
-    /// Shows the frame that is so many before the one that is shown, and pauses.
+    /// Shows the frame that is this number of frames before the shown one, and pauses.
     pub(super) fn step_back(&mut self, by: usize) {
         self.settled(About::Seeking);
         self.override_halt();
@@ -49,7 +49,7 @@ impl Session {
         self.playback.step_forward(self.drawing.reach().ahead);
     }
 
-    /// Shows the picture at a time, in seconds. Playing or paused stays as it is.
+    /// Shows the picture at a time, in seconds. Playing or paused is unchanged.
     pub(super) fn seek(&mut self, secs: f64) {
         if !secs.is_finite() {
             return;
@@ -57,7 +57,7 @@ impl Session {
         let secs = secs.max(0.0);
         self.settled(About::Seeking);
         self.override_halt();
-        // What is recorded is a run without a break.
+        // A recording must be a continuous run.
         self.end_recording();
         let reach = self.drawing.reach();
         if self.playback.is_replaying() {
@@ -67,15 +67,15 @@ impl Session {
         }
     }
 
-    /// Goes back to the beginning of the range that is played before a frame that would not lie before its end. Time goes
-    /// on without a program, which has no frame to go back from.
+    /// Seeks to the start of the looped range before a frame that would not be before its end. Without a program, time
+    /// continues, as there is no frame to go back from.
     pub(super) fn loop_range(&mut self) {
         if let Some(from) = self.playback.loop_start(self.now).filter(|_| self.drawing.has_program()) {
             self.seek(from);
         }
     }
 
-    /// Hands in the frame that is to be shown. False where there is none, or nothing to draw it.
+    /// Submits the seek. Returns false if there is none, or no program to draw it.
     pub(super) fn travel(&mut self) -> bool {
         let seeking = &self.playback.seeking;
         if seeking.goal.is_none() || self.drawing.is_program_coming() || seeking.awaits_program {
@@ -91,7 +91,7 @@ impl Session {
         true
     }
 
-    /// The engine shows another frame of the run, or cannot.
+    /// Handles the result of a seek: another frame of the run is shown, or it is out of reach.
     pub(super) fn travelled(&mut self, travelled: Option<Result<SeekProgress, EngineError>>) {
         self.changed = true;
         let reach = self.drawing.reach();
@@ -119,7 +119,7 @@ impl Session {
         }
     }
 
-    /// A new program draws: by the same inputs up to the same frame, where that is asked for.
+    /// A new program draws: if enabled, up to the same frame with the same inputs.
     pub(super) fn keep_inputs(&mut self) {
         let reach = self.drawing.reach();
         if !self.keeps_inputs_of(reach) {
@@ -139,7 +139,7 @@ impl Session {
         self.playback.seeking.keeps_inputs && reach.shown > 0 && self.has_state()
     }
 
-    /// A program that is coming draws all frames since the reset.
+    /// Returns whether a pending program draws all frames since the reset again.
     pub(super) fn draws_all_anew(&self) -> bool {
         let reach = self.drawing.reach();
         self.drawing.wanted.program.is_some() && reach.is_whole && self.keeps_inputs_of(reach)
@@ -155,12 +155,12 @@ impl Session {
         self.playback.is_playing()
     }
 
-    /// Returns the frames that one can go to without drawing new ones.
+    /// Returns the range of frames for seeking without drawing new ones.
     pub fn reach(&self) -> Reach {
         self.drawing.reach()
     }
 
-    /// Returns the range that is played again and again.
+    /// Returns the range that is looped.
     pub fn time_range(&self) -> Option<TimeRange> {
         self.playback.seeking.range
     }
@@ -170,7 +170,7 @@ impl Session {
         self.playback.seeking.keeps_inputs
     }
 
-    /// The frame that is shown is to be drawn again now, once: no other is due.
+    /// Returns whether the shown frame is to be drawn again now, once: no other is due.
     pub(super) fn take_again(&mut self) -> bool {
         let wanted = &self.drawing.wanted;
         let is_other_coming = wanted.restart || wanted.program.is_some() || wanted.size.is_some();
@@ -178,14 +178,14 @@ impl Session {
         is_ready && self.playback.take_again()
     }
 
-    /// A change of the program or the canvas is followed by the frame that is shown, and by no other.
+    /// Returns whether a change of the program or the canvas is followed by the shown frame only.
     pub(super) fn stays(&self) -> bool {
         let wanted = &self.drawing.wanted;
         let begins_anew = wanted.restart || wanted.reset || self.compile.resets || self.draws_all_anew();
         self.playback.is_still() && !begins_anew
     }
 
-    /// The frame that is shown cannot be drawn again: the next one shows what has changed.
+    /// The shown frame cannot be drawn again: the next one shows the change.
     pub(super) fn again_is_lost(&mut self) {
         self.playback.is_frame_due = true;
         if self.has_state() {
@@ -194,7 +194,7 @@ impl Session {
         }
     }
 
-    /// Begins anew at frame 0 and records every frame; the second time, ends that and writes the file.
+    /// Restarts at frame 0 and records every frame; the second time, stops and writes the file.
     pub(super) fn record(&mut self) {
         if self.playback.recorder.is_some() {
             self.end_recording();
@@ -205,12 +205,12 @@ impl Session {
         self.reset();
     }
 
-    /// Returns how many frames have been recorded, while they are.
+    /// Returns how many frames have been recorded, if a recording is being made.
     pub fn recorded_frames(&self) -> Option<usize> {
         self.playback.recorder.as_ref().map(|recorder| recorder.recording.frames.len())
     }
 
-    /// Writes what has been recorded, if anything is.
+    /// Writes the recording, if one is being made.
     pub(super) fn end_recording(&mut self) {
         let Some(Recorder { recording, .. }) = self.playback.recorder.take() else { return };
         let frames = recording.frames.len();
@@ -235,7 +235,7 @@ impl Session {
         }
     }
 
-    /// Takes down a job before it is handed in.
+    /// Records a job before it is submitted.
     pub(super) fn note_job(&mut self, frame: Option<&FrameInputs>, again: bool) {
         let size = self.drawing.wanted.size.unwrap_or_else(|| self.drawing.coming_size());
         if let Some(recorder) = &mut self.playback.recorder {
@@ -243,12 +243,12 @@ impl Session {
         }
     }
 
-    /// Returns what is known of the recording that is played, while one is.
+    /// Returns the state of the replay, if there is one.
     pub fn replay(&self) -> Option<ReplayView> {
         self.playback.replay.playing.as_ref().map(|playing| playing.view())
     }
 
-    /// Reads a recording, which is played when it is there.
+    /// Starts reading a recording, which is played when it is loaded.
     pub(super) fn play_recording(&mut self, file: PathBuf) {
         self.settled(About::Replay);
         let file = std::path::absolute(&file).unwrap_or(file);
@@ -260,7 +260,7 @@ impl Session {
         }
     }
 
-    /// Begins with a recording that has been read.
+    /// Starts a replay of a recording that was loaded.
     pub(super) fn take_recording(&mut self) {
         let Some(read) = self.playback.replay.reading.as_mut().and_then(Reading::take) else { return };
         let Some(Reading { file, .. }) = self.playback.replay.reading.take() else { return };
@@ -292,7 +292,7 @@ impl Session {
         self.changed = true;
     }
 
-    /// Ends the recording that is played, and says so.
+    /// Ends the replay, with a notice.
     pub(super) fn end_replay(&mut self, why: &str) {
         if let Some(ReplayView { file, drawn, frames }) = self.playback.stop_replay() {
             let text = format!("stopped {} at frame {drawn} of {frames}: {why}", name(&file));
@@ -300,7 +300,7 @@ impl Session {
         }
     }
 
-    /// Returns the frame of the recording that is due now. `is_step`: one is asked for, whatever the time.
+    /// Returns the frame of the recording that is due now. `is_step`: a frame is requested, whatever the time.
     pub(super) fn next_replayed(&mut self, is_step: bool) -> Option<FrameInputs> {
         let (may_run, may_start) = (!self.gives_way(), !self.is_compile_under_way());
         let next = self.playback.next_replayed(self.now, is_step, may_run, may_start)?;

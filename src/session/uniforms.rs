@@ -1,31 +1,31 @@
-//! The author's own uniforms: their values, and their names while the texts have others than the program that draws.
+//! The author's own uniforms: their values, and their names while the texts differ from the program that draws.
 //!
-//! Values and steps back go by the names in the texts.
+//! Values and undo steps use the names in the texts.
 
 use super::Session;
 use eddy_project::{CustomUniform, CustomUniformValue, CustomUniformValues, Project};
 
-/// Old and new names, in the order in which they were given.
+/// Old and new names, in the order of the renames.
 type RenamedUniforms = Vec<(String, String)>;
 
-/// The author's own uniforms as the texts have them.
+/// The author's own uniforms as the texts declare them.
 #[derive(Default)]
 pub(super) struct TextUniforms {
-    /// Those that have another name in the texts than in the program that draws.
+    /// Those whose name in the texts differs from that in the program that draws.
     renamed: RenamedUniforms,
-    /// Those of the texts, where the program that draws declares none or there is none yet.
+    /// Those of the texts, if the program that draws declares none or there is none yet.
     pub declared: Vec<CustomUniform>,
-    /// The documents' revision that they are of.
+    /// The documents' revision when they were read.
     revision: Option<u64>,
 }
 
-/// Returns what became of a name.
+/// Returns the current name after all renames.
 fn newest_name<'n>(renamed: &'n RenamedUniforms, name: &'n str) -> &'n str {
     renamed.iter().fold(name, |name, (from, to)| if from == name { to } else { name })
 }
 
 impl Session {
-    /// Reads what the texts declare, if that is shown and they have changed since.
+    /// Reads the declarations in the texts, if they are shown and have changed.
     pub(super) fn read_declared_uniforms(&mut self) {
         let revision = Some(self.documents.revision());
         if self.drawing.custom_uniforms().is_empty() && self.uniforms.revision != revision {
@@ -35,7 +35,7 @@ impl Session {
         }
     }
 
-    /// Returns where one of the author's own uniforms stands.
+    /// Returns the value of one of the author's own uniforms.
     pub fn custom_uniform_value(&self, custom_uniform: &CustomUniform) -> CustomUniformValue {
         let values = &self.project().custom_uniform_values;
         match newest_name(&self.uniforms.renamed, &custom_uniform.name) {
@@ -44,12 +44,12 @@ impl Session {
         }
     }
 
-    /// Returns the name that the texts have for a uniform of the program that draws.
+    /// Returns the name in the texts for a uniform of the program that draws.
     pub(super) fn newest_name(&self, name: &str) -> String {
         newest_name(&self.uniforms.renamed, name).to_owned()
     }
 
-    /// Adds values under the names that a program of the texts before their renaming has for them.
+    /// Adds values under the names that a program of the earlier texts uses.
     pub(super) fn add_old_names(&self, values: &mut CustomUniformValues) {
         let renamed = &self.uniforms.renamed;
         for (from, _) in renamed {
@@ -60,7 +60,7 @@ impl Session {
         }
     }
 
-    /// Lets values and steps back follow the uniforms that an edit of a text has renamed.
+    /// Updates values and undo steps for uniforms that an edit of a text has renamed.
     pub(super) fn follow_renamed_uniforms(&mut self, before: &str, after: &str) {
         let renamed = self.documents.current_mut().follow_renamed_custom_uniforms(before, after);
         for (from, to) in &renamed {
@@ -72,7 +72,7 @@ impl Session {
         }
     }
 
-    /// A program of `coming` is about to draw: names that neither it nor the one before it has mean nothing any more.
+    /// A program of `coming` is about to draw: drops names that neither it nor the previous one uses.
     pub(super) fn forget_old_names(&mut self, coming: &Project) {
         if self.uniforms.renamed.is_empty() {
             return;
@@ -83,7 +83,7 @@ impl Session {
         self.uniforms.renamed.retain(|(from, _)| known.iter().any(|(name, _)| name == from));
     }
 
-    /// Names that the texts declare now are no old ones.
+    /// Drops old names that the texts declare again.
     fn drop_names_in_use(&mut self) {
         let declared = self.project().custom_uniform_names();
         self.uniforms.renamed.retain(|(from, _)| declared.iter().all(|(name, _)| name != from));
@@ -108,7 +108,7 @@ impl Session {
         self.custom_uniforms_turned();
     }
 
-    /// The values go to the running program; while paused, one frame shows them.
+    /// Submits the values to the running program; while paused, one frame shows them.
     pub(super) fn custom_uniforms_turned(&mut self) {
         let played = self.playback.replay.playing.as_ref().and_then(|playing| playing.values());
         self.playback.replay.has_values = played.is_some();
@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_is_followed_through_all_its_changes() {
+    fn name_is_followed_through_all_renames() {
         let renamed = |all: &[(&str, &str)]| -> RenamedUniforms {
             all.iter().map(|(from, to)| ((*from).to_owned(), (*to).to_owned())).collect()
         };

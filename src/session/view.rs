@@ -1,4 +1,4 @@
-//! A front end shows these plain values of a session.
+//! The plain values of a session that front ends show.
 
 use eddy_diag::{Diagnostic, Edit, Fix, Severity, SourceMap};
 use eddy_project::{Project, Tab, TextLocation};
@@ -10,12 +10,12 @@ use std::{
 /// The effects of a [`tick`](super::Session::tick), and when the next one is due.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tick {
-    /// A frame was drawn: the display texture holds a new picture.
+    /// A frame was drawn: the display texture has a new picture.
     pub frame_drawn: bool,
-    /// The time to tick again though nothing is heard of: at once while playing, at the end of a debounce; `None` when
-    /// only an event or the wake callback can change anything.
+    /// The time of the next tick even without an event: at once while playing, at the end of a debounce; `None` if only
+    /// an event or the wake callback can change anything.
     pub wake_at: Option<Instant>,
-    /// Something a panel shows has changed (texts, diagnostics, notices, a question, transport).
+    /// Something that a panel shows has changed (texts, diagnostics, notices, a question, transport).
     pub changed: bool,
 }
 
@@ -26,8 +26,8 @@ pub enum Level {
     Error,
 }
 
-/// Says what a notice is about. It is gone when that is mended or tried again, and all but those about the window when
-/// another project is opened.
+/// The subject of a notice. A notice is dismissed when the problem is fixed or the operation is retried, and all except
+/// those about the window when another project is opened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum About {
     /// The window, its device and its files.
@@ -37,51 +37,51 @@ pub enum About {
     Project,
     Opening,
     Saving,
-    /// A text that does not become a program, or whose frames do not come back.
+    /// A text that does not compile, or whose frames hang.
     Code,
     /// A frame that was not drawn.
     Drawing,
     CanvasSize,
-    /// A factor of the canvas' size that is none.
+    /// An invalid scale of the canvas.
     Scale,
-    /// Files that make no whole project.
+    /// Files that do not form a complete project.
     Files,
-    /// A file that is gone.
+    /// A missing file.
     MissingFile,
     /// Folders that are watched.
     Watching,
     Seeking,
-    /// A question that stands first.
+    /// An open question that must be answered first.
     Question,
-    /// A picture, a recording or numbers that were to be written.
+    /// A picture, a recording or numbers to be written.
     Capture,
-    /// A film that is made.
+    /// A film.
     Film,
     CustomUniform,
     PassEdit,
     Audit,
-    /// The frame that is shown and cannot be drawn again.
+    /// The shown frame, which cannot be drawn again.
     Again,
-    /// A recording that is played.
+    /// A replay.
     Replay,
     /// A device that plays sound.
     Sound,
-    /// A device that records it.
+    /// A device that records sound.
     Microphone,
-    /// OSC that cannot be listened to.
+    /// OSC that cannot be received.
     Osc,
-    /// Devices of MIDI.
+    /// MIDI devices.
     Midi,
     Gamepads,
     /// A control that was learned.
     Controls,
-    /// A project that was to be written for the site.
+    /// An export of the project.
     Export,
     /// A camera.
     Device,
 }
 
-/// Something the user should hear once.
+/// A message to the user that is shown once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Notice {
     /// For [`Command::DismissNotice`](super::Command::DismissNotice); grows.
@@ -89,10 +89,10 @@ pub struct Notice {
     pub level: Level,
     pub text: String,
     pub about: About,
-    /// The file it is about, where there is one to open or copy.
+    /// The file that it is about, if there is one to open or copy.
     pub path: Option<std::path::PathBuf>,
-    /// The edit of passes that it tells of, by [`PassStep::serial`](super::PassStep::serial): as long as that is the
-    /// newest one, a front end offers to take it back.
+    /// The edit of passes that it reports, by [`PassStep::serial`](super::PassStep::serial): as long as that is the
+    /// newest one, a front end offers to undo it.
     pub undoes: Option<u64>,
     pub at: Instant,
 }
@@ -101,37 +101,37 @@ pub struct Notice {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TabDiagnostic {
     pub severity: Severity,
-    /// `None`: it is about no text.
+    /// `None`: it has no place in a text.
     pub place: Option<TextLocation>,
     pub message: String,
-    /// Further places: the declaration that a call does not fit, the macro that a name comes from.
+    /// Related places: the declaration that a call does not match, the macro that a name comes from.
     pub labels: Vec<TabLabel>,
     pub hints: Vec<String>,
-    /// The mends that can be made at once, the likeliest first.
+    /// The fixes that can be applied directly, the most likely first.
     pub fixes: Vec<TabFix>,
 }
 
-/// A mend that can be made without asking further, and what else changes several texts at once.
+/// A fix that can be applied without further input, and any other edit of several texts at once.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TabFix {
-    /// Says what it does, in a menu.
+    /// The title in a menu.
     pub title: String,
-    /// All of them are made, or none. No two touch the same bytes.
+    /// Applied all together or not at all. They do not overlap.
     pub edits: Vec<TabEdit>,
 }
 
-/// A stretch of a tab's text, and what shall stand there instead.
+/// A range of a tab's text and its replacement.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TabEdit {
     pub tab: Tab,
     pub range: Range<usize>,
-    /// Holds what stands there. Where that is something else by now, the edit means nothing any more.
+    /// The text at that range. If it has changed meanwhile, the edit is invalid.
     pub replaced: String,
     pub text: String,
 }
 
 impl TabFix {
-    /// Returns `None` for a mend of a text that is no tab.
+    /// Returns `None` for a fix in a text that is not a tab.
     fn new(fix: &Fix, sources: &SourceMap, project: &Project) -> Option<Self> {
         let edit = |edit: &Edit| {
             let range = edit.span.range();
@@ -143,7 +143,7 @@ impl TabFix {
     }
 }
 
-/// A further place of a diagnostic, and what it has to do with it.
+/// A related place of a diagnostic, with its message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TabLabel {
     pub place: TextLocation,
@@ -151,7 +151,7 @@ pub struct TabLabel {
 }
 
 impl TabDiagnostic {
-    /// Makes an error that has no place in any text.
+    /// Creates an error without a place in a text.
     pub(super) fn nowhere(message: &str) -> Self {
         Self {
             severity: Severity::Error,
@@ -179,26 +179,26 @@ impl TabDiagnostic {
         }
     }
 
-    /// Returns the tab that it is in.
+    /// Returns the tab of its place.
     pub fn tab(&self) -> Option<&Tab> {
         self.place.as_ref()?.tab.as_ref()
     }
 }
 
-/// The state of the newest text on its way to the picture.
+/// The progress of the newest text towards the picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CompileState {
-    /// A compile is wanted or under way; the picture still shows an older text.
+    /// A compile is due or in progress; the picture still shows an older text.
     pub compiling: bool,
-    /// The end of the last finished one; `None` before the first.
+    /// The result of the last finished one; `None` before the first.
     pub last: Option<Outcome>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// It draws. Milliseconds of compiling; how many warnings there are.
+    /// It draws. Milliseconds of the compile, and the number of warnings.
     Ok { millis: f64, warnings: usize },
-    /// It has errors, at least one.
+    /// The number of errors, at least one.
     Failed { errors: usize, meanwhile: FallbackPicture },
 }
 
@@ -207,25 +207,25 @@ pub enum Outcome {
 pub enum FallbackPicture {
     /// No text of this project has compiled yet.
     Nothing,
-    /// The last good picture goes on.
+    /// The last good picture continues.
     LastGood,
-    /// The newest text's picture: what is wrong is what a channel shall read, and it reads black.
+    /// The newest text's picture: the error concerns a channel, which reads black.
     Newest,
 }
 
-/// Says why the picture stands still though nobody has paused it. [`Command::GoOn`](super::Command::GoOn),
+/// The reason why the picture is halted. [`Command::GoOn`](super::Command::GoOn),
 /// [`DrawSmaller`](super::Command::DrawSmaller) and [`DrawLastGood`](super::Command::DrawLastGood) end it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Halt {
-    /// A frame takes longer than the limit, and the device is still at it.
+    /// A frame is taking longer than the limit, and the device is still drawing it.
     Drawing { limit: Duration, since: Instant },
-    /// A frame took longer.
+    /// A frame took longer than the limit.
     Drawn { limit: Duration, took: Duration },
-    /// A frame of the new code would take longer, by what a small tile of it takes. None was drawn.
+    /// A frame of the new code would take longer, extrapolated from a small tile. None was drawn.
     Forecast { limit: Duration, would_take: Duration },
     /// The project was opened paused; nothing of it has been drawn yet.
     Opened {
-        /// It froze the picture or ended Eddy when it was open last.
+        /// It hung the picture or crashed Eddy when it was last open.
         after_trouble: bool,
     },
 }
@@ -238,20 +238,20 @@ pub struct Transport {
     pub time_secs: f64,
     /// `iFrame` of the newest frame.
     pub frame: i32,
-    /// Frames a second over the last half second. While paused, as the two below, none: there is nothing to measure.
+    /// Frames per second over the last half second. `None` while paused, as the two below: there is nothing to measure.
     pub fps: Option<f64>,
-    /// Milliseconds of the device for the newest frame it has finished, where it can tell.
+    /// Milliseconds of GPU time for the newest finished frame, if the device can measure it.
     pub gpu_millis: Option<f64>,
-    /// Microseconds of the processor for the newest frame.
+    /// Microseconds of CPU time for the newest frame.
     pub cpu_micros: Option<f64>,
     /// Canvas size in pixels.
     pub resolution: (u32, u32),
     pub scale: f32,
     pub fixed_size: Option<(u32, u32)>,
-    /// Seconds of `iTime` in a second.
+    /// Seconds of `iTime` per second.
     pub speed: f64,
-    /// Frames in a second of `iTime`, if each takes the same time however long it really takes.
+    /// Frames per second of `iTime`, if all take the same time regardless of real time.
     pub fixed_rate: Option<f64>,
-    /// Frames are drawn on the way to a time that was asked for.
+    /// A seek is drawing the frames on its way.
     pub is_seeking: bool,
 }

@@ -1,9 +1,9 @@
-//! Files that hold the texels which the next frame of a run reads. A run goes on from one in another process, or on
+//! Files with the texels that the next frame of a run reads, from which the run resumes in another process or on
 //! another machine.
 //!
 //! A checkpoint is one line of JSON, then the texels as a gzip stream (RFC 1952), whose checksum covers them. Sliders,
-//! scripts, recorded input and music are functions of the frame's number, and are worked out again from the command
-//! line; the file has the number by which it is checked that these are the same.
+//! scripts, recorded input and music are functions of the frame's number, and are computed again from the command line;
+//! the file has a fingerprint that verifies that these are the same.
 
 use crate::script::ScriptedInputs;
 use eddy_engine::{State, TargetForm, TargetState};
@@ -19,31 +19,31 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Version of the form that this build writes, and the newest one it reads.
+/// Version of the format that this build writes, and the newest one it reads.
 const VERSION: u32 = 1;
-/// Ending of the files.
+/// Extension of the files.
 pub const EXTENSION: &str = "eddystate";
-/// The longest first line.
+/// The maximum length of the first line.
 const LINE_BYTES: u64 = 1 << 20;
 
-/// Says where in which run a checkpoint was taken.
+/// The run and the frame at which a checkpoint was taken.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Moment {
     /// The version of Eddy that wrote it.
     pub eddy: String,
-    /// The project's name, for a person.
+    /// The project's name, for display.
     pub project: String,
-    /// The number of project, media, values and inputs: see [`fingerprint`].
+    /// The hash of project, media, values and inputs: see [`fingerprint`].
     pub fingerprint: String,
-    /// The frame that is drawn next.
+    /// The next frame to draw.
     pub frame: u32,
     /// The canvas of the run's first frame.
     pub size: (u32, u32),
-    /// The device that drew it: others differ in last bits.
+    /// The device that drew it: others differ in the last bits.
     pub device: String,
 }
 
-/// A file that holds a state.
+/// A checkpoint file, read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
     pub moment: Moment,
@@ -69,7 +69,7 @@ struct TargetHead {
     textures: usize,
 }
 
-/// A file that a run cannot go on from.
+/// The reason why a run cannot resume from a file.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckpointError {
     #[error("cannot read {path}: {source}")]
@@ -89,7 +89,7 @@ pub enum CheckpointError {
 }
 
 impl CheckpointError {
-    /// Returns what to do about it.
+    /// Returns a suggested fix.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Version { .. } => "update Eddy on this machine",
@@ -99,8 +99,8 @@ impl CheckpointError {
     }
 }
 
-/// Returns the number of all that decides what a run draws, besides the canvas: texts, values of sliders, channels and
-/// settings, the texels and sounds of its media, scripts and recorded input, the rate and the date.
+/// Returns the hash of everything that determines the frames of a run, except the canvas: texts, values of sliders,
+/// channels and settings, the texels and sounds of its media, scripts and recorded input, the rate and the date.
 pub fn fingerprint(project: &Project, media: &MediaSet, inputs: &ScriptedInputs) -> String {
     let mut print = Fingerprint::of(project);
     print.eat(media.checksum().to_string().as_bytes());
@@ -109,7 +109,7 @@ pub fn fingerprint(project: &Project, media: &MediaSet, inputs: &ScriptedInputs)
 }
 
 impl Moment {
-    /// Says why a run that is `other` in its first frame cannot go on from here.
+    /// Returns why a run whose first frame is `other` cannot resume from here.
     fn differs_from(&self, other: &Moment) -> Option<String> {
         if self.eddy != other.eddy {
             return Some(format!("it was written by Eddy {}, and this is {}", self.eddy, other.eddy));
@@ -123,7 +123,7 @@ impl Moment {
     }
 }
 
-/// Writes a checkpoint into a folder, whole or not at all. A link of this name that leads out of the folder is refused.
+/// Writes a checkpoint into a folder atomically. A link of this name that leads out of the folder is rejected.
 pub fn write(folder: &Path, name: &str, moment: &Moment, state: &State) -> Result<(), CheckpointError> {
     let target = |target: &TargetState| TargetHead {
         pass: target.pass.key().to_owned(),
@@ -140,7 +140,7 @@ pub fn write(folder: &Path, name: &str, moment: &Moment, state: &State) -> Resul
         let mut file = BufWriter::new(file);
         serde_json::to_writer(&mut file, &head)?;
         file.write_all(b"\n")?;
-        // Texels of floats hardly shrink: the fast way is as good.
+        // Float texels hardly compress: the fast level is as good.
         let mut packed = GzEncoder::new(file, Compression::fast());
         for bytes in state.targets.iter().flat_map(|target| &target.textures) {
             packed.write_all(bytes)?;
@@ -150,11 +150,11 @@ pub fn write(folder: &Path, name: &str, moment: &Moment, state: &State) -> Resul
     write_into(folder, name, put).map_err(|source| CheckpointError::Write { path: folder.join(name), source })
 }
 
-/// Reads a checkpoint of a run that is as `run` in its first frame. `forms`: the targets of the program that goes on from it.
+/// Reads a checkpoint of a run whose first frame is `run`. `forms`: the targets of the program that resumes from it.
 ///
-/// The targets that the file lists are compared with these before anything is unpacked. What the next frame does not read
-/// is unpacked piece by piece and dropped, at most [`limits::CHECKPOINT_SKIPPED_BYTES`] bytes of targets that the program does not
-/// have.
+/// The targets that the file lists are compared with these before anything is decompressed. Texels that the next frame
+/// does not read are decompressed piece by piece and discarded, at most [`limits::CHECKPOINT_SKIPPED_BYTES`] bytes of
+/// targets that the program does not have.
 pub fn read(path: &Path, run: &Moment, forms: &[TargetForm]) -> Result<Checkpoint, CheckpointError> {
     let (head, mut rest) = head(path)?;
     if let Some(reason) = head.moment.differs_from(run) {
@@ -193,7 +193,7 @@ pub fn read(path: &Path, run: &Moment, forms: &[TargetForm]) -> Result<Checkpoin
         let textures = texels.collect::<Result<_, _>>()?;
         state.targets.push(TargetState { pass, index: head.target, shape, textures });
     }
-    // The checksum is compared at the end of the stream.
+    // The checksum is verified at the end of the stream.
     match unpacked.read(&mut [0]) {
         Ok(0) => Ok(Checkpoint { moment: head.moment, state }),
         Ok(_) => Err(damaged("it holds more than it says".into())),
@@ -201,7 +201,8 @@ pub fn read(path: &Path, run: &Moment, forms: &[TargetForm]) -> Result<Checkpoin
     }
 }
 
-/// Returns for each target of a file whether its texels are kept. Err: the file has targets otherwise than the program.
+/// Returns for each target of a file whether its texels are kept. Fails if the file's targets do not match the
+/// program's.
 fn measure(
     targets: &[TargetHead],
     shapes: &[(PassName, TextureShape)],
@@ -234,7 +235,7 @@ fn measure(
     Ok(is_kept)
 }
 
-/// Reads where a checkpoint was taken, and none of its texels.
+/// Reads where a checkpoint was taken, without its texels.
 pub fn moment(path: &Path) -> Result<Moment, CheckpointError> {
     Ok(head(path)?.0.moment)
 }
@@ -281,8 +282,8 @@ fn shape(head: &TargetHead) -> Result<(PassName, TextureShape), String> {
     Ok((pass, shape))
 }
 
-/// Returns the checkpoint of a folder from which the fewest frames are drawn again before `frame`: that of the latest
-/// moment not after it, of the project whose files begin with `stem`.
+/// Returns the checkpoint of a folder with the fewest frames to draw again before `frame`: the latest one not after it,
+/// of the project whose files start with `stem`.
 pub fn latest(folder: &Path, stem: &str, frame: u32) -> io::Result<Option<(u32, PathBuf)>> {
     let mut best: Option<(u32, PathBuf)> = None;
     for entry in folder.read_dir()? {
@@ -295,7 +296,7 @@ pub fn latest(folder: &Path, stem: &str, frame: u32) -> io::Result<Option<(u32, 
     Ok(best)
 }
 
-/// Returns the name of the file of a checkpoint before a frame.
+/// Returns the file name of a checkpoint before a frame.
 pub fn file_name(stem: &str, frame: u32) -> String {
     format!("{stem}_{frame:06}.{EXTENSION}")
 }

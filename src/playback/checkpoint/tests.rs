@@ -1,4 +1,4 @@
-//! Checkpoints that are whole, damaged, of another run, or made to take much.
+//! Tests of valid, damaged, mismatched and oversized checkpoints.
 
 use super::*;
 
@@ -37,7 +37,7 @@ fn forms() -> Vec<TargetForm> {
     state().targets.into_iter().map(form).collect()
 }
 
-/// Five gigabytes of zeros take five megabytes of a file: a list of targets is compared before they are unpacked.
+/// Five gigabytes of zeros take five megabytes of a file: the list of targets is compared before they are decompressed.
 #[test]
 fn only_targets_that_the_program_has_are_kept() {
     let dir = tempfile::tempdir().unwrap();
@@ -72,7 +72,7 @@ fn only_targets_that_the_program_has_are_kept() {
 }
 
 #[test]
-fn a_state_comes_back_bit_for_bit() {
+fn state_round_trips_bit_for_bit() {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join(file_name("waves", 40));
     write(dir.path(), &file_name("waves", 40), &moment(), &state()).unwrap();
@@ -81,7 +81,7 @@ fn a_state_comes_back_bit_for_bit() {
 }
 
 #[test]
-fn another_run_is_refused_with_the_reason() {
+fn mismatched_run_is_rejected_with_the_reason() {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("a.eddystate");
     write(dir.path(), "a.eddystate", &moment(), &state()).unwrap();
@@ -93,13 +93,13 @@ fn another_run_is_refused_with_the_reason() {
         let error = read(&file, &run, &forms()).unwrap_err().to_string();
         assert!(error.contains("a.eddystate does not fit") && error.contains(said), "{error}");
     }
-    // Where it was drawn and how it is called decide nothing.
+    // The device and the project's name do not matter.
     let elsewhere = Moment { device: "another".into(), project: "b".into(), frame: 0, ..moment() };
     assert!(read(&file, &elsewhere, &forms()).is_ok());
 }
 
 #[test]
-fn damaged_files_are_refused() {
+fn damaged_files_are_rejected() {
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("a.eddystate");
     write(dir.path(), "a.eddystate", &moment(), &state()).unwrap();
@@ -112,7 +112,7 @@ fn damaged_files_are_refused() {
             bytes[at] ^= damage;
             std::fs::write(&file, &bytes).unwrap();
             let read = read(&file, &moment(), &forms());
-            // Words that decide nothing, and fields of the gzip header (time, system), may differ.
+            // Descriptive text, and fields of the gzip header (time, system), may differ.
             let is_free = at < line || (line + 1..line + 11).contains(&at);
             assert!(is_free || read.is_err(), "byte {at} of {}", whole.len());
             accepted += usize::from(read.is_ok_and(|read| read.state != state()));
@@ -120,7 +120,7 @@ fn damaged_files_are_refused() {
         std::fs::write(&file, &whole[..at]).unwrap();
         assert!(read(&file, &moment(), &forms()).is_err(), "cut at {at}");
     }
-    // A name of a pass or a format that is another one is reported by the engine.
+    // A valid but different name of a pass or a format is reported by the engine.
     assert!(accepted < 20, "{accepted}");
     let large =
         String::from_utf8_lossy(&whole[..line]).replace("\"width\":8,\"height\":4", "\"width\":32768,\"height\":32768");

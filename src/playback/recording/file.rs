@@ -1,4 +1,4 @@
-//! The file of a recording: JSON lines, a head and then a line a frame with what is new in it.
+//! The file format of a recording: JSON lines, a header followed by a line per frame with its changes.
 //!
 //! ```text
 //! {"eddy_recording":1,"project":"fluid"}
@@ -6,10 +6,10 @@
 //! {"time":0.016,"delta":0.016,"mouse":[320,180,320,180],"held":[32],"pressed":[32],"toggled":[32]}
 //! ```
 //!
-//! `pads` has the texels of the gamepads' texture that are not 0, each as its number, the columns of row 0 first, and its value.
-//! `mic` is the texture of the microphone, 1,024 bytes in base64; empty while there is none.
-//! A member that is left out is as in the line before; `frame` counts up by itself, `reset` is left out where it is
-//! false. Members that a later version of Eddy adds are passed over.
+//! `pads` lists the non-zero texels of the gamepads' texture, each as its number, the columns of row 0 first, and its
+//! value. `mic` is the texture of the microphone, 1,024 bytes in base64; empty while there is none. An omitted member
+//! has the value of the previous line; `frame` increments implicitly, and `reset` is omitted if it is false. Members
+//! that a later version of Eddy adds are ignored.
 
 use super::{RecordedFrame, Recording, base64};
 use eddy_audio::Spectrum;
@@ -28,7 +28,7 @@ use std::{
 /// The extension of the files' names.
 pub const EXTENSION: &str = eddy_project::RECORDING;
 const VERSION: u32 = 1;
-/// Bytes of a frame's keys, which frames of the same keys share.
+/// Bytes of a frame's keys, which frames with the same keys share.
 const KEYS: u64 = 3 * Keyboard::WIDTH as u64;
 /// Bytes of a frame's gamepads, likewise.
 const PADS: u64 = 4 * Gamepads::TEXELS as u64;
@@ -40,7 +40,7 @@ struct Head {
     project: String,
 }
 
-/// Floats are written as doubles, which JSON's shortest decimals give back bit for bit.
+/// Floats are written as doubles, which JSON's shortest decimals reproduce bit for bit.
 #[derive(Default, Serialize, Deserialize)]
 #[serde(default)]
 struct FileLine {
@@ -72,7 +72,7 @@ struct FileLine {
     pads: Option<Vec<(usize, f64)>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     mic: Option<String>,
-    /// All that are not at their defaults.
+    /// All values that differ from their defaults.
     #[serde(skip_serializing_if = "Option::is_none")]
     set: Option<serde_json::Map<String, serde_json::Value>>,
 }
@@ -100,7 +100,7 @@ pub enum ReadError {
 }
 
 impl ReadError {
-    /// Returns what a person can do about it.
+    /// Returns a suggested fix for the user.
     pub fn remedy(&self) -> &'static str {
         match self {
             Self::Io(_) => "check that the file is there and that you may read it",
@@ -131,7 +131,7 @@ impl Recording {
         Self::read_within(text, limits::RECORDING, limits::RECORDING_BYTES)
     }
 
-    /// Reads at most `limit` of a file, into frames of at most `most` bytes.
+    /// Reads a file of at most `limit`, into frames of at most `most` bytes in total.
     pub fn read_within(text: impl BufRead, limit: Limit, most: u64) -> Result<Self, ReadError> {
         let mut text = text.take(limit.bytes + 1);
         let read = Self::read_lines(&mut text, most);
@@ -162,7 +162,8 @@ impl Recording {
             let has_keys = [&read.held, &read.pressed, &read.toggled].iter().any(|keys| keys.is_some());
             let (has_spectrum, has_pads) = (read.mic.is_some(), read.pads.is_some());
             let frame = read.onto(frames.last()).map_err(wrong)?;
-            // A line says what is new, and a frame holds everything: few bytes of a file can be very many here.
+            // A line contains only changes, but a frame contains everything: few bytes of a file can become very many
+            // here.
             let spectrum = if has_spectrum { size_of::<Spectrum>() as u64 } else { 0 };
             held += bytes_of(&frame) + spectrum;
             held += if has_keys { KEYS } else { 0 } + if has_pads { PADS } else { 0 };
@@ -188,10 +189,10 @@ impl FileLine {
             let bytes = &keyboard.bytes()[row * Keyboard::WIDTH..][..Keyboard::WIDTH];
             (0..=u8::MAX).filter(|code| bytes[usize::from(*code)] != 0).collect()
         };
-        // Bits count: -0 is not 0 to a shader that asks for the sign.
+        // Compare bits: -0 differs from 0 for a shader that tests the sign.
         let mouse = |inputs: &FrameInputs| inputs.mouse.map(f32::to_bits);
         let keys = |n: usize| {
-            // Nothing is pressed before the first frame.
+            // No key is pressed before the first frame.
             let before = earlier.map_or_else(Vec::new, |earlier| row(&earlier.keyboard, n));
             new(Some(before), row(&inputs.keyboard, n))
         };
@@ -267,7 +268,7 @@ impl FileLine {
     }
 }
 
-/// Returns what the microphone's texture holds by its text.
+/// Decodes the content of the microphone's texture.
 fn spectrum(text: &str) -> Result<Option<Arc<Spectrum>>, String> {
     if text.is_empty() {
         return Ok(None);
@@ -277,7 +278,7 @@ fn spectrum(text: &str) -> Result<Option<Arc<Spectrum>>, String> {
     Ok(Some(Arc::new(bytes)))
 }
 
-/// Returns the bytes that a frame takes, about.
+/// Returns the approximate size of a frame in bytes.
 fn bytes_of(frame: &RecordedFrame) -> u64 {
     fn of(value: &CustomUniformValue) -> usize {
         let within = match value {

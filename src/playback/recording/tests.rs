@@ -20,9 +20,9 @@ fn there_and_back(recording: &Recording) -> (String, Recording) {
     (String::from_utf8(bytes).unwrap(), read)
 }
 
-/// Numbers that no short decimal is equal to, and signs of zero.
+/// Numbers without an exact short decimal form, and signed zeros.
 #[test]
-fn a_recording_comes_back_bit_for_bit() {
+fn recording_round_trips_bit_for_bit() {
     let mut keyboard = Keyboard::default();
     keyboard.press(32);
     let mut after = keyboard.clone();
@@ -64,7 +64,7 @@ fn a_recording_comes_back_bit_for_bit() {
 }
 
 #[test]
-fn a_frame_says_what_is_new_in_it() {
+fn frame_lines_contain_only_changes() {
     let recording = Recording {
         project: String::new(),
         frames: vec![frame(0, |f| f.reset = true), frame(1, |_| {}), frame(0, |f| (f.size, f.reset) = ((8, 4), true))],
@@ -78,7 +78,7 @@ fn a_frame_says_what_is_new_in_it() {
 }
 
 #[test]
-fn a_file_that_is_no_recording_says_why_and_where() {
+fn invalid_recordings_are_rejected_with_reason_and_line() {
     let head = "{\"eddy_recording\":1}\n";
     let frame = "{\"time\":0.0,\"size\":[4,4]}\n";
     for (text, says) in [
@@ -99,9 +99,9 @@ fn a_file_that_is_no_recording_says_why_and_where() {
     assert_eq!(later.unwrap().frames[0].inputs.time_secs, 1.5, "a member of a newer version is passed over");
 }
 
-/// A line that says nothing new is a frame with everything that was said before.
+/// A line without changes is a frame with the values of all lines before.
 #[test]
-fn few_bytes_that_become_very_many_frames_are_refused() {
+fn small_file_of_very_many_frames_is_rejected() {
     let head = "{\"eddy_recording\":1}\n";
     let values: Vec<String> = (0..100).map(|n| format!("\"value_{n}\":{n}")).collect();
     let first = format!("{{\"time\":0,\"size\":[1,1],\"set\":{{{}}}}}\n", values.join(","));
@@ -114,15 +114,15 @@ fn few_bytes_that_become_very_many_frames_are_refused() {
     let long = format!("{head}{first}{{\"x\":\"{}\"}}\n", "y".repeat(17 << 20));
     let said = refused(&long, 1 << 20);
     assert!(said.contains("line 3: it is larger than 16 MiB, the limit for a line"), "{said}");
-    // One that never ends.
+    // An endless file.
     let endless = std::io::BufReader::new(std::io::repeat(b' '));
     let said = Recording::read_within(endless, limit, 1 << 20).unwrap_err().to_string();
     assert!(said.contains("it is larger than 20 MiB"), "{said}");
 }
 
-/// Texels that are zero are in no line, and what is no texel is passed over.
+/// Zero texels are not written, and unknown texels are ignored.
 #[test]
-fn gamepads_come_back() {
+fn gamepads_round_trip() {
     let moved = |n: i32| {
         let mut pads = eddy_media::Gamepads::default();
         pads.connect(1, n > 0);
@@ -143,9 +143,9 @@ fn gamepads_come_back() {
     assert_eq!((texels[0], texels.iter().filter(|value| **value != 0.0).count()), (0.5, 1));
 }
 
-/// Its texture is kept with each frame that it changes in, and gone where it is switched off.
+/// Its texture is stored with each frame that changes it, and removed when it is switched off.
 #[test]
-fn the_microphone_comes_back() {
+fn microphone_round_trips() {
     let heard = |byte: u8| Some(std::sync::Arc::new([byte; 1024]));
     let all = [None, heard(7), heard(7), heard(255), None, None];
     let frames = all.iter().enumerate().map(|(n, heard)| frame(n as i32, |f| f.inputs.microphone.clone_from(heard)));

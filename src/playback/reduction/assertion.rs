@@ -1,4 +1,4 @@
-//! An assertion claims something of a quantity.
+//! Assertions about a quantity.
 
 use super::{quantity::Quantity, reader::Reader};
 use std::fmt;
@@ -16,29 +16,29 @@ enum Relation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Tolerance {
     Absolute(f64),
-    /// A part of the value that is expected.
+    /// Relative to the expected value.
     Percent(f64),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Expected {
     Value(f64),
-    /// The value of the quantity in the first frame that was looked at.
+    /// The quantity's value in the first frame that was measured.
     First,
 }
 
-/// A claim: `sum(buffer_a.x) within 1e-4 of 1`, `mean(buffer_a.x) within 1% of first`, `max(image) <= 1`,
+/// An assertion: `sum(buffer_a.x) within 1e-4 of 1`, `mean(buffer_a.x) within 1% of first`, `max(image) <= 1`,
 /// `nonfinite(buffer_b) == 0`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assertion {
     pub quantity: Quantity,
     relation: Relation,
     expected: Expected,
-    /// The assertion as it was written.
+    /// The source text of the assertion.
     text: String,
 }
 
-/// A claim that does not hold.
+/// An assertion that failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
     "frame {frame}: {assertion} does not hold: it is {value}{}",
@@ -48,12 +48,12 @@ pub struct Failure {
     pub assertion: String,
     pub frame: u32,
     pub value: f64,
-    /// The first value, where that is what is expected.
+    /// The first value, if that is the expected one.
     pub first: Option<f64>,
 }
 
 impl Assertion {
-    /// Err: what is wrong with it.
+    /// Parses an assertion. Returns an error message if it is malformed.
     pub fn parse(text: &str) -> Result<Self, String> {
         let mut reader = Reader::new(text);
         let quantity = Quantity::read(&mut reader)?;
@@ -62,7 +62,7 @@ impl Assertion {
         Ok(Self { quantity, relation, expected, text: text.trim().to_owned() })
     }
 
-    /// Holds the claim against the value of a frame and that of the first one. NaN fulfils no claim.
+    /// Checks the assertion against the value of a frame and that of the first one. NaN fails every assertion.
     pub fn check(&self, frame: u32, value: f64, first: f64) -> Result<(), Failure> {
         let (expected, first) = match self.expected {
             Expected::Value(expected) => (expected, None),
@@ -83,7 +83,7 @@ impl Assertion {
 }
 
 fn claim(reader: &mut Reader<'_>) -> Result<(Relation, Expected), String> {
-    // The longer ones first.
+    // Longer operators first.
     const SIGNS: [(&str, Relation); 6] = [
         ("<=", Relation::LessEqual),
         (">=", Relation::GreaterEqual),

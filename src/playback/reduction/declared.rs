@@ -1,20 +1,20 @@
-//! The comments `//@probe` of a project ask for these quantities.
+//! Quantities that `//@probe` comments of a project request.
 
 use super::quantity::Quantity;
 use eddy_diag::{Diagnostic, Span};
 use eddy_project::{self as project, PassName, Project, inspect_comments};
 
-/// Says why a number cannot be had, and what mends that.
+/// The reason why a number cannot be measured, and its fix.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unmeasured {
     pub why: String,
     pub mend: String,
 }
 
-/// A comment that asks for a number, as `//@probe sum(buffer_a.x)` does.
+/// A measuring comment, such as `//@probe sum(buffer_a.x)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Declared {
-    /// The place of the text behind the word, in the project's texts.
+    /// The span of the text after the keyword, in the project's texts.
     pub span: Span,
     pub text: String,
     pub quantity: Result<Quantity, Unmeasured>,
@@ -26,7 +26,7 @@ impl Unmeasured {
     }
 }
 
-/// The comments of a project that ask for numbers, in the order of its texts.
+/// Returns the measuring comments of a project, in the order of its texts.
 pub fn declared(project: &Project) -> Vec<Declared> {
     let mut all = Vec::new();
     for (id, source) in project.texts().iter() {
@@ -38,7 +38,7 @@ pub fn declared(project: &Project) -> Vec<Declared> {
     all
 }
 
-/// The quantity that a comment names, if the project has it.
+/// Returns the quantity that a comment names, if the project has it.
 fn quantity(project: &Project, text: &str) -> Result<Quantity, Unmeasured> {
     let quantity = Quantity::parse(text).map_err(|why| Unmeasured {
         why,

@@ -1,7 +1,7 @@
-//! Numbers that stand for a whole pass, and what is claimed of them: `sum(buffer_a.x) within 1e-4 of 1`.
+//! Numbers that summarise a whole pass, and assertions about them: `sum(buffer_a.x) within 1e-4 of 1`.
 //!
-//! Owns the spelling of quantities and assertions, what comments of a project ask for, and the values. Reads no device:
-//! it is given texels.
+//! Owns the syntax of quantities and assertions, the comments of a project that request them, and their evaluation.
+//! Reads no device: the caller passes the texels.
 
 mod assertion;
 mod declared;

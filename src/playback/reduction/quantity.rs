@@ -1,11 +1,11 @@
-//! One number of a pass's texels.
+//! A number computed from a pass's texels.
 
 use super::reader::Reader;
 use eddy_engine::Pixels;
 use eddy_project::{self as project, PassName};
 use std::fmt;
 
-/// Says how numbers become one.
+/// The function that reduces numbers to one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reduction {
     Sum,
@@ -32,7 +32,7 @@ impl Reduction {
         }
     }
 
-    /// Reduces numbers in double precision. NaN among them gives NaN, and no numbers at all NaN or 0.
+    /// Reduces numbers in double precision. The result is NaN if one of them is NaN, and NaN or 0 if there are none.
     pub fn of(self, values: impl Iterator<Item = f32>) -> f64 {
         let mut count = 0.0;
         let values = values.map(f64::from).inspect(|_| count += 1.0);
@@ -56,19 +56,20 @@ impl Reduction {
     }
 }
 
-/// A reduction of a component of a pass: `rms(buffer_b.xy)` is written `rms(buffer_b.x)` and `rms(buffer_b.y)`.
+/// A reduction of a component of a pass. Only single components can be reduced: `rms(buffer_b.xy)` is written
+/// `rms(buffer_b.x)` and `rms(buffer_b.y)`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Quantity {
     pub reduction: Reduction,
     pub pass: PassName,
-    /// The target among those of the pass.
+    /// The index among the pass's targets.
     pub target: usize,
-    /// 0 to 3; all that the pass stores where none is named.
+    /// 0 to 3; `None` is all components that the pass stores.
     pub component: Option<usize>,
 }
 
 impl Quantity {
-    /// Reads `sum(buffer_a.x)`, `max(image)` or `mean(scene:1.w)`. Err: what is wrong with it.
+    /// Parses `sum(buffer_a.x)`, `max(image)` or `mean(scene:1.w)`. Returns an error message if it is malformed.
     pub fn parse(text: &str) -> Result<Self, String> {
         let mut reader = Reader::new(text);
         let quantity = Self::read(&mut reader)?;
@@ -109,7 +110,7 @@ impl Quantity {
         Ok(Quantity { reduction, pass, target, component })
     }
 
-    /// The number. `stored` is how many components the pass stores, from the first on.
+    /// Computes the number. `stored` is the number of components that the pass stores, from the first on.
     pub fn of(&self, pixels: &Pixels, stored: usize) -> f64 {
         let components = self.component.map_or(0..stored, |one| one..one + 1);
         self.reduction.of(pixels.texels.iter().flat_map(|texel| texel[components.clone()].iter().copied()))

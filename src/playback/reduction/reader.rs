@@ -1,4 +1,4 @@
-//! Reads a text word by word.
+//! A lexer that reads a text word by word.
 
 pub(super) struct Reader<'t> {
     rest: &'t str,
@@ -9,7 +9,7 @@ impl<'t> Reader<'t> {
         Self { rest: text.trim() }
     }
 
-    /// Takes characters while they fit, and the blanks behind them.
+    /// Takes characters while they match, and the blanks after them.
     pub(super) fn take(&mut self, fits: impl Fn(char) -> bool) -> &'t str {
         let end = self.rest.find(|c| !fits(c)).unwrap_or(self.rest.len());
         let (taken, rest) = self.rest.split_at(end);

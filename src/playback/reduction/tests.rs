@@ -49,7 +49,7 @@ fn numbers_are_reduced_in_double_precision() {
 }
 
 #[test]
-fn what_is_no_number_is_counted_and_shows() {
+fn nonfinite_values_are_counted_and_propagate() {
     let texels = [[f32::NAN, 1.0, 0.0, 0.0], [1.0, f32::INFINITY, 0.0, 0.0], [2.0, 0.0, 0.0, 0.0]];
     assert_eq!(value("nonfinite(image)", &texels), 2.0);
     for reduction in ["sum", "min", "max", "mean", "rms"] {
@@ -59,7 +59,7 @@ fn what_is_no_number_is_counted_and_shows() {
 }
 
 #[test]
-fn claims_are_held_against_values() {
+fn assertions_are_checked_against_values() {
     for (claim, value, holds) in [
         ("sum(image.x) within 1e-4 of 1", 1.00005, true),
         ("sum(image.x) within 1e-4 of 1", 1.0002, false),
@@ -84,7 +84,7 @@ fn claims_are_held_against_values() {
 }
 
 #[test]
-fn a_claim_that_cannot_be_read_says_why() {
+fn malformed_assertions_are_rejected_with_the_reason() {
     for (claim, says) in [
         ("sum(image.x)", "`within TOLERANCE of VALUE`"),
         ("sum(image.x) within of 1", "expected a tolerance, found `of 1`"),

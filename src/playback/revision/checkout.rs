@@ -1,8 +1,8 @@
-//! A folder of a revision becomes a folder on the disk.
+//! Writes a folder of a revision to the disk.
 //!
-//! The names in a git tree may be anything. Each is one that a project may read ([`confine::relative`] gives it back as
-//! it is) and that git itself would check out, and every file and folder is made anew in a temporary folder that
-//! nobody else may write to: so nothing is written through a link, and no two names are one file.
+//! The names in a git tree are untrusted. Each must be one that a project may read ([`confine::relative`] returns it
+//! unchanged) and that git itself would check out, and every file and folder is newly created in a temporary folder to
+//! which no other user may write: so nothing is written through a link, and no two names refer to one file.
 
 use super::{
     error::{RevisionError, WITH_GIT},
@@ -26,26 +26,26 @@ use tempfile::TempDir;
 
 /// A link's content is a path.
 const LINK: Limit = Limit { bytes: 4 << 10, of: "a link in git" };
-/// Links that lead to links.
+/// The maximum length of a chain of links.
 const LINKS: usize = 8;
-/// Names of the left out that are said.
+/// The maximum number of skipped names that are reported.
 const NOTES: usize = 8;
-/// Bytes of a name, and of one with its folders, that disks take.
+/// The maximum bytes of a name, and of a path, that file systems support.
 const NAME: usize = 255;
 const PATH: usize = 1024;
 
-/// A project as it was, which is there for as long as this is.
+/// A project of a revision, whose files exist as long as this value.
 #[derive(Debug)]
 pub struct Checkout {
     /// The folder or file that opens the project.
     pub project: PathBuf,
-    /// Names that the revision has in the project's folder and the checkout has not.
+    /// Names in the project's folder of the revision that the checkout does not have.
     pub left_out: Vec<SkippedName>,
     files: usize,
     _folder: TempDir,
 }
 
-/// A name that was left out, and why.
+/// A name that was skipped, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SkippedName {
     pub name: String,
@@ -59,7 +59,7 @@ impl fmt::Display for SkippedName {
 }
 
 impl Checkout {
-    /// Says what was left out, a line each; of many the first alone.
+    /// Returns what was skipped, a line each; only the first lines if there are many.
     pub fn notes(&self) -> Vec<String> {
         let mut notes: Vec<String> = self.left_out.iter().take(NOTES).map(SkippedName::to_string).collect();
         let more = self.left_out.len() - notes.len();
@@ -67,13 +67,13 @@ impl Checkout {
         notes
     }
 
-    /// Returns whether the revision had nothing there.
+    /// Returns whether the revision had no files there.
     pub fn is_empty(&self) -> bool {
         self.files == 0 && self.left_out.is_empty()
     }
 }
 
-/// Returns the tree of a folder below a tree's.
+/// Returns the tree of a folder below a tree.
 pub(super) fn below(objects: &Objects, tree: ObjectId, folder: &Path) -> Result<Option<ObjectId>, RevisionError> {
     let mut at = tree;
     for part in folder {
@@ -101,7 +101,7 @@ fn listed(objects: &Objects, id: &ObjectId) -> Result<Vec<u8>, RevisionError> {
     }
 }
 
-/// Writes all that a tree holds. `revision` is for errors.
+/// Writes the whole content of a tree. `revision` is for errors.
 pub(super) fn write(objects: &Objects, tree: ObjectId, revision: &str) -> Result<Checkout, RevisionError> {
     let folder = tempfile::tempdir()?;
     let writer = Writer { objects, revision, folder: folder.path() };
@@ -126,10 +126,10 @@ pub(super) fn write(objects: &Objects, tree: ObjectId, revision: &str) -> Result
     Ok(Checkout { project: folder.path().to_owned(), left_out, files: files.len(), _folder: folder })
 }
 
-/// Entries of a tree, by the name from its folder with `/`.
+/// Entries of a tree, by their paths with `/`.
 #[derive(Default)]
 struct Found {
-    /// Each behind the one that it is in.
+    /// Parents before their children.
     folders: Vec<String>,
     files: BTreeMap<String, ObjectId>,
     links: BTreeMap<String, ObjectId>,
@@ -143,10 +143,10 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// Lists a tree with all that is below.
+    /// Lists a tree recursively.
     fn list(&self, tree: ObjectId) -> Result<Found, RevisionError> {
         let mut found = Found::default();
-        // A folder's name with `/` behind it, how many folders it is in, and its tree.
+        // A folder's path with a trailing `/`, its depth, and its tree.
         let mut todo = vec![(String::new(), 0, tree)];
         let mut count = 0;
         while let Some((folder, depth, tree)) = todo.pop() {
@@ -188,7 +188,7 @@ impl Writer<'_> {
         Ok(found)
     }
 
-    /// Returns the whole name of a tree's entry, where it may have one.
+    /// Returns the full path of a tree's entry, if its name is allowed.
     fn checked(&self, folder: &str, entry: &[u8]) -> Result<String, RevisionError> {
         let protect = component::Options { protect_windows: cfg!(windows), protect_hfs: true, protect_ntfs: true };
         let git = gix_validate::path::component(entry.into(), None, protect);
@@ -213,7 +213,7 @@ impl Writer<'_> {
         ))
     }
 
-    /// Checks what files announce, before the first is read.
+    /// Checks the announced sizes of files, before the first is read.
     fn check_sizes(&self, files: &BTreeMap<String, ObjectId>) -> Result<(), RevisionError> {
         let mut left = limits::REVISION_BYTES.bytes;
         for (name, id) in files {
@@ -238,7 +238,7 @@ impl Writer<'_> {
         self.made(name, written)
     }
 
-    /// Returns the name of the file that a link leads to, by the text of links alone.
+    /// Returns the name of the file that a link leads to, determined from the text of links alone.
     fn led(
         &self,
         name: &str,

@@ -3,7 +3,7 @@
 use eddy_project::confine::{FileError, Reason};
 use std::{io, path::Path};
 
-/// There is no such revision of a project, or it is not read. The text is complete: what, why and the mend.
+/// The revision of a project does not exist, or is not read. The text is complete: the error, the reason and the fix.
 #[derive(Debug, thiserror::Error)]
 pub enum RevisionError {
     #[error("{0} is not a file or folder: only these have revisions")]
@@ -12,14 +12,14 @@ pub enum RevisionError {
     Missing { revision: String, what: String },
     #[error("git has no such revision: {said}; {hint}")]
     NoSuch { said: String, hint: String },
-    /// The repository is damaged, asks for too much, or is not read for another reason.
+    /// The repository is damaged, exceeds a limit, or is not read for another reason.
     #[error("{said}; {hint}")]
     Refused { said: String, hint: String },
     #[error("cannot write the revision to a temporary folder: {0}; free disk space there")]
     Write(#[from] io::Error),
 }
 
-/// A mend for a revision that Eddy does not read and git does.
+/// The fix for a revision that git reads but Eddy does not.
 pub(super) const WITH_GIT: &str = "if you trust the repository, write the revision to a folder with `git worktree add \
                             FOLDER REVISION` and compare with that folder";
 
@@ -32,7 +32,7 @@ impl RevisionError {
         Self::Refused { said: said.into(), hint: hint.into() }
     }
 
-    /// A file of the repository that is not as git writes it.
+    /// A file of the repository that git would not have written.
     pub(super) fn damaged(what: impl std::fmt::Display, why: impl std::fmt::Display) -> Self {
         Self::refused(format!("{what} is damaged: {why}"), "clone the repository again")
     }

@@ -1,12 +1,12 @@
-//! A project as it was in a revision of its git repository.
+//! Projects in a revision of their git repository.
 //!
-//! The repository may be a stranger's, and the program git starts what a repository's configuration names: to fetch an
-//! object that is missing, to filter a file, to watch for changes, to show text. So git is not started. Objects and
-//! refs are read here, by libraries that start nothing and fetch nothing, and the configuration decides nothing.
+//! The repository may be untrusted, and the program git runs commands that a repository's configuration names: to fetch
+//! a missing object, to filter a file, to watch for changes, to show text. Therefore git is not run. Objects and refs
+//! are read here, by libraries that run nothing and fetch nothing, and the configuration is ignored.
 //!
-//! [`repository`] says which folders are the repository and reads nothing outside them, [`refs`] and [`spec`] lead from
-//! a revision's name to a commit, [`objects`] reads what the commit holds, within limits, and [`checkout`] writes
-//! the project's folder, and that alone, into a temporary one.
+//! [`repository`] finds the folders of the repository and reads nothing outside them, [`refs`] and [`spec`] resolve a
+//! revision's name to a commit, [`objects`] reads the commit's content within limits, and [`checkout`] writes the
+//! project's folder, and only that, into a temporary one.
 
 mod checkout;
 mod error;
@@ -22,16 +22,16 @@ use objects::Objects;
 use repository::Repository;
 use std::path::Path;
 
-/// Writes a project's files as a revision has them into a folder that lasts as long as the [`Checkout`]. A single file's
-/// project is all that lies in its folder. `revision` is what git calls one: a branch, a tag, a hash or its beginning,
-/// `origin/main`, `HEAD~1`, `v1^{}`, `HEAD@{1}`. Fails for a project that is no file or folder of a git repository, for a
-/// revision that is not there or has no such project, and for a repository that is damaged, asks for too much, or has
-/// part of what it holds elsewhere.
+/// Writes a project's files from a revision into a folder that exists as long as the [`Checkout`]. For a single-file
+/// project this is its whole folder. `revision` has git's syntax: a branch, a tag, a hash or its prefix, `origin/main`,
+/// `HEAD~1`, `v1^{}`, `HEAD@{1}`. Fails for a project that is not a file or folder of a git repository, for a revision
+/// that does not exist or has no such project, and for a repository that is damaged, exceeds a limit, or stores part of
+/// its objects elsewhere.
 pub fn at(project: &str, revision: &str) -> Result<Checkout, RevisionError> {
     let path = Path::new(project);
     let real = path.canonicalize().map_err(|_| RevisionError::NotOnDisk(project.to_owned()))?;
     let (folder, file) = if real.is_file() {
-        // The name by which it was called, where that is a link.
+        // The name as given, if it is a link.
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         (folder.canonicalize().map_err(|_| RevisionError::NotOnDisk(project.to_owned()))?, path.file_name())
     } else if real.is_dir() {

@@ -1,7 +1,7 @@
 //! The objects of a repository, loose and packed.
 //!
-//! The size that an object announces is checked before memory is taken for it, and its content must have the hash by
-//! which it was named: so no tree holds itself. Objects of other repositories ("alternates") are not read.
+//! The announced size of an object is checked before memory is allocated for it, and its content must match the hash by
+//! which it was named: so no tree contains itself. Objects of other repositories ("alternates") are not read.
 
 use super::{error::RevisionError, repository};
 use eddy_project::{
@@ -24,14 +24,14 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The cost of looking at a delta, in bytes of making one.
+/// The cost of inspecting a delta, in bytes of rebuilding one.
 const LOOK: u64 = 4 << 10;
 
-/// The hash of the repositories that are read.
+/// The hash function of supported repositories.
 pub(super) const HASH: Hash = Hash::Sha1;
 
 pub(super) struct Objects {
-    /// The folder with `objects` in it, after links.
+    /// The folder that contains `objects`, with links resolved.
     folder: PathBuf,
     loose: loose::Store,
     packs: Vec<Pack>,
@@ -41,12 +41,12 @@ pub(super) struct Objects {
 
 struct Pack {
     index: index::File,
-    /// From the folder.
+    /// Relative to the folder.
     name: String,
     data: OnceCell<data::File>,
 }
 
-/// An object whose content has the hash it is named by.
+/// An object whose content matches its hash.
 pub(super) struct Object {
     pub kind: Kind,
     pub bytes: Vec<u8>,
@@ -57,11 +57,11 @@ enum ObjectLocation<'a> {
     Packed(&'a Pack, data::Entry),
 }
 
-/// The size that an object announces, and its kind.
+/// The announced size and kind of an object.
 struct Announced {
     kind: Kind,
     size: u64,
-    /// Bytes of all that has to be made before it from deltas.
+    /// Bytes that must be rebuilt from deltas before it.
     rebuilt: u64,
 }
 
@@ -86,7 +86,7 @@ impl Objects {
         Ok(Self { folder: folder.to_owned(), loose, packs, rebuilt: Cell::new(0) })
     }
 
-    /// Fails for a hash that a person wrote and nothing has.
+    /// Fails for a hash that the user wrote and no object has.
     pub(super) fn check_named(&self, id: &oid) -> Result<(), RevisionError> {
         if self.place(id)?.is_some() {
             return Ok(());
@@ -96,7 +96,7 @@ impl Objects {
         Err(RevisionError::no_such(format!("nothing in {} has the hash {id}", self.folder.display()), hint))
     }
 
-    /// Returns what an object is, and of how many bytes.
+    /// Returns the kind and the size in bytes of an object.
     pub(super) fn header(&self, id: &oid) -> Result<(Kind, u64), RevisionError> {
         let place = self.place(id)?.ok_or_else(|| self.missing(id))?;
         self.announced(id, &place).map(|announced| (announced.kind, announced.size))
@@ -128,7 +128,7 @@ impl Objects {
         Ok(Object { kind, bytes })
     }
 
-    /// Returns the commits, tags and trees whose hash begins so; where there are none, other objects.
+    /// Returns the commits, tags and trees whose hash has this prefix; if there are none, other objects.
     pub(super) fn beginning(&self, prefix: Prefix) -> Result<Vec<ObjectId>, RevisionError> {
         let mut found = HashSet::new();
         let folder = format!("objects/{}", prefix.as_oid().to_hex_with_len(2));
@@ -173,7 +173,7 @@ impl Objects {
         }
         let path = regular(&self.folder, &pack.name)?;
         let file = data::File::at(&path, HASH).map_err(|e| RevisionError::damaged(path.display(), cause(&e)))?;
-        // Room for what a delta is applied to, what comes of it, and the deltas.
+        // Memory for a delta's base, its result, and the deltas.
         let room = 3 * limits::MEDIA_FILE.bytes as usize;
         Ok(pack.data.get_or_init(|| file.with_alloc_limit_bytes(Some(room))))
     }
@@ -264,11 +264,11 @@ fn entry_of(pack: &Pack, file: &data::File, id: &oid) -> gix_error::Result<Optio
     pack.index.lookup(id).map(|at| file.entry(pack.index.pack_offset_at_index(at))).transpose()
 }
 
-/// Returns how many bytes a delta makes, which its first bytes say behind the size of what it is applied to (git's
+/// Returns the size of a delta's result, which follows the size of its base at the start of the delta (git's
 /// documentation `gitformat-pack`, "Deltified representation").
 fn made_by(file: &data::File, delta: &data::Entry) -> Option<u64> {
     let packed = file.entry_slice(delta.data_offset..file.pack_end() as u64)?;
-    // Two numbers of 64 bits, with 7 in a byte.
+    // Two numbers of 64 bits, with 7 bits per byte.
     let mut start = [0; 20];
     let (_, _, count) = Inflate::default().prefix(packed, &mut start).ok()?;
     let mut bytes = start[..count].iter();
@@ -287,7 +287,7 @@ fn made_by(file: &data::File, delta: &data::Entry) -> Option<u64> {
     number()
 }
 
-/// Returns what a library's error says of its cause.
+/// Returns the cause in a library's error.
 pub(super) fn cause(error: &gix_error::Error) -> String {
     error.probable_cause().to_string()
 }

@@ -1,4 +1,4 @@
-//! Names of branches, tags and the like, and what they were before.
+//! Names of branches, tags and other refs, and their earlier values.
 
 use super::{
     error::{RevisionError, WITH_GIT},
@@ -17,14 +17,14 @@ use gix_ref::{
 };
 use std::{cell::OnceCell, path::Path};
 
-/// A file of one ref.
+/// The file of one ref.
 const REF: Limit = Limit { bytes: 4 << 10, of: "a ref of git" };
-/// As git has it (`SYMREF_MAXDEPTH`).
+/// Git's limit (`SYMREF_MAXDEPTH`).
 const LED: usize = 5;
 
-/// A ref and the object that it is of.
+/// A ref and its object.
 pub(super) struct Ref {
-    /// The whole name: `refs/heads/main`.
+    /// The full name: `refs/heads/main`.
     pub name: String,
     pub id: ObjectId,
 }
@@ -39,12 +39,12 @@ impl<'a> Refs<'a> {
         Self { repository, packed: OnceCell::new() }
     }
 
-    /// Returns the ref of a name that may lack its beginning, in git's order (`gitrevisions`).
+    /// Returns the ref of a name that may lack its prefix, in git's order (`gitrevisions`).
     pub(super) fn find(&self, name: &str) -> Result<Option<Ref>, RevisionError> {
         if gix_validate::reference::name_partial(name.into()).is_err() {
             return Ok(None);
         }
-        // Other files lie there as well.
+        // There are other files in the folder as well.
         let is_top = name.starts_with("refs/") || name.bytes().all(|b| b.is_ascii_uppercase() || b == b'_');
         let whole = is_top.then(|| name.to_owned());
         let begun = ["refs/", "refs/tags/", "refs/heads/", "refs/remotes/"].map(|start| format!("{start}{name}"));
@@ -57,7 +57,7 @@ impl<'a> Refs<'a> {
         Ok(None)
     }
 
-    /// Returns the branch that is checked out, or `HEAD` where none is.
+    /// Returns the branch that is checked out, or `HEAD` if it is detached.
     pub(super) fn current(&self) -> Result<String, RevisionError> {
         match self.target("HEAD")? {
             Some(Target::Symbolic(name)) => Ok(name.as_bstr().to_string()),
@@ -65,7 +65,7 @@ impl<'a> Refs<'a> {
         }
     }
 
-    /// Returns what a ref was so many changes ago.
+    /// Returns the value of a ref this many changes ago.
     pub(super) fn before(&self, name: &str, changes: usize) -> Result<Option<ObjectId>, RevisionError> {
         let log = self.log(name)?;
         let lines: Vec<_> = log::iter::forward(&log).collect();
@@ -73,7 +73,7 @@ impl<'a> Refs<'a> {
         let new = |at: usize| lines[at].as_ref().map(|line| line.new_oid()).map_err(damaged);
         match lines.len().checked_sub(changes + 1) {
             Some(at) => new(at).map(Some),
-            // What it was before the first.
+            // Its value before the first change.
             None if changes > 0 && changes == lines.len() => {
                 let old = lines[0].as_ref().map(|line| line.previous_oid()).map_err(damaged)?;
                 Ok(Some(old).filter(|id| !id.is_null()))
@@ -82,7 +82,7 @@ impl<'a> Refs<'a> {
         }
     }
 
-    /// Returns the branch, or the commit's hash, that was checked out so many times of checking out ago.
+    /// Returns the branch, or the commit's hash, that was checked out this many checkouts ago.
     pub(super) fn left(&self, times: usize) -> Result<Option<String>, RevisionError> {
         let log = self.log("HEAD")?;
         let left: Vec<String> = log::iter::forward(&log)
@@ -147,7 +147,7 @@ impl<'a> Refs<'a> {
         packed::Buffer::from_bytes(&text, HASH).map(Some).map_err(|e| self.damaged(name, cause(&e)))
     }
 
-    /// Reads a file of the repository, where there is one.
+    /// Reads a file of the repository, if it exists.
     fn read(&self, name: &str, limit: Limit) -> Result<Option<Vec<u8>>, RevisionError> {
         let folder = self.folder_of(name);
         if folder.join(name).symlink_metadata().is_err() {
@@ -155,13 +155,13 @@ impl<'a> Refs<'a> {
         }
         match confine::read(folder, name, limit) {
             Ok(bytes) => Ok(Some(bytes)),
-            // A folder of refs.
+            // It is a folder of refs.
             Err(e) if e.is_missing() || e.reason == Reason::NotAFile("a folder") => Ok(None),
             Err(e) => Err(RevisionError::file(folder, &e)),
         }
     }
 
-    /// Returns where a ref or its log lies: these are of a working tree alone, and others of the repository.
+    /// Returns the folder of a ref or its log: some belong to a single working tree, others to the repository.
     fn folder_of(&self, name: &str) -> &Path {
         let name = name.strip_prefix("logs/").unwrap_or(name);
         let is_own = ["refs/bisect/", "refs/worktree/", "refs/rewritten/"].iter().any(|start| name.starts_with(start));

@@ -1,9 +1,9 @@
-//! The folders of the repository that a project lies in.
+//! The folders of the repository that contains a project.
 //!
-//! A `.git` file or link names another folder, and so does `commondir`. A stranger's could name any folder of the
-//! machine, so one is followed only where that folder agrees: it lies in the same working tree, or it is the repository
-//! around it, as of a submodule, or it is a working tree's entry that names this `.git` file, as `git worktree` writes
-//! it. Which user owns a folder decides nothing, as nothing of it is run.
+//! A `.git` file or link names another folder, and so does `commondir`. In an untrusted repository it could name any
+//! folder of the machine, so it is followed only if that folder agrees: it is in the same working tree, or it is the
+//! enclosing repository, as for a submodule, or it is a working tree's entry that names this `.git` file, as `git
+//! worktree` writes it. The owner of a folder does not matter, as nothing in it is run.
 
 use super::error::{RevisionError, WITH_GIT};
 use eddy_project::{confine, limits::Limit};
@@ -12,21 +12,22 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// A file with a path in it.
+/// A file that contains a path.
 const PATH: Limit = Limit { bytes: 16 << 10, of: "a path that git keeps" };
 
-/// The place of a repository, after links.
+/// The folders of a repository, with links resolved.
 pub(super) struct Repository {
     /// The working tree.
     pub root: PathBuf,
-    /// The folder of this working tree alone: of `HEAD`.
+    /// The folder of this working tree alone, which contains `HEAD`.
     pub own: PathBuf,
     /// Objects and refs.
     pub common: PathBuf,
 }
 
 impl Repository {
-    /// Returns the repository whose working tree a folder, after links, lies in: the nearest `.git` from there up.
+    /// Returns the repository whose working tree contains a folder (with links resolved): the nearest `.git` from there
+    /// up.
     pub(super) fn of(folder: &Path) -> Result<Self, RevisionError> {
         for root in folder.ancestors() {
             let dot_git = root.join(".git");
@@ -78,7 +79,7 @@ fn led(root: &Path, dot_git: &Path) -> Result<PathBuf, RevisionError> {
     Err(RevisionError::refused(said, "if the working tree was moved, run `git worktree repair`; otherwise clone again"))
 }
 
-/// Returns the folder with the objects and refs of one that may be a working tree's entry.
+/// Returns the folder with the objects and refs, given one that may be a working tree's entry.
 fn common(own: &Path) -> Result<PathBuf, RevisionError> {
     if own.join("commondir").symlink_metadata().is_err() {
         return Ok(own.to_owned());
@@ -96,9 +97,9 @@ fn text(folder: &Path, name: &str) -> Result<String, RevisionError> {
     String::from_utf8(bytes).map_err(|_| RevisionError::damaged(folder.join(name).display(), "it is not Unicode"))
 }
 
-/// Returns where a path leads that the file `from` in `folder` says.
+/// Resolves a path that the file `from` in `folder` contains.
 fn joined(folder: &Path, path: &str, from: &Path) -> Result<PathBuf, RevisionError> {
-    // Windows would ask that machine, with the person's name and password.
+    // Windows would connect to that machine, with the user's name and password.
     if cfg!(windows) && path.starts_with(['/', '\\']) && path[1..].starts_with(['/', '\\']) {
         let said = format!("{} leads to another machine", from.display());
         return Err(RevisionError::refused(said, "clone the repository to this one"));
@@ -106,7 +107,7 @@ fn joined(folder: &Path, path: &str, from: &Path) -> Result<PathBuf, RevisionErr
     Ok(folder.join(path))
 }
 
-/// Returns why the repository may lack an object, with the mend, where it says that it lacks some.
+/// Returns why the repository may lack an object, with the fix, if it declares that some are missing.
 pub(super) fn why_missing(common: &Path) -> Option<String> {
     let is_there = |name: &str| common.join(name).symlink_metadata().is_ok();
     let has_alternates = ["objects/info/alternates", "objects/info/http-alternates"].into_iter().any(is_there);
@@ -121,7 +122,7 @@ pub(super) fn why_missing(common: &Path) -> Option<String> {
     }
     let is_partial = fs::read_dir(common.join("objects/pack"))
         .is_ok_and(|names| names.flatten().any(|n| n.path().extension().is_some_and(|e| e == "promisor")));
-    // The configuration is looked into for the words of this message alone.
+    // The configuration is read only to word this message.
     let config = confine::read(common, "config", Limit { bytes: 1 << 20, of: "git's configuration" });
     let config = String::from_utf8_lossy(&config.unwrap_or_default()).to_lowercase();
     let is_partial = is_partial || config.contains("partialclone") || config.contains("promisor");

@@ -1,5 +1,5 @@
-//! A revision as people write it leads to a tree. Its grammar (`gitrevisions`) is `gix-revision`'s; what each part finds
-//! is here.
+//! Resolves a revision to a tree. Its grammar (`gitrevisions`) is parsed by `gix-revision`; this module resolves each
+//! part.
 
 use super::{
     error::RevisionError,
@@ -39,15 +39,15 @@ pub(super) fn tree(repository: &Repository, objects: &Objects, revision: &str) -
 struct Walk<'a> {
     objects: &'a Objects,
     refs: Refs<'a>,
-    /// The object that the revision has led to so far.
+    /// The object that the parts so far resolve to.
     at: Option<ObjectId>,
-    /// The ref that it began with.
+    /// The ref at its start.
     name: Option<String>,
     wrong: Option<RevisionError>,
 }
 
 impl Walk<'_> {
-    /// Takes a step for the parser, which has errors of its own.
+    /// Records the result of a step for the parser, which has its own error type.
     fn step(&mut self, taken: Result<ObjectId, RevisionError>) -> gix_error::Result {
         match taken {
             Ok(id) => {
@@ -56,7 +56,8 @@ impl Walk<'_> {
                 Ok(())
             }
             Err(e) => {
-                // The parser tries a name as a hash and as a ref. What was found says more than what was not.
+                // The parser tries a name as a hash and as a ref. The error about something that was found is more
+                // helpful than one about something missing.
                 let is_first = self.wrong.is_none();
                 let was_absent = matches!(self.wrong, Some(RevisionError::NoSuch { .. }));
                 if is_first || was_absent && matches!(e, RevisionError::Refused { .. }) {
@@ -122,7 +123,7 @@ impl delegate::Revision for Walk<'_> {
         let name = name.to_str_lossy().into_owned();
         match self.refs.find(&name) {
             Ok(Some(found)) => {
-                // Of `HEAD` the log is its own, not its branch's.
+                // `HEAD` has a log of its own, separate from its branch's.
                 self.name = Some(if name == "HEAD" { name } else { found.name });
                 self.step(Ok(found.id))
             }
@@ -134,7 +135,7 @@ impl delegate::Revision for Walk<'_> {
     fn disambiguate_prefix(&mut self, prefix: Prefix, hint: Option<PrefixHint<'_>>) -> gix_error::Result {
         let begun = prefix.to_string();
         let is_whole = prefix.hex_len() == HASH.len_in_hex();
-        // A branch may have a name of such letters; git takes it before objects that only begin so.
+        // A branch may have a name of hexadecimal digits; git prefers it to objects with that prefix.
         if hint.is_none() && !is_whole {
             match self.refs.find(&begun) {
                 Ok(Some(found)) => return self.step(Ok(found.id)),

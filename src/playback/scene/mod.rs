@@ -1,7 +1,8 @@
-//! The project, the inputs and the frame of a picture, in the picture's own file: opened again, it is that frame.
+//! Pictures that embed their project, inputs and frame: opening the file shows that frame.
 //!
-//! Owns the text chunk of a PNG file that holds them, `iTXt` with the keyword `eddy`, compressed (PNG specification, third
-//! edition, section 11.3.3.4), and the attribute `eddy` of an OpenEXR file, a string: the same in base64. No path of the machine is in it. Files that channels read are named, not carried.
+//! Owns the text chunk of a PNG file that stores them, `iTXt` with the keyword `eddy`, compressed (PNG specification,
+//! third edition, section 11.3.3.4), and the attribute `eddy` of an OpenEXR file, a string: the same in base64. It
+//! contains no path of the machine. Files that channels read are named, not embedded.
 
 mod source;
 
@@ -25,24 +26,24 @@ use std::{
     sync::Arc,
 };
 
-/// Version of the form that this build writes, and the newest one it reads.
+/// Version of the format that this build writes, and the newest one it reads.
 const VERSION: u32 = 1;
 const KEYWORD: &[u8] = b"eddy";
 /// The name of the attribute of an OpenEXR file.
 pub const ATTRIBUTE: &str = "eddy";
 const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 
-/// The most frames that are drawn again to show one: ten minutes at 60 frames a second.
+/// The maximum number of frames to draw again for one: ten minutes at 60 frames per second.
 pub const LONGEST: usize = 36_000;
 
-/// Holds what a picture was drawn from.
+/// Everything that a picture was drawn from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// The version of Eddy that drew it.
     pub eddy: String,
     /// The device that drew it.
     pub device: String,
-    /// The pass that the picture is of.
+    /// The pass that the picture shows.
     pub pass: PassName,
     /// The picture's frame, counted from the first one of the run.
     pub frame: u32,
@@ -52,7 +53,7 @@ pub struct Scene {
     pub inputs: SceneInputs,
 }
 
-/// Says what the frames up to a picture were drawn with.
+/// The inputs of the frames up to a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SceneInputs {
     Script(Script),
@@ -80,7 +81,7 @@ struct Version {
     eddy_picture: u32,
 }
 
-/// A picture whose project cannot be opened.
+/// The reason why the project of a picture cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     #[error(transparent)]
@@ -93,7 +94,7 @@ pub enum SceneError {
     Damaged { path: PathBuf, reason: String },
 }
 
-/// Returns the project as it may leave the machine: without its place, and without files from elsewhere.
+/// Returns the project in a form that may be shared: without its path, and without files from elsewhere.
 fn portable(project: &Project) -> Project {
     let mut project = project.clone();
     project.origin = Origin::Unsaved;
@@ -110,8 +111,8 @@ fn portable(project: &Project) -> Project {
     project
 }
 
-/// Returns the recording without what a microphone heard: nobody expects a room's sound in an image that is given away.
-/// Its frames are not those that were drawn then, so that only the last one is left.
+/// Returns the recording without the microphone's data: users do not expect a room's sound in an image that they share.
+/// Without it, earlier frames would differ from those drawn, so only the last one is kept.
 fn without_microphone(recording: &Recording) -> Cow<'_, Recording> {
     if recording.frames.iter().all(|frame| frame.inputs.microphone.is_none()) {
         return Cow::Borrowed(recording);
@@ -122,7 +123,7 @@ fn without_microphone(recording: &Recording) -> Cow<'_, Recording> {
 }
 
 impl Scene {
-    /// Returns a PNG file with the scene in it. A file that is not a PNG comes back as it is.
+    /// Returns a PNG file with the scene embedded. A file that is not a PNG is returned unchanged.
     pub fn embed(&self, png: Vec<u8>) -> io::Result<Vec<u8>> {
         // The header is the first chunk, and has 25 bytes.
         let begin = SIGNATURE.len() + 25;
@@ -142,12 +143,12 @@ impl Scene {
         Ok(out)
     }
 
-    /// Returns the content of the chunk `iTXt` that holds the scene in a PNG file, right after its header.
+    /// Returns the content of the `iTXt` chunk that stores the scene in a PNG file, right after its header.
     pub fn png_text(&self) -> io::Result<Vec<u8>> {
         Ok([KEYWORD, b"\0\x01\0\0\0", &self.packed()?].concat())
     }
 
-    /// Returns the value of the attribute that holds the scene in an OpenEXR file; its name is [`ATTRIBUTE`].
+    /// Returns the value of the attribute that stores the scene in an OpenEXR file; its name is [`ATTRIBUTE`].
     pub fn attribute(&self) -> io::Result<String> {
         Ok(base64::encode(&self.packed()?))
     }
@@ -186,7 +187,7 @@ impl Scene {
         Self::of_file(&confine::read_own(path, limits::MEDIA_FILE)?, path)
     }
 
-    /// Returns whether a PNG or OpenEXR file holds a scene, whole or not.
+    /// Returns whether a PNG or OpenEXR file contains a scene, even a damaged one.
     pub fn is_in(file: &[u8]) -> bool {
         packed_in(file).is_some()
     }
@@ -245,14 +246,14 @@ impl Scene {
             pass: PassName::parse(&form.pass).unwrap_or_default(),
             frame: form.frame,
             size: form.size,
-            // A snapshot may name a place.
+            // The snapshot may contain a path.
             project: portable(&project),
             inputs,
         })
     }
 
-    /// Returns the frames up to the picture's: all of them, or the last one alone where `is_whole` is not asked for or
-    /// the others are not known or too many.
+    /// Returns the frames up to the picture's: all of them, or only the last one if `is_whole` is false or the others
+    /// are unknown or too many.
     pub fn frames(&self, is_whole: bool) -> Result<Vec<Frame>, String> {
         match &self.inputs {
             SceneInputs::Recording(recording) => {
@@ -269,7 +270,8 @@ impl Scene {
                 let mut inputs = ScriptedInputs::of_script(script)?;
                 let values = Arc::new(self.project.custom_uniform_values.clone());
                 let first = if is_whole && (self.frame as usize) < LONGEST { 0 } else { self.frame };
-                // A file says the frame: the way to it takes as long as the script, and not as long as the number.
+                // The frame number comes from the file: the time to reach it is proportional to the script, not to the
+                // number.
                 inputs.skip_to(i32::try_from(first).unwrap_or(i32::MAX));
                 let frame = |_| Frame { inputs: inputs.next_frame(), values: values.clone(), size: self.size };
                 Ok((first..=self.frame).map(frame).collect())
@@ -278,16 +280,16 @@ impl Scene {
     }
 }
 
-/// The compressed text of the scene.
+/// Returns the compressed text of the scene.
 fn packed_in(file: &[u8]) -> Option<Cow<'_, [u8]>> {
     chunk(file).map(Cow::Borrowed).or_else(|| {
         let text = std::str::from_utf8(attribute(file)?).ok()?;
-        // Text that is not base64 is damaged, and not absent.
+        // Text that is not base64 is damaged, not absent.
         Some(Cow::Owned(base64::decode(text).unwrap_or_default()))
     })
 }
 
-/// The value of the scene's attribute in the first header of an OpenEXR file (OpenEXR file layout, "Header").
+/// Returns the value of the scene's attribute in the first header of an OpenEXR file (OpenEXR file layout, "Header").
 fn attribute(exr: &[u8]) -> Option<&[u8]> {
     // The magic number, then version and flags.
     let mut rest = exr.strip_prefix(b"\x76\x2f\x31\x01")?.get(4..)?;
@@ -311,7 +313,7 @@ fn until_zero(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     Some((&bytes[..end], &bytes[end + 1..]))
 }
 
-/// The compressed text of the scene's chunk.
+/// Returns the compressed text of the scene's chunk.
 fn chunk(png: &[u8]) -> Option<&[u8]> {
     let mut rest = png.strip_prefix(SIGNATURE)?;
     loop {

@@ -1,24 +1,24 @@
-//! Pictures of an offline run hold what they were drawn from.
+//! The scenes embedded in the pictures of an offline run.
 
 use super::{LONGEST, Scene, SceneInputs};
 use crate::{recording::Recording, script::ScriptedInputs};
 use eddy_project::{PassName, Project};
 
-/// Holds what the pictures of an offline run are drawn from.
+/// The common data of the scenes of an offline run.
 #[derive(Clone, Debug)]
 pub struct RunSource {
     pub project: Project,
     pub pass: PassName,
     /// The device that draws.
     pub device: String,
-    /// Frames depend on those before.
+    /// Frames depend on earlier ones.
     pub has_state: bool,
     pub size: (u32, u32),
     pub inputs: ScriptedInputs,
 }
 
 impl RunSource {
-    /// Returns the scene of the picture of a frame.
+    /// Returns the scene of a frame's picture.
     pub fn scene(&self, frame: u32) -> Scene {
         let inputs = match (self.inputs.script(), self.inputs.recording()) {
             (Some(script), _) => SceneInputs::Script(script),

@@ -48,7 +48,7 @@ fn read(png: &[u8]) -> Result<Scene, SceneError> {
 }
 
 #[test]
-fn a_scene_comes_back_without_places_of_the_machine() {
+fn scene_round_trips_without_paths_of_the_machine() {
     let file = scene().embed(png()).unwrap();
     let back = read(&file).unwrap();
     assert_eq!((back.frame, back.size, &back.device), (12, (4, 3), &"a device".to_owned()));
@@ -58,7 +58,7 @@ fn a_scene_comes_back_without_places_of_the_machine() {
     let [picked, own] = [0, 1].map(|n| back.project.passes[0].bindings.get(n).map(|c| c.input.media().cloned()));
     assert_eq!((picked, own), (None, Some(Some(Media::File("own.png".into())))));
     assert_eq!(back.project.passes[0].source.text, project().passes[0].source.text);
-    // The picture is the same, and other programs read it.
+    // The picture is the same, and other programs can read it.
     let decoded = |bytes: &[u8]| image::load_from_memory(bytes).unwrap();
     assert_eq!(decoded(&file), decoded(&png()));
     assert!(Scene::is_in(&file) && !Scene::is_in(&png()));
@@ -83,7 +83,7 @@ fn frames_are_those_of_the_run() {
 }
 
 #[test]
-fn nothing_of_the_microphone_is_in_it() {
+fn microphone_data_is_not_embedded() {
     let mut inputs = scripted();
     let heard = |n: usize, inputs: FrameInputs| FrameInputs {
         microphone: (n == 3).then(|| std::sync::Arc::new([7; 2 * eddy_audio::BINS])),
@@ -103,12 +103,12 @@ fn nothing_of_the_microphone_is_in_it() {
 }
 
 #[test]
-fn damaged_files_are_refused_or_read_whole() {
+fn damaged_files_are_rejected_or_read_completely() {
     let whole = scene().embed(png()).unwrap();
     for at in 0..whole.len() {
         let mut bytes = whole.clone();
         bytes[at] ^= 0x10;
-        // A word of the text may be another one; none may panic.
+        // The text may be changed; none may cause a panic.
         let _ = read(&bytes);
         assert!(read(&whole[..at]).is_err() || at > whole.len() - png().len());
     }
@@ -120,7 +120,7 @@ fn damaged_files_are_refused_or_read_whole() {
         [&png()[..33], &(data.len() as u32).to_be_bytes(), b"iTXt", &data, &[0; 4], &png()[33..]].concat()
     };
     assert!(matches!(read(&newer("{\"eddy_picture\":2}")), Err(SceneError::Version { version: 2, .. })));
-    // A packed list of 65 KB would be a gigabyte of values.
+    // A compressed list of 65 KB would be a gigabyte of values.
     let values = format!("{{\"eddy_picture\":1,\"x\":[{}0]}}", "0,".repeat(1 << 20));
     let error = read(&newer(&values)).unwrap_err().to_string();
     assert!(error.contains("more than 262144 values"), "{error}");
@@ -129,9 +129,9 @@ fn damaged_files_are_refused_or_read_whole() {
     }
 }
 
-/// The frame of a file is a number like any other: the way to it takes as many steps as the script has actions.
+/// The frame number of a file may be arbitrary: reaching it takes as many steps as the script has actions.
 #[test]
-fn a_frame_far_on_is_given_at_once_or_refused() {
+fn distant_frame_is_reached_at_once_or_rejected() {
     let script = Script { fps: 60.0, mouse: "2:down 3,4".into(), keys: String::new(), date: String::new() };
     let at = |frame| Scene { frame, inputs: SceneInputs::Script(script.clone()), ..scene() };
     let back = read(&at(i32::MAX as u32).embed(png()).unwrap()).unwrap();

@@ -1,7 +1,7 @@
-//! Input written down beforehand: `--mouse`, `--keys`, and the [`FrameInputs`] that come of them at a fixed step.
+//! Scripted input: `--mouse`, `--keys`, and the resulting [`FrameInputs`] at a fixed step.
 //!
-//! Events of frame i happen before frame i is drawn, so a script gives the same pictures on every machine. A
-//! [`Recording`] takes the place of both.
+//! Events of frame i happen before frame i is drawn, so a script produces the same pictures on every machine. A
+//! [`Recording`] replaces both.
 
 use crate::{
     date,
@@ -37,17 +37,17 @@ pub struct ScriptedAction<A> {
     pub action: A,
 }
 
-/// A script that cannot be read: where, and what would have been right there.
+/// The syntax error of a script: its position and what was expected there.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("at character {position}: expected {expected}, found {found}")]
 pub struct ScriptError {
-    /// Character in the script, counted from 1.
+    /// The position of the character in the script, counted from 1.
     pub position: usize,
     pub expected: String,
     pub found: String,
 }
 
-/// Reads `0:down 40,40; 4:move 80,45; 10:up`. Events come back in the order of their frames, those of one frame as
+/// Parses `0:down 40,40; 4:move 80,45; 10:up`. Returns the events in the order of their frames, those of one frame as
 /// written.
 pub fn parse_mouse(text: &str) -> Result<Vec<ScriptedAction<MouseAction>>, ScriptError> {
     parse(
@@ -62,7 +62,7 @@ pub fn parse_mouse(text: &str) -> Result<Vec<ScriptedAction<MouseAction>>, Scrip
     )
 }
 
-/// Reads `0:down 32; 3:up 32`, in order likewise.
+/// Parses `0:down 32; 3:up 32`, in the same order.
 pub fn parse_keys(text: &str) -> Result<Vec<ScriptedAction<KeyAction>>, ScriptError> {
     parse(
         text,
@@ -176,7 +176,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Scripts as a command line has them.
+/// Scripts as given on the command line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Script {
     pub fps: f64,
@@ -215,7 +215,7 @@ impl ScriptedInputs {
         self
     }
 
-    /// Takes the mouse's pixels for those of a picture that is so many times as wide and high.
+    /// Scales the mouse's pixels to a picture that is this many times as wide and high.
     #[must_use]
     pub fn with_mouse_scale(mut self, factor: u32) -> Self {
         let factor = factor as f32;
@@ -236,21 +236,21 @@ impl ScriptedInputs {
         self
     }
 
-    /// Local time at frame 0; it goes on with the frames. Without one `iDate` is (0, 0, 0, `iTime`).
+    /// Sets the local time at frame 0, which advances with the frames. Without one `iDate` is (0, 0, 0, `iTime`).
     #[must_use]
     pub fn with_date(mut self, date: Option<DateTime>) -> Self {
         self.date = date;
         self
     }
 
-    /// Frames as they were recorded, instead of any script. Behind the last one time goes on at the fixed step.
+    /// Replaces any script by recorded frames. After the last one time continues at the fixed step.
     #[must_use]
     pub fn with_replay(mut self, recording: Option<Arc<Recording>>) -> Self {
         self.replay = recording.filter(|recording| !recording.frames.is_empty());
         self
     }
 
-    /// Returns the inputs that a script says. Err: it cannot be read.
+    /// Returns the inputs of a script. Returns an error message if it is malformed.
     pub fn of_script(script: &Script) -> Result<Self, String> {
         if !script.fps.is_finite() || script.fps <= 0.0 {
             return Err(format!("{} frames per second cannot be", script.fps));
@@ -262,7 +262,7 @@ impl ScriptedInputs {
         Ok(Self::new(script.fps).with_mouse(mouse).with_keys(keys).with_date(date))
     }
 
-    /// Returns the script that says the inputs; none where they are recorded.
+    /// Returns the script of the inputs; `None` if they are recorded.
     pub fn script(&self) -> Option<Script> {
         if self.replay.is_some() {
             return None;
@@ -284,12 +284,12 @@ impl ScriptedInputs {
         })
     }
 
-    /// Returns the recording that the inputs are taken from, if there is one.
+    /// Returns the recording of the inputs, if there is one.
     pub fn recording(&self) -> Option<&Arc<Recording>> {
         self.replay.as_ref()
     }
 
-    /// Returns all that the inputs are made of, so that two runs can be told apart.
+    /// Returns a text that contains all the inputs, to compare two runs.
     pub fn written(&self) -> String {
         let Self { fps, mouse_events, key_events, date, replay, .. } = self;
         format!("{fps:?} {mouse_events:?} {key_events:?} {date:?} {replay:?}")
@@ -300,7 +300,7 @@ impl ScriptedInputs {
         self.replay.as_ref().map(|recording| recording.frames.len())
     }
 
-    /// Returns what a recording changes of the engine before the next frame.
+    /// Returns the changes that a recording makes before the next frame.
     pub fn next_change(&self) -> Option<Change> {
         let index = usize::try_from(self.frame).ok()?;
         self.replay.as_ref()?.change(index).map(|(change, _)| change)
@@ -316,23 +316,23 @@ impl ScriptedInputs {
         inputs.frame = inputs.frame.saturating_add(beyond as i32);
         inputs.time_secs += beyond as f64 / self.fps;
         inputs.time_delta_secs = (1.0 / self.fps) as f32;
-        // Of a press that is over.
+        // The press has been released.
         inputs.mouse[3] = -inputs.mouse[3].abs();
         inputs.keyboard.frame_painted();
         inputs
     }
 
-    /// Begins anew with frame 0.
+    /// Restarts at frame 0.
     pub fn rewind(&mut self) {
         (self.frame, self.mouse, self.keyboard) = (0, Mouse::default(), Keyboard::default());
     }
 
-    /// Goes on to a frame as if those before it had been given. Takes as many steps as the script has actions, whatever the
-    /// frame.
+    /// Advances to a frame as if those before it had been drawn. Takes as many steps as the script has actions,
+    /// whatever the frame.
     pub fn skip_to(&mut self, frame: i32) {
         while self.frame < frame {
             let at = self.frame;
-            // What happened in the frame before has an effect on this one.
+            // The events of a frame also affect the next one.
             let next = self.next_action(at.saturating_sub(1));
             match next {
                 Some(action) if action <= at => drop(self.next_frame()),
@@ -342,7 +342,7 @@ impl ScriptedInputs {
         }
     }
 
-    /// Returns the first frame from `frame` on in which the script does something.
+    /// Returns the first frame from `frame` on for which the script has an action.
     fn next_action(&self, frame: i32) -> Option<i32> {
         if self.replay.is_some() {
             return None;
@@ -353,12 +353,12 @@ impl ScriptedInputs {
         of(&self.mouse_events, frame).into_iter().chain(of(&self.key_events, frame)).min()
     }
 
-    /// Number of the frame that [`ScriptedInputs::next_frame`] gives next.
+    /// Number of the frame that [`ScriptedInputs::next_frame`] returns next.
     pub fn frame(&self) -> i32 {
         self.frame
     }
 
-    /// The inputs of the next frame, which counts as painted.
+    /// Returns the inputs of the next frame, which counts as painted.
     pub fn next_frame(&mut self) -> FrameInputs {
         let frame = self.frame;
         self.frame = self.frame.saturating_add(1);
@@ -384,7 +384,7 @@ impl ScriptedInputs {
             keyboard: self.keyboard.clone(),
             ..FrameInputs::at_fixed_step(frame, self.fps)
         };
-        // A shader that reads only the seconds moves all the same.
+        // A shader that reads only the seconds still moves.
         inputs.date[3] = inputs.time_secs as f32;
         if let Some(start) = self.date {
             let millis = (inputs.time_secs * 1000.0).round() as i64;

@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn reads_what_the_help_shows() {
+fn examples_of_the_help_are_parsed() {
     assert_eq!(
         parse_mouse("0:down 40,40; 4:move 80,45; 10:up").unwrap(),
         [
@@ -36,7 +36,7 @@ fn spaces_empty_entries_and_order_do_not_matter() {
 }
 
 #[test]
-fn an_error_says_where_and_what_was_expected() {
+fn errors_state_position_and_expectation() {
     let message = |text: &str| parse_mouse(text).unwrap_err().to_string();
     assert_eq!(
         message("0:down 40,40; 4:mvoe 80,45"),
@@ -80,7 +80,7 @@ fn events_happen_before_their_frame() {
 }
 
 #[test]
-fn the_date_goes_on_with_the_frames() {
+fn date_advances_with_the_frames() {
     let mut undated = ScriptedInputs::new(2.0);
     undated.next_frame();
     assert_eq!(undated.next_frame().date, [0.0, 0.0, 0.0, 0.5]);
@@ -90,7 +90,7 @@ fn the_date_goes_on_with_the_frames() {
 }
 
 #[test]
-fn skipping_gives_the_inputs_of_a_run_through_all_frames() {
+fn skipping_yields_the_inputs_of_a_complete_run() {
     let mouse = parse_mouse("0:down 4,5; 3:move 9,9; 3:up; 7:down 1,1; 8:up; 900:down 2,2").unwrap();
     let keys = parse_keys("2:down 32; 6:up 32; 11:down 65").unwrap();
     let new = || ScriptedInputs::new(60.0).with_mouse(mouse.clone()).with_keys(keys.clone());
@@ -100,7 +100,7 @@ fn skipping_gives_the_inputs_of_a_run_through_all_frames() {
         skipped.skip_to(frame);
         assert_eq!((walked.frame(), walked.next_frame()), (skipped.frame(), skipped.next_frame()), "{frame}");
     }
-    // As many steps as this test has patience for only if frames without actions take none.
+    // Finishes in reasonable time only if frames without actions take no steps.
     let mut far = new();
     far.skip_to(i32::MAX);
     assert_eq!((far.frame(), far.next_frame().mouse[0]), (i32::MAX, 2.0));

@@ -1,5 +1,5 @@
-//! A file that says that the sound device is being opened. Where one is found at the next start, a sound driver ended the
-//! program then, and it is not opened again before a person asks for it.
+//! A marker file that exists while the sound device is being opened. If it is found at the next start, a sound driver
+//! crashed the program, and the device stays closed until the user opens it again.
 
 use eddy_audio::host::{AudioHost, AudioIn, AudioOut, DeviceError, Events, Fill, Format, Opened};
 use eddy_project::{confine, limits, write_into};
@@ -13,15 +13,15 @@ use std::{
     },
 };
 
-/// The name in the state folder.
+/// The file's name in the state folder.
 const FILE: &str = "opening-sound.txt";
 /// The file's content for the system's default device.
 const DEFAULT: &str = "default";
 
-/// The file, as the thread that opens devices and the session know it.
+/// The marker file, shared by the session and the thread that opens devices.
 #[derive(Clone, Debug, Default)]
 pub(super) struct OutputMarker {
-    /// `None`: nothing is remembered between two starts.
+    /// `None`: no state is kept between runs.
     file: Option<PathBuf>,
     is_written: Arc<AtomicBool>,
 }
@@ -34,7 +34,7 @@ impl OutputMarker {
         Self { file: state_dir.map(|dir| dir.join(FILE)), is_written: Arc::default() }
     }
 
-    /// Returns the device that the program was opening when it ended, if it did.
+    /// Returns the device that the previous run was opening when it ended, if there was one.
     pub(super) fn found(&self) -> Option<UnfinishedOpen> {
         let text = confine::read_state(self.file.as_ref()?, limits::STATE_FILE).ok()??;
         let name = text.trim_end_matches('\n');
@@ -46,19 +46,19 @@ impl OutputMarker {
         let folder = file.parent().unwrap_or(Path::new(""));
         match write_into(folder, FILE, |out| writeln!(out, "{}", device.unwrap_or(DEFAULT))) {
             Ok(()) => self.is_written.store(true, Ordering::Release),
-            // The sound is played all the same: only the next start knows less.
+            // Sound plays all the same: only the next start cannot detect a crash.
             Err(e) => log::warn!("cannot write {}: {e}", file.display()),
         }
     }
 
-    /// The device that was opened in this run plays, or was refused.
+    /// Removes the marker of this run: the device plays, or was refused.
     pub(super) fn clear(&self) {
         if self.is_written.swap(false, Ordering::AcqRel) {
             self.remove();
         }
     }
 
-    /// Forgets what was found.
+    /// Removes the marker that was found.
     pub(super) fn remove(&self) {
         if let Some(file) = &self.file
             && let Err(e) = fs::remove_file(file)
@@ -69,7 +69,7 @@ impl OutputMarker {
     }
 }
 
-/// A machine's sound whose outputs leave the marker while they are opened.
+/// An audio host that writes the marker while it opens an output.
 #[derive(Debug)]
 pub(super) struct MarkedHost {
     pub host: Arc<dyn AudioHost>,
@@ -104,7 +104,8 @@ impl AudioOut for MarkingOutput {
     ) -> Result<Opened, DeviceError> {
         self.marker.set(name);
         let opened = self.out.open(name, fill, events);
-        // One that is open may still end the program when it plays: the session waits a moment.
+        // An opened device may still crash the program when it plays, so the session waits a moment before it clears
+        // the marker.
         if opened.is_err() {
             self.marker.clear();
         }
@@ -117,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_device_is_marked_until_all_is_well() {
+    fn marker_exists_until_device_plays_or_fails() {
         let dir = tempfile::tempdir().unwrap();
         let state = dir.path().join("state");
         let marker = OutputMarker::new(Some(&state));

@@ -1,4 +1,4 @@
-//! The microphone: switched on by a person, open while a channel reads it.
+//! The microphone: enabled by the user, open while a channel reads it.
 
 use super::{Audio, News, news};
 use crate::{
@@ -15,8 +15,8 @@ pub(super) fn reads_it(pass: &Pass) -> bool {
 }
 
 impl Audio {
-    /// Returns what a frame reads of the microphone. `is_new`: else it is one that is drawn while time stands, and reads
-    /// what the one before did.
+    /// Returns the spectrum that a frame reads. A frame that is drawn while time is paused (`is_new` is false) reads
+    /// the spectrum of the previous one.
     pub(crate) fn spectrum(&mut self, is_new: bool) -> Option<Arc<Spectrum>> {
         if !self.is_recording {
             self.spectrum = None;

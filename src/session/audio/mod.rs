@@ -1,8 +1,8 @@
-//! Sound that is heard with the picture, and recorded for it.
+//! Sound that plays with the picture, and sound recorded for it.
 //!
-//! Owns the player and the microphone. Music of the channels and the sound pass are heard at `iTime`: what plays is told
-//! how time runs, and by the device's own clock it is brought there (`eddy_audio::mixer`). Devices are opened when
-//! something is to be heard or recorded, on threads of their own; one that is missing is told of once.
+//! Owns the player and the microphone. Music of channels and the sound pass play at `iTime`: the player gets a timeline
+//! and corrects its position by the device's clock (`eddy_audio::mixer`). Devices are opened on threads of their own
+//! when there is something to play or record; a missing device is reported once.
 
 mod marker;
 mod microphone;
@@ -27,10 +27,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Speeds at which sound is played. Slower and faster it is none that anybody would want to hear.
+/// Speeds at which sound plays. At slower or faster speeds there is silence.
 const SPEEDS: std::ops::RangeInclusive<f64> = 0.25..=4.0;
 
-/// A device that has played for so long will not end the program by being opened.
+/// A device that has played for this long will not crash the program by being opened.
 const SETTLES: Duration = Duration::from_secs(1);
 
 pub(crate) struct Audio {
@@ -40,33 +40,33 @@ pub(crate) struct Audio {
     input: Option<String>,
     player: Option<Player>,
     microphone: Option<Microphone>,
-    /// The music of the program that draws, and of one that is coming.
+    /// The music of the program that draws, and of one that is about to.
     sounds: Vec<ChannelSound>,
     coming: Option<Vec<ChannelSound>>,
-    /// The sound pass, with its revision.
+    /// The sound pass with its revision.
     track: Option<(u64, Arc<Track>)>,
     scene: Arc<Scene>,
-    /// Holds what the player was told last.
+    /// The state that was sent to the player last.
     sent: Option<(Arc<Scene>, Option<Timeline>, f32)>,
     volume: f32,
     is_muted: bool,
     is_hidden: bool,
-    /// A person has switched the microphone on.
+    /// The user has enabled the microphone.
     uses_microphone: bool,
-    /// The project reads it.
+    /// The project reads the microphone.
     reads_microphone: bool,
     is_recording: bool,
-    /// Holds what the newest frame read of it.
+    /// The spectrum that the newest frame read.
     spectrum: Option<Arc<Spectrum>>,
-    /// A device that is missing was told of.
+    /// A missing output device was reported.
     output_is_missing: bool,
     input_is_missing: bool,
-    /// Says to the next start that a device was being opened.
+    /// Marks for the next start that a device is being opened.
     marker: OutputMarker,
-    /// Found of the run before: the device whose driver ended it. That one is not opened before a person asks.
+    /// The device whose driver crashed the previous run. It is opened only when the user requests it.
     ended_before: Option<UnfinishedOpen>,
     is_end_told: bool,
-    /// Since when the output is open.
+    /// The time at which the output was opened.
     open_since: Option<Instant>,
 }
 
@@ -102,9 +102,9 @@ impl Audio {
         }
     }
 
-    /// Nothing of the project before is heard, and the microphone is off: a person has switched it on for that project.
+    /// Stops all sound of the previous project and turns the microphone off: the user enabled it for that project only.
     pub(crate) fn begin_next_project(&mut self) {
-        // The next project is told of it again.
+        // The next project reports it again.
         self.is_end_told = false;
         (self.uses_microphone, self.input_is_missing) = (false, false);
         if std::mem::take(&mut self.is_recording)
@@ -115,12 +115,12 @@ impl Audio {
         (self.sounds, self.coming, self.track, self.spectrum) = (Vec::new(), None, None, None);
     }
 
-    /// A program was built whose channels read this music.
+    /// Sets the music of a program that was built and does not draw yet.
     pub(crate) fn expect(&mut self, sounds: Vec<ChannelSound>) {
         self.coming = Some(sounds);
     }
 
-    /// It draws from now on.
+    /// Switches to that music: the new program draws from now on.
     pub(crate) fn program_is_there(&mut self) {
         if let Some(sounds) = self.coming.take() {
             self.sounds = sounds;
@@ -152,7 +152,7 @@ impl Audio {
         self.output = device;
     }
 
-    /// A person wants the sound device that ended the run before to be opened again, or has chosen another one.
+    /// Opens the sound device that crashed the previous run again, or another one that the user has chosen.
     pub(crate) fn open_again(&mut self) {
         if self.ended_before.take().is_some() {
             self.marker.remove();
@@ -175,7 +175,7 @@ impl Audio {
         }
     }
 
-    /// Returns the player, made if there is none and the machine has sound. It opens nothing yet.
+    /// Returns the player, creating it if necessary and if the machine has sound. This does not open a device.
     fn player(&mut self, wake: &Arc<dyn Fn() + Send + Sync>) -> Option<&mut Player> {
         if self.player.is_none() {
             let host = self.host.as_deref()?;
@@ -199,7 +199,7 @@ impl Audio {
         self.microphone.as_mut()
     }
 
-    /// The factor of every sample. Ears hear ratios: half the way of the slider is a quarter, -12 dB.
+    /// The gain of every sample. Loudness is perceived as a ratio: the middle of the slider is a quarter, -12 dB.
     fn gain(&self) -> f32 {
         if self.is_muted { 0.0 } else { self.volume * self.volume }
     }
@@ -217,7 +217,7 @@ impl Audio {
         sources
     }
 
-    /// Tells the player what is to be heard from now on, where that is something else than before.
+    /// Sends the player its sources, timeline and gain if they have changed.
     fn play(&mut self, line: Option<Timeline>, wake: &Arc<dyn Fn() + Send + Sync>, now: Instant) {
         let scene = Scene { sources: self.sources() };
         if !scene.is(&self.scene) {
@@ -225,7 +225,7 @@ impl Audio {
         }
         let line = line.filter(|line| SPEEDS.contains(&line.speed) && !self.is_hidden);
         let desired = OutputState { scene: self.scene.clone(), line, gain: self.gain() };
-        // Nothing is opened for a project without sound.
+        // No device is opened for a project without sound.
         if self.ended_before.is_some() || (self.player.is_none() && !desired.is_heard()) {
             return;
         }
@@ -246,24 +246,24 @@ impl Audio {
                     self.marker.clear();
                 }
             }
-            // It is closed, or being opened on its thread.
+            // It is closed, or its thread is opening it.
             DeviceState::Closed | DeviceState::Missing(_) => self.open_since = None,
         }
         self.sent = Some(wanted);
     }
 }
 
-/// Something to say of a device.
+/// A change of a device's state to report.
 enum News {
-    /// It could not be opened, or has vanished.
+    /// The device could not be opened, or was disconnected.
     Missing(String),
-    /// One that was missing is open.
+    /// A missing device is open again.
     Back(String),
-    /// Nobody needs the one that was missing.
+    /// The missing device is no longer needed.
     Over,
 }
 
-/// Compares the state of a device with what was told of it.
+/// Compares the state of a device with what was reported about it.
 fn news(state: DeviceState, is_missing: &mut bool) -> Option<News> {
     match state {
         DeviceState::Missing(why) if !std::mem::replace(is_missing, true) => Some(News::Missing(why)),
@@ -274,20 +274,20 @@ fn news(state: DeviceState, is_missing: &mut bool) -> Option<News> {
 }
 
 impl Drop for Audio {
-    /// The program ends as it should.
+    /// A regular exit: removes the marker.
     fn drop(&mut self) {
         self.marker.clear();
     }
 }
 
 impl Session {
-    /// Takes the sound pass as far as it is made, with its revision; `None`: there is none. The sound goes over from one
+    /// Sets the sound pass as far as it is rendered, with its revision; `None` removes it. Playback moves from one
     /// revision to the next without a gap.
     pub fn play_track(&mut self, track: Option<(u64, Arc<Track>)>) {
         self.audio.track = track;
     }
 
-    /// Has what is heard follow the picture, at the end of a tick.
+    /// Synchronises sound with the picture, at the end of a tick.
     pub(crate) fn play_sound(&mut self) {
         let is_drawn = self.drawing.has_program() && !self.halting.is_halted() && !self.halting.is_device_gone();
         let line = self.playback.line().filter(|_| is_drawn);
@@ -308,7 +308,7 @@ impl Session {
         }
     }
 
-    /// Says why nothing is heard where a sound driver ended the run before.
+    /// Reports that sound is off because a sound driver crashed the previous run.
     fn tell_of_the_end_before(&mut self) {
         let audio = &mut self.audio;
         let Some(before) = audio.ended_before.clone().filter(|_| audio.has_sound()) else { return };
@@ -330,7 +330,7 @@ impl Session {
 
     pub(crate) fn hide(&mut self, is_hidden: bool) {
         if std::mem::replace(&mut self.audio.is_hidden, is_hidden) && !is_hidden {
-            // Nothing was drawn meanwhile: time goes on from where it was.
+            // Nothing was drawn meanwhile: time continues from where it was.
             self.playback.rebase();
         }
         self.play_sound();

@@ -1,28 +1,28 @@
-//! A front end shows these of what is heard and recorded.
+//! The state of sound and microphone as front ends show it.
 
 use super::{Audio, DeviceState, Sound, Source};
 use crate::Session;
 use eddy_project::Media;
 use std::sync::Arc;
 
-/// Shows what is heard.
+/// The state of the sound output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutputView {
     /// From 0 to 1.
     pub volume: f32,
     pub is_muted: bool,
-    /// The project has something to hear.
+    /// The project has sound.
     pub has_sound: bool,
     pub device: DeviceState,
-    /// The device is not opened: the run before ended while it was. See
+    /// The device stays closed because the previous run crashed while opening it. See
     /// [`Command::OpenSoundAgain`](crate::Command::OpenSoundAgain).
     pub ended_before: bool,
 }
 
-/// The microphone.
+/// The state of the microphone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MicrophoneView {
-    /// A person has switched it on.
+    /// The user has enabled it.
     pub is_on: bool,
     /// A channel of the project reads it.
     pub is_read: bool,
@@ -38,7 +38,7 @@ impl Audio {
 }
 
 impl Session {
-    /// Returns what is heard; `None` where the front end has given no sound to hear it on.
+    /// Returns the state of the output; `None` if the front end has provided no audio host.
     pub fn output_view(&self) -> Option<OutputView> {
         let audio = &self.audio;
         audio.host.as_ref()?;
@@ -51,7 +51,7 @@ impl Session {
         })
     }
 
-    /// Returns what is known of the microphone; `None` where the front end has given none.
+    /// Returns the state of the microphone; `None` if the front end has provided no audio host.
     pub fn microphone_view(&self) -> Option<MicrophoneView> {
         let audio = &self.audio;
         audio.host.as_ref()?;
@@ -64,20 +64,20 @@ impl Session {
         })
     }
 
-    /// Returns the music of a channel, as the program that draws has it.
+    /// Returns the music of a channel, as loaded for the program that draws.
     pub fn music(&self, media: &Media) -> Option<&Arc<Sound>> {
         self.audio.sounds.iter().find(|known| known.media == *media).map(|known| &known.sound)
     }
 
-    /// Returns the names of the devices that play and of those that record, once
-    /// [`Command::ListAudioDevices`](crate::Command::ListAudioDevices) has been given and they are known.
+    /// Returns the names of the output devices and of the input devices, once
+    /// [`Command::ListAudioDevices`](crate::Command::ListAudioDevices) was given and they are known.
     pub fn audio_devices(&self) -> (Option<Vec<String>>, Option<Vec<String>>) {
         let audio = &self.audio;
         (audio.player.as_ref().and_then(|player| player.names()), audio.microphone.as_ref().and_then(|m| m.names()))
     }
 
-    /// Seconds that the sound is behind the picture's time, and how often it had to jump there, since its device was
-    /// opened; buffers that came too late, since the start.
+    /// The latency of the sound against the picture's time in seconds and the number of jumps to correct it, both since
+    /// the device was opened; then the number of buffer underruns since the start.
     pub fn sound_health(&self) -> Option<(f64, u64, u64)> {
         let player = self.audio.player.as_ref()?;
         let mixed = player.mixed()?;

@@ -1,38 +1,38 @@
-//! The values of a buffer become colours by a person's choice.
+//! The mapping of a buffer's values to colours, as the user chooses.
 
 use crate::probe::Statistics;
 use eddy_engine::{Paint, ValueLook};
 
-/// Holds what a person has chosen to see.
+/// The user's choice of display.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BufferLook {
-    /// `None`: from the least number to the largest.
+    /// `None`: from the minimum to the maximum.
     pub range: Option<(f32, f32)>,
     pub paint: Paint,
-    /// One component alone.
+    /// A single component.
     pub channel: Option<u8>,
-    /// In stops: values are shown times two to the power of it.
+    /// In stops: values are multiplied by two to the power of this.
     pub exposure: f32,
 }
 
 impl Default for BufferLook {
-    /// Returns the look of a picture.
+    /// Returns the look of a plain picture.
     fn default() -> Self {
         Self { range: Some((0.0, 1.0)), paint: Paint::Range, channel: None, exposure: 0.0 }
     }
 }
 
 impl BufferLook {
-    /// The same for a target of so many components that has these values.
+    /// Resolves the choice for a target with this number of components and these statistics.
     pub fn values(&self, components: u8, statistics: &Statistics) -> ValueLook {
         let channel = self.channel.filter(|channel| *channel < components);
-        // Colours are three; what the fourth holds would widen their range.
+        // Only three components become colours; the fourth would widen the range.
         let seen = |component: &u8| channel.map_or(*component < components.min(3), |one| one == *component);
         let extents = (0..4).filter(seen).filter_map(|i| statistics.extremes[usize::from(i)]);
         let whole = extents.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((0.0, 1.0));
         let (low, high) = self.range.unwrap_or(whole);
         let scale = (-self.exposure).exp2();
-        // Of several components the length is painted, and transparency is no part of it.
+        // With several components the length is painted, which excludes alpha.
         let components = if self.paint == Paint::Range { components } else { components.min(3) };
         ValueLook {
             low: low * scale,

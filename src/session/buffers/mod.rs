@@ -1,7 +1,7 @@
-//! Buffers that somebody looks at closely: all texels of one, and one texel of each.
+//! Buffer inspection: all texels of one target, and one texel of each.
 //!
-//! Owns what is asked for, what came back, and how often it comes; reading and painting are the engine's. Nothing is
-//! read while nobody looks.
+//! Owns the requests, the results, and the rate of the read-backs; reading and painting are the engine's. Nothing is
+//! read back while no view needs it.
 
 mod look;
 mod reads;

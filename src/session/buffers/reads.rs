@@ -1,4 +1,4 @@
-//! Keeps what is looked at, when it is due, and the newest of it.
+//! The inspected targets, when a read-back is due, and the newest results.
 
 use super::BufferLook;
 use crate::{
@@ -14,47 +14,47 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// While time runs, texels are read back so often at most: each time waits for the device.
+/// The minimum interval of read-backs while time runs: each one waits for the device.
 const EVERY: Duration = Duration::from_millis(100);
-/// The texels of one place are few.
+/// The same for the few texels of one place.
 const EVERY_PLACE: Duration = Duration::from_millis(40);
-/// And all of it takes this part of the time at most.
+/// Read-backs take at most one part in this many of the time.
 const SHARE: u32 = 20;
 
-/// A pass, and which of its targets.
+/// A pass, and the index of one of its targets.
 pub type Target = (PassName, usize);
 
-/// Names what somebody looks at.
+/// The inspected target and place.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BufferWatch {
-    /// All texels of this one, so.
+    /// The target of which all texels are shown, with its look.
     pub shown: Option<(Target, BufferLook)>,
-    /// A texel of each target that is drawn: the place, from 0 to 1 across and up.
+    /// The place, from 0 to 1 across and up, at which a texel of each drawn target is read.
     pub under: Option<[f32; 2]>,
 }
 
-/// A target at a moment.
+/// A target's contents at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BufferRead {
     pub target: Target,
-    /// So many are stored.
+    /// The number of components that are stored.
     pub components: u8,
     pub pixels: Pixels,
     /// The picture, of the target's size.
     pub picture: Picture,
     pub statistics: Statistics,
-    /// Texels that are NaN or infinite, if any are.
+    /// The NaN or infinite texels, if there are any.
     pub nonfinite: Option<NonfiniteTexels>,
 }
 
-/// Holds what came back.
+/// The result of a read-back.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BuffersRead {
     pub shown: Option<BufferRead>,
     pub under: Option<Vec<TexelAt>>,
 }
 
-/// Reads what somebody looks at closely. A target that is not drawn has nothing.
+/// Reads the inspected targets. A target that is not drawn has no result.
 impl RenderTask for BufferWatch {
     type Output = BuffersRead;
 
@@ -75,26 +75,26 @@ impl RenderTask for BufferWatch {
     }
 }
 
-/// Keeps what is looked at, if anything is.
+/// The inspection state: requests and newest results.
 #[derive(Default)]
 pub(crate) struct BufferReads {
     watch: BufferWatch,
     shown: Option<(Arc<BufferRead>, u64)>,
     under: Vec<TexelAt>,
     generation: u64,
-    /// The picture that was drawn, or asked for, is newer than what is here.
+    /// The newest drawn frame or request is newer than the result.
     is_shown_due: bool,
     is_place_due: bool,
-    /// The time when they were asked for last.
+    /// The time of the last request.
     shown_at: Option<Instant>,
     place_at: Option<Instant>,
-    /// The time that this took.
+    /// The duration of the last read-back.
     took: Duration,
     ticket: Ticket<BuffersRead>,
 }
 
 impl BufferReads {
-    /// Only this is looked at from now on.
+    /// Replaces what is inspected.
     pub(crate) fn watch(&mut self, watch: BufferWatch) {
         self.is_shown_due |= watch.shown != self.watch.shown;
         self.is_place_due |= watch.under != self.watch.under;
@@ -108,17 +108,17 @@ impl BufferReads {
         self.watch = watch;
     }
 
-    /// The newest of the target that is looked at, and a number that grows with each new one.
+    /// The newest contents of the inspected target, and a number that grows with each new one.
     pub(crate) fn shown(&self) -> Option<(&Arc<BufferRead>, u64)> {
         self.shown.as_ref().map(|(read, generation)| (read, *generation))
     }
 
-    /// The texels of all targets at the place that is looked at.
+    /// The texels of all targets at the inspected place.
     pub(crate) fn under(&self) -> &[TexelAt] {
         &self.under
     }
 
-    /// Returns what is to be read back now. While time runs, another frame comes anyway, and they wait for their turn.
+    /// Returns what to read back now. While time runs, another frame follows anyway, so read-backs are rate-limited.
     fn due(&mut self, now: Instant, is_running: bool) -> Option<BufferWatch> {
         let is_early = |at: Option<Instant>, every: Duration| {
             is_running && at.is_some_and(|at| now.saturating_duration_since(at) < every)
@@ -165,7 +165,7 @@ impl ReadBack for BufferReads {
         is_new
     }
     fn begin_next_project(&mut self) {
-        // Nothing of another project is looked at yet.
+        // No target of the new project is inspected yet.
         *self = Self { generation: self.generation, ..Self::default() };
     }
 }
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_read_while_nobody_looks_or_nothing_has_changed() {
+    fn targets_are_read_only_while_watched_and_changed() {
         let (mut watching, now) = (BufferReads::default(), Instant::now());
         watching.receive(true);
         assert_eq!(watching.due(now, true), None);

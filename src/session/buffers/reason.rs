@@ -1,9 +1,9 @@
-//! A pass is not drawn for one of these reasons.
+//! The reasons why a pass is not drawn.
 
 use eddy_engine::{PassCost, PassRole, ReadTiming};
 use eddy_project::PassName;
 
-/// Returns in words why a pass was not drawn in the newest frame; `None` for one that was.
+/// Returns in words why a pass was not drawn in the newest frame; `None` for one that was drawn.
 pub fn reason(pass: &PassName, all: &[PassCost]) -> Option<String> {
     let cost = all.iter().find(|cost| cost.pass == *pass)?;
     match cost.role {
@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pass_that_is_not_drawn_says_who_could_have_read_it() {
+    fn reason_names_possible_readers_of_an_undrawn_pass() {
         let drawn = PassRole::Drawn { is_cached: false };
         let all = [
             cost("A", PassRole::Drawn { is_cached: true }, &[]),

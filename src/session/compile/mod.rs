@@ -1,7 +1,7 @@
-//! The way from texts to programs: when a compile is due, what is with the compiler, and what came of the newest text.
+//! From texts to programs: when a compile is due, what is being compiled, and the result of the newest text.
 //!
-//! Owns the thread of the compiler and the list of diagnostics. What it returns says what the session is to do; the texts
-//! are the documents', and the program that draws is the drawing's.
+//! Owns the compiler thread and the list of diagnostics. Its results tell the session what to do; the texts belong to
+//! the documents, and the current program to the drawing.
 
 mod worker;
 
@@ -29,19 +29,19 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// A compile of so long goes before frames of the program that it takes the place of: they would take its processors,
-/// and nobody sees a pause of so long.
+/// A compile shorter than this takes priority over frames of the program that it replaces: they would compete for the
+/// processors, and a pause this short is not visible.
 pub(super) const BRIEF: Duration = Duration::from_millis(100);
 
 pub(super) struct CompileControl {
     worker: Background<Job, (), Done>,
-    /// Jobs that the worker was given.
+    /// The number of jobs submitted to the worker.
     jobs: Arc<AtomicU64>,
-    /// The longest quiet time after the last edit before a compile.
+    /// The longest debounce time between the last edit and a compile.
     longest_quiet: Duration,
     /// Edits are compiled when they are saved.
     on_save: bool,
-    /// There are such edits.
+    /// Edits wait to be saved.
     pub waits_for_save: bool,
     pub edits: Debounce,
     /// A text was edited since the last tick.
@@ -49,28 +49,28 @@ pub(super) struct CompileControl {
     pub edited_at: Option<Instant>,
     /// Compile in the next tick, whatever the debounce says.
     is_wanted: bool,
-    /// See whether a picture or a model has changed on disk, as soon as the worker has time.
+    /// Check whether a picture or a model has changed on disk, as soon as the worker is free.
     pub is_look_wanted: bool,
-    /// The program under way shall start from zero.
+    /// The program being compiled starts from frame zero.
     pub resets: bool,
-    /// The project that is to be compiled instead of the newest text.
+    /// The project to compile instead of the newest text.
     fallback: Option<Project>,
-    /// Since when the worker compiles the newest text, if it does.
+    /// The time at which the worker started on the newest text, if it is compiling it.
     newest_since: Option<Instant>,
-    /// Counts the edits after which the texts include other files, and how many of them have been followed by reading.
+    /// Counts the edits that changed the `#include` lines, and how many of them have been read.
     pub include_edits: u64,
     pub includes_read: u64,
     pub state: CompileState,
     pub diagnostics: Vec<TabDiagnostic>,
-    /// The diagnostics of reading the project that no compile says.
+    /// Diagnostics from loading the project that compiles do not repeat.
     pub read: Vec<TabDiagnostic>,
 }
 
-/// The documents and the view that a compile is of.
+/// The documents and the view to compile.
 pub(super) struct Source<'s> {
     pub project: &'s Project,
     pub shown: &'s PassName,
-    /// Counts the times a project was opened or took a new place.
+    /// Counts the times that a project was opened or moved.
     pub opened: u64,
     pub probe: Option<(ProbePlace, bool)>,
     pub camera: Option<Camera>,
@@ -104,7 +104,7 @@ impl CompileControl {
     }
 
     pub(crate) fn begin_next_project(&mut self) {
-        // A compile of the project that goes may end before the new one's begins.
+        // A compile of the previous project may finish before the new one's starts.
         self.worker.clear();
         self.edits = Debounce::new(self.longest_quiet);
         (self.is_edited, self.edited_at, self.newest_since, self.fallback) = (false, None, None, None);
@@ -115,7 +115,7 @@ impl CompileControl {
         self.read.clear();
     }
 
-    /// Builds programs on another device. What the old one builds is waited for by nobody: it may wait for its device.
+    /// Builds programs on another device. Nothing waits for builds on the old one, which may hang.
     pub(crate) fn change_device(&mut self, device: Device, options: &SessionOptions, wake: Wake) -> io::Result<()> {
         self.newest_since = None;
         let worker = worker(device, options, self.jobs.clone(), wake)?;
@@ -123,12 +123,12 @@ impl CompileControl {
         Ok(())
     }
 
-    /// Lets go of the thread.
+    /// Detaches the thread.
     pub(crate) fn leave(&mut self) {
         self.worker.leave();
     }
 
-    /// A text was edited.
+    /// Records an edit of a text.
     pub(crate) fn edit(&mut self) {
         if self.on_save {
             self.waits_for_save = true;
@@ -138,7 +138,7 @@ impl CompileControl {
         }
     }
 
-    /// Compiles in the next tick.
+    /// Schedules a compile for the next tick.
     pub(crate) fn soon(&mut self) {
         self.fallback = None;
         self.waits_for_save = false;
@@ -153,7 +153,7 @@ impl CompileControl {
         }
     }
 
-    /// Compiles what waited to be saved.
+    /// Compiles edits that waited to be saved.
     pub(crate) fn saved(&mut self) {
         if self.waits_for_save {
             self.soon();
@@ -165,7 +165,7 @@ impl CompileControl {
         (self.includes_read != self.include_edits).then_some(self.include_edits)
     }
 
-    /// Compiles another project instead of the newest text, which only another edit, or who asks for it, tries again.
+    /// Compiles another project instead of the newest text, which is tried again only after an edit or on request.
     /// Returns whether there is one.
     pub(crate) fn fall_back(&mut self, to: Option<Project>) -> bool {
         (self.is_wanted, self.is_edited) = (false, false);
@@ -174,7 +174,7 @@ impl CompileControl {
         self.fallback.is_some()
     }
 
-    /// Hands the worker what is due. Returns whether that is a compile.
+    /// Submits what is due to the worker. Returns whether that is a compile.
     pub(crate) fn start(&mut self, now: Instant, source: Source<'_>) -> bool {
         if take(&mut self.is_edited) {
             self.edits.touch(now);
@@ -185,7 +185,7 @@ impl CompileControl {
             self.fallback = None;
         }
         let is_compile = take(&mut self.is_wanted) || is_due || self.fallback.is_some();
-        // A look must not take the place of a compile under way, and a compile looks too.
+        // A check must not replace a compile in progress, and a compile checks as well.
         let is_look = self.is_look_wanted && !self.worker.is_busy();
         if !is_compile && !is_look {
             return false;
@@ -206,7 +206,7 @@ impl CompileControl {
         is_compile
     }
 
-    /// Takes what the worker has done; the error is a bug in it.
+    /// Takes the worker's result; an error is a bug in the worker.
     pub(crate) fn take(&mut self) -> Option<Result<Done, String>> {
         let done = self.worker.take()?;
         if !matches!(done, Ok(Done { compiled: None, .. })) {
@@ -221,7 +221,7 @@ impl CompileControl {
         is_due || self.worker.is_busy()
     }
 
-    /// Returns whether something newer is to be drawn than what the compiler was given before.
+    /// Returns whether something newer than the last submitted project waits to be compiled.
     pub(crate) fn is_newer_wanted(&self, now: Instant) -> bool {
         self.is_wanted
             || self.newest_since.is_some()
@@ -229,19 +229,19 @@ impl CompileControl {
             || self.edits.deadline().is_some_and(|at| at <= now)
     }
 
-    /// Returns until when frames wait for the compile that is under way: one that takes longer than expected, as of a text
-    /// that was pasted, does not hold the picture.
+    /// Returns until when frames wait for the compile in progress: one that takes longer than expected, such as of a
+    /// pasted text, does not block the picture.
     pub(crate) fn holds_frames_until(&self, now: Instant) -> Option<Instant> {
         let until = self.newest_since? + BRIEF;
         (self.edits.quiet() <= BRIEF && now < until).then_some(until)
     }
 
-    /// Says whether the picture is of an older text than the newest. Returns whether that is news.
+    /// Sets whether the picture is older than the newest text. Returns whether that has changed.
     pub(crate) fn set_compiling(&mut self, is_compiling: bool) -> bool {
         replace(&mut self.state.compiling, is_compiling) != is_compiling
     }
 
-    /// Takes what a compile of the newest text has said, and how long it took.
+    /// Takes the diagnostics of the newest text's compile, and its duration.
     pub(crate) fn diagnose(&mut self, mut diagnostics: Vec<TabDiagnostic>, took: Duration) {
         diagnostics.extend(self.read.iter().cloned());
         diagnostics.sort_by_key(|d| Reverse(d.severity));
@@ -249,17 +249,17 @@ impl CompileControl {
         self.expect(took);
     }
 
-    /// The next compile is expected to take so long.
+    /// Sets the expected duration of the next compile.
     pub(crate) fn expect(&mut self, took: Duration) {
         self.edits.set_quiet(worker::quiet_after(took, self.longest_quiet));
     }
 
-    /// Says first, about no text, why there is no program.
+    /// Adds the reason why there is no program as the first diagnostic, without a place.
     pub(crate) fn add_failure(&mut self, why: &str) {
         self.diagnostics.insert(0, TabDiagnostic::nowhere(why));
     }
 
-    /// The newest text gave a program.
+    /// The newest text produced a program.
     pub(crate) fn succeed(&mut self, millis: f64) {
         let warnings = self.count(Severity::Warning);
         self.state.last = Some(match self.count(Severity::Error) {
@@ -268,7 +268,7 @@ impl CompileControl {
         });
     }
 
-    /// The newest text gave no program, for the reasons that are in the list.
+    /// The newest text produced no program, for the reasons in the list.
     pub(crate) fn fail(&mut self, has_program: bool) {
         let meanwhile = if has_program { FallbackPicture::LastGood } else { FallbackPicture::Nothing };
         self.state.last = Some(Outcome::Failed { errors: self.count(Severity::Error), meanwhile });

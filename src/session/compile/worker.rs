@@ -1,4 +1,4 @@
-//! The compile worker reads a project's media and builds its program.
+//! The compile worker loads a project's media and builds its program.
 
 use crate::{
     disk::stamps::{Stamp, Stamps},
@@ -21,34 +21,35 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// One compile, or a look at whether one is due.
+/// One compile, or a check whether one is due.
 pub(crate) struct Job {
     pub project: Project,
-    /// The pass that is shown besides Image.
+    /// The pass that is shown in addition to Image.
     pub shown: PassName,
-    /// Counts the times a project was opened or took a new place. A state and not an order, as jobs can be overtaken.
+    /// Counts the times that a project was opened or moved. This is a state, not an order, as jobs can be overtaken.
     pub opened: u64,
-    /// The texts name other files in their `#include` lines than those that were read: read them. Counts such edits.
+    /// Set if the `#include` lines have changed since the files were read: read them again. The value counts such
+    /// edits.
     pub include_edit: Option<u64>,
-    /// The camera that is on, if its pictures have begun.
+    /// The active camera, once it delivers pictures.
     pub camera: Option<Camera>,
-    /// The project is not the newest: one to fall back to.
+    /// The project is a fallback, not the newest.
     pub is_fallback: bool,
-    /// The value that is drawn instead of the picture, and whether it has gone from the text.
+    /// The probed value to draw instead of the picture, and whether it no longer exists in the text.
     pub probe: Option<(ProbePlace, bool)>,
-    /// Only tells whether the pictures and models on disk are other than those of the last compile.
+    /// Only checks whether pictures and models on disk differ from those of the last compile.
     pub is_look: bool,
 }
 
 /// The result of a job.
 pub(crate) struct Done {
-    /// Pictures, models and the files these name, those among them that are not there.
+    /// Pictures, models and the files that these name, including missing ones.
     pub files: Vec<PathBuf>,
-    /// True for a look that found other pictures or models than those of the last compile.
+    /// True for a check that found pictures or models different from those of the last compile.
     pub is_changed: bool,
-    /// The files that the texts include, where the job had to read them, with [`Job::include_edit`].
+    /// The included files, if the job had to read them, with [`Job::include_edit`].
     pub includes: Option<(u64, Vec<Included>)>,
-    /// `None` for a look.
+    /// `None` for a check.
     pub compiled: Option<Compiled>,
 }
 
@@ -56,31 +57,31 @@ pub(crate) struct Compiled {
     /// The project that was compiled.
     pub project: Project,
     pub is_fallback: bool,
-    /// The program and its compile time, or none if the author has to mend something first.
+    /// The program and its compile time, or `None` if the texts have errors.
     pub program: Result<Option<(Program, f64)>, EngineError>,
     /// Errors first.
     pub diagnostics: Vec<TabDiagnostic>,
-    /// The time from the texts to a program, or to what is wrong in them.
+    /// The time from the texts to a program or to diagnostics.
     pub took: Duration,
-    /// The value that the program draws, or why it draws none though one is asked for.
+    /// The value that the program draws, or why a requested probe draws none.
     pub probe: Option<Result<ProbedValue, String>>,
-    /// The sound that it leads to.
+    /// The resulting sound.
     pub heard: CompiledSound,
     /// The music that its channels name.
     pub sounds: Vec<ChannelSound>,
 }
 
-/// A compile that takes no longer than this is not felt, whatever is typed meanwhile.
+/// A compile up to this long is not noticeable, whatever is typed meanwhile.
 const UNFELT: Duration = Duration::from_millis(5);
 
-/// Returns how long to wait for the end of typing after a compile that took so long: not at all where compiling is not
-/// felt, else as long as it takes, so that it takes half of the time at most.
+/// Returns the debounce time after a compile that took this long: none if compiling is not noticeable, otherwise as
+/// long as it takes, so that compiling uses at most half of the time.
 pub(super) fn quiet_after(took: Duration, longest: Duration) -> Duration {
     if took < UNFELT { Duration::ZERO } else { took.min(longest) }
 }
 
-/// The worker's work, with the pictures it has read so far. The first job waits for the device. `jobs` counts what was
-/// submitted: a trial compile that a newer job has overtaken is given up.
+/// Runs the worker, caching loaded media. The first job waits for the device. `jobs` counts the submitted jobs: a trial
+/// compile that a newer job has overtaken is cancelled.
 pub(super) fn work(
     device: Device,
     options: &SessionOptions,
@@ -147,8 +148,8 @@ pub(super) fn work(
     }
 }
 
-/// Returns what the compiler says of texts that the picture's program is not built of: what the site would refuse in
-/// Common, and the sound pass; and whether that compiles, if there is one.
+/// Returns the diagnostics of texts that are not part of the picture's program: what Shadertoy would reject in Common,
+/// and the sound pass; and whether the sound pass compiles, if there is one.
 fn not_built(kept: &mut KeptStages, project: &Project) -> (Vec<Diagnostic>, Option<bool>) {
     let texts = Sources::new(project);
     let mut found = texts.check_common();
@@ -162,21 +163,21 @@ fn not_built(kept: &mut KeptStages, project: &Project) -> (Vec<Diagnostic>, Opti
 /// A pass, its channels and its meshes.
 type NamedByPass = (PassName, Bindings, Vec<(MeshSource, Option<Normals>)>);
 
-/// The names of pictures and models, and how these are on disk. They are always taken before they are read: then a
-/// change in between shows as one more reading, and never as none.
+/// The names of pictures and models, and their stamps on disk. Stamps are always taken before reading: a change in
+/// between then causes one more read, never a missed one.
 #[derive(PartialEq)]
 struct Named {
     opened: u64,
-    /// The folder that the names start from.
+    /// The folder that relative names start from.
     base: PathBuf,
     channels: Vec<NamedByPass>,
     stamps: Vec<Stamp>,
 }
 
-/// The pictures of the last compile: reading them anew at each keystroke would take longer than the compile.
+/// The pictures of the last compile: reading them at each keystroke would take longer than the compile.
 #[derive(Default)]
 struct Media {
-    /// The user's own copies of the site's textures.
+    /// The user's own copies of Shadertoy's textures.
     dir: Option<PathBuf>,
     stamps: Stamps,
     of: Option<Named>,
@@ -192,14 +193,14 @@ impl Media {
         Named { opened: job.opened, base, channels, stamps: self.stamps.take(&job.project) }
     }
 
-    /// Reads what the job's project names, if that is not what is here already. Gives what there is to say of it.
+    /// Reads the job's media unless they are loaded already. Returns the diagnostics.
     fn update(&mut self, job: &Job, named: Named) -> Vec<Diagnostic> {
         if self.of.as_ref() != Some(&named) {
-            // The old ones go first, so that the memory of both is never taken at once.
+            // The old media are dropped first, so that both are never in memory at once.
             self.set = MediaSet::new();
             (self.set, self.warnings) = media::gather(&job.project, self.dir.as_deref());
             self.of = Some(named);
-            // Nobody waits for a video while the picture runs.
+            // A video never blocks while the picture runs.
             self.set.set_pace(Pace::Live);
         }
         self.set.set_camera(job.camera.clone());
@@ -216,7 +217,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_wait_for_the_end_of_typing_is_as_long_as_a_compile_that_is_felt() {
+    fn debounce_equals_compile_time_unless_unnoticeable() {
         let longest = Duration::from_millis(200);
         let quiet = |micros| quiet_after(Duration::from_micros(micros), longest).as_micros();
         assert_eq!([0, 400, 4_999].map(quiet), [0; 3]);

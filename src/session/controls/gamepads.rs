@@ -29,7 +29,7 @@ impl Session {
         }
     }
 
-    /// Takes what gamepads have sent.
+    /// Takes new gamepad events.
     pub(super) fn follow_gamepads(&mut self) {
         let Some(pads) = &self.controls.pads else { return };
         let events = pads.take();
@@ -56,7 +56,7 @@ impl Session {
                 }
             }
         }
-        // As a key does while time stands still. A stick does not: it is never quite at rest.
+        // A button draws a frame while time is paused, as a key does. A stick does not: it is never quite at rest.
         if is_turned && !self.playback.is_replaying() && self.reads_device(InputKind::Gamepad) {
             self.playback.is_frame_due = true;
         }

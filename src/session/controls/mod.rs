@@ -1,7 +1,7 @@
-//! Controls of OSC, MIDI and gamepads: what is switched on, which uniform a control moves, and what is being learned.
+//! Controls of OSC, MIDI and gamepads: which are enabled, which uniform a control moves, and what is being learned.
 //!
-//! Nothing is listened to before a person has switched it on. A uniform that a control moves goes the way of a slider that a hand
-//! turns: its values are in recordings, and one movement is one step of undo.
+//! Nothing is listened to before the user has enabled it. A uniform that a control moves is treated like one set by a
+//! slider: recordings contain its values, and one movement is one undo step.
 
 mod gamepads;
 
@@ -25,11 +25,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The rest of a control that sends several messages comes within this after the first, by which it was learned.
+/// The remaining messages of a control that sends several arrive within this time after the first, by which it was
+/// learned.
 const FINE_PART: Duration = Duration::from_millis(200);
-/// The controllers of MIDI that select a non-registered parameter and set its value.
+/// The MIDI controllers that select a non-registered parameter and set its value.
 const OF_PARAMETERS: [u8; 4] = [99, 98, 6, 38];
-/// TouchOSC sends 1 to an address that ends so when a finger touches a control, and 0 when it leaves.
+/// TouchOSC sends 1 to an address with this ending when a finger touches a control, and 0 when it leaves.
 const TOUCH: &str = "/z";
 
 /// The devices that are listened to, and what is being learned.
@@ -43,38 +44,39 @@ pub(super) struct Controls {
     choice: MidiChoice,
     pad_host: Option<Arc<dyn PadHost>>,
     pads: Option<PadInputs>,
-    /// A person was told that gamepads cannot be read.
+    /// The user was told that gamepads cannot be read.
     is_pad_told: bool,
-    /// Waits for the control that moves next.
+    /// The target that the next control to move is bound to.
     learning: Option<ControlTarget>,
-    /// Learned by a controller that may be a part of another control: the coarse part of one of 14 bits, or what selects a parameter.
+    /// Learned from a controller that may be a part of another control: the coarse part of a 14-bit one, or one that
+    /// selects a parameter.
     part: Option<(ControlTarget, ControlAddress, Instant)>,
-    /// The knobs that have moved since the project was opened, by what they move.
+    /// The knobs that have moved since the project was opened, by their targets.
     takeovers: BTreeMap<ControlTarget, Takeover>,
-    /// A person was told that it cannot listen.
+    /// The user was told that OSC cannot be received.
     is_osc_told: bool,
     is_midi_told: bool,
-    /// The devices that a person was told of.
+    /// The devices that were announced to the user.
     announced: Vec<String>,
 }
 
-/// Says what is listened to, for a front end.
+/// The state of all controls, for a front end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ControlsView {
-    /// `None`: it is off.
+    /// `None` if OSC is off.
     pub osc: Option<OscState>,
-    /// OSC comes in by other addresses than the machine's own.
+    /// OSC is received on addresses other than the machine's own.
     pub is_osc_public: bool,
     pub has_midi: bool,
     pub choice: MidiChoice,
     pub midi: MidiState,
     pub has_gamepads: bool,
-    /// `None`: they are off.
+    /// `None` if gamepads are off.
     pub gamepads: Option<PadState>,
 }
 
 impl ControlsView {
-    /// Returns whether there is anything that could be learned.
+    /// Returns whether any source of controls is enabled.
     pub fn is_on(&self) -> bool {
         self.osc.is_some() || self.choice != MidiChoice::Off || self.gamepads.is_some()
     }
@@ -102,13 +104,13 @@ impl Controls {
         }
     }
 
-    /// Nothing is learned any more: it was of the project before.
+    /// Cancels learning, which was for the previous project.
     pub(crate) fn begin_next_project(&mut self) {
         (self.learning, self.part) = (None, None);
         self.takeovers.clear();
     }
 
-    /// Returns the MIDI inputs, made if there are none and the machine has MIDI. They open nothing yet.
+    /// Returns the MIDI inputs, creating them if necessary and if the machine has MIDI. This does not open a device.
     fn midi(&mut self) -> Option<&mut MidiInputs> {
         if self.midi.is_none() {
             let host = self.host.as_deref()?;
@@ -123,7 +125,7 @@ impl Controls {
 }
 
 impl Session {
-    /// Returns what is listened to.
+    /// Returns the state of all controls.
     pub fn controls_view(&self) -> ControlsView {
         let controls = &self.controls;
         ControlsView {
@@ -137,35 +139,35 @@ impl Session {
         }
     }
 
-    /// Returns the control that moves a number of a uniform.
+    /// Returns the control that moves a component of a uniform.
     pub fn control_of(&self, target: &ControlTarget) -> Option<&ControlAddress> {
         self.project().controls.get(&self.as_in_texts(target))
     }
 
-    /// Returns the number whose control is being learned.
+    /// Returns whether a target's control is being learned.
     pub fn is_learning(&self, target: &ControlTarget) -> bool {
         self.controls.learning.as_ref() == Some(&self.as_in_texts(target))
     }
 
-    /// Returns the side of a number's value on which its knob waits. `None`: it does not wait.
+    /// Returns the side of the value on which the target's knob waits for pickup; `None` if it does not wait.
     pub fn control_waits(&self, target: &ControlTarget) -> Option<PickupSide> {
         let target = self.as_in_texts(target);
         self.project().controls.get(&target).and_then(|_| self.controls.takeovers.get(&target)?.waits())
     }
 
-    /// Returns a target with the name that the texts have for its uniform, which the program that draws may not have.
+    /// Returns a target with its uniform's name in the texts, which the program that draws may not know yet.
     fn as_in_texts(&self, target: &ControlTarget) -> ControlTarget {
         ControlTarget { uniform: self.newest_name(&target.uniform), ..target.clone() }
     }
 
-    /// Listens to OSC at an address, or no longer.
+    /// Listens to OSC at an address; `None` stops it.
     pub(super) fn set_osc(&mut self, address: Option<SocketAddr>) {
         if self.controls.osc.as_ref().map(OscInput::asked) == address {
             return;
         }
         self.settled(About::Osc);
         self.controls.is_osc_told = false;
-        // The old socket is closed first: the new one may have its address.
+        // Close the old socket first: the new one may have the same address.
         self.controls.osc = None;
         let Some(address) = address else { return };
         match OscInput::listen(address, self.controls.queue.clone(), self.wake.clone()) {
@@ -192,7 +194,7 @@ impl Session {
         }
     }
 
-    /// Binds the control that moves next; `None`: none any more.
+    /// Binds the next control that moves; `None` cancels it.
     pub(super) fn learn_control(&mut self, target: Option<ControlTarget>) {
         self.controls.part = None;
         self.controls.learning = target.map(|target| self.as_in_texts(&target));
@@ -209,7 +211,7 @@ impl Session {
         }
     }
 
-    /// Takes what controls have sent, before frames are drawn.
+    /// Applies what controls have sent, before frames are drawn.
     pub(super) fn follow_controls(&mut self) {
         if let Some(midi) = &mut self.controls.midi {
             midi.step(self.now);
@@ -226,7 +228,7 @@ impl Session {
         self.turn_by_controls(&events);
     }
 
-    /// Returns the OSC addresses that move something, for patterns.
+    /// Returns the OSC addresses that are bound, to match patterns against.
     fn osc_listeners(&self) -> Vec<Listener> {
         let bound = self.project().controls.values().filter_map(|address| match address {
             ControlAddress::Osc { path, argument } => Some((path.clone(), argument + 1)),
@@ -286,7 +288,7 @@ impl Session {
         }
     }
 
-    /// Binds what was touched to what waits for it.
+    /// Binds the touched control to the target that is being learned.
     fn learn(&mut self, events: &[ControlEvent]) {
         if let Some((target, part, since)) = self.controls.part.clone() {
             if self.now.saturating_duration_since(since) > FINE_PART {
@@ -309,14 +311,14 @@ impl Session {
         self.bind(target, address);
     }
 
-    /// Has a control move a number from now on, and at once.
+    /// Binds a control to a target and applies its value at once.
     fn bind(&mut self, target: ControlTarget, address: ControlAddress) {
         self.controls.takeovers.insert(target.clone(), Takeover::learned());
         self.documents.current_mut().controls.insert(target, address);
         self.changed = true;
     }
 
-    /// Turns the uniforms of the controls that have moved.
+    /// Sets the uniforms of the controls that have moved.
     fn turn_by_controls(&mut self, events: &[ControlEvent]) {
         let before = self.project().custom_uniform_values.clone();
         let bindings = self.project().controls.clone();
@@ -325,7 +327,7 @@ impl Session {
             .iter()
             .map(|uniform| CustomUniform { name: self.newest_name(&uniform.name), ..uniform.clone() })
             .collect();
-        // Many events come at once where a pattern matches many addresses.
+        // Many events arrive at once if a pattern matches many addresses.
         let by_name: HashMap<&str, &CustomUniform> = uniforms.iter().rev().map(|it| (it.name.as_str(), it)).collect();
         let mut by_address: BTreeMap<&ControlAddress, Vec<&ControlTarget>> = BTreeMap::new();
         bindings.iter().for_each(|(target, address)| by_address.entry(address).or_default().push(target));
@@ -347,7 +349,7 @@ impl Session {
                 }
             }
         }
-        // A knob that waits is shown.
+        // Redraw to show a knob that waits.
         self.changed |= !events.is_empty();
         if self.project().custom_uniform_values != before {
             self.passes.push_controls(before, turned);
@@ -358,7 +360,7 @@ impl Session {
 }
 
 impl Session {
-    /// Returns whether a control moves its number, or waits until it meets the number's value.
+    /// Returns whether a control moves its target now, or still waits until it reaches the target's value.
     fn takes_over(
         &mut self,
         target: &ControlTarget,
@@ -379,8 +381,8 @@ impl Session {
     }
 }
 
-/// Returns the control that a controller is a part of, if it has moved: a 14-bit control by its coarse part, or a parameter by a
-/// controller that selects or sets it.
+/// Returns the control that a controller is a part of, if it has moved: a 14-bit control for its coarse part, or a
+/// parameter for a controller that selects or sets it.
 fn whole_of(part: &ControlAddress, events: &[ControlEvent]) -> Option<ControlAddress> {
     let ControlAddress::ControlChange { channel, number } = part else { return None };
     let is_whole = |address: &ControlAddress| match address {
@@ -391,13 +393,13 @@ fn whole_of(part: &ControlAddress, events: &[ControlEvent]) -> Option<ControlAdd
     events.iter().map(|event| &event.source).find(|address| is_whole(address)).cloned()
 }
 
-/// Returns the control that a hand has touched. `index`: the number of a vector that it is for, to which the argument of that
-/// number belongs where an OSC message has so many.
+/// Returns the control that was touched. `index` is the target's component of a vector: if an OSC message has an
+/// argument for each component, the one at `index` is bound.
 fn touched(events: &[ControlEvent], index: usize) -> Option<ControlAddress> {
     let is_touched = |event: &&ControlEvent| match &event.source {
-        // A key that is released.
+        // Ignores the release of a key.
         ControlAddress::Note { .. } => event.value > 0.0,
-        // A stick that is not quite at rest, a trigger that is brushed.
+        // Ignores a stick that is not quite at rest, and a trigger that is brushed.
         ControlAddress::Pad { part: PadPart::Axis(_), .. } => (event.value - 0.5).abs() > 0.25,
         ControlAddress::Pad { part: PadPart::Button(_), .. } => event.value > 0.5,
         ControlAddress::Osc { path, .. } => {
@@ -413,7 +415,7 @@ fn touched(events: &[ControlEvent], index: usize) -> Option<ControlAddress> {
     Some(if has_own { own } else { first.source.clone() })
 }
 
-/// Returns the events in their order, of each control the last one alone; of keys all, as each press switches something over.
+/// Returns the events in their order: the last one of each control, but all of keys, as each press toggles something.
 fn newest(events: &[ControlEvent]) -> Vec<&ControlEvent> {
     let mut seen = BTreeSet::new();
     let mut kept = Vec::new();

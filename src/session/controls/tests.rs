@@ -1,4 +1,4 @@
-//! A session whose uniforms are moved by made-up MIDI devices and by real packets.
+//! Tests of a session whose uniforms are moved by simulated MIDI devices and real UDP packets.
 
 use super::*;
 use crate::{Command, SessionOptions};
@@ -85,7 +85,7 @@ impl Fixture {
 }
 
 #[test]
-fn a_control_is_learned_by_touching_it_moves_its_uniform_and_is_forgotten() {
+fn control_can_be_learned_moved_and_forgotten() {
     let Some(mut room) = Fixture::open() else { return };
     let speed = ControlTarget::whole("speed");
     room.send(&[0xb0, 70, 127]);
@@ -97,7 +97,7 @@ fn a_control_is_learned_by_touching_it_moves_its_uniform_and_is_forgotten() {
     assert_eq!(room.value("speed"), [0.0]);
     room.send(&[0xb0, 71, 127]);
     assert_eq!(room.value("speed"), [0.0], "another knob");
-    // One movement of several controls is one step of undo.
+    // One movement of several controls is one undo step.
     let y = ControlTarget::of_component("center", "y").unwrap();
     room.learn(&y, &[0xe0, 0, 64]);
     for n in 1..=40 {
@@ -117,7 +117,7 @@ fn a_control_is_learned_by_touching_it_moves_its_uniform_and_is_forgotten() {
 }
 
 #[test]
-fn a_fine_control_is_learned_as_one_and_a_key_switches_over() {
+fn fourteen_bit_control_is_learned_as_one_and_key_toggles() {
     let Some(mut room) = Fixture::open() else { return };
     let (speed, on) = (ControlTarget::whole("speed"), ControlTarget::whole("on"));
     // Both parts at once, and one after the other.
@@ -142,12 +142,12 @@ fn a_fine_control_is_learned_as_one_and_a_key_switches_over() {
 }
 
 #[test]
-fn a_knob_that_is_elsewhere_takes_over_when_it_passes_the_value() {
+fn knob_waits_for_pickup_at_the_value() {
     let Some(mut room) = Fixture::open() else { return };
     let speed = ControlTarget::whole("speed");
     room.learn(&speed, &[0xb0, 70, 127]);
     assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![4.0], None), "it was just learned");
-    // A hand moves the slider: the knob is left behind.
+    // A slider moves the value away from the knob.
     let value = eddy_project::CustomUniformValue::Float(1.0);
     room.session.apply(Command::SetCustomUniform { name: "speed".into(), value: Some(value) });
     room.send(&[0xb0, 70, 120]);
@@ -156,7 +156,7 @@ fn a_knob_that_is_elsewhere_takes_over_when_it_passes_the_value() {
     assert_eq!(room.value("speed"), [1.0]);
     room.send(&[0xb0, 70, 20]);
     assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![4.0 * 20.0 / 127.0], None));
-    // So it is with a project that has the control and another value.
+    // The same for a project that has the control and another value.
     let mut project = room.session.project().clone();
     project.custom_uniform_values.insert("speed".into(), eddy_project::CustomUniformValue::Float(3.0));
     room.session.apply(Command::OpenProject { project: Box::new(project), size: None });
@@ -166,14 +166,14 @@ fn a_knob_that_is_elsewhere_takes_over_when_it_passes_the_value() {
     assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![3.0], Some(PickupSide::Below)));
     room.session.apply(Command::ForgetControl(speed.clone()));
     assert_eq!(room.session.control_waits(&speed), None);
-    // A switch and a pitch bend have nothing to pass.
+    // A switch and a pitch bend have no value to reach first.
     room.learn(&ControlTarget::whole("on"), &[0xb0, 71, 127]);
     room.send(&[0xb0, 71, 0]);
     assert_eq!(room.value("on"), [0.0]);
 }
 
 #[test]
-fn a_parameter_is_learned_by_its_number_however_its_messages_come() {
+fn parameter_number_is_learned_in_any_message_order() {
     let Some(mut room) = Fixture::open() else { return };
     let speed = ControlTarget::whole("speed");
     room.learn(&speed, &[0xb0, 99, 2, 98, 44, 6, 64]);
@@ -188,7 +188,7 @@ fn a_parameter_is_learned_by_its_number_however_its_messages_come() {
 }
 
 #[test]
-fn osc_moves_what_it_names_and_what_it_was_learned_for() {
+fn osc_moves_named_and_learned_uniforms() {
     let Some(mut room) = Fixture::open() else { return };
     room.session.apply(Command::SetOsc(Some(SocketAddr::from(([127, 0, 0, 1], 0)))));
     room.until("listening", |session| matches!(session.controls_view().osc, Some(OscState::Listening(_))));
@@ -203,14 +203,14 @@ fn osc_moves_what_it_names_and_what_it_was_learned_for() {
     send(b"/eddy/center\0\0\0\0,ff\0\x3f\0\0\0\xbf\0\0\0");
     room.until("the value", |session| session.project().custom_uniform_values.contains_key("center"));
     assert_eq!(room.value("center"), [0.5, -0.5]);
-    // A pattern moves all that it matches and is no control itself.
+    // A pattern moves everything that it matches and cannot be learned itself.
     send(b"/eddy/{speed,center}\0\0\0\0,ff\0\x3f\x80\0\0\x3e\x80\0\0");
     room.until("the values", |session| {
         session.project().custom_uniform_values.get("center").is_some_and(|v| v.components() == [1.0, 0.25])
     });
     assert_eq!(room.value("speed"), [1.0]);
     send(b"/eddy/center\0\0\0\0,ff\0\x3f\0\0\0\xbf\0\0\0");
-    // The second number of a pad for the second component; a finger that touches it is no control.
+    // The second number of a pad is bound to the second component; the touch message is not learned.
     let y = ControlTarget::of_component("center", "y").unwrap();
     room.session.apply(Command::LearnControl(Some(y.clone())));
     send(b"/eddy/speed\0,f\0\0\x40\x20\0\0");
@@ -226,7 +226,7 @@ fn osc_moves_what_it_names_and_what_it_was_learned_for() {
 }
 
 #[test]
-fn devices_that_come_and_go_are_told_of_once() {
+fn connected_and_removed_devices_are_reported_once() {
     let Some(mut room) = Fixture::open() else { return };
     let told = |room: &Fixture, text: &str| room.session.notices().iter().filter(|n| n.text.contains(text)).count();
     assert_eq!(told(&room, "MIDI device connected: Knobs"), 1);
@@ -240,9 +240,9 @@ fn devices_that_come_and_go_are_told_of_once() {
     assert_eq!((told(&room, "connected: Knobs"), told(&room, "no MIDI device is connected")), (3, 0));
 }
 
-/// A recording has the values of controls as it has those of a hand.
+/// A recording contains values set by controls like those set by hand.
 #[test]
-fn a_recording_has_the_values_that_controls_have_set() {
+fn recording_contains_values_set_by_controls() {
     let Some(mut room) = Fixture::open() else { return };
     room.learn(&ControlTarget::whole("speed"), &[0xb0, 70, 0]);
     room.session.apply(Command::Record);
@@ -259,7 +259,7 @@ fn a_recording_has_the_values_that_controls_have_set() {
 }
 
 #[test]
-fn a_gamepad_moves_uniforms_and_is_in_the_frames_of_a_recording() {
+fn gamepad_moves_uniforms_and_is_recorded() {
     let text = format!("#iChannel0 \"gamepad\"\n{TEXT}");
     let Some(mut room) = Fixture::with(&text) else { return };
     let happens = |room: &Fixture, event: PadEvent| room.pads.happens(event);
@@ -279,7 +279,7 @@ fn a_gamepad_moves_uniforms_and_is_in_the_frames_of_a_recording() {
     room.until("the value", |session| session.project().custom_uniform_values.contains_key("speed"));
     assert_eq!(room.value("speed"), [4.0]);
 
-    // A button draws a frame while time stands still, and is pressed in one frame alone.
+    // A button draws a frame while time is paused, and is pressed in that frame only.
     room.session.apply(Command::Record);
     let frames = |session: &Session| session.playback.recorder.as_ref().unwrap().recording.frames.len();
     room.until("a frame", |session| frames(session) == 1);

@@ -1,7 +1,7 @@
-//! The project's files: when they are to be read again, and what is known of them.
+//! The project's files: when they are read again, and what is known of them.
 //!
-//! Owns the watch on the project's folders ([`watcher`]), the wait until what somebody writes is whole, and the stamps of
-//! pictures and models ([`stamps`]). Texts are the documents'; what a change does to them is in `reload`.
+//! Owns the watch on the project's folders ([`watcher`]), the wait until another program has finished writing, and the
+//! stamps of pictures and models ([`stamps`]). The texts belong to the documents; `reload` applies changes to them.
 
 mod reload;
 pub(crate) mod stamps;
@@ -19,43 +19,43 @@ use std::{
 };
 use watcher::FolderWatcher;
 
-/// The files of the open project.
+/// The synchronisation state of the open project's files.
 #[derive(Default)]
 pub(super) struct DiskSync {
     watcher: Option<FolderWatcher>,
     watch_debounce: Duration,
-    /// Files that make no whole project are read again for so long.
+    /// Incomplete projects are read again for this long.
     retry_for: Duration,
     changes: Debounce,
-    /// Look in the next tick, whatever the watcher says.
+    /// Check in the next tick, whatever the watcher says.
     is_check_wanted: bool,
-    /// Since when what is on disk makes no whole project.
+    /// Since when the files on disk do not form a complete project.
     unsettled_since: Option<Instant>,
-    /// The last words about such files, so that they are said once.
+    /// The last message about such files, so that it is reported once.
     reported: Option<String>,
     /// `eddy.toml` as it was last read or written.
     manifest: Option<Vec<u8>>,
-    /// Counts the times a project was opened or took a new place.
+    /// Counts the times that a project was opened or moved.
     opened: u64,
-    /// Pictures, models and the files these name, as the last compile found them.
+    /// Pictures, models and the files that these name, as the last compile found them.
     media_files: Vec<PathBuf>,
     pub reset_on_reload: bool,
 }
 
-/// The project on disk, if it can be used.
+/// The project on disk, if it can be loaded.
 enum DiskProject {
     Project(Box<Loaded>),
-    /// It makes no whole project, perhaps because somebody is writing it just now.
+    /// The files do not form a complete project, perhaps because another program is still writing them.
     Unusable(String),
 }
 
-/// Says what a look at the disk has found.
+/// The result of checking the disk.
 enum Check {
-    /// Nothing was due, or the files are being written.
+    /// No check was due, or the files are being written.
     Nothing,
-    /// The files make another project.
+    /// The files form a different project.
     Project(Box<Loaded>),
-    /// The files make no whole project. `why` is there where it has not been said before.
+    /// The files do not form a complete project. `why` is set if it has not been reported before.
     Unusable { why: Option<String> },
 }
 
@@ -78,34 +78,34 @@ impl DiskSync {
         self.has_moved();
     }
 
-    /// The project lies in another place than before.
+    /// The project was moved to another place.
     pub(crate) fn has_moved(&mut self) {
         self.opened += 1;
     }
 
-    /// Counts the times a project was opened or took a new place.
+    /// Counts the times that a project was opened or moved.
     pub(crate) fn opened(&self) -> u64 {
         self.opened
     }
 
-    /// Looks at the files in the next tick.
+    /// Schedules a check of the files for the next tick.
     pub(crate) fn want_check(&mut self) {
         self.is_check_wanted = true;
     }
 
-    /// Returns when changes of the files have been quiet for long enough.
+    /// Returns when the debounce time after the last file change ends.
     pub(crate) fn deadline(&self) -> Option<Instant> {
         self.changes.deadline()
     }
 
-    /// Takes the pictures, models and other files that a compile has read. Returns whether they are others than before.
+    /// Takes the pictures, models and other files that a compile has read. Returns whether they have changed.
     pub(crate) fn set_media_files(&mut self, files: Vec<PathBuf>) -> bool {
         let is_new = self.media_files != files;
         self.media_files = files;
         is_new
     }
 
-    /// Reads the files where the watcher says so and the quiet has lasted.
+    /// Reads the files if the watcher has reported a change and the debounce time has passed.
     fn check(&mut self, now: Instant, documents: &Documents) -> Check {
         if self.watcher.as_ref().is_some_and(FolderWatcher::take_changed) {
             self.changes.touch(now);
@@ -136,7 +136,8 @@ impl DiskSync {
         }
     }
 
-    /// `None` for a project that lies in no file. On the last try files that are gone or empty are taken as meant.
+    /// `None` for a project that is not stored in files. On the last try, missing or empty files are accepted as they
+    /// are.
     fn read(documents: &Documents, is_last_try: bool) -> Option<DiskProject> {
         let mut read = match project::load(&documents.saved().spec()?) {
             Ok(read) => read,
@@ -167,7 +168,7 @@ impl DiskSync {
         Some(DiskProject::Project(Box::new(read)))
     }
 
-    /// Returns whether every file is as it was read, or as it would be written.
+    /// Returns whether every file is unchanged since it was read, or already has the content to be written.
     fn is_as_read(&self, documents: &Documents) -> bool {
         let (saved, current) = (documents.saved(), documents.current());
         let is_text_known = saved.tabs().iter().all(|tab| {
@@ -179,20 +180,20 @@ impl DiskSync {
                         || Some(&*bytes) == mine
                         || bytes.is_empty() && documents.is_missing(tab)
                 }
-                // Gone: there is nothing to overwrite. Anything else is not what was read.
+                // A missing file cannot be overwritten. Any other error means that it is not what was read.
                 Err(e) => e.is_missing(),
             })
         });
         is_text_known && read_manifest(saved).is_none_or(|now| Some(now) == self.manifest)
     }
 
-    /// The files on disk are what the documents say.
+    /// Records that the files on disk match the documents.
     fn remember(&mut self, documents: &Documents) {
         self.manifest = read_manifest(documents.saved());
     }
 
-    /// Watches the folders of all files that the project reads, as far as the last compile has found them. Returns what
-    /// cannot be watched, in words; `None` where the folders are the same as before.
+    /// Watches the folders of all files that the project reads, as far as the last compile has found them. Returns
+    /// messages about folders that cannot be watched; `None` if the folders are unchanged.
     fn watch(&mut self, project: &Project, wake: &Wake) -> Option<Vec<String>> {
         let folders = folders(project, &self.media_files);
         if folders.is_empty() {
@@ -202,7 +203,7 @@ impl DiskSync {
         if self.watcher.as_ref().is_some_and(|w| *w.folders() == folders) {
             return None;
         }
-        // What changed after it was read and before the watch began: nobody tells of it.
+        // Changes between reading and the start of the watch are not reported, so check again.
         self.is_check_wanted = true;
         Some(match FolderWatcher::new(folders, wake.clone()) {
             Ok((watcher, failed)) => {
@@ -228,7 +229,7 @@ fn read_manifest(project: &Project) -> Option<Vec<u8>> {
     confine::read(&capture::base_folder(project)?, "eddy.toml", limits::MANIFEST).ok()
 }
 
-/// Passes and channels as `eddy.toml` would say them.
+/// Passes and channels in the form of `eddy.toml`.
 fn manifest_text(project: &Project) -> String {
     let mut named = project.clone();
     for pass in named.passes.iter_mut().filter(|p| p.source.path.is_none()) {
@@ -239,7 +240,7 @@ fn manifest_text(project: &Project) -> String {
     project::write_manifest(&named, old.as_deref(), &project.name, has_common_file)
 }
 
-/// Every folder a file of the project lies in; none for a project that lies nowhere.
+/// Every folder that contains a file of the project; none for a project that is not stored in files.
 fn folders(project: &Project, media: &[PathBuf]) -> BTreeSet<PathBuf> {
     let Some(base) = capture::base_folder(project) else { return BTreeSet::new() };
     let texts = project.tab_sources().chain(project.includes.iter().map(|i| &i.source));

@@ -1,4 +1,4 @@
-//! A session follows the project's files when they change under it.
+//! Reloading of the project's files when they change on disk.
 
 use super::{Check, DiskProject, DiskSync, manifest_path, manifest_text};
 use crate::{
@@ -12,7 +12,7 @@ use eddy_project::{self as project, Included, Loaded, Tab};
 use std::fs;
 
 impl Session {
-    /// Looks at the disk where the watch says so and the quiet has lasted.
+    /// Checks the disk if the watcher has reported a change and the debounce time has passed.
     pub(crate) fn check_disk(&mut self) {
         match self.disk.check(self.now, &self.documents) {
             Check::Nothing => {}
@@ -31,7 +31,7 @@ impl Session {
         }
     }
 
-    /// Takes what lies on disk after texts alone were written.
+    /// Reads the project from disk after only the texts were written.
     pub(crate) fn read_disk(&mut self) {
         if let Some(DiskProject::Project(project)) = DiskSync::read(&self.documents, true) {
             self.merge(*project);
@@ -63,7 +63,7 @@ impl Session {
         self.compile.is_look_wanted = true;
     }
 
-    /// The project here was changed from outside the editor.
+    /// Updates the session after the project was changed outside the editor.
     pub(crate) fn after_reload(&mut self) {
         self.text_generation += 1;
         self.compile.include_edits += 1;
@@ -71,7 +71,7 @@ impl Session {
         self.compile_soon();
     }
 
-    /// Reads what the texts include where no compile has done it yet: included files are saved with the project.
+    /// Reads the included files if no compile has done it yet: they are saved with the project.
     pub(crate) fn settle_includes(&mut self) {
         if self.compile.unread_includes().is_some() {
             self.read_includes();
@@ -84,10 +84,10 @@ impl Session {
         self.take_includes(project.includes, self.compile.include_edits);
     }
 
-    /// Takes what the texts include as it was read for an edit of them.
+    /// Takes the included files as they were read for an edit of the texts.
     pub(crate) fn take_includes(&mut self, includes: Vec<Included>, edit: u64) {
         self.compile.includes_read = edit;
-        // An editor that shows one takes it anew.
+        // An editor that shows one must reload it.
         self.text_generation += u64::from(self.documents.take_includes(includes));
     }
 
@@ -104,17 +104,17 @@ impl Session {
             all.push((None, file, mine.into(), disk.into()));
         }
         for (tab, file, mine, disk) in all {
-            // A newer text on disk takes the place of the one a question shows.
+            // A newer text on disk replaces the one that a question shows.
             self.dialog.questions.retain(|q| !matches!(q, Question::Conflict { tab: t, .. } if *t == tab));
             let diff = documents::diff(&disk, &mine);
             self.ask(Question::Conflict { tab, file, mine, disk, diff });
         }
     }
 
-    /// Tells of files that are gone or empty, once each.
+    /// Reports missing or empty files, once each.
     fn tell_gone(&mut self) {
         let saved = self.documents.saved();
-        // A file that others include has an error at the line that does.
+        // A missing included file is an error at the line that includes it.
         let is_own = |tab: &Tab| !matches!(tab, Tab::Included(_)) || self.documents.is_tab_dirty(tab);
         let is_gone = |tab: &Tab| {
             let path = saved.source(tab).and_then(|s| s.path.as_ref());
@@ -138,8 +138,8 @@ impl Session {
         );
     }
 
-    /// Returns whether every file is still as it was read, so that saving overwrites nothing of somebody else's. What
-    /// has changed is merged first, and conflicts are asked.
+    /// Returns whether every file is unchanged since it was read, so that saving overwrites no other program's changes.
+    /// Changes are merged first, and conflicts become questions.
     pub(crate) fn disk_is_as_read(&mut self) -> bool {
         if self.disk.is_as_read(&self.documents) {
             return true;
@@ -165,7 +165,7 @@ impl Session {
         }
     }
 
-    /// Remembers that what lies on disk is what `documents` says, and watches it.
+    /// Records that the disk matches `documents`, and watches it.
     pub(crate) fn disk_is_known(&mut self) {
         self.watch_what_is_read();
         self.disk.remember(&self.documents);

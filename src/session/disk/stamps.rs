@@ -1,6 +1,6 @@
-//! The files that a project reads besides its texts, and how they look on disk: enough to see that one has changed.
+//! The files that a project reads in addition to its texts, with stamps that show whether one has changed.
 //!
-//! Used on the compile worker alone, as models and pictures are large and what a name leads to may be slow.
+//! Used on the compile worker alone, as models and pictures are large and the place that a name leads to may be slow.
 
 use eddy_playback::capture;
 use eddy_project::{self as project, FillValue, Media, MeshSource, Project, confine, limits};
@@ -12,25 +12,25 @@ use std::{
     time::{Duration, SystemTime},
 };
 
-/// A file's content as a number; `None` for one that cannot be read.
+/// A file with a hash of its content; `None` if it cannot be read.
 pub(crate) type Stamp = (PathBuf, Option<u64>);
 
-/// A file that was written so recently may be written again without another time of change.
+/// A file that was written less than this ago may be written again without a change of its modification time.
 const RECENT: Duration = Duration::from_secs(2);
 
-/// Stamps as they were last taken, so that a file that has not changed is not read again.
+/// The last stamps, so that an unchanged file is not read again.
 #[derive(Default)]
 pub(crate) struct Stamps {
     taken: HashMap<PathBuf, StampedFile>,
 }
 
-/// A stamp, and the attributes that the file had then.
+/// A stamp, and the file's attributes at that time.
 struct StampedFile {
     attributes: Attributes,
     hash: u64,
 }
 
-/// The properties that tell cheaply that a file is the same.
+/// The attributes that cheaply identify an unchanged file.
 #[derive(PartialEq)]
 struct Attributes {
     bytes: u64,
@@ -50,7 +50,7 @@ impl Stamps {
         files.into_iter().map(stamp).collect()
     }
 
-    /// `own`: the project's folder and the file's name in it, for a file that the person did not pick.
+    /// `own`: the project's folder and the file's name in it, for a file that the user did not pick.
     fn stamp(&mut self, path: &Path, own: Option<(&Path, &str)>) -> Option<u64> {
         let attributes = attributes(path);
         if let (Some(attributes), Some(taken)) = (&attributes, self.taken.get(path))
@@ -75,7 +75,7 @@ impl Stamps {
     }
 }
 
-/// Returns a file's attributes; `None` where they tell nothing.
+/// Returns a file's attributes; `None` if they are unavailable.
 fn attributes(path: &Path) -> Option<Attributes> {
     let metadata = fs::metadata(path).ok()?;
     let modified = metadata.modified().ok()?;
@@ -83,7 +83,7 @@ fn attributes(path: &Path) -> Option<Attributes> {
     is_old.then_some(Attributes { bytes: metadata.len(), modified })
 }
 
-/// Returns where they lie, each once, with the names from the folder of those that are the project's own.
+/// Returns each path once, with its name relative to the folder for the project's own files.
 fn files(project: &Project, base: Option<&Path>) -> BTreeMap<PathBuf, Option<String>> {
     let mut own: Vec<String> = Vec::new();
     let mut files = BTreeMap::new();

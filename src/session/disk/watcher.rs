@@ -1,7 +1,7 @@
-//! The watch on a project's folders.
+//! The watcher of a project's folders.
 //!
-//! Says only that something changed; what it was is found by reading, because editors save in place, by rename, in
-//! bursts and in halves. Folders are watched and not files: a file that is replaced by rename would be lost.
+//! It reports only that something changed. Reading the files finds out what, because editors save in place, by rename,
+//! in bursts and in parts. Folders are watched instead of files: a file that is replaced by rename would be lost.
 
 use notify::{EventKind, RecursiveMode, Watcher, event::AccessKind, event::AccessMode};
 use std::{
@@ -21,8 +21,8 @@ pub(super) struct FolderWatcher {
 }
 
 impl FolderWatcher {
-    /// Watches each folder itself, not what lies deeper. `wake` is called from the watcher's thread. Folders that
-    /// cannot be watched come back with the reason.
+    /// Watches each folder itself, without its subfolders. `wake` is called from the watcher's thread. Returns the
+    /// folders that cannot be watched, with the reason.
     pub(super) fn new(
         folders: BTreeSet<PathBuf>,
         wake: Arc<dyn Fn() + Send + Sync>,
@@ -30,7 +30,7 @@ impl FolderWatcher {
         let changed = Arc::new(AtomicBool::new(false));
         let flag = changed.clone();
         let mut watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
-            // An error may stand for events that were lost: look, too.
+            // An error may mean that events were lost, so check as well.
             if event.is_ok_and(|e| !e.need_rescan() && is_reading(&e.kind)) {
                 return;
             }
@@ -54,7 +54,7 @@ impl FolderWatcher {
     }
 }
 
-/// Our own reading of the files must not look like a change of them.
+/// The session's own reads must not count as changes.
 fn is_reading(kind: &EventKind) -> bool {
     matches!(kind, EventKind::Access(access) if *access != AccessKind::Close(AccessMode::Write))
 }
@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn sees_every_way_of_saving_and_not_our_reading() {
+    fn every_way_of_saving_is_seen_and_own_reads_are_not() {
         let dir = tempfile::tempdir().unwrap();
         let file = dir.path().join("image.glsl");
         fs::write(&file, "a").unwrap();
@@ -92,7 +92,7 @@ mod tests {
         until("a removal", || watch.take_changed());
         fs::write(&file, "d").unwrap();
         until("a write after the removal", || watch.take_changed());
-        // Let the events of that write pass, until none comes for a while.
+        // Wait until the events of that write have passed.
         until("quiet", || {
             std::thread::sleep(Duration::from_millis(50));
             !watch.take_changed()
@@ -101,13 +101,13 @@ mod tests {
             fs::read(&file).unwrap();
             fs::read_dir(dir.path()).unwrap().count();
         }
-        // Whatever the reads could raise has been delivered by then.
+        // Events that the reads could cause have been delivered by then.
         std::thread::sleep(Duration::from_millis(50));
         assert!(!watch.take_changed(), "reading is no change");
     }
 
     #[test]
-    fn a_folder_that_is_not_there_is_told() {
+    fn missing_folder_is_reported() {
         let dir = tempfile::tempdir().unwrap();
         let gone = dir.path().join("gone");
         let (_, failed) = FolderWatcher::new([gone.clone(), dir.path().to_owned()].into(), Arc::new(|| ())).unwrap();

@@ -1,7 +1,7 @@
-//! The open project in two states: as it is edited, and as it is on disk.
+//! The open project in two versions: as edited, and as on disk.
 //!
-//! Owns what is unsaved, and the three-way merge of a change on disk: what was not edited follows the disk, what was
-//! edited and changed on disk too is a conflict for the user to settle. Reads and writes no file.
+//! Owns what is unsaved, and the three-way merge of a change on disk: unedited parts follow the disk; a part that was
+//! edited and also changed on disk is a conflict for the user to resolve. Reads and writes no file.
 
 use super::{command::DiffLine, structure};
 use eddy_project::{Included, Origin, Pass, Project, Source, Tab};
@@ -15,14 +15,14 @@ use std::{
 #[derive(Clone, Debug)]
 pub(super) struct Documents {
     current: Project,
-    /// The project on disk as far as is known; for one that is nowhere, its beginning.
+    /// The project on disk as far as is known; for one that is not stored, its initial state.
     saved: Project,
-    /// Tabs whose files are gone from disk: unsaved, whatever their text.
+    /// Tabs whose files are missing on disk: unsaved, whatever their text.
     missing: BTreeSet<Tab>,
     revision: u64,
 }
 
-/// One thing that was edited here and changed on disk.
+/// A part that was edited here and changed on disk.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Conflict {
     pub tab: Tab,
@@ -36,29 +36,29 @@ pub(super) struct Conflict {
 pub(super) struct Merge {
     /// Tabs that now show the disk's text.
     pub taken: Vec<Tab>,
-    /// Passes, channels or names follow the disk now.
+    /// Passes, channels or names were taken from the disk.
     pub took_structure: bool,
     pub conflicts: Vec<Conflict>,
-    /// Passes or channels were changed both here and on disk. Nothing of them was taken.
+    /// Passes or channels were changed both here and on disk. None of them were taken from the disk.
     pub structure_conflict: bool,
-    /// Tabs whose files have gone; their texts are kept.
+    /// Tabs whose files are missing; their texts are kept.
     pub gone: Vec<Tab>,
 }
 
 impl Merge {
-    /// The picture must be compiled anew.
+    /// The project must be compiled again.
     pub(crate) fn changes_project(&self) -> bool {
         !self.taken.is_empty() || self.took_structure
     }
 }
 
 impl Documents {
-    /// A project as it was read or made: nothing unsaved.
+    /// A project as it was read or created, with nothing unsaved.
     pub(crate) fn new(project: Project) -> Self {
         Self { saved: project.clone(), current: project, missing: BTreeSet::new(), revision: 0 }
     }
 
-    /// A project with unsaved work, and what of it is on disk now.
+    /// A project with unsaved work, and its version on disk.
     pub(crate) fn restored(mut current: Project, saved: Project) -> Self {
         current.origin = saved.origin.clone();
         let mut saved = saved;
@@ -97,7 +97,7 @@ impl Documents {
         &mut self.current
     }
 
-    /// Gives a tab another text.
+    /// Replaces the text of a tab.
     pub(crate) fn set_text(&mut self, tab: &Tab, text: &str) {
         if let Some(source) = self.current_mut().source_mut(tab) {
             source.text = text.into();
@@ -107,8 +107,8 @@ impl Documents {
         }
     }
 
-    /// Takes the files that the texts include as they were just read. What was edited meanwhile stands. Returns whether a
-    /// text that was there before is another now.
+    /// Takes the included files as they were just read. Texts edited meanwhile are kept. Returns whether an existing
+    /// text has changed.
     pub(crate) fn take_includes(&mut self, read: Vec<Included>) -> bool {
         self.revision += 1;
         let (before, saved) = (std::mem::take(&mut self.current.includes), std::mem::take(&mut self.saved.includes));
@@ -116,19 +116,19 @@ impl Documents {
         let mut is_other = false;
         for new in &read {
             let name = &new.source.name;
-            // What was edited when the reading began is not what the disk has.
+            // A text that was edited when the read started differs from the disk.
             let base = if new.is_edited { of(&saved, name) } else { Some(new.clone()) };
             let now = match (of(&before, name).filter(|i| i.is_edited), &base) {
                 (Some(edited), _) => edited,
                 (None, Some(base)) => base.clone(),
-                // It was edited when the reading began, and has been saved or left since.
+                // It was edited when the read started, and has been saved or dropped since.
                 (None, None) => continue,
             };
             is_other |= of(&before, name).is_some_and(|before| before.source.text != now.source.text);
             self.current.includes.push(now);
             self.saved.includes.extend(base.map(|base| Included { is_edited: false, ..base }));
         }
-        // Edited since, and in no text that was read.
+        // Edited since, and included by no text that was read.
         for left in before.iter().filter(|i| i.is_edited && of(&read, &i.source.name).is_none()) {
             self.current.includes.insert(0, left.clone());
             self.saved.includes.extend(of(&saved, &left.source.name));
@@ -136,7 +136,7 @@ impl Documents {
         is_other
     }
 
-    /// Notes of the included files which of them were edited.
+    /// Records which included files are edited.
     fn note_edited(&mut self) {
         let edited: BTreeSet<String> = self
             .current
@@ -150,8 +150,8 @@ impl Documents {
         }
     }
 
-    /// The project as it now lies on disk. Returns whether it reads otherwise than it stood here, as an ISF file does
-    /// whose header was edited: its inputs are the project's uniforms and channels.
+    /// Sets the project as it is on disk now. Returns whether it differs from the edited one, as for an ISF file whose
+    /// header was edited: its inputs are the project's uniforms and channels.
     #[must_use]
     pub(crate) fn set_saved(&mut self, project: Project) -> bool {
         let is_as_here =
@@ -160,8 +160,8 @@ impl Documents {
         !is_as_here
     }
 
-    /// Returns the project on disk with the texts as they are edited, if there are such and each is of a file of it: what
-    /// can be written where the rest cannot.
+    /// Returns the project on disk with the edited texts, if there are any and each belongs to a file of it: this can
+    /// be written if the rest cannot.
     pub(crate) fn edited_texts(&self) -> Option<Project> {
         let tabs = self.dirty_tabs();
         let mut project = self.saved.clone();
@@ -182,23 +182,23 @@ impl Documents {
         }
     }
 
-    /// Passes, channels or names differ from those on disk.
+    /// Returns whether passes, channels or names differ from those on disk.
     pub(crate) fn is_structure_dirty(&self) -> bool {
         !structure::is_same(&self.current, &self.saved)
     }
 
-    /// Returns what differs from disk, in words: tabs, then passes, channels and uniforms.
+    /// Returns the differences from the disk, in words: tabs, then passes, channels and uniforms.
     pub(crate) fn unsaved_parts(&self) -> Vec<String> {
         let tabs = self.dirty_tabs().into_iter().map(|tab| tab.title());
         tabs.chain(structure::differences(&self.current, &self.saved)).collect()
     }
 
-    /// The tab's file is known to be gone from disk.
+    /// Returns whether the tab's file is known to be missing on disk.
     pub(crate) fn is_missing(&self, tab: &Tab) -> bool {
         self.missing.contains(tab)
     }
 
-    /// These tabs' files are gone, all others are there. Gives those that were not known to be gone.
+    /// Sets the tabs whose files are missing. Returns those that were not known to be.
     pub(crate) fn set_missing(&mut self, missing: BTreeSet<Tab>) -> Vec<Tab> {
         self.revision += u64::from(missing != self.missing);
         let new = missing.difference(&self.missing).cloned().collect();
@@ -217,12 +217,12 @@ impl Documents {
             || self.missing.iter().any(|tab| self.current.source(tab).is_some())
     }
 
-    /// Takes what is on disk now. Whatever was not edited since follows it; the rest comes back as conflicts, with the
-    /// edited text standing.
+    /// Merges the project on disk. Unedited parts are replaced; the rest is returned as conflicts, and its edited text
+    /// is kept.
     pub(crate) fn merge(&mut self, mut disk: Project) -> Merge {
         self.revision += 1;
         let mut merge = Merge::default();
-        // Those that only a text here includes.
+        // Also read the files that only a text here includes.
         disk.read_included(self.current.includes.iter().map(|i| i.source.name.clone()));
         self.keep_gone(&mut disk, &mut merge);
         if !structure::is_same(&disk, &self.saved) {
@@ -250,7 +250,7 @@ impl Documents {
                 merge.conflicts.push(Conflict { tab: here, file, mine: mine.text.clone(), disk: theirs.text.clone() });
             }
         }
-        // Files may have other names now, and there may be an `eddy.toml` where there was none.
+        // Files may have other names now, and an `eddy.toml` may be new.
         self.current.origin = disk.origin.clone();
         for tab in disk.tabs() {
             if let (Some(theirs), Some(mine)) = (disk.source(&tab), self.current.source_mut(&tab)) {
@@ -262,14 +262,14 @@ impl Documents {
         merge
     }
 
-    /// Lets the structure follow the disk after all. Edited texts stay.
+    /// Takes the structure from the disk after all. Edited texts stay.
     pub(crate) fn take_structure_of_saved(&mut self) {
         self.revision += 1;
         let saved = self.saved.clone();
         self.take_structure(&saved);
     }
 
-    /// The tab shows what is on disk.
+    /// Takes the tab's text from the disk.
     pub(crate) fn take_text_of_saved(&mut self, tab: &Tab) {
         self.revision += 1;
         let text = self.saved_source(tab).map(|saved| saved.text.clone());
@@ -279,14 +279,14 @@ impl Documents {
         self.note_edited();
     }
 
-    /// A tab's text on disk, also where its pass has another name there.
+    /// Returns a tab's text on disk, even if its pass has another name there.
     fn saved_source(&self, tab: &Tab) -> Option<&Source> {
         let path = self.current.source(tab).and_then(|mine| mine.path.as_ref());
         let of_file = || self.saved.tab_sources().find(|s| path.is_some() && s.path.as_ref() == path);
         self.saved.source(tab).or_else(of_file)
     }
 
-    /// The tab here of what `tab` is on disk: a pass that was renamed here is known by its file.
+    /// Returns the tab here that corresponds to `tab` on disk: a pass that was renamed here is identified by its file.
     fn tab_of_file(&self, disk: &Project, tab: &Tab) -> Tab {
         let path = disk.source(tab).and_then(|theirs| theirs.path.as_ref());
         let is_renamed = self.current.source(tab).is_none() && path.is_some();
@@ -295,12 +295,12 @@ impl Documents {
         found.unwrap_or_else(|| tab.clone())
     }
 
-    /// Puts tabs that the disk has no more back into `disk`, unless `eddy.toml` was rewritten without them and nothing
-    /// in them is unsaved.
+    /// Adds tabs that are no longer on disk to `disk`, unless `eddy.toml` was rewritten without them and nothing in
+    /// them is unsaved.
     fn keep_gone(&mut self, disk: &mut Project, merge: &mut Merge) {
         let is_listed = matches!(disk.origin, Origin::Folder { has_manifest: true, .. });
         for tab in self.saved.tabs() {
-            // A file that nothing includes any more is not gone.
+            // A file that is no longer included is not missing.
             let is_left = matches!(tab, Tab::Included(_)) && !self.is_tab_dirty(&tab);
             if is_left || disk.source(&tab).is_some() {
                 self.missing.remove(&tab);
@@ -311,8 +311,8 @@ impl Documents {
                 }
             }
         }
-        // Without `eddy.toml` the channels are what the files that are there suggest; a missing one takes its readers
-        // along.
+        // Without `eddy.toml` the channels are inferred from the existing files: a missing file would remove the
+        // channels that read it.
         if !is_listed && !self.missing.is_empty() {
             for pass in &mut disk.passes {
                 if let Some(saved) = self.saved.pass(&pass.id) {
@@ -322,7 +322,7 @@ impl Documents {
         }
     }
 
-    /// `disk`'s passes and channels, with this side's text wherever there is one that differs from what was saved.
+    /// Takes the passes and channels of `disk`, with the edited text of each tab that differs from what was saved.
     fn take_structure(&mut self, disk: &Project) {
         let mut next = disk.clone();
         for tab in disk.tabs() {
@@ -330,13 +330,13 @@ impl Documents {
                 slot.text = mine.text.clone();
             }
         }
-        // A pass that was added here and is not on disk has text that is nowhere else.
+        // The text of a pass that was added here and is not on disk exists nowhere else.
         for tab in self.current.tabs() {
             if next.source(&tab).is_none() && self.is_tab_dirty(&tab) {
                 reinsert(&mut next, &self.current, &tab);
             }
         }
-        // Which files are included is read anew.
+        // Which files are included is determined again.
         next.includes = std::mem::take(&mut self.current.includes);
         self.current = next;
     }
@@ -351,7 +351,7 @@ fn reinsert(to: &mut Project, from: &Project, tab: &Tab) {
             let there = from.includes.iter().find(|i| i.source.name == *file);
             to.includes.splice(0..0, there.cloned());
         }
-        // With the draws that name it, or nothing would be drawn with it.
+        // With the draws that name it, or nothing would use it.
         Tab::Stage(id, _) => {
             if let (Some(from), Some(to)) = (from.pass(id), to.pass_mut(id)) {
                 (to.settings, to.body) = (from.settings.clone(), from.body.clone());
@@ -365,12 +365,11 @@ fn reinsert(to: &mut Project, from: &Project, tab: &Tab) {
     }
 }
 
-/// Puts a pass where the order of tabs wants it. Passes that are there keep their order, which an author may have
-/// chosen.
+/// Inserts a pass according to the order of tabs. Existing passes keep their order, which the author may have chosen.
 pub(super) fn insert_pass(project: &mut Project, pass: Pass) {
     let is_before = |other: &Pass| other.id.tab_order(&pass.id).is_lt();
     let mut at = project.passes.iter().rposition(is_before).map_or(0, |i| i + 1);
-    // Not between the passes of a group, which are drawn one after the other.
+    // Not within a group, whose passes are drawn one after the other.
     let group_of = |p: Option<&Pass>| project.groups.iter().position(|g| p.is_some_and(|p| g.passes.contains(&p.id)));
     while at > 0 && group_of(project.passes.get(at)).is_some_and(|g| group_of(project.passes.get(at - 1)) == Some(g)) {
         at += 1;
@@ -378,7 +377,7 @@ pub(super) fn insert_pass(project: &mut Project, pass: Pass) {
     project.passes.insert(at, pass);
 }
 
-/// Returns every line from `disk` to `mine`.
+/// Returns the lines of both texts as a diff from `disk` to `mine`.
 pub(super) fn diff(disk: &str, mine: &str) -> Vec<DiffLine> {
     similar::TextDiff::from_lines(disk, mine)
         .iter_all_changes()

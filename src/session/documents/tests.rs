@@ -1,4 +1,4 @@
-//! Tests of merging what was edited with what changed on disk.
+//! Tests of merging edits with changes on disk.
 
 use super::*;
 use eddy_project::{
@@ -52,7 +52,7 @@ fn edits_make_a_tab_dirty_and_undoing_them_makes_it_clean() {
 }
 
 #[test]
-fn every_change_but_that_of_a_text_or_a_place_is_one_of_structure() {
+fn changes_other_than_texts_and_places_are_structural() {
     let scene = eddy_project::presets::load("toon-outline").unwrap().project;
     let geometry = |p: &Project| p.passes.iter().position(|p| !p.body.is_screen()).unwrap();
     assert!(structure::is_same(&scene, &scene.clone()));
@@ -103,7 +103,7 @@ fn every_change_but_that_of_a_text_or_a_place_is_one_of_structure() {
 }
 
 #[test]
-fn what_was_not_edited_follows_the_disk() {
+fn unedited_parts_follow_the_disk() {
     let mut d = Documents::new(project(&[("buffer_a", "a"), ("image", "i")], true));
     edit(&mut d, &pass("buffer_a"), "a mine");
     let m = d.merge(project(&[("buffer_a", "a"), ("image", "i2")], true));
@@ -122,7 +122,7 @@ fn the_same_content_again_changes_nothing() {
 }
 
 #[test]
-fn an_edit_on_both_sides_is_a_conflict_and_keeps_mine_until_it_is_settled() {
+fn edits_on_both_sides_conflict_and_keep_mine_until_resolved() {
     let mut d = Documents::new(project(&[("image", "i")], true));
     edit(&mut d, &pass("image"), "mine");
     let m = d.merge(project(&[("image", "disk")], true));
@@ -164,7 +164,7 @@ fn structure_changed_on_both_sides_is_a_conflict() {
 }
 
 #[test]
-fn a_deleted_file_keeps_its_text_and_is_told_once() {
+fn text_of_deleted_file_is_kept_and_reported_once() {
     let mut both = project(&[("buffer_a", "a"), ("image", "i")], false);
     rebind(&mut both);
     let mut d = Documents::new(both.clone());
@@ -179,7 +179,7 @@ fn a_deleted_file_keeps_its_text_and_is_told_once() {
 }
 
 #[test]
-fn a_pass_taken_out_of_the_manifest_goes_unless_its_text_is_unsaved() {
+fn pass_removed_from_manifest_is_dropped_unless_unsaved() {
     let both = [("buffer_a", "a"), ("image", "i")];
     let mut d = Documents::new(project(&both, true));
     let m = d.merge(project(&[("image", "i")], true));
@@ -194,7 +194,7 @@ fn a_pass_taken_out_of_the_manifest_goes_unless_its_text_is_unsaved() {
 }
 
 #[test]
-fn passes_are_put_where_the_drawing_order_wants_them() {
+fn passes_are_inserted_in_drawing_order() {
     let p = project(
         &[("image", ""), ("sound", ""), ("buffer_c", ""), ("cube_a", ""), ("buffer_a", ""), ("buffer_b", "")],
         true,
@@ -210,9 +210,9 @@ fn a_diff_names_each_side() {
     assert!(lines.contains(&DiffLine::Disk("b".into())) && lines.contains(&DiffLine::Mine("B".into())));
 }
 
-/// A reading of files that was begun before a save comes back after it.
+/// A read of files that started before a save completes after it.
 #[test]
-fn included_files_that_were_read_before_a_save_change_nothing_after_it() {
+fn stale_read_of_included_files_does_not_undo_a_save() {
     let included = |text: &str, is_edited: bool| Included {
         source: Source { name: "lib.glsl".into(), path: None, text: text.into() },
         trouble: None,
@@ -230,12 +230,12 @@ fn included_files_that_were_read_before_a_save_change_nothing_after_it() {
     assert!(documents.is_tab_dirty(&lib), "nothing has changed");
     documents.take_includes(Vec::new());
     assert!(documents.is_tab_dirty(&lib), "what is edited stays though nothing includes it");
-    // Saved, and nothing includes it any more.
+    // Saved, and no longer included.
     project.includes.clear();
     let _ = documents.set_saved(project.clone());
     documents.take_includes(late.clone());
     assert!(!documents.is_dirty() && documents.current().source(&lib).is_none());
-    // Saved, and included still.
+    // Saved, and still included.
     project.includes = vec![included("new", false)];
     let _ = documents.set_saved(project);
     documents.take_includes(late);

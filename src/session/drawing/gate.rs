@@ -1,22 +1,22 @@
-//! The hand-over between a frame that is being drawn in pieces and those who may not want it any more.
+//! Synchronisation between a frame that is drawn in pieces and the session, which may no longer want it.
 
 use std::{
     sync::{Arc, Condvar, Mutex, MutexGuard},
     time::Instant,
 };
 
-/// The next thing that a frame does that is being drawn.
+/// The next step of the frame that is being drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum FrameControl {
     #[default]
     GoOn,
-    /// It waits, but not for longer.
+    /// It waits, but not beyond this time.
     WaitUntil(Instant),
-    /// It is not finished.
+    /// It is abandoned.
     GiveUp,
 }
 
-/// Holds what the frame does next that is being drawn. Every clone is the same gate.
+/// The next step of the frame that is being drawn. All clones share the same state.
 #[derive(Clone, Default)]
 pub(crate) struct Gate(Arc<Shared>);
 
@@ -40,7 +40,7 @@ impl Gate {
         *self.lock()
     }
 
-    /// Waits as long as the frame is to wait. Says whether it goes on.
+    /// Blocks while the frame has to wait. Returns whether it continues.
     pub(crate) fn pass(&self) -> bool {
         let mut control = self.lock();
         loop {
@@ -57,7 +57,7 @@ impl Gate {
     }
 
     fn lock(&self) -> MutexGuard<'_, FrameControl> {
-        // A thread that panicked has left one of the three behind.
+        // A thread that panicked has left one of the three valid values.
         self.0.control.lock().unwrap_or_else(|e| e.into_inner())
     }
 }
@@ -68,7 +68,7 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn a_frame_waits_until_it_is_wanted_or_not_or_for_long_enough() {
+    fn frame_waits_until_continued_abandoned_or_timed_out() {
         let gate = Gate::default();
         assert!(gate.pass());
         gate.set(FrameControl::GiveUp);

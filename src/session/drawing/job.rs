@@ -1,4 +1,4 @@
-//! The engine is asked to do a job at once, and gives an answer.
+//! The jobs that the engine gets, and its answers.
 
 use super::{
     gate::Gate,
@@ -11,22 +11,22 @@ use eddy_playback::run::Frame;
 use eddy_project::{CustomUniform, CustomUniformValues, PassName, Project};
 use std::time::Duration;
 
-/// Changes that wait for the engine, each the newest of its kind.
+/// Changes pending for the engine; a newer one of a kind replaces the older.
 #[derive(Default)]
 pub(crate) struct Changes {
-    /// Begin with an engine that has drawn nothing.
+    /// Start with an engine that has drawn nothing.
     pub restart: bool,
     pub size: Option<(u32, u32)>,
     pub program: Option<PendingProgram>,
     pub custom_uniforms: Option<CustomUniformValues>,
     pub shown: Option<PassName>,
-    /// The way in which the shown pass is shown: as numbers, or as a picture.
+    /// The display of the shown pass: as numbers, or as a picture.
     pub look: Option<Option<ValueLook>>,
-    /// Every buffer as before frame 0.
+    /// Reset every buffer to its state before frame 0.
     pub reset: bool,
-    /// The frames of a run from that reset on, which are to be gone to.
+    /// The frames of a run from that reset on, to seek in.
     pub run: Option<Vec<Frame>>,
-    /// The table of costs is to be made anew.
+    /// Rebuild the table of costs.
     pub costs: bool,
 }
 
@@ -38,24 +38,24 @@ impl Changes {
         !is_asked && size.is_none() && program.is_none() && custom_uniforms.is_none() && !is_shown_otherwise
     }
 
-    /// Returns whether the targets are others after it, on a canvas of such a size.
+    /// Returns whether applying the changes alters the targets, given the canvas size.
     pub(crate) fn touches_targets(&self, canvas: (u32, u32)) -> bool {
         self.program.is_some() || self.size.is_some_and(|size| size != canvas)
     }
 }
 
-/// A program on its way to the engine.
+/// A program to be submitted to the engine.
 pub(crate) struct PendingProgram {
     pub program: Program,
-    /// Stays with the session when the program goes.
+    /// Kept by the session when the program is submitted.
     pub origin: Option<ProgramOrigin>,
 }
 
-/// Holds what the session keeps of a program.
+/// The session's record of a program.
 pub(crate) struct ProgramOrigin {
-    /// The project that it was built of.
+    /// The project that it was built from.
     pub project: Project,
-    /// Milliseconds of the compile, if the program is of the newest text and not one to fall back to.
+    /// Milliseconds of the compile, if the program is of the newest text, not a fallback.
     pub millis: Option<f64>,
     /// The author's own uniforms.
     pub custom_uniforms: Vec<CustomUniform>,
@@ -71,72 +71,72 @@ impl PendingProgram {
     }
 }
 
-/// One turn of the engine: first the changes in the order of their fields, then the frame, then the tasks.
+/// One unit of work for the engine: first the changes in the order of their fields, then the frame, then the tasks.
 #[derive(Default)]
 pub(crate) struct Job {
     pub changes: Changes,
     pub frame: Option<FrameInputs>,
-    /// Another frame of the run is to be shown.
+    /// Show another frame of the run.
     pub travel: Option<SeekTarget>,
-    /// Time stands still: what the changes make other than before is drawn again, and is not a further frame.
+    /// Time is paused: if the changes alter the shown frame, it is drawn again without advancing.
     pub stays: bool,
-    /// The frame that is shown is to be drawn again, as it would be now.
+    /// Draw the shown frame again, with the current state.
     pub again: bool,
-    /// The read-backs behind the frame.
+    /// The read-backs that follow the frame.
     pub tasks: Tasks,
-    /// The project whose passes' costs are asked for: somebody looks at them.
+    /// The project whose pass costs are requested: a view shows them.
     pub costs_of: Option<Project>,
-    /// Tiles of a new program are tried before it; without, none.
+    /// The limit for trying a new program on tiles before it draws; `None` skips the trial.
     pub tile_limit: Option<TileLimit>,
-    /// The frame may wait, or be given up; without, it is drawn at once.
+    /// The frame may wait or be abandoned; `None` draws it without interruption.
     pub gate: Option<Gate>,
 }
 
-/// Says when a program is too slow to be drawn whole unasked.
+/// The limit above which a program is too slow to be drawn whole without asking the user.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TileLimit {
     /// The time that a whole frame may take.
     pub frame: Duration,
 }
 
-/// The answer to a job. `None` where it was not asked.
+/// The answer to a job. A field is `None` if the job did not request it.
 #[derive(Default)]
 pub(crate) struct Done {
     pub restarted: Option<Result<(), EngineError>>,
     pub resized: Option<((u32, u32), Result<(), EngineError>)>,
     pub program: Option<Result<(), EngineError>>,
-    /// The time that a frame of the new program would take, if that is too long: it was not drawn.
+    /// The expected time of a frame of the new program, if that is too long: it was not drawn.
     pub forecast: Option<Duration>,
-    /// The values of the author's own uniforms are others than before.
+    /// The values of the author's own uniforms have changed.
     pub custom_uniforms_changed: bool,
     /// The display may be another texture.
     pub is_display_new: bool,
     pub frame: Option<Result<DrawnFrame, EngineError>>,
-    /// The frame that is shown was to be drawn again, and what it was drawn from is not kept.
+    /// The shown frame should have been drawn again, but its inputs are not kept.
     pub is_again_lost: bool,
-    /// The frame shows an older frame of a video than it should.
+    /// The frame shows a video frame that is too old.
     pub is_late: bool,
-    /// The frame of the run that is shown now; `Some(None)` where the goal is out of reach.
+    /// The frame of the run that is shown now; `Some(None)` if the goal is out of reach.
     pub travelled: Option<Option<Result<SeekProgress, EngineError>>>,
-    /// The frames that one can go to.
+    /// The range of frames for seeking.
     pub reach: Reach,
     /// The outputs of the tasks, in their order.
     pub outputs: Vec<Delivery>,
-    /// The display's picture, if it may have changed and is handed out.
+    /// The display's picture, if it may have changed and is delivered to the session.
     pub picture: Option<Result<Picture, EngineError>>,
     pub costs: Option<Vec<PassCost>>,
     pub clock: Option<CostClock>,
-    /// The time of the job, where it was done on another thread.
+    /// The duration of the job, if another thread did it.
     pub took: Duration,
     /// The reason why the engine's thread has ended.
     pub gave_up: Option<String>,
 }
 
-/// A frame that was handed in; on a thread of its own, drawn.
+/// A submitted frame; on a thread of its own, a drawn frame.
 pub(crate) struct DrawnFrame {
     pub cpu_micros: f64,
-    /// Milliseconds of each pass, of the newest frame for which they are known.
+    /// Milliseconds of each pass, for the newest frame with known times.
     pub times: Option<Vec<PassTime>>,
-    /// The frame until the device had drawn it.
+    /// The time until the device had drawn the frame.
     pub took: Duration,
 }

@@ -1,8 +1,8 @@
-//! The way from the session to the engine: what it is to draw goes out, pictures and figures come back.
+//! The connection from the session to the engine: jobs go out, pictures and measurements come back.
 //!
-//! Owns the engine, which draws here at once, or on a thread and a device of its own. It gets one job at a time, and
-//! what is wanted meanwhile waits here, each the newest of its kind: nothing piles up, and nobody waits for a frame.
-//! Knows nothing of texts, of time or of what a person is told.
+//! Owns the engine, which draws synchronously, or on a thread and a device of its own. It gets one job at a time.
+//! Requests that arrive meanwhile wait here, and a newer one of a kind replaces the older: no queue builds up, and
+//! nothing blocks on a frame. Knows nothing of texts, time or messages to the user.
 
 mod gate;
 mod history;
@@ -30,22 +30,22 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// A job is waited for so long if the one before came back sooner: a picture that is drawn fast is seen in the frame
-/// that asks for it.
+/// A job is waited for this long if the previous one was faster: a picture that is drawn quickly appears in the frame
+/// that requests it.
 const PATIENCE: Duration = Duration::from_millis(4);
 
-/// The engine, wherever it draws.
+/// The engine, on this thread or another.
 pub(super) struct Drawing {
     backend: Backend,
-    /// Goes with the next job.
+    /// Submitted with the next job.
     pub wanted: Changes,
     facts: Facts,
     in_flight: Option<InFlight>,
-    /// Threads that were given up and may still be at work.
+    /// Threads that were abandoned and may still be running.
     left: Vec<JoinHandle<()>>,
 }
 
-/// Holds what is known of the engine since its last answer.
+/// The state of the engine after its last answer.
 struct Facts {
     size: (u32, u32),
     program: Option<ProgramOrigin>,
@@ -57,11 +57,11 @@ struct Facts {
 struct InFlight {
     since: Instant,
     size: Option<(u32, u32)>,
-    /// The origin of the program that it sets.
+    /// The origin of the program that the job sets.
     program: Option<ProgramOrigin>,
-    /// The thread opens its device; nothing of the author's is drawn yet.
+    /// The thread opens its device; no code of the author runs yet.
     is_opening: bool,
-    /// Another project has been opened since: what comes back is of one that is gone.
+    /// Another project has been opened since: the result belongs to the previous one.
     is_stale: bool,
 }
 
@@ -74,25 +74,25 @@ enum Backend {
 struct Remote {
     thread: RenderThread,
     device: Device,
-    /// Says what a frame does that may wait.
+    /// Controls a frame that may wait.
     gate: Gate,
     open: Open,
     wake: Arc<dyn Fn() + Send + Sync>,
     window: Gpu,
     display: Texture,
-    /// The time that the newest job took on its thread.
+    /// The duration of the newest job on its thread.
     took: Duration,
 }
 
 impl Drawing {
-    /// An engine that does each job at once.
+    /// An engine that does each job synchronously.
     pub(crate) fn inline(gpu: Gpu, size: (u32, u32)) -> Result<Self, EngineError> {
         let clock = clock(&gpu);
         let (renderer, device) = (Box::new(Renderer::new(gpu.clone(), size, false)?), Device::open(gpu));
         Ok(Self::new(Backend::Inline { renderer, device, done: None }, size, clock))
     }
 
-    /// An engine on a thread of its own, with another device of the adapter that the window's is on.
+    /// An engine on a thread of its own, with another device on the adapter of the window's.
     pub(crate) fn on_thread(
         window: Gpu,
         size: (u32, u32),
@@ -120,7 +120,7 @@ impl Drawing {
         }
     }
 
-    /// Frames are drawn by the processor that paints the window, too.
+    /// Returns whether frames are drawn by the processor that also paints the window.
     pub(crate) fn shares_processor(&self) -> bool {
         matches!(&self.backend, Backend::RenderThread(remote) if remote.window.is_cpu())
     }
@@ -145,7 +145,7 @@ impl Drawing {
         }
     }
 
-    /// The newest picture, its first row the top.
+    /// The newest picture, with its first row at the top.
     pub(crate) fn display(&self) -> &wgpu::TextureView {
         match &self.backend {
             Backend::Inline { renderer, .. } => renderer.engine().display(),
@@ -153,22 +153,22 @@ impl Drawing {
         }
     }
 
-    /// The canvas of the newest picture.
+    /// The canvas size of the newest picture.
     pub(crate) fn size(&self) -> (u32, u32) {
         self.facts.size
     }
 
-    /// The canvas of the engine once it has done its job.
+    /// The canvas size of the engine after the job in flight.
     pub(crate) fn coming_size(&self) -> (u32, u32) {
         self.in_flight.as_ref().and_then(|job| job.size).unwrap_or(self.facts.size)
     }
 
-    /// A program is there to draw.
+    /// Returns whether the engine has a program.
     pub(crate) fn has_program(&self) -> bool {
         self.facts.program.is_some()
     }
 
-    /// A program waits to be taken up.
+    /// Returns whether a program is pending or in flight.
     pub(crate) fn is_program_coming(&self) -> bool {
         self.wanted.program.is_some() || self.in_flight.as_ref().is_some_and(|job| job.program.is_some())
     }
@@ -178,32 +178,32 @@ impl Drawing {
         self.facts.program.as_ref().map(|program| &program.project)
     }
 
-    /// The program that draws is of the newest text that compiled, and not one to fall back to.
+    /// Returns whether the current program is of the newest text that compiled, not a fallback.
     pub(crate) fn is_newest_program(&self) -> bool {
         self.new_program_millis().is_some()
     }
 
-    /// Milliseconds of the compile of such a program.
+    /// Milliseconds of its compile, if the current program is of the newest text.
     pub(crate) fn new_program_millis(&self) -> Option<f64> {
         self.facts.program.as_ref().and_then(|program| program.millis)
     }
 
-    /// The author's own uniforms, as the program that draws declares them.
+    /// The author's own uniforms, as the current program declares them.
     pub(crate) fn custom_uniforms(&self) -> &[CustomUniform] {
         self.facts.program.as_ref().map_or(&[], |program| &program.custom_uniforms)
     }
 
-    /// The program draws a pass.
+    /// Returns whether the program draws a pass.
     pub(crate) fn draws(&self, pass: &PassName) -> bool {
         self.facts.program.as_ref().is_some_and(|program| program.drawn.contains(pass))
     }
 
-    /// The passes' costs as they were when somebody looked last.
+    /// The passes' costs when they were last requested.
     pub(crate) fn costs(&self) -> &[PassCost] {
         &self.facts.costs
     }
 
-    /// The frames that one can go to.
+    /// The range of frames for seeking.
     pub(crate) fn reach(&self) -> Reach {
         self.facts.reach
     }
@@ -212,19 +212,19 @@ impl Drawing {
         self.facts.clock
     }
 
-    /// The engine has a job: no other can be handed in.
+    /// Returns whether the engine has a job: no other can be submitted.
     pub(crate) fn is_busy(&self) -> bool {
         self.in_flight.is_some()
     }
 
-    /// Since when the engine draws, if it does.
+    /// The time since which the engine has been drawing, if it is.
     pub(crate) fn draws_since(&self) -> Option<Instant> {
         self.in_flight.as_ref().filter(|job| !job.is_opening).map(|job| job.since)
     }
 
-    /// Begins anew, for another project. What was wanted of the one before is not wanted any more.
+    /// Restarts for another project, dropping pending requests of the previous one.
     pub(crate) fn restart(&mut self) {
-        // One that is being made is new.
+        // An engine that is being opened is new already.
         let restart = self.in_flight.as_ref().is_none_or(|job| !job.is_opening);
         self.wanted = Changes { restart, ..Changes::default() };
         self.facts.program = None;
@@ -234,14 +234,14 @@ impl Drawing {
         }
     }
 
-    /// Says what the frame that is being drawn does, if it may wait.
+    /// Controls the frame that is being drawn, if it may wait.
     pub(crate) fn steer(&self, control: FrameControl) {
         if let Backend::RenderThread(remote) = &self.backend {
             remote.gate.set(control);
         }
     }
 
-    /// Returns what the frame does that is being drawn.
+    /// Returns the current control of the frame that is being drawn.
     #[cfg(test)]
     pub(crate) fn frame_control(&self) -> Option<FrameControl> {
         match &self.backend {
@@ -250,8 +250,8 @@ impl Drawing {
         }
     }
 
-    /// Hands in a job with everything that is wanted, and what else `fill` puts in. The engine has none. With
-    /// `may_wait` its frame follows [`Drawing::steer`].
+    /// Submits a job with all pending changes and what `fill` adds. The engine must be idle. With `may_wait` its frame
+    /// follows [`Drawing::steer`].
     pub(crate) fn submit(&mut self, now: Instant, may_wait: bool, fill: impl FnOnce(&mut Job)) {
         let mut job = Job { changes: std::mem::take(&mut self.wanted), ..Job::default() };
         fill(&mut job);
@@ -259,7 +259,7 @@ impl Drawing {
             remote.gate.set(FrameControl::GoOn);
             job.gate = may_wait.then(|| remote.gate.clone());
         }
-        // The program goes on, what the session keeps of it stays.
+        // The program is submitted; the session keeps its origin.
         let program = job.changes.program.as_mut().and_then(|coming| coming.origin.take());
         let size = job.changes.size;
         self.in_flight = Some(InFlight { since: now, size, program, is_opening: false, is_stale: false });
@@ -269,7 +269,7 @@ impl Drawing {
         }
     }
 
-    /// Returns the answer to the job, once. Waits for a moment where the last one took no longer.
+    /// Returns the answer to the job, once. Waits for a moment if the last job was that fast.
     pub(crate) fn take(&mut self, is_just_handed_in: bool) -> Option<Done> {
         self.in_flight.as_ref()?;
         let mut done = match &mut self.backend {
@@ -283,7 +283,7 @@ impl Drawing {
         if let Backend::RenderThread(remote) = &mut self.backend {
             remote.took = done.took;
         }
-        // Outputs that belong to a project that is gone have no ticket any more.
+        // Outputs for a project that was closed have no ticket any longer.
         done.outputs.drain(..).for_each(|deliver| deliver());
         if job.is_stale {
             if let Some((size, Ok(()))) = &done.resized {
@@ -309,7 +309,7 @@ impl Drawing {
         }
     }
 
-    /// Shows a picture that came from the other device. Says whether the display is another texture now.
+    /// Shows a picture of the other device. Returns whether the display is a different texture now.
     pub(crate) fn show(&mut self, picture: &Picture) -> Result<bool, GpuError> {
         let Backend::RenderThread(remote) = &mut self.backend else { return Ok(false) };
         let size = (picture.width, picture.height);
@@ -321,7 +321,7 @@ impl Drawing {
         Ok(is_new)
     }
 
-    /// Shows the picture on another device than before, which is lost. There is none until one is handed out.
+    /// Shows the picture on a new device, as the previous one is lost. There is no picture until one is delivered.
     pub(crate) fn show_on(&mut self, window: Gpu) -> Result<(), GpuError> {
         let Backend::RenderThread(remote) = &mut self.backend else { return Ok(()) };
         remote.display = Presenter::texture(&window, remote.display.width(), remote.display.height())?;
@@ -329,7 +329,7 @@ impl Drawing {
         Ok(())
     }
 
-    /// Draws nothing more of the program that is there. The picture stays until there is another.
+    /// Drops the current program. The picture stays until there is another.
     pub(crate) fn drop_program(&mut self) {
         self.facts.program = None;
         if let Some(job) = &mut self.in_flight {
@@ -337,7 +337,7 @@ impl Drawing {
         }
     }
 
-    /// Gives up the thread and its device, and begins with others. The picture stays until there is another.
+    /// Abandons the thread and its device, and starts new ones. The picture stays until there is another.
     pub(crate) fn start_anew(&mut self, now: Instant) -> std::io::Result<()> {
         let Backend::RenderThread(remote) = &mut self.backend else { return Ok(()) };
         let device = Device::default();
@@ -351,13 +351,13 @@ impl Drawing {
         Ok(())
     }
 
-    /// The number of threads that were given up and have not come back.
+    /// The number of abandoned threads that have not ended.
     pub(crate) fn lost_threads(&mut self) -> usize {
         self.left.retain(|thread| !thread.is_finished());
         self.left.len()
     }
 
-    /// Waits until the engine has ended its job, but not for long. False if it goes on.
+    /// Waits for the end of the job, up to `patience`. Returns false if it is still running.
     pub(crate) fn rest(&mut self, patience: Duration) -> bool {
         let end = Instant::now() + patience;
         while self.is_busy() && self.take(false).is_none() {
@@ -369,7 +369,7 @@ impl Drawing {
         true
     }
 
-    /// Ends an engine that rests.
+    /// Ends an idle engine.
     pub(crate) fn close(&mut self) {
         if let Backend::RenderThread(remote) = &mut self.backend {
             remote.thread.end();
@@ -387,7 +387,7 @@ fn clock(gpu: &Gpu) -> CostClock {
     if gpu.has_timestamps { CostClock::Timestamps } else { CostClock::Waited }
 }
 
-/// There is no engine.
+/// The engine does not exist.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Error {
     #[error(transparent)]

@@ -1,4 +1,4 @@
-//! An engine on a thread of its own, with a device of its own, so that nothing waits for a frame but the next one.
+//! An engine on a thread of its own, with a device of its own, so that only the next frame waits for a frame.
 
 use super::{
     job::{Done, Job},
@@ -16,17 +16,17 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Steps that the thread takes back behind others where a processor draws: what is typed goes first.
+/// The amount by which the thread's priority is lowered (nice) if a processor draws: input goes first.
 const STEPS_BACK: i32 = 5;
-/// Drivers compile on the thread that draws, and recurse as deep as an expression is nested. Pages that are not used
-/// cost nothing.
+/// Drivers compile on the thread that draws, and recurse as deeply as an expression is nested. Untouched pages cost
+/// nothing.
 const STACK_BYTES: usize = 256 << 20;
 
-/// Opens a device. Called on the thread that draws.
+/// Opens a device. Called on the drawing thread.
 pub(crate) type Open = Arc<dyn Fn() -> Result<Gpu, GpuError> + Send + Sync>;
 
-/// Opens a device beside the window's, or gives the window's own where there is no other: then a slow frame holds the
-/// window's painting.
+/// Opens a device in addition to the window's, or returns the window's own if there is no other: then a slow frame
+/// blocks the window's painting.
 pub(crate) fn beside(window: Gpu) -> Open {
     Arc::new(move || {
         Gpu::another(&window.info, &GpuOptions::default()).or_else(|e| {
@@ -36,16 +36,16 @@ pub(crate) fn beside(window: Gpu) -> Open {
     })
 }
 
-/// The thread. Dropped, it ends after the job under way, which nobody waits for.
+/// The drawing thread. When dropped, it ends after the job in progress, which is not waited for.
 pub(super) struct RenderThread {
-    /// `None` when no more will come.
+    /// `None` after the last job.
     jobs: Option<Sender<Job>>,
     results: Receiver<Done>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl RenderThread {
-    /// Starts the thread. Its first answer says whether there is an engine; `wake` is called after each.
+    /// Starts the thread. Its first answer reports whether there is an engine; `wake` is called after each.
     pub(super) fn start(
         open: Open,
         device: Device,
@@ -96,15 +96,15 @@ impl RenderThread {
         Ok(RenderThread { jobs: Some(jobs), results, thread: Some(thread) })
     }
 
-    /// Hands in a job.
+    /// Submits a job.
     pub(super) fn submit(&self, job: Job) {
         if let Some(jobs) = &self.jobs {
-            // A thread that has ended said why, or its silence does.
+            // A thread that has ended reported why, or its closed channel does.
             let _ = jobs.send(job);
         }
     }
 
-    /// Returns the answer to the job that was handed in, if it comes within a time.
+    /// Returns the answer to the submitted job, if it arrives within a time.
     pub(super) fn take(&self, within: Duration) -> Option<Done> {
         let ended = || Some(Done { gave_up: Some("the drawing thread has ended".into()), ..Done::default() });
         if within.is_zero() {
@@ -121,7 +121,7 @@ impl RenderThread {
         }
     }
 
-    /// Lets go of the thread, which ends as soon as it can.
+    /// Detaches the thread, which ends as soon as it can.
     pub(super) fn leave(mut self) -> Option<JoinHandle<()>> {
         self.thread.take()
     }
@@ -130,13 +130,13 @@ impl RenderThread {
     pub(super) fn end(&mut self) {
         self.jobs = None;
         if let Some(thread) = self.thread.take() {
-            // A panic in it was told of.
+            // A panic of it was reported.
             let _ = thread.join();
         }
     }
 }
 
-/// Returns what a panic said instead of going on with it.
+/// Returns the message of a panic instead of propagating it.
 fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|payload: Box<dyn Any + Send>| {
         let said = payload.downcast_ref::<&str>().map(|s| (*s).to_owned());
@@ -144,7 +144,7 @@ fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     })
 }
 
-/// Holds the place where a device will be once it is open. Every clone is the same place.
+/// A slot for a device that is still being opened. All clones share the slot.
 #[derive(Clone, Default)]
 pub(crate) struct Device(Arc<OnceLock<Result<Gpu, String>>>);
 
@@ -156,7 +156,7 @@ impl Device {
         device
     }
 
-    /// Puts the device, or the reason why there is none, in its place. The first one counts.
+    /// Sets the device, or the reason why there is none. The first call wins.
     pub(crate) fn set(&self, gpu: Result<Gpu, String>) {
         let _ = self.0.set(gpu);
     }

@@ -1,7 +1,7 @@
-//! A task reads something back of what the targets hold, on the thread that draws.
+//! Tasks read the targets' contents back, on the drawing thread.
 //!
-//! Owns the way of its output: whoever adds a task gets a [`Ticket`], and finds the output there once the job's picture
-//! is back. A ticket that is dropped drops the output with it; the output of a device that was given up never comes.
+//! Adding a task returns a [`Ticket`], which has the output once the job's picture is back. Dropping a ticket drops the
+//! output; the output of a device that was abandoned never arrives.
 
 use super::renderer::Renderer;
 use std::{
@@ -9,22 +9,22 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// A read-back, which runs behind the frame of the job that it goes with.
+/// A read-back, which runs after the frame of its job.
 pub(crate) trait RenderTask: Send + 'static {
     type Output: Send + 'static;
 
-    /// Runs on the thread that draws.
+    /// Runs on the drawing thread.
     fn run(self, renderer: &mut Renderer) -> Self::Output;
 }
 
-/// An output, and how long it took.
+/// An output and its duration.
 #[derive(Debug)]
 pub(crate) struct Finished<T> {
     pub output: T,
     pub took: Duration,
 }
 
-/// Puts an output where its ticket finds it.
+/// Delivers an output to its ticket.
 pub(super) type Delivery = Box<dyn FnOnce() + Send>;
 
 type Run = Box<dyn FnOnce(&mut Renderer) -> Delivery + Send>;
@@ -40,7 +40,7 @@ impl Tasks {
             let began = Instant::now();
             let output = task.run(renderer);
             let finished = Finished { output, took: began.elapsed() };
-            // Nobody waits for the output of a ticket that was dropped.
+            // The output of a dropped ticket is discarded.
             Box::new(move || _ = sender.send(finished))
         }));
         Ticket(Some(receiver))
@@ -55,7 +55,7 @@ impl Tasks {
     }
 }
 
-/// The place where the output of the newest task of a kind is found. The default is of no task.
+/// Receives the output of the newest task of a kind. The default belongs to no task.
 #[derive(Debug)]
 pub(crate) struct Ticket<T>(Option<Receiver<Finished<T>>>);
 

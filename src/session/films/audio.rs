@@ -1,7 +1,7 @@
-//! The sounds that are heard while a film is recorded, frame by frame.
+//! The sound of a live recording, frame by frame.
 //!
-//! A player's own samples are not recorded: they are late by what the device takes, and have gaps where the machine is busy.
-//! Sound depends on the time alone, so it is computed afterwards for the times that the frames show.
+//! The player's samples are not recorded: they lag by the device's latency, and have gaps if the machine is busy. Sound
+//! depends on the time alone, so it is computed afterwards for the times of the frames.
 
 use eddy_audio::{Scene, Sound, Source};
 use eddy_film::{Moment, Rate, SoundPass, soundtrack_of};
@@ -19,7 +19,7 @@ pub(super) struct FilmAudio {
 /// A sound pass with the values of its uniforms.
 #[derive(Clone)]
 pub(in super::super) struct FilmSoundPass {
-    /// Passes of the same number differ in the values alone.
+    /// Passes with the same number differ only in the values.
     pub code: u64,
     pub project: Project,
     pub media: MediaSet,
@@ -39,17 +39,17 @@ impl FilmAudio {
     }
 }
 
-/// Says what is heard with each frame of a film.
+/// The sound of each frame of a film.
 #[derive(Default)]
 pub(super) struct HeardSounds {
     moments: Vec<Moment>,
     heard: Vec<FilmAudio>,
-    /// The order of the sound pass and the music of the newest frame.
+    /// The number of the sound pass and the music of the newest frame.
     newest: Option<(u64, Vec<Arc<Sound>>)>,
 }
 
 impl HeardSounds {
-    /// A frame has a time. `key` tells whether it sounds as the frame before did.
+    /// Records the time of a frame. `key` identifies whether its sound is that of the previous frame.
     pub(super) fn note(&mut self, secs: f64, key: (u64, &[ChannelSound]), heard: impl FnOnce() -> FilmAudio) {
         let (number, music) = key;
         let is_same = self.newest.as_ref().is_some_and(|(newest, known)| {
@@ -63,8 +63,8 @@ impl HeardSounds {
         self.moments.push(Moment { secs, sound: self.heard.len() - 1 });
     }
 
-    /// Returns the samples of a film of so many frames; `None` where nothing is heard in it. `open` sets a sound pass up, and
-    /// `goes_on` is asked before each of its blocks.
+    /// Returns the samples of a film of this many frames; `None` if it is silent. `open` sets a sound pass up, and
+    /// `goes_on` is called before each of its blocks.
     pub(super) fn samples<E: From<OfflineError>>(
         mut self,
         frames: u32,

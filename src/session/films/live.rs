@@ -1,4 +1,4 @@
-//! Frames that the window draws become a film: none is left out, and each has the same time.
+//! Live films of the frames that the window draws: no frame is left out, and all have the same duration.
 
 use super::{
     FilmOrder,
@@ -19,12 +19,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The encoder is asked again after this time whether it takes a frame.
+/// The interval at which the encoder is polled for room.
 const RETRY: Duration = Duration::from_millis(4);
-/// The speed of the picture is measured over this time.
+/// The picture's speed is measured over this time.
 const WINDOW: Duration = Duration::from_secs(1);
 
-/// Reads the picture of the frame that was drawn, and the form of its texels.
+/// Reads the picture of the drawn frame, and its texel format.
 struct TakeFrame(PassName);
 
 impl RenderTask for TakeFrame {
@@ -37,13 +37,13 @@ impl RenderTask for TakeFrame {
     }
 }
 
-/// Says when the next frame is drawn: not sooner than its time has come, so that what a hand does in a second is a second of
-/// the film, and later where drawing or encoding takes longer.
+/// The schedule of frames: each is drawn no sooner than its time, so that a second of user input is a second of the
+/// film, and later if drawing or encoding takes longer.
 #[derive(Debug)]
 pub(super) struct Pace {
     step: Duration,
     due: Option<Instant>,
-    /// The begin of what is measured, and the frames since.
+    /// The start of the measurement, and the frames since.
     window: Option<(Instant, u32)>,
     speed: Option<f64>,
 }
@@ -65,7 +65,7 @@ impl Pace {
         *frames += 1;
     }
 
-    /// Time stands still: what follows is not measured against what was before.
+    /// Time is paused: later frames are not measured against earlier ones.
     pub(super) fn rest(&mut self) {
         (self.due, self.window) = (None, None);
     }
@@ -79,27 +79,27 @@ impl Pace {
     }
 }
 
-/// A recording of what the window draws.
+/// A recording of the frames that the window draws.
 pub(super) struct Live {
     pub order: FilmOrder,
     pub target: Target,
     pub cancel: Cancel,
     pub pace: Pace,
-    /// The canvas and the rate that the picture had before.
+    /// The canvas size and the rate before the recording.
     pub before: (CanvasSize, Option<f64>),
     /// `None` before the first frame.
     writer: Option<Writer>,
     pictures: Option<Pictures>,
     ticket: Ticket<Result<(Pixels, TexelFormat), EngineError>>,
     awaits_frame: bool,
-    /// The next frame that is drawn is one of the film.
+    /// The next frame that is drawn belongs to the film.
     is_new: bool,
     texels: TexelFormat,
     /// Frames that the encoder has no room for.
     waiting: VecDeque<Pixels>,
-    /// Frames that it has taken.
+    /// Frames that it has accepted.
     pushed: u32,
-    /// Says what is heard with the frames, for a film with sound.
+    /// The sound of the frames, for a film with sound.
     pub heard: Option<HeardSounds>,
 }
 
@@ -124,27 +124,27 @@ impl Live {
         }
     }
 
-    /// Frames of the film so far.
+    /// The number of frames so far.
     pub(super) fn frames(&self) -> u32 {
         self.pushed + self.waiting.len() as u32
     }
 
-    /// No frame waits for the encoder.
+    /// Returns whether no frame waits for the encoder.
     pub(super) fn has_room(&self) -> bool {
         self.waiting.is_empty()
     }
 
-    /// The next frame may be drawn.
+    /// Returns whether the next frame may be drawn.
     pub(super) fn may_draw(&self, now: Instant) -> bool {
         self.has_room() && self.pace.due().is_none_or(|due| due <= now)
     }
 
-    /// Returns when to look again, where a frame waits for the encoder.
+    /// Returns when to poll again, if a frame waits for the encoder.
     pub(super) fn deadline(&self, now: Instant) -> Option<Instant> {
         (!self.has_room()).then(|| now + RETRY)
     }
 
-    /// The frame that is handed in next is one of running time, or a step of it.
+    /// Sets whether the next submitted frame advances time, by playing or by a step.
     pub(super) fn note(&mut self, is_new: bool, now: Instant) {
         self.is_new = is_new;
         if is_new {
@@ -152,7 +152,7 @@ impl Live {
         }
     }
 
-    /// Adds the read-back of a frame that is noted.
+    /// Adds the read-back of a frame of the film.
     pub(super) fn request(&mut self, pass: PassName, tasks: &mut Tasks) {
         if std::mem::take(&mut self.is_new) {
             self.ticket = tasks.add(TakeFrame(pass));
@@ -160,12 +160,12 @@ impl Live {
         }
     }
 
-    /// The frame that is being drawn will not come.
+    /// The frame that is being drawn will not arrive. Returns whether the film was waiting for it.
     pub(super) fn lose_frame(&mut self) -> bool {
         std::mem::take(&mut self.awaits_frame)
     }
 
-    /// Takes the frame that was read, and hands on what the encoder has room for.
+    /// Takes the frame that was read, and passes on as many as the encoder has room for.
     pub(super) fn feed(&mut self) -> Result<(), String> {
         if let Some(read) = self.ticket.take() {
             self.awaits_frame = false;
@@ -204,7 +204,7 @@ impl Live {
         Ok(())
     }
 
-    /// Returns the work that is left when no more frames come.
+    /// Returns the remaining work after the last frame.
     pub(super) fn finish(self) -> Finish {
         Finish {
             writer: self.writer,
@@ -218,7 +218,7 @@ impl Live {
     }
 }
 
-/// The number of the last frame, as far as names of pictures go: six digits are five hours at 60 frames per second.
+/// The last frame number that picture names allow: six digits are five hours at 60 frames per second.
 pub(super) const LAST: u32 = 999_999;
 
 fn begin(
@@ -238,12 +238,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_second_of_the_film_takes_a_second_or_longer() {
+    fn recording_is_never_faster_than_real_time() {
         let mut pace = Pace::new(10.0);
         let at = |millis: u64| Duration::from_millis(millis);
         let start = Instant::now();
         assert_eq!(pace.due(), None);
-        // A little late each time, which does not add up.
+        // Each frame is a little late, which does not accumulate.
         for n in 0..20u64 {
             assert!(pace.due().is_none_or(|due| due <= start + at(n * 100 + 20)), "{n}");
             pace.drawn(start + at(n * 100 + if n == 0 { 0 } else { 20 }));

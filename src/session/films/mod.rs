@@ -1,8 +1,7 @@
-//! Films that leave the window: of what it draws while somebody plays, and of a range of frames that is drawn exactly.
+//! Films: live recordings of what the window draws, and ranges of frames that are drawn exactly.
 //!
-//! Owns the form of the choices ([`form`]), the recording that is live ([`live`]) with what is heard ([`heard`]), the
-//! thread that draws a range and completes files ([`work`]), and the files' places ([`target`]). One film is made at a
-//! time.
+//! Owns the form of the choices ([`form`]), the live recording ([`live`]) with its sound ([`heard`]), the thread that
+//! draws a range and completes files ([`work`]), and the files' places ([`target`]). One film is made at a time.
 
 mod audio;
 mod form;
@@ -36,13 +35,13 @@ use std::{
 use target::Target;
 use work::{Finish, LateSound, RangeJob, Work};
 
-/// The film that is made, and the newest one that was.
+/// The film in progress, and the newest finished one.
 pub(super) struct Films {
     live: Option<Live>,
     work: Background<Work, FilmProgress, FilmDone>,
-    /// Ends the encoder of the work.
+    /// Kills the encoder of the work.
     cancel: Cancel,
-    /// Looks which encoders ffmpeg has.
+    /// Queries the encoders of ffmpeg.
     tools: Background<(), (), Vec<String>>,
     encoders: Option<Result<Vec<String>, String>>,
     ended: Option<Ended>,
@@ -70,7 +69,7 @@ impl Films {
         })
     }
 
-    /// A film is not complete yet.
+    /// Returns whether a film is not complete yet.
     pub(crate) fn is_busy(&self) -> bool {
         self.live.is_some() || self.work.is_under_way()
     }
@@ -79,12 +78,12 @@ impl Films {
         self.live.is_some()
     }
 
-    /// The next frame of the running picture may be drawn.
+    /// Returns whether the next frame of the running picture may be drawn.
     pub(crate) fn may_draw(&self, now: Instant) -> bool {
         self.live.as_ref().is_none_or(|live| live.may_draw(now))
     }
 
-    /// No frame waits for the encoder.
+    /// Returns whether no frame waits for the encoder.
     pub(crate) fn has_room(&self) -> bool {
         self.live.as_ref().is_none_or(Live::has_room)
     }
@@ -94,19 +93,19 @@ impl Films {
         self.live.as_ref()?.pace.due()
     }
 
-    /// Returns when to look again.
+    /// Returns when to poll again.
     pub(crate) fn deadline(&self, now: Instant) -> Option<Instant> {
         self.live.as_ref()?.deadline(now)
     }
 
-    /// The next frame is one of running time, or a step of it.
+    /// Sets whether the next frame advances time, by playing or by a step.
     pub(crate) fn note_frame(&mut self, is_new: bool, now: Instant) {
         if let Some(live) = &mut self.live {
             live.note(is_new, now);
         }
     }
 
-    /// Cancels everything, and waits for the end, but not for long. Returns whether the thread does not come back.
+    /// Cancels everything, and waits for the end, up to `patience`. Returns whether the thread does not end.
     pub(crate) fn end(&mut self, patience: Duration) -> bool {
         self.cancel.cancel();
         self.live = None;
@@ -116,7 +115,7 @@ impl Films {
 }
 
 impl Session {
-    /// Returns the film that is made, or the newest one that was; `None` where there was none.
+    /// Returns the film in progress, or the newest finished one; `None` if there was none.
     pub fn film(&self) -> Option<FilmView<'_>> {
         let films = &self.films;
         if let Some(live) = &films.live {
@@ -139,12 +138,12 @@ impl Session {
         })
     }
 
-    /// The window closes when the film is complete.
+    /// Returns whether the window closes when the film is complete.
     pub fn closes_after_film(&self) -> bool {
         self.films.closes
     }
 
-    /// Returns what the choices for a film are checked against.
+    /// Returns the facts that a film's form is validated against.
     pub fn film_facts(&self) -> FilmFacts {
         FilmFacts {
             shown: self.drawing.size(),
@@ -155,7 +154,7 @@ impl Session {
         }
     }
 
-    /// The encoders of ffmpeg are being looked for.
+    /// Returns whether the encoders of ffmpeg are being queried.
     pub fn looks_for_encoders(&self) -> bool {
         self.films.tools.is_busy()
     }
@@ -166,7 +165,7 @@ impl Session {
         }
     }
 
-    /// Begins a film.
+    /// Starts a film.
     pub(super) fn begin_film(&mut self, order: FilmOrder) {
         self.settled(About::Film);
         if self.films.is_busy() {
@@ -190,7 +189,7 @@ impl Session {
         }
     }
 
-    /// Draws a range of the project as it is now, beside the picture.
+    /// Draws a range of the project as it is now, in the background.
     fn draw_range(&mut self, order: FilmOrder, target: Target) {
         if self.halting.is_held() {
             let text = "nothing of this project is drawn before you play it: play it, then render it";
@@ -217,7 +216,7 @@ impl Session {
         })));
     }
 
-    /// Begins to record what is drawn, at the film's size and rate.
+    /// Starts recording what is drawn, at the film's size and rate.
     fn record_film(&mut self, order: FilmOrder, target: Target) {
         self.end_replay("a film is recorded");
         let before = (self.canvas.asked, self.playback.clock.fixed_rate());
@@ -230,7 +229,7 @@ impl Session {
         self.play();
     }
 
-    /// Ends a recording, whose film is completed.
+    /// Ends a recording, and completes its film.
     pub(super) fn stop_film(&mut self) {
         let Some(mut live) = self.end_live() else { return };
         if live.frames() == 0 {
@@ -242,7 +241,7 @@ impl Session {
         self.films.work.start(Work::Finish(Box::new(Finish { sound, ..live.finish() })));
     }
 
-    /// Returns what the sound of a recording is computed of; `None` where nothing was heard, or there is no device.
+    /// Returns the data from which the sound of a recording is computed; `None` if it is silent, or there is no device.
     fn late_sound(&self, live: &mut Live) -> Option<LateSound> {
         let heard = live.heard.take()?;
         let gpu = self.drawing.device().wait().ok()?;
@@ -251,18 +250,18 @@ impl Session {
         Some(LateSound { gpu, trial, heard })
     }
 
-    /// A frame with this time is drawn: notes what is heard with it.
+    /// Records the sound of a frame with this time.
     pub(super) fn note_heard(&mut self, secs: f64) {
         let Some(heard) = self.films.live.as_mut().and_then(|live| live.heard.as_mut()) else { return };
         let (music, number) = (self.audio.music(), self.sounding.number());
         heard.note(secs, (number, music), || FilmAudio::new(music, self.sounding.heard()));
     }
 
-    /// Takes the recording away, and gives the picture back its size and its time.
+    /// Ends the recording, and restores the picture's size and rate.
     fn end_live(&mut self) -> Option<Live> {
         let live = self.films.live.take()?;
         let (size, rate) = live.before;
-        // A person may have chosen others meanwhile.
+        // The user may have chosen others meanwhile.
         if self.canvas.asked.fixed == Some(live.order.size) {
             self.ask_size(size);
         }
@@ -273,7 +272,7 @@ impl Session {
         Some(live)
     }
 
-    /// Ends whatever film is made, and leaves nothing of it.
+    /// Cancels the film in progress, and removes its files.
     pub(super) fn cancel_film(&mut self) {
         self.films.closes = false;
         if !self.films.is_busy() {
@@ -289,7 +288,7 @@ impl Session {
         self.films.ended = Some(Ended::Cancelled);
     }
 
-    /// Ends a recording whose frames do not come any more. What is there is completed.
+    /// Ends a recording that gets no further frames. The frames so far are completed to a film.
     pub(super) fn cut_film(&mut self, why: &str) {
         if self.films.is_live() {
             self.notice_about(About::Film, Level::Warning, format!("the film ends here: {why}"));
@@ -297,14 +296,14 @@ impl Session {
         }
     }
 
-    /// The device that drew is gone, and with it a frame that was to come.
+    /// The drawing device is lost, and a frame in flight with it.
     pub(super) fn film_lost_device(&mut self) {
         if self.films.live.as_mut().is_some_and(Live::lose_frame) {
             self.cut_film("the GPU did not give back a frame");
         }
     }
 
-    /// Adds the read-back of a frame that belongs to a film.
+    /// Adds the read-back of a frame of the film.
     pub(super) fn request_film_frame(&mut self, tasks: &mut Tasks) {
         let pass = self.pictured();
         if let Some(live) = &mut self.films.live {
@@ -312,7 +311,7 @@ impl Session {
         }
     }
 
-    /// Hands frames that were read to the encoder.
+    /// Passes frames that were read to the encoder.
     pub(super) fn feed_film(&mut self) {
         let is_running = self.playback.is_running();
         let Some(live) = &mut self.films.live else { return };
@@ -338,7 +337,7 @@ impl Session {
         self.films.ended = Some(Ended::Failed(why));
     }
 
-    /// Takes what the threads have done.
+    /// Takes results of the threads.
     pub(super) fn tick_film(&mut self) {
         self.feed_film();
         if let Some(found) = self.films.tools.take() {
@@ -363,7 +362,7 @@ impl Session {
         }
     }
 
-    /// Puts the question what becomes of a film that is not complete. Returns whether there is one.
+    /// Asks what to do with an incomplete film. Returns whether there is one.
     pub(super) fn asks_about_film(&mut self) -> bool {
         let is_busy = self.films.is_busy();
         if is_busy {

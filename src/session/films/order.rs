@@ -1,12 +1,13 @@
-//! A film that is asked for, and what is known of one that is made.
+//! A requested film, and the state of one in progress.
 
 use eddy_film::{Encoding, Format, Rate};
 use std::{path::PathBuf, time::Duration};
 
-/// A film or a row of pictures that can be made as it stands. [`FilmForm::check`](super::FilmForm::check) makes one.
+/// A valid film or sequence of pictures. [`FilmForm::check`](super::FilmForm::check) returns one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmOrder {
-    /// The frames of the run that are drawn offline, rising; `None`: the frames that the window draws from now on.
+    /// The frames of the run that are drawn offline, in ascending order; `None`: the frames that the window draws from
+    /// now on.
     pub frames: Option<Vec<u32>>,
     /// Pixels of the picture.
     pub size: (u32, u32),
@@ -16,22 +17,22 @@ pub struct FilmOrder {
     pub rate: Rate,
     pub format: Format,
     pub encoding: Encoding,
-    /// With the project's sound, where it has any and the file holds it.
+    /// With the project's sound, if it has any and the file format supports it.
     pub with_sound: bool,
-    /// Seconds at the start that are faded with what follows the end; `None`: no loop.
+    /// Seconds at the start that are cross-faded with the frames after the end; `None`: no loop.
     pub fade_secs: Option<f64>,
     pub place: FilmPlace,
 }
 
-/// Says where a film is written to.
+/// The place that a film is written to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FilmPlace {
-    /// Beside the project's pictures, by the first number that is free.
+    /// Next to the project's pictures, with the first free number.
     Numbered,
     /// A file, or a folder for pictures.
     Named {
         path: PathBuf,
-        /// A file that is there may be replaced.
+        /// An existing file may be replaced.
         replaces: bool,
     },
 }
@@ -43,45 +44,45 @@ pub enum FilmStage {
     #[default]
     Preparing,
     Drawing,
-    /// All frames are there, and the encoder completes the file.
+    /// All frames are drawn, and the encoder completes the file.
     Completing,
 }
 
-/// Says how far a film is.
+/// The progress of a film.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FilmProgress {
     pub stage: FilmStage,
-    /// Frames of the film that are drawn, and how many it has.
+    /// The number of frames drawn, and the film's total.
     pub done: u32,
     pub of: u32,
-    /// The time that the rest will take, once that can be told.
+    /// The remaining time, once it can be estimated.
     pub left: Option<Duration>,
 }
 
-/// A film that is complete.
+/// A complete film.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmDone {
     /// The file, or the folder of the pictures.
     pub path: PathBuf,
     pub frames: u32,
-    /// Seconds that the film lasts.
+    /// The film's duration in seconds.
     pub secs: f64,
-    /// A further sentence about it.
+    /// An additional sentence about it.
     pub note: Option<String>,
 }
 
-/// A recording of what the window draws.
+/// A live recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LiveView {
     pub frames: u32,
-    /// Seconds that the film lasts so far.
+    /// The film's duration so far in seconds.
     pub secs: f64,
-    /// The speed of the picture against real time; `None` before it is known. Below 1 drawing or encoding takes longer than
-    /// the film.
+    /// The speed of the picture relative to real time; `None` before it is known. Below 1, drawing or encoding takes
+    /// longer than the film.
     pub speed: Option<f64>,
     /// The picture waits for the encoder.
     pub waits: bool,
-    /// Time stands still, so that nothing is recorded.
+    /// Time is paused, so nothing is recorded.
     pub is_paused: bool,
 }
 

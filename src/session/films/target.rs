@@ -1,4 +1,4 @@
-//! The files of a film: found before it begins, and gone again where it does not end well.
+//! The files of a film: chosen before it starts, and removed if it fails.
 
 use eddy_film::{Destination, Format, Output, picture_name};
 use std::{
@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The numbers that are tried.
+/// The largest number that is tried.
 const MOST: u32 = 999_999;
 
 /// The place of a film.
@@ -16,7 +16,7 @@ pub(super) enum Target {
         path: PathBuf,
         replaces: bool,
     },
-    /// A folder for pictures, and the beginning of their names.
+    /// A folder for pictures, and the prefix of their names.
     Folder {
         path: PathBuf,
         stem: String,
@@ -25,7 +25,7 @@ pub(super) enum Target {
 }
 
 impl Target {
-    /// The first place of a number that is free.
+    /// Returns the place with the first free number.
     pub(super) fn numbered(folder: &Path, stem: &str, format: Format) -> Result<Target, String> {
         for n in 1..=MOST {
             let name =
@@ -51,7 +51,7 @@ impl Target {
         }
     }
 
-    /// Returns the file of the picture of a frame; of a film the film.
+    /// Returns the file of a frame's picture; for a film, the film.
     pub(super) fn picture(&self, frame: u32, last: u32) -> PathBuf {
         match self {
             Target::File { path, .. } => path.clone(),
@@ -59,7 +59,7 @@ impl Target {
         }
     }
 
-    /// Removes a film where nothing was before.
+    /// Removes a film unless it replaced a file.
     pub(super) fn discard(&self) {
         if let Target::File { path, replaces: false } = self {
             let _ = fs::remove_file(path);
@@ -75,7 +75,7 @@ impl Target {
     }
 }
 
-/// The pictures that a run has written, which it takes away again unless it is kept.
+/// The pictures that a run has written, which are removed when dropped unless kept.
 pub(super) struct Pictures {
     folder: PathBuf,
     made: bool,
@@ -84,20 +84,20 @@ pub(super) struct Pictures {
 }
 
 impl Pictures {
-    /// Returns `None` where one film is written.
+    /// Returns `None` for a single film file.
     pub(super) fn new(target: &Target) -> Option<Self> {
         let Target::Folder { path, .. } = target else { return None };
         Some(Self { made: !path.exists(), folder: path.clone(), new: Vec::new(), is_kept: false })
     }
 
-    /// A picture is about to be written.
+    /// Records that a picture is about to be written.
     pub(super) fn note(&mut self, path: &Path) {
         if path.symlink_metadata().is_err() {
             self.new.push(path.to_owned());
         }
     }
 
-    /// They stay.
+    /// Keeps the pictures.
     pub(super) fn keep(mut self) {
         self.is_kept = true;
     }
@@ -112,7 +112,7 @@ impl Drop for Pictures {
             let _ = fs::remove_file(path);
         }
         if self.made {
-            // One that somebody has put something into stays.
+            // A folder with other files stays.
             let _ = fs::remove_dir(&self.folder);
         }
     }
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_that_are_taken_are_passed_over() {
+    fn taken_names_are_skipped() {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("a-0001.mp4"), "").unwrap();
         fs::create_dir(folder.path().join("a-0001")).unwrap();
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_of_a_run_that_ends_badly_are_taken_away_and_nobody_elses() {
+    fn failed_run_removes_only_its_own_pictures() {
         let home = tempfile::tempdir().unwrap();
         let target = Target::named(home.path().join("a"), "a", Format::Png, true);
         let write = |pictures: &mut Pictures, frame| {

@@ -1,13 +1,13 @@
-//! Sentences about a film on its way.
+//! Texts about a film in progress.
 
 use super::{FilmProgress, FilmStage, FilmView, LiveView};
 use std::time::Duration;
 
-/// The picture is said to be slower than the film from this speed on.
+/// Below this speed the picture is reported to be slower than the film.
 const SLOW: f64 = 0.95;
 
 impl FilmView<'_> {
-    /// Returns what to say of it.
+    /// Returns the text about it.
     pub fn words(&self) -> String {
         match self {
             FilmView::Live(live) => live_words(live),
@@ -22,7 +22,7 @@ impl FilmView<'_> {
         }
     }
 
-    /// Returns how much of it is done, from 0 to 1, where that is known.
+    /// Returns its progress, from 0 to 1, if that is known.
     pub fn part(&self) -> Option<f32> {
         match self {
             FilmView::UnderWay(progress) => Some(progress.done as f32 / progress.of.max(1) as f32),
@@ -78,7 +78,7 @@ mod tests {
     use crate::FilmDone;
 
     #[test]
-    fn what_is_said_names_frames_and_the_time_that_is_left() {
+    fn text_names_frames_and_remaining_time() {
         let live = LiveView { frames: 1, secs: 1.0 / 60.0, speed: None, waits: false, is_paused: false };
         let of = |live| FilmView::Live(live).words();
         assert_eq!(of(live), "Recording: 1 frame, 0.0 s");

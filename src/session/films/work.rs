@@ -1,4 +1,4 @@
-//! The thread of films: draws a range of frames on a device of its own, and completes what the window has recorded.
+//! The film thread: draws a range of frames on a device of its own, and completes live recordings.
 
 use super::{
     FilmDone, FilmOrder, FilmProgress, FilmStage,
@@ -27,45 +27,47 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Steps that the thread takes back where a processor draws: the picture in the window goes first, which takes 5.
+/// The amount by which the thread's priority is lowered (nice) if a processor draws: the window's picture, which uses
+/// 5, goes first.
 const STEPS_BACK: i32 = 10;
-/// Progress is told at most this often.
+/// The minimum interval of progress reports.
 const REPORT_EVERY: Duration = Duration::from_millis(100);
 
 pub(super) enum Work {
     Range(Box<RangeJob>),
     Finish(Box<Finish>),
-    /// A recording that nobody wants any more is taken away.
+    /// Removes a cancelled recording.
     Discard(Box<Finish>),
 }
 
-/// A range of frames of a project as it was when it was asked for.
+/// A range of frames of a project as it was when the film was requested.
 pub(super) struct RangeJob {
     pub gpu: Gpu,
     pub project: Project,
     pub pass: PassName,
     pub media_dir: Option<PathBuf>,
     pub trial: Option<Trial>,
-    /// Pictures hold the project.
+    /// Pictures embed the project.
     pub with_project: bool,
     pub order: FilmOrder,
     pub target: Target,
     pub cancel: Cancel,
 }
 
-/// A recording that has all its frames. Dropped, nothing is left of it: first the writer ends, and then its pictures go.
+/// A recording that has all its frames. Dropping it removes everything: first the writer ends, then its pictures are
+/// removed.
 pub(super) struct Finish {
     pub writer: Option<Writer>,
     pub pictures: Option<Pictures>,
     pub waiting: Vec<Pixels>,
-    /// Frames that the writer has taken.
+    /// Frames that the writer has accepted.
     pub pushed: u32,
     pub target: Target,
     pub rate: Rate,
     pub sound: Option<LateSound>,
 }
 
-/// The sound of a recording, which is computed when all frames are there.
+/// The sound of a recording, computed after all frames are drawn.
 pub(super) struct LateSound {
     pub gpu: Gpu,
     pub trial: Option<Trial>,
@@ -73,7 +75,7 @@ pub(super) struct LateSound {
 }
 
 impl LateSound {
-    /// Returns the samples of a film of so many frames; `None` where nothing was heard.
+    /// Returns the samples of a film of this many frames; `None` if it is silent.
     fn samples(
         self,
         frames: u32,
@@ -93,7 +95,7 @@ impl LateSound {
     }
 }
 
-/// Returns the work of the thread.
+/// Returns the thread's function.
 pub(super) fn work() -> impl FnMut(Work, &Control<FilmProgress>) -> Result<FilmDone, String> + Send {
     let mut is_back = false;
     move |work, control| match work {
@@ -130,7 +132,7 @@ fn complete(mut finish: Finish, control: &Control<FilmProgress>) -> Result<FilmD
             Ok(None) => {}
             Err(Stopped(why)) => {
                 control.check()?;
-                // The frames cannot be drawn another time.
+                // The frames cannot be drawn again, so the film is kept without sound.
                 note = Some(format!("it has no sound: {why}"));
             }
         }
@@ -144,7 +146,7 @@ fn complete(mut finish: Finish, control: &Control<FilmProgress>) -> Result<FilmD
     Ok(FilmDone { path: finish.target.path().to_owned(), frames, secs, note })
 }
 
-/// Takes a film away that was cancelled when it had just become complete.
+/// Removes a film that was cancelled just as it was completed.
 fn still_wanted(control: &Control<FilmProgress>, target: &Target) -> Result<(), String> {
     if control.is_cancelled() {
         target.discard();
@@ -178,13 +180,13 @@ fn draw(job: RangeJob, control: &Control<FilmProgress>) -> Result<FilmDone, Stri
     Ok(done)
 }
 
-/// A range while it is drawn.
+/// The state while a range is drawn.
 struct Drawing<'a> {
     job: RangeJob,
     control: &'a Control<FilmProgress>,
     pictures: Option<Pictures>,
     reported_at: Option<Instant>,
-    /// The first frame is done since, and it took another time than the others.
+    /// The time at which the first frame was done, which took longer or shorter than the others.
     began: Option<Instant>,
 }
 
@@ -198,8 +200,8 @@ impl Drawing<'_> {
         let count = frames.len() as u32;
         self.control.report(FilmProgress { of: count, ..FilmProgress::default() });
         check_tools(&order.encoding, order.size, &Tools::default()).map_err(|error| error.to_string())?;
-        // A project that nobody has drawn so large may lose its device: it is not the one that draws the picture, where
-        // there is another.
+        // A project that has never been drawn at this size may lose its device: use a separate one from the picture's,
+        // if possible.
         let gpu = Gpu::another(&self.job.gpu.info, &GpuOptions::default()).unwrap_or_else(|_| self.job.gpu.clone());
         let (media, _) = media::gather(&self.job.project, self.job.media_dir.as_deref());
         let mut offline = self.open(&gpu, &media, self.job.pass.clone())?;
@@ -273,7 +275,7 @@ impl Drawing<'_> {
         Ok(offline)
     }
 
-    /// Returns what pictures hold besides their texels, as `eddy render` writes it.
+    /// Returns what pictures embed, as `eddy render` writes it.
     fn source(&self, offline: &Offline, has_state: bool) -> Result<Option<RunSource>, Stopped> {
         let RangeJob { project, pass, order, with_project, .. } = &self.job;
         let has_place = matches!(order.encoding, Encoding::Still(Still::Png { .. } | Still::Exr));
@@ -320,7 +322,7 @@ impl Drawing<'_> {
         started.map_err(|error| Stopped(error.to_string()))
     }
 
-    /// Tells how far it is, now and then.
+    /// Reports the progress, at intervals.
     fn tell(&mut self, done: u32, of: u32, (drawn, draws): (u32, u32)) {
         let now = Instant::now();
         let since = *self.began.get_or_insert(now);
@@ -333,7 +335,7 @@ impl Drawing<'_> {
     }
 }
 
-/// Returns the time that frames will take, by what others have taken.
+/// Returns the estimated time of the remaining frames, from that of the others.
 fn left(took: Duration, drawn: u32, to_draw: u32) -> Option<Duration> {
     (drawn > 0).then(|| took.mul_f64(f64::from(to_draw) / f64::from(drawn)))
 }
@@ -343,7 +345,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_rest_takes_as_long_as_what_was_drawn() {
+    fn remaining_time_is_estimated_from_drawn_frames() {
         assert_eq!(left(Duration::from_secs(3), 0, 9), None, "one frame tells nothing");
         assert_eq!(left(Duration::from_secs(3), 10, 90), Some(Duration::from_secs(27)));
     }

@@ -1,4 +1,4 @@
-//! The tick: finished compiles, changes on disk, what has been drawn, and at most the frames that are due.
+//! The tick: takes finished compiles, changes on disk and drawn frames, and draws at most the frames that are due.
 
 use super::{
     Session,
@@ -11,9 +11,9 @@ use eddy_gpu::GpuError;
 use std::time::Instant;
 
 impl Session {
-    /// Takes finished compiles, changes on disk and drawn frames, and draws a frame if one is due: while playing one a
-    /// call, while paused only when something the picture depends on has changed. Where a thread draws, it does not wait
-    /// for the frame, which a later tick takes. Call it once for each frame shown.
+    /// Takes finished compiles, changes on disk and drawn frames, and draws a frame if one is due: while playing one
+    /// per call, while paused only if something that the picture depends on has changed. If a thread draws, this does
+    /// not wait for the frame, which a later tick takes. Call it once for each displayed frame.
     pub fn tick(&mut self, now: Instant) -> Tick {
         self.now = now;
         self.take_found_work();
@@ -38,7 +38,7 @@ impl Session {
         self.follow_controls();
         self.follow_measures();
         self.steer_frame();
-        // Beside another frame, painting the picture would take longer where a processor does both.
+        // If a processor both draws and paints, painting the picture would be slower while another frame is drawn.
         let is_picture_new = std::mem::take(&mut self.picture.is_new);
         self.picture.waits_for_painting = is_picture_new && self.drawing.shares_processor();
         if !self.picture.waits_for_painting {
@@ -49,9 +49,9 @@ impl Session {
         Tick { frame_drawn, wake_at: self.wake_at(), changed: std::mem::take(&mut self.changed) }
     }
 
-    /// Takes a finished compile, and hands in its program and that program's first frame, though no tick is due yet:
-    /// what was typed is in the picture sooner. Nothing else is drawn. Call it when the session has woken the front
-    /// end; the next tick tells what has changed.
+    /// Takes a finished compile, and submits its program with its first frame before the next tick is due, so that
+    /// edits are visible sooner. Nothing else is drawn. Call it when the session has woken the front end; the next tick
+    /// reports the changes.
     pub fn attend(&mut self, now: Instant) {
         self.now = now;
         self.picture.has_drawn |= self.take_drawn(false);
@@ -63,7 +63,7 @@ impl Session {
         }
     }
 
-    /// Begins with a frame that waited until the picture of the last tick was painted, as it is now.
+    /// Starts the frame that waited until the picture of the last tick was painted, with the current state.
     pub fn painted(&mut self, now: Instant) {
         if std::mem::take(&mut self.picture.waits_for_painting) {
             self.now = now;
@@ -71,7 +71,7 @@ impl Session {
         }
     }
 
-    /// Lets the frame that is being drawn wait for the newest text, and gives it up for that text's program.
+    /// Makes the frame that is being drawn wait for the newest text, and abandons it for that text's program.
     fn steer_frame(&self) {
         self.drawing.steer(match self.gives_way_until() {
             _ if self.drawing.wanted.program.is_some() => FrameControl::GiveUp,
@@ -80,14 +80,14 @@ impl Session {
         });
     }
 
-    /// The newest text is with the compiler, and will be a program soon if it takes as long as the one before, or its
-    /// first frame is with the engine.
+    /// Returns whether the newest text is being compiled and likely to be a program soon, judging by the previous
+    /// compile, or its first frame is being drawn.
     pub fn is_first_frame_coming(&self) -> bool {
         let is_drawn = self.drawing.is_busy() && !self.halting.is_held();
         self.gives_way() || (is_drawn && (self.drawing.is_program_coming() || self.picture.is_program_new))
     }
 
-    /// The newest text is being compiled, and will be soon if it takes as long as the one before.
+    /// Returns whether the newest text is being compiled and likely to be done soon, judging by the previous compile.
     pub(super) fn gives_way(&self) -> bool {
         self.gives_way_until().is_some()
     }
@@ -98,11 +98,12 @@ impl Session {
 
     fn wake_at(&self) -> Option<Instant> {
         let is_running = self.playback.is_running() && self.drawing.has_program() && !self.halting.is_device_gone();
-        // The end of a frame that is being drawn wakes.
+        // The end of a frame in progress wakes the session.
         let is_busy = self.drawing.is_busy() || self.picture.waits_for_painting;
         let is_held = self.halting.is_halted() || is_busy || self.gives_way();
         let is_next_due = is_running && !is_held;
-        // A frame of a recording may be due only after the picture before it has been painted, and nothing else wakes.
+        // A frame of a recording may become due only after the previous picture was painted, and nothing else wakes the
+        // session.
         let is_free = !self.halting.is_halted() && !self.drawing.is_busy() && !self.gives_way();
         let replayed = self.playback.replay_due(self.now).filter(|_| is_running && is_free);
         let is_next_due = is_next_due && !self.playback.is_replaying();
@@ -149,7 +150,7 @@ impl Session {
                 }
                 let is_compiling = self.is_compile_under_way();
                 let Some(compiled) = compiled else {
-                    // A look at the files, which made the compiler seem busy.
+                    // It was a check of the files, which made the compiler seem busy.
                     self.changed |= self.compile.set_compiling(is_compiling);
                     return;
                 };
@@ -173,14 +174,14 @@ impl Session {
         }
     }
 
-    /// The picture is of an older text than the newest.
+    /// Returns whether the picture is older than the newest text.
     pub(super) fn is_compile_under_way(&self) -> bool {
         self.compile.is_busy() || (self.drawing.is_program_coming() && !self.halting.is_held())
     }
 
     fn take_program(&mut self, compiled: Compiled) {
         let Compiled { project, is_fallback, program, diagnostics, took, probe, heard, sounds } = compiled;
-        // What is said is about the newest text.
+        // The messages are about the newest text.
         if !is_fallback {
             self.follow_sound(&project, heard);
             self.compile.diagnose(diagnostics, took);
@@ -199,7 +200,7 @@ impl Session {
         self.audio.expect(sounds);
         self.forget_old_names(&project);
         self.drawing.wanted.program = Some(PendingProgram::new(program, project, millis));
-        // They may have been turned while it was being compiled.
+        // They may have been set while it was being compiled.
         self.custom_uniforms_turned();
         self.watched.probing.built(probe);
         self.drawing.wanted.shown = Some(self.pictured());
@@ -207,14 +208,14 @@ impl Session {
         self.compile.set_compiling(self.is_compile_under_way());
     }
 
-    /// The machine refused what the newest text asks for: said in the list of errors, too, where errors are counted.
+    /// The machine rejected the newest text: also added to the list of errors, where errors are counted.
     pub(super) fn refused(&mut self, error: &EngineError) {
         self.compile.add_failure(&error.to_string());
         self.compile.fail(self.drawing.has_program());
         self.stop_drawing(error);
     }
 
-    /// The graphics layer refused something that no one waited for an answer to. Said once, however often it happens.
+    /// Reports an error of the graphics layer that no caller was waiting for. Reported once, however often it occurs.
     pub fn tell_of(&mut self, error: &GpuError) {
         self.notice_once(About::Window, Level::Error, &error.to_string());
     }

@@ -1,4 +1,4 @@
-//! Tests of a session whose workers give up.
+//! Tests of a session whose workers fail.
 
 use super::super::{
     Command, SessionOptions,
@@ -28,7 +28,7 @@ fn tick_until(session: &mut Session, what: &str, is_so: impl Fn(&Session) -> boo
 }
 
 #[test]
-fn a_compiler_that_panics_is_told_of_and_loses_no_text() {
+fn compiler_panic_is_reported_and_loses_no_text() {
     let Some(gpu) = testing::gpu() else { return };
     let options = SessionOptions { edit_debounce: Duration::ZERO, ..SessionOptions::default() };
     let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
@@ -54,7 +54,7 @@ fn a_compiler_that_panics_is_told_of_and_loses_no_text() {
 }
 
 #[test]
-fn a_text_that_compiled_fast_is_compiled_at_each_key() {
+fn fast_text_is_compiled_at_each_keystroke() {
     let Some(gpu) = testing::gpu() else { return };
     let options = SessionOptions { edit_debounce: Duration::from_secs(3600), ..SessionOptions::default() };
     let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
@@ -64,25 +64,25 @@ fn a_text_that_compiled_fast_is_compiled_at_each_key() {
         session.apply(Command::EditText { tab: tab.clone(), text: text.into() });
         session.tick(Instant::now());
     };
-    // What ends at a mistake takes no device; at once, whatever the first compile took.
+    // A text with an error needs no device; it is compiled at once, whatever the first compile took.
     edit(&mut session, "mistake");
     session.apply(Command::CompileNow);
     tick_until(&mut session, "the mistake", |s| matches!(s.compile_state().last, Some(Outcome::Failed { .. })));
     let before = session.diagnostics().to_vec();
     session.compile.expect(Duration::from_millis(1));
     edit(&mut session, "void mainImage(out vec4 o, in vec2 p) { o = vec4(missing); }");
-    // The compile may have come back within the tick.
+    // The compile may have finished within the tick.
     let is_compiled = session.compile.is_busy() || session.diagnostics() != before;
     assert!(session.compile.edits.deadline().is_none() && is_compiled, "the tick of the key compiles");
     tick_until(&mut session, "the second mistake", |s| s.diagnostics() != before && !s.compile_state().compiling);
-    // A slow one is waited for.
+    // A slow one is debounced.
     session.compile.expect(Duration::from_secs(7200));
     edit(&mut session, "third");
     assert!(session.compile.edits.deadline().is_some() && session.compile.take().is_none());
 }
 
 #[test]
-fn what_the_graphics_layer_refuses_is_told_of_once() {
+fn graphics_errors_are_reported_once() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = Session::new(gpu, Arc::new(|| ())).unwrap();
     for _ in 0..3 {
@@ -91,7 +91,7 @@ fn what_the_graphics_layer_refuses_is_told_of_once() {
     assert_eq!(session.notices().iter().filter(|n| n.text.contains("planted")).count(), 1);
 }
 
-/// A session whose frames are drawn on a thread, and its picture is there.
+/// Opens a session that draws on a thread, and waits for its first picture.
 fn open_apart(gpu: Gpu) -> Session {
     let options = SessionOptions {
         edit_debounce: Duration::ZERO,
@@ -106,7 +106,7 @@ fn open_apart(gpu: Gpu) -> Session {
 }
 
 #[test]
-fn a_lost_device_is_replaced_and_another_lost_right_after_it_is_not() {
+fn lost_device_is_replaced_unless_lost_again_at_once() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     let first = session.drawing.device().wait().unwrap();
@@ -126,7 +126,7 @@ fn a_lost_device_is_replaced_and_another_lost_right_after_it_is_not() {
 }
 
 #[test]
-fn a_compile_that_takes_longer_than_the_one_before_holds_no_frames() {
+fn slower_compile_than_expected_blocks_no_frames() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     let began = Instant::now();
@@ -139,7 +139,7 @@ fn a_compile_that_takes_longer_than_the_one_before_holds_no_frames() {
 }
 
 #[test]
-fn a_device_that_does_not_open_at_first_is_opened_again() {
+fn device_that_fails_to_open_is_retried() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu.clone());
     let (is_second, other) = (AtomicBool::new(false), gpu.clone());
@@ -153,7 +153,7 @@ fn a_device_that_does_not_open_at_first_is_opened_again() {
 }
 
 #[test]
-fn where_a_processor_draws_the_next_frame_begins_when_the_last_one_is_painted() {
+fn on_cpu_next_frame_starts_after_painting() {
     let Some(gpu) = testing::gpu() else { return };
     let is_cpu = gpu.is_cpu();
     let mut session = open_apart(gpu);
@@ -173,7 +173,7 @@ fn where_a_processor_draws_the_next_frame_begins_when_the_last_one_is_painted() 
 }
 
 #[test]
-fn a_frame_waits_for_the_newest_text_and_is_given_up_for_its_program() {
+fn frame_waits_for_newest_text_and_is_abandoned_for_its_program() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     let now = Instant::now();
@@ -190,7 +190,7 @@ fn a_frame_waits_for_the_newest_text_and_is_given_up_for_its_program() {
     session.now = now + BRIEF;
     assert_eq!(control(&session), FrameControl::GoOn, "it is no longer a compile that is not felt");
     session.compile.set_newest_since(None);
-    // A text that gives a program: as soon as that is there, the frame before it is not finished.
+    // For a text with a valid program, the previous frame is abandoned as soon as the program is available.
     let tab = Tab::image();
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
     session.apply(Command::EditText { tab, text: text.into() });
@@ -208,7 +208,7 @@ fn a_frame_waits_for_the_newest_text_and_is_given_up_for_its_program() {
 }
 
 #[test]
-fn the_first_frame_of_a_program_and_one_that_is_drawn_while_time_stands_do_not_wait() {
+fn first_frame_and_paused_frames_do_not_wait() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     tick_until(&mut session, "a frame that nothing else goes with", |s| s.is_one_of_many());

@@ -1,4 +1,4 @@
-//! A session halts its picture, goes on with it, and gives up a device that does not come back.
+//! Halting the picture, resuming it, and abandoning a device that does not respond.
 
 use super::{HaltControl, OverdueAction, Verdict};
 use crate::{
@@ -8,11 +8,11 @@ use crate::{
 };
 use std::time::{Duration, Instant};
 
-/// The end waits so long for a frame that is being drawn.
+/// The maximum wait at exit for a frame that is being drawn.
 const FAREWELL: Duration = Duration::from_millis(500);
 
 impl Session {
-    /// Looks whether a frame has been drawn for too long.
+    /// Checks whether a frame has been drawn for too long.
     pub(crate) fn watch_drawing(&mut self) {
         let Some(age) = self.overdue() else { return };
         if !self.halting.is_halted() {
@@ -51,7 +51,7 @@ impl Session {
         );
     }
 
-    /// The next moment in which [`Session::watch_drawing`] may have something to do.
+    /// The next time at which [`Session::watch_drawing`] may have something to do.
     pub(crate) fn drawing_deadline(&self) -> Option<Instant> {
         self.halting.deadline(self.now, self.drawing.draws_since(), self.is_newer_wanted())
     }
@@ -61,13 +61,13 @@ impl Session {
         self.halting.overdue(self.now, self.drawing.draws_since()).filter(|_| self.drawing.is_apart())
     }
 
-    /// The user has something else to draw than what the engine is at.
+    /// Returns whether something newer than the engine's current work is to be drawn.
     fn is_newer_wanted(&self) -> bool {
         let wanted = &self.drawing.wanted;
         wanted.restart || wanted.program.is_some() || self.compile.is_newer_wanted(self.now)
     }
 
-    /// Gives up the device that draws, with its threads, for a fresh one. No program is on that yet.
+    /// Abandons the drawing device with its threads, and opens a new one. It has no program yet.
     fn start_anew(&mut self) {
         if let Err(e) = self.drawing.start_anew(self.now) {
             self.halting.lose_device();
@@ -83,14 +83,14 @@ impl Session {
             self.notice_about(About::Window, Level::Error, text);
         }
         self.renew_requests();
-        // Its buffers begin anew, and so must what they go by.
+        // Its buffers are reset, so the replay that drove them ends as well.
         self.end_replay("the GPU device was replaced");
         self.playback.change_device();
         self.watched.costs.forget();
         self.changed = true;
     }
 
-    /// The device was lost, or the thread that draws has stumbled.
+    /// Handles the loss of the device, or a panic of the drawing thread.
     pub(crate) fn engine_is_gone(&mut self, why: &str) {
         self.film_lost_device();
         let is_again = self.halting.device_is_lost(self.now, self.compile.edited_at);
@@ -119,7 +119,7 @@ impl Session {
         self.changed = true;
     }
 
-    /// Lets everything that is drawn from now on take its time.
+    /// Ends the halt, so that drawing continues.
     fn end_halt(&mut self) {
         let Some(halt) = self.halting.end() else { return };
         self.changed = true;
@@ -130,7 +130,7 @@ impl Session {
         }
     }
 
-    /// Goes on after a halt, unless the project was opened paused.
+    /// Resumes after a halt, unless the project was opened paused.
     fn end_halt_of_frame(&mut self) {
         if !self.halting.is_held() {
             self.end_halt();
@@ -138,7 +138,7 @@ impl Session {
         }
     }
 
-    /// Goes on as it was before the halt.
+    /// Restores the state before the halt.
     fn resume(&mut self) {
         if self.halting.take_resuming() {
             self.playback.resume();
@@ -151,14 +151,14 @@ impl Session {
         self.resume();
     }
 
-    /// Ends a halt, for who plays or steps on: whether it ran before does not count any more.
+    /// Ends a halt because the user plays or steps: whether it was playing before no longer matters.
     pub(crate) fn override_halt(&mut self) {
         self.halting.allow_more(self.now);
         self.end_halt();
         self.halting.forget_resuming();
     }
 
-    /// Goes on with fewer pixels: as few as bring a frame below the limit, by what it took.
+    /// Resumes with fewer pixels: few enough to bring a frame below the limit, judging by its time.
     pub(crate) fn draw_smaller(&mut self) {
         if !self.halting.is_halted() {
             return;
@@ -195,7 +195,7 @@ impl Session {
         self.resume();
     }
 
-    /// Draws the last good code, if there is any, instead of the newest, and says why where errors are said.
+    /// Draws the last good code, if there is any, instead of the newest, and adds the reason to the errors.
     fn fall_back(&mut self, why: &str) -> bool {
         self.compile.add_failure(why);
         let is_good = self.compile.fall_back(self.halting.good().cloned());
@@ -205,7 +205,7 @@ impl Session {
         is_good
     }
 
-    /// New code is about to reach the device.
+    /// New code is about to be submitted to the device.
     pub(crate) fn mark_new_code(&mut self) {
         let origin = self.drawing.wanted.program.as_ref().and_then(|coming| coming.origin.as_ref());
         let newest = origin.filter(|origin| origin.millis.is_some()).map(|ProgramOrigin { project, .. }| project);
@@ -219,7 +219,7 @@ impl Session {
         }
     }
 
-    /// A frame has been drawn.
+    /// Records the time of a drawn frame.
     pub(crate) fn frame_took(&mut self, took: Duration) {
         let newest = self.drawing.project().filter(|_| self.drawing.is_newest_program());
         match self.halting.frame_took(took, newest, self.drawing.is_apart()) {
@@ -232,7 +232,7 @@ impl Session {
         }
     }
 
-    /// Another project has been opened.
+    /// Resets the halt for a newly opened project, and holds it if it hung or crashed the process last time.
     pub(crate) fn halt_for_new_project(&mut self) {
         let is_overdue = self.overdue().is_some();
         self.halting.begin_next_project(is_overdue);
@@ -253,8 +253,8 @@ impl Session {
         self.changed = true;
     }
 
-    /// Waits a moment for the frame under way. Returns whether threads that draw do not come back: only the end of the
-    /// process ends them.
+    /// Waits briefly for the frame in progress. Returns whether drawing threads are hung: only the end of the process
+    /// ends them.
     pub fn end(&mut self) -> bool {
         let has_lost =
             !self.comparing.background.end(FAREWELL) | self.sounding.end(FAREWELL) | self.films.end(FAREWELL);
@@ -263,7 +263,7 @@ impl Session {
 }
 
 impl Drop for Session {
-    /// Nobody waits long for a frame, and not at all for a device that does not come back.
+    /// Waits briefly for a frame, but not at all for a hung device.
     fn drop(&mut self) {
         self.comparing.background.end(FAREWELL);
         self.sounding.end(FAREWELL);

@@ -1,5 +1,5 @@
-//! A file that says which project's new code is on the device. Where one is found at the next start, the code froze the
-//! picture or ended the process.
+//! A marker file that names the project whose new code is on the device. If it is found at the next start, that code
+//! hung the picture or crashed the process.
 
 use eddy_project::{Origin, Project, write_into};
 use std::{
@@ -10,18 +10,18 @@ use std::{
 
 #[derive(Default)]
 pub(super) struct Marker {
-    /// The folder of such files; without, none is written.
+    /// The folder of marker files; `None`: none are written.
     folder: Option<PathBuf>,
     written: Option<PathBuf>,
 }
 
 impl Marker {
-    /// `state_dir`: what is remembered between two starts lies there.
+    /// `state_dir`: the folder for state that is kept between runs.
     pub(super) fn new(state_dir: Option<&Path>) -> Self {
         Self { folder: state_dir.map(|dir| dir.join("drawing")), written: None }
     }
 
-    /// Says that code of a project is on the device whose first frame is not drawn yet.
+    /// Records that new code of a project is on the device, and its first frame is not drawn yet.
     pub(super) fn set(&mut self, project: &Project) {
         let Some((file, path)) = self.file(project) else { return };
         if self.written.as_ref() == Some(&file) {
@@ -32,12 +32,12 @@ impl Marker {
         let name = file.file_name().unwrap_or_default().to_string_lossy();
         match write_into(folder, &name, |out| writeln!(out, "{}", path.display())) {
             Ok(()) => self.written = Some(file),
-            // The picture is drawn all the same: only the next start knows less.
+            // The picture is drawn all the same: only the next start cannot detect a crash.
             Err(e) => log::warn!("cannot write {}: {e}", file.display()),
         }
     }
 
-    /// Says that all is well.
+    /// Removes the marker: the code works.
     pub(super) fn clear(&mut self) {
         if let Some(file) = self.written.take()
             && let Err(e) = fs::remove_file(&file)
@@ -46,12 +46,12 @@ impl Marker {
         }
     }
 
-    /// Lets the file stay for the next start.
+    /// Leaves the marker for the next start.
     pub(super) fn leave(&mut self) {
         self.written = None;
     }
 
-    /// Returns whether a project froze or ended the process when it was open last, and takes over its file.
+    /// Returns whether a project hung or crashed the process when it was last open, and takes over its file.
     pub(super) fn find(&mut self, project: &Project) -> bool {
         let found = self.file(project).map(|(file, _)| file).filter(|file| file.exists());
         let is_found = found.is_some();
@@ -61,7 +61,7 @@ impl Marker {
         is_found
     }
 
-    /// Returns a project's file, and the path that it is about; none for a project that lies in no file.
+    /// Returns a project's marker file and the path of the project; `None` for a project that is not stored in a file.
     fn file(&self, project: &Project) -> Option<(PathBuf, PathBuf)> {
         let path = match &project.origin {
             Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path,
@@ -73,7 +73,7 @@ impl Marker {
     }
 }
 
-/// FNV-1a of 64 bits, which is the same in each version of Eddy.
+/// FNV-1a of 64 bits, which is stable across versions of Eddy.
 fn hash(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
 }
@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_project_is_marked_until_all_is_well() {
+    fn marker_exists_until_first_frame_is_drawn() {
         let dir = tempfile::tempdir().unwrap();
         let mut project = crate::template::project();
         let mut marker = Marker::new(Some(dir.path()));

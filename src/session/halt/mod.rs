@@ -1,7 +1,7 @@
-//! Frames that take too long, and devices that do not come back.
+//! Frames that take too long, and devices that do not respond.
 //!
-//! Owns the rules: when the picture stops, what it goes on with, and when a device is given up for a fresh one
-//! ([`HaltControl`]). What a session does by them is in `actions`. The texts are never touched.
+//! Owns the rules: when the picture halts, how it resumes, and when a device is replaced by a new one
+//! ([`HaltControl`]). `actions` applies them to the session. The texts are never changed.
 
 mod actions;
 mod marker;
@@ -17,55 +17,55 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Limits of a frame after which a device that still draws it is given up.
+/// A device that is still drawing a frame is abandoned after this many frame limits.
 const GIVE_UP: u32 = 5;
 /// The same for new code, which drivers compile in its first frame: many passes take seconds on a busy processor.
 const GIVE_UP_NEW: u32 = 15;
-/// The user who lets a frame go on lets it have so many limits, or so often what it has taken.
+/// A frame that the user allows to continue may take this many limits, or this many times what it has taken.
 const ALLOWED_LIMITS: u32 = 5;
 const ALLOWED_TIMES: u32 = 3;
-/// A device that is lost again so soon after the one before, with no edit in between, is not opened again.
+/// A device that is lost again within this time, with no edit in between, is not reopened.
 const LOST_AGAIN: Duration = Duration::from_secs(10);
-/// The quiet after the last edit before newer code takes the device of code that does not come back, for each thread
-/// that has been given up already: each may keep a processor busy.
+/// The debounce time before newer code takes over the device of hung code, for each thread that has been abandoned
+/// already: each may keep a processor busy.
 const QUIET: Duration = Duration::from_millis(1500);
-/// The time between two looks at whether that quiet has come.
+/// The interval of checks whether that time has passed.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// The halt of the picture, if there is one, and what is known of its frames.
+/// The current halt of the picture, if any, and statistics of its frames.
 #[derive(Default)]
 pub(super) struct HaltControl {
     halt: Option<Halt>,
-    /// The picture ran when it was halted, and goes on after.
+    /// The picture was playing when it was halted, and resumes afterwards.
     resumes: bool,
     /// The newest code that drew a frame within the limit.
     good: Option<Project>,
     limit: Duration,
     pace: Pace,
-    /// The time that the user has let a frame take.
+    /// The frame time that the user has allowed.
     allowed: Option<Duration>,
-    /// No frame of the newest program that was handed in has been drawn yet.
+    /// The newest program that was submitted has not drawn a frame yet.
     is_new: bool,
     marker: Marker,
     lost_at: Option<Instant>,
-    /// The device is gone for good.
+    /// The device is lost for good.
     is_device_gone: bool,
 }
 
-/// A frame has been drawn; the picture does this.
+/// The consequence of a drawn frame.
 #[derive(Debug, PartialEq)]
 pub(super) enum Verdict {
     Halt(Halt),
-    /// It had been halted while the frame was drawn.
+    /// The picture had been halted while the frame was drawn.
     EndHalt,
     GoOn,
 }
 
-/// A device still draws a frame that takes too long.
+/// The consequence of a frame that is taking too long.
 #[derive(Debug, PartialEq)]
 pub(super) enum OverdueAction {
     Wait,
-    /// Newer code has its device, or may not take it yet.
+    /// Newer code gets the device of the old code, if it may take it yet.
     MakeRoom,
     GiveUp,
 }
@@ -75,7 +75,7 @@ impl HaltControl {
         Self { limit, marker: Marker::new(state_dir), ..Self::default() }
     }
 
-    /// Begins with another project. `is_overdue`: the device still draws a frame of the one before.
+    /// Resets for another project. `is_overdue`: the device still draws a frame of the previous one.
     pub(crate) fn begin_next_project(&mut self, is_overdue: bool) {
         if self.halt.is_none() && !is_overdue {
             self.marker.clear();
@@ -87,7 +87,7 @@ impl HaltControl {
         self.pace.begin();
     }
 
-    /// Returns whether a project froze or ended the process when it was open last.
+    /// Returns whether a project hung or crashed the process when it was last open.
     pub(crate) fn finds_trouble_of(&mut self, project: &Project) -> bool {
         self.marker.find(project)
     }
@@ -100,22 +100,22 @@ impl HaltControl {
         self.halt.is_some()
     }
 
-    /// Nothing of the author's may reach the device yet.
+    /// Returns whether no code of the author may reach the device yet.
     pub(crate) fn is_held(&self) -> bool {
         matches!(self.halt, Some(Halt::Opened { .. }))
     }
 
-    /// The picture runs again once it is drawn fast.
+    /// Returns whether the picture resumes once it is drawn fast enough.
     pub(crate) fn resumes(&self) -> bool {
         self.resumes
     }
 
-    /// The picture does not go on after the halt.
+    /// Cancels resuming after the halt.
     pub(crate) fn forget_resuming(&mut self) {
         self.resumes = false;
     }
 
-    /// Returns whether the picture goes on as it was before the halt, once.
+    /// Returns whether the picture resumes as before the halt, once.
     pub(crate) fn take_resuming(&mut self) -> bool {
         take(&mut self.resumes)
     }
@@ -137,12 +137,12 @@ impl HaltControl {
         self.is_device_gone
     }
 
-    /// Nothing more is drawn. Returns whether that is news.
+    /// Stops all drawing for good. Returns whether the device was still in use.
     pub(crate) fn lose_device(&mut self) -> bool {
         !replace(&mut self.is_device_gone, true)
     }
 
-    /// Halts the picture. `project`: its program draws.
+    /// Halts the picture. `project`: the project of the program that draws.
     pub(crate) fn start(&mut self, halt: Halt, was_playing: bool, project: Option<&Project>) {
         self.resumes |= was_playing;
         self.halt = Some(halt);
@@ -151,7 +151,7 @@ impl HaltControl {
         }
     }
 
-    /// Holds a project that nothing is drawn of before one plays it.
+    /// Holds a project, of which nothing is drawn before the user plays it.
     pub(crate) fn hold(&mut self, was_playing: bool, after_trouble: bool) {
         self.resumes = was_playing;
         self.halt = Some(Halt::Opened { after_trouble });
@@ -161,19 +161,19 @@ impl HaltControl {
         self.halt.take()
     }
 
-    /// Other code or another canvas: its frames take another time.
+    /// Resets the statistics: frames of other code or another canvas take a different time.
     pub(crate) fn begin_pace(&mut self) {
         self.pace.begin();
     }
 
-    /// Lets frames take more time than the one that the picture was halted for.
+    /// Allows frames to take longer than the one for which the picture was halted.
     pub(crate) fn allow_more(&mut self, now: Instant) {
         let Some(taken) = self.frame_time(now) else { return };
         self.pace.begin();
         self.allowed = Some((self.limit() * ALLOWED_LIMITS).max(taken.saturating_mul(ALLOWED_TIMES)));
     }
 
-    /// The time of the frame that the picture was halted for, as far as it is known.
+    /// The time of the frame for which the picture was halted, as far as it is known.
     fn frame_time(&self, now: Instant) -> Option<Duration> {
         match self.halt? {
             Halt::Drawing { since, .. } => Some(now.saturating_duration_since(since)),
@@ -183,12 +183,12 @@ impl HaltControl {
         }
     }
 
-    /// Returns the factor of a side that brings a frame below the limit, by what the one took that the picture was halted
-    /// for.
+    /// Returns the factor of a side that brings a frame below the limit, judging by the time of the frame for which the
+    /// picture was halted.
     pub(crate) fn smaller_by(&self, now: Instant) -> f64 {
         let taken = self.frame_time(now).unwrap_or_default();
         let times = taken.as_secs_f64() / self.limit.as_secs_f64().max(1e-3);
-        // Half a side is a quarter of the pixels.
+        // Half the side is a quarter of the pixels.
         let halvings = (times.max(1.0).log2() / 2.0).ceil().clamp(1.0, 6.0) as i32;
         0.5_f64.powi(halvings)
     }
@@ -199,7 +199,7 @@ impl HaltControl {
         (age >= self.limit() * self.pace.patience()).then_some(age)
     }
 
-    /// Returns what is done about a frame that is overdue by such an age.
+    /// Returns what to do about an overdue frame, given how long it has been drawn.
     pub(crate) fn judge_overdue(&self, age: Duration, is_newer_wanted: bool) -> OverdueAction {
         match () {
             () if is_newer_wanted => OverdueAction::MakeRoom,
@@ -208,12 +208,12 @@ impl HaltControl {
         }
     }
 
-    /// The time after which a device is given up that still draws a frame.
+    /// The time after which a device that is still drawing a frame is abandoned.
     fn patience(&self) -> Duration {
         self.limit() * if self.is_new { GIVE_UP_NEW } else { GIVE_UP }
     }
 
-    /// Returns when the frame that is being drawn is to be judged next.
+    /// Returns when to judge the frame in progress next.
     pub(crate) fn deadline(
         &self,
         now: Instant,
@@ -229,22 +229,21 @@ impl HaltControl {
         })
     }
 
-    /// Returns whether newer code may take the device of code that does not come back, where so many threads do not.
+    /// Returns whether newer code may take over the device of hung code, given the number of hung threads.
     pub(crate) fn may_take_device(now: Instant, edited_at: Option<Instant>, lost_threads: usize) -> bool {
         let lost = u32::try_from(lost_threads).unwrap_or(u32::MAX);
         let quiet = edited_at.map_or(Duration::MAX, |at| now.saturating_duration_since(at));
         quiet >= QUIET.saturating_mul(lost)
     }
 
-    /// A frame of the program that draws does not come back. Good code was fast enough until now, and would come to this
-    /// again.
+    /// Records that a frame of the current program hangs. Code that was good until now would hang again.
     pub(crate) fn give_up_frame(&mut self) {
         if !self.is_new {
             self.good = None;
         }
     }
 
-    /// The device is lost. Returns whether it was opened only just before, with no edit since.
+    /// Records the loss of the device. Returns whether it was opened only just before, with no edit since.
     pub(crate) fn device_is_lost(&mut self, now: Instant, edited_at: Option<Instant>) -> bool {
         let before = self.lost_at.replace(now);
         before.is_some_and(|at| {
@@ -252,12 +251,12 @@ impl HaltControl {
         })
     }
 
-    /// No frame of the newest code has been drawn yet.
+    /// Returns whether the newest code has not drawn a frame yet.
     pub(crate) fn is_new(&self) -> bool {
         self.is_new
     }
 
-    /// Code is about to reach the device. `project`: it is of the newest text.
+    /// Code is about to reach the device. `project`: set if it is of the newest text.
     pub(crate) fn begin_code(&mut self, project: Option<&Project>) {
         if let Some(project) = project {
             self.marker.set(project);
@@ -266,7 +265,8 @@ impl HaltControl {
         self.pace.begin();
     }
 
-    /// A frame has been drawn. `newest`: by the program of the newest text. `can_halt`: nobody waited for it.
+    /// Records a drawn frame. `newest`: set if it is by the program of the newest text. `can_halt`: the session
+    /// did not block on it.
     pub(crate) fn frame_took(&mut self, took: Duration, newest: Option<&Project>, can_halt: bool) -> Verdict {
         let limit = self.limit();
         if self.pace.is_too_slow(took, limit) && can_halt {
@@ -285,7 +285,7 @@ impl HaltControl {
         if matches!(self.halt, Some(Halt::Drawing { .. })) { Verdict::EndHalt } else { Verdict::GoOn }
     }
 
-    /// The session ends, and no frame with it.
+    /// The session ends without a hung frame: removes the marker, unless the picture is halted.
     pub(crate) fn close(&mut self) {
         if self.halt.is_none() {
             self.marker.clear();
@@ -319,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn a_device_is_given_up_sooner_for_code_that_drew_before() {
+    fn device_is_abandoned_sooner_for_code_that_drew_before() {
         let (mut control, since) = (control(), Instant::now());
         let at = |secs| since + Duration::from_secs(secs);
         assert_eq!(control.overdue(at(1), Some(since)), None);
@@ -337,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn a_device_that_is_lost_again_at_once_is_not_opened_again() {
+    fn device_lost_again_at_once_is_not_reopened() {
         let (mut control, now) = (control(), Instant::now());
         let at = |secs| now + Duration::from_secs(secs);
         assert!(!control.device_is_lost(now, None) && control.device_is_lost(at(5), None));

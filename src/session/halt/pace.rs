@@ -1,26 +1,26 @@
-//! Says whether frames are too slow: one alone is no reason to stop a picture that has run well.
+//! Decides whether frames are too slow: a single slow one does not stop a picture that has run well.
 
 use std::{collections::VecDeque, time::Duration};
 
-/// So many of the newest frames count.
+/// The number of newest frames that are considered.
 const NEWEST: usize = 5;
-/// And so many of them that are too slow are too many.
+/// The number of slow frames among them that stops the picture.
 const TOO_MANY: u32 = 3;
 
-/// The newest frames of a program on a canvas, each by how many limits it has taken.
+/// The newest frames of a program on a canvas, each as its time in multiples of the limit.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pace {
     newest: VecDeque<u32>,
 }
 
 impl Pace {
-    /// Another program or another canvas: its frames take another time.
+    /// Resets for another program or canvas, whose frames take a different time.
     pub(super) fn begin(&mut self) {
         self.newest.clear();
     }
 
-    /// Takes down a frame. Says whether the picture is to stop: three of five frames were too slow, or one of the first
-    /// ones was. A frame of several limits counts as so many.
+    /// Records a frame. Returns whether the picture should stop: three of five frames were too slow, or one of the
+    /// first ones was. A frame of several limits counts as that many.
     pub(super) fn is_too_slow(&mut self, took: Duration, limit: Duration) -> bool {
         let is_known = self.is_known();
         self.newest.truncate(NEWEST - 1);
@@ -28,19 +28,19 @@ impl Pace {
         self.newest[0] > 0 && (!is_known || self.newest.iter().sum::<u32>() >= TOO_MANY)
     }
 
-    /// Returns the limits that a frame may take that is not drawn yet, before the picture is to stop.
+    /// Returns how many limits the frame in progress may take before the picture should stop.
     pub(super) fn patience(&self) -> u32 {
         let slow: u32 = self.newest.iter().take(NEWEST - 1).sum();
         if self.is_known() { TOO_MANY.saturating_sub(slow).max(1) } else { 1 }
     }
 
-    /// It has run well so far, or it would have been stopped.
+    /// Returns whether enough frames are known; they were fast enough, or the picture would have been stopped.
     fn is_known(&self) -> bool {
         self.newest.len() == NEWEST
     }
 }
 
-/// Returns how many limits a frame has taken, as many as count.
+/// Returns how many limits a frame has taken, up to the maximum that counts.
 fn limits(took: Duration, limit: Duration) -> u32 {
     (1..=TOO_MANY).rev().find(|n| took > limit * *n).unwrap_or(0)
 }
@@ -51,7 +51,7 @@ mod tests {
 
     const LIMIT: Duration = Duration::from_secs(2);
 
-    /// Takes down frames of so many tenths of a second. Gives the first that stops the picture.
+    /// Records frames of these tenths of a second. Returns the index of the first that stops the picture.
     fn stops(pace: &mut Pace, tenths: &[u64]) -> Option<usize> {
         tenths.iter().position(|n| pace.is_too_slow(Duration::from_millis(100 * n), LIMIT))
     }
@@ -63,19 +63,19 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_that_has_run_well_is_stopped_by_three_slow_frames_of_five() {
+    fn three_of_five_slow_frames_stop_a_fast_picture() {
         assert_eq!(stops(&mut known(), &[25]), None);
         assert_eq!(stops(&mut known(), &[25, 25, 25]), Some(2));
         assert_eq!(stops(&mut known(), &[25, 1, 25, 1, 25]), Some(4));
         assert_eq!(stops(&mut known(), &[25, 25, 1, 1, 1, 25, 25, 1, 1, 1]), None);
         assert_eq!(stops(&mut known(), &[20; 100]), None, "the limit itself is not too slow");
-        // One that is as long as three of them.
+        // A single frame as long as three slow ones.
         assert_eq!(stops(&mut known(), &[65]), Some(0));
         assert_eq!(stops(&mut known(), &[45, 1, 25]), Some(2));
     }
 
     #[test]
-    fn the_first_frames_of_a_program_stop_it_at_once() {
+    fn slow_first_frame_of_a_program_stops_it_at_once() {
         for before in 0..NEWEST {
             let mut pace = Pace::default();
             assert_eq!(stops(&mut pace, &vec![1; before]), None);
@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_under_way_is_waited_for_as_long_as_it_would_be_let_pass() {
+    fn patience_for_frame_in_progress_matches_limit_when_drawn() {
         let mut pace = known();
         assert_eq!(pace.patience(), 3);
         for expected in [2, 1, 1] {

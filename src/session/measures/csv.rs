@@ -1,4 +1,4 @@
-//! The numbers that were measured make a table of plain text: a row for each frame, a column for each quantity.
+//! Writes measured numbers as a CSV table: a row for each frame, a column for each quantity.
 
 use super::Measure;
 use std::{
@@ -6,7 +6,7 @@ use std::{
     io::{self, Write},
 };
 
-/// Writes all records. A cell is empty where its quantity was not measured in that frame, or where that is not kept.
+/// Writes all records. A cell is empty if its quantity was not measured in that frame, or its sample is not kept.
 pub(super) fn write(out: &mut impl Write, measures: &[Measure]) -> io::Result<()> {
     let columns: Vec<&Measure> = measures.iter().filter(|measure| measure.quantity.is_ok()).collect();
     let mut rows: BTreeMap<i32, (f64, Vec<Option<f64>>)> = BTreeMap::new();
@@ -37,7 +37,7 @@ pub(super) fn write(out: &mut impl Write, measures: &[Measure]) -> io::Result<()
     Ok(())
 }
 
-/// Returns a text quoted by RFC 4180.
+/// Returns a text, quoted as RFC 4180 requires.
 fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }

@@ -1,4 +1,4 @@
-//! The comments, which of them is looked at, when they are due, and what was measured.
+//! The measuring comments: which are watched, when they are due, and their results.
 
 use super::record::{Record, Sample};
 use crate::{
@@ -13,20 +13,20 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Measuring takes this part of the time at most: each time waits for the device.
+/// Measuring takes at most one part in this many of the time: each read-back waits for the device.
 const SHARE: u32 = 20;
 
-/// A comment that asks for a number, and the number over time.
+/// A measuring comment, and its number over time.
 #[derive(Clone, Debug)]
 pub struct Measure {
-    /// Another one for every comment, as long as its text stays.
+    /// Unique for every comment, and stable while its text stays.
     pub serial: u64,
-    /// The quantity that is asked for, as it was written.
+    /// The quantity as it was written.
     pub text: String,
     pub place: TextLocation,
     pub quantity: Result<Quantity, Unmeasured>,
     pub record: Record,
-    /// Frames have been drawn since the newest sample that were not measured because nobody looked, or could not be.
+    /// Frames since the newest sample were not measured, because the comment was not watched or the frame could not be.
     has_gap: bool,
 }
 
@@ -37,18 +37,18 @@ impl Measure {
     }
 }
 
-/// Measures quantities of what the targets hold, by the serial of their comment.
+/// Measures quantities of the targets' contents, by the serial of their comment.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MeasureQuantities(pub Vec<(u64, Quantity)>);
 
 impl RenderTask for MeasureQuantities {
-    /// Nothing has a number before the first frame.
+    /// `None` before the first frame.
     type Output = Option<Measured>;
 
     fn run(self, renderer: &mut Renderer) -> Self::Output {
         let (frame, time_secs) = renderer.shown()?;
         let engine = renderer.engine_mut();
-        // Each target is read once.
+        // Read each target once.
         let mut read: HashMap<(PassName, usize), Option<(Pixels, usize)>> = HashMap::new();
         let mut value = |quantity: &Quantity| {
             let target = (quantity.pass.clone(), quantity.target);
@@ -63,7 +63,7 @@ impl RenderTask for MeasureQuantities {
     }
 }
 
-/// Holds what came back of a frame. A quantity whose target is not drawn has no value.
+/// The values of a frame. A quantity whose target is not drawn has no value.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Measured {
     pub frame: i32,
@@ -74,17 +74,17 @@ pub(super) struct Measured {
 #[derive(Default)]
 pub(crate) struct Measuring {
     measures: Vec<Measure>,
-    /// The state of the project that the comments are of.
+    /// The state of the project when the comments were read.
     read_at: Option<(u64, u64)>,
     next_serial: u64,
-    /// Those that somebody looks at.
+    /// The serials of the comments that are watched.
     seen: Vec<u64>,
-    /// The frame that was drawn, or what is looked at, is newer than what was measured.
+    /// The drawn frame or the watched set is newer than the last measurement.
     is_due: bool,
     asked_at: Option<Instant>,
-    /// The time that it took.
+    /// The duration of the last measurement.
     took: Duration,
-    /// The frame that was drawn last, or is being drawn.
+    /// The last frame that was drawn, or is being drawn.
     frame: Option<i32>,
     /// The number of frames that have been measured.
     count: u64,
@@ -92,8 +92,8 @@ pub(crate) struct Measuring {
 }
 
 impl Measuring {
-    /// Reads the comments again where the project has changed. A comment whose text stays keeps its record, wherever it
-    /// stands. Says whether something may be another than before.
+    /// Reads the comments again if the project has changed. A comment whose text stays keeps its record, even if it has
+    /// moved. Returns whether something may have changed.
     pub(crate) fn follow(&mut self, project: &Project, state: (u64, u64)) -> bool {
         if self.read_at.replace(state) == Some(state) {
             return false;
@@ -122,7 +122,7 @@ impl Measuring {
         true
     }
 
-    /// Every record begins anew.
+    /// Clears every record.
     pub(crate) fn clear(&mut self) {
         self.measures.iter_mut().for_each(|measure| measure.record = Record::default());
     }
@@ -136,13 +136,13 @@ impl Measuring {
         self.count
     }
 
-    /// Only these are looked at from now on.
+    /// Sets the comments that are watched.
     pub(crate) fn watch(&mut self, seen: Vec<u64>) {
         self.is_due |= seen.iter().any(|serial| !self.seen.contains(serial));
         self.seen = seen;
     }
 
-    /// A new frame is about to be drawn. What was measured of it before, and of later ones, is of another run.
+    /// A new frame is about to be drawn. Samples of this frame and later ones belong to another run.
     pub(crate) fn begin_frame(&mut self, frame: i32) {
         let is_next = self.frame.is_none_or(|before| frame == before.saturating_add(1));
         for measure in &mut self.measures {
@@ -152,13 +152,13 @@ impl Measuring {
         self.frame = Some(frame);
     }
 
-    /// The frame that is shown is drawn again: what was measured of it is measured anew.
+    /// The shown frame is drawn again: it is measured again.
     pub(crate) fn draw_again(&mut self, frame: i32) {
         self.measures.iter_mut().for_each(|measure| measure.record.keep_before(frame));
         self.is_due = true;
     }
 
-    /// A frame of the run is shown again; what lies ahead may come otherwise.
+    /// A frame of the run is shown again; later frames may differ.
     pub(crate) fn go_to(&mut self, frame: i32) {
         let is_far = self.frame.is_none_or(|before| frame > before.saturating_add(1));
         for measure in &mut self.measures {
@@ -168,8 +168,8 @@ impl Measuring {
         (self.frame, self.is_due) = (Some(frame), true);
     }
 
-    /// Returns what is to be measured now, of the frame that is to be drawn if there is one. While time runs, another
-    /// comes anyway, and it waits for its turn.
+    /// Returns what to measure now, of the frame to be drawn if there is one. While time runs, another frame follows
+    /// anyway, so measurements are rate-limited.
     pub(super) fn due(&mut self, now: Instant, has_frame: bool, is_running: bool) -> Option<MeasureQuantities> {
         self.is_due |= has_frame;
         let is_early = self.asked_at.is_some_and(|at| now.saturating_duration_since(at) < SHARE * self.took);

@@ -1,7 +1,7 @@
-//! Numbers of passes over time, which `//@probe` comments ask for.
+//! Numbers of passes over time, which `//@probe` comments request.
 //!
-//! Owns which comments there are, what of them is measured and how often, and the record of each. Reading texels is the
-//! engine's, and what a quantity is `reduction`'s. Nothing is measured while nobody looks.
+//! Owns the comments, which of them are measured and how often, and the record of each. Reading texels is the engine's,
+//! and the definition of a quantity is `reduction`'s. Nothing is measured while no view shows it.
 
 mod csv;
 mod measuring;
@@ -20,19 +20,19 @@ use eddy_playback::{capture, reduction::Unmeasured};
 use std::borrow::Cow;
 
 impl Session {
-    /// Every comment of the project that asks for a number, and what has been measured while somebody looked at it
+    /// Every measuring comment of the project, with its samples while it was watched
     /// ([`Command::WatchMeasures`](super::Command::WatchMeasures)).
     pub fn measures(&self) -> &[Measure] {
         self.watched.measuring.measures()
     }
 
-    /// Returns how many frames have been measured since the session began.
+    /// Returns how many frames have been measured since the session started.
     pub fn measured_frames(&self) -> u64 {
         self.watched.measuring.count()
     }
 
-    /// Returns why nothing is measured for a comment. What is known of passes that are not drawn is said while somebody
-    /// looks at the costs ([`Command::WatchCosts`](super::Command::WatchCosts)).
+    /// Returns why nothing is measured for a comment. The reason for a pass that is not drawn is known while costs are
+    /// watched ([`Command::WatchCosts`](super::Command::WatchCosts)).
     pub fn unmeasured<'m>(&self, measure: &'m Measure) -> Option<Cow<'m, Unmeasured>> {
         let pass = match &measure.quantity {
             Err(unmeasured) => return Some(Cow::Borrowed(unmeasured)),
@@ -46,13 +46,13 @@ impl Session {
         Some(Cow::Owned(Unmeasured { why: format!("{} is {known}", pass.title()), mend }))
     }
 
-    /// Takes up what has become of the comments.
+    /// Updates the comments after edits.
     pub(super) fn follow_measures(&mut self) {
         let state = (self.disk.opened(), self.documents.revision());
         self.changed |= self.watched.measuring.follow(self.documents.current(), state);
     }
 
-    /// Writes what has been measured to a new file beside the pictures.
+    /// Writes the measured values to a new file next to the pictures.
     pub(super) fn save_measures(&mut self) {
         let measures = self.watched.measuring.measures();
         if measures.iter().all(|measure| measure.record.newest().is_none()) {

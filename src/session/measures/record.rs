@@ -1,10 +1,10 @@
-//! A number over time in bounded room: where there are many, each stretch of frames keeps its least and its largest, so
+//! A number over time in bounded memory: long records keep the minimum and the maximum of each interval of frames, so
 //! that no spike is lost.
 
-/// Samples that are kept at most.
+/// The maximum number of samples that are kept.
 pub const MOST: usize = 4096;
 
-/// A number of a frame.
+/// The value of a number in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     pub frame: i32,
@@ -17,28 +17,28 @@ pub struct Sample {
 pub struct Record {
     /// In the order of their frames, none of them empty.
     cells: Vec<Cell>,
-    /// A cell is of two to the power of this many frames.
+    /// A cell covers two to the power of this many frames.
     power: u32,
-    /// The number of samples that the cells hold.
+    /// The number of samples that the cells contain.
     held: usize,
     newest: Option<Sample>,
 }
 
-/// Holds what is kept of the frames of a cell.
+/// The samples that are kept of a cell's frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cell {
-    /// The first of the least and the first of the largest, which may be the same one.
+    /// The first minimum and the first maximum, which may be the same sample.
     least: Option<Sample>,
     largest: Option<Sample>,
-    /// The first that is NaN or infinite.
+    /// The first sample that is NaN or infinite.
     nonfinite: Option<Sample>,
-    /// Frames before it were drawn and not measured.
+    /// Frames before the cell were drawn and not measured.
     pub is_after_gap: bool,
 }
 
 impl Record {
-    /// Takes a sample down. One of a frame that was measured before takes the place of everything from there on.
-    /// `is_after_gap`: frames before it were not measured.
+    /// Adds a sample. A sample of a frame that was measured before replaces everything from there on. `is_after_gap`:
+    /// frames before it were not measured.
     pub fn push(&mut self, sample: Sample, is_after_gap: bool) {
         if self.newest.is_some_and(|newest| sample.frame <= newest.frame) {
             self.keep_before(sample.frame);
@@ -53,13 +53,13 @@ impl Record {
             cell.take(sample);
             self.held += cell.samples().count();
         }
-        // Cells of single frames have nothing to lose: it takes another turn.
+        // Cells of single frames cannot drop samples: the loop runs once more.
         while self.held > MOST {
             self.thin();
         }
     }
 
-    /// Makes cells twice as long.
+    /// Doubles the length of the cells.
     fn thin(&mut self) {
         self.power += 1;
         let mut cells: Vec<Cell> = Vec::with_capacity(self.cells.len() / 2 + 1);
@@ -73,7 +73,7 @@ impl Record {
         self.count();
     }
 
-    /// Forgets this frame and all behind it.
+    /// Drops this frame and all later ones.
     pub fn keep_before(&mut self, frame: i32) {
         if self.newest.is_none_or(|newest| newest.frame < frame) {
             return;
@@ -97,7 +97,7 @@ impl Record {
         self.held = self.samples().count();
     }
 
-    /// The one that was taken down last.
+    /// The sample that was added last.
     pub fn newest(&self) -> Option<Sample> {
         self.newest
     }
@@ -106,12 +106,12 @@ impl Record {
         &self.cells
     }
 
-    /// All that is kept, in the order of frames.
+    /// All samples that are kept, in the order of frames.
     pub fn samples(&self) -> impl DoubleEndedIterator<Item = Sample> {
         self.cells.iter().flat_map(Cell::samples)
     }
 
-    /// The least and the largest that is finite.
+    /// The minimum and the maximum of the finite samples.
     pub fn extremes(&self) -> Option<(f64, f64)> {
         let both = self.cells.iter().filter_map(|cell| Some((cell.least?.value, cell.largest?.value)));
         both.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
@@ -119,7 +119,7 @@ impl Record {
 }
 
 impl Cell {
-    /// At most three, in the order of frames.
+    /// Returns at most three samples, in the order of frames.
     pub fn samples(&self) -> impl DoubleEndedIterator<Item = Sample> + use<> {
         let largest = self.largest.filter(|largest| self.least.is_none_or(|least| least.frame != largest.frame));
         let mut all = [self.least, largest, self.nonfinite];

@@ -13,7 +13,7 @@ fn recorded(values: impl IntoIterator<Item = f64>) -> Record {
     record
 }
 
-/// Values that look random, and are the same each time.
+/// Pseudo-random values, the same on each run.
 fn noise(frame: i32) -> f64 {
     f64::from((frame as u32).wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24) - 0.5
 }
@@ -24,18 +24,18 @@ fn is_in_order(record: &Record) -> bool {
 }
 
 #[test]
-fn as_many_as_have_room_are_kept_as_they_are() {
+fn samples_within_the_limit_are_unchanged() {
     let record = recorded((0..MOST as i32).map(noise));
     assert_eq!(record.samples().count(), MOST);
     assert!((0..).zip(record.samples()).all(|(frame, kept)| kept == sample(frame, noise(frame))));
-    // One more, and cells have the least and the largest.
+    // With one more, cells have a minimum and a maximum.
     let record = recorded((0..=MOST as i32).map(noise));
     assert!((MOST / 3..=MOST).contains(&record.samples().count()), "{}", record.samples().count());
     assert_eq!(record.newest(), Some(sample(MOST as i32, noise(MOST as i32))));
 }
 
 #[test]
-fn millions_have_room_and_no_spike_is_lost() {
+fn millions_of_samples_fit_and_keep_every_spike() {
     const SPIKES: [(i32, f64); 4] = [(3, 900.0), (77_777, -300.0), (1_234_567, 400.0), (2_999_998, -901.0)];
     let value = |frame: i32| SPIKES.iter().find(|spike| spike.0 == frame).map_or(noise(frame), |spike| spike.1);
     let mut record = Record::default();
@@ -51,7 +51,7 @@ fn millions_have_room_and_no_spike_is_lost() {
     for (frame, value) in SPIKES {
         assert!(record.samples().any(|kept| kept == sample(frame, value)), "{frame}");
     }
-    // Every stretch of frames has its own least and largest.
+    // Every interval of frames has its own minimum and maximum.
     for cell in record.cells() {
         let kept: Vec<Sample> = cell.samples().collect();
         assert!(kept.len() <= 2 && kept.iter().all(|kept| kept.value == value(kept.frame)));
@@ -60,20 +60,20 @@ fn millions_have_room_and_no_spike_is_lost() {
 }
 
 #[test]
-fn frames_may_have_any_number() {
+fn frame_numbers_may_be_any_integer() {
     let mut record = Record::default();
     for frame in (0..i32::MAX - 70_000).step_by(65_536).chain(i32::MAX - 5_000..=i32::MAX) {
         record.push(sample(frame, noise(frame)), false);
         assert!(record.samples().count() <= MOST);
     }
-    // Where the number stands still, the newest value is that frame's.
+    // When the frame number saturates, the newest value is kept.
     record.push(sample(i32::MAX, 7.0), false);
     assert_eq!(record.newest(), Some(sample(i32::MAX, 7.0)));
     assert!(is_in_order(&record) && record.extremes().unwrap().1 == 7.0);
 }
 
 #[test]
-fn what_is_not_finite_is_kept_apart() {
+fn nonfinite_samples_are_kept_separately() {
     let record = recorded((0..100_000).map(|frame| match frame {
         50 => f64::NAN,
         60_000 => f64::INFINITY,
@@ -84,14 +84,14 @@ fn what_is_not_finite_is_kept_apart() {
         record.samples().filter(|sample| !sample.value.is_finite()).map(|sample| sample.frame).collect();
     assert_eq!(bad, [50, 60_000, 99_000]);
     assert_eq!(record.extremes(), Some((0.0, 99_999.0)));
-    // Nothing but NaN: no more than there is room for.
+    // Nothing but NaN: the limit is the same.
     let record = recorded((0..100_000).map(|_| f64::NAN));
     assert!(record.samples().count() <= MOST && record.extremes().is_none());
     assert!(record.newest().unwrap().value.is_nan());
 }
 
 #[test]
-fn going_back_forgets_what_lies_ahead() {
+fn going_back_drops_later_samples() {
     let mut record = recorded((0..10).map(f64::from));
     record.push(sample(4, 40.0), false);
     let kept = |record: &Record| record.samples().map(|sample| sample.value).collect::<Vec<_>>();
@@ -102,7 +102,7 @@ fn going_back_forgets_what_lies_ahead() {
     assert_eq!(kept(&record), [0.0, 1.0, 2.0]);
     record.keep_before(0);
     assert!(kept(&record).is_empty() && record.newest().is_none());
-    // A record that has been thinned is as fine as before when it begins anew.
+    // A record that was thinned has its full resolution again after a restart.
     let mut record = recorded((0..100_000).map(noise));
     let before = record.samples().take_while(|kept| kept.frame < 70_000).count();
     record.keep_before(70_000);
@@ -114,7 +114,7 @@ fn going_back_forgets_what_lies_ahead() {
 }
 
 #[test]
-fn gaps_stay_where_they_are_longer_than_a_cell() {
+fn gaps_longer_than_a_cell_are_kept() {
     let mut record = recorded((0..3_000).map(noise));
     (10_000..13_000).for_each(|frame| record.push(sample(frame, noise(frame)), frame == 10_000));
     let gaps: Vec<i32> = record
@@ -132,7 +132,7 @@ fn project(image: &str) -> Project {
     project
 }
 
-/// Comments, each with its line.
+/// The comments, each with its line.
 fn summaries(measuring: &Measuring) -> Vec<(u64, &str, usize, bool)> {
     measuring
         .measures()
@@ -141,7 +141,7 @@ fn summaries(measuring: &Measuring) -> Vec<(u64, &str, usize, bool)> {
         .collect()
 }
 
-/// A frame is drawn, and what is due of it measured.
+/// Draws a frame, and measures what is due.
 fn draw(measuring: &mut Measuring, frame: i32, now: Instant, is_running: bool) -> Option<usize> {
     measuring.begin_frame(frame);
     let wanted = measuring.due(now, true, is_running).map(|wanted| wanted.0);
@@ -155,14 +155,14 @@ fn draw(measuring: &mut Measuring, frame: i32, now: Instant, is_running: bool) -
 }
 
 #[test]
-fn a_comment_keeps_its_record_until_its_text_changes() {
+fn record_is_kept_until_the_text_of_its_comment_changes() {
     let (mut measuring, now) = (Measuring::default(), Instant::now());
     measuring.follow(&project("//@probe max(image.x)\n//@probe min(image)\n"), (1, 1));
     measuring.watch(vec![1, 2]);
     draw(&mut measuring, 0, now, false);
     assert_eq!(draw(&mut measuring, 1, now, false), Some(2));
     assert_eq!(summaries(&measuring), [(1, "max(image.x)", 1, true), (2, "min(image)", 2, true)]);
-    // Of another text, further down, and the second one once more.
+    // With another text, on a later line, and the second one duplicated.
     let more = "float a;\n//@probe max(image.x)\n//@probe min(image)\n//@probe min(image)\n";
     assert!(measuring.follow(&project(more), (1, 2)) && !measuring.follow(&project(more), (1, 2)));
     assert_eq!(
@@ -177,7 +177,7 @@ fn a_comment_keeps_its_record_until_its_text_changes() {
 }
 
 #[test]
-fn what_cannot_be_measured_says_why_and_is_not_asked_for() {
+fn unmeasurable_comments_have_a_reason_and_are_not_requested() {
     let (mut measuring, now) = (Measuring::default(), Instant::now());
     let text = "//@probe total(image)\n//@probe sum(buffer_q)\n//@probe max(image:2)\n//@probe max(image)\n";
     measuring.follow(&project(text), (1, 1));
@@ -193,7 +193,7 @@ fn what_cannot_be_measured_says_why_and_is_not_asked_for() {
 }
 
 #[test]
-fn only_what_is_looked_at_is_measured_and_it_takes_a_part_of_the_time() {
+fn only_watched_comments_are_measured_within_the_time_share() {
     let (mut measuring, now) = (Measuring::default(), Instant::now());
     measuring.follow(&project("//@probe max(image.x)\n//@probe min(image)\n"), (1, 1));
     assert_eq!(draw(&mut measuring, 0, now, true), None);
@@ -207,7 +207,7 @@ fn only_what_is_looked_at_is_measured_and_it_takes_a_part_of_the_time() {
     measuring.watch(vec![]);
     assert_eq!(draw(&mut measuring, 5, millis(900), false), None);
     assert_eq!(measuring.count(), 3);
-    // Frames that nobody looked at are a gap, those that had to wait are none.
+    // Frames that were not watched are a gap; frames that had to wait are not.
     measuring.watch(vec![2]);
     assert_eq!(draw(&mut measuring, 6, millis(950), false), Some(1));
     let gaps: Vec<bool> = measuring.measures()[1].record.cells().iter().map(|cell| cell.is_after_gap).collect();
@@ -215,7 +215,7 @@ fn only_what_is_looked_at_is_measured_and_it_takes_a_part_of_the_time() {
 }
 
 #[test]
-fn time_that_begins_anew_or_goes_back_takes_the_record_with_it() {
+fn reset_or_seek_back_truncates_the_record() {
     let (mut measuring, now) = (Measuring::default(), Instant::now());
     measuring.follow(&project("//@probe max(image.x)\n"), (1, 1));
     measuring.watch(vec![1]);
@@ -225,7 +225,7 @@ fn time_that_begins_anew_or_goes_back_takes_the_record_with_it() {
     assert_eq!(frames(&measuring), [0, 1, 2, 3]);
     draw(&mut measuring, 4, now, false);
     assert_eq!(frames(&measuring), [0, 1, 2, 3, 4]);
-    // A frame that is not measured counts too.
+    // A frame that is not measured truncates the record as well.
     measuring.begin_frame(0);
     assert!(frames(&measuring).is_empty());
     measuring.receive(true);

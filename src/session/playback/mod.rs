@@ -1,8 +1,8 @@
-//! The time and the input of the picture: what each frame is drawn with, and when one is due.
+//! The time and the input of the picture: the inputs of each frame, and when one is due.
 //!
-//! Owns the clock, the mouse and the keyboard, the way to a time that is sought ([`seek`]), the recording that is played
-//! ([`replay`]) and the one that is made ([`record`]). Draws nothing and tells nobody anything: what it returns says what
-//! the session is to do.
+//! Owns the clock, the mouse and the keyboard, seeking ([`seek`]), the recording that is being played ([`replay`]) and
+//! the one being made ([`record`]). It draws nothing and reports nothing: its return values tell the session what to
+//! do.
 
 pub(crate) mod clock;
 mod record;
@@ -33,40 +33,40 @@ pub(crate) struct Playback {
     pub keyboard: Keyboard,
     pub gamepads: Gamepads,
     pub seeking: Seeking,
-    /// The inputs of what is drawn are recorded.
+    /// Records the inputs of drawn frames.
     pub recorder: Option<Recorder>,
-    /// The recording that is played.
+    /// The recording that is being played.
     pub replay: Replay,
     fps: FpsMeter,
-    /// Frames that were asked for one by one.
+    /// The number of pending single steps.
     steps: u32,
-    /// A frame must be drawn though time stands still.
+    /// A frame must be drawn even if time is paused.
     pub is_frame_due: bool,
-    /// The frame that is shown must be drawn again: the code, the canvas or a value is another than it was drawn with.
+    /// The shown frame must be drawn again: the code, the canvas or a value has changed since.
     pub is_again_due: bool,
-    /// Nobody sees the picture.
+    /// The picture is not visible.
     is_covered: bool,
 }
 
 impl Playback {
     pub(crate) fn begin_next_project(&mut self) {
         let seeking = Seeking { keeps_inputs: self.seeking.keeps_inputs, ..Seeking::default() };
-        // Pads stay plugged in.
+        // Gamepads stay connected.
         let gamepads = take(&mut self.gamepads);
         *self = Self { seeking, is_covered: self.is_covered, gamepads, ..Self::default() };
     }
 
-    /// Time runs, and somebody sees the picture.
+    /// Returns whether time runs and the picture is visible.
     pub(crate) fn is_running(&self) -> bool {
         self.clock.is_playing() && !self.is_covered
     }
 
-    /// Time runs, or will once the time that is sought is reached.
+    /// Returns whether time runs, or will once the seek has reached its goal.
     pub(crate) fn is_playing(&self) -> bool {
         self.clock.is_playing() || self.seeking.resumes
     }
 
-    /// Returns how `iTime` runs, while it does: for what is heard with the picture.
+    /// Returns the timeline of `iTime` while it runs, for the sound that plays with the picture.
     pub(crate) fn line(&self) -> Option<Timeline> {
         if !self.is_running() || self.is_seeking() {
             return None;
@@ -79,22 +79,22 @@ impl Playback {
         Some(Timeline { at, secs, speed })
     }
 
-    /// Nothing but what is done to the project or the window changes the picture.
+    /// Returns whether only changes of the project or the window alter the picture.
     pub(crate) fn is_still(&self) -> bool {
         !self.is_running() && !self.is_seeking() && self.has_drawn()
     }
 
-    /// No frame is to be drawn.
+    /// Returns whether no frame is to be drawn.
     pub(crate) fn is_settled(&self) -> bool {
         !self.is_running() && !self.is_frame_due && !self.is_again_due && self.steps == 0
     }
 
-    /// A frame has been drawn since the reset.
+    /// Returns whether a frame has been drawn since the reset.
     pub(crate) fn has_drawn(&self) -> bool {
         self.clock.next_frame_number() > 0
     }
 
-    /// Returns the number of the frame that is shown.
+    /// Returns the number of the shown frame.
     pub(crate) fn frame(&self) -> i32 {
         (self.clock.next_frame_number() - 1).max(0)
     }
@@ -104,7 +104,7 @@ impl Playback {
         self.resume();
     }
 
-    /// Lets time run; a time that is sought stays so.
+    /// Starts time; a seek continues.
     pub(crate) fn resume(&mut self) {
         self.clock.play();
         self.fps.restart();
@@ -115,7 +115,7 @@ impl Playback {
         self.clock.pause();
     }
 
-    /// Time to zero; the mouse and the keyboard stay. The first frame is due.
+    /// Resets time to zero; the mouse and the keyboard are unchanged. The first frame is due.
     pub(crate) fn reset(&mut self) {
         self.seeking.cancel();
         self.clock.reset();
@@ -124,19 +124,19 @@ impl Playback {
         self.is_frame_due = true;
     }
 
-    /// The buffers are those of a device that has drawn nothing.
+    /// Continues with the buffers of a device that has drawn nothing.
     pub(crate) fn change_device(&mut self) {
         self.seeking.cancel();
         self.clock.reset();
     }
 
-    /// The next frame counts from the newest one's time, however much real time has passed.
+    /// The next frame continues from the newest one's time, however much real time has passed.
     pub(crate) fn rebase(&mut self) {
         self.clock.rebase();
         self.fps.restart();
     }
 
-    /// Something covers the picture, or does no more. Returns whether it was covered just now.
+    /// Sets whether something covers the picture. Returns whether it was uncovered and is covered now.
     pub(crate) fn cover(&mut self, is_covered: bool) -> bool {
         let was_covered = replace(&mut self.is_covered, is_covered);
         if was_covered && !is_covered {
@@ -145,7 +145,7 @@ impl Playback {
         is_covered && !was_covered
     }
 
-    /// The window lost the keyboard: the key-up of a key held now will go to another one.
+    /// Releases all keys when the window loses the keyboard: the key-up events will go to another window.
     pub(crate) fn release_keys(&mut self) {
         if self.keyboard.bytes()[..2 * Keyboard::WIDTH].iter().any(|b| *b != 0) {
             self.keyboard.release_all();
@@ -170,12 +170,12 @@ impl Playback {
         (self.is_frame_due, self.is_again_due) = (false, false);
     }
 
-    /// Returns whether the frame that is shown is to be drawn again now, once: no other is due.
+    /// Returns whether the shown frame is to be drawn again now, once: no other is due.
     pub(crate) fn take_again(&mut self) -> bool {
         self.is_still() && take(&mut self.is_again_due)
     }
 
-    /// Returns the inputs of the frame that is due. `may_run`: one of the running picture may be.
+    /// Returns the inputs of the frame that is due. `may_run`: a frame of the running picture may be drawn.
     pub(crate) fn next_frame(&mut self, now: Instant, is_step: bool, may_run: bool) -> Option<FrameInputs> {
         let time = if is_step {
             self.clock.step_frame()
@@ -204,7 +204,7 @@ impl Playback {
             date: date::i_date(date::now()),
             keyboard: self.keyboard.clone(),
             gamepads: self.gamepads.clone(),
-            // Who hears it says so.
+            // Set by the owner of the microphone.
             microphone: None,
         };
         self.keyboard.frame_painted();
@@ -212,18 +212,18 @@ impl Playback {
         inputs
     }
 
-    /// A frame was drawn. Returns whether the frames a second are others, or the frame is one of a picture that stands.
+    /// Records a drawn frame. Returns whether the frame rate has changed, or the picture is paused.
     pub(crate) fn frame_is_drawn(&mut self, now: Instant) -> bool {
         !self.clock.is_playing() || self.fps.frame(now)
     }
 
-    /// Returns frames a second over the last half second; `None` where there is nothing to measure.
+    /// Returns frames per second over the last half second; `None` if there is nothing to measure.
     pub(crate) fn fps(&self) -> Option<f64> {
         Some(self.fps.fps).filter(|fps| *fps > 0.0)
     }
 }
 
-/// Frames a second as people read it: over half a second, as the site shows it.
+/// The displayed frames per second: over half a second, as on Shadertoy.
 #[derive(Default)]
 struct FpsMeter {
     fps: f64,
@@ -231,7 +231,7 @@ struct FpsMeter {
 }
 
 impl FpsMeter {
-    /// A frame was drawn while playing. True if the figure has changed.
+    /// Records a frame that was drawn while playing. Returns whether the displayed rate has changed.
     fn frame(&mut self, now: Instant) -> bool {
         let (since, frames) = self.window.get_or_insert((now, 0));
         let elapsed = now.saturating_duration_since(*since);
@@ -244,7 +244,7 @@ impl FpsMeter {
         full
     }
 
-    /// Frames after a pause are not measured against those before it, and what was measured is of another time.
+    /// Restarts the measurement: frames after a pause are not measured against those before it.
     fn restart(&mut self) {
         (self.fps, self.window) = (0.0, None);
     }

@@ -1,27 +1,27 @@
-//! Records the inputs of what is drawn.
+//! Records the inputs of drawn frames.
 
 use crate::drawing::Changes;
 use eddy_engine::FrameInputs;
 use eddy_playback::recording::{RecordedFrame, Recording};
 use eddy_project::CustomUniformValues;
 
-/// Takes down what each frame is drawn with.
+/// Records the inputs of each frame.
 pub(crate) struct Recorder {
     pub recording: Recording,
-    /// The values as the engine has them.
+    /// The values that the engine has.
     values: CustomUniformValues,
     /// The buffers are cleared before the next frame.
     is_reset: bool,
 }
 
 impl Recorder {
-    /// Nothing has been drawn yet; the author's own uniforms have these values.
+    /// A recorder before the first frame, with these values of the author's own uniforms.
     pub(crate) fn new(project: String, values: CustomUniformValues) -> Self {
         Self { recording: Recording { project, frames: Vec::new() }, values, is_reset: false }
     }
 
-    /// Takes down a job for the engine: its changes, the canvas that it has then, and its frame, or that it draws the
-    /// last one again.
+    /// Records a job for the engine: its changes, the resulting canvas size, and its frame, or that it draws the last
+    /// one again.
     pub(crate) fn note(&mut self, changes: &Changes, size: (u32, u32), frame: Option<&FrameInputs>, again: bool) {
         self.is_reset |= changes.reset;
         if let Some(values) = &changes.custom_uniforms {

@@ -1,9 +1,9 @@
 //! Plays a recording in the open project: every frame gets its recorded time, date, mouse, keys, canvas and
 //! values of uniforms, from frame 0 on, and is drawn as [`eddy_playback::offline`] draws it.
 //!
-//! Input on the picture does not reach it meanwhile. A person takes over by [`Command::StopReplay`]: the
-//! picture goes on live from the frame that is shown. Nothing of the project is changed by it: canvas and values are
-//! the recording's until the picture is reset, or another size is asked for.
+//! Live input on the picture is ignored meanwhile. The user takes over by [`Command::StopReplay`]: the picture
+//! continues live from the shown frame. The project is not changed: canvas and values are the recording's until the
+//! picture is reset, or another size is requested.
 //!
 //! [`Command::StopReplay`]: crate::Command::StopReplay
 
@@ -22,27 +22,28 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// A frame that is later than this is drawn at once, and the frames after it count from it: a machine that is slower
-/// than the one that recorded draws every frame, and does not hurry after a hitch.
+/// A frame that is later than this is drawn at once, and the following frames are timed from it: a machine that is
+/// slower than the recording one draws every frame, and does not catch up after a hitch.
 const LATE: Duration = Duration::from_millis(100);
-/// The same frame is not shown longer: nobody waits for what the recording machine waited for.
+/// A frame is shown no longer than this: pauses of the recording machine are shortened.
 const LONGEST: Duration = Duration::from_millis(250);
-/// A recording of a faster screen has further frames drawn in the same tick, but not more than these.
+/// A recording from a faster display draws several frames per tick, but at most this many.
 const MOST_A_TICK: u32 = 4;
-/// A further frame of the same tick is so late.
+/// An additional frame of the same tick is at least this late.
 const BEHIND: Duration = Duration::from_millis(8);
 
-/// A tick that comes so long before a frame is due draws it: else a screen of the same rate would show some twice.
+/// A tick this much before a frame is due draws it: on a display with the same refresh rate some frames would otherwise
+/// be shown twice.
 const EARLY: Duration = Duration::from_millis(4);
 
-/// Everything about the recording that is played, or that was played last.
+/// The state of the recording that is being played, or was played last.
 #[derive(Default)]
 pub(crate) struct Replay {
     pub reading: Option<Reading>,
     pub playing: Option<Playing>,
-    /// The engine has the values of uniforms that the recording gave it, and not the project's.
+    /// The engine has the recording's values of uniforms, not the project's.
     pub has_values: bool,
-    /// The next job's frame follows the one before as that was drawn.
+    /// The next job's frame follows the previous one with the state in which that was drawn.
     pub follows: bool,
 }
 
@@ -53,7 +54,7 @@ pub(crate) struct Reading {
 }
 
 impl Reading {
-    /// Starts to read, on a thread of its own: a long recording takes seconds. `wake` is called when it is there.
+    /// Starts reading on a thread of its own: a long recording takes seconds. `wake` is called when it is done.
     pub(crate) fn start(file: PathBuf, wake: Wake) -> std::io::Result<Self> {
         let path = file.clone();
         let read = move |_: &Control<()>| {
@@ -64,7 +65,7 @@ impl Reading {
         Ok(Self { file, result })
     }
 
-    /// Returns what was read, once it is.
+    /// Returns the result once reading is done.
     pub(crate) fn take(&mut self) -> Option<Result<Recording, ReadError>> {
         let read = self.result.take()?;
         Some(read.unwrap_or_else(|why| Err(ReadError::Io(std::io::Error::other(why)))))
@@ -75,22 +76,22 @@ impl Reading {
 pub(crate) struct Playing {
     pub file: PathBuf,
     recording: Arc<Recording>,
-    /// The frame that is drawn next.
+    /// The index of the next frame.
     next: usize,
     /// The first frame since the newest reset: the engine counts its run from there.
     run: usize,
-    /// A time and the recorded time that belongs to it.
+    /// A real time and the recorded time at that moment.
     anchor: Option<(Instant, f64)>,
     newest: Option<Instant>,
-    /// Frames that were drawn in the tick of this time.
+    /// The time of a tick, and the number of frames drawn in it.
     in_tick: (Option<Instant>, u32),
 }
 
-/// A front end shows this of a recording that is played.
+/// The state of a replay as a front end shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReplayView {
     pub file: PathBuf,
-    /// The frames that have been drawn, of how many.
+    /// The number of frames drawn, and the total.
     pub drawn: usize,
     pub frames: usize,
 }
@@ -101,7 +102,7 @@ impl Playing {
         Self { file, recording, next: 0, run: 0, anchor: None, newest: None, in_tick: (None, 0) }
     }
 
-    /// Returns a time and the recorded time that belongs to it, while frames are drawn.
+    /// Returns a real time and the recorded time at that moment, until the last frame.
     pub(crate) fn anchor(&self) -> Option<(Instant, f64)> {
         self.anchor.filter(|_| !self.is_over())
     }
@@ -118,7 +119,7 @@ impl Playing {
         self.next >= self.recording.frames.len()
     }
 
-    /// Returns the frame that was drawn last, or before the first one that first one.
+    /// Returns the frame that was drawn last, or the first one if none was.
     pub(crate) fn newest(&self) -> Option<&RecordedFrame> {
         self.recording.frames.get(self.next.saturating_sub(1))
     }
@@ -128,21 +129,21 @@ impl Playing {
         self.newest().map(|frame| &frame.values)
     }
 
-    /// The engine shows the frame of this number of its run: the one after it is next.
+    /// The engine shows the frame of its run with this number: continues with the one after it.
     pub(crate) fn go_to(&mut self, number: u64) {
         let next = self.run.saturating_add(usize::try_from(number).unwrap_or(usize::MAX)).saturating_add(1);
         self.next = next.min(self.recording.frames.len());
         (self.anchor, self.newest) = (None, None);
     }
 
-    /// Returns whether the next frame is due at a time, where recorded time runs at a speed.
+    /// Returns whether the next frame is due, with recorded time running at a speed.
     pub(crate) fn is_due(&mut self, now: Instant, speed: f64) -> bool {
         let Some(frame) = self.recording.frames.get(self.next) else { return false };
         let due = frame.inputs.time_secs;
         if self.in_tick.0 != Some(now) {
             self.in_tick = (Some(now), 0);
         }
-        // Time was set back, or stood.
+        // Time was set back, or was paused.
         let Some((since, from)) = self.anchor.filter(|(_, from)| due >= *from) else {
             self.anchor = Some((now, due));
             return self.in_tick.1 == 0;
@@ -160,7 +161,7 @@ impl Playing {
         }
     }
 
-    /// Returns when the next frame is due, as far as a time knows that where recorded time runs at a speed.
+    /// Returns when the next frame is due as far as that is known, with recorded time running at a speed.
     pub(crate) fn due_at(&self, now: Instant, speed: f64) -> Instant {
         let secs = self.recording.frames.get(self.next).map(|frame| frame.inputs.time_secs);
         let Some(((since, from), secs)) = self.anchor.zip(secs) else { return now };
@@ -169,7 +170,7 @@ impl Playing {
         [due, latest].into_iter().flatten().min().unwrap_or(now)
     }
 
-    /// Takes the next frame, and says whether the canvas, the values and the buffers are others than before it.
+    /// Takes the next frame, and returns whether the canvas, the values and the buffers change before it.
     pub(crate) fn take(&mut self, now: Instant) -> Option<(RecordedFrame, Change)> {
         let (change, _) = self.recording.change(self.next)?;
         let frame = self.recording.frames[self.next].clone();
@@ -183,16 +184,16 @@ impl Playing {
     }
 }
 
-/// Returns the name of a file, for a person.
+/// Returns the file name to display.
 pub(crate) fn name(file: &Path) -> String {
     file.file_name().map_or_else(|| file.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
-/// The next frame of a recording, and what changes before it.
+/// The next frame of a recording, and the changes before it.
 pub(crate) struct ReplayedFrame {
     pub frame: RecordedFrame,
     pub change: Change,
-    /// It is the last one.
+    /// It is the last frame.
     pub is_last: bool,
 }
 
@@ -201,31 +202,30 @@ impl Playback {
         self.replay.playing.is_some()
     }
 
-    /// Returns when the next frame of the recording that is played is due.
+    /// Returns when the next frame of the replay is due.
     pub(crate) fn replay_due(&self, now: Instant) -> Option<Instant> {
         Some(self.replay.playing.as_ref()?.due_at(now, self.clock.speed()))
     }
 
-    /// Begins with a recording.
+    /// Starts a replay.
     pub(crate) fn start_replay(&mut self, file: PathBuf, recording: Recording) {
         self.release_inputs();
         self.clock.play();
         self.replay.playing = Some(Playing::new(file, recording));
     }
 
-    /// Nothing is held any more: what is pressed when a recording begins is not in it.
+    /// Releases all inputs: those held when a replay starts are not part of it.
     fn release_inputs(&mut self) {
         self.mouse.release();
         self.keyboard.release_all();
     }
 
-    /// Ends the recording that is played at the frame that is shown. The picture goes on from it as it was: playing or
-    /// paused.
+    /// Ends the replay at the shown frame. The picture continues from it, playing or paused as before.
     pub(crate) fn stop_replay(&mut self) -> Option<ReplayView> {
         let playing = self.replay.playing.take()?;
         let view = playing.view();
         if let Some(frame) = playing.newest().filter(|_| view.drawn > 0) {
-            // What the hand does next begins where the recorded one was.
+            // Live input continues from the recorded state.
             self.mouse.follow(frame.inputs.mouse, frame.inputs.drag);
             self.keyboard = frame.inputs.keyboard.clone();
             self.release_inputs();
@@ -234,7 +234,7 @@ impl Playback {
         Some(view)
     }
 
-    /// The last frame has been handed in: the picture stays there.
+    /// The last frame has been submitted: the picture stays there.
     pub(crate) fn finish_replay(&mut self) -> Option<ReplayView> {
         let view = self.stop_replay()?;
         self.seeking.cancel();
@@ -243,8 +243,9 @@ impl Playback {
         Some(view)
     }
 
-    /// Returns the frame of the recording that is due now. `is_step`: one is asked for, whatever the time. `may_run`: else
-    /// one may be drawn. `may_start`: the newest text draws, on which what follows the first frame depends.
+    /// Returns the frame of the recording that is due now. `is_step`: a frame is requested, whatever the time.
+    /// `may_run`: otherwise one may be drawn. `may_start`: the newest text draws; the frames after the first depend on
+    /// it.
     pub(crate) fn next_replayed(
         &mut self,
         now: Instant,
@@ -252,7 +253,7 @@ impl Playback {
         may_run: bool,
         may_start: bool,
     ) -> Option<ReplayedFrame> {
-        // Nothing that a hand does forces a frame.
+        // Live input does not force a frame.
         self.is_frame_due = false;
         if !(is_step || self.is_running() && may_run) {
             return None;
@@ -272,7 +273,7 @@ impl Playback {
         Some(ReplayedFrame { frame, change, is_last })
     }
 
-    /// Shows the recording at a time.
+    /// Seeks in the recording.
     pub(crate) fn seek_in_replay(&mut self, secs: f64, reach: Reach) {
         let resumes = self.is_playing();
         let is_at_start = self.replay.playing.as_ref().is_some_and(Playing::is_at_start);
@@ -303,7 +304,7 @@ mod tests {
         Playing::new("a.replay".into(), Recording { project: String::new(), frames })
     }
 
-    /// Returns how many frames are drawn in each tick of a screen of so many pictures a second.
+    /// Returns how many frames are drawn in each tick of a display with this refresh rate.
     fn drawn(playing: &mut Playing, hertz: f64, ticks: usize, speed: f64) -> Vec<u32> {
         let start = Instant::now();
         let tick = |n: usize| {
@@ -319,14 +320,14 @@ mod tests {
     }
 
     #[test]
-    fn frames_come_at_the_times_they_were_recorded_at() {
+    fn frames_are_drawn_at_their_recorded_times() {
         let times: Vec<f64> = (0..60).map(|n| f64::from(n) / 30.0).collect();
         let drawn_at_60 = drawn(&mut playing(&times), 60.0, 8, 1.0);
         assert_eq!(drawn_at_60.iter().sum::<u32>(), 4, "{drawn_at_60:?}");
         assert!(drawn_at_60.iter().all(|n| *n <= 1), "{drawn_at_60:?}");
         let twice = drawn(&mut playing(&times), 60.0, 8, 2.0);
         assert_eq!(twice.iter().sum::<u32>(), 8, "{twice:?}");
-        // 144 frames a second on a screen of 60.
+        // 144 frames per second on a 60 Hz display.
         let times: Vec<f64> = (0..144).map(|n| f64::from(n) / 144.0).collect();
         let mut fast = playing(&times);
         let count: u32 = drawn(&mut fast, 60.0, 61, 1.0).iter().sum();
@@ -334,9 +335,9 @@ mod tests {
     }
 
     #[test]
-    fn a_slow_machine_skips_nothing_and_a_pause_in_the_recording_is_short() {
+    fn slow_machine_draws_every_frame_and_pauses_are_shortened() {
         let times: Vec<f64> = (0..60).map(|n| f64::from(n) / 60.0).collect();
-        // Two pictures a second.
+        // Two ticks per second.
         assert_eq!(drawn(&mut playing(&times), 2.0, 5, 1.0).iter().filter(|n| **n == 0).count(), 0);
         let mut hitch = playing(&[0.0, 5.0, 5.016]);
         let start = Instant::now();
@@ -348,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn time_that_was_set_back_or_stood_is_followed() {
+    fn replay_follows_time_that_was_set_back_or_paused() {
         let mut back = playing(&[3.0, 0.0, 0.0, 0.0, 0.016]);
         let start = Instant::now();
         for n in 0..5 {
@@ -360,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_of_the_engines_run_is_one_of_the_recording() {
+    fn engine_frame_numbers_map_to_recorded_frames() {
         let mut all = playing(&[0.0, 0.1, 0.0, 0.1, 0.2]);
         Arc::get_mut(&mut all.recording).unwrap().frames[2].reset = true;
         let now = Instant::now();

@@ -1,36 +1,36 @@
-//! Seeking: to a frame that was drawn before, to a time, round and round a range, and to the same frame by new code.
+//! Seeking: to an earlier frame, to a time, looping a range, and to the same frame with new code.
 //!
-//! A project whose passes read nothing of the last frame has a picture for each time, which is drawn at once. Any other
-//! is where its frames have brought it: one that was drawn is drawn again from the inputs that it had, and a later time
-//! is reached by drawing every frame on the way, at a fixed step.
+//! A project whose passes do not read the last frame has one picture for each time, which is drawn at once. The picture
+//! of any other depends on its earlier frames: an earlier frame is drawn again from its recorded inputs, and a later
+//! time is reached by drawing every frame on the way, at a fixed step.
 
 use super::Playback;
 use crate::drawing::SeekProgress;
 use std::{mem::take, time::Instant};
 
-/// A frame of the run that is to be shown.
+/// The frame of the run to be shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SeekTarget {
-    /// So many frames after the one that is shown; negative: before it.
+    /// This number of frames after the shown one; negative: before it.
     By(i64),
-    /// The frame of this number, the run's first being 0.
+    /// The frame with this number; the run's first is 0.
     Frame(u64),
-    /// The last frame whose `iTime` is not above so many seconds, or the first that can be shown.
+    /// The last frame whose `iTime` is at most this, in seconds, or the first that can be shown.
     Time(f64),
-    /// The same as `Frame`, by a new program: every frame is drawn again from the run's beginning.
+    /// The same as `Frame`, with a new program: every frame is drawn again from the run's start.
     Anew(u64),
 }
 
-/// The frames that one can go to.
+/// The range of frames for seeking.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reach {
-    /// The number of frames before the one that is shown, and behind it.
+    /// The number of frames before the shown one, and after it.
     pub back: u64,
     pub ahead: u64,
     /// `iTime` of the first and the last of them, in seconds.
     pub first_secs: f64,
     pub last_secs: f64,
-    /// The number of the frame that is shown, and whether the inputs of all frames since the last reset are kept.
+    /// The number of the shown frame, and whether the inputs of all frames since the last reset are kept.
     pub shown: u64,
     pub is_whole: bool,
 }
@@ -43,7 +43,7 @@ pub struct TimeRange {
 }
 
 impl TimeRange {
-    /// Returns the range between two times, whichever is first. `None`: there is none between them.
+    /// Returns the range between two times in any order. `None` if it is empty.
     pub fn new(a: f64, b: f64) -> Option<TimeRange> {
         let (from, to) = (a.min(b).max(0.0), a.max(b));
         (from.is_finite() && to.is_finite() && from < to).then_some(TimeRange { from, to })
@@ -52,26 +52,26 @@ impl TimeRange {
 
 #[derive(Default)]
 pub(crate) struct Seeking {
-    /// The frame that the engine is to be asked for.
+    /// The frame to request from the engine.
     pub goal: Option<SeekTarget>,
-    /// The engine has been asked.
+    /// The request was submitted.
     pub is_under_way: bool,
-    /// The project has just been opened: its first program goes there.
+    /// The project has just been opened: its first program seeks there.
     pub awaits_program: bool,
-    /// The frames are drawn that lead to where the project was left.
+    /// The frames up to where the project was closed are being drawn.
     pub is_taking_up: bool,
     /// `iTime` up to which frames are drawn at a fixed step, once the goal is reached.
     pub until: Option<f64>,
-    /// The picture runs on from there.
+    /// The picture plays after that.
     pub resumes: bool,
-    /// The part that is played again and again.
+    /// The range that is looped.
     pub range: Option<TimeRange>,
     /// A new program draws all frames since the last reset again, from the same inputs.
     pub keeps_inputs: bool,
 }
 
 impl Seeking {
-    /// Ends a seek wherever it has come to.
+    /// Ends a seek at its current position.
     pub(crate) fn cancel(&mut self) {
         (self.goal, self.is_under_way, self.until, self.resumes) = (None, false, None, false);
         (self.awaits_program, self.is_taking_up) = (false, false);
@@ -83,7 +83,7 @@ impl Seeking {
 }
 
 impl Playback {
-    /// Goes so many frames back, and pauses.
+    /// Steps back by a number of frames, and pauses.
     pub(crate) fn step_back(&mut self, by: usize) {
         self.clock.pause();
         self.steps = 0;
@@ -91,8 +91,8 @@ impl Playback {
         self.seeking.goal = Some(SeekTarget::By(before.saturating_sub(i64::try_from(by).unwrap_or(i64::MAX))));
     }
 
-    /// One frame further: the next one of the run, where one has gone back, else a new one. `ahead`: the frames of the
-    /// run behind the one that is shown.
+    /// Steps one frame forward: to the next frame of the run after going back, otherwise to a new one. `ahead`: the
+    /// number of frames of the run after the shown one.
     pub(crate) fn step_forward(&mut self, ahead: u64) {
         self.clock.pause();
         let before = self.take_steps_of_goal();
@@ -104,15 +104,15 @@ impl Playback {
         }
     }
 
-    /// Returns the steps that were asked for and not gone yet.
+    /// Returns the requested steps that are still pending.
     fn take_steps_of_goal(&mut self) -> i64 {
         let goal = self.seeking.goal;
         self.seeking.cancel();
         if let Some(SeekTarget::By(frames)) = goal { frames } else { 0 }
     }
 
-    /// Shows the picture at a time. Playing or paused stays as it is. Returns whether frames are drawn from the beginning:
-    /// then the buffers are to be reset.
+    /// Shows the picture at a time. Playing or paused is unchanged. Returns whether frames are drawn from the start,
+    /// which requires a reset of the buffers.
     pub(crate) fn seek(&mut self, secs: f64, reach: Reach, has_state: bool) -> bool {
         let resumes = self.is_playing();
         self.seeking.cancel();
@@ -134,7 +134,7 @@ impl Playback {
         is_from_reset
     }
 
-    /// Draws all frames since the reset again, up to the one of this number.
+    /// Draws all frames since the reset again, up to the one with this number.
     pub(crate) fn draw_anew(&mut self, shown: u64) {
         let resumes = self.is_playing();
         self.seeking.cancel();
@@ -144,20 +144,20 @@ impl Playback {
         self.seeking.resumes = resumes;
     }
 
-    /// Returns the beginning of the range that is played where the next frame would not lie before its end.
+    /// Returns the start of the looped range if the next frame would not be before its end.
     pub(crate) fn loop_start(&self, now: Instant) -> Option<f64> {
         let range = self.seeking.range?;
         (self.is_running() && self.clock.running_time(now) >= range.to).then_some(range.from)
     }
 
-    /// Returns the frame that the engine is to be asked for, once.
+    /// Returns the frame to request from the engine, once.
     pub(crate) fn take_goal(&mut self) -> Option<SeekTarget> {
         let goal = self.seeking.goal.take();
         self.seeking.is_under_way |= goal.is_some();
         goal
     }
 
-    /// The engine shows another frame of the run, whose number is `shown`. Returns whether that is the goal.
+    /// The engine shows another frame of the run, with the number `shown`. Returns whether that is the goal.
     pub(crate) fn travelled(&mut self, travelled: &SeekProgress, shown: u64) -> bool {
         let is_wanted = take(&mut self.seeking.is_under_way);
         self.forget_due_frames();
@@ -172,17 +172,17 @@ impl Playback {
             self.seeking.goal = Some(SeekTarget::Frame(travelled.goal));
             return false;
         }
-        // On its own canvas it was another picture.
+        // With its own canvas size the picture was different.
         self.is_again_due = travelled.is_display_new;
         self.arrive();
         true
     }
 
-    /// Returns whether a frame at a fixed step is due: one that was asked for, or one before the time that is sought.
+    /// Returns whether a frame at a fixed step is due: a single step, or one before the goal of a seek.
     pub(crate) fn take_step(&mut self) -> bool {
         if let Some(until) = self.seeking.until.filter(|_| !self.seeking.is_under_way) {
             let half = 0.5 / self.clock.step_rate();
-            // The frame that is nearest to it.
+            // Stops at the nearest frame.
             if self.clock.next_frame_number() == 0 || self.clock.time_secs() + half <= until {
                 return true;
             }
@@ -211,14 +211,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_range_lies_between_two_times_in_any_order() {
+    fn time_range_accepts_either_order() {
         assert_eq!(TimeRange::new(3.0, 1.5), Some(TimeRange { from: 1.5, to: 3.0 }));
         assert_eq!(TimeRange::new(-2.0, 1.0), Some(TimeRange { from: 0.0, to: 1.0 }));
         for (a, b) in [(1.0, 1.0), (-3.0, -1.0), (f64::NAN, 2.0), (0.0, f64::INFINITY)] {
             assert_eq!(TimeRange::new(a, b), None, "{a} to {b}");
         }
     }
-    /// A run of frames from 0 to 9 at 60 a second, of which the one of this number is shown, paused.
+    /// A run of frames from 0 to 9 at 60 per second, paused at the one with this number.
     fn paused_at(shown: u64) -> (Playback, Reach) {
         let mut playback = Playback::default();
         playback.clock.go_to(shown as i32, shown as f64 / 60.0);
@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_go_along_the_run_before_they_draw_another_frame() {
+    fn steps_follow_the_run_before_drawing_new_frames() {
         let (mut playback, reach) = paused_at(7);
         playback.step_back(2);
         playback.step_back(1);
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn a_time_is_jumped_to_gone_to_or_drawn_up_to() {
+    fn seek_jumps_travels_or_draws_frames() {
         let (mut playback, reach) = paused_at(5);
         assert!(!playback.seek(2.0, reach, false) && playback.take_goal().is_none());
         assert_eq!(playback.clock.time_secs(), 2.0, "a picture without a state has one for each time");

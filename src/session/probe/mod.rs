@@ -1,8 +1,8 @@
-//! A value of the code that is drawn instead of the picture: what is asked for, what it turned out to be, and its
+//! A value of the code that is drawn instead of the picture: the requested expression, the resulting value, and its
 //! numbers.
 //!
-//! Owns the place in the text, which follows edits, and how often the numbers come back from the device. Drawing is
-//! the engine's, and how a value becomes a colour is [`eddy_engine::ValueLook`]'s.
+//! Owns the place in the text, which follows edits, and the rate at which numbers are read back from the device.
+//! Drawing is the engine's, and the mapping of values to colours is [`eddy_engine::ValueLook`]'s.
 
 mod statistics;
 
@@ -21,31 +21,31 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// While time runs, the numbers are read back so often at most: each time waits for the device.
+/// The minimum interval of read-backs while time runs: each one waits for the device.
 const EVERY: Duration = Duration::from_millis(100);
-/// And they take this part of the time at most.
+/// Read-backs take at most one part in this many of the time.
 const SHARE: u32 = 20;
 
-/// The expression that is asked for.
+/// The requested expression.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProbePlace {
     pub tab: Tab,
-    /// A byte of its text.
+    /// A byte offset in its text.
     pub at: usize,
-    /// The value when it is computed for the time after so many.
+    /// The number of earlier evaluations to skip: shows the value of the next one.
     pub visit: u32,
 }
 
-/// Says how the values are shown.
+/// The display of the values.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ProbeLook {
-    /// `None`: from the least number to the largest.
+    /// `None`: from the minimum to the maximum.
     pub range: Option<(f32, f32)>,
     pub paint: Paint,
     pub channel: Option<u8>,
 }
 
-/// The expression that is probed, as the running program has it.
+/// The probed expression in the running program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProbedValue {
     /// The pass in which it is evaluated.
@@ -59,11 +59,11 @@ pub struct ProbedValue {
     pub line: usize,
 }
 
-/// Holds what a front end shows of a probe.
+/// The state of a probe as a front end shows it.
 #[derive(Clone, Copy, Debug)]
 pub struct ProbeView<'s> {
     pub place: &'s ProbePlace,
-    /// The value that is drawn, or why the picture is; `None` before the first compile.
+    /// The value that is drawn, or why the picture is drawn instead; `None` before the first compile.
     pub value: Option<Result<&'s ProbedValue, &'s str>>,
     pub look: ProbeLook,
     pub numbers: Option<&'s ProbeNumbers>,
@@ -76,22 +76,22 @@ pub struct ProbeNumbers {
     pub statistics: Statistics,
 }
 
-/// A probe, if there is one.
+/// The current probe, if there is one.
 #[derive(Default)]
 pub(super) struct Probing {
     wanted: Option<ProbeRequest>,
-    /// The value of the running program.
+    /// The value in the running program.
     built: Option<Result<ProbedValue, String>>,
     look: ProbeLook,
     numbers: Option<Arc<ProbeNumbers>>,
-    /// The frame that was drawn is newer than they are.
+    /// The drawn frame is newer than the numbers.
     is_due: bool,
-    /// The time when they came, and how long that took.
+    /// The time at which the numbers arrived, and how long that took.
     taken: Option<(Instant, Duration)>,
-    /// The way in which the engine shows it.
+    /// The display that the engine was set to.
     engine_look: Option<ValueLook>,
     ticket: Ticket<Option<ProbeNumbers>>,
-    /// Numbers have come that the way of showing them may depend on.
+    /// New numbers have arrived, on which the display may depend.
     has_news: bool,
 }
 
@@ -99,11 +99,11 @@ struct ProbeRequest {
     place: ProbePlace,
     /// The text that the place is in.
     text: Arc<str>,
-    /// Its expression was taken out since.
+    /// Its expression was deleted since.
     is_gone: bool,
 }
 
-/// Reads the values of the probe, and makes their figures.
+/// Reads the values of the probe, and computes their statistics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ReadNumbers {
     components: u8,
@@ -111,7 +111,7 @@ struct ReadNumbers {
 }
 
 impl RenderTask for ReadNumbers {
-    /// A program without a probe has none.
+    /// `None` for a program without a probe.
     type Output = Option<ProbeNumbers>;
 
     fn run(self, renderer: &mut Renderer) -> Self::Output {
@@ -122,13 +122,13 @@ impl RenderTask for ReadNumbers {
 }
 
 impl Probing {
-    /// Asks for another expression, or for none. Says whether the program must be another.
+    /// Sets the probed expression, or none. Returns whether the program must be rebuilt.
     pub(crate) fn want(&mut self, place: Option<ProbePlace>, project: &Project) -> bool {
         let is_new = place.as_ref() != self.wanted.as_ref().map(|wanted| &wanted.place);
         let is_other = place.as_ref().map(|p| (&p.tab, p.at))
             != self.wanted.as_ref().map(|wanted| (&wanted.place.tab, wanted.place.at));
         if is_other {
-            // A range that was typed is for the numbers of before.
+            // A typed range is only for the previous numbers.
             self.look = ProbeLook { paint: self.look.paint, ..ProbeLook::default() };
         }
         self.wanted = place.and_then(|place| {
@@ -142,14 +142,14 @@ impl Probing {
         is_new
     }
 
-    /// Follows the text's edits.
+    /// Moves the place along with edits of the text.
     pub(crate) fn follow(&mut self, project: &Project) {
         let Some(wanted) = &mut self.wanted else { return };
         let Some(source) = project.source(&wanted.place.tab) else { return };
         if Arc::ptr_eq(&wanted.text, &source.text) {
             return;
         }
-        // What was taken out may come back, as by undoing: it is looked for from where it was.
+        // A deleted expression may return, such as by undo: the search starts from its last place.
         let found = follow(&wanted.text, &source.text, wanted.place.at);
         wanted.is_gone = found.is_none();
         if let Some(at) = found {
@@ -158,12 +158,12 @@ impl Probing {
         }
     }
 
-    /// Returns what is to be built: the place, and whether there is nothing any more.
+    /// Returns the place to build for, and whether its expression was deleted.
     pub(crate) fn order(&self) -> Option<(ProbePlace, bool)> {
         self.wanted.as_ref().map(|wanted| (wanted.place.clone(), wanted.is_gone))
     }
 
-    /// The program that draws from now on was built with this.
+    /// Sets the probe that the new program was built with.
     pub(crate) fn built(&mut self, built: Option<Result<ProbedValue, String>>) {
         self.built = built.filter(|_| self.wanted.is_some());
         self.is_due = true;
@@ -172,7 +172,7 @@ impl Probing {
         }
     }
 
-    /// The running program draws a value.
+    /// Returns whether the running program draws a value.
     pub(crate) fn is_drawn(&self) -> bool {
         matches!(self.built, Some(Ok(_)))
     }
@@ -182,14 +182,14 @@ impl Probing {
         self.is_due = true;
     }
 
-    /// Returns how the engine is to show what it draws, where that is new to it; always with another program.
+    /// Returns the display for the engine if it has changed; always for a new program.
     pub(crate) fn take_look(&mut self, is_other_program: bool) -> Option<Option<ValueLook>> {
         let look = self.value_look();
         let is_new = std::mem::replace(&mut self.engine_look, look) != look;
         (is_new || is_other_program).then_some(look)
     }
 
-    /// Returns whether numbers have come since the last call.
+    /// Returns whether numbers have arrived since the last call.
     pub(crate) fn take_news(&mut self) -> bool {
         std::mem::take(&mut self.has_news)
     }
@@ -209,7 +209,7 @@ impl Probing {
         Some(ProbeView { place: &wanted.place, value, look: self.look, numbers: self.numbers.as_deref() })
     }
 
-    /// Returns what is to be read back now. While time runs, another frame comes anyway, and they wait for their turn.
+    /// Returns what to read back now. While time runs, another frame follows anyway, so read-backs are rate-limited.
     fn due(&mut self, now: Instant, is_running: bool) -> Option<ReadNumbers> {
         let Some(Ok(value)) = &self.built else { return None };
         let is_early = |(at, took): (Instant, Duration)| now.saturating_duration_since(at) < EVERY.max(SHARE * took);
@@ -247,8 +247,8 @@ impl ReadBack for Probing {
     }
 }
 
-/// Returns what a build draws besides what it would: the probe, and every buffer that Image may need, as a simulation
-/// goes on whether it is looked at or not.
+/// Returns the build options: the probe, and every buffer that Image may need, as a simulation continues even while it
+/// is not shown.
 pub(super) fn options(
     project: &Project,
     shown: &PassName,
@@ -294,7 +294,7 @@ pub(super) fn options(
     Ok((BuildOptions { wanted, probe: Some((pass, probe)), ..BuildOptions::default() }, value))
 }
 
-/// The buffers that Image and the probed pass read, and those that these read.
+/// Returns the buffers that Image and the probed pass read, and those that these read in turn.
 fn needed(project: &Project, probed: &PassName) -> Vec<PassName> {
     let mut found = project.image_and(probed);
     let mut next = 0;

@@ -1,31 +1,31 @@
-//! Figures of the values of a picture.
+//! Statistics of the values of a picture.
 
 use eddy_engine::Pixels;
 
-/// Bars of a histogram.
+/// The number of bins of a histogram.
 pub const BINS: usize = 64;
 
-/// Figures of the values that an expression has in the pixels of a picture.
+/// Statistics of the values of an expression in the pixels of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statistics {
-    /// Pixels in which the expression was evaluated, and all.
+    /// The number of pixels in which the expression was evaluated, and of all pixels.
     pub visited: usize,
     pub pixels: usize,
-    /// The least and the largest finite number of each component; `None` without one.
+    /// The minimum and maximum finite number of each component; `None` without one.
     pub extremes: [Option<(f32, f32)>; 4],
     /// The mean of the finite numbers of each component; `None` without one.
     pub means: [Option<f64>; 4],
-    /// Numbers that are NaN or infinite.
+    /// The number of NaN or infinite numbers.
     pub nonfinite: usize,
-    /// The range that the bars stand for, from the first one's left edge to the last one's right.
+    /// The range that the bins cover, from the first one's left edge to the last one's right.
     pub range: (f32, f32),
-    /// The number of finite numbers of each component in each part of the range; those beside it are in none.
+    /// The count of finite numbers of each component in each bin; numbers outside the range are in none.
     pub bins: [Vec<u32>; 4],
 }
 
 impl Statistics {
-    /// Takes the figures of the first so many components, the bars over a range or over all that there is.
-    /// `has_gaps`: a pixel of four NaN never had the value.
+    /// Computes the statistics of the first `components` components, with bins over a range or over all numbers.
+    /// `has_gaps`: a pixel of four NaN was not evaluated.
     pub fn new(pixels: &Pixels, components: u8, range: Option<(f32, f32)>, has_gaps: bool) -> Self {
         let count = usize::from(components).clamp(1, 4);
         let is_gap = |texel: &[f32; 4]| has_gaps && texel.iter().all(|x| x.is_nan());
@@ -47,7 +47,7 @@ impl Statistics {
         }
         let range = range.unwrap_or_else(|| whole(&extremes));
         let mut bins: [Vec<u32>; 4] = std::array::from_fn(|i| vec![0; if i < count { BINS } else { 0 }]);
-        // In double precision, as the difference of two floats may be none.
+        // In double precision, as the difference of two floats may underflow or overflow.
         let (low, width) = (f64::from(range.0), f64::from(range.1) - f64::from(range.0));
         for texel in seen() {
             for (bins, &x) in bins.iter_mut().zip(texel).take(count) {
@@ -61,7 +61,7 @@ impl Statistics {
         Self { visited, pixels: pixels.texels.len(), extremes, means, nonfinite, range, bins }
     }
 
-    /// The range of one component, or of all together; from 0 to 1 where there is no number.
+    /// The range of one component, or of all together; 0 to 1 if there is no number.
     pub fn extent(&self, component: Option<u8>) -> (f32, f32) {
         match component {
             Some(index) => whole(&self.extremes[usize::from(index) & 3..][..1]),
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn figures_are_of_the_finite_numbers_of_visited_pixels() {
+    fn statistics_cover_finite_numbers_of_visited_pixels() {
         let nan = f32::NAN;
         let texels = vec![[1.0, -2.0, 0.0, 1.0], [nan; 4], [3.0, nan, 0.0, 1.0], [2.0, f32::INFINITY, 9.0, 1.0]];
         let pixels = Pixels { width: 2, height: 2, texels };

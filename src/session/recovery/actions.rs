@@ -1,4 +1,4 @@
-//! A session hands its unsaved work to the recovery file, and takes up what an earlier one left behind.
+//! Passes unsaved work to the recovery file, and restores that of an earlier session.
 
 use super::{Left, News, Recovery};
 use crate::{
@@ -17,16 +17,16 @@ use std::{
 /// Unsaved work and its recovery file.
 #[derive(Default)]
 pub(crate) struct UnsavedWork {
-    /// `None`: this session keeps nothing.
+    /// `None`: this session stores no unsaved work.
     pub recovery: Option<Recovery>,
-    /// The revision of the documents that the file was last told of.
+    /// The revision of the documents that was stored last.
     pub kept: Option<u64>,
-    /// Work that was found and that a question stands for.
+    /// Unsaved work that was found, about which a question is open.
     pub found: Vec<Left>,
 }
 
 impl UnsavedWork {
-    /// Looks at once for what was left behind.
+    /// Starts looking for unsaved work at once.
     pub(crate) fn new(folder: Option<PathBuf>, wake: &Wake) -> io::Result<UnsavedWork> {
         let recovery = folder.map(|folder| Recovery::new(folder, wake.clone())).transpose()?;
         recovery.iter().for_each(Recovery::scan);
@@ -35,7 +35,7 @@ impl UnsavedWork {
 }
 
 impl Session {
-    /// Hands what is unsaved to the thread that writes it, if it has changed since. Never waits.
+    /// Passes unsaved work to the thread that writes it, if it has changed. Never blocks.
     pub(crate) fn keep_unsaved(&mut self) {
         let Some(recovery) = &self.unsaved.recovery else { return };
         let revision = Some(self.documents.revision());
@@ -50,12 +50,12 @@ impl Session {
         }
     }
 
-    /// Removes the recovery file: what is unsaved is meant to be lost, or is safe in another place.
+    /// Removes the recovery file: the unsaved work is discarded on purpose, or stored elsewhere.
     pub fn forget_unsaved(&self) {
         self.unsaved.recovery.iter().for_each(Recovery::forget);
     }
 
-    /// Asks about work that was left behind.
+    /// Asks about unsaved work that was found.
     pub(crate) fn take_found_work(&mut self) {
         while let Some(news) = self.unsaved.recovery.as_ref().and_then(Recovery::take_news) {
             match news {
@@ -73,7 +73,7 @@ impl Session {
         }
     }
 
-    /// Does what was answered about work that was left behind; false for an answer that does not fit.
+    /// Applies the answer about unsaved work; returns false for an answer that does not fit.
     pub(crate) fn answer_recover(&mut self, recovered: &Recovered, answer: &Answer) -> bool {
         match answer {
             Answer::Recover if self.is_dirty() => {
@@ -93,12 +93,12 @@ impl Session {
         true
     }
 
-    /// The work in a recovery file takes the place of the open project.
+    /// Replaces the open project by the work in a recovery file.
     pub(crate) fn recover(&mut self, file: &Path) {
         let Some(at) = self.unsaved.found.iter().position(|left| left.shown.file == *file) else { return };
         let Left { shown, project, saved, .. } = self.unsaved.found.remove(at);
         self.replace(Documents::restored(project, saved));
-        // What made an end of the last process may do it again: the person looks first.
+        // The project may have ended the last process and may do it again, so start paused.
         self.playback.clock.pause();
         if let Some(recovery) = &self.unsaved.recovery {
             recovery.adopt(shown.file);
@@ -109,7 +109,7 @@ impl Session {
         self.put_off_all();
     }
 
-    /// Other work would have to take the place of what was just recovered.
+    /// Postpones all other unsaved work, which would replace what was just recovered.
     fn put_off_all(&mut self) {
         let others: Vec<PathBuf> = self.unsaved.found.iter().map(|left| left.shown.file.clone()).collect();
         let some = match others.len() {
@@ -130,7 +130,7 @@ impl Session {
     }
 }
 
-/// Returns where a project lies, written in one way; `None` for one that lies nowhere.
+/// Returns the normalised path of a project; `None` for one that is not stored in files.
 fn place(origin: &Origin) -> Option<PathBuf> {
     match origin {
         Origin::Unsaved => None,

@@ -1,4 +1,4 @@
-//! The thread that writes recovery files, and the session's end of it.
+//! The thread that writes recovery files, and its handle.
 
 use super::{
     left::{self, Left, Read},
@@ -18,10 +18,10 @@ use std::{
     time::{Duration, Instant, SystemTime},
 };
 
-/// The time that a change waits for others before all are written. Writing takes its own time, and both together stay
-/// well below a second.
+/// The time for which changes are collected before they are written. Writing takes additional time, and both together
+/// stay well below a second.
 const GATHER: Duration = Duration::from_millis(300);
-/// The time after which a file that could not be written is tried again: the disk may have room by then.
+/// The interval after which a failed write is retried: the disk may have space by then.
 const RETRY: Duration = Duration::from_secs(5);
 
 enum Job {
@@ -33,14 +33,14 @@ enum Job {
     PutOff(PathBuf),
 }
 
-/// Something the session should hear.
+/// A message to the session.
 pub(crate) enum News {
-    /// All work that was left behind; the newest first.
+    /// All unsaved work that was found, newest first.
     Found(Vec<Left>),
     Trouble(String),
 }
 
-/// The session's end of the thread. Every call returns at once.
+/// The handle of the thread. No call blocks.
 pub(crate) struct Recovery {
     /// `None` only while dropping.
     jobs: Option<Sender<Job>>,
@@ -49,12 +49,12 @@ pub(crate) struct Recovery {
 }
 
 impl Recovery {
-    /// `wake` is called on the thread when there are news.
+    /// `wake` is called on the thread when there is a message.
     pub(crate) fn new(folder: PathBuf, wake: Arc<dyn Fn() + Send + Sync>) -> io::Result<Recovery> {
         Self::with_retry(folder, wake, RETRY)
     }
 
-    /// The same with another time after which a write that failed is tried again.
+    /// The same with another retry interval.
     pub(super) fn with_retry(
         folder: PathBuf,
         wake: Arc<dyn Fn() + Send + Sync>,
@@ -68,32 +68,32 @@ impl Recovery {
         Ok(Recovery { jobs: Some(jobs), news, thread: Some(thread) })
     }
 
-    /// Keeps a project that differs from the disk.
+    /// Stores a project that differs from the disk.
     pub(crate) fn keep(&self, project: &Project) {
         self.send(Job::Keep(Box::new(project.clone())));
     }
 
-    /// Nothing is unsaved any more.
+    /// Nothing is unsaved any longer.
     pub(crate) fn forget(&self) {
         self.send(Job::Forget);
     }
 
-    /// Looks for work that was left behind; [`News::Found`] says what there is.
+    /// Looks for unsaved work; the result is [`News::Found`].
     pub(crate) fn scan(&self) {
         self.send(Job::Scan);
     }
 
-    /// Work that was found is the open project's from now on: its file is kept up to date, and goes once all is saved.
+    /// Makes unsaved work that was found the open project's: its file is updated, and removed once everything is saved.
     pub(crate) fn adopt(&self, file: PathBuf) {
         self.send(Job::Adopt(file));
     }
 
-    /// Removes work that was found.
+    /// Removes unsaved work that was found.
     pub(crate) fn discard(&self, file: PathBuf) {
         self.send(Job::Discard(file));
     }
 
-    /// Leaves work that was found for another time.
+    /// Postpones unsaved work that was found.
     pub(crate) fn put_off(&self, file: PathBuf) {
         self.send(Job::PutOff(file));
     }
@@ -104,14 +104,14 @@ impl Recovery {
 
     fn send(&self, job: Job) {
         if let Some(jobs) = &self.jobs {
-            // A thread that is gone has said so in its panic.
+            // A thread that has ended reported its panic.
             let _ = jobs.send(job);
         }
     }
 }
 
 impl Drop for Recovery {
-    /// Writes what is still waiting.
+    /// Writes what is still pending.
     fn drop(&mut self) {
         self.jobs = None;
         if let Some(thread) = self.thread.take() {
@@ -127,7 +127,7 @@ struct Keeper {
     wake: Arc<dyn Fn() + Send + Sync>,
     /// The open project's slot, while it has something unsaved.
     own: Option<Slot>,
-    /// Slots whose work was found and not yet decided on.
+    /// Slots of work that was found and about which the user has not decided.
     offered: HashMap<PathBuf, Slot>,
     is_failure_reported: bool,
 }
@@ -183,7 +183,7 @@ impl Keeper {
                 let ended = self.offered.remove(&file).map_or(Ok(()), |slot| slot.end(&self.folder));
                 self.report_failure("removed", ended);
             }
-            // The lock ends with the slot, and the file stays.
+            // The lock is released with the slot, and the file stays.
             Job::PutOff(file) => drop(self.offered.remove(&file)),
             Job::Keep(_) | Job::Forget => {}
         }
@@ -230,7 +230,7 @@ impl Keeper {
         self.say(News::Found(found));
     }
 
-    /// Reports a failure once, until a file is written again.
+    /// Reports a failure once, until a write succeeds again.
     fn report_failure(&mut self, what: &str, result: io::Result<()>) {
         let Err(e) = result else { return };
         if !std::mem::replace(&mut self.is_failure_reported, true) {
@@ -243,7 +243,7 @@ impl Keeper {
     }
 
     fn say(&self, news: News) {
-        // A session that is gone wants no news.
+        // A session that has ended needs no messages.
         if self.sender.send(news).is_ok() {
             (self.wake)();
         }

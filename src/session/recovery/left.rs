@@ -1,4 +1,4 @@
-//! Unsaved work that a process left behind, beside what the disk has of the same project now.
+//! Unsaved work of an earlier process, with the current version of the project on disk.
 
 use super::super::{documents, template};
 use crate::command::{Recovered, RecoveredTab};
@@ -6,22 +6,22 @@ use eddy_project::{self as project, Origin, Project, Tab, confine, limits, read_
 use jiff::{Timestamp, tz::TimeZone};
 use std::{fs, path::Path};
 
-/// Work that was left behind.
+/// Unsaved work of an earlier process.
 pub(crate) struct Left {
     pub shown: Recovered,
     /// The project as it was being edited.
     pub project: Project,
-    /// The project that its edits are told against.
+    /// The project that the edits are compared with.
     pub saved: Project,
     pub written: Timestamp,
 }
 
-/// Says what a recovery file turned out to be.
+/// The result of reading a recovery file.
 pub(super) enum Read {
     Work(Box<Left>),
-    /// The disk holds the same by now.
+    /// The disk has the same content by now.
     Nothing,
-    /// With the reason.
+    /// The file cannot be read, for this reason.
     Unreadable(String),
 }
 
@@ -38,7 +38,7 @@ pub(super) fn read(file: &Path) -> Read {
     let written = written.and_then(|at| Timestamp::try_from(at).ok()).unwrap_or_else(Timestamp::now);
     let (saved, trouble) = saved(&project);
     if trouble.is_some() {
-        // Nothing on disk that it could be saved over.
+        // There is no file on disk to save it to.
         project.origin = Origin::Unsaved;
         project.tab_sources_mut().into_iter().for_each(|source| source.path = None);
     }
@@ -60,7 +60,7 @@ pub(super) fn read(file: &Path) -> Read {
     Read::Work(Box::new(Left { shown, project, saved, written }))
 }
 
-/// The project as the disk has it now, or why that cannot be had and a new one stands for it.
+/// Returns the project on disk, or an error and a new project in its place.
 fn saved(project: &Project) -> (Project, Option<String>) {
     let spec = match &project.origin {
         Origin::Unsaved => return (template::project(), None),

@@ -1,7 +1,6 @@
-//! Files that a save has replaced though they were another project's are kept for a while, below the recovery files.
+//! Files of other projects that a save has replaced are kept for a while, below the recovery files.
 //!
-//! Owns where they lie and how long. The copying itself is done by [`project::save`](eddy_project::save), before
-//! anything is written.
+//! Owns their place and their lifetime. [`project::save`](eddy_project::save) copies them before anything is written.
 
 use eddy_playback::capture::file_stem;
 use std::{
@@ -10,13 +9,13 @@ use std::{
     time::{Duration, SystemTime},
 };
 
-/// So long they are kept.
+/// The number of days for which they are kept.
 pub const KEPT_DAYS: u64 = 30;
-/// The folder of them all, in the folder of the recovery files.
+/// The folder of all of them, in the folder of the recovery files.
 const ALL: &str = "replaced";
 
-/// Returns a folder that is not there yet, for what is to be replaced at `target`: below the recovery files, or beside
-/// the target where there are none (`NAME.replaced-0001`, which nobody removes).
+/// Returns a new folder for the files to be replaced at `target`: below the recovery files, or next to the target if
+/// recovery is off (`NAME.replaced-0001`, which is never removed automatically).
 pub fn place_for_replaced(recovery: Option<&Path>, target: &Path) -> PathBuf {
     let name = target.file_name().unwrap_or_default().to_string_lossy();
     let (folder, stem) = match recovery {
@@ -27,12 +26,12 @@ pub fn place_for_replaced(recovery: Option<&Path>, target: &Path) -> PathBuf {
     (1..).find_map(free).unwrap_or(folder)
 }
 
-/// Removes what has been kept for long enough.
+/// Removes expired folders.
 pub(super) fn sweep(recovery: &Path, now: SystemTime) {
     let Ok(entries) = fs::read_dir(recovery.join(ALL)) else { return };
     let old = now.checked_sub(Duration::from_secs(KEPT_DAYS * 24 * 60 * 60));
     for path in entries.flatten().map(|entry| entry.path()) {
-        // A folder is as old as the newest file that was put into it; a link is not followed.
+        // A folder is as old as the newest file in it; a link is not followed.
         let meta = path.symlink_metadata();
         let written = meta.ok().filter(fs::Metadata::is_dir).and_then(|meta| meta.modified().ok());
         if written.zip(old).is_some_and(|(written, old)| written < old)
@@ -48,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_replaced_is_kept_for_thirty_days_and_no_longer() {
+    fn replaced_files_are_removed_after_thirty_days() {
         let dir = tempfile::tempdir().unwrap();
         let place = || place_for_replaced(Some(dir.path()), Path::new("/work/sea shore"));
         let kept = [place(), {

@@ -1,7 +1,7 @@
-//! A slot is a recovery file and the lock that says whose it is.
+//! A slot is a recovery file with the lock that marks its owner.
 //!
-//! Slots are taken, found and given back in turns, under a lock of the whole folder that is held for moments: so no two
-//! processes take one slot, and none removes a lock that another is about to hold.
+//! Slots are taken, found and released under a lock of the whole folder that is held briefly: so no two processes take
+//! one slot, and none removes a lock that another is about to hold.
 
 use eddy_playback::capture::file_stem;
 use eddy_project::{Origin, Project};
@@ -17,11 +17,11 @@ const LOCK: &str = "lock";
 /// The lock of the folder.
 const TURN: &str = ".turn";
 
-/// A recovery file that is this process's as long as the value lives.
+/// A recovery file that this process owns as long as the value lives.
 #[derive(Debug)]
 pub(super) struct Slot {
     pub data: PathBuf,
-    /// `None` on a file system that has no locks.
+    /// `None` on a file system without locks.
     _lock: Option<File>,
 }
 
@@ -32,7 +32,7 @@ impl Slot {
         let key = key(project);
         for n in 1.. {
             let data = folder.join(format!("{key}-{n}.{DATA}"));
-            // Another window's, or left behind.
+            // It belongs to another window, or is an orphan.
             if data.exists() {
                 continue;
             }
@@ -43,7 +43,7 @@ impl Slot {
         unreachable!("numbers do not end")
     }
 
-    /// Returns every slot whose process is gone; they are this process's from now on.
+    /// Returns every slot whose process has ended; this process owns them from now on.
     pub(super) fn left_behind(folder: &Path) -> io::Result<Vec<Slot>> {
         let entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
@@ -68,7 +68,7 @@ impl Slot {
         Ok(slots)
     }
 
-    /// Removes the file and ends the slot.
+    /// Removes the file and releases the slot.
     pub(super) fn end(self, folder: &Path) -> io::Result<()> {
         let _turn = turn(folder)?;
         remove(&self.data)?;
@@ -77,13 +77,13 @@ impl Slot {
 }
 
 enum Lock {
-    /// `None` on a file system that has no locks.
+    /// `None` on a file system without locks.
     Acquired(Option<File>),
-    /// Another process has it.
+    /// Another process holds it.
     Taken,
 }
 
-/// Opens a file that is locked, after a look at what it is: opening a pipe would wait for a reader.
+/// Opens a lock file after checking its type: opening a pipe would block until there is a reader.
 fn open_lock(path: &Path) -> io::Result<File> {
     if fs::metadata(path).is_ok_and(|there| !there.is_file()) {
         let what = format!("{} is not a regular file; remove it", path.display());
@@ -92,18 +92,18 @@ fn open_lock(path: &Path) -> io::Result<File> {
     File::options().create(true).truncate(false).write(true).open(path)
 }
 
-/// Takes the lock of a slot if no other process has it.
+/// Takes the lock of a slot if no other process holds it.
 fn acquire(data: &Path) -> io::Result<Lock> {
     let file = open_lock(&data.with_extension(LOCK))?;
     match file.try_lock() {
         Ok(()) => Ok(Lock::Acquired(Some(file))),
         Err(TryLockError::WouldBlock) => Ok(Lock::Taken),
-        // A file system without locks: better unguarded than not kept.
+        // A file system without locks: storing without a lock is better than not storing.
         Err(TryLockError::Error(_)) => Ok(Lock::Acquired(None)),
     }
 }
 
-/// Waits for the turn in the folder, which is made if it is not there: for its owner alone, as texts are private.
+/// Waits for the lock of the folder, which is created if necessary: readable by its owner only, as texts are private.
 fn turn(folder: &Path) -> io::Result<File> {
     let mut builder = DirBuilder::new();
     builder.recursive(true);
@@ -124,7 +124,7 @@ fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// A name that a person recognises, and that two projects of one name do not share.
+/// A readable name that is distinct for two projects with the same name.
 fn key(project: &Project) -> String {
     let place = match &project.origin {
         Origin::Unsaved => String::new(),

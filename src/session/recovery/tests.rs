@@ -1,4 +1,4 @@
-//! Recovery files without a session.
+//! Tests of recovery files without a session.
 
 use super::*;
 use eddy_project::{self as project, Project, Tab};
@@ -15,7 +15,7 @@ fn recovery(folder: &Path) -> Recovery {
     Recovery::new(folder.to_owned(), Arc::new(|| ())).unwrap()
 }
 
-/// A project on disk, and the same with something typed.
+/// A project on disk, and the same with an edit.
 fn edited(folder: &Path, typed: &str) -> Project {
     fs::create_dir_all(folder).unwrap();
     fs::write(folder.join("image.glsl"), "// saved").unwrap();
@@ -52,7 +52,7 @@ fn found(recovery: &Recovery) -> Vec<Left> {
 }
 
 #[test]
-fn a_change_is_kept_until_nothing_is_unsaved() {
+fn changes_are_stored_until_everything_is_saved() {
     let dir = tempfile::tempdir().unwrap();
     let folder = dir.path().join("state");
     let recovery = recovery(&folder);
@@ -68,7 +68,7 @@ fn a_change_is_kept_until_nothing_is_unsaved() {
 }
 
 #[test]
-fn two_windows_on_one_project_keep_their_own_and_take_nothing_of_each_other() {
+fn windows_on_one_project_store_separate_work() {
     let dir = tempfile::tempdir().unwrap();
     let folder = dir.path().join("state");
     let project = |typed| edited(&dir.path().join("p"), typed);
@@ -77,7 +77,7 @@ fn two_windows_on_one_project_keep_their_own_and_take_nothing_of_each_other() {
     second.keep(&project("// second"));
     until("two files", || (files(&folder).len() == 2).then_some(()));
     assert!(found(&first).is_empty() && found(&second).is_empty());
-    // The first one ends without having saved.
+    // The first one ends without saving.
     drop(first);
     let left = found(&second);
     assert_eq!(left.iter().map(typed_in).collect::<Vec<_>>(), ["// first"]);
@@ -91,7 +91,7 @@ fn two_windows_on_one_project_keep_their_own_and_take_nothing_of_each_other() {
 }
 
 #[test]
-fn adopted_work_is_never_without_its_file_and_discarded_work_is_gone() {
+fn adopted_work_keeps_its_file_and_discarded_work_is_removed() {
     let dir = tempfile::tempdir().unwrap();
     let folder = dir.path().join("state");
     for name in ["p", "q"] {
@@ -120,7 +120,7 @@ fn adopted_work_is_never_without_its_file_and_discarded_work_is_gone() {
 }
 
 #[test]
-fn what_the_disk_holds_by_now_is_not_offered_and_what_cannot_be_read_is_kept() {
+fn saved_work_is_not_offered_and_unreadable_files_are_kept() {
     let dir = tempfile::tempdir().unwrap();
     let folder = dir.path().join("state");
     let crashed = recovery(&folder);
@@ -137,7 +137,7 @@ fn what_the_disk_holds_by_now_is_not_offered_and_what_cannot_be_read_is_kept() {
 }
 
 #[test]
-fn a_project_that_is_gone_comes_back_without_a_place() {
+fn work_of_a_deleted_project_is_recovered_without_a_place() {
     let dir = tempfile::tempdir().unwrap();
     let folder = dir.path().join("state");
     let crashed = recovery(&folder);
@@ -152,7 +152,7 @@ fn a_project_that_is_gone_comes_back_without_a_place() {
 }
 
 #[test]
-fn a_folder_that_takes_nothing_is_told_once() {
+fn unwritable_folder_is_reported_once() {
     let dir = tempfile::tempdir().unwrap();
     let blocked = dir.path().join("a file");
     fs::write(&blocked, "").unwrap();
@@ -167,10 +167,10 @@ fn a_folder_that_takes_nothing_is_told_once() {
 }
 
 #[test]
-fn a_failed_write_is_tried_again_without_a_new_edit() {
+fn failed_write_is_retried_without_a_new_edit() {
     let dir = tempfile::tempdir().unwrap();
     let folder = dir.path().join("state");
-    // In the place of a full disk: the folder cannot be made.
+    // Simulates a full disk: the folder cannot be created.
     fs::write(&folder, "").unwrap();
     let recovery = Recovery::with_retry(folder.clone(), Arc::new(|| ()), Duration::from_millis(10)).unwrap();
     recovery.keep(&edited(&dir.path().join("p"), TYPED));
@@ -184,7 +184,7 @@ fn a_failed_write_is_tried_again_without_a_new_edit() {
 
 #[cfg(unix)]
 #[test]
-fn pipes_in_the_folder_are_refused_and_not_waited_for() {
+fn pipes_in_the_folder_are_rejected_without_blocking() {
     for name in [".turn", "p-1.lock"] {
         let dir = tempfile::tempdir().unwrap();
         let folder = dir.path().join("state");

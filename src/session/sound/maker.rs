@@ -1,4 +1,4 @@
-//! The thread that fills tracks: builds the sound pass on a device of its own, and draws block after block.
+//! The thread that renders tracks: builds the sound pass on a device of its own, and draws block after block.
 
 use super::{Order, Shared};
 use crate::drawing::Open;
@@ -14,18 +14,18 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Steps that the thread takes back where a processor draws: pictures go first, which take 5.
+/// The amount by which the thread's priority is lowered (nice) if a processor draws: pictures, which use 5, go first.
 const STEPS_BACK: i32 = 10;
-/// A band of a block takes about so long, that is as long as the picture waits for it where both share a device's time.
+/// The approximate duration of a band of a block, for which the picture waits if both share a device.
 const BAND: Duration = Duration::from_millis(6);
 /// Longest pause after a band.
 const PAUSE: Duration = Duration::from_millis(30);
-/// Rows of a first band, and the most of one: a block has 512.
+/// The rows of the first band, and the maximum of one: a block has 512.
 const ROWS: (u32, u32) = (4, 128);
-/// A block that takes longer is given up, and with it the sound: it would be played in 6 s.
+/// A block that takes longer is abandoned, and the sound with it: a block plays for 6 s.
 const BLOCK_LIMIT: Duration = Duration::from_secs(60);
 
-/// The work of the thread, which opens its device with the first order.
+/// The thread's function, which opens its device at the first order.
 pub(super) fn work(
     open: Open,
     is_cpu: bool,
@@ -47,7 +47,7 @@ pub(super) fn work(
         };
         let made = maker_of_order.make(&order, trial.as_ref(), control, &shared);
         if made.is_err() && !control.is_cancelled() {
-            // Its device may be lost: the next order gets another.
+            // Its device may be lost: the next order opens another.
             maker = None;
         }
         made
@@ -57,7 +57,7 @@ pub(super) fn work(
 struct Maker {
     builder: Builder,
     engine: Engine,
-    /// The project that the program is of, as [`Order::opened`] counts it.
+    /// The project of the program, by [`Order::opened`].
     opened: u64,
 }
 
@@ -66,7 +66,7 @@ impl Maker {
         Ok(Self { builder: Builder::new(gpu.clone()), engine: Engine::new(gpu, 16, 16)?, opened: 0 })
     }
 
-    /// Begins another track unless the order makes the same sound as the one before, and fills what is missing.
+    /// Starts a new track unless the order has the same sound as the previous one, and renders the missing blocks.
     fn make(
         &mut self,
         order: &Order,
@@ -105,8 +105,8 @@ impl Maker {
         Ok(())
     }
 
-    /// Draws a block in bands, with pauses between them in which pictures are drawn: none before what is about to be
-    /// heard.
+    /// Draws a block in bands, with pauses between them in which pictures are drawn: no pauses for what is about to
+    /// play.
     fn draw(
         &mut self,
         block: usize,

@@ -1,8 +1,9 @@
-//! The sound pass of the open project becomes a track while the picture runs.
+//! Renders the sound pass of the open project into a track while the picture runs.
 //!
-//! Owns the newest track, the thread that fills it, and why that may have ended. The thread has a device of its own and
-//! makes pauses, so that no frame waits for a block; and a sound pass that is slow or breaks its device never harms the
-//! picture. A track is never changed once it is made: what sounds different is another track, with a higher revision.
+//! Owns the newest track, the thread that renders it, and the reason why that has ended, if it has. The thread has a
+//! device of its own and pauses between bands, so that no frame waits for a block; a slow sound pass, or one that loses
+//! its device, never affects the picture. A track does not change after it is made: a different sound is another track,
+//! with a higher revision.
 
 mod maker;
 mod save;
@@ -27,20 +28,20 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// A step of the thread (a compile, or some rows of a block) that takes longer is given up, and its device with it.
+/// A step of the thread (a compile, or some rows of a block) that takes longer is abandoned with its device.
 const STEP_LIMIT: Duration = Duration::from_secs(20);
 
-/// The sound that a compile of the newest text leads to.
+/// The resulting sound of a compile of the newest text.
 pub(super) enum CompiledSound {
     /// There is no sound pass.
     Nothing,
-    /// The sound pass has errors: what was made before stays.
+    /// The sound pass has errors: the existing track stays.
     Broken,
     /// It compiles; with the pictures that it may read.
     Sound(Box<MediaSet>),
 }
 
-/// A sound that is to be made.
+/// A sound to be rendered.
 struct Order {
     number: u64,
     project: Project,
@@ -51,14 +52,14 @@ struct Order {
     opened: u64,
 }
 
-/// Everything that the samples depend on, as far as the project tells.
+/// All properties of the project that the samples depend on.
 #[derive(PartialEq)]
 struct Source {
     opened: u64,
     /// The texts of the pass, of Common, and of all included files.
     texts: Vec<Arc<str>>,
     bindings: Bindings,
-    /// The addresses of their texels, which [`Sounding::kept`] keeps where they are.
+    /// The addresses of their texels, which [`Sounding::kept`] keeps alive.
     texels: Vec<Option<usize>>,
     values: CustomUniformValues,
 }
@@ -81,7 +82,7 @@ impl Source {
         })
     }
 
-    /// Both differ in the values of uniforms alone.
+    /// Returns whether both differ at most in the values of uniforms.
     fn is_same_code(&self, other: &Source) -> bool {
         let all =
             |source: &Source| (source.opened, source.texts.clone(), source.bindings.clone(), source.texels.clone());
@@ -89,23 +90,23 @@ impl Source {
     }
 }
 
-/// The state that the thread and the session both know.
+/// The state that the thread and the session share.
 #[derive(Default)]
 pub(super) struct Shared(Mutex<SoundState>);
 
 #[derive(Clone, Default)]
 struct SoundState {
-    /// The number of the order whose track it is, or shall be; 0: nothing is to be heard.
+    /// The number of the order whose track this is, or will be; 0: silence.
     order: u64,
     revision: u64,
     track: Option<Arc<Track>>,
-    /// Since when the thread is at its step.
+    /// The time at which the thread started its current step.
     since: Option<Instant>,
-    /// The block that is heard.
+    /// The block that is playing.
     heard: usize,
 }
 
-/// The thread is at work while this lives.
+/// Marks the thread as busy while it lives.
 struct BusyGuard<'s>(&'s Shared);
 
 impl Drop for BusyGuard<'_> {
@@ -132,7 +133,7 @@ impl Shared {
         self.now().track.clone()
     }
 
-    /// Begins with another track, unless a newer order has come.
+    /// Starts another track, unless there is a newer order.
     fn set_track(&self, order: u64, track: Arc<Track>) {
         let mut now = self.now();
         if now.order == order {
@@ -141,7 +142,7 @@ impl Shared {
         }
     }
 
-    /// Nothing is to be heard.
+    /// Drops the track: nothing is to be played.
     fn silence(&self) {
         let mut now = self.now();
         now.order = 0;
@@ -150,13 +151,13 @@ impl Shared {
         }
     }
 
-    /// Returns the block to make next: what is heard first, then what follows it, then what was before.
+    /// Returns the block to render next: the one playing, then those that follow it, then the earlier ones.
     fn next_block(&self, track: &Track) -> Option<usize> {
         let heard = self.now().heard;
         (heard..track.blocks()).find(|block| !track.has_block(*block)).or_else(|| track.first_missing())
     }
 
-    /// Returns whether a block is heard soon.
+    /// Returns whether a block plays soon.
     fn is_urgent(&self, block: usize) -> bool {
         let heard = self.now().heard;
         (heard..=heard + 1).contains(&block)
@@ -165,40 +166,40 @@ impl Shared {
 
 /// The sound of the open project.
 pub(super) struct Sounding {
-    /// `None` until there is a sound pass, and after one was given up.
+    /// `None` until there is a sound pass, and after one was abandoned.
     thread: Option<Background<Order, (), ()>>,
     open: Open,
     is_cpu: bool,
     wake: Wake,
-    /// Counts the orders: a compile that a newer one has overtaken is given up.
+    /// Counts the orders: a compile that a newer one has overtaken is cancelled.
     orders: Arc<AtomicU64>,
     shared: Arc<Shared>,
-    /// The sound that was ordered last, or is about to be.
+    /// The sound of the last or the pending order.
     source: Option<Source>,
-    /// The project and the pictures that it was ordered with, and its `iDate`.
+    /// The order's project and pictures, and its `iDate`.
     kept: Option<(Project, MediaSet, [f32; 4])>,
     /// Counts the orders that differ in more than the values of uniforms.
     codes: u64,
     pending: Option<Order>,
     trouble: Option<String>,
-    /// Revision and blocks made, as the front end was told.
+    /// The revision and number of blocks that were last reported to the front end.
     seen: (u64, usize),
-    /// Revision of the track that the player has.
+    /// The revision of the player's track.
     played: Option<u64>,
-    /// A thread was given up and may be at work still.
+    /// A thread was abandoned and may still be running.
     has_lost: bool,
 }
 
 /// The sound pass as front ends show it.
 #[derive(Clone)]
 pub struct SoundView {
-    /// Grows with each other track.
+    /// Grows with each new track.
     pub revision: u64,
     /// `None` before it compiles.
     pub track: Option<Arc<Track>>,
-    /// Blocks of the track are being made.
+    /// Blocks of the track are being rendered.
     pub is_making: bool,
-    /// The reason why no more of it is made.
+    /// The reason why rendering has stopped.
     pub trouble: Option<String>,
 }
 
@@ -226,7 +227,7 @@ impl Sounding {
         self.silence();
     }
 
-    /// Opens devices otherwise from now on, and makes the sound again.
+    /// Changes how devices are opened, and renders the sound again.
     pub(crate) fn change_device(&mut self, open: Open) {
         self.open = open;
         self.separate();
@@ -236,7 +237,7 @@ impl Sounding {
         }
     }
 
-    /// There is no sound pass.
+    /// Stops everything: there is no sound pass.
     fn silence(&mut self) {
         if let Some(thread) = &mut self.thread {
             thread.cancel();
@@ -245,7 +246,7 @@ impl Sounding {
         self.shared.silence();
     }
 
-    /// Lets go of the thread, and keeps what it has made. It may be at work still, and shares nothing with the next one.
+    /// Detaches the thread, and keeps its track. It may still be running, and shares nothing with the next one.
     fn separate(&mut self) {
         if let Some(mut thread) = self.thread.take() {
             self.has_lost |= !thread.end(Duration::ZERO);
@@ -254,7 +255,7 @@ impl Sounding {
         self.shared = Arc::new(Shared(Mutex::new(now)));
     }
 
-    /// Makes another sound if it depends on something else than before.
+    /// Orders another sound if its inputs have changed.
     fn order(&mut self, project: Project, media: MediaSet, opened: u64) {
         let source = Source::of(&project, &media, opened);
         if source == self.source {
@@ -272,7 +273,7 @@ impl Sounding {
         (self.source, self.kept, self.trouble) = (source, Some((project, media, date)), None);
     }
 
-    /// Hands the thread what waits.
+    /// Submits the pending order to the thread.
     fn start(&mut self, options: &SessionOptions) -> std::io::Result<()> {
         let Some(order) = self.pending.take() else { return Ok(()) };
         let thread = match &mut self.thread {
@@ -288,7 +289,7 @@ impl Sounding {
         Ok(())
     }
 
-    /// Takes what the thread has done. Returns why it has ended, if not because all is made, once.
+    /// Takes the thread's results. Returns, once, why it has ended, unless it is finished.
     fn poll(&mut self, now: Instant, heard_secs: f64) -> Option<String> {
         self.shared.now().heard = (heard_secs.max(0.0) / BLOCK_SECS) as usize;
         if self.deadline().is_some_and(|deadline| deadline <= now) {
@@ -302,24 +303,24 @@ impl Sounding {
         self.trouble.clone()
     }
 
-    /// Returns when the step under way has taken too long.
+    /// Returns when the step in progress times out.
     fn deadline(&self) -> Option<Instant> {
         self.shared.now().since.map(|since| since + STEP_LIMIT)
     }
 
-    /// Returns whether there is something else to see than at the last call.
+    /// Returns whether something visible has changed since the last call.
     fn take_changed(&mut self) -> bool {
         let now = self.shared.now().clone();
         let seen = (now.revision, now.track.map_or(0, |track| track.made()));
         std::mem::replace(&mut self.seen, seen) != seen
     }
 
-    /// Returns the number of the newest order; 0: nothing is heard.
+    /// Returns the number of the newest order; 0: silence.
     pub(crate) fn number(&self) -> u64 {
         self.shared.now().order
     }
 
-    /// Returns the sound that is heard, for a film.
+    /// Returns the sound pass that is playing, for a film.
     pub(crate) fn heard(&self) -> Option<FilmSoundPass> {
         let (project, media, date) = self.kept.as_ref()?;
         Some(FilmSoundPass { code: self.codes, project: project.clone(), media: media.clone(), date: *date })
@@ -329,7 +330,7 @@ impl Sounding {
         self.pending.is_some() || self.thread.as_ref().is_some_and(Background::is_busy)
     }
 
-    /// Ends the thread. Returns whether one does not come back.
+    /// Ends the thread. Returns whether one is hung.
     pub(crate) fn end(&mut self, patience: Duration) -> bool {
         if let Some(mut thread) = self.thread.take() {
             self.has_lost |= !thread.end(patience);
@@ -339,14 +340,14 @@ impl Sounding {
 }
 
 impl Session {
-    /// Returns the track of the sound pass and its revision, which grows with each other track; `None` while there is no
-    /// sound pass that compiles. The track may still be being made.
+    /// Returns the track of the sound pass and its revision, which grows with each new track; `None` if there is no
+    /// sound pass that compiles. Blocks of the track may still be missing.
     pub fn sound_track(&self) -> Option<(u64, Arc<Track>)> {
         let now = self.sounding.shared.now();
         now.track.clone().map(|track| (now.revision, track))
     }
 
-    /// Returns what there is to show of the sound pass; `None` where the project has none.
+    /// Returns the state of the sound pass; `None` if the project has none.
     pub fn sound(&self) -> Option<SoundView> {
         self.project().sound()?;
         let (revision, track) = match self.sound_track() {
@@ -361,21 +362,21 @@ impl Session {
         })
     }
 
-    /// A compile of the newest text has ended.
+    /// Handles the result of compiling the newest text.
     pub(super) fn follow_sound(&mut self, project: &Project, heard: CompiledSound) {
         match heard {
             CompiledSound::Nothing => self.sounding.silence(),
             CompiledSound::Broken => {}
             CompiledSound::Sound(media) => {
                 let mut project = project.clone();
-                // They may have been turned while it was being compiled.
+                // They may have been set while it was being compiled.
                 project.custom_uniform_values.clone_from(&self.documents.current().custom_uniform_values);
                 self.sounding.order(project, *media, self.disk.opened());
             }
         }
     }
 
-    /// The author's own uniforms have other values.
+    /// Handles new values of the author's own uniforms.
     pub(super) fn sound_values_turned(&mut self, values: &CustomUniformValues) {
         let Some((project, media, _)) = &self.sounding.kept else { return };
         let project = Project { custom_uniform_values: values.clone(), ..project.clone() };
@@ -383,7 +384,7 @@ impl Session {
         self.sounding.order(project, media, opened);
     }
 
-    /// Hands out what is to be made, and takes what was made. Nothing of a project that is held reaches a device.
+    /// Submits pending orders, and takes results. Nothing of a held project reaches a device.
     pub(super) fn tick_sound(&mut self) {
         if !self.halting.is_held()
             && let Err(error) = self.sounding.start(&self.options)
@@ -404,7 +405,7 @@ impl Session {
         }
     }
 
-    /// The next moment in which a step of the sound may have taken too long.
+    /// Returns when the step of the sound in progress times out.
     pub(super) fn sound_deadline(&self) -> Option<Instant> {
         self.sounding.deadline()
     }
@@ -418,7 +419,7 @@ mod tests {
     use std::sync::mpsc::channel;
 
     #[test]
-    fn a_step_that_does_not_end_is_given_up_and_what_was_made_stays() {
+    fn hung_step_is_abandoned_and_finished_blocks_stay() {
         let open: Open = Arc::new(|| panic!("no device is asked for"));
         let mut sounding = Sounding::new(open, false, Arc::new(|| ()));
         let (go_on, waits) = channel::<()>();
@@ -448,7 +449,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_heard_is_made_first_and_then_the_rest() {
+    fn playing_block_is_rendered_first() {
         let (shared, track) = (Shared::default(), Track::new(5, 1));
         shared.now().heard = 3;
         let mut order = Vec::new();

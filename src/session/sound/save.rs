@@ -1,4 +1,4 @@
-//! The whole track as a file beside the pictures.
+//! Writes the whole track to a file next to the pictures.
 
 use crate::{
     Session,

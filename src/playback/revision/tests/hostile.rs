@@ -1,13 +1,13 @@
-//! Repositories that a stranger made to do harm: nothing is run, nothing outside is read or written, and what asks for
-//! too much is refused before it is given.
+//! Malicious repositories: nothing is run, nothing outside is read or written, and oversized content is rejected before
+//! memory is allocated.
 
 use super::*;
 use eddy_project::limits;
 use std::path::PathBuf;
 
-/// Names that no file of a project has, in a file, a link, a folder and a submodule.
+/// Names that no project file may have, as a file, a link, a folder and a submodule.
 #[test]
-fn no_name_in_a_tree_leads_out_of_the_copy() {
+fn tree_names_cannot_escape_the_checkout() {
     let repo = Repo::new();
     let payload = repo.blob("payload");
     let folder = repo.tree(&[(FILE, "x.glsl", payload)]);
@@ -48,7 +48,7 @@ fn no_name_in_a_tree_leads_out_of_the_copy() {
             let said = repo.refusal("HEAD");
             assert!(said.contains("which is not a valid file name for a project"), "{mode} {name:?}: {said}");
             assert!(!said.contains('\x1b') && !said.contains('\n'), "{said:?}");
-            // One folder deeper as well.
+            // The same one folder deeper.
             let inner = repo.tree(&[(mode, name, id)]);
             repo.head_with(FOLDER, "inner", inner);
             let said = repo.refusal("HEAD");
@@ -59,7 +59,7 @@ fn no_name_in_a_tree_leads_out_of_the_copy() {
         }
     }
     assert!(!std::env::temp_dir().join(&unique).exists());
-    // A name that is there twice, as a file, as a folder or as a link to write through.
+    // A duplicate name, as a file, as a folder or as a link to write through.
     let out = repo.blob(repo.outside.path().to_str().unwrap());
     for (first, id) in [(FILE, payload), (LINK, out), (FOLDER, folder)] {
         for (second, other) in [(FILE, payload), (FOLDER, folder)] {
@@ -73,9 +73,9 @@ fn no_name_in_a_tree_leads_out_of_the_copy() {
     assert_eq!(names(repo.outside.path()).iter().filter(|path| path.ends_with("x.glsl")).count(), 0);
 }
 
-/// Everything by which a repository can have git run something, in one.
+/// Everything by which a repository can make git run something, in one.
 #[test]
-fn nothing_that_a_repository_names_is_run() {
+fn commands_in_a_repository_are_never_run() {
     let (repo, _) = history();
     let ran = repo.outside.path().join("ran");
     let run = format!("touch {}", ran.display());
@@ -127,8 +127,8 @@ fn nothing_that_a_repository_names_is_run() {
 }
 
 #[test]
-fn no_folder_elsewhere_is_read_unless_it_names_the_working_tree_too() {
-    // Somebody else's, with a text that is not the stranger's to show.
+fn outside_folders_are_read_only_if_they_name_the_working_tree() {
+    // Another user's repository, whose text must not be shown.
     let (own, [one, ..]) = history();
     let says = |repo: &Repo, what: &str| {
         let said = repo.refusal("HEAD");
@@ -160,7 +160,7 @@ fn no_folder_elsewhere_is_read_unless_it_names_the_working_tree_too() {
         fs::write(&repo.git, text).unwrap();
         says(&repo, what);
     }
-    // A repository of the stranger's own that says its objects are elsewhere.
+    // A malicious repository that declares its objects to be elsewhere.
     let repo = Repo::new();
     repo.write("commondir", there.to_string());
     says(&repo, "leads to another repository");
@@ -171,7 +171,7 @@ fn no_folder_elsewhere_is_read_unless_it_names_the_working_tree_too() {
         says(&repo, "Eddy reads only the repository's own folder");
         assert!(repo.refusal("HEAD").contains("git repack -a -d"));
     }
-    // What is missing for another reason has another mend.
+    // An object that is missing for another reason has another fix.
     let repo = Repo::new();
     repo.write("refs/heads/main", one.to_string());
     says(&repo, "clone the repository again");
@@ -181,7 +181,7 @@ fn no_folder_elsewhere_is_read_unless_it_names_the_working_tree_too() {
 
 #[cfg(unix)]
 #[test]
-fn links_out_of_the_repository_and_pipes_in_it_are_refused() {
+fn links_out_of_the_repository_and_pipes_are_rejected() {
     use std::os::unix::fs::symlink;
     let (own, [one, ..]) = history();
     let pipe = |path: &Path| {
@@ -230,7 +230,7 @@ fn links_out_of_the_repository_and_pipes_in_it_are_refused() {
             let _ = fs::remove_file(own.git.join("commondir"));
         }
     }
-    // `.git` itself.
+    // `.git` itself is replaced.
     let repo = Repo::new();
     fs::remove_dir_all(&repo.git).unwrap();
     pipe(&repo.git);
@@ -241,7 +241,7 @@ fn links_out_of_the_repository_and_pipes_in_it_are_refused() {
     fs::remove_file(&repo.git).unwrap();
     symlink("/dev/zero", &repo.git).unwrap();
     assert!(repo.refusal("HEAD").contains("does not name this working tree"));
-    // Folders of it: nothing is found behind them.
+    // Folders of it: nothing is found through the link.
     for name in ["objects", "refs"] {
         let (repo, _) = history();
         fs::remove_dir_all(repo.git.join(name)).unwrap();
@@ -251,9 +251,9 @@ fn links_out_of_the_repository_and_pipes_in_it_are_refused() {
     }
 }
 
-/// An object is refused for what it announces, before there is memory for it.
+/// An object is rejected for its announced size, before memory is allocated.
 #[test]
-fn objects_that_announce_too_much_are_refused_by_their_headers() {
+fn oversized_objects_are_rejected_by_their_headers() {
     let fake: ObjectId = "00112233445566778899aabbccddeeff00112233".parse().unwrap();
     let large = 4 << 30;
     for size in [limits::MEDIA_FILE.bytes + 1, large, u64::MAX] {
@@ -279,7 +279,7 @@ fn objects_that_announce_too_much_are_refused_by_their_headers() {
         let said = repo.refusal("HEAD");
         assert!(said.contains("is larger than 16 MiB") || said.contains("not a tree"), "{said}");
     }
-    // A delta that makes more than it may, one of something that does, and one whose numbers never end.
+    // A delta whose result is too large, one of such a delta, and one whose numbers never end.
     let small = gix_object::compute_hash(gix_hash::Kind::Sha1, Kind::Blob, b"x").unwrap();
     for (base, made) in [(1, large), (large, 1), (large, large), (1, u64::MAX)] {
         let repo = Repo::new();
@@ -298,10 +298,10 @@ fn objects_that_announce_too_much_are_refused_by_their_headers() {
 }
 
 #[test]
-fn chains_of_deltas_have_an_end() {
+fn delta_chains_are_bounded() {
     let fake: ObjectId = "00112233445566778899aabbccddeeff00112233".parse().unwrap();
     let copy = delta(1, 1, &[0x90, 1]);
-    // Of itself, and of one another.
+    // Deltas of themselves, and of one another.
     let other: ObjectId = "10112233445566778899aabbccddeeff00112233".parse().unwrap();
     for entries in [
         vec![(fake, entry(7, copy.len() as u64, fake.as_slice(), &copy))],
@@ -316,14 +316,15 @@ fn chains_of_deltas_have_an_end() {
         let said = repo.refusal("HEAD");
         assert!(said.contains("is built from more than 4095 deltas"), "{said}");
     }
-    // Before the pack's beginning, of nothing, and behind the pack's end.
+    // Before the pack's start, of nothing, and after the pack's end.
     for (kind, base) in [(6, distance(1 << 40)), (7, [9; 20].to_vec()), (6, distance(0))] {
         let repo = Repo::new();
         repo.pack("x", &[(fake, entry(kind, copy.len() as u64, &base, &copy))]);
         repo.head_with(FILE, "x.png", fake);
         assert!(repo.refusal("HEAD").contains("is damaged"));
     }
-    // Few bytes in git that make very many: deltas of 512 MiB, of which none is whole before the one below it.
+    // A few bytes in git that expand to very many: deltas of 512 MiB, none of which is complete before the one below
+    // it.
     let size = limits::MEDIA_FILE.bytes;
     let instructions = [0xF0, 0xFF, 0xFF, 0xFF].repeat(32);
     let double = delta(size, size, &instructions);
@@ -340,7 +341,7 @@ fn chains_of_deltas_have_an_end() {
 }
 
 #[test]
-fn trees_that_unfold_to_very_many_entries_are_refused() {
+fn trees_with_too_many_entries_are_rejected() {
     // Ten folders of ten folders of ..., all the same: ten thousand million in some dozen objects.
     let repo = Repo::new();
     let file = repo.blob("");
@@ -351,7 +352,7 @@ fn trees_that_unfold_to_very_many_entries_are_refused() {
     }
     repo.head(tree);
     assert!(repo.refusal("HEAD").contains("has more than 50000 files and folders"));
-    // A million in one.
+    // A million entries in one tree.
     let names: Vec<_> = (0..1_000_000).map(|n| (FILE, format!("{n:06}"), file)).collect();
     let said = {
         repo.head(repo.tree(&names[..50_001]));
@@ -360,20 +361,20 @@ fn trees_that_unfold_to_very_many_entries_are_refused() {
     assert!(said.contains("has more than 50000 files and folders"), "{said}");
     repo.head(repo.tree(&names));
     assert!(repo.refusal("HEAD").contains("is larger than 16 MiB"));
-    // Thousands deep.
+    // Thousands of levels deep.
     let mut tree = repo.tree(&[(FILE, "x", file)]);
     for _ in 0..3000 {
         tree = repo.tree(&[(FOLDER, "d", tree)]);
     }
     repo.head(tree);
     assert!(repo.refusal("HEAD").contains("has folders 65 deep"));
-    // One that holds itself, which only a wrong hash can.
+    // A tree that contains itself, which requires a wrong hash.
     let fake: ObjectId = "00112233445566778899aabbccddeeff00112233".parse().unwrap();
     let bytes = repo::tree(&[(FOLDER, "x", fake)]);
     repo.loose(fake, &[format!("tree {}\0", bytes.len()).as_bytes(), &bytes].concat());
     repo.head(fake);
     assert!(repo.refusal("HEAD").contains("is damaged"));
-    // Few bytes that are written very often.
+    // A small object that is written very often.
     repo.loose(fake, format!("blob {}\0", 256 << 20).as_bytes());
     let often: Vec<_> = (0..9).map(|n| (FILE, n.to_string(), fake)).collect();
     repo.head(repo.tree(&often));
@@ -381,7 +382,7 @@ fn trees_that_unfold_to_very_many_entries_are_refused() {
 }
 
 #[test]
-fn refs_that_lead_round_and_contents_of_another_kind_are_refused() {
+fn circular_refs_and_wrong_object_kinds_are_rejected() {
     let (repo, [one, ..]) = history();
     let blob = repo.blob("x");
     for (text, says) in [
@@ -424,9 +425,9 @@ fn refs_that_lead_round_and_contents_of_another_kind_are_refused() {
     assert!(repo.refusal(&fake.to_string()).contains("is damaged"));
 }
 
-/// Every byte of a repository that is changed gives an error or what was there, never a panic.
+/// Changing any byte of a repository causes an error or no change, never a panic.
 #[test]
-fn damage_anywhere_is_an_error() {
+fn corrupted_bytes_cause_errors_but_no_panic() {
     let (good, _) = history();
     let blob = gix_object::compute_hash(gix_hash::Kind::Sha1, Kind::Blob, b"a text").unwrap();
     let again = gix_object::compute_hash(gix_hash::Kind::Sha1, Kind::Blob, b"a text!").unwrap();

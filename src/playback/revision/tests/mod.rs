@@ -1,4 +1,4 @@
-//! Revisions of repositories as git makes them; [`hostile`] has those that a stranger made to do harm.
+//! Tests of repositories as git writes them; [`hostile`] has malicious ones.
 
 use super::*;
 use gix_hash::ObjectId;
@@ -21,7 +21,7 @@ fn history() -> (Repo, [ObjectId; 4]) {
 }
 
 #[test]
-fn revisions_are_found_by_the_names_that_git_gives_them() {
+fn revisions_are_found_by_gits_names() {
     let (repo, [one, two, side, merge]) = history();
     let tag = repo.tag(two, Kind::Commit);
     let tag_of_tag = repo.tag(tag, Kind::Tag);
@@ -29,7 +29,7 @@ fn revisions_are_found_by_the_names_that_git_gives_them() {
     repo.write("refs/tags/twice", tag_of_tag.to_string());
     repo.write("refs/remotes/origin/main", side.to_string());
     repo.write("refs/remotes/origin/HEAD", "ref: refs/remotes/origin/main\n");
-    // A branch of a name that could be a hash, and one in a folder.
+    // A branch whose name could be a hash, and one in a folder.
     repo.write("refs/heads/beef", one.to_string());
     repo.write("refs/heads/work/more", one.to_string());
     let line = |old, new, message: &str| format!("{old} {new} a <a@b.c> 1700000000 +0000\t{message}\n");
@@ -88,7 +88,7 @@ fn revisions_are_found_by_the_names_that_git_gives_them() {
 }
 
 #[test]
-fn what_is_not_there_is_named_with_a_mend() {
+fn missing_revisions_are_reported_with_a_fix() {
     let (repo, [one, ..]) = history();
     repo.write("refs/remotes/origin/main", one.to_string());
     let blob = repo.blob("one");
@@ -120,7 +120,7 @@ fn what_is_not_there_is_named_with_a_mend() {
         let said = repo.refusal(revision);
         assert!(said.contains(says), "{revision}: {said}");
     }
-    // Of a hash's beginning, nobody knows which is meant.
+    // The prefix of a hash is ambiguous.
     let mut of_start = std::collections::BTreeMap::<String, usize>::new();
     let mut n = 0;
     let start = loop {
@@ -187,7 +187,7 @@ fn packs_with_deltas_and_packed_refs_are_read() {
     // Copies 2 bytes of the base and adds the rest.
     let insert = &texts[1].as_bytes()[2..];
     let to_made = delta(length(0), length(1), &[&[0x90, 2, insert.len() as u8], insert].concat());
-    // Of the first, all but its first letter.
+    // The first text without its first letter.
     let to_again = delta(length(0), length(2), &[1, b'A', 0x91, 1, texts[0].len() as u8 - 1]);
     let first = entry(3, length(0), &[], texts[0].as_bytes());
     let back = distance(first.len() as u64);
@@ -216,15 +216,15 @@ fn packs_with_deltas_and_packed_refs_are_read() {
     }
     assert!(repo.refusal(&tree_id.to_string()[..6].replace(char::is_alphanumeric, "0")).contains("is not a branch"));
     assert_eq!(repo.text(&tree_id.to_string()[..9]).as_deref(), Ok(texts[1]), "the beginning of a packed one's hash");
-    // One ref of both forms is what its own file says.
+    // For a ref in both forms its own file takes precedence.
     repo.write("refs/heads/main", repo.image("loose", &[]).to_string());
     assert_eq!(repo.text("main").as_deref(), Ok("loose"));
 }
 
 #[test]
-fn a_working_tree_of_git_worktree_and_a_submodule_are_read() {
+fn worktrees_and_submodules_are_read() {
     let (repo, [one, two, ..]) = history();
-    // As `git worktree add ../more` makes it.
+    // As `git worktree add ../more` creates it.
     let more = repo.root.with_file_name("more");
     let entry = repo.git.join("worktrees/more");
     fs::create_dir(&more).unwrap();
@@ -238,13 +238,13 @@ fn a_working_tree_of_git_worktree_and_a_submodule_are_read() {
     };
     assert_eq!(text(&more, "HEAD").as_deref(), Ok("two"), "its own HEAD");
     assert_eq!(text(&more, "main").as_deref(), Ok("merge"));
-    // Moved by hand, its entry names another place.
+    // Moved by hand: its entry names another place.
     let moved = repo.root.with_file_name("moved");
     fs::rename(&more, &moved).unwrap();
     let said = text(&moved, "HEAD").unwrap_err();
     assert!(said.contains("does not name this working tree") && said.contains("git worktree repair"), "{said}");
 
-    // As `git submodule add` makes it.
+    // As `git submodule add` creates it.
     let sub = repo.root.join("sub");
     fs::create_dir(&sub).unwrap();
     fs::write(sub.join(".git"), "gitdir: ../.git/modules/sub\n").unwrap();
@@ -258,7 +258,7 @@ fn a_working_tree_of_git_worktree_and_a_submodule_are_read() {
 }
 
 #[test]
-fn links_within_the_folder_are_files_and_others_are_left_out_with_a_reason() {
+fn links_within_the_folder_become_files_and_others_are_skipped() {
     let repo = Repo::new();
     let (image, secret) = (repo.blob("image"), repo.blob("secret"));
     let link = |to: &str| repo.blob(to);

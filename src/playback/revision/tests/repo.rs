@@ -1,4 +1,4 @@
-//! Repositories made object by object, as no program would make them.
+//! Creates test repositories object by object, including invalid ones.
 
 use gix_hash::{Kind as Hash, ObjectId};
 use gix_object::Kind;
@@ -16,7 +16,7 @@ pub(super) const FOLDER: &str = "40000";
 pub(super) const LINK: &str = "120000";
 pub(super) const SUBMODULE: &str = "160000";
 
-/// A working tree `repo` in a folder that holds nothing else.
+/// A working tree `repo` in an otherwise empty folder.
 pub(super) struct Repo {
     pub outside: TempDir,
     pub root: PathBuf,
@@ -26,7 +26,7 @@ pub(super) struct Repo {
 impl Repo {
     pub(super) fn new() -> Self {
         let outside = tempfile::tempdir().unwrap();
-        // As links would have it: some systems' temporary folder is behind one.
+        // With links resolved: the temporary folder of some systems is reached through one.
         let root = outside.path().canonicalize().unwrap().join("repo");
         let git = root.join(".git");
         init(&git);
@@ -40,7 +40,7 @@ impl Repo {
         id
     }
 
-    /// Writes an object's file, whatever is in it.
+    /// Writes an object's file with arbitrary content.
     pub(super) fn loose(&self, id: ObjectId, bytes: &[u8]) {
         let hex = id.to_string();
         self.write(&format!("objects/{}/{}", &hex[..2], &hex[2..]), deflated(bytes));
@@ -66,7 +66,7 @@ impl Repo {
         self.object(Kind::Tag, text.as_bytes())
     }
 
-    /// Makes a commit of one `image.glsl` with this text.
+    /// Creates a commit of one `image.glsl` with this text.
     pub(super) fn image(&self, text: &str, parents: &[ObjectId]) -> ObjectId {
         let blob = self.blob(text);
         self.commit(self.tree(&[(FILE, "image.glsl", blob)]), parents)
@@ -102,13 +102,13 @@ impl Repo {
         super::at(self.root.join(project).to_str().unwrap(), revision).map_err(|e| e.to_string())
     }
 
-    /// Returns what `image.glsl` says in a revision.
+    /// Returns the content of `image.glsl` in a revision.
     pub(super) fn text(&self, revision: &str) -> Result<String, String> {
         let copy = self.at("", revision)?;
         Ok(fs::read_to_string(copy.project.join("image.glsl")).unwrap())
     }
 
-    /// Returns why there is no such revision, and fails where something was written anywhere else for it.
+    /// Returns the error for a revision, and panics if anything was written elsewhere.
     pub(super) fn refusal(&self, revision: &str) -> String {
         let before = names(self.outside.path());
         let said = self.at("", revision).expect_err("refused");
@@ -138,7 +138,8 @@ pub(super) fn deflated(bytes: &[u8]) -> Vec<u8> {
     out.into_inner()
 }
 
-/// The bytes of a pack's entry: 1 to 4 are a commit, a tree, a blob and a tag, 6 and 7 deltas, whose base is `base`.
+/// Returns the bytes of a pack's entry: kinds 1 to 4 are a commit, a tree, a blob and a tag, 6 and 7 deltas, whose base
+/// is `base`.
 pub(super) fn entry(kind: u8, size: u64, base: &[u8], bytes: &[u8]) -> Vec<u8> {
     let mut out = vec![kind << 4 | (size & 15) as u8];
     let mut rest = size >> 4;
@@ -152,7 +153,7 @@ pub(super) fn entry(kind: u8, size: u64, base: &[u8], bytes: &[u8]) -> Vec<u8> {
     out
 }
 
-/// The bytes that say how far before a delta its base is.
+/// Encodes the distance from a delta back to its base.
 pub(super) fn distance(mut by: u64) -> Vec<u8> {
     let mut out = vec![(by & 127) as u8];
     while by > 127 {
@@ -162,7 +163,7 @@ pub(super) fn distance(mut by: u64) -> Vec<u8> {
     out
 }
 
-/// A delta of something of `base` bytes that makes `made`.
+/// Returns a delta from a base of `base` bytes to a result of `made` bytes.
 pub(super) fn delta(base: u64, made: u64, instructions: &[u8]) -> Vec<u8> {
     let number = |mut n: u64| {
         let mut out = Vec::new();
@@ -204,7 +205,7 @@ pub(super) fn packed(entries: &[(ObjectId, Vec<u8>)]) -> (Vec<u8>, Vec<u8>) {
     (pack, signed(index))
 }
 
-/// Every file and folder below.
+/// Returns every file and folder below.
 pub(super) fn names(folder: &Path) -> BTreeSet<PathBuf> {
     let mut found = BTreeSet::new();
     for entry in fs::read_dir(folder).unwrap() {

@@ -1,23 +1,23 @@
-//! The frame that is shown is drawn again, by other code, on another canvas or with other values: the same frame, from
-//! the same state and inputs. What it leaves to the next frame comes of that state once, however often it is drawn.
+//! Draws the shown frame again, with other code, another canvas or other values: the same frame, from the same state
+//! and inputs. Its effect on the next frame's state is applied once, however often it is drawn.
 //!
-//! A change of the program or the canvas takes what the targets hold along with it. So the way is: what the targets
-//! held before the frame is put back ([`History::rewind`]), the change is made, and the frame is drawn
-//! ([`History::prepare_again`]). That state is kept, for the next time.
+//! A change of the program or the canvas discards the contents of the targets. Therefore the contents before the frame
+//! are restored ([`History::rewind`]), the change is made, and the frame is drawn ([`History::prepare_again`]). That
+//! state is kept for the next time.
 
 use super::{BUDGET, Frame, History};
 use eddy_engine::{DrawFor, Engine, EngineError, FrameInputs, Snapshot};
 use std::{sync::Arc, time::Duration};
 
 impl History {
-    /// The number of the frame that is shown.
+    /// The number of the shown frame.
     pub(super) fn shown(&self) -> Option<u64> {
         self.again.rewound.or(self.drawn.checked_sub(1))
     }
 
-    /// Puts back what the targets held before the frame that is shown. False where that cannot be had any more, as of
-    /// buffers too large to be kept; then nothing is changed. The canvas stays as it is, unless another size is coming:
-    /// then it has the one that the most is kept of.
+    /// Restores the contents of the targets before the shown frame. Returns false if they are no longer available, as
+    /// for buffers too large to be kept; then nothing is changed. The canvas keeps its size, unless a resize is
+    /// pending: then it gets the size with the most kept data.
     pub(crate) fn rewind(&mut self, engine: &mut Engine, is_size_coming: bool) -> Result<bool, EngineError> {
         let Some(number) = self.shown() else { return Ok(false) };
         if self.again.rewound.is_some() {
@@ -35,7 +35,7 @@ impl History {
         Ok(is_there)
     }
 
-    /// Keeps what the targets hold before a frame, unless that is kept already.
+    /// Keeps the contents of the targets before a frame, unless they are kept already.
     fn keep_before(&mut self, engine: &Engine, number: u64) {
         let before = &mut self.again.before;
         if before.as_ref().is_some_and(|before| before.number == number) {
@@ -43,13 +43,13 @@ impl History {
         }
         *before = None;
         if (1..=BUDGET).contains(&engine.checkpoint_bytes()) {
-            // A device without room keeps none.
+            // A device without memory for it keeps none.
             let kept = engine.checkpoint().ok();
             *before = kept.map(|kept| PriorState { number, size: engine.size(), snapshot: Arc::new(kept) });
         }
     }
 
-    /// Has the targets hold what they held before a frame that was drawn.
+    /// Restores the contents of the targets before a frame that was drawn.
     fn put_back(&mut self, engine: &mut Engine, number: u64) -> Result<bool, EngineError> {
         if let Some(before) = self.again.before.as_ref().filter(|before| before.number == number) {
             let (canvas, (width, height), snapshot) = (engine.size(), before.size, before.snapshot.clone());
@@ -85,15 +85,16 @@ impl History {
         Ok(true)
     }
 
-    /// Returns the inputs of the frame that is shown, for the engine to draw it again with the program, the canvas and
-    /// the values of now; [`History::frame_drawn_again`] follows. `None` where what it was drawn from cannot be had any more.
+    /// Returns the inputs of the shown frame, for the engine to draw it again with the current program, canvas and
+    /// values; [`History::frame_drawn_again`] follows. `None` if the state that it was drawn from is no longer
+    /// available.
     pub(crate) fn prepare_again(&mut self, engine: &mut Engine) -> Result<Option<FrameInputs>, EngineError> {
         if !self.rewind(engine, false)? {
             return Ok(None);
         }
         let number = self.drawn;
         if number == 0 && self.is_whole {
-            // As this program, on this canvas, begins.
+            // The initial state of this program on this canvas.
             engine.reset();
             self.is_from_reset = true;
         } else {
@@ -108,21 +109,21 @@ impl History {
         }))
     }
 
-    /// The frame has been drawn again.
+    /// Records that the frame has been drawn again.
     pub(crate) fn frame_drawn_again(&mut self, took: Duration) {
         self.again.rewound = None;
         self.drawn += 1;
         self.learn(took);
     }
 
-    /// Takes up a run that was drawn before, by another process: its frames lie ahead of what the targets hold.
+    /// Takes over a run that another process has drawn: its frames are ahead of the contents of the targets.
     pub(crate) fn take_up(&mut self, frames: Vec<Frame>) {
         self.begin(true);
         self.frames = frames.into();
     }
 
-    /// Frames are drawn on the canvas that they had, on the way to another: it gets another size once that is there.
-    /// False where that is not so.
+    /// Sets the canvas size while frames are drawn on their original canvas on the way to a goal: the new size applies
+    /// after that. Returns false if no seek is in progress.
     pub(crate) fn resize_behind(&mut self, size: (u32, u32)) -> bool {
         let is_on_the_way = self.canvas.is_some();
         if is_on_the_way {
@@ -132,7 +133,7 @@ impl History {
     }
 }
 
-/// Holds what the targets held before a frame, on the canvas that they had then.
+/// The contents of the targets before a frame, on the canvas of that time.
 pub(super) struct PriorState {
     /// The frame's number in the run.
     pub number: u64,
@@ -140,10 +141,10 @@ pub(super) struct PriorState {
     pub snapshot: Arc<Snapshot>,
 }
 
-/// Holds what is needed to draw the frame again that is shown.
+/// The state needed to draw the shown frame again.
 #[derive(Default)]
 pub(super) struct Again {
-    /// The targets hold what they held before this frame, which is the one that is shown.
+    /// The targets have their contents from before this frame, which is the shown one.
     pub rewound: Option<u64>,
     pub before: Option<PriorState>,
 }
@@ -151,11 +152,11 @@ pub(super) struct Again {
 impl Again {
     /// Another program draws from now on.
     pub(super) fn change_program(&mut self) {
-        // Its targets may be others.
+        // Its targets may differ.
         self.before = None;
     }
 
-    /// A frame is drawn that was not drawn before: what follows it is another run.
+    /// A new frame is drawn: the frames after it belong to another run.
     pub(super) fn drop_behind(&mut self, number: u64) {
         self.before.take_if(|before| before.number > number);
     }

@@ -1,6 +1,6 @@
-//! The frames of a run are kept so that one can go to any of them: the inputs of each, and every so many frames a
-//! snapshot of what the frames to come read of the targets. A frame between two snapshots is drawn again from the one
-//! before it, or from the reset that the run began with. Far back snapshots are few (`thinning`).
+//! The frames of a run, kept for seeking: the inputs of each, and at intervals a snapshot of the targets' contents that
+//! later frames read. A frame between two snapshots is drawn again from the snapshot before it, or from the reset at
+//! the start of the run. Snapshots get sparser with distance (`thinning`).
 
 mod again;
 mod thinning;
@@ -17,58 +17,58 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Bytes of the device that snapshots may take, and how many there may be: of what is small so many are enough for the
-/// last minute of drawing and for any length before it.
+/// Device memory for snapshots in bytes, and their maximum number: for small targets this many suffice for the last
+/// minute of drawing and any length before it.
 const BUDGET: u64 = 256 << 20;
 const MOST: usize = 128;
-/// To draw the frames behind a snapshot again takes about so long at most.
+/// Drawing the frames after a snapshot again takes at most about this long.
 const REDRAWN: Duration = Duration::from_millis(600);
 /// Frames between two snapshots.
 const INTERVAL: std::ops::RangeInclusive<u64> = 1..=120;
-/// A way of fewer frames needs no snapshot before the frame that it leads to.
+/// A shorter way needs no snapshot before the frame that it leads to.
 const SHORT: u64 = 8;
-/// So many intervals are looked through frame by frame: to read the texels back takes longer than to draw.
+/// This many intervals are searched frame by frame: reading the texels back takes longer than drawing.
 const LOOKED_THROUGH: u64 = 16;
-/// Frames whose inputs are kept: 73 minutes at 60 a second, 40 MiB.
+/// Frames whose inputs are kept: 73 minutes at 60 per second, 40 MiB.
 const KEPT: usize = 1 << 18;
 /// The same while frames have the microphone's texture, 1 KiB each, or gamepads, .8 KiB: 18 minutes, 70 MiB.
 const KEPT_HEARD: usize = 1 << 16;
 
-/// The way to a goal, or a part of it.
+/// The progress towards a goal.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SeekProgress {
     /// The inputs of the frame that is shown now.
     pub inputs: FrameInputs,
-    /// The number of the frame that is to be shown.
+    /// The number of the goal's frame.
     pub goal: u64,
-    /// The number of frames to be drawn before it is.
+    /// The number of frames to draw before it.
     pub left: u64,
     /// The display is another texture: the canvas had another size on the way.
     pub is_display_new: bool,
 }
 
-/// A run of frames, without a break: a reset begins another. The canvas may get another size on the way; its buffers
-/// then hold what the smaller of both has in common.
+/// A continuous run of frames: a reset starts another. The canvas may be resized on the way; its buffers then keep the
+/// area that both sizes have in common.
 pub(crate) struct History {
     frames: VecDeque<Frame>,
-    /// The number of frames that are forgotten: `frames[0]` is the frame of this number.
+    /// The number of dropped frames: `frames[0]` is the frame with this number.
     forgotten: u64,
-    /// The number of frames of the run that the targets have seen: the frame before this one is shown.
+    /// The number of frames of the run that the targets include: the frame before this one is shown.
     drawn: u64,
-    /// The number of the first frame on the canvas of now: earlier ones are drawn again only on the way to later ones.
+    /// The number of the first frame on the current canvas: earlier ones are drawn again only on the way to later ones.
     floor: u64,
-    /// The size that the canvas has now, while earlier frames are drawn on their own.
+    /// The current size of the canvas, while earlier frames are drawn on their own.
     canvas: Option<(u32, u32)>,
-    /// The run began with a reset, and all that its frames were drawn with is kept.
+    /// The run started with a reset, and the inputs of all its frames are kept.
     is_whole: bool,
-    /// And the program has drawn all of it.
+    /// In addition, the program has drawn all of it.
     is_from_reset: bool,
     /// Each with the number of frames that were drawn before it.
     snapshots: VecDeque<(u64, Arc<Snapshot>)>,
     again: Again,
-    /// The values of the author's own uniforms.
+    /// The current values of the author's own uniforms.
     values: Arc<CustomUniformValues>,
-    /// The time that a frame takes.
+    /// The duration of a frame.
     took: Duration,
     budget: u64,
 }
@@ -93,7 +93,7 @@ impl Default for History {
 }
 
 impl History {
-    /// Forgets everything: what is drawn from now on does not follow from what was.
+    /// Clears everything: later frames do not follow from earlier ones.
     pub(crate) fn begin(&mut self, is_reset: bool) {
         (self.forgotten, self.drawn, self.floor) = (0, 0, 0);
         (self.is_whole, self.is_from_reset) = (is_reset, is_reset);
@@ -102,9 +102,10 @@ impl History {
         self.again = Again::default();
     }
 
-    /// The canvas has another size from the next frame on.
+    /// Applies a new canvas size, from the next frame on.
     pub(crate) fn resize(&mut self) {
-        // One that is to be drawn again is drawn on the new canvas. Those of a run that was taken up have their own.
+        // A frame that is to be drawn again uses the new canvas. The frames of a run that was taken over have their
+        // own.
         let kept = self.drawn + u64::from(self.again.rewound.is_some());
         if self.drawn > 0 {
             self.frames.truncate((kept - self.forgotten) as usize);
@@ -113,8 +114,8 @@ impl History {
         (self.floor, self.canvas) = (self.drawn, None);
     }
 
-    /// Another program draws from now on. What the frames were drawn with is kept: [`SeekTarget::Anew`] draws them by the new
-    /// program.
+    /// Another program draws from now on. The inputs of the frames are kept: [`SeekTarget::Anew`] draws them with the
+    /// new program.
     pub(crate) fn change_program(&mut self) {
         self.snapshots.clear();
         self.again.change_program();
@@ -125,17 +126,16 @@ impl History {
         self.values = Arc::new(values.clone());
     }
 
-    /// A new frame is about to be drawn: those behind the one that is shown are forgotten, and where it is time for one
-    /// a snapshot is taken.
+    /// Prepares for a new frame: drops the frames after the shown one, and takes a snapshot if one is due.
     pub(crate) fn before_frame(&mut self, engine: &mut Engine) -> Result<(), EngineError> {
-        // The frame that it follows has not been drawn by this program yet.
+        // The preceding frame has not been drawn by this program yet.
         if self.again.rewound.is_some()
             && let Some(inputs) = self.prepare_again(engine)?
         {
             engine.draw(&inputs)?;
             self.frame_drawn_again(self.took);
         }
-        // On the way to a frame that is not wanted any more.
+        // On the way to a frame that is no longer wanted.
         if self.put_canvas_back(engine)? {
             self.floor = self.drawn;
         }
@@ -151,14 +151,14 @@ impl History {
         Ok(())
     }
 
-    /// Gives the canvas the size of now. Says whether it had another.
+    /// Restores the current size of the canvas. Returns whether it was different.
     fn put_canvas_back(&mut self, engine: &mut Engine) -> Result<bool, EngineError> {
         let Some((width, height)) = self.canvas.take().filter(|size| *size != engine.size()) else { return Ok(false) };
         engine.resize(width, height)?;
         Ok(true)
     }
 
-    /// Forgets the oldest frames where there are so many, up to the first that can be shown without them.
+    /// Drops the oldest frames if there are too many, up to the first that can be shown without them.
     fn forget(&mut self, most: usize) {
         if self.frames.len() < most {
             return;
@@ -173,19 +173,19 @@ impl History {
         self.forgotten += count as u64;
     }
 
-    /// A frame has been drawn.
+    /// Records a frame that was drawn.
     pub(crate) fn frame_drawn(&mut self, inputs: FrameInputs, size: (u32, u32), took: Duration) {
         self.learn(took);
         self.frames.push_back(Frame { inputs, values: self.values.clone(), size });
         self.drawn += 1;
     }
 
-    /// A frame took so long. A slow one alone tells nothing.
+    /// Updates the average duration of a frame, so that one slow frame has little effect.
     fn learn(&mut self, took: Duration) {
         self.took = if self.took.is_zero() { took } else { (7 * self.took + took) / 8 };
     }
 
-    /// Takes a snapshot where the one before is at least so many frames ago. A device without room keeps none.
+    /// Takes a snapshot if the previous one is at least `least` frames ago. A device without memory for it keeps none.
     fn keep(&mut self, engine: &Engine, least: u64) {
         let place = self.snapshots.partition_point(|(at, _)| *at <= self.drawn);
         let before = place.checked_sub(1).map(|n| self.snapshots[n].0);
@@ -193,7 +193,7 @@ impl History {
         if self.drawn < self.floor || before.is_some_and(|at| self.drawn - at < least) || most < 2 {
             return;
         }
-        // There is room before it is filled.
+        // Make room before it is used.
         let mut kept: Vec<u64> = self.snapshots.iter().map(|(at, _)| *at).collect();
         kept.insert(place, self.drawn);
         while let Some(index) = thinning::surplus(&kept, self.drawn, most) {
@@ -209,7 +209,7 @@ impl History {
         }
     }
 
-    /// The frames up to the one that is shown, from a snapshot on; `None` where there is none.
+    /// Returns the frames up to the shown one, from a snapshot on; `None` if there is no such snapshot.
     pub(crate) fn replay(&self, from: ReplayFrom) -> Option<Replay> {
         let (at, snapshot) = match from {
             ReplayFrom::Oldest => {
@@ -228,7 +228,7 @@ impl History {
         Some(Replay { snapshot: snapshot.clone(), frames })
     }
 
-    /// Returns what all frames up to the one that is shown were drawn with, from the oldest that is kept.
+    /// Returns the inputs of all frames up to the shown one, from the oldest that is kept.
     pub(crate) fn run(&self) -> Run {
         let count = (self.drawn - self.forgotten) as usize;
         Run { frames: self.frames.iter().take(count).cloned().collect(), is_whole: self.is_whole }
@@ -283,8 +283,8 @@ impl History {
         (first..self.end()).contains(&number).then_some(number)
     }
 
-    /// Goes towards a frame of the run and draws for as long as patience lasts, one frame at least where there is one
-    /// to draw. `None`: the goal is out of reach, and nothing is changed.
+    /// Advances towards a frame of the run and draws until `patience` has passed, but at least one frame if any is
+    /// left. `None`: the goal is out of reach, and nothing is changed.
     pub(crate) fn travel(
         &mut self,
         engine: &mut Engine,
@@ -313,7 +313,7 @@ impl History {
                 }
                 is_display_new = true;
             }
-            // A loop comes to its goal again and again.
+            // A loop reaches its goal repeatedly.
             let is_there = self.drawn == number && count > 0;
             self.keep(engine, if is_there { SHORT } else { self.interval() });
             engine.set_custom_uniforms(&frame.values);
@@ -332,14 +332,14 @@ impl History {
                 Err(error) => return Some(Err(error)),
             }
         }
-        // The values that stand now are those that a person turned, not those of that frame.
+        // The current values are those set by the user, not those of that frame.
         engine.set_custom_uniforms(&self.values);
         let inputs = self.frame(self.drawn.checked_sub(1)?)?.inputs.clone();
         Some(Ok(SeekProgress { inputs, goal: number, left: (number + 1).saturating_sub(self.drawn), is_display_new }))
     }
 
-    /// Puts back what is nearest before a frame, if that is nearer than what the targets hold. False: a snapshot does
-    /// not fit.
+    /// Restores the closest snapshot before a frame, if that is closer than the contents of the targets. False: a
+    /// snapshot does not fit.
     fn go_near(&mut self, engine: &mut Engine, number: u64) -> bool {
         let is_before = self.drawn <= number + 1;
         let kept = self.snapshots.iter().rev().find(|(at, _)| *at <= number);

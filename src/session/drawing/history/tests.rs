@@ -1,4 +1,4 @@
-//! Goes to frames that were drawn, and counts what is drawn again for it.
+//! Tests of seeking to frames that were drawn, counting the frames that are drawn again.
 
 use super::*;
 use eddy_engine::{BuildOptions, Program};
@@ -9,7 +9,7 @@ use eddy_project::presets;
 const SIZE: (u32, u32) = (32, 18);
 
 #[test]
-fn of_a_long_run_the_newest_frames_are_kept() {
+fn long_run_keeps_its_newest_frames() {
     let mut history = History::default();
     for frame in 0..1000 {
         history.forget(100);
@@ -20,7 +20,7 @@ fn of_a_long_run_the_newest_frames_are_kept() {
         assert_eq!(reach.last_secs, f64::from(frame) / 60.0);
         assert!(history.frames.len() <= 100 && history.number(SeekTarget::By(0)) == Some(frame as u64));
     }
-    // Without a snapshot nothing before the frame that is shown can be.
+    // Without a snapshot nothing before the shown frame is available.
     assert_eq!(
         (history.reach().back, history.number(SeekTarget::By(-1)), history.number(SeekTarget::Anew(5))),
         (0, None, None)
@@ -28,7 +28,7 @@ fn of_a_long_run_the_newest_frames_are_kept() {
 }
 
 #[test]
-fn a_time_is_that_of_the_last_frame_which_is_not_later() {
+fn time_selects_last_frame_that_is_not_later() {
     let mut history = History::default();
     for frame in 0..100 {
         history.frame_drawn(FrameInputs::at_fixed_step(frame, 10.0), SIZE, Duration::from_millis(1));
@@ -51,7 +51,7 @@ fn feedback(size: (u32, u32)) -> Option<Engine> {
     Some(engine)
 }
 
-/// Draws a frame that takes 96 ms, as one is told: six of them less than the bound.
+/// Draws a frame and reports a duration of 96 ms: six of them are less than the bound.
 fn step(history: &mut History, engine: &mut Engine, frame: i32) {
     let inputs = FrameInputs::at_fixed_step(frame, 60.0);
     history.before_frame(engine).unwrap();
@@ -60,10 +60,10 @@ fn step(history: &mut History, engine: &mut Engine, frame: i32) {
 }
 
 #[test]
-fn one_goes_back_to_the_first_frame_and_near_ones_are_near_a_snapshot() {
+fn first_frame_is_reachable_and_recent_frames_have_close_snapshots() {
     let Some(mut engine) = feedback(SIZE) else { return };
     let mut history = History::default();
-    // Another program has drawn what was before.
+    // The earlier frames were drawn by another program.
     history.begin(false);
     history.budget = 16 * engine.checkpoint_bytes() + 1;
     let mut pictures = Vec::new();
@@ -83,7 +83,7 @@ fn one_goes_back_to_the_first_frame_and_near_ones_are_near_a_snapshot() {
         history.travel(&mut engine, SeekTarget::Frame(199), Duration::MAX).unwrap().unwrap();
         assert!(engine.read_image().unwrap().texels == pictures[199], "{back} back, and on");
     }
-    // Where the first frames have been forgotten, so are their snapshots.
+    // Snapshots of dropped frames are dropped as well.
     history.forget(200);
     let first = history.reach();
     assert!((100..199).contains(&first.back) && !first.is_whole, "{first:?}");
@@ -93,7 +93,7 @@ fn one_goes_back_to_the_first_frame_and_near_ones_are_near_a_snapshot() {
 }
 
 #[test]
-fn new_code_draws_each_frame_on_the_canvas_that_it_had() {
+fn new_code_draws_frames_on_their_original_canvas() {
     let (small, large) = ((16, 9), (32, 18));
     let Some(mut engine) = feedback(small) else { return };
     let mut history = History::default();
@@ -109,7 +109,7 @@ fn new_code_draws_each_frame_on_the_canvas_that_it_had() {
     assert_eq!(travel(&mut history, &mut engine, SeekTarget::Frame(9), 60), (0, true, large));
     assert_eq!(travel(&mut history, &mut engine, SeekTarget::By(-4), 60), (0, false, large));
     assert_eq!(history.number(SeekTarget::By(-1)), None, "that one is on the small canvas");
-    // Something else is drawn before it is there.
+    // Something else is drawn before the goal is reached.
     assert_eq!(travel(&mut history, &mut engine, SeekTarget::Anew(9), 0), (9, true, small));
     step(&mut history, &mut engine, 1);
     assert_eq!((engine.size(), history.reach().shown, history.reach().ahead), (large, 1, 0));

@@ -1,4 +1,4 @@
-//! An engine at work: does one job after the other.
+//! The engine's side of drawing: executes one job after the other.
 
 use super::{
     gate::Gate,
@@ -9,34 +9,34 @@ use eddy_engine::{CostClock, DrawFor, Engine, EngineError, FrameInputs, PassTime
 use eddy_gpu::Gpu;
 use std::time::{Duration, Instant};
 
-/// A tile's time tells something where it is at least such a part of a frame's limit; less is lost in what else the
-/// machine does.
+/// A tile's time is significant if it is at least this fraction of a frame's limit; shorter times are lost in the noise
+/// of other work.
 const TELLING: u32 = 20;
-/// The number of tiles that a graphics device draws at once is not known. A frame takes at least so often the time of
-/// one.
+/// The number of tiles that a GPU draws in parallel is unknown. A frame takes at least this many times as long as a
+/// tile.
 const AT_LEAST: f64 = 4.0;
-/// A band of a frame takes about so long: what is typed waits no longer for the frame before it.
+/// The approximate duration of a band of a frame: input waits no longer than this for the previous frame.
 const BAND: Duration = Duration::from_millis(12);
-/// A processor's driver draws squares of so many pixels a side, each on one core.
+/// A CPU driver draws squares with this many pixels a side, each on one core.
 const SQUARE: u32 = 64;
-/// Frames are drawn again for so long before the picture is shown and something else may be asked.
+/// Frames are drawn again for this long before the picture is shown and another request is handled.
 const PATIENCE: Duration = Duration::from_millis(150);
 
 pub(crate) struct Renderer {
     engine: Engine,
-    /// The display's picture leaves the device.
+    /// The display's picture is copied off the device.
     hands_out: bool,
     history: History,
-    /// `iFrame` and `iTime` of what the targets hold.
+    /// `iFrame` and `iTime` of the targets' contents.
     shown: Option<(i32, f64)>,
-    /// The time that the newest frame took that was drawn whole.
+    /// The duration of the newest frame that was drawn whole.
     whole_took: Duration,
-    /// The newest frame was not drawn whole.
+    /// The newest frame was abandoned part way.
     is_given_up: bool,
 }
 
 impl Renderer {
-    /// `hands_out`: give each new picture of the display with the answers.
+    /// `hands_out`: deliver each new picture of the display with the answers.
     pub(crate) fn new(gpu: Gpu, (width, height): (u32, u32), hands_out: bool) -> Result<Self, EngineError> {
         let mut engine = Engine::new(gpu, width, height)?;
         engine.set_timing(true);
@@ -56,7 +56,7 @@ impl Renderer {
         &self.history
     }
 
-    /// Returns `iFrame` and `iTime` of what the targets hold; `None` before the first frame.
+    /// Returns `iFrame` and `iTime` of the targets' contents; `None` before the first frame.
     pub(crate) fn shown(&self) -> Option<(i32, f64)> {
         self.shown
     }
@@ -64,7 +64,7 @@ impl Renderer {
     pub(crate) fn work(&mut self, job: Job) -> Done {
         let Job { changes, frame, travel, stays, again, tasks, costs_of, tile_limit, gate } = job;
         let mut done = Done::default();
-        // Another program draws its own frame.
+        // A new program draws its own frame.
         if changes.program.is_none() || !tasks.is_empty() {
             done.is_display_new |= self.finish();
         }
@@ -74,7 +74,7 @@ impl Renderer {
             self.rewind(changes.size.is_some());
         }
         self.change(changes, canvas, tile_limit, &first_inputs, &mut done);
-        // Before a further frame, the one that is shown is drawn with the values that were turned meanwhile.
+        // Before a new frame, the shown one is drawn with the values that were set meanwhile.
         if stays && frame.is_some() && done.custom_uniforms_changed {
             self.rewind(false);
         }
@@ -104,7 +104,7 @@ impl Renderer {
         done.is_late = self.engine.is_late();
         done.reach = self.history.reach();
         let has_drawn = done.frame.is_some() || done.travelled.is_some();
-        // What a resize or another program leaves of the canvas before it is no picture: the frame that follows is.
+        // The canvas after a resize or a change of program has no valid picture until the next frame.
         let is_other = matches!(done.resized, Some((_, Ok(())))) || matches!(done.program, Some(Ok(())));
         let is_between = !has_drawn && is_other && done.restarted.is_none() && self.engine.program().is_some();
         let is_whole = !self.is_given_up;
@@ -117,15 +117,15 @@ impl Renderer {
         done
     }
 
-    /// Puts back what the targets held before the frame that is shown, if that is kept.
+    /// Restores the contents of the targets before the shown frame, if they are kept.
     fn rewind(&mut self, is_size_coming: bool) {
-        // A device that is lost is told of by what is asked of it next.
+        // A lost device is reported by the next request to it.
         if let Err(e) = self.history.rewind(&mut self.engine, is_size_coming) {
             log::error!("cannot draw a frame again: {e}");
         }
     }
 
-    /// Draws the frame again that is shown.
+    /// Draws the shown frame again.
     fn draw_again(&mut self, is_watched: bool, done: &mut Done) {
         let size = self.engine.size();
         let drawn = match self.history.prepare_again(&mut self.engine) {
@@ -147,7 +147,7 @@ impl Renderer {
         done.frame = Some(drawn);
     }
 
-    /// `canvas`: the size that the picture has had.
+    /// `canvas`: the size of the picture so far.
     fn change(
         &mut self,
         changes: Changes,
@@ -171,7 +171,7 @@ impl Renderer {
                 None => Ok(coming.program),
             };
             if done.forecast.is_some() {
-                // It is not drawn for now: what one sees until then is a whole picture.
+                // The new program is not drawn for now: finish the frame, so that a whole picture is shown until then.
                 self.finish();
             }
             done.program = Some(tried.and_then(|program| self.engine.set_program(program)));
@@ -201,7 +201,7 @@ impl Renderer {
         }
     }
 
-    /// `canvas`: the size that the picture has had.
+    /// `canvas`: the size of the picture so far.
     fn resize(&mut self, (width, height): (u32, u32), canvas: (u32, u32), done: &mut Done) {
         if self.history.resize_behind((width, height)) {
             done.resized = Some(((width, height), Ok(())));
@@ -221,8 +221,8 @@ impl Renderer {
         done.is_display_new = true;
     }
 
-    /// Draws a new program on a canvas of a few pixels, then on larger ones until the time tells something, and says
-    /// how long a whole frame takes if that is too long.
+    /// Draws a new program on a canvas of a few pixels, then on larger ones until the time is significant, and returns
+    /// the estimated time of a whole frame if that is too long.
     fn try_tiles(
         &mut self,
         mut program: Program,
@@ -234,7 +234,7 @@ impl Renderer {
         let telling = limit.frame / TELLING;
         for tile in tiles(canvas) {
             let mut took = Duration::MAX;
-            // The first time is the driver's, which compiles for the machine, or chance.
+            // The first run includes the driver's compilation, or is an outlier.
             for _ in 0..2 {
                 let began = Instant::now();
                 program = self.engine.try_out(program, tile, inputs)?;
@@ -252,19 +252,19 @@ impl Renderer {
         Ok(program)
     }
 
-    /// Draws what is left of a frame that was given up. Says whether that was anything.
+    /// Draws the rest of an abandoned frame. Returns whether there was any.
     fn finish(&mut self) -> bool {
         if !std::mem::take(&mut self.is_given_up) {
             return false;
         }
-        // A device that is lost is told of by what is asked of it next.
+        // A lost device is reported by the next request to it.
         self.engine
             .resume(&mut || Some(u32::MAX))
             .inspect_err(|e| log::error!("a frame could not be finished: {e}"))
             .unwrap_or(false)
     }
 
-    /// Draws a frame. On a device without timestamps each pass is waited for while somebody looks at the costs.
+    /// Draws a frame. On a device without timestamps each pass is waited for while the costs are watched.
     fn draw(&mut self, inputs: &FrameInputs, is_watched: bool, gate: Option<&Gate>) -> Result<DrawnFrame, EngineError> {
         let began = Instant::now();
         let micros = || began.elapsed().as_secs_f64() * 1e6;
@@ -302,8 +302,8 @@ impl Renderer {
     }
 }
 
-/// Returns the canvases that a new program is tried on, smallest first. A side is a power of two where that of the
-/// whole canvas is: drivers compile anew for the other kind.
+/// Returns the canvases that a new program is tried on, smallest first. A side is a power of two if that of the whole
+/// canvas is: drivers compile again for the other kind.
 fn tiles(canvas: (u32, u32)) -> impl Iterator<Item = (u32, u32)> {
     let side = |n: u32, other: u32| if n.is_power_of_two() { 16 } else { other };
     let first = (side(canvas.0, 24), side(canvas.1, 12));
@@ -311,14 +311,14 @@ fn tiles(canvas: (u32, u32)) -> impl Iterator<Item = (u32, u32)> {
     sizes.take_while(move |tile| 2 * tile.0 <= canvas.0 && 2 * tile.1 <= canvas.1).take(6)
 }
 
-/// Returns the rows of a band of a frame that takes so long; none where it is drawn at once.
+/// Returns the rows of a band, given the duration of a frame; `None` if it is drawn at once.
 fn band_rows(height: u32, took: Duration) -> Option<u32> {
     let bands = (took.as_secs_f64() / BAND.as_secs_f64()).round().clamp(1.0, f64::from(height.max(1)));
     let rows = height.div_ceil(bands as u32).next_multiple_of(SQUARE);
     (rows < height).then_some(rows)
 }
 
-/// Returns how often a frame takes the time of a tile.
+/// Returns the ratio of the time of a frame to that of a tile.
 fn frames_a_tile(tile: (u32, u32), canvas: (u32, u32), is_cpu: bool) -> f64 {
     if !is_cpu {
         return AT_LEAST;

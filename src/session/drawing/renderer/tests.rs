@@ -1,4 +1,4 @@
-//! Tests of what an engine does for a job.
+//! Tests of the engine's jobs.
 
 use super::*;
 use crate::{
@@ -11,7 +11,7 @@ use eddy_media as media;
 use eddy_project::{PassName, presets};
 
 #[test]
-fn a_resize_or_a_program_is_shown_with_the_frame_that_follows_it() {
+fn resize_or_new_program_is_shown_with_its_first_frame() {
     let Some(gpu) = testing::gpu() else { return };
     let project = presets::load("feedback").unwrap().project;
     let (media, _) = media::gather(&project, None);
@@ -36,15 +36,15 @@ fn a_resize_or_a_program_is_shown_with_the_frame_that_follows_it() {
     assert_eq!(sizes(Changes::default(), Some(3)), Some((32, 18)));
 }
 
-/// Draws a frame that may wait, with what else is asked.
+/// Draws a frame that may wait, with the rest of a job.
 fn frame(renderer: &mut Renderer, n: i32, gate: Option<Gate>, job: Job) -> Done {
-    // The last frame took long enough for three bands.
+    // The last frame was slow enough for three bands.
     renderer.whole_took = BAND * 3;
     renderer.work(Job { frame: Some(FrameInputs::at_fixed_step(n, 60.0)), gate, ..job })
 }
 
 #[test]
-fn a_frame_that_is_given_up_is_handed_out_by_nobody_and_read_whole() {
+fn abandoned_frame_is_not_delivered_and_is_finished_before_reads() {
     let Some(gpu) = testing::gpu() else { return };
     if !gpu.is_cpu() {
         return;
@@ -69,7 +69,7 @@ fn a_frame_that_is_given_up_is_handed_out_by_nobody_and_read_whole() {
         assert!(matches!(done.frame, Some(Ok(_))) && done.picture.is_none(), "frame {n} counts, and is not shown");
         let expected = expected.unwrap();
         match n {
-            // Something else is asked: the frame is finished first.
+            // Another request: the frame is finished first.
             0 => assert_eq!(picture(given_up.work(Job::default())), Some(expected)),
             1 => {
                 let read = |renderer: &mut Renderer, program: Option<Program>| {
@@ -94,10 +94,10 @@ fn a_frame_that_is_given_up_is_handed_out_by_nobody_and_read_whole() {
             }
         }
     }
-    // What comes after is as it would have been.
+    // Later frames are not affected.
     let next = picture(frame(&mut whole, 3, None, Job::default()));
     assert_eq!(picture(frame(&mut given_up, 3, None, Job::default())), next);
-    // Another program's frame is the one that is drawn.
+    // Only the other program's frame is drawn.
     frame(&mut given_up, 4, Some(gate), Job::default());
     let program = Some(PendingProgram { program: build(), origin: None });
     let changes = Changes { program, ..Changes::default() };
@@ -107,7 +107,7 @@ fn a_frame_that_is_given_up_is_handed_out_by_nobody_and_read_whole() {
 }
 
 #[test]
-fn a_frame_is_drawn_in_bands_of_whole_squares_where_it_takes_long() {
+fn slow_frame_is_drawn_in_bands_of_whole_squares() {
     let rows = |height, millis| band_rows(height, Duration::from_millis(millis));
     assert_eq!([0, 12, 17].map(|millis| rows(400, millis)), [None; 3]);
     assert_eq!([24, 48, 5_000].map(|millis| rows(400, millis)), [Some(256), Some(128), Some(64)]);
@@ -116,7 +116,7 @@ fn a_frame_is_drawn_in_bands_of_whole_squares_where_it_takes_long() {
 }
 
 #[test]
-fn tiles_are_far_smaller_than_the_canvas_and_of_its_kind() {
+fn tiles_are_small_and_powers_of_two_like_the_canvas() {
     let of = |canvas| tiles(canvas).collect::<Vec<_>>();
     assert_eq!(of((640, 360)), [(24, 12), (96, 48)]);
     assert_eq!(of((1024, 1024)), [(16, 16), (64, 64), (256, 256)]);

@@ -1,6 +1,7 @@
-//! The choices for a film as a person makes them, and what they come to.
+//! The user's choices for a film, and their validation.
 //!
-//! Fields are texts, so that what is half typed stays as it is. They are kept as options of `eddy render`, which say the same.
+//! Fields are texts, so that partial input stays as it is. They are stored as options of `eddy render`, which express
+//! the same.
 
 use super::{FilmOrder, FilmPlace};
 use eddy_film::{
@@ -14,19 +15,19 @@ use std::{fmt::Write as _, fs, path::PathBuf};
 pub struct FilmForm {
     /// The frames of a film that is drawn offline: `0-599`, `0-599:2`, `600` or `2.5s-10s`.
     pub range: String,
-    /// `1920x1080`; empty: as the window shows it.
+    /// `1920x1080`; empty: the size in the window.
     pub size: String,
     /// Frames per second.
     pub fps: String,
     pub format: Format,
-    /// `None`: the usual one of the format.
+    /// `None`: the format's default.
     pub codec: Option<Codec>,
-    /// `low`, `medium`, `high`, `lossless` or a number; empty: the usual one of the codec.
+    /// `low`, `medium`, `high`, `lossless` or a number; empty: the codec's default.
     pub quality: String,
-    /// Seconds of the start that are faded with what follows the end; empty: no loop.
+    /// Seconds of the start that are cross-faded with the frames after the end; empty: no loop.
     pub fade: String,
     pub with_sound: bool,
-    /// The name of a file or its path; empty: the next free number. It is not kept.
+    /// A file name or path; empty: the next free number. It is not stored.
     pub file: String,
 }
 
@@ -46,7 +47,7 @@ impl Default for FilmForm {
     }
 }
 
-/// A choice of several fields at once.
+/// A preset of several fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FilmPreset {
     Uhd,
@@ -65,7 +66,7 @@ impl FilmPreset {
         }
     }
 
-    /// Returns a sentence about it.
+    /// Returns a description in one sentence.
     pub fn about(self) -> &'static str {
         match self {
             FilmPreset::Uhd => "3840x2160 pixels, 60 frames per second, H.264 in high quality",
@@ -74,7 +75,7 @@ impl FilmPreset {
         }
     }
 
-    /// Returns the fields with this choice. Sound and the name of the file stay.
+    /// Returns the fields with this preset. Sound and the file name stay.
     pub fn apply(self, form: &FilmForm) -> FilmForm {
         let base = FilmForm { with_sound: form.with_sound, file: form.file.clone(), ..FilmForm::default() };
         match self {
@@ -105,39 +106,39 @@ pub enum FilmField {
 }
 
 impl FilmField {
-    /// It counts for films of a range alone.
+    /// Returns whether the field applies only to films of a range.
     fn is_of_range(self) -> bool {
         matches!(self, FilmField::Range | FilmField::Fade)
     }
 }
 
-/// The facts that a form is checked against.
+/// The facts that a form is validated against.
 #[derive(Clone, Debug, Default)]
 pub struct FilmFacts {
-    /// Pixels of the picture in the window.
+    /// The size of the window's picture in pixels.
     pub shown: (u32, u32),
-    /// The most pixels of a side.
+    /// The largest side in pixels.
     pub most_side: u32,
-    /// The folder of names without one.
+    /// The folder for file names without one.
     pub folder: PathBuf,
-    /// Seconds after which the picture is the same again.
+    /// Seconds after which the picture repeats.
     pub period: Option<f64>,
     /// The encoders of ffmpeg, or why there are none; `None`: not known yet.
     pub encoders: Option<Result<Vec<String>, String>>,
 }
 
-/// A form that was checked.
+/// A validated form.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CheckedForm {
-    /// The reasons why nothing can be made, each at its field.
+    /// The errors, each with its field.
     pub errors: Vec<(FilmField, String)>,
-    /// A film of the range; `None` where a field has an error.
+    /// A film of the range; `None` if a field has an error.
     pub range: Option<FilmOrder>,
-    /// A film of what the window draws.
+    /// A film of the frames that the window draws.
     pub live: Option<FilmOrder>,
-    /// The reason why there is no such film, where it is none of the fields'.
+    /// The reason why there is no such film, if it does not concern a single field.
     pub not_live: Option<String>,
-    /// The file is there already, and may be replaced if the person says so.
+    /// The file exists, and may be replaced if the user agrees.
     pub is_taken: bool,
 }
 
@@ -148,7 +149,7 @@ impl CheckedForm {
 }
 
 impl FilmForm {
-    /// Returns what the fields come to. `replaces`: a person has said that a file that is there may be replaced.
+    /// Validates the fields. `replaces`: the user has allowed replacing an existing file.
     pub fn check(&self, facts: &FilmFacts, replaces: bool) -> CheckedForm {
         let mut checked = CheckedForm::default();
         let errors = &mut checked.errors;
@@ -160,7 +161,7 @@ impl FilmForm {
         let fps = read_fps(&self.fps);
         let frames = match fps {
             Ok(fps) => FrameList::of_film(&self.range, fps).map(|list| list.numbers()),
-            // The rate is told of at its own field.
+            // The rate is reported at its own field.
             Err(_) => Ok(Vec::new()),
         };
         let step = frames.as_ref().map_or(Ok(1), |frames| match self.format.is_still() {
@@ -180,7 +181,7 @@ impl FilmForm {
             Ok(encoding) if self.size.trim().is_empty() => fitting(encoding, size),
             _ => size,
         });
-        // The first choice that is wrong by itself is the one that is told of.
+        // The first choice that is wrong by itself is reported.
         let field = match (style(self.codec, None).resolve(), quality_given) {
             (Err(_), _) if self.codec.is_some() => FilmField::Codec,
             (Ok(_), Some(_)) => FilmField::Quality,
@@ -216,7 +217,7 @@ impl FilmForm {
         keep(field, encoding.clone().map(drop));
         keep(FilmField::Fade, fade.clone().map(drop).and(too_long));
         if let Ok(encoding) = &encoding {
-            // What is missing of ffmpeg is said whatever the size is.
+            // A missing feature of ffmpeg is reported whatever the size is.
             let at = size.clone().unwrap_or(facts.shown);
             if size.is_ok() {
                 keep(FilmField::Size, check_size(encoding, at).map_err(|error| error.to_string()));
@@ -251,7 +252,7 @@ impl FilmForm {
         if let (Ok(frames), Ok(rate), Ok(fade), false) = (frames, stepped, fade, blocks(&checked.errors, false)) {
             checked.range = Some(order(Some(frames), rate, fade));
         }
-        // The step of a range may make a rate of it that a format takes.
+        // With the step of a range, the rate may be one that the format supports.
         match (whole, encoding.clone()) {
             (Err(why), _) => checked.not_live = Some(why),
             (_, Encoding::Film(FilmEncoding::Apng(_))) => {
@@ -263,7 +264,7 @@ impl FilmForm {
         checked
     }
 
-    /// Returns where the film goes, and whether something is there.
+    /// Returns the place of the film, and whether a file exists there.
     fn place(&self, facts: &FilmFacts, replaces: bool) -> (Result<FilmPlace, String>, bool) {
         let typed = self.file.trim();
         if typed.is_empty() {
@@ -274,7 +275,7 @@ impl FilmForm {
             let ending = path.extension().map(|ending| ending.to_string_lossy().into_owned());
             match ending.as_deref().map(Format::of_name) {
                 Some(Some(format)) if format == self.format => {}
-                // An animated PNG is often called one.
+                // An animated PNG often has the extension of a PNG.
                 Some(Some(Format::Png)) if self.format == Format::Apng => {}
                 Some(Some(other)) => {
                     let (other, name) = (other.name(), self.format.name());
@@ -302,7 +303,7 @@ impl FilmForm {
         (Ok(FilmPlace::Named { path, replaces }), is_taken)
     }
 
-    /// Writes the choices as options of `eddy render`, without the file.
+    /// Formats the choices as options of `eddy render`, without the file.
     pub fn options(&self) -> String {
         let mut text = String::new();
         let mut add = |option: &str, value: &str| {
@@ -325,7 +326,7 @@ impl FilmForm {
         text
     }
 
-    /// Reads such options; what is left out is as it is at first. Err: what it must be.
+    /// Parses such options; omitted ones keep their defaults. Returns an error that states the valid values.
     pub fn of_options(text: &str) -> Result<FilmForm, String> {
         let mut form = FilmForm { size: String::new(), ..FilmForm::default() };
         let mut words = text.split_whitespace();
@@ -380,7 +381,7 @@ fn read_size(text: &str, facts: &FilmFacts) -> Result<(u32, u32), String> {
     }
 }
 
-/// Returns the size of the window's picture, or one that is a pixel smaller where the encoding takes even sides alone.
+/// Returns the size of the window's picture, reduced by a pixel if the encoding requires even sides.
 fn fitting(encoding: &Encoding, size: (u32, u32)) -> (u32, u32) {
     let even = |side: u32| (side & !1).max(2);
     if check_size(encoding, size).is_ok() { size } else { (even(size.0), even(size.1)) }

@@ -5,7 +5,7 @@ fn facts(folder: &std::path::Path) -> FilmFacts {
     FilmFacts { shown: (640, 360), most_side: 8192, folder: folder.to_owned(), period: None, encoders: Some(Ok(there)) }
 }
 
-/// Checks a form where nothing is on disk.
+/// Validates a form with nothing on disk.
 fn check(form: &FilmForm) -> CheckedForm {
     form.check(&facts(std::path::Path::new("/nowhere")), false)
 }
@@ -17,7 +17,7 @@ fn form(change: impl FnOnce(&mut FilmForm)) -> FilmForm {
 }
 
 #[test]
-fn the_first_form_and_all_presets_can_be_made() {
+fn default_form_and_all_presets_are_valid() {
     let mut forms = vec![FilmForm::default()];
     forms.extend(FilmPreset::ALL.map(|preset| preset.apply(&FilmForm::default())));
     for form in forms {
@@ -32,7 +32,7 @@ fn the_first_form_and_all_presets_can_be_made() {
 }
 
 #[test]
-fn what_is_wrong_is_said_at_its_field_and_stops_only_what_depends_on_it() {
+fn errors_are_at_their_field_and_block_only_dependent_films() {
     type Case = (fn(&mut FilmForm), FilmField, &'static str, bool);
     let cases: [Case; 19] = [
         (|f| f.range = "9-2".into(), FilmField::Range, "write 2-9", true),
@@ -62,13 +62,13 @@ fn what_is_wrong_is_said_at_its_field_and_stops_only_what_depends_on_it() {
         assert_eq!(checked.errors.len(), 1, "{:?}", checked.errors);
         assert_eq!((checked.range.is_some(), checked.live.is_some()), (false, live), "{form:?}");
     }
-    // Several at once, each at its own.
+    // Several errors at once, each at its own field.
     let checked = check(&form(|f| (f.range, f.size, f.fps) = ("x".into(), "y".into(), "60".into())));
     assert_eq!(checked.errors.len(), 2);
 }
 
 #[test]
-fn the_size_of_the_window_is_made_even_where_the_codec_needs_it() {
+fn window_size_is_rounded_to_even_if_the_codec_requires_it() {
     let facts = FilmFacts { shown: (645, 363), ..facts(std::path::Path::new("/nowhere")) };
     let size = |format| form(|f| (f.format, f.fps) = (format, "20".into())).check(&facts, false).range.unwrap().size;
     assert_eq!((size(Format::Mp4), size(Format::Gif)), ((644, 362), (645, 363)));
@@ -77,7 +77,7 @@ fn the_size_of_the_window_is_made_even_where_the_codec_needs_it() {
 }
 
 #[test]
-fn a_step_makes_a_rate_and_a_film_of_unknown_length_needs_a_format_for_it() {
+fn range_step_changes_rate_and_live_film_needs_streamable_format() {
     let checked = check(&form(|f| (f.format, f.range) = (Format::Gif, "0-59:3".into())));
     let order = checked.range.expect("20 frames per second");
     assert_eq!((order.rate.per_second(), order.frames.unwrap().len()), (20.0, 20));
@@ -94,7 +94,7 @@ fn a_step_makes_a_rate_and_a_film_of_unknown_length_needs_a_format_for_it() {
 }
 
 #[test]
-fn without_ffmpeg_pictures_can_be_made_and_films_say_what_to_install() {
+fn without_ffmpeg_pictures_work_and_films_name_the_package() {
     let facts = FilmFacts {
         encoders: Some(Err("ffmpeg is not there; install it".into())),
         ..facts(std::path::Path::new("/nowhere"))
@@ -109,7 +109,7 @@ fn without_ffmpeg_pictures_can_be_made_and_films_say_what_to_install() {
 }
 
 #[test]
-fn no_file_is_replaced_unasked() {
+fn no_file_is_replaced_without_asking() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("a.mp4"), "mine").unwrap();
     fs::create_dir(folder.path().join("pictures")).unwrap();
@@ -137,7 +137,7 @@ fn no_file_is_replaced_unasked() {
 }
 
 #[test]
-fn choices_are_kept_as_options_of_the_command_line() {
+fn choices_are_stored_as_command_line_options() {
     let mut forms = vec![FilmForm::default()];
     forms.extend(FilmPreset::ALL.map(|preset| preset.apply(&FilmForm::default())));
     forms.push(form(|f| (f.codec, f.with_sound, f.range) = (Some(Codec::Vp9), false, "0-9:3".into())));

@@ -1,12 +1,12 @@
-//! `iTime`, `iTimeDelta`, `iFrame` and `iFrameRate` over real time, as `shadertoy.md` section 4 has them.
+//! `iTime`, `iTimeDelta`, `iFrame` and `iFrameRate` over real time, as defined in section 4 of `shadertoy.md`.
 //!
-//! Reads no clock itself: whoever draws says what time it is.
+//! Reads no clock itself: the caller passes the time.
 
 use std::time::{Duration, Instant};
 
-/// `iTimeDelta` where there is no frame before to measure from.
+/// `iTimeDelta` without a previous frame to measure from.
 const NOMINAL_DELTA_SECS: f64 = 1.0 / 60.0;
-/// `iFrameRate` is measured anew only after more than this.
+/// `iFrameRate` is updated only after more than this.
 const RATE_WINDOW: Duration = Duration::from_millis(500);
 
 /// The four time uniforms of one frame.
@@ -18,28 +18,28 @@ pub(crate) struct FrameTime {
     pub frame_rate: f32,
 }
 
-/// Time of a running picture. Starts playing, at frame 0.
+/// The time of a running picture. Starts playing, at frame 0.
 #[derive(Clone, Debug)]
 pub(crate) struct Clock {
     is_playing: bool,
-    /// Real time and `iTime` that belong together; `None` makes the next frame the one to count from.
+    /// A real time and its `iTime`; `None` makes the next frame the reference.
     anchor: Option<(Instant, f64)>,
-    /// `iTime` of the newest frame, or where the next one starts.
+    /// `iTime` of the newest frame, or the starting time of the next one.
     time_secs: f64,
     /// Number of the next frame.
     frame: i32,
     rate: f32,
-    /// Since when, and how many frames.
+    /// The start of the window, and its number of frames.
     rate_window: Option<(Instant, u32)>,
-    /// `iTime` that steps count from, and how many were made: adding up 1/60 would drift from frame/60.
+    /// `iTime` at which stepping started, and the number of steps: adding up 1/60 would drift from frame/60.
     steps: Option<(f64, u32)>,
-    /// `iTime` against real time.
+    /// The ratio of `iTime` to real time.
     speed: f64,
-    /// Frames in a second of `iTime`, where each takes the same time whatever it really takes.
+    /// Frames per second of `iTime`, if all take the same time regardless of real time.
     fixed_rate: Option<f64>,
 }
 
-/// Frames in a second of a step, unless another rate is asked for.
+/// The rate of single steps in frames per second, unless another is set.
 const STEP_RATE: f64 = 60.0;
 
 impl Default for Clock {
@@ -59,8 +59,8 @@ impl Default for Clock {
 }
 
 impl Clock {
-    /// A clock whose first frame is at a time and has a number; `None`: the one that a run at 60 frames a second has
-    /// about then.
+    /// A clock whose first frame has this time and this number; `None`: the number that a run at 60 frames per second
+    /// has at about that time.
     pub(crate) fn at(time_secs: f64, frame: Option<i32>, is_playing: bool) -> Self {
         let time_secs = if time_secs.is_finite() { time_secs.max(0.0) } else { 0.0 };
         let frame = frame.unwrap_or((time_secs * STEP_RATE).round() as i32).max(0);
@@ -76,12 +76,12 @@ impl Clock {
         self.time_secs
     }
 
-    /// Number of the next frame: how many have been drawn since the reset.
+    /// The number of the next frame: how many have been drawn since the reset.
     pub(crate) fn next_frame_number(&self) -> i32 {
         self.frame
     }
 
-    /// Goes on from the newest frame's time.
+    /// Continues from the newest frame's time.
     pub(crate) fn play(&mut self) {
         if !self.is_playing {
             self.is_playing = true;
@@ -93,24 +93,23 @@ impl Clock {
         self.is_playing = false;
     }
 
-    /// Returns a time and the `iTime` that belongs to it. `None` before the first frame after a pause, and where frames
-    /// take the same time however long they really take.
+    /// Returns a real time and its `iTime`. `None` before the first frame after a pause, and at a fixed rate.
     pub(crate) fn anchor(&self) -> Option<(Instant, f64)> {
         self.anchor.filter(|_| self.is_playing && self.fixed_rate.is_none())
     }
 
-    /// Time and frame number to zero. Playing or paused, speed and step stay as they are.
+    /// Resets time and frame number to zero. Playing or paused, speed and step are unchanged.
     pub(crate) fn reset(&mut self) {
         let Self { is_playing, speed, fixed_rate, .. } = *self;
         *self = Self { is_playing, speed, fixed_rate, ..Self::default() };
     }
 
-    /// Seconds of `iTime` in a second.
+    /// Seconds of `iTime` per second.
     pub(crate) fn speed(&self) -> f64 {
         self.speed
     }
 
-    /// Has time run faster or slower than real time. What is no number above 0 changes nothing.
+    /// Sets the ratio of `iTime` to real time. A value that is not a number above 0 is ignored.
     pub(crate) fn set_speed(&mut self, speed: f64) {
         if speed.is_finite() && speed > 0.0 {
             self.speed = speed;
@@ -118,13 +117,12 @@ impl Clock {
         }
     }
 
-    /// Frames in a second of `iTime`, if each takes the same time.
+    /// The fixed rate in frames per second of `iTime`, if one is set.
     pub(crate) fn fixed_rate(&self) -> Option<f64> {
         self.fixed_rate
     }
 
-    /// Has every frame take the same time; `None`: as long as it really takes. A rate that is no number above 0 changes
-    /// nothing.
+    /// Makes every frame take the same time; `None`: the real time. A rate that is not a number above 0 is ignored.
     pub(crate) fn set_fixed_rate(&mut self, rate: Option<f64>) {
         if rate.is_none_or(|rate| rate.is_finite() && rate > 0.0) {
             self.fixed_rate = rate;
@@ -132,19 +130,19 @@ impl Clock {
         }
     }
 
-    /// Frames in a second of what [`step_frame`](Self::step_frame) draws.
+    /// The rate in frames per second of what [`step_frame`](Self::step_frame) draws.
     pub(crate) fn step_rate(&self) -> f64 {
         self.fixed_rate.unwrap_or(STEP_RATE)
     }
 
-    /// The next frame is the one that a run at a fixed step has at about this time. Playing or paused stays as it is.
+    /// Continues with the frame that a run at a fixed step has at about this time. Playing or paused is unchanged.
     pub(crate) fn jump(&mut self, time_secs: f64) {
         self.rebase();
         self.time_secs = time_secs;
         self.frame = (time_secs * self.step_rate()).round() as i32;
     }
 
-    /// A frame that was drawn before is shown again: the next one is the one after it. Pauses.
+    /// Shows an earlier frame again: the next one follows it. Pauses.
     pub(crate) fn go_to(&mut self, frame: i32, time_secs: f64) {
         self.pause();
         self.rebase();
@@ -152,22 +150,22 @@ impl Clock {
         self.frame = frame.saturating_add(1);
     }
 
-    /// A frame with a time and a number of its own is drawn. Playing or paused stays as it is.
+    /// Draws a frame with a time and a number of its own. Playing or paused is unchanged.
     pub(crate) fn draw(&mut self, frame: i32, time_secs: f64, rate: f32) {
         self.rebase();
         (self.time_secs, self.rate) = (time_secs, rate);
         self.frame = frame.saturating_add(1);
     }
 
-    /// The next frame counts from the newest one's time, however much real time has passed: after a pause, or when the
-    /// window got the focus back.
+    /// The next frame continues from the newest one's time, however much real time has passed: after a pause, or when
+    /// the window regained the focus.
     pub(crate) fn rebase(&mut self) {
         self.anchor = None;
         self.rate_window = None;
         self.steps = None;
     }
 
-    /// Returns `iTime` of [`Self::running_frame`].
+    /// Returns `iTime` of the next [`Self::running_frame`].
     pub(crate) fn running_time(&self, now: Instant) -> f64 {
         match (self.fixed_rate, self.anchor) {
             (Some(rate), _) => self.stepped(rate).1,
@@ -176,7 +174,7 @@ impl Clock {
         }
     }
 
-    /// A frame of the running picture.
+    /// Advances to the next frame of the running picture.
     pub(crate) fn running_frame(&mut self, now: Instant) -> FrameTime {
         let (time, delta) = if self.fixed_rate.is_some() {
             self.step()
@@ -197,19 +195,19 @@ impl Clock {
         self.emit(time, delta)
     }
 
-    /// A frame forced while paused: `iTime` is frozen, `iFrame` is not.
+    /// A frame that is drawn while paused: `iTime` is unchanged, `iFrame` advances.
     pub(crate) fn forced_frame(&mut self) -> FrameTime {
         self.emit(self.time_secs, NOMINAL_DELTA_SECS)
     }
 
-    /// One frame further by a step, and paused. The first frame after a reset is the one at 0.
+    /// Advances by one step, and pauses. The first frame after a reset is the one at 0.
     pub(crate) fn step_frame(&mut self) -> FrameTime {
         self.pause();
         let (time, delta) = self.step();
         self.emit(time, delta)
     }
 
-    /// Time and delta of the frame that is one step further.
+    /// Returns time and delta of the frame one step ahead.
     fn step(&mut self) -> (f64, f64) {
         let rate = self.step_rate();
         let (steps, time) = self.stepped(rate);
@@ -217,18 +215,18 @@ impl Clock {
         (time, 1.0 / rate)
     }
 
-    /// Returns the steps after one more, and the time that they lead to.
+    /// Returns the steps after one more, and the resulting time.
     fn stepped(&self, rate: f64) -> ((f64, u32), f64) {
         let (from, steps) = self.steps.unwrap_or((self.time_secs, 0));
         let steps = if self.frame > 0 { steps + 1 } else { steps };
-        // Divided as a fixed-step run does, so that both give the same bits.
+        // Divided as a fixed-step run does, so that both yield the same bits.
         ((from, steps), from + f64::from(steps) / rate)
     }
 
     fn emit(&mut self, time_secs: f64, delta_secs: f64) -> FrameTime {
         self.time_secs = time_secs;
         let frame = self.frame;
-        // Two years of frames at 60 a second fit; beyond them the number stands still.
+        // Two years of frames at 60 per second fit; after that the number saturates.
         self.frame = self.frame.saturating_add(1);
         FrameTime { frame, time_secs, time_delta_secs: delta_secs as f32, frame_rate: self.rate }
     }

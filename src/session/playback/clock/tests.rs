@@ -34,7 +34,7 @@ fn a_pause_freezes_time_and_forced_frames_still_count() {
 }
 
 #[test]
-fn focus_counts_from_the_newest_frame() {
+fn time_continues_from_newest_frame_after_focus() {
     let (mut c, t) = (Clock::default(), Instant::now());
     c.running_frame(t);
     c.running_frame(after(t, 50));
@@ -44,7 +44,7 @@ fn focus_counts_from_the_newest_frame() {
 }
 
 #[test]
-fn reset_goes_to_zero_and_keeps_playing_or_not() {
+fn reset_zeroes_time_and_keeps_play_state() {
     let (mut c, t) = (Clock::default(), Instant::now());
     c.running_frame(t);
     c.running_frame(after(t, 700));
@@ -88,7 +88,7 @@ fn speed_stretches_time_and_survives_a_reset() {
 }
 
 #[test]
-fn frames_of_a_fixed_step_do_not_ask_how_late_it_is() {
+fn fixed_step_frames_ignore_real_time() {
     let (mut c, t) = (Clock::default(), Instant::now());
     c.set_fixed_rate(Some(24.0));
     for (i, millis) in [0, 3, 900, 901, 5000].into_iter().enumerate() {
