@@ -84,7 +84,7 @@ fn no_display(error: impl std::fmt::Display) -> GuiError {
     GuiError::NoDisplay(reason.trim_end_matches('.').to_owned())
 }
 
-/// How long the first frame of a new program may delay painting the window.
+/// The time that the first frame of a new program may delay painting the window.
 const FIRST_FRAME: Duration = Duration::from_millis(250);
 
 struct App {
@@ -109,7 +109,7 @@ struct Running {
     shell: Shell,
     held: HeldKeys,
     report: Report,
-    /// When to paint next if nothing happens before.
+    /// The time of the next painting if nothing happens before.
     paint_at: Option<Instant>,
     painted_at: Instant,
     hidden: bool,

@@ -20,7 +20,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// How long a dialog may take to appear before typing the path is offered.
+/// The time that a dialog may take to appear before typing the path is offered.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// The minimum size of a dialog's buttons.
 const BUTTON: Vec2 = vec2(84.0, 28.0);

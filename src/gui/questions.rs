@@ -71,7 +71,8 @@ fn answers_with_usual(ui: &mut Ui, list: &[(&str, Answer)], usual: usize, out: &
     }
 }
 
-/// How long a question is shown before a key answers it, in seconds: keys typed when it appears must not answer it.
+/// The time that a question is shown before a key answers it, in seconds: keys typed when it appears must not answer
+/// it.
 const DEAF_SECS: f64 = 0.7;
 
 fn takes_keys(ui: &Ui) -> bool {

@@ -37,7 +37,7 @@ pub(super) struct SettingsPage {
     dragged: Option<(&'static str, f64)>,
     /// The font's path while it is typed.
     typed: Option<String>,
-    /// Why the font that was last typed is not used.
+    /// The reason why the font that was last typed is not used.
     font_trouble: Option<String>,
     /// The address while it is typed, and whether it is invalid.
     address: Option<String>,

@@ -89,7 +89,7 @@ pub(super) struct Surface {
     back_buffer: BackBuffer,
     gpu: Gpu,
     needs_configure: bool,
-    /// How often in a row the surface did not take its size.
+    /// The number of times in a row that the surface did not take its size.
     refusals: u32,
 }
 

@@ -13,7 +13,7 @@ use egui::{
 };
 use std::time::{Duration, Instant};
 
-/// How long a notice of success is shown; a problem stays until it is closed.
+/// The time that a notice of success is shown; a problem stays until it is closed.
 const STAYS: Duration = Duration::from_secs(8);
 /// The maximum number of notices shown, newest first, so that they leave room for the code.
 const SHOWN: usize = 4;

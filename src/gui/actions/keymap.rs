@@ -4,7 +4,7 @@ use super::{Action, Chord, Entry, Group, table::ACTIONS};
 use egui::{Event, Key, Modifiers};
 use std::{ops::Deref, sync::Arc};
 
-/// Which parts are open and have the keyboard focus, and so whose keys are active.
+/// The parts that are open and have the keyboard focus, which decide whose keys are active.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct KeyFocus {
     pub code: bool,

@@ -59,7 +59,7 @@ pub(crate) struct Buffers {
     pub(super) reveals: Option<(u32, u32)>,
     /// The panel was visible in this frame.
     is_shown: bool,
-    /// Whether costs of passes are to be gathered.
+    /// Costs of passes are to be gathered.
     pub(super) wants_costs: bool,
     /// The last request to the session.
     sent: BufferWatch,

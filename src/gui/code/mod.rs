@@ -63,7 +63,7 @@ pub(super) struct CodePanel {
     told_front: Option<Tab>,
     /// The number of the session's pass renames that have been applied.
     followed: usize,
-    /// What the debugger shows in the tab in front.
+    /// The debugger's marks in the tab in front.
     debug: Debug,
     /// The first byte of the word that is probed while the pointer is over it and Ctrl and Alt are held.
     pointed: Option<usize>,

@@ -37,7 +37,7 @@ impl Figures {
     }
 }
 
-/// Computes them in the background and wakes the window when they are ready; returns `None` if the pictures have
+/// Computes them in the background and wakes the window when they are ready; the result is `None` if the pictures have
 /// different sizes. Without a thread there are no figures.
 pub(super) fn start(comparison: Arc<Comparison>, wake: Wake) -> Option<Background<(), (), Option<Figures>>> {
     let work = move |_: &Control<()>| Ok(Figures::new(comparison));

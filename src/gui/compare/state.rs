@@ -18,7 +18,7 @@ pub(super) enum Choice {
     Revision,
 }
 
-/// How the two pictures are shown.
+/// The arrangement of the two pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum View {
     Side,

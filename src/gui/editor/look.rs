@@ -1,4 +1,4 @@
-//! How an editor shows a text: its size, marks, matches, and the analysis of it.
+//! The display settings of a text in an editor: its size, marks, matches, and the analysis of it.
 
 use crate::{
     diag::{Severity, SourceId},
@@ -20,7 +20,7 @@ pub(crate) struct Mark {
     pub has_fix: bool,
 }
 
-/// How a text is shown; not part of the text.
+/// The display settings of a text, which are not part of it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look<'a> {
     /// The editor's name for assistive technology.
@@ -38,7 +38,7 @@ pub(crate) struct Look<'a> {
     pub debug: &'a Debug,
 }
 
-/// What a debugger shows in a text.
+/// The debugger's marks in a text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Debug {
     /// The line, from 0, that is about to run.

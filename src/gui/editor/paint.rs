@@ -13,7 +13,7 @@ use egui::{
 };
 use std::ops::Range;
 
-/// How the caret is shown.
+/// The caret's state for painting.
 #[derive(Clone, Copy)]
 pub(super) struct Caret<'a> {
     pub has_focus: bool,

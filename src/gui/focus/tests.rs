@@ -13,7 +13,7 @@ struct Stage {
     has_second: bool,
 }
 
-/// What a frame does besides showing the widgets.
+/// An action of a frame besides showing the widgets.
 #[derive(Clone, Copy, PartialEq)]
 enum Step {
     None,

@@ -17,7 +17,7 @@ use egui::{Frame, Margin, RichText, ScrollArea, TextEdit, Ui, pos2, vec2};
 use grid::{GAP, columns};
 use std::time::Instant;
 
-/// How long the pointer must rest on a card before its picture moves, in seconds.
+/// The time that the pointer must rest on a card before its picture moves, in seconds.
 const RESTS: f32 = 0.15;
 
 #[derive(Debug, Default)]

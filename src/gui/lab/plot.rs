@@ -97,7 +97,7 @@ pub(super) fn show(ui: &mut Ui, shown: &PlotData, view: &View<'_>, out: &mut UiO
     response.response.clicked().then_some(row)
 }
 
-/// What points are drawn with.
+/// The painter, transform and colours for points.
 struct Pen<'a> {
     painter: &'a Painter,
     transform: &'a PlotTransform,

@@ -14,7 +14,7 @@ use egui::{Align, Frame, Label, Layout, Link, Margin, Rect, RichText, Ui};
 /// The maximum number of letters of a comment that are shown.
 const LONGEST: usize = 40;
 
-/// How a card is shown.
+/// The options of a card's display.
 pub(super) struct View {
     /// The index from the top of the panel, for scripts.
     pub index: usize,

@@ -69,7 +69,7 @@ fn bounds(record: &Record) -> (f64, f64) {
     (low - air, high + air)
 }
 
-/// What a record is drawn with.
+/// The painter, transform and colours for a record.
 struct Pen<'a> {
     painter: &'a Painter,
     transform: &'a PlotTransform,

@@ -32,7 +32,7 @@ pub(crate) struct Measurements {
     pub(super) axis: Axis,
     /// The cards visible in this frame, by the serials of their comments.
     pub(super) seen: Vec<u64>,
-    /// Whether costs of passes are to be gathered: they explain why a pass is not drawn.
+    /// Costs of passes are to be gathered: they explain why a pass is not drawn.
     pub(super) wants_costs: bool,
     /// The last request to the session.
     sent: Vec<u64>,

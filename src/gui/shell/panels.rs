@@ -136,7 +136,7 @@ fn leave_button(ui: &Ui, whole: Rect, out: &mut UiOutput) {
         });
 }
 
-/// What the panels need while they are shown.
+/// The state that the panels need while they are shown.
 struct PanelContents<'a> {
     viewport: &'a mut Viewport,
     code: &'a mut CodePanel,

@@ -12,7 +12,7 @@ const MARKS: f32 = 60.0;
 /// The columns of the spectrum: each shows the maximum of four bins.
 const COLUMNS: usize = BINS / 4;
 
-/// What a waveform is painted with.
+/// The painter, place and range of a waveform.
 pub(super) struct Wave<'a> {
     pub painter: &'a Painter,
     pub palette: &'a Palette,

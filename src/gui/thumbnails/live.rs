@@ -37,7 +37,7 @@ pub(super) struct Live {
     shown: Option<(String, TextureHandle)>,
 }
 
-/// What the thread is to draw.
+/// The preset that the thread is to draw.
 #[derive(Default)]
 struct LiveRequests {
     state: Mutex<State>,

@@ -27,7 +27,7 @@ pub(crate) struct Debugger {
     pub(super) new_watch: String,
     /// The variable that is plotted; `None`: the first that changes.
     pub(super) plotted: Option<String>,
-    /// What is shown at the current moment.
+    /// The contents of the current moment.
     pub(super) seen: Option<MomentState>,
     /// The rows of the previous moment: most moments are in the same loop.
     rows: Option<Rows>,

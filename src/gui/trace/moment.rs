@@ -1,4 +1,4 @@
-//! What is shown at a moment, computed once for it.
+//! The contents of a moment, computed once for it.
 
 use crate::{
     debugger::trace::{Breakpoint, Examiner, Iteration, NamedValue, Number, Value, Watched},

@@ -11,7 +11,7 @@ use crate::{
 use egui::{Align2, Area, FontId, Frame, Id, Label, Margin, Order, Pos2, Rect, RichText, Ui, pos2};
 use std::time::Duration;
 
-/// How long the pointer must rest before a tooltip opens, in seconds.
+/// The time that the pointer must rest before a tooltip opens, in seconds.
 const REST: f64 = 0.35;
 const WIDTH: f32 = 440.0;
 

@@ -181,7 +181,7 @@ impl Highlight {
         buffer.line_count() - 1 - last
     }
 
-    /// Updates the counts of a line that no longer defines `old`.
+    /// Updates the counts after the macro that a line defines has changed from `old`.
     fn recount_macro(&mut self, old: Option<Box<str>>, line: usize) {
         let new = &self.lines[line].defines;
         if *new == old {

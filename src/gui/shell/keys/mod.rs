@@ -7,7 +7,7 @@
 use crate::gui::actions::{Action, KeyFocus, Keymap};
 use egui::{Event, Key, Modifiers};
 
-/// What has the keyboard focus.
+/// The holder of the keyboard focus.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Keyboard {
     pub listening: KeyFocus,
