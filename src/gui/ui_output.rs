@@ -52,9 +52,9 @@ pub(super) enum ShellCommand {
     GoTo(Tab, Option<(usize, usize)>),
     Picked(Pick, PathBuf),
     CloseGallery,
-    /// Show the panel of passes with one selected.
+    /// Open the window of passes with one selected.
     ChoosePass(Tab),
-    /// Show recovered work, paused, in place of the open project.
+    /// Show the code of recovered work, which opens paused in place of the open project.
     ShowRecovered,
     Set(Change),
     /// Stop receiving OSC, whether the settings or the command line started it.

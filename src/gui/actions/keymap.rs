@@ -103,7 +103,7 @@ impl Keymap {
         self.chords[i].iter().find(works).map(Chord::to_string).unwrap_or_default()
     }
 
-    /// Returns all keys of an action, with the actions that take precedence for them.
+    /// Returns all keys of an action; those that do not work while typing are marked.
     pub(crate) fn listed(&self, entry: &Entry) -> String {
         let name = |chord: &Chord| {
             let is_taken = level(entry.group) > 0 && self.holder(0, chord.key, chord.modifiers).is_some();

@@ -34,7 +34,7 @@ pub(super) fn parts(triangles: &[ClippedPrimitive], area: Area, scale: f32) -> V
     around.map(|area| Part { area, first: 0 }).chain([cover]).collect()
 }
 
-/// Returns the place of a picture that is drawn opaquely; `None` for any other mesh.
+/// Returns the place of a picture that is drawn upright and without tint; `None` for any other mesh.
 fn quad(mesh: &Mesh) -> Option<Rect> {
     let is_picture = matches!(mesh.texture_id, TextureId::User(_));
     let is_whole = mesh.vertices.len() == 4 && mesh.indices.len() == 6;

@@ -1,5 +1,5 @@
 //! The panel that compares this project's picture with that of its last save, of another project or of a revision,
-//! drawn from the same inputs, and shows how much and in speed they differ.
+//! drawn from the same inputs, and shows how much they differ in picture and speed.
 //!
 //! Nothing is drawn for it unless requested.
 

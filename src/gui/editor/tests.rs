@@ -138,7 +138,7 @@ fn random_edits_undo_and_redo_with_their_carets() {
     }
 }
 
-/// Returns the text and carets after an edit that is computed naively, starting with the last caret.
+/// Returns the text after an edit at every caret, computed naively from the last caret on.
 fn by_hand(buffer: &Buffer, with: &str, part: impl Fn(&str, Selection) -> Range<usize>) -> String {
     let mut text = buffer.text().to_owned();
     let mut end = text.len();
