@@ -134,7 +134,7 @@ mod tests {
 
     /// The comments of a new file match the defaults.
     #[test]
-    fn the_new_file_says_what_holds() {
+    fn comments_of_a_new_file_match_the_defaults() {
         let is_row = |line: &&str| line.contains(" = ") && !line.starts_with("# name");
         let text = template().lines().filter(is_row).map(|line| &line[2..]).collect::<Vec<_>>().join("\n");
         let (keymap, mistakes) = read(&text);

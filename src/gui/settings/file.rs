@@ -204,7 +204,7 @@ mod tests {
 
     /// The comments of a new file match the defaults.
     #[test]
-    fn the_new_file_says_what_holds() {
+    fn comments_of_a_new_file_match_the_defaults() {
         assert_eq!(read(&template()), (Settings::default(), vec![]));
         let rows = template().lines().filter(|l| l.contains(" = ")).map(|l| l[2..].to_owned()).collect::<Vec<_>>();
         assert_eq!(rows.len(), KEYS.len());
