@@ -1,7 +1,7 @@
-//! The event loop: the window system's events in, frames out, and sleep in between.
+//! The event loop: takes the window system's events, paints frames, and sleeps in between.
 //!
-//! Owns the window, the session and the moment of the next frame. A still window costs nothing: a frame is painted when
-//! an event, the session or egui asks for one.
+//! Owns the window, the session and the time of the next frame. An idle window costs nothing: a frame is painted only
+//! when an event, the session or egui requests one.
 
 use super::{
     GuiError, Opened, Options,
@@ -39,11 +39,11 @@ use winit::{
 /// Sent to the event loop from other threads.
 #[derive(Debug)]
 pub(super) enum AppEvent {
-    /// There is something to show.
+    /// There is something new to show.
     Wake,
-    /// A frame has been painted, and what happened meanwhile has been told of.
+    /// A frame has been painted, and all events that arrived meanwhile have been handled.
     Painted,
-    /// A screen reader, or another program of the kind.
+    /// An event of a screen reader or another assistive program.
     Assistive(accesskit_winit::Event),
 }
 
@@ -53,19 +53,19 @@ impl From<accesskit_winit::Event> for AppEvent {
     }
 }
 
-/// Opens the window and returns when it is closed.
+/// Opens the window, and returns when it is closed.
 pub fn run(options: Options) -> Result<(), GuiError> {
     run_with(options, |_| ())
 }
 
-/// As [`run`]. Once the window is open, calls `opened` with its first graphics device.
+/// The same as [`run`]. Once the window is open, calls `opened` with its first graphics device.
 pub fn run_with(options: Options, opened: impl FnOnce(&Gpu) + 'static) -> Result<(), GuiError> {
     let event_loop = EventLoop::<AppEvent>::with_user_event().build().map_err(no_display)?;
     let opened: Option<Opened> = Some(Box::new(opened));
     let mut app = App { proxy: event_loop.create_proxy(), options, opened, running: None, failed: None };
     event_loop.run_app(&mut app).map_err(no_display)?;
     let has_lost_threads = app.running.as_mut().is_some_and(|running| running.session.end());
-    // Its own end would wait for what the driver's threads are at.
+    // Dropping it would wait for the driver's threads.
     app.running = None;
     match app.failed {
         None if has_lost_threads => std::process::exit(0),
@@ -74,7 +74,7 @@ pub fn run_with(options: Options, opened: impl FnOnce(&Gpu) + 'static) -> Result
     }
 }
 
-/// The window system's reason without the place in its own code that it begins with.
+/// Returns the window system's error without the source location that it starts with.
 fn no_display(error: impl std::fmt::Display) -> GuiError {
     let text = error.to_string();
     let reason = match text.rsplit_once(".rs:") {
@@ -84,7 +84,7 @@ fn no_display(error: impl std::fmt::Display) -> GuiError {
     GuiError::NoDisplay(reason.trim_end_matches('.').to_owned())
 }
 
-/// The first frame of a new program is waited for so long before the window is painted without it.
+/// The time that the first frame of a new program may delay painting the window.
 const FIRST_FRAME: Duration = Duration::from_millis(250);
 
 struct App {
@@ -96,7 +96,7 @@ struct App {
     failed: Option<GuiError>,
 }
 
-/// A window that is open.
+/// An open window.
 struct Running {
     window: Arc<Window>,
     ctx: egui::Context,
@@ -109,17 +109,17 @@ struct Running {
     shell: Shell,
     held: HeldKeys,
     report: Report,
-    /// Says when to paint next if nothing happens before.
+    /// The time of the next painting if nothing happens before.
     paint_at: Option<Instant>,
     painted_at: Instant,
     hidden: bool,
     title: String,
-    /// Holds what the system prefers, where the window system does not say.
+    /// The system's theme preference, if the window system does not report it.
     system_theme: Receiver<egui::Theme>,
     window_file: WindowFile,
-    /// The window's size is the person's, and not the command line's.
+    /// The window's size was set by the user and not by the command line.
     keeps_size: bool,
-    /// The panels that are open are for the next start too.
+    /// Save which panels are open for the next start.
     keeps_panels: bool,
     usual: UsualSizes,
 }
@@ -146,13 +146,13 @@ impl ApplicationHandler<AppEvent> for App {
     fn user_event(&mut self, _: &ActiveEventLoop, event: AppEvent) {
         let Some(running) = &mut self.running else { return };
         match event {
-            // The picture is there, or something else is: at the screen's own rhythm.
+            // The picture or something else is ready: paint at the screen's refresh rate.
             AppEvent::Wake => {
                 let now = Instant::now();
                 running.session.attend(now);
                 running.paint_by(running.paced(running.after_first_frame(now)));
             }
-            // What a hand has done goes before the next frame of the picture.
+            // Handle user input before the next frame of the picture.
             AppEvent::Painted if running.is_due() => {}
             AppEvent::Painted => running.session.painted(Instant::now()),
             AppEvent::Assistive(event) => running.assist(event.window_event),
@@ -180,7 +180,7 @@ impl ApplicationHandler<AppEvent> for App {
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         let Some(running) = &mut self.running else { return };
         let flow = match running.paint_at {
-            // Nobody can see it; the window system tells when that changes.
+            // The window is not visible; the window system reports when that changes.
             _ if running.hidden => ControlFlow::Wait,
             None => ControlFlow::Wait,
             Some(_) if running.is_due() => {
@@ -213,14 +213,14 @@ impl Running {
         let surface = Surface::new(&window, event_loop.owned_display_handle())?;
         let wake: Arc<dyn Fn() + Send + Sync> = {
             let proxy = proxy.clone();
-            // The loop is gone when the window is: nobody is left to wake.
+            // Once the window is closed, so is the loop: a failed wake-up is harmless.
             Arc::new(move || {
                 let _ = proxy.send_event(AppEvent::Wake);
             })
         };
         let ctx = egui::Context::default();
         theme::apply(&ctx);
-        // Ctrl with plus and minus is the code's size, not the window's.
+        // Ctrl with plus and minus changes the size of code, not the window's zoom.
         ctx.options_mut(|o| o.zoom_with_keyboard = false);
         fonts::install_system(&ctx);
         let mut input = egui_winit::State::new(
@@ -231,7 +231,7 @@ impl Running {
             window.theme(),
             Some(surface.gpu().device.limits().max_texture_dimension_2d as usize),
         );
-        // Before the window can be seen.
+        // Must happen before the window is visible.
         input.init_accesskit(event_loop, &window, proxy.clone());
         let defaults = SessionOptions::default();
         let session_options = SessionOptions {
@@ -273,7 +273,7 @@ impl Running {
         }
         report.say(json!({ "event": "started", "device": surface.gpu().describe(), "pid": std::process::id() }));
         window.set_visible(true);
-        // Under X11 the window manager is asked for it, and knows a window only once that is to be seen.
+        // On X11 the request goes to the window manager, which knows a window only once it is visible.
         if options.size.is_none() && remembered.place.is_maximized {
             window.set_maximized(true);
         }
@@ -310,7 +310,7 @@ impl Running {
         match &event {
             WindowEvent::CloseRequested => {
                 self.session.apply(Command::Close);
-                // A question must be seen to be answered.
+                // A question needs a visible window.
                 if self.hidden && self.session.question().is_some() {
                     self.window.set_minimized(false);
                     self.hide(false);
@@ -338,7 +338,7 @@ impl Running {
             _ => {}
         }
         match &event {
-            // What a released key changes may wait for what the pressed one did.
+            // The effect of a key release may wait until that of its press is shown.
             WindowEvent::KeyboardInput { event, .. } if event.state == ElementState::Released => {
                 self.paint_by(self.after_first_frame(Instant::now()));
             }
@@ -348,14 +348,14 @@ impl Running {
         Ok(Next::Go)
     }
 
-    /// Nobody sees the window, or somebody does again.
+    /// The window is no longer visible, or visible again.
     fn hide(&mut self, is_hidden: bool) {
         if std::mem::replace(&mut self.hidden, is_hidden) != is_hidden {
             self.session.apply(Command::Hide(is_hidden));
         }
     }
 
-    /// Passes a key on to the shader if the picture has the keyboard and the window has no use for it.
+    /// Passes a key on to the shader if the picture has the keyboard focus and the window does not use the key.
     fn key(&mut self, event: &winit::event::KeyEvent, is_synthetic: bool) {
         let is_press = |e: &&egui::Event| matches!(e, egui::Event::Key { pressed: true, .. });
         let press = self.input.egui_input().events.iter().rev().find(is_press);
@@ -368,7 +368,7 @@ impl Running {
         }
     }
 
-    /// Tells others what is shown, only while they ask for it.
+    /// Answers assistive programs; the accessibility tree is built only while one requests it.
     fn assist(&mut self, event: accesskit_winit::WindowEvent) {
         match event {
             accesskit_winit::WindowEvent::InitialTreeRequested => self.ctx.enable_accesskit(),
@@ -378,7 +378,7 @@ impl Running {
         self.paint_soon();
     }
 
-    /// The window is to be painted now.
+    /// Returns whether the window is to be painted now.
     fn is_due(&self) -> bool {
         self.paint_at.is_some_and(|at| at <= Instant::now())
     }
@@ -391,13 +391,13 @@ impl Running {
         self.paint_at = Some(self.paint_at.map_or(at, |earlier| earlier.min(at)));
     }
 
-    /// Returns when to paint what can wait for the first frame of what was typed. That wakes the loop: to paint before it
-    /// would hold it up where a processor does both.
+    /// Returns when to paint changes that can wait for the first frame of an edit. That frame wakes the loop: painting
+    /// before it would delay it if one processor does both.
     fn after_first_frame(&self, at: Instant) -> Instant {
         if self.session.is_first_frame_coming() { at + FIRST_FRAME } else { at }
     }
 
-    /// Returns when to paint what is ready at a moment. The screen's own rhythm holds the loop back; where it does not
+    /// Returns when to paint what is ready at a given time. The screen's refresh rate limits the loop; if it does not
     /// (software drivers), this does.
     fn paced(&self, at: Instant) -> Instant {
         let interval = self.screen_interval();
@@ -428,7 +428,7 @@ impl Running {
             self.surface.touch(texture);
         }
         let presented = self.surface.paint(&self.window, output, &self.ctx);
-        // Events of the window go before it.
+        // Pending window events are handled before it.
         let _ = self.proxy.send_event(AppEvent::Painted);
         self.shell.report(&self.session, &mut self.report, self.surface.size(), &self.ctx, began);
         self.watch_device(began)?;
@@ -436,7 +436,7 @@ impl Running {
         if let Next::Exit = self.take_requests() {
             return Ok(Next::Exit);
         }
-        // What egui asks for of its own accord can wait.
+        // Repaints that egui requests by itself can wait.
         let mut next = began.checked_add(delay).map(|at| at.max(self.after_first_frame(began)));
         if wants_next || presented == Presented::Again {
             next = Some(began);
@@ -453,7 +453,7 @@ impl Running {
         Ok(Next::Go)
     }
 
-    /// Gets over the loss of the window's device.
+    /// Recovers from the loss of the window's device.
     fn watch_device(&mut self, now: Instant) -> Result<(), GuiError> {
         let gpu = self.surface.gpu().clone();
         let Running { window, ctx, surface, shell, wake, .. } = self;
@@ -481,12 +481,12 @@ impl Running {
         Next::Go
     }
 
-    /// Keeps where the window is and what is in it, for the next start.
+    /// Saves the window's place and layout for the next start.
     fn remember(&mut self) {
         let (window, dock) = (&self.window, self.shell.dock());
         let is_maximized = window.is_maximized();
         let known = self.window_file.known().place;
-        // Where it goes back to is what it was before it was made larger.
+        // A maximised window restores the place that it had before.
         let is_usual = !is_maximized && window.fullscreen().is_none() && !self.hidden;
         let now = self.place(is_maximized);
         let place = match (self.keeps_size, is_usual) {
@@ -515,7 +515,7 @@ impl Running {
         Duration::from_secs_f64(1000.0 / f64::from(millihertz.clamp(24_000, 1_000_000)))
     }
 
-    /// The window's own properties, as the shell and the session want them.
+    /// Applies the window properties that the shell and the session request.
     fn follow_shell(&mut self) {
         let project = self.session.project();
         let title = format!("{}{} – Eddy", if self.session.is_dirty() { "● " } else { "" }, project.name);
@@ -530,7 +530,7 @@ impl Running {
     }
 }
 
-/// Returns the sound of this machine, where Eddy was built with it.
+/// Returns this machine's audio host, if Eddy was built with sound.
 #[cfg(feature = "audio")]
 fn machine_audio() -> Option<Arc<dyn AudioHost>> {
     Some(Arc::new(crate::audio::device::Machine))
@@ -561,7 +561,7 @@ fn machine_gamepads() -> Option<Arc<dyn PadHost>> {
     None
 }
 
-/// Returns where and how large the window opens: as the command line says, else as it was, else as suits the screen.
+/// Returns the place and size of the new window: from the command line, else as saved, else as suits the screen.
 fn attributes(event_loop: &ActiveEventLoop, options: &Options, place: &WindowPlace) -> WindowAttributes {
     let attributes = window_identity::identified(Window::default_attributes())
         .with_title("Eddy")
@@ -572,7 +572,7 @@ fn attributes(event_loop: &ActiveEventLoop, options: &Options, place: &WindowPla
     }
     let (width, height) = place.size.unwrap_or((1280.0, 760.0));
     let attributes = attributes.with_inner_size(LogicalSize::new(width, height)).with_maximized(place.is_maximized);
-    // A screen that is not there any more shows nothing.
+    // The screen may have been disconnected.
     let is_on_screen = |at: &(i32, i32)| {
         event_loop.available_monitors().any(|monitor| {
             let (from, size) = (monitor.position(), monitor.size().cast::<i32>());
@@ -591,7 +591,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_missing_display_is_told_in_plain_words() {
+    fn a_missing_display_is_reported_plainly() {
         let error = no_display("os error at /somewhere/linux/mod.rs:788: Failed to open connection to X server.");
         let text = error.to_string();
         assert!(text.starts_with("no display found: Failed to open connection to X server. "), "{text}");

@@ -1,7 +1,7 @@
 //! Opens pages that come with Eddy in the desktop's browser.
 //!
-//! A page is written to a private folder first, so that a program alone without its `docs` has it too. The desktop is
-//! asked on a thread of its own: it may show a dialog, or never answer.
+//! A page is written to a private folder first, so that the executable works without its `docs`. The desktop is called
+//! on a separate thread: it may show a dialog, or never return.
 
 use crate::{
     background::{Background, Control},
@@ -19,10 +19,10 @@ use std::{
 /// The page with the bookmarklet that saves a shader from its Shadertoy page.
 const BOOKMARKLET: &str = include_str!("../../docs/bookmarklet.html");
 const BOOKMARKLET_NAME: &str = "shadertoy-bookmarklet.html";
-/// A program that still runs after so long has opened the page: some are the browser itself.
+/// A program that still runs after this time counts as having opened the page: some are the browser itself.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Pages on their way to the browser.
+/// Pages that are being opened.
 #[derive(Default)]
 pub(super) struct Browser {
     opening: Vec<(PathBuf, Background<(), (), bool>)>,
@@ -44,7 +44,7 @@ impl Browser {
         }
     }
 
-    /// Returns what there is to say of pages for which the desktop has answered.
+    /// Returns notices about pages for which the desktop has returned.
     pub(super) fn take(&mut self) -> Vec<Command> {
         let mut notices = Vec::new();
         self.opening.retain_mut(|(path, opening)| match opening.take() {
@@ -58,7 +58,7 @@ impl Browser {
     }
 }
 
-/// Says what became of a page that was to be opened.
+/// Returns the notice about a page that was or could not be opened.
 fn opened(path: PathBuf, is_open: bool) -> Command {
     let (level, text) = if is_open {
         (Level::Info, format!("The bookmarklet page is open in your browser. It is the file {}.", path.display()))
@@ -74,18 +74,18 @@ fn write(folder: &Path) -> io::Result<PathBuf> {
     Ok(folder.join(BOOKMARKLET_NAME))
 }
 
-/// Opens a page. False: the desktop could not.
+/// Opens a page. Returns false if the desktop could not.
 fn show(page: &Path) -> bool {
     #[cfg(target_os = "macos")]
     return runs(Path::new("open"), page);
     #[cfg(windows)]
-    // Its exit status says nothing.
+    // Its exit status is meaningless.
     return process::Command::new("explorer").arg(page).spawn().is_ok();
     #[cfg(not(any(windows, target_os = "macos")))]
     (portal(page) || runs(Path::new("xdg-open"), page))
 }
 
-/// Asks the XDG desktop portal, which reaches browsers that see only a part of the disk.
+/// Calls the XDG desktop portal, which reaches browsers that are sandboxed.
 #[cfg(not(any(windows, target_os = "macos")))]
 fn portal(page: &Path) -> bool {
     use ashpd::desktop::open_uri::OpenFileRequest;
@@ -95,7 +95,7 @@ fn portal(page: &Path) -> bool {
     asked.inspect_err(|e| log::info!("the desktop portal did not open {}: {e}", page.display())).is_ok()
 }
 
-/// Runs a program that opens a page. Returns whether it has.
+/// Runs a program that opens a page. Returns whether it succeeded.
 #[cfg(not(windows))]
 fn runs(program: &Path, page: &Path) -> bool {
     let mut command = process::Command::new(program);
@@ -124,7 +124,7 @@ mod tests {
     use std::{fs, os::unix::fs::PermissionsExt};
 
     #[test]
-    fn the_page_lies_in_a_folder_that_nobody_else_reads_and_is_written_again() {
+    fn the_page_is_rewritten_in_a_private_folder() {
         let dir = tempfile::tempdir().unwrap();
         let folder = dir.path().join("eddy");
         let path = write(&folder).unwrap();
@@ -133,7 +133,7 @@ mod tests {
         assert_eq!(write(&folder).unwrap(), path);
         let page = fs::read_to_string(&path).unwrap();
         assert!(page.contains("gShaderToy") && page.contains("Save for Eddy"));
-        // A link that leads elsewhere is not followed.
+        // A symbolic link is not followed.
         let precious = dir.path().join("precious");
         fs::write(&precious, "mine").unwrap();
         fs::remove_file(&path).unwrap();
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn a_browser_that_opens_and_one_that_cannot_are_told_apart() {
+    fn browser_success_and_failure_are_distinguished() {
         let dir = tempfile::tempdir().unwrap();
         let opens = |script: &str| {
             let program = dir.path().join("program");

@@ -1,5 +1,5 @@
-//! Files that a person writes and the window follows: each is read when the window opens, and again when the window
-//! gets the keyboard and the file has changed.
+//! Files that people write and the window follows: each is read when the window opens, and again when the window gets
+//! the keyboard focus and the file has changed.
 
 use crate::project::confine;
 use std::{
@@ -8,44 +8,44 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Names something in a file that cannot be done as it stands.
+/// An error in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ConfigError {
     /// The line, counted from 1.
     pub line: usize,
-    /// Says what is wrong and how to mend it.
+    /// The problem and how to fix it.
     pub text: String,
 }
 
-/// The meaning of such a file. The default is that of no file.
+/// The parsed content of such a file. The default applies if there is no file.
 pub(super) trait Content: Default {
     const NAME: &str;
-    /// A sentence behind the error of a file that cannot be read.
+    /// A sentence appended to the error of a file that cannot be read.
     const STAYS: &str;
 
-    /// Reads a text. Lines with mistakes mean nothing.
+    /// Parses a text. Invalid lines are ignored.
     fn read(text: &str) -> (Self, Vec<ConfigError>);
 
     /// Returns a text that lists everything and changes nothing.
     fn template() -> String;
 }
 
-/// A file in the folder for settings, and its content as it was read last.
+/// A file in the folder for settings, with its content as last read.
 #[derive(Debug)]
 pub(super) struct ConfigFile<T> {
-    /// `None` where the system has no place for settings.
+    /// `None` if the system has no folder for settings.
     path: Option<PathBuf>,
-    /// The text that was read last.
+    /// The text as last read.
     text: Option<String>,
     content: T,
-    /// Says what is wrong in it, one line each.
+    /// The errors in it, one line each.
     mistakes: Vec<String>,
-    /// It could not be read when it was looked at last.
+    /// It could not be read the last time.
     is_unreadable: bool,
 }
 
 impl<T: Content> ConfigFile<T> {
-    /// Names the file in the platform's folder for settings. It is not read yet.
+    /// Locates the file in the platform's folder for settings without reading it.
     pub(super) fn new() -> Self {
         Self::at(dirs::config_dir().map(|folder| folder.join("eddy").join(T::NAME)))
     }
@@ -62,7 +62,7 @@ impl<T: Content> ConfigFile<T> {
         &mut self.content
     }
 
-    /// Reads the file if it is not what it was. What is wrong in it comes back, one line each.
+    /// Reads the file if it has changed. Returns the errors in it, one line each.
     pub(super) fn refresh(&mut self) -> Vec<String> {
         let Some(path) = &self.path else { return Vec::new() };
         let text = match read(path) {
@@ -83,14 +83,14 @@ impl<T: Content> ConfigFile<T> {
         self.mistakes.clone()
     }
 
-    /// Returns whether a text was said of the file and is true no more.
+    /// Returns whether an error that was reported for the file is fixed.
     pub(super) fn is_fixed(&self, said: &str) -> bool {
         let path = self.path.as_ref().map(|path| path.display().to_string());
         path.is_some_and(|path| said.starts_with(&format!("{path}:"))) && !self.mistakes.iter().any(|m| m == said)
     }
 
-    /// Changes the text of the file, or of the template where there is none. Err: why it stays as it was, with a
-    /// sentence behind an error of the disk.
+    /// Changes the text of the file, or of the template if there is no file. Returns why it could not be changed, with
+    /// an explanation appended to an error of the disk.
     pub(super) fn edit(
         &mut self,
         edit: impl FnOnce(&str) -> Result<String, ConfigError>,
@@ -102,7 +102,8 @@ impl<T: Content> ConfigFile<T> {
         let is_known = there == self.text;
         let text = edit(&there.unwrap_or_else(T::template)).map_err(|mistake| with_place(path, &mistake))?;
         write(path, &text).map_err(failed)?;
-        // Another program may have written it meanwhile: then it is read as a whole once more, and mistakes are told.
+        // Another program may have written the file meanwhile: then the whole file is read again, and its errors are
+        // reported.
         let (content, mistakes) = T::read(&text);
         self.mistakes = mistakes.iter().map(|mistake| with_place(path, mistake)).collect();
         (self.content, self.text) = (content, is_known.then_some(text));
@@ -113,22 +114,22 @@ impl<T: Content> ConfigFile<T> {
         self.path.as_deref()
     }
 
-    /// Returns the text that was read last.
+    /// Returns the text as last read.
     pub(super) fn text(&self) -> Option<&str> {
         self.text.as_deref()
     }
 
-    /// Returns what is wrong in it, one line each.
+    /// Returns the errors in it, one line each.
     pub(super) fn mistakes(&self) -> &[String] {
         &self.mistakes
     }
 
-    /// It could not be read when it was looked at last.
+    /// Returns whether it could not be read the last time.
     pub(super) fn is_unreadable(&self) -> bool {
         self.is_unreadable
     }
 
-    /// Returns where the file is, after writing the template if there is none.
+    /// Returns the path of the file, after writing the template if the file is missing.
     pub(super) fn write_if_missing(&self) -> Result<&Path, String> {
         let Some(path) = &self.path else { return Err("this system has no folder for settings".into()) };
         if !path.exists() {
@@ -138,7 +139,7 @@ impl<T: Content> ConfigFile<T> {
     }
 }
 
-/// Reads a file; `None` where there is none.
+/// Reads a file; returns `None` if it does not exist.
 fn read(path: &Path) -> io::Result<Option<String>> {
     confine::read_state_toml(path)
 }
@@ -147,9 +148,9 @@ fn with_place(path: &Path, mistake: &ConfigError) -> String {
     format!("{}:{}: {}", path.display(), mistake.line, mistake.text)
 }
 
-/// Writes a file whole or not at all.
+/// Writes a file atomically.
 pub(super) fn write(path: &Path, text: &str) -> io::Result<()> {
-    // People keep such files elsewhere: where it is a link, what it leads to is written.
+    // People keep such files elsewhere: if it is a symbolic link, its target is written.
     let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let folder = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder)?;

@@ -1,4 +1,4 @@
-//! The table under the picture: what each pass of the open project costs. Nothing is gathered while it is closed.
+//! The table below the picture with the cost of each pass of the open project. Nothing is gathered while it is closed.
 
 use super::{theme, ui_output::UiOutput};
 use crate::{
@@ -10,7 +10,7 @@ use egui::{Align2, Color32, FontId, Rect, RichText, ScrollArea, Sense, Ui, pos2,
 const ROW: f32 = 19.0;
 const SIZE: f32 = 12.0;
 
-/// Right edges of the columns, as distances from the table's right edge; the name takes what is left.
+/// Right edges of the columns, as distances from the table's right edge; the name takes the remaining width.
 struct Columns {
     size: Option<f32>,
     format: Option<f32>,
@@ -20,7 +20,7 @@ struct Columns {
 }
 
 impl Columns {
-    /// Narrow tables leave out what matters least.
+    /// Narrow tables omit the least important columns.
     fn of(width: f32) -> Columns {
         let (moved, held, millis) = (8.0, 84.0, 160.0);
         let has_size = width > 400.0;
@@ -29,7 +29,7 @@ impl Columns {
             held,
             millis,
             size: has_size.then_some(236.0),
-            // Where it begins: it is text.
+            // Its left edge: the column is text.
             format: (width > 520.0).then_some(384.0),
         }
     }
@@ -60,7 +60,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     sum(ui, &columns, &costs, out);
 }
 
-/// Says at the right end of the panel's row how the times were found.
+/// Shows at the right end of the panel's row how the times were measured.
 pub(super) fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let (short, long) = match session.pass_costs().clock {
         CostClock::Timestamps => (
@@ -84,7 +84,7 @@ pub(super) fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     }
 }
 
-/// One row of texts, in the order of the columns.
+/// Shows one row of texts, in the order of the columns.
 fn line(ui: &mut Ui, columns: &Columns, texts: [&str; 6], name: Color32, color: Color32) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     if response.hovered() {
@@ -144,7 +144,7 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ui
         ui.painter().rect_filled(rect, 0.0, theme::of(ui).raised);
     }
     if let (None, Some(ms)) = (why, pass.millis) {
-        // How it stands to the dearest, behind its name.
+        // Its share of the most expensive pass, after its name.
         let width = (rect.width() - columns.name_end() - 12.0).max(0.0) * (ms / most.max(1e-9)) as f32;
         let bar = Rect::from_min_size(rect.min + vec2(0.0, 2.0), vec2(width, ROW - 4.0));
         ui.painter().rect_filled(bar, 2.0, theme::of(ui).accent_fill.gamma_multiply(0.6));
@@ -195,7 +195,7 @@ fn sum(ui: &mut Ui, columns: &Columns, costs: &PassCosts, out: &mut UiOutput) {
     out.place("costs:sum", response.rect);
 }
 
-/// Bytes as people read them, in powers of 1024.
+/// Formats bytes for reading, in powers of 1024.
 pub(super) fn bytes(n: u64) -> String {
     const KIB: f64 = 1024.0;
     let x = n as f64;
@@ -215,7 +215,7 @@ fn count(texels: u64) -> String {
     }
 }
 
-/// Returns what the table says, for scripts that drive the window.
+/// Returns the table's contents, for scripts that drive the window.
 pub(super) fn report(session: &Session) -> serde_json::Value {
     let costs = session.pass_costs();
     let passes: Vec<serde_json::Value> = costs
@@ -234,7 +234,7 @@ pub(super) fn report(session: &Session) -> serde_json::Value {
     serde_json::json!({ "passes": passes })
 }
 
-/// Milliseconds in as many digits as say something, so that columns do not touch.
+/// Formats milliseconds with few enough digits that columns do not touch.
 pub(super) fn millis_text(millis: f64) -> String {
     let digits = if millis < 10.0 { 3 } else { usize::from(millis < 1000.0) };
     format!("{millis:.digits$} ms")
@@ -245,7 +245,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bytes_are_read_at_a_glance() {
+    fn bytes_are_formatted_with_units() {
         let said = [0, 1023, 1536, 3_686_400, 5 << 30].map(bytes);
         assert_eq!(said, ["0 B", "1023 B", "1.5 KiB", "3.5 MiB", "5.00 GiB"]);
         assert_eq!([96, 230_400, 8_294_400].map(count), ["96 texels", "230.4 thousand texels", "8.29 million texels"]);

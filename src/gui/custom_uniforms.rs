@@ -8,12 +8,12 @@ use crate::{
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, Vec2};
 
 const ROW: f32 = uniform_row::HEIGHT;
-/// Two lines of text.
+/// The height of two lines of text.
 const EMPTY: f32 = COLLAPSED;
-/// A group's name.
+/// The height of a group's name.
 const GROUP: f32 = 24.0;
 
-/// Height of all of them.
+/// Returns the height of all rows.
 pub(super) fn height(session: &Session) -> f32 {
     let groups = groups(session.custom_uniforms());
     let names = groups.iter().filter(|(name, _)| !name.is_empty()).count();
@@ -23,7 +23,7 @@ pub(super) fn height(session: &Session) -> f32 {
     }
 }
 
-/// Returns the uniforms by group, groups and uniforms in the order of the code; those of no group come first.
+/// Returns the uniforms by group, groups and uniforms in the order of the code; those without a group come first.
 fn groups(custom_uniforms: &[CustomUniform]) -> Vec<(&str, Vec<&CustomUniform>)> {
     let mut groups: Vec<(&str, Vec<&CustomUniform>)> = vec![("", Vec::new())];
     for custom_uniform in custom_uniforms {
@@ -35,7 +35,7 @@ fn groups(custom_uniforms: &[CustomUniform]) -> Vec<(&str, Vec<&CustomUniform>)>
     groups
 }
 
-/// Shows at the right end of the panel's row what concerns them all.
+/// Shows the controls for all uniforms at the right end of the panel's row.
 pub(super) fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let custom_uniforms = session.custom_uniforms();
     if custom_uniforms.iter().any(|k| session.custom_uniform_value(k) != k.default) {
@@ -46,7 +46,7 @@ pub(super) fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     }
 }
 
-/// Returns how a project without sliders gets one: a sentence, and a line of code if there is one to write.
+/// Returns how to declare a slider in a project without any: a sentence, and a line of code if one can be written.
 fn how_to_declare(dialect: Dialect) -> (&'static str, &'static str) {
     match dialect {
         Dialect::Shadertoy => ("Add a line like this to get a slider:", "#iUniform float speed = 1.0 in { 0.0, 4.0 }"),
@@ -92,7 +92,7 @@ mod tests {
     use crate::project::{Origin, Pass, PassName, Project, Source};
 
     #[test]
-    fn groups_keep_the_order_of_the_code_and_what_is_in_none_comes_first() {
+    fn groups_keep_the_order_of_the_code_after_ungrouped_uniforms() {
         let text = "//@group Light\n#iUniform float a\n//@group\n#iUniform float b\n//@group Fog\n#iUniform float c\n\
                     //@group Light\n#iUniform float d\n";
         let source = Source { name: "image.glsl".into(), path: None, text: text.into() };

@@ -1,8 +1,8 @@
-//! The parts of the window that differ from what it shows.
+//! The parts of the window that have changed since it was last painted.
 //!
-//! Owns a signature of each tile of the window: a hash of all triangles that touch the tile, in their order, with the
-//! versions of their textures. A tile whose signature is that of the last painting has the same pixels (the scheme is
-//! Rendering Elimination of Anglada et al., HPCA 2019). Knows no device.
+//! Owns a signature of each tile of the window: a hash of all triangles that touch the tile, in order, with the
+//! versions of their textures. A tile with the same signature as in the last painting has the same pixels (the scheme
+//! is Rendering Elimination of Anglada et al., HPCA 2019). Knows nothing of devices.
 
 use egui::{
     ClippedPrimitive, Rect, TextureId,
@@ -15,16 +15,16 @@ use std::{
     hash::{BuildHasher, Hash, Hasher},
 };
 
-/// Width and height of a tile. Physical pixels.
+/// The width and height of a tile in physical pixels.
 const TILE: u32 = 32;
 
-/// Rectangles that are painted at most: each costs another run through the triangles in it.
+/// The maximum number of painted rectangles: each costs another pass over the triangles in it.
 const AREAS: usize = 16;
 
-/// Rectangles among which near ones are looked for, which takes time with the cube of their number.
+/// The maximum number of rectangles that are merged by distance, which takes cubic time.
 const MOST: usize = 64;
 
-/// A rectangle of the window that is painted anew. Physical pixels.
+/// A rectangle of the window to repaint, in physical pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Area {
     pub x: u32,
@@ -40,7 +40,7 @@ impl Area {
     }
 }
 
-/// A number for each texture that was changed, another one after each change of its texels.
+/// The version of each changed texture, which is incremented by each change of its texels.
 pub(super) type Versions = HashMap<TextureId, u64>;
 
 /// Finds what a painting changes.
@@ -48,13 +48,13 @@ pub(super) type Versions = HashMap<TextureId, u64>;
 pub(super) struct Damage {
     size: [u32; 2],
     scale: f32,
-    /// One for each tile, row by row; none before the first painting.
+    /// One for each tile, row by row; empty before the first painting.
     signatures: Vec<u64>,
 }
 
 impl Damage {
-    /// Takes the next painting of a window of `size` physical pixels, `scale` of them a point. Returns the areas that
-    /// differ from the painting before.
+    /// Processes the next painting of a window of `size` physical pixels, with `scale` pixels per point. Returns the
+    /// areas that differ from the previous painting.
     pub(super) fn of(
         &mut self,
         triangles: &[ClippedPrimitive],
@@ -74,7 +74,7 @@ impl Damage {
                     (mesh.texture_id, versions.get(&mesh.texture_id)).hash(&mut hasher);
                     tiles.sign(mesh, *clip_rect, hasher.finish(), &mut signatures);
                 }
-                // Nobody knows what it draws.
+                // What it draws is unknown.
                 Primitive::Callback(_) => return self.whole(size),
             }
         }
@@ -87,7 +87,7 @@ impl Damage {
         tiles.areas(differs)
     }
 
-    /// Forgets the last painting: the next one changes everything.
+    /// Forgets the last painting, so that the next one changes everything.
     fn whole(&mut self, size: [u32; 2]) -> Vec<Area> {
         self.signatures.clear();
         vec![Area { x: 0, y: 0, width: size[0], height: size[1] }]
@@ -102,7 +102,7 @@ struct Tiles {
     rows: usize,
 }
 
-/// Tiles from the first to the last, both included.
+/// A range of tiles, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Span {
     columns: [usize; 2],
@@ -129,12 +129,12 @@ impl Span {
     }
 }
 
-/// Makes one of the two that gain the fewest tiles by it.
+/// Merges the two rectangles whose union adds the fewest tiles.
 fn join_nearest(spans: &mut Vec<Span>) {
     let pairs = (0..spans.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
     let gain = |&(a, b): &(usize, usize)| {
         let (a, b) = (spans[a], spans[b]);
-        // What they share is counted twice, and that only makes them nearer.
+        // Shared tiles are counted twice, which only makes the two nearer.
         a.with(b).tiles() as i64 - a.tiles() as i64 - b.tiles() as i64
     };
     let Some((a, b)) = pairs.min_by_key(gain) else { return };
@@ -169,9 +169,9 @@ impl Tiles {
         }
     }
 
-    /// The tiles that a rectangle touches; none where it has no inside. Points.
+    /// Returns the tiles that a rectangle touches, given in points; `None` if it is empty.
     fn span(&self, bounds: Rect) -> Option<Span> {
-        // A clip rectangle is rounded to pixels before it cuts, which can let one more pixel through.
+        // A clip rectangle is rounded to pixels before it clips, which can let one more pixel through.
         let first = |at: f32| ((at * self.scale - 1.0).max(0.0) / TILE as f32) as usize;
         let last = |at: f32| ((at * self.scale + 1.0).max(0.0) / TILE as f32) as usize;
         let columns = [first(bounds.min.x), last(bounds.max.x).min(self.columns.saturating_sub(1))];
@@ -181,7 +181,8 @@ impl Tiles {
         (has_inside && columns[0] <= columns[1] && rows[0] <= rows[1]).then_some(Span { columns, rows })
     }
 
-    /// Rectangles about the tiles that differ: one about each connected component, those that overlap made one.
+    /// Returns rectangles around the tiles that differ: one for each connected component, with overlapping ones
+    /// merged.
     fn areas(&self, mut differs: Vec<bool>) -> Vec<Area> {
         let mut spans: Vec<Span> = Vec::new();
         for tile in 0..differs.len() {
@@ -202,7 +203,7 @@ impl Tiles {
         spans.into_iter().map(|span| self.area(span)).collect()
     }
 
-    /// The bounds of all tiles that differ and hang together with one, their corners included, and takes them out.
+    /// Returns the bounds of the connected component of a tile that differs, diagonals included, and clears its tiles.
     fn component(&self, tile: usize, differs: &mut [bool]) -> Span {
         let mut span = Span::one(tile % self.columns, tile / self.columns);
         let mut open = vec![tile];
@@ -252,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_moved_is_painted_where_it_was_and_where_it_is() {
+    fn a_moved_shape_repaints_its_old_and_new_place() {
         let mut damage = Damage::default();
         let still = rect(300.0, 200.0, Color32::RED);
         assert_eq!(damage_of(&mut damage, &[rect(40.0, 40.0, Color32::BLUE), still.clone()]), [WHOLE]);
@@ -260,12 +261,12 @@ mod tests {
         let areas = damage_of(&mut damage, &[rect(500.0, 40.0, Color32::BLUE), still.clone()]);
         let at = |x: u32, width: u32| Area { x, y: 32, width, height: 32 };
         assert_eq!(areas, [at(32, 32), at(480, 64)]);
-        // What goes leaves a hole.
+        // A removed shape leaves a hole.
         assert_eq!(damage_of(&mut damage, &[still]), [at(480, 64)]);
     }
 
     #[test]
-    fn order_colour_clip_and_texels_are_seen() {
+    fn changes_of_order_colour_clip_and_texels_are_detected() {
         let (red, blue) = (rect(40.0, 40.0, Color32::RED), rect(50.0, 40.0, Color32::BLUE));
         let around = [Area { x: 32, y: 32, width: 64, height: 32 }];
         let mut damage = Damage::default();
@@ -280,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn another_size_or_scale_paints_everything() {
+    fn a_new_size_or_scale_repaints_everything() {
         let mut damage = Damage::default();
         damage_of(&mut damage, &[]);
         let small = Area { x: 0, y: 0, width: 333, height: 187 };
@@ -290,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_that_are_no_numbers_or_far_outside_are_no_trouble() {
+    fn nan_and_distant_corners_do_not_panic() {
         let mut damage = Damage::default();
         let wild = [f32::NAN, f32::INFINITY, -1e30, 1e30].map(|x| rect(x, 40.0, Color32::RED));
         damage_of(&mut damage, &wild);
@@ -298,10 +299,10 @@ mod tests {
     }
 
     #[test]
-    fn of_many_places_near_ones_are_joined() {
+    fn nearby_areas_are_merged() {
         let mut damage = Damage::default();
         damage_of(&mut damage, &[]);
-        // Two rows far apart of nine places each, every other tile.
+        // Two rows far apart with nine places each, every other tile.
         let places = (0..18).map(|i| rect((i % 9 * 64) as f32 + 4.0, (i / 9 * 320) as f32 + 4.0, Color32::RED));
         let areas = damage_of(&mut damage, &places.collect::<Vec<_>>());
         assert_eq!(areas.len(), AREAS);
@@ -313,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn very_many_places_are_one_area() {
+    fn very_many_areas_become_one() {
         let mut damage = Damage::default();
         damage.of(&[], [2000, 2000], 1.0, &Versions::new());
         let places: Vec<_> =

@@ -1,4 +1,4 @@
-//! Devices that see, hear or listen to the network: the button that turns one on, and the light that shows that it is on.
+//! Cameras, microphones and the network: the button that turns one on, and the light that shows that it is on.
 
 use super::{
     accessible, theme,
@@ -11,13 +11,13 @@ use crate::{
 };
 use egui::{Button, Color32, FontId, Response, RichText, Ui, vec2};
 
-/// The width of a light of the camera or the network.
+/// The width of the light of the camera or the network, in points.
 const WIDTH: f32 = 112.0;
-/// The width of the shortest text of a light, and the gap behind it.
+/// The width of the shortest text of a light, and the gap after it.
 pub(super) const LEAST: f32 = 32.0 + 4.0;
 
-/// Adds a button of the width `wide` if there is so much room, otherwise a narrower one. It has the first of `texts` that
-/// fits, or the last with less space around it.
+/// Adds a button of the width `wide` if there is enough room, otherwise a narrower one. It shows the first of `texts`
+/// that fits, or the last with less padding.
 pub(super) fn indicator(ui: &mut Ui, texts: &[&str], color: Color32, (wide, room): (f32, f32)) -> Response {
     let font = FontId::proportional(12.0);
     let padding = 2.0 * ui.spacing().button_padding.x;
@@ -39,12 +39,13 @@ fn is_used(session: &Session) -> bool {
     session.device_state(InputKind::Webcam) != CameraState::Off || session.reads_device(InputKind::Webcam)
 }
 
-/// Returns the least room that [`light`] takes.
+/// Returns the minimum width of [`light`].
 pub(super) fn least(session: &Session) -> f32 {
     if is_used(session) { LEAST } else { 0.0 }
 }
 
-/// Shows the light of a camera that is on, which turns it off; where a channel reads one that is off, a button to use it.
+/// Shows the light of a camera that is on, which turns it off; if a channel reads a camera that is off, a button that
+/// turns it on.
 pub(super) fn light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
     if !is_used(session) {
         return;
@@ -73,7 +74,7 @@ pub(super) fn light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutpu
     }
 }
 
-/// The same in the popup of a channel that reads the webcam, with a choice among several cameras.
+/// The same in the popup of a channel that reads the webcam, with a choice between several cameras.
 pub(super) fn choose(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let kind = InputKind::Webcam;
     let is_off = session.device_state(kind) == CameraState::Off;
@@ -93,14 +94,14 @@ pub(super) fn choose(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     });
 }
 
-/// Returns the least room that [`network_light`] takes.
+/// Returns the minimum width of [`network_light`].
 pub(super) fn network_least(session: &Session) -> f32 {
     let view = session.controls_view();
     let is_shown = view.is_osc_public && matches!(view.osc, Some(OscState::Listening(_)));
     if is_shown { LEAST } else { 0.0 }
 }
 
-/// Shows that OSC comes in from the network, and not from this computer alone; a click turns it off.
+/// Shows that OSC is received from the network, and not only from this computer; a click turns it off.
 pub(super) fn network_light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
     let view = session.controls_view();
     let Some(OscState::Listening(at)) = view.osc.filter(|_| view.is_osc_public) else { return };

@@ -1,4 +1,4 @@
-//! Says how wrong the picture is: a map of the errors over it, and the worst pixels, each of which can be traced.
+//! A map of the precision errors over the picture, and the worst pixels, each of which can be traced.
 
 use super::{
     icons::{self, Icon},
@@ -9,12 +9,12 @@ use crate::session::{AuditMap, Command, Session, WorstPixel};
 use egui::{Area, Color32, Frame, Id, Margin, Order, Pos2, Rect, RichText, Ui, vec2};
 use serde_json::{Value, json};
 
-/// The error that is drawn as nothing; one of 1 is drawn in full.
+/// The error that is drawn fully transparent; an error of 1 is opaque.
 const LEAST: f64 = 1e-8;
-/// The least step that a screen of 8 bits shows.
+/// The smallest step that an 8-bit screen shows.
 const VISIBLE: f64 = 1.0 / 255.0;
 
-/// Paints the map over the picture of the pass that it is of.
+/// Paints the map over the picture of its pass.
 pub(super) fn paint(ui: &Ui, session: &Session, picture: Rect) {
     let Some(map) = session.audit_map().filter(|map| map.pass == *session.shown_pass()) else { return };
     let painter = ui.painter().with_clip_rect(picture);
@@ -41,7 +41,7 @@ pub(super) fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
         frame.show(ui, |ui| {
             out.stop("audit", ui);
             ui.set_max_width((area.width() - 28.0).max(160.0));
-            // Rows close below each other: the picture is what is looked at.
+            // Rows are packed tightly to cover little of the picture.
             let spacing = ui.spacing_mut();
             (spacing.item_spacing, spacing.button_padding) = (vec2(6.0, 2.0), vec2(4.0, 0.0));
             spacing.interact_size.y = 16.0;
@@ -85,7 +85,7 @@ fn card(ui: &mut Ui, map: &AuditMap, out: &mut UiOutput) {
     }
 }
 
-/// Shows what the colours stand for.
+/// Shows the legend of the colours.
 fn scale(ui: &mut Ui, out: &mut UiOutput) {
     let p = theme::of(ui);
     let row = ui.horizontal(|ui| {
@@ -103,9 +103,10 @@ fn scale(ui: &mut Ui, out: &mut UiOutput) {
     out.place("audit:scale", row.response.rect);
 }
 
-/// From nothing over blue and red to yellow, by the error's logarithm, so that the picture is seen where it is right.
+/// Maps the error's logarithm from transparent over blue and red to yellow, so that the picture stays visible where it
+/// is exact.
 fn color(error: f64) -> Color32 {
-    // A NaN on one side alone is no less than the largest error.
+    // A NaN on one side only counts as the largest error.
     let part = if error.is_finite() { (1.0 - error.max(LEAST).ln() / LEAST.ln()).clamp(0.0, 1.0) } else { 1.0 };
     if part <= 0.0 {
         return Color32::TRANSPARENT;
@@ -116,7 +117,7 @@ fn color(error: f64) -> Color32 {
     Color32::from_rgba_unmultiplied(mixed(0), mixed(1), mixed(2), (60.0 + 150.0 * part) as u8)
 }
 
-/// Returns what scripts are told of it.
+/// Returns the report for scripts.
 pub(super) fn report(session: &Session) -> Value {
     let Some(map) = session.audit_map() else { return Value::Null };
     let worst: Vec<Value> = map
@@ -132,7 +133,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_larger_error_is_seen_better() {
+    fn larger_errors_are_more_visible() {
         assert_eq!(color(0.0), Color32::TRANSPARENT);
         assert_eq!(color(LEAST), Color32::TRANSPARENT);
         let seen = [1e-7, 1e-5, 1e-3, 1.0].map(|error| color(error).a());

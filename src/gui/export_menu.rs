@@ -1,12 +1,12 @@
-//! The menu of everything that leaves the window as a file.
+//! The menu of everything that can be exported to a file.
 //!
-//! A kind of export is a row of [`ROWS`]; what it does is its action's.
+//! An export is a row of [`ROWS`] and runs its action.
 
 use super::{actions::Action, dock::Panel, ui_output::UiOutput};
 use crate::session::Session;
 use egui::{Button, Ui};
 
-/// A row of the menu: its title, its action, and what it does. `None` is a line between two groups.
+/// A row of the menu: its title, its action, and what it does. `None` is a separator between groups.
 const ROWS: &[Option<(&str, Action, &str)>] = &[
     Some(("Screenshot (PNG)", Action::Screenshot, "Save the shown pass as a PNG at its own resolution")),
     Some((
@@ -82,7 +82,7 @@ fn why_not(session: &Session, has_lab_results: bool, action: Action) -> Option<&
     }
 }
 
-/// Returns the action's name in the file of keys.
+/// Returns the action's name in the key file.
 fn name(action: Action) -> &'static str {
     super::actions::ACTIONS.iter().find(|entry| entry.action == action).map_or("", |entry| entry.name)
 }

@@ -1,7 +1,7 @@
-//! File dialogs: the desktop's own where there is one, else a field for the path.
+//! File dialogs: the desktop's own if it has one, else a field for the path.
 //!
-//! The desktop's dialog runs on a thread of its own, so the picture goes on while it is open, and that thread alone
-//! says how the dialog ended.
+//! The desktop's dialog runs on a separate thread, so that the picture continues while it is open; that thread reports
+//! the dialog's result.
 
 use super::{
     accessible,
@@ -20,23 +20,23 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Says how long a dialog may take to come before a way around it is offered.
+/// The time that a dialog may take to appear before typing the path is offered.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// A dialog's buttons are at least so large.
+/// The minimum size of a dialog's buttons.
 const BUTTON: Vec2 = vec2(84.0, 28.0);
 
 pub(super) struct Files {
     wake: Arc<dyn Fn() + Send + Sync>,
-    /// Shows a dialog of the desktop's and waits for its end.
+    /// Shows a dialog of the desktop and waits for its result.
     desktop: fn(&Dialog) -> Outcome,
     asked: Option<OpenDialog>,
     typing: Option<PathField>,
-    /// Holds what gets the keyboard in the next frame: a modal that closes still takes it from all below in its last
-    /// one.
+    /// The widget that gets the keyboard focus in the next frame: in its last frame a modal still takes the focus from
+    /// everything below it.
     gets_keyboard: Option<Id>,
 }
 
-/// A dialog of the desktop's that is open.
+/// An open dialog of the desktop.
 struct OpenDialog {
     pick: Pick,
     start: Option<PathBuf>,
@@ -44,16 +44,16 @@ struct OpenDialog {
     answer: Background<(), (), Outcome>,
 }
 
-/// Our own field for a path.
+/// Eddy's own field for a path.
 struct PathField {
     pick: Pick,
     path: String,
     is_new: bool,
-    /// Holds what had the keyboard before, and gets it back.
+    /// The widget that had the keyboard focus before, and gets it back.
     before: Option<Id>,
 }
 
-/// The outcome of a dialog.
+/// The result of a dialog.
 #[derive(Debug, PartialEq)]
 pub(super) enum Picked {
     Path(Pick, PathBuf),
@@ -65,13 +65,13 @@ impl Files {
         Self { wake, desktop: dialogs::show, asked: None, typing: None, gets_keyboard: None }
     }
 
-    /// Without the desktop's dialogs, of which tests have none.
+    /// Without the desktop's dialogs, which do not exist in tests.
     #[cfg(test)]
     pub(super) fn without_desktop(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
         Self { desktop: |_| Outcome::Unavailable, ..Self::new(wake) }
     }
 
-    /// Opens a dialog. One at a time: a second is not opened over it.
+    /// Opens a dialog. While one is open, another is not opened.
     pub(super) fn ask(&mut self, pick: Pick, start: Option<PathBuf>) {
         if self.asked.is_some() || self.typing.is_some() {
             return;
@@ -87,7 +87,7 @@ impl Files {
         }
     }
 
-    /// A path is being typed.
+    /// Returns whether a path is being typed.
     pub(super) fn is_asking(&self) -> bool {
         self.typing.is_some() || self.gets_keyboard.is_some()
     }
@@ -103,7 +103,7 @@ impl Files {
         self.typing = Some(PathField { pick, path, is_new: true, before: None });
     }
 
-    /// Shows what is to be shown; a dialog's end.
+    /// Shows the open dialog, and returns its result once it ends.
     pub(super) fn show(&mut self, ui: &Ui, out: &mut UiOutput) -> Option<Picked> {
         if let Some(id) = self.gets_keyboard.take() {
             ui.memory_mut(|m| m.request_focus(id));
@@ -139,7 +139,7 @@ impl Files {
             Pick::Picture { .. } => ("Image or video file for the channel", "Use"),
             Pick::Sound { .. } => ("Music for the channel", "Use"),
         };
-        // A modal takes the keyboard from all that lies below it.
+        // A modal takes the keyboard focus from everything below it.
         if typing.is_new {
             typing.before = ui.memory(|m| m.focused());
         }
@@ -154,7 +154,7 @@ impl Files {
             if std::mem::take(&mut typing.is_new) {
                 field.request_focus();
                 let end = egui::text::CCursor::new(typing.path.chars().count());
-                // What is likely to be typed anew is selected: the name, behind the folder.
+                // The file name, after the folder, is selected because it is what one usually replaces.
                 let start = typing.path.rfind(MAIN_SEPARATOR).map_or(0, |at| typing.path[..=at].chars().count());
                 if let Some(mut state) = TextEdit::load_state(ui.ctx(), field.id) {
                     let range = egui::text::CCursorRange::two(egui::text::CCursor::new(start), end);
@@ -165,7 +165,7 @@ impl Files {
             done |= field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
             ui.add_space(8.0);
             ui.horizontal(|ui| {
-                // The colour says which one Enter presses, as in every dialog.
+                // The accent colour marks the button that Enter presses, as in every dialog.
                 let p = theme::of(ui);
                 let ok = Button::new(RichText::new(action).color(p.strong)).fill(p.accent_fill).min_size(BUTTON);
                 let ok = ui.add_enabled(!typing.path.trim().is_empty(), ok);
@@ -192,7 +192,7 @@ impl Files {
 }
 
 impl OpenDialog {
-    /// While a dialog of the desktop's is open: one that hides, or hangs, can be done without.
+    /// Offers to type the path while a dialog of the desktop is open, in case it is hidden or hangs.
     fn wants_to_type(&self, ui: &Ui, out: &mut UiOutput) -> bool {
         if let Some(wait) = PATIENCE.checked_sub(self.since.elapsed()) {
             ui.ctx().request_repaint_after(wait);
@@ -215,7 +215,7 @@ impl OpenDialog {
     }
 }
 
-/// Endings of images and videos that a channel can show.
+/// File extensions of images and videos that a channel can show.
 const SHOWN: [&str; 20] = [
     "png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr", "exr", "ktx2", "dds", "mp4", "webm", "mkv", "mov", "m4v",
     "ogv", "avi", "mpg", "mpeg",
@@ -271,7 +271,7 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicBool, Ordering};
 
-    /// Shows frames until a dialog has ended or the field for the path is there.
+    /// Runs frames until a dialog has ended or the field for the path appears.
     fn end_of(desktop: fn(&Dialog) -> Outcome, between_frames: Duration) -> (Option<Picked>, bool) {
         let woken = Arc::new(AtomicBool::new(false));
         let flag = woken.clone();
@@ -298,12 +298,12 @@ mod tests {
     }
 
     #[test]
-    fn every_ending_of_an_image_or_a_video_is_offered() {
+    fn every_extension_of_images_and_videos_is_offered() {
         assert!(SHOWN.iter().eq(crate::project::PICTURES.iter().chain(&crate::project::VIDEOS)));
     }
 
     #[test]
-    fn where_no_dialog_can_be_had_the_field_appears_however_slow_the_frames_and_the_desktop() {
+    fn the_path_field_appears_without_a_desktop_dialog() {
         let late = |_: &Dialog| {
             std::thread::sleep(Duration::from_millis(600));
             Outcome::Unavailable
@@ -314,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn a_dialog_that_is_closed_at_once_is_a_cancel() {
+    fn closing_a_dialog_at_once_cancels_it() {
         let pick = || Pick::SaveAs("mine".into());
         assert_eq!(end_of(|_| Outcome::Cancelled, Duration::ZERO), (Some(Picked::Cancelled(pick())), false));
         let path = PathBuf::from("/there");

@@ -1,12 +1,12 @@
-//! Owns what flashes to be seen: texels that are NaN or infinite.
+//! Makes texels that are NaN or infinite flash.
 
 use egui::{Color32, Ui};
 use std::time::Duration;
 
-/// Half a turn: slow enough for everybody's eyes.
+/// Half a period: slow enough for photosensitive users.
 const HALF: Duration = Duration::from_millis(500);
 
-/// Returns whether it is lit now, and the colour of now. Asks for the frame in which it changes.
+/// Returns whether it is lit now, and its colour. Requests a repaint for the next change.
 pub(super) fn now(ui: &Ui) -> (bool, Color32) {
     let half = HALF.as_secs_f64();
     let time = ui.input(|i| i.time);

@@ -1,22 +1,22 @@
-//! The fonts of the window: Eddy's own for code, egui's for the rest and for emoji, and the system's for scripts that
-//! these lack.
+//! The window's fonts: Eddy's own for code, egui's for other text and emoji, and the system's for scripts that these
+//! lack.
 
 use crate::project::{confine, limits};
 use egui::{Context, FontData, FontDefinitions, FontFamily};
 use std::{io, path::Path, sync::Arc};
 
-/// Noto Sans Mono: its zero has a thin stroke, which small letters leave room for. What no font has is the box that its
-/// glyph `.notdef` draws.
+/// Noto Sans Mono: its zero has a thin stroke, which stays legible at small sizes. A missing glyph is drawn as the box
+/// of its glyph `.notdef`.
 const CODE: &[u8] = include_bytes!("../../assets/fonts/NotoSansMono-Regular.ttf");
 const CODE_NAME: &str = "Noto Sans Mono";
 const OWN_NAME: &str = "code-font";
 
-/// Lets letters that no font of the window has be looked up among the system's, when the first of them is shown.
+/// Looks up letters that the window's fonts lack among the system's fonts, when the first of them is shown.
 pub(super) fn install_system(ctx: &Context) {
     ctx.add_font_provider(Arc::new(egui_system_font_provider::SystemFontProvider::new()));
 }
 
-/// Gives code its font; `own` is the file of one that a person has chosen. Err: why that is not used.
+/// Sets the font of code; `own` is the font file that the user has chosen. Returns an error if it cannot be used.
 pub(super) fn set(ctx: &Context, own: Option<&str>) -> Result<(), String> {
     let chosen = own.map(read);
     let mut definitions = FontDefinitions::default();
@@ -31,12 +31,12 @@ pub(super) fn set(ctx: &Context, own: Option<&str>) -> Result<(), String> {
     chosen.transpose().map(drop)
 }
 
-/// Returns why a file cannot be the font of code.
+/// Returns an error if a file cannot be the font of code.
 pub(super) fn check(path: &str) -> Result<(), String> {
     read(path).map(drop)
 }
 
-/// Reads a font and sees that it is one: what is none would end the window.
+/// Reads and validates a font: an invalid one would panic in egui.
 fn read(path: &str) -> Result<Vec<u8>, String> {
     let data = confine::read_state_bytes(Path::new(path), limits::FONT)
         .and_then(|data| data.ok_or_else(|| io::ErrorKind::NotFound.into()))
@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn code_has_a_font_in_which_all_letters_are_as_wide() {
+    fn the_font_of_code_is_monospaced() {
         let ctx = Context::default();
         set(&ctx, None).unwrap();
         frame(&ctx);
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn a_font_of_ones_own_goes_first_and_what_is_none_is_told() {
+    fn a_chosen_font_has_priority_and_an_invalid_one_is_reported() {
         let folder = tempfile::tempdir().unwrap();
         let (good, bad) = (folder.path().join("a.ttf"), folder.path().join("b.ttf"));
         fs::write(&good, epaint_default_fonts::UBUNTU_LIGHT).unwrap();
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn emoji_need_no_font_of_the_systems_and_what_no_font_has_is_a_box() {
+    fn emoji_are_built_in_and_missing_glyphs_are_boxes() {
         let ctx = Context::default();
         set(&ctx, None).unwrap();
         frame(&ctx);
@@ -112,7 +112,7 @@ mod tests {
         assert!(has('🌊') && !has('\u{10FFFD}'));
     }
 
-    /// Some font of the system's has a letter. `None`: nobody can say.
+    /// Returns whether a font of the system has a letter; `None` if that is unknown.
     fn is_installed(letter: char) -> Option<bool> {
         let query = format!(":charset={:x}", u32::from(letter));
         let listed = std::process::Command::new("fc-list").args([&query, "file"]).output().ok()?;
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn letters_of_other_scripts_come_from_the_systems_fonts() {
+    fn other_scripts_use_the_fonts_of_the_system() {
         let plain = Context::default();
         let ctx = Context::default();
         install_system(&ctx);

@@ -1,4 +1,4 @@
-//! The place of the picture in the viewport, and the pixel of it that a pointer is over. All is in physical pixels.
+//! The place of the picture in the viewport, and the pixel of it below the pointer, all in physical pixels.
 
 /// An area of the window: left, top, width, height.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,18 +9,18 @@ pub(super) struct Area {
     pub height: f32,
 }
 
-/// A canvas shown inside an area without changing its shape.
+/// A canvas that is fitted into an area with its aspect ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Letterbox {
     /// The area that the picture covers; it starts on a whole pixel.
     pub picture: Area,
     pub canvas: (u32, u32),
-    /// Window pixels to canvas pixels.
+    /// Window pixels per canvas pixel.
     pub zoom: f32,
 }
 
 impl Letterbox {
-    /// The largest picture that fits: pixel for pixel where the canvas has just the area's size, a whole multiple where
+    /// Returns the largest picture that fits: at 1:1 if the canvas has exactly the area's size, at a whole multiple if
     /// that loses less than a tenth of the size (so that pixels stay square and equal), else as large as the area
     /// allows.
     pub(super) fn new(area: Area, canvas: (u32, u32)) -> Letterbox {
@@ -38,13 +38,13 @@ impl Letterbox {
         Letterbox { picture, canvas, zoom }
     }
 
-    /// Returns whether texels should be shown as they are. Between two whole zooms some would be wider than others, so
-    /// those blend.
+    /// Returns whether texels are shown unfiltered. At a fractional zoom some would be wider than others, so they are
+    /// blended.
     pub(super) fn shows_whole_texels(&self) -> bool {
         self.zoom >= 1.0 && (self.zoom - self.zoom.round()).abs() < 1e-3
     }
 
-    /// Canvas pixels from the bottom left, not rounded; may lie outside while a drag does.
+    /// Converts to canvas pixels from the bottom left, not rounded; the result may be outside during a drag.
     pub(super) fn canvas_from_window(&self, x: f32, y: f32) -> (f32, f32) {
         if self.zoom <= 0.0 {
             return (0.0, 0.0);
@@ -58,18 +58,18 @@ impl Letterbox {
     }
 }
 
-/// The shape of a picture that follows the view.
+/// The aspect ratio of a picture that follows the view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Shape {
-    /// 16:9, which pictures on the site are composed for.
+    /// 16:9, for which pictures on Shadertoy are composed.
     #[default]
     Site,
-    /// The view's own.
+    /// The aspect ratio of the view.
     Fill,
 }
 
 impl Shape {
-    /// The largest size of this shape in whole pixels.
+    /// Returns the largest size of this aspect ratio in whole pixels.
     pub(super) fn within(self, width: u32, height: u32) -> (u32, u32) {
         match self {
             Shape::Fill => (width, height),
@@ -85,17 +85,17 @@ mod tests {
     const AREA: Area = Area { x: 10.0, y: 20.0, width: 640.0, height: 360.0 };
 
     #[test]
-    fn a_canvas_of_the_areas_size_is_shown_pixel_for_pixel() {
+    fn a_canvas_of_equal_size_is_shown_at_1_to_1() {
         let l = Letterbox::new(AREA, (640, 360));
         assert_eq!((l.picture, l.zoom), (AREA, 1.0));
         assert!(l.shows_whole_texels());
-        // The site: x = floor(px), y = floor(height - py).
+        // Shadertoy: x = floor(px), y = floor(height - py).
         assert_eq!(l.canvas_from_window(10.0, 20.0), (0.0, 360.0));
         assert_eq!(l.canvas_from_window(50.0, 379.0), (40.0, 1.0));
     }
 
     #[test]
-    fn bars_lie_where_the_shapes_differ() {
+    fn letterbox_bars_fill_the_difference_in_aspect_ratio() {
         let l = Letterbox::new(AREA, (100, 100));
         assert_eq!(l.zoom, 3.6);
         assert_eq!(l.picture, Area { x: 150.0, y: 20.0, width: 360.0, height: 360.0 });
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn a_whole_zoom_is_taken_when_it_is_near() {
+    fn nearby_whole_zooms_are_preferred() {
         let l = Letterbox::new(AREA, (315, 175));
         assert_eq!(l.zoom, 2.0);
         assert_eq!((l.picture.x, l.picture.y), (15.0, 25.0));
@@ -113,14 +113,14 @@ mod tests {
     }
 
     #[test]
-    fn an_area_or_canvas_of_nothing_is_no_trouble() {
+    fn empty_areas_and_canvases_do_not_panic() {
         let none = Area { width: 0.0, height: 0.0, ..AREA };
         assert_eq!(Letterbox::new(none, (640, 360)).canvas_from_window(5.0, 5.0), (0.0, 0.0));
         assert!(Letterbox::new(AREA, (0, 0)).zoom.is_finite());
     }
 
     #[test]
-    fn the_sites_shape_fits_whatever_there_is() {
+    fn the_16_to_9_shape_fits_any_view() {
         assert_eq!(Shape::Site.within(640, 999), (640, 360));
         assert_eq!(Shape::Site.within(9999, 360), (640, 360));
         assert_eq!(Shape::Site.within(634, 680), (634, 357));

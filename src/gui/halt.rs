@@ -1,16 +1,17 @@
-//! The message over a picture that stands still though nobody has paused it, and the ways on.
+//! The message over a picture that was halted automatically, and the ways to continue.
 
 use super::{theme, ui_output::UiOutput};
 use crate::session::{Command, Halt, Session};
 use egui::{Align, Area, Button, Frame, Id, Layout, Margin, Order, Rect, RichText, Stroke, Ui, vec2};
 use std::time::Duration;
 
-/// Is what is offered, by the name that scripts click on.
+/// The name of the button that continues, for scripts.
 const GO_ON: &str = "halt:go-on";
 const SMALLER: &str = "halt:smaller";
 const LAST_GOOD: &str = "halt:last-good";
 
-/// Shows the message in the middle of the picture's area. It takes no keyboard: one can go on typing.
+/// Shows the message in the middle of the picture's area. It does not take the keyboard focus, so that typing is not
+/// interrupted.
 pub(super) fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
     let Some(halt) = session.halt() else { return };
     let (title, text, go_on) = words(halt);
@@ -53,7 +54,7 @@ pub(super) fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
     });
 }
 
-/// Returns a title, what there is to say, and what going on is called.
+/// Returns the title, the message and the label of the button that continues.
 fn words(halt: &Halt) -> (String, String, &'static str) {
     match halt {
         Halt::Drawing { limit, .. } => (
@@ -107,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn times_are_said_as_people_say_them() {
+    fn times_are_formatted_for_people() {
         let said = |secs| time(Duration::from_secs_f64(secs));
         assert_eq!([said(2.0), said(3.46), said(41.2)], ["2 s", "3.5 s", "41 s"]);
         assert_eq!([said(600.0), said(86_400.0)], ["10 minutes", "24 hours"]);

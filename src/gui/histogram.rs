@@ -1,10 +1,10 @@
-//! Bars of how often each number of a picture of values is there.
+//! A histogram of the numbers in a picture of values.
 
 use super::{accessible, theme, ui_output::UiOutput};
 use crate::session::probe::{BINS, Statistics};
 use egui::{Color32, Sense, Stroke, Ui, pos2, vec2};
 
-/// The colours of the components, on dark and on light ground.
+/// The colours of the components, on dark and on light backgrounds.
 const INKS: [[Color32; 4]; 2] = [
     [
         Color32::from_rgb(255, 110, 100),
@@ -20,12 +20,12 @@ const INKS: [[Color32; 4]; 2] = [
     ],
 ];
 
-/// The colour of a component in text.
+/// Returns the colour of a component in text.
 pub(super) fn ink(ui: &Ui, component: usize) -> Color32 {
     INKS[usize::from(!theme::of(ui).is_dark)][component & 3]
 }
 
-/// Shows it, so high. The ground is dark in either theme.
+/// Shows the histogram at the given height. The background is dark in either theme.
 pub(super) fn show(ui: &mut Ui, components: u8, statistics: &Statistics, place: &str, height: f32, out: &mut UiOutput) {
     let (rect, response) = ui.allocate_exact_size(vec2(2.0 * BINS as f32, height), Sense::hover());
     let (low, high) = statistics.range;
@@ -36,7 +36,7 @@ pub(super) fn show(ui: &mut Ui, components: u8, statistics: &Statistics, place: 
     for (bins, ink) in statistics.bins.iter().zip(INKS[0]) {
         let ink = if components == 1 { theme::DARK.text } else { ink };
         for (i, count) in bins.iter().enumerate().filter(|(_, count)| **count > 0) {
-            // A few pixels of many are seen too.
+            // The square root keeps small counts visible.
             let height = (*count as f32 / most).sqrt() * (rect.height() - 2.0);
             let x = rect.left() + 2.0 * i as f32 + 1.0;
             let line = [pos2(x, rect.bottom() - 1.0 - height.max(1.0)), pos2(x, rect.bottom() - 1.0)];

@@ -1,4 +1,4 @@
-//! Buttons with drawn signs: no font holds them all in one style.
+//! Buttons with custom-painted icons: no font contains them all in one style.
 
 use super::theme;
 use egui::{Color32, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
@@ -16,16 +16,16 @@ pub(super) enum Icon {
     Previous,
     Next,
     Close,
-    /// Code over a picture.
+    /// Code over picture.
     Present,
     Speaker,
     Muted,
 }
 
-/// Points of a button.
+/// The width of a button, in points.
 pub(super) const WIDTH: f32 = 28.0;
 
-/// A button with a sign; `label` is what it is called to those who do not see it.
+/// Shows a button with an icon; `label` is its accessible name.
 pub(super) fn button(ui: &mut Ui, icon: Icon, label: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, 24.0), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
@@ -35,7 +35,7 @@ pub(super) fn button(ui: &mut Ui, icon: Icon, label: &str) -> Response {
     response
 }
 
-/// Does the same for what is wanted first: larger, and in the window's accent.
+/// The same for a primary button: larger, and in the accent colour.
 pub(super) fn first(ui: &mut Ui, icon: Icon, label: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(40.0, 28.0), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
@@ -50,13 +50,13 @@ pub(super) fn first(ui: &mut Ui, icon: Icon, label: &str) -> Response {
     response
 }
 
-/// Does the same without a ground, for rows of titles.
+/// The same without a background, for rows of titles.
 pub(super) fn flat(ui: &mut Ui, icon: Icon, label: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(20.0, 20.0), Sense::click());
     flat_sign(ui, rect, response, icon, label)
 }
 
-/// Does the same at a place over another widget.
+/// The same at a place over another widget.
 pub(super) fn flat_at(ui: &Ui, rect: Rect, icon: Icon, label: &str) -> Response {
     let response = ui.interact(rect, ui.scope_id().with(label), Sense::click());
     flat_sign(ui, rect, response, icon, label)

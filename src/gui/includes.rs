@@ -1,4 +1,4 @@
-//! The files that the texts include, at the end of the line under the editor: each name leads to the file's tab.
+//! Links to the included files, at the end of the line below the editor: each name leads to the file's tab.
 
 use super::{
     accessible, theme,
@@ -9,13 +9,13 @@ use egui::{Color32, CursorIcon, FontId, Popup, Rect, Response, Sense, Stroke, Ui
 
 const MARGIN: f32 = 8.0;
 
-/// A stretch of the line: a name, or what stands between names.
+/// A part of the line: a name, or the text between names.
 struct Part {
     text: String,
     is_name: bool,
 }
 
-/// Shows them at the right end of a place: all names, or how many there are where there is no room for the names.
+/// Shows them at the right end of a place: all names, or their number if there is not enough room.
 pub(super) fn show(ui: &mut Ui, session: &Session, place: Rect, out: &mut UiOutput) {
     let names: Vec<&str> = session.project().includes.iter().map(|i| i.source.name.as_str()).collect();
     if names.is_empty() {
@@ -74,7 +74,7 @@ fn one(ui: &Ui, session: &Session, rect: Rect, part: &Part, out: &mut UiOutput) 
     link.on_hover_cursor(CursorIcon::PointingHand).on_hover_text("Open this file");
 }
 
-/// One link for all, which lists them.
+/// Shows one link for all files, which lists them.
 fn several(ui: &Ui, session: &Session, place: Rect, count: usize, out: &mut UiOutput) {
     let text = if count == 1 { "includes 1 file".to_owned() } else { format!("includes {count} files") };
     let start = place.right() - MARGIN - width(ui, &text);
@@ -94,7 +94,7 @@ fn several(ui: &Ui, session: &Session, place: Rect, count: usize, out: &mut UiOu
     link.on_hover_cursor(CursorIcon::PointingHand).on_hover_text("Open an included file");
 }
 
-/// The included files that can be opened.
+/// Returns the included files that can be opened.
 fn tabs(session: &Session) -> Vec<Tab> {
     session.tabs().into_iter().filter(|tab| matches!(tab, Tab::Included(_))).collect()
 }

@@ -1,16 +1,16 @@
-//! The input since the last frame is cut into the steps in which it happened.
+//! Splits the input since the last frame into the steps in which it happened.
 //!
-//! egui gives a pass all its events at once, and a widget that gets the keyboard in that pass only sees the keys of the
-//! next. When frames are slow, a click and the keys that follow it come together: the keys would go nowhere, and arrow
-//! keys, which the widget can claim only once it has the keyboard, would move it on to some other widget. So a pass
-//! ends behind each event that can move the keyboard or open something, and one without events follows, in which what
-//! was opened takes its place. egui moves the keyboard on Tab and Escape before any widget sees the pass, and on a click before
-//! a field reads its text: what was typed before these is a pass of its own too, or it would be lost. A button that is let go of where it was dragged to ends a pass of its own: egui sees no
-//! drag in a pass that begins and ends it.
+//! egui passes all events to a pass at once, and a widget that gets the keyboard focus in that pass only sees the keys
+//! of the next. When frames are slow, a click and the keys after it arrive together: the keys would be lost, and arrow
+//! keys, which the widget can claim only once it has the focus, would move the focus to another widget. So a pass ends
+//! after each event that can move the focus or open something, and is followed by one without events, in which what
+//! was opened takes its place. egui moves the focus on Tab and Escape before any widget sees the pass, and on a click
+//! before a field reads its text: text typed before these also gets its own pass, or it would be lost. The release of
+//! a dragged button ends a pass of its own: egui sees no drag in a pass that starts and ends it.
 
 use egui::{Event, Key, Modifiers, RawInput};
 
-/// The input of each pass to make, in order; at least one.
+/// Returns the input of each pass to run, in order; at least one.
 pub(super) fn split(input: RawInput) -> Vec<RawInput> {
     let mut steps = vec![RawInput { events: Vec::new(), ..input.clone() }];
     let nothing = without_events(&input);
@@ -34,15 +34,15 @@ pub(super) fn split(input: RawInput) -> Vec<RawInput> {
     steps
 }
 
-/// The same moment in which nothing has happened: files are dropped once.
+/// Returns the same input without events and dropped files, which must be handled once.
 pub(super) fn without_events(input: &RawInput) -> RawInput {
     RawInput { events: Vec::new(), dropped_files: Vec::new(), ..input.clone() }
 }
 
 fn ends_step(event: &Event) -> bool {
     match event {
-        // A press too: a slider moves to where the pointer is held, and held it is in no pass that sees the release as
-        // well.
+        // A press too: a slider moves to where the pointer is held, and no pass that also sees the release sees it
+        // held.
         Event::PointerButton { .. } => true,
         Event::Key { key, pressed: true, modifiers, .. } => {
             let is_command = modifiers.contains(Modifiers::COMMAND) || modifiers.alt;
@@ -53,7 +53,7 @@ fn ends_step(event: &Event) -> bool {
     }
 }
 
-/// Returns whether it may be meant for the widget that has the keyboard.
+/// Returns whether an event may be meant for the focused widget.
 fn types(event: &Event) -> bool {
     matches!(
         event,
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_behind_a_click_or_a_shortcut_are_a_step_of_their_own() {
+    fn keys_after_a_click_or_a_shortcut_are_a_separate_step() {
         assert_eq!(steps(vec![]), [0]);
         assert_eq!(steps(vec![Event::Text("a".into()), key(Key::ArrowDown, Modifiers::NONE)]), [2]);
         let typed =
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_typed_in_the_frame_of_a_tab_a_click_or_escape_is_in_the_field() {
+    fn text_typed_before_tab_click_or_escape_in_one_frame_is_kept() {
         let leave = [
             vec![key(Key::Tab, Modifiers::NONE)],
             vec![key(Key::Escape, Modifiers::NONE)],
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drag_within_one_frame_is_seen() {
+    fn a_drag_within_one_frame_is_detected() {
         let ctx = egui::Context::default();
         let at = |x: f32| egui::pos2(x, 10.0);
         let mut seen = Vec::new();

@@ -1,8 +1,8 @@
-//! From the window system's keys to the JavaScript `keyCode` that shaders know.
+//! Maps the window system's keys to the JavaScript `keyCode` that shaders read.
 //!
-//! Chromium's numbers, which are what the site's shaders were written against. A letter counts as what it types (so a
-//! French keyboard's A is 65 wherever it lies); everything that types no ASCII letter counts by its place on a US
-//! keyboard.
+//! The numbers are Chromium's, for which shaders on Shadertoy are written. A letter is mapped by what it types (so the
+//! A of a French keyboard is 65 wherever it is); every key that does not type an ASCII letter is mapped by its place
+//! on a US keyboard.
 
 use std::collections::HashMap;
 use winit::{
@@ -10,8 +10,7 @@ use winit::{
     keyboard::{Key, KeyCode, KeyLocation, NamedKey, PhysicalKey},
 };
 
-/// Keys that are down, so that the release gives the code that the press gave though a modifier or the layout has
-/// changed.
+/// Keys that are down, so that a release has the code of its press even if a modifier or the layout has changed.
 #[derive(Debug, Default)]
 pub(super) struct HeldKeys {
     codes: HashMap<PhysicalKey, u8>,
@@ -25,7 +24,7 @@ pub(super) enum KeyChange {
 }
 
 impl HeldKeys {
-    /// `to_shader`: whether a press goes to the shader. Releases of keys it saw pressed always do.
+    /// `to_shader`: whether a press goes to the shader. Releases of keys whose press went to the shader always do.
     pub(super) fn change(&mut self, event: &KeyEvent, to_shader: bool) -> Option<KeyChange> {
         match event.state {
             ElementState::Pressed if to_shader => {
@@ -38,13 +37,13 @@ impl HeldKeys {
         }
     }
 
-    /// The window lost the keyboard: releases will not come.
+    /// Forgets all held keys because the window lost the keyboard focus: their releases will not arrive.
     pub(super) fn clear(&mut self) {
         self.codes.clear();
     }
 }
 
-/// The `keyCode` of a key; `None` for one that has none.
+/// Returns the `keyCode` of a key; `None` if it has none.
 pub(super) fn code(logical: &Key, physical: PhysicalKey, location: KeyLocation) -> Option<u8> {
     if let Key::Named(named) = logical
         && let Some(code) = named_code(*named, location)
@@ -140,7 +139,7 @@ fn named_code(key: NamedKey, location: KeyLocation) -> Option<u8> {
     })
 }
 
-/// By the place on a US keyboard.
+/// Returns the code by the place on a US keyboard.
 fn place_code(place: KeyCode) -> Option<u8> {
     use KeyCode as K;
     Some(match place {
@@ -212,7 +211,7 @@ fn place_code(place: KeyCode) -> Option<u8> {
         K::IntlBackslash => 226,
         K::IntlRo => 193,
         K::IntlYen => 255,
-        // A modifier pressed with another can have no name of its own on X11.
+        // On X11 a modifier pressed with another one may lack a name of its own.
         K::ShiftLeft | K::ShiftRight => 16,
         K::ControlLeft | K::ControlRight => 17,
         K::AltLeft | K::AltRight => 18,
@@ -235,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn letters_count_by_what_they_type_and_the_rest_by_place() {
+    fn letters_map_by_text_and_other_keys_by_place() {
         assert_eq!(typed("w", KeyCode::KeyW), Some(87));
         assert_eq!(typed("W", KeyCode::KeyW), Some(87));
         assert_eq!(typed("a", KeyCode::KeyQ), Some(65), "a French keyboard");

@@ -1,4 +1,4 @@
-//! Menus of widgets: by a right click, and by the keys for it.
+//! Context menus of widgets, opened by a right click or by keys.
 
 use super::{accessible, theme};
 use egui::{
@@ -6,10 +6,10 @@ use egui::{
     Shape, Stroke, Ui, containers::menu::menu_style, pos2, vec2,
 };
 
-/// The room of a check mark before a title.
+/// The width of a check mark before a title.
 const MARK: f32 = 16.0;
 
-/// An entry of a menu that is on or off: a check mark where it is on, its title, and its key at the right.
+/// Shows a menu entry with a check mark if it is on, its title, and its key at the right.
 pub(super) fn switch(ui: &mut Ui, is_on: bool, title: &str, key: String) -> Response {
     let mark = IdSalt::new("mark");
     let button = Button::new((Atom::custom(mark, vec2(MARK, 14.0)), title.to_owned())).shortcut_text(key);
@@ -23,20 +23,20 @@ pub(super) fn switch(ui: &mut Ui, is_on: bool, title: &str, key: String) -> Resp
     shown.response
 }
 
-/// An entry below others that are on or off, with the same room before its title.
+/// Shows an entry in a menu of switches, with the same space before its title.
 pub(super) fn entry(ui: &mut Ui, title: &str, key: String) -> Response {
     let mark = Atom::custom(IdSalt::new("mark"), vec2(MARK, 14.0));
     ui.add(Button::new((mark, title.to_owned())).shortcut_text(key))
 }
 
-/// A menu below a button that stays while one types in it, in the style of all menus.
+/// Shows a menu below a button that stays open during typing, in the style of all menus.
 pub(super) fn below(button: &Response, contents: impl FnOnce(&mut Ui)) {
     let menu = Popup::from_toggle_button_response(button).style(menu_style);
     menu.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(contents);
 }
 
-/// Shows a widget's menu: a right click opens it at the pointer, Shift+F10 and the menu key below the widget while that
-/// has the keyboard.
+/// Shows a widget's menu: a right click opens it at the pointer; Shift+F10 and the menu key open it below the widget
+/// while that has the keyboard focus.
 pub(super) fn context(response: &Response, contents: impl FnOnce(&mut Ui)) {
     let ctx = &response.ctx;
     let is_asked = response.has_focus() && ctx.input(|i| i.events.iter().any(is_menu_key));
@@ -54,8 +54,8 @@ pub(super) fn context(response: &Response, contents: impl FnOnce(&mut Ui)) {
     popup.show(contents);
 }
 
-/// Shows the menu of a row: a right click anywhere in it opens it at the pointer, Shift+F10 and the menu key below the row while
-/// one of its widgets has the keyboard.
+/// Shows the menu of a row: a right click anywhere in it opens it at the pointer; Shift+F10 and the menu key open it
+/// below the row while one of its widgets has the keyboard focus.
 pub(super) fn context_of_row(row: &Response, contents: impl FnOnce(&mut Ui)) {
     let ctx = &row.ctx;
     let is_key = ctx.input(|i| i.focused && i.events.iter().any(is_menu_key));

@@ -1,8 +1,8 @@
-//! The window: panels that show a [`Session`](crate::session::Session) and ask things of it.
+//! The window: panels that show a [`Session`](crate::session::Session) and send it commands.
 //!
-//! Owns the event loop, the surface, the panels, the code editor and the way from the window system's keys and pointer
-//! to the session's commands. Holds no logic that a command line would need too: a panel reads `&Session` and hands
-//! back commands. Only this module names egui or winit.
+//! Owns the event loop, the surface, the panels, the code editor and the translation of the window system's keys and
+//! pointer to the session's commands. Contains no logic that a command line would also need: a panel reads `&Session`
+//! and returns commands. Only this module names egui or winit.
 
 mod accessible;
 mod actions;
@@ -90,35 +90,35 @@ type Opened = Box<dyn FnOnce(&Gpu)>;
 pub struct Options {
     /// The PROJECT of the command line; `None` opens the gallery.
     pub project: Option<String>,
-    /// Physical pixels inside the window's frame; none: what suits the screen.
+    /// The size inside the window's frame in physical pixels; `None`: a size that suits the screen.
     pub size: Option<(u32, u32)>,
     /// Values for the project's own uniforms, as [`crate::session::Command::AssignCustomUniform`] takes them.
     pub set: Vec<String>,
-    /// Show the picture and the uniforms alone. The arrangement of the panels is not kept.
+    /// Show only the picture and the uniforms. The layout of the panels is not saved.
     pub follow: bool,
-    /// Draw nothing of the project before the user says so.
+    /// Do not draw the project until the user starts it.
     pub paused: bool,
-    /// A frame that takes longer pauses the picture; none: the session's own limit.
+    /// A frame that takes longer pauses the picture; `None`: the session's default limit.
     pub frame_limit: Option<Duration>,
-    /// The processor time that a driver may take for a large pass; none: the session's own limit.
+    /// The processor time that a driver may take for a large pass; `None`: the session's default limit.
     pub compile_timeout: Option<Duration>,
-    /// Say on standard output what happens, one JSON object a line, for scripts that drive the window.
+    /// Report events on standard output, one JSON object a line, for scripts that drive the window.
     pub json: bool,
-    /// The camera that is used where the person turns one on and chooses none.
+    /// The camera to use if the user turns one on without choosing one.
     pub webcam: Option<CameraSource>,
-    /// OSC is listened to at this address, whatever the settings say.
+    /// Receive OSC on this address, which overrides the settings.
     pub osc: Option<SocketAddr>,
 }
 
-/// The window cannot open, or cannot go on.
+/// The window cannot open or cannot continue.
 #[derive(Debug, thiserror::Error)]
 pub enum GuiError {
     #[error("no display found: {0}. To draw without a display, use `eddy render`")]
     NoDisplay(String),
-    /// The device is gone, and with it every picture; `unsaved_work` says what became of unsaved work.
+    /// The device is lost, and with it every picture; `unsaved_work` says what happened to unsaved work.
     #[error("{reason}{unsaved_work}")]
     Lost { reason: GpuError, unsaved_work: String },
-    /// The window stumbled over itself; `unsaved_work` as above.
+    /// The window panicked; `unsaved_work` as above.
     #[error("this is a bug in Eddy: {reason}{unsaved_work}")]
     Panicked { reason: String, unsaved_work: String },
     #[error("cannot draw to the window: {0}")]

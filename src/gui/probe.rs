@@ -1,4 +1,4 @@
-//! The bar over a picture that is a value of the code: what it is, how it is shown, its numbers.
+//! The bar over a picture of an expression's values: the expression, how it is shown, and its numbers.
 
 use super::{
     accessible, histogram,
@@ -19,7 +19,7 @@ use egui::{Area, DragValue, Frame, Id, Margin, Order, Rect, RichText, Role, Ui, 
 
 const NAMES: [&str; 4] = ["x", "y", "z", "w"];
 
-/// Shows it at the top of the picture's area. `under`: the place of the picture under the mouse, from 0 to 1.
+/// Shows the bar at the top of the picture's area. `under`: the point of the picture below the mouse, from 0 to 1.
 pub(super) fn show(ui: &Ui, session: &Session, area: Rect, under: Option<[f32; 2]>, out: &mut UiOutput) {
     let Some(view) = session.probe() else { return };
     let card =
@@ -84,7 +84,7 @@ fn visit(ui: &mut Ui, place: &ProbePlace, out: &mut UiOutput) {
     }
 }
 
-/// Offers how it is shown: colours, one component or all, and the range.
+/// Offers the display options: colours, one component or all, and the range.
 fn look(ui: &mut Ui, view: &ProbeView<'_>, value: &ProbedValue, out: &mut UiOutput) {
     let mut look = view.look;
     ui.horizontal_wrapped(|ui| {
@@ -112,7 +112,7 @@ fn look(ui: &mut Ui, view: &ProbeView<'_>, value: &ProbedValue, out: &mut UiOutp
     }
 }
 
-/// The least and the largest numbers, and what is amiss.
+/// Shows the minimum and maximum, and warnings.
 fn figures(ui: &mut Ui, value: &ProbedValue, statistics: &Statistics, out: &mut UiOutput) {
     let p = theme::of(ui);
     let words = statistics.extremes.iter().enumerate().filter_map(|(i, extreme)| {
@@ -131,7 +131,7 @@ fn figures(ui: &mut Ui, value: &ProbedValue, statistics: &Statistics, out: &mut 
     }
 }
 
-/// The texel under a place of the picture, and its numbers.
+/// Returns the texel at a point of the picture, and its numbers.
 pub(super) fn number_at(pixels: &Pixels, at: [f32; 2], value: &ProbedValue) -> Option<((u32, u32), String)> {
     let texel = |part: f32, count: u32| ((part * count as f32) as u32).min(count.saturating_sub(1));
     let (x, y) = (texel(at[0], pixels.width), texel(at[1], pixels.height));
@@ -147,7 +147,7 @@ pub(super) fn number_at(pixels: &Pixels, at: [f32; 2], value: &ProbedValue) -> O
     Some(((x, y), if numbers.len() == 1 { numbers.concat() } else { format!("({})", numbers.join(", ")) }))
 }
 
-/// Returns what scripts are told.
+/// Returns the report for scripts.
 pub(super) fn report(session: &Session, under: Option<[f32; 2]>) -> serde_json::Value {
     let Some(view) = session.probe() else { return serde_json::json!({ "text": null }) };
     let (value, trouble) = match view.value {

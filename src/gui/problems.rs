@@ -1,4 +1,4 @@
-//! The line under the editor that says how the last compile went, and the list of what is wrong.
+//! The line below the editor with the result of the last compile, and the list of problems.
 
 use super::{
     accessible,
@@ -16,15 +16,15 @@ use crate::{
 use egui::{Align2, Color32, FontId, Frame, Label, Margin, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 
 const ROW: f32 = 22.0;
-/// Width of the button that mends a problem.
+/// The width of a quick fix button.
 const FIX: f32 = 36.0;
-/// A further place stands so far to the right of its problem.
+/// The indent of a related place below its problem.
 const INDENT: f32 = 14.0;
-/// The least room in which a hint is shown behind its problem.
+/// The minimum width in which a hint is shown after its problem.
 const HINT_ROOM: f32 = 60.0;
 
-/// `caret`: the tab in front and its caret's line from 0, whose problem is told in whole. `limit`: how high the list
-/// may be.
+/// `caret`: the tab in front and its caret's line from 0, whose problem is shown in full. `limit`: the maximum height
+/// of the list.
 pub(super) fn show(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, limit: f32, out: &mut UiOutput) {
     out.stop("problems", ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
@@ -59,8 +59,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>,
     ui.add_space(4.0);
 }
 
-/// The whole message of the problem in the caret's line: beside the code and in the list there may be room for its
-/// beginning only.
+/// Shows the whole message of the problem in the caret's line: next to the code and in the list it may be truncated.
 fn whole(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, out: &mut UiOutput) {
     let Some((tab, line)) = caret else { return };
     let is_here = |p: &TextLocation| p.tab.as_ref() == Some(tab) && p.line == line + 1;
@@ -93,7 +92,7 @@ fn whole(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, out: &mut
     out.place("problem-at-caret", shown.response.rect);
 }
 
-/// Returns how the newest compile ended in words, and their colour.
+/// Returns the result of the newest compile in words, and their colour.
 pub(super) fn state(session: &Session, palette: &Palette) -> (String, Color32) {
     let state = session.compile_state();
     if state.compiling {
@@ -117,7 +116,7 @@ pub(super) fn state(session: &Session, palette: &Palette) -> (String, Color32) {
     }
 }
 
-/// A line of the list: a problem, or below it a further place that it speaks of.
+/// A row of the list: a problem, or a related place below it.
 struct Row<'a> {
     name: String,
     problem: &'a TabDiagnostic,
@@ -137,7 +136,7 @@ fn rows_of(index: usize, problem: &TabDiagnostic) -> impl Iterator<Item = Row<'_
 }
 
 impl Row<'_> {
-    /// Returns what it says to those who do not see it.
+    /// Returns its accessible name.
     fn name_of(&self) -> String {
         let place = self.place.map(|p| format!("{} line {}: ", p.title(), p.line)).unwrap_or_default();
         let kind = if self.is_label { "see also" } else { self.problem.severity.name() };
@@ -191,7 +190,7 @@ impl Row<'_> {
             let room = text_end - text_rect.right() - 20.0;
             job.wrap = egui::text::TextWrapping::truncate_at_width(room.max(0.0));
             let galley = painter.layout_job(job);
-            // A few cut letters say nothing; what is pointed at says all.
+            // A few truncated letters are useless; the tooltip has the full text.
             if room > HINT_ROOM {
                 let at = pos2(text_rect.right() + 12.0, rect.center().y - galley.size().y / 2.0);
                 painter.galley(at, galley, theme::of(ui).weak);
@@ -211,7 +210,7 @@ impl Row<'_> {
     }
 }
 
-/// Returns the way to a place; `None` for one that is in no tab.
+/// Returns the command that goes to a place; `None` if it is not in any tab.
 fn wish_of(place: &TextLocation) -> Option<ShellCommand> {
     Some(ShellCommand::GoTo(place.tab.clone()?, Some((place.line - 1, place.column - 1))))
 }

@@ -1,4 +1,4 @@
-//! Questions of the session, which stand in front of everything until they are answered.
+//! The session's questions, which are modal until they are answered.
 
 use super::{
     theme,
@@ -11,7 +11,7 @@ use crate::{
 use egui::{Color32, FontId, Frame, Id, Modal, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
 use std::path::{Path, PathBuf};
 
-/// Shows the first question there is.
+/// Shows the first pending question.
 pub(super) fn show(ui: &Ui, session: &Session, out: &mut UiOutput) {
     let Some(question) = session.question() else { return };
     let window = ui.ctx().content_rect();
@@ -35,13 +35,14 @@ pub(super) fn show(ui: &Ui, session: &Session, out: &mut UiOutput) {
     });
 }
 
-/// A row of buttons: the first has the colour and Enter, the last is the safe way out and has Escape.
+/// Shows a row of buttons: the first is highlighted and pressed by Enter, the last is the safe way out and pressed by
+/// Escape.
 fn answers(ui: &mut Ui, list: &[(&str, Answer)], out: &mut UiOutput) {
     answers_with_usual(ui, list, 0, out);
 }
 
-/// The same, with the colour and Enter at the one of this index: what destroys something is never pressed by a key that
-/// was meant for something else.
+/// The same with the highlight and Enter at the button of this index: a destructive one must never be pressed by a key
+/// that was meant for something else.
 fn answers_with_usual(ui: &mut Ui, list: &[(&str, Answer)], usual: usize, out: &mut UiOutput) {
     let takes_keys = takes_keys(ui);
     ui.add_space(12.0);
@@ -54,11 +55,11 @@ fn answers_with_usual(ui: &mut Ui, list: &[(&str, Answer)], usual: usize, out: &
                 egui::Button::new(text)
             };
             let response = ui.add(button.min_size(vec2(84.0, 28.0)));
-            // Enter presses the usual one, unless another one was gone to.
+            // Enter presses the default button, unless another one has the focus.
             if i == usual && takes_keys && ui.memory(|m| m.focused().is_none()) {
                 response.request_focus();
             }
-            // A dialog that finds its place first is not seen there yet.
+            // In a sizing pass a dialog is not visible yet.
             if !ui.is_sizing_pass() && out.clicked(&format!("answer:{}", name_of(answer)), &response) {
                 out.ask(Command::Answer(answer.clone()));
             }
@@ -70,14 +71,15 @@ fn answers_with_usual(ui: &mut Ui, list: &[(&str, Answer)], usual: usize, out: &
     }
 }
 
-/// Says how long a question stands before a key answers it: what was being typed when it came is no answer.
+/// The time that a question is shown before a key answers it, in seconds: keys typed when it appears must not answer
+/// it.
 const DEAF_SECS: f64 = 0.7;
 
 fn takes_keys(ui: &Ui) -> bool {
     let id = Id::unique("question since");
     let (now, pass) = (ui.input(|i| i.time), ui.ctx().cumulative_pass_nr());
     let (since, last): (f64, u64) = ui.data(|d| d.get_temp(id)).unwrap_or((now, 0));
-    // One that was not there a few passes ago is new.
+    // A question that was not shown in the last few passes is new.
     let since = if pass.saturating_sub(last) > 4 { now } else { since };
     ui.data_mut(|d| d.insert_temp(id, (since, pass)));
     let left = since + DEAF_SECS - now;
@@ -114,7 +116,7 @@ fn unsaved(ui: &mut Ui, session: &Session, then: &PendingAction, tabs: &[Tab], o
         PendingAction::Close => "by closing the window",
     };
     let mut list = session.unsaved_parts();
-    // A question may have come before the edit that is saved since.
+    // The question may have appeared before an edit that has been saved since.
     if list.is_empty() {
         list.extend(tabs.iter().map(Tab::title));
     }
@@ -154,7 +156,7 @@ fn export(ui: &mut Ui, file: &Path, exists: bool, lost: &[String], room: f32, ou
             true => "The page does not show everything as this window does:",
             false => "Shadertoy does not have everything that this project uses:",
         });
-        // As high as the sentences are, up to the room there is.
+        // The height of the sentences, limited by the available room.
         let width = ui.available_width() - 16.0;
         let font = egui::TextStyle::Body.resolve(ui.style());
         let sentences: Vec<String> = lost.iter().map(|lost| format!("• {lost}")).collect();
@@ -220,7 +222,7 @@ fn recover(ui: &mut Ui, recovered: &Recovered, room: f32, out: &mut UiOutput) {
         ui.colored_label(theme::of(ui).warning, why);
     }
     ui.add_space(8.0);
-    // Which tab's difference is shown.
+    // The tab whose difference is shown.
     let id = Id::unique(("recovered tab", file));
     let mut shown = ui.data_mut(|d| *d.get_temp_mut_or_default::<usize>(id)).min(tabs.len().saturating_sub(1));
     if tabs.len() > 1 {
@@ -234,7 +236,7 @@ fn recover(ui: &mut Ui, recovered: &Recovered, room: f32, out: &mut UiOutput) {
         });
         ui.data_mut(|d| d.insert_temp(id, shown));
     }
-    // As high as the longest one needs, whichever is shown: nothing moves under the pointer.
+    // The height of the longest one, whichever is shown, so that nothing moves below the pointer.
     let all: Vec<_> = tabs.iter().map(|tab| pair(&tab.diff)).collect();
     let longest = all.iter().map(Vec::len).max().unwrap_or(0);
     if let Some(rows) = all.get(shown) {
@@ -251,7 +253,7 @@ fn recover(ui: &mut Ui, recovered: &Recovered, room: f32, out: &mut UiOutput) {
     }
 }
 
-/// Two texts side by side below what they are.
+/// Shows two texts side by side below their titles.
 fn both(ui: &mut Ui, left: &str, right: &str, rows: &[(Row<'_>, bool)], height: f32) {
     let half = (ui.available_width() - 8.0) / 2.0;
     ui.horizontal(|ui| {
@@ -266,13 +268,13 @@ fn both(ui: &mut Ui, left: &str, right: &str, rows: &[(Row<'_>, bool)], height: 
     Frame::NONE.fill(theme::of(ui).background).corner_radius(4.0).show(ui, |ui| side_by_side(ui, rows, height));
 }
 
-/// Height of a line of the texts.
+/// The height of a line of the texts.
 const ROW: f32 = 17.0;
 
-/// A row of two texts side by side: mine, and the disk's. Where one has no line, the other stands alone.
+/// A row of two texts side by side: the editor's and the disk's. A line that only one of them has is shown alone.
 type Row<'a> = (Option<&'a str>, Option<&'a str>);
 
-/// Pairs the lines of a diff: a run of lines only here lies beside the run only on disk that it replaces.
+/// Pairs the lines of a diff: a run of lines only in the editor is next to the run only on disk that it replaces.
 fn pair(diff: &[DiffLine]) -> Vec<(Row<'_>, bool)> {
     let mut rows = Vec::new();
     let (mut here, mut disk): (Vec<&str>, Vec<&str>) = (Vec::new(), Vec::new());
@@ -298,7 +300,7 @@ fn settle<'a>(rows: &mut Vec<(Row<'a>, bool)>, here: &mut Vec<&'a str>, disk: &m
     disk.clear();
 }
 
-/// Both texts, scrolled together, from the first difference on, in a place of one height.
+/// Shows both texts, scrolled together from the first difference, in a place of fixed height.
 fn side_by_side(ui: &mut Ui, rows: &[(Row<'_>, bool)], height: f32) {
     let first = rows.iter().position(|(_, differs)| *differs).unwrap_or(0).saturating_sub(3);
     let id = ui.scope_id().with("diff");
@@ -319,8 +321,8 @@ fn side_by_side(ui: &mut Ui, rows: &[(Row<'_>, bool)], height: f32) {
     });
 }
 
-/// A place of this height, whatever is in it: a list that scrolls would take what its dialog had in the frame before, and
-/// the dialog would grow from frame to frame.
+/// Returns a `Ui` of this height regardless of its contents: a scrolling list would take the height that its dialog
+/// had in the previous frame, and the dialog would grow from frame to frame.
 fn of_height(ui: &mut Ui, height: f32) -> Ui {
     let (place, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
     ui.new_child(UiBuilder::new().max_rect(place))
@@ -343,7 +345,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn replaced_lines_lie_beside_each_other() {
+    fn replaced_lines_are_paired() {
         let diff = [
             DiffLine::Both("a".into()),
             DiffLine::Disk("b".into()),

@@ -1,4 +1,4 @@
-//! The bar under the picture while a recording is played: how far it is, and a button that ends it.
+//! The bar below the picture while a recording is played: its progress, and a button that ends it.
 
 use super::{actions::Action, theme, ui_output::UiOutput};
 use crate::session::ReplayView;
@@ -6,7 +6,7 @@ use egui::{Button, FontId, Sense, Ui, vec2};
 
 const STOP: f32 = 52.0;
 
-/// Shows it in the room that there is; `kept` points of it are somebody else's.
+/// Shows the bar in the available room, of which `kept` points are reserved for other widgets.
 pub(super) fn show(ui: &mut Ui, replay: &ReplayView, is_playing: bool, kept: f32, out: &mut UiOutput) {
     let tip = "Stop playing the recording and continue live from this frame. Until then mouse, keys, resolution and \
                uniforms are the recorded ones";
@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, replay: &ReplayView, is_playing: bool, kept: f32
     response.on_hover_text(replay.file.display().to_string());
 }
 
-/// Returns what is said, the longest first.
+/// Returns the texts to choose from, the longest first.
 fn texts(replay: &ReplayView, is_playing: bool) -> [String; 3] {
     let ReplayView { drawn, frames, .. } = replay;
     let what = if is_playing { "Playing recording" } else { "Recording paused" };

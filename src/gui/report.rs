@@ -1,6 +1,6 @@
-//! Lines of JSON on standard output that say what the window does, for scripts and tests that drive it from outside.
+//! JSON lines on standard output that report the window's events, for scripts and tests that drive it from outside.
 //!
-//! One object a line with an `event` member. Nothing is written unless asked for (`--json`).
+//! One object a line with an `event` member. Nothing is written unless requested (`--json`).
 
 use super::geometry::Area;
 use crate::diag::escape_json;
@@ -11,13 +11,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Running frames are told of this often; what changes otherwise is told of at once.
+/// The interval at which running frames are reported; other changes are reported at once.
 const FRAME_EVERY: Duration = Duration::from_millis(100);
 
 #[derive(Debug, Default)]
 pub(super) struct Report {
     enabled: bool,
-    /// Last line of each event that is repeated only when it says something new.
+    /// The last line of each event that is repeated only when it changes.
     said: BTreeMap<&'static str, Value>,
     frame_at: Option<Instant>,
 }
@@ -34,14 +34,13 @@ impl Report {
     /// Writes an event.
     pub(super) fn say(&self, event: Value) {
         if self.enabled {
-            // A reader that went away is no reason to end a person's session.
+            // A reader that has closed the pipe must not end the session.
             let mut out = std::io::stdout().lock();
             let _ = writeln!(out, "{}", escape_json(&event.to_string())).and_then(|()| out.flush());
         }
     }
 
-    /// Writes an event if its members differ from those of the last one of this name. Returns whether
-    /// it did.
+    /// Writes an event if its members differ from those of the last one of this name. Returns whether it did.
     pub(super) fn say_if_new(&mut self, name: &'static str, mut members: Value) -> bool {
         if !self.enabled || self.said.get(name) == Some(&members) {
             return false;
@@ -52,12 +51,12 @@ impl Report {
         true
     }
 
-    /// Lets the next event of this name be said even if it is as the last one.
+    /// Lets the next event of this name be written even if it equals the last one.
     pub(super) fn forget(&mut self, name: &str) {
         self.said.remove(name);
     }
 
-    /// A frame was drawn. While `running`, only some of them are told of.
+    /// Reports a frame that was drawn. While `running`, only some are reported.
     pub(super) fn frame(&mut self, now: Instant, running: bool, members: Value) {
         if running && self.frame_at.is_some_and(|at| now - at < FRAME_EVERY) {
             return;
@@ -67,7 +66,7 @@ impl Report {
         }
     }
 
-    /// Tells where things are, in physical pixels of the window.
+    /// Reports the places of widgets, in physical pixels of the window.
     pub(super) fn layout(
         &mut self,
         window: (u32, u32),

@@ -13,7 +13,7 @@ use egui::{
     TextEdit, Ui, vec2,
 };
 
-/// Height of the list, which scrolls.
+/// The height of the list, which scrolls.
 const HEIGHT: f32 = 360.0;
 const WIDTH: f32 = 216.0;
 
@@ -37,21 +37,21 @@ fn is_asked() -> Id {
 #[derive(Clone, Default)]
 struct Typed {
     text: String,
-    /// Enter was pressed, and it is not a size.
+    /// Enter was pressed, and the text is not a valid size.
     is_refused: bool,
-    /// The pass of egui in which it was shown last.
+    /// The egui pass in which it was last shown.
     shown: u64,
 }
 
-/// Opens the menu with the keyboard in its field.
+/// Opens the menu with the keyboard focus in its field.
 pub(super) fn open(ctx: &egui::Context) {
     Popup::open_id(ctx, popup());
     ctx.data_mut(|data| data.insert_temp(typed(), Typed::default()));
-    // The field is not there yet.
+    // The field does not exist yet.
     ctx.data_mut(|data| data.insert_temp(is_asked(), true));
 }
 
-/// Shows the menu that [`open`] opens, at a widget. It is shown in each frame, whatever the widget is.
+/// Shows the menu that [`open`] opens, at a widget. Called in each frame, whichever widget it is.
 pub(super) fn opened(anchor: &Response, session: &Session, shape: Shape, out: &mut UiOutput) {
     let menu = Popup::from_response(anchor).id(popup()).open_memory(None).style(egui::containers::menu::menu_style);
     menu.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
@@ -59,7 +59,7 @@ pub(super) fn opened(anchor: &Response, session: &Session, shape: Shape, out: &m
     });
 }
 
-/// The resolution on a button that opens the list.
+/// Shows the resolution on a button that opens the list.
 pub(super) fn button(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) {
     let (width, height) = session.transport().resolution;
     let response = ComboBox::from_id_salt("size")
@@ -75,7 +75,7 @@ pub(super) fn button(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiO
     opened(&response, session, shape, out);
 }
 
-/// An entry of a menu that opens the list beside it.
+/// Shows a menu entry that opens the list next to it.
 pub(super) fn entry(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) {
     let (width, height) = session.transport().resolution;
     let config = egui::containers::menu::MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
@@ -86,7 +86,7 @@ pub(super) fn entry(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOu
     out.place("options:resolution", response.rect);
 }
 
-/// The resolutions to choose from.
+/// Shows the resolutions to choose from.
 fn list(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) {
     ui.set_min_width(WIDTH);
     let transport = session.transport();
@@ -123,12 +123,12 @@ fn list(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) {
     }
 }
 
-/// A field for any size, and below it what can be typed or why it cannot be drawn.
+/// Shows a field for any size, and below it a hint or why the size cannot be drawn.
 fn size_field(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let limit = session.gpu().device.limits().max_texture_dimension_2d;
     let pass = ui.ctx().cumulative_pass_nr();
     let kept: Option<Typed> = ui.data(|data| data.get_temp(typed()));
-    // A menu that is opened again begins with an empty field.
+    // A reopened menu starts with an empty field.
     let mut typed_now = kept.filter(|typed| pass.saturating_sub(typed.shown) <= 4).unwrap_or_default();
     typed_now.shown = pass;
     let p = theme::of(ui);
@@ -155,7 +155,7 @@ fn size_field(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         accessible::name(&set, Role::Button, "Set resolution");
         is_entered |= out.clicked("size:set", &set);
     });
-    // Typed and entered in one frame, where frames are slow.
+    // Typed and entered in one frame, if frames are slow.
     let size = read(&typed_now.text, limit);
     let is_empty = typed_now.text.trim().is_empty();
     let mut note = format!("Width x height, up to {limit} x {limit}");
@@ -180,7 +180,8 @@ fn size_field(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     ui.data_mut(|data| data.insert_temp(typed(), typed_now));
 }
 
-/// Reads a width and a height as people write them: `1080x1920`, `1080 × 1920`, `1080, 1920`. Err: what to write.
+/// Parses a width and a height as people write them: `1080x1920`, `1080 × 1920`, `1080, 1920`. Returns a hint if it is
+/// invalid.
 fn read(text: &str, limit: u32) -> Result<(u32, u32), String> {
     let between = |c: char| c.is_whitespace() || matches!(c, 'x' | 'X' | '×' | '*' | ',' | ':');
     let text = text.trim().trim_end_matches("px");
@@ -189,7 +190,7 @@ fn read(text: &str, limit: u32) -> Result<(u32, u32), String> {
     let (&[width, height], true) = (numbers.as_slice(), numbers.iter().all(is_whole)) else {
         return Err("Enter width and height, like 1080x1920".into());
     };
-    // What is longer than any number is larger than any limit.
+    // A number that overflows exceeds any limit.
     let side = |part: &str| part.parse().unwrap_or(u32::MAX);
     match (side(width), side(height)) {
         (0, _) | (_, 0) => Err("Width and height must be at least 1".into()),
@@ -203,7 +204,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sizes_are_read_as_people_write_them() {
+    fn sizes_are_parsed_in_common_notations() {
         for text in ["1080x1920", " 1080 x 1920 ", "1080X1920", "1080×1920", "1080 1920", "1080, 1920", "1080*1920px"]
         {
             assert_eq!(read(text, 8192), Ok((1080, 1920)), "{text}");

@@ -1,4 +1,4 @@
-//! The page of settings: every row of the settings file with its widget. What is changed is written to the file at once.
+//! The page of settings: every row of the settings file with its widget. Changes are written to the file at once.
 
 use super::{
     accessible,
@@ -21,11 +21,11 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// As wide as a title and its widget need.
+/// The width of a title and its widget.
 const WIDTH: f32 = 620.0;
-/// For the widgets.
+/// The width of the widgets.
 const CONTROL: f32 = 250.0;
-/// The file is looked at so often while the page is open: another program may write it.
+/// The interval at which the file is checked while the page is open: another program may write it.
 const INTERVAL: Duration = Duration::from_millis(500);
 
 /// The page while it is open.
@@ -33,18 +33,18 @@ const INTERVAL: Duration = Duration::from_millis(500);
 pub(super) struct SettingsPage {
     is_new: bool,
     looked_at: Option<Instant>,
-    /// A number while it is dragged, and whose it is.
+    /// The value of the number being dragged, and its setting.
     dragged: Option<(&'static str, f64)>,
     /// The font's path while it is typed.
     typed: Option<String>,
-    /// Says why what was typed last is not used.
+    /// The reason why the font that was last typed is not used.
     font_trouble: Option<String>,
-    /// The address while it is typed, and whether it is none.
+    /// The address while it is typed, and whether it is invalid.
     address: Option<String>,
     is_no_address: bool,
 }
 
-/// Settings that the command line has the last word on.
+/// Settings that the command line overrides.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Overridden {
     pub frame_limit: bool,
@@ -56,7 +56,7 @@ impl SettingsPage {
         Self { is_new: true, ..Self::default() }
     }
 
-    /// Returns whether the file is to be looked at now.
+    /// Returns whether the file is to be checked now.
     pub(super) fn looks(&mut self, ui: &Ui, now: Instant) -> bool {
         ui.ctx().request_repaint_after(INTERVAL);
         let is_due = self.looked_at.is_none_or(|at| now.saturating_duration_since(at) >= INTERVAL);
@@ -66,7 +66,7 @@ impl SettingsPage {
         is_due
     }
 
-    /// Takes the path of a font that was chosen. `None`: it cannot be used, which the page says.
+    /// Applies the path of a chosen font. Returns `None` if it cannot be used, which the page then says.
     pub(super) fn choose_font(&mut self, path: &str) -> Option<Change> {
         match fonts::check(path) {
             Ok(()) => {
@@ -80,7 +80,7 @@ impl SettingsPage {
         }
     }
 
-    /// Shows it; false when it is closed.
+    /// Shows the page; returns false when it is closed.
     pub(super) fn show(
         &mut self,
         ui: &Ui,
@@ -138,7 +138,7 @@ impl SettingsPage {
         is_open && !modal.should_close()
     }
 
-    /// Returns what is to be said of a setting besides what it does.
+    /// Returns a note about a setting in addition to its help.
     fn note(&self, key: &Key, controls: &ControlsView, overridden: Overridden) -> Option<String> {
         let started = |option: &str| format!("This window was started with {option}, which overrides it");
         match key.name {
@@ -158,7 +158,7 @@ impl SettingsPage {
         }
     }
 
-    /// A setting: its title and what it does, and its widget at the right.
+    /// Shows a setting: its title and help, and its widget at the right.
     fn row(
         &mut self,
         ui: &mut Ui,
@@ -256,7 +256,8 @@ impl SettingsPage {
         }
     }
 
-    /// A number between two buttons. While it is dragged nothing is changed: the window would move under the hand.
+    /// Shows a number between two buttons. The setting does not change during a drag: the window would move below the
+    /// pointer.
     fn number(&mut self, ui: &mut Ui, key: &'static Key, number: &Number, now: f64, out: &mut UiOutput) {
         let mut set = |value: f64| {
             out.shell_commands.push(ShellCommand::Set((number.change)(value.clamp(number.least, number.most))));
@@ -274,7 +275,7 @@ impl SettingsPage {
         let less = step(ui, "−", "Decrease", now - number.step);
         let mut value = self.dragged.filter(|(name, _)| *name == key.name).map_or(now, |(_, value)| value);
         let field = DragValue::new(&mut value).range(number.least..=number.most).speed(number.step * 0.2);
-        // A number without a unit is a whole one.
+        // A number without a unit is an integer.
         let field = field
             .max_decimals(if number.unit.is_empty() { 0 } else { 2 })
             .suffix(number.unit)
@@ -307,7 +308,7 @@ impl SettingsPage {
         if field.changed() {
             (self.address, self.is_no_address) = (Some(text), false);
         }
-        // Escape closes the page, and leaves the address as it was.
+        // Escape closes the page without changing the address.
         let is_given_up = ui.input(|i| i.key_pressed(egui::Key::Escape));
         let Some(typed) = (if field.lost_focus() { self.address.take() } else { None }) else { return };
         match typed.trim().parse() {
@@ -330,7 +331,7 @@ impl SettingsPage {
         if field.changed() {
             (self.typed, self.font_trouble) = (Some(text.clone()), None);
         }
-        // Escape closes the page, and leaves the font as it was.
+        // Escape closes the page without changing the font.
         let is_given_up = ui.input(|i| i.key_pressed(egui::Key::Escape));
         let left = if field.lost_focus() { self.typed.take() } else { None };
         if left.is_some_and(|typed| !is_given_up && typed.trim() != now) {
@@ -347,7 +348,7 @@ impl SettingsPage {
     }
 }
 
-/// A device of those that there are. One that is chosen and not there stays chosen: it may come back.
+/// Shows a choice of the available devices. A chosen device that is not available stays chosen: it may come back.
 fn device(
     ui: &mut Ui,
     key: &Key,
@@ -375,7 +376,7 @@ fn device(
     out.place(format!("setting:{}", key.name), shown.response.rect);
 }
 
-/// The devices of MIDI: none, all, or one of those that there are. One that is chosen and not there stays chosen.
+/// Shows a choice of the MIDI devices: none, all, or one. A chosen device that is not available stays chosen.
 fn midi(ui: &mut Ui, key: &Key, now: &MidiChoice, controls: &ControlsView, out: &mut UiOutput) {
     let title = |choice: &MidiChoice| match choice {
         MidiChoice::Off => "Off".to_owned(),
@@ -400,7 +401,7 @@ fn midi(ui: &mut Ui, key: &Key, now: &MidiChoice, controls: &ControlsView, out: 
     out.place(format!("setting:{}", key.name), shown.response.rect);
 }
 
-/// Says what is wrong in the file, and what becomes of changes.
+/// Shows what is wrong in the file, and what happens to changes.
 fn trouble(ui: &mut Ui, file: &SettingsFile, out: &mut UiOutput) {
     if file.mistakes().is_empty() {
         return;
@@ -425,7 +426,7 @@ fn trouble(ui: &mut Ui, file: &SettingsFile, out: &mut UiOutput) {
     out.place("settings:trouble", shown.response.rect);
 }
 
-/// The files themselves.
+/// Shows the paths of the files.
 fn files(ui: &mut Ui, file: &SettingsFile, out: &mut UiOutput) {
     ui.horizontal_wrapped(|ui| {
         for (name, action) in [("settings:file", Action::SettingsFile), ("settings:keys", Action::KeyFile)] {

@@ -1,4 +1,4 @@
-//! Owns what is heard, in the bar under the picture: mute, volume, and the light of the microphone.
+//! The sound controls in the bar below the picture: mute, volume, and the light of the microphone.
 
 use super::{
     accessible,
@@ -12,14 +12,14 @@ use super::{
 use crate::session::{Command, DeviceState, MicrophoneView, OutputView, Session};
 use egui::{Id, Slider, Ui};
 
-/// Points of the slider.
+/// The width of the slider in points.
 const SLIDER: f32 = 64.0;
-/// Points of the switch of mute, and the gap behind it.
+/// The width of the mute button and the gap after it, in points.
 const MUTE: f32 = icons::WIDTH + 4.0;
-/// Points of the microphone's button.
+/// The width of the microphone's button in points.
 const MICROPHONE: f32 = 116.0;
 
-/// Shows the parts that the project has a use for. `room`: what may be taken in all; the switch of mute is always there.
+/// Shows the controls that the project needs. `room`: the maximum total width; the mute button is always shown.
 pub(super) fn show(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput) {
     let microphone = microphone(session);
     let left = microphone.as_ref().map_or(room, |_| room - MICROPHONE);
@@ -35,13 +35,13 @@ pub(super) fn show(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutput
     }
 }
 
-/// Returns the least room that [`show`] takes.
+/// Returns the minimum width of [`show`].
 pub(super) fn least(session: &Session) -> f32 {
     let mute = session.output_view().filter(|view| view.has_sound).map_or(0.0, |_| MUTE);
     mute + microphone(session).map_or(0.0, |_| devices::LEAST)
 }
 
-/// Returns the microphone if the bar has its light.
+/// Returns the microphone if the bar shows its light.
 fn microphone(session: &Session) -> Option<MicrophoneView> {
     session.microphone_view().filter(|view| view.is_read || view.is_on)
 }
@@ -64,7 +64,7 @@ fn mute(ui: &mut Ui, sound: &OutputView, out: &mut UiOutput) {
     }
 }
 
-/// Follows the hand while it is dragged; the setting is written when it lets go.
+/// Shows the volume, which follows the pointer during a drag; the setting is written on release.
 fn volume(ui: &mut Ui, sound: &OutputView, out: &mut UiOutput) {
     let mut percent = (sound.volume * 100.0).round();
     ui.spacing_mut().slider_width = SLIDER;

@@ -1,7 +1,7 @@
-//! The window's surface: egui's triangles onto the screen.
+//! The window's surface: paints egui's triangles on the screen.
 //!
-//! Owns the surface, egui's renderer and the back buffer that is copied to the surface, and gets over a surface that is
-//! outdated, lost or hidden. Knows nothing of what is painted.
+//! Owns the surface, egui's renderer and the back buffer that is copied to the surface, and recovers from a surface
+//! that is outdated, lost or hidden. Knows nothing of what is painted.
 
 use super::{
     GuiError,
@@ -16,7 +16,7 @@ use std::{
 };
 use winit::{dpi::PhysicalSize, event_loop::OwnedDisplayHandle, window::Window};
 
-/// The first instance that has a device for the window.
+/// Returns the first instance with a device for the window.
 fn open(
     window: &Arc<Window>,
     display: &OwnedDisplayHandle,
@@ -53,11 +53,11 @@ fn config(
     let mut config = surface
         .get_default_config(adapter, size.width.max(1), size.height.max(1))
         .ok_or_else(|| GuiError::Surface(format!("{} cannot draw on this window", adapter.get_info().name)))?;
-    // egui blends in display values, and the picture is to arrive byte for byte: no conversion to sRGB on the way.
+    // egui blends in display values, and the picture must arrive byte for byte: no conversion to sRGB.
     let capabilities = surface.get_capabilities(adapter);
     config.format =
         egui_wgpu::preferred_framebuffer_format(&capabilities.formats).map_err(|e| GuiError::Surface(e.to_string()))?;
-    // What is painted is kept, and copied to the screen where that can be.
+    // The painting is kept in a back buffer, and copied to the screen where that is supported.
     config.usage |= capabilities.usages & wgpu::TextureUsages::COPY_DST;
     config.present_mode = wgpu::PresentMode::AutoVsync;
     config.desired_maximum_frame_latency = 1;
@@ -70,13 +70,13 @@ fn renderer(gpu: &Gpu, config: &wgpu::SurfaceConfiguration) -> Renderer {
     Renderer::new(&gpu.device, config.format, options)
 }
 
-/// The outcome of presenting a frame.
+/// The result of presenting a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Presented {
     Shown,
-    /// Nobody could see it; painting again before the window changes is of no use.
+    /// The window is not visible; painting again before it changes is useless.
     Hidden,
-    /// The surface had to be made anew: paint again.
+    /// The surface was recreated: paint again.
     Again,
 }
 
@@ -89,15 +89,15 @@ pub(super) struct Surface {
     back_buffer: BackBuffer,
     gpu: Gpu,
     needs_configure: bool,
-    /// Says how often in a row the surface did not take its size.
+    /// The number of times in a row that the surface did not take its size.
     refusals: u32,
 }
 
-/// So many refusals in a row are no coincidence any more.
+/// The number of refusals in a row that is reported as an error.
 const REFUSALS: u32 = 200;
 
 impl Surface {
-    /// A surface for the window, and the device that can draw on it.
+    /// Creates a surface for the window, and the device that can draw on it.
     pub(super) fn new(window: &Arc<Window>, display: OwnedDisplayHandle) -> Result<Surface, GuiError> {
         let (instance, surface, adapter) = open(window, &display)?;
         let gpu = Gpu::from_adapter(&adapter, &GpuOptions::default())?;
@@ -117,13 +117,13 @@ impl Surface {
         })
     }
 
-    /// Puts a fresh device and a fresh surface in the place of those that are lost. egui's fonts are handed over; all
-    /// other textures were on the lost device, and are to be made anew by those who show them.
+    /// Replaces the lost device and surface with new ones. egui's fonts are kept; all other textures were on the lost
+    /// device, and must be recreated by their owners.
     pub(super) fn renew(&mut self, window: &Arc<Window>, ctx: &egui::Context) -> Result<(), GuiError> {
         let (instance, surface, adapter) = open(window, &self.display)?;
         let gpu = loss::reopen(loss::RESET, || Gpu::from_adapter(&adapter, &GpuOptions::default()))?;
         self.config = config(&surface, &adapter, window.inner_size())?;
-        // A window has one swapchain: the old one goes with its surface before there is another.
+        // A window has one swapchain: the old surface must be dropped before a new one is created.
         self.surface = surface;
         self.surface.configure(&gpu.device, &self.config);
         self.renderer = renderer(&gpu, &self.config);
@@ -146,17 +146,17 @@ impl Surface {
         &mut self.renderer
     }
 
-    /// A texture that is not egui's own has other texels than in the last painting.
+    /// Marks a texture that egui does not own as changed since the last painting.
     pub(super) fn touch(&mut self, texture: egui::TextureId) {
         self.back_buffer.touch(texture);
     }
 
-    /// Physical pixels.
+    /// Returns the size in physical pixels.
     pub(super) fn size(&self) -> (u32, u32) {
         (self.config.width, self.config.height)
     }
 
-    /// The window has a new size; one of nothing (minimised) is kept for later.
+    /// Resizes the surface to the window's new size; an empty one (minimised) is deferred.
     pub(super) fn resize(&mut self, width: u32, height: u32) {
         if width > 0 && height > 0 && (width, height) != self.size() {
             let limit = self.gpu.device.limits().max_texture_dimension_2d;
@@ -165,11 +165,11 @@ impl Surface {
         }
     }
 
-    /// Paints a frame of egui's and shows it.
+    /// Paints and shows a frame of egui.
     pub(super) fn paint(&mut self, window: &Arc<Window>, output: egui::FullOutput, ctx: &egui::Context) -> Presented {
         match catch_unwind(AssertUnwindSafe(|| self.paint_on_device(window, output, ctx))) {
             Ok(presented) => presented,
-            // egui's renderer panics where a lost device gives it no memory. Another takes the place of both.
+            // egui's renderer panics if a lost device cannot allocate memory. Both are replaced.
             Err(_) if self.gpu.is_lost() => Presented::Again,
             Err(panic) => resume_unwind(panic),
         }
@@ -179,7 +179,7 @@ impl Surface {
         let egui::FullOutput { shapes, pixels_per_point, mut textures_delta, .. } = output;
         let triangles = ctx.tessellate(shapes, pixels_per_point);
         let (device, queue) = (&self.gpu.device, &self.gpu.queue);
-        // Textures are taken in even if nothing can be shown: egui tells of each change once.
+        // Texture changes are applied even if nothing can be shown: egui reports each change once.
         for (id, deltas) in textures_delta.set.drain() {
             for delta in deltas {
                 self.renderer.update_texture(device, queue, id, &delta);
@@ -193,19 +193,19 @@ impl Surface {
         presented
     }
 
-    /// Gives the surface the window's size. False where it was refused and keeps the old one, to be asked again:
-    /// configuring waits until the device rests, and where another thread (a compile, a thumbnail) hands it work
-    /// meanwhile, wgpu gives up.
+    /// Configures the surface with the window's size. Returns false if it was refused and keeps the old size, to be
+    /// retried: configuring waits until the device is idle, and if another thread (a compile, a thumbnail) submits
+    /// work meanwhile, wgpu gives up.
     fn configure(&mut self) -> bool {
         let scope = self.gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         self.surface.configure(&self.gpu.device, &self.config);
         let refused = pollster::block_on(scope.pop());
         if let Some(error) = &refused {
             self.refusals += 1;
-            // Once, and not at each of the frames that follow.
+            // Once, and not at each of the following frames.
             let level = if self.refusals == REFUSALS { log::Level::Error } else { log::Level::Debug };
             log::log!(level, "the window could not be resized: {error}");
-            // The device is given the time that it needs.
+            // Give the device time to become idle.
             std::thread::sleep(std::time::Duration::from_millis(1));
         } else {
             self.refusals = 0;
@@ -248,7 +248,7 @@ impl Surface {
             }
         };
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("window") });
-        // What is drawn on has the last word on its size: the window's may have changed since.
+        // Use the actual size of the frame: the window's may have changed since.
         let size_in_pixels = [frame.texture.width(), frame.texture.height()];
         let screen = ScreenDescriptor { size_in_pixels, pixels_per_point };
         let (gpu, renderer) = (&self.gpu, &mut self.renderer);

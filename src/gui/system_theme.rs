@@ -1,13 +1,13 @@
-//! Says whether the system prefers dark or light windows, where the window system does not say so itself.
+//! Detects whether the system prefers dark or light windows, if the window system does not report it.
 //!
-//! On Linux the desktop portal knows, over D-Bus; on other systems `winit` tells.
+//! On Linux the desktop portal reports it over D-Bus; on other systems `winit` does.
 
 use std::sync::{
     Arc,
     mpsc::{Receiver, channel},
 };
 
-/// Asks once, and listens for changes. `wake` is called when there is an answer.
+/// Queries it once, and listens for changes. `wake` is called when a value has arrived.
 #[cfg(not(any(windows, target_os = "macos")))]
 pub(super) fn watch(wake: Arc<dyn Fn() + Send + Sync>) -> Receiver<egui::Theme> {
     let (sender, receiver) = channel();

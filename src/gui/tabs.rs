@@ -16,12 +16,12 @@ use crate::{
 use egui::{Align2, FontId, Rect, ScrollArea, Sense, Stroke, Ui, pos2, style::ScrollAnimation, vec2};
 
 const HEIGHT: f32 = 32.0;
-/// Width of the button behind the tabs.
+/// The width of the button after the tabs.
 const ADD: f32 = 36.0;
-/// Width of the sign that closes a tab.
+/// The width of the sign that closes a tab.
 const CLOSE: f32 = 18.0;
 
-/// An included file that is open as a tab, and the tabs whose texts have it in them.
+/// An included file that is open as a tab, and the tabs whose texts include it.
 #[derive(Clone, Debug)]
 pub(super) struct OpenFile {
     pub tab: Tab,
@@ -29,7 +29,7 @@ pub(super) struct OpenFile {
 }
 
 impl OpenFile {
-    /// Returns who else an edit of it concerns.
+    /// Returns which other texts an edit of it affects.
     fn shared(&self) -> String {
         match &self.users[..] {
             [] => "No pass includes this file".to_owned(),
@@ -38,17 +38,17 @@ impl OpenFile {
     }
 }
 
-/// Returns the tabs to show: the project's own, and of the files that these include those that are open or not saved.
+/// Returns the tabs to show: the project's own, and those of the included files that are open or not saved.
 pub(super) fn shown(session: &Session, files: &[OpenFile]) -> Vec<Tab> {
     let is_open = |tab: &Tab| files.iter().any(|file| file.tab == *tab) || session.is_tab_dirty(tab);
     session.tabs().into_iter().filter(|tab| !matches!(tab, Tab::Included(_)) || is_open(tab)).collect()
 }
 
-/// Shows the tabs; `current` has the accent. `files`: the included files that are open. True: a hand drags what is
-/// beside them.
+/// Shows the tabs; `current` has the accent colour. `files`: the included files that are open. Returns true if the
+/// empty part of the row is dragged.
 pub(super) fn show(ui: &mut Ui, session: &Session, current: &Tab, files: &[OpenFile], out: &mut UiOutput) -> bool {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
-    // Below the tabs, which come after it. That it takes clicks too keeps a click from moving anything.
+    // Below the tabs, which are added later. It also takes clicks, so that a click does not start a drag.
     let handle = ui.interact(rect, ui.scope_id().with("tab row"), Sense::CLICK | Sense::DRAG);
     ui.painter().rect_filled(rect, 0.0, theme::of(ui).panel);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, Stroke::new(1.0, theme::of(ui).line));
@@ -56,7 +56,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, current: &Tab, files: &[OpenF
         ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(egui::Layout::left_to_right(egui::Align::Center)));
     out.stop("tabs", &row);
     row.spacing_mut().item_spacing.x = 4.0;
-    // Beside them, however many there are, is the way to one more.
+    // The button for a new tab stays next to them, however many there are.
     ScrollArea::horizontal()
         .id_salt("tabs")
         .max_width((row.available_width() - ADD).max(0.0))
@@ -76,7 +76,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, current: &Tab, files: &[OpenF
     handle.drag_started()
 }
 
-/// A wheel that turns up and down moves a row of tabs, as it lies.
+/// Scrolls the horizontal row of tabs by a vertical wheel.
 fn scroll_by_wheel(ui: &Ui, row: Rect) {
     let wheel = ui.input(|i| i.smooth_scroll_delta());
     if wheel.x == 0.0 && wheel.y != 0.0 && ui.rect_contains_pointer(row) {
@@ -84,12 +84,13 @@ fn scroll_by_wheel(ui: &Ui, row: Rect) {
     }
 }
 
-/// Brings the current tab in sight when it comes to the front, moves or grows; else people scroll where they like.
+/// Scrolls the current tab into view when it comes to the front, moves or grows; otherwise the scroll position is the
+/// user's.
 fn keep_in_sight(ui: &Ui, tabs: &[Tab], current: &Tab, out: &UiOutput) {
     let Some(rect) = out.places.get(&format!("tab:{}", current.title())) else { return };
-    // A panel that opens may give the row another place among the others, where it is not scrolled yet.
+    // A panel that opens may move the row to another `Ui`, where it is not scrolled yet.
     let id = ui.scope_id().with("current tab");
-    // Another project may have a tab of this name elsewhere, and another layout another width of the row.
+    // Another project may have a tab of this name in another position, and another layout another width of the row.
     let widths = [rect.width(), ui.clip_rect().width()].map(f32::to_bits);
     let now = (current.title(), widths, tabs.iter().position(|tab| tab == current), tabs.len());
     if ui.data_mut(|d| d.get_temp::<(String, [u32; 2], Option<usize>, usize)>(id)).as_ref() != Some(&now) {
@@ -116,7 +117,7 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
         (0, n) => Some((n, theme::of(ui).warning)),
         (n, _) => Some((n, theme::of(ui).error)),
     };
-    // An edit of it is an edit of several passes.
+    // An edit of it affects several passes.
     let note = file.filter(|file| file.users.len() != 1).map(|file| {
         ui.painter().layout_no_wrap(
             format!("{} passes", file.users.len()),
@@ -201,7 +202,7 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
             out.shell_commands.push(ShellCommand::ClosePanel(Panel::Code));
         }
     });
-    // Paused, no frame takes any time.
+    // While paused there are no current times.
     let times = if session.transport().playing { session.pass_times() } else { &[] };
     let time = times.iter().find(|t| *tab == Tab::Pass(t.pass.clone()));
     let included = file;

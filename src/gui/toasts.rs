@@ -1,5 +1,5 @@
-//! Notices of the session. They have a place of their own below the code, or below the gallery, which covers nothing.
-//! Where there is none, as in full screen, they lie over the picture and let the mouse through.
+//! Notices of the session. They are shown below the code, or below the gallery, where they cover nothing. If neither
+//! is visible, as in full screen, they are over the picture and let the mouse through.
 
 use super::{
     icons::{self, Icon},
@@ -13,21 +13,21 @@ use egui::{
 };
 use std::time::{Duration, Instant};
 
-/// Says how long one stays that is only good news; trouble stays until it is closed.
+/// The time that a notice of success is shown; a problem stays until it is closed.
 const STAYS: Duration = Duration::from_secs(8);
-/// More than these would take the code's room; the newest are shown.
+/// The maximum number of notices shown, newest first, so that they leave room for the code.
 const SHOWN: usize = 4;
-/// The name of their place.
+/// The name of their area.
 const PLACE: &str = "notices";
 
-/// Notices that say the same, shown as one.
+/// Notices with equal texts, shown as one.
 struct Group<'a> {
     newest: &'a Notice,
-    /// All of them, oldest first.
+    /// The ids of all of them, oldest first.
     ids: Vec<u64>,
 }
 
-/// Returns the notices, newest first, each text once.
+/// Returns the notices, newest first, with equal texts merged.
 fn groups(notices: &[Notice]) -> Vec<Group<'_>> {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for notice in notices.iter().rev() {
@@ -56,7 +56,7 @@ impl Group<'_> {
     }
 }
 
-/// Closes those that have been there long enough. What is said again stays with the newest of its kind.
+/// Closes notices whose time is over. A repeated one lasts as long as the newest of its kind.
 pub(super) fn expire(ctx: &Context, session: &Session, now: Instant, out: &mut UiOutput) {
     for group in groups(session.notices()).iter().filter(|group| group.newest.level == Level::Info) {
         let age = now.saturating_duration_since(group.newest.at);
@@ -68,8 +68,8 @@ pub(super) fn expire(ctx: &Context, session: &Session, now: Instant, out: &mut U
     }
 }
 
-/// Shows them at the bottom of `ui`, which has so much less room: the newest on top, where the eye is, and the oldest
-/// below, where they are scrolled to.
+/// Shows the notices at the bottom of `ui`, which shrinks accordingly: the newest on top, and the oldest below, where
+/// one scrolls to them.
 pub(super) fn panel(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let groups = groups(session.notices());
     if groups.is_empty() {
@@ -77,7 +77,7 @@ pub(super) fn panel(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     }
     let most = (ui.available_height() * 0.4).max(40.0);
     let frame = Frame::NONE.fill(theme::of(ui).raised);
-    // As high as what is in it was in the last frame: what scrolls does not say by itself how high it would be.
+    // Uses the height of the contents in the last frame: a scroll area does not report the height that it would like.
     let id = Id::unique("height of notices");
     let (count, height) = ui.data(|d| d.get_temp::<(usize, f32)>(id)).unwrap_or_default();
     let more = groups.len().min(SHOWN) as f32 - count.min(SHOWN) as f32;
@@ -109,8 +109,8 @@ pub(super) fn panel(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.place(PLACE, shown.response.rect);
 }
 
-/// Shows the newest over all else where nothing has called [`panel`]. Good news goes by itself, and so does trouble
-/// here: it is still there when the code is.
+/// Shows the newest over everything else if nothing has called [`panel`]. Notices of success disappear after a while,
+/// and here those of problems too: they are still there when the code is shown.
 pub(super) fn over(ui: &Ui, session: &Session, now: Instant, out: &mut UiOutput) {
     let is_fresh = |n: &&Notice| now.saturating_duration_since(n.at) < STAYS;
     let groups = groups(session.notices());
@@ -132,14 +132,15 @@ pub(super) fn over(ui: &Ui, session: &Session, now: Instant, out: &mut UiOutput)
     });
 }
 
-/// Returns whether a line is of the excerpt that shows an error's place in a text (`diag::render`), where columns count.
+/// Returns whether a line belongs to the excerpt that shows an error's place in a text (`diag::render`), where columns
+/// must align.
 fn is_excerpt(line: &str) -> bool {
     let line = line.trim_start();
     let behind_number = line.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start();
     line.starts_with("--> ") || behind_number.starts_with('|') || line.starts_with("= help: ")
 }
 
-/// Lays out a text with excerpts in the font of code, in which carets stand below what they mean.
+/// Lays out a text with excerpts in the font of code, so that carets are below what they point at.
 fn laid_out(ui: &Ui, text: &str, size: f32) -> LayoutJob {
     let color = ui.visuals().text_color();
     let mut job = LayoutJob::default();
@@ -158,14 +159,14 @@ fn color(ui: &Ui, level: Level) -> Color32 {
     }
 }
 
-/// Around the text of a row: the mark at the left, and above and below.
+/// The margins of a row's text: the mark at the left, and the space above and below.
 const MARK: f32 = 25.0;
 const PADDING: f32 = 4.0;
-/// Height of a row's buttons, and of a row with one line.
+/// The height of a row's buttons, and of a row with one line.
 const BUTTON: f32 = 20.0;
 const ROW: f32 = BUTTON + 2.0 * PADDING;
 
-/// Shows one, as high as its text and its buttons need.
+/// Shows a notice, as high as its text and its buttons need.
 fn row(ui: &mut Ui, session: &Session, group: &Group<'_>, out: &mut UiOutput) {
     let notice = group.newest;
     let newest = session.pass_undo().map(|step| step.serial);
@@ -216,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_of_an_excerpt_are_those_of_the_text() {
+    fn excerpts_align_columns() {
         let text = "not saved:\nerror: [passes.image] has no key nonsense\n  --> eddy.toml:10:1\n   |\n10 | nonsense = 3\n   \
                     | ^^^^^^^^\n   = help: the keys are file and size\n\n3 files, a | b";
         let excerpt: Vec<_> = text.lines().map(is_excerpt).collect();
@@ -224,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn the_newest_is_first_and_what_is_said_again_is_one() {
+    fn the_newest_is_first_and_repeated_ones_are_merged() {
         let all = [
             notice(1, "a", Level::Error),
             notice(2, "b", Level::Info),

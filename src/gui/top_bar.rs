@@ -1,4 +1,4 @@
-//! The bar at the top: gallery, new, open, save, the project's name, what is shown of the window, help.
+//! The bar at the top: gallery, new, open, save, the project's name, the View menu, help.
 
 use super::{
     actions::Action,
@@ -17,18 +17,18 @@ use egui::{
 };
 use std::collections::BTreeSet;
 
-/// Holds what the bar shows of the window's state.
+/// The window's state that the bar shows.
 pub(super) struct State<'a> {
     pub is_gallery: bool,
-    /// The lab has something to report.
+    /// The lab has results to export.
     pub has_lab_results: bool,
     pub open: &'a BTreeSet<Panel>,
     pub settings: &'a Settings,
 }
 
-/// Less room than this leaves out what can be done elsewhere.
+/// Below this width the bar omits what can be done elsewhere.
 const ROOMY: f32 = 700.0;
-/// And less than this the menu of exports, whose rows are in the palette.
+/// Below this width it also omits the export menu, whose entries are in the palette.
 const COMPACT: f32 = 440.0;
 
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut UiOutput) {
@@ -117,9 +117,9 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut 
     });
 }
 
-/// Offers what of the window is shown, and how.
+/// Offers which parts of the window are shown, and how.
 fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
-    // Several things are changed one after the other.
+    // The menu stays open because one often changes several entries.
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let (button, _) = MenuButton::new("View").config(config).ui(ui, |ui| {
         ui.set_min_width(230.0);
@@ -193,7 +193,7 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
     button.on_hover_text("Panels, layout, theme, zoom and settings");
 }
 
-/// The project's name in what room is left, with a dot while it is not saved.
+/// Shows the project's name in the remaining room, with a dot while it is not saved.
 fn name(ui: &mut Ui, session: &Session) {
     let p = theme::of(ui);
     let project = session.project();

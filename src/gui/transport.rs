@@ -1,4 +1,4 @@
-//! The bar under the picture: time, speed, size, which pass is shown.
+//! The bar below the picture: time, speed, size and the selected pass.
 
 use super::{
     accessible,
@@ -16,20 +16,20 @@ use crate::{
 };
 use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
 
-/// Height of the bar.
+/// The height of the bar.
 pub(super) const HEIGHT: f32 = 40.0 + timeline::HEIGHT;
 
-/// Points for the pass that is shown and the menu behind it, and for the size.
+/// Widths in points: for the selected pass and the menu after it, and for the resolution.
 const BEHIND: f32 = 116.0;
 const SIZE: f32 = 108.0;
-/// For the mark of a recording.
+/// The width of the recording mark.
 const RECORDING: f32 = 64.0;
 
-/// Fills the space there is. True: a hand drags what is free of it.
+/// Fills the available space. Returns true if the empty part of the bar is dragged.
 pub(super) fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) -> bool {
     out.stop("transport", ui);
     let transport = session.transport();
-    // That it takes clicks too keeps a click from moving anything.
+    // It also takes clicks, so that a click does not start a drag.
     let handle = ui.interact(ui.max_rect(), ui.scope_id().with("bar"), egui::Sense::CLICK | egui::Sense::DRAG);
     ui.spacing_mut().item_spacing = vec2(4.0, 0.0);
     timeline::show(ui, session, out);
@@ -46,7 +46,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOut
             }
         };
         button(ui, "button:reset", Icon::Reset, "Reset time and buffers", Action::Reset);
-        // In a narrow bar they give way to what says that something is recorded or a device is on: keys do the same.
+        // In a narrow bar they are hidden in favour of recording marks and device lights: they also have keys.
         if ui.available_width() >= BEHIND + 3.0 * (icons::WIDTH + 4.0) + least_of_lights(session) {
             button(ui, "button:step-back", Icon::StepBack, "Step one frame back", Action::StepBack);
             button(ui, "button:step", Icon::Step, "Step one frame forward", Action::Step);
@@ -60,14 +60,14 @@ pub(super) fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOut
         }
         recording(ui, session, out);
         film(ui, session, out);
-        // What stands behind leaves room for itself: of the lights, at least the dots.
+        // Later widgets keep room for themselves: for the lights, at least their dots.
         let sound = sound_bar::least(session);
         devices::light(ui, session, ui.available_width() - BEHIND - devices::network_least(session) - sound, out);
         devices::network_light(ui, session, ui.available_width() - BEHIND - sound, out);
         sound_bar::show(ui, session, ui.available_width() - BEHIND, out);
-        // What there is no room for is in the menu at the right, or in the table of costs.
+        // What does not fit is in the menu at the right, or in the table of costs.
         let played = session.replay();
-        // A recording has the resolution that it was recorded at.
+        // A recording fixes the resolution.
         let roomy = played.is_none() && ui.available_width() >= BEHIND + SIZE + 64.0;
         let gap = 8.0;
         ui.spacing_mut().item_spacing.x = gap;
@@ -111,23 +111,22 @@ pub(super) fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOut
     handle.drag_started()
 }
 
-/// Returns the least room of the marks of recordings and the lights of devices.
+/// Returns the minimum width of recording marks and device lights.
 fn least_of_lights(session: &Session) -> f32 {
     let marks = [session.recorded_frames().is_some(), session.film().is_some_and(|film| film.is_busy())];
     let marks = marks.into_iter().filter(|is_there| *is_there).count() as f32 * (RECORDING + 4.0);
     marks + devices::least(session) + devices::network_least(session) + sound_bar::least(session)
 }
 
-/// Returns a number with so many digits behind the point, or as many as there is room for: it must not touch the one
-/// beside it.
+/// Formats a number with this number of decimals, or as many as fit: it must not touch the number next to it.
 fn figure(value: f64, digits: usize, letters: usize) -> String {
     let fits = |digits: &usize| format!("{value:.digits$}").len() <= letters;
     let digits = (0..=digits).rev().find(fits).unwrap_or(0);
     format!("{value:.digits$}")
 }
 
-/// While input is recorded: how many frames, on a button that ends it. There is always room for it, so that nobody
-/// forgets it.
+/// While input is recorded, shows the number of frames on a button that stops it. It always has room, so that a
+/// recording is not forgotten.
 fn recording(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let Some(frames) = session.recorded_frames() else { return };
     let text = RichText::new(format!("● {frames}")).monospace().size(12.0).color(theme::of(ui).error);
@@ -139,7 +138,7 @@ fn recording(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     }
 }
 
-/// While a film is made: how far it is, on a button that ends a recording, or opens the panel.
+/// While a film is made, shows its progress on a button that stops a recording or opens the panel.
 fn film(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let Some(film) = session.film().filter(FilmView::is_busy) else { return };
     let p = theme::of(ui);
@@ -163,7 +162,7 @@ fn film(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     }
 }
 
-/// A number that keeps its place while it changes.
+/// Shows a number that keeps its position while it changes.
 fn value(ui: &mut Ui, width: f32, text: &str, tip: &str) {
     let (rect, response) = ui.allocate_exact_size(vec2(width, 24.0), egui::Sense::hover());
     let font = egui::FontId::monospace(12.0);
@@ -172,7 +171,7 @@ fn value(ui: &mut Ui, width: f32, text: &str, tip: &str) {
     response.on_hover_text(tip);
 }
 
-/// Milliseconds a frame; on hover, where they go.
+/// Shows the milliseconds per frame; on hover, how they are spent.
 fn cost(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let transport = session.transport();
     let (text, of) = match (transport.gpu_millis, transport.cpu_micros) {
@@ -244,7 +243,7 @@ fn shown_pass(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.place("combo:pass", response.rect);
 }
 
-/// The menu at the right. `shape`: the resolution has no place in the bar, so it is here.
+/// Shows the menu at the right. `shape`: set if the bar has no room for the resolution, which is then in the menu.
 fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut UiOutput) {
     let more = icons::button(ui, Icon::More, "More");
     out.place("button:options", more.rect);
@@ -293,7 +292,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn figures_keep_to_their_width() {
+    fn figures_fit_their_width() {
         let all = [0.0, 9.996, 99.994, 99.996, 144.04, 999.96, 12345.0].map(|value| figure(value, 2, 5));
         assert_eq!(all, ["0.00", "10.00", "99.99", "100.0", "144.0", "1000", "12345"]);
         assert_eq!([59.94, 99.96, 240.3, 1000.0].map(|value| figure(value, 1, 4)), ["59.9", "100", "240", "1000"]);

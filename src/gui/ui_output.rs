@@ -1,5 +1,5 @@
-//! Collects what the panels of one frame ask for: commands for the session, actions for the shell, and where
-//! things are.
+//! Collects the requests of the panels in one frame: commands for the session, actions for the shell, and the places
+//! of widgets.
 
 use super::{
     actions::{Action, ActiveKeymap},
@@ -17,58 +17,58 @@ use std::{collections::BTreeMap, path::PathBuf};
 /// The purpose of a file dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Pick {
-    /// A project: a folder.
+    /// A project folder to open.
     OpenFolder,
-    /// A project: a `.glsl` or `.json` file.
+    /// A project to open: a `.glsl` or `.json` file.
     OpenFile,
-    /// A folder to save the project in, and a name for it.
+    /// A folder to save the project in, with a suggested name.
     SaveAs(String),
-    /// A folder where the lab's results are kept.
+    /// A folder for the lab's results.
     LabFolder,
-    /// A project to compare with: a folder.
+    /// A project folder to compare with.
     Reference,
-    /// A recording of input, to play it.
+    /// A recording of input to play.
     Recording,
-    /// A JSON file to export to, and a name for it.
+    /// A JSON file to export to, with a suggested name.
     Json(String),
-    /// An HTML file to export to, and a name for it.
+    /// An HTML file to export to, with a suggested name.
     Page(String),
     /// A folder for the lab's report.
     LabReport,
     /// The font of code.
     CodeFont,
-    /// A picture for a channel of the pass in front.
+    /// A picture for a channel of the selected pass.
     Picture { channel: usize },
-    /// Music for a channel of the pass in front.
+    /// Music for a channel of the selected pass.
     Sound { channel: usize },
 }
 
-/// Something only the shell can do.
+/// A request that only the shell can carry out.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum ShellCommand {
     Act(Action),
     Pick(Pick),
-    /// A tab, and a line and column from 0 of it.
+    /// Go to a tab, optionally to a line and column counted from 0.
     GoTo(Tab, Option<(usize, usize)>),
     Picked(Pick, PathBuf),
     CloseGallery,
-    /// The window of passes, with one chosen.
+    /// Open the window of passes with one selected.
     ChoosePass(Tab),
-    /// The project that takes the place of the open one stays paused.
+    /// Show the code of recovered work, which opens paused in place of the open project.
     ShowRecovered,
     Set(Change),
-    /// OSC is not listened to any more, whoever had it listened to.
+    /// Stop receiving OSC, whether the settings or the command line started it.
     StopOsc,
     ClosePanel(Panel),
-    /// Makes the edits of a quick fix.
+    /// Make the edits of a quick fix.
     Fix(TabFix),
-    /// Pastes what is on the clipboard into the code.
+    /// Paste the clipboard into the code.
     PasteCode,
-    /// Closes the tab of an included file.
+    /// Close the tab of an included file.
     CloseFile(Tab),
-    /// A breakpoint at a line of a tab, from 0, or none there any more.
+    /// Set or remove the breakpoint at a line of a tab, counted from 0.
     Breakpoint(Tab, usize),
-    /// The way of the pixel at a place of the picture, from 0 to 1.
+    /// Trace the pixel at a point of the picture, from 0 to 1.
     Trace([f32; 2]),
 }
 
@@ -79,7 +79,7 @@ pub(super) struct FocusStop {
     /// Its `Ui`.
     pub ui: Id,
     pub rect: Rect,
-    /// The widget that takes every key while it has the keyboard; else the first one that can have it is gone to.
+    /// The widget that takes every key while it has the keyboard focus; if unset, F6 goes to the first focusable one.
     pub home: Option<Id>,
 }
 
@@ -89,9 +89,9 @@ pub(super) struct UiOutput {
     pub shell_commands: Vec<ShellCommand>,
     /// Named places, in points.
     pub places: BTreeMap<String, Rect>,
-    /// Says where F6 takes the keyboard.
+    /// The parts of the window that F6 goes to.
     pub stops: Vec<FocusStop>,
-    /// The keys of actions, for tips and menus.
+    /// The keys of actions, for tooltips and menus.
     pub keys: ActiveKeymap,
 }
 
@@ -108,15 +108,15 @@ impl UiOutput {
         self.shell_commands.push(ShellCommand::Act(action));
     }
 
-    /// Notes where a widget is, for scripts that click on it.
+    /// Records the place of a widget, for scripts that click on it.
     pub(super) fn place(&mut self, name: impl Into<String>, rect: Rect) {
         if rect.is_positive() {
             self.places.insert(name.into(), rect);
         }
     }
 
-    /// Shows an area and notes where it and its widgets are, once egui knows its size: a new area is first shown invisibly
-    /// and often in another place, to measure it.
+    /// Shows an area and records its place and that of its widgets once egui knows its size: a new area is first shown
+    /// invisibly and often in another place, to measure it.
     pub(super) fn show_area<R>(
         &mut self,
         name: &str,
@@ -136,17 +136,17 @@ impl UiOutput {
         shown.inner
     }
 
-    /// Notes that what is shown in `ui` is a part of the window, which F6 takes the keyboard to.
+    /// Records that `ui` is a part of the window that F6 goes to.
     pub(super) fn stop(&mut self, name: &'static str, ui: &Ui) {
         self.stops.push(FocusStop { name, ui: ui.unique_id(), rect: ui.max_rect(), home: None });
     }
 
-    /// The same for one with a widget that takes every key while it has the keyboard.
+    /// The same for a part with a widget that takes every key while it has the keyboard focus.
     pub(super) fn home(&mut self, name: &'static str, ui: &Ui, home: Id) {
         self.stops.push(FocusStop { name, ui: ui.unique_id(), rect: ui.max_rect(), home: Some(home) });
     }
 
-    /// Notes where a button is; whether it was clicked.
+    /// Records the place of a button, and returns whether it was clicked.
     pub(super) fn clicked(&mut self, name: &str, response: &Response) -> bool {
         self.place(name, response.rect);
         response.clicked()
@@ -159,7 +159,7 @@ impl UiOutput {
         near.filter(|(by, _)| *by < 8.0).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, name)| name.as_str())
     }
 
-    /// Every named place in physical pixels.
+    /// Returns every named place in physical pixels.
     pub(super) fn areas(&self, pixels_per_point: f32) -> BTreeMap<String, Area> {
         let area = |r: &Rect| Area {
             x: r.left() * pixels_per_point,
@@ -176,9 +176,9 @@ mod tests {
     use super::*;
     use egui::{Align2, RawInput, pos2, vec2};
 
-    /// The first pass of an area with a pivot is shown as if it had no size.
+    /// The first pass of an area with a pivot is shown as if it were empty.
     #[test]
-    fn a_new_area_has_places_once_it_is_measured() {
+    fn places_of_a_new_area_are_recorded_after_measuring() {
         let ctx = egui::Context::default();
         let show = || {
             let mut out = UiOutput::default();

@@ -21,9 +21,9 @@ pub(super) struct Uses {
 struct Use {
     tab: Tab,
     range: Range<usize>,
-    /// From 1.
+    /// Counted from 1.
     line: usize,
-    /// The line without its indent, and the name in it.
+    /// The line without its indent, and the range of the name in it.
     text: String,
     name: Range<usize>,
 }
@@ -36,12 +36,12 @@ pub(super) struct UsesResponse {
 }
 
 impl Uses {
-    /// `None` where there is nothing to list.
+    /// Returns `None` if there is nothing to list.
     pub(super) fn new(session: &Session, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
         let mut list: Vec<Use> = Vec::new();
         for (tab, range) in places {
-            // Lines are counted on from the place before: from the top each time, many uses in a long text take
-            // minutes.
+            // Lines are counted from the previous place: counting from the top each time takes minutes for many uses
+            // in a long text.
             let before = list.last().filter(|p| p.tab == tab && p.range.start <= range.start);
             let known = before.map_or((0, 1), |p| (p.range.start, p.line));
             list.extend(place(session.text(&tab), tab.clone(), range, known));
@@ -51,12 +51,12 @@ impl Uses {
         Some(Self { name: first.text[first.name.clone()].to_owned(), places, selected: None })
     }
 
-    /// Returns the list of what was looked for. `None` where nothing was found.
+    /// Returns the list of search results; `None` if nothing was found.
     pub(super) fn found(session: &Session, query: &str, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
         Some(Self { name: query.to_owned(), ..Self::new(session, places)? })
     }
 
-    /// `limit`: how high the list may be.
+    /// `limit`: the maximum height of the list.
     pub(super) fn show(&mut self, ui: &mut Ui, session: &Session, limit: f32, out: &mut UiOutput) -> UsesResponse {
         out.stop("uses", ui);
         let mut shown = UsesResponse::default();
@@ -126,7 +126,7 @@ impl Uses {
     }
 }
 
-/// Bytes of a line that are shown before a name, and behind it.
+/// The number of bytes of a line that are shown before a name, and after it.
 const BEFORE: usize = 120;
 const BEHIND: usize = 240;
 
@@ -150,7 +150,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_is_shown_with_its_line() {
+    fn places_have_their_line() {
         let text = "float a;\r\n    b = a * a; // x\r\n";
         let at = text.rfind("a;").unwrap();
         let found = place(text, Tab::image(), at..at + 1, (0, 1)).unwrap();

@@ -3,8 +3,8 @@
 use super::{accessible, ui_output::UiOutput};
 use egui::{DragValue, Role, Ui};
 
-/// Shows them; names of widgets begin with `owner`. `extent`: the smallest and the largest value. `fixed`: the range when Auto is
-/// switched off. `range`: what is set, none for Auto.
+/// Shows the range; names of widgets start with `owner`. `extent`: the smallest and the largest value. `fixed`: the
+/// range when Auto is switched off. `range`: the current one, `None` for Auto.
 pub(super) fn show(
     ui: &mut Ui,
     owner: &str,

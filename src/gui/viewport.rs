@@ -13,13 +13,13 @@ use crate::{
 use egui::{Align2, Color32, EventFilter, FontId, Id, PointerButton, Pos2, Rect, Sense, TextureId, Ui, pos2, vec2};
 use egui_wgpu::Renderer;
 
-/// Left free round the picture, so that the frame of what has the keyboard covers none of it. Physical pixels.
+/// The margin around the picture, so that the focus frame does not cover it, in physical pixels.
 const RIM: f32 = 3.0;
 
 /// The part of the window that the picture fills.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ViewportMode {
-    /// A panel. Another one may have the keyboard.
+    /// A panel. Another one may have the keyboard focus.
     Panel,
     /// The whole window.
     Window,
@@ -28,25 +28,25 @@ pub(super) enum ViewportMode {
 #[derive(Default)]
 pub(super) struct Viewport {
     texture: Option<TextureId>,
-    /// The generation of the display that the texture shows, and whether it is magnified texel by texel.
+    /// The generation of the display in the texture, and whether it is magnified with nearest filtering.
     shows: (u64, bool),
-    /// The count of pictures at the last painting.
+    /// The number of pictures at the last painting.
     painted: u64,
-    /// The texture has been made or bound anew since.
+    /// The texture has been created or bound again since.
     is_texture_new: bool,
     letterbox: Option<Letterbox>,
     asked_size: (u32, u32),
     mouse_is_down: bool,
     take_focus: bool,
     shape: Shape,
-    /// The next click says which pixel is traced.
+    /// The next click chooses the pixel to trace.
     picks: bool,
-    /// The place of the picture under the mouse, from 0 to 1.
+    /// The point of the picture below the mouse, from 0 to 1.
     under: Option<[f32; 2]>,
 }
 
 impl Viewport {
-    /// Points that the picture's frame takes of the height, and a little more where pixels are coarse.
+    /// The height of the picture's frame in points, with a reserve for coarse pixels.
     pub(super) const RIMS: f32 = 2.0 * RIM + 1.0;
 
     pub(super) fn new() -> Self {
@@ -65,7 +65,7 @@ impl Viewport {
         self.shape = shape;
     }
 
-    /// Lets the next click say which pixel is traced, or no more.
+    /// Toggles whether the next click chooses the pixel to trace.
     pub(super) fn pick(&mut self) {
         self.picks = !self.picks;
     }
@@ -74,7 +74,7 @@ impl Viewport {
         std::mem::take(&mut self.picks)
     }
 
-    /// The place of the picture under the mouse, from 0 to 1 across and up.
+    /// Returns the point of the picture below the mouse, from 0 to 1 across and up.
     pub(super) fn under(&self) -> Option<[f32; 2]> {
         self.under
     }
@@ -83,17 +83,17 @@ impl Viewport {
         self.mouse_is_down
     }
 
-    /// Gives the keyboard to the picture in the next frame.
+    /// Gives the picture the keyboard focus in the next frame.
     pub(super) fn focus(&mut self) {
         self.take_focus = true;
     }
 
-    /// The texture was on a device that is lost.
+    /// Forgets the texture, whose device is lost.
     pub(super) fn forget_texture(&mut self) {
         self.texture = None;
     }
 
-    /// Hands egui the picture as the engine has it now.
+    /// Registers the engine's current picture with egui.
     pub(super) fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
         let whole = self.letterbox.is_none_or(|l| l.shows_whole_texels());
         let shows = (session.display_generation(), whole);
@@ -110,7 +110,7 @@ impl Viewport {
         self.is_texture_new = true;
     }
 
-    /// Returns the picture's texture if its texels are other ones than in the last painting.
+    /// Returns the picture's texture if its texels have changed since the last painting.
     pub(super) fn take_new_texels(&mut self, session: &Session) -> Option<TextureId> {
         let shown = session.pictures_shown();
         let has_new_texels = std::mem::replace(&mut self.painted, shown) != shown;
@@ -118,7 +118,7 @@ impl Viewport {
         self.texture.filter(|_| is_new)
     }
 
-    /// Fills the space there is.
+    /// Fills the available space.
     pub(super) fn show(&mut self, ui: &mut Ui, session: &Session, mode: ViewportMode, out: &mut UiOutput) {
         let alone = mode == ViewportMode::Window;
         let rect = ui.available_rect_before_wrap();
@@ -128,7 +128,7 @@ impl Viewport {
         let min = (rect.min.to_vec2() * scale).round() + vec2(rim, rim);
         let max = (rect.max.to_vec2() * scale).round() - vec2(rim, rim);
         let area = Area { x: min.x, y: min.y, width: (max.x - min.x).max(0.0), height: (max.y - min.y).max(0.0) };
-        // As on the site, which gives full screen all of it.
+        // As on Shadertoy, where full screen fills the whole screen.
         let shape = if alone { Shape::Fill } else { self.shape };
         let size = shape.within(area.width as u32, area.height as u32);
         if size != self.asked_size && size.0 > 0 && size.1 > 0 {
@@ -183,10 +183,10 @@ impl Viewport {
         halt::show(ui, session, rect, out);
     }
 
-    /// Mouse events in their order: a press and a release between two frames are both told of.
+    /// Sends mouse events in order: both a press and a release between two frames are sent.
     fn mouse(&mut self, ui: &Ui, response: &egui::Response, letterbox: &Letterbox, out: &mut UiOutput) {
         let scale = ui.pixels_per_point();
-        // Points are pixels divided by the scale; what the way back loses must not lead into the pixel beside it.
+        // Points are pixels divided by the scale; rounding on the way back must not move to the neighbouring pixel.
         let pixels = |p: Pos2| ((p.x * scale * 256.0).round() / 256.0, (p.y * scale * 256.0).round() / 256.0);
         let on_top = |p: Pos2| ui.ctx().layer_id_at(p) == Some(response.layer_id);
         let events = ui.input(|i| i.events.clone());
@@ -229,13 +229,13 @@ impl Viewport {
     }
 }
 
-/// The place of the picture that a pixel of the window shows, from 0 to 1 across and up.
+/// Returns the point of the picture that a pixel of the window shows, from 0 to 1 across and up.
 fn fraction(letterbox: &Letterbox, at: Pos2) -> [f32; 2] {
     let (x, y) = letterbox.canvas_from_window(at.x, at.y);
     [x / letterbox.canvas.0.max(1) as f32, y / letterbox.canvas.1.max(1) as f32]
 }
 
-/// A ring round the pixel that is traced.
+/// Paints a ring around the pixel that is traced.
 fn traced(ui: &Ui, session: &Session, picture: Rect) {
     let Some(traced) = session.trace().traced.filter(|traced| traced.pass == *session.shown_pass()) else { return };
     let part = |at: u32, of: u32| (at as f32 + 0.5) / of.max(1) as f32;
@@ -250,7 +250,7 @@ fn reads_keyboard(session: &Session) -> bool {
     session.project().passes.iter().flat_map(|p| p.bindings.channels()).any(|c| c.input == Input::KEYBOARD)
 }
 
-/// A line of text over a corner of the picture, on black in either theme.
+/// Shows a line of text over a corner of the picture, on black in either theme.
 fn pill(ui: &Ui, rect: Rect, corner: Align2, text: &str, color: Color32) {
     let room = (rect.width() / 2.0 - 24.0).max(60.0);
     let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), FontId::proportional(12.0), color);
@@ -261,10 +261,10 @@ fn pill(ui: &Ui, rect: Rect, corner: Align2, text: &str, color: Color32) {
     ui.painter().galley(place.min + vec2(8.0, 4.0), galley, color);
 }
 
-/// Returns what there is instead of the newest text's picture, and why.
+/// Returns what is shown instead of the newest text's picture, and why.
 fn trouble(errors: usize, meanwhile: FallbackPicture) -> String {
     let why = match errors {
-        // The compiler or the device gave up, which a notice tells of.
+        // The compiler or the device gave up, which a notice reports.
         0 => "Not compiled".to_owned(),
         1 => "1 error".to_owned(),
         n => format!("{n} errors"),
@@ -282,7 +282,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_picture_runs_on_only_where_there_is_one() {
+    fn fallback_text_depends_on_the_picture_shown() {
         assert_eq!(trouble(5, FallbackPicture::Nothing), "5 errors – nothing to draw yet");
         assert_eq!(trouble(1, FallbackPicture::LastGood), "1 error – showing the last working version");
         assert_eq!(trouble(2, FallbackPicture::Newest), "2 errors – drawn anyway");

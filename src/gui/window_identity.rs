@@ -1,13 +1,13 @@
-//! Owns the name and the icon by which desktops know the window. The files of packages have the same name.
+//! The name and the icon by which desktops identify the window. The files of packages have the same name.
 
 use winit::window::{Icon, WindowAttributes};
 
-/// Name of the desktop file without its ending. A desktop finds the icon and the entry of a running window by it: on Wayland
-/// it is the `app_id`, on X11 the class of the window.
+/// The name of the desktop file without its extension. A desktop uses it to find the icon and the entry of a running
+/// window: on Wayland it is the `app_id`, on X11 the class of the window.
 #[cfg(all(unix, not(target_os = "macos")))]
 const APP_ID: &str = "io.github.eddy_shaders.Eddy";
 
-/// Shown on X11 and Windows; other systems take the icon from the package. `scripts/draw-icon` draws it.
+/// Used on X11 and Windows; other systems take the icon from the package. `scripts/draw-icon` draws it.
 const ICON: &[u8] = include_bytes!("../../packaging/icon/64.png");
 
 /// Returns the attributes with the name and the icon.
@@ -28,7 +28,7 @@ fn named(attributes: WindowAttributes) -> WindowAttributes {
     attributes
 }
 
-/// Err: the file is damaged, as the message says.
+/// Decodes the icon, or returns a message that the file is damaged.
 fn icon() -> Result<Icon, String> {
     let image = image::load_from_memory(ICON).map_err(|e| e.to_string())?.to_rgba8();
     let (width, height) = image.dimensions();
@@ -40,13 +40,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_icon_is_read() {
+    fn icon_can_be_decoded() {
         icon().unwrap();
     }
 
     #[cfg(all(unix, not(target_os = "macos")))]
     #[test]
-    fn the_window_is_named_as_its_desktop_file() {
+    fn window_name_matches_the_desktop_file() {
         let path = format!("{}/packaging/linux/{APP_ID}.desktop", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
         assert!(text.contains(&format!("\nStartupWMClass={APP_ID}\n")), "{text}");

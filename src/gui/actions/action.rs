@@ -1,4 +1,4 @@
-//! Everything that a key, a menu or the palette can ask for.
+//! Everything that a key, a menu or the palette can trigger.
 //!
 //! Actions of one part of the window have an enum of their own.
 
@@ -19,10 +19,10 @@ pub(crate) enum Action {
     SaveAs,
     Open,
     OpenFolder,
-    /// A file that another program writes begins time and buffers anew, or no longer.
+    /// Toggles whether an external change of a file resets time and buffers.
     ResetOnReload,
     AddCommon,
-    /// The next free one.
+    /// Adds the next free buffer.
     AddBuffer,
     New,
     Gallery,
@@ -38,9 +38,9 @@ pub(crate) enum Action {
     SaveTexels,
     Record,
     Mute,
-    /// Switches the microphone on or off for channels that read it.
+    /// Toggles the microphone for channels that read it.
     Microphone,
-    /// Chooses a recording, whose input is played.
+    /// Chooses a recording of input to play.
     PlayRecording,
     StopReplay,
     ExportJson,
@@ -48,16 +48,16 @@ pub(crate) enum Action {
     SaveMeasures,
     SaveSound,
     LabReport,
-    /// The page with the bookmarklet that saves shaders from the site.
+    /// Opens the page with the bookmarklet that saves shaders from Shadertoy.
     Bookmarklet,
-    /// Single against double precision, and what is undefined.
+    /// Compares single with double precision, and finds undefined results.
     Audit,
     Fullscreen,
-    /// Code over a picture that fills the window.
+    /// Toggles code over a picture that fills the window.
     Present,
     /// Opens or closes a panel.
     Panel(Panel),
-    /// Every panel where it is at first.
+    /// Restores the default layout of the panels.
     UsualLayout,
     NextTheme,
     Theme(Theme),
@@ -80,7 +80,7 @@ pub(crate) enum Action {
     FindCase,
     FindRegex,
     ReplaceAll,
-    /// Finds in every text of the project, or in the one in front.
+    /// Toggles finding in every text of the project instead of the one in front.
     FindEverywhere,
     GoToLine,
     NextProblem,
@@ -89,31 +89,31 @@ pub(crate) enum Action {
     FontSmaller,
     FontReset,
     WordWrap,
-    /// Edits are compiled when they are saved, or while one types.
+    /// Toggles whether edits are compiled when they are saved or while typing.
     CompileOnSave,
-    /// The value of the expression at the caret instead of the picture, or the picture again.
+    /// Toggles between the value of the expression at the caret and the picture.
     Probe,
-    /// The next click on the picture says which pixel is traced.
+    /// Lets the next click on the picture choose the pixel to trace.
     TracePixel,
-    /// Says where the first NaN comes from.
+    /// Finds the origin of the first NaN.
     FindNonfinite,
     Trace(TraceAction),
     Time(TimeAction),
     Picture(PictureAction),
     Layout(LayoutAction),
     Quit,
-    /// In the text that has the keyboard, or had it last.
+    /// An action of the text that has the keyboard focus, or had it last.
     Code(EditorAction),
 }
 
-/// Actions of the panel that has the keyboard.
+/// Actions of the panel that has the keyboard focus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LayoutAction {
-    /// Narrower, wider, lower, higher: to the left, to the right, up, down.
+    /// Resizes the panel: narrower, wider, lower or higher for left, right, up and down.
     Resize(Side),
-    /// To an edge of the window.
+    /// Moves the panel to an edge of the window.
     Move(Side),
-    /// Into the place of the panel that comes next.
+    /// Moves the panel into the place of the next panel.
     Share,
     Close,
 }
@@ -121,18 +121,18 @@ pub(crate) enum LayoutAction {
 /// Actions of time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TimeAction {
-    /// Opens the menu with the time that is typed.
+    /// Opens the menu with the field for the time.
     GoTo,
     Slower,
     Faster,
     UsualSpeed,
-    /// Every frame takes the same time, or no longer.
+    /// Toggles a fixed time step.
     FixedStep,
-    /// The part that is played again and again begins at the time that is shown.
+    /// Sets the start of the loop to the current time.
     LoopFrom,
     LoopTo,
     LoopOff,
-    /// New code draws the same frame from the same inputs, or no longer.
+    /// Toggles whether new code draws the same frame from the same inputs.
     KeepInputs,
 }
 
@@ -140,24 +140,24 @@ pub(crate) enum TimeAction {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TraceAction {
     Go(Stride, Direction),
-    /// To the next breakpoint.
+    /// Continues to the next breakpoint.
     Continue(Direction),
-    /// To the line of the caret.
+    /// Runs to the line of the caret.
     ToCursor(Direction),
-    /// To the start or the end of the trace.
+    /// Goes to the start or the end of the trace.
     End(Direction),
-    /// Sets a breakpoint at the line of the caret, or takes it away.
+    /// Toggles a breakpoint at the line of the caret.
     Breakpoint,
 }
 
-/// Actions of the picture: its size, its shape, and what to do about a slow frame.
+/// Actions of the picture: its size, its aspect ratio, and how to handle a slow frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PictureAction {
     Shape(Shape),
     Scale(Scale),
-    /// Always so many pixels.
+    /// Sets a fixed size in pixels.
     Size((u32, u32)),
-    /// The field for any size.
+    /// Opens the field for any size.
     TypeSize,
     ResetUniforms,
     GoOn,
@@ -186,8 +186,8 @@ impl Scale {
     }
 }
 
-/// The scales that are offered.
+/// The available scales.
 pub(crate) const SCALES: [Scale; 6] = [Scale(16), Scale(8), Scale(6), Scale(4), Scale(2), Scale(1)];
-/// The sizes that are offered.
+/// The available sizes.
 pub(crate) const SIZES: [(u32, u32); 8] =
     [(256, 144), (640, 360), (800, 450), (1280, 720), (1920, 1080), (3840, 2160), (512, 512), (1024, 1024)];

@@ -1,4 +1,4 @@
-//! A key with what is held down beside it.
+//! A key with its modifiers.
 
 use egui::{Key, Modifiers};
 use std::fmt;
@@ -11,7 +11,7 @@ pub(crate) struct Chord {
     pub key: Key,
 }
 
-/// The reason why a text is no chord.
+/// The reason why a text is not a chord.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum ChordError {
     #[error("unknown key \"{0}\"; write keys as A, 7, F3, Up, PageDown, Space or /")]
@@ -21,10 +21,10 @@ pub(crate) enum ChordError {
 }
 
 impl Chord {
-    /// Reads `Ctrl+Shift+P` and its like, in upper or lower case.
+    /// Parses a chord such as `Ctrl+Shift+P`, in upper or lower case.
     pub(crate) fn parse(text: &str) -> Result<Chord, ChordError> {
         let text = text.trim();
-        // The plus key is what is left behind the last plus sign.
+        // The plus key is what follows the last plus sign.
         let (held, key) = match text.strip_suffix("++") {
             Some(held) => (Some(held), "+"),
             None if text == "+" => (None, text),
@@ -49,7 +49,7 @@ impl Chord {
     }
 }
 
-/// As people write it, on this system.
+/// As people write it on this system.
 impl fmt::Display for Chord {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mac = cfg!(target_os = "macos");
@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn chords_are_read_as_they_are_written() {
+    fn chords_round_trip() {
         for text in ["Ctrl+Shift+P", "F3", "Shift+F3", "Alt+Up", "Shift+Alt+Down", "Ctrl++", "Ctrl+-", "Ctrl+/", "+"] {
             assert_eq!(Chord::parse(text).unwrap().to_string(), text);
         }

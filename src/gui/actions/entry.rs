@@ -2,18 +2,18 @@
 
 use super::{Action, LayoutAction, TraceAction};
 
-/// Says where an action belongs in the help, and when its keys are listened to.
+/// The section of the help for an action, and when its keys are active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Group {
     Project,
     Picture,
     Window,
     Search,
-    /// While the bar for finding is open.
+    /// While the find bar is open.
     FindBar,
     /// While the panel of a traced pixel is open.
     Trace,
-    /// While the code has the keyboard, where these come before all others.
+    /// While the code has the keyboard focus; these take precedence over all others.
     Code,
     Caret,
 }
@@ -44,17 +44,17 @@ impl Group {
     }
 }
 
-/// An action, what it is called, and the keys it has unless a person gives it others.
+/// An action with its names and its default keys.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Entry {
     pub action: Action,
-    /// In the file of keys.
+    /// The name in the key file.
     pub name: &'static str,
-    /// In the palette and in the help.
+    /// The title in the palette and in the help.
     pub title: &'static str,
     pub keys: &'static [&'static str],
     pub group: Group,
-    /// Further words by which the palette finds it, in small letters: what other programs call it.
+    /// More words by which the palette finds it, in lower case: its names in other programs.
     pub synonyms: &'static str,
 }
 
@@ -63,7 +63,7 @@ impl Entry {
         Entry { synonyms, ..self }
     }
 
-    /// Returns whether a key that is held down does it again and again.
+    /// Returns whether the action repeats while its key is held down.
     pub(crate) fn repeats(&self) -> bool {
         use Action as A;
         let again = [
@@ -98,9 +98,10 @@ mod tests {
         }
     }
 
-    /// People look for what they want to do, so that comes first: "Open settings file", not "The file of settings".
+    /// People look for what they want to do, so the verb comes first: "Open settings file", not "The file of
+    /// settings".
     #[test]
-    fn titles_begin_with_what_is_done() {
+    fn titles_start_with_a_verb() {
         let never = ["a", "all", "an", "back", "every", "in", "on", "one", "the", "this", "to", "what"];
         for entry in ACTIONS {
             let first = entry.title.split([' ', ':']).next().unwrap_or_default();

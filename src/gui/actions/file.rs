@@ -1,11 +1,11 @@
-//! The file in which a person gives actions other keys.
+//! Reads the key file, in which the user assigns other keys to actions.
 
 use super::{Chord, Entry, Group, Keymap, keymap::level, table::ACTIONS};
 use crate::{diag::LineIndex, gui::config_file::ConfigError, project::nearest};
 use std::{fmt::Write as _, ops::Range};
 use toml_edit::{Document, Item, Value};
 
-/// Returns the keys that a file's text gives, and all mistakes in it. What is wrong leaves an action its own keys.
+/// Returns the key bindings in a file's text and all errors in it. An action with an error keeps its default keys.
 pub(super) fn read(text: &str) -> (Keymap, Vec<ConfigError>) {
     let mut keymap = Keymap::default();
     let mut mistakes = Vec::new();
@@ -62,10 +62,10 @@ pub(super) fn read(text: &str) -> (Keymap, Vec<ConfigError>) {
     (keymap, mistakes)
 }
 
-/// A text, and where it stands in the file.
+/// A text and its place in the file.
 type Spanned<'a> = (&'a str, Option<Range<usize>>);
 
-/// The texts of an item that is a text or a list of texts.
+/// Returns the texts of an item that is a string or a list of strings.
 fn texts(item: &Item) -> Option<Vec<Spanned<'_>>> {
     match item.as_value()? {
         Value::String(one) => Some(vec![(one.value().as_str(), one.span())]),
@@ -74,7 +74,7 @@ fn texts(item: &Item) -> Option<Vec<Spanned<'_>>> {
     }
 }
 
-/// Returns the text of a new file: every action with the keys it has, each as a comment.
+/// Returns the text of a new file: every action with its default keys, each in a comment.
 pub(super) fn template() -> String {
     let mut text = String::from(
         "# Keyboard shortcuts of Eddy. Remove the # from a line to change it; the others keep their defaults.\n\
@@ -103,7 +103,7 @@ mod tests {
     use crate::gui::dock::Panel;
 
     #[test]
-    fn keys_of_the_file_take_the_place_of_the_tables() {
+    fn keys_of_the_file_replace_the_defaults() {
         let (keymap, mistakes) = read("palette = \"F9\"\nsave = [\"Ctrl+S\", \"F2\"]\nlab = \"\"\nquit = \"Ctrl+F\"\n");
         assert_eq!(mistakes, []);
         let hints = [Action::Palette, Action::Save, Action::Panel(Panel::Lab), Action::Quit, Action::Find]
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn every_mistake_is_told_at_its_line_and_leaves_the_action_its_keys() {
+    fn errors_have_their_line_and_keep_the_default_keys() {
         let text = "# mine\npalete = \"F9\"\nsave = 3\nlab = [\"F9\",\n  \"Ctrl+Fo\"]\nquit = \"F7\"\nnew = \"f7\"\n";
         let (keymap, mistakes) = read(text);
         let found: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
@@ -132,9 +132,9 @@ mod tests {
         assert!(mistakes[0].text.ends_with("write lines like: palette = \"Ctrl+Shift+P\""), "{mistakes:?}");
     }
 
-    /// The new file says what holds without it.
+    /// The comments of a new file match the defaults.
     #[test]
-    fn the_new_file_says_what_holds() {
+    fn comments_of_a_new_file_match_the_defaults() {
         let is_row = |line: &&str| line.contains(" = ") && !line.starts_with("# name");
         let text = template().lines().filter(is_row).map(|line| &line[2..]).collect::<Vec<_>>().join("\n");
         let (keymap, mistakes) = read(&text);

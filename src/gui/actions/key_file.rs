@@ -1,10 +1,10 @@
-//! `keybindings.toml` gives actions other keys.
+//! `keybindings.toml`, which assigns other keys to actions.
 
 use super::{Keymap, file};
 use crate::gui::config_file::{ConfigError, ConfigFile, Content};
 use std::sync::Arc;
 
-/// The keys as the file says, if there is one.
+/// The keys in the file, if it exists.
 pub(crate) type KeyFile = ConfigFile<Arc<Keymap>>;
 
 impl Content for Arc<Keymap> {
@@ -34,7 +34,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn the_file_is_written_once_read_when_it_changed_and_told_of_when_wrong() {
+    fn the_file_is_created_once_reread_on_change_and_errors_are_reported() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("eddy").join(Arc::<Keymap>::NAME);
         let mut keys = KeyFile::at(Some(path.clone()));

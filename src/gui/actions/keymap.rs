@@ -1,10 +1,10 @@
-//! The keys as they are now: the table's, or those that a person gave.
+//! The key bindings in effect: the defaults of the table, or the user's.
 
 use super::{Action, Chord, Entry, Group, table::ACTIONS};
 use egui::{Event, Key, Modifiers};
 use std::{ops::Deref, sync::Arc};
 
-/// Holds what is open and has the keyboard, and so whose keys are listened to.
+/// The parts that are open and have the keyboard focus, which decide whose keys are active.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct KeyFocus {
     pub code: bool,
@@ -13,14 +13,14 @@ pub(crate) struct KeyFocus {
 }
 
 impl KeyFocus {
-    /// The levels whose keys are listened to, the first come first.
+    /// Iterates over the levels whose keys are active, in order of precedence.
     fn levels(self) -> impl Iterator<Item = usize> {
         let levels = [self.code, self.find_bar, self.trace, true];
         levels.into_iter().enumerate().filter(|(_, is_on)| *is_on).map(|(level, _)| level)
     }
 }
 
-/// The keys as tips and menus say them: those that work where the keyboard is.
+/// The keys to show in tooltips and menus: those that work with the current focus.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ActiveKeymap {
     keymap: Arc<Keymap>,
@@ -32,12 +32,12 @@ impl ActiveKeymap {
         Self { keymap, listening }
     }
 
-    /// Returns the key of an action as a tooltip says it: the first of several that work here, empty for none.
+    /// Returns the key of an action for a tooltip: the first of several that works here, empty if there is none.
     pub(crate) fn hint(&self, action: Action) -> String {
         self.keymap.hint_where(action, self.listening)
     }
 
-    /// Returns a tip with the action's key after it.
+    /// Returns a tooltip with the action's key appended.
     pub(crate) fn tip(&self, tip: &str, action: Action) -> String {
         match self.hint(action) {
             key if key.is_empty() => tip.to_owned(),
@@ -46,7 +46,7 @@ impl ActiveKeymap {
     }
 }
 
-/// Everything else does not depend on the place.
+/// Everything else does not depend on the focus.
 impl Deref for ActiveKeymap {
     type Target = Keymap;
 
@@ -58,20 +58,20 @@ impl Deref for ActiveKeymap {
 /// The keys of every action.
 #[derive(Clone, Debug)]
 pub(crate) struct Keymap {
-    /// As many as [`ACTIONS`], in its order.
+    /// One entry for each of [`ACTIONS`], in its order.
     chords: Vec<Vec<Chord>>,
 }
 
 impl Default for Keymap {
     fn default() -> Self {
-        // A key of the table that cannot be read is found by the test below.
+        // A test below finds keys of the table that cannot be parsed.
         let keys = |entry: &Entry| entry.keys.iter().filter_map(|k| Chord::parse(k).ok()).collect();
         Self { chords: ACTIONS.iter().map(keys).collect() }
     }
 }
 
 impl Keymap {
-    /// Gives an action other keys, none of which is any other action's afterwards that is listened to at the same time.
+    /// Assigns other keys to an action, and removes them from every other action that is active at the same time.
     pub(crate) fn give(&mut self, entry: &Entry, chords: Vec<Chord>) {
         for (other, keys) in ACTIONS.iter().zip(&mut self.chords) {
             if level(other.group) == level(entry.group) {
@@ -87,14 +87,14 @@ impl Keymap {
         ACTIONS.iter().position(|e| e.action == action).map_or(&[], |i| &self.chords[i])
     }
 
-    /// Returns the first key of an action, empty for none.
+    /// Returns the first key of an action, empty if there is none.
     #[cfg(test)]
     pub(crate) fn hint(&self, action: Action) -> String {
         self.chords(action).first().map(Chord::to_string).unwrap_or_default()
     }
 
-    /// Returns the key that does an action where these are listened to: the first that nothing which comes before takes.
-    /// Empty where there is none.
+    /// Returns the first key that triggers an action in a context, not taken by an action of higher precedence. Empty
+    /// if there is none.
     fn hint_where(&self, action: Action, listening: KeyFocus) -> String {
         let Some(i) = ACTIONS.iter().position(|e| e.action == action) else { return String::new() };
         let own = level(ACTIONS[i].group);
@@ -103,7 +103,7 @@ impl Keymap {
         self.chords[i].iter().find(works).map(Chord::to_string).unwrap_or_default()
     }
 
-    /// Returns all keys of an action, with what stands in their way.
+    /// Returns all keys of an action; those that do not work while typing are marked.
     pub(crate) fn listed(&self, entry: &Entry) -> String {
         let name = |chord: &Chord| {
             let is_taken = level(entry.group) > 0 && self.holder(0, chord.key, chord.modifiers).is_some();
@@ -112,26 +112,26 @@ impl Keymap {
         self.chords(entry.action).iter().map(name).collect::<Vec<_>>().join(", ")
     }
 
-    /// Returns what a key press means.
+    /// Returns the action that a key press triggers.
     pub(crate) fn pressed(&self, event: &Event, listening: KeyFocus) -> Option<&'static Entry> {
         let Event::Key { key, physical_key, pressed: true, modifiers, .. } = event else { return None };
         let find = |key: Key, m: Modifiers| listening.levels().find_map(|level| self.holder(level, key, m));
-        // Letters and digits are called by one letter, signs by a word.
+        // Letters and digits have names of one letter, signs have words.
         let shifted = modifiers.shift && key.name().len() > 1;
         find(*key, *modifiers)
-            // Ctrl+Shift+= is how Ctrl++ is typed on many keyboards, and Ctrl+Shift+[ comes as Ctrl+Shift+{.
+            // Ctrl+Shift+= is how Ctrl++ is typed on many keyboards, and Ctrl+Shift+[ arrives as Ctrl+Shift+{.
             .or_else(|| find(*key, Modifiers { shift: false, ..*modifiers }).filter(|_| shifted && is_plus(*key)))
             .or_else(|| find((*physical_key)?, *modifiers).filter(|_| shifted))
     }
 
-    /// Returns what an action of a level has this key.
+    /// Returns the action of a level that has this key.
     fn holder(&self, of_level: usize, key: Key, modifiers: Modifiers) -> Option<&'static Entry> {
         let holds = |chords: &[Chord]| chords.iter().any(|c| c.is_pressed(key, modifiers));
         ACTIONS.iter().zip(&self.chords).find(|(e, c)| level(e.group) == of_level && holds(c)).map(|(e, _)| e)
     }
 }
 
-/// Actions that are listened to at the same time; lower ones come first.
+/// Returns the level of a group: actions that are active at the same time; lower levels take precedence.
 pub(super) fn level(group: Group) -> usize {
     match group {
         Group::Code | Group::Caret => 0,
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn the_table_can_be_read_and_no_key_means_two_things() {
+    fn keys_of_the_table_are_valid_and_unique() {
         let keymap = Keymap::default();
         for (i, entry) in ACTIONS.iter().enumerate() {
             entry.keys.iter().for_each(|key| assert!(Chord::parse(key).is_ok(), "{key} of {}", entry.name));
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_are_told_apart_by_what_is_held_with_them_and_by_who_listens() {
+    fn keys_depend_on_modifiers_and_focus() {
         let ctrl = Modifiers { ctrl: true, command: true, ..Modifiers::NONE };
         let ctrl_shift = Modifiers { shift: true, ..ctrl };
         assert_eq!(action(Key::S, ctrl, false), Some(Action::Save));
@@ -191,7 +191,7 @@ mod tests {
         assert_eq!(action(Key::ArrowUp, Modifiers::ALT, true), Some(Action::Code(Code::MoveLines(Vertical::Up))));
         assert_eq!(action(Key::F12, Modifiers::NONE, true), Some(Action::Code(Code::Definition)));
         assert_eq!(action(Key::F12, Modifiers::NONE, false), Some(Action::Screenshot));
-        // The code's own keys are VS Code's, and the Lab has another one that opens it from there too.
+        // The code's own keys are those of VS Code, and the Lab has another key that also opens it from there.
         assert_eq!(action(Key::L, ctrl_shift, true), Some(Action::Code(Code::AddAll)));
         assert_eq!(action(Key::L, ctrl_shift, false), Some(Action::Panel(Panel::Lab)));
         assert_eq!(action(Key::Y, ctrl_shift, true), Some(Action::Panel(Panel::Lab)));
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_key_that_is_given_away_is_no_longer_where_it_was() {
+    fn reassigning_a_key_removes_it_from_its_old_action() {
         let mut keymap = Keymap::default();
         let entry = ACTIONS.iter().find(|e| e.name == "lab").unwrap();
         keymap.give(entry, vec![Chord::parse("Ctrl+P").unwrap()]);
@@ -224,7 +224,7 @@ mod tests {
 
     /// In the code Alt+Down moves a line, and Reset has another key that works there.
     #[test]
-    fn tips_say_the_keys_that_work_where_the_keyboard_is() {
+    fn tooltips_show_keys_that_work_with_the_current_focus() {
         let (code, elsewhere) = (KeyFocus { code: true, ..KeyFocus::default() }, KeyFocus::default());
         let trace = KeyFocus { trace: true, ..code };
         let hint = |listening, action| ActiveKeymap::new(Arc::default(), listening).hint(action);
@@ -236,7 +236,7 @@ mod tests {
         for (entry, at) in ACTIONS.iter().flat_map(|entry| [code, elsewhere, trace].map(|at| (entry, at))) {
             let Ok(said) = Chord::parse(&hint(at, entry.action)) else { continue };
             let does = Keymap::default().pressed(&press(said.key, said.modifiers), at);
-            // The code's own keys are for where the code has the keyboard.
+            // The code's own keys are active only while the code has the keyboard focus.
             let is_heard = at.levels().any(|l| l == level(entry.group));
             assert!(!is_heard || does.is_some_and(|e| e.name == entry.name), "{said} with {at:?}");
         }

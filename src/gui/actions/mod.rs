@@ -1,8 +1,8 @@
-//! The actions of the window: one table says their names, titles and keys, and everything that offers, explains or
-//! takes an action reads it.
+//! The window's actions: one table has their names, titles and keys, and everything that offers, explains or handles
+//! an action reads it.
 //!
-//! Owns the table, the way from a key to an action, and the file in which a person gives actions other keys. What an
-//! action does is in the shell and in the editor, each in one `match` over all of them.
+//! Owns the table, the mapping of keys to actions, and the file in which the user assigns other keys. The shell and
+//! the editor carry the actions out, each in one `match` over all of them.
 
 mod action;
 mod chord;

@@ -18,7 +18,7 @@ use crate::{
 };
 
 impl Action {
-    /// Returns what the palette, the help and menus call it.
+    /// Returns its name in the palette, the help and menus.
     pub(crate) fn title(self) -> &'static str {
         ACTIONS.iter().find(|e| e.action == self).map_or("", |e| e.title)
     }
@@ -64,7 +64,7 @@ const fn layout(action: LayoutAction, name: &'static str, title: &'static str, k
     row(Action::Layout(action), name, title, keys, Group::Window)
 }
 
-/// A motion of the caret, and the same with Shift, which selects.
+/// Returns the rows of a caret motion: plain, and with Shift, which selects.
 const fn go(motion: Motion, name: &'static str, title: &'static str, keys: &'static [&'static str]) -> Entry {
     row(Action::Code(Code::Go(motion)), name, title, keys, Group::Caret)
 }
@@ -77,13 +77,13 @@ const fn caret(action: Code, name: &'static str, title: &'static str, keys: &'st
     row(Action::Code(action), name, title, keys, Group::Caret)
 }
 
-/// A Mac moves by words with Option and to the ends of lines with Command.
+/// Returns the keys for this system: a Mac moves by words with Option and to the ends of lines with Command.
 const fn or_mac(keys: &'static [&'static str], mac: &'static [&'static str]) -> &'static [&'static str] {
     if cfg!(target_os = "macos") { mac } else { keys }
 }
 
-/// Keys are Shadertoy's where it has one, else those of VS Code. In the code, VS Code's come first: there Alt+Up moves
-/// a line, and F5 plays and pauses wherever one is.
+/// Keys are Shadertoy's if it has one, else those of VS Code. In the code, VS Code's take precedence: there Alt+Up
+/// moves a line, while F5 plays and pauses everywhere.
 pub(crate) const ACTIONS: &[Entry] = &[
     row(Action::Save, "save", "Save", &["Ctrl+S"], Group::Project).found_by("write store"),
     row(Action::SaveAs, "save-as", "Save as", &["Ctrl+Shift+S"], Group::Project).found_by("export copy duplicate"),

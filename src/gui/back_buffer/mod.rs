@@ -1,7 +1,7 @@
 //! The window's contents, kept from frame to frame, so that only what changes is painted.
 //!
-//! Owns a texture of the window's size. A software driver takes many times as long for a whole window as for a line of
-//! text, and a graphics device uses less power.
+//! Owns a texture of the window's size. Painting the whole window takes a software driver many times as long as a line
+//! of text, and costs a graphics device more power.
 
 mod occlusion;
 
@@ -19,11 +19,11 @@ use occlusion::Part;
 pub(super) struct BackBuffer {
     texture: Option<wgpu::Texture>,
     damage: Damage,
-    /// A number for each texture that has been changed, another one after each change.
+    /// The version of each changed texture, which is incremented by each change.
     versions: Versions,
 }
 
-/// A painting of egui's.
+/// A frame painted by egui.
 pub(super) struct Painting<'a> {
     pub triangles: Vec<ClippedPrimitive>,
     pub screen: &'a ScreenDescriptor,
@@ -31,22 +31,23 @@ pub(super) struct Painting<'a> {
 }
 
 impl BackBuffer {
-    /// The texels of a texture are other ones now.
+    /// Marks the texels of a texture as changed.
     pub(super) fn touch(&mut self, texture: TextureId) {
         *self.versions.entry(texture).or_default() += 1;
     }
 
-    /// egui changes a texture of its own.
+    /// Records a change of one of egui's own textures.
     pub(super) fn update(&mut self, texture: TextureId, delta: &ImageDelta) {
-        // A part of the fonts' atlas is a glyph that was not there before: nothing that is shown reads it. An atlas
-        // that overflows takes the places of older glyphs, and is made anew as a whole in the next frame (epaint's
+        // A partial update of the font atlas adds a glyph: nothing that is visible reads it yet. An atlas that
+        // overflows reuses the places of older glyphs, and is rebuilt as a whole in the next frame (epaint's
         // `TextureAtlas::allocate`).
         if texture != TextureId::default() || delta.is_whole() {
             self.touch(texture);
         }
     }
 
-    /// Records what brings the contents up to date. They come back, with what is to be submitted before `encoder`.
+    /// Records the commands that update the contents. Returns the contents, and the command buffers to submit before
+    /// `encoder`.
     pub(super) fn paint(
         &mut self,
         gpu: &Gpu,
@@ -79,8 +80,8 @@ impl BackBuffer {
     }
 }
 
-/// Records the painting of some areas of a target; the others keep their pixels. What is to be submitted before
-/// `encoder` comes back.
+/// Records the painting of some areas of a target; the others keep their pixels. Returns the command buffers to submit
+/// before `encoder`.
 pub(super) fn paint_areas(
     gpu: &Gpu,
     renderer: &mut Renderer,
@@ -121,11 +122,11 @@ pub(super) fn paint_areas(
     commands
 }
 
-/// Black under everything: what no panel covers does not keep older pixels.
+/// Returns black below everything, so that places without a panel do not keep older pixels.
 fn ground(screen: &ScreenDescriptor) -> ClippedPrimitive {
     let [width, height] = screen.size_in_pixels.map(|pixels| pixels as f32 / screen.pixels_per_point);
     let mut mesh = Mesh::default();
-    // A little larger than the window, for a scale that divides its size with a rest.
+    // Slightly larger than the window, for a scale that does not divide its size.
     mesh.add_colored_rect(Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height)).expand(1.0), Color32::BLACK);
     ClippedPrimitive { clip_rect: Rect::EVERYTHING, primitive: Primitive::Mesh(mesh) }
 }

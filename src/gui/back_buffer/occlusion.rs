@@ -1,4 +1,4 @@
-//! Leaves out what a picture covers: nothing is painted under it.
+//! Skips what a picture covers: nothing is painted below it.
 
 use crate::gui::damage::Area;
 use egui::{
@@ -6,15 +6,15 @@ use egui::{
     epaint::{Mesh, Primitive},
 };
 
-/// A part of an area, and the first of all triangles that are seen in it.
+/// A part of an area, and the first of all triangles that are visible in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Part {
     pub area: Area,
     pub first: usize,
 }
 
-/// Cuts an area where the last picture over it begins and ends. Textures that are not egui's own are pictures, and
-/// these are opaque.
+/// Splits an area at the edges of the last picture over it. Textures that egui does not own are pictures, and these
+/// are opaque.
 pub(super) fn parts(triangles: &[ClippedPrimitive], area: Area, scale: f32) -> Vec<Part> {
     let cover = triangles.iter().enumerate().rev().find_map(|(index, ClippedPrimitive { clip_rect, primitive })| {
         let Primitive::Mesh(mesh) = primitive else { return None };
@@ -34,7 +34,7 @@ pub(super) fn parts(triangles: &[ClippedPrimitive], area: Area, scale: f32) -> V
     around.map(|area| Part { area, first: 0 }).chain([cover]).collect()
 }
 
-/// The place of a picture that is shown as it is; none of any other mesh.
+/// Returns the place of a picture that is drawn upright and without tint; `None` for any other mesh.
 fn quad(mesh: &Mesh) -> Option<Rect> {
     let is_picture = matches!(mesh.texture_id, TextureId::User(_));
     let is_whole = mesh.vertices.len() == 4 && mesh.indices.len() == 6;
@@ -49,7 +49,8 @@ fn quad(mesh: &Mesh) -> Option<Rect> {
     is_upright.then_some(bounds)
 }
 
-/// The pixels that lie in a rectangle wholly; none if there are none. A hundredth of a pixel is the rounding of points.
+/// Returns the pixels entirely inside a rectangle; `None` if there are none. The tolerance of a hundredth of a pixel
+/// is for the rounding of points.
 fn inside(rect: Rect, scale: f32) -> Option<Area> {
     let first = |at: f32| (at * scale - 0.01).ceil().max(0.0);
     let last = |at: f32| (at * scale + 0.01).floor();
@@ -88,12 +89,12 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_hides_what_is_under_it_and_nothing_beside_it() {
+    fn a_picture_hides_only_what_is_below_it() {
         let triangles = [panel(), picture([70.0, 40.0, 300.0, 170.0], Color32::WHITE), panel()];
         let parts = parts(&triangles, AREA, 1.0);
         let cover = Part { area: Area { x: 70, y: 40, width: 300, height: 170 }, first: 1 };
         assert_eq!(parts.last(), Some(&cover));
-        // Every pixel of the area is in one part.
+        // Every pixel of the area is in exactly one part.
         let mut seen = vec![0; 400 * 300];
         for Part { area, .. } in &parts {
             for y in area.y..area.y + area.height {
@@ -106,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn what_can_be_seen_through_hides_nothing() {
+    fn transparent_shapes_hide_nothing() {
         let whole = [Part { area: AREA, first: 0 }];
         let tinted = picture([0.0, 0.0, 900.0, 600.0], Color32::from_white_alpha(200));
         let elsewhere = picture([500.0, 0.0, 100.0, 100.0], Color32::WHITE);
@@ -117,12 +118,12 @@ mod tests {
     }
 
     #[test]
-    fn half_a_pixel_is_not_hidden() {
+    fn partly_covered_pixels_are_not_hidden() {
         let triangles = [picture([0.5, 0.5, 900.0, 600.0], Color32::WHITE)];
         let area = Area { x: 0, y: 0, width: 64, height: 64 };
         let cover = Area { x: 1, y: 1, width: 63, height: 63 };
         assert_eq!(parts(&triangles, area, 1.0).last(), Some(&Part { area: cover, first: 0 }));
-        // Points at a scale of 1.25 come back to the pixels they are of.
+        // Points at a scale of 1.25 convert back to their pixels.
         let triangles = [picture([8.0 / 1.25, 16.0 / 1.25, 48.0 / 1.25, 40.0 / 1.25], Color32::WHITE)];
         let cover = Area { x: 8, y: 16, width: 48, height: 40 };
         assert_eq!(parts(&triangles, area, 1.25).last(), Some(&Part { area: cover, first: 0 }));

@@ -1,4 +1,4 @@
-//! A window of which only the damage is painted shows the same bytes as one that is painted whole.
+//! Painting only the damage of a window results in the same bytes as painting it whole.
 
 use super::{BackBuffer, Painting, paint_areas};
 use crate::{
@@ -13,7 +13,7 @@ use std::{sync::Arc, time::Instant};
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// The same numbers everywhere, from 0 to 1 each.
+/// A deterministic sequence of random numbers from 0 to 1.
 struct Random(u32);
 
 impl Random {
@@ -27,13 +27,13 @@ impl Random {
     }
 }
 
-/// Both ways of painting, side by side.
+/// Paints in both ways, side by side.
 struct Painter {
     gpu: Gpu,
     renderer: Renderer,
     back_buffer: BackBuffer,
     readback: Readback,
-    /// Pixels that were painted, and those of whole windows.
+    /// The numbers of pixels that were painted, and of those in whole windows.
     painted: [u64; 2],
 }
 
@@ -52,7 +52,7 @@ impl Painter {
         self.gpu.queue.submit(commands);
     }
 
-    /// The bytes of both paintings.
+    /// Returns the bytes of both paintings.
     fn paint(&mut self, ctx: &egui::Context, output: egui::FullOutput, size: [u32; 2]) -> [Vec<u8>; 2] {
         let egui::FullOutput { shapes, pixels_per_point, mut textures_delta, .. } = output;
         for (id, deltas) in textures_delta.set.drain() {
@@ -87,7 +87,7 @@ impl Painter {
     }
 }
 
-/// Returns what a hand does in one frame.
+/// Returns random input events for one frame.
 fn events(random: &mut Random, size: [f32; 2], places: &[Pos2]) -> Vec<Event> {
     let button = |pos, pressed| Event::PointerButton {
         pos,
@@ -110,19 +110,19 @@ fn events(random: &mut Random, size: [f32; 2], places: &[Pos2]) -> Vec<Event> {
     }
 }
 
-/// A test each, so that cores share them.
+/// Separate tests, so that they run in parallel.
 #[test]
-fn painting_the_damage_is_painting_the_whole() {
+fn painting_the_damage_equals_painting_the_whole() {
     paint_both((1.0, [900, 600], 1));
 }
 
 #[test]
-fn painting_the_damage_is_painting_the_whole_at_a_fractional_scale() {
+fn painting_the_damage_equals_painting_the_whole_at_a_fractional_scale() {
     paint_both((1.25, [903, 601], 2));
 }
 
 #[test]
-fn painting_the_damage_is_painting_the_whole_at_a_double_scale() {
+fn painting_the_damage_equals_painting_the_whole_at_a_double_scale() {
     paint_both((2.0, [1000, 700], 3));
 }
 
@@ -149,7 +149,7 @@ fn paint_both((scale, size, seed): (f32, [u32; 2], u32)) {
     for turn in 0..60 {
         let mut input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(points[0], points[1]))),
-            // Animations go on at a rate of their own.
+            // Animations run at their own rate.
             time: Some(f64::from(turn) / 30.0),
             ..RawInput::default()
         };
@@ -175,6 +175,6 @@ fn paint_both((scale, size, seed): (f32, [u32; 2], u32)) {
         }
     }
     let [parts, whole] = painter.painted;
-    // The picture plays, and a list over everything comes and goes.
+    // The picture plays, and a list over everything appears and disappears.
     assert!(parts * 4 < whole * 3, "{parts} of {whole} pixels were painted");
 }

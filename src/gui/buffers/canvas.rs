@@ -1,4 +1,4 @@
-//! The target that is shown: the picture of its values under the mouse and the keyboard, and numbers on its texels.
+//! The selected target: the picture of its values with mouse and keyboard control, and numbers on its texels.
 
 use super::{
     numbers::fitted,
@@ -14,17 +14,17 @@ use egui::{
     pos2, vec2,
 };
 
-/// Texels of so many points have their numbers written on them.
+/// The minimum size of a texel, in points, to show its numbers.
 const WRITTEN: f32 = 48.0;
-/// And of so many a line round them.
+/// The minimum size of a texel, in points, to outline it.
 const RULED: f32 = 10.0;
-/// A texel that is to be seen is so large.
+/// The size of a texel that is brought into view, in points.
 const REVEALED: f32 = 96.0;
-/// A texel that flashes is so large at least.
+/// The minimum size of a flashing texel, in points.
 const FLASHED: f32 = 5.0;
 const STEP: f32 = 1.5;
 
-/// `under_picture`: the place of the window's picture under the pointer.
+/// `under_picture`: the point of the window's picture below the pointer.
 pub(super) fn show(
     state: &mut Buffers,
     ui: &mut Ui,
@@ -53,7 +53,7 @@ pub(super) fn show(
     let placed = state.zoom.place(area, size);
     state.scale = Some(placed.scale);
     let pointer = response.hover_pos().and_then(|at| placed.texel_at(at));
-    // Without a mouse the middle is what is looked at.
+    // Without a mouse the middle is the cursor.
     let cursor = response.has_focus().then(|| placed.middle());
     let part = |(x, y): (u32, u32)| [(x as f32 + 0.5) / size.0 as f32, (y as f32 + 0.5) / size.1 as f32];
     state.under = pointer.map(part).or(under_picture).or(cursor.map(part));
@@ -101,14 +101,14 @@ fn mouse(zoom: &mut Zoom, ui: &Ui, response: &Response, placed: &PlacedPicture) 
     }
     let Some(at) = response.hover_pos() else { return };
     let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
-    // A step of the wheel, about 40 points, is half as large again.
+    // A step of the wheel, about 40 points, zooms by 1.5.
     let factor = (wheel * 0.01).exp() * pinch;
     if factor != 1.0 {
         zoom.about(placed, at, factor);
     }
 }
 
-/// Arrows move it, plus and minus make it larger and smaller, Home shows all, Page Up and Down go to other targets.
+/// Arrows move the picture, plus and minus zoom, Home shows all of it, Page Up and Down select other targets.
 fn keys(state: &mut Buffers, ui: &Ui, session: &Session, response: &Response, placed: Option<&PlacedPicture>) {
     if !response.has_focus() {
         return;
@@ -126,7 +126,7 @@ fn keys(state: &mut Buffers, ui: &Ui, session: &Session, response: &Response, pl
     if pressed(Key::Home) {
         state.zoom.fit();
     }
-    // A texel, or where they are small a part of what is seen.
+    // Move by a texel, or if texels are small by a part of the visible width.
     let far = placed.scale.max(placed.area.width() / 16.0);
     let arrows = [
         (Key::ArrowLeft, vec2(far, 0.0)),
@@ -146,7 +146,7 @@ fn keys(state: &mut Buffers, ui: &Ui, session: &Session, response: &Response, pl
     }
 }
 
-/// Draws what is seen of the picture.
+/// Draws the visible part of the picture.
 fn picture(painter: &Painter, seen: &ShownTarget, placed: &PlacedPicture) {
     let [(left, right), (bottom, top)] = placed.seen();
     if left >= right || bottom >= top {
@@ -154,7 +154,7 @@ fn picture(painter: &Painter, seen: &ShownTarget, placed: &PlacedPicture) {
     }
     let rect = placed.rect((left, right), bottom).union(placed.rect((left, right), top - 1));
     let (width, height) = (placed.size.0 as f32, placed.size.1 as f32);
-    // The picture's first row is the top.
+    // The first row of the texture is the top.
     let uv = Rect::from_min_max(
         pos2(left as f32 / width, 1.0 - top as f32 / height),
         pos2(right as f32 / width, 1.0 - bottom as f32 / height),
@@ -162,8 +162,7 @@ fn picture(painter: &Painter, seen: &ShownTarget, placed: &PlacedPicture) {
     painter.image(seen.texture.id(), rect, uv, Color32::WHITE);
 }
 
-/// Lights up what is NaN or infinite, and goes out again. Asks for frames only where something is. Says whether it is
-/// lit.
+/// Flashes texels that are NaN or infinite, and returns whether they are lit. Requests frames only if there are any.
 fn flash_nonfinite(ui: &Ui, painter: &Painter, seen: &ShownTarget, placed: &PlacedPicture) -> bool {
     if seen.runs.is_empty() {
         return false;
@@ -174,7 +173,7 @@ fn flash_nonfinite(ui: &Ui, painter: &Painter, seen: &ShownTarget, placed: &Plac
         if !rect.intersects(placed.area) {
             continue;
         }
-        // A texel of less than a pixel is seen too.
+        // A texel of less than a pixel is visible too.
         let rect = Rect::from_center_size(rect.center(), rect.size().max(vec2(FLASHED, FLASHED)));
         painter.rect_filled(rect, 0.0, fill);
     }
@@ -198,7 +197,7 @@ fn numbers(seen: &ShownTarget, value: [f32; 4], letters: usize) -> Vec<String> {
     value[..usize::from(seen.read.components).clamp(1, 4)].iter().map(|x| fitted(*x, letters)).collect()
 }
 
-/// Writes a texel's numbers on it, in black or white. Gives what was written.
+/// Writes a texel's numbers on it, in black or white, and returns them.
 fn write(
     painter: &Painter,
     seen: &ShownTarget,
@@ -211,7 +210,7 @@ fn write(
     let rect = placed.rect((x, x + 1), y);
     let lines = usize::from(seen.read.components).clamp(1, 4);
     let size = ((rect.height() - 6.0) / (lines as f32 * 1.2)).clamp(8.5, 13.0);
-    // A letter of the code's font is 0.6 as wide as it is high.
+    // The font of code is 0.6 times as wide as it is high.
     let letters = ((rect.width() - 4.0) / (size * 0.602)).floor().max(3.0) as usize;
     let written = numbers(seen, *value, letters.min(12));
     let is_bad = value[..lines].iter().any(|x| !x.is_finite());
@@ -230,7 +229,7 @@ fn write(
     written
 }
 
-/// A frame round the texel that is looked at; a small one has a ring.
+/// Frames the texel at the cursor; a small one gets a ring.
 fn mark(painter: &Painter, placed: &PlacedPicture, (x, y): (u32, u32)) {
     let rect = placed.rect((x, x + 1), y);
     for (grown, color) in [(1.5, Color32::BLACK), (0.5, Color32::WHITE)] {

@@ -1,4 +1,4 @@
-//! The rows above: which page, how values become colours, how large they are.
+//! The rows at the top: the page, how values become colours, and the zoom.
 
 use super::{
     numbers::COMPONENTS,
@@ -10,9 +10,9 @@ use crate::{
 };
 use egui::{DragValue, RichText, Ui};
 
-/// Stops of exposure, either way.
+/// The range of exposure in stops, either way.
 const STOPS: f32 = 24.0;
-/// So wide all of it is in one row.
+/// The width at which everything fits into one row.
 const ONE_ROW: f32 = 900.0;
 
 pub(super) fn show(state: &mut Buffers, ui: &mut Ui, out: &mut UiOutput) {

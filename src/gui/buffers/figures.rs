@@ -1,4 +1,4 @@
-//! The foot: the histogram of the target that is shown, its least, largest and mean numbers.
+//! The foot of the panel: the histogram of the selected target, with the minimum, maximum and mean of its values.
 
 use super::{
     numbers::{COMPONENTS, fitted},
@@ -7,7 +7,7 @@ use super::{
 use crate::gui::{accessible, histogram, theme, ui_output::UiOutput};
 use egui::{Align2, Color32, FontId, Role, Sense, Ui, pos2, vec2};
 
-/// Points that the foot is high.
+/// The height of the foot in points.
 pub(super) const HEIGHT: f32 = 78.0;
 const ROW: f32 = 14.0;
 /// Columns of the table: the component, then its numbers.
@@ -55,7 +55,7 @@ fn table(state: &Buffers, ui: &mut Ui, out: &mut UiOutput) {
     accessible::name(&response, Role::Label, format!("Values:{spoken}"));
 }
 
-/// The size, what is looked at, and how large it is shown.
+/// Shows the size, the texel at the cursor, and the zoom.
 fn about(state: &Buffers, ui: &mut Ui, out: &mut UiOutput) {
     let Some(seen) = &state.seen else { return };
     let p = theme::of(ui);

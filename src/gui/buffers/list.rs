@@ -1,4 +1,4 @@
-//! Every target: its live picture, and its texel under the pointer.
+//! Every target, with its live picture and its texel below the pointer.
 
 use super::state::{Buffers, title, words};
 use crate::{
@@ -11,7 +11,7 @@ use egui::{Color32, FontId, Pos2, Rect, ScrollArea, Sense, Stroke, StrokeKind, U
 const ROW: f32 = 50.0;
 const PICTURE: f32 = 60.0;
 const NUMBERS: f32 = 10.5;
-/// The least size of what flashes on a small picture.
+/// The minimum size of a flash on a thumbnail.
 const FLASHED: f32 = 3.0;
 
 pub(super) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, live: &mut Live, out: &mut UiOutput) {
@@ -32,7 +32,7 @@ fn row(ui: &mut Ui, session: &Session, live: &mut Live, target: &Target, is_chos
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let name = title(session.project(), target);
     let texel = session.texels_under().iter().find(|at| (&at.pass, at.index) == (&target.0, target.1));
-    // Two columns of numbers, a letter of which is 0.6 as wide as it is high.
+    // Two columns of numbers in a font that is 0.6 times as wide as it is high.
     let column = (rect.width() - PICTURE - 14.0) / 2.0;
     let letters = ((column - 5.0) / (NUMBERS * 0.61) - 2.0).floor().max(3.0) as usize;
     let values = texel.map(|texel| words(texel, letters));
@@ -107,7 +107,7 @@ fn thumbnail(ui: &Ui, session: &Session, live: &mut Live, (pass, index): &Target
     ui.painter().rect_stroke(place, 2.0, Stroke::new(1.0, edge), StrokeKind::Outside);
 }
 
-/// Flashes the places of a small picture where a texel is NaN or infinite.
+/// Flashes the places of a thumbnail where a texel is NaN or infinite.
 fn flash_nonfinite(ui: &Ui, miniature: &Miniature, shown: Rect) {
     let fill = flash::now(ui).1;
     let painter = ui.painter().with_clip_rect(shown.intersect(ui.clip_rect()));

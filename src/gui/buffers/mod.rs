@@ -1,7 +1,7 @@
-//! The panel of buffers: one target down to its texels and their numbers, the texels of all under the pointer, figures
-//! of its values, and the render graph.
+//! The panel of buffers: one target down to its texels and their numbers, the texels of all targets below the pointer,
+//! statistics of its values, and the render graph.
 //!
-//! Nothing is read back while it is closed, and of the graph's page only what passes cost.
+//! Nothing is read back while it is closed; the page of the graph only gathers costs of passes.
 
 mod canvas;
 mod controls;

@@ -1,9 +1,9 @@
-//! Numbers in as many letters as there is room for.
+//! Formats numbers to fit a number of letters.
 
-/// Is what the components of a texel are called.
+/// The names of a texel's components.
 pub(super) const COMPONENTS: [&str; 4] = ["r", "g", "b", "a"];
 
-/// A number as exactly as so many letters allow; what is not finite in words.
+/// Formats a number as exactly as this number of letters allows; non-finite values in words.
 pub(super) fn fitted(x: f32, letters: usize) -> String {
     if x.is_nan() {
         return "NaN".into();
@@ -15,7 +15,7 @@ pub(super) fn fitted(x: f32, letters: usize) -> String {
     if whole.len() <= letters {
         return whole;
     }
-    // Plain digits where they say more than a power of ten does.
+    // Plain digits if they are more precise than scientific notation.
     let is_plain = x.abs() >= 1e-3 && x.abs() < 1e6;
     let plain = (1..8).rev().map(|digits| format!("{x:.digits$}")).find(|text| is_plain && text.len() <= letters);
     let power = || (0..7).rev().map(|digits| format!("{x:.digits$e}")).find(|text| text.len() <= letters);
@@ -27,7 +27,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_number_says_as_much_as_has_room() {
+    fn numbers_use_all_available_letters() {
         assert_eq!(
             ["0.5", "0.33333334", "0.3333"].map(str::to_owned),
             [(0.5, 9), (1.0 / 3.0, 10), (1.0 / 3.0, 6)].map(|(x, n)| fitted(x, n))

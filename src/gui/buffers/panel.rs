@@ -12,9 +12,9 @@ use egui::{Align2, FontId, Rect, Ui, UiBuilder, pos2, vec2};
 
 /// The parts of the window that the panel needs.
 pub(crate) struct Context<'a> {
-    /// Small pictures of passes.
+    /// Thumbnails of passes.
     pub live: &'a mut Live,
-    /// The place of the window's picture under the pointer, from 0 to 1.
+    /// The point of the window's picture below the pointer, from 0 to 1.
     pub under_picture: Option<[f32; 2]>,
 }
 
@@ -38,7 +38,7 @@ pub(crate) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, context:
         return;
     };
     let room = ui.available_rect_before_wrap();
-    // Figures are read from the foot; where it is low the texels go before them.
+    // In a low panel the texels have priority over the statistics in the foot.
     let foot = if room.height() > 190.0 { figures::HEIGHT } else { 0.0 };
     let beside = (room.width() * 0.32).clamp(150.0, 212.0).min(room.width() * 0.5);
     let (upper, lower) = room.split_top_bottom_at_y(room.bottom() - foot);
@@ -66,7 +66,7 @@ fn within(ui: &mut Ui, rect: Rect, name: &str, show: impl FnOnce(&mut Ui)) {
     show(&mut child);
 }
 
-/// Words in the middle of a place.
+/// Shows words in the middle of a place.
 fn note(ui: &Ui, place: Rect, words: &str) {
     let p = theme::of(ui);
     let galley = ui.painter().layout(words.to_owned(), FontId::proportional(12.5), p.weak, place.width() - 24.0);

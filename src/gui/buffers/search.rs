@@ -1,4 +1,4 @@
-//! The row of the first NaN: the way to look for it, how far that is, and what was found.
+//! The row of the first NaN: the button that searches for it, the progress, and the result.
 
 use super::state::Buffers;
 use crate::{

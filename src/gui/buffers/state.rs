@@ -1,4 +1,4 @@
-//! Owns what the panel knows from frame to frame.
+//! The state that the panel keeps from frame to frame.
 
 use super::{
     numbers::COMPONENTS,
@@ -16,50 +16,50 @@ use crate::{
 use egui::TextureHandle;
 use std::sync::Arc;
 
-/// Says what the panel shows.
+/// The page that the panel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Page {
     Texels,
     Graph,
 }
 
-/// Runs of texels in a row that are kept to be flashed.
+/// The maximum number of runs of texels that are kept for flashing.
 const RUNS: usize = 4096;
 
-/// A target as the window has it.
+/// The window's copy of a target.
 pub(super) struct ShownTarget {
     pub read: Arc<BufferRead>,
     pub generation: u64,
     pub texture: TextureHandle,
-    /// Texels that are NaN or infinite: from one column to before the other, and the row.
+    /// Runs of texels that are NaN or infinite: the first column, the column after the last, and the row.
     pub runs: Vec<((u32, u32), u32)>,
 }
 
 /// The state of the panel.
 pub(crate) struct Buffers {
     pub(super) page: Page,
-    /// The one that is chosen; none: the first there is.
+    /// The selected target; `None`: the first one.
     chosen: Option<Target>,
     pub(super) look: BufferLook,
     pub(super) zoom: Zoom,
     /// The zoom of the graph.
     pub(super) sheet: Zoom,
-    /// The sheet that was placed last, by its texels.
+    /// The size, in texels, of the sheet that was placed last.
     pub(super) sheet_of: (u32, u32),
     pub(super) seen: Option<ShownTarget>,
-    /// The place under the pointer or the keyboard's cursor, of this frame.
+    /// The point below the pointer or the keyboard's cursor in this frame.
     pub(super) under: Option<[f32; 2]>,
-    /// The texel of the chosen target there.
+    /// The texel of the selected target at that point.
     pub(super) texel: Option<(u32, u32)>,
-    /// Points of a texel.
+    /// The size of a texel in points.
     pub(super) scale: Option<f32>,
-    /// The numbers that are written on that texel.
+    /// The numbers that are shown on that texel.
     pub(super) written: Vec<String>,
-    /// A texel that is to be seen, from a click beside the picture.
+    /// A texel to bring into view, after a click outside the picture.
     pub(super) reveals: Option<(u32, u32)>,
-    /// Looked at in this frame.
+    /// The panel was visible in this frame.
     is_shown: bool,
-    /// Says whether what passes cost is to be gathered.
+    /// Costs of passes are to be gathered.
     pub(super) wants_costs: bool,
     /// The last request to the session.
     sent: BufferWatch,
@@ -88,13 +88,13 @@ impl Default for Buffers {
 }
 
 impl Buffers {
-    /// Every target that the project's passes have, in the order in which they are drawn.
+    /// Returns every target of the project's passes, in drawing order.
     pub(super) fn targets(project: &Project) -> Vec<Target> {
         let count = |pass: &PassName| project.pass(pass).map_or(1, |p| p.layers().max(1));
         drawn(project).into_iter().flat_map(|pass| (0..count(&pass)).map(move |index| (pass.clone(), index))).collect()
     }
 
-    /// The one that is shown.
+    /// Returns the selected target.
     pub(super) fn target(&self, project: &Project) -> Option<Target> {
         let all = Self::targets(project);
         let chosen = self.chosen.as_ref().filter(|chosen| all.contains(chosen));
@@ -106,7 +106,7 @@ impl Buffers {
         self.page = Page::Texels;
     }
 
-    /// The one so many behind the one that is shown.
+    /// Selects the target `by` places after the selected one.
     pub(super) fn step(&mut self, project: &Project, by: i32) {
         let all = Self::targets(project);
         let Some(shown) = self.target(project) else { return };
@@ -114,19 +114,19 @@ impl Buffers {
         self.chosen = all.get((at + by).rem_euclid(all.len() as i32) as usize).cloned();
     }
 
-    /// Begins a frame of the panel.
+    /// Starts a frame of the panel.
     pub(super) fn begin(&mut self) {
         (self.is_shown, self.wants_costs) = (true, false);
         (self.under, self.texel, self.scale) = (None, None, None);
         self.written.clear();
     }
 
-    /// The texture was on a device that is lost.
+    /// Forgets the texture, whose device is lost.
     pub(crate) fn forget_texture(&mut self) {
         self.seen = None;
     }
 
-    /// Takes over what the session has new of the target that is shown.
+    /// Takes over the session's newest picture of the selected target.
     pub(super) fn update(&mut self, ctx: &egui::Context, session: &Session, target: &Target) {
         let Some((read, generation)) = session.buffer().filter(|(read, _)| read.target == *target) else {
             self.seen = None;
@@ -138,7 +138,7 @@ impl Buffers {
         let picture = &read.picture;
         let size = [picture.width as usize, picture.height as usize];
         let image = egui::ColorImage::from_rgba_unmultiplied(size, &picture.bytes);
-        // A texel is a square; made smaller, several are mixed.
+        // Nearest filtering when magnified; linear when several texels share a pixel.
         let options =
             egui::TextureOptions { magnification: egui::TextureFilter::Nearest, ..egui::TextureOptions::LINEAR };
         let runs = runs(read);
@@ -154,12 +154,12 @@ impl Buffers {
         }
     }
 
-    /// Returns whether what passes cost is looked at.
+    /// Returns whether costs of passes are visible.
     pub(crate) fn wants_costs(&self) -> bool {
         self.is_shown && self.wants_costs
     }
 
-    /// Ends a frame of the window: what was not looked at is not read back any more.
+    /// Ends a frame of the window: targets that were not visible are no longer read back.
     pub(crate) fn end_frame(&mut self, session: &Session) -> Option<Command> {
         let shown = std::mem::take(&mut self.is_shown) && self.page == Page::Texels;
         let watch = match self.target(session.project()).filter(|_| shown) {
@@ -177,7 +177,7 @@ impl Buffers {
     }
 }
 
-/// Returns what a target is called.
+/// Returns the title of a target.
 pub(super) fn title(project: &Project, (pass, index): &Target) -> String {
     match project.pass(pass).map(|p| p.layer_name(*index)).filter(|name| !name.is_empty()) {
         Some(name) => format!("{} · {name}", pass.title()),
@@ -185,7 +185,7 @@ pub(super) fn title(project: &Project, (pass, index): &Target) -> String {
     }
 }
 
-/// The components of a texel in words.
+/// Returns the components of a texel in words.
 pub(super) fn words(texel: &TexelAt, letters: usize) -> Vec<String> {
     let stored = usize::from(texel.components).clamp(1, 4);
     let one = |i: usize| format!("{} {}", COMPONENTS[i], super::numbers::fitted(texel.value[i], letters));

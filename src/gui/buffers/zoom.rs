@@ -1,40 +1,40 @@
-//! Says which part of a picture is seen, and how large: from all of it down to single texels.
+//! The visible part of a picture and its zoom: from all of it down to single texels.
 
 use egui::{Pos2, Rect, Vec2, pos2, vec2};
 
-/// Points of a texel at most: four numbers of single precision have room in it.
+/// The maximum size of a texel in points: it has room for four numbers of single precision.
 pub(super) const OF_TEXELS: f32 = 256.0;
-/// And of a graph, which is laid out in points.
+/// The maximum zoom of a graph, which is laid out in points.
 pub(super) const OF_GRAPH: f32 = 1.25;
 
-/// The place of a picture in an area. Texels count from the bottom left.
+/// The zoom and position of a picture in an area. Texels count from the bottom left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Zoom {
-    /// Points of a texel at most.
+    /// The maximum size of a texel in points.
     most: f32,
-    /// Points of a texel; `None`: as large as the area allows.
+    /// The size of a texel in points; `None`: as large as the area allows.
     scale: Option<f32>,
     /// The texel in the middle of the area.
     center: Vec2,
 }
 
-/// A picture of so many texels, where it is on the screen.
+/// A picture of a size in texels, placed on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PlacedPicture {
     pub area: Rect,
     pub size: (u32, u32),
-    /// Points of a texel.
+    /// The size of a texel in points.
     pub scale: f32,
     center: Vec2,
 }
 
 impl Zoom {
-    /// All of it is seen; a texel has so many points at most.
+    /// Shows the whole picture; a texel has at most this number of points.
     pub(super) fn up_to(most: f32) -> Self {
         Self { most, scale: None, center: Vec2::ZERO }
     }
 
-    /// All of the picture is seen.
+    /// Returns whether the whole picture is visible.
     pub(super) fn fits(&self) -> bool {
         self.scale.is_none()
     }
@@ -43,17 +43,17 @@ impl Zoom {
         *self = Self::up_to(self.most);
     }
 
-    /// Places a picture so.
+    /// Places a picture of this size in an area.
     pub(super) fn place(&self, area: Rect, size: (u32, u32)) -> PlacedPicture {
         let whole = vec2(size.0 as f32, size.1 as f32);
         let fitting = (area.width() / whole.x).min(area.height() / whole.y).clamp(1e-4, self.most);
         let Some(scale) = self.scale else { return PlacedPicture { area, size, scale: fitting, center: whole / 2.0 } };
         let scale = scale.clamp(fitting.min(1.0), self.most);
-        // Half of what is seen at least is of the picture.
+        // At least half of the view is covered by the picture.
         PlacedPicture { area, size, scale, center: self.center.clamp(Vec2::ZERO, whole) }
     }
 
-    /// Makes it larger or smaller; the place of the picture at a point stays there.
+    /// Zooms by a factor; the point of the picture at `at` stays there.
     pub(super) fn about(&mut self, placed: &PlacedPicture, at: Pos2, factor: f32) {
         let (fitting, held) = (Self::up_to(self.most).place(placed.area, placed.size).scale, placed.texel(at));
         let scale = (placed.scale * factor).clamp(fitting.min(1.0), self.most);
@@ -72,26 +72,26 @@ impl Zoom {
         *self = Self { scale: Some(placed.scale), most: self.most, center: center.clamp(Vec2::ZERO, whole) };
     }
 
-    /// Brings a texel to the middle, so large that its numbers can be read.
+    /// Centres a texel, magnified so that its numbers are legible.
     pub(super) fn show(&mut self, texel: (u32, u32), scale: f32) {
         *self = Self { scale: Some(scale), most: self.most, center: vec2(texel.0 as f32 + 0.5, texel.1 as f32 + 0.5) };
     }
 }
 
 impl PlacedPicture {
-    /// Returns where a place of the picture is on the screen.
+    /// Returns the position of a point of the picture on the screen.
     pub(super) fn point(&self, texel: Pos2) -> Pos2 {
         let offset = (texel.to_vec2() - self.center) * self.scale;
         self.area.center() + vec2(offset.x, -offset.y)
     }
 
-    /// The place of the picture at a point of the screen, in texels.
+    /// Returns the point of the picture at a position on the screen, in texels.
     pub(super) fn texel(&self, at: Pos2) -> Pos2 {
         let offset = (at - self.area.center()) / self.scale;
         (self.center + vec2(offset.x, -offset.y)).to_pos2()
     }
 
-    /// The texel at a point of the screen, if the picture is there.
+    /// Returns the texel at a position on the screen, if the picture is there.
     pub(super) fn texel_at(&self, at: Pos2) -> Option<(u32, u32)> {
         let place = self.texel(at);
         let is_inside = place.x >= 0.0 && place.y >= 0.0 && self.area.contains(at);
@@ -99,19 +99,19 @@ impl PlacedPicture {
         (is_inside && texel.0 < self.size.0 && texel.1 < self.size.1).then_some(texel)
     }
 
-    /// The texel in the middle.
+    /// Returns the texel in the middle.
     pub(super) fn middle(&self) -> (u32, u32) {
         let at = |center: f32, size: u32| (center as u32).min(size.saturating_sub(1));
         (at(self.center.x, self.size.0), at(self.center.y, self.size.1))
     }
 
-    /// Returns where a texel is on the screen; several of a row from one to before the other.
+    /// Returns the rectangle of a run of texels in a row on the screen, from the first column to before the second.
     pub(super) fn rect(&self, columns: (u32, u32), row: u32) -> Rect {
         let (left, right) = (columns.0 as f32, columns.1 as f32);
         Rect::from_two_pos(self.point(pos2(left, row as f32)), self.point(pos2(right, row as f32 + 1.0)))
     }
 
-    /// The texels that are seen: the first of each side, and the one behind the last.
+    /// Returns the visible texels: the first column and row, and those after the last.
     pub(super) fn seen(&self) -> [(u32, u32); 2] {
         let (a, b) = (self.texel(self.area.left_bottom()), self.texel(self.area.right_top()));
         let side =
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_under_the_pointer_stays_there_down_to_a_texel() {
+    fn zooming_keeps_the_texel_under_the_pointer() {
         let (mut zoom, at) = (Zoom::up_to(OF_TEXELS), pos2(137.0, 301.0));
         let first = zoom.place(area(), (640, 360));
         assert_eq!(first.scale, 400.0 / 640.0);
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_count_from_the_bottom_and_a_drag_moves_the_picture_with_the_hand() {
+    fn rows_count_from_the_bottom_and_drags_move_the_picture() {
         let mut zoom = Zoom::up_to(OF_TEXELS);
         zoom.show((3, 1), 40.0);
         let placed = zoom.place(area(), (8, 4));
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_of_one_texel_has_a_place() {
+    fn a_picture_of_one_texel_can_be_placed() {
         let placed = Zoom::up_to(OF_TEXELS).place(area(), (1, 1));
         assert_eq!((placed.scale, placed.texel_at(area().center())), (OF_TEXELS, Some((0, 0))));
         assert_eq!((placed.texel_at(area().min), placed.seen()), (None, [(0, 1), (0, 1)]));

@@ -1,4 +1,4 @@
-//! Owns what a channel shall read, and how: the popup of its card.
+//! The popup of a channel's card, which chooses its input and sampler.
 
 use super::{
     names::{filter_name, input_name, wrap_name},
@@ -105,7 +105,7 @@ pub(super) fn choose(
     });
 }
 
-/// The files of the project's folder that a channel can read.
+/// Lists the files of the project's folder that a channel can read.
 fn files(
     ui: &mut Ui,
     pass: &PassName,
@@ -128,7 +128,7 @@ fn files(
                 _ => InputKind::Texture,
             };
             let media = Media::File(path.clone());
-            // A file may be read as another kind than its ending says: an image that moves is a video.
+            // A file may be read as another kind than its extension suggests: an animated image is a video.
             let chosen = now.and_then(Input::media) == Some(&media);
             let input = match now {
                 Some(now) if chosen => now.clone(),
@@ -148,7 +148,7 @@ fn files(
     });
 }
 
-/// The switch of the microphone, which no project turns on.
+/// Shows the switch of the microphone, which no project can turn on.
 fn microphone(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let Some(view) = session.microphone_view() else { return };
     let (text, note) = match view.is_on {
@@ -163,7 +163,7 @@ fn microphone(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     });
 }
 
-/// Says what there is to read of gamepads, which the settings switch on.
+/// Explains how to read gamepads, which the settings switch on.
 fn gamepads(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let view = session.controls_view();
     let note = match view.gamepads {
@@ -180,7 +180,7 @@ fn gamepads(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     });
 }
 
-/// The kinds of which some come with Eddy.
+/// The kinds of input that have built-in files.
 const BUILT_IN: [(InputKind, &str); 3] = [
     (InputKind::Texture, "Textures that come with Eddy"),
     (InputKind::Cubemap, "Cubemaps"),
@@ -199,7 +199,7 @@ fn texture_card(ui: &Ui, rect: Rect, name: &str, input: &Input, hot: bool, swatc
     ui.painter().galley(at, galley, theme::of(ui).text);
 }
 
-/// Filter, wrap and flip, as far as the input has them.
+/// Shows filter, wrap and flip, as far as the input has them.
 fn sampler(ui: &mut Ui, channel: &Channel, out: &mut UiOutput, set: impl Fn(&mut UiOutput, Option<Channel>)) {
     if channel.input.row().has_fixed_sampler {
         return;

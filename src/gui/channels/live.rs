@@ -1,4 +1,4 @@
-//! Small live pictures of passes, as textures of the window.
+//! Live thumbnails of passes, as textures of the window.
 
 use crate::{
     project::PassName,
@@ -11,7 +11,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Returns every so many texels of a camera's picture, as opaque as a camera sees.
+/// Returns a subsampled, opaque picture of a camera.
 fn reduced(picture: &CameraFrame) -> ColorImage {
     let (width, height) = (picture.width as usize, picture.height as usize);
     let step = width.max(height).div_ceil(CAMERA).max(1);
@@ -26,20 +26,20 @@ type Target = (PassName, usize);
 #[derive(Default)]
 pub(crate) struct Live {
     textures: HashMap<Target, (TextureHandle, u64)>,
-    /// Looked at in this frame.
+    /// Visible in this frame.
     wanted: Vec<Target>,
     /// The last request to the session.
     sent: Vec<Target>,
-    /// A small picture of the camera, and when it was made.
+    /// A thumbnail of the camera, and when it was made.
     camera: Option<(TextureHandle, Instant)>,
 }
 
-/// Texels across of the camera's small picture, and the time between two.
+/// The width of the camera's thumbnail in texels, and the time between updates.
 const CAMERA: usize = 128;
 const CAMERA_EVERY: Duration = Duration::from_millis(100);
 
 impl Live {
-    /// Returns the newest picture of a target and the shape of what it shows (width to height), and asks for more.
+    /// Returns the newest thumbnail of a target and its aspect ratio (width to height), and requests updates.
     pub(crate) fn get(
         &mut self,
         ui: &Ui,
@@ -71,7 +71,7 @@ impl Live {
         self.textures.get(&target).map(|(texture, _)| (texture.clone(), aspect))
     }
 
-    /// Returns a small picture of the camera that is on, and its shape.
+    /// Returns a thumbnail of the active camera, and its aspect ratio.
     pub(crate) fn camera(&mut self, ui: &Ui, session: &Session) -> Option<(TextureHandle, f32)> {
         let Some(picture) = session.camera_picture() else {
             self.camera = None;
@@ -95,12 +95,12 @@ impl Live {
         self.camera.as_ref().map(|(texture, _)| (texture.clone(), aspect))
     }
 
-    /// Returns the texels of a target across and up, while its picture is asked for.
+    /// Returns the size of a target in texels while its thumbnail is requested.
     pub(crate) fn size(&self, session: &Session, pass: &PassName, index: usize) -> Option<(u32, u32)> {
         session.miniature(pass, index).map(|(miniature, _)| miniature.of)
     }
 
-    /// Ends a frame: what was not looked at is not read back any more.
+    /// Ends a frame: targets that were not visible are no longer read back.
     pub(crate) fn end_frame(&mut self) -> Option<Command> {
         let wanted = std::mem::take(&mut self.wanted);
         if wanted == self.sent {

@@ -1,4 +1,4 @@
-//! The panel of channels: what each channel of the pass in front reads, and how.
+//! The panel of channels: the input and sampler of each channel of the selected pass.
 
 mod choose;
 mod live;
@@ -19,15 +19,15 @@ use egui::{
 use names::{input_name, sampler_name};
 use swatch::Swatches;
 
-/// Is what the cards would like to be high, with the room around them.
+/// The preferred height of the cards, with their margins.
 pub(super) const HEIGHT: f32 = 92.0;
-/// Higher, they grow no more.
+/// The maximum height of the cards.
 const MOST: f32 = 128.0;
-/// A channel that reads nothing.
+/// The width of a channel that reads nothing.
 const EMPTY: f32 = 46.0;
 const GAP: f32 = 6.0;
 
-/// The panel's title: whose channels they are.
+/// Returns the panel's title, which names the pass.
 pub(super) fn title(session: &Session, tab: &Tab) -> String {
     match pass(session, tab) {
         Some(pass) => format!("Channels of {}", pass.id.title()),
@@ -38,7 +38,7 @@ pub(super) fn title(session: &Session, tab: &Tab) -> String {
 fn pass<'s>(session: &'s Session, tab: &Tab) -> Option<&'s Pass> {
     match tab {
         Tab::Pass(id) | Tab::Stage(id, _) => session.project().pass(id),
-        // What Image is made of, where an editor begins with it.
+        // Channels of Image, if an editor starts with one of its included files.
         Tab::Included(_) if *tab == session.project().main_tab() => session.project().image(),
         Tab::Common | Tab::Included(_) => None,
     }
@@ -86,7 +86,7 @@ pub(super) fn show(
     }
 }
 
-/// Channels that read something share what those that read nothing leave.
+/// Divides the width: channels with an input share what empty ones leave.
 fn widths(width: f32, is_read: &[bool; SLOTS]) -> [f32; SLOTS] {
     let empty = is_read.iter().filter(|read| !**read).count() as f32;
     let room = width - 3.0 * GAP;
@@ -95,7 +95,7 @@ fn widths(width: f32, is_read: &[bool; SLOTS]) -> [f32; SLOTS] {
     is_read.map(|read| if read { of_read.clamp(0.0, 260.0) } else { least })
 }
 
-/// A place for an input.
+/// Shows the card of an empty channel.
 fn show_empty(ui: &Ui, card: Rect, index: usize) -> Response {
     let p = theme::of(ui);
     let response = ui.interact(card, ui.scope_id().with(("channel", index)), Sense::click());
@@ -126,7 +126,7 @@ fn show_card(ui: &Ui, card: Rect, index: usize, channel: &Channel, swatches: &mu
     painter.rect_filled(card, 5.0, if is_hot { p.button } else { p.raised });
     painter.rect_stroke(card, 5.0, Stroke::new(1.0, if is_hot { p.accent } else { p.line }), StrokeKind::Inside);
     let missing = project::missing_pass(swatches.session.project(), &channel.input);
-    // Beside the picture where the card is wide, below it where it is high.
+    // Texts are next to the picture if the card is wide, below it if the card is high.
     let is_upright = card.height() > 76.0 && card.width() < 2.2 * card.height();
     let texts = if is_upright { 36.0 } else { 0.0 };
     let room = vec2(card.width() - 10.0, card.height() - 10.0 - texts);
@@ -136,7 +136,7 @@ fn show_card(ui: &Ui, card: Rect, index: usize, channel: &Channel, swatches: &mu
     if has_picture {
         let place = Rect::from_min_size(card.min + vec2(5.0, 5.0), room);
         match missing {
-            // Nothing is read, and nothing is shown.
+            // Nothing is read, so the place stays empty.
             Some(_) => drop(painter.rect_filled(place, 3.0, p.surround)),
             None => swatches.show(ui, place, &channel.input),
         }
@@ -164,7 +164,7 @@ fn show_card(ui: &Ui, card: Rect, index: usize, channel: &Channel, swatches: &mu
         let middle = card.center().y;
         line(middle - 17.0, &format!("iChannel{index}"), 11.0, p.weak);
         line(middle, &name, 12.5, tint);
-        // The tip has it too: where it would be cut it is left out.
+        // Omitted if it would be truncated: the tooltip has it too.
         if missing.is_some() || has_room(&how, 11.0) {
             line(middle + 17.0, &how, 11.0, of_how);
         }
@@ -183,7 +183,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn channels_that_read_nothing_fold() {
+    fn empty_channels_are_narrow() {
         let sum = |widths: [f32; 4]| widths.iter().sum::<f32>() + 3.0 * GAP;
         let all = widths(600.0, &[true; 4]);
         assert!((sum(all) - 600.0).abs() < 0.1 && all[0] == all[3]);

@@ -1,4 +1,4 @@
-//! Owns what inputs and samplers are called.
+//! Display names of inputs and samplers.
 
 use crate::project::{Channel, Filter, Input, InputKind, Media, Wrap};
 

@@ -1,4 +1,4 @@
-//! The picture of a sound in a channel's card: a strip of its wave with the position, and its level.
+//! The picture of a sound in a channel's card: a strip of its waveform with the position, and its level.
 
 use crate::{
     audio::{SAMPLE_RATE, Sound},
@@ -9,19 +9,19 @@ use crate::{
 use egui::{Color32, Id, Rect, Stroke, Ui, pos2, vec2};
 use std::sync::Arc;
 
-/// Stretches of the wave whose largest samples are shown.
+/// The number of stretches of the waveform whose peaks are shown.
 const STRETCHES: usize = 200;
-/// Seconds whose largest sample is the level.
+/// The time span in seconds whose peak is the level.
 const LEVEL_SECS: f64 = 0.05;
-/// Points of the level's bar.
+/// The width of the level bar in points.
 const BAR: f32 = 5.0;
-/// A level of this many decibels and less is an empty bar.
+/// The level in decibels at and below which the bar is empty.
 const FLOOR: f32 = -48.0;
 
-/// The largest samples of a sound's stretches, each from 0 to 1.
+/// The peaks of a sound's stretches, each from 0 to 1.
 type Outline = Arc<[f32]>;
 
-/// Shows music or the microphone. False: the input is neither, or nothing is known of it.
+/// Shows music or the microphone. Returns false if the input is neither, or not loaded.
 pub(super) fn show(ui: &Ui, session: &Session, place: Rect, input: &Input) -> bool {
     match input {
         Input::Media { kind: InputKind::Music, media } => {
@@ -49,7 +49,7 @@ fn split(place: Rect) -> (Rect, Rect) {
     (place.with_max_x(place.right() - BAR - 2.0), bar)
 }
 
-/// Returns the outline of a sound, which is made once.
+/// Returns the outline of a sound, which is cached.
 fn outline(ui: &Ui, sound: &Arc<Sound>) -> Outline {
     let id = Id::unique(("outline", Arc::as_ptr(sound) as usize, sound.frames.len()));
     if let Some(known) = ui.data(|data| data.get_temp::<Outline>(id)) {
@@ -60,7 +60,7 @@ fn outline(ui: &Ui, sound: &Arc<Sound>) -> Outline {
     made
 }
 
-/// Returns the largest sample of the last moment before a time.
+/// Returns the peak of the span before a time.
 fn level_at(sound: &Sound, secs: f64) -> f32 {
     let now = (secs * f64::from(SAMPLE_RATE)) as i64;
     let from = now - (LEVEL_SECS * f64::from(SAMPLE_RATE)) as i64;
@@ -84,7 +84,7 @@ fn wave(ui: &Ui, place: Rect, outline: &[f32], position: f64) {
     painter.vline(x, place.y_range(), Stroke::new(1.0, p.strong));
 }
 
-/// Returns the share of a bar that a level fills.
+/// Returns the share of the bar that a level fills.
 fn filled(level: f32) -> f32 {
     if level <= 0.0 { 0.0 } else { (1.0 - 20.0 * level.log10() / FLOOR).clamp(0.0, 1.0) }
 }
@@ -111,19 +111,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_bar_shows_decibels() {
+    fn level_bar_is_in_decibels() {
         assert_eq!([0.0, 1.0, 1e-9].map(filled), [0.0, 1.0, 0.0]);
         assert!((filled(0.0631) - 0.5).abs() < 0.01, "-24 dB is half of 48");
     }
 
     #[test]
-    fn an_outline_has_the_loudest_sample_of_each_stretch() {
+    fn outline_has_the_peak_of_each_stretch() {
         let frames = (0..4000).map(|n| if n == 3999 { [0.2, -0.9] } else { [0.1, 0.0] }).collect();
         let sound = Sound { frames, truncated: false };
         let outline = sound.outline(STRETCHES);
         assert_eq!((outline.len(), outline[0], outline[STRETCHES - 1]), (STRETCHES, 0.1, 0.9));
         assert!(Sound::default().outline(STRETCHES).iter().all(|level| *level == 0.0));
-        // The mean of both channels, as the analyser hears it.
+        // The mean of both channels, as in the analyser.
         assert!((level_at(&sound, 4000.0 / 44_100.0) - 0.35).abs() < 1e-6);
     }
 }

@@ -1,4 +1,4 @@
-//! The small picture of an input.
+//! The thumbnail of an input.
 
 use super::{Live, sound};
 use crate::{
@@ -14,10 +14,10 @@ use crate::{
 use egui::{FontId, Rect, Ui, vec2};
 use std::path::PathBuf;
 
-/// Points of the smallest letters of a buffer's name.
+/// The minimum font size of a buffer's name, in points.
 const SMALL: f32 = 9.0;
 
-/// Holds what small pictures are made of.
+/// The sources of thumbnails.
 pub(super) struct Swatches<'a> {
     pub session: &'a Session,
     pub thumbnails: &'a mut Thumbnails,
@@ -25,7 +25,7 @@ pub(super) struct Swatches<'a> {
 }
 
 impl Swatches<'_> {
-    /// Shows an input in a place: a texture as it is, a pass as it was drawn a moment ago.
+    /// Shows an input in a place: a texture as it is, a pass by its live thumbnail.
     pub(super) fn show(&mut self, ui: &Ui, place: Rect, input: &Input) {
         if let Some((pass, index)) = input.target()
             && let Some((texture, aspect)) = self.live.get(ui, self.session, pass, index)
@@ -47,7 +47,7 @@ impl Swatches<'_> {
     }
 }
 
-/// The largest place of a shape in the middle of another.
+/// Returns the largest rectangle of an aspect ratio in the middle of another.
 fn fitting(place: Rect, aspect: f32) -> Rect {
     let width = place.width().min(place.height() * aspect);
     Rect::from_center_size(place.center(), vec2(width, width / aspect.max(0.01)))
@@ -72,7 +72,7 @@ fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &m
         },
         (None, input) => input.buffer_name().unwrap_or(input.row().glyph),
     };
-    // A buffer's name may be long: as large as fits, and what does not fit even small is cut.
+    // A buffer's name may be long: the font is as large as fits, and at the minimum size the name is truncated.
     let layout = |size: f32| {
         let mut job = egui::text::LayoutJob::simple_singleline(
             letter.to_owned(),
@@ -90,7 +90,7 @@ fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &m
     painter.galley(place.center() - galley.size() / 2.0, galley, theme::of(ui).accent);
 }
 
-/// Returns the small picture of media. A file of Shadertoy that no file of Eddy stands in for has none.
+/// Returns the thumbnail's source for media; `None` for a file of Shadertoy without a substitute in Eddy.
 fn subject(session: &Session, input: &Input) -> Option<ThumbnailSource> {
     let Input::Media { kind, media } = input else { return None };
     match kind {
@@ -105,7 +105,7 @@ fn subject(session: &Session, input: &Input) -> Option<ThumbnailSource> {
     }
 }
 
-/// The project's folder, which pictures' paths are relative to.
+/// Returns the project's folder, to which paths of pictures are relative.
 pub(super) fn folder(session: &Session) -> Option<PathBuf> {
     match &session.project().origin {
         Origin::Folder { path, .. } => Some(path.clone()),

@@ -1,4 +1,4 @@
-//! The bars over the code: for finding, for another name, for a line.
+//! The bars over the code: find, rename, and go to line.
 
 use super::{CodePanel, find_bar::FindBarAction, places, rename_bar::Renamed};
 use crate::{
@@ -14,7 +14,7 @@ impl CodePanel {
     pub(super) fn find_bar(&mut self, ui: &mut Ui, out: &mut UiOutput) {
         let Some(editor) = self.editors.get(&self.current) else { return };
         let asked = self.find.show(ui, &self.current, editor, self.everywhere.count(), out);
-        // While one types, Escape first goes back to one caret.
+        // During typing, Escape first reduces several carets to one.
         let is_for_code = self.has_keys(ui.ctx()) && self.buffer().is_some_and(|b| b.carets().list().len() > 1);
         match asked {
             FindBarAction::Step(forward) => self.find_on(forward),

@@ -9,14 +9,14 @@ use crate::{
 use std::ops::Range;
 
 impl CodePanel {
-    /// Opens the bar for finding in all texts, or in the one in front again.
+    /// Opens the bar for finding in all texts, or toggles it back to the one in front.
     pub(crate) fn open_find_everywhere(&mut self) {
         let is_on = self.find.is_open() && self.find.is_everywhere();
         self.open_find(false);
         self.find.set_everywhere(!is_on);
     }
 
-    /// Looks again where the query or a text is another, and lists what is found.
+    /// Searches again if the query or a text has changed, and lists the matches.
     pub(super) fn look_everywhere(&mut self, session: &Session) {
         if !self.find.is_open() || !self.find.is_everywhere() {
             if std::mem::take(&mut self.everywhere.is_listed) {
@@ -42,7 +42,7 @@ impl CodePanel {
         self.everywhere = ProjectMatches { of: Some(now), places, is_listed: true };
     }
 
-    /// Selects the next match, or the one before, in whichever text it is. The keyboard stays where it is.
+    /// Selects the next or the previous match in any text. The keyboard focus does not move.
     pub(super) fn step_everywhere(&mut self, forward: bool) {
         let rank = |tab: &Tab| self.order.iter().position(|other| other == tab).unwrap_or(usize::MAX);
         let Some(buffer) = self.buffer() else { return };
@@ -64,7 +64,7 @@ impl CodePanel {
         self.bring(tab);
     }
 
-    /// Replaces every match in every text: each takes its own back by one step of undo.
+    /// Replaces every match in every text: in each it is one step of undo.
     pub(super) fn replace_everywhere(&mut self, out: &mut UiOutput) {
         let Ok(finder) = self.find.query().finder() else { return };
         let (mut count, mut texts) = (0, 0);
@@ -87,10 +87,10 @@ impl CodePanel {
 /// The matches of a query in all texts.
 #[derive(Default)]
 pub(super) struct ProjectMatches {
-    /// The query, and the texts' revisions, that they are of.
+    /// The query and the revisions of the texts to which the matches belong.
     pub of: Option<(Query, Vec<(Tab, u64)>)>,
     pub places: Vec<(Tab, Range<usize>)>,
-    /// They are listed below the code.
+    /// The matches are listed below the code.
     pub is_listed: bool,
 }
 

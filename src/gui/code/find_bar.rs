@@ -19,10 +19,10 @@ pub(super) struct FindBar {
     replaces: bool,
     query: Query,
     with: String,
-    /// In every text of the project.
+    /// Searches every text of the project.
     everywhere: bool,
     takes_focus: bool,
-    /// The tab, revision and query that `found` belongs to.
+    /// The tab, revision and query to which `found` belongs.
     made_for: Option<(Tab, u64, Query)>,
     found: Found,
 }
@@ -32,22 +32,22 @@ pub(super) struct FindBar {
 pub(super) enum FindBarAction {
     Nothing,
     Close,
-    /// To the next match, or to the one before.
+    /// Go to the next match, or to the previous one.
     Step(bool),
     Replace,
     ReplaceAll,
 }
 
-/// The outcome of a query.
+/// The result of a query.
 #[derive(Default)]
 struct Found {
-    /// `None` before anything is asked; else the finder, or what is wrong with the expression.
+    /// `None` without a query; otherwise the finder, or the error in the expression.
     finder: Option<Result<Finder, String>>,
     matches: Vec<Range<usize>>,
 }
 
 impl FindBar {
-    /// Opens it with what is selected, if that is a part of a line.
+    /// Opens the bar with the selected text, if that is a part of a line.
     pub(super) fn open(&mut self, selected: &str, replaces: bool) {
         if !selected.is_empty() && !selected.contains('\n') {
             self.query.text = selected.to_owned();
@@ -78,17 +78,17 @@ impl FindBar {
         &self.query
     }
 
-    /// Returns what matches are replaced with.
+    /// Returns the replacement.
     pub(super) fn with(&self) -> &str {
         &self.with
     }
 
-    /// There is nothing to look for.
+    /// Returns whether the query is empty.
     pub(super) fn is_empty(&self) -> bool {
         self.query.text.is_empty()
     }
 
-    /// Returns the places to tint: none while the bar is closed.
+    /// Returns the matches to tint: none while the bar is closed.
     pub(super) fn matches(&self) -> &[Range<usize>] {
         if self.is_open { &self.found.matches } else { &[] }
     }
@@ -97,7 +97,7 @@ impl FindBar {
         switch(&mut self.query);
     }
 
-    /// Looks again if the text or what is looked for is not what it was.
+    /// Searches again if the text or the query has changed.
     fn refresh(&mut self, tab: &Tab, editor: &CodeEditor) {
         let now = (tab.clone(), editor.buffer().revision(), self.query.clone());
         if self.made_for.as_ref() == Some(&now) {
@@ -109,7 +109,7 @@ impl FindBar {
         self.made_for = Some(now);
     }
 
-    /// Selects the next match, or the one before.
+    /// Selects the next match, or the previous one.
     pub(super) fn step(&mut self, tab: &Tab, editor: &mut CodeEditor, forward: bool) {
         self.refresh(tab, editor);
         if editor.edit(|buffer| buffer.find(&self.found.matches, forward)).is_some() {
@@ -117,7 +117,7 @@ impl FindBar {
         }
     }
 
-    /// Replaces the selected match if it is one.
+    /// Replaces the selection if it is a match.
     pub(super) fn replace_one(&mut self, tab: &Tab, editor: &mut CodeEditor) {
         self.refresh(tab, editor);
         if let Some(Ok(finder)) = &self.found.finder {
@@ -133,7 +133,7 @@ impl FindBar {
         self.refresh(tab, editor);
     }
 
-    /// Shows it. `everywhere`: the matches in all texts.
+    /// Shows the bar. `everywhere`: the matches in all texts.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
@@ -180,7 +180,7 @@ impl FindBar {
                 (_, n, Some(at)) => (format!("{} of {n}", at + 1), theme::of(ui).weak),
                 (_, n, None) => (n.to_string(), theme::of(ui).weak),
             };
-            // An empty text has no place in a row that wraps.
+            // An empty text has no place in a wrapping row.
             if !text.is_empty() {
                 let label = ui.colored_label(color, text);
                 out.place("find:count", label.rect);

@@ -9,11 +9,11 @@ use egui::{Align2, Area, Frame, Id, Key, Margin, Modifiers, Order, Rect, Sense, 
 
 const ROW: f32 = 24.0;
 
-/// The fixes on offer. It has no keyboard of its own: the code goes on with it.
+/// The available fixes. The list does not take the keyboard focus, so that typing continues in the code.
 pub(super) struct Fixes {
     list: Vec<TabFix>,
     selected: usize,
-    /// The caret that they were asked at: another place closes the list.
+    /// The caret for which they were requested: moving it closes the list.
     at: (Tab, usize, u64),
 }
 
@@ -25,8 +25,8 @@ pub(super) enum FixesAction {
 }
 
 impl Fixes {
-    /// Returns the fixes for the line of a caret; those that the caret is in come first. `at`: its tab, byte and the
-    /// revision of the text. `line`: from 0.
+    /// Returns the fixes for the line of a caret; those for the caret itself come first. `at`: its tab, byte and the
+    /// revision of the text. `line`: counted from 0.
     pub(super) fn new(session: &Session, at: (Tab, usize, u64), line: usize) -> Self {
         let places = session.diagnostics().iter().filter_map(|d| Some((d, d.place.as_ref()?)));
         let mut here: Vec<_> = places.filter(|(_, p)| p.tab.as_ref() == Some(&at.0) && p.line == line + 1).collect();
@@ -42,7 +42,7 @@ impl Fixes {
         Self { list, selected: 0, at }
     }
 
-    /// Takes the keys that are for the list before the code sees them.
+    /// Takes the list's keys before the code sees them.
     pub(super) fn take_keys(&mut self, ui: &Ui) -> FixesAction {
         let count = |key| ui.input_mut(|i| i.count_and_consume_key(Modifiers::NONE, key));
         let (down, up) = (count(Key::ArrowDown), count(Key::ArrowUp));
@@ -58,7 +58,7 @@ impl Fixes {
         }
     }
 
-    /// Shows the list below the caret. `now`: where that is, as [`Fixes::new`] takes it.
+    /// Shows the list below the caret. `now`: the current caret, as [`Fixes::new`] takes it.
     pub(super) fn show(&self, ui: &Ui, caret: Rect, now: &(Tab, usize, u64), out: &mut UiOutput) -> FixesAction {
         if *now != self.at {
             return FixesAction::Closed;

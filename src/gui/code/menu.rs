@@ -1,4 +1,4 @@
-//! The menu of the code, by a right click or the keys for menus.
+//! The context menu of the code, by a right click or the keys for menus.
 
 use crate::{
     gui::{
@@ -11,7 +11,8 @@ use crate::{
 };
 use egui::{Button, Response, Ui};
 
-/// Shows it where it is open. `has_selection`: there is something to cut; `has_fix`: a problem at the caret can be fixed.
+/// Shows the menu while it is open. `has_selection`: there is something to cut; `has_fix`: a problem at the caret has
+/// a fix.
 pub(super) fn show(response: &Response, session: &Session, has_fix: bool, out: &mut UiOutput) {
     menus::context(response, |ui| {
         let mut item = |ui: &mut Ui, name: &str, title: &str, action: Action, keys: &str, is_on: bool| {

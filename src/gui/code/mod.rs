@@ -1,4 +1,4 @@
-//! The editor's side of the window: which tab is in front, its text, finding in it, the list of problems below.
+//! The editor's side of the window: the tab in front, its text, find and replace, and the list of problems below.
 
 mod bars;
 mod everywhere;
@@ -36,11 +36,11 @@ pub(super) struct CodePanel {
     current: Tab,
     /// The included files that are open as tabs.
     files: Vec<OpenFile>,
-    /// A compile was under way: who includes them may be others then.
+    /// A compile was running: afterwards other tabs may include them.
     was_compiling: bool,
-    /// The session's text generation that the editors hold.
+    /// The generation of the session's texts that the editors contain.
     generation: Option<u64>,
-    /// Says which project they are of: another one's undo must not lead back here.
+    /// The project to which the editors belong: undo must not lead back to another one.
     project: (String, Origin),
     font_size: f32,
     wraps: bool,
@@ -52,20 +52,20 @@ pub(super) struct CodePanel {
     order: Vec<Tab>,
     go_to_line: Option<String>,
     bar_takes_focus: bool,
-    /// The text takes the keyboard as soon as it is shown.
+    /// The text takes the keyboard focus as soon as it is shown.
     takes_focus: bool,
-    /// The shaders begun so far, each of which takes the keyboard once.
+    /// The number of shaders created so far; each new one takes the keyboard focus once.
     begun: u64,
-    /// Says which problem was jumped to last.
+    /// The problem that was jumped to last.
     problem: Option<usize>,
     uses: Option<Uses>,
-    /// The tab the session was told is in front.
+    /// The front tab that was last reported to the session.
     told_front: Option<Tab>,
-    /// Says how many of the session's renamed passes have been followed.
+    /// The number of the session's pass renames that have been applied.
     followed: usize,
-    /// Holds what the debugger shows in the tab in front.
+    /// The debugger's marks in the tab in front.
     debug: Debug,
-    /// The word that is probed while the pointer is over it and Ctrl and Alt are held, by its first byte.
+    /// The first byte of the word that is probed while the pointer is over it and Ctrl and Alt are held.
     pointed: Option<usize>,
 }
 
@@ -78,7 +78,7 @@ impl CodePanel {
         &self.current
     }
 
-    /// The tab in front, and the line of its caret from 0.
+    /// Returns the tab in front and the line of its caret, counted from 0.
     #[cfg(test)]
     pub(super) fn caret(&self) -> (Tab, usize) {
         let buffer = self.editors[&self.current].buffer();
@@ -86,12 +86,12 @@ impl CodePanel {
         (self.current.clone(), before.matches('\n').count())
     }
 
-    /// Takes what the debugger shows in the tab in front.
+    /// Sets what the debugger shows in the tab in front.
     pub(super) fn set_debug(&mut self, debug: Debug) {
         self.debug = debug;
     }
 
-    /// Brings a line of a tab, from 0, into sight. The caret stays where it is.
+    /// Scrolls a line of a tab, from 0, into view without moving the caret.
     pub(super) fn reveal_line(&mut self, tab: Tab, line: usize) {
         if let Some(editor) = self.editors.get_mut(&tab) {
             editor.reveal_line(line);
@@ -99,14 +99,14 @@ impl CodePanel {
         }
     }
 
-    /// The tab in front, with the byte and the line from 0 where its caret is.
+    /// Returns the tab in front with the byte and the line (from 0) of its caret.
     pub(super) fn caret_place(&self) -> Option<(Tab, usize, usize)> {
         let buffer = self.buffer()?;
         let head = buffer.selection().head;
         Some((self.current.clone(), head, buffer.line_of(head)))
     }
 
-    /// The text has the keyboard.
+    /// Returns whether the text has the keyboard focus.
     pub(super) fn has_keys(&self, ctx: &egui::Context) -> bool {
         ctx.memory(|m| m.has_focus(Self::id(&self.current)))
     }
@@ -115,7 +115,7 @@ impl CodePanel {
         Id::unique(("code", tab.title()))
     }
 
-    /// Brings a tab to the front, and its caret to a line and column from 0.
+    /// Brings a tab to the front, and moves its caret to a line and column counted from 0.
     pub(super) fn go_to(&mut self, tab: Tab, place: Option<(usize, usize)>) {
         if let Some((line, column)) = place
             && let Some(editor) = self.editors.get_mut(&tab)
@@ -125,13 +125,13 @@ impl CodePanel {
         self.bring(tab);
     }
 
-    /// Brings a tab to the front. An included file has one from then on.
+    /// Brings a tab to the front. An included file gets a tab by this.
     fn bring(&mut self, tab: Tab) {
         if let Tab::Included(_) = tab
             && !self.files.iter().any(|file| file.tab == tab)
         {
             self.files.push(OpenFile { tab: tab.clone(), users: Vec::new() });
-            // Who includes it is looked up in the next frame.
+            // The texts that include it are looked up in the next frame.
             self.was_compiling = true;
         }
         self.current = tab;
@@ -154,7 +154,7 @@ impl CodePanel {
         }
     }
 
-    /// Goes to the next problem, or to the one before, round the ends of the list.
+    /// Goes to the next or the previous problem, wrapping round at the ends of the list.
     pub(super) fn go_to_problem(&mut self, session: &Session, forward: bool) {
         let list = session.diagnostics();
         let count = list.len();
@@ -178,12 +178,12 @@ impl CodePanel {
         self.takes_focus = true;
     }
 
-    /// `size`: points of a letter; `wraps`: lines go on in the next row where they are too long.
+    /// `size`: the font size in points; `wraps`: whether long lines wrap.
     pub(super) fn set_look(&mut self, size: f32, wraps: bool) {
         (self.font_size, self.wraps) = (size, wraps);
     }
 
-    /// Opens the bar for finding, with what is selected in it; `replaces`: also for replacing.
+    /// Opens the find bar with the selected text; `replaces`: also for replacing.
     pub(super) fn open_find(&mut self, replaces: bool) {
         let selected = self.editors.get(&self.current).map(|e| e.buffer().selected_text()).unwrap_or_default();
         self.find.open(selected, replaces);
@@ -195,7 +195,7 @@ impl CodePanel {
         self.find.is_open()
     }
 
-    /// Goes to the next match or the one before, also while the bar is closed.
+    /// Goes to the next or the previous match, even while the bar is closed.
     pub(super) fn find_on(&mut self, forward: bool) {
         if self.find.is_empty() {
             self.open_find(false);
@@ -222,7 +222,7 @@ impl CodePanel {
         self.tell_changed(out);
     }
 
-    /// Does what a key or the palette asks of the text in front.
+    /// Applies an action of a key or the palette to the text in front.
     pub(super) fn act(&mut self, action: EditorAction, out: &mut UiOutput) {
         if let Some(editor) = self.editors.get_mut(&self.current) {
             editor.act(action);
@@ -238,7 +238,7 @@ impl CodePanel {
         self.bar_takes_focus = true;
     }
 
-    /// Takes over texts that were changed by something else than the editors.
+    /// Takes over texts that were changed outside the editors.
     pub(super) fn prepare(&mut self, session: &Session) {
         let project = session.project();
         if std::mem::replace(&mut self.begun, session.begun()) != session.begun() {
@@ -262,7 +262,7 @@ impl CodePanel {
         self.follow_renames(session);
         let tabs = session.tabs();
         self.order.clone_from(&tabs);
-        // An included file's undo stays while its line is being rewritten.
+        // The undo of an included file is kept while the line that includes it is edited.
         let is_kept = |tab: &Tab| tabs.contains(tab) || matches!(tab, Tab::Included(_));
         let is_complete = tabs.iter().all(|tab| self.editors.contains_key(tab)) && self.editors.keys().all(is_kept);
         if self.generation != Some(session.text_generation()) || !is_complete {
@@ -287,7 +287,7 @@ impl CodePanel {
         }
     }
 
-    /// An editor with its caret and its undo stays with a pass that has another name now.
+    /// Keeps the editor of a renamed pass, with its caret and its undo.
     fn follow_renames(&mut self, session: &Session) {
         for (from, to) in session.renamed_passes().iter().skip(self.followed) {
             let tabs: Vec<Tab> = self.editors.keys().filter(|tab| tab.pass() == Some(from)).cloned().collect();
@@ -304,7 +304,7 @@ impl CodePanel {
         self.followed = session.renamed_passes().len();
     }
 
-    /// Fills the space there is. True: a hand begins to move it all by the row of tabs.
+    /// Fills the available space. Returns true if a drag of the row of tabs starts, which moves the panel.
     pub(super) fn show(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) -> bool {
         ui.spacing_mut().item_spacing.y = 0.0;
         let is_dragged = tabs::show(ui, session, &self.current, &self.files, out);
@@ -403,7 +403,7 @@ impl CodePanel {
         }
     }
 
-    /// Probes what the pointer is over, and no more once it is over nothing.
+    /// Probes the word below the pointer, and stops when there is none.
     fn point(&mut self, at: Option<usize>, out: &mut UiOutput) {
         let word = at.and_then(|at| Some(self.buffer()?.word_at(at).start));
         if word != self.pointed {
@@ -444,14 +444,14 @@ impl CodePanel {
         self.editors.get(&self.current).map(CodeEditor::buffer)
     }
 
-    /// The tab in front, and the line of its caret from 0.
+    /// Returns the tab in front and the line of its caret, counted from 0.
     fn caret_line(&self) -> Option<(&Tab, usize)> {
         let buffer = self.buffer()?;
         Some((&self.current, buffer.line_of(buffer.selection().head)))
     }
 }
 
-/// Returns whether two origins are one project: saving makes a manifest where there was none.
+/// Returns whether two origins are the same project: saving creates a manifest if there was none.
 fn same_place(a: &Origin, b: &Origin) -> bool {
     match (a, b) {
         (Origin::Folder { path: a, .. }, Origin::Folder { path: b, .. }) => a == b,
@@ -459,7 +459,7 @@ fn same_place(a: &Origin, b: &Origin) -> bool {
     }
 }
 
-/// Returns what a key asks of the code while it has the keyboard.
+/// Returns the action of the code that a key triggers while the code has the keyboard focus.
 fn of_code(keymap: &Keymap, event: &egui::Event) -> Option<EditorAction> {
     match keymap.pressed(event, KeyFocus { code: true, ..KeyFocus::default() })?.action {
         Action::Code(action) => Some(action),

@@ -1,4 +1,4 @@
-//! Places in a text: as people write them, and as diagnostics name them.
+//! Places in a text: parses those that people type, and converts those of diagnostics.
 
 use crate::{
     gui::editor::Mark,
@@ -6,14 +6,14 @@ use crate::{
     session::{Session, TabDiagnostic},
 };
 
-/// `12` or `12:5`, counted from 1, as a place counted from 0.
+/// Parses `12` or `12:5`, counted from 1, to a place counted from 0.
 pub(super) fn parse(text: &str) -> Option<(usize, usize)> {
     let (line, column) = text.trim().split_once(':').unwrap_or((text.trim(), "1"));
     let from_0 = |s: &str| Some(s.trim().parse::<usize>().ok()?.saturating_sub(1));
     Some((from_0(line)?, from_0(column)?))
 }
 
-/// Returns the diagnostics of a tab, as the editor marks them.
+/// Returns the diagnostics of a tab as marks of the editor.
 pub(super) fn marks(session: &Session, tab: &Tab) -> Vec<Mark> {
     let here = |d: &TabDiagnostic| d.place.clone().filter(|place| place.tab.as_ref() == Some(tab));
     let mark = |d: &TabDiagnostic| {
@@ -36,7 +36,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_is_read_as_people_write_it() {
+    fn line_numbers_are_parsed() {
         assert_eq!(parse(" 12 "), Some((11, 0)));
         assert_eq!(parse("12:5"), Some((11, 4)));
         assert_eq!(parse("0"), Some((0, 0)));

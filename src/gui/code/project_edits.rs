@@ -1,5 +1,5 @@
-//! Changes of several texts at once: a quick fix, a rename, a replacement in all passes. Each text takes its own back by
-//! its own undo.
+//! Changes of several texts at once: a quick fix, a rename, a replacement in all passes. Each text is reverted by its
+//! own undo.
 
 use super::CodePanel;
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
 use std::{collections::BTreeMap, ops::Range};
 
 impl CodePanel {
-    /// Makes all edits of a fix. Fails where one of the texts is another by now, and then changes none.
+    /// Makes all edits of a fix. Fails without changing anything if one of the texts has changed since.
     pub(crate) fn apply_fix(&mut self, fix: &TabFix, out: &mut UiOutput) -> Result<(), &'static str> {
         let mut parts: BTreeMap<Tab, Vec<(Range<usize>, String)>> = BTreeMap::new();
         for TabEdit { tab, range, replaced, text } in &fix.edits {
@@ -34,20 +34,20 @@ impl CodePanel {
         Ok(())
     }
 
-    /// Pastes over what is selected in the text in front.
+    /// Pastes over the selection of the text in front.
     pub(crate) fn paste(&mut self, text: String) {
         if let Some(editor) = self.editors.get_mut(&self.current) {
             editor.paste(text);
         }
     }
 
-    /// Tells the session of the texts that have changed.
+    /// Reports the texts that have changed to the session.
     pub(super) fn tell_changed(&mut self, out: &mut UiOutput) {
         for (tab, editor) in &mut self.editors {
             if let Some(text) = CodeEditor::take_changed(editor) {
                 out.ask(Command::EditText { tab: tab.clone(), text: text.to_owned() });
                 self.problem = None;
-                // Its places are of the old text.
+                // Its places refer to the old text.
                 self.uses = None;
             }
         }

@@ -1,4 +1,4 @@
-//! The bar in which a symbol gets another name.
+//! The bar that renames a symbol.
 
 use crate::{
     gui::{
@@ -14,7 +14,7 @@ use egui::{Key, TextEdit, Ui};
 
 pub(super) struct RenameBar {
     tab: Tab,
-    /// A byte of the name.
+    /// The position of the name in bytes.
     at: usize,
     name: String,
     text: String,
@@ -31,7 +31,7 @@ pub(super) enum Renamed {
 }
 
 impl RenameBar {
-    /// Err: why what stands there keeps its name.
+    /// Opens the bar for the name at a place, or returns why it cannot be renamed.
     pub(super) fn new(session: &Session, tab: Tab, at: usize) -> Result<Self, String> {
         let name = session.renamable(&tab, at)?;
         Ok(Self { tab, at, text: name.clone(), name, takes_focus: true, wrong: None })

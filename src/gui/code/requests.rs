@@ -1,4 +1,4 @@
-//! Answers what the editor asks of those who know the other texts, and owns the quick fixes at its caret.
+//! Handles the editor's requests that concern other texts, and owns the quick fixes at its caret.
 
 use super::{
     CodePanel,
@@ -17,7 +17,7 @@ use crate::{
 use egui::Ui;
 
 impl CodePanel {
-    /// Does what the editor asks of those who know the other texts.
+    /// Handles a request of the editor that concerns other texts.
     pub(super) fn answer(&mut self, session: &Session, ask: Ask, out: &mut UiOutput) {
         let tab = self.current.clone();
         let of_tab = session.analysis().filter(|a| a.front == tab).and_then(|a| Some((a, a.source_of(&tab)?)));
@@ -53,7 +53,7 @@ impl CodePanel {
         }
     }
 
-    /// The caret that a list of fixes is for.
+    /// Returns the caret for a list of fixes.
     pub(super) fn fixed_at(&self) -> Option<(Tab, usize, u64)> {
         let buffer = self.buffer()?;
         Some((self.current.clone(), buffer.selection().head, buffer.revision()))

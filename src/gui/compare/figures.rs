@@ -1,4 +1,4 @@
-//! The figures and pictures of a comparison, made on a thread of their own: FLIP of a large picture takes a second.
+//! The figures and pictures of a comparison, computed on a separate thread: FLIP of a large picture takes a second.
 
 use crate::{
     background::{Background, Control, Wake},
@@ -9,15 +9,15 @@ use crate::{
 use egui::ColorImage;
 use std::sync::Arc;
 
-/// A comparison as the window shows it.
+/// The results of a comparison, ready to be shown.
 pub(super) struct Figures {
     pub comparison: Arc<Comparison>,
     pub apart: PictureDifference,
-    /// `None` where no turns were taken.
+    /// `None` if no times were measured.
     pub times: Option<Times>,
     pub ours: ColorImage,
     pub theirs: ColorImage,
-    /// Black where no difference is seen, white where the largest is.
+    /// Black for no visible difference, white for the largest.
     pub flip: ColorImage,
 }
 
@@ -37,14 +37,14 @@ impl Figures {
     }
 }
 
-/// Makes them beside the window, which is woken when they are there: `None` where the pictures have different sizes. Without
-/// a thread there are no figures.
+/// Computes them in the background and wakes the window when they are ready; the result is `None` if the pictures have
+/// different sizes. Without a thread there are no figures.
 pub(super) fn start(comparison: Arc<Comparison>, wake: Wake) -> Option<Background<(), (), Option<Figures>>> {
     let work = move |_: &Control<()>| Ok(Figures::new(comparison));
     Some(Background::once("figures of a comparison", "the comparison's figures", wake, work).ok()?.detached())
 }
 
-/// A picture as the window shows it: without its alpha, as the site's canvas is.
+/// Converts a picture for display: without its alpha, as on Shadertoy's canvas.
 pub(super) fn image(pixels: &Pixels) -> ColorImage {
     let mut bytes = pixels.to_rgba8();
     bytes.chunks_exact_mut(4).for_each(|texel| texel[3] = 255);

@@ -1,7 +1,7 @@
-//! The panel that compares: this project's picture against that of its last save, of another project or of a revision,
-//! from the same inputs, and how far and how fast they are.
+//! The panel that compares this project's picture with that of its last save, of another project or of a revision,
+//! drawn from the same inputs, and shows how much they differ in picture and speed.
 //!
-//! Nothing is drawn for it but what somebody has asked for.
+//! Nothing is drawn for it unless requested.
 
 mod figures;
 mod panel;

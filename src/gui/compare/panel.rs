@@ -1,4 +1,4 @@
-//! The panel: what is compared, how it is shown, the pictures, and the figures at its foot.
+//! The panel: the baseline, the view, the pictures, and the figures at its foot.
 
 use super::{
     pictures,
@@ -15,9 +15,9 @@ use crate::{
 };
 use egui::{Label, ProgressBar, RichText, TextEdit, Ui, vec2};
 
-/// Height of the figures.
+/// The height of the figures.
 const FOOT: f32 = 62.0;
-/// A difference is shown so many times as large.
+/// The factors by which a difference can be amplified.
 const GAINS: [u32; 4] = [1, 4, 16, 64];
 
 pub(crate) fn show(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
@@ -50,7 +50,7 @@ pub(crate) fn show(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mu
     ui.advance_cursor_after_rect(room);
 }
 
-/// Offers what the project is held against.
+/// Offers the baselines.
 fn reference(state: &mut Compare, ui: &mut Ui, out: &mut UiOutput) {
     ui.label("Against");
     let choices = [
@@ -83,7 +83,7 @@ fn reference(state: &mut Compare, ui: &mut Ui, out: &mut UiOutput) {
     }
 }
 
-/// The button that begins or ends, and how far it is.
+/// Shows the button that starts or stops, and the progress.
 fn begin(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     if let Some(Status::UnderWay(Count { done, of })) = session.comparison() {
         if out.clicked("compare:stop", &ui.button("Stop")) {

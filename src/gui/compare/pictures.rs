@@ -7,9 +7,9 @@ use egui::{
     Ui, Vec2, pos2, vec2,
 };
 
-/// Between two pictures.
+/// The gap between two pictures.
 const GAP: f32 = 4.0;
-/// The part of the width that an arrow key moves the line by.
+/// The part of the width by which an arrow key moves the line.
 const STEP: f32 = 0.02;
 
 pub(super) fn show(state: &mut Compare, ui: &mut Ui, area: Rect, out: &mut UiOutput) {
@@ -33,7 +33,7 @@ pub(super) fn show(state: &mut Compare, ui: &mut Ui, area: Rect, out: &mut UiOut
     };
     let (ours, theirs) = (seen.ours.id(), seen.theirs.id());
     let names = ["this project".to_owned(), seen.figures.comparison.against.name()];
-    // The places where a picture lies.
+    // The rectangles of the pictures.
     let places: Vec<Rect> = match view {
         View::Side => halves(area, size).map(|half| fitted(half, size)).to_vec(),
         _ => vec![fitted(area, size)],
@@ -86,7 +86,7 @@ pub(super) fn show(state: &mut Compare, ui: &mut Ui, area: Rect, out: &mut UiOut
     }
 }
 
-/// Beside or below each other, whichever makes the pictures larger.
+/// Splits an area horizontally or vertically, whichever makes the pictures larger.
 fn halves(area: Rect, size: Vec2) -> [Rect; 2] {
     let beside = {
         let (left, right) = area.split_left_right_at_fraction(0.5);
@@ -99,13 +99,13 @@ fn halves(area: Rect, size: Vec2) -> [Rect; 2] {
     if fitted(beside[0], size).area() >= fitted(below[0], size).area() { beside } else { below }
 }
 
-/// As large as there is room for, in the middle.
+/// Returns the largest rectangle that fits, centred.
 fn fitted(area: Rect, size: Vec2) -> Rect {
     let scale = (area.width() / size.x).min(area.height() / size.y).max(0.0);
     Rect::from_center_size(area.center(), size * scale)
 }
 
-/// The part of a picture between two places across it.
+/// Paints the part of a picture between two x positions.
 fn picture(painter: &Painter, texture: TextureId, whole: Rect, part: std::ops::RangeInclusive<f32>) {
     let (from, to) = part.into_inner();
     let x = |part: f32| whole.left() + part * whole.width();
@@ -113,7 +113,7 @@ fn picture(painter: &Painter, texture: TextureId, whole: Rect, part: std::ops::R
     painter.image(texture, place, Rect::from_min_max(pos2(from, 0.0), pos2(to, 1.0)), Color32::WHITE);
 }
 
-/// A picture's name in its corner.
+/// Paints a picture's name in its corner.
 fn title(painter: &Painter, place: Rect, corner: Align2, name: &str) {
     let galley = painter.layout_no_wrap(name.to_owned(), FontId::proportional(11.5), Color32::WHITE);
     let at = corner.align_size_within_rect(galley.size() + vec2(8.0, 4.0), place.shrink(4.0));
@@ -121,7 +121,7 @@ fn title(painter: &Painter, place: Rect, corner: Align2, name: &str) {
     painter.galley(at.min + vec2(4.0, 2.0), galley, Color32::WHITE);
 }
 
-/// The line between both follows the mouse and the arrow keys.
+/// Moves the dividing line by the mouse and the arrow keys.
 fn wipe(at: &mut f32, ui: &Ui, response: &Response, whole: Rect) {
     if response.clicked() || response.drag_started() {
         response.request_focus();

@@ -1,4 +1,4 @@
-//! Owns what scripts are told.
+//! The report for scripts.
 
 use super::{
     panel::{distance, pace},

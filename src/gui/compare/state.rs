@@ -1,4 +1,4 @@
-//! Owns what the panel knows from frame to frame.
+//! The state that the panel keeps from frame to frame.
 
 use super::figures::{self, Figures};
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
 use egui::{TextureHandle, TextureOptions};
 use std::{path::Path, sync::Arc};
 
-/// Says what the project is held against.
+/// The baseline with which the project is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Choice {
     LastSave,
@@ -18,7 +18,7 @@ pub(super) enum Choice {
     Revision,
 }
 
-/// Says how the two pictures are shown.
+/// The arrangement of the two pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum View {
     Side,
@@ -33,11 +33,11 @@ pub(super) struct Pictures {
     pub ours: TextureHandle,
     pub theirs: TextureHandle,
     pub flip: TextureHandle,
-    /// With its gain.
+    /// The difference with its gain.
     pub difference: Option<(TextureHandle, u32)>,
 }
 
-/// The pixel under the pointer, from the bottom left, and its values.
+/// The pixel below the pointer, from the bottom left, and its values.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HoveredPixel {
     pub texel: (u32, u32),
@@ -53,14 +53,14 @@ pub(crate) struct Compare {
     pub(super) project: String,
     pub(super) revision: String,
     pub(super) view: View,
-    /// The part of the picture that is ours, from the left.
+    /// The part of the picture, from the left, that shows the project's own.
     pub(super) wipe: f32,
     pub(super) gain: u32,
     /// Compare again after each edit.
     pub(super) follows: bool,
     pub(super) seen: Option<Pictures>,
     coming: Option<Background<(), (), Option<Figures>>>,
-    /// The comparison whose figures are made, or there.
+    /// The comparison whose figures are computed, or are being computed.
     of: Option<Arc<Comparison>>,
     pub(super) under: Option<HoveredPixel>,
 }
@@ -83,18 +83,18 @@ impl Compare {
         }
     }
 
-    /// The textures were on a device that is lost. They are made again.
+    /// Forgets the textures, whose device is lost. They are created again.
     pub(crate) fn forget_textures(&mut self) {
         (self.seen, self.coming, self.of) = (None, None, None);
     }
 
-    /// The other project is in a folder or file that was chosen.
+    /// Sets the folder or file of the other project, which was chosen in a dialog.
     pub(crate) fn choose(&mut self, path: &Path) {
         self.choice = Choice::Project;
         self.project = path.display().to_string();
     }
 
-    /// Returns what is asked for; `None` where its name is not yet typed.
+    /// Returns the selected baseline; `None` if its name is not typed yet.
     pub(super) fn against(&self) -> Option<Baseline> {
         let typed = |text: &str| Some(text.trim().to_owned()).filter(|text| !text.is_empty());
         match self.choice {
@@ -104,7 +104,7 @@ impl Compare {
         }
     }
 
-    /// Takes over what the session has new.
+    /// Takes over the session's newest results.
     pub(super) fn update(&mut self, ctx: &egui::Context, session: &Session) {
         self.under = None;
         match session.comparison() {
@@ -128,14 +128,14 @@ impl Compare {
         });
     }
 
-    /// Figures are being made of pictures that are there.
+    /// Returns whether figures of the current pictures are being computed.
     pub(super) fn is_measuring(&self) -> bool {
         self.coming.is_some()
     }
 }
 
 impl Pictures {
-    /// The picture of the differences, so many times as large.
+    /// Returns the picture of the differences, amplified by `gain`.
     pub(super) fn difference(&mut self, ctx: &egui::Context, gain: u32) -> &TextureHandle {
         let made = self.difference.take().filter(|(_, of)| *of == gain);
         let made = made.unwrap_or_else(|| {
@@ -147,7 +147,7 @@ impl Pictures {
     }
 }
 
-/// A texel that is made larger is a square.
+/// Nearest filtering when magnified.
 fn options() -> TextureOptions {
     TextureOptions { magnification: egui::TextureFilter::Nearest, ..TextureOptions::LINEAR }
 }

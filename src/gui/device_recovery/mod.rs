@@ -1,4 +1,4 @@
-//! Gets over the loss of the window's device, and saves unsaved work when the window cannot go on.
+//! Recovers from the loss of the window's device, and saves unsaved work if the window cannot continue.
 
 #[cfg(test)]
 mod tests;
@@ -15,7 +15,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// A device that is lost again so soon after another would be lost for ever.
+/// A device that is lost again within this time after another would be lost repeatedly.
 const AGAIN: Duration = Duration::from_secs(10);
 
 /// The losses of the window's device so far.
@@ -25,9 +25,9 @@ pub(super) struct DeviceLosses {
 }
 
 impl DeviceLosses {
-    /// Looks whether the window's device is still there. In the place of one that is lost comes another, which `renew`
-    /// opens; the window ends if that fails or was done just before, after what was not saved has been. What the device
-    /// refused is told of, and the window goes on.
+    /// Checks whether the window's device is lost. If so, `renew` opens another one; if that fails or was done shortly
+    /// before, unsaved work is saved and the window closes. Other errors of the device are reported, and the window
+    /// continues.
     pub(super) fn watch(
         &mut self,
         gpu: &Gpu,
@@ -57,8 +57,8 @@ impl DeviceLosses {
     }
 }
 
-/// Does a part of the window's work. A panic in it ends the window with an error that says so, after what was not saved
-/// has been: a bug in drawing is no reason to lose a text.
+/// Runs a part of the window's work. After a panic in it, unsaved work is saved, and the window closes with an error
+/// that says so: a bug in drawing must not lose a text.
 pub(super) fn caught<W, T>(
     window: &mut W,
     work: impl FnOnce(&mut W) -> Result<T, GuiError>,
@@ -70,14 +70,14 @@ pub(super) fn caught<W, T>(
     };
     let said = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
     let reason = said.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no reason given".into());
-    // Whatever was left half done may make this stumble too.
+    // The state may be inconsistent after the panic, so this may panic too.
     let unsaved_work = catch_unwind(AssertUnwindSafe(|| save_unsaved(session(window))));
     let unsaved_work = unsaved_work.unwrap_or_else(|_| ". Your unsaved work could not be saved".into());
     Err(GuiError::Panicked { reason, unsaved_work })
 }
 
-/// Writes what is not saved into a new folder, beside the project where that can be written, else at home, else among
-/// the temporary files. Returns what to tell the user; nothing if nothing was unsaved.
+/// Writes unsaved work to a new folder, next to the project if that is writable, else in the home folder, else among
+/// the temporary files. Returns the message for the user; empty if everything was saved.
 pub(super) fn save_unsaved(session: &Session) -> String {
     if !session.is_dirty() {
         return String::new();
@@ -110,7 +110,7 @@ fn save(project: &Project, places: impl Iterator<Item = PathBuf>) -> Result<Path
             Ok(_) => return Ok(folder),
             Err(e) => reason = e.to_string(),
         }
-        // What a text includes is still where it was read from.
+        // Included files are still where they were read from.
         let alone = Project { includes: Vec::new(), ..project.clone() };
         if !project.includes.is_empty() && project::save(&alone, &folder, Overwrite::Refuse).is_ok() {
             return Ok(folder);

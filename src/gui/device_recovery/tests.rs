@@ -1,4 +1,4 @@
-//! Devices that are lost, panics, and places that take nothing.
+//! Tests of lost devices, panics, and places that cannot be written.
 
 use super::*;
 use crate::{gpu::testing, project::Tab};
@@ -16,7 +16,7 @@ fn open(gpu: Gpu, folder: &Path) -> Session {
 }
 
 #[test]
-fn a_window_whose_device_is_lost_again_and_again_saves_what_was_not() {
+fn repeated_device_loss_saves_unsaved_work() {
     let Some(gpu) = testing::gpu() else { return };
     let folder = tempfile::tempdir().unwrap();
     let mut session = open(gpu.clone(), folder.path());
@@ -45,7 +45,7 @@ fn a_window_whose_device_is_lost_again_and_again_saves_what_was_not() {
 }
 
 #[test]
-fn a_window_that_gets_no_other_device_saves_what_was_not() {
+fn failing_to_reopen_a_device_saves_unsaved_work() {
     let Some(gpu) = testing::gpu() else { return };
     let folder = tempfile::tempdir().unwrap();
     let mut session = open(gpu.clone(), folder.path());
@@ -57,7 +57,7 @@ fn a_window_that_gets_no_other_device_saves_what_was_not() {
 }
 
 #[test]
-fn a_panic_in_the_window_saves_what_was_not() {
+fn a_panic_saves_unsaved_work() {
     let Some(gpu) = testing::gpu() else { return };
     let folder = tempfile::tempdir().unwrap();
     let mut session = open(gpu, folder.path());
@@ -82,7 +82,7 @@ fn a_panic_in_the_window_saves_what_was_not() {
 }
 
 #[test]
-fn unsaved_work_goes_to_the_first_place_that_takes_it_and_over_nothing() {
+fn unsaved_work_goes_to_the_first_writable_place_without_overwriting() {
     let folder = tempfile::tempdir().unwrap();
     let blocked = folder.path().join("a file");
     std::fs::write(&blocked, "").unwrap();

@@ -1,4 +1,4 @@
-//! A file dialog as any desktop has it, and how it can end.
+//! A file dialog of any desktop, and its possible results.
 
 use std::path::PathBuf;
 
@@ -7,24 +7,24 @@ use std::path::PathBuf;
 pub(crate) struct Dialog {
     pub title: &'static str,
     pub kind: Kind,
-    /// The folder that it begins in.
+    /// The folder in which it starts.
     pub start: Option<PathBuf>,
 }
 
 #[derive(Clone, Debug)]
 pub(crate) enum Kind {
     OpenFolder,
-    /// The name of the kind of files, and their endings.
+    /// The name of the kind of files, and their extensions.
     OpenFile(&'static str, &'static [&'static str]),
-    /// A path that need not be there, with a name to begin with.
+    /// A path that need not exist, with a suggested name.
     Save(String),
 }
 
-/// The end of a dialog.
+/// The result of a dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Outcome {
     Path(PathBuf),
     Cancelled,
-    /// The desktop has none, or it broke; nobody has chosen anything.
+    /// The desktop has no dialogs, or the dialog failed; nothing was chosen.
     Unavailable,
 }

@@ -1,8 +1,8 @@
 //! The desktop's own file dialogs.
 //!
-//! Owns which of them is asked, and tells a dialog that was closed without a choice from one that cannot be had: the
-//! libraries and programs behind them say it each in their own way. A dialog waits for the person; ask for one on a
-//! thread of its own.
+//! Chooses between the implementations, and distinguishes a dialog that was cancelled from one that is unavailable:
+//! each library and program reports this differently. A dialog blocks until the user closes it; open it on a separate
+//! thread.
 
 mod dialog;
 #[cfg(any(windows, target_os = "macos"))]
@@ -14,7 +14,7 @@ mod zenity;
 
 pub(super) use dialog::{Dialog, Kind, Outcome};
 
-/// Shows a dialog and waits for its end.
+/// Shows a dialog and waits for its result.
 pub(super) fn show(dialog: &Dialog) -> Outcome {
     #[cfg(any(windows, target_os = "macos"))]
     return native::show(dialog);

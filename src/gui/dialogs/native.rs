@@ -1,4 +1,4 @@
-//! The dialogs of Windows and macOS, which are always there.
+//! The dialogs of Windows and macOS, which are always available.
 
 use super::dialog::{Dialog, Kind, Outcome};
 

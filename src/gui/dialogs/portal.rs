@@ -1,4 +1,4 @@
-//! The dialogs of the XDG desktop portal, which GNOME, KDE and sandboxes offer over D-Bus.
+//! The dialogs of the XDG desktop portal, which GNOME, KDE and sandboxes provide over D-Bus.
 
 use super::dialog::{Dialog, Kind, Outcome};
 use ashpd::{
@@ -48,7 +48,7 @@ async fn ask(dialog: &Dialog) -> Result<SelectedFiles, Error> {
     }
 }
 
-/// Returns the path of a `file:` address; `None` for any other.
+/// Returns the path of a `file:` URI; `None` for any other.
 fn path_of(uri: &str) -> Option<PathBuf> {
     let path = uri.strip_prefix("file://")?;
     let bytes: Vec<u8> = percent_encoding::percent_decode_str(path).collect();
@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn addresses_become_paths() {
+    fn file_uris_are_converted_to_paths() {
         assert_eq!(path_of("file:///home/me/a%20b%C3%A9"), Some(PathBuf::from("/home/me/a bé")));
         assert_eq!(path_of("file://"), None);
         assert_eq!(path_of("https://example.org/a"), None);

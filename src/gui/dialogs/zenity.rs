@@ -33,7 +33,7 @@ fn show_with(program: &Path, dialog: &Dialog) -> Outcome {
         let mut argument = OsString::from("--filename=");
         argument.push(&begin);
         if !matches!(dialog.kind, Kind::Save(_)) {
-            // A folder to begin in ends so; a file that is chosen does not.
+            // A start folder ends with a slash; a suggested file does not.
             argument.push("/");
         }
         command.arg(argument);
@@ -45,7 +45,7 @@ fn show_with(program: &Path, dialog: &Dialog) -> Outcome {
             return Outcome::Unavailable;
         }
     };
-    // Its manual: 0 is a choice, 1 is Cancel or a closed window, anything else went wrong.
+    // From its manual: 0 is a choice, 1 is Cancel or a closed window, anything else is an error.
     match output.status.code() {
         Some(0) => {
             let line = output.stdout.strip_suffix(b"\n").unwrap_or(&output.stdout);
@@ -65,7 +65,7 @@ mod tests {
     use std::{fs, os::unix::fs::PermissionsExt};
 
     #[test]
-    fn a_choice_a_cancel_and_no_dialog_are_told_apart() {
+    fn choice_cancel_and_failure_are_distinguished() {
         let folder = tempfile::tempdir().unwrap();
         let save = Dialog { title: "Save", kind: Kind::Save("name".into()), start: Some("/begin".into()) };
         let ends = |script: &str| {

@@ -1,10 +1,10 @@
-//! The arrangement that nobody has made: by the window's shape, and by what the panels have to show.
+//! The default layout, computed from the window's aspect ratio and the contents of the panels.
 
 use super::{BAR, Node, Panel};
 use egui::Vec2;
 use std::collections::BTreeSet;
 
-/// Holds what panels would like to be high, without their titles.
+/// The preferred heights of panels, without their titles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Heights {
     /// The bar below the picture.
@@ -13,32 +13,32 @@ pub(crate) struct Heights {
     pub channels: f32,
 }
 
-/// Lines of code are this wide at least, where the window has room for more.
+/// The minimum width of the code, if the window is wide enough.
 const CODE_WIDTH: f32 = 700.0;
-/// Is what the panels below the picture have, where there is room to choose.
+/// The height of the panels below the picture, if it can be chosen.
 const BELOW: f32 = 250.0;
-/// Channels shrink to so much where others want the room.
+/// The height to which channels shrink if others need the room.
 const LEAST_CHANNELS: f32 = 44.0;
-/// Channels grow to so much where nothing else wants the room.
+/// The height to which channels grow if nothing else needs the room.
 const MOST_CHANNELS: f32 = 150.0;
-/// Uniforms that are no higher than this show a line of advice and nothing to turn.
+/// The maximum height of a uniforms panel that only shows a hint and no uniforms.
 pub(crate) const COLLAPSED: f32 = 44.0;
-/// A table of costs is so high.
+/// The height of the table of costs.
 const COSTS: f32 = 170.0;
-/// The part of the height that a panel below the code has.
+/// The part of the height for a panel below the code.
 const BELOW_CODE: f32 = 0.42;
-/// The part that one with pictures or plots has.
+/// The part of the height for a panel with pictures or plots below the code.
 const BELOW_CODE_LARGE: f32 = 0.56;
 /// The lab's part of the height.
 const LAB: f32 = 0.48;
-/// A plot with its legend is so wide at least. Where the code is, the lab has its place below that and leaves the
-/// picture its room; else it lies below all.
+/// The minimum width of a plot with its legend. If the code is this wide, the lab is below it and leaves the picture
+/// its room; else it is below everything.
 const LAB_WIDTH: f32 = 660.0;
 
-/// The panels that are open, and those in front of others, the newest last.
+/// The open panels, and those in front of others, the newest last.
 type Opened<'a> = (&'a BTreeSet<Panel>, &'a [Panel]);
 
-/// Returns where each open panel is.
+/// Returns the layout of the open panels.
 pub(super) fn arrange(size: Vec2, open: &BTreeSet<Panel>, fronts: &[Panel], heights: Heights) -> Node {
     let has_lab = open.contains(&Panel::Lab);
     let aside = in_one_place(open.iter().copied().filter(|panel| panel.is_below_picture()), fronts);
@@ -62,7 +62,7 @@ pub(super) fn arrange(size: Vec2, open: &BTreeSet<Panel>, fronts: &[Panel], heig
     }
 }
 
-/// The picture with everything about it on the left, the code on the right.
+/// Lays out the picture with the panels about it on the left, the code on the right.
 fn two_columns(size: Vec2, (open, fronts): Opened<'_>, aside: Option<Node>, heights: Heights) -> Option<Node> {
     let right = code_and_below(open, fronts);
     let most = if open.contains(&Panel::Lab) { size.x - LAB_WIDTH } else { size.x };
@@ -75,8 +75,8 @@ fn two_columns(size: Vec2, (open, fronts): Opened<'_>, aside: Option<Node>, heig
     }
 }
 
-/// Puts what shows the code at work below it: the way of a pixel, what passes have drawn, two pictures, numbers over
-/// time, and the lab where it is wide enough.
+/// Puts the panels that show the code's execution below it: a traced pixel, buffers, comparisons, measurements, and
+/// the lab if it is wide enough.
 fn code_and_below(open: &BTreeSet<Panel>, fronts: &[Panel]) -> Option<Node> {
     let is_open = |panel: &Panel| open.contains(panel);
     let code = is_open(&Panel::Code).then_some(Node::Panel(Panel::Code));
@@ -90,7 +90,7 @@ fn code_and_below(open: &BTreeSet<Panel>, fronts: &[Panel]) -> Option<Node> {
     }
 }
 
-/// Panels that share a place: the one that was opened last, or else the last, is in front.
+/// Puts panels into one place: the one that was opened last, or else the last, is in front.
 fn in_one_place(panels: impl Iterator<Item = Panel>, fronts: &[Panel]) -> Option<Node> {
     let nodes: Vec<Node> = panels.map(Node::Panel).collect();
     match nodes.len() {
@@ -103,13 +103,13 @@ fn in_one_place(panels: impl Iterator<Item = Panel>, fronts: &[Panel]) -> Option
     }
 }
 
-/// As wide as makes a picture of 16:9 fill the height that the panels below it leave.
+/// Returns the width at which a 16:9 picture fills the height that the panels below it leave.
 fn left_width(size: Vec2, heights: Heights) -> f32 {
     let fitting = (size.y - heights.transport - BELOW) * 16.0 / 9.0;
     fitting.clamp(least_left(size), (size.x * 0.5).max(size.x - CODE_WIDTH))
 }
 
-/// The picture is so wide at least.
+/// Returns the minimum width of the picture.
 fn least_left(size: Vec2) -> f32 {
     size.x * if size.x < 1000.0 { 0.5 } else { 0.44 }
 }
@@ -119,11 +119,11 @@ fn below_each_other(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, hei
     let wants_picture = if has_picture { (size.x * 9.0 / 16.0).ceil() + heights.transport } else { 0.0 };
     let wants_channels = if open.contains(&Panel::Channels) { BAR + heights.channels } else { 0.0 };
     let wants_aside = aside_height(open, heights);
-    // The picture goes before what is below it, which can be scrolled, but leaves it something to scroll in.
+    // The picture has priority over what is below it, which can be scrolled, but leaves a minimum height.
     let least_below = wants_channels + wants_aside.min(BAR + 60.0);
     let picture = wants_picture.min((size.y - least_below).max(size.y * 0.4));
     let below = size.y - picture;
-    // Uniforms that there are none of leave their room to the picture.
+    // Without uniforms the picture gets their room.
     let is_collapsed = heights.uniforms <= COLLAPSED && !open.contains(&Panel::Costs);
     let given = below - wants_aside - wants_channels.max(BAR + MOST_CHANNELS);
     let given = if has_picture && wants_aside * wants_channels > 0.0 && is_collapsed { given.max(0.0) } else { 0.0 };
@@ -137,13 +137,13 @@ fn below_each_other(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, hei
         let channels = if spare >= 0.0 {
             (wants_channels + spare).min(BAR + MOST_CHANNELS)
         } else {
-            // Cards of one line say it too; what is above them must not be scrolled for.
+            // Cards of one line are sufficient; the panel above must not need scrolling.
             (wants_channels + spare).max(BAR + LEAST_CHANNELS)
         };
         let most = if is_collapsed { below - wants_aside.min(below * 0.4) } else { below * 0.6 };
         (channels.min(most), below - channels.min(most))
     };
-    // Where nothing is below it, the picture has it all.
+    // If nothing is below it, the picture gets everything.
     let picture = if wants_channels + wants_aside == 0.0 { size.y } else { picture };
     let mut parts = Vec::new();
     if has_picture {
@@ -158,7 +158,7 @@ fn below_each_other(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, hei
     column(parts)
 }
 
-/// A tall window has the code below the picture, where lines are long enough to read.
+/// Lays out a tall window with the code below the picture, where lines are long enough to read.
 fn one_column(size: Vec2, (open, fronts): Opened<'_>, aside: Option<Node>, heights: Heights) -> Option<Node> {
     let mut parts = Vec::new();
     let mut rest = size.y;

@@ -1,4 +1,4 @@
-//! The rows over panels: titles to move them by and to choose among those that share a place, and a way to close them.
+//! The rows over panels: titles to drag them by and to choose between those that share a place, and close buttons.
 
 use super::{BAR, Heights, Panel, tree};
 use crate::gui::{
@@ -12,16 +12,16 @@ use egui_tiles::{
 };
 use std::collections::BTreeSet;
 
-/// Says what is in the panels.
+/// The contents of the panels.
 pub(crate) trait Contents {
-    /// Shows a panel. True: a hand begins to move it by its own row.
+    /// Shows a panel. Returns true if a drag of its own row starts.
     fn show(&mut self, ui: &mut Ui, panel: Panel) -> bool;
-    /// Shows what a panel has to offer at the right end of its row.
+    /// Shows a panel's controls at the right end of its row.
     fn tools(&mut self, ui: &mut Ui, panel: Panel);
-    /// The title, where it says more than the panel's name.
+    /// Returns the title, which may say more than the panel's name.
     fn title(&self, panel: Panel) -> String;
     fn heights(&self) -> Heights;
-    /// Notes where a widget is, for scripts that click on it.
+    /// Records the place of a widget, for scripts that click on it.
     fn place(&mut self, name: String, rect: Rect);
 }
 
@@ -91,7 +91,7 @@ impl Behavior<Panel> for Bars<'_> {
         response.on_hover_cursor(egui::CursorIcon::Grab).on_hover_text("Drag to move")
     }
 
-    /// Shows what is free of the row, by which the panel in front is moved too.
+    /// Fills the empty part of the row, by which the panel in front can be dragged too.
     fn tab_bar_left_ui(&mut self, _: &Tiles<Panel>, ui: &mut Ui, group: TileId, tabs: &Tabs) {
         let free = ui.available_rect_before_wrap();
         let handle = ui.interact(free, Id::unique(("dock row", group)), Sense::CLICK | Sense::DRAG);
@@ -101,13 +101,13 @@ impl Behavior<Panel> for Bars<'_> {
         handle.on_hover_cursor(egui::CursorIcon::Grab);
     }
 
-    /// Groups are moved by the panel in front.
+    /// Groups are dragged by the panel in front.
     fn is_tile_draggable(&self, _: &Tiles<Panel>, id: TileId) -> bool {
-        // The tile that is being shown is not among the others.
+        // The tile that is being shown is taken out of the others.
         Panel::all().any(|panel| panel.tile() == id)
     }
 
-    /// By lines of the dock's own.
+    /// The dock has separators of its own.
     fn is_container_resizable(&self, _: &Tiles<Panel>, _: TileId) -> bool {
         false
     }
@@ -164,7 +164,7 @@ impl Behavior<Panel> for Bars<'_> {
         theme::of_visuals(visuals).accent.gamma_multiply(0.3)
     }
 
-    /// Ctrl+Tab is nobody's but the text's.
+    /// Ctrl+Tab belongs to the text.
     fn cycle_tabs_with_keyboard(&self) -> bool {
         false
     }

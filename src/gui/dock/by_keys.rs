@@ -1,17 +1,16 @@
-//! Owns what a hand does to panels, done by keys: one is made larger or smaller, put elsewhere, or shown behind
-//! another.
+//! Moves panels by keys: resizes one, moves it to an edge, or shares its place with another.
 
 use super::{BAR, Dock, Node, Panel, Side, separators, tree};
 use egui::{Pos2, Rect};
 use egui_tiles::LinearDir;
 
-/// Points by which a key moves a line between panels.
+/// The distance in points by which a key moves a separator.
 const STEP: f32 = 24.0;
-/// Is what a panel has of the window at whose edge it is put.
+/// The part of the window that a panel gets at the edge to which it is moved.
 const EDGE: f32 = 0.33;
 
 impl Dock {
-    /// Returns the panel that a point is in, its title's row included.
+    /// Returns the panel at a point, including its title row.
     pub(crate) fn panel_at(&self, at: Pos2) -> Option<Panel> {
         let place = |panel: &Panel| self.tree.tiles.rect(panel.tile());
         let is_in = |rect: Rect, panel: &Panel| {
@@ -21,7 +20,7 @@ impl Dock {
         self.seen.iter().find(|panel| place(panel).is_some_and(|rect| is_in(rect, panel))).copied()
     }
 
-    /// Makes a panel narrower or wider, lower or higher. Nothing where it has the whole width, or height.
+    /// Resizes a panel. Does nothing if it has the whole width or height.
     pub(crate) fn resize(&mut self, panel: Panel, side: Side) {
         let (dir, by) = match side {
             Side::Left => (LinearDir::Horizontal, -STEP),
@@ -32,7 +31,7 @@ impl Dock {
         self.is_manual |= separators::nudge(&mut self.tree, panel.tile(), dir, by);
     }
 
-    /// Puts a panel along an edge of the window, beside all others.
+    /// Moves a panel to an edge of the window, next to all others.
     pub(crate) fn move_to_edge(&mut self, panel: Panel, side: Side) {
         let Some(rest) = tree::node(&self.tree).and_then(|node| node.without(panel)) else { return };
         let (moved, rest) = ((Node::Panel(panel), EDGE), (rest, 1.0 - EDGE));
@@ -44,8 +43,7 @@ impl Dock {
         });
     }
 
-    /// Puts a panel into the place of the one that comes next from left to right and from top to bottom, in front of
-    /// it.
+    /// Puts a panel in front of the next panel, from left to right and from top to bottom, in the same place.
     pub(crate) fn share_place(&mut self, panel: Panel) {
         let place = |panel: &Panel| self.tree.tiles.rect(panel.tile()).map_or((0.0, 0.0), |r| (r.left(), r.top()));
         let mut seen: Vec<Panel> = self.seen.iter().copied().collect();
@@ -59,7 +57,7 @@ impl Dock {
         self.bring_to_front([panel]);
     }
 
-    /// Makes an arrangement a person's own.
+    /// Makes an arrangement the user's own.
     fn arrange(&mut self, node: Node) {
         self.tree = tree::of(&node);
         self.is_manual = true;

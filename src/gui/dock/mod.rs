@@ -1,8 +1,7 @@
-//! The panels of the window side by side: where each is, how large, and which are open.
+//! The layout of the window's panels: their places, sizes, and which are open.
 //!
-//! Owns the arrangement, the rows with the panels' titles, and what a hand moves. Until a person moves or resizes
-//! something, the arrangement follows the window's shape and what the panels have to show. What is in a panel is the
-//! shell's.
+//! Owns the arrangement, the rows with the panels' titles, and dragging. Until the user moves or resizes something,
+//! the arrangement follows the window's aspect ratio and the contents of the panels. The shell fills the panels.
 
 mod automatic;
 mod bars;
@@ -22,15 +21,15 @@ use egui::Ui;
 use egui_tiles::{Container, Tile, Tree};
 use std::collections::BTreeSet;
 
-/// The arrangement.
+/// The arrangement of panels.
 pub(super) struct Dock {
     tree: Tree<Panel>,
-    /// Says whether a person has moved or resized any; else the arrangement is made anew for each frame.
+    /// The user has moved or resized a panel; otherwise the arrangement is computed for each frame.
     is_manual: bool,
     open: BTreeSet<Panel>,
-    /// In front of those that they share a place with, the newest last.
+    /// The panels in front of those that share their place, the newest last.
     fronts: Vec<Panel>,
-    /// Panels that were seen in the newest frame.
+    /// Panels that were visible in the newest frame.
     seen: BTreeSet<Panel>,
 }
 
@@ -40,7 +39,7 @@ impl Dock {
         Self { tree: Tree::empty(tree::id()), is_manual: false, open, fronts: Vec::new(), seen: BTreeSet::new() }
     }
 
-    /// Takes up what was kept from the last start. `arrangement`: as a person had made it.
+    /// Restores the state saved by the last run. `arrangement`: set if it was the user's own.
     pub(super) fn restore(&mut self, open: Option<BTreeSet<Panel>>, arrangement: Option<&Node>) {
         if let Some(open) = open.filter(|open| !open.is_empty()) {
             self.open = open;
@@ -56,7 +55,7 @@ impl Dock {
         &self.open
     }
 
-    /// The arrangement, if a person has made it.
+    /// Returns the arrangement, if it is the user's own.
     pub(super) fn arrangement(&self) -> Option<Node> {
         self.is_manual.then(|| tree::node(&self.tree)).flatten()
     }
@@ -65,12 +64,12 @@ impl Dock {
         self.open.contains(&panel)
     }
 
-    /// A panel is in sight: open, and not behind another.
+    /// Returns whether a panel is visible: open, and not hidden by another tab.
     pub(super) fn is_seen(&self, panel: Panel) -> bool {
         self.seen.contains(&panel)
     }
 
-    /// Opens a panel and brings it to the front of those it shares a place with, or closes it. The last one stays.
+    /// Opens a panel in front of those that share its place, or closes it. The last one stays open.
     pub(super) fn set_open(&mut self, panel: Panel, is_open: bool) {
         if is_open {
             self.open.insert(panel);
@@ -83,12 +82,12 @@ impl Dock {
         }
     }
 
-    /// Everything where it is at first, and as large.
+    /// Restores the default arrangement.
     pub(super) fn reset(&mut self) {
         *self = Self { seen: std::mem::take(&mut self.seen), ..Self::new() };
     }
 
-    /// In an arrangement that a person has made: shows what is open.
+    /// Updates the user's arrangement to contain exactly the open panels.
     fn follow_open(&mut self) {
         let is_missing = |panel: &&Panel| self.tree.tiles.get(panel.tile()).is_none();
         let missing: Vec<Panel> = self.open.iter().filter(is_missing).copied().collect();
@@ -104,7 +103,7 @@ impl Dock {
         }
     }
 
-    /// Fills the space there is.
+    /// Fills the available space.
     pub(super) fn show(&mut self, ui: &mut Ui, contents: &mut dyn Contents) {
         let area = ui.available_rect_before_wrap();
         if !self.is_manual {
@@ -116,7 +115,7 @@ impl Dock {
         let (edited, closed) = (bars.is_edited, bars.closed);
         let edited = edited | separators::show(ui, &mut self.tree);
         if !self.is_manual {
-            // Which tab is in front is no arrangement of a person's own.
+            // Switching tabs does not make the arrangement the user's own.
             self.bring_to_front(self.front_tabs());
         }
         self.is_manual |= edited;
@@ -136,7 +135,7 @@ impl Dock {
         }
     }
 
-    /// The panels in front of those that they share a place with.
+    /// Returns the panels in front of those that share their place.
     fn front_tabs(&self) -> Vec<Panel> {
         let front = |tile: &Tile<Panel>| match tile {
             Tile::Container(Container::Tabs(tabs)) if tabs.children.len() > 1 => {

@@ -1,7 +1,7 @@
-//! An arrangement as data, and as people read it in a file.
+//! An arrangement as data, and its text format.
 //!
-//! `"code"` is a panel; `{ row = ["picture", "code"], shares = [0.6, 0.4] }` are some side by side, `column` one below
-//! the other; `{ tabs = ["uniforms", "costs"], front = 0 }` share a place.
+//! `"code"` is a panel; `{ row = ["picture", "code"], shares = [0.6, 0.4] }` places panels side by side, `column` one
+//! below the other; panels of `{ tabs = ["uniforms", "costs"], front = 0 }` share a place.
 
 use super::Panel;
 use std::collections::BTreeSet;
@@ -10,11 +10,11 @@ use toml_edit::{Array, InlineTable, Value};
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Node {
     Panel(Panel),
-    /// Each with its share of the width.
+    /// Children, each with its share of the width.
     Row(Vec<(Node, f32)>),
-    /// Each with its share of the height.
+    /// Children, each with its share of the height.
     Column(Vec<(Node, f32)>),
-    /// And which of them is in front.
+    /// Children that share a place, and the index of the one in front.
     Tabs(Vec<Node>, usize),
 }
 
@@ -27,7 +27,7 @@ impl Node {
         }
     }
 
-    /// An arrangement with one panel more: behind those it shares a place with at first, else below everything.
+    /// Adds a panel to an arrangement: next to those that share its place by default, else below everything.
     pub(super) fn with(node: Option<Node>, panel: Panel) -> Node {
         let Some(mut node) = node else { return Node::Panel(panel) };
         if panel.is_below_picture() && node.join(panel) {
@@ -55,7 +55,7 @@ impl Node {
         }
     }
 
-    /// An arrangement without a panel; none where there is no other.
+    /// Removes a panel from an arrangement; returns `None` if it was the only one.
     pub(super) fn without(self, panel: Panel) -> Option<Node> {
         let parts = |parts: Vec<(Node, f32)>| -> Vec<(Node, f32)> {
             parts.into_iter().filter_map(|(node, share)| Some((node.without(panel)?, share))).collect()
@@ -79,7 +79,7 @@ impl Node {
         }
     }
 
-    /// Puts a panel into the place of another, in front of it. False where that one is not there.
+    /// Puts a panel in front of another in its place. Returns false if that one is missing.
     pub(super) fn share(&mut self, place: Panel, panel: Panel) -> bool {
         match self {
             Node::Panel(there) if *there == place => {
@@ -119,7 +119,7 @@ impl Node {
         Value::InlineTable(table)
     }
 
-    /// Reads what [`Node::to_value`] writes. Err: what is wrong with it.
+    /// Parses the output of [`Node::to_value`], or returns what is wrong with it.
     pub(crate) fn from_value(value: &Value) -> Result<Node, String> {
         let node = Node::read(value)?;
         let mut count = 0;

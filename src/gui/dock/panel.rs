@@ -1,8 +1,8 @@
-//! The panels there are.
+//! The panels of the window.
 
 use egui_tiles::TileId;
 
-/// Height of a panel's title row.
+/// The height of a panel's title row.
 pub(crate) const BAR: f32 = 27.0;
 
 /// A direction in the window.
@@ -30,22 +30,22 @@ pub(crate) enum Panel {
     Recorder,
 }
 
-/// Says of a panel what it is called and where it is before anybody moves it.
+/// The names of a panel and its default place.
 struct Entry {
     panel: Panel,
     /// The name in files.
     name: &'static str,
     /// The name in the window.
     title: &'static str,
-    /// It is open when nobody has opened or closed any.
+    /// The panel is open by default.
     is_open: bool,
     place: DefaultPlace,
 }
 
-/// A panel's place before anybody moves it.
+/// A panel's default place.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum DefaultPlace {
-    /// A place of its own, which `automatic.rs` gives it.
+    /// A place of its own, set in `automatic.rs`.
     Own,
     /// Below the picture, where panels share a place as tabs.
     BelowPicture,
@@ -57,7 +57,7 @@ const fn row(panel: Panel, name: &'static str, title: &'static str, is_open: boo
     Entry { panel, name, title, is_open, place }
 }
 
-/// A row for each panel, in the order of the enum, which is that of the View menu.
+/// A row for each panel, in the order of the enum, which is also that of the View menu.
 const PANELS: [Entry; 12] = [
     row(Panel::Picture, "picture", "Picture", true, DefaultPlace::Own),
     row(Panel::Code, "code", "Code", true, DefaultPlace::Own),
@@ -105,7 +105,7 @@ impl Panel {
         self.entry().is_open
     }
 
-    /// Its contents have a row by which it can be moved, so that it needs none with its title.
+    /// Returns whether the panel's contents have a row by which it can be dragged, so that it needs no title row.
     pub(super) fn has_own_row(self) -> bool {
         matches!(self, Panel::Picture | Panel::Code)
     }

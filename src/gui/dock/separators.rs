@@ -1,19 +1,19 @@
-//! The lines between panels, which a hand drags.
+//! The separators between panels, which can be dragged.
 //!
-//! `egui_tiles` has such lines too; those take the keyboard, and have no name for who does not see them.
+//! Those of `egui_tiles` take the keyboard focus and have no accessible name.
 
 use super::{Panel, tree::line_of};
 use crate::gui::theme;
 use egui::{CursorIcon, Id, Rect, Sense, Stroke, Ui};
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tree};
 
-/// No panel is made narrower or lower: what is in it could not be used.
+/// The minimum size of a panel, below which its contents are unusable.
 const LEAST_WIDTH: f32 = 140.0;
 const LEAST_HEIGHT: f32 = 60.0;
-/// Says how near to a line a hand has to be.
+/// The distance from a separator within which it can be grabbed.
 const REACH: f32 = 4.0;
 
-/// Shows the lines over the panels, and moves what is dragged. True: something was moved.
+/// Shows the separators over the panels, and applies drags. Returns true if something was moved.
 pub(super) fn show(ui: &Ui, tree: &mut Tree<Panel>) -> bool {
     let ids: Vec<TileId> = tree.active_tiles();
     let mut is_moved = false;
@@ -34,7 +34,7 @@ pub(super) fn show(ui: &Ui, tree: &mut Tree<Panel>) -> bool {
     is_moved
 }
 
-/// Makes a tile longer or shorter at the cost of the one behind it, or before it where it is the last. True: it is so.
+/// Resizes a tile at the cost of the next one, or of the previous one if it is the last. Returns true if it changed.
 pub(super) fn nudge(tree: &mut Tree<Panel>, tile: TileId, dir: LinearDir, by: f32) -> bool {
     let Some((id, at)) = line_of(&tree.tiles, tile, dir) else { return false };
     let Some(Tile::Container(Container::Linear(linear))) = tree.tiles.get(id) else { return false };
@@ -51,7 +51,7 @@ pub(super) fn nudge(tree: &mut Tree<Panel>, tile: TileId, dir: LinearDir, by: f3
     true
 }
 
-/// Keeps both of two panels large enough: the first's length, of that of both.
+/// Limits the length of the first of two panels so that both stay large enough, given the length of both.
 fn within(dir: LinearDir, wanted: f32, both: f32) -> f32 {
     let least = if dir == LinearDir::Horizontal { LEAST_WIDTH } else { LEAST_HEIGHT }.min(both / 2.0);
     wanted.clamp(least, both - least)
@@ -61,7 +61,7 @@ fn length(dir: LinearDir, rect: Rect) -> f32 {
     if dir == LinearDir::Horizontal { rect.width() } else { rect.height() }
 }
 
-/// Returns how long the first of two shall be, while a hand has the line between them.
+/// Returns the new length of the first of two panels while the separator between them is dragged.
 fn drag(ui: &Ui, dir: LinearDir, (first, a): (TileId, Rect), (second, b): (TileId, Rect)) -> Option<f32> {
     let (line, cursor) = match dir {
         LinearDir::Horizontal => {
@@ -87,7 +87,7 @@ fn drag(ui: &Ui, dir: LinearDir, (first, a): (TileId, Rect), (second, b): (TileI
     Some(within(dir, wanted, both))
 }
 
-/// Gives the first of two a length, and the second what is left of both.
+/// Sets the length of the first of two panels, and gives the rest to the second.
 fn share(linear: &mut Linear, (first, a): (TileId, f32), (second, b): (TileId, f32), to: f32) {
     let sum = linear.shares[first] + linear.shares[second];
     let part = to / (a + b).max(1.0);

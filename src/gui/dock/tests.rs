@@ -27,7 +27,7 @@ impl Contents for Blank {
     }
 }
 
-/// A dock in a window, without a window.
+/// A dock without a real window.
 struct Stage {
     ctx: egui::Context,
     dock: Dock,
@@ -84,11 +84,11 @@ impl Stage {
 }
 
 #[test]
-fn the_picture_is_as_wide_as_its_panel_and_little_is_left_over() {
+fn the_picture_fills_its_panel() {
     for (width, height) in [(1280.0, 722.0), (1920.0, 1042.0), (900.0, 562.0), (760.0, 402.0), (1280.0, 762.0)] {
         let stage = Stage::new(width, height);
         let picture = stage.place("picture");
-        // Grey beside or below a picture of 16:9 in it, as a part of it.
+        // The unused part of the panel beside or below a 16:9 picture.
         let room = picture.height() - 44.0;
         let drawn = picture.width().min(room * 16.0 / 9.0);
         let covered = drawn * (drawn * 9.0 / 16.0) / (picture.width() * room);
@@ -112,7 +112,7 @@ fn panels_close_and_open_again_and_the_last_one_stays() {
     stage.dock.set_open(Panel::Uniforms, true);
     stage.frame(vec![]);
     assert_eq!(stage.place("uniforms"), before);
-    // A click on a title's row, or on a line, moves nothing.
+    // A click on a title row or a separator moves nothing.
     for at in [before.center_top() - vec2(0.0, 12.0), before.left_top() - vec2(-200.0, 27.5)] {
         stage.frame(vec![Event::PointerMoved(at)]);
         stage.button(at, true);
@@ -134,14 +134,14 @@ fn panels_close_and_open_again_and_the_last_one_stays() {
 }
 
 #[test]
-fn what_is_dragged_stays_and_is_kept_and_taken_back() {
+fn dragged_layouts_are_saved_and_can_be_reset() {
     let mut stage = Stage::new(1280.0, 722.0);
     let code = stage.place("code");
     let line = pos2(code.left() - 0.5, code.center().y);
     stage.drag(line, line - vec2(200.0, 0.0));
     let wider = stage.place("code");
     assert!((wider.width() - code.width() - 200.0).abs() < 12.0, "{code:?} {wider:?}");
-    // In the place of the code's lower half.
+    // Into the place of the code's lower half.
     let from = stage.place("panel:channels").center();
     stage.drag(from, pos2(wider.center().x, wider.bottom() - 12.0));
     let channels = stage.place("channels");
@@ -155,7 +155,7 @@ fn what_is_dragged_stays_and_is_kept_and_taken_back() {
     next.dock.restore(Some(open), Some(&Node::from_value(&value).unwrap()));
     next.frame(vec![]);
     assert!((next.place("channels").top() - channels.top()).abs() < 4.0, "{:?} {channels:?}", next.place("channels"));
-    // One that it does not know yet comes to those it belongs to.
+    // A panel that the saved arrangement lacks joins those of its default place.
     next.dock.set_open(Panel::Costs, true);
     next.frame(vec![]);
     assert!(next.dock.is_seen(Panel::Costs));
@@ -168,7 +168,7 @@ fn what_is_dragged_stays_and_is_kept_and_taken_back() {
 }
 
 #[test]
-fn what_has_no_title_is_moved_by_its_own_row() {
+fn untitled_panels_are_dragged_by_their_own_row() {
     let mut stage = Stage::new(1280.0, 722.0);
     let code = stage.place("code");
     stage.drag(stage.place("picture").center(), pos2(code.right() - 30.0, code.center().y));
@@ -178,7 +178,7 @@ fn what_has_no_title_is_moved_by_its_own_row() {
 }
 
 #[test]
-fn an_arrangement_of_nonsense_is_refused() {
+fn invalid_arrangements_are_rejected() {
     let read = |text: &str| Node::from_value(&text.parse().unwrap());
     assert_eq!(read("\"code\""), Ok(Node::Panel(Panel::Code)));
     for bad in ["\"cdoe\"", "3", "{ row = [] }", "{ row = \"code\" }", "{ colum = [\"code\"] }", "[\"code\"]"] {
@@ -189,7 +189,7 @@ fn an_arrangement_of_nonsense_is_refused() {
 }
 
 #[test]
-fn keys_size_and_move_a_panel() {
+fn keys_resize_and_move_a_panel() {
     let mut stage = Stage::new(1280.0, 722.0);
     let (code, channels) = (stage.place("code"), stage.place("channels"));
     assert_eq!(stage.dock.panel_at(code.center()), Some(Panel::Code));
@@ -221,7 +221,7 @@ fn keys_size_and_move_a_panel() {
     assert!(moved.right() > 1278.0 && moved.height() > 650.0 && moved.width() > channels.width() * 0.3, "{moved:?}");
     stage.dock.share_place(Panel::Channels);
     stage.frame(vec![]);
-    // The next one round is the picture.
+    // The next one, wrapping round, is the picture.
     assert!(stage.dock.is_seen(Panel::Channels) && !stage.dock.is_seen(Panel::Picture));
     stage.click("panel:picture");
     assert!(stage.dock.is_seen(Panel::Picture) && !stage.dock.is_seen(Panel::Channels));
@@ -230,7 +230,7 @@ fn keys_size_and_move_a_panel() {
 }
 
 #[test]
-fn the_lab_leaves_the_picture_its_room_where_the_code_is_wide_enough() {
+fn the_lab_is_below_the_code_if_that_is_wide_enough() {
     let opened = |width: f32, height: f32| {
         let mut stage = Stage::new(width, height);
         let before = stage.place("picture");
@@ -246,13 +246,13 @@ fn the_lab_leaves_the_picture_its_room_where_the_code_is_wide_enough() {
         assert!(lab.width() >= 640.0 && lab.height() >= 300.0 && code.height() >= 250.0, "{lab:?} {code:?}");
         assert!(lab.top() > code.top() && lab.left() > before.left(), "{lab:?}");
     }
-    // Narrower ones have it below all, and so have tall ones.
+    // Narrower windows have it below everything, and so do tall ones.
     for (width, height) in [(1000.0, 700.0), (900.0, 600.0), (800.0, 1200.0)] {
         let (_, stage) = opened(width, height);
         let lab = stage.place("lab");
         assert!(lab.width() > 0.95 * width && lab.height() > 0.4 * height, "{width} x {height}: {lab:?}");
     }
-    // Without code there is nothing to be below.
+    // Without the code, it cannot be below it.
     let (_, mut stage) = opened(1280.0, 722.0);
     stage.dock.set_open(Panel::Code, false);
     stage.frame(vec![]);
@@ -265,6 +265,6 @@ fn the_lab_leaves_the_picture_its_room_where_the_code_is_wide_enough() {
 }
 
 #[test]
-fn rows_of_panels_are_in_the_order_of_the_enum() {
+fn panel_rows_match_the_enum_order() {
     Panel::all().enumerate().for_each(|(n, panel)| assert_eq!(panel as usize, n, "{}", panel.title()));
 }

@@ -1,4 +1,4 @@
-//! An arrangement as the tree that `egui_tiles` shows, and back.
+//! Converts an arrangement to the tree that `egui_tiles` shows, and back.
 
 use super::{Node, Panel};
 use egui::Id;
@@ -8,7 +8,7 @@ pub(super) fn id() -> Id {
     Id::unique("dock")
 }
 
-/// Tiles have the same names each time, so that what is kept for them stays theirs.
+/// Builds the tree. Tiles have stable ids, so that egui's state of them is kept.
 pub(super) fn of(node: &Node) -> Tree<Panel> {
     let mut tiles = Tiles::default();
     let mut next = 100;
@@ -17,7 +17,7 @@ pub(super) fn of(node: &Node) -> Tree<Panel> {
     Tree::new(id(), root, tiles)
 }
 
-/// `needs_tabs`: a panel by itself gets a group of tabs, which has its title.
+/// `needs_tabs`: a single panel gets a group of tabs, which shows its title.
 fn insert(tiles: &mut Tiles<Panel>, next: &mut u64, node: &Node, needs_tabs: bool) -> TileId {
     let name = |next: &mut u64| {
         *next += 1;
@@ -48,7 +48,7 @@ fn insert(tiles: &mut Tiles<Panel>, next: &mut u64, node: &Node, needs_tabs: boo
             let dir = if matches!(node, Node::Row(_)) { LinearDir::Horizontal } else { LinearDir::Vertical };
             let children: Vec<TileId> = parts.iter().map(|(node, _)| insert(tiles, next, node, true)).collect();
             let mut linear = Linear::new(dir, children.clone());
-            // One that comes in later has a share of 1: they are 1 on average.
+            // A tile that is added later has a share of 1, so shares are scaled to an average of 1.
             let mean = parts.iter().map(|(_, share)| share).sum::<f32>() / parts.len() as f32;
             for (child, (_, share)) in children.into_iter().zip(parts) {
                 linear.shares.set_share(child, (share / mean.max(f32::MIN_POSITIVE)).max(1e-3));
@@ -59,8 +59,8 @@ fn insert(tiles: &mut Tiles<Panel>, next: &mut u64, node: &Node, needs_tabs: boo
     }
 }
 
-/// Returns the container with others beside a tile in a direction, the innermost one, and which of its children the
-/// tile is in.
+/// Returns the innermost container with several children in a direction around a tile, and the index of the child that
+/// contains the tile.
 pub(super) fn line_of(tiles: &Tiles<Panel>, tile: TileId, dir: LinearDir) -> Option<(TileId, usize)> {
     let mut at = tile;
     loop {
@@ -102,7 +102,7 @@ fn node_of(tiles: &Tiles<Panel>, id: TileId) -> Option<Node> {
                 (_, LinearDir::Vertical) => Some(Node::Column(parts)),
             }
         }
-        // Nothing makes one here.
+        // Grids are never created.
         Tile::Container(Container::Grid(grid)) => {
             let nodes = all(&grid.children().copied().collect::<Vec<_>>());
             (!nodes.is_empty()).then(|| Node::Column(nodes.into_iter().map(|node| (node, 1.0)).collect()))

@@ -1,4 +1,4 @@
-//! The text in sight and the caret, for those who do not see them.
+//! Exposes the visible text and the caret to assistive technology.
 
 use super::{buffer::Buffer, lines::Lines};
 use egui::{
@@ -8,7 +8,7 @@ use egui::{
     text_selection::{CCursorRange, accesskit_text},
 };
 
-/// Tells a screen reader what is in the rows in sight and where the caret is in them. Costs nothing while none asks.
+/// Reports the visible rows and the caret in them to a screen reader. Costs nothing while none is connected.
 pub(super) fn tell(ui: &Ui, response: &Response, lines: &Lines<'_>, buffer: &Buffer, name: &str) {
     response.widget_info(|| WidgetInfo::labeled(Role::MultilineTextInput, true, name));
     if !ui.ctx().has_accesskit_node(response.id) {
@@ -17,7 +17,7 @@ pub(super) fn tell(ui: &Ui, response: &Response, lines: &Lines<'_>, buffer: &Buf
     let selection = buffer.selection();
     let mut text = String::new();
     let mut letters = 0;
-    // How far into the text in sight the two ends of the selection are: at one of its ends where they are out of it.
+    // Offsets of the selection's two ends in the visible text, clamped to its ends.
     let (mut anchor, mut head) = (0, 0);
     for row in &lines.rows {
         let Some(bytes) = row.bytes() else { continue };

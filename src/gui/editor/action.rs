@@ -1,4 +1,4 @@
-//! Owns what keys and the palette can ask of the code that is shown.
+//! The actions of keys and the palette that apply to the code shown.
 
 use super::motion::{Motion, Vertical};
 
@@ -8,10 +8,10 @@ pub(crate) enum EditorAction {
     Select(Motion),
     Delete(Motion),
     NewLine,
-    /// A new line above or below that of the caret, wherever in it the caret is.
+    /// Inserts a line above or below that of the caret, wherever in its line the caret is.
     OpenLine(Vertical),
     Indent,
-    /// The whole lines, also of a caret that selects nothing.
+    /// Indents whole lines, even for a caret that selects nothing.
     IndentLines,
     Unindent,
     ToggleComment,
@@ -36,7 +36,7 @@ pub(crate) enum EditorAction {
     Signature,
     Definition,
     Uses,
-    /// The mends for the problem at the caret.
+    /// Shows the fixes for the problem at the caret.
     QuickFix,
     Rename,
     Cut,
@@ -45,7 +45,7 @@ pub(crate) enum EditorAction {
 }
 
 impl EditorAction {
-    /// Asks for help beside the text: what is open stays open.
+    /// Returns whether the action requests help with the text, which keeps open popups open.
     pub(super) fn is_help(self) -> bool {
         matches!(self, Self::Propose | Self::Signature | Self::Definition | Self::Uses | Self::QuickFix | Self::Rename)
     }

@@ -1,4 +1,4 @@
-//! Comments that begin with `/*`: put round what is selected, and taken away again.
+//! Toggles `/*` comments around the selections.
 
 use super::{
     buffer::Buffer,
@@ -10,7 +10,7 @@ use std::ops::Range;
 const OPEN: &str = "/* ";
 const CLOSE: &str = " */";
 
-/// A part of the text that goes, or a place where something comes.
+/// A range of the text to delete, or a position at which to insert.
 struct Part {
     range: Range<usize>,
     with: &'static str,
@@ -21,7 +21,8 @@ impl Part {
         Self { range, with: "" }
     }
 
-    /// By how much a place moves. What comes in front of a selection pushes it on, what comes behind does not.
+    /// Returns the distance by which a position moves. An insertion before a selection moves it, one after it does
+    /// not.
     fn shift(&self, at: usize) -> isize {
         if self.with.is_empty() {
             -(at.clamp(self.range.start, self.range.end) as isize - self.range.start as isize)
@@ -34,15 +35,15 @@ impl Part {
 }
 
 impl Buffer {
-    /// Takes away the comment that a selection lies in, or that it is; where there is none, makes it one. What has a
-    /// delimiter of a comment in it stays as it is: comments do not nest.
+    /// Removes the comment that contains a selection, or that is selected; if there is none, wraps the selection in
+    /// one. A selection that contains a comment delimiter is unchanged, because comments do not nest.
     pub(crate) fn toggle_block_comment(&mut self) {
         let mut parts: Vec<Part> = Vec::new();
         let mut done = 0;
         for s in self.carets().list() {
             let range = s.range();
             if let Some((open, close)) = self.comment_around(&range) {
-                // Several carets in one comment take it away once.
+                // Several carets in one comment remove it once.
                 if open.start >= done {
                     done = close.end;
                     parts.extend([Part::removal(open), Part::removal(close)]);
@@ -60,7 +61,7 @@ impl Buffer {
         self.change(parts, Kind::Other, |_| carets);
     }
 
-    /// Both ends of the comment that some text is, or lies in, each with the blank inside of it.
+    /// Returns both delimiters of the comment that contains a range or equals it, each with the blank inside it.
     fn comment_around(&self, range: &Range<usize>) -> Option<(Range<usize>, Range<usize>)> {
         let text = self.text();
         let selected = &text[range.clone()];
@@ -114,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn a_comment_is_put_round_what_is_selected_and_taken_away() {
+    fn block_comment_toggles_around_the_selection() {
         for (text, found) in [
             ("a [b + c] d", "a /* [b + c] */ d"),
             ("a /* [b + c] */ d", "a [b + c] d"),
@@ -125,7 +126,7 @@ mod tests {
             ("a /*|*/ d", "a | d"),
             ("/* a */ |b /* c */", "/* a */ /* | */b /* c */"),
             ("[one\ntwo]", "/* [one\ntwo] */"),
-            // Comments do not nest, and `//` hides what is behind it.
+            // Comments do not nest, and `//` hides what follows it.
             ("[a /* b */ c]", "[a /* b */ c]"),
             ("// /*\n|a; /* b */", "// /*\n/* | */a; /* b */"),
         ] {
@@ -134,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn several_carets_take_their_comment_away_once() {
+    fn several_carets_in_a_comment_remove_it_once() {
         let mut b = Buffer::new("/* a b */ c");
         b.set_carets(Carets::new(vec![Selection::caret(3), Selection::caret(6), Selection::caret(11)], 0));
         b.toggle_block_comment();

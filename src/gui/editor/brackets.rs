@@ -1,13 +1,13 @@
-//! Says which bracket belongs to which.
+//! Matches brackets.
 
 use super::{buffer::Buffer, highlight::Highlight, nesting::Bracket, pieces::Piece};
 use crate::glsl::services::lines::{LineContext, Scanner};
 use std::ops::Range;
 
-/// The bracket that a caret is at, and the one that belongs to it: where each begins, in the order of the text.
+/// Returns the start of the bracket at a caret and of its partner, in the order of the text.
 pub(super) fn pair_at(index: &Highlight, buffer: &Buffer, caret: usize) -> Option<[usize; 2]> {
     let bytes = buffer.text().as_bytes();
-    // The one behind the caret comes first, as it is the one that the caret stands on.
+    // The bracket after the caret comes first, because the caret is drawn on it.
     [Some(caret), caret.checked_sub(1)].into_iter().flatten().find_map(|at| {
         let (kind, by) = Bracket::of(*bytes.get(at)?)?;
         if index.is_comment(buffer, at) {
@@ -18,8 +18,8 @@ pub(super) fn pair_at(index: &Highlight, buffer: &Buffer, caret: usize) -> Optio
     })
 }
 
-/// The line in which the outermost block ends that a line opens and does not close; `None` if it opens none, or if the
-/// block goes on to the end of the text.
+/// Returns the line that ends the outermost block that a line opens and does not close; `None` if it opens none, or if
+/// the block reaches the end of the text.
 pub(super) fn block_end(index: &Highlight, buffer: &Buffer, line: usize) -> Option<usize> {
     let mut open = index.nesting(line).of(Bracket::Curly).opened();
     if open <= 0 {
@@ -35,7 +35,7 @@ pub(super) fn block_end(index: &Highlight, buffer: &Buffer, line: usize) -> Opti
     None
 }
 
-/// The line that opens the innermost block around a line which is no block's beginning itself.
+/// Returns the line that opens the innermost block around a line that does not open a block itself.
 pub(super) fn block_around(index: &Highlight, line: usize) -> Option<usize> {
     let mut closed = 1;
     (0..line).rev().find(|above| {
@@ -46,14 +46,14 @@ pub(super) fn block_around(index: &Highlight, line: usize) -> Option<usize> {
     })
 }
 
-/// All blocks that go over several lines: the lines that open and close them, in the order of their beginnings.
+/// Returns all blocks of several lines as the lines that open and close them, in the order of their starts.
 pub(super) fn blocks(index: &Highlight, buffer: &Buffer) -> Vec<(usize, usize)> {
     let mut ends = std::collections::BTreeMap::new();
     let mut open: Vec<usize> = Vec::new();
     for line in 0..buffer.line_count() {
         let depth = index.nesting(line).of(Bracket::Curly);
         for _ in 0..depth.closed() {
-            // Of several that a line opens, the outermost ends last.
+            // Of several blocks that a line opens, the outermost ends last.
             if let Some(header) = open.pop() {
                 ends.insert(header, line);
             }
@@ -63,7 +63,7 @@ pub(super) fn blocks(index: &Highlight, buffer: &Buffer) -> Vec<(usize, usize)> 
     ends.into_iter().collect()
 }
 
-/// The closing bracket of the opening one at a byte.
+/// Returns the closing bracket for the opening one at a byte.
 fn forward(index: &Highlight, buffer: &Buffer, kind: Bracket, from: usize) -> Option<usize> {
     let mut open = 0;
     for (bytes, piece) in pieces_from(index, buffer, from) {
@@ -83,7 +83,7 @@ fn forward(index: &Highlight, buffer: &Buffer, kind: Bracket, from: usize) -> Op
     None
 }
 
-/// The opening bracket of the closing one at a byte.
+/// Returns the opening bracket for the closing one at a byte.
 fn backward(index: &Highlight, buffer: &Buffer, kind: Bracket, from: usize) -> Option<usize> {
     let mut closed = 0;
     for line in (0..=buffer.line_of(from)).rev() {
@@ -112,7 +112,7 @@ fn backward(index: &Highlight, buffer: &Buffer, kind: Bracket, from: usize) -> O
     None
 }
 
-/// Pieces from the one that holds a byte to the text's end, with their bytes.
+/// Iterates over pieces with their bytes, from the one that contains a byte to the end of the text.
 fn pieces_from<'i>(
     index: &'i Highlight,
     buffer: &'i Buffer,
@@ -130,7 +130,7 @@ fn pieces_from<'i>(
         .filter(move |(bytes, _)| bytes.end > from)
 }
 
-/// Brackets of a kind in a piece, outside of comments.
+/// Iterates over the brackets of a kind in a piece, outside comments.
 fn brackets(buffer: &Buffer, bytes: &Range<usize>, piece: &Piece, kind: Bracket) -> Vec<(usize, i32)> {
     let text = &buffer.text()[bytes.clone()];
     let mut scanner = Scanner::new(text, 0, piece.state);
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn brackets_find_each_other_past_comments_and_other_kinds() {
+    fn matching_skips_comments_and_other_kinds() {
         let text = "void f() {\n  a[(1)]; // }\n  /* } */ { }\n  g((2));\n}\n)";
         let (index, buffer) = index(text);
         let pair = |at: usize| pair_at(&index, &buffer, at);
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn every_pair_of_long_texts_is_that_of_a_stack() {
+    fn pairs_in_long_texts_match_a_stack() {
         let mut seed = 11u32;
         for round in 0..30 {
             let mut text = String::new();
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn a_block_ends_where_the_outermost_one_does_that_its_line_opens() {
+    fn block_end_is_that_of_the_outermost_block_opened() {
         let (index, buffer) = index("void f()\n{\n  if (a) { if (b) {\n  } else {\n  }\n  }\n}\nint a[] = { 1 };\n{");
         let ends: Vec<_> = (0..9).map(|line| block_end(&index, &buffer, line)).collect();
         assert_eq!(ends, [None, Some(6), Some(5), Some(4), None, None, None, None, None]);

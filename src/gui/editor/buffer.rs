@@ -1,7 +1,7 @@
-//! A text, its lines, the selection and the way back: what an editor is without its picture.
+//! A text with its lines, selections and undo history: an editor without its display.
 //!
-//! Owns every change of a text (all go through [`Buffer::replace`], so every one can be undone) and the index of its
-//! lines. Knows no window, no keys and no GLSL. Positions are bytes on character boundaries; lines count from 0.
+//! Every change of a text goes through [`Buffer::replace`], so every one can be undone and keeps the index of lines up
+//! to date. Knows nothing of windows, keys or GLSL. Positions are bytes on character boundaries; lines count from 0.
 
 use super::{
     history::{Change, Edit, History, Kind},
@@ -9,15 +9,15 @@ use super::{
 };
 use std::ops::Range;
 
-/// The ends of a text that are as they were, in bytes: what lies between has changed. They do not overlap.
+/// The lengths of the unchanged start and end of a text, in bytes: everything between them has changed. They do not
+/// overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Unchanged {
     pub head: usize,
     pub tail: usize,
 }
 
-/// A part of the text that another text takes the place of, and the selection that is left there, counted from the
-/// part's beginning.
+/// A range of the text, its replacement, and the resulting selection relative to the start of the range.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Replacement {
     pub range: Range<usize>,
@@ -27,7 +27,7 @@ pub(super) struct Replacement {
 }
 
 impl Replacement {
-    /// Leaves the caret behind what is put there.
+    /// Leaves the caret after the replacement.
     pub(super) fn new(range: Range<usize>, with: impl Into<String>) -> Self {
         let with = with.into();
         Self { range, anchor: with.len(), head: with.len(), with }
@@ -38,19 +38,20 @@ impl Replacement {
 #[derive(Clone, Debug)]
 pub(crate) struct Buffer {
     text: String,
-    /// Byte at which each line begins; never empty.
+    /// The byte at which each line starts; never empty.
     starts: Vec<usize>,
     carets: Carets,
     history: History,
     /// Counts changes of the text.
     revision: u64,
-    /// The ends that are as they were at the last [`Buffer::take_unchanged`]; `None` if nothing has changed.
+    /// The ends that are unchanged since the last [`Buffer::take_unchanged`]; `None` if nothing has changed.
     unchanged: Option<Unchanged>,
-    /// The lines that have changed since then, where that was one edit of many places that left all lines lines.
+    /// The lines that have changed since then, if the change was one edit in many places that kept the number of
+    /// lines.
     touched: Vec<usize>,
-    /// Closing brackets that were put there when their opening ones were typed, and can be typed over.
+    /// Closing brackets that were inserted automatically with their opening ones, and can be typed over.
     pub(super) closers: Vec<usize>,
-    /// The selections were made from a caret: others like them are whole words.
+    /// The selections were made from a caret, so that further occurrences must be whole words.
     pub(super) selects_words: bool,
 }
 
@@ -86,17 +87,17 @@ impl Buffer {
         self.carets.main()
     }
 
-    /// Returns what the main selection holds.
+    /// Returns the text of the main selection.
     pub(crate) fn selected_text(&self) -> &str {
         &self.text[self.selection().range()]
     }
 
-    /// Puts one selection somewhere; both ends are moved to the nearest places that exist.
+    /// Sets a single selection; both ends are moved to the nearest valid positions.
     pub(crate) fn select(&mut self, anchor: usize, head: usize) {
         self.set_carets(Carets::one(Selection::new(anchor, head)));
     }
 
-    /// Puts selections where they are wanted; ends are moved to the nearest places that exist.
+    /// Sets the selections; their ends are moved to the nearest valid positions.
     pub(crate) fn set_carets(&mut self, carets: Carets) {
         self.carets = carets.map(|s| Selection { anchor: self.snap(s.anchor), head: self.snap(s.head), ..s });
         self.selects_words = false;
@@ -104,7 +105,7 @@ impl Buffer {
         self.settle_closers();
     }
 
-    /// The nearest position at or before `at` that lies between two characters and not inside a `\r\n`.
+    /// Returns the nearest position at or before `at` that is between two characters and not inside a `\r\n`.
     pub(crate) fn snap(&self, at: usize) -> usize {
         let mut at = at.min(self.text.len());
         while !self.text.is_char_boundary(at) {
@@ -122,7 +123,7 @@ impl Buffer {
         self.starts.partition_point(|s| *s <= at) - 1
     }
 
-    /// Bytes of a line without its end; the last line for one that is not there.
+    /// Returns the bytes of a line without its line end; of the last line if the line does not exist.
     pub(crate) fn line_range(&self, line: usize) -> Range<usize> {
         let line = line.min(self.starts.len() - 1);
         let start = self.starts[line];
@@ -137,19 +138,19 @@ impl Buffer {
         &self.text[self.line_range(line)]
     }
 
-    /// Line and column (in characters) of a position, both from 0.
+    /// Returns the line and column (in characters) of a position, both from 0.
     pub(crate) fn line_column(&self, at: usize) -> (usize, usize) {
         let line = self.line_of(at);
         (line, self.text[self.starts[line]..at].chars().count())
     }
 
-    /// The position of a column (in characters) of a line, or the line's end if it is shorter.
+    /// Returns the position of a column (in characters) of a line, or the line's end if it is shorter.
     pub(crate) fn position(&self, line: usize, column: usize) -> usize {
         let range = self.line_range(line);
         self.text[range.clone()].char_indices().nth(column).map_or(range.end, |(i, _)| range.start + i)
     }
 
-    /// Returns what ends a line in this text: of the first line, so that a file keeps its own.
+    /// Returns the line end of the text's first line, so that a file keeps its own.
     pub(crate) fn line_end(&self) -> &'static str {
         match self.starts.get(1) {
             Some(next) if *next >= 2 && self.text.as_bytes()[next - 2] == b'\r' => "\r\n",
@@ -157,7 +158,7 @@ impl Buffer {
         }
     }
 
-    /// Puts `with` in the place of `range` and one caret behind it.
+    /// Replaces `range` with `with`, and leaves one caret after it.
     pub(crate) fn replace(&mut self, range: Range<usize>, with: &str, kind: Kind) {
         let caret = Selection::caret(range.start + with.len());
         self.change(vec![(range, with.to_owned())], kind, |_| Carets::one(caret));
@@ -170,7 +171,7 @@ impl Buffer {
         directive.is_some_and(|directive| directive.starts_with("include") && directive.contains('"'))
     }
 
-    /// Replaces parts of the text, which are in order and apart, as one step of undo. Carets stay where they are.
+    /// Replaces ordered, disjoint ranges of the text as one step of undo. Carets keep their places.
     pub(crate) fn replace_parts(&mut self, parts: Vec<(Range<usize>, String)>) {
         let changes: Vec<Change> = parts
             .iter()
@@ -185,8 +186,8 @@ impl Buffer {
         self.set_carets(self.carets.clone());
     }
 
-    /// Replaces a part of the text for each caret, as one edit. Parts that overlap are cut off where the one before
-    /// ends.
+    /// Replaces a range of the text for each caret, as one edit. A range that overlaps the previous one is cut where
+    /// that one ends.
     pub(super) fn replace_at_carets(&mut self, kind: Kind, part: impl Fn(&Self, Selection) -> Replacement) {
         let mut parts: Vec<Replacement> = self.carets.list().iter().map(|s| part(self, *s)).collect();
         let mut end = 0;
@@ -203,8 +204,8 @@ impl Buffer {
         self.change(parts.into_iter().map(|p| (p.range, p.with)).collect(), kind, |_| after);
     }
 
-    /// Replaces parts of the text, which are in order and apart, as one edit. `after` is asked for the carets when the
-    /// text is as it will be.
+    /// Replaces ordered, disjoint ranges of the text as one edit. `after` returns the new carets from the changed
+    /// text.
     pub(super) fn change(
         &mut self,
         parts: Vec<(Range<usize>, String)>,
@@ -233,8 +234,8 @@ impl Buffer {
         self.settle_closers();
     }
 
-    /// Makes the text equal to `new` by the smallest single change, so that carets stay where they were when they can.
-    /// Undo leads back. This is how a text that changed elsewhere arrives.
+    /// Makes the text equal to `new` by the smallest single change, so that carets keep their places if possible. The
+    /// change can be undone. Used for text that was changed outside the editor.
     pub(crate) fn set_text(&mut self, new: &str) {
         if new == self.text {
             return;
@@ -266,7 +267,7 @@ impl Buffer {
         self.set_carets(self.carets.clone());
     }
 
-    /// Takes the last step back. False if there is none.
+    /// Undoes the last step. Returns false if there is none.
     pub(crate) fn undo(&mut self) -> bool {
         let Some(step) = self.history.undo() else { return false };
         for edit in step.into_iter().rev() {
@@ -278,7 +279,7 @@ impl Buffer {
         true
     }
 
-    /// Does again what undo took back. False if there is nothing.
+    /// Redoes what was last undone. Returns false if there is nothing to redo.
     pub(crate) fn redo(&mut self) -> bool {
         let Some(step) = self.history.redo() else { return false };
         for edit in step {
@@ -290,19 +291,20 @@ impl Buffer {
         true
     }
 
-    /// Returns what has not changed since the last call; none if nothing has: what is derived from it can be kept.
+    /// Returns the ends that have not changed since the last call, so that data derived from them can be kept; `None`
+    /// if nothing has changed.
     pub(crate) fn take_unchanged(&mut self) -> Option<Unchanged> {
         self.unchanged.take()
     }
 
-    /// Returns the lines that have changed since [`Buffer::take_unchanged`], in order, if it is known that all others
-    /// between them have not; else none.
+    /// Returns the lines that have changed since [`Buffer::take_unchanged`], in order, if all lines between them are
+    /// known to be unchanged; otherwise nothing.
     pub(crate) fn take_touched(&mut self) -> Vec<usize> {
         std::mem::take(&mut self.touched)
     }
 
-    /// Makes changes, which are in order and apart: one of the whole from the first to the last, so that many cost as
-    /// much as copying what lies between them.
+    /// Applies ordered, disjoint changes as one replacement from the first to the last, so that many changes cost as
+    /// much as copying the text between them.
     fn apply(&mut self, changes: &[Change]) {
         match changes {
             [] => {}
@@ -324,7 +326,7 @@ impl Buffer {
         }
     }
 
-    /// Makes several changes none of which makes or takes a line: lines only move.
+    /// Applies several changes that neither add nor remove lines: lines only move.
     fn change_within_lines(&mut self, changes: &[Change]) {
         let mut text = String::with_capacity(self.text.len() + changes.iter().map(|c| c.inserted.len()).sum::<usize>());
         let mut touched = Vec::with_capacity(changes.len());
@@ -333,7 +335,7 @@ impl Buffer {
             text.push_str(&self.text[at..change.at]);
             text.push_str(&change.inserted);
             at = change.range().end;
-            // Lines that begin behind the changes before, up to this one's.
+            // Lines that start after the previous changes, up to this one.
             while self.starts.get(line + 1).is_some_and(|start| *start <= change.at) {
                 line += 1;
                 self.starts[line] = self.starts[line].saturating_add_signed(shift);
@@ -366,7 +368,7 @@ impl Buffer {
         self.changed_but(range.start, self.text.len() - range.start - with.len());
     }
 
-    /// Notes that all but so much at the ends has changed.
+    /// Records that everything except `head` and `tail` bytes at the ends has changed.
     fn changed_but(&mut self, head: usize, tail: usize) {
         self.revision += 1;
         let before = self.unchanged.unwrap_or(Unchanged { head, tail });
@@ -374,12 +376,12 @@ impl Buffer {
     }
 }
 
-/// Returns where a place of the text before some changes is after them. What was inserted at it goes before it; a place
-/// in what was removed goes to the end of what was put there.
+/// Maps a position in the text before some changes to the text after them. An insertion at the position goes before
+/// it; a position in removed text goes to the end of its replacement.
 pub(super) fn moved(changes: &[Change], at: usize) -> usize {
     let behind = changes.partition_point(|c| c.at <= at);
     let shift: isize = changes[..behind].iter().map(|c| c.inserted.len() as isize - c.removed.len() as isize).sum();
-    // Only the last of them can reach over the place.
+    // Only the last of them can extend past the position.
     let over = changes[..behind].last().map_or(0, |c| c.range().end.saturating_sub(at));
     (at + over).saturating_add_signed(shift)
 }
@@ -393,7 +395,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_line_index_follows_every_change() {
+    fn line_index_follows_every_change() {
         let mut b = Buffer::new("one\ntwo\nthree");
         for (range, with) in [(3..4, ""), (0..0, "a\nb\n"), (2..9, "\n\n\n"), (0..0, "\r\n"), (1..3, "")] {
             b.replace(range, with, Kind::Other);
@@ -424,7 +426,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_from_elsewhere_keeps_the_caret_at_its_word() {
+    fn external_changes_keep_the_caret_at_its_word() {
         let mut b = Buffer::new("a\nb\nc\n");
         b.select(4, 5);
         b.set_text("a\nlonger\nb\nc\n");
@@ -437,7 +439,7 @@ mod tests {
     }
 
     #[test]
-    fn carriage_returns_are_no_part_of_a_line() {
+    fn lines_exclude_carriage_returns() {
         let b = Buffer::new("ab\r\ncd\r\n");
         assert_eq!((b.line(0), b.line(1), b.line(2), b.line_count()), ("ab", "cd", "", 3));
         assert_eq!(b.line_end(), "\r\n");

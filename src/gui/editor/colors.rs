@@ -4,7 +4,7 @@ use crate::glsl::services::Class;
 use crate::gui::theme::Palette;
 use egui::Color32;
 
-/// Returns the colour of a kind of code, on the background of a theme.
+/// Returns the colour of a class of code, for the background of a theme.
 pub(super) fn code_color(kind: Class, palette: &Palette) -> Color32 {
     let [dark, light] = match kind {
         Class::Local | Class::Unknown => return palette.text,

@@ -1,4 +1,4 @@
-//! These tests print what a frame of the editor costs. The figures are for reading and bound nothing.
+//! Prints what a frame of the editor costs. The figures are informative; no limit is checked.
 //!
 //! `cargo test --lib editor::cost -- --ignored --nocapture`
 
@@ -19,7 +19,7 @@ fn frame(ctx: &egui::Context, editor: &mut CodeEditor, wraps: bool, events: Vec<
     frame_with(ctx, editor, (wraps, &[], None), events)
 }
 
-/// With the messages beside its lines, and what is known of the text.
+/// Draws a frame with messages next to its lines, and with an analysis of the text.
 fn frame_with(
     ctx: &egui::Context,
     editor: &mut CodeEditor,
@@ -52,7 +52,7 @@ fn lines(count: usize) -> String {
     (0..count).map(|i| format!("{CODE}{i}\n")).collect()
 }
 
-/// One line of so many bytes.
+/// Returns one line of this number of bytes.
 fn line(bytes: usize) -> String {
     CODE.replace("//", "+").trim_start().repeat(bytes / 50 + 1).chars().take(bytes).collect()
 }
@@ -88,7 +88,7 @@ fn a_frame_idle_and_typing() {
     }
 }
 
-/// As in the window: a whole shader of 17,000 lines, coloured and explained by its analysis, with messages.
+/// Measures typing as in the window: a shader of 17,000 lines, coloured and explained by its analysis, with messages.
 #[test]
 #[ignore = "prints times; they mean something on a quiet machine only"]
 fn a_frame_typing_in_a_text_that_is_known() {
@@ -158,10 +158,10 @@ fn a_frame_typing_with_folds_and_many_carets() {
     }
 }
 
-/// Counted in bytes, so that it is the same on every machine: what a letter costs does not grow with the line or the
-/// text.
+/// Counted in bytes, so that it is the same on every machine: the cost of typing a letter does not grow with the line
+/// or the text.
 #[test]
-fn a_letter_lays_out_what_is_in_sight_and_looks_at_what_is_around_it() {
+fn typing_costs_the_visible_text_and_its_surroundings() {
     let in_sight = 40 * 2 * 2 * super::pieces::PIECE;
     for (text, column) in [
         (lines(3_000), 4),
@@ -189,9 +189,9 @@ fn a_letter_lays_out_what_is_in_sight_and_looks_at_what_is_around_it() {
     }
 }
 
-/// Typing at many carets costs what their lines are long, not what lies between them.
+/// Typing at many carets costs as much as the length of their lines, not of the text between them.
 #[test]
-fn a_letter_at_many_carets_looks_at_their_lines_alone() {
+fn typing_at_many_carets_scans_only_their_lines() {
     let ctx = egui::Context::default();
     let mut editor = CodeEditor::new(&lines(17_000));
     frame(&ctx, &mut editor, false, Vec::new());

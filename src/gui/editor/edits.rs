@@ -1,4 +1,4 @@
-//! Edits are what the editor's keys do to a text: typing, new lines, deleting, pasting. Each is made at every caret.
+//! Edits made by the editor's keys: typing, new lines, deleting, pasting. Each is made at every caret.
 
 use super::{
     buffer::{Buffer, Replacement},
@@ -10,7 +10,7 @@ use std::ops::Range;
 pub(super) const INDENT: &str = "    ";
 
 impl Buffer {
-    /// Types text over the selections.
+    /// Replaces the selections with typed text.
     pub(crate) fn insert(&mut self, text: &str) {
         let kind = if text.chars().count() == 1 { Kind::Typing } else { Kind::Other };
         let kind = if text == "}" && self.carets().list().iter().any(|s| s.is_empty() && self.dedent_at(s.head) > 0) {
@@ -24,13 +24,14 @@ impl Buffer {
         });
     }
 
-    /// Returns how many bytes a closing brace goes back that is typed alone on its line: one step of its indent.
+    /// Returns the number of bytes by which a closing brace typed alone on its line is unindented: one step of its
+    /// indent.
     fn dedent_at(&self, at: usize) -> usize {
         let before = &self.text()[self.line_range(self.line_of(at)).start..at];
         if !before.is_empty() && before.trim().is_empty() { unit_at_end(before) } else { 0 }
     }
 
-    /// Pastes: line ends become the file's own. As many lines as there are carets are dealt out among them.
+    /// Pastes text; its line ends become those of the file. If there are as many lines as carets, each caret gets one.
     pub(crate) fn paste(&mut self, text: &str) {
         let text = text.replace("\r\n", "\n").replace('\r', "\n");
         let carets = self.carets().list().to_vec();
@@ -44,7 +45,7 @@ impl Buffer {
         });
     }
 
-    /// Enter: the new line is indented as this one, one step more after an opening brace.
+    /// Enter: the new line has the indent of this one, plus one step after an opening brace.
     pub(crate) fn new_line(&mut self) {
         self.replace_at_carets(Kind::Other, |buffer, s| {
             let range = s.range();
@@ -67,8 +68,8 @@ impl Buffer {
         });
     }
 
-    /// Ctrl+Enter and Ctrl+Shift+Enter: a new line below the caret's or above it, indented as that one. The line itself
-    /// stays whole.
+    /// Ctrl+Enter and Ctrl+Shift+Enter: inserts a line below or above the caret's, with the same indent. The line
+    /// itself is not split.
     pub(crate) fn open_line(&mut self, way: Vertical) {
         self.replace_at_carets(Kind::Other, |buffer, s| {
             let line = buffer.line_range(buffer.line_of(s.head));
@@ -90,7 +91,7 @@ impl Buffer {
         });
     }
 
-    /// Backspace and Delete: the selections, or what `motion` passes over.
+    /// Backspace and Delete: deletes the selections, or what `motion` passes over.
     pub(crate) fn delete(&mut self, motion: Motion) {
         let is_run = self.carets().list().iter().all(|s| s.is_empty());
         let kind = if is_run { Kind::Deleting } else { Kind::Other };
@@ -100,12 +101,12 @@ impl Buffer {
         });
     }
 
-    /// Returns what Backspace or Delete takes at a caret.
+    /// Returns the range that Backspace or Delete deletes at a caret.
     fn passed_over(&self, motion: Motion, at: usize) -> Range<usize> {
         let to = self.target(motion, at);
         let mut range = at.min(to)..at.max(to);
         if motion == Motion::Left {
-            // Backspace in the indent takes a step of it.
+            // Backspace in the indent deletes one step of it.
             let line = self.line_range(self.line_of(at));
             let before = &self.text()[line.start..at];
             if before.len() > 1 && before.bytes().all(|b| b == b' ') {
@@ -117,13 +118,13 @@ impl Buffer {
         range
     }
 
-    /// Returns what Ctrl+C takes: what is selected, or the whole line of each caret that selects nothing.
+    /// Returns the ranges that Ctrl+C copies: the selections, or the whole line of each caret that selects nothing.
     pub(crate) fn copied_ranges(&self) -> Vec<Range<usize>> {
         let mut ranges: Vec<Range<usize>> = Vec::new();
         for s in self.carets().list() {
             let range = if s.is_empty() { self.whole_line(s.head) } else { s.range() };
             match ranges.last_mut() {
-                // Two carets in a line take it once.
+                // Two carets in a line copy it once.
                 Some(last) if range.start < last.end => last.end = last.end.max(range.end),
                 _ => ranges.push(range),
             }
@@ -131,7 +132,7 @@ impl Buffer {
         ranges
     }
 
-    /// Returns the text that Ctrl+C takes: the parts of several carets in a line each.
+    /// Returns the text that Ctrl+C copies: with several carets, one line for each range.
     pub(crate) fn copied_text(&self) -> String {
         let parts: Vec<&str> = self.copied_ranges().into_iter().map(|r| &self.text()[r]).collect();
         match &parts[..] {
@@ -140,7 +141,7 @@ impl Buffer {
         }
     }
 
-    /// Takes away what Ctrl+C would take.
+    /// Deletes what Ctrl+C would copy.
     pub(crate) fn cut(&mut self) {
         let parts: Vec<_> = self.copied_ranges().into_iter().map(|range| (range, String::new())).collect();
         let carets = {
@@ -156,7 +157,7 @@ impl Buffer {
         self.change(parts, Kind::Other, |_| super::selection::Carets::new(carets, main));
     }
 
-    /// A line with its end.
+    /// Returns the bytes of a line with its line end.
     pub(super) fn whole_line(&self, at: usize) -> Range<usize> {
         let line = self.line_of(at);
         let start = self.line_range(line).start;
@@ -165,7 +166,7 @@ impl Buffer {
     }
 }
 
-/// One step of indent in the style of a line's own.
+/// Returns one step of indent in the style of a line's indent.
 fn unit_of(indent: &str) -> &'static str {
     if indent.starts_with('\t') {
         "\t"
@@ -176,7 +177,7 @@ fn unit_of(indent: &str) -> &'static str {
     }
 }
 
-/// Bytes of the last step of an indent.
+/// Returns the length of the last step of an indent, in bytes.
 fn unit_at_end(indent: &str) -> usize {
     if indent.ends_with('\t') {
         1
@@ -199,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn enter_keeps_the_indent_and_opens_a_block() {
+    fn enter_keeps_the_indent_and_indents_blocks() {
         let mut b = with("    if (x) {}", 12, 12);
         b.new_line();
         assert_eq!(b.text(), "    if (x) {\n        \n    }");
@@ -209,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_opened_above_and_below_whole_ones() {
+    fn open_line_does_not_split_lines() {
         let mut b = with("  f() {\r\n  }", 4, 6);
         b.open_line(Vertical::Down);
         assert_eq!((b.text(), b.selection().head), ("  f() {\r\n    \r\n  }", 13));
@@ -225,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn backspace_takes_a_step_of_the_indent_or_a_letter() {
+    fn backspace_deletes_an_indent_step_or_a_letter() {
         let mut b = with("        x", 8, 8);
         b.delete(Motion::Left);
         assert_eq!(b.text(), "    x");
@@ -242,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn pasted_lines_take_the_files_ends() {
+    fn pasted_lines_get_the_line_ends_of_the_file() {
         let mut b = with("a\r\nb", 4, 4);
         b.paste("x\ny\r\nz");
         assert_eq!(b.text(), "a\r\nbx\r\ny\r\nz");

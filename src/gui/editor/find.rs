@@ -1,4 +1,4 @@
-//! Finding and replacing in one text.
+//! Find and replace in one text.
 
 use super::{
     buffer::Buffer,
@@ -8,7 +8,7 @@ use super::{
 use regex::{Regex, RegexBuilder};
 use std::ops::Range;
 
-/// A text to find, and how.
+/// The text to find, and the search options.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Query {
     pub text: String,
@@ -17,17 +17,17 @@ pub(crate) struct Query {
     pub is_regex: bool,
 }
 
-/// A query that can be asked.
+/// A compiled query.
 #[derive(Clone, Debug)]
 pub(crate) struct Finder {
-    /// `None` for an empty query, which is found nowhere.
+    /// `None` for an empty query, which never matches.
     regex: Option<Regex>,
-    /// `$1` in a replacement is what the first group found.
+    /// `$1` in a replacement is the match of the first group.
     expands: bool,
 }
 
 impl Query {
-    /// Returns what finds it, or why the regular expression is none.
+    /// Compiles the query, or returns why the regular expression is invalid.
     pub(crate) fn finder(&self) -> Result<Finder, String> {
         let pattern = if self.is_regex { self.text.clone() } else { regex::escape(&self.text) };
         let regex = match self.text.is_empty() {
@@ -45,7 +45,7 @@ impl Query {
     }
 }
 
-/// The last line of the message is the reason; those before draw the expression.
+/// Returns the last line of the message, which is the reason; the lines before it draw the expression.
 fn reason(error: &regex::Error) -> String {
     let text = error.to_string();
     let last = text.lines().last().unwrap_or_default();
@@ -53,12 +53,12 @@ fn reason(error: &regex::Error) -> String {
 }
 
 impl Finder {
-    /// Every place where it stands, from the top.
+    /// Returns every match, from the top.
     pub(crate) fn matches(&self, text: &str) -> Vec<Range<usize>> {
         self.regex.iter().flat_map(|regex| regex.find_iter(text)).map(|m| m.range()).collect()
     }
 
-    /// Returns what takes the place of a match.
+    /// Returns the replacement for a match.
     fn replacement(&self, text: &str, found: &Range<usize>, with: &str) -> String {
         let captures = self.regex.as_ref().and_then(|regex| regex.captures_at(text, found.start));
         match captures.filter(|_| self.expands) {
@@ -72,7 +72,7 @@ impl Finder {
     }
 }
 
-/// `\n` and `\t` in a replacement are what they are in an expression.
+/// Expands `\n` and `\t` in a replacement, which mean the same as in an expression.
 fn unescaped(with: &str) -> String {
     let mut text = String::new();
     let mut letters = with.chars();
@@ -93,8 +93,8 @@ fn unescaped(with: &str) -> String {
 }
 
 impl Buffer {
-    /// Selects the next match at or after the selection's end (before its start, going back), round the text's ends.
-    /// The match's number.
+    /// Selects the next match at or after the selection's end (or before its start, going back), wrapping round at the
+    /// text's ends. Returns the match's index.
     pub(crate) fn find(&mut self, matches: &[Range<usize>], forward: bool) -> Option<usize> {
         let now = self.selection().range();
         let index = if forward {
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn finding_goes_round_and_replacing_is_one_step() {
+    fn find_wraps_round_and_replace_all_is_one_step() {
         let mut b = Buffer::new("uv UV uv");
         let uv = finder("uv", false, false);
         let m = uv.matches(b.text());
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn regular_expressions_find_groups_and_put_them_elsewhere() {
+    fn replacements_expand_groups() {
         let mut b = Buffer::new("mix(a, b) + mix(c, d);\r\n// end\r\n");
         let swap = finder(r"mix\((\w+), (\w+)\)", true, true);
         let m = swap.matches(b.text());
@@ -174,7 +174,7 @@ mod tests {
         b.find(&m, true);
         assert!(b.replace_match(&swap, &m, r"f($1)\n"));
         assert_eq!(b.line(0), "f(a)");
-        // Lines end before what ends them.
+        // `$` matches before the line end.
         assert_eq!(finder("^.*;$", true, true).matches("a;\r\nb\r\nc;"), [0..2, 7..9]);
         assert_eq!(finder("END", false, true).matches("// end"), [3..6]);
         assert_eq!(finder("$1", true, false).replacement("$1", &(0..2), "$1$1"), "$1$1", "plain text is plain");
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn a_match_of_nothing_is_gone_past() {
+    fn empty_matches_are_skipped() {
         let mut b = Buffer::new("a\nb");
         let starts = finder("^", true, true);
         let m = starts.matches(b.text());

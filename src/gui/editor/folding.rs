@@ -1,9 +1,9 @@
-//! Folding blocks of the text that is shown, and showing them again where the caret goes.
+//! Folds blocks of the text, and unfolds them where the caret goes.
 
 use super::{action::EditorAction, brackets, motion::Motion, selection::Selection, view::CodeEditor};
 
 impl CodeEditor {
-    /// Does what an action asks of rows. False for one that asks nothing of them.
+    /// Applies an action that concerns rows. Returns false for any other action.
     pub(super) fn act_on_rows(&mut self, action: EditorAction) -> bool {
         let line = self.buffer.line_of(self.buffer.selection().head);
         match action {
@@ -46,7 +46,7 @@ impl CodeEditor {
         }
     }
 
-    /// Puts carets that were folded away behind the line that opens their block.
+    /// Moves carets inside a fold to the end of the line that opens the block.
     fn leave_folds(&mut self) {
         let hides = |at: usize| self.rows.is_hidden(self.buffer.line_of(at));
         if !self.buffer.carets().list().iter().any(|s| hides(s.head)) {
@@ -65,7 +65,7 @@ impl CodeEditor {
         self.buffer.set_carets(carets);
     }
 
-    /// Unfolds what hides a caret.
+    /// Unfolds the blocks that hide a caret.
     pub(super) fn reveal_carets(&mut self) {
         if self.rows.is_plain() {
             return;

@@ -1,4 +1,4 @@
-//! The strip left of the text: line numbers, a sign where there is a mark, another where a block can be folded.
+//! The gutter left of the text: line numbers, signs of marks and fold arrows.
 
 use super::{
     buffer::Buffer,
@@ -13,29 +13,29 @@ use crate::{
 };
 use egui::{Align2, Color32, FontId, Id, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
-/// Says how wide it is beside its digits.
+/// The width of the gutter without its digits.
 pub(super) const BESIDE: f32 = 34.0;
 
 pub(super) struct Gutter<'a> {
     pub rect: Rect,
-    /// Says where the first row is, which may be out of sight.
+    /// The position of the first row, which may be out of view.
     pub top: f32,
     pub row_height: f32,
     pub index: &'a Highlight,
     pub rows: &'a Rows,
 }
 
-/// A click, with the line from 0.
+/// A click in the gutter, with the line from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Clicked {
-    /// The sign that folds its block.
+    /// The arrow that folds the block.
     Fold(usize),
-    /// Its number, or what is left of it.
+    /// The line number, or the space left of it.
     Line(usize),
 }
 
 impl Gutter<'_> {
-    /// Shows it. A click in it comes back.
+    /// Shows the gutter, and returns a click in it.
     pub(super) fn show(&self, ui: &Ui, id: Id, buffer: &Buffer, look: &Look<'_>) -> Option<Clicked> {
         let Gutter { rect, top, row_height, .. } = *self;
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
@@ -47,7 +47,7 @@ impl Gutter<'_> {
         let last = (((rect.bottom() - top) / row_height).ceil().max(0.0) as usize).min(self.rows.len(buffer));
         let caret_line = buffer.line_of(buffer.selection().head);
         let font = FontId::monospace((look.font_size - 1.0).max(7.0));
-        // Folding has keys of its own.
+        // Folding has its own keys.
         let response = ui.interact(rect, id.with("gutter"), Sense::CLICK);
         let pointer = response.hover_pos();
         let mut clicked = None;
@@ -94,7 +94,8 @@ impl Gutter<'_> {
     }
 }
 
-/// The sign of a problem: a cross for an error, a triangle for a warning, a bar for a note. Breakpoints are round.
+/// Paints the sign of a problem: a cross for an error, a triangle for a warning, a bar for a note. Breakpoints are
+/// round.
 fn marked(painter: &egui::Painter, at: Pos2, severity: Severity, color: Color32) {
     let stroke = Stroke::new(2.0, color);
     match severity {
@@ -110,7 +111,7 @@ fn marked(painter: &egui::Painter, at: Pos2, severity: Severity, color: Color32)
     }
 }
 
-/// A breakpoint, and where one is.
+/// Paints a breakpoint and the line about to run.
 fn debugged(painter: &egui::Painter, at: Pos2, line: usize, debug: &Debug, is_over: bool, p: &Palette) {
     match debug.breakpoints.iter().find(|(of, ..)| *of == line) {
         Some((_, is_on, is_conditional)) => {
@@ -131,7 +132,7 @@ fn debugged(painter: &egui::Painter, at: Pos2, line: usize, debug: &Debug, is_ov
     }
 }
 
-/// To the right where something is folded away, else down.
+/// Paints the fold arrow: to the right if the block is folded, else down.
 fn arrow(painter: &egui::Painter, area: Rect, is_folded: bool, color: Color32) {
     let c = area.center();
     let points = match is_folded {
@@ -150,7 +151,7 @@ mod tests {
     use super::*;
     use egui::{Context, RawInput};
 
-    /// The round and the other signs in the strip: how many of each.
+    /// Counts the round signs and the others in the gutter.
     fn signs(marks: &[Mark], debug: &Debug) -> (usize, usize) {
         let ctx = Context::default();
         let mut editor = CodeEditor::new("a\nb\nc\nd\n");
@@ -179,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_in_a_line_looks_like_no_breakpoint() {
+    fn problem_signs_differ_from_breakpoints() {
         let mark = |severity| Mark {
             line: 1,
             range: 2..3,
@@ -194,7 +195,7 @@ mod tests {
         }
         let debug = Debug { breakpoints: vec![(1, true, false)], ..NO_DEBUG };
         assert_eq!(signs(&[], &debug), (1, 0));
-        // Both in one line are both to be seen.
+        // Both signs of one line are visible.
         let (round, other) = signs(&[mark(Severity::Error)], &debug);
         assert!(round == 1 && other > 0);
     }

@@ -1,15 +1,15 @@
-//! Steps of undo and redo. Knows what was put where, not why.
+//! The undo history. Stores which text was replaced where, not why.
 
 use super::selection::{Carets, Selection};
 use std::{collections::VecDeque, ops::Range};
 
-/// Bytes that steps may keep; the oldest go first. Hours of typing are a thousandth of it.
+/// The limit on stored bytes; the oldest steps are dropped first. Hours of typing use a thousandth of it.
 const MOST: usize = 64 << 20;
 
 /// A replacement in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Change {
-    /// In the text before any of the changes that were made with it.
+    /// A position in the text before any of the changes of its edit.
     pub at: usize,
     pub removed: String,
     pub inserted: String,
@@ -21,7 +21,7 @@ impl Change {
     }
 }
 
-/// Replacements made at once, in the order of the text, with the carets on both sides of them.
+/// Replacements made at once, in the order of the text, with the carets before and after.
 #[derive(Clone, Debug)]
 pub(super) struct Edit {
     pub changes: Vec<Change>,
@@ -30,14 +30,14 @@ pub(super) struct Edit {
 }
 
 impl Edit {
-    /// Bytes that it keeps.
+    /// Returns the number of bytes that it stores.
     fn size(&self) -> usize {
         let text = |c: &Change| c.removed.len() + c.inserted.len() + size_of::<Change>();
         let carets = self.before.list().len() + self.after.list().len();
         self.changes.iter().map(text).sum::<usize>() + carets * size_of::<Selection>() + size_of::<Edit>()
     }
 
-    /// Returns the changes that lead back.
+    /// Returns the changes that undo it.
     pub(super) fn inverse(&self) -> Vec<Change> {
         let mut shift = 0isize;
         let back = |c: &Change| {
@@ -49,7 +49,7 @@ impl Edit {
     }
 }
 
-/// The kind of an edit, which decides whether it joins the one before.
+/// The kind of an edit, which decides whether it joins the previous one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// A character typed: joins a word being typed.
@@ -63,10 +63,10 @@ pub(crate) enum Kind {
 #[derive(Clone, Debug, Default)]
 pub(super) struct History {
     done: VecDeque<Vec<Edit>>,
-    /// Bytes of what is done; what is undone was done once.
+    /// The bytes of done steps; undone steps were counted when they were done.
     size: usize,
     undone: Vec<Vec<Edit>>,
-    /// Kind of the newest step while more may join it.
+    /// The kind of the newest step while more edits may join it.
     open: Option<Kind>,
 }
 
@@ -84,12 +84,12 @@ impl History {
         self.open = (kind != Kind::Other).then_some(kind);
     }
 
-    /// The caret went elsewhere: what follows is a new step.
+    /// Closes the newest step because the caret moved: the next edit starts a new one.
     pub(super) fn seal(&mut self) {
         self.open = None;
     }
 
-    /// Carets went on by what was typed, though the text was there already.
+    /// Records that the carets passed over typed text that was already there.
     pub(super) fn go_on(&mut self, carets: &Carets) {
         if let Some(edit) = self.done.back_mut().and_then(|step| step.last_mut())
             && self.open == Some(Kind::Typing)
@@ -119,7 +119,8 @@ fn size(step: &[Edit]) -> usize {
     step.iter().map(Edit::size).sum()
 }
 
-/// A word typed or a run deleted is one step; the first letter after a space begins the next.
+/// Returns whether an edit joins the previous one. A typed word or a run of deletions is one step; the first letter
+/// after a space starts the next.
 fn joins(previous: Option<&Edit>, edit: &Edit, kind: Kind) -> bool {
     let Some(previous) = previous else { return false };
     match kind {
@@ -150,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_kept_is_bounded_and_the_newest_can_be_taken_back() {
+    fn history_is_bounded_and_the_newest_step_can_be_undone() {
         let mut history = History::default();
         let large = "x".repeat(MOST / 8);
         for _ in 0..40 {
@@ -162,7 +163,7 @@ mod tests {
         let steps = std::iter::from_fn(|| history.undo()).count();
         assert_eq!((steps, history.size), (7, 0));
         assert_eq!(std::iter::from_fn(|| history.redo()).count(), 8);
-        // One step of any size can be taken back.
+        // A step of any size can be undone.
         history.push(pasted(&"z".repeat(2 * MOST)), Kind::Other);
         assert!(history.undo().is_some() && history.undo().is_none());
     }

@@ -1,19 +1,19 @@
-//! From events and actions to changes of a [`Buffer`].
+//! Translates events and actions into changes of a [`Buffer`].
 
 use super::{action::EditorAction as Action, buffer::Buffer};
 use egui::{Event, ImeEvent};
 
-/// The effects of an event besides changes of the buffer itself.
+/// The effects of an event in addition to changes of the buffer.
 #[derive(Debug, Default)]
 pub(super) struct Handled {
-    /// The caret moved or the text changed: it should be in sight.
+    /// The caret moved or the text changed: scroll the caret into view.
     pub follow_caret: bool,
-    /// To be put on the clipboard.
+    /// The text for the clipboard.
     pub copied: Option<String>,
 }
 
-/// Feeds an event that is no key to the buffer. `preedit` is the text an input method is composing; `is_comment` says
-/// whether a byte lies in a comment.
+/// Feeds an event that is not a key to the buffer. `preedit` is the text that an input method is composing;
+/// `is_comment` returns whether a byte is in a comment.
 pub(super) fn handle(
     buffer: &mut Buffer,
     preedit: &mut String,
@@ -61,7 +61,8 @@ pub(super) fn handle(
     handled
 }
 
-/// Does what an action asks of a text alone. False for one that is the window's, and where there was nothing to do.
+/// Applies an action that only concerns a text. Returns false for an action of the window, and if there was nothing to
+/// do.
 pub(super) fn act(buffer: &mut Buffer, action: Action) -> bool {
     match action {
         Action::Go(motion) => buffer.go(motion, false),

@@ -10,7 +10,7 @@ use super::{
 use std::ops::Range;
 
 impl Buffer {
-    /// Tab: indents the lines of a selection of several, or adds spaces up to the next stop.
+    /// Tab: indents the lines of a selection of several lines, or inserts spaces up to the next stop.
     pub(crate) fn indent(&mut self) {
         let is_in_line = |s: &Selection| self.line_of(s.anchor) == self.line_of(s.head);
         if self.carets().list().iter().all(is_in_line) {
@@ -23,13 +23,13 @@ impl Buffer {
         }
     }
 
-    /// Ctrl+]: puts one step of indent before every line of the selections.
+    /// Ctrl+]: adds one step of indent to every line of the selections.
     pub(crate) fn indent_lines(&mut self) {
         let indent = |line: &str| if line.trim().is_empty() { line.into() } else { format!("{INDENT}{line}") };
         self.edit_lines(|_, line| indent(line));
     }
 
-    /// Shift+Tab: takes one step of indent from every line of the selections.
+    /// Shift+Tab: removes one step of indent from every line of the selections.
     pub(crate) fn unindent(&mut self) {
         self.edit_lines(|_, line| {
             let spaces = line.len() - line.trim_start_matches(' ').len();
@@ -38,7 +38,7 @@ impl Buffer {
         });
     }
 
-    /// Turns every line of a selection into a comment, or back if all are.
+    /// Turns every line of a selection into a comment, or uncomments all if all are comments.
     pub(crate) fn toggle_comment(&mut self) {
         let blocks = self.blocks();
         let plan: Vec<(Range<usize>, bool, usize)> = blocks
@@ -64,7 +64,7 @@ impl Buffer {
         });
     }
 
-    /// Moves the lines of every selection past the line above or below them. Where one cannot go on, none does.
+    /// Moves the lines of every selection past the line above or below. If one cannot move, none does.
     pub(crate) fn move_lines(&mut self, way: Vertical) {
         let blocks = self.blocks();
         let is_stuck = |b: &Range<usize>| match way {
@@ -104,7 +104,7 @@ impl Buffer {
         });
     }
 
-    /// Puts a copy of the lines of every selection above or below them, and goes to the copy.
+    /// Copies the lines of every selection above or below them, and moves the carets to the copy.
     pub(crate) fn copy_lines(&mut self, way: Vertical) {
         let blocks = self.blocks();
         let mut parts = Vec::new();
@@ -113,7 +113,7 @@ impl Buffer {
         for block in &blocks {
             let lines = self.line_range(block.start).start..self.line_range(block.end - 1).end;
             let copy = format!("{}{}", self.line_end(), &self.text()[lines.clone()]);
-            // The text is the same either way; which of the two is the copy is where the carets are.
+            // The text is the same either way; the carets decide which of the two is the copy.
             shifts.push((lines.start, shift + if way == Vertical::Down { copy.len() } else { 0 }));
             shift += copy.len();
             parts.push((lines.end..lines.end, copy));
@@ -137,7 +137,7 @@ impl Buffer {
             let start = self.line_range(block.start).start;
             let range = match (block.start, block.end) {
                 (0, end) if end == last => 0..self.text().len(),
-                // The last line goes with the line end before it.
+                // The last line is deleted with the line end before it.
                 (first, end) if end == last => self.line_range(first - 1).end..self.text().len(),
                 (_, end) => start..self.line_range(end).start,
             };
@@ -156,13 +156,13 @@ impl Buffer {
         });
     }
 
-    /// The column of the first caret in some lines.
+    /// Returns the column of the first caret in a range of lines.
     fn column_in(&self, block: &Range<usize>) -> Option<usize> {
         let places = self.carets().list().iter().map(|s| self.line_column(s.head));
         places.filter(|(line, _)| block.contains(line)).map(|(_, column)| column).next()
     }
 
-    /// Lines that a selection touches; one that ends at a line's start does not touch it.
+    /// Returns the lines that a selection touches; one that ends at a line's start does not touch it.
     fn lines_of(&self, selection: Selection) -> Range<usize> {
         let range = selection.range();
         let first = self.line_of(range.start);
@@ -173,7 +173,7 @@ impl Buffer {
         first..last + 1
     }
 
-    /// Runs of lines that selections touch, in order, with at least one other line between two.
+    /// Returns runs of lines that selections touch, in order, with at least one other line between two.
     pub(super) fn blocks(&self) -> Vec<Range<usize>> {
         let mut blocks: Vec<Range<usize>> = Vec::new();
         for lines in self.carets().list().iter().map(|s| self.lines_of(*s)) {
@@ -185,7 +185,7 @@ impl Buffer {
         blocks
     }
 
-    /// Changes every selected line as one step, and keeps the ends of the selections at their letters.
+    /// Changes every selected line as one step, and keeps the selections' ends at their characters.
     fn edit_lines(&mut self, change: impl Fn(usize, &str) -> String) {
         let mut changes = Vec::new();
         for line in self.blocks().into_iter().flatten() {
@@ -197,7 +197,7 @@ impl Buffer {
             let start = self.line_range(line).start;
             let head = old.bytes().zip(new.bytes()).take_while(|(a, b)| a == b).count();
             let head = old.floor_char_boundary(head).min(new.floor_char_boundary(head));
-            // What is put in or taken out lies in one place: the longer one has it behind what both begin with.
+            // Each line changes in one place: after the common prefix of the old and the new line.
             let (removed, inserted) = if new.len() > old.len() {
                 (head..head, &new[head..head + new.len() - old.len()])
             } else {
@@ -210,7 +210,7 @@ impl Buffer {
             });
         }
         let starts: Vec<usize> = changes.iter().map(|c| self.line_range(self.line_of(c.at)).start).collect();
-        // The start of a line stays: a selection of whole lines goes on being one.
+        // The start of a line stays, so that a selection of whole lines remains one.
         let carets = self.carets().map(|s| {
             s.map(|at| {
                 let shift = changes.iter().zip(&starts).find(|(c, start)| **start == at && c.at == at);
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn comments_come_and_go_as_one_step() {
+    fn toggling_comments_is_one_step() {
         let text = "  a;\n\n    b;\nc;";
         let mut b = with(text, 0, 10);
         b.toggle_comment();
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn tab_indents_a_selection_and_comes_back() {
+    fn tab_indents_a_selection_and_shift_tab_unindents_it() {
         let mut b = with("a\nb\nc", 0, 3);
         b.indent();
         assert_eq!(b.text(), "    a\n    b\nc");
@@ -277,7 +277,7 @@ mod tests {
         b.delete_lines();
         b.delete_lines();
         assert_eq!((b.text(), b.selection()), ("bb\na\nc", Selection::caret(4)));
-        // Whole lines with the end of the last: the next line is not of them.
+        // Whole lines with the line end of the last; the next line is not included.
         let mut b = with("a\r\nb\r\nc", 0, 3);
         b.move_lines(Vertical::Down);
         assert_eq!((b.text(), b.selection()), ("b\r\na\r\nc", Selection::new(3, 6)));

@@ -1,4 +1,4 @@
-//! More carets than one.
+//! Several carets.
 
 use super::{
     buffer::Buffer,
@@ -8,14 +8,14 @@ use super::{
 use std::ops::Range;
 
 impl Buffer {
-    /// Back to the main caret; where it is the only one, to no selection.
+    /// Drops all but the main caret; if it is the only one, drops its selection.
     pub(crate) fn one_caret(&mut self) {
         let main = self.selection();
         let is_one = self.carets().list().len() == 1;
         self.set_carets(Carets::one(if is_one { Selection::caret(main.head) } else { main }));
     }
 
-    /// One more caret above or below each.
+    /// Adds a caret above or below each.
     pub(crate) fn add_caret(&mut self, way: Vertical) {
         let mut list = self.carets().list().to_vec();
         let main = self.carets().main_index();
@@ -29,7 +29,7 @@ impl Buffer {
             }
         }
         let main = match way {
-            // The newest is the one to follow.
+            // The view follows the newest caret.
             Vertical::Up => (0..list.len()).min_by_key(|i| list[*i].head),
             Vertical::Down => (0..list.len()).max_by_key(|i| list[*i].head),
         }
@@ -37,7 +37,7 @@ impl Buffer {
         self.set_carets(Carets::new(list, main));
     }
 
-    /// Selects the word of each caret; where something is selected, its next occurrence too.
+    /// Selects the word of each caret; if something is selected, also its next occurrence.
     pub(crate) fn add_next(&mut self) {
         if self.select_words() {
             return;
@@ -56,7 +56,7 @@ impl Buffer {
         }
     }
 
-    /// Selects every occurrence of what is selected, or of the word.
+    /// Selects every occurrence of the selected text or the word.
     pub(crate) fn add_all(&mut self) {
         self.select_words();
         let places = self.occurrences();
@@ -68,7 +68,7 @@ impl Buffer {
         }
     }
 
-    /// Selects the word of each caret that selects nothing. False if there is none such, or no word.
+    /// Selects the word of each caret that selects nothing. Returns false if there is no such caret or no word.
     fn select_words(&mut self) -> bool {
         if !self.carets().list().iter().any(|s| s.is_empty()) {
             return false;
@@ -83,7 +83,7 @@ impl Buffer {
         has_changed
     }
 
-    /// Places where the text stands that the main selection holds; whole words if it was made as one.
+    /// Returns the places of the main selection's text; whole words only, if it was selected as a word.
     fn occurrences(&self) -> Vec<Range<usize>> {
         let wanted = self.selected_text();
         if wanted.is_empty() {
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn a_word_is_taken_again_and_again_and_typed_over_everywhere() {
+    fn add_next_selects_occurrences_and_typing_replaces_all() {
         let mut b = Buffer::new("uv = uv2 + uv;\nuv");
         b.select(1, 1);
         b.add_next();
@@ -131,7 +131,7 @@ mod tests {
         assert_eq!(ranges(&b), [15..17], "the newest one");
         b.one_caret();
         assert_eq!(ranges(&b), [17..17]);
-        // What is selected by hand is found within words too.
+        // Text that was selected by hand is also found within words.
         b.select(15, 17);
         b.add_all();
         assert_eq!(ranges(&b), [0..2, 5..7, 11..13, 15..17]);
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_of_the_clipboard_are_dealt_out() {
+    fn pasted_lines_are_distributed_among_carets() {
         let mut b = Buffer::new("a b");
         b.set_carets(Carets::new(vec![Selection::new(0, 1), Selection::new(2, 3)], 0));
         assert_eq!(b.copied_text(), "a\nb");

@@ -1,11 +1,11 @@
-//! The code editor: a widget for GLSL that lays out only the pieces of lines that it shows.
+//! The code editor: a widget for GLSL that lays out only the visible pieces of lines.
 //!
-//! Owns the text while it is being edited (with its undo), its colours, the caret, the marks beside lines and the help
-//! while writing. Knows nothing of projects or of compiling: it is handed marks and an analysis of its text, and hands
-//! back that the text changed and where it wants to go. egui's own `TextEdit` lays the whole text out on every change,
-//! 11 ms a keystroke at 2,000 lines. What a keystroke costs here grows neither with the text nor with the line: it took
-//! 0.3 ms in 142 lines, 0.5 ms in 17,000 and 1.4 ms in a single line of 10 MB (`cost`, two slow cores under load, not
-//! optimised).
+//! Owns the text while it is being edited (with its undo), its colours, the caret, the marks next to lines and the
+//! help while writing. Knows nothing of projects or of compiling: it gets marks and an analysis of its text, and
+//! reports changes of the text and requests to go elsewhere. egui's own `TextEdit` lays the whole text out on every
+//! change, 11 ms a keystroke at 2,000 lines. Here the cost of a keystroke grows neither with the text nor with the
+//! line: it took 0.3 ms in 142 lines, 0.5 ms in 17,000 and 1.4 ms in a single line of 10 MB (`cost`, two slow cores
+//! under load, not optimised).
 
 mod accessible;
 mod action;

@@ -1,4 +1,4 @@
-//! Motions move the caret by letters, words, lines and pages.
+//! Caret motions by letters, words, lines and pages.
 
 use super::{buffer::Buffer, selection::Selection};
 
@@ -8,11 +8,11 @@ pub(crate) enum Motion {
     Right,
     WordLeft,
     WordRight,
-    /// Up or down by so many lines.
+    /// Up or down by this number of lines.
     Lines(isize),
-    /// Up or down by so many pages, which only the window knows the size of.
+    /// Up or down by this number of pages, whose size only the window knows.
     Pages(isize),
-    /// First letter of the line, or its start if the caret is there.
+    /// The first letter of the line, or its start if the caret is already there.
     Home,
     End,
     Start,
@@ -35,7 +35,7 @@ impl Buffer {
         self.go_to(selecting, |buffer, s| {
             let range = s.range();
             Selection::caret(match motion {
-                // A selection collapses to the side one goes to.
+                // A selection collapses towards the direction of the motion.
                 Motion::Left if !selecting && !range.is_empty() => range.start,
                 Motion::Right if !selecting && !range.is_empty() => range.end,
                 _ => buffer.target(motion, s.head),
@@ -43,7 +43,7 @@ impl Buffer {
         });
     }
 
-    /// Moves every caret to where `target` leads, which gives a caret; `selecting` keeps the anchors.
+    /// Moves every caret to the caret that `target` returns; `selecting` keeps the anchors.
     pub(super) fn go_to(&mut self, selecting: bool, target: impl Fn(&Self, Selection) -> Selection) {
         let carets = self.carets().map(|s| {
             let to = target(self, s);
@@ -52,7 +52,7 @@ impl Buffer {
         self.set_carets(carets);
     }
 
-    /// A caret so many lines away, at the column that this one wants to keep.
+    /// Returns the caret this number of lines away, at the column that the caret keeps.
     pub(super) fn lines_away(&self, from: Selection, by: isize) -> Selection {
         let (line, column) = self.line_column(from.head);
         let column = from.column.unwrap_or(column);
@@ -64,7 +64,7 @@ impl Buffer {
         Selection { column: Some(column), ..Selection::caret(head) }
     }
 
-    /// Returns where a motion leads from `at`. Those by lines count from a column and are not asked here.
+    /// Returns the target of a motion from `at`. Motions by lines depend on a column and are handled elsewhere.
     pub(super) fn target(&self, motion: Motion, at: usize) -> usize {
         let text = self.text();
         match motion {
@@ -110,13 +110,13 @@ impl Buffer {
         }
     }
 
-    /// The word, run of spaces or punctuation around a position: what a double click takes.
+    /// Returns the word, run of spaces or punctuation around a position, as a double click selects it.
     pub(crate) fn word_at(&self, at: usize) -> std::ops::Range<usize> {
         let line = self.line_range(self.line_of(at));
         let text = self.text();
         let right = text[at..line.end].chars().next().map(Class::of);
         let left = text[line.start..at].chars().next_back().map(Class::of);
-        // Between two things a word wins over the rest.
+        // At a boundary a word is preferred.
         let class = match (left, right) {
             (Some(Class::Word), _) | (_, Some(Class::Word)) => Class::Word,
             (_, Some(class)) | (Some(class), None) => class,
@@ -127,7 +127,7 @@ impl Buffer {
         start.map_or(at, |(i, _)| line.start + i)..end.map_or(line.end, |(i, _)| at + i)
     }
 
-    /// The part of a name that ends at the caret; empty where there is none.
+    /// Returns the part of a name that ends at the caret; empty if there is none.
     pub(crate) fn word_before_caret(&self) -> std::ops::Range<usize> {
         let caret = self.selection().head;
         let is_part = |c: &(usize, char)| c.1.is_ascii_alphanumeric() || c.1 == '_';
@@ -135,7 +135,7 @@ impl Buffer {
         start.map_or(caret, |(i, _)| i)..caret
     }
 
-    /// The position behind the character at `at`; a `\r\n` counts as one.
+    /// Returns the position after the character at `at`; a `\r\n` counts as one.
     fn after(&self, at: usize) -> usize {
         let rest = &self.text()[at..];
         at + if rest.starts_with("\r\n") { 2 } else { rest.chars().next().map_or(0, char::len_utf8) }
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_double_click_takes_the_word() {
+    fn a_double_click_selects_the_word() {
         let b = Buffer::new("a = iTime*2.;");
         assert_eq!(b.word_at(6), 4..9);
         assert_eq!(b.word_at(9), 4..9);

@@ -1,26 +1,26 @@
-//! Says how deep brackets are nested, told of a stretch of code so that a search can step over it.
+//! The bracket nesting of a stretch of code, summarised so that a search can skip it.
 
-/// Holds what a stretch of code does to the depth of one kind of bracket.
+/// The effect of a stretch of code on the depth of one kind of bracket.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Depth {
-    /// Says how far below its beginning it goes: 0 or less.
+    /// The lowest depth relative to its start: 0 or less.
     low: i32,
-    /// Its end against its beginning.
+    /// The depth at its end relative to its start.
     net: i32,
 }
 
 impl Depth {
-    /// Returns what this stretch and the one behind it do together.
+    /// Returns the combined effect of this stretch and the next one.
     pub(super) fn then(self, next: Depth) -> Depth {
         Depth { low: self.low.min(self.net + next.low), net: self.net + next.net }
     }
 
-    /// Returns how many brackets are opened and not closed again.
+    /// Returns the number of brackets that are opened and not closed.
     pub(super) fn opened(self) -> i32 {
         self.net - self.low
     }
 
-    /// Returns how many brackets are closed that were not opened.
+    /// Returns the number of brackets that are closed but not opened.
     pub(super) fn closed(self) -> i32 {
         -self.low
     }
@@ -53,12 +53,12 @@ impl Bracket {
     }
 }
 
-/// Holds what a stretch of code does to the depths of all kinds.
+/// The effect of a stretch of code on the depths of all kinds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Nesting([Depth; 3]);
 
 impl Nesting {
-    /// Returns what this stretch and the one behind it do together.
+    /// Returns the combined effect of this stretch and the next one.
     pub(super) fn then(self, next: Nesting) -> Nesting {
         Nesting(std::array::from_fn(|i| self.0[i].then(next.0[i])))
     }
@@ -67,7 +67,7 @@ impl Nesting {
         self.0[kind as usize]
     }
 
-    /// A byte of code follows.
+    /// Appends a byte of code.
     #[inline]
     pub(super) fn push(&mut self, byte: u8) {
         if let Some((kind, by)) = Bracket::of(byte) {
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn stretches_add_up() {
+    fn nesting_of_stretches_is_additive() {
         for (text, opened, closed) in [("", 0, 0), ("{", 1, 0), ("}{", 1, 1), ("{}(", 0, 0), ("}}{{{", 3, 2)] {
             assert_eq!((curly(text).opened(), curly(text).closed()), (opened, closed), "{text}");
             for at in 0..=text.len() {

@@ -13,26 +13,26 @@ use egui::{
 };
 use std::ops::Range;
 
-/// The caret's part in the picture.
+/// The caret's state for painting.
 #[derive(Clone, Copy)]
 pub(super) struct Caret<'a> {
     pub has_focus: bool,
-    /// It is in the lit half of its blinking.
+    /// The caret is in the visible phase of its blinking.
     pub is_lit: bool,
-    /// Places of the name it is on.
+    /// The uses of the name at the caret.
     pub uses: &'a [Range<usize>],
-    /// The bracket it is at, and the one that belongs to it.
+    /// The bracket at the caret, and its partner.
     pub brackets: Option<[usize; 2]>,
 }
 
-/// The places that painting found.
+/// Places found while painting.
 #[derive(Debug)]
 pub(super) struct Painted {
     pub caret: Rect,
-    /// All that was painted on.
+    /// The whole painted area.
     pub whole: Rect,
     pub popup: Option<Popup>,
-    /// Lines with a mark that are in sight, and where they are.
+    /// Visible lines with a mark, and their places.
     pub marked: Vec<(usize, Rect)>,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Painted {
 #[derive(Debug)]
 pub(super) struct Popup {
     at: Pos2,
-    /// It hangs from that point; else it stands on it.
+    /// It is below its point; otherwise it is above it.
     below: bool,
     marks: Vec<Mark>,
 }
@@ -51,7 +51,7 @@ impl Default for Painted {
     }
 }
 
-/// Paints the lines in sight and what lies behind and beside them.
+/// Paints the visible lines and what is painted below and next to them.
 pub(super) fn text(
     ui: &Ui,
     lines: &Lines<'_>,
@@ -124,7 +124,7 @@ pub(super) fn text(
             }
             if hovered.is_some_and(|p| area.contains(p)) {
                 let x = lines.rect_of(buffer, part.bytes.start).left().max(shown.left() + MARGIN);
-                // Above, so that what one goes on writing stays in sight.
+                // Above the caret, so that the text being written stays visible.
                 let below = area.top() - 60.0 < shown.top();
                 let y = if below { area.bottom() + 2.0 } else { area.top() - 2.0 };
                 painted.popup = Some(Popup { at: pos2(x, y), below, marks: marks.into_iter().cloned().collect() });
@@ -144,14 +144,14 @@ pub(super) fn text(
     painted
 }
 
-/// Selections that touch some bytes.
+/// Returns the selections that touch a range of bytes.
 fn in_sight_of<'s>(list: &'s [Selection], bytes: &Range<usize>) -> &'s [Selection] {
     let first = list.partition_point(|s| s.range().end < bytes.start);
     let behind = list[first..].partition_point(|s| s.range().start <= bytes.end);
     &list[first..first + behind]
 }
 
-/// A sign for the lines that are folded away; gives where it ends.
+/// Paints a sign for folded lines, and returns where it ends.
 fn folded(ui: &Ui, left: Pos2, lines: &Lines<'_>) -> f32 {
     let rect = Rect::from_min_size(left - vec2(0.0, lines.row_height * 0.3), vec2(22.0, lines.row_height * 0.6));
     ui.painter().rect_filled(rect, 3.0, theme::of(ui).button);
@@ -161,7 +161,7 @@ fn folded(ui: &Ui, left: Pos2, lines: &Lines<'_>) -> f32 {
     rect.right()
 }
 
-/// A frame round a letter of a row, if it is of that row.
+/// Paints a frame round a letter, if it is in this row.
 fn frame_letter(ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, row: usize, at: usize) {
     if lines.row(row).is_none_or(|r| !r.part.bytes.contains(&at)) {
         return;
@@ -171,7 +171,7 @@ fn frame_letter(ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, row: usize, at: usi
     ui.painter().rect(rect, 2.0, theme::of(ui).code.bracket, Stroke::new(1.0, theme::of(ui).weak), StrokeKind::Inside);
 }
 
-/// Fills the part of a range of the text that lies in a row.
+/// Fills the part of a range of the text that is in a row.
 fn fill_range(ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, row: usize, range: &Range<usize>, fill: Color32) {
     let Some(part) = lines.row(row).map(|r| &r.part) else { return };
     if range.is_empty() || range.end < part.bytes.start || range.start > part.bytes.end {
@@ -179,14 +179,14 @@ fn fill_range(ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, row: usize, range: &R
     }
     let Some((left, mut right)) = lines.span(buffer, row, range) else { return };
     if range.end > part.bytes.end && part.is_last {
-        // The line's end is taken too.
+        // The line end is selected too.
         right += lines.glyph;
     }
     let rect = Rect::from_min_max(pos2(left, lines.top(row)), pos2(right, lines.top(row) + lines.row_height));
     ui.painter().rect_filled(rect, 2.0, fill);
 }
 
-/// A wave under what a mark is about in a row.
+/// Paints a wavy line under the range of a mark in a row.
 fn underline(ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, row: usize, mark: &Mark) {
     let Some(part) = lines.row(row).map(|r| &r.part) else { return };
     let is_elsewhere = mark.range.end < part.bytes.start || mark.range.start > part.bytes.end;
@@ -204,7 +204,7 @@ fn underline(ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, row: usize, mark: &Mar
     ui.painter().add(Shape::line(wave, Stroke::new(1.0, theme::of(ui).of_severity(mark.severity))));
 }
 
-/// The message right of the code, as much of it as fits.
+/// Paints the message right of the code, as much of it as fits.
 fn beside(ui: &Ui, lines: &Lines<'_>, at: Pos2, mark: &Mark, count: usize, room: f32) {
     let more = if count > 1 { format!("  (+{})", count - 1) } else { String::new() };
     let text = format!("{}{more}", mark.message.replace('\n', " "));
@@ -217,7 +217,7 @@ fn beside(ui: &Ui, lines: &Lines<'_>, at: Pos2, mark: &Mark, count: usize, room:
     ui.painter().galley(pos2(at.x, y), galley, theme::of(ui).text);
 }
 
-/// Whole messages over the text.
+/// Shows whole messages over the text.
 pub(super) fn popup(ui: &Ui, within: Rect, popup: &Popup) {
     let width = (within.width() - 40.0).clamp(120.0, 520.0);
     egui::Area::new(ui.scope_id().with("marks"))

@@ -1,4 +1,4 @@
-//! Brackets and comments that close themselves while they are typed.
+//! Automatic closing of brackets and comments while typing.
 
 use super::{
     buffer::{Buffer, Replacement},
@@ -9,9 +9,9 @@ use super::{
 const PAIRS: [(&str, &str); 3] = [("(", ")"), ("[", "]"), ("{", "}")];
 
 impl Buffer {
-    /// Types a letter, with what closes it: an opening bracket brings its closing one, round what is selected too, and
-    /// `/*` brings `*/`. A closing one that came so is typed over. `is_comment` says whether a byte lies in a comment,
-    /// where nothing is closed.
+    /// Types a letter together with its closing counterpart: an opening bracket inserts its closing one, also round a
+    /// selection, and `/*` inserts `*/`. A closing bracket that was inserted automatically is typed over. `is_comment`
+    /// returns whether a byte is in a comment, where nothing is closed.
     pub(crate) fn type_closing(&mut self, text: &str, is_comment: &dyn Fn(&Self, usize) -> bool) {
         if self.types_over(text) {
             let past: Vec<usize> = self.carets().list().iter().map(|s| s.head).collect();
@@ -49,21 +49,22 @@ impl Buffer {
         self.closers.extend(closers);
     }
 
-    /// Every caret stands before a closing letter that came by itself and is this one.
+    /// Returns whether every caret is before an automatically inserted closing letter that equals `text`.
     fn types_over(&self, text: &str) -> bool {
         let is_before =
             |s: &Selection| s.is_empty() && self.closers.contains(&s.head) && self.text()[s.head..].starts_with(text);
         text.len() == 1 && self.carets().list().iter().all(is_before)
     }
 
-    /// An opening bracket is closed at the end of a line, before a blank, and before what ends something.
+    /// Returns whether an opening bracket is closed here: at the end of a line, before a blank, and before a closing
+    /// sign.
     fn can_close(&self, s: Selection, is_comment: &dyn Fn(&Self, usize) -> bool) -> bool {
         let next = self.text()[s.range().end..].chars().next();
         let is_free = next.is_none_or(|c| c.is_whitespace() || ")]};,".contains(c));
         (is_free || !s.is_empty()) && !is_comment(self, s.range().start)
     }
 
-    /// A `*` here begins a comment, and nothing is behind it in its line.
+    /// Returns whether a `*` here starts a comment that nothing follows in its line.
     fn opens_comment(&self, s: Selection, is_comment: &dyn Fn(&Self, usize) -> bool) -> bool {
         let line = self.line_range(self.line_of(s.head));
         s.is_empty()
@@ -73,14 +74,14 @@ impl Buffer {
             && !is_comment(self, s.head)
     }
 
-    /// A caret stands between a bracket and the closing one that came with it.
+    /// Returns whether a caret is between a bracket and the closing one that was inserted with it.
     pub(super) fn is_empty_pair(&self, at: usize) -> bool {
         let (before, behind) = self.text().split_at(at);
         self.closers.contains(&at)
             && PAIRS.iter().any(|(open, close)| before.ends_with(open) && behind.starts_with(close))
     }
 
-    /// Forgets closing brackets that no caret stands before in their line: what is typed there is meant.
+    /// Forgets automatic closing brackets that have no caret before them in their line: typing one there inserts it.
     pub(super) fn settle_closers(&mut self) {
         if self.closers.is_empty() {
             return;
@@ -99,7 +100,7 @@ mod tests {
     use super::*;
     use crate::gui::editor::motion::Motion;
 
-    /// Types letters, `<` being Backspace and `|` in `text` the caret; the text with its caret.
+    /// Types letters and returns the text with its caret. `<` is Backspace, and `|` in `text` is the caret.
     fn typed(text: &str, letters: &str) -> String {
         let mut b = Buffer::new(&text.replace('|', ""));
         let at = text.find('|').unwrap();
@@ -143,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn a_call_typed_is_one_step_and_a_selection_is_wrapped() {
+    fn typing_a_call_is_one_step_and_brackets_wrap_a_selection() {
         let mut b = Buffer::new("");
         type_all(&mut b, "f(x)");
         assert_eq!(b.text(), "f(x)");

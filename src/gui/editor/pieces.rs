@@ -1,30 +1,31 @@
-//! Lines cut into pieces short enough to be laid out and coloured each on its own.
+//! Lines cut into pieces that are short enough to be laid out and coloured independently.
 //!
-//! A line of ordinary code is one piece; one of ten million characters is ten thousand, of which a frame looks at those
-//! in sight. After a change only the pieces around it are cut anew.
+//! A line of ordinary code is one piece; one of ten million characters is ten thousand, of which a frame processes the
+//! visible ones. After a change only the pieces around it are cut again.
 
 use super::nesting::Nesting;
 use crate::glsl::services::lines::{LexState, LineContext, Scanner};
 
-/// Bytes of a piece: cut at the next place between two tokens from here on, at twice as many wherever that is.
+/// The size of a piece in bytes: it is cut at the first token boundary from here on, and at twice this size regardless
+/// of tokens.
 pub(super) const PIECE: usize = 1024;
 
 /// A part of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Piece {
-    /// In bytes.
+    /// The length in bytes.
     pub len: usize,
-    /// The state at its beginning.
+    /// The lexer state at its start.
     pub state: LexState,
-    /// Says how wide it is, in widths of a digit.
+    /// The width, in digit widths.
     pub columns: f32,
-    /// Holds what its brackets open and close.
+    /// The nesting of its brackets.
     pub nesting: Nesting,
-    /// In how many rows it is shown; 0 until it is counted.
+    /// The number of its rows; 0 until it is counted.
     pub rows: u32,
 }
 
-/// Pieces of a line as it was, and how many bytes at an end of it are as they were.
+/// The pieces of the old line, and the number of unchanged bytes at one of its ends.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Reusable<'a> {
     pub pieces: &'a [Piece],
@@ -34,15 +35,16 @@ pub(super) struct Reusable<'a> {
 /// A line in pieces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Cut {
-    /// Together they cover the line; none for an empty one.
+    /// Together they cover the line; empty for an empty line.
     pub pieces: Vec<Piece>,
-    /// The state at the line's end.
+    /// The lexer state at the line's end.
     pub end: LexState,
 }
 
-/// Cuts a line that begins in `state`. `head` and `tail` are of the line as it was (of two lines, where they were
-/// joined): what they hold for is not looked at again. `tail_end` is the state at the end of the line that `tail` is
-/// of; `width` gives the width of a character that is not printable ASCII. Counts the bytes it looks at in `scanned`.
+/// Cuts a line that starts in `state`. `head` and `tail` describe the old line (two lines, if they were joined): the
+/// ranges that they cover are not scanned again. `tail_end` is the state at the end of the line that `tail` describes;
+/// `width` returns the width of a character that is not printable ASCII. Adds the number of bytes scanned to
+/// `scanned`.
 pub(super) fn cut(
     line: &str,
     state: LexState,
@@ -62,7 +64,7 @@ pub(super) fn cut(
             at += piece.len;
         }
     }
-    // What is behind its end may have given the last one another end.
+    // The text after it may have changed the end of the last piece.
     let begins_in = match pieces.pop() {
         Some(piece) => {
             at -= piece.len;
@@ -71,7 +73,7 @@ pub(super) fn cut(
         None => state,
     };
     let (tail, tail_end) = tail;
-    // Where pieces of the old line begin whose text is the same, the byte before them too; from the last one on.
+    // Starts of pieces of the old line whose text is unchanged, including the byte before them; from the last one on.
     let mut joints = Vec::new();
     let mut from_end = 0;
     for (i, piece) in tail.pieces.iter().enumerate().rev() {
@@ -93,7 +95,7 @@ pub(super) fn cut(
         let byte = line.as_bytes()[scanner.at];
         scanner.step();
         if scanner.state.inside == LineContext::Code {
-            // The end of a comment is no bracket.
+            // The end of a comment is not a bracket.
             nesting.push(byte);
         }
         let len = scanner.at - start.0;
@@ -107,7 +109,7 @@ pub(super) fn cut(
             pieces.extend_from_slice(&tail.pieces[*i..]);
             return Cut { pieces, end: tail_end };
         }
-        // A joint that is near is waited for, or a change would leave crumbs.
+        // Wait for a nearby joint, or a change would leave tiny pieces.
         let waits = joints.last().is_some_and(|(at, _)| *at <= start.0 + 2 * PIECE);
         let is_due = (len >= PIECE && !waits && is_between_tokens(line.as_bytes()[scanner.at - 1])) || len >= 2 * PIECE;
         if is_due && line.is_char_boundary(scanner.at) && !scanner.is_at_end() {
@@ -121,12 +123,12 @@ pub(super) fn cut(
     Cut { pieces, end: scanner.state }
 }
 
-/// A token ends with this byte wherever it is not inside of a comment.
+/// Returns whether a token ends with this byte if it is not inside a comment.
 fn is_between_tokens(byte: u8) -> bool {
     byte.is_ascii_whitespace() || b";,(){}[]".contains(&byte)
 }
 
-/// Returns how wide a text is, in widths of a digit: a tab is as wide as four.
+/// Returns the width of a text, in digit widths: a tab counts as four.
 pub(super) fn columns(text: &str, width: &mut dyn FnMut(char) -> f32) -> f32 {
     let mut plain = 0;
     let mut other = 0.0;
@@ -160,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn pieces_cover_a_line_and_know_what_they_begin_in() {
+    fn pieces_cover_a_line_and_store_their_state() {
         for line in
             [text(20_000), "x".repeat(9_000), "é".repeat(5_000), "/*/".repeat(4_000), "*".repeat(7_000), " ".into()]
         {
@@ -185,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn a_change_cuts_what_is_around_it_and_leaves_what_the_whole_line_would_mean() {
+    fn recutting_after_a_change_matches_cutting_the_whole_line() {
         let line = text(60_000);
         let old = whole(&line);
         for at in (0..line.len()).step_by(997) {

@@ -14,7 +14,7 @@ impl CodeEditor {
         let Some(pointer) = response.interact_pointer_pos().or_else(|| response.hover_pos()) else { return };
         let (pressed, modifiers) = ui.input(|i| (i.pointer.primary_pressed(), i.modifiers));
         let at = lines.position_at(&self.buffer, pointer);
-        // A press and its release can come between two frames: then there is only the click.
+        // A press and its release can both arrive between two frames: then there is only the click.
         let clicked_between = response.clicked() && pressed;
         if (pressed && response.is_pointer_button_down_on()) || clicked_between {
             response.request_focus();
@@ -27,13 +27,13 @@ impl CodeEditor {
                 ui.ctx().request_repaint();
                 return;
             }
-            // Alt: one more caret, as VS Code has it.
+            // Alt adds a caret, as in VS Code.
             let others = if modifiers.alt { self.buffer.carets().list().to_vec() } else { Vec::new() };
             let from = if modifiers.shift { self.buffer.selection().anchor } else { at };
             self.drag = Some(Drag { from: from..from, granularity: Granularity::Letter, others });
             self.drag_to(at);
         }
-        // A menu is about what is selected, or about the place that was clicked.
+        // A context menu is about the selection, or about the place that was clicked.
         if response.secondary_clicked() && !self.buffer.carets().list().iter().any(|s| s.range().contains(&at)) {
             self.assist.close_all();
             self.buffer.select(at, at);
@@ -72,14 +72,14 @@ impl CodeEditor {
         if let Some((pos, text)) = pasted.filter(|_| response.hovered()) {
             let at = lines.position_at(&self.buffer, pos);
             self.buffer.select(at, at);
-            // While lines are shown the text stays as it is.
+            // The text must not change while lines are shown.
             self.pasted = Some(text);
             response.request_focus();
             ui.ctx().request_repaint();
         }
     }
 
-    /// Selects from where the drag began to a place.
+    /// Selects from the start of the drag to a place.
     fn drag_to(&mut self, at: usize) {
         let Some(Drag { from, granularity, others }) = &self.drag else { return };
         let to = self.grain(at, *granularity);
@@ -101,13 +101,13 @@ impl CodeEditor {
     }
 }
 
-/// A selection being drawn with the pointer.
+/// A selection being dragged with the pointer.
 #[derive(Clone, Debug)]
 pub(super) struct Drag {
-    /// The place where it began, whole words or lines at a time.
+    /// The range where the drag started; whole words or lines at a time.
     pub from: Range<usize>,
     pub granularity: Granularity,
-    /// Selections that stay beside it.
+    /// Other selections, which are kept.
     pub others: Vec<Selection>,
 }
 

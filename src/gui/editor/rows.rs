@@ -1,4 +1,4 @@
-//! Rows of the window: a line that wraps has several, one that is folded away has none.
+//! Rows of the window: a wrapped line has several, a folded line has none.
 
 use super::{
     brackets,
@@ -8,29 +8,29 @@ use super::{
 };
 use std::ops::Range;
 
-/// Says which row shows what.
+/// The mapping of rows to lines.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rows {
-    /// Rows above each line, and last the number of all; empty while every line is one row.
+    /// The number of rows above each line, and last the total; empty while every line is one row.
     above: Vec<u32>,
-    /// Lines folded away, each below the line that opens their block; one may lie in another.
+    /// Folded lines, each range below the line that opens its block; ranges may be nested.
     folds: Vec<Range<usize>>,
 }
 
-/// A row, and the part of a line that it shows.
+/// A row and the part of a line that it shows.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Part {
     pub line: usize,
     /// Bytes of the text.
     pub bytes: Range<usize>,
-    /// Says how far it is indented because it goes on with a line, in widths of a digit.
+    /// The indent of a continuation row, in digit widths.
     pub indent: f32,
     pub is_first: bool,
     pub is_last: bool,
 }
 
 impl Rows {
-    /// Takes in which lines were replaced, or that lines wrap elsewhere.
+    /// Updates the mapping after lines were replaced or the wrap width changed.
     pub(super) fn update(&mut self, buffer: &Buffer, index: &Highlight, replaced: Option<Replaced>) {
         if let Some(replaced) = replaced {
             self.folds = std::mem::take(&mut self.folds)
@@ -59,17 +59,17 @@ impl Rows {
         }
     }
 
-    /// Every line is one row.
+    /// Returns whether every line is one row.
     pub(super) fn is_plain(&self) -> bool {
         self.above.is_empty()
     }
 
-    /// Returns how many rows there are.
+    /// Returns the number of rows.
     pub(super) fn len(&self, buffer: &Buffer) -> usize {
         self.above.last().map_or(buffer.line_count(), |all| *all as usize)
     }
 
-    /// Returns the first row of a line; that of the line above which stays, for one that is folded away.
+    /// Returns the first row of a line; for a folded line, that of the visible line above it.
     pub(super) fn of_line(&self, line: usize) -> usize {
         match self.above.get(line) {
             None => line,
@@ -99,12 +99,12 @@ impl Rows {
         row
     }
 
-    /// Returns the line of a row, and the number of the row in it.
+    /// Returns the line of a row, and the index of the row in it.
     pub(super) fn line_at(&self, buffer: &Buffer, row: usize) -> (usize, usize) {
         if self.is_plain() {
             return (row.min(buffer.line_count() - 1), 0);
         }
-        // The last of those that have no rows above them is the one that has some itself.
+        // Of the lines with equal counts, the last is the one that has rows itself.
         let line = self.above.partition_point(|above| *above as usize <= row).saturating_sub(1);
         let line = line.min(buffer.line_count() - 1);
         (line, row.saturating_sub(self.above[line] as usize))
@@ -138,7 +138,7 @@ impl Rows {
         part
     }
 
-    /// A caret so many rows away, at the column of its row that this one wants to keep.
+    /// Returns the caret this number of rows away, at the column that the caret keeps.
     pub(super) fn rows_away(&self, buffer: &Buffer, index: &Highlight, from: Selection, by: isize) -> Selection {
         let row = self.of(buffer, index, from.head);
         let letters = |range: Range<usize>| buffer.text()[range].chars().count();
@@ -154,7 +154,7 @@ impl Rows {
                 let text = &buffer.text()[part.bytes.clone()];
                 let mut column = column.saturating_sub(part.indent.round() as usize);
                 if !part.is_last {
-                    // Behind its last letter begins the next row.
+                    // The position after its last letter belongs to the next row.
                     column = column.min(letters(part.bytes.clone()).saturating_sub(1));
                 }
                 text.char_indices().nth(column).map_or(part.bytes.end, |(i, _)| part.bytes.start + i)
@@ -163,17 +163,17 @@ impl Rows {
         Selection { column: Some(column), ..Selection::caret(head) }
     }
 
-    /// The line is folded away.
+    /// Returns whether the line is folded.
     pub(super) fn is_hidden(&self, line: usize) -> bool {
         self.folds.iter().any(|fold| fold.contains(&line))
     }
 
-    /// The block that the line opens is folded away.
+    /// Returns whether the block that the line opens is folded.
     pub(super) fn is_folded(&self, line: usize) -> bool {
         self.folds.iter().any(|fold| fold.start == line + 1)
     }
 
-    /// Folds the block that a line opens. False if there is nothing to fold.
+    /// Folds the block that a line opens. Returns false if there is nothing to fold.
     pub(super) fn fold(&mut self, buffer: &Buffer, index: &Highlight, line: usize) -> bool {
         let Some(hidden) = hidden_by(buffer, index, line).filter(|hidden| !self.folds.contains(hidden)) else {
             return false;
@@ -200,7 +200,7 @@ impl Rows {
         self.count(buffer, index);
     }
 
-    /// Unfolds what hides a line.
+    /// Unfolds the blocks that hide a line.
     pub(super) fn reveal(&mut self, buffer: &Buffer, index: &Highlight, line: usize) {
         if self.is_hidden(line) {
             self.folds.retain(|fold| !fold.contains(&line));
@@ -209,13 +209,13 @@ impl Rows {
     }
 }
 
-/// The lines between the one that opens a block and the one that closes it.
+/// Returns the lines between the one that opens a block and the one that closes it.
 fn hidden_by(buffer: &Buffer, index: &Highlight, line: usize) -> Option<Range<usize>> {
     let hidden = line + 1..brackets::block_end(index, buffer, line)?;
     (!hidden.is_empty()).then_some(hidden)
 }
 
-/// A fold after lines were replaced; `None` where its block was changed beyond its first and last line.
+/// Returns a fold after lines were replaced; `None` if its block changed beyond its first and last line.
 fn followed(fold: Range<usize>, replaced: Replaced, buffer: &Buffer, index: &Highlight) -> Option<Range<usize>> {
     let Replaced { first, old, new } = replaced;
     let header = fold.start - 1;
@@ -260,7 +260,7 @@ mod tests {
             self.update();
         }
 
-        /// The text of each row.
+        /// Returns the text of each row.
         fn shown(&self) -> Vec<&str> {
             let part = |row| self.rows.part(&self.buffer, &self.index, row);
             (0..self.rows.len(&self.buffer)).map(|row| &self.buffer.text()[part(row).bytes]).collect()
@@ -272,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn folded_lines_have_no_rows_and_follow_their_block() {
+    fn folds_hide_rows_and_follow_their_block() {
         let mut t = Text::new("a\nf() {\n  if {\n    b\n  }\n}\nc\n", None);
         assert!(t.rows.is_plain() && t.fold(2) && t.fold(1) && !t.fold(0));
         assert_eq!(t.shown(), ["a", "f() {", "}", "c", ""]);
@@ -288,7 +288,7 @@ mod tests {
         t.rows.reveal(&t.buffer, &t.index, 5);
         assert!(t.rows.is_plain());
         t.fold(3);
-        // A change inside shows what is inside.
+        // A change inside a fold unfolds it.
         let inside = t.buffer.line_range(5).start;
         t.replace(inside..inside, "z");
         assert!(t.rows.is_plain());
@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_of_wrapped_lines_cover_the_text_and_carets_go_from_row_to_row() {
+    fn wrapped_rows_cover_the_text_and_carets_move_by_row() {
         let long = "vec3 colour = mix(a, b, smoothstep(0.0, 1.0, x)); ";
         let mut t = Text::new(&format!("{long}\n{}\n\nshort {{\n{long}\n}}\n", long.repeat(60)), Some(30.0));
         let mut seed = 5u32;

@@ -1,15 +1,14 @@
-//! The ruler over the scroll bar: where in the whole text there are errors, matches and carets.
+//! The ruler over the scroll bar, with the positions of errors, matches and carets in the whole text.
 
 use super::{buffer::Buffer, look::Look, rows::Rows};
 use crate::{diag::Severity, gui::theme};
 use egui::{Color32, Rect, Ui, pos2};
 
 const WIDTH: f32 = 9.0;
-/// The height of a mark: a line of a long text is less than a point high.
+/// The height of a mark in points: a line of a long text is less than a point high.
 const MARK: f32 = 3.0;
 
-/// Marks are looked for from point to point of the ruler, not from match to match: there may be many thousands of
-/// those.
+/// Looks for marks at each point of the ruler, not for each match: there may be many thousands of matches.
 pub(super) fn show(ui: &Ui, text_rect: Rect, buffer: &Buffer, rows: &Rows, look: &Look<'_>, has_focus: bool) {
     let rect = Rect::from_min_max(pos2(text_rect.right() - WIDTH, text_rect.top()), text_rect.max);
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));

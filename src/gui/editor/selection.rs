@@ -1,13 +1,13 @@
-//! The selections in a text, and so its carets.
+//! The selections in a text, including its carets.
 
 use std::ops::Range;
 
-/// A caret (`head`) and the place where its selection began (`anchor`). They are equal when nothing is selected.
+/// A caret (`head`) and the place where its selection started (`anchor`). They are equal if nothing is selected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Selection {
     pub anchor: usize,
     pub head: usize,
-    /// The column it wants to keep while it moves up and down, in characters.
+    /// The column to keep while moving up and down, in characters.
     pub column: Option<usize>,
 }
 
@@ -28,14 +28,14 @@ impl Selection {
         self.anchor == self.head
     }
 
-    /// Returns it with both ends moved.
+    /// Returns the selection with both ends mapped.
     pub(crate) fn map(self, to: impl Fn(usize) -> usize) -> Self {
         Self::new(to(self.anchor), to(self.head))
     }
 }
 
-/// Selections in the order of the text: at least one, and none that overlap or touch where one is a caret. One of them
-/// is the main one, which the window follows.
+/// Selections in the order of the text: at least one, and none that overlap, or touch if one is a caret. One of them
+/// is the main selection, which the view follows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Carets {
     list: Vec<Selection>,
@@ -53,8 +53,8 @@ impl Carets {
         Self { list: vec![selection], main: 0 }
     }
 
-    /// Sorts selections and joins those that overlap; `main` is an index into `list`. An empty list is the text's
-    /// start.
+    /// Sorts selections and joins those that overlap; `main` is an index into `list`. An empty list becomes a caret at
+    /// the start of the text.
     pub(crate) fn new(list: Vec<Selection>, main: usize) -> Self {
         let Some(chosen) = list.get(main).or(list.first()).copied() else { return Self::default() };
         let mut sorted = list;
@@ -91,13 +91,13 @@ impl Carets {
         self.main
     }
 
-    /// Returns them with every selection changed; what then overlaps is joined.
+    /// Returns the carets with every selection mapped; overlapping ones are joined.
     pub(crate) fn map(&self, change: impl FnMut(Selection) -> Selection) -> Self {
         Self::new(self.list.iter().copied().map(change).collect(), self.main)
     }
 }
 
-/// Returns whether two selections cannot both be: the second begins inside the first, or where it ends and one is a
+/// Returns whether two selections must be joined: the second starts inside the first, or where it ends if one is a
 /// caret.
 fn overlap(a: Range<usize>, b: Range<usize>) -> bool {
     b.start < a.end || (b.start == a.end && (a.is_empty() || b.is_empty()))

@@ -1,15 +1,16 @@
-//! Colours by meaning, from an analysis that may be of a slightly older text.
+//! Semantic colours, from an analysis that may be of a slightly older text.
 
 use super::look::Help;
 use crate::glsl::services::{Class, ClassSpan, lines::Token};
 use std::ops::Range;
 
-/// The classes of a text and how far they hold: before the first and behind the last byte that has changed since.
+/// The classes of a text, valid before the first and after the last byte that has changed since the analysis.
 pub(super) struct Semantic<'a> {
     classes: &'a [ClassSpan],
-    /// Length of what is equal at the beginning.
+    /// The length of the equal prefix.
     head: usize,
-    /// The start of the equal end in the text as it is, and the distance of its positions from those in the older text.
+    /// The start of the equal suffix in the current text, and the offset of its positions from those in the older
+    /// text.
     tail: usize,
     shift: isize,
 }
@@ -27,17 +28,17 @@ impl<'a> Semantic<'a> {
         Self { classes: help.classes, head, tail: new.len() - same, shift }
     }
 
-    /// Tokens that cover a line, or a piece of one, whose bytes are `range`; `None` for one that was changed.
+    /// Returns tokens that cover a line, or a piece of one, with the bytes `range`; `None` for a changed line.
     pub(super) fn tokens(&self, range: Range<usize>, line: &str) -> Option<Vec<Token>> {
         let shift = match () {
-            // The line's end counts as a part of it: where it is new, so is the line.
+            // The line end is part of the line: if it is new, so is the line.
             () if range.end < self.head || (self.shift == 0 && self.tail == 0) => 0,
             () if range.start >= self.tail => self.shift,
             () => return None,
         };
         let old = range.start.checked_add_signed(-shift)?..range.end.checked_add_signed(-shift)?;
         let first = self.classes.partition_point(|c| c.range.end <= old.start);
-        // Eddy's own lines (`#iUniform`, `#include`) are blank to the analysis: a `#` that it knows nothing of.
+        // The analysis blanks Eddy's own lines (`#iUniform`, `#include`): a `#` without classes.
         if line.trim_start().starts_with('#') && self.classes.get(first).is_none_or(|c| c.range.start >= old.end) {
             return None;
         }
@@ -50,7 +51,7 @@ impl<'a> Semantic<'a> {
             at = end;
         }
         push(&mut tokens, old.end - at, Class::Operator);
-        // A line that was not what it seems must not cut a character.
+        // Stale classes must not cut a character.
         let mut at = 0;
         let fits = tokens.iter().all(|token| {
             at += token.len;
@@ -60,16 +61,16 @@ impl<'a> Semantic<'a> {
     }
 }
 
-/// Bytes compared at once: byte by byte, ten million take longer than a frame.
+/// The number of bytes compared at once: comparing ten million one by one takes longer than a frame.
 const BLOCK: usize = 4096;
 
-/// Returns how many bytes two texts begin alike with.
+/// Returns the length of the common prefix of two texts, in bytes.
 fn equal_at_start(a: &[u8], b: &[u8]) -> usize {
     let blocks = a.chunks_exact(BLOCK).zip(b.chunks_exact(BLOCK)).take_while(|(a, b)| a == b).count() * BLOCK;
     blocks + a[blocks..].iter().zip(&b[blocks..]).take_while(|(a, b)| a == b).count()
 }
 
-/// Returns how many bytes two texts end alike with.
+/// Returns the length of the common suffix of two texts, in bytes.
 fn equal_at_end(a: &[u8], b: &[u8]) -> usize {
     let blocks = a.rchunks_exact(BLOCK).zip(b.rchunks_exact(BLOCK)).take_while(|(a, b)| a == b).count() * BLOCK;
     let (a, b) = (&a[..a.len() - blocks], &b[..b.len() - blocks]);
@@ -109,7 +110,7 @@ mod tests {
         let body = Some(vec![Class::Parameter, Class::Global]);
         assert_eq!(kinds(TEXT, 2), body);
         assert_eq!(kinds(TEXT, 5), Some(vec![Class::Inactive]));
-        // The line that changed is for the line lexer, those around it are not.
+        // The changed line is left to the line lexer, the lines around it are not.
         let changed = TEXT.replace("float g;", "float g; float hé;");
         assert_eq!((kinds(&changed, 0), kinds(&changed, 2)), (None, body.clone()));
         let changed = TEXT.replace("par = g;", "par = gg;");
@@ -122,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_are_blank_to_the_analysis_are_for_the_line_lexer() {
+    fn lines_blanked_by_the_analysis_use_the_line_lexer() {
         let now = TEXT.replace("float g;", "#iUnif g");
         let classes = [ClassSpan { range: 9..17, class: Class::Comment }];
         let semantic = Semantic { classes: &classes, head: now.len(), tail: 0, shift: 0 };

@@ -1,4 +1,4 @@
-//! Random edits with several carets, against a plain text and a list of places.
+//! Random edits with several carets, compared with a plain text and a list of positions.
 
 use super::{
     action::EditorAction as Action,
@@ -60,7 +60,7 @@ fn check(buffer: &Buffer, what: &str) {
     }
 }
 
-/// Every action that changes a text, as keys ask for it.
+/// Every action that changes a text.
 const ACTIONS: [Action; 22] = [
     Action::NewLine,
     Action::Indent,
@@ -87,7 +87,7 @@ const ACTIONS: [Action; 22] = [
 ];
 
 #[test]
-fn whatever_is_done_is_undone_and_done_again_with_its_carets() {
+fn random_edits_undo_and_redo_with_their_carets() {
     for (seed, text) in (0..60).flat_map(|seed| TEXTS.map(|text| (seed, text))) {
         let mut random = Random(seed);
         let mut buffer = Buffer::new(text);
@@ -96,7 +96,7 @@ fn whatever_is_done_is_undone_and_done_again_with_its_carets() {
                 let carets = random.carets(&buffer);
                 buffer.set_carets(carets);
             }
-            // What is typed after this is no part of an older step.
+            // Text typed after this is a new step of undo.
             buffer.set_carets(buffer.carets().clone());
             let before = (buffer.text().to_owned(), buffer.carets().clone());
             let what = match random.below(4) {
@@ -138,7 +138,7 @@ fn whatever_is_done_is_undone_and_done_again_with_its_carets() {
     }
 }
 
-/// A text and its carets, from the last of which on everything is done by hand.
+/// Returns the text after an edit at every caret, computed naively from the last caret on.
 fn by_hand(buffer: &Buffer, with: &str, part: impl Fn(&str, Selection) -> Range<usize>) -> String {
     let mut text = buffer.text().to_owned();
     let mut end = text.len();
@@ -151,7 +151,7 @@ fn by_hand(buffer: &Buffer, with: &str, part: impl Fn(&str, Selection) -> Range<
 }
 
 #[test]
-fn many_carets_do_what_each_would() {
+fn edits_at_many_carets_match_a_naive_model() {
     for seed in 0..400 {
         let mut random = Random(seed);
         let mut buffer = Buffer::new(TEXTS[0]);
@@ -164,7 +164,7 @@ fn many_carets_do_what_each_would() {
             buffer.insert(with);
             assert_eq!(buffer.text(), wanted, "seed {seed}");
             assert!(buffer.carets().list().len() <= count);
-            // Each caret is behind what was typed at it.
+            // Each caret is after the text that was typed at it.
             assert!(buffer.carets().list().iter().all(|s| s.is_empty() && buffer.text()[..s.head].ends_with(with)));
 
             let carets = random.carets(&buffer);
@@ -178,7 +178,7 @@ fn many_carets_do_what_each_would() {
     }
 }
 
-/// Lines as a list, and those from `first` to `last` moved past a neighbour, copied or taken out.
+/// Moves lines from `first` to `last` past a neighbour, copies or deletes them, computed on a list of lines.
 fn lines_by_hand(text: &str, lines: Range<usize>, action: Action) -> String {
     let mut list: Vec<&str> = text.split('\n').collect();
     match action {
@@ -195,7 +195,7 @@ fn lines_by_hand(text: &str, lines: Range<usize>, action: Action) -> String {
 }
 
 #[test]
-fn lines_move_as_a_list_of_them_would() {
+fn line_edits_match_a_list_of_lines() {
     for seed in 0..400 {
         let mut random = Random(seed);
         let mut buffer = Buffer::new(TEXTS[0]);

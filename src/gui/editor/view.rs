@@ -1,4 +1,4 @@
-//! The widget: scrolling, pointer, focus, input methods.
+//! The editor widget: scrolling, pointer, focus, input methods.
 
 use super::{
     accessible,
@@ -23,32 +23,32 @@ use egui::{
 };
 use std::ops::Range;
 
-/// Says what a key asks of the code.
+/// Returns the action of the code that a key triggers.
 pub(super) type Keys<'a> = &'a dyn Fn(&Event) -> Option<EditorAction>;
 
 /// The results of a frame.
 #[derive(Clone, Debug)]
 pub(crate) struct EditorOutput {
-    /// The area of the text without the numbers beside it.
+    /// The area of the text without the gutter.
     pub text_rect: Rect,
-    /// The part of it that takes the keyboard.
+    /// The part of it that takes the keyboard focus.
     pub focus_rect: Rect,
-    /// Lines with a mark that are in sight, counted from 0, and where they are.
+    /// Visible lines with a mark, counted from 0, and their places.
     pub marked: Vec<(usize, Rect)>,
-    /// The author's requests that concern other texts.
+    /// Requests that concern other texts.
     pub asks: Vec<Ask>,
-    /// Popups and tips that are open, and where.
+    /// Open popups and tooltips, and their places.
     pub placed: Vec<(String, Rect)>,
     /// The line, from 0, whose number was clicked.
     pub clicked_line: Option<usize>,
-    /// The byte under the pointer, while Ctrl and Alt are held.
+    /// The byte under the pointer while Ctrl and Alt are held.
     pub pointed: Option<usize>,
-    /// The widget that takes the keyboard.
+    /// The widget that takes the keyboard focus.
     pub response: Option<Response>,
     pub caret: Rect,
 }
 
-/// A text being edited, with all that outlives a frame.
+/// A text being edited, with all state that outlives a frame.
 #[derive(Debug)]
 pub(crate) struct CodeEditor {
     pub(super) buffer: Buffer,
@@ -58,35 +58,35 @@ pub(crate) struct CodeEditor {
     preedit: String,
     pub(super) follow_caret: bool,
     take_focus: bool,
-    /// Says when the caret last moved, in seconds: it blinks from there.
+    /// The time at which the caret last moved, in seconds; its blinking restarts there.
     pub(super) moved_at: f64,
     pub(super) drag: Option<Drag>,
     pub(super) page: usize,
     pub(super) rows: Rows,
-    /// The revision that `rows` is of.
+    /// The revision of the text to which `rows` belongs.
     rows_of: Option<u64>,
-    /// The brackets at the caret, and for which revision and caret they were found.
+    /// The brackets at the caret, with the revision and the caret for which they were found.
     brackets: Option<[usize; 2]>,
     brackets_of: Option<(u64, usize)>,
-    /// To be pasted in the next frame.
+    /// Text to paste in the next frame.
     pub(super) pasted: Option<String>,
-    /// To be put on the clipboard.
+    /// Text for the clipboard.
     copied: Option<String>,
-    /// The revision of the text that others have.
+    /// The revision of the text that was last returned by `take_changed`.
     reported_revision: u64,
     pub(super) work: Work,
-    /// Says how high the text was in the frame before, and whether the caret could be seen.
+    /// The height of the text in the previous frame, and whether the caret was visible.
     sight: (f32, bool),
-    /// A line from 0 that is to be brought into sight.
+    /// A line, from 0, to scroll into view.
     sought_line: Option<usize>,
 }
 
-/// The bytes that the newest frame looked at: bytes, not time, so that a test can hold it to a bound.
+/// The bytes that the newest frame processed: bytes and not time, so that a test can bound them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
-    /// To keep lines, pieces and comments in step with the text.
+    /// Bytes scanned to update lines, pieces and comments.
     pub scanned: usize,
-    /// To be painted.
+    /// Bytes laid out for painting.
     pub laid_out: usize,
 }
 
@@ -119,12 +119,12 @@ impl CodeEditor {
         &self.buffer
     }
 
-    /// Changes the text, or what is selected in it.
+    /// Changes the text or its selections.
     pub(crate) fn edit<R>(&mut self, change: impl FnOnce(&mut Buffer) -> R) -> R {
         change(&mut self.buffer)
     }
 
-    /// Takes over a text that was changed elsewhere.
+    /// Takes over a text that was changed outside the editor.
     pub(crate) fn take_text(&mut self, text: &str) {
         self.buffer.set_text(text);
         self.reported_revision = self.buffer.revision();
@@ -136,7 +136,7 @@ impl CodeEditor {
         (std::mem::replace(&mut self.reported_revision, revision) != revision).then(|| self.buffer.text())
     }
 
-    /// Does what a key or the palette asks.
+    /// Applies an action of a key or the palette.
     pub(crate) fn act(&mut self, action: EditorAction) {
         match action {
             EditorAction::Propose => self.assist.propose(),
@@ -169,17 +169,17 @@ impl CodeEditor {
         self.pasted = Some(text);
     }
 
-    /// Brings the caret into sight in the next frame.
+    /// Scrolls the caret into view in the next frame.
     pub(crate) fn reveal(&mut self) {
         self.follow_caret = true;
     }
 
-    /// Brings a line, from 0, into sight in the next frame, and leaves the caret where it is.
+    /// Scrolls a line, from 0, into view in the next frame without moving the caret.
     pub(crate) fn reveal_line(&mut self, line: usize) {
         self.sought_line = Some(line);
     }
 
-    /// Takes the keyboard in the next frame.
+    /// Takes the keyboard focus in the next frame.
     pub(crate) fn focus(&mut self) {
         self.take_focus = true;
     }
@@ -192,7 +192,7 @@ impl CodeEditor {
         self.focus();
     }
 
-    /// Selects bytes of the text, in sight and ready to type.
+    /// Selects bytes of the text, scrolls them into view and takes the keyboard focus.
     pub(crate) fn show_range(&mut self, range: Range<usize>) {
         self.buffer.select(range.start, range.end);
         self.assist.close_all();
@@ -200,7 +200,7 @@ impl CodeEditor {
         self.focus();
     }
 
-    /// Fills the space there is. `id` is the widget's own, the same in every frame.
+    /// Fills the available space. `id` is the widget's own, the same in every frame.
     pub(crate) fn show(&mut self, ui: &mut Ui, id: Id, look: Look<'_>, keys: Keys<'_>) -> EditorOutput {
         let font = FontId::monospace(look.font_size);
         let (row_height, glyph) = ui.fonts_mut(|f| (f.row_height(&font), f.glyph_width(&font, '0')));
@@ -228,7 +228,7 @@ impl CodeEditor {
         let digits = self.buffer.line_count().to_string().len().max(3);
         let gutter = (digits as f32 * glyph + gutter::BESIDE).round();
         let text_rect = Rect::from_min_max(pos2((whole.left() + gutter).min(whole.right()), whole.top()), whole.max);
-        // What opens below the text must not cover the line that one is in.
+        // A bar that opens below the text must not cover the caret's line.
         let (height, was_seen) = self.sight;
         self.follow_caret |= was_seen && text_rect.height() < height;
         self.page = ((text_rect.height() / row_height) as usize).saturating_sub(2).max(1);
@@ -237,7 +237,7 @@ impl CodeEditor {
         let mut text_ui = ui.new_child(egui::UiBuilder::new().max_rect(text_rect).id_salt(id));
         text_ui.spacing_mut().scroll.fade.strength = 0.0;
         text_ui.set_clip_rect(text_rect.intersect(ui.clip_rect()));
-        // Beside the margins there is room for the scroll bar.
+        // Leave room for the scroll bar in addition to the margins.
         let wrap = look.wraps.then(|| ((text_rect.width() - 2.0 * MARGIN - 16.0) / glyph).max(8.0));
         if self.highlight.set_wrap(&self.buffer, wrap) {
             self.rows.update(&self.buffer, &self.highlight, None);
@@ -246,13 +246,13 @@ impl CodeEditor {
         let row_count = self.rows.len(&self.buffer);
         let size = vec2(columns * glyph + 12.0, row_count as f32 * row_height);
         let (mut painted, mut pointed, mut widget) = (None, None, None);
-        // Lines in sight are shown by it while the editor goes on.
+        // Taken out, because the lines shown borrow it while the editor is changed.
         let index = std::mem::take(&mut self.highlight);
         let folding = std::mem::take(&mut self.rows);
         let scrolled = ScrollArea::both().id_salt(id).auto_shrink(false).content_margin(0).show_viewport(
             &mut text_ui,
             |ui, viewport| {
-                // Half a page of nothing below lets the last line be read in the middle.
+                // Half a page of blank space lets the last line scroll to the middle.
                 let below = (viewport.height() * 0.5).max(0.0);
                 let size = vec2(size.x.max(viewport.width()), (size.y + below).max(viewport.height()));
                 let origin = ui.max_rect().min;
@@ -286,7 +286,7 @@ impl CodeEditor {
                 if std::mem::take(&mut self.take_focus) {
                     response.request_focus();
                 }
-                // The pointer may have moved the caret; what is painted must be where it is now.
+                // The pointer may have moved the caret; paint it where it is now.
                 let caret_shown = has_focus && self.caret_is_lit(ui);
                 let uses = if has_focus { self.assist.uses() } else { &[] };
                 let brackets = if has_focus { self.brackets } else { None };
@@ -295,7 +295,7 @@ impl CodeEditor {
                 self.assist.show(ui, &lines, &self.buffer, shown);
                 let hangs = self.assist.show_hover(ui, &lines, &self.buffer, help, shown);
                 if hangs || self.assist.is_open() {
-                    // Both would hang from the same line.
+                    // Both would be placed at the same line.
                     p.popup = None;
                 }
                 if std::mem::take(&mut self.follow_caret) {
@@ -305,13 +305,13 @@ impl CodeEditor {
                         None,
                         egui::style::ScrollAnimation::none(),
                     );
-                    // Lines just scrolled to are laid out in the next frame.
+                    // Lines just scrolled into view are laid out in the next frame.
                     ui.ctx().request_repaint();
                 }
                 if let Some(line) = self.sought_line.take() {
                     let row = folding.of_line(line.min(self.buffer.line_count().saturating_sub(1)));
                     let place = Rect::from_min_size(pos2(shown.left(), lines.top(row)), vec2(1.0, row_height));
-                    // With some of what stands round it.
+                    // Include some of the surrounding text.
                     let around = place.expand2(vec2(0.0, 3.0 * row_height));
                     if !shown.y_range().contains(place.top()) || !shown.y_range().contains(place.bottom()) {
                         ui.scroll_to_rect_animation(around, None, egui::style::ScrollAnimation::none());
@@ -369,7 +369,7 @@ impl CodeEditor {
         }
     }
 
-    /// Help that is of the text as it is.
+    /// Returns the help if it is of the current text.
     fn fresh<'a>(&self, help: Option<Help<'a>>) -> Option<Help<'a>> {
         help.filter(|help| help.text == self.buffer.text())
     }
@@ -386,7 +386,7 @@ impl CodeEditor {
                 continue;
             }
             if let Some(action) = keys(event) {
-                // What lies in a comment and which bracket is whose is asked of the text as it is now.
+                // Comments and brackets must be looked up in the current text.
                 self.sync(ui, look);
                 self.act(action);
                 if action.is_help() {
@@ -410,7 +410,7 @@ impl CodeEditor {
         }
     }
 
-    /// Brings the index of the text up to date.
+    /// Updates the index of the text.
     fn sync(&mut self, ui: &Ui, look: &Look<'_>) {
         let font = FontId::monospace(look.font_size);
         let Self { buffer, highlight, .. } = self;
@@ -426,7 +426,7 @@ impl CodeEditor {
         }
     }
 
-    /// Finds the brackets at the caret where it or the text is not what it was.
+    /// Finds the brackets at the caret if it or the text has changed.
     fn find_brackets(&mut self, index: &Highlight) {
         let now = (self.buffer.revision(), self.buffer.selection().head);
         if self.brackets_of != Some(now) {
@@ -436,7 +436,8 @@ impl CodeEditor {
         }
     }
 
-    /// Blinks for a while after the last move and then stays, so that a still window need not be painted.
+    /// Returns whether the caret is lit. It blinks for a while after the last move and then stays lit, so that an idle
+    /// window need not be painted.
     fn caret_is_lit(&self, ui: &Ui) -> bool {
         const HALF: f64 = 0.53;
         const UNTIL: f64 = 10.0;

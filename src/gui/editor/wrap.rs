@@ -1,30 +1,30 @@
-//! Says where a long piece of a line goes on in the next row.
+//! Wraps a long piece of a line into rows.
 
 use super::pieces;
 
-/// The rows of a piece: the bytes at which they begin, the first one at 0, and how far those behind the first are
-/// indented, in widths of a digit.
+/// The rows of a piece: the bytes at which they start, the first at 0, and the indent of all rows after the first, in
+/// digit widths.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Breaks {
     pub starts: Vec<usize>,
     pub indent: f32,
 }
 
-/// Cuts a piece into rows no wider than `limit`, in widths of a digit: behind a blank or a sign where there is one, and
-/// indented as the piece is.
+/// Cuts a piece into rows no wider than `limit`, in digit widths: after a blank or a sign if possible, and with the
+/// indent of the piece.
 pub(super) fn breaks(text: &str, limit: f32, width: &mut dyn FnMut(char) -> f32) -> Breaks {
     let blanks = &text[..text.len() - text.trim_start().len()];
-    // Half of the width is left for text.
+    // At least half of the width is left for text.
     let indent = Some(pieces::columns(blanks, width)).filter(|i| *i <= limit / 2.0).unwrap_or(0.0);
     let mut starts = vec![0];
     let (mut start, mut at, mut x) = (0, 0, 0.0);
-    // The last place of this row where it may end.
+    // The last place at which this row may end.
     let mut place = None;
     while let Some(c) = text[at..].chars().next() {
         let wide = pieces::columns(c.encode_utf8(&mut [0; 4]), width);
-        // A blank at the end of a row hangs over.
+        // A blank at the end of a row may overhang.
         if x + wide > limit && at > start && !c.is_whitespace() {
-            // What is behind the place is measured again: the next row is indented.
+            // The text after the place is measured again because the next row is indented.
             (start, x) = (place.take().unwrap_or(at), indent);
             starts.push(start);
             at = start;
@@ -50,7 +50,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_end_between_words_and_hold_what_fits() {
+    fn rows_break_between_words_and_fill_the_width() {
         assert_eq!(rows("short", 10.0), ["short"]);
         assert_eq!(rows("", 10.0), [""]);
         assert_eq!(rows("one two three", 8.0), ["one two ", "three"]);

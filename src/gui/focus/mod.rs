@@ -1,9 +1,9 @@
-//! Says who has the keyboard: the way from panel to panel and within one by keys, the frame round what has it, and who
-//! gets it back.
+//! The keyboard focus: moving it from panel to panel and within one by keys, the frame around the focused widget, and
+//! restoring the focus.
 //!
-//! Owns no widget. A part of the window says by [`UiOutput::stop`] that F6 stops there, and everything inside it is found
-//! by egui's own record of which widget lies in which. Two widgets are home: the picture and the code. They take every
-//! key, Tab too, and whichever had the keyboard last gets it back when nothing else has it.
+//! Owns no widget. A part of the window registers with [`UiOutput::stop`] as a stop of F6, and the widgets in it are
+//! found by egui's record of nesting. Two widgets are homes: the picture and the code. They take every key, including
+//! Tab, and whichever had the focus last gets it back when nothing else has it.
 
 use super::{
     theme,
@@ -15,43 +15,44 @@ use egui::{
 };
 use std::collections::HashMap;
 
-/// A field that a press took the keyboard from.
+/// A field that lost the keyboard focus to a press.
 struct Left {
     field: Id,
-    /// The place of the field, and the part of the window that it was in.
+    /// The place of the field, and the part of the window that contained it.
     rect: Rect,
     stop: Option<&'static str>,
-    /// The place that was pressed.
+    /// The position of the press.
     at: Pos2,
 }
 
 #[derive(Default)]
 pub(super) struct Focus {
-    /// Those of the frame before, in reading order.
+    /// The stops of the previous frame, in reading order.
     stops: Vec<FocusStop>,
-    /// Holds what had the keyboard last in each of them.
+    /// The widget that had the focus last in each of them.
     visited: HashMap<&'static str, Id>,
-    /// The home that had the keyboard last.
+    /// The home that had the focus last.
     home: Option<Id>,
     had: Option<Id>,
-    /// F6 is on its way, and nothing has been done where it came by: a home that is passed is not gone back to.
+    /// F6 is passing through, and nothing has been done at its stops: a home that is only passed does not become the
+    /// last one.
     walks: bool,
-    /// The field that had the keyboard when the pointer was pressed, and where that was: a press takes the keyboard from
-    /// it, and what is beside it takes none.
+    /// The field that had the focus when the pointer was pressed, and the position: a press takes the focus from it,
+    /// even if no other widget takes it.
     pressed_from: Option<Left>,
-    /// The same in the frame after: what was pressed may have laid the panel out anew, and the field is another one then.
+    /// The same in the next frame: the press may have changed the panel's layout, so that the field has another id.
     settling: Option<Left>,
-    /// A popup was open in the frame before, opened by this widget.
+    /// A popup was open in the previous frame, opened by this widget.
     popup_of: Option<Option<Id>>,
-    /// The last press was of a key and not of the mouse: then people want to see who has the keyboard.
+    /// The last press was of a key and not of the mouse: then the focus frame is shown.
     by_key: bool,
     brings_into_sight: Option<Id>,
-    /// Says where what has the keyboard is, for scripts.
+    /// The place of the focused widget, for scripts.
     place: Option<[Rect; 2]>,
 }
 
 impl Focus {
-    /// Takes the keys that move the keyboard within a panel, before any widget sees them.
+    /// Takes the keys that move the focus within a panel, before any widget sees them.
     pub(super) fn take_keys(&mut self, ui: &Ui) {
         if let Some(id) = self.brings_into_sight.take() {
             bring_into_sight(ui, id);
@@ -60,7 +61,7 @@ impl Focus {
         ui.input(|i| {
             for event in &i.events {
                 match event {
-                    // Shift+F6 begins with a press of Shift.
+                    // Shift+F6 starts with a press of Shift.
                     Event::Key { key, .. } if is_modifier(*key) => {}
                     Event::Key { pressed: true, .. } => (self.by_key, self.walks) = (true, false),
                     Event::PointerButton { pressed: true, pos, .. } => {
@@ -75,7 +76,7 @@ impl Focus {
         if let Some(at) = pressed {
             self.pressed_from = field.map(|field| self.leaving(ui, field, at));
         }
-        // It closes what is open, and means nothing to what lies below.
+        // Escape closes the open popup, and is not passed on to what is below.
         let is_escape = |e: &Event| matches!(e, Event::Key { key: Key::Escape, pressed: true, .. });
         if Popup::is_any_open(ui.ctx()) && ui.input(|i| i.events.iter().any(is_escape)) {
             Popup::close_all(ui.ctx());
@@ -100,13 +101,13 @@ impl Focus {
         }
     }
 
-    /// The next widget of what is open over the panels, or of the panel that has the keyboard.
+    /// Moves to the next widget of the popup over the panels, or of the panel that has the focus.
     fn within(&self, ui: &Ui, widgets: &WidgetRects, focused: Option<Id>, forward: bool) -> Option<Id> {
         let popup = open_popup(ui.ctx());
         let list: Vec<Id> = match (popup, focused.and_then(|id| self.stop_of(widgets, id))) {
             (Some(layer), _) => focusable(widgets, layer).map(|w| w.id).collect(),
             (None, Some(stop)) => self.inside(widgets, stop),
-            // A dialog: egui goes round in it. Nothing has the keyboard: to what is most of the window.
+            // A dialog: egui cycles within it. Without focus: go to the largest part of the window.
             (None, None) if focused.is_some() || ui.memory(|m| m.top_modal_layer().is_some()) => return None,
             (None, None) => {
                 let area = |p: &&FocusStop| p.rect.area();
@@ -125,7 +126,7 @@ impl Focus {
         .copied()
     }
 
-    /// Gives the keyboard to the next panel, or to the one before, round the ends.
+    /// Moves the focus to the next or the previous panel, wrapping round.
     pub(super) fn step(&mut self, ui: &Ui, out: &UiOutput, forward: bool) {
         self.stops = ordered(&out.stops);
         let found = ui.ctx().viewport(|v| {
@@ -147,16 +148,17 @@ impl Focus {
         }
     }
 
-    /// Returns where the keyboard goes in a panel: to its home, to what had it there last, or to the first that can.
+    /// Returns the widget that gets the focus in a panel: its home, the one that had it there last, or the first that
+    /// can take it.
     fn entry(&self, widgets: &WidgetRects, stop: &FocusStop) -> Option<Id> {
         let inside = self.inside(widgets, stop);
         let visited = self.visited.get(stop.name).filter(|id| inside.contains(id));
         stop.home.filter(|id| widgets.contains(*id)).or_else(|| visited.or(inside.first()).copied())
     }
 
-    /// Looks who has the keyboard when everything has been shown, and gives it back where nobody has it.
+    /// Checks the focus after everything has been shown, and restores it if nothing has it.
     ///
-    /// `is_covered`: something is in front that has the keyboard to itself, or nothing is there that wants it.
+    /// `is_covered`: something modal is in front, or nothing can take the focus.
     pub(super) fn settle(&mut self, ui: &Ui, out: &UiOutput, is_covered: bool) {
         self.stops = ordered(&out.stops);
         let is_popup_open = Popup::is_any_open(ui.ctx());
@@ -166,8 +168,8 @@ impl Focus {
         let left = if is_held { None } else { self.pressed_from.take() };
         let field = left.as_ref().or(self.settling.as_ref()).and_then(|left| self.field_beside(ui, left));
         self.settling = left;
-        // What was pressed has taken the field away. It has the keyboard to the end of this frame, which is too late to
-        // look beside it.
+        // The press has removed the field. It keeps the focus to the end of this frame, which is too late to look for
+        // its neighbour.
         if let (Some(field), Some(gone)) = (field, self.had.filter(|id| layer_of(ui, *id).is_none()))
             && field != gone
         {
@@ -220,7 +222,7 @@ impl Focus {
         }
     }
 
-    /// Returns where what has the keyboard is: as a whole, and what of it is in sight.
+    /// Returns the place of the focused widget: all of it, and the visible part.
     pub(super) fn place(&self) -> Option<[Rect; 2]> {
         self.place
     }
@@ -241,8 +243,8 @@ impl Focus {
         })
     }
 
-    /// Returns the field that a press took the keyboard from, if what was pressed lies in the same panel or window. Where
-    /// the panel has been laid out anew, the field that is nearest to where it was.
+    /// Returns the field that lost the focus to a press, if the press was in the same panel or window. If the panel's
+    /// layout has changed, returns the field nearest to its old place.
     fn field_beside(&self, ui: &Ui, left: &Left) -> Option<Id> {
         let stop = left.stop.and_then(|name| self.stops.iter().find(|stop| stop.name == name));
         if left.stop.is_some() && stop.is_none_or(|stop| !stop.rect.contains(left.at)) {
@@ -261,11 +263,11 @@ impl Focus {
             let all = inside.as_ref()?.iter().filter(|(id, _)| of(*id));
             all.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(id, _)| *id)
         };
-        // A number that is not being typed is no field yet.
+        // A number that is not being typed is not a text field yet.
         nearest(&is_field).or_else(|| nearest(&|_| true))
     }
 
-    /// The innermost panel that a widget lies in.
+    /// Returns the innermost panel that contains a widget.
     fn stop_of(&self, widgets: &WidgetRects, id: Id) -> Option<&FocusStop> {
         let mut at = widgets.get(id)?;
         loop {
@@ -276,7 +278,7 @@ impl Focus {
         }
     }
 
-    /// Returns what can have the keyboard in a panel, in the order in which it was shown.
+    /// Returns the focusable widgets in a panel, in the order in which they were shown.
     fn inside(&self, widgets: &WidgetRects, stop: &FocusStop) -> Vec<Id> {
         let Some(layer) = widgets.get(stop.ui).map(|w| w.layer_id) else { return Vec::new() };
         let is_inside = |w: &&WidgetRect| self.stop_of(widgets, w.id).is_some_and(|p| p.ui == stop.ui);
@@ -284,7 +286,7 @@ impl Focus {
     }
 }
 
-/// Lines of panels from the top, each from the left.
+/// Sorts panels by rows from the top, and each row from the left.
 fn ordered(stops: &[FocusStop]) -> Vec<FocusStop> {
     let mut list = stops.to_vec();
     list.sort_by(|a, b| (a.rect.top(), a.rect.left()).partial_cmp(&(b.rect.top(), b.rect.left())).unwrap());
@@ -303,7 +305,7 @@ fn layer_of(ui: &Ui, id: Id) -> Option<LayerId> {
     ui.ctx().viewport(|v| v.this_pass.widgets.get(id).map(|w| w.layer_id))
 }
 
-/// The layer of the menu or list that is open.
+/// Returns the layer of the open menu or list.
 fn open_popup(ctx: &Context) -> Option<LayerId> {
     Popup::is_any_open(ctx).then(|| ctx.memory(|m| m.areas().top_layer_id(Order::Foreground))).flatten()
 }
@@ -317,7 +319,7 @@ fn is_tab(event: &Event, with: Modifiers) -> bool {
     matches!(event, Event::Key { key: Key::Tab, pressed: true, modifiers, .. } if modifiers.matches_exact(with))
 }
 
-/// Asks a widget to scroll to where it can be seen, as a screen reader does.
+/// Scrolls a widget into view, as a screen reader does.
 fn bring_into_sight(ui: &Ui, id: Id) {
     let request = accesskit::ActionRequest {
         action: accesskit::Action::ScrollIntoView,
@@ -328,7 +330,7 @@ fn bring_into_sight(ui: &Ui, id: Id) {
     ui.input_mut(|i| i.events.push(Event::AccessKitActionRequest(request)));
 }
 
-/// Draws the frame round a widget.
+/// Draws the focus frame around a widget.
 fn frame(ui: &Ui, widget: &WidgetRect) {
     if !widget.interact_rect.is_positive() {
         return;

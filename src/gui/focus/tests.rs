@@ -1,4 +1,4 @@
-//! The keyboard's way through two panels of buttons and a text that takes every key.
+//! Tests moving the focus through two panels of buttons and a text that takes every key.
 
 use super::*;
 use egui::{EventFilter, Modal, Panel as Side, RawInput, Sense, pos2, vec2};
@@ -7,13 +7,13 @@ use egui::{EventFilter, Modal, Panel as Side, RawInput, Sense, pos2, vec2};
 struct Stage {
     ctx: Context,
     focus: Focus,
-    /// A dialog of two buttons is open.
+    /// A dialog with two buttons is open.
     asks: bool,
-    /// There is a second text, the last of all.
+    /// A second text exists, after everything else.
     has_second: bool,
 }
 
-/// Says what a frame does besides showing.
+/// An action of a frame besides showing the widgets.
 #[derive(Clone, Copy, PartialEq)]
 enum Step {
     None,
@@ -29,7 +29,7 @@ impl Stage {
         Id::unique("second text")
     }
 
-    /// Shows a frame; the label of what has the keyboard behind it.
+    /// Shows a frame; returns the label of the widget that has the focus afterwards.
     fn frame(&mut self, events: Vec<Event>, step: Step) -> String {
         let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0)));
         let input = RawInput { screen_rect, events, focused: true, ..RawInput::default() };
@@ -91,7 +91,7 @@ impl Stage {
 }
 
 #[test]
-fn panels_are_gone_round_and_tab_stays_within_one() {
+fn f6_cycles_panels_and_tab_stays_within_one() {
     let mut stage = Stage::default();
     stage.frame(vec![], Step::None);
     assert_eq!(stage.frame(vec![], Step::None), "text", "what is home has the keyboard where nobody else has");
@@ -106,7 +106,7 @@ fn panels_are_gone_round_and_tab_stays_within_one() {
 }
 
 #[test]
-fn a_dialog_has_the_keyboard_to_itself_and_gives_it_back() {
+fn a_dialog_traps_and_restores_the_focus() {
     let mut stage = Stage::default();
     stage.frame(vec![], Step::None);
     assert_eq!(stage.frame(vec![], Step::None), "text");
@@ -121,7 +121,7 @@ fn a_dialog_has_the_keyboard_to_itself_and_gives_it_back() {
 }
 
 #[test]
-fn escape_goes_back_to_where_one_was_and_not_to_what_f6_came_by() {
+fn escape_returns_to_the_last_used_home() {
     let mut stage = Stage { has_second: true, ..Stage::default() };
     stage.frame(vec![], Step::None);
     assert_eq!(stage.frame(vec![], Step::None), "text");
@@ -134,7 +134,7 @@ fn escape_goes_back_to_where_one_was_and_not_to_what_f6_came_by() {
 }
 
 #[test]
-fn a_press_of_shift_alone_does_nothing_where_f6_comes_by() {
+fn pressing_shift_alone_does_not_count_as_use() {
     let mut stage = Stage { has_second: true, ..Stage::default() };
     stage.frame(vec![], Step::None);
     assert_eq!(stage.frame(vec![], Step::None), "text");

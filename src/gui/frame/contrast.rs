@@ -1,6 +1,6 @@
-//! Measures the contrast of every text that is shown, in both themes, against what is painted behind it: WCAG 2.2 asks
-//! for 4.5 to 1 of small text. What is disabled is exempt there, and text over a picture is measured by the palette's
-//! own tests.
+//! Measures the contrast of every visible text, in both themes, against what is painted below it: WCAG 2.2 requires
+//! 4.5 to 1 for small text. Disabled widgets are exempt, and text over a picture is measured by the palette's own
+//! tests.
 
 use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, open_with, press, until};
 use crate::{
@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 
 const LEAST: f32 = 4.5;
 
-/// Something painted behind a text.
+/// A shape painted below a text.
 enum Backdrop {
     Fill(Rect, Color32),
     Picture(Rect),
@@ -34,7 +34,7 @@ fn contrast(a: Color32, b: Color32) -> f32 {
     a.max(b) / a.min(b)
 }
 
-/// A colour as it is seen over another; both are premultiplied.
+/// Blends a colour over another; both are premultiplied.
 fn over(top: Color32, below: Color32) -> Color32 {
     let seen =
         |top: u8, below: u8, alpha: u8| top.saturating_add((u16::from(below) * u16::from(255 - alpha) / 255) as u8);
@@ -42,7 +42,7 @@ fn over(top: Color32, below: Color32) -> Color32 {
     Color32::from_rgb(seen(top.r(), below.r(), a), seen(top.g(), below.g(), a), seen(top.b(), below.b(), a))
 }
 
-/// The colour behind a place; `None` over a picture.
+/// Returns the background colour at a place; `None` over a picture.
 fn behind(grounds: &[Backdrop], at: Pos2) -> Option<Color32> {
     let mut color = Some(Color32::BLACK);
     for ground in grounds {
@@ -61,7 +61,7 @@ fn behind(grounds: &[Backdrop], at: Pos2) -> Option<Color32> {
     color
 }
 
-/// Returns the texts that cannot be read well, and how many were measured.
+/// Returns the texts with too little contrast, and the number of texts measured.
 fn weak_texts(shapes: &[ClippedShape]) -> (BTreeSet<String>, usize) {
     let (mut grounds, mut weak, mut measured) = (Vec::new(), BTreeSet::new(), 0);
     let mut stack: Vec<(Rect, &Shape)> = shapes.iter().rev().map(|shape| (shape.clip_rect, &shape.shape)).collect();
@@ -84,7 +84,7 @@ fn weak_texts(shapes: &[ClippedShape]) -> (BTreeSet<String>, usize) {
                         let Some(vertex) = row.visuals.mesh.vertices.get(glyph.first_vertex as usize) else { continue };
                         let own = if vertex.color == Color32::PLACEHOLDER { text.fallback_color } else { vertex.color };
                         let color = text.override_text_color.unwrap_or(own);
-                        // What is disabled is painted faintly.
+                        // Disabled widgets are painted faintly.
                         if text.opacity_factor < 1.0 || !color.is_opaque() {
                             continue;
                         }
@@ -104,7 +104,7 @@ fn weak_texts(shapes: &[ClippedShape]) -> (BTreeSet<String>, usize) {
     (weak, measured)
 }
 
-/// Asserts that all that is shown now can be read.
+/// Asserts that everything shown has enough contrast.
 fn check(stage: &mut Stage, what: &str, theme: Theme) {
     stage.run_steps(2);
     let (weak, measured) = weak_texts(&stage.output().shapes);
@@ -153,7 +153,7 @@ fn every_text_has_enough_contrast_in_both_themes() {
     }
 }
 
-/// Questions, and pages over the window.
+/// Covers questions, and pages over the window.
 #[test]
 fn every_dialog_has_enough_contrast_in_both_themes() {
     for theme in [Theme::Dark, Theme::Light] {
@@ -161,7 +161,7 @@ fn every_dialog_has_enough_contrast_in_both_themes() {
         let options = || SessionOptions { recovery: Some(kept.path().to_owned()), ..SessionOptions::default() };
         let Some(mut stage) = open_with(false, options()) else { return };
         let folder = stage.state().folder.path().to_owned();
-        // A file that is right, one with lines that are wrong, and one that cannot be read.
+        // A valid file, one with invalid lines, and one that cannot be read.
         let file = folder.join("settings.toml");
         for text in ["code-size = 20.0\nword-wrap = true\n", "zoom = 9\nthem = 3\n", "zoom = = 3\n"] {
             std::fs::write(&file, text).unwrap();
@@ -170,7 +170,7 @@ fn every_dialog_has_enough_contrast_in_both_themes() {
             stage.state_mut().shell.restore(settings, &WindowState::default(), true, None);
             stage.run_steps(2);
             press(&mut stage, CTRL, Key::Comma);
-            // The theme is the settings' own until now.
+            // Up to here the theme is that of the settings.
             stage.ctx.set_theme(theme);
             assert!(stage.state().shell.place("settings:page").is_some());
             check(&mut stage, &format!("the settings of {text:?}"), theme);
@@ -225,7 +225,7 @@ fn every_dialog_has_enough_contrast_in_both_themes() {
     }
 }
 
-/// A measure that finds nothing is worse than none.
+/// Proves that the measure finds weak texts.
 #[test]
 fn planted_weak_texts_are_found() {
     let shown = |ground: Color32, text: Color32| {

@@ -1,4 +1,4 @@
-//! Controls of devices in the panel of uniforms: learned by a right click, shown in the row, forgotten again.
+//! Controls of devices in the panel of uniforms: learned by a right click, shown in the row, and removed again.
 
 use super::harness::{Stage, open_with, press, texts, until};
 use crate::{
@@ -48,11 +48,11 @@ fn value(stage: &Stage, name: &str) -> Vec<f64> {
 }
 
 #[test]
-fn a_right_click_learns_what_is_touched_next_and_forgets_it() {
+fn controls_are_learned_and_removed_by_the_context_menu() {
     let midi = FakeMidi::default();
     midi.plug_in("Knobs");
     let Some(mut stage) = stage(&midi) else { return };
-    // While nothing is listened to, the menu leads to the settings.
+    // While no device is listened to, the menu leads to the settings.
     right_click(&mut stage, "uniform:red");
     super::harness::click(&mut stage, "uniform-menu:learn:red");
     let red = ControlTarget::whole("red");

@@ -1,4 +1,5 @@
-//! Quick fixes, renaming, finding in all passes, the code's menu, breakpoints and compiling on save, by keys and clicks.
+//! Quick fixes, renaming, finding in all passes, the code's menu, breakpoints and compiling on save, by keys and
+//! clicks.
 
 use super::harness::{CTRL, CTRL_SHIFT, Stage, choose, click, has, named, open, press, texts, until};
 use crate::{
@@ -22,7 +23,7 @@ fn settle(stage: &mut Stage) {
     stage.run_steps(3);
 }
 
-/// Types into the code, as a hand does.
+/// Types into the code as a user does.
 fn write(stage: &mut Stage, new: &str) {
     focus_code(stage);
     press(stage, CTRL, Key::A);
@@ -53,7 +54,7 @@ fn type_text(stage: &mut Stage, text: &str) {
 const OLD: &str = "void main() {\n    vec4 a = texture2D(iChannel0, vec2(1));\n    gl_FragColor = a;\n}\n";
 
 #[test]
-fn a_problem_is_fixed_by_keys_at_the_caret_and_by_its_row() {
+fn quick_fixes_work_by_keys_and_in_the_list() {
     let Some(mut stage) = open(false) else { return };
     write(&mut stage, OLD);
     assert_eq!(stage.state().session.diagnostics().iter().filter(|d| d.tab() == Some(&Tab::image())).count(), 2);
@@ -69,18 +70,18 @@ fn a_problem_is_fixed_by_keys_at_the_caret_and_by_its_row() {
     let mended = text(&stage, &Tab::image());
     assert!(mended.starts_with("void mainImage(out vec4 fragColor, in vec2 fragCoord) {\n"), "{mended}");
     assert!(mended.contains("    fragColor = a;\n"), "{mended}");
-    // One step of undo takes it back, and redo does it again.
+    // One undo reverts it, and redo applies it again.
     press(&mut stage, CTRL, Key::Z);
     assert_eq!(text(&stage, &Tab::image()), OLD);
     press(&mut stage, CTRL_SHIFT, Key::Z);
     assert_eq!(text(&stage, &Tab::image()), mended);
     settle(&mut stage);
-    // The next by the button in the list.
+    // The next one by the button in the list.
     click(&mut stage, "problem:0:fix");
     assert!(text(&stage, &Tab::image()).contains("texture(iChannel0"), "{}", text(&stage, &Tab::image()));
     settle(&mut stage);
     assert!(stage.state().session.diagnostics().iter().all(|d| d.tab() != Some(&Tab::image())));
-    // Where nothing is wrong the list says so, and another key goes to the code.
+    // If there is no problem the list says so, and another key goes to the code.
     press(&mut stage, CTRL, Key::Period);
     assert!(texts(&stage).iter().any(|text| text == "No quick fix for this line"));
     key(&mut stage, Key::Escape);
@@ -89,7 +90,7 @@ fn a_problem_is_fixed_by_keys_at_the_caret_and_by_its_row() {
 }
 
 #[test]
-fn a_fix_of_a_text_that_is_another_by_now_changes_nothing() {
+fn outdated_fixes_change_nothing() {
     let Some(mut stage) = open(false) else { return };
     write(&mut stage, "void mainImage(out vec4 o, in vec2 p) { o = vec4(p.x * 2); }");
     let problem = stage.state().session.diagnostics().iter().find(|d| !d.fixes.is_empty()).cloned().unwrap();
@@ -127,16 +128,16 @@ fn shared() -> Tab {
 }
 
 #[test]
-fn a_symbol_is_renamed_in_every_text_and_only_where_it_means_the_same() {
+fn renaming_covers_all_texts_and_only_the_same_symbol() {
     let Some(mut stage) = with_shared() else { return };
     focus_code(&mut stage);
-    // To the call, by its name.
+    // Go to the call by its name.
     press(&mut stage, CTRL, Key::Home);
     (0..3).for_each(|_| key(&mut stage, Key::ArrowDown));
     (0..15).for_each(|_| key(&mut stage, Key::ArrowRight));
     key(&mut stage, Key::F2);
     assert!(stage.state().shell.place("field:rename").is_some(), "{:?}", texts(&stage));
-    // A name that is taken here keeps the bar open, and says why.
+    // A name that is already in use keeps the bar open, with the reason.
     type_text(&mut stage, "glare");
     key(&mut stage, Key::Enter);
     assert!(stage.state().shell.place("rename:wrong").is_some());
@@ -155,12 +156,12 @@ fn a_symbol_is_renamed_in_every_text_and_only_where_it_means_the_same() {
     assert_eq!(text(&stage, &shared()), SHARED.replace("glow", "shine"));
     settle(&mut stage);
     assert!(stage.state().session.diagnostics().is_empty(), "{:?}", stage.state().session.diagnostics());
-    // Each text by its own undo.
+    // Each text is reverted by its own undo.
     press(&mut stage, CTRL, Key::Z);
     let now: Vec<bool> =
         [Tab::image(), buffer(), shared()].iter().map(|tab| text(&stage, tab).contains("shine")).collect();
     assert_eq!(now.iter().filter(|has| **has).count(), 2, "{now:?}");
-    // What is the language's own has no other name.
+    // Built-in names cannot be renamed.
     write(&mut stage, "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }");
     press(&mut stage, CTRL, Key::Home);
     (0..8).for_each(|_| key(&mut stage, Key::ArrowRight));
@@ -169,7 +170,7 @@ fn a_symbol_is_renamed_in_every_text_and_only_where_it_means_the_same() {
 }
 
 #[test]
-fn the_name_of_an_included_file_leads_to_its_tab() {
+fn names_of_included_files_link_to_their_tabs() {
     let Some(mut stage) = with_shared() else { return };
     let folder = stage.state().folder.path().to_owned();
     std::fs::write(folder.join("lib/dim.glsl"), "float dim(float x) { return 0.1 * x; }\n").unwrap();
@@ -188,13 +189,13 @@ fn the_name_of_an_included_file_leads_to_its_tab() {
 const SPEED: &str = "#iUniform float speed = 1.0 in { 0.0, 2.0 } // speed of all\n";
 const USES_SPEED: &str = "void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(speed);\n}\n";
 
-/// The value of a uniform's slider, by its name; `None`: it has the default.
+/// Returns the value of a uniform's slider by its name; `None`: it has the default.
 fn turned(stage: &Stage, name: &str) -> Option<CustomUniformValue> {
     stage.state().session.project().custom_uniform_values.get(name).cloned()
 }
 
 #[test]
-fn a_uniform_is_renamed_with_its_line_its_uses_and_its_value() {
+fn renaming_a_uniform_keeps_its_value() {
     let Some(mut stage) = open(false) else { return };
     let folder = stage.state().folder.path().to_owned();
     std::fs::write(folder.join("common.glsl"), SPEED).unwrap();
@@ -204,7 +205,7 @@ fn a_uniform_is_renamed_with_its_line_its_uses_and_its_value() {
     stage.state_mut().session.apply(Command::Open(folder.display().to_string()));
     stage.state_mut().session.apply(Command::Pause);
     settle(&mut stage);
-    // No edit of a text reaches `eddy.toml`.
+    // Edits of the text do not reach `eddy.toml`.
     let fill = |text: &str| {
         let value = FillValue::Expression(format!("vec4({text})").into());
         Command::EditPasses(PassEdit::Initial(PassName::buffer("A"), Some(value)))
@@ -232,7 +233,7 @@ fn a_uniform_is_renamed_with_its_line_its_uses_and_its_value() {
         assert_eq!(text(&stage, &tab), USES_SPEED.replace("speed", "pace"), "{tab:?}");
     }
     assert_eq!((turned(&stage, "speed"), turned(&stage, "pace")), (None, Some(value.clone())));
-    // The program that draws has the old name until the new one is there.
+    // The running program has the old name until the new one is compiled.
     let shown = |stage: &Stage| {
         let session = &stage.state().session;
         let uniform = session.custom_uniforms()[0].clone();
@@ -246,7 +247,7 @@ fn a_uniform_is_renamed_with_its_line_its_uses_and_its_value() {
     until(&mut stage, "saved", |stage| !stage.state().session.is_dirty());
     let manifest = std::fs::read_to_string(folder.join("eddy.toml")).unwrap();
     assert!(manifest.contains("pace = 1.5") && !manifest.contains("speed"), "{manifest}");
-    // The value follows the line when that is taken back, and the passes' undo goes by the new name.
+    // The value follows the line when the rename is undone, and the passes' undo uses the new name.
     stage.state_mut().session.apply(Command::EditText { tab: Tab::Common, text: SPEED.into() });
     assert_eq!((turned(&stage, "speed"), turned(&stage, "pace")), (Some(value), None));
     stage.state_mut().session.apply(Command::UndoPassEdit);
@@ -256,7 +257,7 @@ fn a_uniform_is_renamed_with_its_line_its_uses_and_its_value() {
 }
 
 #[test]
-fn where_sliders_come_from_is_said_for_each_dialect() {
+fn declaring_sliders_is_explained_for_each_dialect() {
     let Some(mut stage) = open(false) else { return };
     let folder = stage.state().folder.path().to_owned();
     let draws = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }";
@@ -278,7 +279,7 @@ fn where_sliders_come_from_is_said_for_each_dialect() {
 }
 
 #[test]
-fn the_sliders_of_a_text_are_there_before_its_first_program() {
+fn sliders_appear_before_the_first_compile() {
     let Some(mut stage) = open(false) else { return };
     let folder = stage.state().folder.path().join("broken");
     std::fs::create_dir(&folder).unwrap();
@@ -295,14 +296,14 @@ fn the_sliders_of_a_text_are_there_before_its_first_program() {
     assert!(stage.state().shell.place("uniform:speed").is_some());
     write(&mut stage, USES_SPEED);
     assert!(hint(&stage));
-    // As is one that the newest text declares, where the program that draws has none.
+    // The same for a uniform that only the newest text declares, and the running program does not.
     write(&mut stage, "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }");
     write(&mut stage, &format!("{SPEED}void mainImage(out vec4 o, in vec2 p) {{ o = ; }}"));
     assert!(stage.state().shell.place("uniform:speed").is_some());
 }
 
 #[test]
-fn a_text_is_found_and_replaced_in_all_passes_and_taken_back_in_each() {
+fn replacing_in_all_passes_is_undone_in_each() {
     let Some(mut stage) = with_shared() else { return };
     focus_code(&mut stage);
     press(&mut stage, CTRL_SHIFT, Key::F);
@@ -314,7 +315,7 @@ fn a_text_is_found_and_replaced_in_all_passes_and_taken_back_in_each() {
     // In the line that includes, the call and the comment of two passes, and in the included file.
     assert!(texts(&stage).iter().any(|text| text == "7"), "{:?}", texts(&stage));
     assert!(texts(&stage).iter().any(|text| text == "7 references"));
-    // Enter goes on to the next text, and the field keeps the keyboard.
+    // Enter continues in the next text, and the field keeps the keyboard focus.
     let mut seen = std::collections::BTreeSet::new();
     for _ in 0..7 {
         key(&mut stage, Key::Enter);
@@ -337,7 +338,7 @@ fn a_text_is_found_and_replaced_in_all_passes_and_taken_back_in_each() {
         let current = stage.state().shell.caret().0;
         assert_eq!(text(&stage, &current), old);
     }
-    // The bar is of one text again when it is switched.
+    // Toggling the bar limits it to one text again.
     press(&mut stage, CTRL_SHIFT, Key::F);
     press(&mut stage, CTRL_SHIFT, Key::F);
     type_text(&mut stage, "glow");
@@ -345,7 +346,7 @@ fn a_text_is_found_and_replaced_in_all_passes_and_taken_back_in_each() {
 }
 
 #[test]
-fn the_code_has_a_menu_by_the_mouse_and_by_keys() {
+fn context_menu_of_the_code_opens_by_mouse_and_keys() {
     let Some(mut stage) = with_shared() else { return };
     focus_code(&mut stage);
     press(&mut stage, CTRL, Key::Home);
@@ -356,7 +357,7 @@ fn the_code_has_a_menu_by_the_mouse_and_by_keys() {
     click(&mut stage, "code-menu:definition");
     stage.run_steps(3);
     assert_eq!(stage.state().shell.caret().0, shared(), "the line that includes it leads there");
-    // A right click is about the place that was clicked.
+    // A right click applies to the place that was clicked.
     click(&mut stage, "tab:Image");
     let at = stage.state().shell.place("code").unwrap().center();
     stage.event(Event::PointerMoved(at));
@@ -371,7 +372,7 @@ fn the_code_has_a_menu_by_the_mouse_and_by_keys() {
     }
     assert!(stage.state().shell.place("code-menu:rename").is_some());
     key(&mut stage, Key::Escape);
-    // Cut takes the line, which undo brings back.
+    // Cut deletes the line, and undo restores it.
     focus_code(&mut stage);
     press(&mut stage, CTRL, Key::Home);
     press(&mut stage, Modifiers::SHIFT, Key::F10);
@@ -385,7 +386,7 @@ fn the_code_has_a_menu_by_the_mouse_and_by_keys() {
 }
 
 #[test]
-fn a_breakpoint_moves_to_a_statement_or_is_refused_aloud() {
+fn breakpoints_move_to_a_statement_or_are_refused_with_a_notice() {
     let Some(mut stage) = open(false) else { return };
     write(
         &mut stage,
@@ -411,7 +412,7 @@ fn a_breakpoint_moves_to_a_statement_or_is_refused_aloud() {
 }
 
 #[test]
-fn edits_wait_for_a_save_where_a_person_wants_it() {
+fn compile_on_save_delays_edits() {
     let Some(mut stage) = open(false) else { return };
     choose(&mut stage, "toggle compile on save");
     stage.run_steps(2);
@@ -432,7 +433,7 @@ fn edits_wait_for_a_save_where_a_person_wants_it() {
         stage.state().session.diagnostics().iter().any(|d| d.message.contains("none"))
     });
     assert!(!stage.state().session.waits_for_save());
-    // Switched off, what waits is compiled at once.
+    // When it is switched off, pending edits are compiled at once.
     press(&mut stage, CTRL, Key::A);
     stage.event(Event::Paste("void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }".into()));
     stage.run_steps(3);

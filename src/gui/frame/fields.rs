@@ -1,4 +1,4 @@
-//! A click on a button beside a field leaves the keyboard with the field, in every panel that has both.
+//! A click on a button next to a field leaves the keyboard focus in the field, in every panel that has both.
 
 use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, press, until};
 use crate::{
@@ -15,7 +15,7 @@ use egui_kittest::kittest::NodeT as _;
 
 const MARK: &str = "§";
 
-/// A widget that takes text or can be clicked: its place, its name, and its id.
+/// A widget that takes text or can be clicked: its place, name and id.
 struct Widget {
     rect: Rect,
     name: String,
@@ -58,12 +58,12 @@ fn focused(stage: &Stage) -> Option<u64> {
     stage.ctx.memory(|m| m.focused()).map(|id: Id| id.value())
 }
 
-/// Buttons that lead to another place of the window, and take the keyboard there. A dialog for a file is the window's own where
-/// the desktop has none, and comes when the desktop has said so.
+/// Buttons that move the keyboard focus to another part of the window. Without a desktop's file dialog the window
+/// shows its own, once the desktop has answered.
 const LEADING: [&str; 7] =
     ["Edit its text", "Show its picture", "Image:8", "Go", "Start", "Open file…", "Open folder…"];
 
-/// Clicks the buttons that stand next to each field in its panel, and types. Returns the pairs that were tried.
+/// Clicks the buttons next to each field in its panel, and types. Returns the pairs that were tried.
 fn try_all(stage: &mut Stage, state: &str, set_up: &dyn Fn(&mut Stage)) -> usize {
     let fields = [Role::TextInput, Role::SpinButton, Role::MultilineTextInput, Role::SearchInput];
     let buttons = [Role::Button, Role::CheckBox, Role::RadioButton, Role::Switch];
@@ -72,7 +72,7 @@ fn try_all(stage: &mut Stage, state: &str, set_up: &dyn Fn(&mut Stage)) -> usize
     for field in widgets(stage, &fields).into_iter().take(8) {
         let group = |stage: &Stage, at: Pos2| {
             let layer = stage.ctx.layer_id_at(at);
-            // What lies over the panels is a group of its own.
+            // Popups over the panels form a group of their own.
             let is_over = layer.is_some_and(|layer| layer.order != egui::Order::Background);
             (layer, stage.state().shell.stop_at(at).filter(|_| !is_over))
         };
@@ -108,7 +108,7 @@ fn try_all(stage: &mut Stage, state: &str, set_up: &dyn Fn(&mut Stage)) -> usize
         if let (Some(_), false) = (here(stage), is_led_away) {
             let popup = egui::Popup::is_any_open(&stage.ctx);
             let has_keys = |w: &Widget| focused(stage) == Some(w.id);
-            // A button may take the field away; another then stands in its place.
+            // A button may remove the field; another one then takes its place.
             let is_gone = !widgets(stage, &fields).iter().any(|w| w.id == field.id);
             let is_kept = widgets(stage, &fields).iter().any(has_keys)
                 || is_gone && widgets(stage, &buttons).iter().any(has_keys);
@@ -116,7 +116,7 @@ fn try_all(stage: &mut Stage, state: &str, set_up: &dyn Fn(&mut Stage)) -> usize
             stage.event(Event::Text(MARK.into()));
             stage.run_steps(2);
             assert!(!texts(stage).iter().any(|text| text.contains(MARK)), "{pair}: what is typed goes into the code");
-            // Undo takes a pass away that was added.
+            // Undo removes an added pass.
             let may_take_away = popup || button_name == "Undo";
             assert!(may_take_away || texts(stage).len() >= before.len(), "{pair}: a tab is gone");
         }
@@ -125,7 +125,7 @@ fn try_all(stage: &mut Stage, state: &str, set_up: &dyn Fn(&mut Stage)) -> usize
 }
 
 #[test]
-fn a_field_keeps_the_keyboard_when_a_button_beside_it_is_clicked() {
+fn clicking_a_button_keeps_the_focus_in_its_field() {
     let Some(mut stage) = open(false) else { return };
     let open_panel = |panel: Panel| {
         move |stage: &mut Stage| {
@@ -209,7 +209,7 @@ fn a_field_keeps_the_keyboard_when_a_button_beside_it_is_clicked() {
 }
 
 #[test]
-fn a_button_that_takes_the_field_away_leaves_the_keyboard_in_the_panel() {
+fn removing_a_field_keeps_the_focus_in_its_panel() {
     let Some(mut stage) = open(false) else { return };
     press(&mut stage, CTRL_SHIFT, Key::B);
     click(&mut stage, "passes:row:Buffer A");

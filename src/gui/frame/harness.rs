@@ -1,4 +1,4 @@
-//! The window's contents under egui_kittest: frames without a window, judged by what screen readers are told.
+//! The window's contents under egui_kittest: frames without a window, checked through the accessibility tree.
 
 use crate::{
     gpu::testing,
@@ -35,12 +35,12 @@ const IMAGE: &str = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n#iUniform int co
     //@probe mean(image.r)\n\
     float unused; o = vec4(red * at.x * wide.x, tint.g, on ? 1.0 : 0.0, count); }";
 
-/// `None` where there is no device, after saying so.
+/// Returns `None` after printing the reason if there is no device.
 pub(super) fn open(gallery: bool) -> Option<Stage> {
     open_with(gallery, SessionOptions::default())
 }
 
-/// The same, and for instance a place where unsaved work is kept.
+/// The same as [`open`] with session options, for instance a folder for unsaved work.
 pub(super) fn open_with(gallery: bool, options: SessionOptions) -> Option<Stage> {
     let gpu = testing::gpu()?;
     let folder = tempfile::tempdir().unwrap();
@@ -92,7 +92,7 @@ pub(super) fn click(stage: &mut Stage, widget: &str) {
     stage.run_steps(3);
 }
 
-/// Everything that can have the keyboard or be clicked, by its name.
+/// Returns the names of all widgets that can be focused or clicked.
 pub(super) fn named(stage: &Stage, state: &str) -> Vec<String> {
     let unnamed = stage.unnamed_widgets();
     assert!(unnamed.is_empty(), "{state}: without a name:\n{}", unnamed.join("\n"));
@@ -104,7 +104,7 @@ pub(super) fn named(stage: &Stage, state: &str) -> Vec<String> {
         if is_bar || data.is_hidden() || !(data.supports_action(Action::Focus) || data.supports_action(Action::Click)) {
             continue;
         }
-        // A text that can be selected is its own name.
+        // Selectable text is its own name.
         let own = [node.label(), node.value(), data.placeholder().map(str::to_owned)];
         let name = own.into_iter().flatten().find(|name| !name.trim().is_empty()).unwrap_or_default();
         assert!(!name.trim().is_empty(), "{state}: {:?} at {:?} has no name", node.role(), node.raw_bounds());
@@ -117,7 +117,7 @@ pub(super) fn named(stage: &Stage, state: &str) -> Vec<String> {
 pub(super) const CTRL: Modifiers = Modifiers { ctrl: true, command: true, ..Modifiers::NONE };
 pub(super) const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..CTRL };
 
-/// Lets frames pass until something is so.
+/// Runs frames until a condition is true.
 pub(super) fn until(stage: &mut Stage, what: &str, is_so: impl Fn(&Stage) -> bool) {
     let end = Instant::now() + Duration::from_secs(60);
     while !is_so(stage) {
@@ -127,14 +127,14 @@ pub(super) fn until(stage: &mut Stage, what: &str, is_so: impl Fn(&Stage) -> boo
     }
 }
 
-/// Every text that is shown.
+/// Returns all visible texts.
 pub(super) fn texts(stage: &Stage) -> Vec<String> {
     let nodes = stage.root().children_recursive();
     let texts = nodes.map(|node| node.accesskit_node()).flat_map(|node| [node.label(), node.value()]);
     texts.flatten().collect()
 }
 
-/// Chooses what the palette finds by some letters.
+/// Picks what the palette finds for some letters.
 pub(super) fn choose(stage: &mut Stage, letters: &str) {
     press(stage, CTRL_SHIFT, Key::P);
     stage.event(egui::Event::Text(letters.to_owned()));
@@ -142,7 +142,7 @@ pub(super) fn choose(stage: &mut Stage, letters: &str) {
     press(stage, Modifiers::NONE, Key::Enter);
 }
 
-/// Asserts that there are things of these names.
+/// Asserts that all these names exist.
 pub(super) fn has(names: &[String], wanted: &[&str]) {
     for name in wanted {
         assert!(names.iter().any(|n| n.trim_end() == *name), "no {name:?} among {names:?}");

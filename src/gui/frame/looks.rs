@@ -1,5 +1,5 @@
-//! Places of widgets: they keep to their order and grid, and what there is no room for can still be reached. Numbers of
-//! a paused picture are not shown as if they were of now.
+//! The layout of widgets: they keep their order and grid, and widgets without enough room are still reachable.
+//! Measurements of a paused picture are not shown as current.
 
 use super::harness::{CTRL_SHIFT, Stage, choose, click, open, open_with, press, texts, until};
 use crate::{
@@ -17,7 +17,7 @@ fn place(stage: &Stage, name: &str) -> egui::Rect {
 }
 
 #[test]
-fn what_is_chosen_shares_no_colour_with_what_is_wanted_first() {
+fn selection_and_primary_button_differ_in_colour() {
     let is_blue = |c: egui::Color32| i32::from(c.b()) - i32::from(c.r()) > 40;
     for p in [DARK, LIGHT] {
         assert!(is_blue(p.accent_fill) && is_blue(p.accent) && !is_blue(p.chosen), "{:?}", p.chosen);
@@ -42,7 +42,7 @@ fn the_gallery_keeps_to_one_grid() {
 }
 
 #[test]
-fn the_resolution_is_reached_in_a_small_window() {
+fn resolution_is_reachable_in_a_small_window() {
     let Some(mut stage) = open(false) else { return };
     stage.set_size(vec2(900.0, 600.0));
     stage.run_steps(4);
@@ -55,7 +55,7 @@ fn the_resolution_is_reached_in_a_small_window() {
 }
 
 #[test]
-fn lights_of_devices_take_what_room_the_bar_has() {
+fn device_lights_adapt_to_the_width_of_the_bar() {
     let options = SessionOptions { audio: Some(Arc::new(FakeHost::default())), ..SessionOptions::default() };
     let Some(mut stage) = open_with(false, options) else { return };
     let text = "#iChannel0 \"webcam\"\n#iChannel1 \"microphone\"\n\
@@ -86,7 +86,7 @@ fn lights_of_devices_take_what_room_the_bar_has() {
         let camera = place(&stage, "button:camera");
         assert!(camera.width() >= 112.0 || width < 1000.0, "{width}: {camera}");
     }
-    // One more, and what keys do too gives way.
+    // With one more button, those that also have keys are hidden.
     stage.state_mut().session.apply(Command::Record);
     stage.run_steps(4);
     are_apart(&stage, &names(&["play", "reset", "recording", "camera", "microphone"]));
@@ -94,7 +94,7 @@ fn lights_of_devices_take_what_room_the_bar_has() {
 }
 
 #[test]
-fn a_hand_finds_the_way_out_of_code_over_picture() {
+fn leave_button_of_code_over_picture_appears_on_pointer_motion() {
     let Some(mut stage) = open(false) else { return };
     press(&mut stage, Modifiers::NONE, Key::F9);
     stage.run_steps(2);
@@ -109,7 +109,7 @@ fn a_hand_finds_the_way_out_of_code_over_picture() {
 }
 
 #[test]
-fn a_number_is_typed_in_a_field_that_holds_it() {
+fn number_fields_fit_their_text() {
     let Some(mut stage) = open(false) else { return };
     for name in ["uniform:value:red", "uniform:value:wide.x"] {
         click(&mut stage, name);
@@ -122,7 +122,7 @@ fn a_number_is_typed_in_a_field_that_holds_it() {
 }
 
 #[test]
-fn tabs_follow_the_drawing_order_scroll_by_the_wheel_and_bring_the_current_one_in_sight() {
+fn tabs_follow_the_drawing_order_and_scroll() {
     let Some(mut stage) = open(false) else { return };
     for _ in 0..14 {
         choose(&mut stage, "add buffer");
@@ -156,7 +156,7 @@ fn tabs_follow_the_drawing_order_scroll_by_the_wheel_and_bring_the_current_one_i
 }
 
 #[test]
-fn a_pass_is_added_without_a_window_over_the_picture() {
+fn adding_a_pass_does_not_cover_the_picture() {
     let Some(mut stage) = open(false) else { return };
     stage.state_mut().session.apply(Command::Pause);
     click(&mut stage, "button:add-tab");
@@ -172,7 +172,7 @@ fn is_shown(stage: &Stage, part: &str) -> bool {
 }
 
 #[test]
-fn times_of_passes_are_gone_or_said_to_be_old() {
+fn stale_pass_times_are_hidden_or_marked() {
     let Some(mut stage) = open(false) else { return };
     press(&mut stage, CTRL_SHIFT, Key::M);
     stage.state_mut().session.apply(Command::Play);
@@ -199,7 +199,7 @@ fn times_of_passes_are_gone_or_said_to_be_old() {
 }
 
 #[test]
-fn what_the_lab_says_of_a_study_ends_within_the_window() {
+fn lab_texts_stay_within_the_window() {
     let Some(mut stage) = open(false) else { return };
     press(&mut stage, CTRL_SHIFT, Key::Y);
     for width in [620.0, 900.0, 1100.0, 1280.0, 1920.0] {

@@ -1,8 +1,8 @@
 //! One frame of the window: input, apply, draw, show again.
 //!
-//! Owns the order. The panels take the input first, the session does what they ask, and only then is the picture drawn,
-//! so that a shader sees the mouse where the hand has it now. Knows no window and no surface: what is to be painted
-//! comes back.
+//! Owns the order of these steps. First the panels take the input, then the session applies their commands, and only
+//! then is the picture drawn, so that a shader sees the current mouse position. Knows nothing of windows or surfaces:
+//! it returns what is to be painted.
 
 use super::{input_steps, shell::Shell};
 use crate::session::{Session, Tick};
@@ -14,11 +14,12 @@ use std::time::Instant;
 pub(super) struct Frame {
     pub output: FullOutput,
     pub tick: Tick,
-    /// Panels that were shown after the picture was drawn want something more, which the next frame draws.
+    /// Panels shown after the picture was drawn have further requests, which the next frame draws.
     pub wants_next: bool,
 }
 
-/// Takes the input since the last frame through panels and session to a picture. `renderer` gets the picture's texture.
+/// Runs the input since the last frame through panels and session, and draws the picture. `renderer` gets the
+/// picture's texture.
 pub(super) fn run(
     ctx: &egui::Context,
     shell: &mut Shell,
@@ -41,7 +42,7 @@ pub(super) fn run(
         show(input, session, renderer);
     }
     let tick = session.tick(now);
-    // What the panels have shown is older than what they asked for and what the tick has found.
+    // The panels were shown before their commands and the tick's changes were applied.
     let wants_next = tick.changed && show(nothing, session, renderer);
     shell.prepare(session, renderer);
     Frame { output, tick, wants_next }

@@ -1,5 +1,4 @@
-//! Owns what is told to screen readers: in each state of the window, everything that the keyboard can be given to has a
-//! name.
+//! Screen reader names: in each state of the window, every widget that can take the keyboard focus has a name.
 
 use super::harness::{CTRL, CTRL_SHIFT, click, has, named, open, open_with, press, until};
 use crate::{
@@ -11,7 +10,7 @@ use egui::{Key, Modifiers};
 use std::time::{Duration, Instant};
 
 #[test]
-fn everything_that_takes_the_keyboard_has_a_name() {
+fn every_focusable_widget_has_a_name() {
     let Some(mut stage) = open(false) else { return };
     let names = named(&stage, "the editor");
     has(&names, &["Code of Image", "Picture of Image", "Image", "Buffer A", "Play", "red", "red, number", "wide.w"]);
@@ -87,7 +86,7 @@ fn the_gallery_has_names() {
     assert!(names.iter().any(|n| n == "New shader"), "{names:?}");
 }
 
-/// Each panel there is, with a pixel that is traced and a comparison that has ended.
+/// Shows every panel, with a traced pixel and a finished comparison.
 #[test]
 fn every_panel_has_names() {
     let Some(mut stage) = open(false) else { return };
@@ -117,7 +116,7 @@ fn every_panel_has_names() {
 }
 
 #[test]
-fn what_is_open_for_moments_has_names() {
+fn popups_have_names() {
     let Some(mut stage) = open(false) else { return };
     for (widget, wanted) in
         [("button:view", "Reset layout"), ("button:time", "Time to go to"), ("button:options", "Close picture")]
@@ -135,7 +134,7 @@ fn what_is_open_for_moments_has_names() {
     has(&named(&stage, "a notice"), &["Close this notice", "Copy path"]);
     press(&mut stage, CTRL_SHIFT, Key::S);
     until(&mut stage, "the field for a path", |stage| stage.state().shell.place("field:path").is_some());
-    // In its first frame a dialog is measured, which nobody sees or is told of.
+    // The first frame of a dialog only measures it; it is neither visible nor in the accessibility tree.
     stage.run_steps(3);
     has(&named(&stage, "a path"), &["Path", "Save", "Cancel"]);
     press(&mut stage, Modifiers::NONE, Key::Escape);
@@ -182,7 +181,7 @@ fn every_question_has_names() {
     let folder = stage.state().folder.path().to_owned();
     let other = folder.join("other");
     std::fs::create_dir(&other).unwrap();
-    // A file that holds the same would be left alone, without a question.
+    // A file with the same contents would be kept without a question.
     std::fs::write(other.join("image.glsl"), "// of another project\n").unwrap();
     stage.state_mut().session.apply(Command::SaveAs(other));
     until(&mut stage, "a question", |stage| {

@@ -1,4 +1,4 @@
-//! Everything can be reached by the palette, and every panel by keys.
+//! Everything is reachable by the palette, and every panel by keys.
 
 use super::harness::{Stage, choose, named, open, press, until};
 use crate::{
@@ -8,14 +8,14 @@ use crate::{
 };
 use egui::{Event, Key, Modifiers};
 
-/// All that a fast hand types may come in one frame.
+/// Fast typing may arrive in a single frame.
 #[test]
-fn letters_and_return_in_one_frame_do_what_the_letters_say() {
+fn letters_and_enter_in_one_frame_work() {
     let Some(mut stage) = open(false) else { return };
     stage.run_steps(2);
     press(&mut stage, Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
     stage.run_steps(2);
-    // The harness draws a frame for each event that it is given; these two are of one.
+    // The harness draws a frame for each event that it gets; these two belong to one frame.
     stage.input_mut().events.push(Event::Text("640".into()));
     stage.key_down(Key::Enter);
     stage.run_steps(2);
@@ -71,7 +71,7 @@ fn the_palette_reaches_the_picture_the_passes_and_recent_projects() {
     until(&mut stage, "the field for a path", |stage| stage.state().shell.place("field:path").is_some());
     press(&mut stage, Modifiers::NONE, Key::Escape);
 
-    // Another one, and back by the palette. The question for what is not saved is a sign of the way.
+    // Opens another project, and returns by the palette. The question about unsaved work shows that it was opened.
     let name = stage.state().folder.path().file_name().unwrap().to_str().unwrap().to_owned();
     choose(&mut stage, &format!("open recent {name}"));
     assert!(stage.state().session.question().is_some());
@@ -80,7 +80,7 @@ fn the_palette_reaches_the_picture_the_passes_and_recent_projects() {
 const ALL: Modifiers = Modifiers { ctrl: true, command: true, shift: true, alt: true, mac_cmd: false };
 
 #[test]
-fn the_panel_with_the_keyboard_is_sized_and_moved_by_keys() {
+fn the_focused_panel_is_resized_and_moved_by_keys() {
     let Some(mut stage) = open(false) else { return };
     stage.state_mut().session.apply(Command::Pause);
     press(&mut stage, Modifiers::NONE, Key::F6);
@@ -102,21 +102,21 @@ fn the_panel_with_the_keyboard_is_sized_and_moved_by_keys() {
     choose(&mut stage, "to the left edge");
     stage.run_steps(4);
     let left = stage.state().shell.place("editor").unwrap().left();
-    // The harness keeps 8 points clear on each side; three digits of a line's number and the room beside them take 57.
+    // The harness keeps 8 points clear on each side; three digits of a line number and their margin take 57.
     assert!(left < 8.0 + 57.0 + 3.0, "{left}: no more than the numbers of lines are before it");
     choose(&mut stage, "close panel");
     assert!(!stage.state().shell.dock().is_open(Panel::Code));
 }
 
 #[test]
-fn the_menu_of_a_tab_comes_by_keys_and_closes_the_code() {
+fn tab_menu_opens_by_keys_and_closes_the_code() {
     let Some(mut stage) = open(false) else { return };
     let is_on = |stage: &Stage| {
         let tab = stage.state().shell.place("tab:Image").unwrap();
         let focused = stage.ctx.memory(|m| m.focused()).and_then(|id| stage.ctx.read_response(id));
         focused.is_some_and(|widget| widget.rect == tab)
     };
-    // The part with the tabs, then within it.
+    // First the part with the tabs, then the tab.
     for key in [Key::F6; 12].into_iter().chain([Key::Tab; 4]) {
         if is_on(&stage) || (key == Key::F6 && on_tabs(&stage)) {
             continue;
@@ -133,7 +133,7 @@ fn the_menu_of_a_tab_comes_by_keys_and_closes_the_code() {
     assert!(!stage.state().shell.dock().is_open(Panel::Code));
 }
 
-/// A tab has the keyboard.
+/// Returns whether a tab has the keyboard focus.
 fn on_tabs(stage: &Stage) -> bool {
     let focused = stage.ctx.memory(|m| m.focused()).and_then(|id| stage.ctx.read_response(id));
     let tabs = ["tab:Image", "tab:Buffer A", "button:add-tab"];

@@ -1,4 +1,4 @@
-//! The panel of the sound pass: what it says, and that a click in the waveform goes to that time.
+//! The panel of the sound pass: its texts, and seeking by a click in the waveform.
 
 use super::harness::{Stage, click, open, texts, until};
 use crate::{gui::dock::Panel, project::Tab, session::Command};
@@ -8,7 +8,7 @@ fn says(stage: &Stage, words: &str) -> bool {
 }
 
 #[test]
-fn a_sound_pass_is_added_shown_and_gone_through() {
+fn a_sound_pass_is_added_shown_and_seeked() {
     let Some(mut stage) = open(false) else { return };
     stage.state_mut().shell.set_open(Panel::Sound, true);
     stage.run_steps(3);
@@ -18,7 +18,7 @@ fn a_sound_pass_is_added_shown_and_gone_through() {
     until(&mut stage, "a track", |stage| track(stage).is_some_and(|track| track.first_missing().is_none()));
     stage.run_steps(3);
     assert!(says(&stage, "180 s at 44100 samples per second"), "{:?}", texts(&stage));
-    // A quarter of the way, give or take a pixel.
+    // A quarter of the width, within a pixel.
     let wave = stage.state().shell.place("sound:wave").expect("a waveform");
     let at = wave.left_center() + egui::vec2(wave.width() / 4.0, 0.0);
     stage.hover_at(at);

@@ -23,7 +23,7 @@ struct Stage {
 }
 
 impl Stage {
-    /// `None` where there is no device, after saying so.
+    /// Returns `None` after printing the reason if there is no device.
     fn open(files: &[(&str, &str)]) -> Option<Stage> {
         let gpu = testing::gpu()?;
         let folder = tempfile::tempdir().unwrap();
@@ -54,7 +54,7 @@ impl Stage {
         self.frame_of(RawInput { events, ..RawInput::default() })
     }
 
-    /// Drops files on a widget, or beside all of them.
+    /// Drops files on a widget, or outside all widgets.
     fn drop_files(&mut self, names: &[&str], on: Option<&str>) {
         let at = on.map_or(pos2(450.0, 5.0), |widget| self.shell.place(widget).unwrap().center());
         self.frame(vec![Event::PointerMoved(at)]);
@@ -83,13 +83,13 @@ impl Stage {
         }
     }
 
-    /// A point of the picture as fractions from its bottom left.
+    /// Returns a point of the picture, given as fractions from its bottom left.
     fn point(&self, u: f32, v: f32) -> Pos2 {
         let p = self.shell.place("viewport").unwrap();
         pos2(p.left() + u * p.width(), p.bottom() - v * p.height())
     }
 
-    /// The colour of the newest picture, all of whose pixels are one.
+    /// Returns the colour of the newest picture, whose pixels are all equal.
     fn colour(&mut self) -> [u8; 3] {
         self.session.apply(Command::Screenshot);
         let path: PathBuf = self.session.notices().last().unwrap().path.clone().unwrap();
@@ -99,7 +99,7 @@ impl Stage {
     }
 }
 
-/// A file that the window system hands over.
+/// A dropped file from the window system.
 #[derive(Debug)]
 struct Dropped(PathBuf);
 
@@ -117,13 +117,13 @@ fn button(pos: Pos2, pressed: bool) -> Event {
     Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE }
 }
 
-/// Red is where the mouse is, from the left; green: it is down; blue: it went down in this frame.
+/// Red is the mouse position from the left; green: it is down; blue: it went down in this frame.
 const MOUSE: &str = "void mainImage(out vec4 o, in vec2 p) {
     o = vec4(iMouse.x / iResolution.x, iMouse.z > 0.0, iMouse.w > 0.0, 1.0);
 }";
 
 #[test]
-fn the_picture_of_a_frame_sees_the_input_of_that_frame() {
+fn the_picture_uses_the_input_of_its_own_frame() {
     let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE)]) else { return };
     assert_eq!(stage.colour(), [0, 0, 0]);
     let near = |a: u8, b: f32| (f32::from(a) - 255.0 * b).abs() < 3.0;
@@ -144,7 +144,7 @@ fn the_picture_of_a_frame_sees_the_input_of_that_frame() {
 }
 
 #[test]
-fn a_paused_frame_shows_what_was_drawn_in_it_and_then_rests() {
+fn a_paused_frame_is_shown_and_then_idles() {
     let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE)]) else { return };
     stage.session.apply(Command::Pause);
     stage.frame(vec![]);
@@ -156,7 +156,7 @@ fn a_paused_frame_shows_what_was_drawn_in_it_and_then_rests() {
 }
 
 #[test]
-fn a_new_size_is_drawn_and_placed_in_the_frame_that_asks_for_it() {
+fn a_resize_takes_effect_in_the_same_frame() {
     let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE)]) else { return };
     stage.session.apply(Command::SetFixedSize(Some((64, 32))));
     stage.frame(vec![]);
@@ -166,7 +166,7 @@ fn a_new_size_is_drawn_and_placed_in_the_frame_that_asks_for_it() {
 }
 
 #[test]
-fn a_problem_and_the_further_places_it_speaks_of_lead_to_their_tabs() {
+fn problems_and_their_related_places_link_to_tabs() {
     let common = "float one() { return 1.0; }\n\nfloat ring(float r) { return r; }\n";
     let image = "void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(ring(1, 2));\n}\n";
     let Some(mut stage) = Stage::open(&[("common.glsl", common), ("image.glsl", image)]) else { return };
@@ -181,9 +181,9 @@ fn a_problem_and_the_further_places_it_speaks_of_lead_to_their_tabs() {
     assert_eq!(stage.shell.caret(), (Tab::image(), 1));
 }
 
-/// Only what a card shows is read back, and a window at rest reads nothing.
+/// Only buffers that a card shows are read back, and an idle window reads nothing.
 #[test]
-fn a_channel_that_reads_a_buffer_sees_it_as_it_is_now() {
+fn channel_previews_show_the_current_buffer() {
     let color = |rgb: &str| format!("void mainImage(out vec4 o, in vec2 p) {{ o = vec4({rgb}, 1.0); }}\n");
     let image = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }\n";
     let manifest = "[passes.buffer_a]\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n";
@@ -212,14 +212,14 @@ fn a_channel_that_reads_a_buffer_sees_it_as_it_is_now() {
         assert!(Instant::now() < end, "{:?}", texel(&stage));
         std::thread::sleep(Duration::from_millis(2));
     }
-    // The card is in the panel of the pass in front; the buffer itself reads nothing.
+    // The card is in the panel of the selected pass; the buffer itself reads nothing.
     stage.click("tab:Buffer A");
     stage.frame(vec![]);
     assert_eq!(texel(&stage), None);
 }
 
 #[test]
-fn the_theme_of_the_settings_is_the_windows() {
+fn the_window_uses_the_theme_of_the_settings() {
     use crate::gui::theme;
     let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE)]) else { return };
     for (preference, is_dark) in [(egui::ThemePreference::Light, false), (egui::ThemePreference::Dark, true)] {
@@ -228,7 +228,7 @@ fn the_theme_of_the_settings_is_the_windows() {
         let visuals = stage.ctx.style_of(stage.ctx.theme()).visuals.clone();
         assert_eq!(theme::of_visuals(&visuals).is_dark, is_dark);
     }
-    // What the system prefers, and dark where it does not say.
+    // The system's preference, or dark if the system has none.
     stage.ctx.set_theme(egui::ThemePreference::System);
     theme::apply(&stage.ctx);
     let ask = |system_theme| {
@@ -241,7 +241,7 @@ fn the_theme_of_the_settings_is_the_windows() {
 }
 
 #[test]
-fn one_more_tab_can_be_added_beside_twenty() {
+fn a_pass_can_be_added_with_twenty_tabs() {
     let names: Vec<String> = ('a'..='t').map(|c| format!("buffer_{c}.glsl")).collect();
     let mut files: Vec<(&str, &str)> = names.iter().map(|name| (name.as_str(), MOUSE)).collect();
     files.push(("image.glsl", MOUSE));
@@ -271,7 +271,7 @@ fn reads(stage: &Stage, channel: usize) -> Option<Input> {
 const READS_SECOND: &str = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel2, vec2(0.5)); }";
 
 #[test]
-fn a_dropped_picture_goes_to_the_channel_under_it_or_to_one_that_is_read() {
+fn a_dropped_picture_goes_to_the_channel_below_it_or_one_in_use() {
     let Some(mut stage) = Stage::open(&[("image.glsl", READS_SECOND)]) else { return };
     things(&stage);
     let picture = || Some(Input::texture(Media::File("red.png".into())));
@@ -280,7 +280,7 @@ fn a_dropped_picture_goes_to_the_channel_under_it_or_to_one_that_is_read() {
     let notice = stage.session.notices().last().unwrap().clone();
     assert_eq!(notice.text, "iChannel2 of Image reads red.png");
     stage.until("the picture", |stage| stage.colour() == [255, 0, 0]);
-    // The notice takes it back. Others may come above it meanwhile.
+    // Undo by the notice. Others may appear above it meanwhile.
     for _ in 0..8 {
         std::thread::sleep(std::time::Duration::from_millis(20));
         stage.frame(vec![]);
@@ -292,7 +292,7 @@ fn a_dropped_picture_goes_to_the_channel_under_it_or_to_one_that_is_read() {
 }
 
 #[test]
-fn a_dropped_model_is_drawn_by_a_pass_of_its_own() {
+fn a_dropped_model_gets_its_own_pass() {
     let Some(mut stage) = Stage::open(&[("image.glsl", READS_SECOND)]) else { return };
     things(&stage);
     stage.drop_files(&["triangle.obj"], None);
@@ -307,7 +307,7 @@ fn a_dropped_model_is_drawn_by_a_pass_of_its_own() {
 }
 
 #[test]
-fn what_cannot_be_used_is_told_and_a_project_is_opened() {
+fn unusable_drops_are_reported_and_projects_open() {
     let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE), ("notes.docx", ""), ("lone.glsl", MOUSE)]) else {
         return;
     };
@@ -348,7 +348,7 @@ fn a_dropped_json_and_a_dropped_folder_are_opened_with_their_channels() {
 }
 
 #[test]
-fn a_text_that_is_pasted_beside_the_code_is_opened() {
+fn text_pasted_outside_the_code_is_opened() {
     let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE)]) else { return };
     stage.click("viewport");
     let text = "#iChannel3 \"keyboard\"\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
@@ -360,13 +360,13 @@ fn a_text_that_is_pasted_beside_the_code_is_opened() {
     assert!(stage.session.notices().last().unwrap().text.contains("bookmarklet"));
 }
 
-/// A panel that is closed, or behind another, measures nothing; one that is open what is in sight of it.
+/// A panel that is closed or hidden by another tab measures nothing; an open one measures only what is visible.
 #[test]
-fn only_measurements_in_sight_are_measured() {
+fn only_visible_measurements_run() {
     let text = format!("{}{MOUSE}", "//@probe max(image.x)\n".repeat(40));
     let Some(mut stage) = Stage::open(&[("image.glsl", &text)]) else { return };
     let count = |stage: &Stage| stage.session.measured_frames();
-    // What takes long to read is read seldom.
+    // Slow read-backs are repeated less often.
     stage.session.apply(Command::SetFixedSize(Some((16, 9))));
     stage.session.apply(Command::Play);
     (0..5).for_each(|_| drop(stage.frame(vec![])));
@@ -374,7 +374,7 @@ fn only_measurements_in_sight_are_measured() {
 
     let press = |stage: &mut Stage, key: egui::Key| {
         let modifiers = Modifiers { ctrl: true, command: true, shift: true, ..Modifiers::NONE };
-        // One that is never let go of is pressed once.
+        // A key that is never released counts as pressed once.
         let change = |pressed| Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
         stage.frame(vec![change(true), change(false)]);
     };
@@ -387,7 +387,7 @@ fn only_measurements_in_sight_are_measured() {
     stage.click("measures:go:1");
     assert_eq!(stage.shell.caret(), (Tab::image(), 1));
 
-    // Behind another panel of its place.
+    // Hidden by another tab of its place.
     press(&mut stage, egui::Key::T);
     stage.until("the buffers in front", |stage| stage.shell.place("measures:card:0").is_none());
     stage.frame(vec![]);

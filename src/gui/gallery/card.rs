@@ -1,4 +1,4 @@
-//! A card: its picture, its name, and words. A preset's has all of its description.
+//! A card: its picture, its name and its text. A preset's card has its whole description.
 
 use crate::{
     gui::{
@@ -12,34 +12,34 @@ use crate::{
 use egui::{Align2, Color32, FontId, Galley, Rect, Sense, Stroke, StrokeKind, Ui, pos2, text::LayoutJob, vec2};
 use std::sync::{Arc, LazyLock};
 
-/// Around the words.
+/// The margin around the words.
 const MARGIN: f32 = 12.0;
 const TITLE: f32 = 22.0;
 
-/// Holds what a card says of a preset.
+/// The contents of a preset's card.
 #[derive(Debug)]
 pub(super) struct Card {
-    /// The preset.
+    /// The preset's name.
     pub name: &'static str,
     title: String,
     about: String,
-    /// Everything that a search looks at, in lower case.
+    /// The text that a search looks at, in lower case.
     words: String,
 }
 
-/// Reading them all takes milliseconds, which not every frame has.
+/// Reading them all takes milliseconds, too long for every frame.
 static CARDS: LazyLock<Vec<Card>> = LazyLock::new(|| presets::names().iter().map(|name| Card::new(name)).collect());
 
 pub(super) fn of(name: &str) -> Option<&'static Card> {
     CARDS.iter().find(|card| card.name == name)
 }
 
-/// Height of a card with so much text.
+/// Returns the height of a card with a text of this height.
 pub(super) fn height(width: f32, text: f32) -> f32 {
     picture(width).y + 9.0 + TITLE + text + MARGIN
 }
 
-/// A card's picture is 16:9.
+/// Returns the size of a card's picture, which is 16:9.
 fn picture(width: f32) -> egui::Vec2 {
     vec2(width, (width * 9.0 / 16.0).round())
 }
@@ -54,17 +54,17 @@ impl Card {
         Card { name, title, about: info.description, words }
     }
 
-    /// Returns whether each of some words, in lower case, is in it.
+    /// Returns whether the card contains all the words, given in lower case.
     pub(super) fn fits(&self, words: &[String]) -> bool {
         words.iter().all(|word| self.words.contains(word.as_str()))
     }
 
-    /// The description as it is laid out on a card of this width.
+    /// Lays out the description for a card of this width.
     pub(super) fn text(&self, ui: &Ui, width: f32) -> Arc<Galley> {
         words(ui, &self.about, width)
     }
 
-    /// True while the pointer is on it.
+    /// Returns true while the pointer is on it.
     pub(super) fn show(
         &self,
         ui: &Ui,
@@ -120,7 +120,7 @@ pub(super) fn words(ui: &Ui, text: &str, width: f32) -> Arc<Galley> {
     ui.painter().layout_job(job)
 }
 
-/// Paints a card: its picture whole, whatever its shape, its title, and its words. Returns where the picture is.
+/// Paints a card: its uncropped picture, its title and its text. Returns the place of the picture.
 pub(super) fn paint(ui: &Ui, rect: Rect, is_hot: bool, picture: &Thumbnail, title: &str, text: Arc<Galley>) -> Rect {
     let p = theme::of(ui);
     let painter = ui.painter();

@@ -1,6 +1,6 @@
-//! The page that one begins on: a new shader, what was open before, and the presets.
+//! The start page: a new shader, recent projects, and the presets.
 //!
-//! Owns what is searched for and which category is shown.
+//! Owns the search text and the selected category.
 
 mod card;
 mod grid;
@@ -17,22 +17,22 @@ use egui::{Frame, Margin, RichText, ScrollArea, TextEdit, Ui, pos2, vec2};
 use grid::{GAP, columns};
 use std::time::Instant;
 
-/// A picture comes alive when the pointer has rested on its card for so long.
+/// The time that the pointer must rest on a card before its picture moves, in seconds.
 const RESTS: f32 = 0.15;
 
 #[derive(Debug, Default)]
 pub(super) struct Gallery {
-    /// The one category that is shown; none: all.
+    /// The selected category; `None`: all.
     category: Option<&'static str>,
     search: String,
-    /// More than one row of recent projects.
+    /// Show more than one row of recent projects.
     shows_all_recent: bool,
-    /// The card that the pointer is on, and since when.
+    /// The card below the pointer, and since when.
     hovered: Option<(&'static str, Instant)>,
 }
 
 impl Gallery {
-    /// `can_close`: a project is open behind it.
+    /// `can_close`: a project is open below the gallery.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
@@ -46,7 +46,7 @@ impl Gallery {
         let margin = if ui.available_width() > 700.0 { 32 } else { 14 };
         let mut hovered = None;
         ui.painter().rect_filled(ui.max_rect(), 0.0, p.background);
-        // The margins scroll too, so that the bar lies at the window's edge.
+        // The margins scroll too, so that the scroll bar is at the window's edge.
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             Frame::NONE.inner_margin(Margin::symmetric(margin, 0)).show(ui, |ui| {
                 ui.add_space(14.0);
@@ -68,7 +68,7 @@ impl Gallery {
         self.animate(ui, hovered, thumbnails);
     }
 
-    /// Lets the picture under the pointer move.
+    /// Animates the picture below the pointer.
     fn animate(&mut self, ui: &Ui, hovered: Option<&'static str>, thumbnails: &mut Thumbnails) {
         let now = Instant::now();
         self.hovered = match (self.hovered, hovered) {
@@ -109,7 +109,7 @@ impl Gallery {
         ui.colored_label(p.weak, "Editing a preset edits a copy. Hover over a card to play it.");
     }
 
-    /// Shows the cards. Returns the one that the pointer is on.
+    /// Shows the cards. Returns the one below the pointer.
     fn presets(&self, ui: &mut Ui, thumbnails: &mut Thumbnails, out: &mut UiOutput) -> Option<&'static str> {
         let words: Vec<String> = self.search.split_whitespace().map(str::to_lowercase).collect();
         let mut hovered = None;
@@ -139,7 +139,7 @@ impl Gallery {
     }
 }
 
-/// Shows cards in rows, each as high as its longest text asks.
+/// Shows cards in rows, each as high as its longest text requires.
 fn grid(ui: &mut Ui, cards: &[&'static Card], thumbnails: &mut Thumbnails, out: &mut UiOutput) -> Option<&'static str> {
     let room = ui.available_width();
     let (columns, width) = columns(room);

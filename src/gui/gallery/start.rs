@@ -1,4 +1,4 @@
-//! The first row: a new shader, what is on the clipboard, a file or a folder, and what was open before.
+//! The first row: a new shader, the clipboard, a file or a folder, and recent projects.
 
 use super::{
     card,
@@ -20,10 +20,10 @@ use egui::{
 use std::sync::Arc;
 
 const HEIGHT: f32 = 54.0;
-/// So many recent projects are shown when all are asked for: one finds more by the palette, or by the system.
+/// The maximum number of recent projects shown: others are found by the palette or the file dialog.
 const RECENT: usize = 24;
 
-/// `shows_all`: more than one row of recent projects.
+/// `shows_all`: show more than one row of recent projects.
 pub(super) fn show(
     ui: &mut Ui,
     session: &Session,
@@ -132,9 +132,9 @@ fn recent_card(
     response.on_hover_cursor(egui::CursorIcon::PointingHand).on_hover_text(path);
 }
 
-/// Shows tiles of one size, as many beside each other as there is room for.
+/// Shows tiles of one size, as many in a row as fit.
 fn rows<T>(ui: &mut Ui, tiles: &[T], mut show: impl FnMut(&mut Ui, Rect, &T)) {
-    // As wide together as the cards below, whose edge they share.
+    // As wide as the cards below, with which they are aligned.
     let room = grid::width(ui.available_width());
     let columns = ((room + GAP) / (190.0 + GAP)).floor().clamp(1.0, 4.0);
     let width = (room - GAP * (columns - 1.0)) / columns;
@@ -157,7 +157,7 @@ fn tile(ui: &Ui, rect: Rect, id: &str, title: &str, about: &str) -> Response {
     painter.rect_filled(
         rect,
         6.0,
-        // In light, what is grey looks as if it could not be clicked.
+        // In the light theme, grey would look disabled.
         match (hot, p.is_dark) {
             (true, _) => p.button_hovered,
             (false, true) => p.button,

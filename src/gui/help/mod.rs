@@ -1,4 +1,4 @@
-//! The help: a page over the window with what there is to know and every key, to search and to scroll.
+//! The help: a page over the window with the manual and every key, which can be searched and scrolled.
 
 mod text;
 
@@ -13,9 +13,9 @@ use egui::{
 };
 use text::{Paragraph, SHADERTOY, Section};
 
-/// As wide as lines are read well.
+/// A readable line width.
 const WIDTH: f32 = 700.0;
-/// Is what the keys have of it.
+/// The width of the column of keys.
 const KEYS: f32 = 190.0;
 
 /// The page while it is open.
@@ -30,7 +30,7 @@ impl Help {
         Self { sections: text::sections(), search: String::new(), is_new: true }
     }
 
-    /// Shows it; false when it is closed.
+    /// Shows the page; returns false when it is closed.
     pub(super) fn show(&mut self, ui: &Ui, out: &mut UiOutput) -> bool {
         let window = ui.ctx().content_rect();
         let mut is_open = true;
@@ -38,7 +38,7 @@ impl Help {
         let by = scrolled_by_keys(ui, height);
         let modal = Modal::new(Id::unique("help")).frame(theme::dialog(ui.style())).show(ui.ctx(), |ui| {
             ui.set_width((window.width() - 60.0).min(WIDTH));
-            // Without it a page is at most as high as egui makes windows of which it knows nothing.
+            // Otherwise egui limits the height to its default for new windows.
             ui.set_max_height(window.height() - 80.0);
             self.header(ui, &mut is_open, out);
             ui.add_space(6.0);
@@ -130,7 +130,7 @@ impl Help {
     }
 }
 
-/// Returns how far keys scroll the page, in points: all but the letters of a search are for it.
+/// Returns how far keys scroll the page, in points: all keys except those that type in the search field.
 fn scrolled_by_keys(ui: &Ui, height: f32) -> f32 {
     let count = |key| {
         let times = ui.input_mut(|i| i.count_and_consume_key(Modifiers::NONE, key));
@@ -150,7 +150,7 @@ fn title(ui: &mut Ui, text: &str) {
     ui.allocate_space(vec2(0.0, 1.0));
 }
 
-/// The words that are looked for, in small letters.
+/// The search words, in lower case.
 struct SearchTerms(Vec<String>);
 
 impl SearchTerms {
@@ -158,7 +158,7 @@ impl SearchTerms {
         Self(typed.split_whitespace().map(str::to_lowercase).collect())
     }
 
-    /// A text has all of them; any text where nothing is looked for.
+    /// Returns whether a text contains all of them; always true for an empty search.
     fn is_in(&self, text: &str) -> bool {
         let text = text.to_lowercase();
         self.0.iter().all(|word| text.contains(word.as_str()))
@@ -171,7 +171,7 @@ mod tests {
     use crate::gui::dock::Panel;
 
     #[test]
-    fn all_words_of_a_search_are_found_in_any_order_and_size() {
+    fn search_matches_all_words_in_any_order_and_case() {
         let text = "iMouse follows the mouse over the picture";
         assert!(SearchTerms::new("").is_in(text) && SearchTerms::new("  imouse PICTURE ").is_in(text));
         assert!(!SearchTerms::new("imouse keys").is_in(text));
@@ -192,13 +192,13 @@ mod tests {
         }
     }
 
-    /// The help speaks of keys by their usual names: they are those of the table.
+    /// The help uses the default keys of the table.
     #[test]
-    fn keys_named_in_the_text_are_the_tables() {
-        // The key of menus is in no table: it is the system's (`menus.rs`).
+    fn keys_in_the_help_match_the_table() {
+        // The menu key is not in a table: it is the system's (`menus.rs`).
         let keys: Vec<&str> = ACTIONS.iter().flat_map(|e| e.keys).copied().chain(["Shift+F10"]).collect();
         let is_named = |word: &str| word.starts_with('F') && word[1..].parse::<u8>().is_ok() || word.contains("Shift+");
-        // The mouse is in no table.
+        // The mouse is not in a table.
         let is_key = |word: &str| is_named(word) && !word.ends_with("click") && !word.ends_with("drag");
         let sections = text::sections();
         let texts = sections.iter().flat_map(|s| &s.paragraphs).map(Paragraph::text);

@@ -1,9 +1,9 @@
-//! The text of the help: sections of pages in `docs`, which are written in a part of Markdown.
+//! The text of the help: sections of pages in `docs`, written in a subset of Markdown.
 
-/// The pages, in the order in which the help shows them.
+/// The pages, in the order of the help.
 const PAGES: [&str; 2] = [include_str!("../../../docs/using.md"), include_str!("../../../docs/debugging.md")];
 
-/// The section that has a button for the page with the bookmarklet.
+/// The section with a button for the page with the bookmarklet.
 pub(super) const SHADERTOY: &str = "Shadertoy";
 
 /// A part of the help.
@@ -31,8 +31,8 @@ pub(super) fn sections() -> Vec<Section> {
     PAGES.iter().flat_map(|page| read(page)).collect()
 }
 
-/// Reads the sections of a page. A section begins at a line `## Title`; what stands before the first one is left out. Knows
-/// paragraphs, fenced code, lists, links, code and emphasis within a line; pictures are left out.
+/// Parses the sections of a page. A section starts at a line `## Title`; text before the first one is skipped.
+/// Supports paragraphs, fenced code, lists, links, inline code and emphasis; pictures are skipped.
 fn read(page: &str) -> Vec<Section> {
     let mut sections: Vec<Section> = Vec::new();
     let mut lines = page.lines();
@@ -66,7 +66,7 @@ fn read(page: &str) -> Vec<Section> {
     sections
 }
 
-/// Returns a line without marks: of a link its text.
+/// Returns a line without markup: for a link, its text.
 fn plain(line: &str) -> String {
     let mut text = String::new();
     let mut rest = line;
@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_page_is_sections_of_paragraphs_and_code() {
+    fn pages_are_parsed_into_sections() {
         let page = "# A page\n\nLeft out.\n\n## First `part`\n\nOne [two](x.md)\nthree, `a[1]`.\n\n![A picture](p.webp)\n\n\
                     ```glsl\nfloat a[2];\n\n// b\n```\n\n- one\n  more\n- **two**\n\n## Second\n\nLast.\n";
         let sections = read(page);
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn the_help_begins_with_first_steps_and_has_a_section_for_the_bookmarklet() {
+    fn help_starts_with_first_steps_and_has_a_bookmarklet_section() {
         let sections = sections();
         assert_eq!(sections[0].title, "First steps");
         assert!(sections.iter().any(|s| s.title == SHADERTOY));

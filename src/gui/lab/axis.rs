@@ -1,16 +1,16 @@
-//! Logarithmic axes for a plot that knows linear ones alone: it is given log10 of each value, and these marks.
+//! Logarithmic axes for a plot that only supports linear ones: it gets log10 of each value, and these marks.
 
 use crate::lab::report;
 use egui_plot::{GridInput, GridMark};
 
-/// Decades between two marks where an axis shows so many that they would stand too close.
+/// The number of decades between two labels on a long axis, so that labels do not overlap.
 const SPARSE: [(f64, i64); 2] = [(40.0, 10), (14.0, 2)];
 
-/// Marks at the powers of ten, fainter ones at 2 to 9 times each, and within less than a decade at finer steps.
+/// Returns marks at the powers of ten, fainter ones at 2 to 9 times each, and finer ones within less than a decade.
 pub(super) fn marks(input: GridInput) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     let span = high - low;
-    // Also for bounds that are no numbers.
+    // Also rejects NaN bounds.
     if !(span > 0.0 && span < 1000.0) {
         return Vec::new();
     }
@@ -29,7 +29,7 @@ pub(super) fn marks(input: GridInput) -> Vec<GridMark> {
     marks
 }
 
-/// Marks between 10^power and the next power. A mark's step is about its distance to the next one.
+/// Adds marks between 10^power and the next power. A mark's step is about its distance to the next one.
 fn within(power: f64, span: f64, marks: &mut Vec<GridMark>) {
     let parts = match span {
         s if s > 0.7 => 1,
@@ -43,7 +43,7 @@ fn within(power: f64, span: f64, marks: &mut Vec<GridMark>) {
     }
 }
 
-/// Returns what stands at a mark: powers of ten, and where the axis shows few of them other values too.
+/// Returns the label of a mark: powers of ten, and if the axis shows few of them other values too.
 pub(super) fn label(mark: GridMark, span: f64) -> String {
     let value = 10f64.powf(mark.value);
     let whole = report::tick(value);
@@ -52,7 +52,7 @@ pub(super) fn label(mark: GridMark, span: f64) -> String {
     if !whole.is_empty() || span > 2.5 || (span > 0.7 && !is_round) { whole } else { short(value) }
 }
 
-/// A number with three digits that count.
+/// Formats a number with three significant digits.
 pub(super) fn short(x: f64) -> String {
     let size = x.abs();
     match size {
@@ -82,17 +82,17 @@ mod tests {
     }
 
     #[test]
-    fn decades_are_labelled_as_people_write_them() {
+    fn decades_have_readable_labels() {
         assert_eq!(labels(-5.0, 1.0), ["1e-5", "1e-4", "0.001", "0.01", "0.1", "1", "10"]);
         assert_eq!(labels(-2.0, 0.0), ["0.01", "0.02", "0.05", "0.1", "0.2", "0.5", "1"]);
-        // Between 2 to 9 stand lines, evenly spaced in the value and not on the axis.
+        // Between the labels 2 to 9 are lines, evenly spaced in the value and not on the axis.
         let all = values(0.0, 3.0);
         assert_eq!(all.len(), 3 * 9 + 1);
         assert!(all.iter().any(|v| (v - 2f64.log10()).abs() < 1e-12));
     }
 
     #[test]
-    fn an_axis_of_any_length_has_some_labels_and_not_too_many() {
+    fn axes_have_a_readable_number_of_labels() {
         for (low, high) in [(-0.3, 0.3), (0.31, 0.42), (-3.0, 9.0), (-30.0, 25.0), (1.0, 1.05), (-300.0, 300.0)] {
             let count = labels(low, high).len();
             assert!((2..=100).contains(&count), "{low} to {high}: {:?}", labels(low, high));
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_have_three_digits() {
+    fn numbers_have_three_significant_digits() {
         let said = [0.0, 1.0, 0.0123456, 4e-5, 12.345, 123.9, 0.5, f64::INFINITY].map(short);
         assert_eq!(said, ["0", "1", "0.0123", "4.00e-5", "12.3", "124", "0.5", "diverged"]);
     }

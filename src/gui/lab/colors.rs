@@ -1,4 +1,4 @@
-//! The colours of the plot, on a dark and on a light ground.
+//! The colours of the plot, on a dark and on a light background.
 
 use crate::{
     gui::theme::{self, Palette},
@@ -14,8 +14,8 @@ pub(super) struct Ink {
     grid: (u8, u8, u8),
 }
 
-/// Colours that are told apart by people who see fewer (Okabe and Ito 2008), lightened, and further ones that differ in
-/// brightness. In the order of the report's.
+/// Colours that are distinguishable with colour blindness (Okabe and Ito 2008), lightened, and further ones that
+/// differ in brightness, in the order of the report.
 const ON_DARK: Ink = Ink {
     palette: &theme::DARK,
     methods: [
@@ -37,7 +37,7 @@ const ON_DARK: Ink = Ink {
     grid: (92, 99, 114),
 };
 
-/// The report's own.
+/// Those of the report.
 const ON_LIGHT: Ink = Ink {
     palette: &theme::LIGHT,
     methods: [
@@ -68,7 +68,7 @@ impl Ink {
         if theme::of(ui).is_dark { &ON_DARK } else { &ON_LIGHT }
     }
 
-    /// The nth method's.
+    /// Returns the colour of the nth method.
     pub(super) fn method(&self, n: usize) -> Color32 {
         rgb(self.methods[n % COLOURS])
     }
@@ -81,7 +81,7 @@ impl Ink {
         rgb(self.grid)
     }
 
-    /// The inside of a sign.
+    /// Returns the fill colour of a sign.
     pub(super) fn fill(&self, look: Look, color: Color32) -> Color32 {
         match look {
             Look::Full => color,

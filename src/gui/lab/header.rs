@@ -1,4 +1,4 @@
-//! The row over the plot: what is run, how far it is, and where it goes.
+//! The row over the plot: the study, its progress, and where results are saved.
 
 use super::{
     model,
@@ -95,7 +95,7 @@ fn start(ui: &mut Ui, lab: &mut Lab, out: &mut UiOutput) {
     }
 }
 
-/// In what room is left.
+/// Shows the progress in the remaining room.
 fn progress(ui: &mut Ui, lab: &Lab) {
     let Some(run) = &lab.run else { return };
     let (part, words) = model::progress_text(&run.progress);

@@ -1,13 +1,13 @@
-//! The list of methods beside the plot, and what the signs mean.
+//! The legend next to the plot: the methods and the meaning of the signs.
 
 use super::{colors::Ink, model::PlotData, plot};
 use crate::{gui::theme, lab::report::Look};
 use egui::{Color32, FontId, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 
-/// Width of the list.
+/// The width of the legend.
 pub(super) const WIDTH: f32 = 290.0;
 
-/// The method under the pointer.
+/// Returns the method below the pointer.
 pub(super) fn show(ui: &mut Ui, shown: &PlotData) -> Option<usize> {
     let mut hovered = None;
     ui.spacing_mut().item_spacing.y = 1.0;
@@ -27,7 +27,7 @@ pub(super) fn show(ui: &mut Ui, shown: &PlotData) -> Option<usize> {
     hovered
 }
 
-/// A line of text beside a sign; where the sign goes.
+/// Shows a line of text next to a sign, and returns a response whose rectangle has the place of the sign.
 fn line(ui: &mut Ui, text: &str, size: f32, color: Color32) -> egui::Response {
     let width = ui.available_width();
     let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), FontId::proportional(size), color);

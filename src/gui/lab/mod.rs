@@ -1,7 +1,7 @@
-//! The lab's panel: a study that runs in the background, drawn as it goes.
+//! The lab's panel: a study that runs in the background, plotted while it runs.
 //!
-//! Owns which study is shown, where results are kept, and the run. What is measured and how is `lab`'s; a run is heard
-//! of over its channel, and a click on a point opens that point's project as any other.
+//! Owns the selected study, the folder for results, and the run. `lab` measures; a run reports over its channel, and a
+//! click on a point opens that point's project like any other.
 
 mod axis;
 mod colors;

@@ -1,10 +1,10 @@
-//! The panel as it is drawn: the row over it, the plot, the list of methods.
+//! The layout of the panel: the row at the top, the plot, the legend.
 
 use super::{header, legend, plot, state::Lab};
 use crate::gui::{theme, ui_output::UiOutput};
 use egui::{Align, Layout, RichText, Ui, vec2};
 
-/// Says how wide the panel has to be to have a list of methods.
+/// The minimum width of the panel for the legend.
 const ROOM_FOR_LEGEND: f32 = 640.0;
 
 impl Lab {
@@ -41,7 +41,7 @@ impl Lab {
         self.shown = Some(shown);
     }
 
-    /// Before there is anything to plot.
+    /// Shown before there is anything to plot.
     fn show_about(&self, ui: &mut Ui) {
         let study = self.study();
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {

@@ -1,5 +1,5 @@
-//! The plot: cost across, error up, both in logarithms, a line a method along its settings; as in the report. Axes,
-//! grid and zoom are `egui_plot`'s; what stands in it is painted here, with the report's own signs.
+//! The plot: cost across, error up, both logarithmic, with a line for each method along its settings, as in the
+//! report. `egui_plot` draws axes, grid and zoom; the contents are painted here, with the signs of the report.
 
 use super::{
     axis::{self, short},
@@ -19,18 +19,18 @@ use crate::{
 use egui::{Color32, CursorIcon, Painter, Pos2, Rangef, Rect, RichText, Shape, Stroke, Ui, vec2};
 use egui_plot::{AxisHints, Plot, PlotPoint, PlotTransform};
 
-/// Says how near the pointer has to be to a point, in points of the screen.
+/// The maximum distance of the pointer from a point, in points of the screen.
 const REACH: f32 = 13.0;
 
-/// Holds what the panel knows besides.
+/// The panel's state that the plot needs.
 pub(super) struct View<'a> {
     pub opened: Option<&'a Point>,
-    /// A method that is shown up.
+    /// The highlighted method.
     pub lit: Option<usize>,
     pub extent: Extent,
 }
 
-/// The nth method's sign.
+/// Paints the nth method's sign.
 pub(super) fn sign(painter: &Painter, at: Pos2, n: usize, scale: f32, edge: Color32, fill: Color32) {
     let corner = |[x, y]: [f64; 2]| at + scale * vec2(x as f32, y as f32);
     let mut corners: Vec<Pos2> = report::sign(n).into_iter().map(corner).collect();
@@ -38,7 +38,7 @@ pub(super) fn sign(painter: &Painter, at: Pos2, n: usize, scale: f32, edge: Colo
     painter.add(Shape::convex_polygon(corners, fill, Stroke::new(1.6, edge)));
 }
 
-/// The row whose point was clicked.
+/// Returns the row whose point was clicked.
 pub(super) fn show(ui: &mut Ui, shown: &PlotData, view: &View<'_>, out: &mut UiOutput) -> Option<usize> {
     let (table, ink) = (&shown.table, Ink::of(ui));
     let tick = |mark: egui_plot::GridMark, range: &std::ops::RangeInclusive<f64>| {
@@ -97,7 +97,7 @@ pub(super) fn show(ui: &mut Ui, shown: &PlotData, view: &View<'_>, out: &mut UiO
     response.response.clicked().then_some(row)
 }
 
-/// Holds what points are drawn with.
+/// The painter, transform and colours for points.
 struct Pen<'a> {
     painter: &'a Painter,
     transform: &'a PlotTransform,
@@ -111,8 +111,8 @@ impl Pen<'_> {
         self.transform.position_from_point(&PlotPoint::new(x, y))
     }
 
-    /// The frontier, wide and dark, and over it the methods. Piece by piece: where a line turns sharply, the corners of
-    /// one path would grow into wedges.
+    /// Draws the frontier, wide and dark, and the methods over it. Segments are separate: at sharp turns the joins of
+    /// a single path would become spikes.
     fn lines(&self) {
         let pieces = |line: &[[f64; 2]], stroke: Stroke| {
             for ends in line.windows(2) {
@@ -133,7 +133,7 @@ impl Pen<'_> {
         let is_dim = self.view.lit.is_some_and(|lit| lit != dot.method);
         let edge = self.ink.method(dot.method).gamma_multiply(if is_dim { 0.3 } else { 1.0 });
         if let (Some(times), false) = (row.millis, dot.is_estimate) {
-            // From the least to the most of all turns.
+            // From the minimum to the maximum of all turns.
             let ends = [times.min, times.max].map(|millis| self.place([millis.log10(), dot.at[1]]));
             self.painter.line_segment(ends, Stroke::new(1.0, edge.gamma_multiply(0.7)));
         }
@@ -147,7 +147,7 @@ impl Pen<'_> {
     }
 }
 
-/// The error whose time the report tells.
+/// Paints the error for which the report has the time.
 fn target(painter: &Painter, palette: &Palette, area: Rect, transform: &PlotTransform) {
     let y = transform.position_from_point(&PlotPoint::new(0.0, TARGET.log10())).y;
     if !area.y_range().contains(y) {

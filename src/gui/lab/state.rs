@@ -1,4 +1,4 @@
-//! The state of the panel: the results that are known, the run under way, the folder they go to.
+//! The state of the panel: the results, the current run, and the folder for results.
 
 use super::model::{ExtentResults, PlotData};
 use crate::{
@@ -37,18 +37,17 @@ pub(crate) struct Lab {
     pub(super) folder: Folder,
     /// A report that is being written.
     pub(super) saving: Option<(Extent, Background<(), (), PathBuf>)>,
-    /// Says what the last thing came to, and whether it went wrong.
+    /// The result of the last operation, and whether it failed.
     pub(super) message: Option<(String, bool)>,
     /// The point whose project was opened last.
     pub(super) opened: Option<Point>,
-    /// The project that a click opens, by its name, and the tab that is shown when it is there: the pass that is
-    /// measured.
+    /// The name of the project that a click opens, and the tab to show once it is open: the pass that is measured.
     pub(super) code: Option<(String, Tab)>,
-    /// The method of the list that is under the pointer.
+    /// The method of the legend that is below the pointer.
     pub(super) hovered_method: Option<usize>,
 }
 
-/// A run under way.
+/// A current run.
 pub(super) struct Run {
     pub(super) background: BackgroundRun,
     pub(super) study: usize,
@@ -56,9 +55,9 @@ pub(super) struct Run {
     pub(super) progress: Progress,
 }
 
-/// Says where results are kept.
+/// The folder where results are kept.
 pub(super) enum Folder {
-    /// Made when it is first needed; gone with the window.
+    /// Created when it is first needed; deleted with the window.
     Temporary(Option<tempfile::TempDir>),
     Chosen(PathBuf),
 }
@@ -95,13 +94,13 @@ impl Lab {
         self.studies[self.study]
     }
 
-    /// Takes in what the run has said since the last frame.
+    /// Applies the events of the run since the last frame.
     pub(crate) fn update(&mut self) {
         if let Some((extent, Some(saved))) = self.saving.as_mut().map(|(extent, saving)| (*extent, saving.take())) {
             self.saving = None;
             self.message = Some(match saved {
                 Ok(path) => {
-                    // What a run has added meanwhile is not in it.
+                    // The report lacks what a run has added meanwhile.
                     self.known_mut(extent).is_saved = self.run.is_none();
                     (format!("wrote {}", path.join("index.html").display()), false)
                 }
@@ -144,7 +143,7 @@ impl Lab {
         }
     }
 
-    /// The folder of a run, which mixes no extents.
+    /// Returns the folder of a run, which must not mix extents.
     fn out(&mut self, extent: Extent) -> Result<PathBuf, String> {
         match &mut self.folder {
             Folder::Chosen(path) => Ok(path.clone()),
@@ -158,7 +157,8 @@ impl Lab {
         }
     }
 
-    /// Measures what is not known of the shown study. All of it anew where all is known, in a temporary folder.
+    /// Measures the missing points of the selected study. If none is missing, measures all again in a temporary
+    /// folder.
     pub(super) fn start(&mut self) {
         self.message = None;
         if let Err(why) = self.try_start() {
@@ -184,8 +184,7 @@ impl Lab {
         Ok(())
     }
 
-    /// Results are kept in this folder from now on: those it holds are shown, and an empty one gets those that are
-    /// known.
+    /// Keeps results in this folder from now on: results in it are shown, and an empty one gets the known ones.
     pub(crate) fn keep_in(&mut self, folder: PathBuf) {
         match self.try_keep_in(&folder) {
             Ok(()) => {
@@ -218,12 +217,12 @@ impl Lab {
         Ok(())
     }
 
-    /// Returns whether there is anything to report.
+    /// Returns whether there are results to report.
     pub(crate) fn has_results(&self) -> bool {
         !self.known(self.extent).results.errors.is_empty() && self.saving.is_none()
     }
 
-    /// Writes what is known as `eddy lab --out` does.
+    /// Writes the results as `eddy lab --out` does.
     pub(crate) fn save_report(&mut self, folder: PathBuf) {
         let results = self.known(self.extent).results.clone();
         let is_own = matches!(&self.folder, Folder::Chosen(path) if *path == folder);
@@ -239,13 +238,13 @@ impl Lab {
         }
     }
 
-    /// The tab to show of a project that was opened from here, once it is open.
+    /// Returns the tab to show of a project that was opened from here, once it is open.
     pub(crate) fn take_tab(&mut self, session: &Session) -> Option<Tab> {
         let is_there = self.code.as_ref().is_some_and(|(name, _)| *name == session.project().name);
         if is_there { self.code.take().map(|(_, tab)| tab) } else { None }
     }
 
-    /// A click on a point: its project takes the place of the open one.
+    /// Opens the project of a clicked point in place of the open one.
     pub(super) fn open(&mut self, point: Point, out: &mut UiOutput) {
         match lab::open::project(self.study(), &point) {
             Ok(Opened { project, size, pass }) => {
@@ -257,7 +256,7 @@ impl Lab {
         }
     }
 
-    /// For scripts that drive the window.
+    /// Returns the report for scripts that drive the window.
     pub(crate) fn report(&self) -> Value {
         let dots = self.shown.as_ref().map_or(&[][..], |s| &s.dots);
         json!({
@@ -270,7 +269,7 @@ impl Lab {
         })
     }
 
-    /// Asks for a folder: to keep results in, or for a report.
+    /// Opens a folder dialog: to keep results in, or for a report.
     pub(super) fn pick(out: &mut UiOutput, pick: Pick) {
         out.shell_commands.push(ShellCommand::Pick(pick));
     }

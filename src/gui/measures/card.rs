@@ -1,4 +1,4 @@
-//! A card: what is measured, where it is asked for, and its number over time; or why there is none.
+//! A card: the measured expression, its place, and its value over time; or why there is none.
 
 use super::{number::words, plot, state::Axis};
 use crate::{
@@ -11,15 +11,15 @@ use crate::{
 };
 use egui::{Align, Frame, Label, Layout, Link, Margin, Rect, RichText, Ui};
 
-/// Letters of a comment that are shown.
+/// The maximum number of letters of a comment that are shown.
 const LONGEST: usize = 40;
 
-/// Holds what a card shows it in.
+/// The options of a card's display.
 pub(super) struct View {
-    /// From the top of the panel, for scripts.
+    /// The index from the top of the panel, for scripts.
     pub index: usize,
     pub axis: Axis,
-    /// Holds what the plots of all cards go over.
+    /// The range of all plots.
     pub range: (f64, f64),
 }
 
@@ -57,7 +57,7 @@ pub(super) fn show(
     place
 }
 
-/// The comment, its place, and the newest value.
+/// Shows the comment, its place, and the newest value.
 fn head(ui: &mut Ui, measure: &Measure, is_measured: bool, index: usize, out: &mut UiOutput) {
     let p = theme::of(ui);
     ui.horizontal(|ui| {
@@ -87,7 +87,7 @@ fn head(ui: &mut Ui, measure: &Measure, is_measured: bool, index: usize, out: &m
     });
 }
 
-/// A comment may be of any length, and its place stands behind it.
+/// A comment may be of any length, and its place follows it.
 fn shortened(text: &str) -> String {
     let mut short: String = text.chars().take(LONGEST).collect();
     if short.len() < text.len() {
@@ -96,7 +96,7 @@ fn shortened(text: &str) -> String {
     short
 }
 
-/// The least and the largest of what is recorded.
+/// Returns the minimum and maximum of the record.
 fn span(record: &Record) -> String {
     let bad = record.samples().filter(|sample| !sample.value.is_finite()).count();
     let mut text = match record.extremes() {

@@ -1,7 +1,7 @@
-//! The panel of measurements: a card for every `//@probe` comment, with its number over time.
+//! The panel of measurements: a card for every `//@probe` comment, with its value over time.
 //!
-//! Owns which cards are in sight, and tells the session: what is out of sight, or in a panel that is closed or covered,
-//! is not measured.
+//! Owns which cards are visible, and reports them to the session: cards that are scrolled out, or in a panel that is
+//! closed or covered, are not measured.
 
 mod card;
 mod number;

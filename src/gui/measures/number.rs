@@ -1,6 +1,6 @@
-//! Numbers as people read them.
+//! Formats numbers for reading.
 
-/// A number with as many digits as single precision has; what is not finite in words.
+/// Formats a number with the digits of single precision; non-finite values in words.
 pub(super) fn words(x: f64) -> String {
     if x.is_nan() {
         return "NaN".into();
@@ -20,7 +20,7 @@ pub(super) fn words(x: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// Returns what stands at a mark of an axis whose marks are so far apart.
+/// Returns the label of a mark on an axis with this step.
 pub(super) fn tick(x: f64, step: f64) -> String {
     if x.abs() < step * 1e-3 {
         return "0".into();
@@ -37,7 +37,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_number_has_the_digits_that_it_needs() {
+    fn numbers_have_as_many_digits_as_needed() {
         let said = [0.0, -0.0, 3.0, 16777225.0, 0.1, -1234.5678, 2e-7, 1.5e12, 123456.75].map(words);
         assert_eq!(said, ["0", "-0", "3", "16777225", "0.1", "-1234.568", "2.00000e-7", "1.50000e12", "123456.8"]);
         assert_eq!([f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(words), ["NaN", "+Inf", "-Inf"]);

@@ -1,4 +1,4 @@
-//! The panel: a row of buttons, and below it the cards.
+//! The panel: a row of buttons, and the cards below it.
 
 use super::{
     card::{self, View},
@@ -60,7 +60,7 @@ fn controls(state: &mut Measurements, ui: &mut Ui, measures: &[Measure], out: &m
     });
 }
 
-/// From the first sample of all to the last one.
+/// Returns the range from the very first sample to the very last one.
 fn range(measures: &[Measure], axis: Axis) -> (f64, f64) {
     let ends = measures.iter().filter_map(|measure| {
         Some((axis.of(&measure.record.samples().next()?), axis.of(&measure.record.samples().next_back()?)))

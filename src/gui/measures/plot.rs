@@ -1,4 +1,4 @@
-//! The plot of a card: a number over frames or time. Axes are `egui_plot`'s; what stands in it is painted here.
+//! The plot of a card: a value over frames or time. `egui_plot` draws the axes; the contents are painted here.
 
 use super::{
     number::{tick, words},
@@ -14,12 +14,12 @@ use crate::{
 use egui::{Painter, Pos2, Rangef, Rect, Role, Sense, Shape, Stroke, Ui, pos2, vec2};
 use egui_plot::{AxisHints, Plot, PlotPoint, PlotTransform};
 
-/// Height with the numbers of its axis.
+/// The height including the labels of the axis.
 pub(super) const HEIGHT: f32 = 104.0;
-/// Samples have dots where they stand so far apart.
+/// The minimum distance of samples, in points, at which they have dots.
 const APART: f32 = 5.0;
 
-/// `range`: what all plots go over.
+/// `range`: the common range of all plots.
 pub(super) fn show(ui: &mut Ui, measure: &Measure, axis: Axis, range: (f64, f64)) -> Rect {
     let p = theme::of(ui);
     let record = &measure.record;
@@ -61,7 +61,7 @@ pub(super) fn show(ui: &mut Ui, measure: &Measure, axis: Axis, range: (f64, f64)
     area
 }
 
-/// From the least to the largest, with some air.
+/// Returns the minimum and maximum with a margin.
 fn bounds(record: &Record) -> (f64, f64) {
     let (low, high) = record.extremes().unwrap_or((0.0, 1.0));
     let span = high - low;
@@ -69,7 +69,7 @@ fn bounds(record: &Record) -> (f64, f64) {
     (low - air, high + air)
 }
 
-/// Holds what a record is drawn with.
+/// The painter, transform and colours for a record.
 struct Pen<'a> {
     painter: &'a Painter,
     transform: &'a PlotTransform,
@@ -83,7 +83,7 @@ impl Pen<'_> {
         self.transform.position_from_point(&PlotPoint::new(self.axis.of(sample), sample.value))
     }
 
-    /// A line from each sample to the next, but none over a gap. What stands alone is a dot.
+    /// Draws a line from each sample to the next, but not over a gap. A single sample is a dot.
     fn lines(&self, record: &Record) {
         let stroke = Stroke::new(1.4, self.palette.accent);
         let mut before: Option<Pos2> = None;
@@ -98,7 +98,7 @@ impl Pen<'_> {
                     continue;
                 }
                 let at = self.place(&sample);
-                // Piece by piece: where a line turns sharply, the corners of one path would grow into wedges.
+                // Segments are separate: at sharp turns the joins of a single path would become spikes.
                 match before {
                     Some(before) => {
                         self.painter.line_segment([before, at], stroke);
@@ -114,7 +114,8 @@ impl Pen<'_> {
         }
     }
 
-    /// Draws what is NaN or infinite, which has no place on the axis: a line across, with a sign at its top.
+    /// Draws values that are NaN or infinite, which have no place on the axis, as a vertical line with a sign at its
+    /// top.
     fn nonfinite(&self, record: &Record) {
         let color = self.palette.error;
         let mut before = f32::NEG_INFINITY;
@@ -135,7 +136,7 @@ impl Pen<'_> {
         let away = |sample: &Sample| {
             let place = self.place(sample);
             let up = if sample.value.is_finite() { (place.y - at.y).abs() } else { 0.0 };
-            // Above all across: it is read along time.
+            // Mainly the horizontal distance: the plot is read along time.
             (place.x - at.x).abs() + 0.05 * up
         };
         record.samples().min_by(|a, b| away(a).total_cmp(&away(b)))

@@ -1,4 +1,4 @@
-//! Owns what scripts are told.
+//! The report for scripts.
 
 use super::state::Measurements;
 use crate::{debugger::trace::Number, session::Session};

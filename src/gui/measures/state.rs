@@ -1,8 +1,8 @@
-//! Owns what the panel knows from frame to frame.
+//! The state that the panel keeps from frame to frame.
 
 use crate::session::{Command, measures::Sample};
 
-/// Says what a plot goes over.
+/// The horizontal axis of a plot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Axis {
     #[default]
@@ -30,21 +30,21 @@ impl Axis {
 #[derive(Default)]
 pub(crate) struct Measurements {
     pub(super) axis: Axis,
-    /// The cards in sight in this frame, by the serials of their comments.
+    /// The cards visible in this frame, by the serials of their comments.
     pub(super) seen: Vec<u64>,
-    /// Says whether what passes cost is to be gathered: it says why one is not drawn.
+    /// Costs of passes are to be gathered: they explain why a pass is not drawn.
     pub(super) wants_costs: bool,
     /// The last request to the session.
     sent: Vec<u64>,
 }
 
 impl Measurements {
-    /// Returns whether what passes cost was looked at in the newest frame. Asked once for each.
+    /// Returns whether costs of passes were visible in the newest frame. Called once for each frame.
     pub(crate) fn take_costs_wish(&mut self) -> bool {
         std::mem::take(&mut self.wants_costs)
     }
 
-    /// Ends a frame of the window: what was not in sight is not measured any more.
+    /// Ends a frame of the window: cards that were not visible are no longer measured.
     pub(crate) fn end_frame(&mut self) -> Option<Command> {
         let seen = std::mem::take(&mut self.seen);
         if seen == self.sent {

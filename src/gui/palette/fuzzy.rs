@@ -1,18 +1,18 @@
-//! Says how well a few letters fit a title.
+//! Scores how well a few letters match a title.
 
-/// Costs of a letter of a title: it goes on from the one before, begins a word, or stands anywhere.
+/// Costs of a letter of a title: it continues the previous one, starts a word, or is anywhere.
 const GOES_ON: u32 = 0;
 const BEGINS_WORD: u32 = 1;
 const ANYWHERE: u32 = 6;
 
-/// Returns a cost, smaller where `typed` fits better, and the bytes of the letters of `title` that it is; `None` where
-/// it does not fit. Letters stand in the title's order, in upper or lower case; words typed may stand in any order.
+/// Returns a cost, which is smaller for a better match, and the bytes of the matched letters of `title`; `None` if it
+/// does not match. Letters are in the title's order, in upper or lower case; typed words may be in any order.
 pub(super) fn fit(typed: &str, title: &str) -> Option<(u32, Vec<usize>)> {
     let mut letters = Vec::new();
     let mut cost = 0;
     let mut from = 0;
     for (i, word) in typed.split_whitespace().enumerate() {
-        // In the order typed where that fits, which is better.
+        // A match in the typed order is better.
         let (word_cost, found) = match word_fit(word, title, from) {
             Some(fit) => fit,
             None => word_fit(word, title, 0).filter(|_| i > 0).map(|(c, found)| (c + ANYWHERE, found))?,
@@ -21,14 +21,14 @@ pub(super) fn fit(typed: &str, title: &str) -> Option<(u32, Vec<usize>)> {
         cost += word_cost;
         letters.extend(found);
     }
-    // Of equals, the one that says less besides.
+    // Of equal matches, the shorter title is better.
     let rest = title.chars().count().saturating_sub(letters.len()) as u32;
     Some((cost * 256 + if typed.trim().is_empty() { 0 } else { rest.min(255) }, letters))
 }
 
-/// Returns a cost like [`fit`]'s where at least one typed word begins one of the synonyms, which small letters and
-/// blanks make up, and the other typed words fit the title; with it the bytes of the title's letters that do, and the
-/// synonym. A word of fewer than two letters is too little for a synonym.
+/// Returns a cost like that of [`fit`] if at least one typed word is a prefix of one of the synonyms, which consist of
+/// lower case letters and blanks, and the other typed words match the title; also the bytes of the title's matched
+/// letters, and the synonym. A word of fewer than two letters is too short for a synonym.
 pub(super) fn fit_with<'a>(typed: &str, title: &str, synonyms: &'a str) -> Option<(u32, Vec<usize>, &'a str)> {
     let typed = typed.to_lowercase();
     let mut rest = Vec::new();
@@ -36,7 +36,7 @@ pub(super) fn fit_with<'a>(typed: &str, title: &str, synonyms: &'a str) -> Optio
     for word in typed.split_whitespace() {
         match synonyms.split(' ').find(|synonym| word.len() > 1 && synonym.starts_with(word)) {
             Some(synonym) => {
-                // A word of the title itself comes first.
+                // A word of the title itself has priority.
                 cost += 1 + BEGINS_WORD + u32::from(synonym.len() > word.len());
                 found = found.or(Some(synonym));
             }
@@ -45,12 +45,12 @@ pub(super) fn fit_with<'a>(typed: &str, title: &str, synonyms: &'a str) -> Optio
     }
     let found = found?;
     let (of_title, letters) = fit(&rest.join(" "), title)?;
-    // Of equals, what is in a title comes first.
+    // Of equal matches, one in a title has priority.
     let length = title.chars().count().min(255) as u32;
     Some((cost * 256 + of_title.max(length), letters, found))
 }
 
-/// The cheapest way in which the letters of a word stand in a title from a byte on, in order.
+/// Returns the cheapest match of a word's letters in a title from a byte on, in order.
 fn word_fit(word: &str, title: &str, from: usize) -> Option<(u32, Vec<usize>)> {
     let places: Vec<(usize, char, bool)> = {
         let mut before = ' ';
@@ -61,7 +61,7 @@ fn word_fit(word: &str, title: &str, from: usize) -> Option<(u32, Vec<usize>)> {
         };
         title.char_indices().map(place).filter(|(i, ..)| *i >= from).collect()
     };
-    // For each place: the cheapest way that ends there, and the place before it on that way.
+    // For each place: the cheapest match that ends there, and its previous place.
     let mut ways: Vec<Vec<Option<(u32, usize)>>> = Vec::new();
     for (n, letter) in word.chars().map(lower).enumerate() {
         let mut cheapest: Option<(u32, usize)> = None;
@@ -107,7 +107,7 @@ mod tests {
     use super::fit;
 
     #[test]
-    fn better_fits_cost_less() {
+    fn better_matches_cost_less() {
         let cost = |typed: &str, title: &str| fit(typed, title).unwrap().0;
         assert!(cost("find", "Find") < cost("find", "Find and replace"));
         assert!(cost("far", "Find and replace") < cost("far", "Safe area"), "first letters of words");

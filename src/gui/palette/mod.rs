@@ -16,13 +16,13 @@ use egui::{
 
 const WIDTH: f32 = 520.0;
 const ROW: f32 = 26.0;
-/// Rows in sight where there is room for them.
+/// The maximum number of visible rows.
 const ROWS: usize = 12;
 
 #[derive(Default)]
 pub(super) struct Palette {
     open: Option<Open>,
-    /// Holds what had the keyboard before, and gets it back.
+    /// The widget that had the keyboard focus before, and gets it back.
     before: Option<Id>,
     /// Newest first: they lead the list before anything is typed.
     recent: Vec<Action>,
@@ -32,7 +32,7 @@ pub(super) struct Palette {
 struct Open {
     typed: String,
     selected: usize,
-    /// First row in sight.
+    /// The first visible row.
     top: usize,
     takes_focus: bool,
     keys: Keys,
@@ -47,9 +47,9 @@ struct Keys {
     escape: bool,
 }
 
-/// Something that only the open project has to offer, or only this machine.
+/// An entry that depends on the open project or on this machine.
 pub(super) struct Offer {
-    /// For scripts that click on it.
+    /// The name for scripts that click on it.
     pub name: String,
     pub title: String,
     pub command: Command,
@@ -61,13 +61,13 @@ enum Choice<'a> {
     Offer(&'a Offer),
 }
 
-/// Holds what fits, and the letters of its title that do.
+/// A match, and the matched letters of its title.
 struct Fit<'a> {
     name: &'a str,
     title: &'a str,
     choice: Choice<'a>,
     letters: Vec<usize>,
-    /// The further word by which it was found, where its title alone does not fit.
+    /// The synonym by which it was found, if its title alone does not match.
     synonym: Option<&'a str>,
 }
 
@@ -88,7 +88,7 @@ impl Palette {
         }
     }
 
-    /// Takes the keys that are for the list before any panel sees them.
+    /// Takes the list's keys before any panel sees them.
     pub(super) fn take_keys(&mut self, ui: &Ui) {
         let Some(open) = &mut self.open else { return };
         let count = |key| ui.input_mut(|i| i.count_and_consume_key(Modifiers::NONE, key)) as isize;
@@ -100,8 +100,8 @@ impl Palette {
         };
     }
 
-    /// Shows it while it is open, with `offers` behind the actions. The action that was chosen comes back, or what was
-    /// offered is asked for, and the palette closes.
+    /// Shows the palette while it is open, with `offers` after the actions. Returns the chosen action, or requests the
+    /// chosen offer, and closes.
     pub(super) fn show(&mut self, ui: &Ui, offers: &[Offer], out: &mut UiOutput) -> Option<Action> {
         let open = self.open.as_mut()?;
         let fits = fits(&open.typed, &self.recent, offers);
@@ -152,7 +152,8 @@ impl Palette {
                     };
                     row(ui, rect, fit, &key, is_selected);
                     out.place(format!("palette:{}", fit.name), rect);
-                    // A press takes the keyboard from the field, which must not close before the row is clicked.
+                    // A press takes the keyboard focus from the field, which must not close the palette before the row
+                    // is clicked.
                     if response.is_pointer_button_down_on() || response.clicked() {
                         closes = false;
                         field.request_focus();
@@ -163,7 +164,7 @@ impl Palette {
                 }
             });
         });
-        // Letters and Return in one frame: the row is one of those that the letters leave.
+        // Letters and Enter in one frame: choose among the rows that match the letters.
         let (fits, chosen) = match is_retyped && open.keys.enter {
             true => (self::fits(&open.typed, &self.recent, offers), Some(0)),
             false => (fits, chosen),
@@ -188,11 +189,11 @@ impl Palette {
 }
 
 impl Open {
-    /// Moves the selection, and keeps it in sight.
+    /// Moves the selection, and keeps it visible.
     fn step(&mut self, ui: &Ui, count: usize, rows: usize) {
         let last = count.saturating_sub(1);
         let Keys { rows: by, pages, .. } = self.keys;
-        // A single step goes round the ends, a page stops there.
+        // A single step wraps round at the ends, a page stops there.
         if by != 0 && count > 0 {
             self.selected = (self.selected as isize + by).rem_euclid(count as isize) as usize;
         }
@@ -208,7 +209,7 @@ impl Open {
     }
 }
 
-/// Returns what fits, best first; everything before anything is typed, the actions first.
+/// Returns the matches, best first; everything before anything is typed, the actions first.
 fn fits<'a>(typed: &str, recent: &[Action], offers: &'a [Offer]) -> Vec<Fit<'a>> {
     let age = |choice: Choice<'_>| match choice {
         Choice::Action(action) => recent.iter().position(|a| *a == action).unwrap_or(usize::MAX),
@@ -232,7 +233,7 @@ fn fits<'a>(typed: &str, recent: &[Action], offers: &'a [Offer]) -> Vec<Fit<'a>>
     found.into_iter().map(|(_, _, fit)| fit).collect()
 }
 
-/// A title with the letters that fit set off, and the key.
+/// Shows a title with the matched letters emphasised, and the key.
 fn row(ui: &Ui, rect: Rect, fit: &Fit<'_>, key: &str, is_selected: bool) {
     let painter = ui.painter().with_clip_rect(rect);
     let weak = if is_selected { theme::of(ui).text } else { theme::of(ui).weak };
@@ -290,9 +291,9 @@ mod tests {
         assert!(fits("qqq", &[], &[]).is_empty());
     }
 
-    /// Words of other programs, and of people who have not read ours.
+    /// Words of other programs, which newcomers use.
     #[test]
-    fn words_that_people_know_find_an_action() {
+    fn synonyms_find_an_action() {
         use Action as A;
         for (typed, wanted) in [
             ("debug", A::Panel(Panel::Trace)),
@@ -323,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn every_action_but_the_palette_itself_is_in_it() {
+    fn every_other_action_is_listed() {
         assert_eq!(fits("", &[], &[]).len(), ACTIONS.len() - 1);
         assert_eq!(
             action(&fits("", &[Action::Panel(Panel::Lab), Action::Help], &[])[0]),
@@ -335,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_project_offers_is_found_behind_the_actions() {
+    fn project_offers_follow_the_actions() {
         let offer = |name: &str, title: &str| Offer { name: name.into(), title: title.into(), command: Command::Play };
         let offers = [offer("show:Image", "Show pass: Image"), offer("recent:/x/waves", "Open recent: waves (/x)")];
         let all = fits("", &[], &offers);

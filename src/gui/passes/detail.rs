@@ -1,4 +1,4 @@
-//! Says how the chosen pass is called, drawn and read.
+//! The name of the selected pass, how it is drawn and how it is read.
 
 use super::fills::{self, Filling};
 use crate::{
@@ -107,7 +107,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed,
     shows(ui, tab, Some(&pass.id), out);
 }
 
-/// The ways from here to the text and to the picture.
+/// Shows links to the text and to the picture.
 fn shows(ui: &mut Ui, tab: &Tab, pass: Option<&PassName>, out: &mut UiOutput) {
     ui.add_space(8.0);
     ui.horizontal(|ui| {
@@ -131,7 +131,7 @@ fn name(ui: &mut Ui, project: &Project, id: &PassName, naming: &mut Naming, out:
     let field = TextEdit::singleline(&mut naming.text).desired_width(150.0);
     let field = field.text_color_opt(is_wrong.then_some(theme::of(ui).error));
     let response = ui.add(field);
-    // Typed and entered in one frame, where frames are slow.
+    // Typed and entered in one frame, if frames are slow.
     let (wanted, why) = checked(project, id, &naming.text);
     accessible::name(&response, Role::TextInput, "Name");
     out.place("passes:name", response.rect);
@@ -150,7 +150,7 @@ fn name(ui: &mut Ui, project: &Project, id: &PassName, naming: &mut Naming, out:
     }
 }
 
-/// The condition by which a pass is drawn.
+/// Shows the condition by which a pass is drawn.
 fn condition(ui: &mut Ui, pass: &Pass, typed: &mut Naming, out: &mut UiOutput) {
     let now = pass.settings.when.as_ref().map_or("", Condition::text);
     let tab = Tab::Pass(pass.id.clone());
@@ -174,7 +174,7 @@ fn condition(ui: &mut Ui, pass: &Pass, typed: &mut Naming, out: &mut UiOutput) {
         }
     }
     if !response.has_focus() {
-        // The condition that is there is shown, whoever changed it.
+        // Shows the current condition, whatever changed it.
         typed.of = None;
     }
     response.on_hover_text(why.map_or_else(
@@ -183,7 +183,7 @@ fn condition(ui: &mut Ui, pass: &Pass, typed: &mut Naming, out: &mut UiOutput) {
     ));
 }
 
-/// The pass that a name means, and why it cannot be this one's.
+/// Returns the pass that a name denotes, and why this one cannot have it.
 fn checked(project: &Project, id: &PassName, name: &str) -> (Option<PassName>, Option<String>) {
     let wanted = PassName::buffer_named(name);
     let why = match &wanted {
@@ -200,7 +200,7 @@ fn edit(out: &mut UiOutput, edit: PassEdit) {
     out.ask(Command::EditPasses(edit));
 }
 
-/// Notes where a number is, and says what it is.
+/// Records the place of a number, and sets its accessible name.
 fn number(response: &Response, name: &str, out: &mut UiOutput) {
     accessible::name(response, Role::SpinButton, name.replace(':', " "));
     out.place(format!("passes:{name}"), response.rect);
@@ -359,7 +359,7 @@ fn steps(ui: &mut Ui, project: &Project, pass: &Pass, out: &mut UiOutput) {
     });
 }
 
-/// The filter and the wrap of all channels that read a buffer.
+/// Shows the filter and the wrap of all channels that read a buffer.
 fn samplers(ui: &mut Ui, project: &Project, id: &PassName, out: &mut UiOutput) {
     let channels = project.passes.iter().flat_map(|p| p.bindings.channels());
     let readers: Vec<_> = channels.filter(|c| c.input.target().is_some_and(|(of, _)| of == id)).collect();
@@ -393,7 +393,7 @@ fn samplers(ui: &mut Ui, project: &Project, id: &PassName, out: &mut UiOutput) {
     });
 }
 
-/// The value that all have.
+/// Returns the common value of all.
 fn same<T: PartialEq>(mut all: impl Iterator<Item = T>) -> Option<T> {
     let first = all.next()?;
     all.all(|one| one == first).then_some(first)

@@ -1,4 +1,4 @@
-//! Owns what a pass holds before its first frame, and what its outermost texels are.
+//! The initial contents of a pass, and its border.
 
 use crate::{
     gui::{accessible, theme, ui_output::UiOutput},
@@ -8,7 +8,7 @@ use crate::{
 use egui::{ComboBox, DragValue, Key, RichText, Role, TextEdit, Ui, vec2};
 use std::{path::Path, sync::Arc};
 
-/// Is what a new expression says.
+/// The initial text of a new expression.
 const FIRST: &str = "vec4(0.0)";
 
 /// A value that is being typed.
@@ -17,11 +17,11 @@ pub(super) struct Filling {
     /// The pass, and the value that it had when the text was taken from it.
     of: Option<(PassName, Option<FillValue>)>,
     text: String,
-    /// A file is wanted that has no name yet.
+    /// A file is requested that has no name yet.
     wants_file: bool,
 }
 
-/// The kinds of values, as they are chosen.
+/// The kinds of values to choose from.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
     Nothing,
@@ -39,7 +39,7 @@ impl Form {
     }
 }
 
-/// Shows one of both, in a cell of the grid.
+/// Shows one of the two in a cell of the grid.
 pub(super) fn show(ui: &mut Ui, pass: &Pass, kind: FillKind, filling: &mut Filling, out: &mut UiOutput) {
     let now = pass.fill(kind).map(|fill| fill.value.clone());
     let width = pass.settings.boundary.as_ref().map_or(1, |boundary| boundary.width);
@@ -110,7 +110,7 @@ pub(super) fn show(ui: &mut Ui, pass: &Pass, kind: FillKind, filling: &mut Filli
     });
 }
 
-/// The text of a value. Returns what is to be put in its place when it has been typed.
+/// Shows the text of a value. Returns the new value when it has been typed.
 fn field(ui: &mut Ui, key: &str, form: Form, filling: &mut Filling, out: &mut UiOutput) -> Option<FillValue> {
     let hint = if form == Form::File { "state.npy or an image file" } else { FIRST };
     let hint = RichText::new(hint).color(theme::of(ui).weak);
@@ -131,7 +131,7 @@ fn field(ui: &mut Ui, key: &str, form: Form, filling: &mut Filling, out: &mut Ui
     }
     let typed = filling.text.trim();
     if is_cancelled || typed.is_empty() {
-        // The text of what is there comes back.
+        // Show the current value again.
         filling.of = None;
         return None;
     }

@@ -1,4 +1,4 @@
-//! The list of passes in drawing order: one is chosen, buffers are dragged to another place.
+//! The list of passes in drawing order: selects a pass, and reorders buffers by dragging.
 
 use crate::{
     gui::{
@@ -14,7 +14,7 @@ use egui::{Align2, FontId, Id, Rect, Response, ScrollArea, Sense, Stroke, Stroke
 
 const ROW: f32 = 30.0;
 
-/// Shows the list. Returns what was chosen in it.
+/// Shows the list. Returns the pass that was selected in it.
 pub(super) fn show(ui: &mut Ui, session: &Session, chosen: &Tab, out: &mut UiOutput) -> Option<Tab> {
     let project = session.project();
     let mut clicked = None;
@@ -47,10 +47,10 @@ pub(super) fn show(ui: &mut Ui, session: &Session, chosen: &Tab, out: &mut UiOut
     clicked
 }
 
-/// Shows where a buffer that is being dragged would go, and lets it go there.
+/// Shows where a buffer being dragged would be dropped, and drops it there.
 fn drop_at(ui: &Ui, places: &[Rect], from: usize, id: &PassName, response: &Response, out: &mut UiOutput) {
     let Some(pointer) = response.interact_pointer_pos() else { return };
-    // How many rows' middles it is below; its own counts for where it comes from.
+    // The number of rows whose middle is above the pointer; its own row counts for its old place.
     let below = places.iter().filter(|r| pointer.y > r.center().y).count();
     let to = if below > from { below - 1 } else { below };
     if response.drag_stopped() {
@@ -115,7 +115,7 @@ fn row(ui: &mut Ui, session: &Session, tab: &Tab, pass: Option<&Pass>, chosen: &
     response
 }
 
-/// Marks the rows of a group by a line at their right, and its first by how often it is drawn.
+/// Marks the rows of a group by a line at their right, and its first by its number of repetitions.
 fn steps(ui: &Ui, rect: Rect, group: &Group, pass: &Pass, right: f32) -> f32 {
     let (first, last) = (group.passes.first() == Some(&pass.id), group.passes.last() == Some(&pass.id));
     let top = if first { rect.top() + 5.0 } else { rect.top() - 2.0 };
@@ -130,7 +130,7 @@ fn steps(ui: &Ui, rect: Rect, group: &Group, pass: &Pass, right: f32) -> f32 {
     ui.painter().text(at, Align2::RIGHT_CENTER, text, font, theme::of(ui).accent).left() - 6.0
 }
 
-/// Returns what is not as on the site, in a few letters.
+/// Returns what differs from Shadertoy, abbreviated.
 fn note(pass: &Pass) -> String {
     let mut parts = Vec::new();
     match pass.settings.size {
@@ -146,7 +146,7 @@ fn note(pass: &Pass) -> String {
     parts.join(" ")
 }
 
-/// Up, down, away.
+/// Shows the buttons that move and remove a pass.
 fn tools(ui: &mut Ui, project: &Project, chosen: &Tab, out: &mut UiOutput) {
     let buffers: Vec<&PassName> = project.passes.iter().map(|p| &p.id).filter(|id| id.is_buffer()).collect();
     let at = buffers.iter().position(|id| chosen.pass() == Some(*id));

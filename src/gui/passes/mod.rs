@@ -1,6 +1,6 @@
-//! The window of passes: which there are, their order, and how each is drawn and read.
+//! The window of passes: their order, and how each is drawn and read.
 //!
-//! Owns what is chosen and typed here. What is asked for goes to the session as an edit, which it can take back.
+//! Owns the selection and what is typed here. Changes are edits of the session, which can be undone.
 
 mod detail;
 mod fills;
@@ -19,7 +19,7 @@ use crate::{
 use detail::Typed;
 use egui::{Frame, Id, Margin, Response, RichText, Ui, Window, WindowDrag, vec2};
 
-/// Width of the list; the rest is the chosen pass's.
+/// The width of the list; the rest is for the selected pass.
 const LIST: f32 = 196.0;
 const SIZE: egui::Vec2 = vec2(600.0, 486.0);
 
@@ -28,12 +28,12 @@ pub(super) struct Passes {
     open: bool,
     chosen: Option<Tab>,
     typed: Typed,
-    /// Says how many of the session's renamed passes have been followed.
+    /// The number of the session's pass renames that have been applied.
     followed: usize,
 }
 
 impl Passes {
-    /// Opens the window on a pass, or closes it if none is named and it is open.
+    /// Opens the window on a pass; if none is named and it is open, closes it.
     pub(super) fn toggle(&mut self, tab: Option<Tab>) {
         self.open = tab.is_some() || !self.open;
         if tab.is_some() {
@@ -41,7 +41,7 @@ impl Passes {
         }
     }
 
-    /// `current`: the tab in front, which is chosen first.
+    /// `current`: the tab in front, which is selected initially.
     pub(super) fn show(&mut self, ui: &Ui, session: &Session, current: &Tab, out: &mut UiOutput) {
         if !self.open {
             return;
@@ -54,7 +54,7 @@ impl Passes {
             .id(Id::unique("passes"))
             .open(&mut open)
             .collapsible(false)
-            // A title that is dragged would take the keyboard, and have no name.
+            // A draggable title would take the keyboard focus, and have no name.
             .drag_area(WindowDrag::Anywhere)
             .title_frame(Frame::window(ui.style()).inner_margin(Margin::symmetric(16, 9)))
             .resizable(true)
@@ -78,7 +78,7 @@ impl Passes {
         self.open = open;
     }
 
-    /// Keeps to a pass when it is renamed, and to one that is there.
+    /// Keeps the selection when its pass is renamed, and moves it to an existing one.
     fn follow(&mut self, session: &Session, current: &Tab) {
         for (from, to) in session.renamed_passes().iter().skip(self.followed) {
             if let Some(tab) = self.chosen.as_mut().filter(|tab| tab.pass() == Some(from)) {
@@ -126,7 +126,7 @@ impl Passes {
     }
 }
 
-/// Adding, and the way back.
+/// Shows the buttons that add a pass, undo and redo.
 fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     ui.horizontal(|ui| {
         let add = adding(ui, "Add", |ui| add_menu(ui, session, true, out));
@@ -148,15 +148,15 @@ fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     });
 }
 
-/// A button with a menu that stays while one types in it.
+/// Shows a button with a menu that stays open during typing.
 pub(super) fn adding(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui)) -> Response {
     let button = ui.button(label);
     menus::below(&button, contents);
     button
 }
 
-/// The passes that can be added: what the site has, and a buffer of any name. `chooses`: what is added is chosen in the
-/// window of passes, which is open; elsewhere nothing opens over the picture.
+/// Shows the passes that can be added: those of Shadertoy, and a buffer of any name. `chooses`: the window of passes
+/// is open, and the new pass is selected in it; otherwise nothing opens over the picture.
 pub(super) fn add_menu(ui: &mut Ui, session: &Session, chooses: bool, out: &mut UiOutput) {
     let id = Id::unique("name of a new buffer");
     ui.set_min_width(190.0);
@@ -200,7 +200,8 @@ pub(super) fn add_menu(ui: &mut Ui, session: &Session, chooses: bool, out: &mut 
     ui.data_mut(|d| d.insert_temp(id, name));
 }
 
-/// Common, the site's four buffers that are not there yet or else the next letter, the cubemap and the sound pass.
+/// Returns Common, those of Shadertoy's four buffers that do not exist yet or else the next letter, the cubemap and
+/// the sound pass.
 fn addable(tabs: &[Tab]) -> Vec<Tab> {
     let buffer = |c: char| Tab::Pass(PassName::buffer(c.to_string()));
     let is_free = |tab: &Tab| !tabs.contains(tab);
@@ -213,7 +214,7 @@ fn addable(tabs: &[Tab]) -> Vec<Tab> {
     std::iter::once(Tab::Common).filter(is_free).chain(buffers).chain(others).collect()
 }
 
-/// Returns the buffer that comes next: the site's four, then further letters.
+/// Returns the next buffer: Shadertoy's four, then further letters.
 pub(super) fn next_buffer(tabs: &[Tab]) -> Option<Tab> {
     addable(tabs).into_iter().find(Tab::is_buffer)
 }
@@ -223,7 +224,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_fifth_buffer_is_offered_when_four_are_there() {
+    fn a_fifth_buffer_is_offered_after_four() {
         let tab = |id: PassName| Tab::Pass(id);
         let buffer = |name: &str| tab(PassName::buffer(name));
         let (cube, sound) = (tab(PassName::cube()), tab(PassName::sound()));

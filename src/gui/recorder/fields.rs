@@ -8,7 +8,7 @@ use crate::{
 };
 use egui::{Align, ComboBox, Label, Layout, Margin, RichText, Role, TextEdit, Ui, vec2};
 
-/// Width of the titles, and of a narrow field and a wide one.
+/// The widths of the titles, of a narrow field and of a wide one.
 const TITLES: f32 = 78.0;
 const NARROW: f32 = 132.0;
 const WIDE: f32 = 260.0;
@@ -22,7 +22,7 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// Shows the title, what `contents` shows, and the error.
+    /// Shows the title, the contents and the error.
     fn show(&self, ui: &mut Ui, out: &mut UiOutput, contents: impl FnOnce(&mut Ui, &mut UiOutput)) {
         ui.horizontal_wrapped(|ui| {
             let layout = Layout::left_to_right(Align::Center);
@@ -38,7 +38,7 @@ impl Row<'_> {
     }
 }
 
-/// Says what is wrong, below the fields.
+/// Shows an error below the fields.
 pub(super) fn error(ui: &mut Ui, name: &str, why: &str, out: &mut UiOutput) {
     ui.horizontal_top(|ui| {
         ui.add_space(TITLES + ui.spacing().item_spacing.x);
@@ -51,9 +51,8 @@ pub(super) fn error(ui: &mut Ui, name: &str, why: &str, out: &mut UiOutput) {
     });
 }
 
-/// Returns the name of a field for scripts.
-/// Returns the rate, or the most that a format has where the default rate is faster. A rate that a person wrote is kept, and
-/// an error at its field says what is wrong with it.
+/// Returns the frame rate of a format: the typed one, or the format's limit if the default rate exceeds it. A rate
+/// that the user typed is kept, and an error is shown at its field.
 fn fitting_rate(format: Format, fps: &str) -> String {
     match format.max_fps() {
         Some(fastest) if fps == FilmForm::default().fps => fastest.to_string(),
@@ -65,7 +64,7 @@ fn name(field: FilmField) -> String {
     format!("{field:?}").to_lowercase()
 }
 
-/// A field that is typed in. Returns whether it has the keyboard.
+/// Shows a text field. Returns whether it has the keyboard focus.
 fn text(
     ui: &mut Ui,
     (field, title): (FilmField, &str),
@@ -81,7 +80,7 @@ fn text(
     response.has_focus()
 }
 
-/// A list of choices on a button.
+/// Shows a list of choices on a button.
 fn combo<T: Copy + PartialEq>(
     ui: &mut Ui,
     (name, title): (&str, &str),
@@ -109,7 +108,7 @@ fn combo<T: Copy + PartialEq>(
     chosen
 }
 
-/// Shows all fields. Returns whether somebody types in one.
+/// Shows all fields. Returns whether one is being typed in.
 pub(super) fn show(
     recorder: &mut Recorder,
     ui: &mut Ui,
@@ -136,7 +135,7 @@ pub(super) fn show(
     row(FilmField::Format, "Format").show(ui, out, |ui, out| {
         let choices = Format::ALL.map(|format| (format, format.title().to_owned()));
         if let Some(format) = combo(ui, ("format", "Format"), form.format, &choices, out) {
-            // What another format does not have is not kept.
+            // Drop choices that the other format does not support.
             let codec = form.codec.filter(|codec| format.codecs().contains(codec));
             let has_codecs = !format.codecs().is_empty();
             let quality = if has_codecs { form.quality.clone() } else { String::new() };
@@ -185,7 +184,7 @@ pub(super) fn show(
     types
 }
 
-/// Shows something without a title, where the fields are.
+/// Shows something without a title, aligned with the fields.
 fn below(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     ui.horizontal(|ui| {
         ui.add_space(TITLES + ui.spacing().item_spacing.x);
@@ -193,7 +192,7 @@ fn below(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// Shows what a field takes, where there is room beside it.
+/// Shows what a field accepts, if there is room next to it.
 fn hint(ui: &mut Ui, text: &str) {
     let color = theme::of(ui).weak;
     let galley = ui.painter().layout_no_wrap(text.to_owned(), egui::FontId::proportional(12.0), color);
@@ -202,7 +201,7 @@ fn hint(ui: &mut Ui, text: &str) {
     }
 }
 
-/// Shows the list of qualities, and a field for a number of the encoder. Returns whether somebody types.
+/// Shows the list of qualities, and a field for a number of the encoder. Returns whether it is being typed in.
 fn quality(ui: &mut Ui, form: &mut FilmForm, usual: Codec, out: &mut UiOutput) -> bool {
     let words: Vec<(&str, String)> = std::iter::once(("", "Default".to_owned()))
         .chain(QUALITIES.map(|(word, title)| (word, title.to_owned())))
@@ -223,5 +222,5 @@ fn quality(ui: &mut Ui, form: &mut FilmForm, usual: Codec, out: &mut UiOutput) -
     types
 }
 
-/// Stands for a number in the list of qualities.
+/// The entry for a number in the list of qualities.
 const NUMBER: &str = "number";

@@ -1,6 +1,6 @@
-//! The panel that makes films: the choices, what is wrong with them, two buttons, and how far a film is.
+//! The panel that makes films: the choices, errors in them, two buttons, and the progress of a film.
 //!
-//! The session says what the choices come to ([`FilmForm`]); here they are shown and typed.
+//! The session evaluates the choices ([`FilmForm`]); they are shown and typed here.
 
 mod fields;
 mod panel;
@@ -12,20 +12,20 @@ pub(super) use report::report;
 use super::{settings::Change, ui_output::ShellCommand};
 use crate::session::FilmForm;
 
-/// The choices while they are typed. They are the person's, and stay when another project is opened.
+/// The choices while they are typed. They belong to the user, and are kept when another project is opened.
 #[derive(Debug, Default)]
 pub(super) struct Recorder {
     form: FilmForm,
-    /// As the settings have them.
+    /// The choices in the settings.
     kept: Option<FilmForm>,
-    /// A file that is there may be replaced: said for the name that is typed.
+    /// The existing file of the typed name may be replaced.
     replaces: bool,
-    /// The encoders of ffmpeg were asked for.
+    /// The encoders of ffmpeg were requested.
     has_asked: bool,
 }
 
 impl Recorder {
-    /// Takes the choices of the settings where these are others than before.
+    /// Takes over the choices of the settings if they have changed.
     fn follow(&mut self, settings: &FilmForm) {
         if self.kept.as_ref() != Some(settings) {
             let file = std::mem::take(&mut self.form.file);
@@ -34,7 +34,7 @@ impl Recorder {
         }
     }
 
-    /// Returns the change of the settings, where the choices are others and nobody is typing.
+    /// Returns the change of the settings, if the choices have changed and nothing is being typed.
     fn change(&mut self, is_typing: bool, has_errors: bool) -> Option<ShellCommand> {
         let now = FilmForm { file: String::new(), ..self.form.clone() };
         if is_typing || has_errors || self.kept.as_ref() == Some(&now) {
@@ -44,7 +44,7 @@ impl Recorder {
         Some(ShellCommand::Set(Change::Recorder(now)))
     }
 
-    /// Chooses something else: another name is not one that may be replaced.
+    /// Sets other choices: permission to replace a file does not apply to another name.
     fn set(&mut self, form: FilmForm) {
         if self.form.file != form.file || self.form.format != form.format {
             self.replaces = false;
@@ -59,7 +59,7 @@ mod tests {
     use crate::film::Format;
 
     #[test]
-    fn choices_follow_the_settings_and_are_kept_when_they_are_whole() {
+    fn choices_follow_the_settings_and_are_saved_when_valid() {
         let mut recorder = Recorder::default();
         let settings = FilmForm { fps: "25".into(), ..FilmForm::default() };
         recorder.follow(&settings);

@@ -1,4 +1,4 @@
-//! The panel as it is drawn.
+//! The layout of the panel.
 
 use super::{Recorder, fields};
 use crate::{
@@ -15,7 +15,7 @@ const LIVE: &str = "Every frame that the window draws while you play with mouse,
 const RANGE: &str = "The frames of the range, from frame 0 without input, as eddy render writes them. You can go on working \
                      meanwhile.";
 
-/// Shows the panel. `settings` are the choices of last time.
+/// Shows the panel. `settings` are the last choices.
 pub(crate) fn show(recorder: &mut Recorder, ui: &mut Ui, settings: &FilmForm, session: &Session, out: &mut UiOutput) {
     out.stop("recorder", ui);
     ui.spacing_mut().item_spacing = vec2(6.0, 5.0);
@@ -28,7 +28,7 @@ pub(crate) fn show(recorder: &mut Recorder, ui: &mut Ui, settings: &FilmForm, se
     let is_busy = film.as_ref().is_some_and(FilmView::is_busy);
     let checked = recorder.form.check(&facts, recorder.replaces);
     ScrollArea::vertical().id_salt("recorder").auto_shrink(false).show(ui, |ui| {
-        // The bar of the list lies over what is below it.
+        // The scroll bar of the list covers what is below it.
         ui.set_max_width(ui.available_width() - 10.0);
         if let Some(film) = &film {
             status(ui, session, film, out);
@@ -113,7 +113,7 @@ fn buttons(recorder: &mut Recorder, ui: &mut Ui, checked: &CheckedForm, out: &mu
     }
 }
 
-/// Shows how far the film is, or what became of it, with the buttons that end it.
+/// Shows the progress or the result of the film, with the buttons that stop it.
 fn status(ui: &mut Ui, session: &Session, film: &FilmView<'_>, out: &mut UiOutput) {
     let p = theme::of(ui);
     let color = match film {

@@ -1,4 +1,4 @@
-//! Tells scripts that drive the window of a film.
+//! Reports the state of a film to scripts that drive the window.
 
 use crate::session::{FilmView, Session};
 use serde_json::{Value, json};

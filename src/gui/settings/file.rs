@@ -1,12 +1,11 @@
-//! The text of `settings.toml`: read, made anew, and changed in one line.
+//! Reads `settings.toml`, makes a new one, and changes one line of it.
 
 use super::keys::{Change, KEYS, Settings};
 use crate::{diag::LineIndex, gui::config_file::ConfigError, project::nearest};
 use std::{fmt::Write as _, ops::Range};
 use toml_edit::{Document, DocumentMut, Item};
 
-/// Returns the settings that a file's text gives, and all mistakes in it. What is wrong leaves a setting as it is at
-/// first.
+/// Returns the settings in a file's text and all errors in it. A setting with an error keeps its default.
 pub(super) fn read(text: &str) -> (Settings, Vec<ConfigError>) {
     let mut settings = Settings::default();
     let mut mistakes = Vec::new();
@@ -43,7 +42,8 @@ pub(super) fn read(text: &str) -> (Settings, Vec<ConfigError>) {
     (settings, mistakes)
 }
 
-/// Returns the text with one setting changed, and everything else as it was. Err: the text is none that can be changed.
+/// Returns the text with one setting changed and everything else unchanged. Returns an error if the text cannot be
+/// changed.
 pub(super) fn change(text: &str, change: &Change) -> Result<String, ConfigError> {
     const NOT_SAVED: &str = "your change in the window is not saved";
     let line = |at: usize| 1 + text[..at].matches('\n').count();
@@ -54,12 +54,12 @@ pub(super) fn change(text: &str, change: &Change) -> Result<String, ConfigError>
     let (name, value) = change.written();
     match document.get_mut(name) {
         Some(Item::Value(there)) => {
-            // A comment behind the value stays.
+            // Keep a comment after the value.
             let decor = there.decor().clone();
             *there = value;
             *there.decor_mut() = decor;
         }
-        // What is in a table of that name is the person's.
+        // A table of that name is the user's and is kept.
         Some(item) if !item.is_none() => {
             let document = Document::parse(text).ok();
             let key = document.as_ref().and_then(|document| document.as_table().key(name)?.span());
@@ -79,8 +79,8 @@ pub(super) fn change(text: &str, change: &Change) -> Result<String, ConfigError>
     Ok(document.to_string())
 }
 
-/// Returns the text with the setting in the line that names it in a comment, as the new file has one for each. `None`:
-/// there is no such line.
+/// Returns the text with the setting in place of its commented-out line, of which a new file has one for each setting.
+/// Returns `None` if there is no such line.
 fn uncommented(text: &str, name: &str, value: &toml_edit::Value) -> Option<String> {
     let is_of_it = |line: &str| {
         let rest = line.strip_prefix('#').map(str::trim_start).and_then(|line| line.strip_prefix(name));
@@ -91,13 +91,13 @@ fn uncommented(text: &str, name: &str, value: &toml_edit::Value) -> Option<Strin
     let end = &lines[at][lines[at].trim_end_matches(['\r', '\n']).len()..];
     let changed = format!("{name} = {}{end}", value.to_string().trim());
     let text = [&lines[..at], &[changed.as_str()], &lines[at + 1..]].concat().concat();
-    // Below the header of a table, or within a text of several lines, it would be something else.
+    // Below the header of a table, or within a multi-line string, the line would mean something else.
     let document = Document::parse(text.as_str()).ok()?;
     let is_there = document.get(name).and_then(Item::as_value).is_some();
     is_there.then_some(text)
 }
 
-/// Returns the text of a new file: every setting as it is at first, each as a comment.
+/// Returns the text of a new file: every setting with its default, each in a comment.
 pub(super) fn template() -> String {
     let mut text = String::from(
         "# Settings of Eddy. Remove the # from a line to change it; the others keep their defaults.\n\
@@ -117,7 +117,7 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn settings_are_read_and_every_mistake_is_told_at_its_line() {
+    fn settings_are_read_and_errors_have_their_line() {
         let (settings, mistakes) = read(
             "theme = \"light\"\nzoom = 2\ncode-size = 15.5\nword-wrap = true\nframe-timeout = 0.5\n\
              code-font = \"/a/b.ttf\"\nproject-in-images = false\nvolume = 0.25\nmute = true\n\
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn a_change_goes_where_it_counts_and_replaces_nothing_of_a_persons() {
+    fn a_change_is_effective_and_keeps_the_users_text() {
         let wrap = |text: &str| change(text, &Change::WordWrap(true));
         let below = "zoom = 1.5\n[editor]\n# word-wrap = false\nsize = 3\n";
         let text = wrap(below).unwrap();
@@ -202,9 +202,9 @@ mod tests {
         assert_eq!(read(&text).0.code_font.as_deref(), Some("C:\\fonts\\a \"b\".ttf"));
     }
 
-    /// The new file says what holds without it.
+    /// The comments of a new file match the defaults.
     #[test]
-    fn the_new_file_says_what_holds() {
+    fn comments_of_a_new_file_match_the_defaults() {
         assert_eq!(read(&template()), (Settings::default(), vec![]));
         let rows = template().lines().filter(|l| l.contains(" = ")).map(|l| l[2..].to_owned()).collect::<Vec<_>>();
         assert_eq!(rows.len(), KEYS.len());

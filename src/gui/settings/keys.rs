@@ -1,4 +1,4 @@
-//! The settings there are: what each is called, what it may be, and what it is at first.
+//! The settings: the name, valid values and default of each.
 
 use crate::{control::midi::MidiChoice, session::FilmForm};
 use std::{
@@ -10,7 +10,7 @@ use toml_edit::Value;
 /// The window's colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Theme {
-    /// Holds what the system prefers.
+    /// Follows the system's preference.
     #[default]
     System,
     Dark,
@@ -28,7 +28,7 @@ impl Theme {
         }
     }
 
-    /// The next one round, for a key that switches.
+    /// Returns the next theme in the cycle, for a key that switches.
     pub(crate) fn next(self) -> Theme {
         match self {
             Theme::System => Theme::Dark,
@@ -41,14 +41,14 @@ impl Theme {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Settings {
     pub theme: Theme,
-    /// Points of the window to those of the system.
+    /// The number of the system's points per point of the window.
     pub zoom: f32,
-    /// Points of a letter of code.
+    /// The size of code, in points.
     pub code_size: f32,
-    /// The file of a font for code; none: Eddy's own.
+    /// The font file for code; `None`: Eddy's own.
     pub code_font: Option<String>,
     pub word_wrap: bool,
-    /// Edits are compiled when they are saved, and not while one types.
+    /// Edits are compiled when they are saved, not while typing.
     pub compile_on_save: bool,
     /// A frame that takes longer pauses the picture.
     pub frame_timeout: Duration,
@@ -57,13 +57,13 @@ pub(crate) struct Settings {
     /// The volume, from 0 to 1.
     pub volume: f32,
     pub mute: bool,
-    /// The devices that play and record, by name; none: the system's default ones.
+    /// The names of the devices that play and record; `None`: the system's default ones.
     pub audio_output: Option<String>,
     pub audio_input: Option<String>,
-    /// OSC is listened to.
+    /// OSC is received.
     pub osc: bool,
     pub osc_port: u16,
-    /// The address of this machine that OSC comes in by.
+    /// The address of this machine on which OSC is received.
     pub osc_address: IpAddr,
     pub midi: MidiChoice,
     pub gamepads: bool,
@@ -72,15 +72,15 @@ pub(crate) struct Settings {
 }
 
 impl Settings {
-    /// Returns where OSC is listened to, if it is.
+    /// Returns the address on which OSC is received, if it is.
     pub(crate) fn osc(&self) -> Option<SocketAddr> {
         self.osc.then(|| SocketAddr::new(self.osc_address, self.osc_port))
     }
 }
 
-/// The port that controllers of OSC send to at first.
+/// The default port of OSC controllers.
 const OSC_PORT: u16 = 9000;
-/// The setting that a build without gamepads does not show.
+/// The setting that a build without gamepads hides.
 pub(crate) const GAMEPADS: &str = "gamepads";
 const OFF: &str = "off";
 const ALL: &str = "all";
@@ -120,7 +120,7 @@ pub(crate) enum Change {
     Theme(Theme),
     Zoom(f32),
     CodeSize(f32),
-    /// The file of a font; none: Eddy's own.
+    /// A font file; `None`: Eddy's own.
     CodeFont(Option<String>),
     WordWrap(bool),
     CompileOnSave(bool),
@@ -128,7 +128,7 @@ pub(crate) enum Change {
     ProjectInImages(bool),
     Volume(f32),
     Mute(bool),
-    /// The name of a device; none: the system's default one.
+    /// The name of a device; `None`: the system's default one.
     AudioOutput(Option<String>),
     AudioInput(Option<String>),
     Osc(bool),
@@ -140,9 +140,9 @@ pub(crate) enum Change {
 }
 
 impl Change {
-    /// Returns the setting's name in the file, and what is to stand behind it.
+    /// Returns the setting's name in the file, and its value.
     pub(super) fn written(&self) -> (&'static str, Value) {
-        // As short as people write them.
+        // Written with few digits, as people do.
         let short = |x: f64| Value::from((x * 100.0).round() / 100.0);
         let number = |x: f32| short(f64::from(x));
         match self {
@@ -206,20 +206,20 @@ pub(crate) enum Control {
         change: fn(bool) -> Change,
     },
     Number(Number),
-    /// The file of a font.
+    /// A font file.
     Font,
-    /// A device of sound.
+    /// A sound device.
     Device {
-        /// It records, and does not play.
+        /// It records rather than plays.
         is_input: bool,
         get: fn(&Settings) -> Option<&str>,
         change: fn(Option<String>) -> Change,
     },
     /// An address of this machine.
     Address,
-    /// The devices of MIDI.
+    /// MIDI devices.
     Midi,
-    /// The Recorder panel, and nothing on the page of settings.
+    /// Set in the Recorder panel; not on the page of settings.
     Recorder,
 }
 
@@ -229,24 +229,24 @@ pub(crate) struct Number {
     pub change: fn(f64) -> Change,
     pub least: f64,
     pub most: f64,
-    /// Between two values that buttons and arrow keys go to.
+    /// The step of buttons and arrow keys.
     pub step: f64,
     pub unit: &'static str,
 }
 
-/// A line of the file.
+/// A setting's line in the file.
 pub(crate) struct Key {
     pub name: &'static str,
-    /// In the window.
+    /// The title in the window.
     pub title: &'static str,
-    /// Says in the window what it does.
+    /// The help in the window.
     pub help: &'static str,
     pub control: Control,
-    /// Holds what it is, for the file's comments.
+    /// The description, for the file's comments.
     pub about: &'static str,
-    /// As the file writes what holds without it.
+    /// The default, as written in the file.
     pub usual: &'static str,
-    /// The change that a value of the file makes. Err: what it must be.
+    /// Converts a value of the file to the change that it makes, or returns what the value must be.
     pub read: fn(&Value) -> Result<Change, String>,
 }
 
@@ -483,7 +483,7 @@ pub(crate) const KEYS: &[Key] = &[
     },
 ];
 
-/// Says what an address must be.
+/// The message for an invalid address.
 pub(crate) const ADDRESS: &str =
     "must be an IP address of this computer, such as \"127.0.0.1\", or \"0.0.0.0\" for all of them";
 
@@ -493,12 +493,12 @@ fn device(value: &Value) -> Result<Option<String>, String> {
 }
 
 impl Key {
-    /// Returns whether a setting is as it is without the file.
+    /// Returns whether a setting has its default.
     pub(crate) fn is_usual(&self, settings: &Settings) -> bool {
         self.usual_change().written().1.to_string() == self.as_it_is(settings).written().1.to_string()
     }
 
-    /// Returns the change that makes it so.
+    /// Returns the change to the default.
     pub(crate) fn usual_change(&self) -> Change {
         self.as_it_is(&Settings::default())
     }
@@ -535,7 +535,7 @@ mod tests {
     use super::*;
     use crate::gui::settings::file;
 
-    /// The window offers what the file takes, under the same name.
+    /// The window offers what the file accepts, under the same name.
     #[test]
     fn controls_change_the_setting_of_their_row() {
         for key in KEYS {

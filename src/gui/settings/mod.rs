@@ -1,7 +1,7 @@
-//! Owns what a person has chosen for the window, and what the window remembers by itself.
+//! The user's settings, and the window's state saved between runs.
 //!
-//! Owns two files that people can read. `settings.toml` in the folder for settings is written by people and by the
-//! window's menus, which change one line and leave the rest; `window.toml` in the folder for what is remembered has the
+//! Both are files that people can read. `settings.toml` in the folder for settings is written by people and by the
+//! window's menus, which change one line and leave the rest; `window.toml` in the folder for saved state has the
 //! window's place and its layout.
 
 mod file;

@@ -1,4 +1,4 @@
-//! `settings.toml` is read by the window, which also changes a line of it.
+//! `settings.toml`, which the window reads and changes line by line.
 
 use super::{
     file,
@@ -6,7 +6,7 @@ use super::{
 };
 use crate::gui::config_file::{ConfigError, ConfigFile, Content};
 
-/// The settings as the file says, if there is one.
+/// The settings in the file, if it exists.
 pub(crate) type SettingsFile = ConfigFile<Settings>;
 
 impl Content for Settings {
@@ -27,13 +27,14 @@ impl SettingsFile {
         self.content()
     }
 
-    /// Changes a setting, here and in the file. Err: why it is not in the file, and so holds until the window closes.
+    /// Changes a setting here and in the file. Returns why it could not be saved; it then applies until the window
+    /// closes.
     pub(crate) fn change(&mut self, change: Change) -> Result<(), String> {
         change.apply(self.content_mut());
         self.edit(|text| file::change(text, &change), "The setting applies until the window closes.")
     }
 
-    /// Returns why no setting can be written: the file cannot be read, or not be understood.
+    /// Returns why no setting can be written: the file cannot be read or parsed.
     pub(crate) fn trouble(&self) -> Option<&str> {
         let is_broken = self.text().is_some_and(|text| toml_edit::Document::parse(text).is_err());
         let why = self.mistakes().first().filter(|_| is_broken || self.is_unreadable());
@@ -51,7 +52,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn a_change_is_kept_and_what_a_person_writes_is_read() {
+    fn a_change_is_saved_and_external_edits_are_read() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("eddy").join(Settings::NAME);
         let mut file = SettingsFile::at(Some(path.clone()));
@@ -69,7 +70,7 @@ mod tests {
         assert_eq!((file.settings().zoom, file.settings().theme), (2.0, Theme::System));
         assert_eq!(file.refresh(), [""; 0], "told once");
         assert_eq!((file.trouble(), file.mistakes().len()), (None, 1));
-        // What another program writes is not lost by a change here, and counts.
+        // A change that another program wrote takes effect and is not overwritten by a change here.
         fs::write(&path, "zoom = 3.0 # theirs\ncode-size = 20.0\n").unwrap();
         file.change(Change::WordWrap(true)).unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), "zoom = 3.0 # theirs\ncode-size = 20.0\nword-wrap = true\n");

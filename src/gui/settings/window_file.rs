@@ -1,4 +1,4 @@
-//! `window.toml`: where the window was, and its layout, from one start to the next.
+//! `window.toml`: the window's place and layout, saved between runs.
 
 use crate::gui::{
     config_file::write,
@@ -12,19 +12,18 @@ const NAME: &str = "window.toml";
 const HEADER: &str = "# Window state of Eddy when it was last closed. Delete this file to reset the layout.\n";
 const KEYS: [&str; 7] = ["width", "height", "x", "y", "maximized", "open", "layout"];
 
-/// Says where the window is, in points of the system.
+/// The window's place, in the system's points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct WindowPlace {
     pub size: Option<(f64, f64)>,
-    /// The corner of its frame, where the system tells; physical pixels.
+    /// The corner of its frame in physical pixels, if the system reports it.
     pub corner: Option<(i32, i32)>,
     pub is_maximized: bool,
 }
 
-/// The sizes that the window had while it was as large as people made it, with its corner then.
+/// The sizes that the window had while it was not maximised, with its corner then.
 ///
-/// A window system says that a window is as large as the screen after it has made it so, or before: the newest size may
-/// be the screen's.
+/// A window system reports the maximised state before or after the new size: the newest size may be the screen's.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct UsualSizes {
     newest: Option<WindowPlace>,
@@ -39,38 +38,39 @@ impl UsualSizes {
         self.newest = Some(place);
     }
 
-    /// Returns the newest that is not of a size.
+    /// Returns the newest place with a different size.
     pub(crate) fn other_than(&self, size: (f64, f64)) -> Option<WindowPlace> {
         [self.newest, self.before].into_iter().flatten().find(|place| place.size != Some(size))
     }
 }
 
-/// Holds what is remembered of the window.
+/// The saved state of the window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct WindowState {
     pub place: WindowPlace,
     /// The panels that are open.
     pub open: Option<BTreeSet<Panel>>,
-    /// As a person has made it.
+    /// The layout that the user has made.
     pub layout: Option<Node>,
 }
 
 /// The file.
 #[derive(Debug)]
 pub(crate) struct WindowFile {
-    /// `None` where the system has no place for it.
+    /// `None` if the system has no folder for it.
     path: Option<PathBuf>,
-    /// As it was read or written last.
+    /// The state as last read or written.
     known: WindowState,
 }
 
 impl WindowFile {
-    /// `folder`: for what is remembered between two starts.
+    /// `folder`: for state saved between runs.
     pub(crate) fn new(folder: Option<PathBuf>) -> Self {
         Self { path: folder.map(|folder| folder.join(NAME)), known: WindowState::default() }
     }
 
-    /// Reads the file. What is wrong in it comes back, one line each; the rest of it counts.
+    /// Reads the file, and returns the state and the errors in it, one line each; a valid entry counts despite errors
+    /// in others.
     pub(crate) fn read(&mut self) -> (WindowState, Vec<String>) {
         let Some(path) = &self.path else { return Default::default() };
         let text = match confine::read_state_toml(path) {
@@ -88,7 +88,7 @@ impl WindowFile {
         &self.known
     }
 
-    /// Writes the file if it would say something new.
+    /// Writes the file if the state has changed.
     pub(crate) fn keep(&mut self, remembered: WindowState) {
         let Some(path) = &self.path else { return };
         if remembered == self.known {
@@ -96,7 +96,7 @@ impl WindowFile {
         }
         match write(path, &text(&remembered)) {
             Ok(()) => self.known = remembered,
-            // The window is where it is all the same: only the next start knows less.
+            // A failure is harmless now: only the next start lacks the state.
             Err(error) => log::warn!("{}: {error}", path.display()),
         }
     }
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn a_window_as_large_as_the_screen_goes_back_to_the_size_before() {
+    fn a_maximised_window_restores_its_previous_size() {
         let place =
             |width: f64, x| WindowPlace { size: Some((width, 600.0)), corner: Some((x, 0)), is_maximized: false };
         let mut sizes = UsualSizes::default();
@@ -194,13 +194,13 @@ mod tests {
         sizes.note(place(940.0, 6));
         sizes.note(place(940.0, 7));
         assert_eq!(sizes.other_than((1920.0, 600.0)), Some(place(940.0, 7)));
-        // The screen's size came before the word that it is that.
+        // The screen's size arrived before the maximised state.
         sizes.note(place(1920.0, 0));
         assert_eq!(sizes.other_than((1920.0, 600.0)), Some(place(940.0, 7)));
     }
 
     #[test]
-    fn what_is_written_is_read_again() {
+    fn window_state_round_trips() {
         let folder = tempfile::tempdir().unwrap();
         let mut file = WindowFile::new(Some(folder.path().join("eddy")));
         assert_eq!(file.read(), (WindowState::default(), vec![]));
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_told_and_the_rest_counts() {
+    fn invalid_entries_are_reported_and_the_rest_is_read() {
         let text = "width = 900.0\nheight = 600\nwidht = 3\nopen = [\"code\", \"cdoe\"]\n\
                     layout = { row = [\"code\", \"code\"] }\nx = 1\n";
         let (remembered, mistakes) = read(text);

@@ -1,4 +1,4 @@
-//! Owns what each action of a key, a menu or the palette does.
+//! Runs the window's actions, from keys, menus and the palette.
 
 use super::{Shell, start_folder};
 use crate::{
@@ -20,7 +20,7 @@ use crate::{
 use egui::Ui;
 use std::path::Path;
 
-/// So many recent projects are offered: one finds more by the gallery, or by the system.
+/// The number of recent projects that are offered; older ones are in the gallery and the file dialog.
 const RECENT: usize = 30;
 
 impl Shell {
@@ -210,7 +210,7 @@ impl Shell {
         }
     }
 
-    /// Does it to the panel in which the keyboard is.
+    /// Applies the action to the panel that has the keyboard focus.
     fn act_on_panel(&mut self, ui: &Ui, action: LayoutAction) {
         let focused = ui.memory(|m| m.focused()).and_then(|id| ui.ctx().read_response(id));
         let at = focused.and_then(|widget| self.dock.panel_at(widget.rect.center()));
@@ -225,12 +225,12 @@ impl Shell {
 
     fn add_pass(&mut self, tab: Tab, out: &mut UiOutput) {
         out.ask(Command::AddTab(tab.clone()));
-        // It is there in the next frame.
+        // The tab exists in the next frame.
         self.shell_commands.push(ShellCommand::GoTo(tab, None));
         self.uncover(out);
     }
 
-    /// Returns what only the open project and this machine have to offer: passes to show, and recent projects.
+    /// Returns the actions that depend on the open project and this machine: passes to show, and recent projects.
     pub(super) fn offers(session: &Session) -> Vec<Offer> {
         let passes = session.tabs().into_iter().filter_map(|tab| match tab {
             Tab::Pass(id) if id.is_picture() => Some(id),
@@ -249,7 +249,7 @@ impl Shell {
         shows.chain(opens).collect()
     }
 
-    /// Draws the value of the expression at the caret, or the picture again where that is what is drawn.
+    /// Draws the value of the expression at the caret, or returns to the picture if that value is already drawn.
     fn probe(&mut self, session: &Session, out: &mut UiOutput) {
         let Some((tab, at, _)) = self.code.caret_place() else { return };
         let is_drawn = session.probe().is_some_and(|view| view.place.tab == tab && view.place.at == at);
@@ -257,7 +257,7 @@ impl Shell {
         out.ask(Command::Probe(place));
     }
 
-    /// Opens a panel, or closes it. One that is behind another comes to the front.
+    /// Opens a panel or closes it. A panel hidden by another tab of its place comes to the front.
     fn toggle(&mut self, panel: Panel, out: &mut UiOutput) {
         let is_hidden = self.gallery || self.presents || (self.fullscreen && panel != Panel::Picture);
         self.dock.set_open(panel, is_hidden || !self.dock.is_seen(panel));
@@ -279,7 +279,7 @@ impl Shell {
     }
 }
 
-/// Says where a file is that a person writes.
+/// Returns a notice with the path of a file that people edit, or with the reason why there is none.
 fn path_notice(what: &str, path: Result<&Path, String>) -> Command {
     match path {
         Ok(path) => Command::Notify {

@@ -1,4 +1,4 @@
-//! Owns what comes in from outside: dropped files, a pasted text, what is on the clipboard.
+//! Handles input from outside the window: dropped files, pasted text and the clipboard.
 
 use super::Shell;
 use crate::{
@@ -9,7 +9,7 @@ use egui::Ui;
 use std::path::PathBuf;
 
 impl Shell {
-    /// True once after somebody asked for what is on the clipboard, which then comes as a paste.
+    /// Returns true once after a request for the clipboard's contents, which then arrive as a paste event.
     pub(crate) fn take_clipboard_wish(&mut self) -> bool {
         let wants = std::mem::take(&mut self.wants_clipboard);
         self.takes_paste |= wants;
@@ -18,7 +18,7 @@ impl Shell {
         wants || pastes
     }
 
-    /// Takes files that are dropped and texts that are pasted where nothing is typed.
+    /// Takes dropped files, and text that is pasted while no text field has the focus.
     pub(super) fn take_imports(&mut self, ui: &Ui, session: &Session, out: &mut UiOutput) {
         if std::mem::replace(&mut self.opened, session.opened()) != session.opened() && self.gallery {
             self.close_gallery(out);
@@ -51,15 +51,15 @@ impl Shell {
         }
     }
 
-    /// Brings files in: projects are opened, pictures and models go to the pass in front.
+    /// Opens files: projects are opened, pictures and models go to the selected pass.
     pub(super) fn bring(&self, paths: Vec<PathBuf>, channel: Option<usize>, out: &mut UiOutput) {
         let pass = self.code.current().pass().cloned().unwrap_or_default();
-        // Nothing is in front while the gallery covers it.
+        // No pass is selected while the gallery covers it.
         let to = (!self.gallery).then_some((pass, channel));
         out.ask(Command::Bring { paths, to });
     }
 
-    /// Returns which channel's card a point is on.
+    /// Returns the channel whose card is at a point.
     fn channel_at(&self, at: egui::Pos2) -> Option<usize> {
         (0..4).find(|i| self.places.places.get(&format!("channel:{i}")).is_some_and(|r| r.contains(at)))
     }

@@ -1,4 +1,4 @@
-//! The window's contents: which panels there are, where, and what becomes of what they want.
+//! The window's contents: its panels, their layout, and the handling of their requests.
 
 mod act;
 mod imports;
@@ -52,11 +52,11 @@ pub(super) struct Shell {
     lab: Lab,
     recorder: Recorder,
     kept: OfProject,
-    /// The projects that had taken the place of another when `kept` was made.
+    /// The session's count of opened projects when `kept` was made.
     kept_of: u64,
     dock: Dock,
     sees_costs: bool,
-    /// Small pictures of buffers.
+    /// Thumbnails of buffers.
     live: Live,
     thumbnails: Thumbnails,
     wake: Arc<dyn Fn() + Send + Sync>,
@@ -65,39 +65,39 @@ pub(super) struct Shell {
     page_of_settings: Option<SettingsPage>,
     page: Gallery,
     fullscreen: bool,
-    /// The code stands over a picture that fills the window.
+    /// The code is drawn over a picture that fills the window.
     presents: bool,
     keys: KeyFile,
     settings: SettingsFile,
-    /// The settings in effect.
+    /// The settings last applied.
     in_effect: Option<Settings>,
-    /// The command line has the last word on it.
+    /// The command line set the frame limit, which overrides the setting.
     keeps_frame_limit: bool,
-    /// The address at which the command line has OSC listened to.
+    /// The address on which the command line has OSC received.
     keeps_osc: Option<SocketAddr>,
     palette: Palette,
     focus: Focus,
-    /// Somebody asked to open what is on the clipboard: it comes as if it had been pasted.
+    /// The clipboard's contents were requested: they are handled as if they had been pasted.
     wants_clipboard: bool,
     takes_paste: bool,
-    /// The code asked for what is on the clipboard.
+    /// The code editor requested the clipboard's contents.
     wants_code_paste: bool,
     pastes_into_code: bool,
-    /// The projects that the session has opened so far.
+    /// The number of projects that the session has opened so far.
     opened: u64,
-    /// The window had the keyboard in the frame before.
+    /// The window had the keyboard focus in the previous frame.
     was_focused: bool,
     pressed: keys::Keys,
-    /// Wanted by the frame before: done when the session has done what went with it.
+    /// Requested by the previous frame: run after the session has applied that frame's commands.
     shell_commands: Vec<ShellCommand>,
     places: UiOutput,
-    /// Notices and texts told of in the report.
+    /// Notices and texts that are already in the report.
     reported_notice: Option<u64>,
     reported_generation: Option<u64>,
 }
 
 impl Shell {
-    /// `gallery`: begin on the page of presets.
+    /// `gallery`: start on the page of presets.
     pub(super) fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>, gallery: bool) -> Self {
         let mut viewport = Viewport::new();
         if !gallery {
@@ -144,8 +144,8 @@ impl Shell {
         }
     }
 
-    /// Takes up what was kept from the last start. `keeps_frame_limit`: the command line gave one; `osc`: it has OSC listened
-    /// to at an address.
+    /// Restores the state saved by the last run. `keeps_frame_limit`: the command line set one; `osc`: the address on
+    /// which it has OSC received.
     pub(super) fn restore(
         &mut self,
         settings: SettingsFile,
@@ -158,13 +158,13 @@ impl Shell {
         self.dock.restore(remembered.open.clone(), remembered.layout.as_ref());
     }
 
-    /// Closes every panel but the picture and the uniforms, wherever they were.
+    /// Closes every panel except the picture and the uniforms, wherever they were.
     pub(super) fn show_picture_alone(&mut self) {
         self.dock.reset();
         self.dock.restore(Some([Panel::Picture, Panel::Uniforms].into()), None);
     }
 
-    /// Begins with no texture: the window has another device. `wake` is called as before.
+    /// Drops all textures because the window has a new device. `wake` is called as before.
     pub(super) fn renew(&mut self, gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) {
         self.viewport.forget_texture();
         self.live = Live::default();
@@ -173,7 +173,7 @@ impl Shell {
         self.thumbnails = Thumbnails::new(gpu, wake);
     }
 
-    /// The panels, for the next start.
+    /// Returns the panel layout, which is saved for the next start.
     pub(super) fn dock(&self) -> &Dock {
         &self.dock
     }
@@ -182,12 +182,12 @@ impl Shell {
         self.fullscreen
     }
 
-    /// The picture has the keyboard: keys are the shader's.
+    /// Returns whether the picture has the keyboard focus, so that keys go to the shader.
     pub(super) fn picture_has_keys(&self, ctx: &egui::Context) -> bool {
         !self.gallery && ctx.memory(|m| m.has_focus(Viewport::id()))
     }
 
-    /// A key press means something to the window as things stand: it is not the shader's.
+    /// Returns whether a key press currently triggers an action of the window, so that it does not go to the shader.
     pub(super) fn is_action(&self, ctx: &egui::Context, event: &egui::Event) -> bool {
         self.keys.keymap().pressed(event, self.listening(ctx)).is_some()
     }
@@ -196,7 +196,7 @@ impl Shell {
         self.files.ask(Pick::SaveAs(name.to_owned()), None);
     }
 
-    /// Takes over what the session has new, before it is shown or painted.
+    /// Takes over the session's newest results before the window is shown or painted.
     pub(super) fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
         if std::mem::replace(&mut self.kept_of, session.projects_opened()) != session.projects_opened() {
             self.kept = OfProject::new(self.wake.clone());
@@ -211,12 +211,12 @@ impl Shell {
         self.code.set_debug(self.kept.debugger.marks(session, self.code.current()));
     }
 
-    /// Returns the picture's texture if a painting of now differs from the last one there.
+    /// Returns the picture's texture if painting it now would differ from the last painting.
     pub(super) fn take_new_texels(&mut self, session: &Session) -> Option<egui::TextureId> {
         self.viewport.take_new_texels(session)
     }
 
-    /// Shows everything once. What the session is to do comes back.
+    /// Shows the whole window for one frame, and returns the commands for the session.
     pub(super) fn show(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
         self.thumbnails.update(ui.ctx());
         self.lab.update();
@@ -225,7 +225,7 @@ impl Shell {
         let mistakes = if is_read { self.refresh_files() } else { Vec::new() };
         let mut out = UiOutput::new(ActiveKeymap::new(self.keys.keymap().clone(), self.listening(ui)));
         if is_read {
-            // What is mended is no news any more, and what is said anew is said once.
+            // Drop notices of fixed problems, and show repeated ones once.
             let is_over = |text: &str| self.keys.is_fixed(text) || self.settings.is_fixed(text);
             let over = session.notices().iter().filter(|n| is_over(&n.text) || mistakes.contains(&n.text));
             over.for_each(|notice| out.ask(Command::DismissNotice(notice.id)));
@@ -293,20 +293,20 @@ impl Shell {
         commands
     }
 
-    /// The window has just got the keyboard.
+    /// Returns whether the window has just received the keyboard focus.
     fn is_back(&mut self, ui: &Ui) -> bool {
         let is_focused = ui.input(|i| i.focused);
         !std::mem::replace(&mut self.was_focused, is_focused) && is_focused
     }
 
-    /// Reads the files of keys and settings. What is wrong in them comes back.
+    /// Reads the files of keys and settings, and returns the errors in them.
     fn refresh_files(&mut self) -> Vec<String> {
         let mut mistakes = self.keys.refresh();
         mistakes.extend(self.settings.refresh());
         mistakes
     }
 
-    /// Puts the settings into effect, where they are others than before. What the session has to do with it comes back.
+    /// Applies the settings that have changed, and returns the commands for the session.
     pub(super) fn follow_settings(&mut self, ctx: &egui::Context) -> Vec<Command> {
         let settings = self.settings.settings();
         let before = self.in_effect.replace(settings.clone());
@@ -342,14 +342,14 @@ impl Shell {
         commands
     }
 
-    /// Changes a setting, and keeps it.
+    /// Changes a setting and saves it.
     fn change(&mut self, change: Change, out: &mut UiOutput) {
         if let Err(text) = self.settings.change(change) {
             out.ask(Command::Notify { level: Level::Warning, text, path: None });
         }
     }
 
-    /// Returns whose keys are listened to.
+    /// Returns which part of the window receives keys.
     fn listening(&self, ctx: &egui::Context) -> KeyFocus {
         KeyFocus {
             code: self.code.has_keys(ctx),
@@ -358,8 +358,8 @@ impl Shell {
         }
     }
 
-    /// The window's own keys, taken before any widget sees them. Those of the code are left to it, in their order with
-    /// what is typed.
+    /// Handles the window's own keys before any widget sees them. Keys of the code editor are left to it, in order
+    /// with typed text.
     fn keys(&mut self, ui: &Ui, out: &mut UiOutput) {
         let keyboard = keys::Keyboard { listening: self.listening(ui.ctx()), field: ui.ctx().text_edit_focused() };
         let keymap = self.keys.keymap().clone();
@@ -370,7 +370,7 @@ impl Shell {
         }
     }
 
-    /// Escape ends what is shown instead of the picture, unless something else is open that it ends first.
+    /// Escape returns from a probe to the picture, unless something else is open that Escape closes first.
     fn end_probe(&mut self, ui: &Ui, session: &Session, out: &mut UiOutput) {
         let is_over = self.palette.is_open() || self.help.is_some() || self.page_of_settings.is_some();
         let is_other = is_over || self.code.is_finding() || self.fullscreen;
@@ -382,7 +382,7 @@ impl Shell {
         }
     }
 
-    /// Returns where a named widget was shown last, in points.
+    /// Returns where a named widget was last shown, in points.
     #[cfg(test)]
     pub(super) fn place(&self, name: &str) -> Option<egui::Rect> {
         self.places.places.get(name).copied()
@@ -394,14 +394,14 @@ impl Shell {
         self.places.places.iter().map(|(name, rect)| (name.as_str(), *rect))
     }
 
-    /// Returns the innermost part of the window at a place, by its name.
+    /// Returns the name of the innermost part of the window at a place.
     #[cfg(test)]
     pub(super) fn stop_at(&self, at: egui::Pos2) -> Option<&'static str> {
         let here = self.places.stops.iter().filter(|stop| stop.rect.contains(at));
         here.min_by(|a, b| a.rect.area().total_cmp(&b.rect.area())).map(|stop| stop.name)
     }
 
-    /// Returns the breakpoints: tabs and lines from 0.
+    /// Returns the breakpoints as tabs and lines, counted from 0.
     #[cfg(test)]
     pub(super) fn breakpoints(&self) -> Vec<(crate::project::Tab, usize)> {
         self.kept.debugger.lines()
@@ -417,25 +417,25 @@ impl Shell {
         self.code.focus();
     }
 
-    /// Has no dialogs of the desktop's.
+    /// Switches off the desktop's file dialogs: paths are typed.
     #[cfg(test)]
     pub(super) fn type_paths(&mut self) {
         self.files = Files::without_desktop(Arc::new(|| ()));
     }
 
-    /// The code has the keyboard.
+    /// Returns whether the code has the keyboard focus.
     #[cfg(test)]
     pub(super) fn has_keys(&self, ctx: &egui::Context) -> bool {
         self.code.has_keys(ctx)
     }
 
-    /// Opens a panel, in front of those that it shares a place with, or closes it.
+    /// Opens a panel in front of those that share its place, or closes it.
     #[cfg(test)]
     pub(super) fn set_open(&mut self, panel: Panel, is_open: bool) {
         self.dock.set_open(panel, is_open);
     }
 
-    /// The tab in front, and the line of its caret from 0.
+    /// Returns the tab in front and the line of its caret, counted from 0.
     #[cfg(test)]
     pub(super) fn caret(&self) -> (crate::project::Tab, usize) {
         self.code.caret()
@@ -485,7 +485,7 @@ impl Shell {
                 } else if !self.shell_commands.contains(&ShellCommand::GoTo(tab.clone(), place))
                     && out.commands.contains(&Command::AddTab(tab.clone()))
                 {
-                    // The tab is being made; it is there in the next frame.
+                    // The tab is being created and exists in the next frame.
                     self.shell_commands.push(ShellCommand::GoTo(tab, place));
                 }
                 ui.ctx().request_repaint();
@@ -498,7 +498,7 @@ impl Shell {
         self.viewport.focus();
     }
 
-    /// Closes the gallery and leaves the keyboard where it is.
+    /// Closes the gallery without moving the keyboard focus.
     fn uncover(&mut self, out: &mut UiOutput) {
         if std::mem::take(&mut self.gallery) {
             out.ask(Command::Cover(false));
@@ -531,7 +531,7 @@ impl Shell {
     }
 }
 
-/// Returns where a file dialog begins: beside the project.
+/// Returns the folder in which a file dialog starts: that of the project.
 fn start_folder(session: &Session) -> Option<PathBuf> {
     match &session.project().origin {
         Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => {

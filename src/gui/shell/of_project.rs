@@ -1,15 +1,15 @@
-//! Owns what the window keeps of the open project, and of no other: it is made anew as a whole when another is opened.
+//! The window's state that belongs to the open project. All of it is replaced when another project is opened.
 
 use crate::gui::{
     buffers::Buffers, compare::Compare, measures::Measurements, passes::Passes, sound::Sound, trace::Debugger,
 };
 use std::sync::Arc;
 
-/// The panels that are about the open project. The code keeps its editors by the project as well
-/// ([`CodePanel`](crate::gui::code::CodePanel)); where panels are, how the picture fills its place, and what is looked
-/// for are the person's.
+/// The panels about the open project. The code also keeps its editors per project
+/// ([`CodePanel`](crate::gui::code::CodePanel)); the layout of panels, how the picture fits its place and the search
+/// text belong to the user.
 pub(super) struct OfProject {
-    /// Breakpoints, watched expressions, and where one is in a trace.
+    /// Breakpoints, watched expressions and the position in a trace.
     pub debugger: Debugger,
     pub buffers: Buffers,
     pub compare: Compare,

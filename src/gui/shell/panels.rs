@@ -1,4 +1,4 @@
-//! Says where the panels are, and what is in each.
+//! Lays out the panels and shows their contents.
 
 use super::{Shell, of_project::OfProject};
 use crate::{
@@ -73,7 +73,7 @@ impl Shell {
                 },
             );
         });
-        // Who closes the panel is done with the pixel.
+        // Closing the panel ends the trace of the pixel.
         if session.trace().traced.is_some() && !self.dock.is_open(Panel::Trace) {
             out.ask(Command::Trace(None));
         }
@@ -83,19 +83,19 @@ impl Shell {
         self.watch_costs(sees_costs, out);
     }
 
-    /// Gathers only what is looked at.
+    /// Gathers costs only while they are visible.
     fn watch_costs(&mut self, is_seen: bool, out: &mut UiOutput) {
         if std::mem::replace(&mut self.sees_costs, is_seen) != is_seen {
             out.ask(Command::WatchCosts(is_seen));
         }
     }
 
-    /// The code over a picture that fills the window.
+    /// Shows the code over a picture that fills the window.
     pub(super) fn present(&mut self, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
             let whole = ui.max_rect();
             self.viewport.show(ui, session, ViewportMode::Window, out);
-            // The rest is the picture's, with the mouse.
+            // The rest belongs to the picture, with the mouse.
             let size = vec2((whole.width() * 0.56).clamp(320.0_f32.min(whole.width()), 1000.0), whole.height());
             let place = Rect::from_min_size(whole.min, size);
             egui::Area::new(Id::unique("code over picture"))
@@ -114,7 +114,7 @@ impl Shell {
     }
 }
 
-/// A button at the picture's corner by which a hand leaves code over picture; seen while the pointer moves there.
+/// Shows a button at the picture's corner that leaves code over picture; visible while the pointer moves there.
 fn leave_button(ui: &Ui, whole: Rect, out: &mut UiOutput) {
     let corner = Rect::from_min_max(whole.right_top() + vec2(-260.0, 0.0), whole.right_top() + vec2(0.0, 120.0));
     if !ui.ctx().pointer_latest_pos().is_some_and(|at| corner.contains(at)) {
@@ -136,16 +136,16 @@ fn leave_button(ui: &Ui, whole: Rect, out: &mut UiOutput) {
         });
 }
 
-/// Holds what is in the panels, while they are shown.
+/// The state that the panels need while they are shown.
 struct PanelContents<'a> {
     viewport: &'a mut Viewport,
     code: &'a mut CodePanel,
     lab: &'a mut Lab,
     kept: &'a mut OfProject,
     recorder: &'a mut Recorder,
-    /// The recorder's choices of last time.
+    /// The recorder's last choices.
     choices: &'a FilmForm,
-    /// The place of the picture under the pointer, as the newest frame had it.
+    /// The point of the picture under the pointer, in the newest frame.
     under_picture: Option<[f32; 2]>,
     thumbnails: &'a mut Thumbnails,
     live: &'a mut Live,
@@ -211,7 +211,7 @@ impl Contents for PanelContents<'_> {
 }
 
 impl PanelContents<'_> {
-    /// The picture with its bar below it. True: a hand begins to move them.
+    /// Shows the picture with its bar below it. Returns true if a drag of them starts.
     fn picture(&mut self, ui: &mut Ui) -> bool {
         let p = theme::of(ui);
         let bar = egui::Panel::bottom("transport")

@@ -1,4 +1,4 @@
-//! Owns what the window tells the scripts that drive it.
+//! Reports the window's state to the scripts that drive it.
 
 use super::Shell;
 use crate::{
@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use std::time::Instant;
 
 impl Shell {
-    /// Tells scripts what is new.
+    /// Reports changes to scripts.
     pub(crate) fn report(
         &mut self,
         session: &Session,
@@ -33,7 +33,7 @@ impl Shell {
             report.say(json!({ "event": "reloaded", "name": project.name }));
         }
         if opened {
-            // What was said of the project before it is not about this one, though it may read the same.
+            // Results of the previous project do not apply to this one, even if they read the same.
             report.forget("compiled");
         }
         report.say_if_new("compiled", compiled(session));
@@ -100,7 +100,8 @@ impl Shell {
         }
         let theme = if ctx.theme() == egui::Theme::Dark { "dark" } else { "light" };
         report.say_if_new("theme", json!({ "shown": theme }));
-        // What is not in sight yet comes there in the next frames, and only then has a place that is told of.
+        // A widget that is not visible yet is scrolled into view in the next frames, and only then has a place to
+        // report.
         let place = self.focus.place();
         if place.is_none_or(|[_, seen]| seen.is_positive()) {
             let focused = place.and_then(|[whole, seen]| self.places.named(whole).or_else(|| self.places.named(seen)));
@@ -129,7 +130,7 @@ impl Shell {
     }
 }
 
-/// Returns how the newest finished compile ended, with every diagnostic.
+/// Returns the result of the newest finished compile, with every diagnostic.
 fn compiled(session: &Session) -> Value {
     let state = session.compile_state();
     let diagnostics: Vec<Value> = session

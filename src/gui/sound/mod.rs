@@ -1,6 +1,6 @@
-//! The panel of the sound pass: its waveform with the time that is shown in it, and the spectrum there.
+//! The panel of the sound pass: its waveform with the current time, and the spectrum at that time.
 //!
-//! Owns which part of the waveform is seen. Plays nothing, and asks the session for times.
+//! Owns the visible range of the waveform. Plays nothing, and sends seeks to the session.
 
 mod panel;
 mod range;
@@ -24,7 +24,7 @@ pub(super) struct Sound {
 }
 
 impl Sound {
-    /// Takes in what has been made of the track since the last call.
+    /// Applies the parts of the track that were made since the last call.
     fn outline(&mut self, view: &SoundView) -> Option<&Peaks> {
         let track = view.track.as_ref()?;
         match &mut self.peaks {

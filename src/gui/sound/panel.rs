@@ -1,4 +1,4 @@
-//! The panel: a line that says how far the sound is, the waveform, and the spectrum at the time that is shown.
+//! The panel: a line with the progress of the sound, the waveform, and the spectrum at the current time.
 
 use super::{
     Sound,
@@ -17,11 +17,11 @@ use crate::{
 };
 use egui::{Align2, FontId, Key, Label, Rect, Response, RichText, Role, Sense, Ui, vec2};
 
-/// Height of the spectrum.
+/// The height of the spectrum.
 const SPECTRUM: f32 = 46.0;
-/// Seconds that a key goes.
+/// The number of seconds that a key seeks.
 const STRIDE: f64 = 1.0;
-/// The analyser is asked in steps of a frame, so that it need not look at all of the sound again.
+/// The analyser runs in steps of a frame, so that it need not process the whole sound again.
 const STEP: i64 = SAMPLE_RATE as i64 / 60;
 
 pub(crate) fn show(state: &mut Sound, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
@@ -65,7 +65,7 @@ pub(crate) fn show(state: &mut Sound, ui: &mut Ui, session: &Session, out: &mut 
     response.on_hover_text("Click or drag to go to a time. Scroll to zoom, double-click to see all of it");
 }
 
-/// Says how much of it is made, or why there is none.
+/// Shows how much of it is made, or why there is none.
 fn progress(ui: &mut Ui, session: &Session, view: &SoundView) {
     let p = theme::of(ui);
     let has_errors = session.diagnostics().iter().any(|d| {
@@ -91,7 +91,7 @@ fn progress(ui: &mut Ui, session: &Session, view: &SoundView) {
     ui.add(Label::new(RichText::new(text).color(color)).truncate());
 }
 
-/// The wheel zooms around the pointer, or moves with Shift.
+/// The wheel zooms around the pointer, or scrolls with Shift.
 fn zoom(shown: &mut VisibleRange, ui: &Ui, response: &Response, rect: Rect) {
     if response.double_clicked() {
         *shown = VisibleRange::default();
@@ -103,7 +103,7 @@ fn zoom(shown: &mut VisibleRange, ui: &Ui, response: &Response, rect: Rect) {
     *shown = shown.zoomed(factor, around).moved(-f64::from(scroll.x / rect.width().max(1.0)));
 }
 
-/// Goes to the time under the pointer, and by keys.
+/// Seeks to the time below the pointer, and by keys.
 fn seek(ui: &Ui, wave: &Wave<'_>, response: &Response, (time, whole): (f64, f64), out: &mut UiOutput) {
     let is_moved = response.clicked() || response.drag_started() || response.drag_delta() != egui::Vec2::ZERO;
     if let Some(at) = response.interact_pointer_pos().filter(|_| is_moved && !response.double_clicked()) {

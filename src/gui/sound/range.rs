@@ -1,9 +1,9 @@
-//! The part of a track that is seen.
+//! The visible range of a track.
 
-/// Shortest part that is seen, in seconds: a few hundred samples.
+/// The shortest range in seconds: a few hundred samples.
 const SHORTEST: f64 = 0.01;
 
-/// Seconds from the beginning of the track to the left edge, and of the width.
+/// The start of the range in seconds, and its length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct VisibleRange {
     pub from: f64,
@@ -11,20 +11,20 @@ pub(super) struct VisibleRange {
 }
 
 impl Default for VisibleRange {
-    /// All of it, however long it is.
+    /// The whole track, however long it is.
     fn default() -> Self {
         Self { from: 0.0, length: f64::INFINITY }
     }
 }
 
 impl VisibleRange {
-    /// Keeps it inside a track of so many seconds.
+    /// Limits the range to a track of this length in seconds.
     pub(super) fn within(self, whole: f64) -> Self {
         let length = self.length.clamp(SHORTEST, whole.max(SHORTEST));
         Self { from: self.from.clamp(0.0, (whole - length).max(0.0)), length }
     }
 
-    /// Zooms in by a factor, below 1 out, around a place from 0 at the left to 1 at the right.
+    /// Zooms in by a factor (out if below 1), around a place from 0 at the left to 1 at the right.
     pub(super) fn zoomed(self, factor: f64, around: f64) -> Self {
         let length = (self.length / factor).max(SHORTEST);
         Self { from: self.from + around * (self.length - length), length }
@@ -36,7 +36,7 @@ impl VisibleRange {
     }
 }
 
-/// Returns round steps in seconds for marks that are at least `least` seconds apart.
+/// Returns a round step in seconds for marks that are at least `least` seconds apart.
 pub(super) fn step(least: f64) -> f64 {
     const STEPS: [f64; 16] =
         [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0];
@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn zooming_keeps_the_place_under_the_pointer_and_the_track_in_sight() {
+    fn zooming_keeps_the_time_under_the_pointer_within_the_track() {
         let whole = VisibleRange::default().within(180.0);
         assert_eq!(whole, VisibleRange { from: 0.0, length: 180.0 });
         let zoomed = whole.zoomed(2.0, 0.75);

@@ -1,4 +1,4 @@
-//! The waveform and the spectrum, as they are painted.
+//! Paints the waveform and the spectrum.
 
 use super::range::{VisibleRange, step};
 use crate::{
@@ -7,12 +7,12 @@ use crate::{
 };
 use egui::{Align2, FontId, Mesh, Painter, Rect, Stroke, pos2, vec2};
 
-/// Distance of the marks of time, in points.
+/// The distance of the marks of time, in points.
 const MARKS: f32 = 60.0;
-/// Columns of the spectrum: each shows the largest of four bins.
+/// The columns of the spectrum: each shows the maximum of four bins.
 const COLUMNS: usize = BINS / 4;
 
-/// Holds what a waveform is painted with.
+/// The painter, place and range of a waveform.
 pub(super) struct Wave<'a> {
     pub painter: &'a Painter,
     pub palette: &'a Palette,
@@ -21,11 +21,11 @@ pub(super) struct Wave<'a> {
 }
 
 impl Wave<'_> {
-    /// The left side above, the right one below. What is not made yet is left out.
+    /// Paints the left channel above, the right one below. Parts that are not made yet are omitted.
     pub(super) fn outline(&self, peaks: &Peaks) {
         let Self { painter, palette, rect, shown } = self;
         let columns = rect.width().floor().max(1.0) as usize;
-        // Columns of many stretches begin where a stretch does: then no frame is looked at by itself.
+        // Columns of several stretches start at a stretch, so that no single samples need to be read.
         let per_column = shown.length * f64::from(SAMPLE_RATE) / columns as f64;
         let grid = if per_column >= 4.0 * Peaks::STRETCH as f64 { Peaks::STRETCH } else { 1 };
         let frame = |column: usize| {
@@ -49,7 +49,7 @@ impl Wave<'_> {
         painter.add(mesh);
     }
 
-    /// Round times, and the line between left and right.
+    /// Paints marks at round times, and the line between left and right.
     pub(super) fn scale(&self) {
         let Self { painter, palette, rect, shown } = self;
         painter.hline(rect.x_range(), rect.center().y, Stroke::new(1.0, palette.line));
@@ -66,7 +66,7 @@ impl Wave<'_> {
         }
     }
 
-    /// A line at a time, if that is in sight.
+    /// Paints a line at a time, if that is visible.
     pub(super) fn playhead(&self, secs: f64) {
         let x = self.x(secs);
         if self.rect.x_range().contains(x) {

@@ -11,12 +11,12 @@ use egui::{
     epaint::FontColorTransferFunction, vec2,
 };
 
-/// Returns the colours of what is shown in a place.
+/// Returns the palette for a `Ui`.
 pub(super) fn of(ui: &Ui) -> &'static Palette {
     of_visuals(ui.visuals())
 }
 
-/// Does the same where there is no place yet.
+/// The same without a `Ui`.
 pub(super) fn of_visuals(visuals: &Visuals) -> &'static Palette {
     match (visuals.dark_mode, visuals.panel_fill.is_opaque()) {
         (true, true) => &DARK,
@@ -26,15 +26,15 @@ pub(super) fn of_visuals(visuals: &Visuals) -> &'static Palette {
     }
 }
 
-/// Shows what follows in a place over a picture, which is seen through.
+/// Switches a `Ui` over a picture to translucent colours.
 pub(super) fn put_over_picture(ui: &mut Ui) {
     let palette = if ui.visuals().dark_mode { &DARK_OVER_PICTURE } else { &LIGHT_OVER_PICTURE };
     ui.style_mut().visuals = visuals(palette);
 }
 
-/// Puts both themes into effect; which one is shown is [`egui::Options::theme_preference`].
+/// Applies both themes; [`egui::Options::theme_preference`] chooses between them.
 pub(super) fn apply(ctx: &egui::Context) {
-    // A system that does not say what it prefers gets what pictures look best in.
+    // A system without a preference gets the theme in which pictures look best.
     ctx.options_mut(|options| options.fallback_theme = Theme::Dark);
     for (theme, palette) in [(Theme::Dark, &DARK), (Theme::Light, &LIGHT)] {
         ctx.style_mut_of(theme, |style| set(style, palette));
@@ -56,7 +56,7 @@ fn set(style: &mut Style, palette: &Palette) {
     style.spacing.window_margin = Margin::same(16);
     style.spacing.menu_margin = Margin::same(8);
     style.interaction.tooltip_delay = 0.4;
-    // Menus are there at once.
+    // Menus open without animation.
     style.animation_time = 0.0;
     style.interaction.selectable_labels = false;
     style.visuals = visuals(palette);
@@ -64,7 +64,7 @@ fn set(style: &mut Style, palette: &Palette) {
 
 fn visuals(p: &Palette) -> Visuals {
     let mut v = if p.is_dark { Visuals::dark() } else { Visuals::light() };
-    // Dark on light looks thinner than it is drawn.
+    // Dark text on light looks thinner than it is.
     if !p.is_dark {
         v.text_options.color_transfer_function = FontColorTransferFunction::Gamma(0.6);
     }
@@ -105,7 +105,7 @@ fn visuals(p: &Palette) -> Visuals {
     v
 }
 
-/// The frame of what stands in front of everything.
+/// Returns the frame of modal dialogs.
 pub(super) fn dialog(style: &Style) -> egui::Frame {
     egui::Frame::popup(style).inner_margin(Margin::same(18)).corner_radius(8)
 }

@@ -3,11 +3,11 @@
 use crate::diag::Severity;
 use egui::{Color32, Stroke};
 
-/// A set of colours. Text of any of them is readable on the panel, the background and what is raised.
+/// A set of colours. Text of any of them is readable on the panel, the background and raised surfaces.
 #[derive(Clone, Debug)]
 pub(crate) struct Palette {
     pub is_dark: bool,
-    /// Behind text that is typed.
+    /// The background of text fields.
     pub background: Color32,
     pub panel: Color32,
     /// Cards, popups, dialogs.
@@ -16,49 +16,49 @@ pub(crate) struct Palette {
     pub button_hovered: Color32,
     pub button_edge: Color32,
     pub line: Color32,
-    /// Beside the picture.
+    /// Around the picture.
     pub surround: Color32,
     pub text: Color32,
-    /// For what need not be read.
+    /// For text of low importance.
     pub weak: Color32,
     pub strong: Color32,
     pub accent: Color32,
-    /// Fills what is wanted first, parts of rails, and what is pressed.
+    /// Fills primary buttons, parts of rails, and pressed widgets.
     pub accent_fill: Color32,
-    /// Behind text of what is chosen: no blue, which means what is wanted first.
+    /// The background of selected text: not blue, which marks primary buttons.
     pub chosen: Color32,
     pub error: Color32,
     pub warning: Color32,
-    /// A place found.
+    /// A search match.
     pub found: Color32,
     pub good: Color32,
-    /// Behind code.
+    /// Colours drawn below code.
     pub code: CodeFills,
 }
 
-/// Holds what is drawn behind code.
+/// Colours drawn below code.
 #[derive(Clone, Debug)]
 pub(crate) struct CodeFills {
     pub selection: Color32,
-    /// While something else has the keyboard.
+    /// While something else has the keyboard focus.
     pub selection_idle: Color32,
     pub caret_line: Color32,
     pub uses: Color32,
     pub found: Color32,
     pub bracket: Color32,
-    /// Numbers of lines.
+    /// Line numbers.
     pub numbers: Color32,
-    /// Behind each row by itself, where nothing else is.
+    /// Below each row, if nothing else is.
     pub row: Color32,
 }
 
 impl Palette {
-    /// The picture is seen through it.
+    /// Returns whether the picture is visible through it.
     pub(crate) fn is_over_picture(&self) -> bool {
         self.background == Color32::TRANSPARENT
     }
 
-    /// The frame round what has the keyboard.
+    /// Returns the stroke of the focus frame.
     pub(crate) fn focus(&self) -> Stroke {
         Stroke::new(1.5, self.accent)
     }
@@ -76,7 +76,7 @@ const fn rgb(r: u8, g: u8, b: u8) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// Calm, so that the picture is what one looks at.
+/// Muted, so that the picture gets the attention.
 pub(crate) const DARK: Palette = Palette {
     is_dark: true,
     background: rgb(24, 26, 31),
@@ -109,7 +109,7 @@ pub(crate) const DARK: Palette = Palette {
     },
 };
 
-/// A colour of which so much is seen, of 255.
+/// Returns a colour with this alpha, from 0 to 255.
 const fn part(r: u8, g: u8, b: u8, alpha: u8) -> Color32 {
     const fn of(x: u8, alpha: u8) -> u8 {
         (x as u16 * alpha as u16 / 255) as u8
@@ -117,7 +117,7 @@ const fn part(r: u8, g: u8, b: u8, alpha: u8) -> Color32 {
     Color32::from_rgba_premultiplied(of(r, alpha), of(g, alpha), of(b, alpha), alpha)
 }
 
-/// Dark, and seen through. Behind text it is dense enough for any picture.
+/// Dark and translucent. Below text it is dense enough for any picture.
 pub(super) const DARK_OVER_PICTURE: Palette = Palette {
     background: Color32::TRANSPARENT,
     panel: part(14, 16, 20, 205),
@@ -189,7 +189,7 @@ pub(super) const LIGHT_OVER_PICTURE: Palette = Palette {
 mod tests {
     use super::*;
 
-    /// The ratio of contrast of WCAG 2.2.
+    /// Returns the contrast ratio of WCAG 2.2.
     fn contrast(a: Color32, b: Color32) -> f32 {
         let luminance = |c: Color32| {
             let [r, g, b] = [c.r(), c.g(), c.b()].map(|v| {
@@ -202,14 +202,14 @@ mod tests {
         a.max(b) / a.min(b)
     }
 
-    /// As it is seen over a ground.
+    /// Blends a colour over a background.
     fn over(color: Color32, ground: u8) -> Color32 {
         let seen = |c: u8| c + (u16::from(ground) * u16::from(255 - color.a()) / 255) as u8;
         Color32::from_rgb(seen(color.r()), seen(color.g()), seen(color.b()))
     }
 
     #[test]
-    fn code_can_be_read_over_the_worst_picture() {
+    fn code_is_readable_over_the_worst_picture() {
         for (p, picture) in [(DARK_OVER_PICTURE, 255), (LIGHT_OVER_PICTURE, 0)] {
             for ground in [p.code.row, p.panel].map(|color| over(color, picture)) {
                 for text in [p.text, p.strong, p.weak] {
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn every_text_can_be_read_on_every_ground() {
+    fn every_text_is_readable_on_every_background() {
         assert!((contrast(Color32::BLACK, Color32::WHITE) - 21.0).abs() < 0.01);
         for p in [DARK, LIGHT] {
             for ground in [p.background, p.panel, p.raised] {

@@ -1,9 +1,10 @@
-//! The files of a project's folder that a channel can read.
+//! Lists the files of a project's folder that a channel can read.
 
 use crate::project::{FileKind, kind_of_file};
 use std::path::{Path, PathBuf};
 
-/// Entries of folders that are looked at, and files that are listed: a folder of frames has thousands.
+/// The maximum number of folder entries that are visited, and of files that are listed: a folder of frames has
+/// thousands.
 const LOOKED_AT: usize = 4_000;
 const LISTED: usize = 60;
 
@@ -15,7 +16,7 @@ pub(crate) struct FolderFile {
     pub kind: FileKind,
 }
 
-/// Returns the image, video and sound files of a folder and of those in it, in the order of their names.
+/// Returns the image, video and sound files of a folder and of its subfolders, sorted by name.
 pub(super) fn files(folder: &Path) -> Vec<FolderFile> {
     let mut left = LOOKED_AT;
     let mut found = Vec::new();
@@ -28,7 +29,8 @@ pub(super) fn files(folder: &Path) -> Vec<FolderFile> {
     found
 }
 
-/// Adds the files of one folder, and returns its folders. Links are left out: what is behind them may be anywhere.
+/// Adds the files of one folder, and returns its subfolders. Symbolic links are skipped: their targets may be
+/// anywhere.
 fn look(folder: &Path, from: &Path, left: &mut usize, found: &mut Vec<FolderFile>) -> Vec<PathBuf> {
     let mut folders = Vec::new();
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
@@ -56,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn files_that_a_channel_reads_are_found_one_folder_deep() {
+    fn readable_files_are_found_one_folder_deep() {
         let dir = tempfile::tempdir().unwrap();
         std::fs::create_dir_all(dir.path().join("media/deep")).unwrap();
         for name in ["b.png", "image.glsl", "eddy.toml", "media/a.MP3", "media/deep/c.png", ".hidden.png", "clip.webm"]

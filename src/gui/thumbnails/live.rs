@@ -1,7 +1,7 @@
 //! The one preset whose picture moves.
 //!
-//! It is drawn on a thread and a device of their own, so that neither the window nor the pictures of textures wait for
-//! a frame, and only while it is wanted.
+//! It is drawn on a thread and a device of its own, only while requested, so that neither the window nor thumbnails of
+//! textures wait for a frame.
 
 use crate::{
     engine::{BuildOptions, Engine, FrameInputs, Program},
@@ -19,25 +19,25 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Pixels of the picture: sharp on a card at twice the density.
+/// The size of the picture in pixels: sharp on a card at twice the density.
 const SIZE: (u32, u32) = (320, 180);
-/// Frames that are drawn before the first is shown: until then the picture that lies in the program says more.
+/// The number of frames that are drawn before the first is shown: until then the built-in picture is better.
 const HIDDEN: i32 = 24;
-/// Least time between two frames that are shown; two are drawn in it.
+/// The minimum time between two frames that are shown; two are drawn in it.
 const INTERVAL: Duration = Duration::from_millis(33);
-/// Steps that the thread takes back behind others where a processor draws: a window that is used goes first.
+/// The niceness of the thread if a processor draws, so that a window in use has priority.
 const STEPS_BACK: i32 = 10;
 
 pub(super) struct Live {
     gpu: Gpu,
     wake: Arc<dyn Fn() + Send + Sync>,
     wanted: Arc<LiveRequests>,
-    /// `None` before the first one was wanted.
+    /// `None` before the first request.
     frames: Option<Receiver<(String, ColorImage)>>,
     shown: Option<(String, TextureHandle)>,
 }
 
-/// Holds what the thread shall draw.
+/// The preset that the thread is to draw.
 #[derive(Default)]
 struct LiveRequests {
     state: Mutex<State>,
@@ -47,7 +47,7 @@ struct LiveRequests {
 #[derive(Default)]
 struct State {
     name: Option<String>,
-    /// Nobody looks any more: the thread ends.
+    /// No longer needed: the thread ends.
     is_over: bool,
 }
 
@@ -78,7 +78,7 @@ impl Live {
     }
 
     fn start(&mut self) {
-        // One frame waits at most: a window that paints more slowly gets the newest it can.
+        // At most one frame is queued: a window that paints more slowly gets the newest possible.
         let (sender, frames) = sync_channel(1);
         let (gpu, wake, wanted) = (self.gpu.clone(), self.wake.clone(), self.wanted.clone());
         let work = move || {
@@ -87,7 +87,7 @@ impl Live {
             }
             let mut device = None;
             while let Some(name) = wanted.next() {
-                // A panic is this picture's alone.
+                // A panic only ends this picture.
                 let drawn = catch_unwind(AssertUnwindSafe(|| draw(&gpu, &mut device, &name, &wanted, &sender, &*wake)));
                 if let Err(why) = drawn.unwrap_or_else(|_| Err("this is a bug in Eddy".into())) {
                     log::warn!("{name} cannot be played: {why}");
@@ -97,7 +97,7 @@ impl Live {
         };
         match std::thread::Builder::new().name("live thumbnail".into()).stack_size(64 << 20).spawn(work) {
             Ok(_) => self.frames = Some(frames),
-            // The pictures then stand still, which is all that is lost.
+            // The pictures then do not move, which is the only loss.
             Err(e) => log::warn!("cannot start a thread for live thumbnails: {e}"),
         }
     }
@@ -128,7 +128,7 @@ impl Drop for Live {
 }
 
 impl LiveRequests {
-    /// Waits until a preset is wanted; `None` at the end.
+    /// Waits until a preset is requested; returns `None` at the end.
     fn next(&self) -> Option<String> {
         let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let waits = |state: &mut State| state.name.is_none() && !state.is_over;
@@ -147,7 +147,7 @@ impl LiveRequests {
         state.name.as_deref() == Some(name) && !state.is_over
     }
 
-    /// Rests until `end`, or until something else is wanted.
+    /// Waits until `end`, or until something else is requested.
     fn rest(&self, name: &str, end: Instant) {
         let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let waits = |state: &mut State| state.name.as_deref() == Some(name) && !state.is_over;
@@ -156,7 +156,7 @@ impl LiveRequests {
     }
 }
 
-/// Draws a preset for as long as it is wanted.
+/// Draws a preset for as long as it is requested.
 fn draw(
     window: &Gpu,
     device: &mut Option<Gpu>,
@@ -198,16 +198,16 @@ fn draw(
             Ok(()) | Err(TrySendError::Full(_)) => wake(),
             Err(TrySendError::Disconnected(_)) => return Ok(()),
         }
-        // A device that is slow rests for as long as it draws.
+        // A slow device rests for as long as it draws.
         let now = Instant::now();
         wanted.rest(name, (began + INTERVAL).max(now + (now - began)));
     }
     Ok(())
 }
 
-/// A pointer drawn in waves across the picture, so that what answers to the mouse has something to show.
+/// Returns the position of a pointer that is dragged in waves across the picture, for shaders that react to the mouse.
 fn stroke(frame: i32) -> [f32; 4] {
-    /// Frames of a stroke and the pause behind it.
+    /// The number of frames of a stroke and the pause after it.
     const STROKE: i32 = 70;
     const PAUSE: i32 = 50;
     let (width, height) = (SIZE.0 as f32, SIZE.1 as f32);

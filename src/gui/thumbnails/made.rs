@@ -1,4 +1,4 @@
-//! Each small picture as the thread of thumbnails makes it.
+//! Makes each thumbnail on the thread of thumbnails.
 
 use super::ThumbnailSource;
 use crate::project::{confine, limits};
@@ -12,13 +12,13 @@ use std::{
     path::Path,
 };
 
-/// Longest side of a texture's picture.
+/// The longest side of a texture's thumbnail.
 const SWATCH: usize = 96;
-/// Columns and rows of a sound's picture.
+/// The columns and rows of a sound's thumbnail.
 const WAVE: (usize, usize) = (96, 64);
-/// Seconds of a sound that are decoded for its picture.
+/// The number of seconds of a sound that are decoded for its thumbnail.
 const WAVE_SECONDS: u32 = 60;
-/// The most bytes and pixels a side that a recent project's picture may have.
+/// The maximum bytes of a recent project's picture, and the maximum pixels of a side.
 const RECENT_BYTES: u64 = 1 << 20;
 const RECENT_SIDE: u32 = 1024;
 
@@ -41,7 +41,7 @@ pub(super) fn make(subject: &ThumbnailSource) -> Result<ColorImage, String> {
     }
 }
 
-/// A wave in white, which is tinted where it is shown.
+/// Returns a waveform in white, which is tinted where it is shown.
 fn wave(outline: &[f32]) -> ColorImage {
     let (width, height) = (outline.len(), WAVE.1);
     let mut image = ColorImage::filled([width, height], Color32::TRANSPARENT);
@@ -54,7 +54,7 @@ fn wave(outline: &[f32]) -> ColorImage {
     image
 }
 
-/// The picture that lies in the program.
+/// Returns the built-in picture.
 fn preset(name: &str) -> Result<ColorImage, String> {
     let bytes = presets::thumbnail(name).ok_or_else(|| format!("{name} has no thumbnail"))?;
     let image = image::load_from_memory(bytes).map_err(|e| e.to_string())?.to_rgba8();
@@ -62,7 +62,8 @@ fn preset(name: &str) -> Result<ColorImage, String> {
     Ok(ColorImage::from_rgba_unmultiplied(size, image.as_raw()))
 }
 
-/// The picture of a recent project. Others can write where it lies: no more is read than one of ours has.
+/// Returns the picture of a recent project. Other programs can write to its folder: no more is read than one of Eddy's
+/// own pictures has.
 fn recent(file: &Path) -> Result<ColorImage, String> {
     let file = confine::open_state(file, limits::MEDIA_FILE).map_err(|e| e.to_string())?;
     let mut bytes = Vec::new();
@@ -76,7 +77,7 @@ fn recent(file: &Path) -> Result<ColorImage, String> {
     Ok(ColorImage::from_rgba_unmultiplied(size, image.as_raw()))
 }
 
-/// A texture as a small opaque picture, its top row first.
+/// Returns a texture as a small opaque picture, its top row first.
 fn swatch(texels: &Texels) -> ColorImage {
     let (width, height) = (texels.shape.width.max(1) as usize, texels.shape.height.max(1) as usize);
     let step = width.max(height).div_ceil(SWATCH).max(1);
@@ -84,7 +85,7 @@ fn swatch(texels: &Texels) -> ColorImage {
     let mut bytes = Vec::with_capacity(size[0] * size[1] * 4);
     for y in 0..size[1] {
         for x in 0..size[0] {
-            // Row 0 lies at the bottom.
+            // Row 0 is the bottom.
             bytes.extend(texel(texels, x * step, height - 1 - y * step));
         }
     }
@@ -104,7 +105,7 @@ fn texel(texels: &Texels, x: usize, y: usize) -> [u8; 4] {
             };
             [channel(0), channel(1), channel(2), 255]
         }
-        // No picture is decoded to any other.
+        // Pictures are never decoded to other formats.
         _ => [0, 0, 0, 255],
     }
 }
@@ -123,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn a_recent_picture_that_is_missing_damaged_or_too_large_is_none() {
+    fn missing_damaged_and_oversized_recent_pictures_are_rejected() {
         let dir = tempfile::tempdir().unwrap();
         let path = |name: &str| dir.path().join(name);
         let save = |name: &str, side: u32| image::RgbImage::new(side, 4).save(path(name)).unwrap();
@@ -140,14 +141,14 @@ mod tests {
     }
 
     #[test]
-    fn a_wave_is_as_high_as_it_is_loud() {
+    fn waveform_height_matches_loudness() {
         let image = wave(&[0.0, 0.5, 1.0]);
         let lit = |x: usize| (0..WAVE.1).filter(|y| image.pixels[y * 3 + x] == Color32::WHITE).count();
         assert_eq!((image.size, [0, 1, 2].map(lit)), ([3, WAVE.1], [1, 31, 61]));
     }
 
     #[test]
-    fn a_swatch_is_the_right_way_up_and_opaque() {
+    fn swatches_are_upright_and_opaque() {
         let bytes = [[1, 2, 3, 0], [4, 5, 6, 0], [7, 8, 9, 0], [10, 11, 12, 0]].concat();
         let image = swatch(&Texels::flat(2, 2, TexelFormat::Rgba8, bytes));
         assert_eq!(image.size, [2, 2]);

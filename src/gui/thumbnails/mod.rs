@@ -1,5 +1,6 @@
-//! Small pictures: of presets, which lie in the program and come alive under the pointer, of textures, of the first frames of
-//! videos and of the waves of sounds. They are made in the background; of all but presets the newest are kept.
+//! Thumbnails of presets, which are built in and move below the pointer, of textures, of the first frames of videos
+//! and of the waveforms of sounds. They are made in the background; except for those of presets, only the most recent
+//! are kept.
 
 mod folder;
 mod live;
@@ -21,26 +22,27 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Pictures that are kept besides those of presets: at most 320x180 of 4 bytes a texel, most of them 96x96.
+/// The number of thumbnails kept in addition to those of presets: at most 320x180 of 4 bytes a texel, most of them
+/// 96x96.
 const KEPT: usize = 240;
-/// A folder that is shown is listed again after this.
+/// A folder that is shown is listed again after this time.
 const LIST_AGAIN: Duration = Duration::from_secs(2);
 
-/// The subject of a small picture.
+/// The subject of a thumbnail.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum ThumbnailSource {
     Preset(String),
-    /// The file of a recent project's picture, and which of those that were written there it is.
+    /// The file of a recent project's picture, and its version.
     Recent(PathBuf, u64),
-    /// A picture a channel can read; files lie relative to the folder.
+    /// A picture that a channel can read; paths are relative to the folder.
     Texture(MediaKey, Option<PathBuf>),
     /// The first frame of a video.
     Video(Media, Option<PathBuf>),
-    /// The wave of the first minute of a sound, in white.
+    /// The waveform of the first minute of a sound, in white.
     Sound(Media, Option<PathBuf>),
 }
 
-/// The state of a small picture.
+/// The state of a thumbnail.
 #[derive(Clone)]
 pub(super) enum Thumbnail {
     Waiting,
@@ -61,7 +63,7 @@ pub(super) struct Thumbnails {
 
 struct CachedThumbnail {
     thumbnail: Thumbnail,
-    /// The frame of the window that showed it last.
+    /// The last frame of the window that showed it.
     shown_in: u64,
 }
 
@@ -73,7 +75,7 @@ struct Listed {
     asked_at: Option<Instant>,
 }
 
-/// An order of the thread.
+/// A request to the thread.
 enum ThumbnailRequest {
     Picture(ThumbnailSource),
     Files(PathBuf),
@@ -84,7 +86,8 @@ enum ThumbnailResult {
     Files(PathBuf, Vec<FolderFile>),
 }
 
-/// Returns the newest order, as what was scrolled away is not looked at. `None`: nobody asks any more.
+/// Returns the newest request first, because older ones may be scrolled out of view. Returns `None` if the window is
+/// gone.
 fn newest(orders: &Receiver<ThumbnailRequest>, waiting: &mut Vec<ThumbnailRequest>) -> Option<ThumbnailRequest> {
     if waiting.is_empty() {
         waiting.push(orders.recv().ok()?);
@@ -94,7 +97,7 @@ fn newest(orders: &Receiver<ThumbnailRequest>, waiting: &mut Vec<ThumbnailReques
 }
 
 impl Thumbnails {
-    /// Starts the thread that makes them. `wake` is called when there is a new one.
+    /// Starts the thread that makes them. `wake` is called when a new one is ready.
     pub(super) fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
         let (wanted, wanted_here) = channel::<ThumbnailRequest>();
         let (made_here, made) = channel();
@@ -104,7 +107,7 @@ impl Thumbnails {
             while let Some(wanted) = newest(&wanted_here, &mut waiting) {
                 let made = match wanted {
                     ThumbnailRequest::Picture(subject) => {
-                        // A panic is this picture's alone; the others are still wanted.
+                        // A panic only affects this picture; the others are still needed.
                         let image = catch_unwind(AssertUnwindSafe(|| made::make(&subject)));
                         ThumbnailResult::Picture(subject, image.unwrap_or_else(|_| Err("this is a bug in Eddy".into())))
                     }
@@ -120,13 +123,13 @@ impl Thumbnails {
             }
         };
         if let Err(e) = std::thread::Builder::new().name("thumbnails".into()).spawn(work) {
-            // The cards then stay without pictures, which is all they lose.
+            // The cards then have no pictures, which is the only loss.
             log::warn!("cannot start a thread for thumbnails: {e}");
         }
         Self { known: HashMap::new(), wanted, made, live, listed: Listed::default(), frame: 0 }
     }
 
-    /// Takes in what has been made since.
+    /// Takes over the thumbnails that were made since the last call.
     pub(super) fn update(&mut self, ctx: &egui::Context) {
         self.frame += 1;
         while let Ok(made) = self.made.try_recv() {
@@ -150,17 +153,17 @@ impl Thumbnails {
         self.live.update(ctx);
     }
 
-    /// Says which preset's picture moves; none: all stand still.
+    /// Sets which preset's picture moves; `None`: none does.
     pub(super) fn animate(&mut self, name: Option<&str>) {
         self.live.want(name);
     }
 
-    /// The newest frame of a preset's picture that moves.
+    /// Returns the newest frame of a preset's picture that moves.
     pub(super) fn live(&self, name: &str) -> Option<TextureHandle> {
         self.live.frame(name)
     }
 
-    /// The picture, as far as it is known; asks for it the first time.
+    /// Returns the thumbnail in its current state; requests it the first time.
     pub(super) fn get(&mut self, subject: ThumbnailSource) -> Thumbnail {
         let shown_in = self.frame;
         if let Some(known) = self.known.get_mut(&subject) {
@@ -172,7 +175,7 @@ impl Thumbnails {
             self.known.insert(subject, CachedThumbnail { thumbnail, shown_in });
             return Thumbnail::Waiting;
         }
-        // The picture that was there before has served.
+        // Drop the previous version of the picture.
         if let ThumbnailSource::Recent(file, _) = &subject {
             self.known.retain(|known, _| !matches!(known, ThumbnailSource::Recent(other, _) if other == file));
         }
@@ -180,8 +183,8 @@ impl Thumbnails {
         Thumbnail::Waiting
     }
 
-    /// Returns the files of a project's folder that a channel can read, as far as they are known. The folder is listed again now
-    /// and then while it is asked for.
+    /// Returns the files of a project's folder that a channel can read, as far as they are known. The folder is listed
+    /// again at intervals while this is called.
     pub(super) fn files(&mut self, folder: &Path, now: Instant) -> Arc<[FolderFile]> {
         if self.listed.folder != folder {
             self.listed = Listed { folder: folder.to_owned(), ..Listed::default() };
@@ -193,7 +196,7 @@ impl Thumbnails {
         self.listed.files.clone()
     }
 
-    /// Forgets pictures that have not been shown for the longest time, where there are more than are kept.
+    /// Drops the least recently shown thumbnails if there are more than are kept.
     fn forget_the_oldest(&mut self) {
         let is_counted = |(subject, known): &(&ThumbnailSource, &CachedThumbnail)| {
             !matches!(subject, ThumbnailSource::Preset(_)) && !matches!(known.thumbnail, Thumbnail::Waiting)
@@ -204,7 +207,7 @@ impl Thumbnails {
             return;
         }
         shown.sort_unstable();
-        // What is shown now stays, however much it is.
+        // Visible ones are kept, however many there are.
         let newest_to_forget = shown[shown.len() - KEPT - 1].min(self.frame.saturating_sub(2));
         self.known.retain(|subject, known| !is_counted(&(subject, known)) || known.shown_in > newest_to_forget);
     }

@@ -1,5 +1,4 @@
-//! The menu of time: a time to go to, speed, fixed steps, the part that is played again and again, and what an edit
-//! does.
+//! The menu of time: go to a time, speed, fixed steps, the loop, and what an edit does.
 
 use super::seconds;
 use crate::{
@@ -8,10 +7,10 @@ use crate::{
 };
 use egui::{Button, DragValue, Id, Key, Popup, PopupCloseBehavior, Role, TextEdit, Ui, vec2};
 
-/// Speeds against the clock's.
+/// The selectable speeds relative to real time.
 pub(super) const SPEEDS: [(f64, &str); 7] =
     [(0.125, "1/8"), (0.25, "1/4"), (0.5, "1/2"), (1.0, "1×"), (2.0, "2×"), (4.0, "4×"), (8.0, "8×")];
-/// Length of a part that nobody has marked yet, in seconds.
+/// The length of a loop without marks, in seconds.
 pub(super) const USUAL_RANGE: f64 = 2.0;
 
 fn popup() -> Id {
@@ -22,11 +21,11 @@ fn typed() -> Id {
     Id::unique("time that is typed")
 }
 
-/// Opens the menu with the keyboard in its time.
+/// Opens the menu with the keyboard focus in its time field.
 pub(super) fn open(ctx: &egui::Context) {
     Popup::open_id(ctx, popup());
     ctx.data_mut(|data| data.insert_temp(typed(), String::new()));
-    // The field is not there yet.
+    // The field does not exist yet.
     ctx.data_mut(|data| data.insert_temp(is_asked(), true));
 }
 
@@ -38,7 +37,7 @@ fn field() -> Id {
     Id::unique("time to go to")
 }
 
-/// The time as a number on a button, which opens the menu.
+/// Shows the time on a button that opens the menu.
 pub(crate) fn button(ui: &mut Ui, width: f32, text: &str, session: &Session, out: &mut UiOutput) {
     let font = egui::FontId::monospace(12.0);
     let (rect, response) = ui.allocate_exact_size(vec2(width, 24.0), egui::Sense::click());

@@ -1,5 +1,5 @@
-//! Time as a line: where the picture is, which frames it has been through, the part that is played again and again; and
-//! the menu with what time does. Draws no frame and keeps no time: it asks the session.
+//! The timeline: the current time, the frames that were drawn, the loop; and the menu of time. Draws no frames and
+//! keeps no time: it sends commands to the session.
 
 mod menu;
 mod seconds;
@@ -11,18 +11,18 @@ use super::{accessible, actions::TimeAction, theme, ui_output::UiOutput};
 use crate::session::{Command, Session, TimeRange};
 use egui::{Key, Rect, Role, Sense, Stroke, Ui, Vec2, pos2, vec2};
 
-/// Height of the line.
+/// The height of the line.
 pub(super) const HEIGHT: f32 = 12.0;
 
-/// Seconds that a larger step of the keyboard goes.
+/// The number of seconds of a larger step by keys.
 const STRIDE: f64 = 1.0;
 
-/// Fills the width there is. A hand goes to a time, with Shift it marks the part that is played again and again.
+/// Fills the available width. A drag seeks; with Shift it marks the loop.
 pub(super) fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let p = theme::of(ui);
     let (transport, reach, range) = (session.transport(), session.reach(), session.time_range());
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::CLICK | Sense::DRAG);
-    // Above the line: below it are the buttons that one wants next.
+    // Above the line, because the buttons that one needs next are below it.
     let mut tip = egui::Tooltip::for_enabled(&response);
     tip.popup = tip.popup.align(egui::RectAlign::TOP_START);
     tip.show(|ui| {
@@ -79,12 +79,12 @@ pub(super) fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     } else if response.clicked() && ui.input(|input| input.modifiers.shift) {
         out.ask(Command::SetTimeRange(None));
     } else if response.clicked() || response.drag_started() || response.drag_delta() != Vec2::ZERO {
-        // A hand that rests asks for nothing.
+        // A pointer at rest sends no commands.
         out.ask(Command::Seek(secs));
     }
 }
 
-/// Does what a key or the palette asks of time.
+/// Applies an action of time from a key or the palette.
 pub(super) fn act(ctx: &egui::Context, session: &Session, action: TimeAction, out: &mut UiOutput) {
     let (transport, range) = (session.transport(), session.time_range());
     let time = transport.time_secs;
@@ -109,7 +109,7 @@ pub(super) fn act(ctx: &egui::Context, session: &Session, action: TimeAction, ou
     out.ask(ask);
 }
 
-/// Arrows go by a frame, page keys by a second, Home to the beginning.
+/// Arrows go by a frame, page keys by a second, Home to the start.
 fn keys(ui: &Ui, session: &Session, response: &egui::Response, out: &mut UiOutput) {
     if !response.has_focus() {
         return;

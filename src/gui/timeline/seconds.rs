@@ -1,6 +1,6 @@
-//! Times as people write them, and how long a line of time is.
+//! Times as text, and the length of the timeline.
 
-/// Returns how many seconds a line shows that holds all of these: a round number, with room to go on.
+/// Returns the number of seconds of a timeline that contains all of these: a round number, with room to continue.
 pub(super) fn end(all: impl IntoIterator<Item = f64>) -> f64 {
     const ROUND: [f64; 9] = [10.0, 20.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0];
     let last = all.into_iter().filter(|secs| secs.is_finite()).fold(0.0, f64::max);
@@ -8,7 +8,7 @@ pub(super) fn end(all: impl IntoIterator<Item = f64>) -> f64 {
     ROUND.into_iter().find(|round| last <= 0.95 * round).unwrap_or_else(hours)
 }
 
-/// Writes seconds, with minutes and hours where there are any: `9.25`, `1:02.50`, `1:00:00.00`.
+/// Formats seconds, with minutes and hours if there are any: `9.25`, `1:02.50`, `1:00:00.00`.
 pub(crate) fn written(secs: f64) -> String {
     let hundredths = (secs.max(0.0) * 100.0).round() as u64;
     let (whole, part) = (hundredths / 100, hundredths % 100);
@@ -20,7 +20,7 @@ pub(crate) fn written(secs: f64) -> String {
     }
 }
 
-/// Reads what [`written`] writes, or seconds alone, as in `90` or `12.5 s`. `None`: it is no time.
+/// Parses the output of [`written`], or seconds alone, as in `90` or `12.5 s`. Returns `None` if it is not a time.
 pub(super) fn read(text: &str) -> Option<f64> {
     let text = text.trim().trim_end_matches('s').trim_end();
     let parts: Vec<&str> = text.split(':').collect();
@@ -39,7 +39,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn times_are_read_as_they_are_written() {
+    fn times_round_trip() {
         for secs in [0.0, 9.25, 59.99, 60.0, 62.5, 3599.0, 3600.0, 86_399.01] {
             assert!((read(&written(secs)).unwrap() - secs).abs() < 1e-9, "{secs}: {}", written(secs));
         }
@@ -51,7 +51,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_round_and_has_room() {
+    fn timeline_length_is_round_with_room() {
         assert_eq!(end([0.0]), 10.0);
         assert_eq!(end([9.6, 3.0]), 20.0);
         assert_eq!(end([5.0, 100.0, f64::NAN]), 120.0);

@@ -1,4 +1,4 @@
-//! The buttons that go from moment to moment.
+//! The buttons that step through a trace.
 
 use crate::{
     debugger::trace::travel::{Direction, Stride},
@@ -26,7 +26,7 @@ const BACK: [TraceAction; 5] = [
     TraceAction::Go(Stride::Into, Direction::Back),
 ];
 
-/// Shows those that go back, then those that go on.
+/// Shows the buttons for going back, then those for going forward.
 pub(super) fn show(ui: &mut Ui, is_on: bool, out: &mut UiOutput) {
     ui.spacing_mut().item_spacing.x = 2.0;
     for (index, action) in BACK.into_iter().chain(FORWARD).enumerate() {
@@ -54,7 +54,7 @@ fn button(ui: &mut Ui, action: TraceAction, is_on: bool, out: &mut UiOutput) {
     }
 }
 
-/// The name of a button, for scripts.
+/// Returns the name of a button, for scripts.
 fn name(action: TraceAction) -> &'static str {
     match action {
         TraceAction::Go(Stride::Into, Direction::Forward) => "into",

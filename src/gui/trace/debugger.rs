@@ -1,4 +1,4 @@
-//! The state of the debugger, and what its keys do.
+//! The state of the debugger, and its actions.
 
 use super::moment::{MomentState, Rows};
 use crate::{
@@ -17,29 +17,29 @@ use std::{collections::HashMap, sync::Arc};
 #[derive(Default)]
 pub(crate) struct Debugger {
     pub(super) examiner: Option<Examiner>,
-    /// The moment, and the one that was shown before.
+    /// The current moment, and the one that was shown before.
     pub(super) at: usize,
     before: Option<usize>,
     pub(super) breakpoints: Vec<Breakpoint>,
-    /// The texts that the breakpoints' lines are of.
+    /// The texts to which the breakpoints' lines refer.
     texts: HashMap<Tab, String>,
     pub(super) watches: Vec<String>,
     pub(super) new_watch: String,
-    /// The variable that is plotted; none: the first that changes.
+    /// The variable that is plotted; `None`: the first that changes.
     pub(super) plotted: Option<String>,
-    /// Holds what there is to see at the moment.
+    /// The contents of the current moment.
     pub(super) seen: Option<MomentState>,
-    /// The rows of the moment before: most moments are in its loop.
+    /// The rows of the previous moment: most moments are in the same loop.
     rows: Option<Rows>,
     pub(super) printed: Option<Vec<Printed>>,
-    /// Said of the newest step.
+    /// The message about the newest step.
     pub(super) said: Option<&'static str>,
     /// The editor is to show the line.
     reveals: bool,
 }
 
 impl Debugger {
-    /// Takes over what the session has new.
+    /// Takes over the session's newest trace.
     pub(crate) fn prepare(&mut self, session: &Session) {
         self.follow_texts(session);
         let traced = session.trace().traced;
@@ -52,9 +52,9 @@ impl Debugger {
         if is_same {
             return;
         }
-        // Another frame, or the same code: one stays where one was.
+        // Another frame, or the same code: the position is kept.
         let stays = traced.zip(known).is_some_and(|(new, known)| is_like(new, known));
-        // Who edits while a pixel is traced is not led away from where one types.
+        // Editing while a pixel is traced must not scroll away from the caret.
         self.reveals = traced.zip(known).is_none_or(|(new, known)| !is_of_pixel(new, known));
         self.examiner = traced.map(|traced| Examiner::new(traced.clone()));
         (self.seen, self.rows, self.printed, self.said) = (None, None, None, None);
@@ -65,7 +65,7 @@ impl Debugger {
         }
     }
 
-    /// Finds what there is to see, unless it is known.
+    /// Computes what is shown, unless it is cached.
     pub(super) fn look(&mut self) -> Option<&MomentState> {
         let examiner = self.examiner.as_mut()?;
         if self.seen.is_none() {
@@ -75,20 +75,20 @@ impl Debugger {
         self.seen.as_ref()
     }
 
-    /// Forgets what there is to see: it is found anew.
+    /// Clears what is shown, so that it is computed again.
     pub(super) fn forget(&mut self) {
         if let Some(seen) = self.seen.take() {
             self.rows = Some(seen.rows);
         }
     }
 
-    /// Returns the breakpoints: tabs and lines from 0.
+    /// Returns the breakpoints as tabs and lines, counted from 0.
     #[cfg(test)]
     pub(crate) fn lines(&self) -> Vec<(Tab, usize)> {
         self.breakpoints.iter().map(|b| (b.tab.clone(), b.line)).collect()
     }
 
-    /// There is a way to go.
+    /// Returns whether there is a trace.
     pub(crate) fn is_on(&self) -> bool {
         self.examiner.is_some()
     }
@@ -111,8 +111,8 @@ impl Debugger {
         }
     }
 
-    /// Sets a breakpoint at a line from 0, or takes it away. A line without a statement has none: the next that has one
-    /// gets it. Fails where there is none.
+    /// Toggles the breakpoint at a line, counted from 0. A line without a statement moves it to the next line with
+    /// one. Fails if there is none.
     pub(crate) fn toggle(&mut self, session: &Session, tab: &Tab, line: usize) -> Result<(), &'static str> {
         self.forget();
         let at = |line: usize| self.breakpoints.iter().position(|b| b.tab == *tab && b.line == line);
@@ -132,8 +132,7 @@ impl Debugger {
         Ok(())
     }
 
-    /// Does what a key or a button asks for. `caret`: the tab and line from 0 where it is.
-    /// Fails as [`Debugger::toggle`] does.
+    /// Applies an action of a key or a button. `caret`: its tab and line, from 0. Fails as [`Debugger::toggle`] does.
     pub(crate) fn act(
         &mut self,
         session: &Session,
@@ -181,8 +180,8 @@ impl Debugger {
         self.reveals = true;
     }
 
-    /// The tab and the line from 0 that one is at, in the text as it is edited, with its bytes where that is the text
-    /// that was walked through.
+    /// Returns the tab and the line (from 0) of the current moment, in the text as edited; also its bytes if that is
+    /// the text that was traced.
     fn place(&self, session: &Session) -> Option<(Tab, usize, Option<std::ops::Range<usize>>)> {
         let traced = &self.examiner.as_ref()?.traced;
         let (tab, line, range) = traced.place(traced.history.span(self.at)?)?;
@@ -205,14 +204,14 @@ impl Debugger {
         }
     }
 
-    /// The tab and line that are to be brought into sight, once.
+    /// Returns the tab and line to scroll into view, once.
     pub(crate) fn take_reveal(&mut self, session: &Session) -> Option<(Tab, usize)> {
         let reveals = std::mem::take(&mut self.reveals);
         self.place(session).filter(|_| reveals).map(|(tab, line, _)| (tab, line))
     }
 }
 
-/// Returns whether a place in the one's way is the same in the other's: the same pixel and the same texts.
+/// Returns whether a position in one trace is valid in the other: the same pixel and the same texts.
 fn is_like(new: &Traced, known: &Traced) -> bool {
     let texts = |traced: &Traced| [Tab::Common, traced.tab.clone()].map(|tab| traced.text(&tab).to_owned());
     is_of_pixel(new, known) && new.tab == known.tab && texts(new) == texts(known)

@@ -1,5 +1,4 @@
-//! The walker's value of the pixel and the device's; where they are apart, the first assignment that the device makes
-//! otherwise.
+//! The CPU's value of the pixel and the device's; if they differ, the first assignment in which the device differs.
 
 use super::parts;
 use crate::{
@@ -15,19 +14,20 @@ use crate::{
 };
 use egui::{Id, Label, RichText, Ui};
 
-/// Below it, where the panel may end at the window's edge.
+/// The margin below, because the panel may end at the window's edge.
 const MARGIN: f32 = 6.0;
 
 fn height_id() -> Id {
     Id::unique("height of the foot of a trace")
 }
 
-/// Returns what the foot of the panel took in the last frame: values wrap by the panel's width and their digits.
+/// Returns the height of the panel's foot in the last frame: values wrap depending on the panel's width and their
+/// digits.
 pub(super) fn height(ui: &Ui) -> f32 {
     ui.data(|d| d.get_temp(height_id())).unwrap_or(40.0)
 }
 
-/// Shows both values, how far they are apart, and what a search for the first difference found.
+/// Shows both values, their difference, and the result of a search for the first difference.
 pub(super) fn show(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut UiOutput) {
     let before = height(ui);
     let shown = ui.vertical(|ui| {

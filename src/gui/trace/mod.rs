@@ -1,7 +1,7 @@
-//! The debugger: a pixel's way through its pass, gone forwards and backwards.
+//! The debugger: the trace of a pixel through its pass, stepped forwards and backwards.
 //!
-//! Owns where in it one is, breakpoints and watches ([`Debugger`]), and the panel that shows them. What a moment holds,
-//! and where a step leads to, is [`crate::debugger::trace`]'s.
+//! Owns the position in the trace, breakpoints and watches ([`Debugger`]), and the panel that shows them.
+//! [`crate::debugger::trace`] computes the contents of a moment and the target of a step.
 
 mod buttons;
 mod debugger;

@@ -1,26 +1,26 @@
-//! Owns what there is to see at a moment, found once for it.
+//! The contents of a moment, computed once for it.
 
 use crate::{
     debugger::trace::{Breakpoint, Examiner, Iteration, NamedValue, Number, Value, Watched},
     project::Tab,
 };
 
-/// A value is shown with so many numbers at most.
+/// The maximum number of numbers shown of a value.
 const MOST_NUMBERS: usize = 16;
-/// Rows of a loop.
+/// The maximum number of rows of a loop.
 const MOST_TURNS: usize = 2000;
-/// Variables of a loop's table.
+/// The maximum number of variables in a loop's table.
 const COLUMNS: usize = 6;
 
 pub(super) struct MomentState {
     pub variables: Vec<Variable>,
     pub watches: Vec<Watched>,
-    /// The calls that it lies in, with moments to go to.
+    /// The call stack, with moments to go to.
     pub stack: Vec<(String, usize)>,
     pub rows: Rows,
-    /// Holds what the function gives back.
+    /// The return value of the function.
     pub result: Option<Value>,
-    /// Holds for each breakpoint what is wrong with its condition here.
+    /// For each breakpoint, the error in its condition here.
     pub conditions: Vec<Option<String>>,
     /// The line, from 0.
     pub place: Option<(Tab, usize)>,
@@ -28,16 +28,16 @@ pub(super) struct MomentState {
 
 pub(super) struct Variable {
     pub shown: NamedValue,
-    /// It is another than at the moment that was shown before.
+    /// It differs from the moment that was shown before.
     pub is_changed: bool,
 }
 
-/// The turns of the loop around a moment.
+/// The iterations of the loop around a moment.
 #[derive(Default)]
 pub(super) struct Rows {
     pub names: Vec<String>,
     pub rows: Vec<Row>,
-    /// The turn that the moment is in.
+    /// The iteration that contains the moment.
     pub current: Option<usize>,
     pub is_cut: bool,
 }
@@ -54,7 +54,7 @@ impl Rows {
 }
 
 impl MomentState {
-    /// Returns what there is to see at a moment, and what has changed since the one that was shown before.
+    /// Computes what is shown at a moment, and what has changed since the one that was shown before.
     pub(super) fn new(
         examiner: &mut Examiner,
         at: usize,
@@ -84,7 +84,7 @@ impl MomentState {
         let is_cut = turns.len() > MOST_TURNS;
         let current = turns.iter().position(|turn| (turn.first..=turn.end).contains(&at));
         let first = turns.first().map(|turn| turn.first);
-        // In one loop they stay the same.
+        // Within a loop they stay the same.
         let rows = match known {
             Some(rows) if rows.first() == first => rows,
             _ => table(turns.into_iter().take(MOST_TURNS).map(|turn| (turn, history.turn_values(&turn))).collect()),
@@ -102,12 +102,12 @@ impl MomentState {
 }
 
 fn is_same(a: &Value, b: &Value) -> bool {
-    // NaN is no other than it was.
+    // NaN must equal itself.
     let bits = |value: &Value| value.numbers.iter().map(|n| n.as_f64().to_bits()).collect::<Vec<_>>();
     a.type_text == b.type_text && bits(a) == bits(b)
 }
 
-/// The variables that change from turn to turn, no more than there is room for: numbers before vectors.
+/// Returns the variables that change between iterations, as many as fit: numbers before vectors.
 fn table(turns: Vec<(Iteration, Vec<NamedValue>)>) -> Rows {
     let mut names: Vec<(usize, String)> = Vec::new();
     for (_, values) in &turns {
@@ -122,7 +122,7 @@ fn table(turns: Vec<(Iteration, Vec<NamedValue>)>) -> Rows {
                 names.push((count, shown.name.clone()));
             }
         }
-        // What a later turn alone has is seldom worth a column, and looking for it is dear.
+        // Variables that only a later iteration has are seldom worth a column, and finding them is expensive.
         if names.len() >= COLUMNS {
             break;
         }
@@ -137,7 +137,7 @@ fn table(turns: Vec<(Iteration, Vec<NamedValue>)>) -> Rows {
     Rows { rows: rows.collect(), names, current: None, is_cut: false }
 }
 
-/// A value as it is shown: a number, or several in brackets.
+/// Formats a value: a number, or several in brackets.
 pub(super) fn words(value: &Value) -> String {
     let list = |numbers: &[Number]| numbers.iter().map(Number::to_string).collect::<Vec<_>>().join(", ");
     match &value.numbers[..] {

@@ -1,4 +1,4 @@
-//! The panel: buttons, where one is, what there is to see, and at its foot how far the walker is from the device.
+//! The panel: buttons, the position, what is shown there, and at its foot how far the CPU differs from the device.
 
 use super::{
     buttons,
@@ -21,11 +21,11 @@ use crate::{
 };
 use egui::{Label, RichText, ScrollArea, TextEdit, Ui, vec2};
 
-/// Values of a comment that are listed.
+/// The maximum number of values listed for a comment.
 const SHOWN: usize = 200;
-/// Two columns where there is room for them.
+/// The minimum width for two columns.
 const WIDE: f32 = 560.0;
-/// The least height for what is above the foot.
+/// The minimum height of what is above the foot.
 const LEAST: f32 = 110.0;
 
 pub(crate) fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
@@ -64,12 +64,12 @@ pub(crate) fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out:
         return;
     };
     whereabouts(debugger, &traced, ui, out);
-    // The foot stays in sight while there is room for it and for what is above; else it is scrolled to.
+    // The foot stays visible if there is room for it and for what is above; otherwise it scrolls.
     let room = ui.available_height() - divergence::height(ui);
     let has_foot = room >= LEAST;
     let height = if has_foot { room } else { ui.available_height() };
     ScrollArea::vertical().id_salt("trace").max_height(height).auto_shrink(false).show(ui, |ui| {
-        // Rows of text, one close below the other.
+        // Rows of text are packed tightly.
         ui.spacing_mut().interact_size.y = 19.0;
         if ui.available_width() > WIDE {
             ui.columns(2, |columns| {
@@ -95,7 +95,7 @@ pub(crate) fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out:
     }
 }
 
-/// The pixel, the line, and how far along one is.
+/// Shows the pixel, the line, and the position in the trace.
 fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut UiOutput) {
     let (at, said) = (debugger.at, debugger.said);
     let p = theme::of(ui);

@@ -1,4 +1,4 @@
-//! Owns what the panel's parts share: titles, names with values, colours of vectors.
+//! Shared parts of the panel: titles, names with values, colours of vectors.
 
 use super::moment::words;
 use crate::{
@@ -7,13 +7,13 @@ use crate::{
 };
 use egui::{Color32, Label, Rect, Response, RichText, Sense, StrokeKind, Ui, vec2};
 
-/// A title over a part.
+/// Shows a title over a part.
 pub(super) fn title(ui: &mut Ui, text: &str) {
     ui.add_space(4.0);
     ui.label(RichText::new(text).size(11.5).color(theme::of(ui).weak));
 }
 
-/// A name and its value in a line. `is_changed`: marked.
+/// Shows a name and its value in a line. `is_changed`: marked.
 pub(super) fn value(ui: &mut Ui, name: &str, value: &Value, is_changed: bool) -> Rect {
     let p = theme::of(ui);
     let color = if is_changed { p.accent } else { p.text };
@@ -28,7 +28,7 @@ pub(super) fn value(ui: &mut Ui, name: &str, value: &Value, is_changed: bool) ->
     row.response.rect
 }
 
-/// The colour that a vector is, where it is one.
+/// Shows the colour of a vector, if it is one.
 pub(super) fn swatch(ui: &mut Ui, value: &Value) {
     if !value.is_vector {
         return;
@@ -39,7 +39,7 @@ pub(super) fn swatch(ui: &mut Ui, value: &Value) {
     ui.painter().rect(rect, 2.0, Color32::from_rgb(r, g, b), (1.0, theme::of(ui).line), StrokeKind::Inside);
 }
 
-/// A small button with a text.
+/// Shows a small button with a text.
 pub(super) fn button(ui: &mut Ui, place: &str, text: &str, tip: &str, out: &mut UiOutput) -> bool {
     let response: Response = ui.small_button(text).on_hover_text(tip);
     out.clicked(place, &response)

@@ -1,4 +1,4 @@
-//! Owns what scripts are told of the debugger.
+//! The debugger's report for scripts.
 
 use super::{debugger::Debugger, moment::words};
 use crate::{
@@ -59,7 +59,7 @@ impl Debugger {
     }
 }
 
-/// The search for where the device parts: its name, its line and how far it is apart there.
+/// Returns the search for the first difference from the device: its name, its line and the difference there.
 fn divergence(session: &Session) -> Value {
     match session.divergence() {
         None => Value::Null,

@@ -1,4 +1,4 @@
-//! The turns of a loop: a row each, and a variable over them.
+//! The iterations of a loop: a row for each, and a plot of a variable over them.
 
 use super::{
     moment::{Rows, words},
@@ -8,15 +8,15 @@ use crate::gui::{accessible, theme, ui_output::UiOutput};
 use egui::{Align2, ComboBox, FontId, Rect, ScrollArea, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 const ROW: f32 = 18.0;
-/// The number of the turn.
+/// The width of the column with the number of the iteration.
 const FIRST: f32 = 40.0;
 const PLOT: f32 = 64.0;
 
-/// Says what was asked for in the table.
+/// A request from the table.
 pub(super) enum RowAction {
-    /// A moment to go to.
+    /// Go to a moment.
     GoTo(usize),
-    /// Another variable over the turns.
+    /// Plot another variable.
     Plot(String),
 }
 
@@ -46,7 +46,7 @@ pub(super) fn show(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut Ui
     let height = (8.0 * ROW).min(rows.rows.len() as f32 * ROW + 2.0);
     let mut area = ScrollArea::vertical().id_salt("turns").max_height(height).auto_shrink([false, true]);
     if let Some(current) = rows.current {
-        // The turn that one is in is in the middle when it is another one than before.
+        // The current iteration is centred when it has changed.
         let id = ui.scope_id().with("turn shown");
         let is_new = ui.data_mut(|d| d.get_temp::<usize>(id).replace(current) != Some(current));
         if is_new {
@@ -79,7 +79,7 @@ pub(super) fn show(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut Ui
     asked
 }
 
-/// The variable that is plotted, of those that there are.
+/// Returns the plotted variable among those available.
 fn chosen(rows: &Rows, plotted: Option<&str>) -> Option<usize> {
     let is_asked = |name: &String| Some(name.as_str()) == plotted;
     let floats = |index: &usize| {
@@ -105,7 +105,7 @@ fn choice(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut UiOutput) -
     asked
 }
 
-/// A variable's first number over the turns.
+/// Plots a variable's first number over the iterations.
 fn plot(ui: &mut Ui, rows: &Rows, plotted: Option<&str>, out: &mut UiOutput) {
     let Some(column) = chosen(rows, plotted) else { return };
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), PLOT), Sense::hover());

@@ -1,5 +1,5 @@
-//! Numbers in cells: each has its component's name at the left, the number at the right, and is filled as far as the
-//! number lies in its range.
+//! Numbers in cells: each has its component's name at the left, the number at the right, and a fill that shows where
+//! the number is in its range.
 
 use super::parts::{HEIGHT, components};
 use crate::{
@@ -9,10 +9,10 @@ use crate::{
 use egui::{Align, Color32, DragValue, FontId, Layout, Rect, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2};
 
 const GAP: f32 = 4.0;
-/// Between the edge of a cell and what is written in it.
+/// The distance between the edge of a cell and its text.
 const PADDING: f32 = 6.0;
 
-/// All components side by side, in equal parts of the room there is.
+/// Shows all components side by side, in equal parts of the available room.
 pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut UiOutput) {
     let whole = ui.max_rect();
     let names = components(custom_uniform.ty);
@@ -24,7 +24,7 @@ pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64],
         let name = format!("{}.{component}", custom_uniform.name);
         let number = number(ui, place, custom_uniform, all, i, &name);
         let label = ui.painter().layout_no_wrap((*component).into(), FontId::monospace(11.0), theme::of(ui).text);
-        // In a narrow panel the number alone has room.
+        // In a narrow panel only the number has room.
         let at = place.left_center() + vec2(PADDING, -label.size().y / 2.0);
         if at.x + label.size().x <= number.left() + PADDING {
             ui.painter().galley(at, label, Color32::PLACEHOLDER);
@@ -33,7 +33,7 @@ pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64],
     }
 }
 
-/// Shows how far the number lies in its range.
+/// Fills the cell up to the number's place in its range.
 fn fill(ui: &Ui, place: Rect, custom_uniform: &CustomUniform, x: f64, i: usize) {
     let radius = 4.0;
     ui.painter().rect_filled(place, radius, theme::of(ui).button);
@@ -49,8 +49,8 @@ fn fill(ui: &Ui, place: Rect, custom_uniform: &CustomUniform, x: f64, i: usize) 
     ui.painter().rect_stroke(place, radius, Stroke::new(1.0, theme::of(ui).line), StrokeKind::Inside);
 }
 
-/// A number to drag or to type, at the right of its place. It moves by the author's step, else by a part of the range,
-/// else of its own size. Its own place comes back.
+/// Shows a number to drag or type, at the right of its place, and returns its rectangle. Dragging moves it by the
+/// author's step, else by a part of the range, else of its own magnitude.
 pub(super) fn number(
     ui: &mut Ui,
     place: Rect,
@@ -78,7 +78,7 @@ pub(super) fn number(
     let font = FontId::monospace(12.0);
     ui.style_mut().override_font_id = Some(font);
     let response = ui.name_inputs(name, |ui| {
-        // What is typed in has the whole cell, and not the least width of a number.
+        // A number being typed gets the whole cell, not the minimum width of a number.
         let id = ui.next_auto_id();
         if ui.memory(|m| m.has_focus(id)) {
             ui.spacing_mut().interact_size.x = place.width() - 2.0;
@@ -88,7 +88,7 @@ pub(super) fn number(
     response.on_hover_text("Drag, or click to type").rect
 }
 
-/// As many decimals as the step has, so that numbers keep their place while they are dragged.
+/// Returns the number of decimals of the step, so that numbers keep their width during a drag.
 fn decimals(custom_uniform: &CustomUniform, i: usize) -> usize {
     let step = custom_uniform.step.map(|s| s[i]).or(custom_uniform.range.map(|r| (r.max[i] - r.min[i]) / 200.0));
     step.filter(|s| *s > 0.0).map_or(2, |s| (-s.log10()).ceil().clamp(0.0, 3.0) as usize)
@@ -103,7 +103,7 @@ mod tests {
     };
     use egui::{Context, RawInput, Shape};
 
-    /// Returns what is written where the cells have so much room.
+    /// Returns the texts of cells of this width.
     fn written(width: f32) -> Vec<String> {
         let uniform = CustomUniform {
             name: "tint".into(),
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn names_leave_the_room_to_the_numbers() {
+    fn narrow_cells_omit_names() {
         let mut wide = written(300.0);
         wide.sort();
         assert_eq!(wide, ["0.600", "0.800", "1.000", "b", "g", "r"]);

@@ -1,4 +1,4 @@
-//! A colour: a field with it that opens the picker, its numbers from 0 to 1, and its hex.
+//! A colour: a field that opens the picker, its numbers from 0 to 1, and its hex code.
 
 use super::{
     cells, hex,
@@ -13,10 +13,10 @@ use egui::{Color32, Popup, PopupCloseBehavior, Rect, Role, Sense, Stroke, Stroke
 
 const SWATCH: f32 = 34.0;
 const HEX: f32 = 70.0;
-/// The least room for three numbers; where there is less, they are in the picker alone.
+/// The minimum width for three numbers; if there is less, they are only in the picker.
 const CELLS: f32 = 150.0;
 
-/// Shows it; true for a double click on the field with the colour.
+/// Shows it; returns true for a double click on the colour field.
 pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut UiOutput) -> bool {
     let whole = ui.max_rect();
     let place = Rect::from_min_size(whole.left_top() + vec2(0.0, 2.0), vec2(SWATCH, whole.height() - 4.0));
@@ -51,13 +51,13 @@ pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64],
     is_double
 }
 
-/// The colour as a screen shows it.
+/// Returns the colour as a screen shows it.
 fn shown(all: &[f64]) -> Color32 {
     let [r, g, b] = [all[0], all[1], all[2]].map(|c| (c.clamp(0.0, 1.0) * 255.0).round() as u8);
     Color32::from_rgb(r, g, b)
 }
 
-/// The hex, which is taken as soon as it is one.
+/// Shows the hex code, which is applied as soon as it is valid.
 fn field(ui: &mut Ui, place: Rect, custom_uniform: &CustomUniform, all: &mut [f64]) {
     let id = ui.scope_id().with(("hex", &custom_uniform.name));
     let now = hex::written([all[0], all[1], all[2]]);
@@ -75,7 +75,7 @@ fn field(ui: &mut Ui, place: Rect, custom_uniform: &CustomUniform, all: &mut [f6
     {
         all[..3].copy_from_slice(&rgb);
     }
-    // What is being typed is kept until the field is left.
+    // Typed text is kept until the field loses the focus.
     match response.has_focus() {
         true => drop(ui.data_mut(|d| d.insert_temp(id, text))),
         false => ui.data_mut(|d| d.remove::<String>(id)),

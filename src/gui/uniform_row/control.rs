@@ -1,4 +1,4 @@
-//! The control of a MIDI or OSC device that moves a uniform: its label in the row, and the menu that learns and forgets it.
+//! The MIDI or OSC control assigned to a uniform: its label in the row, and the menu that learns and removes it.
 
 use super::parts::{child, components};
 use crate::{
@@ -8,10 +8,10 @@ use crate::{
 };
 use egui::{Button, Key, Label, Rect, Response, RichText, Role, Sense, Ui};
 
-/// The room of the label.
+/// The width of the label.
 pub(super) const WIDTH: f32 = 84.0;
 
-/// Returns what a control can move of a uniform: each component, with its name, or the whole one.
+/// Returns what a control can move of a uniform: each component, with its name, or all of it.
 fn targets(uniform: &CustomUniform) -> Vec<(ControlTarget, &'static str)> {
     let names = components(uniform.ty).iter();
     let target = |name: &&'static str| {
@@ -21,7 +21,7 @@ fn targets(uniform: &CustomUniform) -> Vec<(ControlTarget, &'static str)> {
     names.map(target).collect()
 }
 
-/// Returns what the label says. `None`: no control moves the uniform, and none is being learned.
+/// Returns the text of the label; `None` if no control is assigned and none is being learned.
 pub(super) fn text(session: &Session, uniform: &CustomUniform) -> Option<String> {
     let said = targets(uniform).into_iter().filter_map(|(target, name)| {
         let control = match session.control_of(&target) {
@@ -38,7 +38,7 @@ pub(super) fn text(session: &Session, uniform: &CustomUniform) -> Option<String>
     (!said.is_empty()).then(|| said.join(", "))
 }
 
-/// Shows the label. A click on it stops learning, and so does Escape.
+/// Shows the label. A click on it stops learning, as does Escape.
 pub(super) fn label(
     ui: &mut Ui,
     session: &Session,
@@ -67,7 +67,7 @@ pub(super) fn label(
     }
 }
 
-/// Shows the row's menu where it is open.
+/// Shows the row's menu while it is open.
 pub(super) fn menu(row: &Response, session: &Session, uniform: &CustomUniform, out: &mut UiOutput) {
     menus::context_of_row(row, |ui| {
         let is_on = session.controls_view().is_on();

@@ -1,13 +1,13 @@
 //! Colours as `#rrggbb`.
 
-/// Returns what a person would type for a colour of numbers from 0 to 1.
+/// Formats a colour of numbers from 0 to 1.
 pub(super) fn written(rgb: [f64; 3]) -> String {
     let [r, g, b] = rgb.map(|c| (c.clamp(0.0, 1.0) * 255.0).round() as u8);
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Reads `#rrggbb` or `#rgb`, with or without the sign. The numbers are as short as eight bits allow, for the file that
-/// they are saved in.
+/// Parses `#rrggbb` or `#rgb`, with or without the `#`. The numbers are as short as eight bits allow, for the file in
+/// which they are saved.
 pub(super) fn read(text: &str) -> Option<[f64; 3]> {
     let text = text.trim();
     let digits = text.strip_prefix('#').unwrap_or(text);
@@ -23,7 +23,7 @@ pub(super) fn read(text: &str) -> Option<[f64; 3]> {
     Some(bytes.map(|b| short(f64::from(b) / 255.0)))
 }
 
-/// As few decimals as tell eight bits apart.
+/// Rounds to the fewest decimals that distinguish eight-bit values.
 pub(super) fn short(c: f64) -> f64 {
     (c * 1e4).round() / 1e4
 }
@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_are_read_as_they_are_written() {
+    fn colours_round_trip() {
         for text in ["#000000", "#ff8001", "#7f7f7f", "#fffffe"] {
             assert_eq!(written(read(text).unwrap()), text);
         }

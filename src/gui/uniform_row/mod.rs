@@ -1,6 +1,6 @@
-//! One row of the list of uniforms: the name, what turns it, the value, and the way back to the default.
+//! One row of the list of uniforms: the name, the slider or other widget, the value, and the reset button.
 //!
-//! Owns how each type of value is shown. What a value may be is the project's; a row asks the session to set one.
+//! Owns how each type of value is shown. The project decides which values are valid; a row sends a command to set one.
 
 mod cells;
 mod color;

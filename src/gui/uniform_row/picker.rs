@@ -10,7 +10,7 @@ use egui::{
 
 const RAIL: f32 = 16.0;
 
-/// The hue and the saturation stay where they are while the colour is grey or black, which has none.
+/// The hue and the saturation, which are kept while the colour is grey or black and has none.
 #[derive(Clone, Copy, PartialEq)]
 struct Kept {
     rgb: [f32; 3],
@@ -29,7 +29,7 @@ pub(super) fn show(ui: &mut Ui, all: &mut [f64]) {
     let [h, s, v] = kept.filter(|k| k.rgb == rgb).map_or_else(|| hsv_from_rgb(rgb).into(), |k| k.hsv);
     let mut hsv = [h, s, v];
 
-    // Keys have the numbers below.
+    // The keyboard can use the numbers below.
     let (square, response) = ui.allocate_exact_size(vec2(width, height), Sense::DRAG);
     if let Some(at) = response.interact_pointer_pos() {
         hsv[1] = part(at.x, square.left(), square.right());
@@ -38,7 +38,7 @@ pub(super) fn show(ui: &mut Ui, all: &mut [f64]) {
     ui.add_space(2.0);
     let (rail, response) = ui.allocate_exact_size(vec2(width, RAIL), Sense::DRAG);
     if let Some(at) = response.interact_pointer_pos() {
-        // The right end is the left one again.
+        // The right end equals the left one.
         hsv[0] = part(at.x, rail.left(), rail.right()).min(0.9999);
     }
     paint_square(ui, square, hsv[0]);
@@ -66,7 +66,7 @@ fn color([h, s, v]: [f32; 3]) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// White to the hue from the left, and over it black from below.
+/// Paints white to the hue from the left, and black over it from below.
 fn paint_square(ui: &Ui, rect: Rect, hue: f32) {
     let hue = color([hue, 1.0, 1.0]);
     let corners = [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()];
@@ -76,7 +76,7 @@ fn paint_square(ui: &Ui, rect: Rect, hue: f32) {
     ui.painter().rect_stroke(rect, 0.0, Stroke::new(1.0, theme::of(ui).line), StrokeKind::Inside);
 }
 
-/// The hues: straight lines between six of them.
+/// Paints the hues: linear between six of them.
 fn paint_rail(ui: &Ui, rect: Rect) {
     for i in 0..6 {
         let at = |i: usize| egui::lerp(rect.x_range(), i as f32 / 6.0);

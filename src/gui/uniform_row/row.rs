@@ -1,4 +1,4 @@
-//! The row as it is laid out.
+//! The layout of the row.
 
 use super::{
     cells, color, control,
@@ -15,9 +15,9 @@ use crate::{
 };
 use egui::{Label, Rect, RichText, Sense, Ui, vec2};
 
-/// Right of every row: the way back, where there is something to go back from.
+/// The width at the right of every row for the reset button, shown if the value is not the default.
 const RESET: f32 = 30.0;
-/// Between the name and what turns it.
+/// The gap between the name and the widget.
 const GAP: f32 = 8.0;
 
 pub(crate) fn show(ui: &mut Ui, session: &Session, custom_uniform: &CustomUniform, out: &mut UiOutput) {
@@ -27,7 +27,7 @@ pub(crate) fn show(ui: &mut Ui, session: &Session, custom_uniform: &CustomUnifor
     let (name, rest) = row.split_left_right_at_x(row.left() + name_width);
     let (control, reset) = rest.split_left_right_at_x(rest.right() - RESET);
     let mut control = control.with_min_x(control.left() + GAP);
-    // In a narrow panel the menu alone says it.
+    // In a narrow panel only the menu shows it.
     if let Some(text) = control::text(session, custom_uniform).filter(|_| control.width() > 2.5 * control::WIDTH) {
         let (place, rest) = cut_right(control, control::WIDTH);
         control::label(ui, session, custom_uniform, &text, place, out);
@@ -63,20 +63,20 @@ pub(crate) fn show(ui: &mut Ui, session: &Session, custom_uniform: &CustomUnifor
         wants_default |= out.clicked(&format!("uniform:reset:{}", custom_uniform.name), &button.on_hover_text(tip));
     }
     if wants_default && now != custom_uniform.default {
-        // Behind what the clicks themselves have set.
+        // After the changes of the clicks themselves.
         out.ask(Command::SetCustomUniform { name: custom_uniform.name.clone(), value: None });
     }
     control::menu(&whole, session, custom_uniform, out);
 }
 
-/// The name; true for a double click on it.
+/// Shows the name; returns true for a double click on it.
 fn title(ui: &mut Ui, custom_uniform: &CustomUniform, place: Rect) -> bool {
     let text = RichText::new(&custom_uniform.name).monospace().size(12.0);
     let label = Label::new(text).truncate().sense(Sense::CLICK);
     child(ui, place).add(label).on_hover_text(tip(custom_uniform)).double_clicked()
 }
 
-/// The author's description, then what the line declares.
+/// Returns the author's description, then the line's declaration.
 fn tip(custom_uniform: &CustomUniform) -> String {
     let mut text = if custom_uniform.about.is_empty() { String::new() } else { format!("{}\n", custom_uniform.about) };
     text += &format!(

@@ -1,4 +1,4 @@
-//! Values of one number: a rail filled to its handle with the number at the right, or a switch.
+//! Values of one number: a rail filled up to its handle with the number at the right, or a switch.
 
 use super::{cells, parts::cut_right};
 use crate::{
@@ -7,12 +7,12 @@ use crate::{
 };
 use egui::{Align2, FontId, PointerButton, Role, Sense, Slider, Ui, vec2};
 
-/// The room of a number at the right end.
+/// The width of a number at the right end.
 const NUMBER: f32 = 66.0;
-/// A rail that is shorter than this turns nothing well.
+/// The minimum width of a usable rail.
 const LEAST_RAIL: f32 = 40.0;
 
-/// Shows the number; true for a double click on the rail.
+/// Shows the number; returns true for a double click on the rail.
 pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut UiOutput) -> bool {
     let is_whole = custom_uniform.ty == CustomUniformType::Int;
     let (value, rail) = cut_right(ui.max_rect(), NUMBER);
@@ -28,12 +28,12 @@ pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64
         ui.spacing_mut().slider_width = rail.width();
         ui.visuals_mut().selection.bg_fill = theme::of(ui).accent_fill;
         let response = ui.name_inputs(&custom_uniform.name, |ui| ui.put(rail, slider));
-        // Any button moves a slider; the right one opens the menu of the row.
+        // Any button moves a slider; the right one also opens the menu of the row.
         let menu = PointerButton::Secondary;
         if ui.input(|i| i.pointer.button_down(menu) || i.pointer.button_released(menu)) {
             all[0] = before;
         }
-        // Beside dragging, which is the slider's.
+        // In addition to dragging, which the slider handles.
         is_reset = ui.interact(rail, response.id.with("default"), Sense::CLICK).double_clicked();
         rect = rail;
     }
@@ -44,7 +44,7 @@ pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64
     is_reset
 }
 
-/// Shows the switch; true for a double click on its word.
+/// Shows the switch; returns true for a double click on its word.
 pub(super) fn switch(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut UiOutput) -> bool {
     let (word, place) = cut_right(ui.max_rect(), NUMBER);
     let place = place.with_max_x((place.left() + 38.0).min(place.right()));

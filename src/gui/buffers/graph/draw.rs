@@ -1,4 +1,4 @@
-//! The page of the graph: its nodes and edges, and what they mean.
+//! The page of the graph: its nodes and edges, and the legend.
 
 use super::layout::{LEGIBLE, Layout};
 use crate::{
@@ -17,7 +17,7 @@ use egui::{
     Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, Vec2, pos2, vec2,
 };
 
-/// The foot with the legend.
+/// The height of the foot with the legend.
 const LEGEND: f32 = 20.0;
 const BEGIN: f32 = 0.75;
 
@@ -36,10 +36,10 @@ pub(crate) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mu
         let reads = pass.cost.reads.iter();
         arrows.extend(reads.filter_map(|read| Some(Arrow { from: place(&read.pass)?, to, read })));
     }
-    // What the code does not read is told where it is the reason for something; else the tip does.
+    // Passes that the code does not read are shown if they explain something; otherwise only in the tooltip.
     let is_drawn = |node: usize| matches!(passes[node].cost.role, PassRole::Drawn { .. });
     arrows.retain(|arrow| arrow.read.is_used || !is_drawn(arrow.from) || !is_drawn(arrow.to));
-    // What is read in this frame was drawn before: these go round in no circle.
+    // Passes read in the same frame were drawn before: these edges are acyclic.
     let (forth, back): (Vec<&Arrow<'_>>, Vec<&Arrow<'_>>) =
         arrows.iter().partition(|arrow| arrow.read.when == ReadTiming::ThisFrame && arrow.from != arrow.to);
     let ends = |arrows: &[&Arrow<'_>]| arrows.iter().map(|arrow| (arrow.from, arrow.to)).collect::<Vec<_>>();
@@ -52,7 +52,7 @@ pub(crate) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mu
     let sheet = placed(state, ui, area, (&layout, middle), out);
     let responses: Vec<_> = (0..passes.len())
         .map(|node| {
-            // What is out of sight can be gone to by the keyboard.
+            // Nodes out of view can be reached by the keyboard.
             let rect = sheet.rect(layout.nodes[node]);
             ui.interact(rect, ui.scope_id().with(("pass", node)), Sense::click())
         })
@@ -92,7 +92,7 @@ pub(crate) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mu
     }
 }
 
-/// Places the sheet, which the wheel makes larger and the hand moves.
+/// Places the sheet, which is zoomed by the wheel and moved by dragging.
 fn placed(
     state: &mut Buffers,
     ui: &Ui,
@@ -106,9 +106,9 @@ fn placed(
     out.place("buffers:sheet", area);
     if std::mem::replace(&mut state.sheet_of, size) != size {
         state.sheet.fit();
-        // Of a large graph first the part that can be read.
+        // Of a large graph first show a part that is legible.
         if let Some(at) = middle.filter(|_| state.sheet.place(area, size).scale < LEGIBLE) {
-            // The sheet's begin is its left edge, and there is nothing beside it.
+            // The graph starts at the left edge of the sheet, with nothing beyond it.
             let half = area.width() / 2.0 / BEGIN;
             let x = at.x.clamp(half.min(layout.size.x / 2.0), (layout.size.x - half).max(layout.size.x / 2.0));
             state.sheet.show((x as u32, (layout.size.y - at.y) as u32), BEGIN);
@@ -118,7 +118,7 @@ fn placed(
     if response.dragged() {
         state.sheet.drag(&placed, response.drag_delta());
     }
-    // Also over a node, which lies upon it.
+    // Also over a node, which is on top of it.
     let pointer =
         ui.input(|i| i.pointer.latest_pos()).filter(|at| ui.rect_contains_pointer(area) && area.contains(*at));
     if let Some(at) = pointer {
@@ -131,7 +131,7 @@ fn placed(
     Sheet { placed: state.sheet.place(area, size), height: size.1 as f32 }
 }
 
-/// Says where the sheet of the layout is on the screen.
+/// The place of the layout's sheet on the screen.
 struct Sheet {
     placed: PlacedPicture,
     height: f32,
@@ -152,7 +152,7 @@ impl Sheet {
     }
 }
 
-/// Holds what a node says.
+/// The texts of a node.
 struct NodeLabels {
     name: String,
     shape: String,
@@ -182,7 +182,7 @@ impl NodeLabels {
     }
 }
 
-/// It is the one that is shown, under the pointer, or has the keyboard.
+/// The node is selected, below the pointer, or has the keyboard focus.
 type Look = (bool, bool, bool);
 
 fn paint(
@@ -249,7 +249,7 @@ fn tip(ui: &mut Ui, pass: &TimedPass, words: &NodeLabels) {
     ui.colored_label(p.weak, "Click to see its texels");
 }
 
-/// `(lit, any)`: it leads to or from what is pointed at, and whether anything is.
+/// `(lit, any)`: the edge leads to or from the highlighted node, and whether there is one.
 fn edge(
     painter: &Painter,
     sheet: &Sheet,
@@ -274,7 +274,7 @@ fn edge(
     } else {
         painter.extend(Shape::dashed_line(&points, stroke, 5.0, 4.0));
     }
-    // It ends in a head, which points to the right like every way into a node.
+    // It ends in an arrow head, which points to the right like every edge into a node.
     if let Some(&tip) = corners.last() {
         let (long, half) = (7.0 * sheet.scale(), 3.5 * sheet.scale());
         let head = vec![tip, tip + vec2(-long, -half), tip + vec2(-long, half)];
@@ -282,7 +282,7 @@ fn edge(
     }
 }
 
-/// The way with round corners.
+/// Rounds the corners of a path.
 fn rounded(corners: &[Pos2], radius: f32) -> Vec<Pos2> {
     let mut points = Vec::new();
     for (i, &corner) in corners.iter().enumerate() {
@@ -295,7 +295,7 @@ fn rounded(corners: &[Pos2], radius: f32) -> Vec<Pos2> {
             corner + way.normalized() * radius.min(way.length() / 2.0)
         };
         let (a, b) = (toward(before), toward(after));
-        // A parabola from the one to the other.
+        // A parabola from one end to the other.
         points.extend((0..=6).map(|n| {
             let t = n as f32 / 6.0;
             a.lerp(corner, t).lerp(corner.lerp(b, t), t)
@@ -304,7 +304,7 @@ fn rounded(corners: &[Pos2], radius: f32) -> Vec<Pos2> {
     points
 }
 
-/// Explains the arrows, and says that times are old while nothing plays.
+/// Explains the arrows, and says that times are stale while paused.
 fn legend(ui: &Ui, place: Rect, is_playing: bool, out: &mut UiOutput) {
     let p = theme::of(ui);
     let painter = ui.painter().with_clip_rect(place.intersect(ui.clip_rect()));

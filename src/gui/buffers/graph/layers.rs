@@ -1,32 +1,32 @@
-//! Nodes in layers, as Sugiyama, Tagawa and Toda do it ("Methods for Visual Understanding of Hierarchical System
-//! Structures", 1981): each behind what it reads, long edges through a node of their own in each layer between, and the
-//! order within layers by barycentres until fewer edges cross no more.
+//! Layered drawing of graphs by Sugiyama, Tagawa and Toda ("Methods for Visual Understanding of Hierarchical System
+//! Structures", 1981): each node is after what it reads, long edges pass through a dummy node in each layer between,
+//! and the order within layers is improved by barycentres until the number of crossings no longer falls.
 
 use std::collections::BTreeMap;
 
-/// From one node to another, by their numbers.
+/// An edge from one node to another, by their indices.
 pub(super) type Edge = (usize, usize);
 
-/// Sweeps over all layers, forth and back.
+/// The number of sweeps over all layers, forth and back.
 const SWEEPS: usize = 12;
 
 /// Nodes in layers.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layers {
-    /// The layer of each node: first those that were given, then those on long edges.
+    /// The layer of each node: first the given nodes, then the dummy nodes of long edges.
     pub layer_of: Vec<usize>,
     /// The nodes of each layer from the top.
     pub layers: Vec<Vec<usize>>,
-    /// The way of each edge that was given, node by node, one a layer.
+    /// The path of each given edge, with one node per layer.
     pub ways: Vec<Vec<usize>>,
 }
 
 impl Layers {
-    /// Takes nodes and edges that go round in no circle; one that would is left out of the layering.
+    /// Takes nodes and acyclic edges; an edge that would form a cycle is ignored in the layering.
     pub(super) fn new(nodes: usize, edges: &[Edge]) -> Self {
         let mut layer_of = longest_paths(nodes, edges);
         let mut ways = Vec::with_capacity(edges.len());
-        // What is read by many goes one way as far as it can, and branches off to each.
+        // Edges from one node share a path as far as possible, and branch off to each reader.
         let mut passing: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         for &(from, to) in edges {
             let mut way = vec![from];
@@ -48,7 +48,7 @@ impl Layers {
         made
     }
 
-    /// Edges between neighbouring layers, each once.
+    /// Returns the edges between neighbouring layers, each once.
     pub(super) fn steps(&self) -> Vec<Edge> {
         let mut steps: Vec<Edge> =
             self.ways.iter().flat_map(|way| way.windows(2).map(|step| (step[0], step[1]))).collect();
@@ -57,7 +57,7 @@ impl Layers {
         steps
     }
 
-    /// Orders the nodes of each layer by where their neighbours in the layer before are, forth and back.
+    /// Orders the nodes of each layer by the positions of their neighbours in the previous layer, forth and back.
     fn untangle(&mut self) {
         let (mut best, mut least) = (self.layers.clone(), self.crossings());
         let steps = self.steps();
@@ -79,7 +79,7 @@ impl Layers {
                     let mean = if near.is_empty() { own } else { near.iter().sum::<f32>() / near.len() as f32 };
                     keyed.push((mean, node));
                 }
-                // Those of one barycentre stay as they were.
+                // The sort is stable for equal barycentres.
                 keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
                 self.layers[layer] = keyed.into_iter().map(|(_, node)| node).collect();
             }
@@ -91,7 +91,7 @@ impl Layers {
         self.layers = best;
     }
 
-    /// The place of each node in its layer.
+    /// Returns the position of each node in its layer.
     fn places(&self) -> Vec<usize> {
         let mut places = vec![0; self.layer_of.len()];
         for layer in &self.layers {
@@ -100,7 +100,7 @@ impl Layers {
         places
     }
 
-    /// Returns how many pairs of edges cross.
+    /// Returns the number of pairs of edges that cross.
     pub(super) fn crossings(&self) -> usize {
         let place = self.places();
         let steps = self.steps();
@@ -112,10 +112,10 @@ impl Layers {
     }
 }
 
-/// The layer of each node: behind the last of what leads to it.
+/// Returns the layer of each node: after the last of its predecessors.
 fn longest_paths(nodes: usize, edges: &[Edge]) -> Vec<usize> {
     let mut layer = vec![0; nodes];
-    // As many rounds as a path is long at most; in a circle it ends all the same.
+    // The longest path bounds the number of rounds, which also ends cycles.
     for _ in 0..nodes {
         let mut is_settled = true;
         for &(from, to) in edges.iter().filter(|(from, to)| from != to) {
@@ -136,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_node_is_behind_all_that_it_reads_and_long_edges_pass_each_layer() {
+    fn nodes_follow_what_they_read_and_long_edges_pass_each_layer() {
         let layers = Layers::new(4, &[(0, 1), (1, 2), (0, 2), (3, 2)]);
         assert_eq!(&layers.layer_of[..4], [0, 1, 2, 0]);
         assert_eq!(layers.ways[2].len(), 3, "from 0 to 2 past 1");
@@ -145,20 +145,20 @@ mod tests {
     }
 
     #[test]
-    fn edges_that_need_not_cross_do_not() {
-        // Two chains, named crosswise, and two that all read.
+    fn avoidable_crossings_are_removed() {
+        // Two chains with crossed indices, and two nodes that all read.
         let tangled = [(0, 5), (1, 4), (2, 3), (5, 6), (4, 7), (3, 8), (6, 9), (7, 9), (8, 9)];
         let layers = Layers::new(10, &tangled);
         assert_eq!(layers.crossings(), 0, "{:?}", layers.layers);
-        // What two far readers share is one way.
+        // Two distant readers share the common part of the path.
         let shared = Layers::new(5, &[(0, 1), (1, 2), (2, 3), (3, 4), (0, 3), (0, 4)]);
         assert_eq!(shared.layer_of.len(), 5 + 3, "{:?}", shared.ways);
-        // Of K(2,2) two edges always cross.
+        // Two edges of K(2,2) always cross.
         assert_eq!(Layers::new(4, &[(0, 2), (0, 3), (1, 2), (1, 3)]).crossings(), 1);
     }
 
     #[test]
-    fn a_circle_ends() {
+    fn cycles_terminate() {
         let layers = Layers::new(3, &[(0, 1), (1, 2), (2, 0)]);
         assert!(layers.layer_of.iter().all(|layer| *layer < 3));
         assert_eq!(Layers::new(0, &[]).layers.len(), 0);

@@ -1,18 +1,18 @@
-//! Says where the nodes of a layered graph are, and the ways of its edges.
+//! The positions of the nodes of a layered graph, and the paths of its edges.
 
 use super::layers::{Edge, Layers};
 use egui::{Pos2, Rect, Vec2, pos2, vec2};
 use rustc_hash::FxHashSet;
 
-/// Points of a node, and between nodes.
+/// The size of a node in points, and the distances between layers and between nodes.
 pub(super) const NODE: Vec2 = vec2(164.0, 68.0);
 const BETWEEN_LAYERS: f32 = 46.0;
 const BETWEEN_NODES: f32 = 26.0;
 /// Between a node and an edge that passes it.
 const BESIDE: f32 = 10.0;
-/// Is what an edge that passes a layer takes of its height.
+/// The height of an edge that passes a layer.
 const PASSING: f32 = 14.0;
-/// Between the ways of edges that go back.
+/// Between the paths of edges that go back.
 const LANE: f32 = 9.0;
 const MARGIN: f32 = 12.0;
 
@@ -20,23 +20,23 @@ const MARGIN: f32 = 12.0;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layout {
     pub nodes: Vec<Rect>,
-    /// The corners of the way of each edge that leads on.
+    /// The corners of the path of each forward edge.
     pub forth: Vec<Vec<Pos2>>,
-    /// And of each that leads back, or anywhere else.
+    /// The corners of the path of each other edge.
     pub back: Vec<Vec<Pos2>>,
     pub size: Vec2,
 }
 
 impl Layout {
-    /// `forth`: edges that go round in no circle; `back`: all others. A long chain is broken into rows, like text, where
-    /// it could not be read otherwise once it fits into `area`.
+    /// `forth`: acyclic edges; `back`: all others. A long chain is broken into rows, like text, if it would be
+    /// illegible when it is fitted into `area`.
     pub(super) fn new(nodes: usize, forth: &[Edge], back: &[Edge], area: Vec2) -> Self {
         let layers = Layers::new(nodes, forth);
         let middles = middles(&layers, nodes);
         let rows = Rows::new(&layers, &middles, (nodes, forth, back), area);
         let at = |node: usize| rows.place(layers.layer_of[node], middles[node]);
         let row_of = |node: usize| rows.row(layers.layer_of[node]);
-        // Ways between rows, and ways back, have lanes of their own below the row that they come from.
+        // Paths between rows, and back edges, have lanes of their own below the row that they come from.
         let mut lanes = vec![0; rows.tops.len()];
         let mut lane = |row: usize| {
             lanes[row] += 1;
@@ -70,7 +70,7 @@ impl Layout {
             let (source, reader) = (rects[from], rects[to]);
             let start = pos2(source.right(), source.bottom() - 11.0);
             let end = pos2(reader.left(), reader.top() + ports[forth.len() + n]);
-            // One that reads itself goes round its own node, the others below all of its row.
+            // A self-edge goes round its own node, the others go below the whole row.
             let low = if from == to { source.bottom() + 9.0 } else { lane(row_of(from)) };
             back_ways.push(round(n, start, end, low));
         }
@@ -82,23 +82,23 @@ impl Layout {
     }
 }
 
-/// Below this scale a node's words cannot be read.
+/// Below this scale the texts of a node are illegible.
 pub(super) const LEGIBLE: f32 = 0.6;
-/// Below a row, beside its lanes.
+/// The space below a row, in addition to its lanes.
 const BELOW: f32 = 18.0;
 
-/// Nodes, and edges forth and back.
+/// The number of nodes, and the edges forth and back.
 type Graph<'a> = (usize, &'a [Edge], &'a [Edge]);
 
-/// The rows that layers are broken into: each has as many, and lies below the one before.
+/// The rows that the layers are broken into: each has the same number of layers, and is below the previous one.
 struct Rows {
-    /// Layers of a row.
+    /// The number of layers in a row.
     length: usize,
-    /// The upper edge of each on the sheet.
+    /// The top of each row on the sheet.
     tops: Vec<f32>,
-    /// The upper and lower edge of each, if all were one row.
+    /// The top and bottom of each row, as if all were one row.
     spans: Vec<(f32, f32)>,
-    /// The lower edge of all, with the lanes.
+    /// The bottom of all rows, with the lanes.
     end: f32,
 }
 
@@ -110,7 +110,7 @@ impl Rows {
             return one;
         }
         let broken = (2..=count).map(|rows| Rows::of_length(layers, middles, graph, count.div_ceil(rows)));
-        // The fewest rows of equals.
+        // The fewest rows of equal scale.
         broken.fold(one, |best, rows| if rows.scale(area) > best.scale(area) * 1.001 { rows } else { best })
     }
 
@@ -121,7 +121,7 @@ impl Rows {
             let forth = forth.iter().filter(|(from, to)| row_of(*from) == row && row_of(*to) != row);
             forth.count() + back.iter().filter(|(from, to)| from != to && row_of(*from) == row).count()
         };
-        // An edge between rows goes round, and needs no room between the nodes that it would pass.
+        // An edge between rows uses a lane, and needs no room between the nodes that it would pass.
         let ways = forth.iter().zip(&layers.ways).filter(|(edge, _)| row_of(edge.0) != row_of(edge.1));
         let round: FxHashSet<usize> = ways.flat_map(|(_, way)| way[1..way.len() - 1].iter().copied()).collect();
         let (mut tops, mut spans, mut top) = (Vec::new(), Vec::new(), MARGIN);
@@ -155,18 +155,18 @@ impl Rows {
         self.spans.get(row).map_or(MARGIN, |(first, last)| last - first + self.tops[row])
     }
 
-    /// Returns how large the whole is where it fits into an area.
+    /// Returns the scale at which the whole layout fits into an area.
     fn scale(&self, area: Vec2) -> f32 {
         (area.x / left_of(self.length)).min(area.y / self.end)
     }
 }
 
-/// The left edge of a layer. The first has room before it for what leads back to it.
+/// Returns the left edge of a layer. The first has room before it for edges that lead back to it.
 fn left_of(layer: usize) -> f32 {
     MARGIN + 34.0 + layer as f32 * (NODE.x + BETWEEN_LAYERS)
 }
 
-/// Returns where each edge comes in, below the top of its reader: from the top, by where it comes from.
+/// Returns the end of each edge below the top of its reader: ordered from the top by the place of its start.
 fn ports(nodes: usize, forth: &[Edge], back: &[Edge], middles: &[f32]) -> Vec<f32> {
     let mut ports = vec![0.0; forth.len() + back.len()];
     for node in 0..nodes {
@@ -176,7 +176,7 @@ fn ports(nodes: usize, forth: &[Edge], back: &[Edge], middles: &[f32]) -> Vec<f3
         };
         let mut ways = coming(forth, 0);
         ways.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // What comes from below comes in below.
+        // Edges from below end lowest.
         ways.extend(coming(back, forth.len()));
         let count = ways.len() as f32;
         for (n, (_, edge)) in ways.into_iter().enumerate() {
@@ -186,7 +186,7 @@ fn ports(nodes: usize, forth: &[Edge], back: &[Edge], middles: &[f32]) -> Vec<f3
     ports
 }
 
-/// The middle of each node's height: near those of its neighbours, and apart from those of its layer.
+/// Returns the vertical middle of each node: near its neighbours, and apart from the other nodes of its layer.
 fn middles(layers: &Layers, nodes: usize) -> Vec<f32> {
     let height = |node: usize| if node < nodes { NODE.y } else { PASSING };
     let apart = |a: usize, b: usize| {
@@ -221,7 +221,8 @@ fn middles(layers: &Layers, nodes: usize) -> Vec<f32> {
                     if near.is_empty() { middles[node] } else { near.iter().sum::<f32>() / near.len() as f32 }
                 })
                 .collect();
-            // From above each is pushed down, from below up: the mean of both keeps the order and the room.
+            // Nodes are pushed down in order from the top, and up from the bottom: the mean of both keeps the order
+            // and the distances.
             let mut down = wanted.clone();
             let mut up = wanted;
             for place in 1..layer.len() {
@@ -244,13 +245,13 @@ mod tests {
     use super::*;
 
     fn fluid() -> (usize, Vec<Edge>, Vec<Edge>) {
-        // Four passes in a chain, two beside it, the picture of all; three read what was a frame ago.
+        // Four passes in a chain, two next to it, the picture that reads all; three read the previous frame.
         let forth = vec![(0, 1), (1, 2), (2, 3), (0, 3), (4, 6), (5, 6), (3, 6), (0, 6)];
         (7, forth, vec![(3, 0), (4, 4), (5, 5)])
     }
 
     #[test]
-    fn nodes_lie_apart_on_the_sheet_and_edges_lead_from_left_to_right() {
+    fn nodes_do_not_overlap_and_edges_lead_to_the_right() {
         let (nodes, forth, back) = fluid();
         let layout = Layout::new(nodes, &forth, &back, vec2(4000.0, 3000.0));
         let sheet = Rect::from_min_size(Pos2::ZERO, layout.size);
@@ -265,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn twenty_passes_fit_and_can_be_read() {
+    fn twenty_passes_fit_legibly() {
         let area = vec2(640.0, 340.0);
         let forth: Vec<Edge> = (1..20).map(|n| (n - 1, n)).chain([(2, 19)]).collect();
         let back = [(19, 0), (5, 5)];
@@ -280,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn a_way_back_crosses_no_node() {
+    fn back_edges_cross_no_node() {
         let (nodes, forth, back) = fluid();
         crosses_no_node(&Layout::new(nodes, &forth, &back, vec2(4000.0, 3000.0)));
         // In rows, too.

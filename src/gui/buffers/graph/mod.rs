@@ -1,4 +1,4 @@
-//! The render graph as a picture: passes in the order in which they need each other, and what each reads.
+//! The render graph as a picture: passes in the order of their dependencies, and what each reads.
 
 mod draw;
 mod layers;

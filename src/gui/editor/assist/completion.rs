@@ -1,4 +1,4 @@
-//! The list of proposals at the caret.
+//! The completion list at the caret.
 
 use super::{super::buffer::Buffer, draw};
 use crate::{
@@ -8,31 +8,31 @@ use crate::{
 use egui::{Align2, Area, FontId, Frame, Id, Margin, Order, Rect, Sense, Ui, pos2, vec2};
 use std::ops::Range;
 
-/// Rows in sight.
+/// The number of visible rows.
 pub(super) const ROWS: usize = 8;
 const WIDTH: f32 = 390.0;
 
 #[derive(Debug)]
 pub(super) struct Popup {
     list: Completions,
-    /// Indices of the items that fit, best first; never empty.
+    /// Indices of the matching items, best first; never empty.
     fitting: Vec<usize>,
     selected: usize,
-    /// First row in sight.
+    /// The first visible row.
     top: usize,
-    /// The selection was moved, or the list asked for: Enter is meant for it.
+    /// The selection was moved, or the list was requested explicitly: Enter accepts.
     is_meant: bool,
 }
 
 impl Popup {
-    /// `None` where nothing fits. Unless asked for, also where all there is is there already.
+    /// Returns `None` if nothing matches. Unless requested explicitly, also if the only match is already in the text.
     pub(super) fn open(list: Completions, buffer: &Buffer, asked_for: bool) -> Option<Self> {
         let mut popup = Self { list, fitting: Vec::new(), selected: 0, top: 0, is_meant: asked_for };
         let opens = popup.filter(buffer) && (asked_for || !popup.is_complete(buffer));
         opens.then_some(popup)
     }
 
-    /// Returns where the word begins that a proposal takes the place of.
+    /// Returns the start of the word that a completion replaces.
     pub(super) fn start(&self) -> usize {
         self.list.replace.start
     }
@@ -41,18 +41,18 @@ impl Popup {
         buffer.text().get(self.start()..buffer.selection().head).unwrap_or("\n")
     }
 
-    /// Keeps what fits the word as it is now; false if nothing is left, or the caret has left the word.
+    /// Keeps the items that match the current word; returns false if none is left or the caret has left the word.
     pub(super) fn filter(&mut self, buffer: &Buffer) -> bool {
         let typed = self.typed(buffer);
         let is_word = typed.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-        // With everything deleted again there is nothing left to help with.
+        // If all the typed text is deleted again, there is nothing left to complete.
         let has_begun = !typed.is_empty() || self.list.is_member || self.is_meant;
         self.fitting = if is_word && has_begun { self.list.matching(typed) } else { Vec::new() };
         (self.selected, self.top) = (0, 0);
         !self.fitting.is_empty()
     }
 
-    /// The word is one of the proposals, and the only one.
+    /// Returns whether the word is the only match.
     fn is_complete(&self, buffer: &Buffer) -> bool {
         self.fitting.len() == 1 && self.item(0).is_some_and(|item| item.label == self.typed(buffer))
     }
@@ -64,15 +64,15 @@ impl Popup {
     pub(super) fn step(&mut self, by: isize) {
         let last = self.fitting.len() as isize - 1;
         let to = self.selected as isize + by;
-        // A single step goes round the ends, a page stops there.
+        // A single step wraps round at the ends, a page stops there.
         let to = if by.abs() == 1 { to.rem_euclid(last + 1) } else { to.clamp(0, last) };
         self.selected = to as usize;
         self.top = self.top.clamp(self.selected.saturating_sub(ROWS - 1), self.selected);
         self.is_meant = true;
     }
 
-    /// Returns whether Enter is for the list and not for a new line: it must change something, and what it would put
-    /// there must go on from what was typed unless it was picked by hand.
+    /// Returns whether Enter accepts an item instead of inserting a new line: the item must change the text, and must
+    /// continue what was typed unless it was picked explicitly.
     pub(super) fn enter_accepts(&self, buffer: &Buffer) -> bool {
         let typed = self.typed(buffer);
         self.item(self.selected).is_some_and(|item| {
@@ -81,13 +81,13 @@ impl Popup {
         })
     }
 
-    /// Returns what is selected, and what it takes the place of.
+    /// Returns the selected item and the range that it replaces.
     pub(super) fn choice(&self, buffer: &Buffer) -> Option<(Range<usize>, String)> {
         let label = self.item(self.selected)?.label.clone();
         Some((self.start()..buffer.selection().head, label))
     }
 
-    /// Shows the list below `at`, the beginning of the word (above it where there is no room). True if a row was
+    /// Shows the list below `at`, the start of the word, or above it if there is no room. Returns true if a row was
     /// clicked.
     pub(super) fn show(&mut self, ui: &Ui, at: Rect, font: &FontId, placed: &mut Vec<(String, Rect)>) -> bool {
         let window = ui.ctx().content_rect();
@@ -170,7 +170,7 @@ impl Popup {
     }
 }
 
-/// A sign for the kind, the name, and its type or signature as far as there is room.
+/// Paints a sign for the kind, the name, and its type or signature as far as there is room.
 fn paint_row(ui: &Ui, rect: Rect, item: &Completion, font: &FontId, is_selected: bool) {
     let painter = ui.painter().with_clip_rect(rect);
     let (sign, color) = draw::sign(item.kind, theme::of(ui));

@@ -1,4 +1,4 @@
-//! Code in tips, and signs of what a name is.
+//! Code in tooltips, and signs for kinds of names.
 
 use crate::{
     glsl::services::{
@@ -33,7 +33,7 @@ pub(super) fn sign(kind: CompletionKind, palette: &Palette) -> (&'static str, Co
     (sign, code_color(token, palette))
 }
 
-/// Lines of GLSL in colour; `strong` is set off from the rest of them.
+/// Lays out coloured lines of GLSL; `strong` is emphasised.
 pub(super) fn code(palette: &Palette, lines: &[String], font: &FontId, strong: Option<Range<usize>>) -> LayoutJob {
     let mut job = LayoutJob::default();
     for (i, line) in lines.iter().enumerate() {

@@ -1,8 +1,8 @@
-//! Help while writing: proposals at the caret, the signature of the call around it, what the name under the pointer is,
-//! where it is declared and used.
+//! Help while writing: completion at the caret, the signature of the enclosing call, what the name under the pointer
+//! is, and where it is declared and used.
 //!
-//! Owns what is open and which keys go to it. What is shown is asked of an [`Analysis`], which is of the text as it is
-//! only a moment after each change: until then what is open stays, and nothing new opens.
+//! Owns the open popups and decides which keys go to them. Their contents come from an [`Analysis`], which lags the
+//! text for a moment after each change: until it catches up, open popups stay and no new ones open.
 
 mod completion;
 mod draw;
@@ -14,20 +14,20 @@ use completion::Popup;
 use egui::{Event, Key, Rect, Ui};
 use std::ops::Range;
 
-/// Something the editor wants of those who know the other tabs.
+/// A request of the editor that concerns other tabs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Ask {
-    /// To a place of some text of the analysis.
+    /// Go to a place in any text of the analysis.
     GoTo(Span),
-    /// To the file that the `#include` line at this byte names.
+    /// Open the file that the `#include` line at this byte names.
     OpenIncluded(usize),
-    /// A list of all uses of what is named at this byte.
+    /// List all uses of the name at this byte.
     ListUses(usize),
-    /// The mends for what is wrong at this byte.
+    /// Show the fixes for the problem at this byte.
     Fix(usize),
-    /// Another name for what is named at this byte.
+    /// Rename what is named at this byte.
     Rename(usize),
-    /// The clipboard's text, in the place of what is selected.
+    /// Replace the selection with the clipboard's text.
     Paste,
 }
 
@@ -40,27 +40,27 @@ enum Question {
 #[derive(Debug, Default)]
 pub(super) struct Assist {
     popup: Option<Popup>,
-    /// Proposals are to be asked for as soon as the analysis is of this text; `true`: by Ctrl+Space.
+    /// Completions are requested as soon as the analysis matches the text; `true`: by Ctrl+Space.
     wanted: Option<bool>,
     /// The start of the word for which Escape closed the popup.
     dismissed: Option<usize>,
     signature: Option<SignatureHelp>,
     signature_is_on: bool,
     hover: tips::Pointer,
-    /// Uses of the name at the caret, and for which revision and caret they were found.
+    /// Uses of the name at the caret, with the revision and the caret for which they were found.
     uses: Vec<Range<usize>>,
     uses_of: Option<(u64, usize)>,
-    /// A proposal was clicked.
+    /// A completion was clicked.
     is_chosen: bool,
-    /// The question about the caret's name that waits for the analysis.
+    /// The request about the name at the caret that waits for the analysis.
     question: Option<Question>,
     pub asks: Vec<Ask>,
-    /// The names and areas of what is open.
+    /// The names and areas of open popups.
     pub placed: Vec<(String, Rect)>,
 }
 
 impl Assist {
-    /// Takes an event if it is for what is open. Otherwise the editor gets it.
+    /// Handles an event if it is for an open popup; otherwise the editor gets it.
     pub(super) fn take(&mut self, event: &Event, buffer: &mut Buffer) -> bool {
         let Event::Key { key, pressed: true, modifiers: m, .. } = *event else { return false };
         self.hover.close();
@@ -96,13 +96,13 @@ impl Assist {
         closes
     }
 
-    /// Opens the list of proposals, also where nothing is typed yet.
+    /// Opens the completion list, even if nothing is typed yet.
     pub(super) fn propose(&mut self) {
         self.wanted = Some(true);
         self.dismissed = None;
     }
 
-    /// Shows what the call around the caret takes.
+    /// Shows the signature of the call around the caret.
     pub(super) fn show_signature(&mut self) {
         self.signature_is_on = true;
     }
@@ -112,7 +112,7 @@ impl Assist {
         self.question = Some(Question::Uses);
     }
 
-    /// After the editor has taken an event: what opens, goes on or closes by it.
+    /// Opens, updates or closes popups after the editor has handled an event.
     pub(super) fn after(&mut self, event: &Event, buffer: &Buffer) {
         match event {
             Event::Text(text) => self.typed(text, buffer),
@@ -125,7 +125,7 @@ impl Assist {
                 self.close();
                 self.close_signature();
             }
-            // A letter's key comes with its text; any other moves the caret or changes the text elsewhere.
+            // A letter's key comes with its text; any other key moves the caret or changes the text elsewhere.
             Event::Key { key, pressed: true, modifiers, .. } => {
                 let is_typing = !modifiers.command && !modifiers.alt && key.name().chars().count() == 1;
                 if !is_typing {
@@ -160,7 +160,7 @@ impl Assist {
         }
     }
 
-    /// The word before the caret has changed under an open popup.
+    /// Updates an open popup after the word before the caret has changed.
     fn go_on(&mut self, buffer: &Buffer) {
         if self.popup.as_mut().is_some_and(|popup| !popup.filter(buffer)) {
             self.popup = None;
@@ -177,7 +177,7 @@ impl Assist {
         self.signature_is_on = false;
     }
 
-    /// The keyboard or the text went elsewhere.
+    /// Closes everything: the keyboard focus or the text has moved elsewhere.
     pub(super) fn close_all(&mut self) {
         self.close();
         self.close_signature();
@@ -196,7 +196,7 @@ impl Assist {
         self.question = Some(Question::Definition);
     }
 
-    /// Once a frame: opens what was wanted, if `help` is of the text as it is.
+    /// Opens what was requested if `help` matches the text. Called once a frame.
     pub(super) fn update(&mut self, buffer: &Buffer, help: Option<Help<'_>>) {
         let Some(help) = help else {
             self.uses_of = None;
@@ -230,24 +230,24 @@ impl Assist {
         }
     }
 
-    /// The list of proposals is open.
+    /// Returns whether the completion list is open.
     pub(super) fn is_open(&self) -> bool {
         self.popup.is_some()
     }
 
-    /// Uses of the name at the caret in this text.
+    /// Returns the uses of the name at the caret in this text.
     pub(super) fn uses(&self) -> &[Range<usize>] {
         &self.uses
     }
 
-    /// Takes the proposal that was clicked in the frame before: while lines are shown the text stays as it is.
+    /// Inserts the completion that was clicked in the previous frame: the text must not change while lines are shown.
     pub(super) fn take_chosen(&mut self, buffer: &mut Buffer) {
         if std::mem::take(&mut self.is_chosen) {
             self.accept(buffer);
         }
     }
 
-    /// Shows what is open.
+    /// Shows the open popups.
     pub(super) fn show(&mut self, ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, shown: Rect) {
         let caret = lines.caret_rect(buffer);
         let is_in_sight = shown.intersects(caret);
@@ -266,7 +266,8 @@ impl Assist {
         }
     }
 
-    /// Returns what the name under the pointer is, once the pointer rests. True if the tip hangs below its line.
+    /// Shows what the name under the pointer is, once the pointer rests. Returns true if the tooltip is below its
+    /// line.
     pub(super) fn show_hover(
         &mut self,
         ui: &Ui,

@@ -1,4 +1,4 @@
-//! Says which keys go to what is open, and when it opens.
+//! Tests of which keys go to popups, and when popups open.
 
 use super::*;
 use crate::{
@@ -13,7 +13,7 @@ use egui::Modifiers;
 
 const ID: SourceId = SourceId(0);
 
-/// Feeds keys as the editor does, with an analysis after each: `<Enter>` and its like are keys, the rest is typed.
+/// Feeds keys as the editor does, with an analysis after each: `<Enter>` and the like are keys, the rest is typed.
 fn type_into(text: &str, input: &str) -> (Assist, String) {
     let mut buffer = Buffer::new(&text.replace('@', ""));
     let at = text.find('@').unwrap();
@@ -57,20 +57,20 @@ fn type_into(text: &str, input: &str) -> (Assist, String) {
 }
 
 #[test]
-fn keys_go_where_they_are_meant() {
+fn popups_take_only_their_keys() {
     for (input, text) in [
         ("nor<Enter>", "x = normalize; }"),
         ("nor<Tab>", "x = normalize; }"),
-        // A word that is whole: Enter is for the text.
+        // A complete word: Enter goes to the text.
         ("normalize<Enter>", "x = normalize\n; }"),
         ("sin<Enter>", "x = sin\n; }"),
-        // Picked by hand: it is meant.
+        // Picked explicitly, so Enter accepts.
         ("sin<Down><Up><Down><Enter>", "x = sinh; }"),
-        // Not begun with these letters, so Enter takes it only where it was picked; Tab always does.
+        // The item does not start with these letters, so Enter accepts it only if it was picked; Tab always does.
         ("sms<Enter>", "x = sms\n; }"),
         ("sms<Tab>", "x = smoothstep; }"),
         ("sms<Down><Up><Enter>", "x = smoothstep; }"),
-        // Closed by Escape, and it stays closed for this word.
+        // Closed by Escape, and stays closed for this word.
         ("nor<Escape>m<Enter>", "x = norm\n; }"),
         ("nor<Escape> + nor<Tab>", "x = nor + normalize; }"),
         ("n<Enter>", "x = n\n; }"),
@@ -90,7 +90,7 @@ fn keys_go_where_they_are_meant() {
 }
 
 #[test]
-fn the_list_opens_while_a_name_is_typed() {
+fn completion_opens_while_a_name_is_typed() {
     for (input, is_open) in [
         ("n", false),
         ("no", true),
@@ -111,7 +111,7 @@ fn the_list_opens_while_a_name_is_typed() {
 }
 
 #[test]
-fn the_signature_stays_as_long_as_the_call() {
+fn signature_stays_open_inside_the_call() {
     for (input, parameter) in [
         ("clamp(", Some(0)),
         ("clamp(1.0, ", Some(1)),
@@ -127,7 +127,7 @@ fn the_signature_stays_as_long_as_the_call() {
 }
 
 #[test]
-fn a_question_is_about_the_name_at_the_caret() {
+fn requests_are_about_the_name_at_the_caret() {
     let (assist, _) = type_into("float g;\nvoid f() { g@; }", "<F12>");
     assert_eq!(assist.asks, [Ask::GoTo(Span::new(ID, 6..7))]);
     assert_eq!(assist.uses(), [6..7, 20..21]);

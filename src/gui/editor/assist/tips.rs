@@ -1,4 +1,4 @@
-//! Tips over the code: what the name under the pointer is, and the signature of the call around the caret.
+//! Tooltips over the code: what the name under the pointer is, and the signature of the call around the caret.
 
 use super::{
     super::{buffer::Buffer, lines::Lines, look::Help},
@@ -11,28 +11,28 @@ use crate::{
 use egui::{Align2, Area, FontId, Frame, Id, Label, Margin, Order, Pos2, Rect, RichText, Ui, pos2};
 use std::time::Duration;
 
-/// Says how long the pointer rests before a tip opens.
+/// The time that the pointer must rest before a tooltip opens, in seconds.
 const REST: f64 = 0.35;
 const WIDTH: f32 = 440.0;
 
 /// The pointer over the text.
 #[derive(Debug, Default)]
 pub(super) struct Pointer {
-    /// The place of the pointer, and the time in seconds since when it rests there.
+    /// The position of the pointer, and the time in seconds since which it has rested there.
     rests: Option<(Pos2, f64)>,
-    /// It was looked at what it rests on.
+    /// The place on which the pointer rests was already looked up.
     asked: bool,
     open: Option<Hover>,
 }
 
 impl Pointer {
-    /// Closes the tip until the pointer moves again.
+    /// Closes the tooltip until the pointer moves again.
     pub(super) fn close(&mut self) {
         self.open = None;
         self.asked = true;
     }
 
-    /// Opens, keeps or closes the tip. True if it hangs below its line.
+    /// Opens, keeps or closes the tooltip. Returns true if it is below its line.
     pub(super) fn show(
         &mut self,
         ui: &Ui,
@@ -52,7 +52,7 @@ impl Pointer {
             self.rests = Some((at, now));
             self.asked = false;
         }
-        // An open tip stays while the pointer is on its name.
+        // An open tooltip stays while the pointer is on its name.
         if let Some(open) = &self.open
             && !name_rect(lines, buffer, open).is_some_and(|r| r.expand(1.0).contains(at))
         {
@@ -83,7 +83,7 @@ impl Pointer {
     }
 }
 
-/// The name a tip is about.
+/// Returns the rectangle of the name that a tooltip is about.
 fn name_rect(lines: &Lines<'_>, buffer: &Buffer, hover: &Hover) -> Option<Rect> {
     let range = hover.span.range();
     if range.end > buffer.text().len() {
@@ -93,7 +93,7 @@ fn name_rect(lines: &Lines<'_>, buffer: &Buffer, hover: &Hover) -> Option<Rect> 
     (first.top() == last.top()).then(|| first.union(last))
 }
 
-/// The call around the caret; `at` is where its name begins.
+/// Shows the signature of the call around the caret; `at` is where its name starts.
 pub(super) fn signature(ui: &Ui, help: &SignatureHelp, at: Rect, font: &FontId, placed: &mut Vec<(String, Rect)>) {
     let Some(signature) = help.signatures.get(help.active) else { return };
     tip(ui, at, true, "signature", placed, |ui| {
@@ -117,7 +117,7 @@ fn small_size(font: &FontId) -> f32 {
     (font.size - 2.0).max(8.0)
 }
 
-/// Shows something above a place of the text, or below it where there is no room above. True if it is below.
+/// Shows a tooltip above a place of the text, or below it if there is no room above. Returns true if it is below.
 fn tip(
     ui: &Ui,
     at: Rect,
@@ -127,7 +127,7 @@ fn tip(
     contents: impl FnOnce(&mut Ui),
 ) -> bool {
     let window = ui.ctx().content_rect();
-    // The height is known from the frame before; a tip that is not known yet takes what is usual.
+    // The height is known from the previous frame; a new tooltip uses a typical one.
     let id = Id::unique(("tip", name));
     let height = ui.ctx().memory(|m| m.area_rect(id)).map_or(90.0, |r| r.height());
     let below = !above || at.top() - window.top() < height + 4.0;

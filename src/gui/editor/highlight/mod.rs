@@ -1,5 +1,5 @@
-//! A highlight holds what colouring and layout must know of all lines: the state each begins in, its pieces, and the
-//! macros defined anywhere.
+//! The state of all lines that colouring and layout need: each line's initial lexer state, its pieces, and the macros
+//! defined anywhere.
 
 use super::{
     buffer::{Buffer, Unchanged},
@@ -13,25 +13,25 @@ use std::{
     ops::Range,
 };
 
-/// Kept in step with a [`Buffer`] by [`Highlight::update`].
+/// Kept up to date with a [`Buffer`] by [`Highlight::update`].
 #[derive(Clone, Debug, Default)]
 pub(super) struct Highlight {
     lines: Vec<HighlightedLine>,
-    /// Macros of this text, and how many lines define each.
+    /// Macros of this text, with the number of lines that define each.
     macros: HashMap<Box<str>, usize>,
     /// Macros of `shared_text`.
     shared: HashSet<String>,
     shared_text: String,
-    /// The width of the widest line, in widths of a digit.
+    /// The width of the widest line, in digit widths.
     columns: f32,
-    /// Says where lines wrap, in widths of a digit.
+    /// The width at which lines wrap, in digit widths.
     wrap: Option<f32>,
     /// Widths of the characters that are not printable ASCII.
     widths: HashMap<char, f32>,
     replaced: Option<Replaced>,
 }
 
-/// Lines that took the place of others.
+/// A range of lines and those that replaced them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Replaced {
     pub first: usize,
@@ -41,19 +41,19 @@ pub(super) struct Replaced {
 
 #[derive(Clone, Debug, Default)]
 struct HighlightedLine {
-    /// The state at its beginning.
+    /// The lexer state at its start.
     state: LexState,
     cut: Cut,
     columns: f32,
-    /// The macro it defines.
+    /// The macro that it defines.
     defines: Option<Box<str>>,
-    /// In how many rows it is shown where nothing is folded.
+    /// The number of its rows if nothing is folded.
     rows: u32,
 }
 
 impl Highlight {
-    /// Takes in what changed since the last call, and gives how many bytes it looked at. `shared` is a text whose
-    /// macros count here too: Common's. `width` is as [`pieces::cut`] takes it.
+    /// Applies the changes since the last call, and returns the number of bytes scanned. `shared` is a text whose
+    /// macros are also visible here: Common's. `width` is the same as for [`pieces::cut`].
     pub(super) fn update(&mut self, buffer: &mut Buffer, shared: &str, width: &mut dyn FnMut(char) -> f32) -> usize {
         if self.shared_text != shared {
             self.shared_text = shared.to_owned();
@@ -90,7 +90,7 @@ impl Highlight {
         scanned
     }
 
-    /// Makes the lines that changed anew, and gives the number of those behind them.
+    /// Re-lexes the changed lines, and returns the number of the line after them.
     fn replace_changed(
         &mut self,
         buffer: &Buffer,
@@ -140,8 +140,8 @@ impl Highlight {
         kept
     }
 
-    /// Makes lines anew of which there are as many as before, and those between them that begin in another state now.
-    /// Gives the number of those behind them.
+    /// Re-lexes edited lines whose count is unchanged, and following lines until the lexer state matches. Returns the
+    /// number of the line after them.
     fn renew(
         &mut self,
         buffer: &Buffer,
@@ -181,7 +181,7 @@ impl Highlight {
         buffer.line_count() - 1 - last
     }
 
-    /// A line no longer defines `old`, but what it defines now.
+    /// Updates the counts after the macro that a line defines has changed from `old`.
     fn recount_macro(&mut self, old: Option<Box<str>>, line: usize) {
         let new = &self.lines[line].defines;
         if *new == old {
@@ -200,17 +200,17 @@ impl Highlight {
         }
     }
 
-    /// Returns what the line behind this one begins in.
+    /// Returns the state in which the next line starts.
     fn state_after(&self, buffer: &Buffer, line: usize) -> LexState {
         self.lines[line].cut.end.next_line(buffer.line(line))
     }
 
-    /// Returns which lines the last update took out and put in, once.
+    /// Takes which lines the last update removed and inserted; returns it once.
     pub(super) fn take_replaced(&mut self) -> Option<Replaced> {
         self.replaced.take()
     }
 
-    /// Wraps lines at a width, or not. True if that is new.
+    /// Sets the width at which lines wrap, if they do. Returns true if it has changed.
     pub(super) fn set_wrap(&mut self, buffer: &Buffer, wrap: Option<f32>) -> bool {
         let is_new = self.wrap != wrap;
         if is_new {
@@ -225,12 +225,12 @@ impl Highlight {
         self.wrap.is_some()
     }
 
-    /// Returns in how many rows a line is shown where nothing is folded.
+    /// Returns the number of rows of a line if nothing is folded.
     pub(super) fn rows(&self, line: usize) -> u32 {
         self.lines.get(line).map_or(1, |l| l.rows)
     }
 
-    /// Returns the rows of a piece, whose bytes are counted from its beginning.
+    /// Returns the rows of a piece, whose bytes count from its start.
     pub(super) fn breaks(&self, text: &str, piece: &Piece) -> Breaks {
         match self.wrap.filter(|wrap| piece.columns > *wrap) {
             Some(wrap) => wrap::breaks(text, wrap, &mut |c| self.widths.get(&c).copied().unwrap_or(1.0)),
@@ -278,27 +278,27 @@ impl Highlight {
         self.lines.get(line).map_or_else(LexState::default, |l| l.state)
     }
 
-    /// Returns whether a byte lies in a comment.
+    /// Returns whether a byte is in a comment.
     pub(super) fn is_comment(&self, buffer: &Buffer, at: usize) -> bool {
         matches!(self.state_at(buffer, at).inside, LineContext::LineComment | LineContext::BlockComment)
     }
 
-    /// Tokens of a piece of a line: `range` bytes of `text`, which begin in `state`.
+    /// Iterates over the tokens of a piece of a line: `range` bytes of `text`, which start in `state`.
     pub(super) fn tokens(&self, text: &str, range: Range<usize>, state: LexState) -> Vec<Token> {
         lines::lex(text, range, state, &|name| self.macros.contains_key(name) || self.shared.contains(name))
     }
 
-    /// The pieces that together are a line.
+    /// Returns the pieces of a line.
     pub(super) fn pieces(&self, line: usize) -> &[Piece] {
         self.lines.get(line).map_or(&[], |l| &l.cut.pieces)
     }
 
-    /// Returns what a line's brackets open and close.
+    /// Returns the nesting of a line's brackets.
     pub(super) fn nesting(&self, line: usize) -> Nesting {
         self.pieces(line).iter().fold(Nesting::default(), |before, piece| before.then(piece.nesting))
     }
 
-    /// The width of the widest line, in widths of a digit.
+    /// Returns the width of the widest line, in digit widths.
     pub(super) fn columns(&self) -> f32 {
         self.columns
     }

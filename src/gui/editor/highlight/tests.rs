@@ -16,7 +16,7 @@ impl Highlight {
 }
 
 #[test]
-fn a_comment_opened_above_colours_what_is_below() {
+fn opening_a_comment_recolours_the_lines_below() {
     let mut b = Buffer::new("a\nb\nc\n");
     let mut h = Highlight::default();
     h.take(&mut b, "#define SHARED 1\n");
@@ -35,7 +35,7 @@ fn a_comment_opened_above_colours_what_is_below() {
 }
 
 #[test]
-fn whatever_is_changed_the_index_is_that_of_the_text() {
+fn index_matches_a_fresh_one_after_random_edits() {
     let mut text = String::new();
     for i in 0..40 {
         text.push_str(&format!("#define M{i} {i}\r\nfloat a{i}; /* {i} */\n{}\n", "g(x) + ".repeat(i * 30)));
@@ -50,7 +50,7 @@ fn whatever_is_changed_the_index_is_that_of_the_text() {
     };
     let texts = ["", "x", "\n", "\r\n", "/*", "*/", "//", "\\\n", "#define Q\n", "a\nb\nc\n", "é"];
     for round in 0..400 {
-        // Several changes between two looks.
+        // Several changes between two updates.
         for _ in 0..1 + round % 3 {
             let start = random(b.text().len() + 1);
             let end = (start + [0, 1, 40, 900][random(4)]).min(b.text().len());
@@ -58,7 +58,7 @@ fn whatever_is_changed_the_index_is_that_of_the_text() {
             b.replace(start..end.max(start), texts[random(texts.len())], Kind::Other);
         }
         if round % 3 == 0 {
-            // Several carets, whose lines alone are looked at where they make and take none.
+            // Several carets, whose lines alone are scanned if the number of lines is unchanged.
             h.take(&mut b, "");
             let mut selection = |_| {
                 let at = random(b.text().len() + 1);
@@ -86,7 +86,7 @@ fn whatever_is_changed_the_index_is_that_of_the_text() {
 }
 
 #[test]
-fn a_letter_costs_the_same_in_long_lines_and_long_texts() {
+fn typing_cost_is_independent_of_line_and_text_length() {
     let line = "vec3 c = mix(iResolution, vec3(0.5), sin(iTime)); ";
     for text in [line.repeat(20_000), format!("{line}\n").repeat(20_000)] {
         let mut b = Buffer::new(&text);

@@ -1,7 +1,7 @@
-//! The rows in sight, laid out: between places of the text and points of the window.
+//! The layout of the visible rows: maps between places of the text and points of the window.
 //!
-//! Only pieces that can be seen are laid out. Where they are is reckoned from a row's and a piece's number in 64 bits:
-//! ten million letters are 80 million points wide, and a 32-bit number of that size has steps of eight.
+//! Only visible pieces are laid out. Their positions are computed from the numbers of a row and a piece in 64 bits:
+//! ten million letters are 80 million points wide, and 32-bit floats of that size have steps of eight.
 
 use super::{
     buffer::Buffer,
@@ -20,39 +20,39 @@ use egui::{
 };
 use std::{ops::Range, sync::Arc};
 
-/// Left of every line.
+/// The margin left of every line.
 pub(super) const MARGIN: f32 = 6.0;
 
 pub(super) struct Lines<'a> {
     pub index: &'a Highlight,
-    /// Says which row shows what.
+    /// The mapping of rows to lines.
     pub folding: &'a Rows,
-    /// The top left corner of the text, which may be far out of the window.
+    /// The top left corner of the text, which may be far outside the window.
     pub origin: Pos2,
     pub row_height: f32,
-    /// Width of a digit.
+    /// The width of a digit.
     pub glyph: f32,
     pub font: FontId,
     pub palette: &'static Palette,
-    /// The row that is laid out first.
+    /// The first row that is laid out.
     pub first: usize,
     pub rows: Vec<Row>,
 }
 
-/// A row in sight.
+/// A visible row.
 #[derive(Debug)]
 pub(super) struct Row {
     pub part: Part,
-    /// The runs of it that are laid out, from left to right without a gap.
+    /// The runs of it that are laid out, from left to right without gaps.
     pub runs: Vec<Run>,
-    /// Says where the row ends, in points from where lines begin.
+    /// The end of the row, in points from the start of lines.
     pub width: f64,
 }
 
 /// A piece laid out.
 #[derive(Debug)]
 pub(super) struct Run {
-    /// From where lines begin, in points.
+    /// The distance from the start of lines, in points.
     x: f64,
     /// Bytes of the text.
     bytes: Range<usize>,
@@ -60,15 +60,15 @@ pub(super) struct Run {
 }
 
 impl Row {
-    /// Bytes of the text that are laid out; `None` if nothing is.
+    /// Returns the bytes of the text that are laid out; `None` if nothing is.
     pub(super) fn bytes(&self) -> Option<Range<usize>> {
         Some(self.runs.first()?.bytes.start..self.runs.last()?.bytes.end)
     }
 }
 
 impl Lines<'_> {
-    /// Lays out what is in sight of some rows; egui keeps what it has seen in the last frame, so what stands still
-    /// costs its lexing. `shown` is what can be seen of the window.
+    /// Lays out the visible part of some rows; egui caches the layouts of the last frame, so an unchanged row costs
+    /// only its lexing. `shown` is the visible part of the window.
     pub(super) fn lay_out(
         &mut self,
         ui: &Ui,
@@ -147,14 +147,14 @@ impl Lines<'_> {
         } else if let [run] = &row.runs[..]
             && run.bytes == row.part.bytes
         {
-            // What a row is in whole is known to the last point, whatever its letters join to.
+            // The full width of a row is known exactly, including kerning.
             row.width = run.x + f64::from(run.galley.size().x);
         }
         row
     }
 
-    /// The text of some bytes in its colours. `tokens` begin at the byte `from`; `composing` is what an input method
-    /// composes and where.
+    /// Lays out some bytes of the text in their colours. `tokens` start at the byte `from`; `composing` is the text
+    /// that an input method composes, with its place.
     fn job(
         &self,
         buffer: &Buffer,
@@ -202,12 +202,12 @@ impl Lines<'_> {
         row.checked_sub(self.first).and_then(|i| self.rows.get(i))
     }
 
-    /// A place right of where lines begin, in the window.
+    /// Converts an x coordinate from the start of lines to the window.
     fn in_window(&self, x: f64) -> f32 {
         (f64::from(self.origin.x) + f64::from(MARGIN) + x) as f32
     }
 
-    /// Left end of the character at a byte of a row; what is out of sight is measured by the piece.
+    /// Returns the left edge of the character at a byte of a row; out of view it is estimated from the piece.
     fn x(&self, buffer: &Buffer, row: usize, at: usize) -> f32 {
         let runs = self.row(row).map_or(&[][..], |row| &row.runs);
         if let Some(run) = runs.iter().find(|r| (r.bytes.start..=r.bytes.end).contains(&at)) {
@@ -249,14 +249,14 @@ impl Lines<'_> {
         self.rect_of(buffer, buffer.selection().head)
     }
 
-    /// A caret at a position.
+    /// Returns the rectangle of a caret at a position.
     pub(super) fn rect_of(&self, buffer: &Buffer, at: usize) -> Rect {
         let at = buffer.snap(at);
         let row = self.folding.of(buffer, self.index, at);
         Rect::from_min_size(pos2(self.x(buffer, row, at), self.top(row)), vec2(1.0, self.row_height))
     }
 
-    /// Left and right end of what is laid out of a part of a row; `None` where none of it is.
+    /// Returns the left and right edge of the laid out part of a range in a row; `None` if none of it is laid out.
     pub(super) fn span(&self, buffer: &Buffer, row: usize, range: &Range<usize>) -> Option<(f32, f32)> {
         let laid_out = self.row(row)?.bytes()?;
         if range.end < laid_out.start || range.start > laid_out.end {
@@ -266,7 +266,7 @@ impl Lines<'_> {
         Some((x(range.start), x(range.end)))
     }
 
-    /// The position in the text nearest to a point.
+    /// Returns the position in the text nearest to a point.
     pub(super) fn position_at(&self, buffer: &Buffer, point: Pos2) -> usize {
         let row = ((f64::from(point.y) - f64::from(self.origin.y)) / f64::from(self.row_height)).floor();
         if row < 0.0 {
@@ -291,7 +291,7 @@ impl Lines<'_> {
         if let Some((_, run)) = found {
             let column: usize = run.galley.cursor_from_pos(vec2((x - run.x) as f32, 0.0)).index.into();
             let text = &buffer.text()[run.bytes.clone()];
-            // Behind the last letter of a row that goes on begins the next one.
+            // The position after the last letter of a wrapped row belongs to the next row.
             let last = if part.is_last || !is_last(run) { usize::MAX } else { text.chars().count().saturating_sub(1) };
             let column = column.min(last);
             return text.char_indices().nth(column).map_or(run.bytes.end, |(i, _)| run.bytes.start + i);
@@ -313,7 +313,7 @@ impl Lines<'_> {
     }
 }
 
-/// Those of a list of ranges in order that touch one.
+/// Returns those of an ordered list of ranges that touch a range.
 pub(super) fn touching<'r>(list: &'r [Range<usize>], range: &Range<usize>) -> &'r [Range<usize>] {
     let first = list.partition_point(|r| r.end < range.start);
     let behind = list[first..].partition_point(|r| r.start <= range.end);

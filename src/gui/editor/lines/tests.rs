@@ -1,9 +1,9 @@
-//! Places of a text and points of the window, in lines of many pieces.
+//! Maps places of a text to points of the window and back, in lines of many pieces.
 
 use super::{super::history::Kind, *};
 use egui::RawInput;
 
-/// Lays out the first line of a text, scrolled right by so many points, in a window 600 wide.
+/// Lays out the first line of a text, scrolled right by this number of points, in a window 600 points wide.
 fn with_lines(text: &str, scrolled: f32, check: impl Fn(&Lines<'_>, &Buffer)) {
     let ctx = egui::Context::default();
     let window = Rect::from_min_size(Pos2::ZERO, vec2(600.0, 100.0));
@@ -37,7 +37,7 @@ fn with_lines(text: &str, scrolled: f32, check: impl Fn(&Lines<'_>, &Buffer)) {
 }
 
 #[test]
-fn a_point_of_the_window_and_a_place_of_the_text_are_one_way_and_back() {
+fn positions_round_trip_through_window_points() {
     let words = "vec3 c = mix(a, \tvec3(0.5), sin(iTime)); é ";
     for text in [words.to_owned(), words.repeat(400), "x".repeat(30_000), "é".repeat(9_000)] {
         for part in [0.0f32, 0.3, 0.9] {
@@ -47,7 +47,7 @@ fn a_point_of_the_window_and_a_place_of_the_text_are_one_way_and_back() {
                 let mut left = f32::NEG_INFINITY;
                 for (at, _) in text.char_indices().filter(|(i, _)| bytes.contains(i)) {
                     let rect = lines.rect_of(buffer, at);
-                    // Pieces follow each other without a gap, as letters do in one.
+                    // Pieces follow each other without a gap, as letters do within one.
                     let step = rect.left() - left;
                     let is_even = left == f32::NEG_INFINITY || (step > 0.5 * lines.glyph && step < 4.6 * lines.glyph);
                     assert!(is_even, "{step} points from the letter before to the one at {at}");
@@ -61,7 +61,7 @@ fn a_point_of_the_window_and_a_place_of_the_text_are_one_way_and_back() {
 }
 
 #[test]
-fn what_is_out_of_sight_has_its_place_too() {
+fn text_out_of_view_has_a_position() {
     let text = "vec3 c; ".repeat(5_000);
     with_lines(&text, 150_000.0, |lines, buffer| {
         let row = &lines.rows[0];
@@ -76,7 +76,7 @@ fn what_is_out_of_sight_has_its_place_too() {
 }
 
 #[test]
-fn a_selection_of_ten_million_letters_is_a_rectangle_in_sight() {
+fn a_selection_of_ten_million_letters_is_clipped_to_the_view() {
     let text = "ab ".repeat(3_400_000);
     with_lines(&text, 40_000_000.0, |lines, buffer| {
         let (left, right) = lines.span(buffer, 0, &(0..text.len())).unwrap();
@@ -90,7 +90,7 @@ fn a_selection_of_ten_million_letters_is_a_rectangle_in_sight() {
 }
 
 #[test]
-fn ranges_that_touch_are_found_by_halving() {
+fn touching_ranges_are_found_by_binary_search() {
     let list = [0..2, 5..6, 8..12, 20..21];
     assert_eq!(touching(&list, &(6..8)), [5..6, 8..12]);
     assert!(touching(&list, &(13..19)).is_empty());

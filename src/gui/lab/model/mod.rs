@@ -1,5 +1,4 @@
-//! Says what the lab's panel shows, without a widget: the results known so far as points in the plane of cost and
-//! error.
+//! The data of the lab's panel, independent of widgets: the results so far as points in the plane of cost and error.
 
 use crate::lab::{
     ErrorRecord, Extent, Method, Point, Results, Study,
@@ -8,13 +7,13 @@ use crate::lab::{
 };
 use egui::Pos2;
 
-/// Results of one extent, which those of the other are not mixed with.
+/// Results of one extent, which are not mixed with those of the other.
 #[derive(Default)]
 pub(super) struct ExtentResults {
     pub results: Results,
-    /// Points whose cost is only estimated: milliseconds a frame.
+    /// Points whose cost is only estimated, in milliseconds per frame.
     pub estimates: Vec<(Point, f64)>,
-    /// Nothing has come since a report of it was written.
+    /// No results have arrived since the last report was written.
     pub is_saved: bool,
 }
 
@@ -28,7 +27,7 @@ pub(super) struct Dot {
     /// The index in [`PlotData::methods`].
     pub method: usize,
     pub look: Look,
-    /// The cost is one turn's, by itself: it moves yet.
+    /// The cost is from a single turn, so it may still change.
     pub is_estimate: bool,
 }
 
@@ -44,11 +43,11 @@ pub(super) struct PlotData {
 }
 
 impl ExtentResults {
-    /// Takes in what a run says; whether there is something new to draw.
+    /// Applies an event of a run; returns whether there is something new to draw.
     pub(super) fn take(&mut self, event: &Event) -> bool {
         match event {
             Event::Resumed(results) => {
-                // A folder that was written by another run has more than this window has seen.
+                // A folder that another run has written contains more than this window has seen.
                 self.results = results.clone();
                 self.estimates.retain(|(point, _)| self.results.error(point).is_some());
             }
@@ -81,7 +80,7 @@ impl ExtentResults {
         })
     }
 
-    /// `None` where nothing of the study is known.
+    /// Returns `None` if there are no results of the study.
     pub(super) fn shown(&self, study: &'static Study) -> Option<PlotData> {
         let estimate = |point: &Point| self.estimates.iter().find(|(p, _)| p == point).map(|(_, millis)| *millis);
         Some(PlotData::new(Table::with_estimates(study, &self.results, estimate)?))
@@ -119,18 +118,19 @@ impl PlotData {
         &self.table.rows[dot.row]
     }
 
-    /// The line of a method along its settings.
+    /// Returns the line of a method along its settings.
     pub(super) fn line(&self, method: usize) -> Vec<[f64; 2]> {
         self.dots.iter().filter(|d| d.method == method).map(|d| d.at).collect()
     }
 
-    /// Rows of a method that are measured and have no place in the plane: they diverged, failed, or wait for a cost.
+    /// Iterates over measured rows of a method without a place in the plane: they diverged, failed, or wait for a
+    /// cost.
     pub(super) fn without_place(&self, method: &Method) -> impl Iterator<Item = &Row> {
         self.table.of(method).filter(|r| r.place().is_none())
     }
 }
 
-/// The place nearest to a pointer, of those within a radius; the later of two that are equally near, which is drawn on
+/// Returns the place nearest to the pointer within a radius; of two that are equally near the later, which is drawn on
 /// top.
 pub(super) fn nearest(places: impl IntoIterator<Item = Pos2>, pointer: Pos2, radius: f32) -> Option<usize> {
     let far = places.into_iter().enumerate().map(|(n, place)| (n, place.distance(pointer)));
@@ -138,14 +138,14 @@ pub(super) fn nearest(places: impl IntoIterator<Item = Pos2>, pointer: Pos2, rad
     near.reduce(|best, next| if next.1 <= best.1 { next } else { best }).map(|(n, _)| n)
 }
 
-/// Returns where a run stands, from 0 to 1, and in words.
+/// Returns the progress of a run, from 0 to 1 and in words.
 pub(super) fn progress_text(progress: &Progress) -> (f32, String) {
     match progress {
         Progress::Begins => (0.0, "opening a device".into()),
         Progress::Error { point, done, all } => {
             let part = *done as f32 / (*all).max(1) as f32;
             let words = format!("{} of {all}: {} at {} on {}", done + 1, point.method, point.setting, point.grid);
-            // The last part is the costs'.
+            // The last part is for the costs.
             (0.8 * part, words)
         }
         Progress::Cost { points } => (0.8, format!("costs of {points} points")),

@@ -7,7 +7,7 @@ use crate::lab::{
 };
 use egui::pos2;
 
-/// The first study, its points on the main grid, and a run that begins.
+/// The first study, its points on the main grid, and a run that has just started.
 fn begun() -> (&'static Study, Vec<Point>, ExtentResults) {
     let study = studies::all()[0];
     let main = study.main_grid(Extent::Quick);
@@ -52,11 +52,11 @@ fn costed(point: &Point, millis: f64) -> Event {
 }
 
 #[test]
-fn a_point_is_drawn_at_its_estimate_and_moves_to_its_cost() {
+fn points_move_from_their_estimated_to_their_measured_cost() {
     let (study, points, mut known) = begun();
     assert!(known.shown(study).is_none());
     known.take(&measured(&points[0], 0.01, true));
-    // Without any cost there is no place for it.
+    // Without a cost it has no place.
     assert_eq!(known.shown(study).unwrap().dots, []);
     known.take(&Event::Estimate { point: points[0].clone(), millis: 0.1 });
     let shown = known.shown(study).unwrap();
@@ -71,7 +71,7 @@ fn a_point_is_drawn_at_its_estimate_and_moves_to_its_cost() {
 }
 
 #[test]
-fn dots_look_as_in_the_report() {
+fn dots_match_the_report() {
     let (study, points, mut known) = begun();
     let looks = [(0.1, 1.0, true), (0.01, 2.0, true), (0.2, 3.0, true), (0.001, 0.5, false)];
     for ((error, millis, passes), point) in looks.into_iter().zip(&points) {
@@ -82,13 +82,13 @@ fn dots_look_as_in_the_report() {
     let mut looks: Vec<(i64, Look)> = shown.dots.iter().map(|d| ((10.0 * d.at[0]).round() as i64, d.look)).collect();
     looks.sort_by_key(|(x, _)| *x);
     assert_eq!(looks.iter().map(|l| l.1).collect::<Vec<_>>(), [Look::Hollow, Look::Full, Look::Full, Look::Grey]);
-    // One stair from the cheap one down to the close one; who fails a hard case is no part of it.
+    // One stair from the cheap one down to the accurate one; a method that fails a hard case is excluded.
     assert_eq!(shown.frontier.len(), 3);
     assert_eq!(shown.frontier[1][1], shown.frontier[0][1]);
 }
 
 #[test]
-fn what_diverges_has_no_place_and_is_told() {
+fn diverged_points_are_listed_without_a_dot() {
     let (study, points, mut known) = begun();
     known.take(&measured(&points[0], f64::INFINITY, true));
     known.take(&costed(&points[0], 1.0));
@@ -99,11 +99,11 @@ fn what_diverges_has_no_place_and_is_told() {
 }
 
 #[test]
-fn a_click_takes_the_nearest_point_within_reach() {
+fn clicks_select_the_nearest_point_within_reach() {
     let places = [pos2(0.0, 0.0), pos2(10.0, 0.0), pos2(10.0, 4.0)];
     let at = |x, y| nearest(places, pos2(x, y), 12.0);
     assert_eq!((at(1.0, 1.0), at(9.0, 0.5), at(10.0, 3.0), at(40.0, 0.0)), (Some(0), Some(1), Some(2), None));
-    // Of two in one place the one drawn later, which is seen.
+    // Of two in the same place the one drawn later, which is visible.
     assert_eq!(nearest([pos2(5.0, 5.0), pos2(5.0, 5.0)], pos2(5.0, 6.0), 12.0), Some(1));
     assert_eq!(nearest([], pos2(0.0, 0.0), 12.0), None);
 }

@@ -1,30 +1,30 @@
-//! A key is one thing: it does the action that it is bound to, or it types.
+//! Routes keys: a key either triggers the action that it is bound to, or types text, never both.
 //!
-//! The window system hands over a key press and, right behind it, the text that the press types. An action takes both.
-//! The text can come in a later pass than the key (see [`steps`](crate::gui::steps)), so that one has to be remembered
-//! in between.
+//! The window system reports a key press, followed by the text that the press types. An action consumes both. The text
+//! can arrive in a later pass than the key (see [`steps`](crate::gui::steps)), so the key is remembered between
+//! passes.
 
 use crate::gui::actions::{Action, KeyFocus, Keymap};
 use egui::{Event, Key, Modifiers};
 
-/// The one who has the keyboard.
+/// The holder of the keyboard focus.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Keyboard {
     pub listening: KeyFocus,
-    /// A field has it, whose letters are its own.
+    /// A text field has the focus and receives all letters.
     pub field: bool,
 }
 
-/// The way from keys to actions.
+/// Maps key presses to actions.
 #[derive(Debug, Default)]
 pub(super) struct Keys {
-    /// The newest press was an action's: what it also types is nobody's.
+    /// The newest press triggered an action: the text that it also types is dropped.
     drops_text: bool,
 }
 
 impl Keys {
-    /// Takes out of `events` what is an action of the window, with what it types. The keys of the code are left to it, in
-    /// their order with what is typed, and only their letters are taken out. The actions come back.
+    /// Removes the window's actions from `events`, with the text that their keys type, and returns them. Keys bound to
+    /// actions of the code editor stay in `events`, in order with typed text; only their letters are removed.
     pub(super) fn take(&mut self, events: &mut Vec<Event>, keymap: &Keymap, keyboard: Keyboard) -> Vec<Action> {
         let mut actions = Vec::new();
         events.retain(|event| {
@@ -35,7 +35,7 @@ impl Keys {
             let Event::Key { key, modifiers, pressed: true, repeat, .. } = event else { return true };
             let Some(entry) = keymap.pressed(event, keyboard.listening) else { return true };
             let is_of_code = matches!(entry.action, Action::Code(_));
-            // A field has an undo of its own, and a letter is typed wherever one types.
+            // A text field has its own undo, and letters are typed wherever text is edited.
             let types = keyboard.field || keyboard.listening.code;
             let is_of_text =
                 (keyboard.field && is_of_texts(entry.action)) || (types && !is_of_code && prints(*key, *modifiers));
@@ -55,12 +55,13 @@ impl Keys {
     }
 }
 
-/// Returns whether a field that is typed in does the same with its own text.
+/// Returns whether a focused text field handles this action itself.
 fn is_of_texts(action: Action) -> bool {
     matches!(action, Action::UndoPasses | Action::RedoPasses)
 }
 
-/// Returns whether a key by itself, or with Shift, is for typing: no text could be written if it were an action's.
+/// Returns whether a key, alone or with Shift, types a character: binding it to an action would make it impossible to
+/// type.
 fn prints(key: Key, modifiers: Modifiers) -> bool {
     let is_arrow = matches!(key, Key::ArrowDown | Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp);
     let is_sign = key.symbol_or_name().chars().count() == 1 && !is_arrow;

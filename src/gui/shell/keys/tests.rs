@@ -1,11 +1,11 @@
-//! A property of all bindings in all places.
+//! A property of all bindings in every context.
 
 use super::*;
 use crate::gui::actions::{ACTIONS, Chord};
 
 const MARK: &str = "§";
 
-/// A press of a chord as the window system tells of it: with what it types, unless Ctrl is held.
+/// A press of a chord as the window system reports it: with the text that it types, unless Ctrl is held.
 fn press(chord: Chord) -> Vec<Event> {
     let Chord { key, modifiers } = chord;
     let modifiers = Modifiers { ctrl: modifiers.command, ..modifiers };
@@ -31,10 +31,10 @@ fn places() -> Vec<(&'static str, Keyboard)> {
     ]
 }
 
-/// Every key of the table, and every letter and sign that a person may give an action, in every place: it acts or it
-/// types.
+/// Tries every key of the table, and every letter and sign that a user may bind to an action, in every context: it
+/// either acts or types.
 #[test]
-fn a_key_acts_or_types_and_never_both() {
+fn a_key_either_acts_or_types() {
     let own: Vec<Chord> = ACTIONS.iter().flat_map(|e| e.keys).map(|key| Chord::parse(key).unwrap()).collect();
     let given = ["K", "Shift+K", "+", "Space", "/", "Alt+K", "Alt+/", "Alt+7", "Shift+Alt+.", "F4"];
     let given: Vec<Chord> = given.iter().map(|key| Chord::parse(key).unwrap()).collect();
@@ -57,7 +57,7 @@ fn a_key_acts_or_types_and_never_both() {
                 let acts = !actions.is_empty() || events.iter().any(code_acts);
                 let typed = is_typed(&events);
                 assert!(!(acts && typed), "{chord} acts and types in: {place}");
-                // A field has an undo of its own.
+                // A text field has its own undo.
                 let is_left = events.iter().any(|e| matches!(e, Event::Key { pressed: true, .. }));
                 assert!(acts || typed || is_left, "{chord} does nothing in: {place}");
                 assert!(acts || typed || !could_type, "{chord} types nothing in: {place}");
@@ -70,9 +70,9 @@ fn a_key_acts_or_types_and_never_both() {
     }
 }
 
-/// The text of a key may come a pass later, and only that is dropped.
+/// The text of a key may arrive one pass later, and only that text is dropped.
 #[test]
-fn the_text_of_a_key_is_dropped_also_in_a_later_pass() {
+fn text_of_an_action_key_is_dropped_in_a_later_pass() {
     let keymap = Keymap::default();
     let keyboard = places()[0].1;
     let mut keys = Keys::default();
@@ -85,9 +85,9 @@ fn the_text_of_a_key_is_dropped_also_in_a_later_pass() {
     assert!(!is_typed(&later));
 }
 
-/// AltGr is no Alt to the window system: what it types comes with a key of its own.
+/// The window system does not report AltGr as Alt: its text comes with a key event of its own.
 #[test]
-fn what_alt_gr_types_is_typed() {
+fn alt_gr_types_its_text() {
     let keymap = Keymap::default();
     for (key, physical_key, shift) in [
         (Key::OpenBracket, Key::Num8, false),
