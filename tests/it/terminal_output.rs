@@ -218,7 +218,7 @@ fn no_command_prints_controls_of_a_hostile_project() {
 const WRITERS: [(&str, &str); 7] = [
     ("cli/terminal.rs", "the writer that escapes"),
     ("cli/leave.rs", "flushes"),
-    ("cli/mod.rs", "the language server's protocol"),
+    ("cli/command.rs", "the language server's protocol"),
     ("gui/report.rs", "escaped JSON"),
     ("playback/trial.rs", "a fixed word"),
     ("gpu/testing.rs", "tests"),
