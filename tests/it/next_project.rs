@@ -485,12 +485,11 @@ fn the_last_picture_of_a_project_is_kept_small_when_it_is_left() {
         let bad = write(&stage, "bad.glsl", "no shader");
         stage.session.apply(Command::SetFixedSize(Some((720, 1280))));
         let open = |stage: &mut Stage, path: &Path| {
+            let drawn = stage.session.programs_drawn();
             stage.session.apply(Command::Open(path.to_str().unwrap().into()));
             stage.compile(if is_paused { Command::Pause } else { Command::Play });
-            let end = Instant::now() + Duration::from_millis(400);
-            while Instant::now() < end {
-                stage.tick();
-                std::thread::sleep(Duration::from_millis(2));
+            if stage.is_ok() {
+                stage.until("a frame of the project", |session| session.programs_drawn() > drawn);
             }
         };
         let red = |stage: &Stage, path: &Path| {
@@ -504,6 +503,9 @@ fn the_last_picture_of_a_project_is_kept_small_when_it_is_left() {
         open(&mut stage, &a);
         assert_eq!(red(&stage, &a), None);
         open(&mut stage, &b);
+        // It is written on another thread.
+        let file = stage.session.last_picture(&a).unwrap().0;
+        stage.until("the picture of the project that was left", |_| file.is_file());
         assert_eq!(red(&stage, &a), Some((size, 8)), "apart {draws_on_thread}");
         // It stays open, and something else is looked at.
         let (_, before) = stage.session.last_picture(&b).unwrap();
