@@ -98,7 +98,7 @@ impl<Progress: Clone + Default> Control<Progress> {
         self.update(|shared| *shared = progress);
     }
 
-    /// Changes what is told of the work, and wakes the owner.
+    /// Changes the progress of the job, and wakes the owner.
     pub fn update(&self, change: impl FnOnce(&mut Progress)) {
         change(&mut self.shared.progress.lock().unwrap_or_else(|e| e.into_inner()));
         (self.wake)();
@@ -233,7 +233,7 @@ where
         self.is_busy && self.control.is_cancelled()
     }
 
-    /// Takes what the newest job has told of its progress. It continues from the default.
+    /// Takes the progress of the newest job, and leaves the default in its place.
     pub fn take_progress(&mut self) -> Progress {
         mem::take(&mut self.control.shared.progress.lock().unwrap_or_else(|e| e.into_inner()))
     }

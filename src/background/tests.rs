@@ -25,7 +25,7 @@ where
 }
 
 #[test]
-fn the_newest_job_wins_and_overtaken_ones_are_not_begun() {
+fn the_newest_job_wins_and_superseded_ones_are_not_started() {
     let (begun, log) = mpsc::channel();
     let (go, gate) = mpsc::channel::<()>();
     let mut b = background(move |n: u32| {
@@ -49,7 +49,7 @@ fn the_newest_job_wins_and_overtaken_ones_are_not_begun() {
 }
 
 #[test]
-fn what_is_cancelled_gives_no_result() {
+fn a_cancelled_job_has_no_result() {
     let mut b = background(|n: u32| n);
     b.start(1);
     b.cancel();
@@ -63,7 +63,7 @@ fn what_is_cancelled_gives_no_result() {
 }
 
 #[test]
-fn a_panic_is_an_error_and_the_thread_goes_on() {
+fn a_panic_is_an_error_and_the_thread_continues() {
     let mut b = background(|n: u32| {
         assert!(n != 1, "one is too few");
         n
@@ -75,7 +75,7 @@ fn a_panic_is_an_error_and_the_thread_goes_on() {
 }
 
 #[test]
-fn work_reports_progress_and_hears_that_it_is_cancelled() {
+fn work_reports_progress_and_sees_its_cancellation() {
     let (woken, wakes) = mpsc::channel();
     let (heard, hears) = mpsc::channel();
     let wake = Arc::new(move || _ = woken.send(()));
@@ -102,7 +102,7 @@ fn work_reports_progress_and_hears_that_it_is_cancelled() {
 }
 
 #[test]
-fn a_request_is_under_way_until_its_input_has_led_to_a_result() {
+fn a_request_is_pending_until_its_result_arrives() {
     let mut b = background(|n: u32| n);
     assert!(!b.take_request() && b.status().is_none());
     b.request();
@@ -118,7 +118,7 @@ fn a_request_is_under_way_until_its_input_has_led_to_a_result() {
 }
 
 #[test]
-fn events_are_told_in_order_and_none_is_lost() {
+fn events_arrive_in_order_and_none_is_lost() {
     let (go, gate) = mpsc::channel::<()>();
     let mut b = Background::once("test", "the test", Arc::new(|| ()), move |control: &Control<Vec<u32>>| {
         for n in 0..100 {
@@ -142,7 +142,7 @@ fn events_are_told_in_order_and_none_is_lost() {
 }
 
 #[test]
-fn a_stopped_job_gives_the_result_that_it_has_by_then() {
+fn a_stopped_job_returns_its_partial_result() {
     let (started, starts) = mpsc::channel();
     let mut b = Background::once("test", "the test", Arc::new(|| ()), move |control: &Control<()>| {
         let flag = control.cancel_flag();
@@ -173,7 +173,7 @@ fn a_thread_of_one_job_ends_with_it() {
 }
 
 #[test]
-fn nobody_waits_for_a_detached_job() {
+fn dropping_a_detached_job_does_not_wait() {
     let (_never, waits) = mpsc::channel::<()>();
     let work = move |_: &Control<()>| waits.recv().map_err(|e| e.to_string());
     drop(Background::once("test", "the test", Arc::new(|| ()), work).unwrap().detached());

@@ -39,7 +39,7 @@ pub(super) struct Opening<'a> {
     run: &'a RunArgs,
     inputs: ScriptedInputs,
     pass: PassName,
-    may_be_heard: bool,
+    allows_sound: bool,
     find_passes: FindPasses<'a>,
     find_probe: Option<FindProbe<'a>>,
 }
@@ -51,7 +51,7 @@ impl<'a> Opening<'a> {
             run,
             inputs: inputs.clone(),
             pass: PassName::image(),
-            may_be_heard: false,
+            allows_sound: false,
             find_passes: &|_| Vec::new(),
             find_probe: None,
         }
@@ -65,7 +65,7 @@ impl<'a> Opening<'a> {
 
     /// Draws the sound pass.
     pub(super) fn sound_pass(mut self) -> Self {
-        (self.pass, self.may_be_heard) = (PassName::sound(), true);
+        (self.pass, self.allows_sound) = (PassName::sound(), true);
         self
     }
 
@@ -83,8 +83,8 @@ impl<'a> Opening<'a> {
 
     /// Opens the project. Warnings go into the report, whose `--sweep` sets uniforms.
     pub(super) fn open(self, machine: &mut Machine, report: &mut Report) -> Result<Opened, RunError> {
-        let Self { spec, run, inputs, pass, may_be_heard, find_passes, find_probe } = self;
-        if !may_be_heard {
+        let Self { spec, run, inputs, pass, allows_sound, find_passes, find_probe } = self;
+        if !allows_sound {
             is_picture(&pass)?;
         }
         let loaded = project::load(spec)?;

@@ -45,6 +45,13 @@ impl Format {
         self.row().max_fps
     }
 
+    /// Returns all formats with pictures first, as the command line lists them: it draws pictures unless told otherwise.
+    pub fn pictures_first() -> [Format; ROWS.len()] {
+        let mut all = Format::ALL;
+        all.sort_by_key(|format| !format.is_still());
+        all
+    }
+
     /// Returns the format with this name, ignoring case.
     pub fn of_name(name: &str) -> Option<Format> {
         Format::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name))

@@ -124,7 +124,7 @@ fn distance(a: &[char], b: &[char], most: usize) -> Option<usize> {
                 row[k] = (i + j).min(far);
                 continue;
             }
-            // In the previous row the same position in `b` is one cell further on.
+            // In the previous row the same position in `b` is one cell to the right.
             let above = if k < 2 * most { last[k + 1] } else { far };
             let left = if k > 0 { row[k - 1] } else { far };
             let mut cell = (last[k] + usize::from(a[i - 1] != b[j - 1])).min(above + 1).min(left + 1);

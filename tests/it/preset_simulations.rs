@@ -259,7 +259,7 @@ fn all_sliders_may_go_to_their_ends_at_once_and_come_back() {
         }
         let before = bits(&engine.read_image().unwrap());
         run(&mut engine, 20, false);
-        assert!(before != bits(&engine.read_image().unwrap()), "{} stands still", s.name);
+        assert!(before != bits(&engine.read_image().unwrap()), "{} does not move", s.name);
     }
 }
 
@@ -306,7 +306,7 @@ fn a_resize_in_mid_run_leaves_no_undefined_texel() {
         draw(&mut engine, frame..frame + 40, untouched);
         let before = bits(&engine.read_image().unwrap());
         draw(&mut engine, frame + 40..frame + 60, untouched);
-        assert!(before != bits(&engine.read_image().unwrap()), "{} stands still", s.name);
+        assert!(before != bits(&engine.read_image().unwrap()), "{} does not move", s.name);
     }
 }
 

@@ -121,7 +121,10 @@ fn a_run_repeats_itself_whole_or_in_halves() {
         }
         let after = bits(&engines[0].read_image().unwrap());
         draw(&mut engines[0], 12..13, drag);
-        assert!(after != bits(&engines[0].read_image().unwrap()), "{name} stands still: the test sees nothing");
+        assert!(
+            after != bits(&engines[0].read_image().unwrap()),
+            "{name} does not move, so the test would prove nothing"
+        );
     }
 }
 

@@ -84,7 +84,7 @@ fn an_edited_tab_asks_and_keeps_both_texts_whatever_the_answer() {
         assert_eq!((tab.as_ref(), file), (Some(&image_tab()), &stage.path("image.glsl")));
         assert_eq!((&**mine, &**disk), (&*plain(0.4), &*plain(0.6)));
         assert_eq!(diff.iter().filter(|l| !matches!(l, DiffLine::Both(_))).count(), 2);
-        assert_eq!(stage.session.text(&image_tab()), plain(0.4), "mine stands until the answer");
+        assert_eq!(stage.session.text(&image_tab()), plain(0.4), "the edit stays until the answer");
         let elsewhere = stage.path("elsewhere.txt");
         stage.session.apply(Command::Answer(match answer {
             "mine" => Answer::KeepMine,

@@ -28,7 +28,7 @@ pub(super) fn pixel(text: &str) -> Result<(u32, u32), String> {
 }
 
 pub(super) fn format(text: &str) -> Result<Format, String> {
-    let names = || Format::ALL.map(Format::name).join(", ");
+    let names = || Format::pictures_first().map(Format::name).join(", ");
     match text {
         "wav" | "flac" => Err("a sound's format is what --out ends in, as in --pass sound --out x.flac".into()),
         _ => Format::of_name(text).ok_or_else(|| format!("unknown format; use one of {}", names())),

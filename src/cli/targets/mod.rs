@@ -248,7 +248,7 @@ fn foreign_format(out: &Path) -> Option<String> {
         return Some(format!("--out {shown} is a sound: add --pass sound"));
     }
     FOREIGN.contains(&ending.as_str()).then(|| {
-        let names = Format::ALL.map(|format| format!(".{}", format.name())).join(", ");
+        let names = Format::pictures_first().map(|format| format!(".{}", format.name())).join(", ");
         format!("--out {shown}: .{ending} is not a format that is written; use {names}, or {shown}/ for a folder")
     })
 }

@@ -40,7 +40,7 @@ fn a_single_frame_has_the_stem_and_several_have_numbers() {
 #[test]
 fn a_name_with_an_unsupported_extension_is_not_a_folder() {
     for (name, said) in [
-        ("x.jpg", "--out x.jpg: .jpg is not a format that is written; use .mp4, .webm, "),
+        ("x.jpg", "--out x.jpg: .jpg is not a format that is written; use .png, .exr, "),
         ("o/x.JPEG", "or o/x.JPEG/ for a folder"),
         ("x.webp --format png", ".webp is not"),
         ("x.avi --frames 0-9", ".avi is not"),

@@ -67,14 +67,14 @@ fn quick_fixes_work_by_keys_and_in_the_list() {
     assert!(stage.state().shell.place("fixes").is_none() && text(&stage, &Tab::image()) == OLD);
     press(&mut stage, CTRL, Key::Period);
     key(&mut stage, Key::Enter);
-    let mended = text(&stage, &Tab::image());
-    assert!(mended.starts_with("void mainImage(out vec4 fragColor, in vec2 fragCoord) {\n"), "{mended}");
-    assert!(mended.contains("    fragColor = a;\n"), "{mended}");
+    let fixed = text(&stage, &Tab::image());
+    assert!(fixed.starts_with("void mainImage(out vec4 fragColor, in vec2 fragCoord) {\n"), "{fixed}");
+    assert!(fixed.contains("    fragColor = a;\n"), "{fixed}");
     // One undo reverts it, and redo applies it again.
     press(&mut stage, CTRL, Key::Z);
     assert_eq!(text(&stage, &Tab::image()), OLD);
     press(&mut stage, CTRL_SHIFT, Key::Z);
-    assert_eq!(text(&stage, &Tab::image()), mended);
+    assert_eq!(text(&stage, &Tab::image()), fixed);
     settle(&mut stage);
     // The next one by the button in the list.
     click(&mut stage, "problem:0:fix");
