@@ -23,12 +23,16 @@ use std::{
 /// A callback that is called on another thread when there is something to poll.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
+type Spawn = Box<dyn FnOnce() -> std::io::Result<JoinHandle<()>> + Send>;
+
 /// A thread that turns an `In` into an `Out` or an error message, and reports `Progress`.
 pub struct Background<In, Progress, Out> {
     wake: Wake,
     /// `None` when no more jobs will follow.
     jobs: Option<Sender<Job<In, Progress>>>,
     results: Receiver<(u64, Result<Out, String>)>,
+    /// Starts the thread, if the first job is to do that.
+    spawn: Option<Spawn>,
     thread: Option<JoinHandle<()>>,
     /// The number of the newest job.
     newest: u64,
@@ -140,12 +144,24 @@ where
         name: &str,
         what: &'static str,
         wake: Wake,
-        mut work: impl FnMut(In, &Control<Progress>) -> Result<Out, String> + Send + 'static,
+        work: impl FnMut(In, &Control<Progress>) -> Result<Out, String> + Send + 'static,
     ) -> std::io::Result<Self> {
+        let mut background = Self::lazy(name, what, wake, work);
+        background.thread = background.spawn.take().map(|spawn| spawn()).transpose()?;
+        Ok(background)
+    }
+
+    /// Does the same, but the first job starts the thread, and fails if that is not possible.
+    pub fn lazy(
+        name: &str,
+        what: &'static str,
+        wake: Wake,
+        mut work: impl FnMut(In, &Control<Progress>) -> Result<Out, String> + Send + 'static,
+    ) -> Self {
         let (jobs, queue) = mpsc::channel::<Job<In, Progress>>();
         let (sender, results) = mpsc::channel();
-        let wake_caller = wake.clone();
-        let thread = thread::Builder::new().name(name.into()).spawn(move || {
+        let (name, wake_caller) = (name.to_owned(), wake.clone());
+        let run = move || {
             while let Ok(first) = queue.recv() {
                 let Job { number, input, control } = queue.try_iter().last().unwrap_or(first);
                 let result = catch_unwind(AssertUnwindSafe(|| work(input, &control)))
@@ -155,20 +171,21 @@ where
                 }
                 wake_caller();
             }
-        })?;
+        };
         let control = Control::new(wake.clone());
-        Ok(Self {
+        Self {
             wake,
             jobs: Some(jobs),
             results,
-            thread: Some(thread),
+            spawn: Some(Box::new(move || thread::Builder::new().name(name).spawn(run))),
+            thread: None,
             newest: 0,
             input: Input::None,
             is_busy: false,
             control,
             polled: Progress::default(),
             result: None,
-        })
+        }
     }
 
     /// Requests a newer result, whose input does not exist yet. The last result stays until then, and so does the job
@@ -199,6 +216,11 @@ where
         self.control = Control::new(self.wake.clone());
         self.newest += 1;
         self.input_has_come();
+        match self.spawn.take().map(|spawn| spawn()).transpose() {
+            Ok(Some(thread)) => self.thread = Some(thread),
+            Ok(None) => {}
+            Err(e) => self.result = Some(Err(format!("cannot start a thread: {e}"))),
+        }
         if let Some(jobs) = &self.jobs {
             self.is_busy = jobs.send(Job { number: self.newest, input, control: self.control.clone() }).is_ok();
         }
@@ -295,6 +317,14 @@ where
     pub fn detached(mut self) -> Self {
         self.leave();
         self
+    }
+
+    /// Cancels, and returns the thread for someone else to wait for, as dropping this would do.
+    #[must_use]
+    pub fn abandon(mut self) -> Option<JoinHandle<()>> {
+        self.cancel();
+        self.jobs = None;
+        self.thread.take()
     }
 
     /// Cancels, and waits up to `patience` for the thread to end. Returns false if it is still running; it is then

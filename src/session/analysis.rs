@@ -136,7 +136,7 @@ impl Analyst {
 impl Session {
     /// Returns the newest analysis of the front tab, which may be of an older text.
     pub fn analysis(&self) -> Option<&Arc<TabAnalysis>> {
-        self.analyst.newest.as_ref()
+        self.services.analyst.newest.as_ref()
     }
 
     /// Every place in the project that names the symbol at a place of `of`. A symbol that is declared in a text shared
@@ -185,12 +185,12 @@ impl Session {
             Tab::Included(_) => project.tabs_that_include(tab),
             _ => vec![tab.clone()],
         };
-        let is_known = |user: &&Tab| user.pass().is_none_or(|id| *id == self.analyst.pass);
+        let is_known = |user: &&Tab| user.pass().is_none_or(|id| *id == self.services.analyst.pass);
         let user = users.iter().find(is_known).or(users.first())?;
         let place = |id: &PassName| project.passes.iter().position(|p| p.id == *id);
         let index = match user.pass() {
             Some(id) => place(id)?,
-            None => place(&self.analyst.pass).or_else(|| place(&PassName::image()))?,
+            None => place(&self.services.analyst.pass).or_else(|| place(&PassName::image()))?,
         };
         let stages = project.passes[index].body.stages();
         let file = match user {
@@ -203,46 +203,47 @@ impl Session {
     /// Sets the tab whose text is analysed from now on.
     pub(super) fn bring_to_front(&mut self, tab: Tab) {
         if let Some((index, stage)) = self.read_with(&tab).filter(|_| tab != Tab::Common) {
-            let pass = &self.documents.current().passes[index];
-            self.analyst.pass = pass.id.clone();
+            let pass = &self.open.documents.current().passes[index];
+            self.services.analyst.pass = pass.id.clone();
             let stages = pass.body.stages();
-            self.analyst.stage = match stage {
+            self.services.analyst.stage = match stage {
                 Stage::Own => None,
                 Stage::File(n) => stages.get(n).map(|s| s.name.clone()),
             };
         } else {
-            self.analyst.stage = None;
+            self.services.analyst.stage = None;
         }
-        self.analyst.front = Some(tab);
+        self.services.analyst.front = Some(tab);
     }
 
     /// Submits the newest texts for analysis if they have changed.
     pub(super) fn analyse(&mut self) {
-        let Some(front) = self.analyst.front.clone() else { return };
-        let project = self.documents.current();
+        let Some(front) = self.services.analyst.front.clone() else { return };
+        let project = self.open.documents.current();
         let place = |id: &PassName| project.passes.iter().position(|p| p.id == *id);
-        let index = place(&self.analyst.pass).or_else(|| place(&PassName::image())).unwrap_or(0);
+        let index = place(&self.services.analyst.pass).or_else(|| place(&PassName::image())).unwrap_or(0);
         if project.passes.is_empty() {
             return;
         }
         let stages = project.passes[index].body.stages();
-        let file = self.analyst.stage.as_ref();
+        let file = self.services.analyst.stage.as_ref();
         let stage = stages.iter().position(|s| Some(&s.name) == file).map_or(Stage::Own, Stage::File);
         let texts = Texts::of(project, index, stage);
-        let is_known = self.analyst.asked.as_ref().is_some_and(|(old, tab)| *tab == front && old.is_same(&texts));
+        let is_known =
+            self.services.analyst.asked.as_ref().is_some_and(|(old, tab)| *tab == front && old.is_same(&texts));
         if !is_known {
-            self.analyst.asked = Some((texts.clone(), front.clone()));
-            self.analyst.background.start((texts, front));
+            self.services.analyst.asked = Some((texts.clone(), front.clone()));
+            self.services.analyst.background.start((texts, front));
         }
     }
 
     pub(super) fn take_analysed(&mut self) {
-        match self.analyst.background.take() {
+        match self.services.analyst.background.take() {
             None => return,
-            Some(Ok(done)) => self.analyst.newest = Some(Arc::new(done)),
+            Some(Ok(done)) => self.services.analyst.newest = Some(Arc::new(done)),
             // The editor works without an analysis; the compiler reports the bug to the user if it panics as well.
             Some(Err(why)) => log::error!("{why}"),
         }
-        self.changed = true;
+        self.open.host.changed = true;
     }
 }

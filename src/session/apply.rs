@@ -13,8 +13,8 @@ use eddy_project::{self as project, Bindings, Channel, PassName, SLOTS, Tab, inc
 impl Session {
     /// Executes a command of the user. Never fails: errors become notices.
     pub fn apply(&mut self, command: Command) {
-        self.changed |= !is_input(&command);
-        self.notices.begin_command();
+        self.open.host.changed |= !is_input(&command);
+        self.open.host.notices.begin_command();
         self.execute(command);
         // Not in a tick, which a slow frame may delay.
         self.keep_unsaved();
@@ -43,7 +43,7 @@ impl Session {
                 self.analyse();
             }
             Command::CompileNow => self.compile_soon(),
-            Command::SetCompileOnSave(on) => self.compile.set_on_save(on),
+            Command::SetCompileOnSave(on) => self.open.compile.set_on_save(on),
             Command::UseDevice { kind, on } => self.use_device(kind, on),
             Command::ChooseCamera(id) => self.choose_camera(id),
             Command::Play => self.play(),
@@ -51,17 +51,17 @@ impl Session {
             Command::TogglePlay if self.is_playing() => self.pause(),
             Command::TogglePlay => self.play(),
             Command::Cover(is_covered) => {
-                if self.playback.cover(is_covered) {
-                    self.last_pictures.want();
+                if self.open.playback.cover(is_covered) {
+                    self.services.last_pictures.want();
                 }
             }
             Command::Hide(is_hidden) => self.hide(is_hidden),
-            Command::SetVolume(volume) => self.audio.set_volume(volume),
-            Command::SetMute(on) => self.audio.set_mute(on),
+            Command::SetVolume(volume) => self.services.audio.set_volume(volume),
+            Command::SetMute(on) => self.services.audio.set_mute(on),
             Command::OpenSoundAgain => self.open_sound_again(),
-            Command::SetAudioOutput(device) => self.audio.choose_output(device),
-            Command::SetAudioInput(device) => self.audio.choose_input(device),
-            Command::ListAudioDevices => self.audio.list_devices(&self.wake),
+            Command::SetAudioOutput(device) => self.services.audio.choose_output(device),
+            Command::SetAudioInput(device) => self.services.audio.choose_input(device),
+            Command::ListAudioDevices => self.services.audio.list_devices(&self.open.host.wake),
             Command::UseMicrophone(on) => self.use_microphone(on),
             Command::SetOsc(address) => self.set_osc(address),
             Command::SetMidi(choice) => self.set_midi(choice),
@@ -76,38 +76,38 @@ impl Session {
             Command::Step => self.step_forward(),
             Command::StepBack(by) => self.step_back(by),
             Command::Seek(secs) => self.seek(secs),
-            Command::SetSpeed(speed) => self.playback.clock.set_speed(speed),
-            Command::SetFixedRate(rate) => self.playback.clock.set_fixed_rate(rate),
-            Command::SetTimeRange(range) => self.playback.seeking.range = range,
-            Command::SetProjectInPictures(on) => self.watched.captures.with_project = on,
-            Command::SetKeepInputs(on) => self.playback.seeking.keeps_inputs = on,
+            Command::SetSpeed(speed) => self.open.playback.clock.set_speed(speed),
+            Command::SetFixedRate(rate) => self.open.playback.clock.set_fixed_rate(rate),
+            Command::SetTimeRange(range) => self.open.playback.seeking.range = range,
+            Command::SetProjectInPictures(on) => self.services.captures.with_project = on,
+            Command::SetKeepInputs(on) => self.open.playback.seeking.keeps_inputs = on,
             Command::Reset => self.reset(),
             // Minimised windows have no area; the picture keeps its size.
             Command::SetViewport { width: 0, .. } | Command::SetViewport { height: 0, .. } => {}
             Command::SetViewport { width, height } => {
-                self.canvas.set_viewport((width, height));
+                self.open.canvas.set_viewport((width, height));
             }
             Command::SetScale(scale) => self.set_scale(scale),
-            Command::SetFixedSize(size) => self.ask_size(CanvasSize { fixed: size, ..self.canvas.asked }),
+            Command::SetFixedSize(size) => self.ask_size(CanvasSize { fixed: size, ..self.open.canvas.asked }),
             Command::SetChannel { pass, index, channel } => {
                 self.set_channel(&pass, index, channel);
             }
             Command::SetCustomUniform { name, value } => self.set_custom_uniform(&name, value),
             Command::AssignCustomUniform(assignment) => {
                 self.settled(About::CustomUniform);
-                match self.documents.current_mut().set_custom_uniform(&assignment) {
+                match self.open.documents.current_mut().set_custom_uniform(&assignment) {
                     Ok(()) => self.custom_uniforms_turned(),
                     Err(why) => self.notice_about(About::CustomUniform, Level::Error, format!("not set: {why}")),
                 }
             }
             Command::ResetCustomUniforms => {
                 let before = self.project().custom_uniform_values.clone();
-                let project = self.documents.current_mut();
+                let project = self.open.documents.current_mut();
                 for custom_uniform in project.custom_uniforms().list {
                     project.custom_uniform_values.remove(&custom_uniform.name);
                 }
                 if self.project().custom_uniform_values != before {
-                    self.passes.push_uniforms(before, None);
+                    self.open.pass_history.push_uniforms(before, None);
                 }
                 self.custom_uniforms_turned();
             }
@@ -121,16 +121,16 @@ impl Session {
             | Command::MouseUp
             | Command::KeyDown(_)
             | Command::KeyUp(_)
-                if self.playback.is_replaying() => {}
-            Command::MouseDown { x, y } => self.playback.move_mouse(|mouse| mouse.press(x, y)),
-            Command::MouseMove { x, y } if self.playback.mouse.is_down() => {
-                self.playback.move_mouse(|mouse| mouse.move_to(x, y))
+                if self.open.playback.is_replaying() => {}
+            Command::MouseDown { x, y } => self.open.playback.move_mouse(|mouse| mouse.press(x, y)),
+            Command::MouseMove { x, y } if self.open.playback.mouse.is_down() => {
+                self.open.playback.move_mouse(|mouse| mouse.move_to(x, y))
             }
             Command::MouseMove { .. } => {}
-            Command::MouseUp => self.playback.move_mouse(Mouse::release),
-            Command::KeyDown(code) if self.playback.keyboard.is_held(code) => {}
-            Command::KeyDown(code) => self.playback.press_key(code, |keyboard| keyboard.press(code)),
-            Command::KeyUp(code) => self.playback.press_key(code, |keyboard| keyboard.release(code)),
+            Command::MouseUp => self.open.playback.move_mouse(Mouse::release),
+            Command::KeyDown(code) if self.open.playback.keyboard.is_held(code) => {}
+            Command::KeyDown(code) => self.open.playback.press_key(code, |keyboard| keyboard.press(code)),
+            Command::KeyUp(code) => self.open.playback.press_key(code, |keyboard| keyboard.release(code)),
             Command::Focus(focused) => self.focus(focused),
             Command::Screenshot => self.capture(capture::Format::Png),
             Command::SaveTexels => self.capture(capture::Format::Npy),
@@ -142,11 +142,11 @@ impl Session {
             Command::PlayRecording(file) => self.play_recording(file),
             Command::StopReplay => self.end_replay("the picture continues live from there"),
             Command::Audit => self.ask_audit(),
-            Command::HideAudit => self.auditing.map = None,
+            Command::HideAudit => self.open.audit.map = None,
             Command::FindDivergence => self.want_divergence(),
             Command::ShowPass(pass) => self.show_pass(pass),
             Command::Probe(place) => {
-                if self.watched.probing.want(place, self.documents.current()) {
+                if self.open.read_backs.probing.want(place, self.open.documents.current()) {
                     self.compile_soon();
                 }
             }
@@ -154,36 +154,36 @@ impl Session {
                 if at.is_some() {
                     self.pause();
                 }
-                let probed = self.watched.probing.view().and_then(|view| Some(view.value?.ok()?.pass.clone()));
-                let pass = probed.unwrap_or_else(|| self.picture.shown.clone());
+                let probed = self.open.read_backs.probing.view().and_then(|view| Some(view.value?.ok()?.pass.clone()));
+                let pass = probed.unwrap_or_else(|| self.open.picture.shown.clone());
                 // With a probe the pass itself may not be drawn.
-                if at.is_some() && self.watched.probing.want(None, self.documents.current()) {
+                if at.is_some() && self.open.read_backs.probing.want(None, self.open.documents.current()) {
                     self.compile_soon();
                 }
-                self.tracing.want(at.map(|at| TracedPixel { pass, at }));
+                self.open.trace.want(at.map(|at| TracedPixel { pass, at }));
             }
             Command::LookAtProbe(look) => {
-                self.watched.probing.set_look(look);
+                self.open.read_backs.probing.set_look(look);
                 self.look_anew();
             }
             Command::WatchCosts(on) => {
-                self.watched.costs.watch(on);
-                self.drawing.wanted.costs = on;
+                self.open.read_backs.costs.watch(on);
+                self.open.changes.costs = on;
             }
-            Command::WatchTargets(targets) => self.watched.miniatures.watch(targets),
-            Command::WatchBuffers(watch) => self.watched.buffers.watch(watch),
-            Command::WatchMeasures(seen) => self.watched.measuring.watch(seen),
-            Command::ClearMeasures => self.watched.measuring.clear(),
+            Command::WatchTargets(targets) => self.open.read_backs.miniatures.watch(targets),
+            Command::WatchBuffers(watch) => self.open.read_backs.buffers.watch(watch),
+            Command::WatchMeasures(seen) => self.open.read_backs.measuring.watch(seen),
+            Command::ClearMeasures => self.open.read_backs.measuring.clear(),
             Command::SaveMeasures => self.save_measures(),
             Command::SaveSound => self.save_sound(),
-            Command::FindNonfinite(is_wanted) => self.searching.want(is_wanted),
-            Command::Compare(against) => self.comparing.want(against),
-            Command::SetFrameLimit(limit) => self.halting.set_limit(limit),
-            Command::SetResetOnReload(on) => self.disk.reset_on_reload = on,
-            Command::DismissNotice(id) => self.notices.dismiss(id),
+            Command::FindNonfinite(is_wanted) => self.open.nan_search.want(is_wanted),
+            Command::Compare(against) => self.open.comparison.want(against),
+            Command::SetFrameLimit(limit) => self.open.halt.set_limit(limit),
+            Command::SetResetOnReload(on) => self.open.disk.reset_on_reload = on,
+            Command::DismissNotice(id) => self.open.host.notices.dismiss(id),
             Command::Notify { level, text, path } => {
                 self.notice_about(About::Window, level, text);
-                if let Some(notice) = self.notices.last_mut() {
+                if let Some(notice) = self.open.host.notices.last_mut() {
                     notice.path = path;
                 }
             }
@@ -199,7 +199,7 @@ impl Session {
             return false;
         }
         let before = self.project().clone();
-        if let Some(pass) = self.documents.current_mut().pass_mut(pass) {
+        if let Some(pass) = self.open.documents.current_mut().pass_mut(pass) {
             pass.bindings.set(index, channel);
         }
         self.note_pass_edit(format!("iChannel{index} of {}", pass.title()), before);
@@ -209,11 +209,11 @@ impl Session {
 
     /// Compiles in the next tick.
     pub(super) fn compile_soon(&mut self) {
-        self.compile.soon();
+        self.open.compile.soon();
     }
 
     fn edit_text(&mut self, tab: &Tab, text: &str) {
-        let Some(source) = self.documents.current().source(tab) else { return };
+        let Some(source) = self.open.documents.current().source(tab) else { return };
         if *source.text == *text {
             return;
         }
@@ -224,20 +224,20 @@ impl Session {
         let old = source.text.clone();
         // The worker reads included files when it compiles, so that no keystroke waits for a file.
         if include_names(&source.text) != include_names(text) {
-            self.compile.include_edits += 1;
+            self.open.compile.include_edits += 1;
         }
-        self.documents.set_text(tab, text);
+        self.open.documents.set_text(tab, text);
         self.follow_renamed_uniforms(&old, text);
-        self.watched.probing.follow(self.documents.current());
+        self.open.read_backs.probing.follow(self.open.documents.current());
         if let (Some(before), Tab::Pass(id)) = (before, tab) {
             let now = self.declared_channels(tab);
             if before != now
-                && let (Some(now), Some(pass)) = (now, self.documents.current_mut().pass_mut(id))
+                && let (Some(now), Some(pass)) = (now, self.open.documents.current_mut().pass_mut(id))
             {
                 pass.bindings = now;
             }
         }
-        self.compile.edit();
+        self.open.compile.edit();
     }
 
     /// Returns the channels that the tab's pass declares in its text.
@@ -250,26 +250,26 @@ impl Session {
 
     fn focus(&mut self, focused: bool) {
         if focused {
-            self.playback.rebase();
+            self.open.playback.rebase();
             // A watcher can miss changes (a network drive, a folder that was replaced), so check when the window
             // regains focus.
-            self.disk.want_check();
+            self.open.disk.want_check();
         } else {
-            self.playback.release_keys();
+            self.open.playback.release_keys();
         }
     }
 
     pub(super) fn show_pass(&mut self, pass: PassName) {
-        if self.picture.shown == pass || self.project().pass(&pass).is_none() {
+        if self.open.picture.shown == pass || self.project().pass(&pass).is_none() {
             return;
         }
-        let is_drawn = self.drawing.draws(&pass);
-        self.picture.shown = pass.clone();
-        if self.watched.probing.want(None, self.documents.current()) {
+        let is_drawn = self.open.engine.draws(&pass);
+        self.open.picture.shown = pass.clone();
+        if self.open.read_backs.probing.want(None, self.open.documents.current()) {
             // The program does not draw the pass that is shown now.
             return self.compile_soon();
         }
-        self.drawing.wanted.shown = Some(pass);
+        self.open.changes.shown = Some(pass);
         if !is_drawn {
             // A pass that nothing reads is in the program only while it is shown.
             self.compile_soon();

@@ -15,7 +15,7 @@ use eddy_debugger::{
 use eddy_diag::{Diagnostic, Severity};
 use eddy_engine::{EngineError, Sources};
 use eddy_project::{PassName, Project};
-use std::collections::HashMap;
+use std::{collections::HashMap, thread::JoinHandle};
 
 /// The number of pixels that are audited, across and up.
 const PIXELS: (u32, u32) = (32, 18);
@@ -72,10 +72,10 @@ pub(super) struct Auditing {
 }
 
 impl Auditing {
-    pub(crate) fn new(wake: Wake) -> std::io::Result<Self> {
+    pub(crate) fn new(wake: Wake) -> Self {
         let work = |(project, inspected): (Project, Inspected), _: &_| audit_pass(&project, inspected);
-        let background = Background::new("audit", "the CPU interpreter", wake, work)?;
-        Ok(Self { background, input: Ticket::default(), map: None, of_frame: 0 })
+        let background = Background::lazy("audit", "the CPU interpreter", wake, work);
+        Self { background, input: Ticket::default(), map: None, of_frame: 0 }
     }
 
     pub(crate) fn request_input(&mut self, shown: &PassName, tasks: &mut Tasks) {
@@ -89,9 +89,9 @@ impl Auditing {
         self.background.renew_request();
     }
 
-    pub(crate) fn begin_next_project(&mut self) {
-        self.background.clear();
-        (self.input, self.map) = (Ticket::default(), None);
+    /// Cancels the work, and returns its thread.
+    pub(crate) fn close(self) -> Option<JoinHandle<()>> {
+        self.background.abandon()
     }
 }
 
@@ -99,7 +99,7 @@ impl Session {
     /// Returns the errors of the audited pixels ([`Command::Audit`](super::Command::Audit)) while its findings are
     /// listed.
     pub fn audit_map(&self) -> Option<&AuditMap> {
-        self.auditing.map.as_ref()
+        self.open.audit.map.as_ref()
     }
 
     pub(super) fn ask_audit(&mut self) {
@@ -107,20 +107,20 @@ impl Session {
         if self.is_playing() {
             self.pause();
         }
-        self.auditing.background.request();
+        self.open.audit.background.request();
     }
 
     /// Submits the input that the audited pass read.
     pub(super) fn audit(&mut self) {
-        let Some(input) = self.auditing.input.take() else { return };
-        match (input.output, self.drawing.project().cloned()) {
+        let Some(input) = self.open.audit.input.take() else { return };
+        match (input.output, self.open.engine.project().cloned()) {
             (Ok(inspected), Some(project)) => {
-                self.auditing.of_frame = self.picture.frames_drawn;
-                self.auditing.background.start((project, inspected));
+                self.open.audit.of_frame = self.open.picture.frames_drawn;
+                self.open.audit.background.start((project, inspected));
             }
-            (Ok(_), None) => self.auditing.background.cancel(),
+            (Ok(_), None) => self.open.audit.background.cancel(),
             (Err(e), _) => {
-                self.auditing.background.cancel();
+                self.open.audit.background.cancel();
                 self.not_checked(&e.to_string());
             }
         }
@@ -128,16 +128,16 @@ impl Session {
 
     /// Takes a finished audit.
     pub(super) fn take_audited(&mut self) {
-        let Some(result) = self.auditing.background.take() else { return };
-        self.changed = true;
+        let Some(result) = self.open.audit.background.take() else { return };
+        self.open.host.changed = true;
         let AuditSummary { pass, pixels, error, findings, map } = match result {
             Ok(summary) => summary,
             Err(why) => return self.not_checked(&why),
         };
         // A frame of another size was drawn meanwhile, and is shown now.
-        let is_shown = self.auditing.of_frame == self.picture.frames_drawn;
+        let is_shown = self.open.audit.of_frame == self.open.picture.frames_drawn;
         if !is_shown && !self.is_playing() {
-            self.auditing.background.request();
+            self.open.audit.background.request();
             return;
         }
         let count = match findings.len() {
@@ -151,14 +151,14 @@ impl Session {
                             pixels; {count}"
         );
         self.notice(Level::Info, text);
-        self.compile.diagnostics.extend(findings);
-        self.auditing.map = Some(map).filter(|_| is_shown);
+        self.open.compile.diagnostics.extend(findings);
+        self.open.audit.map = Some(map).filter(|_| is_shown);
     }
 
     /// Drops the map: another picture is shown than the one that was audited.
     pub(super) fn picture_is_other(&mut self) {
-        self.picture.frames_drawn += 1;
-        self.auditing.map = None;
+        self.open.picture.frames_drawn += 1;
+        self.open.audit.map = None;
     }
 
     fn not_checked(&mut self, why: &str) {

@@ -34,9 +34,9 @@ impl Default for CanvasSize {
 }
 
 impl Canvas {
-    /// Resets to the size requested before any project was opened.
-    pub(crate) fn begin_next_project(&mut self) {
-        *self = Self { viewport: self.viewport, asked: self.usual, usual: self.usual, ..Self::default() };
+    /// The canvas of another project, of the size requested before any was opened.
+    pub(crate) fn successor(&self) -> Self {
+        Self { viewport: self.viewport, asked: self.usual, usual: self.usual, ..Self::default() }
     }
 
     pub(crate) fn set_viewport(&mut self, size: (u32, u32)) {
@@ -65,7 +65,7 @@ impl Session {
     pub(super) fn set_scale(&mut self, scale: f32) {
         self.settled(About::Scale);
         if scale.is_finite() && scale > 0.0 {
-            self.ask_size(CanvasSize { scale, ..self.canvas.asked });
+            self.ask_size(CanvasSize { scale, ..self.open.canvas.asked });
         } else {
             self.notice_about(About::Scale, Level::Error, format!("the resolution scale must be above 0, not {scale}"));
         }
@@ -74,31 +74,31 @@ impl Session {
     /// Sets the requested canvas size: of the open project, or if there is none, of each project to come.
     pub(super) fn ask_size(&mut self, size: CanvasSize) {
         self.end_replay("the resolution was changed");
-        self.canvas.replayed = None;
-        self.canvas.asked = size;
-        if self.projects_opened == 0 {
-            self.canvas.usual = size;
+        self.open.canvas.replayed = None;
+        self.open.canvas.asked = size;
+        if self.open.host.serial == 0 {
+            self.open.canvas.usual = size;
         }
-        self.canvas.refused = None;
+        self.open.canvas.refused = None;
     }
 
     /// Resizes the engine to the canvas size.
     pub(super) fn fit_canvas(&mut self) {
-        let Some(size) = self.canvas.size() else { return };
-        let is_new = size != self.drawing.coming_size() && self.canvas.refused != Some(size);
-        self.drawing.wanted.size = is_new.then_some(size);
-        if !is_new && self.canvas.refused.is_none() {
+        let Some(size) = self.open.canvas.size() else { return };
+        let is_new = size != self.open.engine.coming_size() && self.open.canvas.refused != Some(size);
+        self.open.changes.size = is_new.then_some(size);
+        if !is_new && self.open.canvas.refused.is_none() {
             self.settled(About::CanvasSize);
         }
     }
 
     /// Handles a canvas size that the device does not accept.
     pub(super) fn size_refused(&mut self, size: (u32, u32), error: &EngineError) {
-        self.canvas.refused = Some(size);
-        let (width, height) = self.drawing.size();
+        self.open.canvas.refused = Some(size);
+        let (width, height) = self.open.engine.size();
         let text = format!("{error}; the picture stays at {width}x{height}");
         self.notice_about(About::CanvasSize, Level::Error, text);
-        self.canvas.replayed = None;
+        self.open.canvas.replayed = None;
         self.end_replay("its resolution cannot be drawn on this GPU");
     }
 }

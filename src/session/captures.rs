@@ -63,28 +63,28 @@ impl Captures {
 impl Session {
     /// Writes the shown pass to a new file, as soon as the engine is free.
     pub(super) fn capture(&mut self, format: capture::Format) {
-        if !self.drawing.has_program() {
+        if !self.open.engine.has_program() {
             self.notice_about(About::Drawing, Level::Warning, "there is no picture to save yet");
             return;
         }
-        let project = self.documents.current();
+        let project = self.open.documents.current();
         // A picture of a probed value does not represent the project.
-        let is_asked = self.watched.captures.with_project && format == capture::Format::Png;
-        let source = (is_asked && self.pictured() == self.picture.shown).then(|| PictureSource {
+        let is_asked = self.services.captures.with_project && format == capture::Format::Png;
+        let source = (is_asked && self.pictured() == self.open.picture.shown).then(|| PictureSource {
             project: project.clone(),
-            pass: self.picture.shown.clone(),
+            pass: self.open.picture.shown.clone(),
             has_state: self.has_state(),
         });
-        self.watched.captures.due.push(Capture {
+        self.services.captures.due.push(Capture {
             pass: self.pictured(),
             format,
-            folder: capture::folder_for(project, &self.options.pictures),
-            stem: capture::stem_for(project, &self.picture.shown),
+            folder: capture::folder_for(project, &self.open.host.options.pictures),
+            stem: capture::stem_for(project, &self.open.picture.shown),
             source,
         });
-        if !self.drawing.is_apart() {
+        if !self.services.drawing.is_apart() {
             let mut tasks = Tasks::default();
-            self.watched.captures.request(&mut tasks);
+            self.services.captures.request(&mut tasks);
             self.hand_in(None, false, tasks);
             self.take_drawn(false);
         }
@@ -92,7 +92,7 @@ impl Session {
 
     /// Writes the pictures that came with a job. Pictures that did not come are lost with their device.
     pub(super) fn write_captures(&mut self) {
-        for (capture, mut ticket) in std::mem::take(&mut self.watched.captures.in_flight) {
+        for (capture, mut ticket) in std::mem::take(&mut self.services.captures.in_flight) {
             if let Some(read) = ticket.take() {
                 self.write_capture(&capture, read.output);
             }

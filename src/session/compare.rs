@@ -20,10 +20,10 @@ pub(super) struct Comparing {
 }
 
 impl Comparing {
-    pub(crate) fn new(wake: Wake) -> std::io::Result<Self> {
+    pub(crate) fn new(wake: Wake) -> Self {
         let work = |job: CompareJob, control: &_| compare(job, control).map(Arc::new);
-        let background = Background::new("comparison", "the comparison", wake, work)?;
-        Ok(Self { background, against: None, input: Ticket::default() })
+        let background = Background::lazy("comparison", "the comparison", wake, work);
+        Self { background, against: None, input: Ticket::default() }
     }
 
     /// Starts or stops a comparison. The last result stays until there is another.
@@ -33,11 +33,6 @@ impl Comparing {
             self.background.request();
         }
         (self.against, self.input) = (against, Ticket::default());
-    }
-
-    pub(crate) fn begin_next_project(&mut self) {
-        self.want(None);
-        self.background.clear();
     }
 
     pub(crate) fn request_input(&mut self, tasks: &mut Tasks) {
@@ -50,34 +45,40 @@ impl Comparing {
 impl Session {
     /// The comparison with another project ([`Command::Compare`](super::Command::Compare)), which counts frames.
     pub fn comparison(&self) -> Option<Status<'_, Count, Arc<Comparison>>> {
-        self.comparing.background.status()
+        self.open.comparison.background.status()
     }
 
     /// The newest comparison is of an older revision of the project.
     pub fn is_comparison_old(&self) -> bool {
-        matches!(self.comparison(), Some(Status::Ended(Ok(done))) if done.revision != self.documents.revision())
+        matches!(self.comparison(), Some(Status::Ended(Ok(done))) if done.revision != self.open.documents.revision())
     }
 
     /// Submits the frames that both projects draw.
     pub(super) fn compare(&mut self) {
-        let Comparing { background, against, input } = &mut self.comparing;
+        let Comparing { background, against, input } = &mut self.open.comparison;
         let (Some(input), Some(against)) = (input.take(), against.clone()) else { return };
-        self.changed = true;
+        self.open.host.changed = true;
         let (run, camera) = input.output;
-        let Some(project) = self.drawing.project().cloned() else {
+        let Some(project) = self.open.engine.project().cloned() else {
             return background.fail("nothing has been drawn yet");
         };
-        let media_dir = self.options.media_dir.clone();
-        match self.drawing.device().wait() {
+        let media_dir = self.open.host.options.media_dir.clone();
+        match self.services.drawing.device().wait() {
             Err(e) => background.fail(e.to_string()),
             Ok(gpu) => background.start(CompareJob {
                 gpu,
                 project,
-                saved: self.documents.saved().clone(),
+                saved: self.open.documents.saved().clone(),
                 against,
-                revision: self.documents.revision(),
-                shown: self.picture.shown.clone(),
-                trial: self.options.trials.as_ref().map(|trials| trials.trial(media_dir.clone(), Arc::default())),
+                revision: self.open.documents.revision(),
+                shown: self.open.picture.shown.clone(),
+                trial: self
+                    .open
+                    .host
+                    .options
+                    .trials
+                    .as_ref()
+                    .map(|trials| trials.trial(media_dir.clone(), Arc::default())),
                 media_dir,
                 run,
                 camera,

@@ -70,9 +70,10 @@ impl Devices {
     }
 
     /// Turns everything off: another project has to ask again.
-    pub(crate) fn begin_next_project(&mut self) {
+    /// The devices of another project, which are all off. The cameras that were found are known to it.
+    pub(crate) fn successor(&mut self) -> Self {
         self.turn_camera_off();
-        *self = Devices { chosen: self.chosen.take(), found: std::mem::take(&mut self.found), ..Devices::default() };
+        Devices { chosen: self.chosen.take(), found: std::mem::take(&mut self.found), ..Devices::default() }
     }
 }
 
@@ -83,7 +84,7 @@ impl Session {
     }
 
     pub fn device_state(&self, kind: InputKind) -> CameraState {
-        match (&self.devices.camera, kind) {
+        match (&self.open.devices.camera, kind) {
             (Some(camera), InputKind::Webcam) if camera.newest().is_some() => CameraState::On,
             (Some(_), InputKind::Webcam) => CameraState::Starting,
             _ => CameraState::Off,
@@ -92,12 +93,12 @@ impl Session {
 
     /// Returns the newest picture of the active camera.
     pub fn camera_picture(&self) -> Option<CameraFrame> {
-        self.devices.camera.as_ref().and_then(Camera::newest)
+        self.open.devices.camera.as_ref().and_then(Camera::newest)
     }
 
     /// Returns the available cameras, known once one has been on, and the active one.
     pub fn cameras(&self) -> (&[CameraDevice], Option<&CameraSource>) {
-        (&self.devices.found, self.devices.camera.as_ref().map(Camera::source))
+        (&self.open.devices.found, self.open.devices.camera.as_ref().map(Camera::source))
     }
 
     /// Turns a device on or off, at the user's request.
@@ -107,55 +108,55 @@ impl Session {
         }
         self.settled(About::Device);
         if !on {
-            self.devices.consent.withdraw(kind);
-            if self.devices.turn_camera_off() {
+            self.open.devices.consent.withdraw(kind);
+            if self.open.devices.turn_camera_off() {
                 self.compile_soon();
             }
             return;
         }
-        self.devices.consent.allow(kind);
+        self.open.devices.consent.allow(kind);
         self.open_camera();
     }
 
     /// Chooses a camera and turns it on, at the user's request.
     pub(super) fn choose_camera(&mut self, id: String) {
-        self.devices.chosen = Some(CameraSource::Device(id));
-        self.devices.turn_camera_off();
+        self.open.devices.chosen = Some(CameraSource::Device(id));
+        self.open.devices.turn_camera_off();
         self.use_device(InputKind::Webcam, true);
     }
 
     fn open_camera(&mut self) {
-        if self.devices.camera.is_some() || !self.devices.consent.allows(InputKind::Webcam) {
+        if self.open.devices.camera.is_some() || !self.open.devices.consent.allows(InputKind::Webcam) {
             return;
         }
-        let wake = self.wake.clone();
-        let source = self.devices.chosen.clone().unwrap_or_else(|| self.options.camera.clone());
-        self.devices.camera = Some(Camera::open(source, &Tools::default(), move || wake()));
-        (self.devices.is_shown, self.devices.is_end_told) = (false, false);
+        let wake = self.open.host.wake.clone();
+        let source = self.open.devices.chosen.clone().unwrap_or_else(|| self.open.host.options.camera.clone());
+        self.open.devices.camera = Some(Camera::open(source, &Tools::default(), move || wake()));
+        (self.open.devices.is_shown, self.open.devices.is_end_told) = (false, false);
     }
 
     /// Shows a camera that has started, and reports one that has stopped.
     pub(super) fn follow_devices(&mut self) {
-        let Some(camera) = &self.devices.camera else { return };
-        if camera.newest().is_some() && !std::mem::replace(&mut self.devices.is_shown, true) {
-            self.devices.found = camera.found();
-            self.changed = true;
+        let Some(camera) = &self.open.devices.camera else { return };
+        if camera.newest().is_some() && !std::mem::replace(&mut self.open.devices.is_shown, true) {
+            self.open.devices.found = camera.found();
+            self.open.host.changed = true;
             self.compile_soon();
             return;
         }
-        let Some(error) = camera.error().filter(|_| !self.devices.is_end_told) else { return };
+        let Some(error) = camera.error().filter(|_| !self.open.devices.is_end_told) else { return };
         let has_picture = camera.newest().is_some();
         let text = match (&error, has_picture) {
             (VideoError::Camera(why), true) => format!("the camera stopped ({why}); its last picture stays"),
             (_, true) => format!("the camera stopped: {error}; its last picture stays"),
             (_, false) => format!("{error}; {}", error.hint()),
         };
-        self.devices.is_end_told = true;
+        self.open.devices.is_end_told = true;
         self.notice_about(About::Device, Level::Warning, text);
         if !has_picture {
-            self.devices.camera = None;
-            self.devices.consent.withdraw(InputKind::Webcam);
-            self.changed = true;
+            self.open.devices.camera = None;
+            self.open.devices.consent.withdraw(InputKind::Webcam);
+            self.open.host.changed = true;
         }
     }
 }

@@ -12,8 +12,25 @@ use std::time::Duration;
 impl Session {
     /// Takes the engine's result, if there is one. Returns whether a frame was drawn.
     pub(super) fn take_drawn(&mut self, is_just_handed_in: bool) -> bool {
-        let Some(done) = self.drawing.take(is_just_handed_in) else { return false };
-        self.take_done(done)
+        self.take_result(is_just_handed_in).is_some_and(|done| self.take_done(done))
+    }
+
+    /// Submits a job with all pending changes and what `fill` adds.
+    pub(super) fn submit(&mut self, may_wait: bool, fill: impl FnOnce(&mut Job)) {
+        let mut job = self.open.next_job();
+        fill(&mut job);
+        self.services.drawing.submit(self.open.host.now, may_wait, job);
+    }
+
+    /// Takes the result of the job in flight, and records what it says of the engine.
+    pub(super) fn take_result(&mut self, is_just_handed_in: bool) -> Option<Done> {
+        let (mut done, is_of_project) = self.services.drawing.take(is_just_handed_in)?;
+        if is_of_project {
+            self.open.engine.finish(&mut done);
+            return Some(done);
+        }
+        self.open.engine.take_size(&done);
+        Some(Done { gave_up: done.gave_up, ..Done::default() })
     }
 
     /// Submits pending changes and due frames, one job after the other, as long as the engine accepts them: while
@@ -22,8 +39,8 @@ impl Session {
     /// `runs`: a frame of the running picture may be among them.
     pub(super) fn draw_due_frames(&mut self, runs: bool) -> bool {
         let (mut is_drawn, mut has_run) = (false, !runs);
-        while !self.drawing.is_busy() && !self.halting.is_held() && !self.halting.is_device_gone() {
-            if !self.playback.is_replaying() {
+        while !self.services.drawing.is_busy() && !self.open.halt.is_held() && !self.open.halt.is_device_gone() {
+            if !self.open.playback.is_replaying() {
                 self.loop_range();
             }
             if self.travel() {
@@ -36,7 +53,7 @@ impl Session {
             if frame.is_some() {
                 self.request_film_frame(&mut tasks);
             }
-            if frame.is_none() && !again && tasks.is_empty() && self.drawing.wanted.is_empty() {
+            if frame.is_none() && !again && tasks.is_empty() && self.open.changes.is_empty() {
                 break;
             }
             self.hand_in(frame, again, tasks);
@@ -47,22 +64,24 @@ impl Session {
 
     /// Returns the frame that is due now. A new program, or a new project's engine, is submitted before its first one.
     fn next_frame(&mut self, has_run: &mut bool) -> Option<FrameInputs> {
-        let wanted = &self.drawing.wanted;
+        let wanted = &self.open.changes;
         let is_other_coming = wanted.restart || wanted.program.is_some();
-        if is_other_coming || !self.drawing.has_program() || self.halting.is_halted() {
+        if is_other_coming || !self.open.engine.has_program() || self.open.halt.is_halted() {
             return None;
         }
-        let is_step = self.films.has_room() && self.playback.take_step();
-        if self.playback.is_replaying() {
+        let is_step = self.services.films.has_room() && self.open.playback.take_step();
+        if self.open.playback.is_replaying() {
             return self.next_replayed(is_step);
         }
         // The first frame of a new program does not wait for the next tick.
-        let may_run = (!*has_run || self.picture.is_program_new) && !self.gives_way() && self.films.may_draw(self.now);
-        *has_run |= !is_step && self.playback.is_running();
-        let is_new = is_step || self.playback.is_running();
-        let mut inputs = self.playback.next_frame(self.now, is_step, may_run)?;
-        inputs.microphone = self.audio.spectrum(is_new);
-        self.films.note_frame(is_new, self.now);
+        let may_run = (!*has_run || self.open.picture.is_program_new)
+            && !self.gives_way()
+            && self.services.films.may_draw(self.open.host.now);
+        *has_run |= !is_step && self.open.playback.is_running();
+        let is_new = is_step || self.open.playback.is_running();
+        let mut inputs = self.open.playback.next_frame(self.open.host.now, is_step, may_run)?;
+        inputs.microphone = self.services.audio.spectrum(is_new);
+        self.services.films.note_frame(is_new, self.open.host.now);
         if is_new {
             self.note_heard(inputs.time_secs);
         }
@@ -72,21 +91,21 @@ impl Session {
 
     /// `again`: the shown frame is drawn again.
     pub(super) fn hand_in(&mut self, frame: Option<FrameInputs>, again: bool, tasks: Tasks) {
-        let stays = self.stays() && !std::mem::take(&mut self.playback.replay.follows);
+        let stays = self.stays() && !std::mem::take(&mut self.open.playback.replay.follows);
         // Before a new frame the shown one is drawn again, with what was changed meanwhile.
         self.note_job(frame.as_ref(), again || (stays && frame.is_some()));
         if let Some(frame) = &frame {
-            self.watched.measuring.begin_frame(frame.frame);
+            self.open.read_backs.measuring.begin_frame(frame.frame);
         } else if again {
-            self.watched.measuring.draw_again(self.playback.frame());
+            self.open.read_backs.measuring.draw_again(self.open.playback.frame());
         }
-        let costs_of = self.watched.costs.is_watched().then(|| self.documents.current().clone());
+        let costs_of = self.open.read_backs.costs.is_watched().then(|| self.open.documents.current().clone());
         let tile_limit = self.tile_limit();
         let may_wait = self.is_one_of_many() && tasks.is_empty() && costs_of.is_none();
-        if self.drawing.wanted.program.is_some() {
+        if self.open.changes.program.is_some() {
             self.mark_new_code();
         }
-        self.drawing.submit(self.now, may_wait, |job: &mut Job| {
+        self.submit(may_wait, |job| {
             (job.frame, job.stays, job.again, job.tasks) = (frame, stays, again, tasks);
             (job.costs_of, job.tile_limit) = (costs_of, tile_limit);
         });
@@ -95,11 +114,11 @@ impl Session {
     /// Returns whether the next frame is followed by similar ones, so that it may be dropped. The first frame of a
     /// program is always shown, however soon another follows, and so is a frame that is drawn while time is paused.
     pub(super) fn is_one_of_many(&self) -> bool {
-        self.playback.clock.is_playing() && !self.picture.is_program_new && self.drawing.wanted.is_empty()
+        self.open.playback.clock.is_playing() && !self.open.picture.is_program_new && self.open.changes.is_empty()
     }
 
     fn tile_limit(&self) -> Option<TileLimit> {
-        self.drawing.is_apart().then(|| TileLimit { frame: self.halting.limit() })
+        self.services.drawing.is_apart().then(|| TileLimit { frame: self.open.halt.limit() })
     }
 
     fn take_done(&mut self, done: Done) -> bool {
@@ -108,13 +127,13 @@ impl Session {
             self.engine_is_gone(&why);
             return false;
         }
-        if let Some(Ok(picture)) = self.last_pictures.ticket.take().map(|read| read.output) {
+        if let Some(Ok(picture)) = self.services.last_pictures.ticket.take().map(|read| read.output) {
             self.picture_is_read(&picture);
         }
-        self.picture.generation += u64::from(done.is_display_new && !self.drawing.is_apart());
+        self.services.display.generation += u64::from(done.is_display_new && !self.services.drawing.is_apart());
         // An engine on the session's own thread draws into the display itself.
-        self.picture.shown_count += u64::from(done.picture.is_some() || !self.drawing.is_apart());
-        self.picture.is_new |= done.picture.is_some();
+        self.services.display.shown_count += u64::from(done.picture.is_some() || !self.services.drawing.is_apart());
+        self.services.display.is_new |= done.picture.is_some();
         if let Some(Err(e)) = done.restarted {
             self.stop_drawing(&e);
             return false;
@@ -131,9 +150,9 @@ impl Session {
         match done.resized {
             Some((_, Ok(()))) => {
                 self.settled(About::CanvasSize);
-                self.halting.begin_pace();
-                self.playback.is_again_due |= !has_frame;
-                self.changed = true;
+                self.open.halt.begin_pace();
+                self.open.playback.is_again_due |= !has_frame;
+                self.open.host.changed = true;
             }
             Some((size, Err(e))) => self.size_refused(size, &e),
             None => {}
@@ -146,17 +165,17 @@ impl Session {
             }
             None => {}
         }
-        self.playback.is_again_due |= done.custom_uniforms_changed && !has_frame;
+        self.open.playback.is_again_due |= done.custom_uniforms_changed && !has_frame;
         // While the picture runs, the next frame shows it.
-        self.playback.is_again_due |= done.is_late && has_frame && !self.playback.is_running();
-        self.changed |= self.watched.costs.is_watched();
+        self.open.playback.is_again_due |= done.is_late && has_frame && !self.open.playback.is_running();
+        self.open.host.changed |= self.open.read_backs.costs.is_watched();
         match done.frame.transpose().and_then(|frame| Ok((frame, done.picture.transpose()?))) {
             Ok((frame, picture)) => {
                 if let Some(picture) = picture {
                     // Also without a frame, if the display mode has changed.
-                    self.changed |= frame.is_none();
-                    match self.drawing.show(&picture) {
-                        Ok(is_new) => self.picture.generation += u64::from(is_new),
+                    self.open.host.changed |= frame.is_none();
+                    match self.services.drawing.show(&picture) {
+                        Ok(is_new) => self.services.display.generation += u64::from(is_new),
                         Err(e) => self.tell_of(&e),
                     }
                 }
@@ -175,8 +194,8 @@ impl Session {
 
     /// Tells the engine how to display a probe, if that has changed.
     pub(super) fn look_anew(&mut self) {
-        if let Some(look) = self.watched.probing.take_look(false) {
-            self.drawing.wanted.look = Some(look);
+        if let Some(look) = self.open.read_backs.probing.take_look(false) {
+            self.open.changes.look = Some(look);
         }
     }
 
@@ -184,36 +203,36 @@ impl Session {
         let DrawnFrame { cpu_micros, times, took } = frame;
         self.picture_is_other();
         self.settled(About::Drawing);
-        self.watched.cpu_micros = cpu_micros;
+        self.open.read_backs.cpu_micros = cpu_micros;
         if let Some(times) = times {
-            self.watched.costs.add(times, self.drawing.clock());
+            self.open.read_backs.costs.add(times, self.open.engine.clock());
         }
-        if std::mem::take(&mut self.picture.is_program_new) && self.drawing.is_newest_program() {
-            self.picture.programs_drawn += 1;
+        if std::mem::take(&mut self.open.picture.is_program_new) && self.open.engine.is_newest_program() {
+            self.services.display.programs_drawn += 1;
         }
-        self.changed |= self.playback.frame_is_drawn(self.now);
+        self.open.host.changed |= self.open.playback.frame_is_drawn(self.open.host.now);
         self.frame_took(took);
     }
 
     /// The newest program draws from now on.
     fn program_is_there(&mut self, forecast: Option<Duration>) {
-        self.playback.is_again_due = true;
-        self.audio.program_is_there();
-        self.playback.seeking.awaits_program = false;
-        self.picture.is_program_new = true;
-        self.changed = true;
-        self.compile.set_compiling(self.is_compile_under_way());
-        if let Some(millis) = self.drawing.new_program_millis() {
+        self.open.playback.is_again_due = true;
+        self.services.audio.program_is_there();
+        self.open.playback.seeking.awaits_program = false;
+        self.open.picture.is_program_new = true;
+        self.open.host.changed = true;
+        self.open.compile.set_compiling(self.is_compile_under_way());
+        if let Some(millis) = self.open.engine.new_program_millis() {
             self.settled_by_edit();
-            self.compile.succeed(millis);
-            if std::mem::take(&mut self.compile.resets) {
+            self.open.compile.succeed(millis);
+            if std::mem::take(&mut self.open.compile.resets) {
                 self.reset();
             } else {
                 self.keep_inputs();
             }
         } else {
             // The picture is older than the text of the errors.
-            self.compile.fail(self.drawing.has_program());
+            self.open.compile.fail(self.open.engine.has_program());
         }
         self.halt_for_new_program(forecast);
     }
@@ -221,16 +240,16 @@ impl Session {
     /// Handles a frame that could not be drawn: the picture stops, everything else continues.
     pub(super) fn stop_drawing(&mut self, error: &EngineError) {
         let is_lost = matches!(error, EngineError::Gpu(GpuError::Lost(_)));
-        if is_lost && self.drawing.is_apart() {
+        if is_lost && self.services.drawing.is_apart() {
             self.engine_is_gone(&error.to_string());
             return;
         }
-        self.playback.clock.pause();
+        self.open.playback.clock.pause();
         self.end_replay("a frame could not be drawn");
-        self.playback.forget_due_frames();
+        self.open.playback.forget_due_frames();
         if !is_lost {
             self.notice_about(About::Drawing, Level::Error, format!("{error}; the picture is paused"));
-        } else if self.halting.lose_device() {
+        } else if self.open.halt.lose_device() {
             self.notice_about(
                 About::Window,
                 Level::Error,
@@ -241,13 +260,13 @@ impl Session {
 
     /// Shows the picture on a new device of the window, whose previous one was lost. Drawing uses a separate device.
     pub fn show_on(&mut self, window: Gpu) -> Result<(), GpuError> {
-        self.drawing.show_on(window.clone())?;
-        self.sounding.change_device(beside(window));
+        self.services.drawing.show_on(window.clone())?;
+        self.services.sound_pass.change_device(beside(window));
         // Request it again, also while paused.
-        self.drawing.wanted.shown = Some(self.pictured());
-        self.picture.generation += 1;
-        self.picture.shown_count += 1;
-        self.changed = true;
+        self.open.changes.shown = Some(self.pictured());
+        self.services.display.generation += 1;
+        self.services.display.shown_count += 1;
+        self.open.host.changed = true;
         Ok(())
     }
 }

@@ -36,7 +36,7 @@ impl Session {
     /// `replaces`: the user allows replacing the existing file.
     pub(super) fn write_json(&mut self, file: &Path, replaces: bool) {
         let replaced = if replaces { vec![file.to_owned()] } else { Vec::new() };
-        match save_over(self.project(), file, &replaced, self.options.recovery.as_deref()) {
+        match save_over(self.project(), file, &replaced, self.open.host.options.recovery.as_deref()) {
             Ok((_, kept)) => {
                 self.notice_with_path(
                     About::Export,

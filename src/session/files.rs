@@ -39,18 +39,18 @@ impl Session {
             Command::SaveAs(folder) => self.save_as(&folder, &[]),
             Command::ExportJson(file) => self.export_json(&file),
             Command::ExportPage(file) => self.export_page(&file),
-            _ => self.dialog.after_save = None,
+            _ => self.open.host.dialog.after_save = None,
         }
     }
 
     pub(super) fn ask(&mut self, question: Question) {
-        self.dialog.questions.push_back(question);
-        self.changed = true;
+        self.open.host.dialog.questions.push_back(question);
+        self.open.host.changed = true;
     }
 
     pub(super) fn unless_unsaved(&mut self, then: PendingAction) {
         if self.is_dirty() {
-            let tabs = self.documents.dirty_tabs();
+            let tabs = self.open.documents.dirty_tabs();
             self.ask(Question::Unsaved { then, tabs });
         } else {
             self.go_on(then);
@@ -63,13 +63,13 @@ impl Session {
             PendingAction::OpenProject { project, size } => {
                 self.replace(Documents::new(*project));
                 if size.is_some() {
-                    self.canvas.asked.fixed = size;
+                    self.open.canvas.asked.fixed = size;
                 }
             }
             PendingAction::OpenPicture(scene) => self.show_scene(&scene),
             PendingAction::New => {
                 self.replace(Documents::new(template::project()));
-                self.begun += 1;
+                self.open.host.new_shader_count += 1;
             }
             PendingAction::Keep(project) => self.replace(Documents::restored(*project, template::project())),
             PendingAction::Recover(file) => self.recover(&file),
@@ -78,7 +78,7 @@ impl Session {
                 self.end_recording();
                 self.keep_time();
                 self.forget_unsaved();
-                self.dialog.requests.push_back(Request::Exit);
+                self.open.host.dialog.requests.push_back(Request::Exit);
             }
         }
     }
@@ -109,7 +109,7 @@ impl Session {
         }
         self.settle_includes();
         if !self.is_dirty() {
-            self.compile.saved();
+            self.open.compile.saved();
             self.notice(Level::Info, "nothing to save: the files are up to date");
             return true;
         }
@@ -125,7 +125,7 @@ impl Session {
             }
             // Texts are written if they can be, even if the rest cannot.
             Err(ProjectError::CannotHold { what, .. })
-                if self.dialog.after_save.is_none() && self.save_texts(&home) =>
+                if self.open.host.dialog.after_save.is_none() && self.save_texts(&home) =>
             {
                 let place = home.display();
                 let text = format!(
@@ -148,10 +148,10 @@ impl Session {
 
     /// Returns whether the project's own files contain nothing that the user has not seen.
     fn may_overwrite(&mut self) -> bool {
-        let is_asked = self.dialog.questions.iter().any(|q| matches!(q, Question::Conflict { .. }));
+        let is_asked = self.open.host.dialog.questions.iter().any(|q| matches!(q, Question::Conflict { .. }));
         let may = !is_asked && self.disk_is_as_read();
         if !may {
-            self.dialog.after_save = None;
+            self.open.host.dialog.after_save = None;
         }
         may
     }
@@ -171,14 +171,14 @@ impl Session {
         if !is_same_place(&project.origin, folder) {
             project.name = project::name_at(folder);
         }
-        match save_over(&project, folder, replaced, self.options.recovery.as_deref()) {
+        match save_over(&project, folder, replaced, self.open.host.options.recovery.as_deref()) {
             Ok((saved, kept)) => {
                 self.saved(saved);
                 if let Some(kept) = kept {
                     self.tell_of_kept(replaced.len(), kept);
                 }
                 // Pictures are read from the new place, and the texts have new names in diagnostics.
-                self.disk.has_moved();
+                self.open.disk.has_moved();
                 self.compile_soon();
                 self.finish_save();
             }
@@ -193,61 +193,62 @@ impl Session {
     pub(super) fn tell_of_kept(&mut self, count: usize, kept: PathBuf) {
         let files =
             if count == 1 { "the file that was replaced is".into() } else { format!("the {count} replaced files are") };
-        let time = self.options.recovery.as_ref().map(|_| format!(" for {KEPT_DAYS} days")).unwrap_or_default();
+        let time =
+            self.open.host.options.recovery.as_ref().map(|_| format!(" for {KEPT_DAYS} days")).unwrap_or_default();
         let text = format!("{files} kept in {}{time}", kept.display());
         self.notice_with_path(About::Saving, Level::Info, text, kept);
     }
 
     /// Writes the edited texts alone. Returns false if there are none, or they cannot be written there.
     fn save_texts(&mut self, home: &Path) -> bool {
-        let Some(project) = self.documents.edited_texts() else { return false };
+        let Some(project) = self.open.documents.edited_texts() else { return false };
         if project::save(&project, home, Overwrite::Refuse).is_err() {
             return false;
         }
         self.read_disk();
-        self.compile.saved();
+        self.open.compile.saved();
         true
     }
 
     fn request_save_as(&mut self) {
         let suggested_name = capture::file_stem(&self.project().name);
-        self.dialog.requests.push_back(Request::SaveAs { suggested_name });
+        self.open.host.dialog.requests.push_back(Request::SaveAs { suggested_name });
     }
 
     fn save_failed(&mut self, error: &ProjectError) {
-        self.dialog.after_save = None;
+        self.open.host.dialog.after_save = None;
         self.notice_about(About::Saving, Level::Error, format!("not saved: {error}; your changes are still open here"));
     }
 
     fn saved(&mut self, project: Project) {
-        project::remove_renamed(self.documents.saved(), self.documents.current(), &project);
+        project::remove_renamed(self.open.documents.saved(), self.open.documents.current(), &project);
         let place = match &project.origin {
             Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path.display().to_string(),
             Origin::Unsaved | Origin::Preset(_) => project.name.clone(),
         };
-        if self.documents.set_saved(project) {
+        if self.open.documents.set_saved(project) {
             // The last compile was of the edited version, which differs.
-            self.passes.clear();
+            self.open.pass_history.clear();
             self.after_reload();
         }
         self.place_known();
         self.disk_is_known();
-        self.compile.saved();
+        self.open.compile.saved();
         self.notice(Level::Info, format!("saved {place}"));
     }
 
     fn finish_save(&mut self) {
-        if let Some(then) = self.dialog.after_save.take() {
+        if let Some(then) = self.open.host.dialog.after_save.take() {
             self.go_on(then);
         }
     }
 
     fn answer(&mut self, answer: Answer) {
         self.settled(About::Question);
-        let Some(question) = self.dialog.questions.pop_front() else { return };
+        let Some(question) = self.open.host.dialog.questions.pop_front() else { return };
         match (question, answer) {
             (Question::Unsaved { then, .. }, Answer::Save) => {
-                self.dialog.after_save = Some(then);
+                self.open.host.dialog.after_save = Some(then);
                 if self.save() {
                     self.finish_save();
                 }
@@ -262,7 +263,9 @@ impl Session {
                 self.cancel_film();
                 self.unless_unsaved(PendingAction::Close);
             }
-            (Question::Unsaved { .. } | Question::Overwrite { .. }, Answer::Cancel) => self.dialog.after_save = None,
+            (Question::Unsaved { .. } | Question::Overwrite { .. }, Answer::Cancel) => {
+                self.open.host.dialog.after_save = None
+            }
             (Question::Conflict { tab, file, mine, disk, diff }, answer) => {
                 // The text may have been edited since the question was asked.
                 let mine_now = tab.as_ref().map_or_else(|| mine.to_string(), |t| self.text(t).to_owned());
@@ -270,15 +273,15 @@ impl Session {
                     if let Some(why) = why {
                         self.notice(Level::Error, why);
                     }
-                    self.dialog.questions.push_front(Question::Conflict { tab, file, mine, disk, diff });
+                    self.open.host.dialog.questions.push_front(Question::Conflict { tab, file, mine, disk, diff });
                 }
             }
             (Question::Recover(recovered), answer) => {
                 if !self.answer_recover(&recovered, &answer) {
-                    self.dialog.questions.push_front(Question::Recover(recovered));
+                    self.open.host.dialog.questions.push_front(Question::Recover(recovered));
                 }
             }
-            (question, _) => self.dialog.questions.push_front(question),
+            (question, _) => self.open.host.dialog.questions.push_front(question),
         }
     }
 
@@ -304,10 +307,10 @@ impl Session {
         };
         if answer != Answer::KeepMine {
             match tab {
-                Some(tab) => self.documents.take_text_of_saved(tab),
+                Some(tab) => self.open.documents.take_text_of_saved(tab),
                 None => {
-                    self.documents.take_structure_of_saved();
-                    self.passes.clear();
+                    self.open.documents.take_structure_of_saved();
+                    self.open.pass_history.clear();
                 }
             }
             self.after_reload();
@@ -319,12 +322,12 @@ impl Session {
     /// Keeps the warnings from loading the open project for the list of problems, without those that each compile
     /// repeats.
     pub(super) fn note_reading(&mut self, warnings: &[Diagnostic], sources: &SourceMap) {
-        let mut project = self.documents.saved().clone();
+        let mut project = self.open.documents.saved().clone();
         let mut again = project::advice(&project);
         again.extend(project::declare_channels(&mut project));
         let is_new = |d: &&Diagnostic| !again.iter().any(|other| other.repeats(d));
         let kept = warnings.iter().filter(is_new).map(|d| TabDiagnostic::new(d, sources, &project)).collect();
-        self.compile.read = kept;
+        self.open.compile.read = kept;
     }
 
     pub(super) fn tell_diagnostics(&mut self, diagnostics: &[Diagnostic], sources: &SourceMap) {

@@ -86,7 +86,7 @@ impl Session {
                 if project == before {
                     return self.notice(Level::Warning, done);
                 }
-                *self.documents.current_mut() = project;
+                *self.open.documents.current_mut() = project;
                 let names: Vec<String> = pictures.iter().chain(&models).map(|p| name(p)).collect();
                 self.note_pass_edit(format!("use {}", listed(&names)), before);
                 self.passes_changed();

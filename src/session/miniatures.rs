@@ -48,6 +48,11 @@ pub(super) struct Miniatures {
 }
 
 impl Miniatures {
+    /// The pictures of another project, whose targets may have these names.
+    pub(crate) fn successor(&self) -> Self {
+        Self { watched: self.watched.clone(), generation: self.generation, is_due: true, ..Self::default() }
+    }
+
     /// Sets the targets that are watched.
     pub(crate) fn watch(&mut self, targets: Vec<Target>) {
         self.known.retain(|target, _| targets.contains(target));
@@ -90,12 +95,6 @@ impl ReadBack for Miniatures {
             }
         }
         true
-    }
-
-    fn begin_next_project(&mut self) {
-        // Another project's targets may have these names.
-        let (watched, generation) = (std::mem::take(&mut self.watched), self.generation);
-        *self = Self { watched, generation, is_due: true, ..Self::default() };
     }
 }
 

@@ -16,9 +16,9 @@ pub(super) struct Searching {
 }
 
 impl Searching {
-    pub(crate) fn new(wake: Wake) -> std::io::Result<Self> {
-        let background = Background::new("first NaN", "the search", wake, search)?;
-        Ok(Self { background, input: Ticket::default() })
+    pub(crate) fn new(wake: Wake) -> Self {
+        let background = Background::lazy("first NaN", "the search", wake, search);
+        Self { background, input: Ticket::default() }
     }
 
     /// Starts or ends the search.
@@ -40,28 +40,28 @@ impl Searching {
 impl Session {
     /// The search for the first NaN ([`Command::FindNonfinite`](super::Command::FindNonfinite)), which counts frames.
     pub fn search(&self) -> Option<Status<'_, Count, SearchEnd>> {
-        self.searching.background.status()
+        self.open.nan_search.background.status()
     }
 
     /// Submits the frames to search for the first NaN.
     pub(super) fn search_frames(&mut self) {
-        let Searching { background, input } = &mut self.searching;
+        let Searching { background, input } = &mut self.open.nan_search;
         let Some(input) = input.take() else { return };
-        self.changed = true;
+        self.open.host.changed = true;
         let (Some((Replay { snapshot, frames }, camera)), Some(project)) =
-            (input.output, self.drawing.project().cloned())
+            (input.output, self.open.engine.project().cloned())
         else {
             return background
                 .fail("no earlier frames are kept: reset and play again; very large buffers are never kept");
         };
-        match self.drawing.device().wait() {
+        match self.services.drawing.device().wait() {
             Err(e) => background.fail(e.to_string()),
             Ok(gpu) => background.start(SearchJob {
                 gpu,
                 project,
-                shown: self.picture.shown.clone(),
-                size: self.drawing.size(),
-                media_dir: self.options.media_dir.clone(),
+                shown: self.open.picture.shown.clone(),
+                size: self.open.engine.size(),
+                media_dir: self.open.host.options.media_dir.clone(),
                 snapshot,
                 camera,
                 frames: frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),

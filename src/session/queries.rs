@@ -22,26 +22,26 @@ impl Session {
     /// The newest picture of the shown pass: rgba8unorm, with its first row at the top, as display values. Call it
     /// again after each tick: a resize creates another texture.
     pub fn display(&self) -> &wgpu::TextureView {
-        self.drawing.display()
+        self.services.drawing.display()
     }
 
     /// Grows whenever [`Session::display`] may have become another texture.
     pub fn display_generation(&self) -> u64 {
-        self.picture.generation
+        self.services.display.generation
     }
 
     /// Grows whenever the texels of [`Session::display`] may have changed.
     pub fn pictures_shown(&self) -> u64 {
-        self.picture.shown_count
+        self.services.display.shown_count
     }
 
     /// The device that shows the picture.
     pub fn gpu(&self) -> &Gpu {
-        self.drawing.gpu()
+        self.services.drawing.gpu()
     }
 
     pub fn project(&self) -> &Project {
-        self.documents.current()
+        self.open.documents.current()
     }
 
     /// Every tab in Shadertoy's order.
@@ -57,172 +57,172 @@ impl Session {
     /// Returns the number of programs of the newest text that have drawn a frame: it grows when an edit is visible in
     /// the picture.
     pub fn programs_drawn(&self) -> u64 {
-        self.picture.programs_drawn
+        self.services.display.programs_drawn
     }
 
     /// Returns the debounce time between typing and a compile.
     pub fn edit_debounce(&self) -> Duration {
-        self.compile.edits.quiet()
+        self.open.compile.edits.quiet()
     }
 
     /// Returns a number that grows whenever a text was changed by something other than
     /// [`Command::EditText`](super::Command::EditText) (opened, reloaded, taken from disk): an editor must then reload
     /// it.
     pub fn text_generation(&self) -> u64 {
-        self.text_generation
+        self.open.host.text_generation
     }
 
     /// The recently opened projects, newest first, including those that no longer exist.
     pub fn recent(&self) -> &[RecentProject] {
-        self.recent.list()
+        self.services.recent.list()
     }
 
     /// Returns the file of a small picture of a recent project as it was last seen, and a number that grows with each
     /// one that is written. The file may be missing or damaged.
     pub fn last_picture(&self, project: &Path) -> Option<(PathBuf, u64)> {
-        Some((self.last_pictures.file(project)?, self.last_pictures.written()))
+        Some((self.services.last_pictures.file(project)?, self.services.last_pictures.written()))
     }
 
     /// Counts the shaders created by [`Command::New`](super::Command::New).
     pub fn begun(&self) -> u64 {
-        self.begun
+        self.open.host.new_shader_count
     }
 
     /// Counts the times that a project was opened or moved.
     pub fn opened(&self) -> u64 {
-        self.disk.opened()
+        self.open.disk.opened()
     }
 
     /// Counts the projects that have replaced another: a front end then resets its state of the project.
     pub fn projects_opened(&self) -> u64 {
-        self.projects_opened
+        self.open.host.serial
     }
 
     /// Returns whether edits wait to be saved before they are compiled: see
     /// [`Command::SetCompileOnSave`](super::Command::SetCompileOnSave).
     pub fn waits_for_save(&self) -> bool {
-        self.compile.waits_for_save
+        self.open.compile.waits_for_save
     }
 
     /// The author's own uniforms, as the running program declares them. If it declares none, or there is no program
     /// yet, as the texts do.
     pub fn custom_uniforms(&self) -> &[CustomUniform] {
-        match self.drawing.custom_uniforms() {
-            [] => &self.uniforms.declared,
+        match self.open.engine.custom_uniforms() {
+            [] => &self.open.uniforms.declared,
             drawn => drawn,
         }
     }
 
     /// Returns whether the tab's text differs from the one on disk.
     pub fn is_tab_dirty(&self, tab: &Tab) -> bool {
-        self.documents.is_tab_dirty(tab)
+        self.open.documents.is_tab_dirty(tab)
     }
 
     /// Returns the parts that differ from the disk, in words: tabs by their titles, then passes, channels and uniforms.
     pub fn unsaved_parts(&self) -> Vec<String> {
-        self.documents.unsaved_parts()
+        self.open.documents.unsaved_parts()
     }
 
     /// Returns whether anything differs from the disk: texts, passes, channels.
     pub fn is_dirty(&self) -> bool {
-        self.documents.is_dirty()
+        self.open.documents.is_dirty()
     }
 
     /// Returns the diagnostics of the newest finished compile for all tabs, errors first.
     pub fn diagnostics(&self) -> &[TabDiagnostic] {
-        &self.compile.diagnostics
+        &self.open.compile.diagnostics
     }
 
     pub fn compile_state(&self) -> &CompileState {
-        &self.compile.state
+        &self.open.compile.state
     }
 
     pub fn transport(&self) -> Transport {
         let times = self.pass_times();
-        let playing = self.playback.is_playing();
+        let playing = self.open.playback.is_playing();
         // Without drawing there is nothing to measure.
-        let is_drawn = playing && self.drawing.has_program() && self.playback.has_drawn();
+        let is_drawn = playing && self.open.engine.has_program() && self.open.playback.has_drawn();
         Transport {
             playing,
-            time_secs: self.playback.clock.time_secs(),
-            frame: self.playback.frame(),
-            fps: self.playback.fps().filter(|_| is_drawn),
+            time_secs: self.open.playback.clock.time_secs(),
+            frame: self.open.playback.frame(),
+            fps: self.open.playback.fps().filter(|_| is_drawn),
             gpu_millis: (is_drawn && !times.is_empty()).then(|| times.iter().map(|t| t.gpu_millis).sum()),
-            cpu_micros: is_drawn.then_some(self.watched.cpu_micros),
-            resolution: self.drawing.size(),
-            scale: self.canvas.asked.scale,
-            fixed_size: self.canvas.asked.fixed,
-            speed: self.playback.clock.speed(),
-            fixed_rate: self.playback.clock.fixed_rate(),
-            is_seeking: self.playback.is_seeking(),
+            cpu_micros: is_drawn.then_some(self.open.read_backs.cpu_micros),
+            resolution: self.open.engine.size(),
+            scale: self.open.canvas.asked.scale,
+            fixed_size: self.open.canvas.asked.fixed,
+            speed: self.open.playback.clock.speed(),
+            fixed_rate: self.open.playback.clock.fixed_rate(),
+            is_seeking: self.open.playback.is_seeking(),
         }
     }
 
     /// GPU time of each pass, for the newest frame that the device has finished; empty if the device cannot measure it.
     pub fn pass_times(&self) -> &[PassTime] {
-        self.watched.costs.newest()
+        self.open.read_backs.costs.newest()
     }
 
     /// Returns the cost of each pass of the running program, in drawing order, followed by passes that are not drawn.
     /// Costs are gathered after [`Command::WatchCosts`](super::Command::WatchCosts); times are available once a frame
     /// was drawn since.
     pub fn pass_costs(&self) -> PassCosts {
-        self.watched.costs.of(self.drawing.costs().to_vec(), self.drawing.clock())
+        self.open.read_backs.costs.of(self.open.engine.costs().to_vec(), self.open.engine.clock())
     }
 
     /// Returns a small picture of one of a pass's targets while it is watched
     /// ([`Command::WatchTargets`](super::Command::WatchTargets)), and a number that grows with each new one.
     pub fn miniature(&self, pass: &PassName, index: usize) -> Option<(&Miniature, u64)> {
-        self.watched.miniatures.get(pass, index)
+        self.open.read_backs.miniatures.get(pass, index)
     }
 
     /// Returns the target that is inspected ([`Command::WatchBuffers`](super::Command::WatchBuffers)), and a number
     /// that grows with each new one.
     pub fn buffer(&self) -> Option<(&Arc<BufferRead>, u64)> {
-        self.watched.buffers.shown()
+        self.open.read_backs.buffers.shown()
     }
 
     /// Returns the texel of each target at the inspected place.
     pub fn texels_under(&self) -> &[TexelAt] {
-        self.watched.buffers.under()
+        self.open.read_backs.buffers.under()
     }
 
     /// Returns the value that is drawn instead of the picture, if requested: see
     /// [`Command::Probe`](super::Command::Probe).
     pub fn probe(&self) -> Option<ProbeView<'_>> {
-        self.watched.probing.view()
+        self.open.read_backs.probing.view()
     }
 
     /// Returns the pass that the display shows: the shown pass, or that of a probed value.
     pub(super) fn pictured(&self) -> PassName {
-        if self.watched.probing.is_drawn() { BuildOptions::probed() } else { self.picture.shown.clone() }
+        if self.open.read_backs.probing.is_drawn() { BuildOptions::probed() } else { self.open.picture.shown.clone() }
     }
 
     pub fn shown_pass(&self) -> &PassName {
-        &self.picture.shown
+        &self.open.picture.shown
     }
 
     pub fn reset_on_reload(&self) -> bool {
-        self.disk.reset_on_reload
+        self.open.disk.reset_on_reload
     }
 
     /// Oldest first; kept until dismissed.
     pub fn notices(&self) -> &[Notice] {
-        self.notices.list()
+        self.open.host.notices.list()
     }
 
     /// Returns why the picture is halted, if it is.
     pub fn halt(&self) -> Option<&Halt> {
-        self.halting.halt()
+        self.open.halt.halt()
     }
 
     /// Returns whether there is earlier code that was fast enough.
     pub fn has_last_good(&self) -> bool {
-        self.halting.good().is_some()
+        self.open.halt.good().is_some()
     }
 
     /// Returns the question that must be answered first.
     pub fn question(&self) -> Option<&Question> {
-        self.dialog.questions.front()
+        self.open.host.dialog.questions.front()
     }
 }

@@ -5,7 +5,6 @@
 use super::{
     Session,
     buffers::BufferReads,
-    captures::Captures,
     costs::Costs,
     drawing::{RenderTask, Renderer, Tasks},
     measures::Measuring,
@@ -33,15 +32,11 @@ pub(super) trait ReadBack {
 
     /// Takes the output of a job, with or without a frame. Returns whether there is something new to show.
     fn receive(&mut self, has_frame: bool) -> bool;
-
-    /// Resets the state of the project that is closed.
-    fn begin_next_project(&mut self);
 }
 
 /// Everything that is read back of the picture.
 #[derive(Default)]
 pub(super) struct ReadBacks {
-    pub captures: Captures,
     pub cpu_micros: f64,
     pub costs: Costs,
     pub probing: Probing,
@@ -56,27 +51,32 @@ impl ReadBacks {
         [&mut self.miniatures, &mut self.probing, &mut self.buffers, &mut self.measuring]
     }
 
-    /// Resets the state of the project that is closed, except for pictures to be written.
-    pub(crate) fn begin_next_project(&mut self) {
-        self.cpu_micros = 0.0;
-        self.costs = Costs::watched(self.costs.is_watched());
-        self.read_backs().into_iter().for_each(ReadBack::begin_next_project);
+    /// The read-backs of another project, for the panels that watch this one's.
+    pub(crate) fn successor(&self) -> Self {
+        Self {
+            cpu_micros: 0.0,
+            costs: Costs::watched(self.costs.is_watched()),
+            probing: Probing::default(),
+            miniatures: self.miniatures.successor(),
+            buffers: self.buffers.successor(),
+            measuring: self.measuring.successor(),
+        }
     }
 }
 
 impl Session {
     /// Returns the tasks that are due now, after the frame that is due if there is one.
     pub(super) fn due_tasks(&mut self, has_frame: bool) -> Tasks {
-        let is_playing = self.playback.is_running();
+        let is_playing = self.open.playback.is_running();
         // The engine of another project reports that it has no program.
-        let is_there = self.drawing.has_program() && !self.drawing.is_program_coming();
+        let is_there = self.open.engine.has_program() && !self.open.is_program_coming();
         let mut tasks = Tasks::default();
         // During a resize there is no valid picture.
-        let is_between = self.drawing.wanted.size.is_some() || self.playback.is_again_due;
-        if is_between && !has_frame && is_there && !self.halting.is_halted() {
+        let is_between = self.open.changes.size.is_some() || self.open.playback.is_again_due;
+        if is_between && !has_frame && is_there && !self.open.halt.is_halted() {
             return tasks;
         }
-        if has_frame || is_there || self.drawing.wanted.restart {
+        if has_frame || is_there || self.open.changes.restart {
             self.request_pictures(has_frame, is_playing, &mut tasks);
         }
         if is_there && !self.is_compile_under_way() {
@@ -87,38 +87,38 @@ impl Session {
 
     /// Requests pictures and numbers of the newest program, after the frame that is due.
     fn request_pictures(&mut self, has_frame: bool, is_playing: bool, tasks: &mut Tasks) {
-        self.watched.captures.request(tasks);
+        self.services.captures.request(tasks);
         let is_of_project = self.is_picture_of_project();
-        self.last_pictures.request(is_of_project, tasks);
-        let at = Moment { now: self.now, has_frame, is_playing, is_seeking: self.playback.is_seeking() };
-        self.watched.read_backs().into_iter().for_each(|read_back| read_back.request(&at, tasks));
+        self.services.last_pictures.request(is_of_project, tasks);
+        let at = Moment { now: self.open.host.now, has_frame, is_playing, is_seeking: self.open.playback.is_seeking() };
+        self.open.read_backs.read_backs().into_iter().for_each(|read_back| read_back.request(&at, tasks));
     }
 
     /// Requests the inputs that the newest program was drawn with. A trace waits until nothing more is to be drawn.
     fn request_inputs(&mut self, tasks: &mut Tasks) {
-        self.searching.request_input(tasks);
-        self.tracing.divergence.request_input(tasks);
-        self.comparing.request_input(tasks);
-        self.auditing.request_input(&self.picture.shown, tasks);
-        if self.playback.is_settled() {
-            self.tracing.request_input(tasks);
+        self.open.nan_search.request_input(tasks);
+        self.open.trace.divergence.request_input(tasks);
+        self.open.comparison.request_input(tasks);
+        self.open.audit.request_input(&self.open.picture.shown, tasks);
+        if self.open.playback.is_settled() {
+            self.open.trace.request_input(tasks);
         }
     }
 
     /// Requests single read-backs again that have not arrived: the device that was to deliver them is lost.
     pub(super) fn renew_requests(&mut self) {
-        self.watched.captures.retry();
-        self.searching.background.renew_request();
-        self.comparing.background.renew_request();
-        self.auditing.renew_request();
-        self.tracing.renew_request();
+        self.services.captures.retry();
+        self.open.nan_search.background.renew_request();
+        self.open.comparison.background.renew_request();
+        self.open.audit.renew_request();
+        self.open.trace.renew_request();
     }
 
     /// Takes the outputs of a job.
     pub(super) fn take_outputs(&mut self, has_frame: bool) {
-        let is_new = self.watched.read_backs().map(|read_back| read_back.receive(has_frame)).contains(&true);
-        self.changed |= is_new;
-        if self.watched.probing.take_news() {
+        let is_new = self.open.read_backs.read_backs().map(|read_back| read_back.receive(has_frame)).contains(&true);
+        self.open.host.changed |= is_new;
+        if self.open.read_backs.probing.take_news() {
             self.look_anew();
         }
         self.search_frames();

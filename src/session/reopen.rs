@@ -9,7 +9,7 @@
 use super::{
     Session,
     canvas::CanvasSize,
-    drawing::{RenderTask, Tasks},
+    drawing::{Job, RenderTask, Tasks},
     kept_files,
     playback::{SeekTarget, clock::Clock},
     read_back::{ReadPicture, TakeRun},
@@ -29,8 +29,8 @@ const PATIENCE: Duration = Duration::from_millis(500);
 impl Session {
     /// Records the path of the open project, if it has one, and returns its entry.
     pub(super) fn place_known(&mut self) -> Option<RecentProject> {
-        let project = self.documents.current();
-        match self.recent.opened(&project.origin, project.dialect) {
+        let project = self.open.documents.current();
+        match self.services.recent.opened(&project.origin, project.dialect) {
             Ok(known) => known,
             Err(why) => {
                 self.notice_about(About::Window, Level::Warning, why);
@@ -42,14 +42,14 @@ impl Session {
     /// Stores the time of the open project.
     pub(super) fn keep_time(&mut self) {
         // The frames of the last session have not been drawn again yet: keep what is stored.
-        if self.playback.seeking.is_taking_up {
+        if self.open.playback.seeking.is_taking_up {
             return;
         }
         self.keep_picture();
-        let clock = &self.playback.clock;
+        let clock = &self.open.playback.clock;
         // A picture that was halted while playing plays again once it is drawn fast enough.
-        let is_paused = !self.is_playing() && !self.halting.resumes();
-        let (CanvasSize { scale, fixed }, usual) = (self.canvas.asked, self.canvas.usual);
+        let is_paused = !self.is_playing() && !self.open.halt.resumes();
+        let (CanvasSize { scale, fixed }, usual) = (self.open.canvas.asked, self.open.canvas.usual);
         let left = Left {
             time_secs: clock.time_secs(),
             frame: clock.next_frame_number() - 1,
@@ -57,8 +57,8 @@ impl Session {
             size: fixed.filter(|_| fixed != usual.fixed),
             scale: Some(scale).filter(|scale| *scale != usual.scale),
         };
-        let origin = self.documents.current().origin.clone();
-        if let Err(why) = self.recent.left(&origin, left) {
+        let origin = self.open.documents.current().origin.clone();
+        if let Err(why) = self.services.recent.left(&origin, left) {
             log::warn!("{why}");
         }
         self.keep_run(is_paused);
@@ -66,24 +66,25 @@ impl Session {
 
     /// Stores the inputs up to the shown frame, if they are needed to show it again.
     fn keep_run(&mut self, is_paused: bool) {
-        let (reach, origin) = (self.drawing.reach(), self.documents.current().origin.clone());
-        let is_kept = is_paused && reach.is_whole && self.has_state() && self.runs.takes(&origin, reach.shown + 1);
+        let (reach, origin) = (self.open.engine.reach(), self.open.documents.current().origin.clone());
+        let is_kept =
+            is_paused && reach.is_whole && self.has_state() && self.services.runs.takes(&origin, reach.shown + 1);
         match if is_kept { self.take_run() } else { None } {
             Some(Run { frames, is_whole: true }) if !frames.is_empty() => {
-                let name = self.documents.current().name.clone();
-                if let Err(e) = self.runs.keep(&origin, name, frames) {
+                let name = self.open.documents.current().name.clone();
+                if let Err(e) = self.services.runs.keep(&origin, name, frames) {
                     log::warn!("the shown frame cannot be restored at the next start: {e}");
-                    self.runs.forget(&origin);
+                    self.services.runs.forget(&origin);
                 }
             }
-            _ => self.runs.forget(&origin),
+            _ => self.services.runs.forget(&origin),
         }
     }
 
     /// Stores the shown picture before its project is closed.
     fn keep_picture(&mut self) {
         // A device that is too slow is not waited for.
-        if !self.last_pictures.is_kept() || self.halting.is_halted() || !self.is_picture_of_project() {
+        if !self.services.last_pictures.is_kept() || self.open.halt.is_halted() || !self.is_picture_of_project() {
             return;
         }
         let end = Instant::now() + PATIENCE;
@@ -95,15 +96,16 @@ impl Session {
     /// Returns whether the picture is the project's own: not that of the previous project, a probe, or a frame on the
     /// way of a seek.
     pub(super) fn is_picture_of_project(&self) -> bool {
-        let is_drawn = self.drawing.has_program() && !self.drawing.is_program_coming() && !self.picture.is_program_new;
-        let is_passing = self.watched.probing.view().is_some() || self.playback.is_seeking();
-        is_drawn && self.playback.has_drawn() && !is_passing
+        let is_drawn =
+            self.open.engine.has_program() && !self.open.is_program_coming() && !self.open.picture.is_program_new;
+        let is_passing = self.open.read_backs.probing.view().is_some() || self.open.playback.is_seeking();
+        is_drawn && self.open.playback.has_drawn() && !is_passing
     }
 
     pub(super) fn picture_is_read(&mut self, picture: &Picture) {
-        let Some(path) = kept_files::path_of(&self.documents.current().origin).map(Path::to_owned) else { return };
-        match self.last_pictures.keep(&path, picture) {
-            Ok(()) => self.changed = true,
+        let Some(path) = kept_files::path_of(&self.open.documents.current().origin).map(Path::to_owned) else { return };
+        match self.services.last_pictures.keep(&path, picture) {
+            Ok(()) => self.open.host.changed = true,
             Err(e) => log::warn!("cannot keep the picture of {}: {e}", path.display()),
         }
     }
@@ -118,12 +120,10 @@ impl Session {
         self.rest_until(end)?;
         let mut tasks = Tasks::default();
         let mut ticket = tasks.add(task);
-        // Other pending changes are submitted later, if the project stays open.
-        let wanted = std::mem::take(&mut self.drawing.wanted);
-        self.drawing.submit(self.now, false, |job| job.tasks = tasks);
-        self.drawing.wanted = wanted;
+        // Pending changes are submitted later, if the project stays open.
+        self.services.drawing.submit(self.open.host.now, false, Job { tasks, ..Job::default() });
         loop {
-            if self.drawing.take(true).is_some() {
+            if self.take_result(true).is_some() {
                 return ticket.take().map(|finished| finished.output);
             }
             if Instant::now() >= end {
@@ -135,7 +135,7 @@ impl Session {
 
     /// Waits for the job in progress. `None` if it does not end in time.
     fn rest_until(&mut self, end: Instant) -> Option<()> {
-        while self.drawing.is_busy() {
+        while self.services.drawing.is_busy() {
             self.take_drawn(false);
             if Instant::now() >= end {
                 return None;
@@ -146,28 +146,28 @@ impl Session {
     }
 
     /// Restores the time of the project that has just been opened.
-    pub(super) fn take_time_up(&mut self) {
+    pub(super) fn restore_run(&mut self) {
         let Some(RecentProject { time_secs, frame, paused, size, scale, .. }) = self.place_known() else { return };
-        self.take_size_up(size, scale);
+        self.restore_size(size, scale);
         let is_playing = !paused;
         if !self.has_state() {
-            self.playback.clock = Clock::at(time_secs, frame, is_playing);
-            self.playback.is_frame_due = true;
+            self.open.playback.clock = Clock::at(time_secs, frame, is_playing);
+            self.open.playback.is_frame_due = true;
             return;
         }
-        self.playback.clock = Clock::at(0.0, None, is_playing);
-        let origin = &self.documents.current().origin;
-        let Some(frames) = paused.then(|| self.runs.of(origin)).flatten() else { return };
-        self.playback.seeking.goal = frames.len().checked_sub(1).map(|last| SeekTarget::Anew(last as u64));
-        (self.playback.seeking.awaits_program, self.playback.seeking.is_taking_up) = (true, true);
-        self.drawing.wanted.run = Some(frames);
+        self.open.playback.clock = Clock::at(0.0, None, is_playing);
+        let origin = &self.open.documents.current().origin;
+        let Some(frames) = paused.then(|| self.services.runs.of(origin)).flatten() else { return };
+        self.open.playback.seeking.goal = frames.len().checked_sub(1).map(|last| SeekTarget::Anew(last as u64));
+        (self.open.playback.seeking.awaits_program, self.open.playback.seeking.is_taking_up) = (true, true);
+        self.open.changes.run = Some(frames);
     }
 
     /// Restores the size of the picture. The file can be edited by hand: invalid sizes are ignored.
-    fn take_size_up(&mut self, size: Option<(u32, u32)>, scale: Option<f32>) {
-        let usual = self.canvas.usual;
+    fn restore_size(&mut self, size: Option<(u32, u32)>, scale: Option<f32>) {
+        let usual = self.open.canvas.usual;
         let fixed = size.filter(|(width, height)| *width > 0 && *height > 0).or(usual.fixed);
         let scale = scale.filter(|scale| scale.is_finite() && *scale > 0.0).unwrap_or(usual.scale);
-        self.canvas.asked = CanvasSize { scale, fixed };
+        self.open.canvas.asked = CanvasSize { scale, fixed };
     }
 }

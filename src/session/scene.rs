@@ -74,7 +74,7 @@ impl Session {
         if scene.project.pass(&scene.pass).is_some() {
             self.show_pass(scene.pass.clone());
         }
-        self.canvas.asked.fixed = Some(scene.size);
+        self.open.canvas.asked.fixed = Some(scene.size);
         let has_state = self.has_state();
         let frames = match scene.frames(has_state) {
             Ok(frames) => frames,
@@ -85,12 +85,12 @@ impl Session {
         let Some(last) = frames.last() else { return };
         let is_whole = !has_state || frames.len() > 1 || last.inputs.frame == 0;
         let frame = last.inputs.frame;
-        self.playback.mouse.follow(last.inputs.mouse, last.inputs.drag);
-        self.playback.clock = Clock::at(0.0, None, false);
+        self.open.playback.mouse.follow(last.inputs.mouse, last.inputs.drag);
+        self.open.playback.clock = Clock::at(0.0, None, false);
         if is_whole {
-            self.playback.seeking.goal = Some(SeekTarget::Anew(frames.len() as u64 - 1));
-            (self.playback.seeking.awaits_program, self.playback.seeking.is_taking_up) = (true, true);
-            self.drawing.wanted.run = Some(frames);
+            self.open.playback.seeking.goal = Some(SeekTarget::Anew(frames.len() as u64 - 1));
+            (self.open.playback.seeking.awaits_program, self.open.playback.seeking.is_taking_up) = (true, true);
+            self.open.changes.run = Some(frames);
             self.notice(Level::Info, format!("opened from the image, paused at frame {frame}"));
         } else {
             let text = format!("opened from the image, paused at frame 0: the way to frame {frame} is not in it");

@@ -17,7 +17,7 @@ use eddy_debugger::{
 use eddy_engine::{CameraFrame, EngineError};
 use eddy_playback::run::{Replay, ReplayFrom};
 use eddy_project::{PassName, Project};
-use std::{io, sync::Arc};
+use std::{sync::Arc, thread::JoinHandle};
 
 /// A pixel of a pass: its place in the picture, from 0 to 1 across and up.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,13 +52,18 @@ pub(super) struct Tracing {
 }
 
 impl Tracing {
-    pub(crate) fn new(wake: Wake) -> io::Result<Self> {
+    pub(crate) fn new(wake: Wake) -> Self {
         let work = |job: TraceJob, _: &_| {
             let TraceJob { project, at, frame, inspected: Inspected { pass, inputs, picture } } = job;
             Traced::new(project, &pass, frame, (inputs, &picture), at).map(Arc::new).map_err(|e| e.to_string())
         };
-        let walk = Background::new("trace", "the CPU interpreter", wake.clone(), work)?;
-        Ok(Self { walk, pixel: None, input: Ticket::default(), divergence: Divergence::new(wake)? })
+        let walk = Background::lazy("trace", "the CPU interpreter", wake.clone(), work);
+        Self { walk, pixel: None, input: Ticket::default(), divergence: Divergence::new(wake) }
+    }
+
+    /// Cancels the work, and returns its threads.
+    pub(crate) fn close(self) -> [Option<JoinHandle<()>>; 2] {
+        [self.walk.abandon(), self.divergence.background.abandon()]
     }
 
     /// Traces another pixel, or none.
@@ -109,9 +114,9 @@ pub(super) struct Divergence {
 }
 
 impl Divergence {
-    fn new(wake: Wake) -> io::Result<Self> {
-        let background = Background::new("divergence", "the search", wake, divergence::find)?;
-        Ok(Self { background, of: None, input: Ticket::default() })
+    fn new(wake: Wake) -> Self {
+        let background = Background::lazy("divergence", "the search", wake, divergence::find);
+        Self { background, of: None, input: Ticket::default() }
     }
 
     fn clear(&mut self) {
@@ -130,24 +135,24 @@ impl Session {
     /// The trace of the chosen pixel ([`Command::Trace`](super::Command::Trace)).
     pub fn trace(&self) -> TraceView<'_> {
         TraceView {
-            traced: self.tracing.traced(),
-            is_under_way: self.tracing.walk.is_under_way(),
-            trouble: self.tracing.walk.result().and_then(|result| result.as_ref().err()).map(String::as_str),
+            traced: self.open.trace.traced(),
+            is_under_way: self.open.trace.walk.is_under_way(),
+            trouble: self.open.trace.walk.result().and_then(|result| result.as_ref().err()).map(String::as_str),
         }
     }
 
     /// The search for the first difference from the device in the traced pixel
     /// ([`Command::FindDivergence`](super::Command::FindDivergence)); `None` if it was not requested.
     pub fn divergence(&self) -> Option<Status<'_, (), DivergenceFound>> {
-        let Divergence { background, of, .. } = &self.tracing.divergence;
-        of.as_ref().zip(self.tracing.traced()).filter(|(of, traced)| Arc::ptr_eq(of, traced))?;
+        let Divergence { background, of, .. } = &self.open.trace.divergence;
+        of.as_ref().zip(self.open.trace.traced()).filter(|(of, traced)| Arc::ptr_eq(of, traced))?;
         background.status()
     }
 
     /// Starts that search.
     pub(super) fn want_divergence(&mut self) {
-        let traced = self.tracing.traced().cloned();
-        let divergence = &mut self.tracing.divergence;
+        let traced = self.open.trace.traced().cloned();
+        let divergence = &mut self.open.trace.divergence;
         divergence.clear();
         if traced.is_some() {
             divergence.background.request();
@@ -157,17 +162,17 @@ impl Session {
 
     /// Submits the inputs that the traced pass read; after another frame the pixel is traced again.
     pub(super) fn trace_pixel(&mut self, has_frame: bool) {
-        let Tracing { walk, pixel: Some(pixel), input, .. } = &mut self.tracing else { return };
+        let Tracing { walk, pixel: Some(pixel), input, .. } = &mut self.open.trace else { return };
         let Some(input) = input.take() else {
             if has_frame {
                 walk.request();
             }
             return;
         };
-        self.changed = true;
-        match (input.output, self.drawing.project().cloned()) {
+        self.open.host.changed = true;
+        match (input.output, self.open.engine.project().cloned()) {
             (Ok(inspected), Some(project)) => {
-                let frame = self.playback.frame();
+                let frame = self.open.playback.frame();
                 walk.start(TraceJob { project, at: pixel.at, frame, inspected });
             }
             (Ok(_), None) => walk.cancel(),
@@ -177,23 +182,23 @@ impl Session {
 
     /// Submits the frames up to the traced one.
     pub(super) fn find_divergence(&mut self) {
-        let Some(input) = self.tracing.divergence.input.take() else { return };
-        self.changed = true;
-        let Divergence { background, of: Some(traced), .. } = &mut self.tracing.divergence else { return };
+        let Some(input) = self.open.trace.divergence.input.take() else { return };
+        self.open.host.changed = true;
+        let Divergence { background, of: Some(traced), .. } = &mut self.open.trace.divergence else { return };
         let Some((Replay { snapshot, frames }, camera)) = input.output else {
             return background.fail(
                 "no earlier frames are kept at this resolution: reset, play and trace again; very large buffers are never \
                  kept",
             );
         };
-        match self.drawing.device().wait() {
+        match self.services.drawing.device().wait() {
             Err(e) => background.fail(e.to_string()),
             Ok(gpu) => background.start(DivergenceJob {
                 gpu,
                 traced: traced.clone(),
-                shown: self.picture.shown.clone(),
-                size: self.drawing.size(),
-                media_dir: self.options.media_dir.clone(),
+                shown: self.open.picture.shown.clone(),
+                size: self.open.engine.size(),
+                media_dir: self.open.host.options.media_dir.clone(),
                 snapshot,
                 camera,
                 frames: frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),

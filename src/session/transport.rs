@@ -3,7 +3,7 @@
 
 use super::{
     Session,
-    drawing::{Job, SeekProgress},
+    drawing::SeekProgress,
     playback::{Reach, Reading, Recorder, ReplayView, ReplayedFrame, TimeRange, name},
     view::{About, Level},
 };
@@ -15,38 +15,38 @@ impl Session {
     pub(super) fn play(&mut self) {
         self.settled(About::Seeking);
         self.override_halt();
-        self.playback.play();
+        self.open.playback.play();
     }
 
     pub(super) fn pause(&mut self) {
-        self.halting.forget_resuming();
-        self.playback.pause();
+        self.open.halt.forget_resuming();
+        self.open.playback.pause();
     }
 
     pub(super) fn reset(&mut self) {
         self.reset_buffers();
-        self.playback.reset();
+        self.open.playback.reset();
     }
 
     fn reset_buffers(&mut self) {
         self.settled(About::Seeking);
         self.end_replay("the picture was reset");
-        self.canvas.replayed = None;
+        self.open.canvas.replayed = None;
         self.take_values_back();
-        self.drawing.wanted.reset = true;
+        self.open.changes.reset = true;
     }
 
     /// Shows the frame that is this number of frames before the shown one, and pauses.
     pub(super) fn step_back(&mut self, by: usize) {
         self.settled(About::Seeking);
         self.override_halt();
-        self.playback.step_back(by);
+        self.open.playback.step_back(by);
     }
 
     pub(super) fn step_forward(&mut self) {
         self.settled(About::Seeking);
         self.override_halt();
-        self.playback.step_forward(self.drawing.reach().ahead);
+        self.open.playback.step_forward(self.open.engine.reach().ahead);
     }
 
     /// Shows the picture at a time, in seconds. Playing or paused is unchanged.
@@ -59,10 +59,10 @@ impl Session {
         self.override_halt();
         // A recording must be a continuous run.
         self.end_recording();
-        let reach = self.drawing.reach();
-        if self.playback.is_replaying() {
-            self.playback.seek_in_replay(secs, reach);
-        } else if self.playback.seek(secs, reach, self.has_state()) {
+        let reach = self.open.engine.reach();
+        if self.open.playback.is_replaying() {
+            self.open.playback.seek_in_replay(secs, reach);
+        } else if self.open.playback.seek(secs, reach, self.has_state()) {
             self.reset_buffers();
         }
     }
@@ -70,45 +70,46 @@ impl Session {
     /// Seeks to the start of the looped range before a frame that would not be before its end. Without a program, time
     /// continues, as there is no frame to go back from.
     pub(super) fn loop_range(&mut self) {
-        if let Some(from) = self.playback.loop_start(self.now).filter(|_| self.drawing.has_program()) {
+        if let Some(from) = self.open.playback.loop_start(self.open.host.now).filter(|_| self.open.engine.has_program())
+        {
             self.seek(from);
         }
     }
 
     /// Submits the seek. Returns false if there is none, or no program to draw it.
     pub(super) fn travel(&mut self) -> bool {
-        let seeking = &self.playback.seeking;
-        if seeking.goal.is_none() || self.drawing.is_program_coming() || seeking.awaits_program {
+        let seeking = &self.open.playback.seeking;
+        if seeking.goal.is_none() || self.open.is_program_coming() || seeking.awaits_program {
             return false;
         }
-        if !self.drawing.has_program() || self.drawing.wanted.restart {
-            self.playback.seeking.cancel();
+        if !self.open.engine.has_program() || self.open.changes.restart {
+            self.open.playback.seeking.cancel();
             return false;
         }
         self.end_recording();
-        let goal = self.playback.take_goal();
-        self.drawing.submit(self.now, false, |job: &mut Job| job.travel = goal);
+        let goal = self.open.playback.take_goal();
+        self.submit(false, |job| job.travel = goal);
         true
     }
 
     /// Handles the result of a seek: another frame of the run is shown, or it is out of reach.
     pub(super) fn travelled(&mut self, travelled: Option<Result<SeekProgress, EngineError>>) {
-        self.changed = true;
-        let reach = self.drawing.reach();
+        self.open.host.changed = true;
+        let reach = self.open.engine.reach();
         match travelled {
             Some(Ok(travelled)) => {
                 self.picture_is_other();
-                if self.playback.travelled(&travelled, reach.shown) {
-                    self.watched.measuring.go_to(travelled.inputs.frame);
+                if self.open.playback.travelled(&travelled, reach.shown) {
+                    self.open.read_backs.measuring.go_to(travelled.inputs.frame);
                 }
             }
             Some(Err(error)) => {
-                self.playback.seeking.cancel();
+                self.open.playback.seeking.cancel();
                 self.stop_drawing(&error);
             }
             None => {
-                self.playback.seeking.cancel();
-                self.playback.forget_due_frames();
+                self.open.playback.seeking.cancel();
+                self.open.playback.forget_due_frames();
                 let text = match reach.back {
                     0 => "there is no earlier frame: an edit, a reset or a change of resolution restarts at frame 0"
                         .to_owned(),
@@ -121,7 +122,7 @@ impl Session {
 
     /// A new program draws: if enabled, up to the same frame with the same inputs.
     pub(super) fn keep_inputs(&mut self) {
-        let reach = self.drawing.reach();
+        let reach = self.open.engine.reach();
         if !self.keeps_inputs_of(reach) {
             return;
         }
@@ -132,62 +133,62 @@ impl Session {
             );
             return;
         }
-        self.playback.draw_anew(reach.shown);
+        self.open.playback.draw_anew(reach.shown);
     }
 
     fn keeps_inputs_of(&self, reach: Reach) -> bool {
-        self.playback.seeking.keeps_inputs && reach.shown > 0 && self.has_state()
+        self.open.playback.seeking.keeps_inputs && reach.shown > 0 && self.has_state()
     }
 
     /// Returns whether a pending program draws all frames since the reset again.
     pub(super) fn draws_all_anew(&self) -> bool {
-        let reach = self.drawing.reach();
-        self.drawing.wanted.program.is_some() && reach.is_whole && self.keeps_inputs_of(reach)
+        let reach = self.open.engine.reach();
+        self.open.changes.program.is_some() && reach.is_whole && self.keeps_inputs_of(reach)
     }
 
     pub(super) fn has_state(&self) -> bool {
         // A project that was opened paused has no program yet.
-        let project = self.drawing.project().unwrap_or_else(|| self.documents.current());
+        let project = self.open.engine.project().unwrap_or_else(|| self.open.documents.current());
         !project.stateful_passes().is_empty()
     }
 
     pub(super) fn is_playing(&self) -> bool {
-        self.playback.is_playing()
+        self.open.playback.is_playing()
     }
 
     /// Returns the range of frames for seeking without drawing new ones.
     pub fn reach(&self) -> Reach {
-        self.drawing.reach()
+        self.open.engine.reach()
     }
 
     /// Returns the range that is looped.
     pub fn time_range(&self) -> Option<TimeRange> {
-        self.playback.seeking.range
+        self.open.playback.seeking.range
     }
 
     /// Returns whether new code draws the frames since the last reset again, from the same inputs.
     pub fn keeps_inputs(&self) -> bool {
-        self.playback.seeking.keeps_inputs
+        self.open.playback.seeking.keeps_inputs
     }
 
     /// Returns whether the shown frame is to be drawn again now, once: no other is due.
     pub(super) fn take_again(&mut self) -> bool {
-        let wanted = &self.drawing.wanted;
+        let wanted = &self.open.changes;
         let is_other_coming = wanted.restart || wanted.program.is_some() || wanted.size.is_some();
-        let is_ready = self.drawing.has_program() && !is_other_coming && !self.halting.is_halted();
-        is_ready && self.playback.take_again()
+        let is_ready = self.open.engine.has_program() && !is_other_coming && !self.open.halt.is_halted();
+        is_ready && self.open.playback.take_again()
     }
 
     /// Returns whether a change of the program or the canvas is followed by the shown frame only.
     pub(super) fn stays(&self) -> bool {
-        let wanted = &self.drawing.wanted;
-        let begins_anew = wanted.restart || wanted.reset || self.compile.resets || self.draws_all_anew();
-        self.playback.is_still() && !begins_anew
+        let wanted = &self.open.changes;
+        let begins_anew = wanted.restart || wanted.reset || self.open.compile.resets || self.draws_all_anew();
+        self.open.playback.is_still() && !begins_anew
     }
 
     /// The shown frame cannot be drawn again: the next one shows the change.
     pub(super) fn again_is_lost(&mut self) {
-        self.playback.is_frame_due = true;
+        self.open.playback.is_frame_due = true;
         if self.has_state() {
             let text = "the buffers are too large to be kept: a change while paused draws one frame more";
             self.notice_once(About::Again, Level::Info, text);
@@ -196,23 +197,23 @@ impl Session {
 
     /// Restarts at frame 0 and records every frame; the second time, stops and writes the file.
     pub(super) fn record(&mut self) {
-        if self.playback.recorder.is_some() {
+        if self.open.playback.recorder.is_some() {
             self.end_recording();
             return;
         }
-        let project = self.documents.current();
-        self.playback.recorder = Some(Recorder::new(project.name.clone(), project.custom_uniform_values.clone()));
+        let project = self.open.documents.current();
+        self.open.playback.recorder = Some(Recorder::new(project.name.clone(), project.custom_uniform_values.clone()));
         self.reset();
     }
 
     /// Returns how many frames have been recorded, if a recording is being made.
     pub fn recorded_frames(&self) -> Option<usize> {
-        self.playback.recorder.as_ref().map(|recorder| recorder.recording.frames.len())
+        self.open.playback.recorder.as_ref().map(|recorder| recorder.recording.frames.len())
     }
 
     /// Writes the recording, if one is being made.
     pub(super) fn end_recording(&mut self) {
-        let Some(Recorder { recording, .. }) = self.playback.recorder.take() else { return };
+        let Some(Recorder { recording, .. }) = self.open.playback.recorder.take() else { return };
         let frames = recording.frames.len();
         if frames == 0 {
             self.notice_about(
@@ -222,8 +223,8 @@ impl Session {
             );
             return;
         }
-        let project = self.documents.current();
-        let folder = capture::folder_for(project, &self.options.pictures);
+        let project = self.open.documents.current();
+        let folder = capture::folder_for(project, &self.open.host.options.pictures);
         let stem = capture::file_stem(&recording.project);
         let name = |n: u32| format!("{stem}-{n:04}.{EXTENSION}");
         match capture::write_new(&folder, name, &stem, |out| recording.write(out)) {
@@ -237,23 +238,23 @@ impl Session {
 
     /// Records a job before it is submitted.
     pub(super) fn note_job(&mut self, frame: Option<&FrameInputs>, again: bool) {
-        let size = self.drawing.wanted.size.unwrap_or_else(|| self.drawing.coming_size());
-        if let Some(recorder) = &mut self.playback.recorder {
-            recorder.note(&self.drawing.wanted, size, frame, again);
+        let size = self.open.changes.size.unwrap_or_else(|| self.open.engine.coming_size());
+        if let Some(recorder) = &mut self.open.playback.recorder {
+            recorder.note(&self.open.changes, size, frame, again);
         }
     }
 
     /// Returns the state of the replay, if there is one.
     pub fn replay(&self) -> Option<ReplayView> {
-        self.playback.replay.playing.as_ref().map(|playing| playing.view())
+        self.open.playback.replay.playing.as_ref().map(|playing| playing.view())
     }
 
     /// Starts reading a recording, which is played when it is loaded.
     pub(super) fn play_recording(&mut self, file: PathBuf) {
         self.settled(About::Replay);
         let file = std::path::absolute(&file).unwrap_or(file);
-        match Reading::start(file, self.wake.clone()) {
-            Ok(reading) => self.playback.replay.reading = Some(reading),
+        match Reading::start(file, self.open.host.wake.clone()) {
+            Ok(reading) => self.open.playback.replay.reading = Some(reading),
             Err(e) => {
                 self.notice_about(About::Replay, Level::Error, format!("cannot start a thread for reading: {e}"));
             }
@@ -262,8 +263,8 @@ impl Session {
 
     /// Starts a replay of a recording that was loaded.
     pub(super) fn take_recording(&mut self) {
-        let Some(read) = self.playback.replay.reading.as_mut().and_then(Reading::take) else { return };
-        let Some(Reading { file, .. }) = self.playback.replay.reading.take() else { return };
+        let Some(read) = self.open.playback.replay.reading.as_mut().and_then(Reading::take) else { return };
+        let Some(Reading { file, .. }) = self.open.playback.replay.reading.take() else { return };
         let recording = match read {
             Ok(recording) => recording,
             Err(error) => {
@@ -274,7 +275,7 @@ impl Session {
         };
         self.end_recording();
         self.cut_film("a recording of input is played");
-        self.playback.stop_replay();
+        self.open.playback.stop_replay();
         let here = self.project().name.clone();
         if !recording.project.is_empty() && recording.project != here {
             let text = format!(
@@ -288,13 +289,13 @@ impl Session {
         }
         self.override_halt();
         self.reset();
-        self.playback.start_replay(file, recording);
-        self.changed = true;
+        self.open.playback.start_replay(file, recording);
+        self.open.host.changed = true;
     }
 
     /// Ends the replay, with a notice.
     pub(super) fn end_replay(&mut self, why: &str) {
-        if let Some(ReplayView { file, drawn, frames }) = self.playback.stop_replay() {
+        if let Some(ReplayView { file, drawn, frames }) = self.open.playback.stop_replay() {
             let text = format!("stopped {} at frame {drawn} of {frames}: {why}", name(&file));
             self.notice_about(About::Replay, Level::Info, text);
         }
@@ -303,19 +304,19 @@ impl Session {
     /// Returns the frame of the recording that is due now. `is_step`: a frame is requested, whatever the time.
     pub(super) fn next_replayed(&mut self, is_step: bool) -> Option<FrameInputs> {
         let (may_run, may_start) = (!self.gives_way(), !self.is_compile_under_way());
-        let next = self.playback.next_replayed(self.now, is_step, may_run, may_start)?;
+        let next = self.open.playback.next_replayed(self.open.host.now, is_step, may_run, may_start)?;
         let ReplayedFrame { frame, change, is_last } = next;
         if let Some(size) = change.size {
-            self.canvas.replayed = Some(size);
+            self.open.canvas.replayed = Some(size);
             self.fit_canvas();
         }
         if let Some(values) = change.values {
-            self.drawing.wanted.custom_uniforms = Some(values);
-            self.playback.replay.has_values = true;
+            self.open.changes.custom_uniforms = Some(values);
+            self.open.playback.replay.has_values = true;
         }
-        self.drawing.wanted.reset |= change.reset;
-        self.changed = true;
-        if is_last && let Some(ReplayView { file, frames, .. }) = self.playback.finish_replay() {
+        self.open.changes.reset |= change.reset;
+        self.open.host.changed = true;
+        if is_last && let Some(ReplayView { file, frames, .. }) = self.open.playback.finish_replay() {
             let text = format!(
                 "{} ended: the picture is paused at frame {frames} of {frames}. Press Play to continue live from there",
                 name(&file)
@@ -327,9 +328,9 @@ impl Session {
 
     /// Gives the engine the project's own values again, before a frame that is not the recording's.
     pub(super) fn take_values_back(&mut self) {
-        if self.playback.replay.has_values && !self.playback.is_replaying() {
+        if self.open.playback.replay.has_values && !self.open.playback.is_replaying() {
             self.custom_uniforms_turned();
-            self.playback.replay.follows = true;
+            self.open.playback.replay.follows = true;
         }
     }
 }

@@ -15,6 +15,8 @@ pub(super) struct TextUniforms {
     renamed: RenamedUniforms,
     /// Those of the texts, if the program that draws declares none or there is none yet.
     pub declared: Vec<CustomUniform>,
+    /// New values, for the sound pass.
+    pub for_sound: Option<CustomUniformValues>,
     /// The documents' revision when they were read.
     revision: Option<u64>,
 }
@@ -27,18 +29,18 @@ fn newest_name<'n>(renamed: &'n RenamedUniforms, name: &'n str) -> &'n str {
 impl Session {
     /// Reads the declarations in the texts, if they are shown and have changed.
     pub(super) fn read_declared_uniforms(&mut self) {
-        let revision = Some(self.documents.revision());
-        if self.drawing.custom_uniforms().is_empty() && self.uniforms.revision != revision {
+        let revision = Some(self.open.documents.revision());
+        if self.open.engine.custom_uniforms().is_empty() && self.open.uniforms.revision != revision {
             let list = self.project().custom_uniforms().list;
-            self.changed |= list != self.uniforms.declared;
-            (self.uniforms.declared, self.uniforms.revision) = (list, revision);
+            self.open.host.changed |= list != self.open.uniforms.declared;
+            (self.open.uniforms.declared, self.open.uniforms.revision) = (list, revision);
         }
     }
 
     /// Returns the value of one of the author's own uniforms.
     pub fn custom_uniform_value(&self, custom_uniform: &CustomUniform) -> CustomUniformValue {
         let values = &self.project().custom_uniform_values;
-        match newest_name(&self.uniforms.renamed, &custom_uniform.name) {
+        match newest_name(&self.open.uniforms.renamed, &custom_uniform.name) {
             name if name == custom_uniform.name => custom_uniform.value(values),
             name => CustomUniform { name: name.to_owned(), ..custom_uniform.clone() }.value(values),
         }
@@ -46,12 +48,12 @@ impl Session {
 
     /// Returns the name in the texts for a uniform of the program that draws.
     pub(super) fn newest_name(&self, name: &str) -> String {
-        newest_name(&self.uniforms.renamed, name).to_owned()
+        newest_name(&self.open.uniforms.renamed, name).to_owned()
     }
 
     /// Adds values under the names that a program of the earlier texts uses.
     pub(super) fn add_old_names(&self, values: &mut CustomUniformValues) {
-        let renamed = &self.uniforms.renamed;
+        let renamed = &self.open.uniforms.renamed;
         for (from, _) in renamed {
             let value = values.get(newest_name(renamed, from)).cloned();
             if let (Some(value), false) = (value, values.contains_key(from)) {
@@ -62,31 +64,31 @@ impl Session {
 
     /// Updates values and undo steps for uniforms that an edit of a text has renamed.
     pub(super) fn follow_renamed_uniforms(&mut self, before: &str, after: &str) {
-        let renamed = self.documents.current_mut().follow_renamed_custom_uniforms(before, after);
+        let renamed = self.open.documents.current_mut().follow_renamed_custom_uniforms(before, after);
         for (from, to) in &renamed {
-            self.passes.rename_uniform(from, to);
+            self.open.pass_history.rename_uniform(from, to);
         }
-        if !renamed.is_empty() || !self.uniforms.renamed.is_empty() {
-            self.uniforms.renamed.extend(renamed);
+        if !renamed.is_empty() || !self.open.uniforms.renamed.is_empty() {
+            self.open.uniforms.renamed.extend(renamed);
             self.drop_names_in_use();
         }
     }
 
     /// A program of `coming` is about to draw: drops names that neither it nor the previous one uses.
     pub(super) fn forget_old_names(&mut self, coming: &Project) {
-        if self.uniforms.renamed.is_empty() {
+        if self.open.uniforms.renamed.is_empty() {
             return;
         }
         self.drop_names_in_use();
         let mut known = coming.custom_uniform_names();
-        known.extend(self.drawing.project().map(Project::custom_uniform_names).unwrap_or_default());
-        self.uniforms.renamed.retain(|(from, _)| known.iter().any(|(name, _)| name == from));
+        known.extend(self.open.engine.project().map(Project::custom_uniform_names).unwrap_or_default());
+        self.open.uniforms.renamed.retain(|(from, _)| known.iter().any(|(name, _)| name == from));
     }
 
     /// Drops old names that the texts declare again.
     fn drop_names_in_use(&mut self) {
         let declared = self.project().custom_uniform_names();
-        self.uniforms.renamed.retain(|(from, _)| declared.iter().all(|(name, _)| name != from));
+        self.open.uniforms.renamed.retain(|(from, _)| declared.iter().all(|(name, _)| name != from));
     }
 
     pub(super) fn set_custom_uniform(&mut self, name: &str, value: Option<CustomUniformValue>) {
@@ -94,7 +96,7 @@ impl Session {
         custom_uniform.name = self.newest_name(name);
         let name = custom_uniform.name.as_str();
         let before = self.project().custom_uniform_values.clone();
-        let project = self.documents.current_mut();
+        let project = self.open.documents.current_mut();
         match value {
             None => drop(project.custom_uniform_values.remove(name)),
             Some(value) => {
@@ -103,19 +105,19 @@ impl Session {
             }
         }
         if self.project().custom_uniform_values != before {
-            self.passes.push_uniforms(before, Some(name));
+            self.open.pass_history.push_uniforms(before, Some(name));
         }
         self.custom_uniforms_turned();
     }
 
     /// Submits the values to the running program; while paused, one frame shows them.
     pub(super) fn custom_uniforms_turned(&mut self) {
-        let played = self.playback.replay.playing.as_ref().and_then(|playing| playing.values());
-        self.playback.replay.has_values = played.is_some();
-        let mut values = played.unwrap_or(&self.documents.current().custom_uniform_values).clone();
+        let played = self.open.playback.replay.playing.as_ref().and_then(|playing| playing.values());
+        self.open.playback.replay.has_values = played.is_some();
+        let mut values = played.unwrap_or(&self.open.documents.current().custom_uniform_values).clone();
         self.add_old_names(&mut values);
-        self.sound_values_turned(&values);
-        self.drawing.wanted.custom_uniforms = Some(values);
+        self.open.uniforms.for_sound = Some(values.clone());
+        self.open.changes.custom_uniforms = Some(values);
     }
 }
 

@@ -29,26 +29,26 @@ impl Audio {
 
 impl Session {
     pub(crate) fn use_microphone(&mut self, on: bool) {
-        self.audio.uses_microphone = on;
+        self.services.audio.uses_microphone = on;
         self.settled(About::Microphone);
-        self.audio.input_is_missing = false;
+        self.services.audio.input_is_missing = false;
         self.hear();
     }
 
     /// Takes what the microphone has recorded, before frames are drawn.
     pub(crate) fn hear(&mut self) {
-        self.audio.reads_microphone =
-            self.audio.uses_microphone && self.documents.current().passes.iter().any(reads_it);
-        let is_wanted = self.audio.reads_microphone;
-        if is_wanted != self.audio.is_recording
-            && let Some(microphone) = self.audio.microphone(&self.wake)
+        self.services.audio.reads_microphone =
+            self.services.audio.uses_microphone && self.open.documents.current().passes.iter().any(reads_it);
+        let is_wanted = self.services.audio.reads_microphone;
+        if is_wanted != self.services.audio.is_recording
+            && let Some(microphone) = self.services.audio.microphone(&self.open.host.wake)
         {
             microphone.switch(is_wanted);
-            self.audio.is_recording = is_wanted;
+            self.services.audio.is_recording = is_wanted;
         }
-        let Some(microphone) = &mut self.audio.microphone else { return };
-        microphone.step(self.now);
-        match news(microphone.state(), &mut self.audio.input_is_missing) {
+        let Some(microphone) = &mut self.services.audio.microphone else { return };
+        microphone.step(self.open.host.now);
+        match news(microphone.state(), &mut self.services.audio.input_is_missing) {
             Some(News::Missing(why)) => {
                 let text = format!(
                     "the microphone cannot be used: {why}. Its channel shows a made-up spectrum; Eddy tries again every 3 \

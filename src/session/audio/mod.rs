@@ -103,7 +103,7 @@ impl Audio {
     }
 
     /// Stops all sound of the previous project and turns the microphone off: the user enabled it for that project only.
-    pub(crate) fn begin_next_project(&mut self) {
+    pub(crate) fn close_project(&mut self) {
         // The next project reports it again.
         self.is_end_told = false;
         (self.uses_microphone, self.input_is_missing) = (false, false);
@@ -284,17 +284,18 @@ impl Session {
     /// Sets the sound pass as far as it is rendered, with its revision; `None` removes it. Playback moves from one
     /// revision to the next without a gap.
     pub fn play_track(&mut self, track: Option<(u64, Arc<Track>)>) {
-        self.audio.track = track;
+        self.services.audio.track = track;
     }
 
     /// Synchronises sound with the picture, at the end of a tick.
     pub(crate) fn play_sound(&mut self) {
-        let is_drawn = self.drawing.has_program() && !self.halting.is_halted() && !self.halting.is_device_gone();
-        let line = self.playback.line().filter(|_| is_drawn);
-        self.audio.play(line, &self.wake, self.now);
+        let is_drawn =
+            self.open.engine.has_program() && !self.open.halt.is_halted() && !self.open.halt.is_device_gone();
+        let line = self.open.playback.line().filter(|_| is_drawn);
+        self.services.audio.play(line, &self.open.host.wake, self.open.host.now);
         self.tell_of_the_end_before();
-        let Some(player) = &self.audio.player else { return };
-        match news(player.state(), &mut self.audio.output_is_missing) {
+        let Some(player) = &self.services.audio.player else { return };
+        match news(player.state(), &mut self.services.audio.output_is_missing) {
             Some(News::Missing(why)) => {
                 let text = format!("no sound: {why}. The picture goes on; Eddy looks for a device every 3 seconds");
                 self.notice_about(About::Sound, Level::Warning, text);
@@ -310,7 +311,7 @@ impl Session {
 
     /// Reports that sound is off because a sound driver crashed the previous run.
     fn tell_of_the_end_before(&mut self) {
-        let audio = &mut self.audio;
+        let audio = &mut self.services.audio;
         let Some(before) = audio.ended_before.clone().filter(|_| audio.has_sound()) else { return };
         if std::mem::replace(&mut audio.is_end_told, true) {
             return;
@@ -324,14 +325,14 @@ impl Session {
     }
 
     pub(crate) fn open_sound_again(&mut self) {
-        self.audio.open_again();
+        self.services.audio.open_again();
         self.settled(About::Sound);
     }
 
     pub(crate) fn hide(&mut self, is_hidden: bool) {
-        if std::mem::replace(&mut self.audio.is_hidden, is_hidden) && !is_hidden {
+        if std::mem::replace(&mut self.services.audio.is_hidden, is_hidden) && !is_hidden {
             // Nothing was drawn meanwhile: time continues from where it was.
-            self.playback.rebase();
+            self.open.playback.rebase();
         }
         self.play_sound();
     }

@@ -40,7 +40,7 @@ impl Audio {
 impl Session {
     /// Returns the state of the output; `None` if the front end has provided no audio host.
     pub fn output_view(&self) -> Option<OutputView> {
-        let audio = &self.audio;
+        let audio = &self.services.audio;
         audio.host.as_ref()?;
         Some(OutputView {
             volume: audio.volume,
@@ -53,7 +53,7 @@ impl Session {
 
     /// Returns the state of the microphone; `None` if the front end has provided no audio host.
     pub fn microphone_view(&self) -> Option<MicrophoneView> {
-        let audio = &self.audio;
+        let audio = &self.services.audio;
         audio.host.as_ref()?;
         let is_read = self.project().passes.iter().any(super::reads_it);
         Some(MicrophoneView {
@@ -66,26 +66,32 @@ impl Session {
 
     /// Returns the music of a channel, as loaded for the program that draws.
     pub fn music(&self, media: &Media) -> Option<&Arc<Sound>> {
-        self.audio.sounds.iter().find(|known| known.media == *media).map(|known| &known.sound)
+        self.services.audio.sounds.iter().find(|known| known.media == *media).map(|known| &known.sound)
     }
 
     /// Returns the names of the output devices and of the input devices, once
     /// [`Command::ListAudioDevices`](crate::Command::ListAudioDevices) was given and they are known.
     pub fn audio_devices(&self) -> (Option<Vec<String>>, Option<Vec<String>>) {
-        let audio = &self.audio;
+        let audio = &self.services.audio;
         (audio.player.as_ref().and_then(|player| player.names()), audio.microphone.as_ref().and_then(|m| m.names()))
     }
 
     /// The latency of the sound against the picture's time in seconds and the number of jumps to correct it, both since
     /// the device was opened; then the number of buffer underruns since the start.
     pub fn sound_health(&self) -> Option<(f64, u64, u64)> {
-        let player = self.audio.player.as_ref()?;
+        let player = self.services.audio.player.as_ref()?;
         let mixed = player.mixed()?;
         Some((mixed.behind_secs(), mixed.jumps(), player.underruns()))
     }
 
     /// Returns how many sources are mixed.
     pub fn sources_heard(&self) -> usize {
-        self.audio.scene.sources.iter().filter(|source| matches!(source, Source::Loop(_) | Source::Track(_))).count()
+        self.services
+            .audio
+            .scene
+            .sources
+            .iter()
+            .filter(|source| matches!(source, Source::Loop(_) | Source::Track(_)))
+            .count()
     }
 }

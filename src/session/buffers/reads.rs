@@ -94,6 +94,11 @@ pub(crate) struct BufferReads {
 }
 
 impl BufferReads {
+    /// The reads of another project, of which no target is inspected yet.
+    pub(crate) fn successor(&self) -> Self {
+        Self { generation: self.generation, ..Self::default() }
+    }
+
     /// Replaces what is inspected.
     pub(crate) fn watch(&mut self, watch: BufferWatch) {
         self.is_shown_due |= watch.shown != self.watch.shown;
@@ -163,10 +168,6 @@ impl ReadBack for BufferReads {
             self.under = under;
         }
         is_new
-    }
-    fn begin_next_project(&mut self) {
-        // No target of the new project is inspected yet.
-        *self = Self { generation: self.generation, ..Self::default() };
     }
 }
 

@@ -1,31 +1,24 @@
 //! From texts to programs: when a compile is due, what is being compiled, and the result of the newest text.
 //!
-//! Owns the compiler thread and the list of diagnostics. Its results tell the session what to do; the texts belong to
-//! the documents, and the current program to the drawing.
+//! Owns the schedule of a project's compiles ([`CompileControl`]) with its list of diagnostics, and the compiler thread
+//! ([`Compiler`]), which outlives projects, as it keeps compiled stages and the device. The texts belong to the documents,
+//! and the current program to the drawing.
 
 mod worker;
 
-pub(super) use worker::{Compiled, Done, Job};
+pub(super) use worker::{Compiled, Compiler, Done, Job};
 
 use super::{
     debounce::Debounce,
-    drawing::Device,
-    options::SessionOptions,
     probe::ProbePlace,
     view::{CompileState, FallbackPicture, Outcome, TabDiagnostic},
 };
-use eddy_background::{Background, Wake};
 use eddy_diag::Severity;
 use eddy_project::{PassName, Project};
 use eddy_video::Camera;
 use std::{
     cmp::Reverse,
-    io,
     mem::{replace, take},
-    sync::{
-        Arc,
-        atomic::{AtomicU64, Ordering},
-    },
     time::{Duration, Instant},
 };
 
@@ -34,9 +27,8 @@ use std::{
 pub(super) const BRIEF: Duration = Duration::from_millis(100);
 
 pub(super) struct CompileControl {
-    worker: Background<Job, (), Done>,
-    /// The number of jobs submitted to the worker.
-    jobs: Arc<AtomicU64>,
+    /// The compiler has a job of this project.
+    is_submitted: bool,
     /// The longest debounce time between the last edit and a compile.
     longest_quiet: Duration,
     /// Edits are compiled when they are saved.
@@ -77,15 +69,11 @@ pub(super) struct Source<'s> {
 }
 
 impl CompileControl {
-    pub(crate) fn new(device: Device, options: &SessionOptions, wake: Wake) -> io::Result<Self> {
-        let jobs = Arc::<AtomicU64>::default();
-        let worker = worker(device, options, jobs.clone(), wake)?;
-        let longest_quiet = options.edit_debounce;
-        Ok(Self {
-            worker,
-            jobs,
+    pub(crate) fn new(longest_quiet: Duration, on_save: bool) -> Self {
+        Self {
+            is_submitted: false,
             longest_quiet,
-            on_save: false,
+            on_save,
             waits_for_save: false,
             edits: Debounce::new(longest_quiet),
             is_edited: false,
@@ -100,32 +88,12 @@ impl CompileControl {
             state: CompileState { compiling: true, ..CompileState::default() },
             diagnostics: Vec::new(),
             read: Vec::new(),
-        })
+        }
     }
 
-    pub(crate) fn begin_next_project(&mut self) {
-        // A compile of the previous project may finish before the new one's starts.
-        self.worker.clear();
-        self.edits = Debounce::new(self.longest_quiet);
-        (self.is_edited, self.edited_at, self.newest_since, self.fallback) = (false, None, None, None);
-        (self.is_wanted, self.is_look_wanted, self.resets, self.waits_for_save) = (true, false, false, false);
-        self.includes_read = self.include_edits;
-        self.state = CompileState { compiling: true, ..CompileState::default() };
-        self.diagnostics.clear();
-        self.read.clear();
-    }
-
-    /// Builds programs on another device. Nothing waits for builds on the old one, which may hang.
-    pub(crate) fn change_device(&mut self, device: Device, options: &SessionOptions, wake: Wake) -> io::Result<()> {
-        self.newest_since = None;
-        let worker = worker(device, options, self.jobs.clone(), wake)?;
-        replace(&mut self.worker, worker).leave();
-        Ok(())
-    }
-
-    /// Detaches the thread.
-    pub(crate) fn leave(&mut self) {
-        self.worker.leave();
+    /// Another compiler takes over: the old one's job has no result.
+    pub(crate) fn change_compiler(&mut self) {
+        (self.newest_since, self.is_submitted) = (None, false);
     }
 
     /// Records an edit of a text.
@@ -144,6 +112,11 @@ impl CompileControl {
         self.waits_for_save = false;
         self.is_wanted = true;
         self.state.compiling = true;
+    }
+
+    /// Returns whether edits are compiled when they are saved.
+    pub(crate) fn is_on_save(&self) -> bool {
+        self.on_save
     }
 
     pub(crate) fn set_on_save(&mut self, on: bool) {
@@ -174,8 +147,8 @@ impl CompileControl {
         self.fallback.is_some()
     }
 
-    /// Submits what is due to the worker. Returns whether that is a compile.
-    pub(crate) fn start(&mut self, now: Instant, source: Source<'_>) -> bool {
+    /// Returns the job that is due, which replaces the one that the compiler has.
+    pub(crate) fn due_job(&mut self, now: Instant, source: Source<'_>) -> Option<Job> {
         if take(&mut self.is_edited) {
             self.edits.touch(now);
             self.edited_at = Some(now);
@@ -186,9 +159,9 @@ impl CompileControl {
         }
         let is_compile = take(&mut self.is_wanted) || is_due || self.fallback.is_some();
         // A check must not replace a compile in progress, and a compile checks as well.
-        let is_look = self.is_look_wanted && !self.worker.is_busy();
+        let is_look = self.is_look_wanted && !self.is_submitted;
         if !is_compile && !is_look {
-            return false;
+            return None;
         }
         self.is_look_wanted = false;
         let fallback = self.fallback.take();
@@ -197,28 +170,26 @@ impl CompileControl {
             self.edits.cancel();
             self.newest_since = (!is_fallback).then_some(now);
         }
-        self.jobs.fetch_add(1, Ordering::Relaxed);
+        self.is_submitted = true;
         let include_edit = self.unread_includes().filter(|_| is_compile && !is_fallback);
         let Source { project, shown, opened, probe, camera } = source;
         let (project, shown) = (fallback.unwrap_or_else(|| project.clone()), shown.clone());
         let is_look = !is_compile;
-        self.worker.start(Job { is_fallback, project, shown, opened, include_edit, probe, camera, is_look });
-        is_compile
+        Some(Job { is_fallback, project, shown, opened, include_edit, probe, camera, is_look })
     }
 
-    /// Takes the worker's result; an error is a bug in the worker.
-    pub(crate) fn take(&mut self) -> Option<Result<Done, String>> {
-        let done = self.worker.take()?;
-        if !matches!(done, Ok(Done { compiled: None, .. })) {
+    /// Records the result of the newest job; `is_check`: it has only checked files.
+    pub(crate) fn receive(&mut self, is_check: bool) {
+        self.is_submitted = false;
+        if !is_check {
             self.newest_since = None;
         }
-        Some(done)
     }
 
     /// Returns whether a compile is due or under way.
     pub(crate) fn is_busy(&self) -> bool {
         let is_due = self.is_edited || self.is_wanted || self.edits.is_waiting();
-        is_due || self.worker.is_busy()
+        is_due || self.is_submitted
     }
 
     /// Returns whether something newer than the last submitted project waits to be compiled.
@@ -282,18 +253,4 @@ impl CompileControl {
     pub(crate) fn set_newest_since(&mut self, since: Option<Instant>) {
         self.newest_since = since;
     }
-
-    #[cfg(test)]
-    pub(crate) fn replace_worker(&mut self, worker: Background<Job, (), Done>) -> Background<Job, (), Done> {
-        replace(&mut self.worker, worker)
-    }
-}
-
-fn worker(
-    device: Device,
-    options: &SessionOptions,
-    jobs: Arc<AtomicU64>,
-    wake: Wake,
-) -> io::Result<Background<Job, (), Done>> {
-    Background::new("compile", "the compiler", wake, worker::work(device, options, jobs))
 }

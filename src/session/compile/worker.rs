@@ -8,7 +8,7 @@ use crate::{
     sound::CompiledSound,
     view::TabDiagnostic,
 };
-use eddy_background::Control;
+use eddy_background::{Background, Control, Wake};
 use eddy_diag::{self as diag, Diagnostic};
 use eddy_engine::{BuildError, BuildOptions, Builder, EngineError, KeptStages, Program, Sources};
 use eddy_media::{self as media, ChannelSound, MediaSet, sounds};
@@ -16,8 +16,12 @@ use eddy_project::{self as project, Bindings, Included, MeshSource, Normals, Pas
 use eddy_video::{Camera, Pace};
 use std::{
     cmp::Reverse,
+    io, mem,
     path::PathBuf,
-    sync::{Arc, atomic::AtomicU64},
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
     time::{Duration, Instant},
 };
 
@@ -39,6 +43,62 @@ pub(crate) struct Job {
     pub probe: Option<(ProbePlace, bool)>,
     /// Only checks whether pictures and models on disk differ from those of the last compile.
     pub is_look: bool,
+}
+
+/// The thread that compiles, for one project after the other.
+pub(crate) struct Compiler {
+    worker: Background<Job, (), Done>,
+    /// The number of submitted jobs.
+    jobs: Arc<AtomicU64>,
+}
+
+impl Compiler {
+    pub(crate) fn new(device: Device, options: &SessionOptions, wake: Wake) -> io::Result<Self> {
+        let jobs = Arc::<AtomicU64>::default();
+        Ok(Self { worker: spawn(device, options, jobs.clone(), wake)?, jobs })
+    }
+
+    /// Builds programs on another device. Nothing waits for builds on the old one, which may hang.
+    pub(crate) fn change_device(&mut self, device: Device, options: &SessionOptions, wake: Wake) -> io::Result<()> {
+        let worker = spawn(device, options, self.jobs.clone(), wake)?;
+        mem::replace(&mut self.worker, worker).leave();
+        Ok(())
+    }
+
+    /// Submits a job. The result of the previous one is dropped.
+    pub(crate) fn start(&mut self, job: Job) {
+        self.jobs.fetch_add(1, Ordering::Relaxed);
+        self.worker.start(job);
+    }
+
+    /// Takes the result of the newest job; an error is a bug in the worker.
+    pub(crate) fn take(&mut self) -> Option<Result<Done, String>> {
+        self.worker.take()
+    }
+
+    /// Drops the job of a project that is closed.
+    pub(crate) fn cancel(&mut self) {
+        self.worker.clear();
+    }
+
+    /// Detaches the thread.
+    pub(crate) fn leave(&mut self) {
+        self.worker.leave();
+    }
+
+    #[cfg(test)]
+    pub(crate) fn replace_worker(&mut self, worker: Background<Job, (), Done>) -> Background<Job, (), Done> {
+        mem::replace(&mut self.worker, worker)
+    }
+}
+
+fn spawn(
+    device: Device,
+    options: &SessionOptions,
+    jobs: Arc<AtomicU64>,
+    wake: Wake,
+) -> io::Result<Background<Job, (), Done>> {
+    Background::new("compile", "the compiler", wake, work(device, options, jobs))
 }
 
 /// The result of a job.
@@ -82,7 +142,7 @@ pub(super) fn quiet_after(took: Duration, longest: Duration) -> Duration {
 
 /// Runs the worker, caching loaded media. The first job waits for the device. `jobs` counts the submitted jobs: a trial
 /// compile that a newer job has overtaken is cancelled.
-pub(super) fn work(
+fn work(
     device: Device,
     options: &SessionOptions,
     jobs: Arc<AtomicU64>,

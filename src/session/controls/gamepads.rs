@@ -10,19 +10,19 @@ use eddy_project::InputKind;
 
 impl Session {
     pub(crate) fn set_gamepads(&mut self, on: bool) {
-        if self.controls.pads.is_some() == on {
+        if self.services.controls.pads.is_some() == on {
             return;
         }
         self.settled(About::Gamepads);
-        self.controls.is_pad_told = false;
+        self.services.controls.is_pad_told = false;
         if !on {
-            self.controls.pads = None;
-            self.playback.gamepads = Gamepads::default();
+            self.services.controls.pads = None;
+            self.open.playback.gamepads = Gamepads::default();
             return;
         }
-        let Some(host) = self.controls.pad_host.clone() else { return };
-        match PadInputs::listen(host, self.controls.queue.clone(), self.wake.clone()) {
-            Ok(pads) => self.controls.pads = Some(pads),
+        let Some(host) = self.services.controls.pad_host.clone() else { return };
+        match PadInputs::listen(host, self.services.controls.queue.clone(), self.open.host.wake.clone()) {
+            Ok(pads) => self.services.controls.pads = Some(pads),
             Err(error) => {
                 self.notice_about(About::Gamepads, Level::Warning, format!("no thread for gamepads: {error}"));
             }
@@ -31,10 +31,10 @@ impl Session {
 
     /// Takes new gamepad events.
     pub(super) fn follow_gamepads(&mut self) {
-        let Some(pads) = &self.controls.pads else { return };
+        let Some(pads) = &self.services.controls.pads else { return };
         let events = pads.take();
         if let Some(why) = pads.state().trouble
-            && !std::mem::replace(&mut self.controls.is_pad_told, true)
+            && !std::mem::replace(&mut self.services.controls.is_pad_told, true)
         {
             self.notice_about(About::Gamepads, Level::Warning, format!("gamepads cannot be read: {why}"));
         }
@@ -42,23 +42,23 @@ impl Session {
         for event in events {
             match event {
                 PadEvent::Connected { pad, name } => {
-                    self.playback.gamepads.connect(pad, true);
+                    self.open.playback.gamepads.connect(pad, true);
                     let text = format!("gamepad {} connected: {name}", pad + 1);
                     self.notice_about(About::Gamepads, Level::Info, text);
                 }
                 PadEvent::Disconnected { pad } => {
-                    self.playback.gamepads.connect(pad, false);
+                    self.open.playback.gamepads.connect(pad, false);
                     let text = format!("gamepad {} disconnected", pad + 1);
                     self.notice_about(About::Gamepads, Level::Info, text);
                 }
                 PadEvent::Moved { pad, part, value } => {
-                    is_turned |= self.playback.gamepads.move_to(pad, part, value);
+                    is_turned |= self.open.playback.gamepads.move_to(pad, part, value);
                 }
             }
         }
         // A button draws a frame while time is paused, as a key does. A stick does not: it is never quite at rest.
-        if is_turned && !self.playback.is_replaying() && self.reads_device(InputKind::Gamepad) {
-            self.playback.is_frame_due = true;
+        if is_turned && !self.open.playback.is_replaying() && self.reads_device(InputKind::Gamepad) {
+            self.open.playback.is_frame_due = true;
         }
     }
 }

@@ -105,7 +105,7 @@ impl Controls {
     }
 
     /// Cancels learning, which was for the previous project.
-    pub(crate) fn begin_next_project(&mut self) {
+    pub(crate) fn close_project(&mut self) {
         (self.learning, self.part) = (None, None);
         self.takeovers.clear();
     }
@@ -127,7 +127,7 @@ impl Controls {
 impl Session {
     /// Returns the state of all controls.
     pub fn controls_view(&self) -> ControlsView {
-        let controls = &self.controls;
+        let controls = &self.services.controls;
         ControlsView {
             osc: controls.osc.as_ref().map(OscInput::state),
             is_osc_public: controls.osc.as_ref().is_some_and(|osc| !osc.asked().ip().is_loopback()),
@@ -146,13 +146,13 @@ impl Session {
 
     /// Returns whether a target's control is being learned.
     pub fn is_learning(&self, target: &ControlTarget) -> bool {
-        self.controls.learning.as_ref() == Some(&self.as_in_texts(target))
+        self.services.controls.learning.as_ref() == Some(&self.as_in_texts(target))
     }
 
     /// Returns the side of the value on which the target's knob waits for pickup; `None` if it does not wait.
     pub fn control_waits(&self, target: &ControlTarget) -> Option<PickupSide> {
         let target = self.as_in_texts(target);
-        self.project().controls.get(&target).and_then(|_| self.controls.takeovers.get(&target)?.waits())
+        self.project().controls.get(&target).and_then(|_| self.services.controls.takeovers.get(&target)?.waits())
     }
 
     /// Returns a target with its uniform's name in the texts, which the program that draws may not know yet.
@@ -162,64 +162,64 @@ impl Session {
 
     /// Listens to OSC at an address; `None` stops it.
     pub(super) fn set_osc(&mut self, address: Option<SocketAddr>) {
-        if self.controls.osc.as_ref().map(OscInput::asked) == address {
+        if self.services.controls.osc.as_ref().map(OscInput::asked) == address {
             return;
         }
         self.settled(About::Osc);
-        self.controls.is_osc_told = false;
+        self.services.controls.is_osc_told = false;
         // Close the old socket first: the new one may have the same address.
-        self.controls.osc = None;
+        self.services.controls.osc = None;
         let Some(address) = address else { return };
-        match OscInput::listen(address, self.controls.queue.clone(), self.wake.clone()) {
-            Ok(osc) => self.controls.osc = Some(osc),
+        match OscInput::listen(address, self.services.controls.queue.clone(), self.open.host.wake.clone()) {
+            Ok(osc) => self.services.controls.osc = Some(osc),
             Err(error) => self.notice_about(About::Osc, Level::Warning, format!("no thread for OSC: {error}")),
         }
     }
 
     pub(super) fn set_midi(&mut self, choice: MidiChoice) {
-        if self.controls.choice == choice {
+        if self.services.controls.choice == choice {
             return;
         }
         self.settled(About::Midi);
-        (self.controls.is_midi_told, self.controls.announced) = (false, Vec::new());
-        self.controls.choice = choice.clone();
-        if let Some(midi) = self.controls.midi() {
+        (self.services.controls.is_midi_told, self.services.controls.announced) = (false, Vec::new());
+        self.services.controls.choice = choice.clone();
+        if let Some(midi) = self.services.controls.midi() {
             midi.choose(choice);
         }
     }
 
     pub(super) fn list_midi_devices(&mut self) {
-        if let Some(midi) = self.controls.midi() {
+        if let Some(midi) = self.services.controls.midi() {
             midi.ask_names();
         }
     }
 
     /// Binds the next control that moves; `None` cancels it.
     pub(super) fn learn_control(&mut self, target: Option<ControlTarget>) {
-        self.controls.part = None;
-        self.controls.learning = target.map(|target| self.as_in_texts(&target));
+        self.services.controls.part = None;
+        self.services.controls.learning = target.map(|target| self.as_in_texts(&target));
     }
 
     pub(super) fn forget_control(&mut self, target: &ControlTarget) {
         let target = self.as_in_texts(target);
         if self.project().controls.contains_key(&target) {
-            self.documents.current_mut().controls.remove(&target);
+            self.open.documents.current_mut().controls.remove(&target);
         }
-        self.controls.takeovers.remove(&target);
-        if self.controls.learning.as_ref() == Some(&target) {
-            self.controls.learning = None;
+        self.services.controls.takeovers.remove(&target);
+        if self.services.controls.learning.as_ref() == Some(&target) {
+            self.services.controls.learning = None;
         }
     }
 
     /// Applies what controls have sent, before frames are drawn.
     pub(super) fn follow_controls(&mut self) {
-        if let Some(midi) = &mut self.controls.midi {
-            midi.step(self.now);
+        if let Some(midi) = &mut self.services.controls.midi {
+            midi.step(self.open.host.now);
         }
         self.tell_of_osc();
         self.tell_of_midi();
         self.follow_gamepads();
-        let events = self.controls.queue.take();
+        let events = self.services.controls.queue.take();
         if events.is_empty() {
             return;
         }
@@ -251,14 +251,14 @@ impl Session {
     }
 
     fn tell_of_osc(&mut self) {
-        let Some(osc) = &self.controls.osc else { return };
+        let Some(osc) = &self.services.controls.osc else { return };
         match osc.state() {
-            OscState::Missing(why) if !std::mem::replace(&mut self.controls.is_osc_told, true) => {
+            OscState::Missing(why) if !std::mem::replace(&mut self.services.controls.is_osc_told, true) => {
                 let at = osc.asked();
                 let text = format!("OSC cannot listen at {at}: {why}. Eddy tries again every 3 seconds");
                 self.notice_about(About::Osc, Level::Warning, text);
             }
-            OscState::Listening(at) if std::mem::take(&mut self.controls.is_osc_told) => {
+            OscState::Listening(at) if std::mem::take(&mut self.services.controls.is_osc_told) => {
                 self.settled(About::Osc);
                 self.notice_about(About::Osc, Level::Info, format!("OSC listens at {at}"));
             }
@@ -267,11 +267,11 @@ impl Session {
     }
 
     fn tell_of_midi(&mut self) {
-        let state = match &self.controls.midi {
-            Some(midi) if self.controls.choice != MidiChoice::Off => midi.state(),
+        let state = match &self.services.controls.midi {
+            Some(midi) if self.services.controls.choice != MidiChoice::Off => midi.state(),
             _ => return,
         };
-        let announced = std::mem::replace(&mut self.controls.announced, state.open.clone());
+        let announced = std::mem::replace(&mut self.services.controls.announced, state.open.clone());
         for name in state.open.iter().filter(|name| !announced.contains(name)) {
             self.notice_about(About::Midi, Level::Info, format!("MIDI device connected: {name}"));
         }
@@ -279,32 +279,32 @@ impl Session {
             self.notice_about(About::Midi, Level::Info, format!("MIDI device disconnected: {name}"));
         }
         match state.missing {
-            Some(why) if !std::mem::replace(&mut self.controls.is_midi_told, true) => {
+            Some(why) if !std::mem::replace(&mut self.services.controls.is_midi_told, true) => {
                 let text = format!("MIDI: {why}. Eddy looks for devices every 2 seconds");
                 self.notice_about(About::Midi, Level::Warning, text);
             }
-            None if std::mem::take(&mut self.controls.is_midi_told) => self.settled(About::Midi),
+            None if std::mem::take(&mut self.services.controls.is_midi_told) => self.settled(About::Midi),
             _ => {}
         }
     }
 
     /// Binds the touched control to the target that is being learned.
     fn learn(&mut self, events: &[ControlEvent]) {
-        if let Some((target, part, since)) = self.controls.part.clone() {
-            if self.now.saturating_duration_since(since) > FINE_PART {
-                self.controls.part = None;
+        if let Some((target, part, since)) = self.services.controls.part.clone() {
+            if self.open.host.now.saturating_duration_since(since) > FINE_PART {
+                self.services.controls.part = None;
             } else if let Some(whole) = whole_of(&part, events) {
-                self.controls.part = None;
+                self.services.controls.part = None;
                 self.bind(target, whole);
             }
         }
-        let Some(target) = &self.controls.learning else { return };
+        let Some(target) = &self.services.controls.learning else { return };
         let Some(address) = touched(events, target.index()) else { return };
         let target = target.clone();
-        self.controls.learning = None;
+        self.services.controls.learning = None;
         let whole = whole_of(&address, events);
         if whole.is_none() {
-            self.controls.part = Some((target.clone(), address.clone(), self.now));
+            self.services.controls.part = Some((target.clone(), address.clone(), self.open.host.now));
         }
         let address = whole.unwrap_or(address);
         self.notice_about(About::Controls, Level::Info, format!("{target} follows {}", address.label()));
@@ -313,9 +313,9 @@ impl Session {
 
     /// Binds a control to a target and applies its value at once.
     fn bind(&mut self, target: ControlTarget, address: ControlAddress) {
-        self.controls.takeovers.insert(target.clone(), Takeover::learned());
-        self.documents.current_mut().controls.insert(target, address);
-        self.changed = true;
+        self.services.controls.takeovers.insert(target.clone(), Takeover::learned());
+        self.open.documents.current_mut().controls.insert(target, address);
+        self.open.host.changed = true;
     }
 
     /// Sets the uniforms of the controls that have moved.
@@ -344,17 +344,17 @@ impl Session {
                     continue;
                 }
                 if let Some(value) = value {
-                    self.documents.current_mut().turn_custom_uniform(uniform, value);
+                    self.open.documents.current_mut().turn_custom_uniform(uniform, value);
                     turned.insert(uniform.name.clone());
                 }
             }
         }
         // Redraw to show a knob that waits.
-        self.changed |= !events.is_empty();
+        self.open.host.changed |= !events.is_empty();
         if self.project().custom_uniform_values != before {
-            self.passes.push_controls(before, turned);
+            self.open.pass_history.push_controls(before, turned);
             self.custom_uniforms_turned();
-            self.changed = true;
+            self.open.host.changed = true;
         }
     }
 }
@@ -377,7 +377,7 @@ impl Session {
         };
         let target_value = moved.map_or(Some(value), number).unwrap_or(value);
         let movement = Movement { knob: event.value, slider, value, target: target_value };
-        self.controls.takeovers.entry(target.clone()).or_default().moves(movement)
+        self.services.controls.takeovers.entry(target.clone()).or_default().moves(movement)
     }
 }
 

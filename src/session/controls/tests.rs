@@ -44,7 +44,7 @@ impl Fixture {
         session.apply(Command::Pause);
         session.apply(Command::SetMidi(MidiChoice::All));
         let mut room = Fixture { session, midi, pads, now: Instant::now() };
-        room.until("a program", |session| session.drawing.has_program());
+        room.until("a program", |session| session.open.engine.has_program());
         Some(room)
     }
 
@@ -103,7 +103,7 @@ fn control_can_be_learned_moved_and_forgotten() {
     for n in 1..=40 {
         room.send(&[0xb0, 70, n, 0xe0, 0, 64 + n]);
     }
-    let (moved, steps) = (room.value("center"), room.session.passes.undo.len());
+    let (moved, steps) = (room.value("center"), room.session.open.pass_history.undo.len());
     assert!(moved[1] > 0.5 && steps == 1, "{moved:?} in {steps} steps");
     assert_eq!(room.session.pass_undo().unwrap().title, "change center and speed");
     room.session.apply(Command::UndoPassEdit);
@@ -161,7 +161,7 @@ fn knob_waits_for_pickup_at_the_value() {
     project.custom_uniform_values.insert("speed".into(), eddy_project::CustomUniformValue::Float(3.0));
     room.session.apply(Command::OpenProject { project: Box::new(project), size: None });
     room.session.apply(Command::Answer(crate::Answer::Discard));
-    room.until("a program", |session| session.drawing.has_program() && !session.custom_uniforms().is_empty());
+    room.until("a program", |session| session.open.engine.has_program() && !session.custom_uniforms().is_empty());
     room.send(&[0xb0, 70, 21]);
     assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![3.0], Some(PickupSide::Below)));
     room.session.apply(Command::ForgetControl(speed.clone()));
@@ -251,7 +251,7 @@ fn recording_contains_values_set_by_controls() {
         room.send(&[0xb0, 70, n]);
         (0..3).for_each(|_| room.tick());
     }
-    let frames = &room.session.playback.recorder.as_ref().unwrap().recording.frames;
+    let frames = &room.session.open.playback.recorder.as_ref().unwrap().recording.frames;
     let mut values: Vec<f64> =
         frames.iter().filter_map(|frame| frame.values.get("speed")).map(|value| value.components()[0]).collect();
     values.dedup();
@@ -267,7 +267,7 @@ fn gamepad_moves_uniforms_and_is_recorded() {
     let (stick, south) = (PadPart::Axis(0), PadPart::Button(0));
     happens(&room, PadEvent::Connected { pad: 0, name: "Pad".into() });
     (0..5).for_each(|_| room.tick());
-    assert_eq!(room.session.playback.gamepads, eddy_media::Gamepads::default(), "they are off");
+    assert_eq!(room.session.open.playback.gamepads, eddy_media::Gamepads::default(), "they are off");
     room.session.apply(Command::SetGamepads(true));
     room.until("a pad", |session| session.notices().iter().any(|n| n.text == "gamepad 1 connected: Pad"));
     let speed = ControlTarget::whole("speed");
@@ -281,13 +281,13 @@ fn gamepad_moves_uniforms_and_is_recorded() {
 
     // A button draws a frame while time is paused, and is pressed in that frame only.
     room.session.apply(Command::Record);
-    let frames = |session: &Session| session.playback.recorder.as_ref().unwrap().recording.frames.len();
+    let frames = |session: &Session| session.open.playback.recorder.as_ref().unwrap().recording.frames.len();
     room.until("a frame", |session| frames(session) == 1);
     happens(&room, moved(south, 1.0));
     room.until("a frame", |session| frames(session) == 2);
     happens(&room, moved(south, 0.0));
     room.until("a frame", |session| frames(session) == 3);
-    let recorded = &room.session.playback.recorder.as_ref().unwrap().recording.frames;
+    let recorded = &room.session.open.playback.recorder.as_ref().unwrap().recording.frames;
     let texels = |frame: usize| {
         let texels = recorded[frame].inputs.gamepads.texels();
         [texels[0], texels[1], texels[16], texels[17], texels[34]]
@@ -295,5 +295,5 @@ fn gamepad_moves_uniforms_and_is_recorded() {
     let rest = [0.1, 1.0, 1.0, 0.0, 0.0];
     assert_eq!([0, 1, 2].map(texels), [rest, [0.1, 1.0, 1.0, 1.0, 1.0], rest]);
     room.session.apply(Command::SetGamepads(false));
-    assert_eq!(room.session.playback.gamepads, eddy_media::Gamepads::default());
+    assert_eq!(room.session.open.playback.gamepads, eddy_media::Gamepads::default());
 }

@@ -23,7 +23,6 @@ use watcher::FolderWatcher;
 #[derive(Default)]
 pub(super) struct DiskSync {
     watcher: Option<FolderWatcher>,
-    watch_debounce: Duration,
     /// Incomplete projects are read again for this long.
     retry_for: Duration,
     changes: Debounce,
@@ -62,20 +61,12 @@ enum Check {
 impl DiskSync {
     pub(crate) fn new(options: &SessionOptions) -> Self {
         let (watch_debounce, retry_for) = (options.watch_debounce, options.retry_for);
-        Self {
-            watch_debounce,
-            retry_for,
-            changes: Debounce::with_limit(watch_debounce, 8 * watch_debounce),
-            ..Self::default()
-        }
+        Self { retry_for, changes: Debounce::with_limit(watch_debounce, 8 * watch_debounce), ..Self::default() }
     }
 
-    pub(crate) fn begin_next_project(&mut self) {
-        self.changes = Debounce::with_limit(self.watch_debounce, 8 * self.watch_debounce);
-        (self.is_check_wanted, self.unsettled_since) = (false, None);
-        (self.reported, self.manifest) = (None, None);
-        self.media_files.clear();
-        self.has_moved();
+    /// The state of another project's files, of which nothing is known yet.
+    pub(crate) fn successor(&self, options: &SessionOptions) -> Self {
+        Self { opened: self.opened + 1, reset_on_reload: self.reset_on_reload, ..Self::new(options) }
     }
 
     /// The project was moved to another place.

@@ -9,6 +9,7 @@ mod history;
 mod job;
 mod render_thread;
 mod renderer;
+mod status;
 mod task;
 
 pub(super) use gate::FrameControl;
@@ -16,12 +17,11 @@ pub(super) use history::SeekProgress;
 pub(super) use job::{Changes, Done, DrawnFrame, Job, PendingProgram, ProgramOrigin, TileLimit};
 pub(super) use render_thread::{Device, Open, beside};
 pub(super) use renderer::Renderer;
+pub(super) use status::EngineStatus;
 pub(super) use task::{Finished, RenderTask, Tasks, Ticket};
 
-use crate::playback::Reach;
-use eddy_engine::{CostClock, EngineError, PassCost, Picture};
+use eddy_engine::{EngineError, Picture};
 use eddy_gpu::{Gpu, GpuError, Presenter, Texture};
-use eddy_project::{CustomUniform, PassName, Project};
 use gate::Gate;
 use render_thread::RenderThread;
 use std::{
@@ -37,32 +37,19 @@ const PATIENCE: Duration = Duration::from_millis(4);
 /// The engine, on this thread or another.
 pub(super) struct Drawing {
     backend: Backend,
-    /// Submitted with the next job.
-    pub wanted: Changes,
-    facts: Facts,
+    /// The number of the open project. A result with another number belongs to the previous one.
+    serial: u64,
     in_flight: Option<InFlight>,
     /// Threads that were abandoned and may still be running.
     left: Vec<JoinHandle<()>>,
 }
 
-/// The state of the engine after its last answer.
-struct Facts {
-    size: (u32, u32),
-    program: Option<ProgramOrigin>,
-    costs: Vec<PassCost>,
-    clock: CostClock,
-    reach: Reach,
-}
-
 struct InFlight {
     since: Instant,
-    size: Option<(u32, u32)>,
-    /// The origin of the program that the job sets.
-    program: Option<ProgramOrigin>,
+    /// The number of the job's project.
+    serial: u64,
     /// The thread opens its device; no code of the author runs yet.
     is_opening: bool,
-    /// Another project has been opened since: the result belongs to the previous one.
-    is_stale: bool,
 }
 
 enum Backend {
@@ -87,9 +74,8 @@ struct Remote {
 impl Drawing {
     /// An engine that does each job synchronously.
     pub(crate) fn inline(gpu: Gpu, size: (u32, u32)) -> Result<Self, EngineError> {
-        let clock = clock(&gpu);
         let (renderer, device) = (Box::new(Renderer::new(gpu.clone(), size, false)?), Device::open(gpu));
-        Ok(Self::new(Backend::Inline { renderer, device, done: None }, size, clock))
+        Ok(Self::new(Backend::Inline { renderer, device, done: None }))
     }
 
     /// An engine on a thread of its own, with another device on the adapter of the window's.
@@ -99,25 +85,18 @@ impl Drawing {
         open: Open,
         wake: Arc<dyn Fn() + Send + Sync>,
     ) -> Result<Self, Error> {
-        let clock = clock(&window);
         let device = Device::default();
         let thread = RenderThread::start(open.clone(), device.clone(), size, window.is_cpu(), wake.clone())?;
         let display = Presenter::texture(&window, size.0, size.1).map_err(EngineError::from)?;
         let gate = Gate::default();
         let remote = Remote { thread, device, gate, open, wake, window, display, took: Duration::MAX };
-        let mut drawing = Self::new(Backend::RenderThread(Box::new(remote)), size, clock);
-        drawing.in_flight = Some(InFlight::opening(Instant::now()));
+        let mut drawing = Self::new(Backend::RenderThread(Box::new(remote)));
+        drawing.in_flight = Some(InFlight::opening(Instant::now(), 0));
         Ok(drawing)
     }
 
-    fn new(backend: Backend, size: (u32, u32), clock: CostClock) -> Self {
-        Self {
-            backend,
-            wanted: Changes::default(),
-            facts: Facts { size, program: None, costs: Vec::new(), clock, reach: Reach::default() },
-            in_flight: None,
-            left: Vec::new(),
-        }
+    fn new(backend: Backend) -> Self {
+        Self { backend, serial: 0, in_flight: None, left: Vec::new() }
     }
 
     /// Returns whether frames are drawn by the processor that also paints the window.
@@ -153,65 +132,6 @@ impl Drawing {
         }
     }
 
-    /// The canvas size of the newest picture.
-    pub(crate) fn size(&self) -> (u32, u32) {
-        self.facts.size
-    }
-
-    /// The canvas size of the engine after the job in flight.
-    pub(crate) fn coming_size(&self) -> (u32, u32) {
-        self.in_flight.as_ref().and_then(|job| job.size).unwrap_or(self.facts.size)
-    }
-
-    /// Returns whether the engine has a program.
-    pub(crate) fn has_program(&self) -> bool {
-        self.facts.program.is_some()
-    }
-
-    /// Returns whether a program is pending or in flight.
-    pub(crate) fn is_program_coming(&self) -> bool {
-        self.wanted.program.is_some() || self.in_flight.as_ref().is_some_and(|job| job.program.is_some())
-    }
-
-    /// The project of the program that draws.
-    pub(crate) fn project(&self) -> Option<&Project> {
-        self.facts.program.as_ref().map(|program| &program.project)
-    }
-
-    /// Returns whether the current program is of the newest text that compiled, not a fallback.
-    pub(crate) fn is_newest_program(&self) -> bool {
-        self.new_program_millis().is_some()
-    }
-
-    /// Milliseconds of its compile, if the current program is of the newest text.
-    pub(crate) fn new_program_millis(&self) -> Option<f64> {
-        self.facts.program.as_ref().and_then(|program| program.millis)
-    }
-
-    /// The author's own uniforms, as the current program declares them.
-    pub(crate) fn custom_uniforms(&self) -> &[CustomUniform] {
-        self.facts.program.as_ref().map_or(&[], |program| &program.custom_uniforms)
-    }
-
-    /// Returns whether the program draws a pass.
-    pub(crate) fn draws(&self, pass: &PassName) -> bool {
-        self.facts.program.as_ref().is_some_and(|program| program.drawn.contains(pass))
-    }
-
-    /// The passes' costs when they were last requested.
-    pub(crate) fn costs(&self) -> &[PassCost] {
-        &self.facts.costs
-    }
-
-    /// The range of frames for seeking.
-    pub(crate) fn reach(&self) -> Reach {
-        self.facts.reach
-    }
-
-    pub(crate) fn clock(&self) -> CostClock {
-        self.facts.clock
-    }
-
     /// Returns whether the engine has a job: no other can be submitted.
     pub(crate) fn is_busy(&self) -> bool {
         self.in_flight.is_some()
@@ -222,15 +142,16 @@ impl Drawing {
         self.in_flight.as_ref().filter(|job| !job.is_opening).map(|job| job.since)
     }
 
-    /// Restarts for another project, dropping pending requests of the previous one.
-    pub(crate) fn restart(&mut self) {
-        // An engine that is being opened is new already.
-        let restart = self.in_flight.as_ref().is_none_or(|job| !job.is_opening);
-        self.wanted = Changes { restart, ..Changes::default() };
-        self.facts.program = None;
-        self.facts.costs.clear();
-        if let Some(job) = self.in_flight.as_mut().filter(|job| !job.is_opening) {
-            (job.is_stale, job.program) = (true, None);
+    /// Switches to the project with this number. Returns whether the engine must be restarted: one that is being opened
+    /// is new already.
+    pub(crate) fn switch_project(&mut self, serial: u64) -> bool {
+        self.serial = serial;
+        match &mut self.in_flight {
+            Some(job) if job.is_opening => {
+                job.serial = serial;
+                false
+            }
+            _ => true,
         }
     }
 
@@ -250,27 +171,22 @@ impl Drawing {
         }
     }
 
-    /// Submits a job with all pending changes and what `fill` adds. The engine must be idle. With `may_wait` its frame
-    /// follows [`Drawing::steer`].
-    pub(crate) fn submit(&mut self, now: Instant, may_wait: bool, fill: impl FnOnce(&mut Job)) {
-        let mut job = Job { changes: std::mem::take(&mut self.wanted), ..Job::default() };
-        fill(&mut job);
+    /// Submits a job. The engine must be idle. With `may_wait` its frame follows [`Drawing::steer`].
+    pub(crate) fn submit(&mut self, now: Instant, may_wait: bool, mut job: Job) {
         if let Backend::RenderThread(remote) = &self.backend {
             remote.gate.set(FrameControl::GoOn);
             job.gate = may_wait.then(|| remote.gate.clone());
         }
-        // The program is submitted; the session keeps its origin.
-        let program = job.changes.program.as_mut().and_then(|coming| coming.origin.take());
-        let size = job.changes.size;
-        self.in_flight = Some(InFlight { since: now, size, program, is_opening: false, is_stale: false });
+        self.in_flight = Some(InFlight { since: now, serial: self.serial, is_opening: false });
         match &mut self.backend {
             Backend::Inline { renderer, done, .. } => *done = Some(Box::new(renderer.work(job))),
             Backend::RenderThread(remote) => remote.thread.submit(job),
         }
     }
 
-    /// Returns the answer to the job, once. Waits for a moment if the last job was that fast.
-    pub(crate) fn take(&mut self, is_just_handed_in: bool) -> Option<Done> {
+    /// Returns the result of the job, once, and whether that is of the open project. Waits for a moment if the last job
+    /// was that fast.
+    pub(crate) fn take(&mut self, is_just_handed_in: bool) -> Option<(Done, bool)> {
         self.in_flight.as_ref()?;
         let mut done = match &mut self.backend {
             Backend::Inline { done, .. } => done.take().map(|done| *done),
@@ -285,28 +201,7 @@ impl Drawing {
         }
         // Outputs for a project that was closed have no ticket any longer.
         done.outputs.drain(..).for_each(|deliver| deliver());
-        if job.is_stale {
-            if let Some((size, Ok(()))) = &done.resized {
-                self.facts.size = *size;
-            }
-            return Some(Done { gave_up: done.gave_up, ..Done::default() });
-        }
-        self.learn(job, &mut done);
-        Some(done)
-    }
-
-    fn learn(&mut self, job: InFlight, done: &mut Done) {
-        if let Some((size, Ok(()))) = &done.resized {
-            self.facts.size = *size;
-        }
-        if let Some(Ok(())) = &done.program {
-            self.facts.program = job.program;
-        }
-        self.facts.reach = done.reach;
-        self.facts.clock = done.clock.unwrap_or(self.facts.clock);
-        if let Some(costs) = done.costs.take() {
-            self.facts.costs = costs;
-        }
+        Some((done, job.serial == self.serial))
     }
 
     /// Shows a picture of the other device. Returns whether the display is a different texture now.
@@ -329,25 +224,15 @@ impl Drawing {
         Ok(())
     }
 
-    /// Drops the current program. The picture stays until there is another.
-    pub(crate) fn drop_program(&mut self) {
-        self.facts.program = None;
-        if let Some(job) = &mut self.in_flight {
-            job.program = None;
-        }
-    }
-
     /// Abandons the thread and its device, and starts new ones. The picture stays until there is another.
-    pub(crate) fn start_anew(&mut self, now: Instant) -> std::io::Result<()> {
+    pub(crate) fn restart_thread(&mut self, now: Instant, size: (u32, u32)) -> std::io::Result<()> {
         let Backend::RenderThread(remote) = &mut self.backend else { return Ok(()) };
         let device = Device::default();
         let Remote { open, wake, window, .. } = &**remote;
-        let thread = RenderThread::start(open.clone(), device.clone(), self.facts.size, window.is_cpu(), wake.clone())?;
+        let thread = RenderThread::start(open.clone(), device.clone(), size, window.is_cpu(), wake.clone())?;
         (remote.device, remote.gate, remote.took) = (device, Gate::default(), Duration::MAX);
         self.left.extend(std::mem::replace(&mut remote.thread, thread).leave());
-        self.facts.program = None;
-        self.wanted = Changes::default();
-        self.in_flight = Some(InFlight::opening(now));
+        self.in_flight = Some(InFlight::opening(now, self.serial));
         Ok(())
     }
 
@@ -378,13 +263,9 @@ impl Drawing {
 }
 
 impl InFlight {
-    fn opening(since: Instant) -> Self {
-        Self { since, size: None, program: None, is_opening: true, is_stale: false }
+    fn opening(since: Instant, serial: u64) -> Self {
+        Self { since, serial, is_opening: true }
     }
-}
-
-fn clock(gpu: &Gpu) -> CostClock {
-    if gpu.has_timestamps { CostClock::Timestamps } else { CostClock::Waited }
 }
 
 /// The engine does not exist.

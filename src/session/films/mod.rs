@@ -117,7 +117,7 @@ impl Films {
 impl Session {
     /// Returns the film in progress, or the newest finished one; `None` if there was none.
     pub fn film(&self) -> Option<FilmView<'_>> {
-        let films = &self.films;
+        let films = &self.services.films;
         if let Some(live) = &films.live {
             let frames = live.frames();
             return Some(FilmView::Live(LiveView {
@@ -125,7 +125,7 @@ impl Session {
                 secs: f64::from(frames) / live.order.rate.per_second(),
                 speed: live.pace.speed(),
                 waits: !live.has_room(),
-                is_paused: !self.playback.is_running(),
+                is_paused: !self.open.playback.is_running(),
             }));
         }
         if let Some(Status::UnderWay(progress)) = films.work.status() {
@@ -140,35 +140,35 @@ impl Session {
 
     /// Returns whether the window closes when the film is complete.
     pub fn closes_after_film(&self) -> bool {
-        self.films.closes
+        self.services.films.closes
     }
 
     /// Returns the facts that a film's form is validated against.
     pub fn film_facts(&self) -> FilmFacts {
         FilmFacts {
-            shown: self.drawing.size(),
+            shown: self.open.engine.size(),
             most_side: self.gpu().device.limits().max_texture_dimension_2d,
-            folder: capture::folder_for(self.project(), &self.options.pictures),
+            folder: capture::folder_for(self.project(), &self.open.host.options.pictures),
             period: self.project().info.period,
-            encoders: self.films.encoders.clone(),
+            encoders: self.services.films.encoders.clone(),
         }
     }
 
     /// Returns whether the encoders of ffmpeg are being queried.
     pub fn looks_for_encoders(&self) -> bool {
-        self.films.tools.is_busy()
+        self.services.films.tools.is_busy()
     }
 
     pub(super) fn find_encoders(&mut self) {
-        if !self.films.tools.is_busy() {
-            self.films.tools.start(());
+        if !self.services.films.tools.is_busy() {
+            self.services.films.tools.start(());
         }
     }
 
     /// Starts a film.
     pub(super) fn begin_film(&mut self, order: FilmOrder) {
         self.settled(About::Film);
-        if self.films.is_busy() {
+        if self.services.films.is_busy() {
             return self.notice_about(About::Film, Level::Warning, "a film is being made: stop or cancel it first");
         }
         match self.film_target(&order) {
@@ -180,10 +180,10 @@ impl Session {
 
     fn film_target(&self, order: &FilmOrder) -> Result<Target, String> {
         let project = self.project();
-        let stem = capture::stem_for(project, &self.picture.shown);
+        let stem = capture::stem_for(project, &self.open.picture.shown);
         match &order.place {
             FilmPlace::Numbered => {
-                Target::numbered(&capture::folder_for(project, &self.options.pictures), &stem, order.format)
+                Target::numbered(&capture::folder_for(project, &self.open.host.options.pictures), &stem, order.format)
             }
             FilmPlace::Named { path, replaces } => Ok(Target::named(path.clone(), &stem, order.format, *replaces)),
         }
@@ -191,41 +191,41 @@ impl Session {
 
     /// Draws a range of the project as it is now, in the background.
     fn draw_range(&mut self, order: FilmOrder, target: Target) {
-        if self.halting.is_held() {
+        if self.open.halt.is_held() {
             let text = "nothing of this project is drawn before you play it: play it, then render it";
             return self.notice_about(About::Film, Level::Warning, text);
         }
-        let gpu = match self.drawing.device().wait() {
+        let gpu = match self.services.drawing.device().wait() {
             Ok(gpu) => gpu,
             Err(error) => return self.notice_about(About::Film, Level::Error, error.to_string()),
         };
         self.settle_includes();
-        let media_dir = self.options.media_dir.clone();
-        self.films.cancel = Cancel::default();
-        self.films.ended = None;
-        self.films.work.start(Work::Range(Box::new(RangeJob {
+        let media_dir = self.open.host.options.media_dir.clone();
+        self.services.films.cancel = Cancel::default();
+        self.services.films.ended = None;
+        self.services.films.work.start(Work::Range(Box::new(RangeJob {
             gpu,
-            project: self.documents.current().clone(),
-            pass: self.picture.shown.clone(),
-            trial: self.options.trials.as_ref().map(|trials| trials.trial(media_dir.clone(), Arc::default())),
+            project: self.open.documents.current().clone(),
+            pass: self.open.picture.shown.clone(),
+            trial: self.open.host.options.trials.as_ref().map(|trials| trials.trial(media_dir.clone(), Arc::default())),
             media_dir,
-            with_project: self.watched.captures.with_project,
+            with_project: self.services.captures.with_project,
             order,
             target,
-            cancel: self.films.cancel.clone(),
+            cancel: self.services.films.cancel.clone(),
         })));
     }
 
     /// Starts recording what is drawn, at the film's size and rate.
     fn record_film(&mut self, order: FilmOrder, target: Target) {
         self.end_replay("a film is recorded");
-        let before = (self.canvas.asked, self.playback.clock.fixed_rate());
-        if order.size != self.drawing.size() || self.canvas.asked.fixed.is_none() {
-            self.ask_size(CanvasSize { fixed: Some(order.size), ..self.canvas.asked });
+        let before = (self.open.canvas.asked, self.open.playback.clock.fixed_rate());
+        if order.size != self.open.engine.size() || self.open.canvas.asked.fixed.is_none() {
+            self.ask_size(CanvasSize { fixed: Some(order.size), ..self.open.canvas.asked });
         }
-        self.playback.clock.set_fixed_rate(Some(order.fps));
-        self.films.ended = None;
-        self.films.live = Some(Live::new(order, target, before));
+        self.open.playback.clock.set_fixed_rate(Some(order.fps));
+        self.services.films.ended = None;
+        self.services.films.live = Some(Live::new(order, target, before));
         self.play();
     }
 
@@ -233,64 +233,64 @@ impl Session {
     pub(super) fn stop_film(&mut self) {
         let Some(mut live) = self.end_live() else { return };
         if live.frames() == 0 {
-            self.films.ended = Some(Ended::Failed("no frame was drawn while it was recorded".into()));
+            self.services.films.ended = Some(Ended::Failed("no frame was drawn while it was recorded".into()));
             return;
         }
-        self.films.cancel = live.cancel.clone();
+        self.services.films.cancel = live.cancel.clone();
         let sound = self.late_sound(&mut live);
-        self.films.work.start(Work::Finish(Box::new(Finish { sound, ..live.finish() })));
+        self.services.films.work.start(Work::Finish(Box::new(Finish { sound, ..live.finish() })));
     }
 
     /// Returns the data from which the sound of a recording is computed; `None` if it is silent, or there is no device.
     fn late_sound(&self, live: &mut Live) -> Option<LateSound> {
         let heard = live.heard.take()?;
-        let gpu = self.drawing.device().wait().ok()?;
-        let trials = self.options.trials.as_ref();
-        let trial = trials.map(|trials| trials.trial(self.options.media_dir.clone(), Arc::default()));
+        let gpu = self.services.drawing.device().wait().ok()?;
+        let trials = self.open.host.options.trials.as_ref();
+        let trial = trials.map(|trials| trials.trial(self.open.host.options.media_dir.clone(), Arc::default()));
         Some(LateSound { gpu, trial, heard })
     }
 
     /// Records the sound of a frame with this time.
     pub(super) fn note_heard(&mut self, secs: f64) {
-        let Some(heard) = self.films.live.as_mut().and_then(|live| live.heard.as_mut()) else { return };
-        let (music, number) = (self.audio.music(), self.sounding.number());
-        heard.note(secs, (number, music), || FilmAudio::new(music, self.sounding.heard()));
+        let Some(heard) = self.services.films.live.as_mut().and_then(|live| live.heard.as_mut()) else { return };
+        let (music, number) = (self.services.audio.music(), self.services.sound_pass.number());
+        heard.note(secs, (number, music), || FilmAudio::new(music, self.services.sound_pass.heard()));
     }
 
     /// Ends the recording, and restores the picture's size and rate.
     fn end_live(&mut self) -> Option<Live> {
-        let live = self.films.live.take()?;
+        let live = self.services.films.live.take()?;
         let (size, rate) = live.before;
         // The user may have chosen others meanwhile.
-        if self.canvas.asked.fixed == Some(live.order.size) {
+        if self.open.canvas.asked.fixed == Some(live.order.size) {
             self.ask_size(size);
         }
-        if self.playback.clock.fixed_rate() == Some(live.order.fps) {
-            self.playback.clock.set_fixed_rate(rate);
+        if self.open.playback.clock.fixed_rate() == Some(live.order.fps) {
+            self.open.playback.clock.set_fixed_rate(rate);
         }
-        self.changed = true;
+        self.open.host.changed = true;
         Some(live)
     }
 
     /// Cancels the film in progress, and removes its files.
     pub(super) fn cancel_film(&mut self) {
-        self.films.closes = false;
-        if !self.films.is_busy() {
+        self.services.films.closes = false;
+        if !self.services.films.is_busy() {
             return;
         }
-        self.films.cancel.cancel();
-        self.films.work.cancel();
+        self.services.films.cancel.cancel();
+        self.services.films.work.cancel();
         if let Some(live) = self.end_live() {
             live.cancel.cancel();
-            self.films.work.start(Work::Discard(Box::new(live.finish())));
-            self.films.work.cancel();
+            self.services.films.work.start(Work::Discard(Box::new(live.finish())));
+            self.services.films.work.cancel();
         }
-        self.films.ended = Some(Ended::Cancelled);
+        self.services.films.ended = Some(Ended::Cancelled);
     }
 
     /// Ends a recording that gets no further frames. The frames so far are completed to a film.
     pub(super) fn cut_film(&mut self, why: &str) {
-        if self.films.is_live() {
+        if self.services.films.is_live() {
             self.notice_about(About::Film, Level::Warning, format!("the film ends here: {why}"));
             self.stop_film();
         }
@@ -298,7 +298,7 @@ impl Session {
 
     /// The drawing device is lost, and a frame in flight with it.
     pub(super) fn film_lost_device(&mut self) {
-        if self.films.live.as_mut().is_some_and(Live::lose_frame) {
+        if self.services.films.live.as_mut().is_some_and(Live::lose_frame) {
             self.cut_film("the GPU did not give back a frame");
         }
     }
@@ -306,23 +306,23 @@ impl Session {
     /// Adds the read-back of a frame of the film.
     pub(super) fn request_film_frame(&mut self, tasks: &mut Tasks) {
         let pass = self.pictured();
-        if let Some(live) = &mut self.films.live {
+        if let Some(live) = &mut self.services.films.live {
             live.request(pass, tasks);
         }
     }
 
     /// Passes frames that were read to the encoder.
     pub(super) fn feed_film(&mut self) {
-        let is_running = self.playback.is_running();
-        let Some(live) = &mut self.films.live else { return };
+        let is_running = self.open.playback.is_running();
+        let Some(live) = &mut self.services.films.live else { return };
         if !is_running {
             live.pace.rest();
         }
         let before = live.frames();
         let fed = live.feed();
-        self.changed |= self.films.live.as_ref().is_some_and(|live| live.frames() != before);
+        self.open.host.changed |= self.services.films.live.as_ref().is_some_and(|live| live.frames() != before);
         if let Err(why) = fed {
-            match self.films.live.as_ref().map_or(0, Live::frames) {
+            match self.services.films.live.as_ref().map_or(0, Live::frames) {
                 0 => {
                     self.cancel_film();
                     self.film_failed(why);
@@ -334,26 +334,26 @@ impl Session {
 
     fn film_failed(&mut self, why: String) {
         self.notice_about(About::Film, Level::Error, format!("no film was written: {why}"));
-        self.films.ended = Some(Ended::Failed(why));
+        self.services.films.ended = Some(Ended::Failed(why));
     }
 
     /// Takes results of the threads.
     pub(super) fn tick_film(&mut self) {
         self.feed_film();
-        if let Some(found) = self.films.tools.take() {
-            self.films.encoders = Some(found);
-            self.changed = true;
+        if let Some(found) = self.services.films.tools.take() {
+            self.services.films.encoders = Some(found);
+            self.open.host.changed = true;
         }
-        self.changed |= self.films.work.poll();
-        let Some(result) = self.films.work.take() else { return };
-        self.changed = true;
-        let closes = std::mem::take(&mut self.films.closes);
+        self.open.host.changed |= self.services.films.work.poll();
+        let Some(result) = self.services.films.work.take() else { return };
+        self.open.host.changed = true;
+        let closes = std::mem::take(&mut self.services.films.closes);
         match result {
             Ok(done) => {
                 let frames = if done.frames == 1 { "1 frame".to_owned() } else { format!("{} frames", done.frames) };
                 let text = format!("saved {}: {frames}, {:.2} s", done.path.display(), done.secs);
                 self.notice_with_path(About::Film, Level::Info, text, done.path.clone());
-                self.films.ended = Some(Ended::Done(done));
+                self.services.films.ended = Some(Ended::Done(done));
                 if closes {
                     self.unless_unsaved(PendingAction::Close);
                 }
@@ -364,9 +364,9 @@ impl Session {
 
     /// Asks what to do with an incomplete film. Returns whether there is one.
     pub(super) fn asks_about_film(&mut self) -> bool {
-        let is_busy = self.films.is_busy();
+        let is_busy = self.services.films.is_busy();
         if is_busy {
-            self.ask(Question::Film { is_live: self.films.is_live() });
+            self.ask(Question::Film { is_live: self.services.films.is_live() });
         }
         is_busy
     }
@@ -374,8 +374,8 @@ impl Session {
     /// Closes the window when the film is complete.
     pub(super) fn close_after_film(&mut self) {
         self.stop_film();
-        if self.films.is_busy() {
-            self.films.closes = true;
+        if self.services.films.is_busy() {
+            self.services.films.closes = true;
         } else {
             self.unless_unsaved(PendingAction::Close);
         }

@@ -15,7 +15,7 @@ impl Session {
     /// per call, while paused only if something that the picture depends on has changed. If a thread draws, this does
     /// not wait for the frame, which a later tick takes. Call it once for each displayed frame.
     pub fn tick(&mut self, now: Instant) -> Tick {
-        self.now = now;
+        self.open.host.now = now;
         self.take_found_work();
         self.take_recording();
         self.check_disk();
@@ -27,9 +27,9 @@ impl Session {
         self.take_compiled();
         self.analyse();
         self.take_analysed();
-        self.changed |= self.tracing.poll();
+        self.open.host.changed |= self.open.trace.poll();
         self.take_audited();
-        self.changed |= self.searching.background.poll() | self.comparing.background.poll();
+        self.open.host.changed |= self.open.nan_search.background.poll() | self.open.comparison.background.poll();
         self.tick_sound();
         self.tick_film();
         self.fit_canvas();
@@ -39,42 +39,42 @@ impl Session {
         self.follow_measures();
         self.steer_frame();
         // If a processor both draws and paints, painting the picture would be slower while another frame is drawn.
-        let is_picture_new = std::mem::take(&mut self.picture.is_new);
-        self.picture.waits_for_painting = is_picture_new && self.drawing.shares_processor();
-        if !self.picture.waits_for_painting {
+        let is_picture_new = std::mem::take(&mut self.services.display.is_new);
+        self.services.display.waits_for_painting = is_picture_new && self.services.drawing.shares_processor();
+        if !self.services.display.waits_for_painting {
             frame_drawn |= self.draw_due_frames(true);
         }
-        frame_drawn |= std::mem::take(&mut self.picture.has_drawn);
+        frame_drawn |= std::mem::take(&mut self.services.display.has_drawn);
         self.play_sound();
-        Tick { frame_drawn, wake_at: self.wake_at(), changed: std::mem::take(&mut self.changed) }
+        Tick { frame_drawn, wake_at: self.wake_at(), changed: std::mem::take(&mut self.open.host.changed) }
     }
 
     /// Takes a finished compile, and submits its program with its first frame before the next tick is due, so that
     /// edits are visible sooner. Nothing else is drawn. Call it when the session has woken the front end; the next tick
     /// reports the changes.
     pub fn attend(&mut self, now: Instant) {
-        self.now = now;
-        self.picture.has_drawn |= self.take_drawn(false);
+        self.open.host.now = now;
+        self.services.display.has_drawn |= self.take_drawn(false);
         self.take_compiled();
         self.steer_frame();
-        if self.drawing.wanted.program.is_some() || self.picture.is_program_new {
+        if self.open.changes.program.is_some() || self.open.picture.is_program_new {
             self.fit_canvas();
-            self.picture.has_drawn |= self.draw_due_frames(false);
+            self.services.display.has_drawn |= self.draw_due_frames(false);
         }
     }
 
     /// Starts the frame that waited until the picture of the last tick was painted, with the current state.
     pub fn painted(&mut self, now: Instant) {
-        if std::mem::take(&mut self.picture.waits_for_painting) {
-            self.now = now;
-            self.picture.has_drawn |= self.draw_due_frames(true);
+        if std::mem::take(&mut self.services.display.waits_for_painting) {
+            self.open.host.now = now;
+            self.services.display.has_drawn |= self.draw_due_frames(true);
         }
     }
 
     /// Makes the frame that is being drawn wait for the newest text, and abandons it for that text's program.
     fn steer_frame(&self) {
-        self.drawing.steer(match self.gives_way_until() {
-            _ if self.drawing.wanted.program.is_some() => FrameControl::GiveUp,
+        self.services.drawing.steer(match self.gives_way_until() {
+            _ if self.open.changes.program.is_some() => FrameControl::GiveUp,
             Some(until) => FrameControl::WaitUntil(until),
             None => FrameControl::GoOn,
         });
@@ -83,8 +83,8 @@ impl Session {
     /// Returns whether the newest text is being compiled and likely to be a program soon, judging by the previous
     /// compile, or its first frame is being drawn.
     pub fn is_first_frame_coming(&self) -> bool {
-        let is_drawn = self.drawing.is_busy() && !self.halting.is_held();
-        self.gives_way() || (is_drawn && (self.drawing.is_program_coming() || self.picture.is_program_new))
+        let is_drawn = self.services.drawing.is_busy() && !self.open.halt.is_held();
+        self.gives_way() || (is_drawn && (self.open.is_program_coming() || self.open.picture.is_program_new))
     }
 
     /// Returns whether the newest text is being compiled and likely to be done soon, judging by the previous compile.
@@ -93,52 +93,57 @@ impl Session {
     }
 
     fn gives_way_until(&self) -> Option<Instant> {
-        self.compile.holds_frames_until(self.now)
+        self.open.compile.holds_frames_until(self.open.host.now)
     }
 
     fn wake_at(&self) -> Option<Instant> {
-        let is_running = self.playback.is_running() && self.drawing.has_program() && !self.halting.is_device_gone();
+        let is_running =
+            self.open.playback.is_running() && self.open.engine.has_program() && !self.open.halt.is_device_gone();
         // The end of a frame in progress wakes the session.
-        let is_busy = self.drawing.is_busy() || self.picture.waits_for_painting;
-        let is_held = self.halting.is_halted() || is_busy || self.gives_way();
+        let is_busy = self.services.drawing.is_busy() || self.services.display.waits_for_painting;
+        let is_held = self.open.halt.is_halted() || is_busy || self.gives_way();
         let is_next_due = is_running && !is_held;
         // A frame of a recording may become due only after the previous picture was painted, and nothing else wakes the
         // session.
-        let is_free = !self.halting.is_halted() && !self.drawing.is_busy() && !self.gives_way();
-        let replayed = self.playback.replay_due(self.now).filter(|_| is_running && is_free);
-        let is_next_due = is_next_due && !self.playback.is_replaying();
+        let is_free = !self.open.halt.is_halted() && !self.services.drawing.is_busy() && !self.gives_way();
+        let replayed = self.open.playback.replay_due(self.open.host.now).filter(|_| is_running && is_free);
+        let is_next_due = is_next_due && !self.open.playback.is_replaying();
         let resumes = self.gives_way_until().filter(|_| is_running);
         let (drawing, sound) = (self.drawing_deadline(), self.sound_deadline());
         let deadlines = [
-            self.compile.edits.deadline(),
-            self.disk.deadline(),
+            self.open.compile.edits.deadline(),
+            self.open.disk.deadline(),
             drawing,
             sound,
             resumes,
-            self.films.deadline(self.now),
+            self.services.films.deadline(self.open.host.now),
         ];
-        let due = self.films.due().map_or(self.now, |due| due.max(self.now));
+        let due = self.services.films.due().map_or(self.open.host.now, |due| due.max(self.open.host.now));
         let next = is_next_due.then_some(due).or(replayed);
         next.into_iter().chain(deadlines.into_iter().flatten()).min()
     }
 
     fn start_compile(&mut self) {
-        let (project, shown) = (self.documents.current(), &self.picture.shown);
+        let (project, shown) = (self.open.documents.current(), &self.open.picture.shown);
         let source = Source {
             project,
             shown,
-            opened: self.disk.opened(),
-            probe: self.watched.probing.order(),
-            camera: self.devices.camera().cloned(),
+            opened: self.open.disk.opened(),
+            probe: self.open.read_backs.probing.order(),
+            camera: self.open.devices.camera().cloned(),
         };
-        self.changed |= self.compile.start(self.now, source);
+        if let Some(job) = self.open.compile.due_job(self.open.host.now, source) {
+            self.open.host.changed |= !job.is_look;
+            self.services.compiler.start(job);
+        }
     }
 
     fn take_compiled(&mut self) {
-        let compiled = match self.compile.take() {
-            None => return,
-            Some(Ok(Done { files, is_changed, includes, compiled })) => {
-                let has_new_files = self.disk.set_media_files(files) | includes.is_some();
+        let Some(result) = self.services.compiler.take() else { return };
+        self.open.compile.receive(matches!(result, Ok(Done { compiled: None, .. })));
+        let compiled = match result {
+            Ok(Done { files, is_changed, includes, compiled }) => {
+                let has_new_files = self.open.disk.set_media_files(files) | includes.is_some();
                 if let Some((edit, includes)) = includes {
                     self.take_includes(includes, edit);
                 }
@@ -151,22 +156,22 @@ impl Session {
                 let is_compiling = self.is_compile_under_way();
                 let Some(compiled) = compiled else {
                     // It was a check of the files, which made the compiler seem busy.
-                    self.changed |= self.compile.set_compiling(is_compiling);
+                    self.open.host.changed |= self.open.compile.set_compiling(is_compiling);
                     return;
                 };
                 Ok(compiled)
             }
-            Some(Err(why)) => Err(why),
+            Err(why) => Err(why),
         };
-        self.changed = true;
-        self.compile.set_compiling(self.is_compile_under_way());
+        self.open.host.changed = true;
+        self.open.compile.set_compiling(self.is_compile_under_way());
         match compiled {
             Err(what) => {
-                self.compile.diagnostics.clear();
-                self.compile.add_failure(&what);
-                self.auditing.map = None;
-                let has_program = self.drawing.has_program();
-                self.compile.fail(has_program);
+                self.open.compile.diagnostics.clear();
+                self.open.compile.add_failure(&what);
+                self.open.audit.map = None;
+                let has_program = self.open.engine.has_program();
+                self.open.compile.fail(has_program);
                 let goes_on = if has_program { "; the last working version keeps running" } else { "" };
                 self.notice_about(About::Code, Level::Error, format!("{what}{goes_on}"));
             }
@@ -176,7 +181,7 @@ impl Session {
 
     /// Returns whether the picture is older than the newest text.
     pub(super) fn is_compile_under_way(&self) -> bool {
-        self.compile.is_busy() || (self.drawing.is_program_coming() && !self.halting.is_held())
+        self.open.compile.is_busy() || (self.open.is_program_coming() && !self.open.halt.is_held())
     }
 
     fn take_program(&mut self, compiled: Compiled) {
@@ -184,34 +189,34 @@ impl Session {
         // The messages are about the newest text.
         if !is_fallback {
             self.follow_sound(&project, heard);
-            self.compile.diagnose(diagnostics, took);
-            self.auditing.map = None;
+            self.open.compile.diagnose(diagnostics, took);
+            self.open.audit.map = None;
         }
         let (program, millis) = match program {
             Ok(Some(built)) => built,
             Ok(None) if is_fallback => return,
-            Ok(None) => return self.compile.fail(self.drawing.has_program()),
+            Ok(None) => return self.open.compile.fail(self.open.engine.has_program()),
             Err(e) => return self.refused(&e),
         };
         let millis = (!is_fallback).then_some(millis);
-        if let Some(millis) = millis.filter(|_| self.halting.is_held()) {
-            self.compile.succeed(millis);
+        if let Some(millis) = millis.filter(|_| self.open.halt.is_held()) {
+            self.open.compile.succeed(millis);
         }
-        self.audio.expect(sounds);
+        self.services.audio.expect(sounds);
         self.forget_old_names(&project);
-        self.drawing.wanted.program = Some(PendingProgram::new(program, project, millis));
+        self.open.changes.program = Some(PendingProgram::new(program, project, millis));
         // They may have been set while it was being compiled.
         self.custom_uniforms_turned();
-        self.watched.probing.built(probe);
-        self.drawing.wanted.shown = Some(self.pictured());
-        self.drawing.wanted.look = self.watched.probing.take_look(true);
-        self.compile.set_compiling(self.is_compile_under_way());
+        self.open.read_backs.probing.built(probe);
+        self.open.changes.shown = Some(self.pictured());
+        self.open.changes.look = self.open.read_backs.probing.take_look(true);
+        self.open.compile.set_compiling(self.is_compile_under_way());
     }
 
     /// The machine rejected the newest text: also added to the list of errors, where errors are counted.
     pub(super) fn refused(&mut self, error: &EngineError) {
-        self.compile.add_failure(&error.to_string());
-        self.compile.fail(self.drawing.has_program());
+        self.open.compile.add_failure(&error.to_string());
+        self.open.compile.fail(self.open.engine.has_program());
         self.stop_drawing(error);
     }
 

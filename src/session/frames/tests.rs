@@ -35,7 +35,7 @@ fn compiler_panic_is_reported_and_loses_no_text() {
     tick_until(&mut session, "the first program", |s| matches!(s.compile_state().last, Some(Outcome::Ok { .. })));
     let work = |_: Job, _: &_| panic!("planted");
     let planted = Background::new("compile", "the compiler", Arc::new(|| ()), work).unwrap();
-    let healthy = session.compile.replace_worker(planted);
+    let healthy = session.services.compiler.replace_worker(planted);
     let tab = Tab::image();
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
     session.apply(Command::EditText { tab: tab.clone(), text: text.into() });
@@ -47,7 +47,7 @@ fn compiler_panic_is_reported_and_loses_no_text() {
     assert!(session.is_dirty());
     assert_eq!(session.text(&tab), text);
 
-    session.compile.replace_worker(healthy);
+    session.services.compiler.replace_worker(healthy);
     session.apply(Command::CompileNow);
     tick_until(&mut session, "a program again", |s| matches!(s.compile_state().last, Some(Outcome::Ok { .. })));
     assert_eq!(session.text(&tab), text);
@@ -69,16 +69,16 @@ fn fast_text_is_compiled_at_each_keystroke() {
     session.apply(Command::CompileNow);
     tick_until(&mut session, "the mistake", |s| matches!(s.compile_state().last, Some(Outcome::Failed { .. })));
     let before = session.diagnostics().to_vec();
-    session.compile.expect(Duration::from_millis(1));
+    session.open.compile.expect(Duration::from_millis(1));
     edit(&mut session, "void mainImage(out vec4 o, in vec2 p) { o = vec4(missing); }");
     // The compile may have finished within the tick.
-    let is_compiled = session.compile.is_busy() || session.diagnostics() != before;
-    assert!(session.compile.edits.deadline().is_none() && is_compiled, "the tick of the key compiles");
+    let is_compiled = session.open.compile.is_busy() || session.diagnostics() != before;
+    assert!(session.open.compile.edits.deadline().is_none() && is_compiled, "the tick of the key compiles");
     tick_until(&mut session, "the second mistake", |s| s.diagnostics() != before && !s.compile_state().compiling);
     // A slow one is debounced.
-    session.compile.expect(Duration::from_secs(7200));
+    session.open.compile.expect(Duration::from_secs(7200));
     edit(&mut session, "third");
-    assert!(session.compile.edits.deadline().is_some() && session.compile.take().is_none());
+    assert!(session.open.compile.edits.deadline().is_some() && session.services.compiler.take().is_none());
 }
 
 #[test]
@@ -109,15 +109,15 @@ fn open_apart(gpu: Gpu) -> Session {
 fn lost_device_is_replaced_unless_lost_again_at_once() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
-    let first = session.drawing.device().wait().unwrap();
+    let first = session.services.drawing.device().wait().unwrap();
     testing::lose(&first);
     tick_until(&mut session, "the loss to be told of", |s| s.notices().iter().any(|n| n.text.contains("lost")));
-    tick_until(&mut session, "frames of the fresh device", |s| s.drawing.has_program() && s.transport().frame > 2);
-    assert!(session.drawing.device().wait().unwrap().take_trouble("it").is_ok());
+    tick_until(&mut session, "frames of the fresh device", |s| s.open.engine.has_program() && s.transport().frame > 2);
+    assert!(session.services.drawing.device().wait().unwrap().take_trouble("it").is_ok());
     assert!(session.transport().playing && matches!(session.compile_state().last, Some(Outcome::Ok { .. })));
 
-    testing::lose(&session.drawing.device().wait().unwrap());
-    tick_until(&mut session, "the end of drawing", |s| s.halting.is_device_gone());
+    testing::lose(&session.services.drawing.device().wait().unwrap());
+    tick_until(&mut session, "the end of drawing", |s| s.open.halt.is_device_gone());
     let count = session.notices().len();
     for _ in 0..20 {
         session.tick(Instant::now());
@@ -130,11 +130,11 @@ fn slower_compile_than_expected_blocks_no_frames() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     let began = Instant::now();
-    session.compile.expect(Duration::ZERO);
-    session.now = began;
-    session.compile.set_newest_since(Some(began));
+    session.open.compile.expect(Duration::ZERO);
+    session.open.host.now = began;
+    session.open.compile.set_newest_since(Some(began));
     assert!(session.gives_way() && session.wake_at().is_some_and(|at| at <= began + BRIEF));
-    session.now = began + BRIEF;
+    session.open.host.now = began + BRIEF;
     assert!(!session.gives_way());
 }
 
@@ -147,9 +147,9 @@ fn device_that_fails_to_open_is_retried() {
         true => Ok(other.clone()),
         false => Err(GpuError::NoAdapter("planted".into())),
     };
-    session.drawing = Drawing::on_thread(gpu, (64, 36), Arc::new(open), Arc::new(|| ())).unwrap();
+    session.services.drawing = Drawing::on_thread(gpu, (64, 36), Arc::new(open), Arc::new(|| ())).unwrap();
     tick_until(&mut session, "the failure to be told of", |s| s.notices().iter().any(|n| n.text.contains("planted")));
-    tick_until(&mut session, "frames", |s| s.drawing.has_program() && s.transport().frame > 2);
+    tick_until(&mut session, "frames", |s| s.open.engine.has_program() && s.transport().frame > 2);
 }
 
 #[test]
@@ -157,18 +157,21 @@ fn on_cpu_next_frame_starts_after_painting() {
     let Some(gpu) = testing::gpu() else { return };
     let is_cpu = gpu.is_cpu();
     let mut session = open_apart(gpu);
-    assert_eq!(session.drawing.shares_processor(), is_cpu);
+    assert_eq!(session.services.drawing.shares_processor(), is_cpu);
     if !is_cpu {
         return;
     }
     for _ in 0..3 {
-        tick_until(&mut session, "a new picture", |s| s.picture.waits_for_painting);
-        assert!(!session.drawing.is_busy(), "nothing is drawn before it is painted");
-        assert!(session.wake_at().is_none_or(|at| at > session.now), "nor is a frame of the window asked for");
+        tick_until(&mut session, "a new picture", |s| s.services.display.waits_for_painting);
+        assert!(!session.services.drawing.is_busy(), "nothing is drawn before it is painted");
+        assert!(
+            session.wake_at().is_none_or(|at| at > session.open.host.now),
+            "nor is a frame of the window asked for"
+        );
         let before = session.transport().frame;
         session.painted(Instant::now());
-        assert!(session.drawing.is_busy() || session.transport().frame > before);
-        assert!(!session.picture.waits_for_painting);
+        assert!(session.services.drawing.is_busy() || session.transport().frame > before);
+        assert!(!session.services.display.waits_for_painting);
     }
 }
 
@@ -177,34 +180,34 @@ fn frame_waits_for_newest_text_and_is_abandoned_for_its_program() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     let now = Instant::now();
-    session.now = now;
-    session.compile.set_newest_since(None);
-    session.compile.expect(Duration::ZERO);
+    session.open.host.now = now;
+    session.open.compile.set_newest_since(None);
+    session.open.compile.expect(Duration::ZERO);
     let control = |session: &Session| {
         session.steer_frame();
-        session.drawing.frame_control().unwrap()
+        session.services.drawing.frame_control().unwrap()
     };
     assert_eq!(control(&session), FrameControl::GoOn);
-    session.compile.set_newest_since(Some(now));
+    session.open.compile.set_newest_since(Some(now));
     assert_eq!(control(&session), FrameControl::WaitUntil(now + BRIEF));
-    session.now = now + BRIEF;
+    session.open.host.now = now + BRIEF;
     assert_eq!(control(&session), FrameControl::GoOn, "it is no longer a compile that is not felt");
-    session.compile.set_newest_since(None);
+    session.open.compile.set_newest_since(None);
     // For a text with a valid program, the previous frame is abandoned as soon as the program is available.
     let tab = Tab::image();
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
     session.apply(Command::EditText { tab, text: text.into() });
     let end = now + Duration::from_secs(120);
-    while session.drawing.wanted.program.is_none() {
+    while session.open.changes.program.is_none() {
         assert!(Instant::now() < end, "there is no program");
-        session.now = Instant::now();
+        session.open.host.now = Instant::now();
         session.start_compile();
         session.take_compiled();
     }
     assert_eq!(control(&session), FrameControl::GiveUp);
-    let before = session.picture.programs_drawn;
-    tick_until(&mut session, "the program's first frame", |s| s.picture.programs_drawn > before);
-    assert_eq!(session.drawing.frame_control(), Some(FrameControl::GoOn), "what comes after it is drawn");
+    let before = session.services.display.programs_drawn;
+    tick_until(&mut session, "the program's first frame", |s| s.services.display.programs_drawn > before);
+    assert_eq!(session.services.drawing.frame_control(), Some(FrameControl::GoOn), "what comes after it is drawn");
 }
 
 #[test]
@@ -212,13 +215,13 @@ fn first_frame_and_paused_frames_do_not_wait() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
     tick_until(&mut session, "a frame that nothing else goes with", |s| s.is_one_of_many());
-    session.picture.is_program_new = true;
+    session.open.picture.is_program_new = true;
     assert!(!session.is_one_of_many(), "the first one");
-    session.picture.is_program_new = false;
+    session.open.picture.is_program_new = false;
     assert!(session.is_one_of_many());
-    session.drawing.wanted.reset = true;
+    session.open.changes.reset = true;
     assert!(!session.is_one_of_many(), "a change goes with it");
-    session.drawing.wanted.reset = false;
+    session.open.changes.reset = false;
     session.apply(Command::Pause);
     assert!(!session.is_one_of_many(), "time stands");
 }

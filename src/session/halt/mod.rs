@@ -75,16 +75,19 @@ impl HaltControl {
         Self { limit, marker: Marker::new(state_dir), ..Self::default() }
     }
 
-    /// Resets for another project. `is_overdue`: the device still draws a frame of the previous one.
-    pub(crate) fn begin_next_project(&mut self, is_overdue: bool) {
+    /// The halt of another project. `is_overdue`: the device still draws a frame of this one.
+    pub(crate) fn successor(&mut self, is_overdue: bool) -> Self {
         if self.halt.is_none() && !is_overdue {
             self.marker.clear();
         } else {
             self.marker.leave();
         }
-        (self.halt, self.good, self.allowed) = (None, None, None);
-        (self.resumes, self.is_new, self.lost_at) = (false, false, None);
-        self.pace.begin();
+        Self {
+            limit: self.limit,
+            marker: take(&mut self.marker),
+            is_device_gone: self.is_device_gone,
+            ..Self::default()
+        }
     }
 
     /// Returns whether a project hung or crashed the process when it was last open.

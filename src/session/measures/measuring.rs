@@ -92,6 +92,11 @@ pub(crate) struct Measuring {
 }
 
 impl Measuring {
+    /// The measurements of another project, whose comments may have the same texts.
+    pub(crate) fn successor(&self) -> Self {
+        Self { next_serial: self.next_serial, count: self.count, ..Self::default() }
+    }
+
     /// Reads the comments again if the project has changed. A comment whose text stays keeps its record, even if it has
     /// moved. Returns whether something may have changed.
     pub(crate) fn follow(&mut self, project: &Project, state: (u64, u64)) -> bool {
@@ -209,9 +214,5 @@ impl ReadBack for Measuring {
             }
         }
         true
-    }
-    fn begin_next_project(&mut self) {
-        // Another project's comments may have the same texts.
-        *self = Self { next_serial: self.next_serial, count: self.count, ..Self::default() };
     }
 }

@@ -23,12 +23,12 @@ impl Session {
     /// Every measuring comment of the project, with its samples while it was watched
     /// ([`Command::WatchMeasures`](super::Command::WatchMeasures)).
     pub fn measures(&self) -> &[Measure] {
-        self.watched.measuring.measures()
+        self.open.read_backs.measuring.measures()
     }
 
     /// Returns how many frames have been measured since the session started.
     pub fn measured_frames(&self) -> u64 {
-        self.watched.measuring.count()
+        self.open.read_backs.measuring.count()
     }
 
     /// Returns why nothing is measured for a comment. The reason for a pass that is not drawn is known while costs are
@@ -38,35 +38,35 @@ impl Session {
             Err(unmeasured) => return Some(Cow::Borrowed(unmeasured)),
             Ok(quantity) => &quantity.pass,
         };
-        if !self.drawing.has_program() || self.drawing.draws(pass) {
+        if !self.open.engine.has_program() || self.open.engine.draws(pass) {
             return None;
         }
-        let known = reason(pass, self.drawing.costs()).unwrap_or_else(|| "not drawn".to_owned());
+        let known = reason(pass, self.open.engine.costs()).unwrap_or_else(|| "not drawn".to_owned());
         let mend = format!("let a drawn pass read it, or show {} as the picture", pass.title());
         Some(Cow::Owned(Unmeasured { why: format!("{} is {known}", pass.title()), mend }))
     }
 
     /// Updates the comments after edits.
     pub(super) fn follow_measures(&mut self) {
-        let state = (self.disk.opened(), self.documents.revision());
-        self.changed |= self.watched.measuring.follow(self.documents.current(), state);
+        let state = (self.open.disk.opened(), self.open.documents.revision());
+        self.open.host.changed |= self.open.read_backs.measuring.follow(self.open.documents.current(), state);
     }
 
     /// Writes the measured values to a new file next to the pictures.
     pub(super) fn save_measures(&mut self) {
-        let measures = self.watched.measuring.measures();
+        let measures = self.open.read_backs.measuring.measures();
         if measures.iter().all(|measure| measure.record.newest().is_none()) {
             self.notice_about(About::Capture, Level::Warning, "nothing to save: nothing has been measured yet");
             return;
         }
-        let project = self.documents.current();
-        let folder = capture::folder_for(project, &self.options.pictures);
+        let project = self.open.documents.current();
+        let folder = capture::folder_for(project, &self.open.host.options.pictures);
         let stem = format!("{}-measured", capture::file_stem(&project.name));
         let name = |n: u32| format!("{stem}-{n:04}.csv");
         match capture::write_new(&folder, name, &stem, |out| csv::write(out, measures)) {
             Ok(path) => {
                 self.notice(Level::Info, format!("saved {}", path.display()));
-                if let Some(notice) = self.notices.last_mut() {
+                if let Some(notice) = self.open.host.notices.last_mut() {
                     notice.path = Some(path);
                 }
             }

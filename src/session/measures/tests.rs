@@ -171,7 +171,7 @@ fn record_is_kept_until_the_text_of_its_comment_changes() {
     );
     measuring.follow(&project("//@probe max(image.y)\n//@probe min(image)\n"), (1, 3));
     assert_eq!(summaries(&measuring), [(4, "max(image.y)", 1, false), (2, "min(image)", 2, true)]);
-    measuring.begin_next_project();
+    let mut measuring = measuring.successor();
     measuring.follow(&project("//@probe min(image)\n"), (2, 3));
     assert_eq!(summaries(&measuring), [(5, "min(image)", 1, false)]);
 }

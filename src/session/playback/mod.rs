@@ -49,11 +49,10 @@ pub(crate) struct Playback {
 }
 
 impl Playback {
-    pub(crate) fn begin_next_project(&mut self) {
+    /// The playback of another project. Gamepads stay connected.
+    pub(crate) fn successor(&self) -> Self {
         let seeking = Seeking { keeps_inputs: self.seeking.keeps_inputs, ..Seeking::default() };
-        // Gamepads stay connected.
-        let gamepads = take(&mut self.gamepads);
-        *self = Self { seeking, is_covered: self.is_covered, gamepads, ..Self::default() };
+        Self { seeking, is_covered: self.is_covered, gamepads: self.gamepads.clone(), ..Self::default() }
     }
 
     /// Returns whether time runs and the picture is visible.

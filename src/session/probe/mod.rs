@@ -241,10 +241,6 @@ impl ReadBack for Probing {
         self.has_news = true;
         true
     }
-
-    fn begin_next_project(&mut self) {
-        *self = Self::default();
-    }
 }
 
 /// Returns the build options: the probe, and every buffer that Image may need, as a simulation continues even while it

@@ -37,14 +37,14 @@ impl UnsavedWork {
 impl Session {
     /// Passes unsaved work to the thread that writes it, if it has changed. Never blocks.
     pub(crate) fn keep_unsaved(&mut self) {
-        let Some(recovery) = &self.unsaved.recovery else { return };
-        let revision = Some(self.documents.revision());
-        if self.unsaved.kept == revision {
+        let Some(recovery) = &self.services.recovery.recovery else { return };
+        let revision = Some(self.open.documents.revision());
+        if self.services.recovery.kept == revision {
             return;
         }
-        self.unsaved.kept = revision;
-        if self.documents.is_dirty() {
-            recovery.keep(self.documents.current());
+        self.services.recovery.kept = revision;
+        if self.open.documents.is_dirty() {
+            recovery.keep(self.open.documents.current());
         } else {
             recovery.forget();
         }
@@ -52,12 +52,12 @@ impl Session {
 
     /// Removes the recovery file: the unsaved work is discarded on purpose, or stored elsewhere.
     pub fn forget_unsaved(&self) {
-        self.unsaved.recovery.iter().for_each(Recovery::forget);
+        self.services.recovery.recovery.iter().for_each(Recovery::forget);
     }
 
     /// Asks about unsaved work that was found.
     pub(crate) fn take_found_work(&mut self) {
-        while let Some(news) = self.unsaved.recovery.as_ref().and_then(Recovery::take_news) {
+        while let Some(news) = self.services.recovery.recovery.as_ref().and_then(Recovery::take_news) {
             match news {
                 News::Trouble(text) => self.notice_about(About::Window, Level::Warning, text),
                 News::Found(found) => {
@@ -66,7 +66,7 @@ impl Session {
                     let (first, rest): (Vec<Left>, Vec<Left>) = found.into_iter().partition(is_here);
                     for left in first.into_iter().chain(rest) {
                         self.ask(Question::Recover(Box::new(left.shown.clone())));
-                        self.unsaved.found.push(left);
+                        self.services.recovery.found.push(left);
                     }
                 }
             }
@@ -77,13 +77,13 @@ impl Session {
     pub(crate) fn answer_recover(&mut self, recovered: &Recovered, answer: &Answer) -> bool {
         match answer {
             Answer::Recover if self.is_dirty() => {
-                let (then, tabs) = (PendingAction::Recover(recovered.file.clone()), self.documents.dirty_tabs());
-                self.dialog.questions.push_front(Question::Unsaved { then, tabs });
+                let (then, tabs) = (PendingAction::Recover(recovered.file.clone()), self.open.documents.dirty_tabs());
+                self.open.host.dialog.questions.push_front(Question::Unsaved { then, tabs });
             }
             Answer::Recover => self.recover(&recovered.file),
             Answer::Discard => {
-                self.unsaved.found.retain(|left| left.shown.file != recovered.file);
-                if let Some(recovery) = &self.unsaved.recovery {
+                self.services.recovery.found.retain(|left| left.shown.file != recovered.file);
+                if let Some(recovery) = &self.services.recovery.recovery {
                     recovery.discard(recovered.file.clone());
                 }
             }
@@ -95,15 +95,15 @@ impl Session {
 
     /// Replaces the open project by the work in a recovery file.
     pub(crate) fn recover(&mut self, file: &Path) {
-        let Some(at) = self.unsaved.found.iter().position(|left| left.shown.file == *file) else { return };
-        let Left { shown, project, saved, .. } = self.unsaved.found.remove(at);
+        let Some(at) = self.services.recovery.found.iter().position(|left| left.shown.file == *file) else { return };
+        let Left { shown, project, saved, .. } = self.services.recovery.found.remove(at);
         self.replace(Documents::restored(project, saved));
         // The project may have ended the last process and may do it again, so start paused.
-        self.playback.clock.pause();
-        if let Some(recovery) = &self.unsaved.recovery {
+        self.open.playback.clock.pause();
+        if let Some(recovery) = &self.services.recovery.recovery {
             recovery.adopt(shown.file);
         }
-        self.compile.include_edits += 1;
+        self.open.compile.include_edits += 1;
         let placeless = shown.trouble.map(|why| format!(" Its original location is gone: {why}")).unwrap_or_default();
         self.notice(Level::Info, format!("recovered {}: paused and not saved yet.{placeless}", shown.name));
         self.put_off_all();
@@ -111,7 +111,7 @@ impl Session {
 
     /// Postpones all other unsaved work, which would replace what was just recovered.
     fn put_off_all(&mut self) {
-        let others: Vec<PathBuf> = self.unsaved.found.iter().map(|left| left.shown.file.clone()).collect();
+        let others: Vec<PathBuf> = self.services.recovery.found.iter().map(|left| left.shown.file.clone()).collect();
         let some = match others.len() {
             0 => return,
             1 => "there is unsaved work of another project too".to_owned(),
@@ -119,12 +119,12 @@ impl Session {
         };
         self.notice(Level::Info, format!("{some}; Eddy asks about it at the next start"));
         others.iter().for_each(|file| self.put_off(file));
-        self.dialog.questions.retain(|q| !matches!(q, Question::Recover(_)));
+        self.open.host.dialog.questions.retain(|q| !matches!(q, Question::Recover(_)));
     }
 
     fn put_off(&mut self, file: &Path) {
-        self.unsaved.found.retain(|left| left.shown.file != *file);
-        if let Some(recovery) = &self.unsaved.recovery {
+        self.services.recovery.found.retain(|left| left.shown.file != *file);
+        if let Some(recovery) = &self.services.recovery.recovery {
             recovery.put_off(file.to_owned());
         }
     }

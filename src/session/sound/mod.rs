@@ -223,10 +223,6 @@ impl Sounding {
         }
     }
 
-    pub(crate) fn begin_next_project(&mut self) {
-        self.silence();
-    }
-
     /// Changes how devices are opened, and renders the sound again.
     pub(crate) fn change_device(&mut self, open: Open) {
         self.open = open;
@@ -238,7 +234,7 @@ impl Sounding {
     }
 
     /// Stops everything: there is no sound pass.
-    fn silence(&mut self) {
+    pub(crate) fn silence(&mut self) {
         if let Some(thread) = &mut self.thread {
             thread.cancel();
         }
@@ -271,6 +267,14 @@ impl Sounding {
         };
         self.codes += u64::from(!is_same_code);
         (self.source, self.kept, self.trouble) = (source, Some((project, media, date)), None);
+    }
+
+    /// Renders the sound again with other values of the author's own uniforms.
+    fn set_values(&mut self, values: CustomUniformValues) {
+        let Some((project, media, _)) = &self.kept else { return };
+        let project = Project { custom_uniform_values: values, ..project.clone() };
+        let (media, opened) = (media.clone(), self.source.as_ref().map_or(0, |source| source.opened));
+        self.order(project, media, opened);
     }
 
     /// Submits the pending order to the thread.
@@ -343,7 +347,7 @@ impl Session {
     /// Returns the track of the sound pass and its revision, which grows with each new track; `None` if there is no
     /// sound pass that compiles. Blocks of the track may still be missing.
     pub fn sound_track(&self) -> Option<(u64, Arc<Track>)> {
-        let now = self.sounding.shared.now();
+        let now = self.services.sound_pass.shared.now();
         now.track.clone().map(|track| (now.revision, track))
     }
 
@@ -357,57 +361,52 @@ impl Session {
         Some(SoundView {
             revision,
             track,
-            is_making: self.sounding.is_making(),
-            trouble: self.sounding.trouble.clone(),
+            is_making: self.services.sound_pass.is_making(),
+            trouble: self.services.sound_pass.trouble.clone(),
         })
     }
 
     /// Handles the result of compiling the newest text.
     pub(super) fn follow_sound(&mut self, project: &Project, heard: CompiledSound) {
         match heard {
-            CompiledSound::Nothing => self.sounding.silence(),
+            CompiledSound::Nothing => self.services.sound_pass.silence(),
             CompiledSound::Broken => {}
             CompiledSound::Sound(media) => {
                 let mut project = project.clone();
                 // They may have been set while it was being compiled.
-                project.custom_uniform_values.clone_from(&self.documents.current().custom_uniform_values);
-                self.sounding.order(project, *media, self.disk.opened());
+                project.custom_uniform_values.clone_from(&self.open.documents.current().custom_uniform_values);
+                self.services.sound_pass.order(project, *media, self.open.disk.opened());
             }
         }
     }
 
-    /// Handles new values of the author's own uniforms.
-    pub(super) fn sound_values_turned(&mut self, values: &CustomUniformValues) {
-        let Some((project, media, _)) = &self.sounding.kept else { return };
-        let project = Project { custom_uniform_values: values.clone(), ..project.clone() };
-        let (media, opened) = (media.clone(), self.sounding.source.as_ref().map_or(0, |source| source.opened));
-        self.sounding.order(project, media, opened);
-    }
-
     /// Submits pending orders, and takes results. Nothing of a held project reaches a device.
     pub(super) fn tick_sound(&mut self) {
-        if !self.halting.is_held()
-            && let Err(error) = self.sounding.start(&self.options)
-        {
-            self.sounding.trouble = Some(format!("cannot start a thread: {error}"));
+        if let Some(values) = self.open.uniforms.for_sound.take() {
+            self.services.sound_pass.set_values(values);
         }
-        let time = self.playback.clock.time_secs();
-        if let Some(why) = self.sounding.poll(self.now, time) {
+        if !self.open.halt.is_held()
+            && let Err(error) = self.services.sound_pass.start(&self.open.host.options)
+        {
+            self.services.sound_pass.trouble = Some(format!("cannot start a thread: {error}"));
+        }
+        let time = self.open.playback.clock.time_secs();
+        if let Some(why) = self.services.sound_pass.poll(self.open.host.now, time) {
             let text = format!("No more of the sound pass is made: {why}. Edit the pass to try again");
             self.notice_about(About::Code, Level::Warning, text);
-            self.changed = true;
+            self.open.host.changed = true;
         }
-        self.changed |= self.sounding.take_changed();
+        self.open.host.changed |= self.services.sound_pass.take_changed();
         let track = self.sound_track();
         let revision = track.as_ref().map(|(revision, _)| *revision);
-        if std::mem::replace(&mut self.sounding.played, revision) != revision {
+        if std::mem::replace(&mut self.services.sound_pass.played, revision) != revision {
             self.play_track(track);
         }
     }
 
     /// Returns when the step of the sound in progress times out.
     pub(super) fn sound_deadline(&self) -> Option<Instant> {
-        self.sounding.deadline()
+        self.services.sound_pass.deadline()
     }
 }
 

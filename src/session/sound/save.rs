@@ -31,12 +31,12 @@ impl Session {
         };
         let frames: Vec<[i16; 2]> = (0..track.frames() as i64).filter_map(|n| track.frame(n)).collect();
         let project = self.project();
-        let folder = capture::folder_for(project, &self.options.pictures);
+        let folder = capture::folder_for(project, &self.open.host.options.pictures);
         let stem = capture::stem_for(project, &PassName::sound());
         match capture::write_new(&folder, |n| format!("{stem}-{n:04}.wav"), &stem, |out| out.write_all(&wav(&frames))) {
             Ok(path) => {
                 self.notice(Level::Info, format!("saved {}", path.display()));
-                if let Some(notice) = self.notices.last_mut() {
+                if let Some(notice) = self.open.host.notices.last_mut() {
                     notice.path = Some(path);
                 }
             }

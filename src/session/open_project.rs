@@ -1,0 +1,122 @@
+//! The open project: everything that belongs to it, and is built anew with each project that is opened.
+//!
+//! State that outlives a project is in [`Services`](super::services::Services). What a project has from the previous
+//! one, such as the user's settings for all projects, is listed in [`OpenProject::successor`], so that opening a project
+//! cannot leave anything else behind.
+
+use super::{
+    audit::Auditing,
+    canvas::Canvas,
+    compare::Comparing,
+    compile::CompileControl,
+    devices::Devices,
+    disk::DiskSync,
+    documents::Documents,
+    drawing::{Changes, EngineStatus, Job},
+    halt::HaltControl,
+    host::Host,
+    nonfinite::Searching,
+    pass_history::PassHistory,
+    playback::Playback,
+    read_back::ReadBacks,
+    trace::Tracing,
+    uniforms::TextUniforms,
+};
+use eddy_project::PassName;
+use std::{mem::take, thread::JoinHandle};
+
+pub(super) struct OpenProject {
+    pub host: Host,
+    pub documents: Documents,
+    pub compile: CompileControl,
+    pub uniforms: TextUniforms,
+    pub disk: DiskSync,
+    /// The history of edits of passes and channels.
+    pub pass_history: PassHistory,
+    pub playback: Playback,
+    pub canvas: Canvas,
+    pub devices: Devices,
+    /// The changes that go to the engine with the next job.
+    pub changes: Changes,
+    pub engine: EngineStatus,
+    pub halt: HaltControl,
+    pub picture: Picture,
+    pub read_backs: ReadBacks,
+    pub trace: Tracing,
+    pub audit: Auditing,
+    /// The search for the first NaN.
+    pub nan_search: Searching,
+    pub comparison: Comparing,
+}
+
+/// The picture of the shown pass.
+#[derive(Default)]
+pub(super) struct Picture {
+    pub shown: PassName,
+    /// The newest program has not drawn a frame.
+    pub is_program_new: bool,
+    /// Counts the pictures of frames that the engine has drawn.
+    pub frames_drawn: u64,
+}
+
+impl OpenProject {
+    /// The first project of a window.
+    pub(super) fn new(documents: Documents, host: Host, engine: EngineStatus) -> Self {
+        let (options, wake) = (&host.options, &host.wake);
+        Self {
+            documents,
+            compile: CompileControl::new(options.edit_debounce, false),
+            uniforms: TextUniforms::default(),
+            disk: DiskSync::new(options),
+            pass_history: PassHistory::default(),
+            playback: Playback::default(),
+            canvas: Canvas::default(),
+            devices: Devices::default(),
+            changes: Changes::default(),
+            engine,
+            halt: HaltControl::new(options.frame_limit, options.state_dir.as_deref()),
+            picture: Picture::default(),
+            read_backs: ReadBacks::default(),
+            trace: Tracing::new(wake.clone()),
+            audit: Auditing::new(wake.clone()),
+            nan_search: Searching::new(wake.clone()),
+            comparison: Comparing::new(wake.clone()),
+            host,
+        }
+    }
+
+    /// The project that replaces this one, which is then [closed](Self::close). `is_overdue`: the device still draws a
+    /// frame of this one.
+    pub(super) fn successor(&mut self, documents: Documents, is_overdue: bool) -> Self {
+        let host = self.host.hand_over();
+        Self {
+            compile: CompileControl::new(host.options.edit_debounce, self.compile.is_on_save()),
+            disk: self.disk.successor(&host.options),
+            playback: self.playback.successor(),
+            canvas: self.canvas.successor(),
+            devices: self.devices.successor(),
+            halt: self.halt.successor(is_overdue),
+            read_backs: self.read_backs.successor(),
+            ..Self::new(documents, host, self.engine.successor())
+        }
+    }
+
+    /// Ends the project. Returns the threads that end soon.
+    pub(super) fn close(self) -> impl Iterator<Item = JoinHandle<()>> {
+        let Self { trace, audit, nan_search, comparison, .. } = self;
+        let others = [audit.close(), nan_search.background.abandon(), comparison.background.abandon()];
+        trace.close().into_iter().chain(others).flatten()
+    }
+
+    /// Returns a job with all pending changes, which is about to be submitted.
+    pub(super) fn next_job(&mut self) -> Job {
+        let mut job = Job { changes: take(&mut self.changes), ..Job::default() };
+        self.engine.submit(&mut job);
+        job
+    }
+
+    /// Returns whether a program is pending or in flight.
+    pub(super) fn is_program_coming(&self) -> bool {
+        self.changes.program.is_some() || self.engine.is_program_coming()
+    }
+}
