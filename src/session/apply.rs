@@ -4,6 +4,7 @@ use super::{
     Session,
     canvas::CanvasSize,
     command::Command,
+    open_project::OpenProject,
     trace::TracedPixel,
     view::{About, Level},
 };
@@ -35,21 +36,21 @@ impl Session {
             | Command::Close
             | Command::Answer(_) => self.apply_to_files(command),
             Command::EditText { tab, text } => {
-                self.edit_text(&tab, &text);
+                self.open.edit_text(&tab, &text);
                 self.analyse();
             }
             Command::BringToFront(tab) => {
                 self.bring_to_front(tab);
                 self.analyse();
             }
-            Command::CompileNow => self.compile_soon(),
+            Command::CompileNow => self.open.compile_soon(),
             Command::SetCompileOnSave(on) => self.open.compile.set_on_save(on),
-            Command::UseDevice { kind, on } => self.use_device(kind, on),
-            Command::ChooseCamera(id) => self.choose_camera(id),
-            Command::Play => self.play(),
-            Command::Pause => self.pause(),
-            Command::TogglePlay if self.is_playing() => self.pause(),
-            Command::TogglePlay => self.play(),
+            Command::UseDevice { kind, on } => self.open.use_device(kind, on),
+            Command::ChooseCamera(id) => self.open.choose_camera(id),
+            Command::Play => self.open.play(),
+            Command::Pause => self.open.pause(),
+            Command::TogglePlay if self.open.is_playing() => self.open.pause(),
+            Command::TogglePlay => self.open.play(),
             Command::Cover(is_covered) => {
                 if self.open.playback.cover(is_covered) {
                     self.services.last_pictures.want();
@@ -69,35 +70,35 @@ impl Session {
             Command::ListMidiDevices => self.list_midi_devices(),
             Command::LearnControl(target) => self.learn_control(target),
             Command::ForgetControl(target) => self.forget_control(&target),
-            Command::Hold => self.hold(),
-            Command::GoOn => self.go_on_drawing(),
+            Command::Hold => self.open.hold(),
+            Command::GoOn => self.open.go_on_drawing(),
             Command::DrawSmaller => self.draw_smaller(),
             Command::DrawLastGood => self.draw_last_good(),
-            Command::Step => self.step_forward(),
-            Command::StepBack(by) => self.step_back(by),
-            Command::Seek(secs) => self.seek(secs),
+            Command::Step => self.open.step_forward(),
+            Command::StepBack(by) => self.open.step_back(by),
+            Command::Seek(secs) => self.open.seek(secs),
             Command::SetSpeed(speed) => self.open.playback.clock.set_speed(speed),
             Command::SetFixedRate(rate) => self.open.playback.clock.set_fixed_rate(rate),
             Command::SetTimeRange(range) => self.open.playback.seeking.range = range,
             Command::SetProjectInPictures(on) => self.services.captures.with_project = on,
             Command::SetKeepInputs(on) => self.open.playback.seeking.keeps_inputs = on,
-            Command::Reset => self.reset(),
+            Command::Reset => self.open.reset(),
             // Minimised windows have no area; the picture keeps its size.
             Command::SetViewport { width: 0, .. } | Command::SetViewport { height: 0, .. } => {}
             Command::SetViewport { width, height } => {
                 self.open.canvas.set_viewport((width, height));
             }
-            Command::SetScale(scale) => self.set_scale(scale),
-            Command::SetFixedSize(size) => self.ask_size(CanvasSize { fixed: size, ..self.open.canvas.asked }),
+            Command::SetScale(scale) => self.open.set_scale(scale),
+            Command::SetFixedSize(size) => self.open.ask_size(CanvasSize { fixed: size, ..self.open.canvas.asked }),
             Command::SetChannel { pass, index, channel } => {
-                self.set_channel(&pass, index, channel);
+                self.open.set_channel(&pass, index, channel);
             }
-            Command::SetCustomUniform { name, value } => self.set_custom_uniform(&name, value),
+            Command::SetCustomUniform { name, value } => self.open.set_custom_uniform(&name, value),
             Command::AssignCustomUniform(assignment) => {
-                self.settled(About::CustomUniform);
+                self.open.settled(About::CustomUniform);
                 match self.open.documents.current_mut().set_custom_uniform(&assignment) {
-                    Ok(()) => self.custom_uniforms_turned(),
-                    Err(why) => self.notice_about(About::CustomUniform, Level::Error, format!("not set: {why}")),
+                    Ok(()) => self.open.custom_uniforms_turned(),
+                    Err(why) => self.open.notice_about(About::CustomUniform, Level::Error, format!("not set: {why}")),
                 }
             }
             Command::ResetCustomUniforms => {
@@ -109,12 +110,12 @@ impl Session {
                 if self.project().custom_uniform_values != before {
                     self.open.pass_history.push_uniforms(before, None);
                 }
-                self.custom_uniforms_turned();
+                self.open.custom_uniforms_turned();
             }
-            Command::AddTab(tab) => self.add_tab(&tab),
-            Command::EditPasses(edit) => self.edit_passes(edit),
-            Command::UndoPassEdit => self.undo_pass_edit(),
-            Command::RedoPassEdit => self.redo_pass_edit(),
+            Command::AddTab(tab) => self.open.add_tab(&tab),
+            Command::EditPasses(edit) => self.open.edit_passes(edit),
+            Command::UndoPassEdit => self.open.undo_pass_edit(),
+            Command::RedoPassEdit => self.open.redo_pass_edit(),
             // While a recording plays, its mouse is drawn.
             Command::MouseDown { .. }
             | Command::MouseMove { .. }
@@ -131,40 +132,40 @@ impl Session {
             Command::KeyDown(code) if self.open.playback.keyboard.is_held(code) => {}
             Command::KeyDown(code) => self.open.playback.press_key(code, |keyboard| keyboard.press(code)),
             Command::KeyUp(code) => self.open.playback.press_key(code, |keyboard| keyboard.release(code)),
-            Command::Focus(focused) => self.focus(focused),
+            Command::Focus(focused) => self.open.focus(focused),
             Command::Screenshot => self.capture(capture::Format::Png),
             Command::SaveTexels => self.capture(capture::Format::Npy),
-            Command::Record => self.record(),
+            Command::Record => self.open.record(),
             Command::MakeFilm(order) => self.begin_film(*order),
             Command::StopFilm => self.stop_film(),
             Command::CancelFilm => self.cancel_film(),
             Command::FindEncoders => self.find_encoders(),
-            Command::PlayRecording(file) => self.play_recording(file),
-            Command::StopReplay => self.end_replay("the picture continues live from there"),
-            Command::Audit => self.ask_audit(),
+            Command::PlayRecording(file) => self.open.play_recording(file),
+            Command::StopReplay => self.open.end_replay("the picture continues live from there"),
+            Command::Audit => self.open.ask_audit(),
             Command::HideAudit => self.open.audit.map = None,
-            Command::FindDivergence => self.want_divergence(),
-            Command::ShowPass(pass) => self.show_pass(pass),
+            Command::FindDivergence => self.open.want_divergence(),
+            Command::ShowPass(pass) => self.open.show_pass(pass),
             Command::Probe(place) => {
                 if self.open.read_backs.probing.want(place, self.open.documents.current()) {
-                    self.compile_soon();
+                    self.open.compile_soon();
                 }
             }
             Command::Trace(at) => {
                 if at.is_some() {
-                    self.pause();
+                    self.open.pause();
                 }
                 let probed = self.open.read_backs.probing.view().and_then(|view| Some(view.value?.ok()?.pass.clone()));
                 let pass = probed.unwrap_or_else(|| self.open.picture.shown.clone());
                 // With a probe the pass itself may not be drawn.
                 if at.is_some() && self.open.read_backs.probing.want(None, self.open.documents.current()) {
-                    self.compile_soon();
+                    self.open.compile_soon();
                 }
                 self.open.trace.want(at.map(|at| TracedPixel { pass, at }));
             }
             Command::LookAtProbe(look) => {
                 self.open.read_backs.probing.set_look(look);
-                self.look_anew();
+                self.open.look_anew();
             }
             Command::WatchCosts(on) => {
                 self.open.read_backs.costs.watch(on);
@@ -174,7 +175,7 @@ impl Session {
             Command::WatchBuffers(watch) => self.open.read_backs.buffers.watch(watch),
             Command::WatchMeasures(seen) => self.open.read_backs.measuring.watch(seen),
             Command::ClearMeasures => self.open.read_backs.measuring.clear(),
-            Command::SaveMeasures => self.save_measures(),
+            Command::SaveMeasures => self.open.save_measures(),
             Command::SaveSound => self.save_sound(),
             Command::FindNonfinite(is_wanted) => self.open.nan_search.want(is_wanted),
             Command::Compare(against) => self.open.comparison.want(against),
@@ -182,14 +183,16 @@ impl Session {
             Command::SetResetOnReload(on) => self.open.disk.reset_on_reload = on,
             Command::DismissNotice(id) => self.open.host.notices.dismiss(id),
             Command::Notify { level, text, path } => {
-                self.notice_about(About::Window, level, text);
+                self.open.notice_about(About::Window, level, text);
                 if let Some(notice) = self.open.host.notices.last_mut() {
                     notice.path = path;
                 }
             }
         }
     }
+}
 
+impl OpenProject {
     /// Returns whether the channel reads something else now.
     pub(super) fn set_channel(&mut self, pass: &PassName, index: usize, channel: Option<Channel>) -> bool {
         let folder = capture::base_folder(self.project());
@@ -199,7 +202,7 @@ impl Session {
             return false;
         }
         let before = self.project().clone();
-        if let Some(pass) = self.open.documents.current_mut().pass_mut(pass) {
+        if let Some(pass) = self.documents.current_mut().pass_mut(pass) {
             pass.bindings.set(index, channel);
         }
         self.note_pass_edit(format!("iChannel{index} of {}", pass.title()), before);
@@ -209,11 +212,11 @@ impl Session {
 
     /// Compiles in the next tick.
     pub(super) fn compile_soon(&mut self) {
-        self.open.compile.soon();
+        self.compile.soon();
     }
 
     fn edit_text(&mut self, tab: &Tab, text: &str) {
-        let Some(source) = self.open.documents.current().source(tab) else { return };
+        let Some(source) = self.documents.current().source(tab) else { return };
         if *source.text == *text {
             return;
         }
@@ -224,20 +227,20 @@ impl Session {
         let old = source.text.clone();
         // The worker reads included files when it compiles, so that no keystroke waits for a file.
         if include_names(&source.text) != include_names(text) {
-            self.open.compile.include_edits += 1;
+            self.compile.include_edits += 1;
         }
-        self.open.documents.set_text(tab, text);
+        self.documents.set_text(tab, text);
         self.follow_renamed_uniforms(&old, text);
-        self.open.read_backs.probing.follow(self.open.documents.current());
+        self.read_backs.probing.follow(self.documents.current());
         if let (Some(before), Tab::Pass(id)) = (before, tab) {
             let now = self.declared_channels(tab);
             if before != now
-                && let (Some(now), Some(pass)) = (now, self.open.documents.current_mut().pass_mut(id))
+                && let (Some(now), Some(pass)) = (now, self.documents.current_mut().pass_mut(id))
             {
                 pass.bindings = now;
             }
         }
-        self.open.compile.edit();
+        self.compile.edit();
     }
 
     /// Returns the channels that the tab's pass declares in its text.
@@ -250,26 +253,26 @@ impl Session {
 
     fn focus(&mut self, focused: bool) {
         if focused {
-            self.open.playback.rebase();
+            self.playback.rebase();
             // A watcher can miss changes (a network drive, a folder that was replaced), so check when the window
             // regains focus.
-            self.open.disk.want_check();
+            self.disk.want_check();
         } else {
-            self.open.playback.release_keys();
+            self.playback.release_keys();
         }
     }
 
     pub(super) fn show_pass(&mut self, pass: PassName) {
-        if self.open.picture.shown == pass || self.project().pass(&pass).is_none() {
+        if self.picture.shown == pass || self.project().pass(&pass).is_none() {
             return;
         }
-        let is_drawn = self.open.engine.draws(&pass);
-        self.open.picture.shown = pass.clone();
-        if self.open.read_backs.probing.want(None, self.open.documents.current()) {
+        let is_drawn = self.engine.draws(&pass);
+        self.picture.shown = pass.clone();
+        if self.read_backs.probing.want(None, self.documents.current()) {
             // The program does not draw the pass that is shown now.
             return self.compile_soon();
         }
-        self.open.changes.shown = Some(pass);
+        self.changes.shown = Some(pass);
         if !is_drawn {
             // A pass that nothing reads is in the program only while it is shown.
             self.compile_soon();

@@ -4,6 +4,7 @@
 use super::{
     Session,
     drawing::{Tasks, Ticket},
+    open_project::OpenProject,
     read_back::{Inspect, Inspected},
     view::{About, Level, TabDiagnostic},
 };
@@ -101,26 +102,28 @@ impl Session {
     pub fn audit_map(&self) -> Option<&AuditMap> {
         self.open.audit.map.as_ref()
     }
+}
 
+impl OpenProject {
     pub(super) fn ask_audit(&mut self) {
         self.settled(About::Audit);
         if self.is_playing() {
             self.pause();
         }
-        self.open.audit.background.request();
+        self.audit.background.request();
     }
 
     /// Submits the input that the audited pass read.
     pub(super) fn audit(&mut self) {
-        let Some(input) = self.open.audit.input.take() else { return };
-        match (input.output, self.open.engine.project().cloned()) {
+        let Some(input) = self.audit.input.take() else { return };
+        match (input.output, self.engine.project().cloned()) {
             (Ok(inspected), Some(project)) => {
-                self.open.audit.of_frame = self.open.picture.frames_drawn;
-                self.open.audit.background.start((project, inspected));
+                self.audit.of_frame = self.picture.frames_drawn;
+                self.audit.background.start((project, inspected));
             }
-            (Ok(_), None) => self.open.audit.background.cancel(),
+            (Ok(_), None) => self.audit.background.cancel(),
             (Err(e), _) => {
-                self.open.audit.background.cancel();
+                self.audit.background.cancel();
                 self.not_checked(&e.to_string());
             }
         }
@@ -128,16 +131,16 @@ impl Session {
 
     /// Takes a finished audit.
     pub(super) fn take_audited(&mut self) {
-        let Some(result) = self.open.audit.background.take() else { return };
-        self.open.host.changed = true;
+        let Some(result) = self.audit.background.take() else { return };
+        self.host.changed = true;
         let AuditSummary { pass, pixels, error, findings, map } = match result {
             Ok(summary) => summary,
             Err(why) => return self.not_checked(&why),
         };
         // A frame of another size was drawn meanwhile, and is shown now.
-        let is_shown = self.open.audit.of_frame == self.open.picture.frames_drawn;
+        let is_shown = self.audit.of_frame == self.picture.frames_drawn;
         if !is_shown && !self.is_playing() {
-            self.open.audit.background.request();
+            self.audit.background.request();
             return;
         }
         let count = match findings.len() {
@@ -151,14 +154,14 @@ impl Session {
                             pixels; {count}"
         );
         self.notice(Level::Info, text);
-        self.open.compile.diagnostics.extend(findings);
-        self.open.audit.map = Some(map).filter(|_| is_shown);
+        self.compile.diagnostics.extend(findings);
+        self.audit.map = Some(map).filter(|_| is_shown);
     }
 
     /// Drops the map: another picture is shown than the one that was audited.
     pub(super) fn picture_is_other(&mut self) {
-        self.open.picture.frames_drawn += 1;
-        self.open.audit.map = None;
+        self.picture.frames_drawn += 1;
+        self.audit.map = None;
     }
 
     fn not_checked(&mut self, why: &str) {

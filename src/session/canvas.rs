@@ -1,7 +1,7 @@
 //! The size of the picture: the requested size, and the size that the device accepts.
 
 use super::{
-    Session,
+    open_project::OpenProject,
     view::{About, Level},
 };
 use eddy_engine::EngineError;
@@ -61,11 +61,11 @@ impl Canvas {
     }
 }
 
-impl Session {
+impl OpenProject {
     pub(super) fn set_scale(&mut self, scale: f32) {
         self.settled(About::Scale);
         if scale.is_finite() && scale > 0.0 {
-            self.ask_size(CanvasSize { scale, ..self.open.canvas.asked });
+            self.ask_size(CanvasSize { scale, ..self.canvas.asked });
         } else {
             self.notice_about(About::Scale, Level::Error, format!("the resolution scale must be above 0, not {scale}"));
         }
@@ -74,31 +74,31 @@ impl Session {
     /// Sets the requested canvas size: of the open project, or if there is none, of each project to come.
     pub(super) fn ask_size(&mut self, size: CanvasSize) {
         self.end_replay("the resolution was changed");
-        self.open.canvas.replayed = None;
-        self.open.canvas.asked = size;
-        if self.open.host.serial == 0 {
-            self.open.canvas.usual = size;
+        self.canvas.replayed = None;
+        self.canvas.asked = size;
+        if self.host.serial == 0 {
+            self.canvas.usual = size;
         }
-        self.open.canvas.refused = None;
+        self.canvas.refused = None;
     }
 
     /// Resizes the engine to the canvas size.
     pub(super) fn fit_canvas(&mut self) {
-        let Some(size) = self.open.canvas.size() else { return };
-        let is_new = size != self.open.engine.coming_size() && self.open.canvas.refused != Some(size);
-        self.open.changes.size = is_new.then_some(size);
-        if !is_new && self.open.canvas.refused.is_none() {
+        let Some(size) = self.canvas.size() else { return };
+        let is_new = size != self.engine.coming_size() && self.canvas.refused != Some(size);
+        self.changes.size = is_new.then_some(size);
+        if !is_new && self.canvas.refused.is_none() {
             self.settled(About::CanvasSize);
         }
     }
 
     /// Handles a canvas size that the device does not accept.
     pub(super) fn size_refused(&mut self, size: (u32, u32), error: &EngineError) {
-        self.open.canvas.refused = Some(size);
-        let (width, height) = self.open.engine.size();
+        self.canvas.refused = Some(size);
+        let (width, height) = self.engine.size();
         let text = format!("{error}; the picture stays at {width}x{height}");
         self.notice_about(About::CanvasSize, Level::Error, text);
-        self.open.canvas.replayed = None;
+        self.canvas.replayed = None;
         self.end_replay("its resolution cannot be drawn on this GPU");
     }
 }

@@ -3,6 +3,7 @@
 use super::{
     Session,
     drawing::{RenderTask, Renderer, Tasks, Ticket},
+    open_project::OpenProject,
     scene::PictureSource,
     view::{About, Level},
 };
@@ -64,19 +65,19 @@ impl Session {
     /// Writes the shown pass to a new file, as soon as the engine is free.
     pub(super) fn capture(&mut self, format: capture::Format) {
         if !self.open.engine.has_program() {
-            self.notice_about(About::Drawing, Level::Warning, "there is no picture to save yet");
+            self.open.notice_about(About::Drawing, Level::Warning, "there is no picture to save yet");
             return;
         }
         let project = self.open.documents.current();
         // A picture of a probed value does not represent the project.
         let is_asked = self.services.captures.with_project && format == capture::Format::Png;
-        let source = (is_asked && self.pictured() == self.open.picture.shown).then(|| PictureSource {
+        let source = (is_asked && self.open.pictured() == self.open.picture.shown).then(|| PictureSource {
             project: project.clone(),
             pass: self.open.picture.shown.clone(),
-            has_state: self.has_state(),
+            has_state: self.open.has_state(),
         });
         self.services.captures.due.push(Capture {
-            pass: self.pictured(),
+            pass: self.open.pictured(),
             format,
             folder: capture::folder_for(project, &self.open.host.options.pictures),
             stem: capture::stem_for(project, &self.open.picture.shown),
@@ -94,11 +95,13 @@ impl Session {
     pub(super) fn write_captures(&mut self) {
         for (capture, mut ticket) in std::mem::take(&mut self.services.captures.in_flight) {
             if let Some(read) = ticket.take() {
-                self.write_capture(&capture, read.output);
+                self.open.write_capture(&capture, read.output);
             }
         }
     }
+}
 
+impl OpenProject {
     fn write_capture(&mut self, capture: &Capture, (pixels, scene): Captured) {
         let pixels = match pixels {
             Ok(pixels) => pixels,

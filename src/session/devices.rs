@@ -5,6 +5,7 @@
 
 use super::{
     Session,
+    open_project::OpenProject,
     view::{About, Level},
 };
 use eddy_project::{InputKind, Project};
@@ -100,7 +101,9 @@ impl Session {
     pub fn cameras(&self) -> (&[CameraDevice], Option<&CameraSource>) {
         (&self.open.devices.found, self.open.devices.camera.as_ref().map(Camera::source))
     }
+}
 
+impl OpenProject {
     /// Turns a device on or off, at the user's request.
     pub(super) fn use_device(&mut self, kind: InputKind, on: bool) {
         if kind != InputKind::Webcam {
@@ -108,55 +111,55 @@ impl Session {
         }
         self.settled(About::Device);
         if !on {
-            self.open.devices.consent.withdraw(kind);
-            if self.open.devices.turn_camera_off() {
+            self.devices.consent.withdraw(kind);
+            if self.devices.turn_camera_off() {
                 self.compile_soon();
             }
             return;
         }
-        self.open.devices.consent.allow(kind);
+        self.devices.consent.allow(kind);
         self.open_camera();
     }
 
     /// Chooses a camera and turns it on, at the user's request.
     pub(super) fn choose_camera(&mut self, id: String) {
-        self.open.devices.chosen = Some(CameraSource::Device(id));
-        self.open.devices.turn_camera_off();
+        self.devices.chosen = Some(CameraSource::Device(id));
+        self.devices.turn_camera_off();
         self.use_device(InputKind::Webcam, true);
     }
 
     fn open_camera(&mut self) {
-        if self.open.devices.camera.is_some() || !self.open.devices.consent.allows(InputKind::Webcam) {
+        if self.devices.camera.is_some() || !self.devices.consent.allows(InputKind::Webcam) {
             return;
         }
-        let wake = self.open.host.wake.clone();
-        let source = self.open.devices.chosen.clone().unwrap_or_else(|| self.open.host.options.camera.clone());
-        self.open.devices.camera = Some(Camera::open(source, &Tools::default(), move || wake()));
-        (self.open.devices.is_shown, self.open.devices.is_end_told) = (false, false);
+        let wake = self.host.wake.clone();
+        let source = self.devices.chosen.clone().unwrap_or_else(|| self.host.options.camera.clone());
+        self.devices.camera = Some(Camera::open(source, &Tools::default(), move || wake()));
+        (self.devices.is_shown, self.devices.is_end_told) = (false, false);
     }
 
     /// Shows a camera that has started, and reports one that has stopped.
     pub(super) fn follow_devices(&mut self) {
-        let Some(camera) = &self.open.devices.camera else { return };
-        if camera.newest().is_some() && !std::mem::replace(&mut self.open.devices.is_shown, true) {
-            self.open.devices.found = camera.found();
-            self.open.host.changed = true;
+        let Some(camera) = &self.devices.camera else { return };
+        if camera.newest().is_some() && !std::mem::replace(&mut self.devices.is_shown, true) {
+            self.devices.found = camera.found();
+            self.host.changed = true;
             self.compile_soon();
             return;
         }
-        let Some(error) = camera.error().filter(|_| !self.open.devices.is_end_told) else { return };
+        let Some(error) = camera.error().filter(|_| !self.devices.is_end_told) else { return };
         let has_picture = camera.newest().is_some();
         let text = match (&error, has_picture) {
             (VideoError::Camera(why), true) => format!("the camera stopped ({why}); its last picture stays"),
             (_, true) => format!("the camera stopped: {error}; its last picture stays"),
             (_, false) => format!("{error}; {}", error.hint()),
         };
-        self.open.devices.is_end_told = true;
+        self.devices.is_end_told = true;
         self.notice_about(About::Device, Level::Warning, text);
         if !has_picture {
-            self.open.devices.camera = None;
-            self.open.devices.consent.withdraw(InputKind::Webcam);
-            self.open.host.changed = true;
+            self.devices.camera = None;
+            self.devices.consent.withdraw(InputKind::Webcam);
+            self.host.changed = true;
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::{
     Session,
     drawing::{Done, DrawnFrame, Job, Tasks, TileLimit, beside},
+    open_project::OpenProject,
     view::{About, Level},
 };
 use eddy_engine::{EngineError, FrameInputs};
@@ -41,14 +42,14 @@ impl Session {
         let (mut is_drawn, mut has_run) = (false, !runs);
         while !self.services.drawing.is_busy() && !self.open.halt.is_held() && !self.open.halt.is_device_gone() {
             if !self.open.playback.is_replaying() {
-                self.loop_range();
+                self.open.loop_range();
             }
             if self.travel() {
                 is_drawn |= self.take_drawn(true);
                 continue;
             }
             let frame = self.next_frame(&mut has_run);
-            let again = frame.is_none() && self.take_again();
+            let again = frame.is_none() && self.open.take_again();
             let mut tasks = self.due_tasks(frame.is_some() || again);
             if frame.is_some() {
                 self.request_film_frame(&mut tasks);
@@ -71,11 +72,11 @@ impl Session {
         }
         let is_step = self.services.films.has_room() && self.open.playback.take_step();
         if self.open.playback.is_replaying() {
-            return self.next_replayed(is_step);
+            return self.open.next_replayed(is_step);
         }
         // The first frame of a new program does not wait for the next tick.
         let may_run = (!*has_run || self.open.picture.is_program_new)
-            && !self.gives_way()
+            && !self.open.gives_way()
             && self.services.films.may_draw(self.open.host.now);
         *has_run |= !is_step && self.open.playback.is_running();
         let is_new = is_step || self.open.playback.is_running();
@@ -85,15 +86,15 @@ impl Session {
         if is_new {
             self.note_heard(inputs.time_secs);
         }
-        self.take_values_back();
+        self.open.take_values_back();
         Some(inputs)
     }
 
     /// `again`: the shown frame is drawn again.
     pub(super) fn hand_in(&mut self, frame: Option<FrameInputs>, again: bool, tasks: Tasks) {
-        let stays = self.stays() && !std::mem::take(&mut self.open.playback.replay.follows);
+        let stays = self.open.stays() && !std::mem::take(&mut self.open.playback.replay.follows);
         // Before a new frame the shown one is drawn again, with what was changed meanwhile.
-        self.note_job(frame.as_ref(), again || (stays && frame.is_some()));
+        self.open.note_job(frame.as_ref(), again || (stays && frame.is_some()));
         if let Some(frame) = &frame {
             self.open.read_backs.measuring.begin_frame(frame.frame);
         } else if again {
@@ -101,20 +102,14 @@ impl Session {
         }
         let costs_of = self.open.read_backs.costs.is_watched().then(|| self.open.documents.current().clone());
         let tile_limit = self.tile_limit();
-        let may_wait = self.is_one_of_many() && tasks.is_empty() && costs_of.is_none();
+        let may_wait = self.open.is_one_of_many() && tasks.is_empty() && costs_of.is_none();
         if self.open.changes.program.is_some() {
-            self.mark_new_code();
+            self.open.mark_new_code();
         }
         self.submit(may_wait, |job| {
             (job.frame, job.stays, job.again, job.tasks) = (frame, stays, again, tasks);
             (job.costs_of, job.tile_limit) = (costs_of, tile_limit);
         });
-    }
-
-    /// Returns whether the next frame is followed by similar ones, so that it may be dropped. The first frame of a
-    /// program is always shown, however soon another follows, and so is a frame that is drawn while time is paused.
-    pub(super) fn is_one_of_many(&self) -> bool {
-        self.open.playback.clock.is_playing() && !self.open.picture.is_program_new && self.open.changes.is_empty()
     }
 
     fn tile_limit(&self) -> Option<TileLimit> {
@@ -139,7 +134,7 @@ impl Session {
             return false;
         }
         if done.is_again_lost {
-            self.again_is_lost();
+            self.open.again_is_lost();
         }
         let has_frame = done.frame.is_some() || matches!(done.travelled, Some(Some(Ok(_))));
         if let Some(travelled) = done.travelled {
@@ -149,12 +144,12 @@ impl Session {
         self.feed_film();
         match done.resized {
             Some((_, Ok(()))) => {
-                self.settled(About::CanvasSize);
+                self.open.settled(About::CanvasSize);
                 self.open.halt.begin_pace();
                 self.open.playback.is_again_due |= !has_frame;
                 self.open.host.changed = true;
             }
-            Some((size, Err(e))) => self.size_refused(size, &e),
+            Some((size, Err(e))) => self.open.size_refused(size, &e),
             None => {}
         }
         match done.program {
@@ -192,17 +187,10 @@ impl Session {
         }
     }
 
-    /// Tells the engine how to display a probe, if that has changed.
-    pub(super) fn look_anew(&mut self) {
-        if let Some(look) = self.open.read_backs.probing.take_look(false) {
-            self.open.changes.look = Some(look);
-        }
-    }
-
     fn frame_is_drawn(&mut self, frame: DrawnFrame) {
         let DrawnFrame { cpu_micros, times, took } = frame;
-        self.picture_is_other();
-        self.settled(About::Drawing);
+        self.open.picture_is_other();
+        self.open.settled(About::Drawing);
         self.open.read_backs.cpu_micros = cpu_micros;
         if let Some(times) = times {
             self.open.read_backs.costs.add(times, self.open.engine.clock());
@@ -221,20 +209,20 @@ impl Session {
         self.open.playback.seeking.awaits_program = false;
         self.open.picture.is_program_new = true;
         self.open.host.changed = true;
-        self.open.compile.set_compiling(self.is_compile_under_way());
+        self.open.compile.set_compiling(self.open.is_compile_under_way());
         if let Some(millis) = self.open.engine.new_program_millis() {
-            self.settled_by_edit();
+            self.open.settled_by_edit();
             self.open.compile.succeed(millis);
             if std::mem::take(&mut self.open.compile.resets) {
-                self.reset();
+                self.open.reset();
             } else {
-                self.keep_inputs();
+                self.open.keep_inputs();
             }
         } else {
             // The picture is older than the text of the errors.
             self.open.compile.fail(self.open.engine.has_program());
         }
-        self.halt_for_new_program(forecast);
+        self.open.halt_for_new_program(forecast);
     }
 
     /// Handles a frame that could not be drawn: the picture stops, everything else continues.
@@ -245,12 +233,12 @@ impl Session {
             return;
         }
         self.open.playback.clock.pause();
-        self.end_replay("a frame could not be drawn");
+        self.open.end_replay("a frame could not be drawn");
         self.open.playback.forget_due_frames();
         if !is_lost {
-            self.notice_about(About::Drawing, Level::Error, format!("{error}; the picture is paused"));
+            self.open.notice_about(About::Drawing, Level::Error, format!("{error}; the picture is paused"));
         } else if self.open.halt.lose_device() {
-            self.notice_about(
+            self.open.notice_about(
                 About::Window,
                 Level::Error,
                 format!("{error}. Your texts are unchanged: save them, then restart Eddy to continue drawing"),
@@ -263,10 +251,25 @@ impl Session {
         self.services.drawing.show_on(window.clone())?;
         self.services.sound_pass.change_device(beside(window));
         // Request it again, also while paused.
-        self.open.changes.shown = Some(self.pictured());
+        self.open.changes.shown = Some(self.open.pictured());
         self.services.display.generation += 1;
         self.services.display.shown_count += 1;
         self.open.host.changed = true;
         Ok(())
+    }
+}
+
+impl OpenProject {
+    /// Returns whether the next frame is followed by similar ones, so that it may be dropped. The first frame of a
+    /// program is always shown, however soon another follows, and so is a frame that is drawn while time is paused.
+    pub(super) fn is_one_of_many(&self) -> bool {
+        self.playback.clock.is_playing() && !self.picture.is_program_new && self.changes.is_empty()
+    }
+
+    /// Tells the engine how to display a probe, if that has changed.
+    pub(super) fn look_anew(&mut self) {
+        if let Some(look) = self.read_backs.probing.take_look(false) {
+            self.changes.look = Some(look);
+        }
     }
 }

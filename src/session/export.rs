@@ -2,9 +2,9 @@
 //! and no file is replaced without asking.
 
 use super::{
-    Session,
     command::Question,
     files::save_over,
+    open_project::OpenProject,
     view::{About, Level},
 };
 use eddy_diag::{self as diag, Diagnostic, SourceMap};
@@ -13,7 +13,7 @@ use eddy_glsl::Driver;
 use eddy_project::{self as project, Project, ProjectError};
 use std::path::{Path, PathBuf};
 
-impl Session {
+impl OpenProject {
     /// Writes the project to a JSON file if nothing is lost and the file does not exist; asks first otherwise. The
     /// project's origin and unsaved state stay.
     pub(super) fn export_json(&mut self, file: &Path) {
@@ -36,7 +36,7 @@ impl Session {
     /// `replaces`: the user allows replacing the existing file.
     pub(super) fn write_json(&mut self, file: &Path, replaces: bool) {
         let replaced = if replaces { vec![file.to_owned()] } else { Vec::new() };
-        match save_over(self.project(), file, &replaced, self.open.host.options.recovery.as_deref()) {
+        match save_over(self.project(), file, &replaced, self.host.options.recovery.as_deref()) {
             Ok((_, kept)) => {
                 self.notice_with_path(
                     About::Export,

@@ -2,8 +2,8 @@
 //! anything is written, and no file is replaced without asking.
 
 use super::{
-    Session,
     command::Question,
+    open_project::OpenProject,
     recovery::place_for_replaced,
     view::{About, Level},
 };
@@ -12,7 +12,7 @@ use eddy_project::{self as project, Overwrite, ProjectError};
 use eddy_web as web;
 use std::path::{Path, PathBuf};
 
-impl Session {
+impl OpenProject {
     /// Writes the project to an HTML file if the page shows everything and the file does not exist; asks first
     /// otherwise. The project's origin and unsaved state stay.
     pub(super) fn export_page(&mut self, file: &Path) {
@@ -36,7 +36,7 @@ impl Session {
     /// `replaces`: the user allows replacing the existing file.
     pub(super) fn write_page(&mut self, file: &Path, replaces: bool) {
         let Some((html, lost)) = self.page() else { return };
-        let kept = replaces.then(|| place_for_replaced(self.open.host.options.recovery.as_deref(), file));
+        let kept = replaces.then(|| place_for_replaced(self.host.options.recovery.as_deref(), file));
         let overwrite = kept.as_deref().map_or(Overwrite::Refuse, Overwrite::KeepIn);
         match project::write_named(file, html.into_bytes(), overwrite) {
             Ok(()) => {
@@ -57,7 +57,7 @@ impl Session {
     /// Returns the page of the project and the features that it does not show, each as a sentence. `None`: the project
     /// has errors, which are reported.
     fn page(&mut self) -> Option<(String, Vec<String>)> {
-        match web::export(self.project(), self.open.host.options.media_dir.as_deref()) {
+        match web::export(self.project(), self.host.options.media_dir.as_deref()) {
             Ok(page) => {
                 // The compiler's warnings have a place, and are in the list of problems already.
                 let is_new = |d: &&Diagnostic| d.severity == Severity::Warning && d.span.is_none();

@@ -5,6 +5,7 @@ use super::{
     command::{Answer, Command, PendingAction, Question, Request},
     documents::Documents,
     export_page::is_page,
+    open_project::OpenProject,
     recovery::{KEPT_DAYS, place_for_replaced},
     scene, template,
     view::{About, Level, TabDiagnostic},
@@ -24,7 +25,7 @@ impl Session {
             Command::Answer(answer) => self.answer(answer),
             // A front end shows nothing else while a question is open; a script may still send commands.
             _ if self.question().is_some() => {
-                self.notice_about(About::Question, Level::Warning, "answer the open question first");
+                self.open.notice_about(About::Question, Level::Warning, "answer the open question first");
             }
             Command::Open(spec) if scene::holds_project(Path::new(&spec)) => self.open_picture(Path::new(&spec)),
             Command::Open(spec) => self.unless_unsaved(PendingAction::Open(spec)),
@@ -37,21 +38,16 @@ impl Session {
                 self.save();
             }
             Command::SaveAs(folder) => self.save_as(&folder, &[]),
-            Command::ExportJson(file) => self.export_json(&file),
-            Command::ExportPage(file) => self.export_page(&file),
+            Command::ExportJson(file) => self.open.export_json(&file),
+            Command::ExportPage(file) => self.open.export_page(&file),
             _ => self.open.host.dialog.after_save = None,
         }
-    }
-
-    pub(super) fn ask(&mut self, question: Question) {
-        self.open.host.dialog.questions.push_back(question);
-        self.open.host.changed = true;
     }
 
     pub(super) fn unless_unsaved(&mut self, then: PendingAction) {
         if self.is_dirty() {
             let tabs = self.open.documents.dirty_tabs();
-            self.ask(Question::Unsaved { then, tabs });
+            self.open.ask(Question::Unsaved { then, tabs });
         } else {
             self.go_on(then);
         }
@@ -75,7 +71,7 @@ impl Session {
             PendingAction::Recover(file) => self.recover(&file),
             PendingAction::Close if self.asks_about_film() => {}
             PendingAction::Close => {
-                self.end_recording();
+                self.open.end_recording();
                 self.keep_time();
                 self.forget_unsaved();
                 self.open.host.dialog.requests.push_back(Request::Exit);
@@ -84,33 +80,33 @@ impl Session {
     }
 
     fn open(&mut self, spec: &str) {
-        self.settled(About::Opening);
+        self.open.settled(About::Opening);
         match project::load(spec) {
             Ok(loaded) => {
                 self.replace(Documents::new(loaded.project));
-                self.note_reading(&loaded.warnings, &loaded.sources);
+                self.open.note_reading(&loaded.warnings, &loaded.sources);
             }
-            Err(e) => self.notice_about(About::Opening, Level::Error, format!("cannot open {spec}: {e}")),
+            Err(e) => self.open.notice_about(About::Opening, Level::Error, format!("cannot open {spec}: {e}")),
         }
     }
 
     /// Writes the project to where it came from. Returns whether nothing unsaved is left.
     fn save(&mut self) -> bool {
-        self.settled(About::Saving);
+        self.open.settled(About::Saving);
         let home = match &self.project().origin {
             Origin::Folder { path, .. } | Origin::File(path) => path.clone(),
             Origin::Unsaved | Origin::Preset(_) | Origin::Json(_) => {
-                self.request_save_as();
+                self.open.request_save_as();
                 return false;
             }
         };
-        if !self.may_overwrite() {
+        if !self.open.may_overwrite() {
             return false;
         }
-        self.settle_includes();
+        self.open.settle_includes();
         if !self.is_dirty() {
             self.open.compile.saved();
-            self.notice(Level::Info, "nothing to save: the files are up to date");
+            self.open.notice(Level::Info, "nothing to save: the files are up to date");
             return true;
         }
         match project::save(self.project(), &home, Overwrite::Refuse) {
@@ -120,53 +116,43 @@ impl Session {
             }
             // The name of a pass that was added here is that of a file outside this project.
             Err(ProjectError::WouldOverwrite { paths }) => {
-                self.ask(Question::Overwrite { folder: home, files: paths });
+                self.open.ask(Question::Overwrite { folder: home, files: paths });
                 false
             }
             // Texts are written if they can be, even if the rest cannot.
             Err(ProjectError::CannotHold { what, .. })
-                if self.open.host.dialog.after_save.is_none() && self.save_texts(&home) =>
+                if self.open.host.dialog.after_save.is_none() && self.open.save_texts(&home) =>
             {
                 let place = home.display();
                 let text = format!(
                     "saved the code of {place}; it cannot store {what}. Save again to put the project into a folder"
                 );
-                self.notice_about(About::Saving, Level::Warning, text);
+                self.open.notice_about(About::Saving, Level::Warning, text);
                 false
             }
             Err(e @ ProjectError::CannotHold { .. }) => {
-                self.notice_about(About::Saving, Level::Warning, e.to_string());
-                self.request_save_as();
+                self.open.notice_about(About::Saving, Level::Warning, e.to_string());
+                self.open.request_save_as();
                 false
             }
             Err(e) => {
-                self.save_failed(&e);
+                self.open.save_failed(&e);
                 false
             }
         }
-    }
-
-    /// Returns whether the project's own files contain nothing that the user has not seen.
-    fn may_overwrite(&mut self) -> bool {
-        let is_asked = self.open.host.dialog.questions.iter().any(|q| matches!(q, Question::Conflict { .. }));
-        let may = !is_asked && self.disk_is_as_read();
-        if !may {
-            self.open.host.dialog.after_save = None;
-        }
-        may
     }
 
     /// `replaced`: the foreign files that the user allows replacing.
     fn save_as(&mut self, folder: &Path, replaced: &[PathBuf]) {
-        self.settled(About::Saving);
+        self.open.settled(About::Saving);
         // A typed path may be relative to where Eddy was started.
         let folder = &std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         let home = capture::base_folder(self.project()).and_then(|home| home.canonicalize().ok());
         let is_home = home.is_some_and(|home| folder.canonicalize().is_ok_and(|folder| folder == home));
-        if is_home && !self.may_overwrite() {
+        if is_home && !self.open.may_overwrite() {
             return;
         }
-        self.settle_includes();
+        self.open.settle_includes();
         let mut project = self.project().clone();
         if !is_same_place(&project.origin, folder) {
             project.name = project::name_at(folder);
@@ -175,49 +161,18 @@ impl Session {
             Ok((saved, kept)) => {
                 self.saved(saved);
                 if let Some(kept) = kept {
-                    self.tell_of_kept(replaced.len(), kept);
+                    self.open.tell_of_kept(replaced.len(), kept);
                 }
                 // Pictures are read from the new place, and the texts have new names in diagnostics.
                 self.open.disk.has_moved();
-                self.compile_soon();
+                self.open.compile_soon();
                 self.finish_save();
             }
             Err(ProjectError::WouldOverwrite { paths }) => {
-                self.ask(Question::Overwrite { folder: folder.to_owned(), files: paths });
+                self.open.ask(Question::Overwrite { folder: folder.to_owned(), files: paths });
             }
-            Err(e) => self.save_failed(&e),
+            Err(e) => self.open.save_failed(&e),
         }
-    }
-
-    /// Reports where the files that a save has replaced are kept.
-    pub(super) fn tell_of_kept(&mut self, count: usize, kept: PathBuf) {
-        let files =
-            if count == 1 { "the file that was replaced is".into() } else { format!("the {count} replaced files are") };
-        let time =
-            self.open.host.options.recovery.as_ref().map(|_| format!(" for {KEPT_DAYS} days")).unwrap_or_default();
-        let text = format!("{files} kept in {}{time}", kept.display());
-        self.notice_with_path(About::Saving, Level::Info, text, kept);
-    }
-
-    /// Writes the edited texts alone. Returns false if there are none, or they cannot be written there.
-    fn save_texts(&mut self, home: &Path) -> bool {
-        let Some(project) = self.open.documents.edited_texts() else { return false };
-        if project::save(&project, home, Overwrite::Refuse).is_err() {
-            return false;
-        }
-        self.read_disk();
-        self.open.compile.saved();
-        true
-    }
-
-    fn request_save_as(&mut self) {
-        let suggested_name = capture::file_stem(&self.project().name);
-        self.open.host.dialog.requests.push_back(Request::SaveAs { suggested_name });
-    }
-
-    fn save_failed(&mut self, error: &ProjectError) {
-        self.open.host.dialog.after_save = None;
-        self.notice_about(About::Saving, Level::Error, format!("not saved: {error}; your changes are still open here"));
     }
 
     fn saved(&mut self, project: Project) {
@@ -229,12 +184,12 @@ impl Session {
         if self.open.documents.set_saved(project) {
             // The last compile was of the edited version, which differs.
             self.open.pass_history.clear();
-            self.after_reload();
+            self.open.after_reload();
         }
         self.place_known();
-        self.disk_is_known();
+        self.open.disk_is_known();
         self.open.compile.saved();
-        self.notice(Level::Info, format!("saved {place}"));
+        self.open.notice(Level::Info, format!("saved {place}"));
     }
 
     fn finish_save(&mut self) {
@@ -244,7 +199,7 @@ impl Session {
     }
 
     fn answer(&mut self, answer: Answer) {
-        self.settled(About::Question);
+        self.open.settled(About::Question);
         let Some(question) = self.open.host.dialog.questions.pop_front() else { return };
         match (question, answer) {
             (Question::Unsaved { then, .. }, Answer::Save) => {
@@ -255,8 +210,10 @@ impl Session {
             }
             (Question::Unsaved { then, .. }, Answer::Discard) => self.go_on(then),
             (Question::Overwrite { folder, files }, Answer::Overwrite) => self.save_as(&folder, &files),
-            (Question::Export { file, exists, .. }, Answer::Export) if is_page(&file) => self.write_page(&file, exists),
-            (Question::Export { file, exists, .. }, Answer::Export) => self.write_json(&file, exists),
+            (Question::Export { file, exists, .. }, Answer::Export) if is_page(&file) => {
+                self.open.write_page(&file, exists)
+            }
+            (Question::Export { file, exists, .. }, Answer::Export) => self.open.write_json(&file, exists),
             (Question::Export { .. } | Question::Film { .. }, Answer::Cancel) => {}
             (Question::Film { .. }, Answer::Finish) => self.close_after_film(),
             (Question::Film { .. }, Answer::Discard) => {
@@ -269,9 +226,9 @@ impl Session {
             (Question::Conflict { tab, file, mine, disk, diff }, answer) => {
                 // The text may have been edited since the question was asked.
                 let mine_now = tab.as_ref().map_or_else(|| mine.to_string(), |t| self.text(t).to_owned());
-                if let Err(why) = self.settle(tab.as_ref(), &file, &mine_now, &disk, answer) {
+                if let Err(why) = self.open.settle(tab.as_ref(), &file, &mine_now, &disk, answer) {
                     if let Some(why) = why {
-                        self.notice(Level::Error, why);
+                        self.open.notice(Level::Error, why);
                     }
                     self.open.host.dialog.questions.push_front(Question::Conflict { tab, file, mine, disk, diff });
                 }
@@ -283,6 +240,53 @@ impl Session {
             }
             (question, _) => self.open.host.dialog.questions.push_front(question),
         }
+    }
+}
+
+impl OpenProject {
+    pub(super) fn ask(&mut self, question: Question) {
+        self.host.dialog.questions.push_back(question);
+        self.host.changed = true;
+    }
+
+    /// Returns whether the project's own files contain nothing that the user has not seen.
+    fn may_overwrite(&mut self) -> bool {
+        let is_asked = self.host.dialog.questions.iter().any(|q| matches!(q, Question::Conflict { .. }));
+        let may = !is_asked && self.disk_is_as_read();
+        if !may {
+            self.host.dialog.after_save = None;
+        }
+        may
+    }
+
+    /// Reports where the files that a save has replaced are kept.
+    pub(super) fn tell_of_kept(&mut self, count: usize, kept: PathBuf) {
+        let files =
+            if count == 1 { "the file that was replaced is".into() } else { format!("the {count} replaced files are") };
+        let time = self.host.options.recovery.as_ref().map(|_| format!(" for {KEPT_DAYS} days")).unwrap_or_default();
+        let text = format!("{files} kept in {}{time}", kept.display());
+        self.notice_with_path(About::Saving, Level::Info, text, kept);
+    }
+
+    /// Writes the edited texts alone. Returns false if there are none, or they cannot be written there.
+    fn save_texts(&mut self, home: &Path) -> bool {
+        let Some(project) = self.documents.edited_texts() else { return false };
+        if project::save(&project, home, Overwrite::Refuse).is_err() {
+            return false;
+        }
+        self.read_disk();
+        self.compile.saved();
+        true
+    }
+
+    fn request_save_as(&mut self) {
+        let suggested_name = capture::file_stem(&self.project().name);
+        self.host.dialog.requests.push_back(Request::SaveAs { suggested_name });
+    }
+
+    fn save_failed(&mut self, error: &ProjectError) {
+        self.host.dialog.after_save = None;
+        self.notice_about(About::Saving, Level::Error, format!("not saved: {error}; your changes are still open here"));
     }
 
     /// Resolves a conflict after writing the other text to a file of its own. Fails with a message, or silently for an
@@ -307,10 +311,10 @@ impl Session {
         };
         if answer != Answer::KeepMine {
             match tab {
-                Some(tab) => self.open.documents.take_text_of_saved(tab),
+                Some(tab) => self.documents.take_text_of_saved(tab),
                 None => {
-                    self.open.documents.take_structure_of_saved();
-                    self.open.pass_history.clear();
+                    self.documents.take_structure_of_saved();
+                    self.pass_history.clear();
                 }
             }
             self.after_reload();
@@ -322,12 +326,12 @@ impl Session {
     /// Keeps the warnings from loading the open project for the list of problems, without those that each compile
     /// repeats.
     pub(super) fn note_reading(&mut self, warnings: &[Diagnostic], sources: &SourceMap) {
-        let mut project = self.open.documents.saved().clone();
+        let mut project = self.documents.saved().clone();
         let mut again = project::advice(&project);
         again.extend(project::declare_channels(&mut project));
         let is_new = |d: &&Diagnostic| !again.iter().any(|other| other.repeats(d));
         let kept = warnings.iter().filter(is_new).map(|d| TabDiagnostic::new(d, sources, &project)).collect();
-        self.open.compile.read = kept;
+        self.compile.read = kept;
     }
 
     pub(super) fn tell_diagnostics(&mut self, diagnostics: &[Diagnostic], sources: &SourceMap) {

@@ -6,6 +6,7 @@
 use super::{
     Session,
     command::{Command, PendingAction},
+    open_project::OpenProject,
     scene,
     view::{About, Level},
 };
@@ -19,10 +20,10 @@ const MEASURED: u64 = 48 << 20;
 impl Session {
     /// Imports a pasted text.
     pub(super) fn paste(&mut self, text: &str) {
-        self.settled(About::Opening);
+        self.open.settled(About::Opening);
         match project::import_of_text(text) {
             Ok(TextImport::Project(loaded)) => {
-                self.tell_diagnostics(&loaded.warnings, &loaded.sources);
+                self.open.tell_diagnostics(&loaded.warnings, &loaded.sources);
                 self.unless_unsaved(PendingAction::Keep(Box::new(loaded.project)));
             }
             Ok(TextImport::Place(place)) => {
@@ -33,27 +34,27 @@ impl Session {
                     self.apply_to_files(Command::Open(place));
                 }
             }
-            Err(e) => self.notice_about(About::Opening, Level::Warning, format!("nothing was pasted: {e}")),
+            Err(e) => self.open.notice_about(About::Opening, Level::Warning, format!("nothing was pasted: {e}")),
         }
     }
 
     /// Imports files. `to`: the front pass and the channel that they were dropped on, or `None` if no project is shown:
     /// then a picture or a model creates a new one.
     pub(super) fn bring(&mut self, paths: Vec<PathBuf>, to: Option<(PassName, Option<usize>)>) {
-        self.settled(About::Opening);
+        self.open.settled(About::Opening);
         let of = |kind: FileKind| paths.iter().filter(move |p| project::kind_of_file(p) == kind);
-        self.tell_unfit(&paths);
+        self.open.tell_unfit(&paths);
         let projects: Vec<&Path> = of(FileKind::Project).map(PathBuf::as_path).collect();
         if let Some(first) = projects.first() {
             let parts = project::folder_of_parts(&projects);
             if projects.len() > 1 && parts.is_none() {
                 let text =
                     format!("{} was opened; the other projects were skipped, as only one can be open", name(first));
-                self.notice(Level::Info, text);
+                self.open.notice(Level::Info, text);
             }
             if let Some(recording) = of(FileKind::Recording).next() {
                 let text = format!("drop {} again once the project is open, to play it there", name(recording));
-                self.notice(Level::Info, text);
+                self.open.notice(Level::Info, text);
             }
             let place = parts.unwrap_or(first).display().to_string();
             return self.apply_to_files(Command::Open(place));
@@ -65,7 +66,7 @@ impl Session {
         }
         if let Some(recording) = of(FileKind::Recording).next() {
             let file = recording.clone();
-            return self.bring_recording(file, to.is_some());
+            return self.open.bring_recording(file, to.is_some());
         }
         let pictures = of(FileKind::Picture).chain(of(FileKind::Video)).chain(of(FileKind::Sound));
         let pictures: Vec<&Path> = pictures.map(PathBuf::as_path).collect();
@@ -74,27 +75,29 @@ impl Session {
         match to {
             None => {
                 let mut project = project::new_for(first, pictures.is_empty());
-                let done = self.put_in(&mut project, &PassName::image(), None, &pictures, &models);
+                let done = self.open.put_in(&mut project, &PassName::image(), None, &pictures, &models);
                 self.unless_unsaved(PendingAction::Keep(Box::new(project)));
-                self.notice(Level::Info, format!("a new shader: {done}"));
+                self.open.notice(Level::Info, format!("a new shader: {done}"));
             }
             Some((pass, channel)) => {
                 let pass = if pass.is_picture() { pass } else { PassName::image() };
                 let before = self.project().clone();
                 let mut project = before.clone();
-                let done = self.put_in(&mut project, &pass, channel, &pictures, &models);
+                let done = self.open.put_in(&mut project, &pass, channel, &pictures, &models);
                 if project == before {
-                    return self.notice(Level::Warning, done);
+                    return self.open.notice(Level::Warning, done);
                 }
                 *self.open.documents.current_mut() = project;
                 let names: Vec<String> = pictures.iter().chain(&models).map(|p| name(p)).collect();
-                self.note_pass_edit(format!("use {}", listed(&names)), before);
-                self.passes_changed();
-                self.notice_with_undo(done);
+                self.open.note_pass_edit(format!("use {}", listed(&names)), before);
+                self.open.passes_changed();
+                self.open.notice_with_undo(done);
             }
         }
     }
+}
 
+impl OpenProject {
     /// Plays a recording in the open project, if one is shown.
     fn bring_recording(&mut self, file: PathBuf, is_project_shown: bool) {
         if is_project_shown {

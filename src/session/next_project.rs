@@ -6,7 +6,7 @@ use std::mem::replace;
 impl Session {
     /// Replaces the project by another, which continues from its time when it was last open.
     pub(super) fn replace(&mut self, documents: Documents) {
-        self.end_recording();
+        self.open.end_recording();
         self.stop_film();
         self.keep_time();
         let is_overdue = self.overdue().is_some();
@@ -20,11 +20,11 @@ impl Session {
         self.services.sound_pass.silence();
         self.services.recovery.kept = None;
         self.services.last_pictures.ticket = Ticket::default();
-        self.forget_notices();
+        self.open.forget_notices();
         self.restore_run();
-        self.hold_after_trouble();
-        self.disk_is_known();
-        self.compile_soon();
-        self.read_declared_uniforms();
+        self.open.hold_after_trouble();
+        self.open.disk_is_known();
+        self.open.compile_soon();
+        self.open.read_declared_uniforms();
     }
 }

@@ -1,7 +1,7 @@
 //! Notices: messages that are shown once, and when they are dismissed.
 
 use super::{
-    Session,
+    open_project::OpenProject,
     view::{About, Level, Notice},
 };
 use std::{path::PathBuf, time::Instant};
@@ -46,7 +46,7 @@ impl Notices {
     }
 }
 
-impl Session {
+impl OpenProject {
     /// Shows a notice about the open project.
     pub(super) fn notice(&mut self, level: Level, text: impl Into<String>) {
         self.notice_about(About::Project, level, text);
@@ -63,13 +63,13 @@ impl Session {
             },
             "{text}"
         );
-        self.open.host.notices.push(about, level, text, self.open.host.now);
-        self.open.host.changed = true;
+        self.host.notices.push(about, level, text, self.host.now);
+        self.host.changed = true;
     }
 
     /// Shows a notice unless it is shown already.
     pub(super) fn notice_once(&mut self, about: About, level: Level, text: &str) {
-        if self.open.host.notices.list.iter().all(|notice| notice.text != text) {
+        if self.host.notices.list.iter().all(|notice| notice.text != text) {
             self.notice_about(about, level, text);
         }
     }
@@ -77,31 +77,29 @@ impl Session {
     /// Shows a notice with a file that can be opened.
     pub(super) fn notice_with_path(&mut self, about: About, level: Level, text: impl Into<String>, path: PathBuf) {
         self.notice_about(about, level, text);
-        if let Some(notice) = self.open.host.notices.last_mut() {
+        if let Some(notice) = self.host.notices.last_mut() {
             notice.path = Some(path);
         }
     }
 
     /// The problem was fixed or the operation is retried: dismisses the notices about it. Success notices expire.
     pub(super) fn settled(&mut self, about: About) {
-        self.open.host.changed |=
-            self.open.host.notices.retain(|notice| notice.about != about || notice.level == Level::Info);
+        self.host.changed |= self.host.notices.retain(|notice| notice.about != about || notice.level == Level::Info);
     }
 
     /// A program of a text that was edited after the notices draws: dismisses notices about code, which are about an
     /// older text.
     pub(super) fn settled_by_edit(&mut self) {
-        if let Some(edited) = self.open.compile.edited_at {
-            self.open.host.changed |=
-                self.open.host.notices.retain(|notice| notice.about != About::Code || notice.at > edited);
+        if let Some(edited) = self.compile.edited_at {
+            self.host.changed |= self.host.notices.retain(|notice| notice.about != About::Code || notice.at > edited);
         }
     }
 
     /// Another project is opened: dismisses notices of the previous one. Notices of the current command are about the
     /// new one.
     pub(super) fn forget_notices(&mut self) {
-        let first = self.open.host.notices.command_began;
-        self.open.host.notices.retain(|notice| notice.about == About::Window || notice.id >= first);
-        self.open.host.changed = true;
+        let first = self.host.notices.command_began;
+        self.host.notices.retain(|notice| notice.about == About::Window || notice.id >= first);
+        self.host.changed = true;
     }
 }

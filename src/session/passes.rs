@@ -6,6 +6,7 @@
 use super::{
     Session,
     documents::Documents,
+    open_project::OpenProject,
     pass_history::{PassStep, Step, UndoState},
     template,
     view::{About, Level},
@@ -14,11 +15,6 @@ use eddy_project::{PassEdit, PassName, Project, Tab};
 use std::time::Instant;
 
 impl Session {
-    /// The edit of passes or channels that [`Command::UndoPassEdit`](super::Command::UndoPassEdit) undoes.
-    pub fn pass_undo(&self) -> Option<PassStep<'_>> {
-        self.open.pass_history.undo.last().map(Step::shown)
-    }
-
     /// The edit that [`Command::RedoPassEdit`](super::Command::RedoPassEdit) redoes.
     pub fn pass_redo(&self) -> Option<PassStep<'_>> {
         self.open.pass_history.redo.last().map(Step::shown)
@@ -28,6 +24,12 @@ impl Session {
     pub fn renamed_passes(&self) -> &[(PassName, PassName)] {
         &self.open.host.renamed_passes
     }
+}
+
+impl OpenProject {
+    pub(crate) fn pass_undo(&self) -> Option<PassStep<'_>> {
+        self.pass_history.undo.last().map(Step::shown)
+    }
 
     pub(super) fn edit_passes(&mut self, edit: PassEdit) {
         self.settled(About::PassEdit);
@@ -36,7 +38,7 @@ impl Session {
             PassEdit::Remove(tab) => before.source(tab).is_none_or(|s| is_untouched(&s.text, tab)),
             _ => true,
         };
-        let done = match self.open.documents.current_mut().edit_passes(&edit) {
+        let done = match self.documents.current_mut().edit_passes(&edit) {
             Ok(done) => done,
             Err(e) => return self.notice_about(About::PassEdit, Level::Warning, e.to_string()),
         };
@@ -50,7 +52,7 @@ impl Session {
             PassEdit::Remove(tab) if !is_untouched => Some(format!("{} was removed", tab.title())),
             _ => None,
         };
-        self.open.pass_history.push(edit.title(), before, done.renamed, Some(edit));
+        self.pass_history.push(edit.title(), before, done.renamed, Some(edit));
         if let Some(said) = said {
             self.notice_with_undo(said);
         }
@@ -60,37 +62,37 @@ impl Session {
     /// Adds Common or a pass with a starting text, if it does not exist.
     pub(super) fn add_tab(&mut self, tab: &Tab) {
         let before = self.project().clone();
-        if template::add(self.open.documents.current_mut(), tab) {
-            self.open.pass_history.push(format!("add {}", tab.title()), before, None, None);
+        if template::add(self.documents.current_mut(), tab) {
+            self.pass_history.push(format!("add {}", tab.title()), before, None, None);
             self.passes_changed();
         }
     }
 
     /// Records an edit whose undo restores `before`.
     pub(super) fn note_pass_edit(&mut self, title: String, before: Project) {
-        self.open.pass_history.push(title, before, None, None);
+        self.pass_history.push(title, before, None, None);
     }
 
     /// Shows a notice about a change that the newest undo step reverts.
     pub(super) fn notice_with_undo(&mut self, text: String) {
         let serial = self.pass_undo().map(|step| step.serial);
         self.notice(Level::Info, text);
-        if let Some(notice) = self.open.host.notices.last_mut() {
+        if let Some(notice) = self.host.notices.last_mut() {
             notice.undoes = serial;
         }
     }
 
     pub(super) fn undo_pass_edit(&mut self) {
-        if let Some(step) = self.open.pass_history.undo.pop() {
+        if let Some(step) = self.pass_history.undo.pop() {
             let back = self.take_step(step);
-            self.open.pass_history.redo.push(back);
+            self.pass_history.redo.push(back);
         }
     }
 
     pub(super) fn redo_pass_edit(&mut self) {
-        if let Some(step) = self.open.pass_history.redo.pop() {
+        if let Some(step) = self.pass_history.redo.pop() {
             let back = self.take_step(step);
-            self.open.pass_history.undo.push(back);
+            self.pass_history.undo.push(back);
         }
     }
 
@@ -99,9 +101,9 @@ impl Session {
         let project = match step.side {
             UndoState::Passes(project) => *project,
             UndoState::Uniforms(values, name) => {
-                let here = std::mem::replace(&mut self.open.documents.current_mut().custom_uniform_values, values);
+                let here = std::mem::replace(&mut self.documents.current_mut().custom_uniform_values, values);
                 self.custom_uniforms_turned();
-                self.open.host.changed = true;
+                self.host.changed = true;
                 let (serial, title, renamed) = (step.serial, step.title, None);
                 return Step {
                     serial,
@@ -115,8 +117,8 @@ impl Session {
         };
         let here = self.project().clone();
         let there = step.renamed.as_ref().map(|(there, here)| (there.clone(), here.clone()));
-        let next = returned(&self.open.documents, project, there.as_ref());
-        *self.open.documents.current_mut() = next;
+        let next = returned(&self.documents, project, there.as_ref());
+        *self.documents.current_mut() = next;
         if let Some((there, here)) = &there {
             self.follow_rename(here, there);
         }
@@ -128,24 +130,24 @@ impl Session {
 
     /// Updates everything that refers to a pass by its name.
     fn follow_rename(&mut self, from: &PassName, to: &PassName) {
-        self.open.host.renamed_passes.push((from.clone(), to.clone()));
-        if self.open.picture.shown == *from {
-            self.open.picture.shown = to.clone();
+        self.host.renamed_passes.push((from.clone(), to.clone()));
+        if self.picture.shown == *from {
+            self.picture.shown = to.clone();
         }
     }
 
     pub(super) fn passes_changed(&mut self) {
-        self.open.compile.include_edits += 1;
-        self.open.host.text_generation += 1;
+        self.compile.include_edits += 1;
+        self.host.text_generation += 1;
         self.show_image_if_gone();
         self.compile_soon();
-        self.open.host.changed = true;
+        self.host.changed = true;
     }
 
     /// Shows Image if the shown pass no longer exists.
     pub(super) fn show_image_if_gone(&mut self) {
-        if self.project().pass(&self.open.picture.shown).is_none() {
-            self.open.picture.shown = PassName::image();
+        if self.project().pass(&self.picture.shown).is_none() {
+            self.picture.shown = PassName::image();
         }
     }
 }

@@ -5,6 +5,8 @@ use super::{
     buffers::BufferRead,
     command::Question,
     costs::PassCosts,
+    open_project::OpenProject,
+    pass_history::PassStep,
     probe::ProbeView,
     recent::RecentProject,
     view::{CompileState, Halt, Notice, TabDiagnostic, Transport},
@@ -38,10 +40,6 @@ impl Session {
     /// The device that shows the picture.
     pub fn gpu(&self) -> &Gpu {
         self.services.drawing.gpu()
-    }
-
-    pub fn project(&self) -> &Project {
-        self.open.documents.current()
     }
 
     /// Every tab in Shadertoy's order.
@@ -102,15 +100,6 @@ impl Session {
     /// [`Command::SetCompileOnSave`](super::Command::SetCompileOnSave).
     pub fn waits_for_save(&self) -> bool {
         self.open.compile.waits_for_save
-    }
-
-    /// The author's own uniforms, as the running program declares them. If it declares none, or there is no program
-    /// yet, as the texts do.
-    pub fn custom_uniforms(&self) -> &[CustomUniform] {
-        match self.open.engine.custom_uniforms() {
-            [] => &self.open.uniforms.declared,
-            drawn => drawn,
-        }
     }
 
     /// Returns whether the tab's text differs from the one on disk.
@@ -193,11 +182,6 @@ impl Session {
         self.open.read_backs.probing.view()
     }
 
-    /// Returns the pass that the display shows: the shown pass, or that of a probed value.
-    pub(super) fn pictured(&self) -> PassName {
-        if self.open.read_backs.probing.is_drawn() { BuildOptions::probed() } else { self.open.picture.shown.clone() }
-    }
-
     pub fn shown_pass(&self) -> &PassName {
         &self.open.picture.shown
     }
@@ -224,5 +208,38 @@ impl Session {
     /// Returns the question that must be answered first.
     pub fn question(&self) -> Option<&Question> {
         self.open.host.dialog.questions.front()
+    }
+
+    /// The edit of passes or channels that [`Command::UndoPassEdit`](super::Command::UndoPassEdit) undoes.
+    pub fn pass_undo(&self) -> Option<PassStep<'_>> {
+        self.open.pass_undo()
+    }
+
+    pub fn project(&self) -> &Project {
+        self.open.project()
+    }
+
+    /// The author's own uniforms, as the running program declares them. If it declares none, or there is no program
+    /// yet, as the texts do.
+    pub fn custom_uniforms(&self) -> &[CustomUniform] {
+        self.open.custom_uniforms()
+    }
+}
+
+impl OpenProject {
+    pub(crate) fn project(&self) -> &Project {
+        self.documents.current()
+    }
+
+    pub(crate) fn custom_uniforms(&self) -> &[CustomUniform] {
+        match self.engine.custom_uniforms() {
+            [] => &self.uniforms.declared,
+            drawn => drawn,
+        }
+    }
+
+    /// Returns the pass that the display shows: the shown pass, or that of a probed value.
+    pub(super) fn pictured(&self) -> PassName {
+        if self.read_backs.probing.is_drawn() { BuildOptions::probed() } else { self.picture.shown.clone() }
     }
 }

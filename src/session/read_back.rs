@@ -9,6 +9,7 @@ use super::{
     drawing::{RenderTask, Renderer, Tasks},
     measures::Measuring,
     miniatures::Miniatures,
+    open_project::OpenProject,
     probe::Probing,
 };
 use eddy_engine::{CameraFrame, EngineError, PassInputs, Picture, Pixels};
@@ -79,8 +80,8 @@ impl Session {
         if has_frame || is_there || self.open.changes.restart {
             self.request_pictures(has_frame, is_playing, &mut tasks);
         }
-        if is_there && !self.is_compile_under_way() {
-            self.request_inputs(&mut tasks);
+        if is_there && !self.open.is_compile_under_way() {
+            self.open.request_inputs(&mut tasks);
         }
         tasks
     }
@@ -88,21 +89,10 @@ impl Session {
     /// Requests pictures and numbers of the newest program, after the frame that is due.
     fn request_pictures(&mut self, has_frame: bool, is_playing: bool, tasks: &mut Tasks) {
         self.services.captures.request(tasks);
-        let is_of_project = self.is_picture_of_project();
+        let is_of_project = self.open.is_picture_of_project();
         self.services.last_pictures.request(is_of_project, tasks);
         let at = Moment { now: self.open.host.now, has_frame, is_playing, is_seeking: self.open.playback.is_seeking() };
         self.open.read_backs.read_backs().into_iter().for_each(|read_back| read_back.request(&at, tasks));
-    }
-
-    /// Requests the inputs that the newest program was drawn with. A trace waits until nothing more is to be drawn.
-    fn request_inputs(&mut self, tasks: &mut Tasks) {
-        self.open.nan_search.request_input(tasks);
-        self.open.trace.divergence.request_input(tasks);
-        self.open.comparison.request_input(tasks);
-        self.open.audit.request_input(&self.open.picture.shown, tasks);
-        if self.open.playback.is_settled() {
-            self.open.trace.request_input(tasks);
-        }
     }
 
     /// Requests single read-backs again that have not arrived: the device that was to deliver them is lost.
@@ -119,13 +109,26 @@ impl Session {
         let is_new = self.open.read_backs.read_backs().map(|read_back| read_back.receive(has_frame)).contains(&true);
         self.open.host.changed |= is_new;
         if self.open.read_backs.probing.take_news() {
-            self.look_anew();
+            self.open.look_anew();
         }
         self.search_frames();
         self.find_divergence();
         self.compare();
-        self.audit();
-        self.trace_pixel(has_frame);
+        self.open.audit();
+        self.open.trace_pixel(has_frame);
+    }
+}
+
+impl OpenProject {
+    /// Requests the inputs that the newest program was drawn with. A trace waits until nothing more is to be drawn.
+    fn request_inputs(&mut self, tasks: &mut Tasks) {
+        self.nan_search.request_input(tasks);
+        self.trace.divergence.request_input(tasks);
+        self.comparison.request_input(tasks);
+        self.audit.request_input(&self.picture.shown, tasks);
+        if self.playback.is_settled() {
+            self.trace.request_input(tasks);
+        }
     }
 }
 

@@ -11,6 +11,7 @@ use super::{
     canvas::CanvasSize,
     drawing::{Job, RenderTask, Tasks},
     kept_files,
+    open_project::OpenProject,
     playback::{SeekTarget, clock::Clock},
     read_back::{ReadPicture, TakeRun},
     recent::{Left, RecentProject},
@@ -33,7 +34,7 @@ impl Session {
         match self.services.recent.opened(&project.origin, project.dialect) {
             Ok(known) => known,
             Err(why) => {
-                self.notice_about(About::Window, Level::Warning, why);
+                self.open.notice_about(About::Window, Level::Warning, why);
                 None
             }
         }
@@ -48,7 +49,7 @@ impl Session {
         self.keep_picture();
         let clock = &self.open.playback.clock;
         // A picture that was halted while playing plays again once it is drawn fast enough.
-        let is_paused = !self.is_playing() && !self.open.halt.resumes();
+        let is_paused = !self.open.is_playing() && !self.open.halt.resumes();
         let (CanvasSize { scale, fixed }, usual) = (self.open.canvas.asked, self.open.canvas.usual);
         let left = Left {
             time_secs: clock.time_secs(),
@@ -68,7 +69,7 @@ impl Session {
     fn keep_run(&mut self, is_paused: bool) {
         let (reach, origin) = (self.open.engine.reach(), self.open.documents.current().origin.clone());
         let is_kept =
-            is_paused && reach.is_whole && self.has_state() && self.services.runs.takes(&origin, reach.shown + 1);
+            is_paused && reach.is_whole && self.open.has_state() && self.services.runs.takes(&origin, reach.shown + 1);
         match if is_kept { self.take_run() } else { None } {
             Some(Run { frames, is_whole: true }) if !frames.is_empty() => {
                 let name = self.open.documents.current().name.clone();
@@ -84,22 +85,13 @@ impl Session {
     /// Stores the shown picture before its project is closed.
     fn keep_picture(&mut self) {
         // A device that is too slow is not waited for.
-        if !self.services.last_pictures.is_kept() || self.open.halt.is_halted() || !self.is_picture_of_project() {
+        if !self.services.last_pictures.is_kept() || self.open.halt.is_halted() || !self.open.is_picture_of_project() {
             return;
         }
         let end = Instant::now() + PATIENCE;
         if let Some(Ok(picture)) = self.ask_engine(end, ReadPicture) {
             self.picture_is_read(&picture);
         }
-    }
-
-    /// Returns whether the picture is the project's own: not that of the previous project, a probe, or a frame on the
-    /// way of a seek.
-    pub(super) fn is_picture_of_project(&self) -> bool {
-        let is_drawn =
-            self.open.engine.has_program() && !self.open.is_program_coming() && !self.open.picture.is_program_new;
-        let is_passing = self.open.read_backs.probing.view().is_some() || self.open.playback.is_seeking();
-        is_drawn && self.open.playback.has_drawn() && !is_passing
     }
 
     pub(super) fn picture_is_read(&mut self, picture: &Picture) {
@@ -148,9 +140,9 @@ impl Session {
     /// Restores the time of the project that has just been opened.
     pub(super) fn restore_run(&mut self) {
         let Some(RecentProject { time_secs, frame, paused, size, scale, .. }) = self.place_known() else { return };
-        self.restore_size(size, scale);
+        self.open.restore_size(size, scale);
         let is_playing = !paused;
-        if !self.has_state() {
+        if !self.open.has_state() {
             self.open.playback.clock = Clock::at(time_secs, frame, is_playing);
             self.open.playback.is_frame_due = true;
             return;
@@ -162,12 +154,22 @@ impl Session {
         (self.open.playback.seeking.awaits_program, self.open.playback.seeking.is_taking_up) = (true, true);
         self.open.changes.run = Some(frames);
     }
+}
+
+impl OpenProject {
+    /// Returns whether the picture is the project's own: not that of the previous project, a probe, or a frame on the
+    /// way of a seek.
+    pub(super) fn is_picture_of_project(&self) -> bool {
+        let is_drawn = self.engine.has_program() && !self.is_program_coming() && !self.picture.is_program_new;
+        let is_passing = self.read_backs.probing.view().is_some() || self.playback.is_seeking();
+        is_drawn && self.playback.has_drawn() && !is_passing
+    }
 
     /// Restores the size of the picture. The file can be edited by hand: invalid sizes are ignored.
     fn restore_size(&mut self, size: Option<(u32, u32)>, scale: Option<f32>) {
-        let usual = self.open.canvas.usual;
+        let usual = self.canvas.usual;
         let fixed = size.filter(|(width, height)| *width > 0 && *height > 0).or(usual.fixed);
         let scale = scale.filter(|scale| scale.is_finite() && *scale > 0.0).unwrap_or(usual.scale);
-        self.open.canvas.asked = CanvasSize { scale, fixed };
+        self.canvas.asked = CanvasSize { scale, fixed };
     }
 }

@@ -65,21 +65,25 @@ impl Session {
     pub(super) fn open_picture(&mut self, path: &Path) {
         match Scene::read(path) {
             Ok(scene) => self.unless_unsaved(PendingAction::OpenPicture(Box::new(scene))),
-            Err(error) => self.notice_about(About::Opening, Level::Error, error.to_string()),
+            Err(error) => self.open.notice_about(About::Opening, Level::Error, error.to_string()),
         }
     }
 
     pub(super) fn show_scene(&mut self, scene: &Scene) {
         self.replace(Documents::new(scene.project.clone()));
         if scene.project.pass(&scene.pass).is_some() {
-            self.show_pass(scene.pass.clone());
+            self.open.show_pass(scene.pass.clone());
         }
         self.open.canvas.asked.fixed = Some(scene.size);
-        let has_state = self.has_state();
+        let has_state = self.open.has_state();
         let frames = match scene.frames(has_state) {
             Ok(frames) => frames,
             Err(why) => {
-                return self.notice_about(About::Opening, Level::Warning, format!("the frame is not known: {why}"));
+                return self.open.notice_about(
+                    About::Opening,
+                    Level::Warning,
+                    format!("the frame is not known: {why}"),
+                );
             }
         };
         let Some(last) = frames.last() else { return };
@@ -91,10 +95,10 @@ impl Session {
             self.open.playback.seeking.goal = Some(SeekTarget::Anew(frames.len() as u64 - 1));
             (self.open.playback.seeking.awaits_program, self.open.playback.seeking.is_taking_up) = (true, true);
             self.open.changes.run = Some(frames);
-            self.notice(Level::Info, format!("opened from the image, paused at frame {frame}"));
+            self.open.notice(Level::Info, format!("opened from the image, paused at frame {frame}"));
         } else {
             let text = format!("opened from the image, paused at frame 0: the way to frame {frame} is not in it");
-            self.notice(Level::Info, text);
+            self.open.notice(Level::Info, text);
         }
     }
 }

@@ -78,7 +78,7 @@ impl Session {
         let open = OpenProject::new(Documents::new(super::template::project()), Host::new(options, wake), engine);
         let mut session = Session { open, services };
         for why in [unprotected, forgotten].into_iter().flatten() {
-            session.notice_about(About::Window, Level::Warning, why);
+            session.open.notice_about(About::Window, Level::Warning, why);
         }
         Ok(session)
     }

@@ -7,6 +7,7 @@
 use super::{
     Session,
     drawing::{Tasks, Ticket},
+    open_project::OpenProject,
     read_back::{Inspect, Inspected, TakeReplay},
 };
 use eddy_background::{Background, Status, Wake};
@@ -149,37 +150,6 @@ impl Session {
         background.status()
     }
 
-    /// Starts that search.
-    pub(super) fn want_divergence(&mut self) {
-        let traced = self.open.trace.traced().cloned();
-        let divergence = &mut self.open.trace.divergence;
-        divergence.clear();
-        if traced.is_some() {
-            divergence.background.request();
-        }
-        divergence.of = traced;
-    }
-
-    /// Submits the inputs that the traced pass read; after another frame the pixel is traced again.
-    pub(super) fn trace_pixel(&mut self, has_frame: bool) {
-        let Tracing { walk, pixel: Some(pixel), input, .. } = &mut self.open.trace else { return };
-        let Some(input) = input.take() else {
-            if has_frame {
-                walk.request();
-            }
-            return;
-        };
-        self.open.host.changed = true;
-        match (input.output, self.open.engine.project().cloned()) {
-            (Ok(inspected), Some(project)) => {
-                let frame = self.open.playback.frame();
-                walk.start(TraceJob { project, at: pixel.at, frame, inspected });
-            }
-            (Ok(_), None) => walk.cancel(),
-            (Err(e), _) => walk.fail(e.to_string()),
-        }
-    }
-
     /// Submits the frames up to the traced one.
     pub(super) fn find_divergence(&mut self) {
         let Some(input) = self.open.trace.divergence.input.take() else { return };
@@ -203,6 +173,39 @@ impl Session {
                 camera,
                 frames: frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
             }),
+        }
+    }
+}
+
+impl OpenProject {
+    /// Starts that search.
+    pub(super) fn want_divergence(&mut self) {
+        let traced = self.trace.traced().cloned();
+        let divergence = &mut self.trace.divergence;
+        divergence.clear();
+        if traced.is_some() {
+            divergence.background.request();
+        }
+        divergence.of = traced;
+    }
+
+    /// Submits the inputs that the traced pass read; after another frame the pixel is traced again.
+    pub(super) fn trace_pixel(&mut self, has_frame: bool) {
+        let Tracing { walk, pixel: Some(pixel), input, .. } = &mut self.trace else { return };
+        let Some(input) = input.take() else {
+            if has_frame {
+                walk.request();
+            }
+            return;
+        };
+        self.host.changed = true;
+        match (input.output, self.engine.project().cloned()) {
+            (Ok(inspected), Some(project)) => {
+                let frame = self.playback.frame();
+                walk.start(TraceJob { project, at: pixel.at, frame, inspected });
+            }
+            (Ok(_), None) => walk.cancel(),
+            (Err(e), _) => walk.fail(e.to_string()),
         }
     }
 }

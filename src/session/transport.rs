@@ -4,6 +4,7 @@
 use super::{
     Session,
     drawing::SeekProgress,
+    open_project::OpenProject,
     playback::{Reach, Reading, Recorder, ReplayView, ReplayedFrame, TimeRange, name},
     view::{About, Level},
 };
@@ -12,70 +13,6 @@ use eddy_playback::{capture, recording::EXTENSION};
 use std::path::PathBuf;
 
 impl Session {
-    pub(super) fn play(&mut self) {
-        self.settled(About::Seeking);
-        self.override_halt();
-        self.open.playback.play();
-    }
-
-    pub(super) fn pause(&mut self) {
-        self.open.halt.forget_resuming();
-        self.open.playback.pause();
-    }
-
-    pub(super) fn reset(&mut self) {
-        self.reset_buffers();
-        self.open.playback.reset();
-    }
-
-    fn reset_buffers(&mut self) {
-        self.settled(About::Seeking);
-        self.end_replay("the picture was reset");
-        self.open.canvas.replayed = None;
-        self.take_values_back();
-        self.open.changes.reset = true;
-    }
-
-    /// Shows the frame that is this number of frames before the shown one, and pauses.
-    pub(super) fn step_back(&mut self, by: usize) {
-        self.settled(About::Seeking);
-        self.override_halt();
-        self.open.playback.step_back(by);
-    }
-
-    pub(super) fn step_forward(&mut self) {
-        self.settled(About::Seeking);
-        self.override_halt();
-        self.open.playback.step_forward(self.open.engine.reach().ahead);
-    }
-
-    /// Shows the picture at a time, in seconds. Playing or paused is unchanged.
-    pub(super) fn seek(&mut self, secs: f64) {
-        if !secs.is_finite() {
-            return;
-        }
-        let secs = secs.max(0.0);
-        self.settled(About::Seeking);
-        self.override_halt();
-        // A recording must be a continuous run.
-        self.end_recording();
-        let reach = self.open.engine.reach();
-        if self.open.playback.is_replaying() {
-            self.open.playback.seek_in_replay(secs, reach);
-        } else if self.open.playback.seek(secs, reach, self.has_state()) {
-            self.reset_buffers();
-        }
-    }
-
-    /// Seeks to the start of the looped range before a frame that would not be before its end. Without a program, time
-    /// continues, as there is no frame to go back from.
-    pub(super) fn loop_range(&mut self) {
-        if let Some(from) = self.open.playback.loop_start(self.open.host.now).filter(|_| self.open.engine.has_program())
-        {
-            self.seek(from);
-        }
-    }
-
     /// Submits the seek. Returns false if there is none, or no program to draw it.
     pub(super) fn travel(&mut self) -> bool {
         let seeking = &self.open.playback.seeking;
@@ -86,7 +23,7 @@ impl Session {
             self.open.playback.seeking.cancel();
             return false;
         }
-        self.end_recording();
+        self.open.end_recording();
         let goal = self.open.playback.take_goal();
         self.submit(false, |job| job.travel = goal);
         true
@@ -98,7 +35,7 @@ impl Session {
         let reach = self.open.engine.reach();
         match travelled {
             Some(Ok(travelled)) => {
-                self.picture_is_other();
+                self.open.picture_is_other();
                 if self.open.playback.travelled(&travelled, reach.shown) {
                     self.open.read_backs.measuring.go_to(travelled.inputs.frame);
                 }
@@ -115,45 +52,9 @@ impl Session {
                         .to_owned(),
                     back => format!("that frame is out of reach: you can go back {back} frames"),
                 };
-                self.notice_about(About::Seeking, Level::Warning, text);
+                self.open.notice_about(About::Seeking, Level::Warning, text);
             }
         }
-    }
-
-    /// A new program draws: if enabled, up to the same frame with the same inputs.
-    pub(super) fn keep_inputs(&mut self) {
-        let reach = self.open.engine.reach();
-        if !self.keeps_inputs_of(reach) {
-            return;
-        }
-        if !reach.is_whole {
-            self.notice(
-                Level::Info,
-                "not all frames since the last reset are kept: reset once, then edits replay to the same frame",
-            );
-            return;
-        }
-        self.open.playback.draw_anew(reach.shown);
-    }
-
-    fn keeps_inputs_of(&self, reach: Reach) -> bool {
-        self.open.playback.seeking.keeps_inputs && reach.shown > 0 && self.has_state()
-    }
-
-    /// Returns whether a pending program draws all frames since the reset again.
-    pub(super) fn draws_all_anew(&self) -> bool {
-        let reach = self.open.engine.reach();
-        self.open.changes.program.is_some() && reach.is_whole && self.keeps_inputs_of(reach)
-    }
-
-    pub(super) fn has_state(&self) -> bool {
-        // A project that was opened paused has no program yet.
-        let project = self.open.engine.project().unwrap_or_else(|| self.open.documents.current());
-        !project.stateful_passes().is_empty()
-    }
-
-    pub(super) fn is_playing(&self) -> bool {
-        self.open.playback.is_playing()
     }
 
     /// Returns the range of frames for seeking without drawing new ones.
@@ -171,24 +72,167 @@ impl Session {
         self.open.playback.seeking.keeps_inputs
     }
 
+    /// Returns how many frames have been recorded, if a recording is being made.
+    pub fn recorded_frames(&self) -> Option<usize> {
+        self.open.playback.recorder.as_ref().map(|recorder| recorder.recording.frames.len())
+    }
+
+    /// Returns the state of the replay, if there is one.
+    pub fn replay(&self) -> Option<ReplayView> {
+        self.open.playback.replay.playing.as_ref().map(|playing| playing.view())
+    }
+
+    /// Starts a replay of a recording that was loaded.
+    pub(super) fn take_recording(&mut self) {
+        let Some(read) = self.open.playback.replay.reading.as_mut().and_then(Reading::take) else { return };
+        let Some(Reading { file, .. }) = self.open.playback.replay.reading.take() else { return };
+        let recording = match read {
+            Ok(recording) => recording,
+            Err(error) => {
+                let text = format!("cannot play {}: {error}; {}", file.display(), error.remedy());
+                self.open.notice_with_path(About::Replay, Level::Error, text, file);
+                return;
+            }
+        };
+        self.open.end_recording();
+        self.cut_film("a recording of input is played");
+        self.open.playback.stop_replay();
+        let here = self.project().name.clone();
+        if !recording.project.is_empty() && recording.project != here {
+            let text = format!(
+                "{} was recorded in the project \"{}\", but \"{here}\" is open: the picture may differ from the \
+                 recorded one. Open \"{}\" and play it there to see the same picture",
+                name(&file),
+                recording.project,
+                recording.project
+            );
+            self.open.notice_about(About::Replay, Level::Warning, text);
+        }
+        self.open.override_halt();
+        self.open.reset();
+        self.open.playback.start_replay(file, recording);
+        self.open.host.changed = true;
+    }
+}
+
+impl OpenProject {
+    pub(super) fn play(&mut self) {
+        self.settled(About::Seeking);
+        self.override_halt();
+        self.playback.play();
+    }
+
+    pub(super) fn pause(&mut self) {
+        self.halt.forget_resuming();
+        self.playback.pause();
+    }
+
+    pub(super) fn reset(&mut self) {
+        self.reset_buffers();
+        self.playback.reset();
+    }
+
+    fn reset_buffers(&mut self) {
+        self.settled(About::Seeking);
+        self.end_replay("the picture was reset");
+        self.canvas.replayed = None;
+        self.take_values_back();
+        self.changes.reset = true;
+    }
+
+    /// Shows the frame that is this number of frames before the shown one, and pauses.
+    pub(super) fn step_back(&mut self, by: usize) {
+        self.settled(About::Seeking);
+        self.override_halt();
+        self.playback.step_back(by);
+    }
+
+    pub(super) fn step_forward(&mut self) {
+        self.settled(About::Seeking);
+        self.override_halt();
+        self.playback.step_forward(self.engine.reach().ahead);
+    }
+
+    /// Shows the picture at a time, in seconds. Playing or paused is unchanged.
+    pub(super) fn seek(&mut self, secs: f64) {
+        if !secs.is_finite() {
+            return;
+        }
+        let secs = secs.max(0.0);
+        self.settled(About::Seeking);
+        self.override_halt();
+        // A recording must be a continuous run.
+        self.end_recording();
+        let reach = self.engine.reach();
+        if self.playback.is_replaying() {
+            self.playback.seek_in_replay(secs, reach);
+        } else if self.playback.seek(secs, reach, self.has_state()) {
+            self.reset_buffers();
+        }
+    }
+
+    /// Seeks to the start of the looped range before a frame that would not be before its end. Without a program, time
+    /// continues, as there is no frame to go back from.
+    pub(super) fn loop_range(&mut self) {
+        if let Some(from) = self.playback.loop_start(self.host.now).filter(|_| self.engine.has_program()) {
+            self.seek(from);
+        }
+    }
+
+    /// A new program draws: if enabled, up to the same frame with the same inputs.
+    pub(super) fn keep_inputs(&mut self) {
+        let reach = self.engine.reach();
+        if !self.keeps_inputs_of(reach) {
+            return;
+        }
+        if !reach.is_whole {
+            self.notice(
+                Level::Info,
+                "not all frames since the last reset are kept: reset once, then edits replay to the same frame",
+            );
+            return;
+        }
+        self.playback.draw_anew(reach.shown);
+    }
+
+    fn keeps_inputs_of(&self, reach: Reach) -> bool {
+        self.playback.seeking.keeps_inputs && reach.shown > 0 && self.has_state()
+    }
+
+    /// Returns whether a pending program draws all frames since the reset again.
+    pub(super) fn draws_all_anew(&self) -> bool {
+        let reach = self.engine.reach();
+        self.changes.program.is_some() && reach.is_whole && self.keeps_inputs_of(reach)
+    }
+
+    pub(super) fn has_state(&self) -> bool {
+        // A project that was opened paused has no program yet.
+        let project = self.engine.project().unwrap_or_else(|| self.documents.current());
+        !project.stateful_passes().is_empty()
+    }
+
+    pub(super) fn is_playing(&self) -> bool {
+        self.playback.is_playing()
+    }
+
     /// Returns whether the shown frame is to be drawn again now, once: no other is due.
     pub(super) fn take_again(&mut self) -> bool {
-        let wanted = &self.open.changes;
+        let wanted = &self.changes;
         let is_other_coming = wanted.restart || wanted.program.is_some() || wanted.size.is_some();
-        let is_ready = self.open.engine.has_program() && !is_other_coming && !self.open.halt.is_halted();
-        is_ready && self.open.playback.take_again()
+        let is_ready = self.engine.has_program() && !is_other_coming && !self.halt.is_halted();
+        is_ready && self.playback.take_again()
     }
 
     /// Returns whether a change of the program or the canvas is followed by the shown frame only.
     pub(super) fn stays(&self) -> bool {
-        let wanted = &self.open.changes;
-        let begins_anew = wanted.restart || wanted.reset || self.open.compile.resets || self.draws_all_anew();
-        self.open.playback.is_still() && !begins_anew
+        let wanted = &self.changes;
+        let begins_anew = wanted.restart || wanted.reset || self.compile.resets || self.draws_all_anew();
+        self.playback.is_still() && !begins_anew
     }
 
     /// The shown frame cannot be drawn again: the next one shows the change.
     pub(super) fn again_is_lost(&mut self) {
-        self.open.playback.is_frame_due = true;
+        self.playback.is_frame_due = true;
         if self.has_state() {
             let text = "the buffers are too large to be kept: a change while paused draws one frame more";
             self.notice_once(About::Again, Level::Info, text);
@@ -197,23 +241,18 @@ impl Session {
 
     /// Restarts at frame 0 and records every frame; the second time, stops and writes the file.
     pub(super) fn record(&mut self) {
-        if self.open.playback.recorder.is_some() {
+        if self.playback.recorder.is_some() {
             self.end_recording();
             return;
         }
-        let project = self.open.documents.current();
-        self.open.playback.recorder = Some(Recorder::new(project.name.clone(), project.custom_uniform_values.clone()));
+        let project = self.documents.current();
+        self.playback.recorder = Some(Recorder::new(project.name.clone(), project.custom_uniform_values.clone()));
         self.reset();
-    }
-
-    /// Returns how many frames have been recorded, if a recording is being made.
-    pub fn recorded_frames(&self) -> Option<usize> {
-        self.open.playback.recorder.as_ref().map(|recorder| recorder.recording.frames.len())
     }
 
     /// Writes the recording, if one is being made.
     pub(super) fn end_recording(&mut self) {
-        let Some(Recorder { recording, .. }) = self.open.playback.recorder.take() else { return };
+        let Some(Recorder { recording, .. }) = self.playback.recorder.take() else { return };
         let frames = recording.frames.len();
         if frames == 0 {
             self.notice_about(
@@ -223,8 +262,8 @@ impl Session {
             );
             return;
         }
-        let project = self.open.documents.current();
-        let folder = capture::folder_for(project, &self.open.host.options.pictures);
+        let project = self.documents.current();
+        let folder = capture::folder_for(project, &self.host.options.pictures);
         let stem = capture::file_stem(&recording.project);
         let name = |n: u32| format!("{stem}-{n:04}.{EXTENSION}");
         match capture::write_new(&folder, name, &stem, |out| recording.write(out)) {
@@ -238,64 +277,27 @@ impl Session {
 
     /// Records a job before it is submitted.
     pub(super) fn note_job(&mut self, frame: Option<&FrameInputs>, again: bool) {
-        let size = self.open.changes.size.unwrap_or_else(|| self.open.engine.coming_size());
-        if let Some(recorder) = &mut self.open.playback.recorder {
-            recorder.note(&self.open.changes, size, frame, again);
+        let size = self.changes.size.unwrap_or_else(|| self.engine.coming_size());
+        if let Some(recorder) = &mut self.playback.recorder {
+            recorder.note(&self.changes, size, frame, again);
         }
-    }
-
-    /// Returns the state of the replay, if there is one.
-    pub fn replay(&self) -> Option<ReplayView> {
-        self.open.playback.replay.playing.as_ref().map(|playing| playing.view())
     }
 
     /// Starts reading a recording, which is played when it is loaded.
     pub(super) fn play_recording(&mut self, file: PathBuf) {
         self.settled(About::Replay);
         let file = std::path::absolute(&file).unwrap_or(file);
-        match Reading::start(file, self.open.host.wake.clone()) {
-            Ok(reading) => self.open.playback.replay.reading = Some(reading),
+        match Reading::start(file, self.host.wake.clone()) {
+            Ok(reading) => self.playback.replay.reading = Some(reading),
             Err(e) => {
                 self.notice_about(About::Replay, Level::Error, format!("cannot start a thread for reading: {e}"));
             }
         }
     }
 
-    /// Starts a replay of a recording that was loaded.
-    pub(super) fn take_recording(&mut self) {
-        let Some(read) = self.open.playback.replay.reading.as_mut().and_then(Reading::take) else { return };
-        let Some(Reading { file, .. }) = self.open.playback.replay.reading.take() else { return };
-        let recording = match read {
-            Ok(recording) => recording,
-            Err(error) => {
-                let text = format!("cannot play {}: {error}; {}", file.display(), error.remedy());
-                self.notice_with_path(About::Replay, Level::Error, text, file);
-                return;
-            }
-        };
-        self.end_recording();
-        self.cut_film("a recording of input is played");
-        self.open.playback.stop_replay();
-        let here = self.project().name.clone();
-        if !recording.project.is_empty() && recording.project != here {
-            let text = format!(
-                "{} was recorded in the project \"{}\", but \"{here}\" is open: the picture may differ from the \
-                 recorded one. Open \"{}\" and play it there to see the same picture",
-                name(&file),
-                recording.project,
-                recording.project
-            );
-            self.notice_about(About::Replay, Level::Warning, text);
-        }
-        self.override_halt();
-        self.reset();
-        self.open.playback.start_replay(file, recording);
-        self.open.host.changed = true;
-    }
-
     /// Ends the replay, with a notice.
     pub(super) fn end_replay(&mut self, why: &str) {
-        if let Some(ReplayView { file, drawn, frames }) = self.open.playback.stop_replay() {
+        if let Some(ReplayView { file, drawn, frames }) = self.playback.stop_replay() {
             let text = format!("stopped {} at frame {drawn} of {frames}: {why}", name(&file));
             self.notice_about(About::Replay, Level::Info, text);
         }
@@ -304,19 +306,19 @@ impl Session {
     /// Returns the frame of the recording that is due now. `is_step`: a frame is requested, whatever the time.
     pub(super) fn next_replayed(&mut self, is_step: bool) -> Option<FrameInputs> {
         let (may_run, may_start) = (!self.gives_way(), !self.is_compile_under_way());
-        let next = self.open.playback.next_replayed(self.open.host.now, is_step, may_run, may_start)?;
+        let next = self.playback.next_replayed(self.host.now, is_step, may_run, may_start)?;
         let ReplayedFrame { frame, change, is_last } = next;
         if let Some(size) = change.size {
-            self.open.canvas.replayed = Some(size);
+            self.canvas.replayed = Some(size);
             self.fit_canvas();
         }
         if let Some(values) = change.values {
-            self.open.changes.custom_uniforms = Some(values);
-            self.open.playback.replay.has_values = true;
+            self.changes.custom_uniforms = Some(values);
+            self.playback.replay.has_values = true;
         }
-        self.open.changes.reset |= change.reset;
-        self.open.host.changed = true;
-        if is_last && let Some(ReplayView { file, frames, .. }) = self.open.playback.finish_replay() {
+        self.changes.reset |= change.reset;
+        self.host.changed = true;
+        if is_last && let Some(ReplayView { file, frames, .. }) = self.playback.finish_replay() {
             let text = format!(
                 "{} ended: the picture is paused at frame {frames} of {frames}. Press Play to continue live from there",
                 name(&file)
@@ -328,9 +330,9 @@ impl Session {
 
     /// Gives the engine the project's own values again, before a frame that is not the recording's.
     pub(super) fn take_values_back(&mut self) {
-        if self.open.playback.replay.has_values && !self.open.playback.is_replaying() {
+        if self.playback.replay.has_values && !self.playback.is_replaying() {
             self.custom_uniforms_turned();
-            self.open.playback.replay.follows = true;
+            self.playback.replay.follows = true;
         }
     }
 }

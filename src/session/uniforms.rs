@@ -2,7 +2,7 @@
 //!
 //! Values and undo steps use the names in the texts.
 
-use super::Session;
+use super::{Session, open_project::OpenProject};
 use eddy_project::{CustomUniform, CustomUniformValue, CustomUniformValues, Project};
 
 /// Old and new names, in the order of the renames.
@@ -27,16 +27,6 @@ fn newest_name<'n>(renamed: &'n RenamedUniforms, name: &'n str) -> &'n str {
 }
 
 impl Session {
-    /// Reads the declarations in the texts, if they are shown and have changed.
-    pub(super) fn read_declared_uniforms(&mut self) {
-        let revision = Some(self.open.documents.revision());
-        if self.open.engine.custom_uniforms().is_empty() && self.open.uniforms.revision != revision {
-            let list = self.project().custom_uniforms().list;
-            self.open.host.changed |= list != self.open.uniforms.declared;
-            (self.open.uniforms.declared, self.open.uniforms.revision) = (list, revision);
-        }
-    }
-
     /// Returns the value of one of the author's own uniforms.
     pub fn custom_uniform_value(&self, custom_uniform: &CustomUniform) -> CustomUniformValue {
         let values = &self.project().custom_uniform_values;
@@ -45,15 +35,27 @@ impl Session {
             name => CustomUniform { name: name.to_owned(), ..custom_uniform.clone() }.value(values),
         }
     }
+}
+
+impl OpenProject {
+    /// Reads the declarations in the texts, if they are shown and have changed.
+    pub(super) fn read_declared_uniforms(&mut self) {
+        let revision = Some(self.documents.revision());
+        if self.engine.custom_uniforms().is_empty() && self.uniforms.revision != revision {
+            let list = self.project().custom_uniforms().list;
+            self.host.changed |= list != self.uniforms.declared;
+            (self.uniforms.declared, self.uniforms.revision) = (list, revision);
+        }
+    }
 
     /// Returns the name in the texts for a uniform of the program that draws.
     pub(super) fn newest_name(&self, name: &str) -> String {
-        newest_name(&self.open.uniforms.renamed, name).to_owned()
+        newest_name(&self.uniforms.renamed, name).to_owned()
     }
 
     /// Adds values under the names that a program of the earlier texts uses.
     pub(super) fn add_old_names(&self, values: &mut CustomUniformValues) {
-        let renamed = &self.open.uniforms.renamed;
+        let renamed = &self.uniforms.renamed;
         for (from, _) in renamed {
             let value = values.get(newest_name(renamed, from)).cloned();
             if let (Some(value), false) = (value, values.contains_key(from)) {
@@ -64,31 +66,31 @@ impl Session {
 
     /// Updates values and undo steps for uniforms that an edit of a text has renamed.
     pub(super) fn follow_renamed_uniforms(&mut self, before: &str, after: &str) {
-        let renamed = self.open.documents.current_mut().follow_renamed_custom_uniforms(before, after);
+        let renamed = self.documents.current_mut().follow_renamed_custom_uniforms(before, after);
         for (from, to) in &renamed {
-            self.open.pass_history.rename_uniform(from, to);
+            self.pass_history.rename_uniform(from, to);
         }
-        if !renamed.is_empty() || !self.open.uniforms.renamed.is_empty() {
-            self.open.uniforms.renamed.extend(renamed);
+        if !renamed.is_empty() || !self.uniforms.renamed.is_empty() {
+            self.uniforms.renamed.extend(renamed);
             self.drop_names_in_use();
         }
     }
 
     /// A program of `coming` is about to draw: drops names that neither it nor the previous one uses.
     pub(super) fn forget_old_names(&mut self, coming: &Project) {
-        if self.open.uniforms.renamed.is_empty() {
+        if self.uniforms.renamed.is_empty() {
             return;
         }
         self.drop_names_in_use();
         let mut known = coming.custom_uniform_names();
-        known.extend(self.open.engine.project().map(Project::custom_uniform_names).unwrap_or_default());
-        self.open.uniforms.renamed.retain(|(from, _)| known.iter().any(|(name, _)| name == from));
+        known.extend(self.engine.project().map(Project::custom_uniform_names).unwrap_or_default());
+        self.uniforms.renamed.retain(|(from, _)| known.iter().any(|(name, _)| name == from));
     }
 
     /// Drops old names that the texts declare again.
     fn drop_names_in_use(&mut self) {
         let declared = self.project().custom_uniform_names();
-        self.open.uniforms.renamed.retain(|(from, _)| declared.iter().all(|(name, _)| name != from));
+        self.uniforms.renamed.retain(|(from, _)| declared.iter().all(|(name, _)| name != from));
     }
 
     pub(super) fn set_custom_uniform(&mut self, name: &str, value: Option<CustomUniformValue>) {
@@ -96,7 +98,7 @@ impl Session {
         custom_uniform.name = self.newest_name(name);
         let name = custom_uniform.name.as_str();
         let before = self.project().custom_uniform_values.clone();
-        let project = self.open.documents.current_mut();
+        let project = self.documents.current_mut();
         match value {
             None => drop(project.custom_uniform_values.remove(name)),
             Some(value) => {
@@ -105,19 +107,19 @@ impl Session {
             }
         }
         if self.project().custom_uniform_values != before {
-            self.open.pass_history.push_uniforms(before, Some(name));
+            self.pass_history.push_uniforms(before, Some(name));
         }
         self.custom_uniforms_turned();
     }
 
     /// Submits the values to the running program; while paused, one frame shows them.
     pub(super) fn custom_uniforms_turned(&mut self) {
-        let played = self.open.playback.replay.playing.as_ref().and_then(|playing| playing.values());
-        self.open.playback.replay.has_values = played.is_some();
-        let mut values = played.unwrap_or(&self.open.documents.current().custom_uniform_values).clone();
+        let played = self.playback.replay.playing.as_ref().and_then(|playing| playing.values());
+        self.playback.replay.has_values = played.is_some();
+        let mut values = played.unwrap_or(&self.documents.current().custom_uniform_values).clone();
         self.add_old_names(&mut values);
-        self.open.uniforms.for_sound = Some(values.clone());
-        self.open.changes.custom_uniforms = Some(values);
+        self.uniforms.for_sound = Some(values.clone());
+        self.changes.custom_uniforms = Some(values);
     }
 }
 

@@ -30,7 +30,7 @@ impl Audio {
 impl Session {
     pub(crate) fn use_microphone(&mut self, on: bool) {
         self.services.audio.uses_microphone = on;
-        self.settled(About::Microphone);
+        self.open.settled(About::Microphone);
         self.services.audio.input_is_missing = false;
         self.hear();
     }
@@ -54,9 +54,9 @@ impl Session {
                     "the microphone cannot be used: {why}. Its channel shows a made-up spectrum; Eddy tries again every 3 \
                      seconds"
                 );
-                self.notice_about(About::Microphone, Level::Warning, text);
+                self.open.notice_about(About::Microphone, Level::Warning, text);
             }
-            Some(News::Back(_) | News::Over) => self.settled(About::Microphone),
+            Some(News::Back(_) | News::Over) => self.open.settled(About::Microphone),
             None => {}
         }
     }

@@ -298,13 +298,13 @@ impl Session {
         match news(player.state(), &mut self.services.audio.output_is_missing) {
             Some(News::Missing(why)) => {
                 let text = format!("no sound: {why}. The picture goes on; Eddy looks for a device every 3 seconds");
-                self.notice_about(About::Sound, Level::Warning, text);
+                self.open.notice_about(About::Sound, Level::Warning, text);
             }
             Some(News::Back(name)) => {
-                self.settled(About::Sound);
-                self.notice_about(About::Sound, Level::Info, format!("sound plays on {name}"));
+                self.open.settled(About::Sound);
+                self.open.notice_about(About::Sound, Level::Info, format!("sound plays on {name}"));
             }
-            Some(News::Over) => self.settled(About::Sound),
+            Some(News::Over) => self.open.settled(About::Sound),
             None => {}
         }
     }
@@ -321,12 +321,12 @@ impl Session {
             "Eddy ended while it opened {device} the last time, so nothing is heard. Click the speaker below the picture to open it \
              again, or choose another device in Settings"
         );
-        self.notice_about(About::Sound, Level::Warning, text);
+        self.open.notice_about(About::Sound, Level::Warning, text);
     }
 
     pub(crate) fn open_sound_again(&mut self) {
         self.services.audio.open_again();
-        self.settled(About::Sound);
+        self.open.settled(About::Sound);
     }
 
     pub(crate) fn hide(&mut self, is_hidden: bool) {

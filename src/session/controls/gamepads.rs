@@ -13,7 +13,7 @@ impl Session {
         if self.services.controls.pads.is_some() == on {
             return;
         }
-        self.settled(About::Gamepads);
+        self.open.settled(About::Gamepads);
         self.services.controls.is_pad_told = false;
         if !on {
             self.services.controls.pads = None;
@@ -24,7 +24,7 @@ impl Session {
         match PadInputs::listen(host, self.services.controls.queue.clone(), self.open.host.wake.clone()) {
             Ok(pads) => self.services.controls.pads = Some(pads),
             Err(error) => {
-                self.notice_about(About::Gamepads, Level::Warning, format!("no thread for gamepads: {error}"));
+                self.open.notice_about(About::Gamepads, Level::Warning, format!("no thread for gamepads: {error}"));
             }
         }
     }
@@ -36,7 +36,7 @@ impl Session {
         if let Some(why) = pads.state().trouble
             && !std::mem::replace(&mut self.services.controls.is_pad_told, true)
         {
-            self.notice_about(About::Gamepads, Level::Warning, format!("gamepads cannot be read: {why}"));
+            self.open.notice_about(About::Gamepads, Level::Warning, format!("gamepads cannot be read: {why}"));
         }
         let mut is_turned = false;
         for event in events {
@@ -44,12 +44,12 @@ impl Session {
                 PadEvent::Connected { pad, name } => {
                     self.open.playback.gamepads.connect(pad, true);
                     let text = format!("gamepad {} connected: {name}", pad + 1);
-                    self.notice_about(About::Gamepads, Level::Info, text);
+                    self.open.notice_about(About::Gamepads, Level::Info, text);
                 }
                 PadEvent::Disconnected { pad } => {
                     self.open.playback.gamepads.connect(pad, false);
                     let text = format!("gamepad {} disconnected", pad + 1);
-                    self.notice_about(About::Gamepads, Level::Info, text);
+                    self.open.notice_about(About::Gamepads, Level::Info, text);
                 }
                 PadEvent::Moved { pad, part, value } => {
                     is_turned |= self.open.playback.gamepads.move_to(pad, part, value);

@@ -7,6 +7,7 @@ mod gamepads;
 
 use super::{
     Session, SessionOptions,
+    open_project::OpenProject,
     view::{About, Level},
 };
 use eddy_control::{
@@ -141,23 +142,18 @@ impl Session {
 
     /// Returns the control that moves a component of a uniform.
     pub fn control_of(&self, target: &ControlTarget) -> Option<&ControlAddress> {
-        self.project().controls.get(&self.as_in_texts(target))
+        self.project().controls.get(&self.open.as_in_texts(target))
     }
 
     /// Returns whether a target's control is being learned.
     pub fn is_learning(&self, target: &ControlTarget) -> bool {
-        self.services.controls.learning.as_ref() == Some(&self.as_in_texts(target))
+        self.services.controls.learning.as_ref() == Some(&self.open.as_in_texts(target))
     }
 
     /// Returns the side of the value on which the target's knob waits for pickup; `None` if it does not wait.
     pub fn control_waits(&self, target: &ControlTarget) -> Option<PickupSide> {
-        let target = self.as_in_texts(target);
+        let target = self.open.as_in_texts(target);
         self.project().controls.get(&target).and_then(|_| self.services.controls.takeovers.get(&target)?.waits())
-    }
-
-    /// Returns a target with its uniform's name in the texts, which the program that draws may not know yet.
-    fn as_in_texts(&self, target: &ControlTarget) -> ControlTarget {
-        ControlTarget { uniform: self.newest_name(&target.uniform), ..target.clone() }
     }
 
     /// Listens to OSC at an address; `None` stops it.
@@ -165,14 +161,14 @@ impl Session {
         if self.services.controls.osc.as_ref().map(OscInput::asked) == address {
             return;
         }
-        self.settled(About::Osc);
+        self.open.settled(About::Osc);
         self.services.controls.is_osc_told = false;
         // Close the old socket first: the new one may have the same address.
         self.services.controls.osc = None;
         let Some(address) = address else { return };
         match OscInput::listen(address, self.services.controls.queue.clone(), self.open.host.wake.clone()) {
             Ok(osc) => self.services.controls.osc = Some(osc),
-            Err(error) => self.notice_about(About::Osc, Level::Warning, format!("no thread for OSC: {error}")),
+            Err(error) => self.open.notice_about(About::Osc, Level::Warning, format!("no thread for OSC: {error}")),
         }
     }
 
@@ -180,7 +176,7 @@ impl Session {
         if self.services.controls.choice == choice {
             return;
         }
-        self.settled(About::Midi);
+        self.open.settled(About::Midi);
         (self.services.controls.is_midi_told, self.services.controls.announced) = (false, Vec::new());
         self.services.controls.choice = choice.clone();
         if let Some(midi) = self.services.controls.midi() {
@@ -197,11 +193,11 @@ impl Session {
     /// Binds the next control that moves; `None` cancels it.
     pub(super) fn learn_control(&mut self, target: Option<ControlTarget>) {
         self.services.controls.part = None;
-        self.services.controls.learning = target.map(|target| self.as_in_texts(&target));
+        self.services.controls.learning = target.map(|target| self.open.as_in_texts(&target));
     }
 
     pub(super) fn forget_control(&mut self, target: &ControlTarget) {
-        let target = self.as_in_texts(target);
+        let target = self.open.as_in_texts(target);
         if self.project().controls.contains_key(&target) {
             self.open.documents.current_mut().controls.remove(&target);
         }
@@ -223,31 +219,9 @@ impl Session {
         if events.is_empty() {
             return;
         }
-        let events = dispatched(events, || self.osc_listeners());
+        let events = dispatched(events, || self.open.osc_listeners());
         self.learn(&events);
         self.turn_by_controls(&events);
-    }
-
-    /// Returns the OSC addresses that are bound, to match patterns against.
-    fn osc_listeners(&self) -> Vec<Listener> {
-        let bound = self.project().controls.values().filter_map(|address| match address {
-            ControlAddress::Osc { path, argument } => Some((path.clone(), argument + 1)),
-            _ => None,
-        });
-        let named = self.custom_uniforms().iter().flat_map(|uniform| {
-            let path = format!("{OWN_UNITS}{}", self.newest_name(&uniform.name));
-            let count = uniform.ty.components();
-            let letters = if uniform.ty == CustomUniformType::Color3 { "rgba" } else { "xyzw" };
-            let letters = letters.chars().take(if count > 1 { count } else { 0 });
-            let parts: Vec<_> = letters.map(|letter| (format!("{path}/{letter}"), 1)).collect();
-            std::iter::once((path, count)).chain(parts)
-        });
-        let mut all: BTreeMap<String, usize> = BTreeMap::new();
-        for (path, arguments) in bound.chain(named) {
-            let most = all.entry(path).or_default();
-            *most = arguments.max(*most);
-        }
-        all.into_iter().map(|(path, arguments)| Listener { path, arguments }).collect()
     }
 
     fn tell_of_osc(&mut self) {
@@ -256,11 +230,11 @@ impl Session {
             OscState::Missing(why) if !std::mem::replace(&mut self.services.controls.is_osc_told, true) => {
                 let at = osc.asked();
                 let text = format!("OSC cannot listen at {at}: {why}. Eddy tries again every 3 seconds");
-                self.notice_about(About::Osc, Level::Warning, text);
+                self.open.notice_about(About::Osc, Level::Warning, text);
             }
             OscState::Listening(at) if std::mem::take(&mut self.services.controls.is_osc_told) => {
-                self.settled(About::Osc);
-                self.notice_about(About::Osc, Level::Info, format!("OSC listens at {at}"));
+                self.open.settled(About::Osc);
+                self.open.notice_about(About::Osc, Level::Info, format!("OSC listens at {at}"));
             }
             OscState::Starting | OscState::Missing(_) | OscState::Listening(_) => {}
         }
@@ -273,17 +247,17 @@ impl Session {
         };
         let announced = std::mem::replace(&mut self.services.controls.announced, state.open.clone());
         for name in state.open.iter().filter(|name| !announced.contains(name)) {
-            self.notice_about(About::Midi, Level::Info, format!("MIDI device connected: {name}"));
+            self.open.notice_about(About::Midi, Level::Info, format!("MIDI device connected: {name}"));
         }
         for name in announced.iter().filter(|name| !state.open.contains(name)) {
-            self.notice_about(About::Midi, Level::Info, format!("MIDI device disconnected: {name}"));
+            self.open.notice_about(About::Midi, Level::Info, format!("MIDI device disconnected: {name}"));
         }
         match state.missing {
             Some(why) if !std::mem::replace(&mut self.services.controls.is_midi_told, true) => {
                 let text = format!("MIDI: {why}. Eddy looks for devices every 2 seconds");
-                self.notice_about(About::Midi, Level::Warning, text);
+                self.open.notice_about(About::Midi, Level::Warning, text);
             }
-            None if std::mem::take(&mut self.services.controls.is_midi_told) => self.settled(About::Midi),
+            None if std::mem::take(&mut self.services.controls.is_midi_told) => self.open.settled(About::Midi),
             _ => {}
         }
     }
@@ -307,7 +281,7 @@ impl Session {
             self.services.controls.part = Some((target.clone(), address.clone(), self.open.host.now));
         }
         let address = whole.unwrap_or(address);
-        self.notice_about(About::Controls, Level::Info, format!("{target} follows {}", address.label()));
+        self.open.notice_about(About::Controls, Level::Info, format!("{target} follows {}", address.label()));
         self.bind(target, address);
     }
 
@@ -325,7 +299,7 @@ impl Session {
         let uniforms: Vec<CustomUniform> = self
             .custom_uniforms()
             .iter()
-            .map(|uniform| CustomUniform { name: self.newest_name(&uniform.name), ..uniform.clone() })
+            .map(|uniform| CustomUniform { name: self.open.newest_name(&uniform.name), ..uniform.clone() })
             .collect();
         // Many events arrive at once if a pattern matches many addresses.
         let by_name: HashMap<&str, &CustomUniform> = uniforms.iter().rev().map(|it| (it.name.as_str(), it)).collect();
@@ -353,9 +327,38 @@ impl Session {
         self.open.host.changed |= !events.is_empty();
         if self.project().custom_uniform_values != before {
             self.open.pass_history.push_controls(before, turned);
-            self.custom_uniforms_turned();
+            self.open.custom_uniforms_turned();
             self.open.host.changed = true;
         }
+    }
+}
+
+impl OpenProject {
+    /// Returns a target with its uniform's name in the texts, which the program that draws may not know yet.
+    fn as_in_texts(&self, target: &ControlTarget) -> ControlTarget {
+        ControlTarget { uniform: self.newest_name(&target.uniform), ..target.clone() }
+    }
+
+    /// Returns the OSC addresses that are bound, to match patterns against.
+    fn osc_listeners(&self) -> Vec<Listener> {
+        let bound = self.project().controls.values().filter_map(|address| match address {
+            ControlAddress::Osc { path, argument } => Some((path.clone(), argument + 1)),
+            _ => None,
+        });
+        let named = self.custom_uniforms().iter().flat_map(|uniform| {
+            let path = format!("{OWN_UNITS}{}", self.newest_name(&uniform.name));
+            let count = uniform.ty.components();
+            let letters = if uniform.ty == CustomUniformType::Color3 { "rgba" } else { "xyzw" };
+            let letters = letters.chars().take(if count > 1 { count } else { 0 });
+            let parts: Vec<_> = letters.map(|letter| (format!("{path}/{letter}"), 1)).collect();
+            std::iter::once((path, count)).chain(parts)
+        });
+        let mut all: BTreeMap<String, usize> = BTreeMap::new();
+        for (path, arguments) in bound.chain(named) {
+            let most = all.entry(path).or_default();
+            *most = arguments.max(*most);
+        }
+        all.into_iter().map(|(path, arguments)| Listener { path, arguments }).collect()
     }
 }
 

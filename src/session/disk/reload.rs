@@ -2,19 +2,19 @@
 
 use super::{Check, DiskProject, DiskSync, manifest_path, manifest_text};
 use crate::{
-    Session,
     command::Question,
     documents::{self, Merge},
+    open_project::OpenProject,
     view::{About, Level},
 };
 use eddy_playback::capture;
 use eddy_project::{self as project, Included, Loaded, Tab};
 use std::fs;
 
-impl Session {
+impl OpenProject {
     /// Checks the disk if the watcher has reported a change and the debounce time has passed.
     pub(crate) fn check_disk(&mut self) {
-        match self.open.disk.check(self.open.host.now, &self.open.documents) {
+        match self.disk.check(self.host.now, &self.documents) {
             Check::Nothing => {}
             Check::Project(project) => {
                 self.settled(About::Files);
@@ -33,13 +33,13 @@ impl Session {
 
     /// Reads the project from disk after only the texts were written.
     pub(crate) fn read_disk(&mut self) {
-        if let Some(DiskProject::Project(project)) = DiskSync::read(&self.open.documents, true) {
+        if let Some(DiskProject::Project(project)) = DiskSync::read(&self.documents, true) {
             self.merge(*project);
         }
     }
 
     fn merge(&mut self, disk: Loaded) {
-        let merge = self.open.documents.merge(disk.project);
+        let merge = self.documents.merge(disk.project);
         self.note_reading(&disk.warnings, &disk.sources);
         merge.gone.iter().for_each(|tab| self.tell_one_gone(tab));
         self.tell_gone();
@@ -48,9 +48,9 @@ impl Session {
             let names: Vec<String> = merge.taken.iter().map(Tab::title).collect();
             let what = if names.is_empty() { "passes and channels".to_owned() } else { project::listed(&names) };
             self.notice(Level::Info, format!("reloaded {what}"));
-            self.open.compile.resets |= self.open.disk.reset_on_reload;
+            self.compile.resets |= self.disk.reset_on_reload;
             if merge.took_structure {
-                self.open.pass_history.clear();
+                self.pass_history.clear();
             }
             self.after_reload();
         }
@@ -60,20 +60,20 @@ impl Session {
             self.compile_soon();
         }
         self.disk_is_known();
-        self.open.compile.is_look_wanted = true;
+        self.compile.is_look_wanted = true;
     }
 
     /// Updates the session after the project was changed outside the editor.
     pub(crate) fn after_reload(&mut self) {
-        self.open.host.text_generation += 1;
-        self.open.compile.include_edits += 1;
+        self.host.text_generation += 1;
+        self.compile.include_edits += 1;
         self.show_image_if_gone();
         self.compile_soon();
     }
 
     /// Reads the included files if no compile has done it yet: they are saved with the project.
     pub(crate) fn settle_includes(&mut self) {
-        if self.open.compile.unread_includes().is_some() {
+        if self.compile.unread_includes().is_some() {
             self.read_includes();
         }
     }
@@ -81,14 +81,14 @@ impl Session {
     fn read_includes(&mut self) {
         let mut project = self.project().clone();
         project.read_includes();
-        self.take_includes(project.includes, self.open.compile.include_edits);
+        self.take_includes(project.includes, self.compile.include_edits);
     }
 
     /// Takes the included files as they were read for an edit of the texts.
     pub(crate) fn take_includes(&mut self, includes: Vec<Included>, edit: u64) {
-        self.open.compile.includes_read = edit;
+        self.compile.includes_read = edit;
         // An editor that shows one must reload it.
-        self.open.host.text_generation += u64::from(self.open.documents.take_includes(includes));
+        self.host.text_generation += u64::from(self.documents.take_includes(includes));
     }
 
     fn ask_conflicts(&mut self, merge: &Merge) {
@@ -96,17 +96,16 @@ impl Session {
             merge.conflicts.iter().map(|c| (Some(c.tab.clone()), c.file.clone(), c.mine.clone(), c.disk.clone()));
         let mut all: Vec<_> = texts.collect();
         if merge.structure_conflict {
-            let file = manifest_path(self.open.documents.saved()).unwrap_or_else(|| {
+            let file = manifest_path(self.documents.saved()).unwrap_or_else(|| {
                 let base = capture::base_folder(self.project()).unwrap_or_default();
                 base.join("eddy.toml")
             });
-            let (mine, disk) =
-                (manifest_text(self.open.documents.current()), manifest_text(self.open.documents.saved()));
+            let (mine, disk) = (manifest_text(self.documents.current()), manifest_text(self.documents.saved()));
             all.push((None, file, mine.into(), disk.into()));
         }
         for (tab, file, mine, disk) in all {
             // A newer text on disk replaces the one that a question shows.
-            self.open.host.dialog.questions.retain(|q| !matches!(q, Question::Conflict { tab: t, .. } if *t == tab));
+            self.host.dialog.questions.retain(|q| !matches!(q, Question::Conflict { tab: t, .. } if *t == tab));
             let diff = documents::diff(&disk, &mine);
             self.ask(Question::Conflict { tab, file, mine, disk, diff });
         }
@@ -114,9 +113,9 @@ impl Session {
 
     /// Reports missing or empty files, once each.
     fn tell_gone(&mut self) {
-        let saved = self.open.documents.saved();
+        let saved = self.documents.saved();
         // A missing included file is an error at the line that includes it.
-        let is_own = |tab: &Tab| !matches!(tab, Tab::Included(_)) || self.open.documents.is_tab_dirty(tab);
+        let is_own = |tab: &Tab| !matches!(tab, Tab::Included(_)) || self.documents.is_tab_dirty(tab);
         let is_gone = |tab: &Tab| {
             let path = saved.source(tab).and_then(|s| s.path.as_ref());
             path.is_some_and(|p| fs::metadata(p).map_or(true, |m| m.len() == 0))
@@ -126,7 +125,7 @@ impl Session {
         if gone.is_empty() {
             self.settled(About::MissingFile);
         }
-        let new = self.open.documents.set_missing(gone.into_iter().collect());
+        let new = self.documents.set_missing(gone.into_iter().collect());
         new.iter().for_each(|tab| self.tell_one_gone(tab));
     }
 
@@ -142,14 +141,14 @@ impl Session {
     /// Returns whether every file is unchanged since it was read, so that saving overwrites no other program's changes.
     /// Changes are merged first, and conflicts become questions.
     pub(crate) fn disk_is_as_read(&mut self) -> bool {
-        if self.open.disk.is_as_read(&self.open.documents) {
+        if self.disk.is_as_read(&self.documents) {
             return true;
         }
-        match DiskSync::read(&self.open.documents, true) {
+        match DiskSync::read(&self.documents, true) {
             Some(DiskProject::Project(project)) => {
-                let questions = self.open.host.dialog.questions.len();
+                let questions = self.host.dialog.questions.len();
                 self.merge(*project);
-                self.open.host.dialog.questions.len() == questions
+                self.host.dialog.questions.len() == questions
             }
             Some(DiskProject::Unusable(why)) => {
                 self.notice_about(
@@ -169,12 +168,12 @@ impl Session {
     /// Records that the disk matches `documents`, and watches it.
     pub(crate) fn disk_is_known(&mut self) {
         self.watch_what_is_read();
-        self.open.disk.remember(&self.open.documents);
+        self.disk.remember(&self.documents);
     }
 
     /// Watches the folders of all files that the project reads, as far as the last compile has found them.
     pub(crate) fn watch_what_is_read(&mut self) {
-        let Some(failed) = self.open.disk.watch(self.open.documents.current(), &self.open.host.wake) else { return };
+        let Some(failed) = self.disk.watch(self.documents.current(), &self.host.wake) else { return };
         self.settled(About::Watching);
         for text in failed {
             self.notice_about(About::Watching, Level::Warning, text);

@@ -20,6 +20,7 @@ use super::{
     canvas::CanvasSize,
     command::{PendingAction, Question},
     drawing::Tasks,
+    open_project::OpenProject,
     view::{About, Level},
 };
 use audio::FilmAudio;
@@ -167,25 +168,18 @@ impl Session {
 
     /// Starts a film.
     pub(super) fn begin_film(&mut self, order: FilmOrder) {
-        self.settled(About::Film);
+        self.open.settled(About::Film);
         if self.services.films.is_busy() {
-            return self.notice_about(About::Film, Level::Warning, "a film is being made: stop or cancel it first");
+            return self.open.notice_about(
+                About::Film,
+                Level::Warning,
+                "a film is being made: stop or cancel it first",
+            );
         }
-        match self.film_target(&order) {
-            Err(why) => self.notice_about(About::Film, Level::Error, why),
+        match self.open.film_target(&order) {
+            Err(why) => self.open.notice_about(About::Film, Level::Error, why),
             Ok(target) if order.frames.is_some() => self.draw_range(order, target),
             Ok(target) => self.record_film(order, target),
-        }
-    }
-
-    fn film_target(&self, order: &FilmOrder) -> Result<Target, String> {
-        let project = self.project();
-        let stem = capture::stem_for(project, &self.open.picture.shown);
-        match &order.place {
-            FilmPlace::Numbered => {
-                Target::numbered(&capture::folder_for(project, &self.open.host.options.pictures), &stem, order.format)
-            }
-            FilmPlace::Named { path, replaces } => Ok(Target::named(path.clone(), &stem, order.format, *replaces)),
         }
     }
 
@@ -193,13 +187,13 @@ impl Session {
     fn draw_range(&mut self, order: FilmOrder, target: Target) {
         if self.open.halt.is_held() {
             let text = "nothing of this project is drawn before you play it: play it, then render it";
-            return self.notice_about(About::Film, Level::Warning, text);
+            return self.open.notice_about(About::Film, Level::Warning, text);
         }
         let gpu = match self.services.drawing.device().wait() {
             Ok(gpu) => gpu,
-            Err(error) => return self.notice_about(About::Film, Level::Error, error.to_string()),
+            Err(error) => return self.open.notice_about(About::Film, Level::Error, error.to_string()),
         };
-        self.settle_includes();
+        self.open.settle_includes();
         let media_dir = self.open.host.options.media_dir.clone();
         self.services.films.cancel = Cancel::default();
         self.services.films.ended = None;
@@ -218,15 +212,15 @@ impl Session {
 
     /// Starts recording what is drawn, at the film's size and rate.
     fn record_film(&mut self, order: FilmOrder, target: Target) {
-        self.end_replay("a film is recorded");
+        self.open.end_replay("a film is recorded");
         let before = (self.open.canvas.asked, self.open.playback.clock.fixed_rate());
         if order.size != self.open.engine.size() || self.open.canvas.asked.fixed.is_none() {
-            self.ask_size(CanvasSize { fixed: Some(order.size), ..self.open.canvas.asked });
+            self.open.ask_size(CanvasSize { fixed: Some(order.size), ..self.open.canvas.asked });
         }
         self.open.playback.clock.set_fixed_rate(Some(order.fps));
         self.services.films.ended = None;
         self.services.films.live = Some(Live::new(order, target, before));
-        self.play();
+        self.open.play();
     }
 
     /// Ends a recording, and completes its film.
@@ -263,7 +257,7 @@ impl Session {
         let (size, rate) = live.before;
         // The user may have chosen others meanwhile.
         if self.open.canvas.asked.fixed == Some(live.order.size) {
-            self.ask_size(size);
+            self.open.ask_size(size);
         }
         if self.open.playback.clock.fixed_rate() == Some(live.order.fps) {
             self.open.playback.clock.set_fixed_rate(rate);
@@ -291,7 +285,7 @@ impl Session {
     /// Ends a recording that gets no further frames. The frames so far are completed to a film.
     pub(super) fn cut_film(&mut self, why: &str) {
         if self.services.films.is_live() {
-            self.notice_about(About::Film, Level::Warning, format!("the film ends here: {why}"));
+            self.open.notice_about(About::Film, Level::Warning, format!("the film ends here: {why}"));
             self.stop_film();
         }
     }
@@ -305,7 +299,7 @@ impl Session {
 
     /// Adds the read-back of a frame of the film.
     pub(super) fn request_film_frame(&mut self, tasks: &mut Tasks) {
-        let pass = self.pictured();
+        let pass = self.open.pictured();
         if let Some(live) = &mut self.services.films.live {
             live.request(pass, tasks);
         }
@@ -333,7 +327,7 @@ impl Session {
     }
 
     fn film_failed(&mut self, why: String) {
-        self.notice_about(About::Film, Level::Error, format!("no film was written: {why}"));
+        self.open.notice_about(About::Film, Level::Error, format!("no film was written: {why}"));
         self.services.films.ended = Some(Ended::Failed(why));
     }
 
@@ -352,7 +346,7 @@ impl Session {
             Ok(done) => {
                 let frames = if done.frames == 1 { "1 frame".to_owned() } else { format!("{} frames", done.frames) };
                 let text = format!("saved {}: {frames}, {:.2} s", done.path.display(), done.secs);
-                self.notice_with_path(About::Film, Level::Info, text, done.path.clone());
+                self.open.notice_with_path(About::Film, Level::Info, text, done.path.clone());
                 self.services.films.ended = Some(Ended::Done(done));
                 if closes {
                     self.unless_unsaved(PendingAction::Close);
@@ -366,7 +360,7 @@ impl Session {
     pub(super) fn asks_about_film(&mut self) -> bool {
         let is_busy = self.services.films.is_busy();
         if is_busy {
-            self.ask(Question::Film { is_live: self.services.films.is_live() });
+            self.open.ask(Question::Film { is_live: self.services.films.is_live() });
         }
         is_busy
     }
@@ -378,6 +372,19 @@ impl Session {
             self.services.films.closes = true;
         } else {
             self.unless_unsaved(PendingAction::Close);
+        }
+    }
+}
+
+impl OpenProject {
+    fn film_target(&self, order: &FilmOrder) -> Result<Target, String> {
+        let project = self.project();
+        let stem = capture::stem_for(project, &self.picture.shown);
+        match &order.place {
+            FilmPlace::Numbered => {
+                Target::numbered(&capture::folder_for(project, &self.host.options.pictures), &stem, order.format)
+            }
+            FilmPlace::Named { path, replaces } => Ok(Target::named(path.clone(), &stem, order.format, *replaces)),
         }
     }
 }

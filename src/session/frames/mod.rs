@@ -4,6 +4,7 @@ use super::{
     Session,
     compile::{Compiled, Done, Source},
     drawing::{FrameControl, PendingProgram},
+    open_project::OpenProject,
     view::{About, Level, Tick},
 };
 use eddy_engine::EngineError;
@@ -18,25 +19,25 @@ impl Session {
         self.open.host.now = now;
         self.take_found_work();
         self.take_recording();
-        self.check_disk();
-        self.read_declared_uniforms();
+        self.open.check_disk();
+        self.open.read_declared_uniforms();
         let mut frame_drawn = self.take_drawn(false);
         self.watch_drawing();
-        self.follow_devices();
+        self.open.follow_devices();
         self.start_compile();
         self.take_compiled();
         self.analyse();
         self.take_analysed();
         self.open.host.changed |= self.open.trace.poll();
-        self.take_audited();
+        self.open.take_audited();
         self.open.host.changed |= self.open.nan_search.background.poll() | self.open.comparison.background.poll();
         self.tick_sound();
         self.tick_film();
-        self.fit_canvas();
+        self.open.fit_canvas();
         self.keep_unsaved();
         self.hear();
         self.follow_controls();
-        self.follow_measures();
+        self.open.follow_measures();
         self.steer_frame();
         // If a processor both draws and paints, painting the picture would be slower while another frame is drawn.
         let is_picture_new = std::mem::take(&mut self.services.display.is_new);
@@ -58,7 +59,7 @@ impl Session {
         self.take_compiled();
         self.steer_frame();
         if self.open.changes.program.is_some() || self.open.picture.is_program_new {
-            self.fit_canvas();
+            self.open.fit_canvas();
             self.services.display.has_drawn |= self.draw_due_frames(false);
         }
     }
@@ -73,7 +74,7 @@ impl Session {
 
     /// Makes the frame that is being drawn wait for the newest text, and abandons it for that text's program.
     fn steer_frame(&self) {
-        self.services.drawing.steer(match self.gives_way_until() {
+        self.services.drawing.steer(match self.open.gives_way_until() {
             _ if self.open.changes.program.is_some() => FrameControl::GiveUp,
             Some(until) => FrameControl::WaitUntil(until),
             None => FrameControl::GoOn,
@@ -84,16 +85,7 @@ impl Session {
     /// compile, or its first frame is being drawn.
     pub fn is_first_frame_coming(&self) -> bool {
         let is_drawn = self.services.drawing.is_busy() && !self.open.halt.is_held();
-        self.gives_way() || (is_drawn && (self.open.is_program_coming() || self.open.picture.is_program_new))
-    }
-
-    /// Returns whether the newest text is being compiled and likely to be done soon, judging by the previous compile.
-    pub(super) fn gives_way(&self) -> bool {
-        self.gives_way_until().is_some()
-    }
-
-    fn gives_way_until(&self) -> Option<Instant> {
-        self.open.compile.holds_frames_until(self.open.host.now)
+        self.open.gives_way() || (is_drawn && (self.open.is_program_coming() || self.open.picture.is_program_new))
     }
 
     fn wake_at(&self) -> Option<Instant> {
@@ -101,14 +93,14 @@ impl Session {
             self.open.playback.is_running() && self.open.engine.has_program() && !self.open.halt.is_device_gone();
         // The end of a frame in progress wakes the session.
         let is_busy = self.services.drawing.is_busy() || self.services.display.waits_for_painting;
-        let is_held = self.open.halt.is_halted() || is_busy || self.gives_way();
+        let is_held = self.open.halt.is_halted() || is_busy || self.open.gives_way();
         let is_next_due = is_running && !is_held;
         // A frame of a recording may become due only after the previous picture was painted, and nothing else wakes the
         // session.
-        let is_free = !self.open.halt.is_halted() && !self.services.drawing.is_busy() && !self.gives_way();
+        let is_free = !self.open.halt.is_halted() && !self.services.drawing.is_busy() && !self.open.gives_way();
         let replayed = self.open.playback.replay_due(self.open.host.now).filter(|_| is_running && is_free);
         let is_next_due = is_next_due && !self.open.playback.is_replaying();
-        let resumes = self.gives_way_until().filter(|_| is_running);
+        let resumes = self.open.gives_way_until().filter(|_| is_running);
         let (drawing, sound) = (self.drawing_deadline(), self.sound_deadline());
         let deadlines = [
             self.open.compile.edits.deadline(),
@@ -145,15 +137,15 @@ impl Session {
             Ok(Done { files, is_changed, includes, compiled }) => {
                 let has_new_files = self.open.disk.set_media_files(files) | includes.is_some();
                 if let Some((edit, includes)) = includes {
-                    self.take_includes(includes, edit);
+                    self.open.take_includes(includes, edit);
                 }
                 if has_new_files {
-                    self.watch_what_is_read();
+                    self.open.watch_what_is_read();
                 }
                 if is_changed {
-                    self.compile_soon();
+                    self.open.compile_soon();
                 }
-                let is_compiling = self.is_compile_under_way();
+                let is_compiling = self.open.is_compile_under_way();
                 let Some(compiled) = compiled else {
                     // It was a check of the files, which made the compiler seem busy.
                     self.open.host.changed |= self.open.compile.set_compiling(is_compiling);
@@ -164,7 +156,7 @@ impl Session {
             Err(why) => Err(why),
         };
         self.open.host.changed = true;
-        self.open.compile.set_compiling(self.is_compile_under_way());
+        self.open.compile.set_compiling(self.open.is_compile_under_way());
         match compiled {
             Err(what) => {
                 self.open.compile.diagnostics.clear();
@@ -173,15 +165,10 @@ impl Session {
                 let has_program = self.open.engine.has_program();
                 self.open.compile.fail(has_program);
                 let goes_on = if has_program { "; the last working version keeps running" } else { "" };
-                self.notice_about(About::Code, Level::Error, format!("{what}{goes_on}"));
+                self.open.notice_about(About::Code, Level::Error, format!("{what}{goes_on}"));
             }
             Ok(compiled) => self.take_program(compiled),
         }
-    }
-
-    /// Returns whether the picture is older than the newest text.
-    pub(super) fn is_compile_under_way(&self) -> bool {
-        self.open.compile.is_busy() || (self.open.is_program_coming() && !self.open.halt.is_held())
     }
 
     fn take_program(&mut self, compiled: Compiled) {
@@ -203,14 +190,14 @@ impl Session {
             self.open.compile.succeed(millis);
         }
         self.services.audio.expect(sounds);
-        self.forget_old_names(&project);
+        self.open.forget_old_names(&project);
         self.open.changes.program = Some(PendingProgram::new(program, project, millis));
         // They may have been set while it was being compiled.
-        self.custom_uniforms_turned();
+        self.open.custom_uniforms_turned();
         self.open.read_backs.probing.built(probe);
-        self.open.changes.shown = Some(self.pictured());
+        self.open.changes.shown = Some(self.open.pictured());
         self.open.changes.look = self.open.read_backs.probing.take_look(true);
-        self.open.compile.set_compiling(self.is_compile_under_way());
+        self.open.compile.set_compiling(self.open.is_compile_under_way());
     }
 
     /// The machine rejected the newest text: also added to the list of errors, where errors are counted.
@@ -222,7 +209,23 @@ impl Session {
 
     /// Reports an error of the graphics layer that no caller was waiting for. Reported once, however often it occurs.
     pub fn tell_of(&mut self, error: &GpuError) {
-        self.notice_once(About::Window, Level::Error, &error.to_string());
+        self.open.notice_once(About::Window, Level::Error, &error.to_string());
+    }
+}
+
+impl OpenProject {
+    /// Returns whether the newest text is being compiled and likely to be done soon, judging by the previous compile.
+    pub(super) fn gives_way(&self) -> bool {
+        self.gives_way_until().is_some()
+    }
+
+    fn gives_way_until(&self) -> Option<Instant> {
+        self.compile.holds_frames_until(self.host.now)
+    }
+
+    /// Returns whether the picture is older than the newest text.
+    pub(super) fn is_compile_under_way(&self) -> bool {
+        self.compile.is_busy() || (self.is_program_coming() && !self.halt.is_held())
     }
 }
 

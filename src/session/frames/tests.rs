@@ -133,9 +133,9 @@ fn slower_compile_than_expected_blocks_no_frames() {
     session.open.compile.expect(Duration::ZERO);
     session.open.host.now = began;
     session.open.compile.set_newest_since(Some(began));
-    assert!(session.gives_way() && session.wake_at().is_some_and(|at| at <= began + BRIEF));
+    assert!(session.open.gives_way() && session.wake_at().is_some_and(|at| at <= began + BRIEF));
     session.open.host.now = began + BRIEF;
-    assert!(!session.gives_way());
+    assert!(!session.open.gives_way());
 }
 
 #[test]
@@ -214,14 +214,14 @@ fn frame_waits_for_newest_text_and_is_abandoned_for_its_program() {
 fn first_frame_and_paused_frames_do_not_wait() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
-    tick_until(&mut session, "a frame that nothing else goes with", |s| s.is_one_of_many());
+    tick_until(&mut session, "a frame that nothing else goes with", |s| s.open.is_one_of_many());
     session.open.picture.is_program_new = true;
-    assert!(!session.is_one_of_many(), "the first one");
+    assert!(!session.open.is_one_of_many(), "the first one");
     session.open.picture.is_program_new = false;
-    assert!(session.is_one_of_many());
+    assert!(session.open.is_one_of_many());
     session.open.changes.reset = true;
-    assert!(!session.is_one_of_many(), "a change goes with it");
+    assert!(!session.open.is_one_of_many(), "a change goes with it");
     session.open.changes.reset = false;
     session.apply(Command::Pause);
-    assert!(!session.is_one_of_many(), "time stands");
+    assert!(!session.open.is_one_of_many(), "time stands");
 }

@@ -14,6 +14,7 @@ pub use record::{Cell, MOST, Record, Sample};
 use super::{
     Session,
     buffers::reason,
+    open_project::OpenProject,
     view::{About, Level},
 };
 use eddy_playback::{capture, reduction::Unmeasured};
@@ -45,28 +46,30 @@ impl Session {
         let mend = format!("let a drawn pass read it, or show {} as the picture", pass.title());
         Some(Cow::Owned(Unmeasured { why: format!("{} is {known}", pass.title()), mend }))
     }
+}
 
+impl OpenProject {
     /// Updates the comments after edits.
     pub(super) fn follow_measures(&mut self) {
-        let state = (self.open.disk.opened(), self.open.documents.revision());
-        self.open.host.changed |= self.open.read_backs.measuring.follow(self.open.documents.current(), state);
+        let state = (self.disk.opened(), self.documents.revision());
+        self.host.changed |= self.read_backs.measuring.follow(self.documents.current(), state);
     }
 
     /// Writes the measured values to a new file next to the pictures.
     pub(super) fn save_measures(&mut self) {
-        let measures = self.open.read_backs.measuring.measures();
+        let measures = self.read_backs.measuring.measures();
         if measures.iter().all(|measure| measure.record.newest().is_none()) {
             self.notice_about(About::Capture, Level::Warning, "nothing to save: nothing has been measured yet");
             return;
         }
-        let project = self.open.documents.current();
-        let folder = capture::folder_for(project, &self.open.host.options.pictures);
+        let project = self.documents.current();
+        let folder = capture::folder_for(project, &self.host.options.pictures);
         let stem = format!("{}-measured", capture::file_stem(&project.name));
         let name = |n: u32| format!("{stem}-{n:04}.csv");
         match capture::write_new(&folder, name, &stem, |out| csv::write(out, measures)) {
             Ok(path) => {
                 self.notice(Level::Info, format!("saved {}", path.display()));
-                if let Some(notice) = self.open.host.notices.last_mut() {
+                if let Some(notice) = self.host.notices.last_mut() {
                     notice.path = Some(path);
                 }
             }

@@ -59,13 +59,13 @@ impl Session {
     pub(crate) fn take_found_work(&mut self) {
         while let Some(news) = self.services.recovery.recovery.as_ref().and_then(Recovery::take_news) {
             match news {
-                News::Trouble(text) => self.notice_about(About::Window, Level::Warning, text),
+                News::Trouble(text) => self.open.notice_about(About::Window, Level::Warning, text),
                 News::Found(found) => {
                     let here = place(&self.project().origin);
                     let is_here = |left: &Left| here.is_some() && place(&left.shown.origin) == here;
                     let (first, rest): (Vec<Left>, Vec<Left>) = found.into_iter().partition(is_here);
                     for left in first.into_iter().chain(rest) {
-                        self.ask(Question::Recover(Box::new(left.shown.clone())));
+                        self.open.ask(Question::Recover(Box::new(left.shown.clone())));
                         self.services.recovery.found.push(left);
                     }
                 }
@@ -105,7 +105,7 @@ impl Session {
         }
         self.open.compile.include_edits += 1;
         let placeless = shown.trouble.map(|why| format!(" Its original location is gone: {why}")).unwrap_or_default();
-        self.notice(Level::Info, format!("recovered {}: paused and not saved yet.{placeless}", shown.name));
+        self.open.notice(Level::Info, format!("recovered {}: paused and not saved yet.{placeless}", shown.name));
         self.put_off_all();
     }
 
@@ -117,7 +117,7 @@ impl Session {
             1 => "there is unsaved work of another project too".to_owned(),
             n => format!("there is unsaved work of {n} other projects too"),
         };
-        self.notice(Level::Info, format!("{some}; Eddy asks about it at the next start"));
+        self.open.notice(Level::Info, format!("{some}; Eddy asks about it at the next start"));
         others.iter().for_each(|file| self.put_off(file));
         self.open.host.dialog.questions.retain(|q| !matches!(q, Question::Recover(_)));
     }

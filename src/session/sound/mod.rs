@@ -393,7 +393,7 @@ impl Session {
         let time = self.open.playback.clock.time_secs();
         if let Some(why) = self.services.sound_pass.poll(self.open.host.now, time) {
             let text = format!("No more of the sound pass is made: {why}. Edit the pass to try again");
-            self.notice_about(About::Code, Level::Warning, text);
+            self.open.notice_about(About::Code, Level::Warning, text);
             self.open.host.changed = true;
         }
         self.open.host.changed |= self.services.sound_pass.take_changed();

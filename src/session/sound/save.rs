@@ -25,7 +25,7 @@ impl Session {
             (None, Some((_, track))) => track,
             (why, _) => {
                 let text = why.unwrap_or_default();
-                self.notice_about(About::Capture, Level::Warning, text);
+                self.open.notice_about(About::Capture, Level::Warning, text);
                 return;
             }
         };
@@ -35,12 +35,12 @@ impl Session {
         let stem = capture::stem_for(project, &PassName::sound());
         match capture::write_new(&folder, |n| format!("{stem}-{n:04}.wav"), &stem, |out| out.write_all(&wav(&frames))) {
             Ok(path) => {
-                self.notice(Level::Info, format!("saved {}", path.display()));
+                self.open.notice(Level::Info, format!("saved {}", path.display()));
                 if let Some(notice) = self.open.host.notices.last_mut() {
                     notice.path = Some(path);
                 }
             }
-            Err(error) => self.notice_about(About::Capture, Level::Error, error.to_string()),
+            Err(error) => self.open.notice_about(About::Capture, Level::Error, error.to_string()),
         }
     }
 }
