@@ -1,7 +1,7 @@
 //! Editor analysis of the project's texts: the front tab with its Common is re-analysed after each change, on a thread
 //! of its own so that no keystroke waits for it.
 
-use super::{Session, rename};
+use super::{open_project::OpenProject, rename};
 use eddy_background::Background;
 use eddy_diag::SourceId;
 use eddy_engine::{self as engine, KeptPreamble, Sources};
@@ -133,15 +133,10 @@ impl Analyst {
     }
 }
 
-impl Session {
-    /// Returns the newest analysis of the front tab, which may be of an older text.
-    pub fn analysis(&self) -> Option<&Arc<TabAnalysis>> {
-        self.services.analyst.newest.as_ref()
-    }
-
+impl OpenProject {
     /// Every place in the project that names the symbol at a place of `of`. A symbol that is declared in a text shared
     /// by several passes is searched for in every pass, which takes about a millisecond for a thousand lines.
-    pub fn uses(&self, of: &TabAnalysis, source: SourceId, offset: usize) -> Vec<(Tab, Range<usize>)> {
+    pub(crate) fn uses(&self, of: &TabAnalysis, source: SourceId, offset: usize) -> Vec<(Tab, Range<usize>)> {
         let project = self.project();
         let here = of.analysis.uses(source, offset);
         let declared = of.analysis.definition(source, offset);
@@ -161,15 +156,22 @@ impl Session {
         places.retain(|(id, range)| known.insert((id.0, range.start)));
         places.into_iter().filter_map(|(id, range)| Some((project.tab_of(id)?, range))).collect()
     }
+}
+
+impl Analyst {
+    /// Returns the newest analysis of the front tab, which may be of an older text.
+    pub(crate) fn analysis(&self) -> Option<&Arc<TabAnalysis>> {
+        self.newest.as_ref()
+    }
 
     /// Returns the line, from 0, at which a breakpoint in a line of a tab stops: its own, or the next one with a
     /// statement. `None` if no statement follows. Parses the text again, which takes about a millisecond for a thousand
     /// lines.
-    pub fn stop_line(&self, tab: &Tab, line: usize) -> Option<usize> {
-        let project = self.project();
-        let text = self.text(tab);
+    pub(crate) fn stop_line(&self, open: &OpenProject, tab: &Tab, line: usize) -> Option<usize> {
+        let project = open.project();
+        let text = open.text(tab);
         let id = project.id_of(tab)?;
-        let (index, stage) = self.read_with(tab)?;
+        let (index, stage) = self.read_with(open, tab)?;
         let start = text.split_inclusive('\n').take(line).map(str::len).sum::<usize>();
         let end = text[start..].find('\n').map_or(text.len(), |at| start + at + 1);
         let analysis = engine::Sources::new(project).analyse_stage(index, stage);
@@ -179,18 +181,18 @@ impl Session {
 
     /// Returns the pass and the stage that a tab is analysed with: its own, or for a shared text one of those that
     /// include it.
-    fn read_with(&self, tab: &Tab) -> Option<(usize, Stage)> {
-        let project = self.project();
+    fn read_with(&self, open: &OpenProject, tab: &Tab) -> Option<(usize, Stage)> {
+        let project = open.project();
         let users = match tab {
             Tab::Included(_) => project.tabs_that_include(tab),
             _ => vec![tab.clone()],
         };
-        let is_known = |user: &&Tab| user.pass().is_none_or(|id| *id == self.services.analyst.pass);
+        let is_known = |user: &&Tab| user.pass().is_none_or(|id| *id == self.pass);
         let user = users.iter().find(is_known).or(users.first())?;
         let place = |id: &PassName| project.passes.iter().position(|p| p.id == *id);
         let index = match user.pass() {
             Some(id) => place(id)?,
-            None => place(&self.services.analyst.pass).or_else(|| place(&PassName::image()))?,
+            None => place(&self.pass).or_else(|| place(&PassName::image()))?,
         };
         let stages = project.passes[index].body.stages();
         let file = match user {
@@ -201,49 +203,48 @@ impl Session {
     }
 
     /// Sets the tab whose text is analysed from now on.
-    pub(super) fn bring_to_front(&mut self, tab: Tab) {
-        if let Some((index, stage)) = self.read_with(&tab).filter(|_| tab != Tab::Common) {
-            let pass = &self.open.documents.current().passes[index];
-            self.services.analyst.pass = pass.id.clone();
+    pub(super) fn bring_to_front(&mut self, open: &mut OpenProject, tab: Tab) {
+        if let Some((index, stage)) = self.read_with(open, &tab).filter(|_| tab != Tab::Common) {
+            let pass = &open.documents.current().passes[index];
+            self.pass = pass.id.clone();
             let stages = pass.body.stages();
-            self.services.analyst.stage = match stage {
+            self.stage = match stage {
                 Stage::Own => None,
                 Stage::File(n) => stages.get(n).map(|s| s.name.clone()),
             };
         } else {
-            self.services.analyst.stage = None;
+            self.stage = None;
         }
-        self.services.analyst.front = Some(tab);
+        self.front = Some(tab);
     }
 
     /// Submits the newest texts for analysis if they have changed.
-    pub(super) fn analyse(&mut self) {
-        let Some(front) = self.services.analyst.front.clone() else { return };
-        let project = self.open.documents.current();
+    pub(super) fn analyse(&mut self, open: &mut OpenProject) {
+        let Some(front) = self.front.clone() else { return };
+        let project = open.documents.current();
         let place = |id: &PassName| project.passes.iter().position(|p| p.id == *id);
-        let index = place(&self.services.analyst.pass).or_else(|| place(&PassName::image())).unwrap_or(0);
+        let index = place(&self.pass).or_else(|| place(&PassName::image())).unwrap_or(0);
         if project.passes.is_empty() {
             return;
         }
         let stages = project.passes[index].body.stages();
-        let file = self.services.analyst.stage.as_ref();
+        let file = self.stage.as_ref();
         let stage = stages.iter().position(|s| Some(&s.name) == file).map_or(Stage::Own, Stage::File);
         let texts = Texts::of(project, index, stage);
-        let is_known =
-            self.services.analyst.asked.as_ref().is_some_and(|(old, tab)| *tab == front && old.is_same(&texts));
+        let is_known = self.asked.as_ref().is_some_and(|(old, tab)| *tab == front && old.is_same(&texts));
         if !is_known {
-            self.services.analyst.asked = Some((texts.clone(), front.clone()));
-            self.services.analyst.background.start((texts, front));
+            self.asked = Some((texts.clone(), front.clone()));
+            self.background.start((texts, front));
         }
     }
 
-    pub(super) fn take_analysed(&mut self) {
-        match self.services.analyst.background.take() {
+    pub(super) fn take_analysed(&mut self, open: &mut OpenProject) {
+        match self.background.take() {
             None => return,
-            Some(Ok(done)) => self.services.analyst.newest = Some(Arc::new(done)),
+            Some(Ok(done)) => self.newest = Some(Arc::new(done)),
             // The editor works without an analysis; the compiler reports the bug to the user if it panics as well.
             Some(Err(why)) => log::error!("{why}"),
         }
-        self.open.host.changed = true;
+        open.host.changed = true;
     }
 }

@@ -18,7 +18,7 @@ impl Session {
         self.open.host.notices.begin_command();
         self.execute(command);
         // Not in a tick, which a slow frame may delay.
-        self.keep_unsaved();
+        self.services.recovery.keep_unsaved(&mut self.open);
     }
 
     fn execute(&mut self, command: Command) {
@@ -37,11 +37,11 @@ impl Session {
             | Command::Answer(_) => self.apply_to_files(command),
             Command::EditText { tab, text } => {
                 self.open.edit_text(&tab, &text);
-                self.analyse();
+                self.services.analyst.analyse(&mut self.open);
             }
             Command::BringToFront(tab) => {
-                self.bring_to_front(tab);
-                self.analyse();
+                self.services.analyst.bring_to_front(&mut self.open, tab);
+                self.services.analyst.analyse(&mut self.open);
             }
             Command::CompileNow => self.open.compile_soon(),
             Command::SetCompileOnSave(on) => self.open.compile.set_on_save(on),
@@ -56,20 +56,20 @@ impl Session {
                     self.services.last_pictures.want();
                 }
             }
-            Command::Hide(is_hidden) => self.hide(is_hidden),
+            Command::Hide(is_hidden) => self.services.audio.hide(&mut self.open, is_hidden),
             Command::SetVolume(volume) => self.services.audio.set_volume(volume),
             Command::SetMute(on) => self.services.audio.set_mute(on),
-            Command::OpenSoundAgain => self.open_sound_again(),
+            Command::OpenSoundAgain => self.services.audio.open_sound_again(&mut self.open),
             Command::SetAudioOutput(device) => self.services.audio.choose_output(device),
             Command::SetAudioInput(device) => self.services.audio.choose_input(device),
             Command::ListAudioDevices => self.services.audio.list_devices(&self.open.host.wake),
-            Command::UseMicrophone(on) => self.use_microphone(on),
-            Command::SetOsc(address) => self.set_osc(address),
-            Command::SetMidi(choice) => self.set_midi(choice),
-            Command::SetGamepads(on) => self.set_gamepads(on),
-            Command::ListMidiDevices => self.list_midi_devices(),
-            Command::LearnControl(target) => self.learn_control(target),
-            Command::ForgetControl(target) => self.forget_control(&target),
+            Command::UseMicrophone(on) => self.services.audio.use_microphone(&mut self.open, on),
+            Command::SetOsc(address) => self.services.controls.set_osc(&mut self.open, address),
+            Command::SetMidi(choice) => self.services.controls.set_midi(&mut self.open, choice),
+            Command::SetGamepads(on) => self.services.controls.set_gamepads(&mut self.open, on),
+            Command::ListMidiDevices => self.services.controls.list_midi_devices(),
+            Command::LearnControl(target) => self.services.controls.learn_control(&mut self.open, target),
+            Command::ForgetControl(target) => self.services.controls.forget_control(&mut self.open, &target),
             Command::Hold => self.open.hold(),
             Command::GoOn => self.open.go_on_drawing(),
             Command::DrawSmaller => self.draw_smaller(),
@@ -176,7 +176,7 @@ impl Session {
             Command::WatchMeasures(seen) => self.open.read_backs.measuring.watch(seen),
             Command::ClearMeasures => self.open.read_backs.measuring.clear(),
             Command::SaveMeasures => self.open.save_measures(),
-            Command::SaveSound => self.save_sound(),
+            Command::SaveSound => self.services.sound_pass.save_sound(&mut self.open),
             Command::FindNonfinite(is_wanted) => self.open.nan_search.want(is_wanted),
             Command::Compare(against) => self.open.comparison.want(against),
             Command::SetFrameLimit(limit) => self.open.halt.set_limit(limit),

@@ -2,7 +2,6 @@
 //! thread of its own, and its findings are listed with the problems until the next compile.
 
 use super::{
-    Session,
     drawing::{Tasks, Ticket},
     open_project::OpenProject,
     read_back::{Inspect, Inspected},
@@ -96,15 +95,13 @@ impl Auditing {
     }
 }
 
-impl Session {
+impl OpenProject {
     /// Returns the errors of the audited pixels ([`Command::Audit`](super::Command::Audit)) while its findings are
     /// listed.
-    pub fn audit_map(&self) -> Option<&AuditMap> {
-        self.open.audit.map.as_ref()
+    pub(crate) fn audit_map(&self) -> Option<&AuditMap> {
+        self.audit.map.as_ref()
     }
-}
 
-impl OpenProject {
     pub(super) fn ask_audit(&mut self) {
         self.settled(About::Audit);
         if self.is_playing() {

@@ -1,8 +1,8 @@
 //! Comparison of the open project with another one, from the recorded inputs of its frames.
 
 use super::{
-    Session,
-    drawing::{Tasks, Ticket},
+    drawing::{Device, Tasks, Ticket},
+    open_project::OpenProject,
     read_back::TakeRun,
 };
 use eddy_background::{Background, Count, Status, Wake};
@@ -42,43 +42,37 @@ impl Comparing {
     }
 }
 
-impl Session {
-    /// The comparison with another project ([`Command::Compare`](super::Command::Compare)), which counts frames.
-    pub fn comparison(&self) -> Option<Status<'_, Count, Arc<Comparison>>> {
-        self.open.comparison.background.status()
+impl OpenProject {
+    /// The newest comparison is of an older revision of the project.
+    pub(crate) fn is_comparison_old(&self) -> bool {
+        matches!(self.comparison(), Some(Status::Ended(Ok(done))) if done.revision != self.documents.revision())
     }
 
-    /// The newest comparison is of an older revision of the project.
-    pub fn is_comparison_old(&self) -> bool {
-        matches!(self.comparison(), Some(Status::Ended(Ok(done))) if done.revision != self.open.documents.revision())
+    /// The comparison with another project ([`Command::Compare`](super::Command::Compare)), which counts frames.
+    pub(crate) fn comparison(&self) -> Option<Status<'_, Count, Arc<Comparison>>> {
+        self.comparison.background.status()
     }
 
     /// Submits the frames that both projects draw.
-    pub(super) fn compare(&mut self) {
-        let Comparing { background, against, input } = &mut self.open.comparison;
+    pub(super) fn compare(&mut self, device: &Device) {
+        let Comparing { background, against, input } = &mut self.comparison;
         let (Some(input), Some(against)) = (input.take(), against.clone()) else { return };
-        self.open.host.changed = true;
+        self.host.changed = true;
         let (run, camera) = input.output;
-        let Some(project) = self.open.engine.project().cloned() else {
+        let Some(project) = self.engine.project().cloned() else {
             return background.fail("nothing has been drawn yet");
         };
-        let media_dir = self.open.host.options.media_dir.clone();
-        match self.services.drawing.device().wait() {
+        let media_dir = self.host.options.media_dir.clone();
+        match device.wait() {
             Err(e) => background.fail(e.to_string()),
             Ok(gpu) => background.start(CompareJob {
                 gpu,
                 project,
-                saved: self.open.documents.saved().clone(),
+                saved: self.documents.saved().clone(),
                 against,
-                revision: self.open.documents.revision(),
-                shown: self.open.picture.shown.clone(),
-                trial: self
-                    .open
-                    .host
-                    .options
-                    .trials
-                    .as_ref()
-                    .map(|trials| trials.trial(media_dir.clone(), Arc::default())),
+                revision: self.documents.revision(),
+                shown: self.picture.shown.clone(),
+                trial: self.host.options.trials.as_ref().map(|trials| trials.trial(media_dir.clone(), Arc::default())),
                 media_dir,
                 run,
                 camera,

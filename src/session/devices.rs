@@ -4,7 +4,6 @@
 //! shows black until then, and another project asks again.
 
 use super::{
-    Session,
     open_project::OpenProject,
     view::{About, Level},
 };
@@ -78,32 +77,30 @@ impl Devices {
     }
 }
 
-impl Session {
-    /// Returns whether a channel of a drawn pass reads a kind of device.
-    pub fn reads_device(&self, kind: InputKind) -> bool {
-        reads(self.project(), kind)
+impl OpenProject {
+    /// Returns the available cameras, known once one has been on, and the active one.
+    pub(crate) fn cameras(&self) -> (&[CameraDevice], Option<&CameraSource>) {
+        (&self.devices.found, self.devices.camera.as_ref().map(Camera::source))
     }
 
-    pub fn device_state(&self, kind: InputKind) -> CameraState {
-        match (&self.open.devices.camera, kind) {
+    /// Returns the newest picture of the active camera.
+    pub(crate) fn camera_picture(&self) -> Option<CameraFrame> {
+        self.devices.camera.as_ref().and_then(Camera::newest)
+    }
+
+    pub(crate) fn device_state(&self, kind: InputKind) -> CameraState {
+        match (&self.devices.camera, kind) {
             (Some(camera), InputKind::Webcam) if camera.newest().is_some() => CameraState::On,
             (Some(_), InputKind::Webcam) => CameraState::Starting,
             _ => CameraState::Off,
         }
     }
 
-    /// Returns the newest picture of the active camera.
-    pub fn camera_picture(&self) -> Option<CameraFrame> {
-        self.open.devices.camera.as_ref().and_then(Camera::newest)
+    /// Returns whether a channel of a drawn pass reads a kind of device.
+    pub(crate) fn reads_device(&self, kind: InputKind) -> bool {
+        reads(self.project(), kind)
     }
 
-    /// Returns the available cameras, known once one has been on, and the active one.
-    pub fn cameras(&self) -> (&[CameraDevice], Option<&CameraSource>) {
-        (&self.open.devices.found, self.open.devices.camera.as_ref().map(Camera::source))
-    }
-}
-
-impl OpenProject {
     /// Turns a device on or off, at the user's request.
     pub(super) fn use_device(&mut self, kind: InputKind, on: bool) {
         if kind != InputKind::Webcam {

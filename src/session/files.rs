@@ -73,7 +73,7 @@ impl Session {
             PendingAction::Close => {
                 self.open.end_recording();
                 self.keep_time();
-                self.forget_unsaved();
+                self.services.recovery.forget_unsaved();
                 self.open.host.dialog.requests.push_back(Request::Exit);
             }
         }

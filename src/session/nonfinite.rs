@@ -1,8 +1,8 @@
 //! The search for the first NaN, in frames that are drawn again in the background.
 
 use super::{
-    Session,
-    drawing::{Tasks, Ticket},
+    drawing::{Device, Tasks, Ticket},
+    open_project::OpenProject,
     read_back::TakeReplay,
 };
 use eddy_background::{Background, Count, Status, Wake};
@@ -37,31 +37,31 @@ impl Searching {
     }
 }
 
-impl Session {
+impl OpenProject {
     /// The search for the first NaN ([`Command::FindNonfinite`](super::Command::FindNonfinite)), which counts frames.
-    pub fn search(&self) -> Option<Status<'_, Count, SearchEnd>> {
-        self.open.nan_search.background.status()
+    pub(crate) fn search(&self) -> Option<Status<'_, Count, SearchEnd>> {
+        self.nan_search.background.status()
     }
 
     /// Submits the frames to search for the first NaN.
-    pub(super) fn search_frames(&mut self) {
-        let Searching { background, input } = &mut self.open.nan_search;
+    pub(super) fn search_frames(&mut self, device: &Device) {
+        let Searching { background, input } = &mut self.nan_search;
         let Some(input) = input.take() else { return };
-        self.open.host.changed = true;
+        self.host.changed = true;
         let (Some((Replay { snapshot, frames }, camera)), Some(project)) =
-            (input.output, self.open.engine.project().cloned())
+            (input.output, self.engine.project().cloned())
         else {
             return background
                 .fail("no earlier frames are kept: reset and play again; very large buffers are never kept");
         };
-        match self.services.drawing.device().wait() {
+        match device.wait() {
             Err(e) => background.fail(e.to_string()),
             Ok(gpu) => background.start(SearchJob {
                 gpu,
                 project,
-                shown: self.open.picture.shown.clone(),
-                size: self.open.engine.size(),
-                media_dir: self.open.host.options.media_dir.clone(),
+                shown: self.picture.shown.clone(),
+                size: self.engine.size(),
+                media_dir: self.host.options.media_dir.clone(),
                 snapshot,
                 camera,
                 frames: frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),

@@ -4,7 +4,6 @@
 //! since. The history is cleared when another project is opened or the disk's passes are taken.
 
 use super::{
-    Session,
     documents::Documents,
     open_project::OpenProject,
     pass_history::{PassStep, Step, UndoState},
@@ -14,19 +13,12 @@ use super::{
 use eddy_project::{PassEdit, PassName, Project, Tab};
 use std::time::Instant;
 
-impl Session {
-    /// The edit that [`Command::RedoPassEdit`](super::Command::RedoPassEdit) redoes.
-    pub fn pass_redo(&self) -> Option<PassStep<'_>> {
-        self.open.pass_history.redo.last().map(Step::shown)
-    }
-
-    /// Every pass that was renamed since the session started: the old name, the new name. Only grows.
-    pub fn renamed_passes(&self) -> &[(PassName, PassName)] {
-        &self.open.host.renamed_passes
-    }
-}
-
 impl OpenProject {
+    /// The edit that [`Command::RedoPassEdit`](super::Command::RedoPassEdit) redoes.
+    pub(crate) fn pass_redo(&self) -> Option<PassStep<'_>> {
+        self.pass_history.redo.last().map(Step::shown)
+    }
+
     pub(crate) fn pass_undo(&self) -> Option<PassStep<'_>> {
         self.pass_history.undo.last().map(Step::shown)
     }

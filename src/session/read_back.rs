@@ -111,9 +111,10 @@ impl Session {
         if self.open.read_backs.probing.take_news() {
             self.open.look_anew();
         }
-        self.search_frames();
-        self.find_divergence();
-        self.compare();
+        let device = self.services.drawing.device();
+        self.open.search_frames(&device);
+        self.open.find_divergence(&device);
+        self.open.compare(&device);
         self.open.audit();
         self.open.trace_pixel(has_frame);
     }

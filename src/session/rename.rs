@@ -1,7 +1,7 @@
 //! Renaming of a symbol of the author's everywhere in the project.
 
 use super::{
-    Session,
+    open_project::OpenProject,
     view::{TabEdit, TabFix},
 };
 use eddy_diag::{Fix, SourceId, SourceMap, Span};
@@ -9,9 +9,9 @@ use eddy_engine as engine;
 use eddy_glsl::services::{Analysis, Places, Programs};
 use eddy_project::{Project, Tab};
 
-impl Session {
+impl OpenProject {
     /// Returns the symbol at a byte of a tab that can be renamed, or why it cannot.
-    pub fn renamable(&self, tab: &Tab, at: usize) -> Result<String, String> {
+    pub(crate) fn renamable(&self, tab: &Tab, at: usize) -> Result<String, String> {
         let project = self.project();
         let source = project.id_of(tab).ok_or_else(|| "there is no name here".to_owned())?;
         Read::new(project).programs(|programs| programs.renamable(source, at).map(|(name, _)| name))
@@ -19,7 +19,7 @@ impl Session {
 
     /// Returns the edits that rename the symbol at a byte of a tab. Fails if the symbol is not the author's, and if the
     /// new name would change the meaning of something.
-    pub fn rename(&self, tab: &Tab, at: usize, to: &str) -> Result<TabFix, String> {
+    pub(crate) fn rename(&self, tab: &Tab, at: usize, to: &str) -> Result<TabFix, String> {
         let project = self.project();
         let source = project.id_of(tab).ok_or_else(|| "there is no name here".to_owned())?;
         let fix = Read::new(project).programs(|programs| {

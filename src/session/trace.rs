@@ -5,8 +5,7 @@
 //! and no simulation advances. The interpreter and the search run on threads of their own.
 
 use super::{
-    Session,
-    drawing::{Tasks, Ticket},
+    drawing::{Device, Tasks, Ticket},
     open_project::OpenProject,
     read_back::{Inspect, Inspected, TakeReplay},
 };
@@ -131,53 +130,24 @@ impl Divergence {
         }
     }
 }
-
-impl Session {
-    /// The trace of the chosen pixel ([`Command::Trace`](super::Command::Trace)).
-    pub fn trace(&self) -> TraceView<'_> {
-        TraceView {
-            traced: self.open.trace.traced(),
-            is_under_way: self.open.trace.walk.is_under_way(),
-            trouble: self.open.trace.walk.result().and_then(|result| result.as_ref().err()).map(String::as_str),
-        }
-    }
-
+impl OpenProject {
     /// The search for the first difference from the device in the traced pixel
     /// ([`Command::FindDivergence`](super::Command::FindDivergence)); `None` if it was not requested.
-    pub fn divergence(&self) -> Option<Status<'_, (), DivergenceFound>> {
-        let Divergence { background, of, .. } = &self.open.trace.divergence;
-        of.as_ref().zip(self.open.trace.traced()).filter(|(of, traced)| Arc::ptr_eq(of, traced))?;
+    pub(crate) fn divergence(&self) -> Option<Status<'_, (), DivergenceFound>> {
+        let Divergence { background, of, .. } = &self.trace.divergence;
+        of.as_ref().zip(self.trace.traced()).filter(|(of, traced)| Arc::ptr_eq(of, traced))?;
         background.status()
     }
 
-    /// Submits the frames up to the traced one.
-    pub(super) fn find_divergence(&mut self) {
-        let Some(input) = self.open.trace.divergence.input.take() else { return };
-        self.open.host.changed = true;
-        let Divergence { background, of: Some(traced), .. } = &mut self.open.trace.divergence else { return };
-        let Some((Replay { snapshot, frames }, camera)) = input.output else {
-            return background.fail(
-                "no earlier frames are kept at this resolution: reset, play and trace again; very large buffers are never \
-                 kept",
-            );
-        };
-        match self.services.drawing.device().wait() {
-            Err(e) => background.fail(e.to_string()),
-            Ok(gpu) => background.start(DivergenceJob {
-                gpu,
-                traced: traced.clone(),
-                shown: self.open.picture.shown.clone(),
-                size: self.open.engine.size(),
-                media_dir: self.open.host.options.media_dir.clone(),
-                snapshot,
-                camera,
-                frames: frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
-            }),
+    /// The trace of the chosen pixel ([`Command::Trace`](super::Command::Trace)).
+    pub(crate) fn trace(&self) -> TraceView<'_> {
+        TraceView {
+            traced: self.trace.traced(),
+            is_under_way: self.trace.walk.is_under_way(),
+            trouble: self.trace.walk.result().and_then(|result| result.as_ref().err()).map(String::as_str),
         }
     }
-}
 
-impl OpenProject {
     /// Starts that search.
     pub(super) fn want_divergence(&mut self) {
         let traced = self.trace.traced().cloned();
@@ -206,6 +176,32 @@ impl OpenProject {
             }
             (Ok(_), None) => walk.cancel(),
             (Err(e), _) => walk.fail(e.to_string()),
+        }
+    }
+
+    /// Submits the frames up to the traced one.
+    pub(super) fn find_divergence(&mut self, device: &Device) {
+        let Some(input) = self.trace.divergence.input.take() else { return };
+        self.host.changed = true;
+        let Divergence { background, of: Some(traced), .. } = &mut self.trace.divergence else { return };
+        let Some((Replay { snapshot, frames }, camera)) = input.output else {
+            return background.fail(
+                "no earlier frames are kept at this resolution: reset, play and trace again; very large buffers are never \
+                 kept",
+            );
+        };
+        match device.wait() {
+            Err(e) => background.fail(e.to_string()),
+            Ok(gpu) => background.start(DivergenceJob {
+                gpu,
+                traced: traced.clone(),
+                shown: self.picture.shown.clone(),
+                size: self.engine.size(),
+                media_dir: self.host.options.media_dir.clone(),
+                snapshot,
+                camera,
+                frames: frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
+            }),
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Values and undo steps use the names in the texts.
 
-use super::{Session, open_project::OpenProject};
+use super::open_project::OpenProject;
 use eddy_project::{CustomUniform, CustomUniformValue, CustomUniformValues, Project};
 
 /// Old and new names, in the order of the renames.
@@ -26,18 +26,16 @@ fn newest_name<'n>(renamed: &'n RenamedUniforms, name: &'n str) -> &'n str {
     renamed.iter().fold(name, |name, (from, to)| if from == name { to } else { name })
 }
 
-impl Session {
+impl OpenProject {
     /// Returns the value of one of the author's own uniforms.
-    pub fn custom_uniform_value(&self, custom_uniform: &CustomUniform) -> CustomUniformValue {
+    pub(crate) fn custom_uniform_value(&self, custom_uniform: &CustomUniform) -> CustomUniformValue {
         let values = &self.project().custom_uniform_values;
-        match newest_name(&self.open.uniforms.renamed, &custom_uniform.name) {
+        match newest_name(&self.uniforms.renamed, &custom_uniform.name) {
             name if name == custom_uniform.name => custom_uniform.value(values),
             name => CustomUniform { name: name.to_owned(), ..custom_uniform.clone() }.value(values),
         }
     }
-}
 
-impl OpenProject {
     /// Reads the declarations in the texts, if they are shown and have changed.
     pub(super) fn read_declared_uniforms(&mut self) {
         let revision = Some(self.documents.revision());

@@ -2,7 +2,7 @@
 
 use super::{Audio, News, news};
 use crate::{
-    Session,
+    open_project::OpenProject,
     view::{About, Level},
 };
 use eddy_audio::Spectrum;
@@ -27,36 +27,35 @@ impl Audio {
     }
 }
 
-impl Session {
-    pub(crate) fn use_microphone(&mut self, on: bool) {
-        self.services.audio.uses_microphone = on;
-        self.open.settled(About::Microphone);
-        self.services.audio.input_is_missing = false;
-        self.hear();
+impl Audio {
+    pub(crate) fn use_microphone(&mut self, open: &mut OpenProject, on: bool) {
+        self.uses_microphone = on;
+        open.settled(About::Microphone);
+        self.input_is_missing = false;
+        self.hear(open);
     }
 
     /// Takes what the microphone has recorded, before frames are drawn.
-    pub(crate) fn hear(&mut self) {
-        self.services.audio.reads_microphone =
-            self.services.audio.uses_microphone && self.open.documents.current().passes.iter().any(reads_it);
-        let is_wanted = self.services.audio.reads_microphone;
-        if is_wanted != self.services.audio.is_recording
-            && let Some(microphone) = self.services.audio.microphone(&self.open.host.wake)
+    pub(crate) fn hear(&mut self, open: &mut OpenProject) {
+        self.reads_microphone = self.uses_microphone && open.documents.current().passes.iter().any(reads_it);
+        let is_wanted = self.reads_microphone;
+        if is_wanted != self.is_recording
+            && let Some(microphone) = self.microphone(&open.host.wake)
         {
             microphone.switch(is_wanted);
-            self.services.audio.is_recording = is_wanted;
+            self.is_recording = is_wanted;
         }
-        let Some(microphone) = &mut self.services.audio.microphone else { return };
-        microphone.step(self.open.host.now);
-        match news(microphone.state(), &mut self.services.audio.input_is_missing) {
+        let Some(microphone) = &mut self.microphone else { return };
+        microphone.step(open.host.now);
+        match news(microphone.state(), &mut self.input_is_missing) {
             Some(News::Missing(why)) => {
                 let text = format!(
                     "the microphone cannot be used: {why}. Its channel shows a made-up spectrum; Eddy tries again every 3 \
                      seconds"
                 );
-                self.open.notice_about(About::Microphone, Level::Warning, text);
+                open.notice_about(About::Microphone, Level::Warning, text);
             }
-            Some(News::Back(_) | News::Over) => self.open.settled(About::Microphone),
+            Some(News::Back(_) | News::Over) => open.settled(About::Microphone),
             None => {}
         }
     }

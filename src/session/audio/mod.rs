@@ -13,11 +13,11 @@ use microphone::reads_it;
 pub use view::{MicrophoneView, OutputView};
 
 use crate::{
-    Session,
+    open_project::OpenProject,
     view::{About, Level},
 };
 use eddy_audio::{
-    DeviceState, OutputState, Scene, Sound, Source, Spectrum, Timeline, Track, host::AudioHost, microphone::Microphone,
+    DeviceState, OutputState, Scene, Source, Spectrum, Timeline, Track, host::AudioHost, microphone::Microphone,
     player::Player,
 };
 use eddy_media::ChannelSound;
@@ -280,40 +280,38 @@ impl Drop for Audio {
     }
 }
 
-impl Session {
+impl Audio {
     /// Sets the sound pass as far as it is rendered, with its revision; `None` removes it. Playback moves from one
     /// revision to the next without a gap.
-    pub fn play_track(&mut self, track: Option<(u64, Arc<Track>)>) {
-        self.services.audio.track = track;
+    pub(crate) fn play_track(&mut self, track: Option<(u64, Arc<Track>)>) {
+        self.track = track;
     }
 
     /// Synchronises sound with the picture, at the end of a tick.
-    pub(crate) fn play_sound(&mut self) {
-        let is_drawn =
-            self.open.engine.has_program() && !self.open.halt.is_halted() && !self.open.halt.is_device_gone();
-        let line = self.open.playback.line().filter(|_| is_drawn);
-        self.services.audio.play(line, &self.open.host.wake, self.open.host.now);
-        self.tell_of_the_end_before();
-        let Some(player) = &self.services.audio.player else { return };
-        match news(player.state(), &mut self.services.audio.output_is_missing) {
+    pub(crate) fn play_sound(&mut self, open: &mut OpenProject) {
+        let is_drawn = open.engine.has_program() && !open.halt.is_halted() && !open.halt.is_device_gone();
+        let line = open.playback.line().filter(|_| is_drawn);
+        self.play(line, &open.host.wake, open.host.now);
+        self.tell_of_the_end_before(open);
+        let Some(player) = &self.player else { return };
+        match news(player.state(), &mut self.output_is_missing) {
             Some(News::Missing(why)) => {
                 let text = format!("no sound: {why}. The picture goes on; Eddy looks for a device every 3 seconds");
-                self.open.notice_about(About::Sound, Level::Warning, text);
+                open.notice_about(About::Sound, Level::Warning, text);
             }
             Some(News::Back(name)) => {
-                self.open.settled(About::Sound);
-                self.open.notice_about(About::Sound, Level::Info, format!("sound plays on {name}"));
+                open.settled(About::Sound);
+                open.notice_about(About::Sound, Level::Info, format!("sound plays on {name}"));
             }
-            Some(News::Over) => self.open.settled(About::Sound),
+            Some(News::Over) => open.settled(About::Sound),
             None => {}
         }
     }
 
     /// Reports that sound is off because a sound driver crashed the previous run.
-    fn tell_of_the_end_before(&mut self) {
-        let audio = &mut self.services.audio;
-        let Some(before) = audio.ended_before.clone().filter(|_| audio.has_sound()) else { return };
-        if std::mem::replace(&mut audio.is_end_told, true) {
+    fn tell_of_the_end_before(&mut self, open: &mut OpenProject) {
+        let Some(before) = self.ended_before.clone().filter(|_| self.has_sound()) else { return };
+        if std::mem::replace(&mut self.is_end_told, true) {
             return;
         }
         let device = before.map_or("the default sound device".to_owned(), |name| format!("the sound device {name}"));
@@ -321,19 +319,19 @@ impl Session {
             "Eddy ended while it opened {device} the last time, so nothing is heard. Click the speaker below the picture to open it \
              again, or choose another device in Settings"
         );
-        self.open.notice_about(About::Sound, Level::Warning, text);
+        open.notice_about(About::Sound, Level::Warning, text);
     }
 
-    pub(crate) fn open_sound_again(&mut self) {
-        self.services.audio.open_again();
-        self.open.settled(About::Sound);
+    pub(crate) fn open_sound_again(&mut self, open: &mut OpenProject) {
+        self.open_again();
+        open.settled(About::Sound);
     }
 
-    pub(crate) fn hide(&mut self, is_hidden: bool) {
-        if std::mem::replace(&mut self.services.audio.is_hidden, is_hidden) && !is_hidden {
+    pub(crate) fn hide(&mut self, open: &mut OpenProject, is_hidden: bool) {
+        if std::mem::replace(&mut self.is_hidden, is_hidden) && !is_hidden {
             // Nothing was drawn meanwhile: time continues from where it was.
-            self.open.playback.rebase();
+            open.playback.rebase();
         }
-        self.play_sound();
+        self.play_sound(open);
     }
 }

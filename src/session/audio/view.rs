@@ -1,9 +1,7 @@
 //! The state of sound and microphone as front ends show it.
 
-use super::{Audio, DeviceState, Sound, Source};
-use crate::Session;
-use eddy_project::Media;
-use std::sync::Arc;
+use super::{Audio, DeviceState, Source};
+use crate::open_project::OpenProject;
 
 /// The state of the sound output.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,10 +35,10 @@ impl Audio {
     }
 }
 
-impl Session {
+impl Audio {
     /// Returns the state of the output; `None` if the front end has provided no audio host.
-    pub fn output_view(&self) -> Option<OutputView> {
-        let audio = &self.services.audio;
+    pub(crate) fn output_view(&self) -> Option<OutputView> {
+        let audio = &self;
         audio.host.as_ref()?;
         Some(OutputView {
             volume: audio.volume,
@@ -52,10 +50,10 @@ impl Session {
     }
 
     /// Returns the state of the microphone; `None` if the front end has provided no audio host.
-    pub fn microphone_view(&self) -> Option<MicrophoneView> {
-        let audio = &self.services.audio;
+    pub(crate) fn microphone_view(&self, open: &OpenProject) -> Option<MicrophoneView> {
+        let audio = &self;
         audio.host.as_ref()?;
-        let is_read = self.project().passes.iter().any(super::reads_it);
+        let is_read = open.project().passes.iter().any(super::reads_it);
         Some(MicrophoneView {
             is_on: audio.uses_microphone,
             is_read,
@@ -64,34 +62,23 @@ impl Session {
         })
     }
 
-    /// Returns the music of a channel, as loaded for the program that draws.
-    pub fn music(&self, media: &Media) -> Option<&Arc<Sound>> {
-        self.services.audio.sounds.iter().find(|known| known.media == *media).map(|known| &known.sound)
-    }
-
     /// Returns the names of the output devices and of the input devices, once
     /// [`Command::ListAudioDevices`](crate::Command::ListAudioDevices) was given and they are known.
-    pub fn audio_devices(&self) -> (Option<Vec<String>>, Option<Vec<String>>) {
-        let audio = &self.services.audio;
+    pub(crate) fn audio_devices(&self) -> (Option<Vec<String>>, Option<Vec<String>>) {
+        let audio = &self;
         (audio.player.as_ref().and_then(|player| player.names()), audio.microphone.as_ref().and_then(|m| m.names()))
     }
 
     /// The latency of the sound against the picture's time in seconds and the number of jumps to correct it, both since
     /// the device was opened; then the number of buffer underruns since the start.
-    pub fn sound_health(&self) -> Option<(f64, u64, u64)> {
-        let player = self.services.audio.player.as_ref()?;
+    pub(crate) fn sound_health(&self) -> Option<(f64, u64, u64)> {
+        let player = self.player.as_ref()?;
         let mixed = player.mixed()?;
         Some((mixed.behind_secs(), mixed.jumps(), player.underruns()))
     }
 
     /// Returns how many sources are mixed.
-    pub fn sources_heard(&self) -> usize {
-        self.services
-            .audio
-            .scene
-            .sources
-            .iter()
-            .filter(|source| matches!(source, Source::Loop(_) | Source::Track(_)))
-            .count()
+    pub(crate) fn sources_heard(&self) -> usize {
+        self.scene.sources.iter().filter(|source| matches!(source, Source::Loop(_) | Source::Track(_))).count()
     }
 }

@@ -6,7 +6,7 @@
 mod gamepads;
 
 use super::{
-    Session, SessionOptions,
+    SessionOptions,
     open_project::OpenProject,
     view::{About, Level},
 };
@@ -125,10 +125,10 @@ impl Controls {
     }
 }
 
-impl Session {
+impl Controls {
     /// Returns the state of all controls.
-    pub fn controls_view(&self) -> ControlsView {
-        let controls = &self.services.controls;
+    pub(crate) fn controls_view(&self) -> ControlsView {
+        let controls = &self;
         ControlsView {
             osc: controls.osc.as_ref().map(OscInput::state),
             is_osc_public: controls.osc.as_ref().is_some_and(|osc| !osc.asked().ip().is_loopback()),
@@ -140,166 +140,161 @@ impl Session {
         }
     }
 
-    /// Returns the control that moves a component of a uniform.
-    pub fn control_of(&self, target: &ControlTarget) -> Option<&ControlAddress> {
-        self.project().controls.get(&self.open.as_in_texts(target))
-    }
-
     /// Returns whether a target's control is being learned.
-    pub fn is_learning(&self, target: &ControlTarget) -> bool {
-        self.services.controls.learning.as_ref() == Some(&self.open.as_in_texts(target))
+    pub(crate) fn is_learning(&self, open: &OpenProject, target: &ControlTarget) -> bool {
+        self.learning.as_ref() == Some(&open.as_in_texts(target))
     }
 
     /// Returns the side of the value on which the target's knob waits for pickup; `None` if it does not wait.
-    pub fn control_waits(&self, target: &ControlTarget) -> Option<PickupSide> {
-        let target = self.open.as_in_texts(target);
-        self.project().controls.get(&target).and_then(|_| self.services.controls.takeovers.get(&target)?.waits())
+    pub(crate) fn control_waits(&self, open: &OpenProject, target: &ControlTarget) -> Option<PickupSide> {
+        let target = open.as_in_texts(target);
+        open.project().controls.get(&target).and_then(|_| self.takeovers.get(&target)?.waits())
     }
 
     /// Listens to OSC at an address; `None` stops it.
-    pub(super) fn set_osc(&mut self, address: Option<SocketAddr>) {
-        if self.services.controls.osc.as_ref().map(OscInput::asked) == address {
+    pub(super) fn set_osc(&mut self, open: &mut OpenProject, address: Option<SocketAddr>) {
+        if self.osc.as_ref().map(OscInput::asked) == address {
             return;
         }
-        self.open.settled(About::Osc);
-        self.services.controls.is_osc_told = false;
+        open.settled(About::Osc);
+        self.is_osc_told = false;
         // Close the old socket first: the new one may have the same address.
-        self.services.controls.osc = None;
+        self.osc = None;
         let Some(address) = address else { return };
-        match OscInput::listen(address, self.services.controls.queue.clone(), self.open.host.wake.clone()) {
-            Ok(osc) => self.services.controls.osc = Some(osc),
-            Err(error) => self.open.notice_about(About::Osc, Level::Warning, format!("no thread for OSC: {error}")),
+        match OscInput::listen(address, self.queue.clone(), open.host.wake.clone()) {
+            Ok(osc) => self.osc = Some(osc),
+            Err(error) => open.notice_about(About::Osc, Level::Warning, format!("no thread for OSC: {error}")),
         }
     }
 
-    pub(super) fn set_midi(&mut self, choice: MidiChoice) {
-        if self.services.controls.choice == choice {
+    pub(super) fn set_midi(&mut self, open: &mut OpenProject, choice: MidiChoice) {
+        if self.choice == choice {
             return;
         }
-        self.open.settled(About::Midi);
-        (self.services.controls.is_midi_told, self.services.controls.announced) = (false, Vec::new());
-        self.services.controls.choice = choice.clone();
-        if let Some(midi) = self.services.controls.midi() {
+        open.settled(About::Midi);
+        (self.is_midi_told, self.announced) = (false, Vec::new());
+        self.choice = choice.clone();
+        if let Some(midi) = self.midi() {
             midi.choose(choice);
         }
     }
 
     pub(super) fn list_midi_devices(&mut self) {
-        if let Some(midi) = self.services.controls.midi() {
+        if let Some(midi) = self.midi() {
             midi.ask_names();
         }
     }
 
     /// Binds the next control that moves; `None` cancels it.
-    pub(super) fn learn_control(&mut self, target: Option<ControlTarget>) {
-        self.services.controls.part = None;
-        self.services.controls.learning = target.map(|target| self.open.as_in_texts(&target));
+    pub(super) fn learn_control(&mut self, open: &mut OpenProject, target: Option<ControlTarget>) {
+        self.part = None;
+        self.learning = target.map(|target| open.as_in_texts(&target));
     }
 
-    pub(super) fn forget_control(&mut self, target: &ControlTarget) {
-        let target = self.open.as_in_texts(target);
-        if self.project().controls.contains_key(&target) {
-            self.open.documents.current_mut().controls.remove(&target);
+    pub(super) fn forget_control(&mut self, open: &mut OpenProject, target: &ControlTarget) {
+        let target = open.as_in_texts(target);
+        if open.project().controls.contains_key(&target) {
+            open.documents.current_mut().controls.remove(&target);
         }
-        self.services.controls.takeovers.remove(&target);
-        if self.services.controls.learning.as_ref() == Some(&target) {
-            self.services.controls.learning = None;
+        self.takeovers.remove(&target);
+        if self.learning.as_ref() == Some(&target) {
+            self.learning = None;
         }
     }
 
     /// Applies what controls have sent, before frames are drawn.
-    pub(super) fn follow_controls(&mut self) {
-        if let Some(midi) = &mut self.services.controls.midi {
-            midi.step(self.open.host.now);
+    pub(super) fn follow_controls(&mut self, open: &mut OpenProject) {
+        if let Some(midi) = &mut self.midi {
+            midi.step(open.host.now);
         }
-        self.tell_of_osc();
-        self.tell_of_midi();
-        self.follow_gamepads();
-        let events = self.services.controls.queue.take();
+        self.tell_of_osc(open);
+        self.tell_of_midi(open);
+        self.follow_gamepads(open);
+        let events = self.queue.take();
         if events.is_empty() {
             return;
         }
-        let events = dispatched(events, || self.open.osc_listeners());
-        self.learn(&events);
-        self.turn_by_controls(&events);
+        let events = dispatched(events, || open.osc_listeners());
+        self.learn(open, &events);
+        self.turn_by_controls(open, &events);
     }
 
-    fn tell_of_osc(&mut self) {
-        let Some(osc) = &self.services.controls.osc else { return };
+    fn tell_of_osc(&mut self, open: &mut OpenProject) {
+        let Some(osc) = &self.osc else { return };
         match osc.state() {
-            OscState::Missing(why) if !std::mem::replace(&mut self.services.controls.is_osc_told, true) => {
+            OscState::Missing(why) if !std::mem::replace(&mut self.is_osc_told, true) => {
                 let at = osc.asked();
                 let text = format!("OSC cannot listen at {at}: {why}. Eddy tries again every 3 seconds");
-                self.open.notice_about(About::Osc, Level::Warning, text);
+                open.notice_about(About::Osc, Level::Warning, text);
             }
-            OscState::Listening(at) if std::mem::take(&mut self.services.controls.is_osc_told) => {
-                self.open.settled(About::Osc);
-                self.open.notice_about(About::Osc, Level::Info, format!("OSC listens at {at}"));
+            OscState::Listening(at) if std::mem::take(&mut self.is_osc_told) => {
+                open.settled(About::Osc);
+                open.notice_about(About::Osc, Level::Info, format!("OSC listens at {at}"));
             }
             OscState::Starting | OscState::Missing(_) | OscState::Listening(_) => {}
         }
     }
 
-    fn tell_of_midi(&mut self) {
-        let state = match &self.services.controls.midi {
-            Some(midi) if self.services.controls.choice != MidiChoice::Off => midi.state(),
+    fn tell_of_midi(&mut self, open: &mut OpenProject) {
+        let state = match &self.midi {
+            Some(midi) if self.choice != MidiChoice::Off => midi.state(),
             _ => return,
         };
-        let announced = std::mem::replace(&mut self.services.controls.announced, state.open.clone());
+        let announced = std::mem::replace(&mut self.announced, state.open.clone());
         for name in state.open.iter().filter(|name| !announced.contains(name)) {
-            self.open.notice_about(About::Midi, Level::Info, format!("MIDI device connected: {name}"));
+            open.notice_about(About::Midi, Level::Info, format!("MIDI device connected: {name}"));
         }
         for name in announced.iter().filter(|name| !state.open.contains(name)) {
-            self.open.notice_about(About::Midi, Level::Info, format!("MIDI device disconnected: {name}"));
+            open.notice_about(About::Midi, Level::Info, format!("MIDI device disconnected: {name}"));
         }
         match state.missing {
-            Some(why) if !std::mem::replace(&mut self.services.controls.is_midi_told, true) => {
+            Some(why) if !std::mem::replace(&mut self.is_midi_told, true) => {
                 let text = format!("MIDI: {why}. Eddy looks for devices every 2 seconds");
-                self.open.notice_about(About::Midi, Level::Warning, text);
+                open.notice_about(About::Midi, Level::Warning, text);
             }
-            None if std::mem::take(&mut self.services.controls.is_midi_told) => self.open.settled(About::Midi),
+            None if std::mem::take(&mut self.is_midi_told) => open.settled(About::Midi),
             _ => {}
         }
     }
 
     /// Binds the touched control to the target that is being learned.
-    fn learn(&mut self, events: &[ControlEvent]) {
-        if let Some((target, part, since)) = self.services.controls.part.clone() {
-            if self.open.host.now.saturating_duration_since(since) > FINE_PART {
-                self.services.controls.part = None;
+    fn learn(&mut self, open: &mut OpenProject, events: &[ControlEvent]) {
+        if let Some((target, part, since)) = self.part.clone() {
+            if open.host.now.saturating_duration_since(since) > FINE_PART {
+                self.part = None;
             } else if let Some(whole) = whole_of(&part, events) {
-                self.services.controls.part = None;
-                self.bind(target, whole);
+                self.part = None;
+                self.bind(open, target, whole);
             }
         }
-        let Some(target) = &self.services.controls.learning else { return };
+        let Some(target) = &self.learning else { return };
         let Some(address) = touched(events, target.index()) else { return };
         let target = target.clone();
-        self.services.controls.learning = None;
+        self.learning = None;
         let whole = whole_of(&address, events);
         if whole.is_none() {
-            self.services.controls.part = Some((target.clone(), address.clone(), self.open.host.now));
+            self.part = Some((target.clone(), address.clone(), open.host.now));
         }
         let address = whole.unwrap_or(address);
-        self.open.notice_about(About::Controls, Level::Info, format!("{target} follows {}", address.label()));
-        self.bind(target, address);
+        open.notice_about(About::Controls, Level::Info, format!("{target} follows {}", address.label()));
+        self.bind(open, target, address);
     }
 
     /// Binds a control to a target and applies its value at once.
-    fn bind(&mut self, target: ControlTarget, address: ControlAddress) {
-        self.services.controls.takeovers.insert(target.clone(), Takeover::learned());
-        self.open.documents.current_mut().controls.insert(target, address);
-        self.open.host.changed = true;
+    fn bind(&mut self, open: &mut OpenProject, target: ControlTarget, address: ControlAddress) {
+        self.takeovers.insert(target.clone(), Takeover::learned());
+        open.documents.current_mut().controls.insert(target, address);
+        open.host.changed = true;
     }
 
     /// Sets the uniforms of the controls that have moved.
-    fn turn_by_controls(&mut self, events: &[ControlEvent]) {
-        let before = self.project().custom_uniform_values.clone();
-        let bindings = self.project().controls.clone();
-        let uniforms: Vec<CustomUniform> = self
+    fn turn_by_controls(&mut self, open: &mut OpenProject, events: &[ControlEvent]) {
+        let before = open.project().custom_uniform_values.clone();
+        let bindings = open.project().controls.clone();
+        let uniforms: Vec<CustomUniform> = open
             .custom_uniforms()
             .iter()
-            .map(|uniform| CustomUniform { name: self.open.newest_name(&uniform.name), ..uniform.clone() })
+            .map(|uniform| CustomUniform { name: open.newest_name(&uniform.name), ..uniform.clone() })
             .collect();
         // Many events arrive at once if a pattern matches many addresses.
         let by_name: HashMap<&str, &CustomUniform> = uniforms.iter().rev().map(|it| (it.name.as_str(), it)).collect();
@@ -312,30 +307,30 @@ impl Session {
             let named = direct(&event.source).map(|moved| (moved.uniform, moved.index, None));
             for (name, index, target) in bound.chain(named) {
                 let Some(uniform) = by_name.get(name).copied() else { continue };
-                let now = uniform.value(&self.project().custom_uniform_values);
+                let now = uniform.value(&open.project().custom_uniform_values);
                 let value = moved(uniform, &now, index, event, target.is_none());
                 if target.is_some_and(|target| !self.takes_over(target, uniform, &now, value.as_ref(), event)) {
                     continue;
                 }
                 if let Some(value) = value {
-                    self.open.documents.current_mut().turn_custom_uniform(uniform, value);
+                    open.documents.current_mut().turn_custom_uniform(uniform, value);
                     turned.insert(uniform.name.clone());
                 }
             }
         }
         // Redraw to show a knob that waits.
-        self.open.host.changed |= !events.is_empty();
-        if self.project().custom_uniform_values != before {
-            self.open.pass_history.push_controls(before, turned);
-            self.open.custom_uniforms_turned();
-            self.open.host.changed = true;
+        open.host.changed |= !events.is_empty();
+        if open.project().custom_uniform_values != before {
+            open.pass_history.push_controls(before, turned);
+            open.custom_uniforms_turned();
+            open.host.changed = true;
         }
     }
 }
 
 impl OpenProject {
     /// Returns a target with its uniform's name in the texts, which the program that draws may not know yet.
-    fn as_in_texts(&self, target: &ControlTarget) -> ControlTarget {
+    pub(crate) fn as_in_texts(&self, target: &ControlTarget) -> ControlTarget {
         ControlTarget { uniform: self.newest_name(&target.uniform), ..target.clone() }
     }
 
@@ -362,7 +357,7 @@ impl OpenProject {
     }
 }
 
-impl Session {
+impl Controls {
     /// Returns whether a control moves its target now, or still waits until it reaches the target's value.
     fn takes_over(
         &mut self,
@@ -380,7 +375,7 @@ impl Session {
         };
         let target_value = moved.map_or(Some(value), number).unwrap_or(value);
         let movement = Movement { knob: event.value, slider, value, target: target_value };
-        self.services.controls.takeovers.entry(target.clone()).or_default().moves(movement)
+        self.takeovers.entry(target.clone()).or_default().moves(movement)
     }
 }
 

@@ -26,6 +26,7 @@ use super::{
 use audio::FilmAudio;
 use eddy_background::{Background, Status, Wake};
 use eddy_film::{Cancel, FilmError};
+use eddy_gpu::Gpu;
 use eddy_playback::capture;
 use eddy_video::Tools;
 use live::Live;
@@ -115,6 +116,30 @@ impl Films {
     }
 }
 
+impl Films {
+    /// Returns whether the window closes when the film is complete.
+    pub(crate) fn closes(&self) -> bool {
+        self.closes
+    }
+
+    /// Returns the facts that a film's form is validated against. `gpu`: the window's device.
+    pub(crate) fn facts(&self, open: &OpenProject, gpu: &Gpu) -> FilmFacts {
+        let project = open.project();
+        FilmFacts {
+            shown: open.engine.size(),
+            most_side: gpu.device.limits().max_texture_dimension_2d,
+            folder: capture::folder_for(project, &open.host.options.pictures),
+            period: project.info.period,
+            encoders: self.encoders.clone(),
+        }
+    }
+
+    /// Returns whether the encoders of ffmpeg are being queried.
+    pub(crate) fn looks_for_encoders(&self) -> bool {
+        self.tools.is_busy()
+    }
+}
+
 impl Session {
     /// Returns the film in progress, or the newest finished one; `None` if there was none.
     pub fn film(&self) -> Option<FilmView<'_>> {
@@ -137,27 +162,6 @@ impl Session {
             Ended::Failed(why) => FilmView::Failed(why),
             Ended::Cancelled => FilmView::Cancelled,
         })
-    }
-
-    /// Returns whether the window closes when the film is complete.
-    pub fn closes_after_film(&self) -> bool {
-        self.services.films.closes
-    }
-
-    /// Returns the facts that a film's form is validated against.
-    pub fn film_facts(&self) -> FilmFacts {
-        FilmFacts {
-            shown: self.open.engine.size(),
-            most_side: self.gpu().device.limits().max_texture_dimension_2d,
-            folder: capture::folder_for(self.project(), &self.open.host.options.pictures),
-            period: self.project().info.period,
-            encoders: self.services.films.encoders.clone(),
-        }
-    }
-
-    /// Returns whether the encoders of ffmpeg are being queried.
-    pub fn looks_for_encoders(&self) -> bool {
-        self.services.films.tools.is_busy()
     }
 
     pub(super) fn find_encoders(&mut self) {
@@ -375,7 +379,6 @@ impl Session {
         }
     }
 }
-
 impl OpenProject {
     fn film_target(&self, order: &FilmOrder) -> Result<Target, String> {
         let project = self.project();

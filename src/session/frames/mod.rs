@@ -17,7 +17,7 @@ impl Session {
     /// not wait for the frame, which a later tick takes. Call it once for each displayed frame.
     pub fn tick(&mut self, now: Instant) -> Tick {
         self.open.host.now = now;
-        self.take_found_work();
+        self.services.recovery.take_found_work(&mut self.open);
         self.take_recording();
         self.open.check_disk();
         self.open.read_declared_uniforms();
@@ -26,17 +26,17 @@ impl Session {
         self.open.follow_devices();
         self.start_compile();
         self.take_compiled();
-        self.analyse();
-        self.take_analysed();
+        self.services.analyst.analyse(&mut self.open);
+        self.services.analyst.take_analysed(&mut self.open);
         self.open.host.changed |= self.open.trace.poll();
         self.open.take_audited();
         self.open.host.changed |= self.open.nan_search.background.poll() | self.open.comparison.background.poll();
         self.tick_sound();
         self.tick_film();
         self.open.fit_canvas();
-        self.keep_unsaved();
-        self.hear();
-        self.follow_controls();
+        self.services.recovery.keep_unsaved(&mut self.open);
+        self.services.audio.hear(&mut self.open);
+        self.services.controls.follow_controls(&mut self.open);
         self.open.follow_measures();
         self.steer_frame();
         // If a processor both draws and paints, painting the picture would be slower while another frame is drawn.
@@ -46,7 +46,7 @@ impl Session {
             frame_drawn |= self.draw_due_frames(true);
         }
         frame_drawn |= std::mem::take(&mut self.services.display.has_drawn);
-        self.play_sound();
+        self.services.audio.play_sound(&mut self.open);
         Tick { frame_drawn, wake_at: self.wake_at(), changed: std::mem::take(&mut self.open.host.changed) }
     }
 
@@ -101,7 +101,7 @@ impl Session {
         let replayed = self.open.playback.replay_due(self.open.host.now).filter(|_| is_running && is_free);
         let is_next_due = is_next_due && !self.open.playback.is_replaying();
         let resumes = self.open.gives_way_until().filter(|_| is_running);
-        let (drawing, sound) = (self.drawing_deadline(), self.sound_deadline());
+        let (drawing, sound) = (self.drawing_deadline(), self.services.sound_pass.sound_deadline());
         let deadlines = [
             self.open.compile.edits.deadline(),
             self.open.disk.deadline(),
@@ -175,7 +175,7 @@ impl Session {
         let Compiled { project, is_fallback, program, diagnostics, took, probe, heard, sounds } = compiled;
         // The messages are about the newest text.
         if !is_fallback {
-            self.follow_sound(&project, heard);
+            self.services.sound_pass.follow_sound(&mut self.open, &project, heard);
             self.open.compile.diagnose(diagnostics, took);
             self.open.audit.map = None;
         }

@@ -12,7 +12,6 @@ pub(super) use measuring::Measuring;
 pub use record::{Cell, MOST, Record, Sample};
 
 use super::{
-    Session,
     buffers::reason,
     open_project::OpenProject,
     view::{About, Level},
@@ -20,35 +19,28 @@ use super::{
 use eddy_playback::{capture, reduction::Unmeasured};
 use std::borrow::Cow;
 
-impl Session {
-    /// Every measuring comment of the project, with its samples while it was watched
-    /// ([`Command::WatchMeasures`](super::Command::WatchMeasures)).
-    pub fn measures(&self) -> &[Measure] {
-        self.open.read_backs.measuring.measures()
-    }
-
-    /// Returns how many frames have been measured since the session started.
-    pub fn measured_frames(&self) -> u64 {
-        self.open.read_backs.measuring.count()
-    }
-
+impl OpenProject {
     /// Returns why nothing is measured for a comment. The reason for a pass that is not drawn is known while costs are
     /// watched ([`Command::WatchCosts`](super::Command::WatchCosts)).
-    pub fn unmeasured<'m>(&self, measure: &'m Measure) -> Option<Cow<'m, Unmeasured>> {
+    pub(crate) fn unmeasured<'m>(&self, measure: &'m Measure) -> Option<Cow<'m, Unmeasured>> {
         let pass = match &measure.quantity {
             Err(unmeasured) => return Some(Cow::Borrowed(unmeasured)),
             Ok(quantity) => &quantity.pass,
         };
-        if !self.open.engine.has_program() || self.open.engine.draws(pass) {
+        if !self.engine.has_program() || self.engine.draws(pass) {
             return None;
         }
-        let known = reason(pass, self.open.engine.costs()).unwrap_or_else(|| "not drawn".to_owned());
+        let known = reason(pass, self.engine.costs()).unwrap_or_else(|| "not drawn".to_owned());
         let mend = format!("let a drawn pass read it, or show {} as the picture", pass.title());
         Some(Cow::Owned(Unmeasured { why: format!("{} is {known}", pass.title()), mend }))
     }
-}
 
-impl OpenProject {
+    /// Every measuring comment of the project, with its samples while it was watched
+    /// ([`Command::WatchMeasures`](super::Command::WatchMeasures)).
+    pub(crate) fn measures(&self) -> &[Measure] {
+        self.read_backs.measuring.measures()
+    }
+
     /// Updates the comments after edits.
     pub(super) fn follow_measures(&mut self) {
         let state = (self.disk.opened(), self.documents.revision());

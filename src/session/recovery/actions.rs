@@ -5,6 +5,7 @@ use crate::{
     Session,
     command::{Answer, PendingAction, Question, Recovered},
     documents::Documents,
+    open_project::OpenProject,
     view::{About, Level},
 };
 use eddy_background::Wake;
@@ -35,44 +36,6 @@ impl UnsavedWork {
 }
 
 impl Session {
-    /// Passes unsaved work to the thread that writes it, if it has changed. Never blocks.
-    pub(crate) fn keep_unsaved(&mut self) {
-        let Some(recovery) = &self.services.recovery.recovery else { return };
-        let revision = Some(self.open.documents.revision());
-        if self.services.recovery.kept == revision {
-            return;
-        }
-        self.services.recovery.kept = revision;
-        if self.open.documents.is_dirty() {
-            recovery.keep(self.open.documents.current());
-        } else {
-            recovery.forget();
-        }
-    }
-
-    /// Removes the recovery file: the unsaved work is discarded on purpose, or stored elsewhere.
-    pub fn forget_unsaved(&self) {
-        self.services.recovery.recovery.iter().for_each(Recovery::forget);
-    }
-
-    /// Asks about unsaved work that was found.
-    pub(crate) fn take_found_work(&mut self) {
-        while let Some(news) = self.services.recovery.recovery.as_ref().and_then(Recovery::take_news) {
-            match news {
-                News::Trouble(text) => self.open.notice_about(About::Window, Level::Warning, text),
-                News::Found(found) => {
-                    let here = place(&self.project().origin);
-                    let is_here = |left: &Left| here.is_some() && place(&left.shown.origin) == here;
-                    let (first, rest): (Vec<Left>, Vec<Left>) = found.into_iter().partition(is_here);
-                    for left in first.into_iter().chain(rest) {
-                        self.open.ask(Question::Recover(Box::new(left.shown.clone())));
-                        self.services.recovery.found.push(left);
-                    }
-                }
-            }
-        }
-    }
-
     /// Applies the answer about unsaved work; returns false for an answer that does not fit.
     pub(crate) fn answer_recover(&mut self, recovered: &Recovered, answer: &Answer) -> bool {
         match answer {
@@ -87,7 +50,7 @@ impl Session {
                     recovery.discard(recovered.file.clone());
                 }
             }
-            Answer::Cancel => self.put_off(&recovered.file),
+            Answer::Cancel => self.services.recovery.put_off(&recovered.file),
             _ => return false,
         }
         true
@@ -106,25 +69,65 @@ impl Session {
         self.open.compile.include_edits += 1;
         let placeless = shown.trouble.map(|why| format!(" Its original location is gone: {why}")).unwrap_or_default();
         self.open.notice(Level::Info, format!("recovered {}: paused and not saved yet.{placeless}", shown.name));
-        self.put_off_all();
+        self.services.recovery.put_off_all(&mut self.open);
+    }
+}
+
+impl UnsavedWork {
+    /// Passes unsaved work to the thread that writes it, if it has changed. Never blocks.
+    pub(crate) fn keep_unsaved(&mut self, open: &mut OpenProject) {
+        let Some(recovery) = &self.recovery else { return };
+        let revision = Some(open.documents.revision());
+        if self.kept == revision {
+            return;
+        }
+        self.kept = revision;
+        if open.documents.is_dirty() {
+            recovery.keep(open.documents.current());
+        } else {
+            recovery.forget();
+        }
+    }
+
+    /// Removes the recovery file: the unsaved work is discarded on purpose, or stored elsewhere.
+    pub(crate) fn forget_unsaved(&self) {
+        self.recovery.iter().for_each(Recovery::forget);
+    }
+
+    /// Asks about unsaved work that was found.
+    pub(crate) fn take_found_work(&mut self, open: &mut OpenProject) {
+        while let Some(news) = self.recovery.as_ref().and_then(Recovery::take_news) {
+            match news {
+                News::Trouble(text) => open.notice_about(About::Window, Level::Warning, text),
+                News::Found(found) => {
+                    let here = place(&open.project().origin);
+                    let is_here = |left: &Left| here.is_some() && place(&left.shown.origin) == here;
+                    let (first, rest): (Vec<Left>, Vec<Left>) = found.into_iter().partition(is_here);
+                    for left in first.into_iter().chain(rest) {
+                        open.ask(Question::Recover(Box::new(left.shown.clone())));
+                        self.found.push(left);
+                    }
+                }
+            }
+        }
     }
 
     /// Postpones all other unsaved work, which would replace what was just recovered.
-    fn put_off_all(&mut self) {
-        let others: Vec<PathBuf> = self.services.recovery.found.iter().map(|left| left.shown.file.clone()).collect();
+    fn put_off_all(&mut self, open: &mut OpenProject) {
+        let others: Vec<PathBuf> = self.found.iter().map(|left| left.shown.file.clone()).collect();
         let some = match others.len() {
             0 => return,
             1 => "there is unsaved work of another project too".to_owned(),
             n => format!("there is unsaved work of {n} other projects too"),
         };
-        self.open.notice(Level::Info, format!("{some}; Eddy asks about it at the next start"));
+        open.notice(Level::Info, format!("{some}; Eddy asks about it at the next start"));
         others.iter().for_each(|file| self.put_off(file));
-        self.open.host.dialog.questions.retain(|q| !matches!(q, Question::Recover(_)));
+        open.host.dialog.questions.retain(|q| !matches!(q, Question::Recover(_)));
     }
 
     fn put_off(&mut self, file: &Path) {
-        self.services.recovery.found.retain(|left| left.shown.file != *file);
-        if let Some(recovery) = &self.services.recovery.recovery {
+        self.found.retain(|left| left.shown.file != *file);
+        if let Some(recovery) = &self.recovery {
             recovery.put_off(file.to_owned());
         }
     }

@@ -12,6 +12,7 @@ use super::{
     Session, SessionOptions,
     drawing::Open,
     films::FilmSoundPass,
+    open_project::OpenProject,
     view::{About, Level},
 };
 use eddy_audio::Track;
@@ -344,42 +345,6 @@ impl Sounding {
 }
 
 impl Session {
-    /// Returns the track of the sound pass and its revision, which grows with each new track; `None` if there is no
-    /// sound pass that compiles. Blocks of the track may still be missing.
-    pub fn sound_track(&self) -> Option<(u64, Arc<Track>)> {
-        let now = self.services.sound_pass.shared.now();
-        now.track.clone().map(|track| (now.revision, track))
-    }
-
-    /// Returns the state of the sound pass; `None` if the project has none.
-    pub fn sound(&self) -> Option<SoundView> {
-        self.project().sound()?;
-        let (revision, track) = match self.sound_track() {
-            Some((revision, track)) => (revision, Some(track)),
-            None => (0, None),
-        };
-        Some(SoundView {
-            revision,
-            track,
-            is_making: self.services.sound_pass.is_making(),
-            trouble: self.services.sound_pass.trouble.clone(),
-        })
-    }
-
-    /// Handles the result of compiling the newest text.
-    pub(super) fn follow_sound(&mut self, project: &Project, heard: CompiledSound) {
-        match heard {
-            CompiledSound::Nothing => self.services.sound_pass.silence(),
-            CompiledSound::Broken => {}
-            CompiledSound::Sound(media) => {
-                let mut project = project.clone();
-                // They may have been set while it was being compiled.
-                project.custom_uniform_values.clone_from(&self.open.documents.current().custom_uniform_values);
-                self.services.sound_pass.order(project, *media, self.open.disk.opened());
-            }
-        }
-    }
-
     /// Submits pending orders, and takes results. Nothing of a held project reaches a device.
     pub(super) fn tick_sound(&mut self) {
         if let Some(values) = self.open.uniforms.for_sound.take() {
@@ -397,16 +362,49 @@ impl Session {
             self.open.host.changed = true;
         }
         self.open.host.changed |= self.services.sound_pass.take_changed();
-        let track = self.sound_track();
+        let track = self.services.sound_pass.sound_track();
         let revision = track.as_ref().map(|(revision, _)| *revision);
         if std::mem::replace(&mut self.services.sound_pass.played, revision) != revision {
-            self.play_track(track);
+            self.services.audio.play_track(track);
+        }
+    }
+}
+
+impl Sounding {
+    /// Returns the track of the sound pass and its revision, which grows with each new track; `None` if there is no
+    /// sound pass that compiles. Blocks of the track may still be missing.
+    pub(crate) fn sound_track(&self) -> Option<(u64, Arc<Track>)> {
+        let now = self.shared.now();
+        now.track.clone().map(|track| (now.revision, track))
+    }
+
+    /// Returns the state of the sound pass; `None` if the project has none.
+    pub(crate) fn sound(&self, open: &OpenProject) -> Option<SoundView> {
+        open.project().sound()?;
+        let (revision, track) = match self.sound_track() {
+            Some((revision, track)) => (revision, Some(track)),
+            None => (0, None),
+        };
+        Some(SoundView { revision, track, is_making: self.is_making(), trouble: self.trouble.clone() })
+    }
+
+    /// Handles the result of compiling the newest text.
+    pub(super) fn follow_sound(&mut self, open: &mut OpenProject, project: &Project, heard: CompiledSound) {
+        match heard {
+            CompiledSound::Nothing => self.silence(),
+            CompiledSound::Broken => {}
+            CompiledSound::Sound(media) => {
+                let mut project = project.clone();
+                // They may have been set while it was being compiled.
+                project.custom_uniform_values.clone_from(&open.documents.current().custom_uniform_values);
+                self.order(project, *media, open.disk.opened());
+            }
         }
     }
 
     /// Returns when the step of the sound in progress times out.
     pub(super) fn sound_deadline(&self) -> Option<Instant> {
-        self.services.sound_pass.deadline()
+        self.deadline()
     }
 }
 

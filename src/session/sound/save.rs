@@ -1,7 +1,8 @@
 //! Writes the whole track to a file next to the pictures.
 
+use super::Sounding;
 use crate::{
-    Session,
+    open_project::OpenProject,
     view::{About, Level},
 };
 use eddy_audio::wav;
@@ -9,9 +10,9 @@ use eddy_playback::capture;
 use eddy_project::PassName;
 use std::io::Write;
 
-impl Session {
+impl Sounding {
     /// Returns why the sound cannot be saved yet; `None` if it can.
-    pub fn sound_unsaved(&self) -> Option<&'static str> {
+    pub(crate) fn sound_unsaved(&self) -> Option<&'static str> {
         match self.sound_track() {
             None => Some("There is no sound: add a sound pass"),
             Some((_, track)) if track.first_missing().is_some() => Some("The sound is still being computed"),
@@ -20,27 +21,27 @@ impl Session {
     }
 
     /// Writes the whole track to a new file.
-    pub(crate) fn save_sound(&mut self) {
+    pub(crate) fn save_sound(&mut self, open: &mut OpenProject) {
         let track = match (self.sound_unsaved(), self.sound_track()) {
             (None, Some((_, track))) => track,
             (why, _) => {
                 let text = why.unwrap_or_default();
-                self.open.notice_about(About::Capture, Level::Warning, text);
+                open.notice_about(About::Capture, Level::Warning, text);
                 return;
             }
         };
         let frames: Vec<[i16; 2]> = (0..track.frames() as i64).filter_map(|n| track.frame(n)).collect();
-        let project = self.project();
-        let folder = capture::folder_for(project, &self.open.host.options.pictures);
+        let project = open.project();
+        let folder = capture::folder_for(project, &open.host.options.pictures);
         let stem = capture::stem_for(project, &PassName::sound());
         match capture::write_new(&folder, |n| format!("{stem}-{n:04}.wav"), &stem, |out| out.write_all(&wav(&frames))) {
             Ok(path) => {
-                self.open.notice(Level::Info, format!("saved {}", path.display()));
-                if let Some(notice) = self.open.host.notices.last_mut() {
+                open.notice(Level::Info, format!("saved {}", path.display()));
+                if let Some(notice) = open.host.notices.last_mut() {
                     notice.path = Some(path);
                 }
             }
-            Err(error) => self.open.notice_about(About::Capture, Level::Error, error.to_string()),
+            Err(error) => open.notice_about(About::Capture, Level::Error, error.to_string()),
         }
     }
 }

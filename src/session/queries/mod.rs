@@ -1,6 +1,6 @@
 //! The read-only interface of a [`Session`] for front ends.
 
-use super::{
+use crate::{
     Session,
     buffers::BufferRead,
     command::Question,
@@ -19,6 +19,9 @@ use std::{
     sync::Arc,
     time::Duration,
 };
+
+mod services;
+mod tools;
 
 impl Session {
     /// The newest picture of the shown pass: rgba8unorm, with its first row at the top, as display values. Call it
@@ -49,7 +52,7 @@ impl Session {
 
     /// A tab's text; empty if the tab does not exist.
     pub fn text(&self, tab: &Tab) -> &str {
-        self.project().source(tab).map_or("", |s| &s.text)
+        self.open.text(tab)
     }
 
     /// Returns the number of programs of the newest text that have drawn a frame: it grows when an edit is visible in
@@ -114,7 +117,7 @@ impl Session {
 
     /// Returns whether anything differs from the disk: texts, passes, channels.
     pub fn is_dirty(&self) -> bool {
-        self.open.documents.is_dirty()
+        self.open.is_dirty()
     }
 
     /// Returns the diagnostics of the newest finished compile for all tabs, errors first.
@@ -241,5 +244,13 @@ impl OpenProject {
     /// Returns the pass that the display shows: the shown pass, or that of a probed value.
     pub(super) fn pictured(&self) -> PassName {
         if self.read_backs.probing.is_drawn() { BuildOptions::probed() } else { self.picture.shown.clone() }
+    }
+
+    pub(crate) fn text(&self, tab: &Tab) -> &str {
+        self.project().source(tab).map_or("", |s| &s.text)
+    }
+
+    pub(crate) fn is_dirty(&self) -> bool {
+        self.documents.is_dirty()
     }
 }
