@@ -178,3 +178,37 @@ fn dropping_a_detached_job_does_not_wait() {
     let work = move |_: &Control<()>| waits.recv().map_err(|e| e.to_string());
     drop(Background::once("test", "the test", Arc::new(|| ()), work).unwrap().detached());
 }
+
+#[test]
+fn lazy_work_starts_its_thread_with_the_first_job() {
+    let (started, has_started) = mpsc::channel();
+    let mut b = Background::lazy("test", "the test", Arc::new(|| ()), move |n: u32, _: &Control<()>| {
+        started.send(thread::current().name().map(str::to_owned)).unwrap();
+        Ok(n + 1)
+    });
+    assert!(b.thread.is_none() && !b.is_under_way());
+    b.cancel();
+    b.start(1);
+    assert_eq!(wait(&mut b), Ok(2));
+    assert_eq!(has_started.recv().unwrap().as_deref(), Some("test"));
+    b.start(2);
+    assert_eq!(wait(&mut b), Ok(3));
+}
+
+#[test]
+fn abandoned_work_is_cancelled_and_its_thread_returned() {
+    let (started, has_started) = mpsc::channel();
+    let work = move |(), control: &Control<()>| {
+        started.send(()).unwrap();
+        while !control.is_cancelled() {
+            thread::sleep(Duration::from_millis(1));
+        }
+        Ok(())
+    };
+    let unused = Background::lazy("test", "the test", Arc::new(|| ()), |(), _: &Control<()>| Ok(()));
+    assert!(unused.abandon().is_none(), "no thread was started");
+    let mut b = Background::lazy("test", "the test", Arc::new(|| ()), work);
+    b.start(());
+    has_started.recv().unwrap();
+    b.abandon().unwrap().join().unwrap();
+}

@@ -1,6 +1,7 @@
 //! The available memory, so that a picture that does not fit is rejected with a message about its size. Otherwise the
 //! system would kill the process.
 
+use eddy_gpu::Rasteriser;
 use std::fs;
 
 /// Pictures with fewer pixels are not checked: they need less memory than other programs do.
@@ -23,12 +24,17 @@ fn of_meminfo(text: &str) -> Option<u64> {
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kibibytes| kibibytes << 10)
 }
 
-/// Fails for a picture that needs more than `available`, drawn and read in one piece. On a CPU device (`is_cpu`) its
-/// textures use the same memory.
-pub(super) fn check_whole((width, height): (u32, u32), is_cpu: bool, available: Option<u64>) -> anyhow::Result<()> {
+/// Fails for a picture that needs more than `available`, drawn and read in one piece. The textures of a software rasteriser
+/// are in the same memory.
+pub(super) fn check_whole(
+    (width, height): (u32, u32),
+    rasteriser: Rasteriser,
+    available: Option<u64>,
+) -> anyhow::Result<()> {
     let pixels = u64::from(width) * u64::from(height);
     // The pixels, the buffer that they are read through, and their bytes in a file; the target and the display texture.
-    let needed = pixels.saturating_mul(16 + 16 + 4 + if is_cpu { 16 + 4 } else { 0 });
+    let needed =
+        pixels.saturating_mul(16 + 16 + 4).saturating_add(rasteriser.shared_memory(pixels.saturating_mul(16 + 4)));
     match available.filter(|available| pixels > LEAST_PIXELS && needed > *available) {
         None => Ok(()),
         Some(available) => anyhow::bail!(
@@ -59,10 +65,10 @@ mod tests {
     #[test]
     fn a_picture_that_does_not_fit_is_rejected_with_its_size() {
         let gib = Some(1 << 30);
-        assert!(check_whole((3840, 2160), true, Some(0)).is_ok(), "small pictures are not checked");
-        assert!(check_whole((16_384, 16_384), true, None).is_ok());
-        let error = check_whole((16_384, 16_384), true, gib).unwrap_err().to_string();
+        assert!(check_whole((3840, 2160), Rasteriser::software(), Some(0)).is_ok(), "small pictures are not checked");
+        assert!(check_whole((16_384, 16_384), Rasteriser::software(), None).is_ok());
+        let error = check_whole((16_384, 16_384), Rasteriser::software(), gib).unwrap_err().to_string();
         assert!(error.contains("16384x16384 pixels takes 14.0 GiB") && error.contains("1.0 GiB are"), "{error}");
-        assert!(check_whole((16_384, 16_384), false, Some(9 << 30)).is_ok());
+        assert!(check_whole((16_384, 16_384), Rasteriser::GPU, Some(9 << 30)).is_ok());
     }
 }

@@ -127,7 +127,7 @@ fn offline(gpu: &Gpu, run: &RunArgs, policy: TilePolicy, inputs: ScriptedInputs)
     let mut offline = match policy.tiling() {
         Some(tiling) => Offline::tiled(gpu, run.size, tiling, inputs)?,
         None => {
-            memory::check_whole(run.size, gpu.is_cpu(), available)?;
+            memory::check_whole(run.size, gpu.rasteriser(), available)?;
             Offline::new(gpu, run.size, inputs)?
         }
     };

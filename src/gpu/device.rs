@@ -241,11 +241,6 @@ impl Gpu {
         })
     }
 
-    /// Returns whether the device is a CPU, which shares its time with the machine.
-    pub fn is_cpu(&self) -> bool {
-        self.info.device_type == wgpu::DeviceType::Cpu
-    }
-
     /// Returns a description for users: the adapter's name, the backend and the driver.
     pub fn describe(&self) -> String {
         format!("{} ({}, {})", self.info.name, self.info.backend, self.info.driver_info)
@@ -305,15 +300,4 @@ impl Gpu {
             Some(reason) => Err(GpuError::Refused { what: what.into(), reason }),
         }
     }
-}
-
-/// Lowers the priority of the calling thread. On Linux the priority is per thread, and threads that a driver starts for
-/// it inherit it.
-pub fn step_back(steps: i32) {
-    #[cfg(target_os = "linux")]
-    if let Err(error) = rustix::process::nice(steps) {
-        log::debug!("a thread keeps its priority: {error}");
-    }
-    #[cfg(not(target_os = "linux"))]
-    let _ = steps;
 }

@@ -11,10 +11,6 @@ use std::time::Duration;
 /// The time that a run which is dropped may take to its next frame. One that computes a reference for longer is left alone.
 const PATIENCE: Duration = Duration::from_secs(3);
 
-/// Steps that the thread takes back behind others (`nice`), where a thread can: what a processor draws for a window
-/// goes first.
-const STEPS_BACK: i32 = 10;
-
 /// Carries what the thread says.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
@@ -59,7 +55,7 @@ impl BackgroundRun {
         wake: Wake,
     ) -> std::io::Result<BackgroundRun> {
         let work = Background::once("lab", "the measurement", wake, move |told: &Told<Vec<Event>>| {
-            gpu::step_back(STEPS_BACK);
+            gpu::lower_background_priority();
             let control = Control { stop: Stop::of(told.cancel_flag()), estimates: true, beside_window: true };
             measure(open, &studies, &options, &control, &|event| told.update(|events| events.push(event)))
         })?;

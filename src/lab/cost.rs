@@ -37,7 +37,11 @@ pub enum Clock {
 
 impl Clock {
     fn of(rig: &Rig) -> Clock {
-        if rig.gpu().has_timestamps && !rig.gpu().is_cpu() { Clock::Timestamps } else { Clock::Wall }
+        if rig.gpu().has_timestamps && rig.gpu().rasteriser().has_exact_timestamps() {
+            Clock::Timestamps
+        } else {
+            Clock::Wall
+        }
     }
 }
 

@@ -219,15 +219,10 @@ impl<T: FnMut(Step<'_>)> Work<T> {
     }
 }
 
-/// The maximum number of devices: a driver that draws on the CPU starts threads of its own for each.
-const MOST_RIGS: usize = 4;
-
-/// Returns the devices that measure errors. A CPU that draws small grids mostly waits for its own threads, so there is
-/// one device per core; costs, and measurements next to a window, use a single one.
+/// Returns the devices that measure errors. Costs, and measurements next to a window, use a single one.
 fn rigs(first: &Rig, points: usize, control: &Control) -> Vec<Rig> {
     let gpu = first.gpu();
-    let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
-    let count = if gpu.is_cpu() && !control.beside_window { cores.min(points).min(MOST_RIGS) } else { 1 };
+    let count = if control.beside_window { 1 } else { gpu.rasteriser().parallel_devices().min(points) };
     let others = (1..count).map_while(|_| Gpu::another(&gpu.info, &GpuOptions::default()).ok());
     std::iter::once(gpu.clone()).chain(others).map(|gpu| Rig::stoppable(gpu, control.stop.clone())).collect()
 }

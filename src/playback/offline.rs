@@ -134,8 +134,8 @@ impl Offline {
         let built = Program::build(engine.gpu(), project, media, options);
         self.build_millis = Some(millis_since(began));
         let built = built?;
-        let needed = built.program.plan().target_bytes(engine.size());
-        if let Some(available) = self.memory.filter(|most| engine.gpu().is_cpu() && needed > *most) {
+        let needed = engine.gpu().rasteriser().shared_memory(built.program.plan().target_bytes(engine.size()));
+        if let Some(available) = self.memory.filter(|most| needed > *most) {
             return Err(EngineError::Memory { needed, available }.into());
         }
         engine.set_program(built.program)?;

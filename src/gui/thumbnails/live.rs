@@ -25,8 +25,6 @@ const SIZE: (u32, u32) = (320, 180);
 const HIDDEN: i32 = 24;
 /// The minimum time between two frames that are shown; two are drawn in it.
 const INTERVAL: Duration = Duration::from_millis(33);
-/// The niceness of the thread if a processor draws, so that a window in use has priority.
-const STEPS_BACK: i32 = 10;
 
 pub(super) struct Live {
     gpu: Gpu,
@@ -82,9 +80,7 @@ impl Live {
         let (sender, frames) = sync_channel(1);
         let (gpu, wake, wanted) = (self.gpu.clone(), self.wake.clone(), self.wanted.clone());
         let work = move || {
-            if gpu.is_cpu() {
-                gpu::step_back(STEPS_BACK);
-            }
+            gpu.rasteriser().lower_background_priority();
             let mut device = None;
             while let Some(name) = wanted.next() {
                 // A panic only ends this picture.

@@ -1,6 +1,7 @@
 //! Tests of a session whose uniforms are moved by simulated MIDI devices and real UDP packets.
 
 use super::*;
+use crate::Session;
 use crate::{Command, SessionOptions};
 use eddy_control::{
     fake::{FakeMidi, FakePads},

@@ -86,7 +86,7 @@ impl Drawing {
         wake: Arc<dyn Fn() + Send + Sync>,
     ) -> Result<Self, Error> {
         let device = Device::default();
-        let thread = RenderThread::start(open.clone(), device.clone(), size, window.is_cpu(), wake.clone())?;
+        let thread = RenderThread::start(open.clone(), device.clone(), size, window.rasteriser(), wake.clone())?;
         let display = Presenter::texture(&window, size.0, size.1).map_err(EngineError::from)?;
         let gate = Gate::default();
         let remote = Remote { thread, device, gate, open, wake, window, display, took: Duration::MAX };
@@ -101,7 +101,7 @@ impl Drawing {
 
     /// Returns whether frames are drawn by the processor that also paints the window.
     pub(crate) fn shares_processor(&self) -> bool {
-        matches!(&self.backend, Backend::RenderThread(remote) if remote.window.is_cpu())
+        matches!(&self.backend, Backend::RenderThread(remote) if remote.window.rasteriser().shares_processor())
     }
 
     pub(crate) fn is_apart(&self) -> bool {
@@ -229,7 +229,7 @@ impl Drawing {
         let Backend::RenderThread(remote) = &mut self.backend else { return Ok(()) };
         let device = Device::default();
         let Remote { open, wake, window, .. } = &**remote;
-        let thread = RenderThread::start(open.clone(), device.clone(), size, window.is_cpu(), wake.clone())?;
+        let thread = RenderThread::start(open.clone(), device.clone(), size, window.rasteriser(), wake.clone())?;
         (remote.device, remote.gate, remote.took) = (device, Gate::default(), Duration::MAX);
         self.left.extend(std::mem::replace(&mut remote.thread, thread).leave());
         self.in_flight = Some(InFlight::opening(now, self.serial));

@@ -4,7 +4,7 @@ use super::{
     job::{Done, Job},
     renderer::Renderer,
 };
-use eddy_gpu::{self as gpu, Gpu, GpuError, GpuOptions};
+use eddy_gpu::{Gpu, GpuError, GpuOptions, Rasteriser};
 use std::{
     any::Any,
     panic::{AssertUnwindSafe, catch_unwind},
@@ -16,8 +16,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The amount by which the thread's priority is lowered (nice) if a processor draws: input goes first.
-const STEPS_BACK: i32 = 5;
 /// Drivers compile on the thread that draws, and recurse as deeply as an expression is nested. Untouched pages cost
 /// nothing.
 const STACK_BYTES: usize = 256 << 20;
@@ -50,7 +48,7 @@ impl RenderThread {
         open: Open,
         device: Device,
         size: (u32, u32),
-        is_cpu: bool,
+        rasteriser: Rasteriser,
         wake: Arc<dyn Fn() + Send + Sync>,
     ) -> std::io::Result<RenderThread> {
         let (jobs, queue) = channel::<Job>();
@@ -61,9 +59,7 @@ impl RenderThread {
             is_heard
         };
         let work = move || {
-            if is_cpu {
-                gpu::step_back(STEPS_BACK);
-            }
+            rasteriser.lower_thread_priority();
             let opened = caught(|| open().map_err(|e| e.to_string())).and_then(|opened| opened);
             device.set(opened.clone());
             let renderer = opened.and_then(|gpu| {

@@ -11,7 +11,7 @@ use eddy_film::{
     Cancel, Encoding, Fade, FilmSound, FilmTime, Rate, Seam, Shape, ShownPass, Still, Writer, check_tools, has_sound,
     soundtrack,
 };
-use eddy_gpu::{self as gpu, Gpu, GpuOptions};
+use eddy_gpu::{Gpu, GpuOptions};
 use eddy_media::{self as media, MediaSet};
 use eddy_playback::{
     comparing::first_error,
@@ -27,9 +27,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The amount by which the thread's priority is lowered (nice) if a processor draws: the window's picture, which uses
-/// 5, goes first.
-const STEPS_BACK: i32 = 10;
 /// The minimum interval of progress reports.
 const REPORT_EVERY: Duration = Duration::from_millis(100);
 
@@ -97,11 +94,11 @@ impl LateSound {
 
 /// Returns the thread's function.
 pub(super) fn work() -> impl FnMut(Work, &Control<FilmProgress>) -> Result<FilmDone, String> + Send {
-    let mut is_back = false;
+    let mut is_background = false;
     move |work, control| match work {
         Work::Range(job) => {
-            if job.gpu.is_cpu() && !std::mem::replace(&mut is_back, true) {
-                gpu::step_back(STEPS_BACK);
+            if !std::mem::replace(&mut is_background, true) {
+                job.gpu.rasteriser().lower_background_priority();
             }
             draw(*job, control)
         }

@@ -155,7 +155,7 @@ fn device_that_fails_to_open_is_retried() {
 #[test]
 fn on_cpu_next_frame_starts_after_painting() {
     let Some(gpu) = testing::gpu() else { return };
-    let is_cpu = gpu.is_cpu();
+    let is_cpu = gpu.rasteriser().shares_processor();
     let mut session = open_apart(gpu);
     assert_eq!(session.services.drawing.shares_processor(), is_cpu);
     if !is_cpu {

@@ -7,15 +7,13 @@ use eddy_background::Control;
 use eddy_engine::{
     BLOCK_FRAMES, BLOCK_SECS, BuildError, BuildOptions, Builder, Engine, EngineError, SOUND_FRAMES, Trial,
 };
-use eddy_gpu as gpu;
+use eddy_gpu::{Gpu, Rasteriser};
 use std::{
     sync::Arc,
     thread,
     time::{Duration, Instant},
 };
 
-/// The amount by which the thread's priority is lowered (nice) if a processor draws: pictures, which use 5, go first.
-const STEPS_BACK: i32 = 10;
 /// The approximate duration of a band of a block, for which the picture waits if both share a device.
 const BAND: Duration = Duration::from_millis(6);
 /// Longest pause after a band.
@@ -28,7 +26,7 @@ const BLOCK_LIMIT: Duration = Duration::from_secs(60);
 /// The thread's function, which opens its device at the first order.
 pub(super) fn work(
     open: Open,
-    is_cpu: bool,
+    rasteriser: Rasteriser,
     trial: Option<Trial>,
     shared: Arc<Shared>,
 ) -> impl FnMut(Order, &Control<()>) -> Result<(), String> + Send {
@@ -38,9 +36,7 @@ pub(super) fn work(
         let maker_of_order = match &mut maker {
             Some(maker) => maker,
             None => {
-                if is_cpu {
-                    gpu::step_back(STEPS_BACK);
-                }
+                rasteriser.lower_background_priority();
                 let made = open().map_err(EngineError::from).and_then(Maker::new);
                 maker.insert(made.map_err(|error| error.to_string())?)
             }
@@ -62,7 +58,7 @@ struct Maker {
 }
 
 impl Maker {
-    fn new(gpu: gpu::Gpu) -> Result<Self, EngineError> {
+    fn new(gpu: Gpu) -> Result<Self, EngineError> {
         Ok(Self { builder: Builder::new(gpu.clone()), engine: Engine::new(gpu, 16, 16)?, opened: 0 })
     }
 

@@ -18,6 +18,7 @@ use super::{
 use eddy_audio::Track;
 use eddy_background::{Background, Wake};
 use eddy_engine::BLOCK_SECS;
+use eddy_gpu::Rasteriser;
 use eddy_media::{MediaKey, MediaSet};
 use eddy_playback::date;
 use eddy_project::{Bindings, CustomUniformValues, Project};
@@ -170,7 +171,7 @@ pub(super) struct Sounding {
     /// `None` until there is a sound pass, and after one was abandoned.
     thread: Option<Background<Order, (), ()>>,
     open: Open,
-    is_cpu: bool,
+    rasteriser: Rasteriser,
     wake: Wake,
     /// Counts the orders: a compile that a newer one has overtaken is cancelled.
     orders: Arc<AtomicU64>,
@@ -205,11 +206,11 @@ pub struct SoundView {
 }
 
 impl Sounding {
-    pub(crate) fn new(open: Open, is_cpu: bool, wake: Wake) -> Self {
+    pub(crate) fn new(open: Open, rasteriser: Rasteriser, wake: Wake) -> Self {
         Self {
             thread: None,
             open,
-            is_cpu,
+            rasteriser,
             wake,
             orders: Arc::default(),
             shared: Arc::default(),
@@ -286,7 +287,7 @@ impl Sounding {
             None => {
                 let trials = options.trials.as_ref();
                 let trial = trials.map(|trials| trials.trial(options.media_dir.clone(), self.orders.clone()));
-                let work = maker::work(self.open.clone(), self.is_cpu, trial, self.shared.clone());
+                let work = maker::work(self.open.clone(), self.rasteriser, trial, self.shared.clone());
                 self.thread.insert(Background::new("sound", "the sound pass", self.wake.clone(), work)?)
             }
         };
@@ -418,7 +419,7 @@ mod tests {
     #[test]
     fn hung_step_is_abandoned_and_finished_blocks_stay() {
         let open: Open = Arc::new(|| panic!("no device is asked for"));
-        let mut sounding = Sounding::new(open, false, Arc::new(|| ()));
+        let mut sounding = Sounding::new(open, Rasteriser::GPU, Arc::new(|| ()));
         let (go_on, waits) = channel::<()>();
         let (begun, has_begun) = channel();
         let shared = sounding.shared.clone();

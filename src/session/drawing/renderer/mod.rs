@@ -12,13 +12,8 @@ use std::time::{Duration, Instant};
 /// A tile's time is significant if it is at least this fraction of a frame's limit; shorter times are lost in the noise
 /// of other work.
 const TELLING: u32 = 20;
-/// The number of tiles that a GPU draws in parallel is unknown. A frame takes at least this many times as long as a
-/// tile.
-const AT_LEAST: f64 = 4.0;
 /// The approximate duration of a band of a frame: input waits no longer than this for the previous frame.
 const BAND: Duration = Duration::from_millis(12);
-/// A CPU driver draws squares with this many pixels a side, each on one core.
-const SQUARE: u32 = 64;
 /// Frames are drawn again for this long before the picture is shown and another request is handled.
 const PATIENCE: Duration = Duration::from_millis(150);
 
@@ -244,7 +239,7 @@ impl Renderer {
                 }
             }
             if took >= telling {
-                let whole = took.mul_f64(frames_a_tile(tile, canvas, self.engine.gpu().is_cpu()));
+                let whole = took.mul_f64(self.engine.gpu().rasteriser().frame_per_tile(tile, canvas));
                 done.forecast = (whole > limit.frame).then_some(whole);
                 break;
             }
@@ -269,7 +264,7 @@ impl Renderer {
         let began = Instant::now();
         let micros = || began.elapsed().as_secs_f64() * 1e6;
         let (cpu_micros, times): (f64, Option<Vec<PassTime>>);
-        let rows = if self.engine.gpu().is_cpu() { band_rows(self.engine.size().1, self.whole_took) } else { None };
+        let rows = self.engine.gpu().rasteriser().band_rows(self.engine.size().1, self.whole_took, BAND);
         if let (Some(gate), Some(rows), false) = (gate, rows, is_watched) {
             let mut waited = Duration::ZERO;
             let mut next_rows = || {
@@ -309,25 +304,6 @@ fn tiles(canvas: (u32, u32)) -> impl Iterator<Item = (u32, u32)> {
     let first = (side(canvas.0, 24), side(canvas.1, 12));
     let sizes = (0..).map(move |n| (first.0 << (2 * n), first.1 << (2 * n)));
     sizes.take_while(move |tile| 2 * tile.0 <= canvas.0 && 2 * tile.1 <= canvas.1).take(6)
-}
-
-/// Returns the rows of a band, given the duration of a frame; `None` if it is drawn at once.
-fn band_rows(height: u32, took: Duration) -> Option<u32> {
-    let bands = (took.as_secs_f64() / BAND.as_secs_f64()).round().clamp(1.0, f64::from(height.max(1)));
-    let rows = height.div_ceil(bands as u32).next_multiple_of(SQUARE);
-    (rows < height).then_some(rows)
-}
-
-/// Returns the ratio of the time of a frame to that of a tile.
-fn frames_a_tile(tile: (u32, u32), canvas: (u32, u32), is_cpu: bool) -> f64 {
-    if !is_cpu {
-        return AT_LEAST;
-    }
-    let pixels = |(width, height): (u32, u32)| f64::from(width) * f64::from(height);
-    let squares = |(width, height): (u32, u32)| f64::from(width.div_ceil(SQUARE)) * f64::from(height.div_ceil(SQUARE));
-    let cores = std::thread::available_parallelism().map_or(1.0, |n| n.get() as f64);
-    let at_once = |size| cores.min(squares(size));
-    ((pixels(canvas) / at_once(canvas)) / (pixels(tile) / at_once(tile))).max(1.0)
 }
 
 #[cfg(test)]

@@ -46,7 +46,7 @@ fn frame(renderer: &mut Renderer, n: i32, gate: Option<Gate>, job: Job) -> Done 
 #[test]
 fn abandoned_frame_is_not_delivered_and_is_finished_before_reads() {
     let Some(gpu) = testing::gpu() else { return };
-    if !gpu.is_cpu() {
+    if !gpu.rasteriser().shares_processor() {
         return;
     }
     let project = presets::load("feedback").unwrap().project;
@@ -104,15 +104,6 @@ fn abandoned_frame_is_not_delivered_and_is_finished_before_reads() {
     let done = frame(&mut given_up, 5, None, Job { changes, ..Job::default() });
     frame(&mut whole, 4, None, Job::default());
     assert_eq!(picture(done), picture(frame(&mut whole, 5, None, Job::default())));
-}
-
-#[test]
-fn slow_frame_is_drawn_in_bands_of_whole_squares() {
-    let rows = |height, millis| band_rows(height, Duration::from_millis(millis));
-    assert_eq!([0, 12, 17].map(|millis| rows(400, millis)), [None; 3]);
-    assert_eq!([24, 48, 5_000].map(|millis| rows(400, millis)), [Some(256), Some(128), Some(64)]);
-    assert_eq!([rows(64, 5_000), rows(1, 5_000), rows(0, 5_000)], [None; 3]);
-    assert_eq!(rows(16_384, u64::from(u32::MAX)), Some(64));
 }
 
 #[test]
