@@ -5,7 +5,7 @@
 
 use crate::{
     engine::{BuildOptions, Engine, FrameInputs, Program},
-    gpu::{self, Gpu, GpuOptions},
+    gpu::{Gpu, GpuOptions},
     media,
     project::presets,
 };
