@@ -50,7 +50,7 @@ fn picture(gpu: &Gpu, spec: &Path) -> Vec<u8> {
 
 fn export_question(stage: &Stage) -> (bool, Vec<String>) {
     match stage.session.question() {
-        Some(Question::Export { exists, export_question, .. }) => (*exists, export_question.clone()),
+        Some(Question::Export { exists, lost, .. }) => (*exists, lost.clone()),
         other => panic!("{other:?}; {:?}", stage.session.notices()),
     }
 }

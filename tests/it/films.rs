@@ -13,7 +13,7 @@ use eddy::{
 use std::fs;
 
 /// Twelve patches of 32x24 pixels, whose colours are spread over the RGB cube.
-const COLOUR_CHART: &str = "vec2 cell = floor(fragCoord / vec2(32.0, 24.0)); float n = cell.x + 4.0 * cell.y; vec3 c = n < 8.0 ? \
+const CHART: &str = "vec2 cell = floor(fragCoord / vec2(32.0, 24.0)); float n = cell.x + 4.0 * cell.y; vec3 c = n < 8.0 ? \
                     vec3(mod(n, 2.0), mod(floor(n / 2.0), 2.0), floor(n / 4.0)) : n < 9.0 ? vec3(0.5) : n < 10.0 ? vec3(0.9, \
                     0.4, 0.2) : n < 11.0 ? vec3(0.15, 0.35, 0.6) : vec3(0.03, 0.02, 0.05); fragColor = vec4(c, 1.0);";
 /// The size of the chart.
@@ -45,7 +45,7 @@ fn largest_differences_with(b: &Bench, film: &str, frames: usize, matrix: &str) 
 }
 
 fn render_chart(b: &Bench) {
-    b.image("card.glsl", COLOUR_CHART);
+    b.image("card.glsl", CHART);
     b.line("render card.glsl --size 128x72 --no-project --out card.png").expect(0);
 }
 
@@ -98,7 +98,7 @@ fn every_codec_preserves_the_colours_of_a_chart() {
 #[test]
 fn a_film_is_tagged_with_its_colours_and_its_frame_rate() {
     let Some(b) = Bench::with_gpu().filter(|_| has_ffmpeg()) else { return };
-    b.image("card.glsl", COLOUR_CHART);
+    b.image("card.glsl", CHART);
     b.line("render card.glsl --size 64x36 --frames 2 --out small.mp4 --codec av1").expect(0);
     for (film, more, codec, pixels, range, rate) in [
         ("a.mp4", "", "h264", "yuv420p", "tv", "60/1"),

@@ -30,33 +30,33 @@ fn apply_fixes(text: &str) -> (String, usize) {
     panic!("the fixes do not end: {text}");
 }
 
-const MAIN_IMAGE: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(red); }";
+const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(red); }";
 
 #[test]
 fn one_mistake_is_one_error_with_a_fix() {
     for (text, expected) in [
         // A Markdown fence around the text: with and without a language, indented, on one side only, and on the line
         // of code.
-        (format!("```glsl\nconst float red = 1.0;\n{MAIN_IMAGE}\n```\n"), format!("const float red = 1.0;\n{MAIN_IMAGE}\n")),
-        (format!("```\nconst float red = 1.0;\n{MAIN_IMAGE}\n  ```  "), format!("const float red = 1.0;\n{MAIN_IMAGE}\n")),
-        (format!("````c++\r\nconst float red = 1.0;\r\n{MAIN_IMAGE}\r\n"), format!("const float red = 1.0;\r\n{MAIN_IMAGE}\r\n")),
-        (format!("const float red = 1.0;\n{MAIN_IMAGE}\n```"), format!("const float red = 1.0;\n{MAIN_IMAGE}\n")),
-        (format!("``` const float red = 1.0;\n{MAIN_IMAGE}\n"), format!(" const float red = 1.0;\n{MAIN_IMAGE}\n")),
+        (format!("```glsl\nconst float red = 1.0;\n{IMAGE}\n```\n"), format!("const float red = 1.0;\n{IMAGE}\n")),
+        (format!("```\nconst float red = 1.0;\n{IMAGE}\n  ```  "), format!("const float red = 1.0;\n{IMAGE}\n")),
+        (format!("````c++\r\nconst float red = 1.0;\r\n{IMAGE}\r\n"), format!("const float red = 1.0;\r\n{IMAGE}\r\n")),
+        (format!("const float red = 1.0;\n{IMAGE}\n```"), format!("const float red = 1.0;\n{IMAGE}\n")),
+        (format!("``` const float red = 1.0;\n{IMAGE}\n"), format!(" const float red = 1.0;\n{IMAGE}\n")),
         // A character before a directive.
         (
-            format!("x#iUniform float red = 0.5 in {{ 0.0, 1.0 }}\n{MAIN_IMAGE}"),
-            format!("#iUniform float red = 0.5 in {{ 0.0, 1.0 }}\n{MAIN_IMAGE}"),
+            format!("x#iUniform float red = 0.5 in {{ 0.0, 1.0 }}\n{IMAGE}"),
+            format!("#iUniform float red = 0.5 in {{ 0.0, 1.0 }}\n{IMAGE}"),
         ),
-        (format!("q #define red 0.5\n{MAIN_IMAGE}"), format!("#define red 0.5\n{MAIN_IMAGE}")),
-        (format!("1#define red 0.5\n{MAIN_IMAGE}"), format!("#define red 0.5\n{MAIN_IMAGE}")),
-        (format!("é#define red 0.5\n{MAIN_IMAGE}"), format!("#define red 0.5\n{MAIN_IMAGE}")),
+        (format!("q #define red 0.5\n{IMAGE}"), format!("#define red 0.5\n{IMAGE}")),
+        (format!("1#define red 0.5\n{IMAGE}"), format!("#define red 0.5\n{IMAGE}")),
+        (format!("é#define red 0.5\n{IMAGE}"), format!("#define red 0.5\n{IMAGE}")),
         (
-            format!("x#if 1\n#define red 0.5\n#endif\n{MAIN_IMAGE}"),
-            format!("#if 1\n#define red 0.5\n#endif\n{MAIN_IMAGE}"),
+            format!("x#if 1\n#define red 0.5\n#endif\n{IMAGE}"),
+            format!("#if 1\n#define red 0.5\n#endif\n{IMAGE}"),
         ),
         (
-            format!("float f(float x) {{ return x; }} #define red f(0.5)\n{MAIN_IMAGE}"),
-            format!("float f(float x) {{ return x; }} \n#define red f(0.5)\n{MAIN_IMAGE}"),
+            format!("float f(float x) {{ return x; }} #define red f(0.5)\n{IMAGE}"),
+            format!("float f(float x) {{ return x; }} \n#define red f(0.5)\n{IMAGE}"),
         ),
         // A shader of another host.
         (
