@@ -75,12 +75,12 @@ fn stepping_back_300_frames_takes_less_than_a_second() {
         .map(|n| {
             // The distance from a snapshot varies.
             let back = 300 - 7 * n;
-            let wanted = session.transport().frame - back as i32;
+            let expected_frame = session.transport().frame - back as i32;
             let start = Instant::now();
             session.apply(Command::StepBack(back));
             session.tick(Instant::now());
             let millis = millis_since(start);
-            assert_eq!(session.transport().frame, wanted, "{:?}", session.notices());
+            assert_eq!(session.transport().frame, expected_frame, "{:?}", session.notices());
             steps(&mut session, back);
             millis
         })

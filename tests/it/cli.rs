@@ -203,9 +203,9 @@ fn import_and_export_overwrite_only_with_force() {
     let before = all("p");
     b.write("p/image.glsl", "mine");
     b.write("p/common.glsl", "mine");
-    let refused = b.line("import fluid.json --out p").expect(2);
+    let rejected = b.line("import fluid.json --out p").expect(2);
     for word in ["--force", "p/image.glsl", "p/common.glsl"] {
-        assert!(refused.err.contains(word), "{word}: {}", refused.err);
+        assert!(rejected.err.contains(word), "{word}: {}", rejected.err);
     }
     assert_eq!(b.bytes("p/image.glsl"), b"mine");
     b.line("import fluid.json --out p --force").expect(0);
@@ -281,6 +281,10 @@ fn uniforms_are_set_on_the_command_line_and_become_constants_of_an_export() {
         assert!(run.err.contains("--set ") && run.err.contains(expected), "{args}: {}", run.err);
     }
     b.write("p/eddy.toml", "eddy = 1\n[uniforms]\nred = \"x\"\n[passes.image]\n");
-    let refused = b.line("check p").expect(1);
-    assert!(refused.err.contains("eddy.toml:3:7") && refused.err.contains("true, false, a number"), "{}", refused.err);
+    let rejected = b.line("check p").expect(1);
+    assert!(
+        rejected.err.contains("eddy.toml:3:7") && rejected.err.contains("true, false, a number"),
+        "{}",
+        rejected.err
+    );
 }

@@ -66,10 +66,10 @@ fn a_false_assertion_exits_with_1() {
     assert_eq!(diagnostics.as_array().unwrap().len(), 2, "{diagnostics}");
     assert_eq!(message(0), "frame 4: max(buffer_a.x) <= 1 does not hold: it is 2");
     assert_eq!(message(1), "frame 6: max(buffer_a.x) <= 1 does not hold: it is 4");
-    let wrong = b.eddy(["render", "growing", "--assert", "sum(buffer_z) < 1"]).expect(2);
-    assert!(wrong.err.contains("there is no pass buffer_z"), "{}", wrong.err);
-    let wrong = b.eddy(["render", "growing", "--assert", "sum(buffer_a.x) about 1"]).expect(2);
-    assert!(wrong.err.contains("within TOLERANCE of VALUE"), "{}", wrong.err);
+    let invalid = b.eddy(["render", "growing", "--assert", "sum(buffer_z) < 1"]).expect(2);
+    assert!(invalid.err.contains("there is no pass buffer_z"), "{}", invalid.err);
+    let invalid = b.eddy(["render", "growing", "--assert", "sum(buffer_a.x) about 1"]).expect(2);
+    assert!(invalid.err.contains("within TOLERANCE of VALUE"), "{}", invalid.err);
 }
 
 #[test]
@@ -88,8 +88,9 @@ fn two_pictures_are_compared_by_bits_and_by_perception() {
     let time = &json["time"];
     assert!(time["ratio"].as_f64().unwrap() > 0.0 && time["repeats"] == 3, "{time}");
 
-    let apart = b.line("compare a.glsl b.glsl --size 16x16 --repeats 0 --json --view difference --out d.png").expect(0);
-    let json = &apart.json()[0];
+    let different =
+        b.line("compare a.glsl b.glsl --size 16x16 --repeats 0 --json --view difference --out d.png").expect(0);
+    let json = &different.json()[0];
     assert_eq!((&json["texels_apart"], &json["largest"]), (&128.into(), &0.25.into()), "{json}");
     // A quarter in one of four components of half of the texels.
     assert!((json["rmse"].as_f64().unwrap() - (0.0625f64 / 8.0).sqrt()).abs() < 1e-9, "{json}");
@@ -130,8 +131,8 @@ fn a_project_is_compared_with_its_text_in_a_revision() {
         let run = b.line(&format!("compare {project} --revision HEAD --size 16x16 --repeats 0 --json")).expect(0);
         assert_eq!(run.json()[0]["largest"], largest, "{project}: {}", run.out);
     }
-    let wrong = b.line("compare p --revision v9 --size 16x16").expect(2);
-    assert!(wrong.err.contains("no such revision"), "{}", wrong.err);
+    let invalid = b.line("compare p --revision v9 --size 16x16").expect(2);
+    assert!(invalid.err.contains("no such revision"), "{}", invalid.err);
 }
 
 /// Commands in the configuration of an untrusted repository are not run, and its trees are not written outside the

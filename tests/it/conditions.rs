@@ -129,13 +129,13 @@ fn redrawn_frames_are_the_same() {
     for first in (0..kinds.len()).rev() {
         let (snapshot, state) = &saved[first];
         assert!(engine.restore(snapshot));
-        let again: Vec<f32> = (first..kinds.len()).map(|n| red(&mut engine, n as i32, kinds[n])).collect();
-        assert_eq!(again, seen[first..], "from a snapshot of frame {first}");
+        let redrawn: Vec<f32> = (first..kinds.len()).map(|n| red(&mut engine, n as i32, kinds[n])).collect();
+        assert_eq!(redrawn, seen[first..], "from a snapshot of frame {first}");
         // Another process has only the saved state.
         let mut other = self::engine(&gpu, &project, (4, 3));
         other.set_state(state).unwrap();
-        let again: Vec<f32> = (first..kinds.len()).map(|n| red(&mut other, n as i32, kinds[n])).collect();
-        assert_eq!(again, seen[first..], "from the state of frame {first}");
+        let redrawn: Vec<f32> = (first..kinds.len()).map(|n| red(&mut other, n as i32, kinds[n])).collect();
+        assert_eq!(redrawn, seen[first..], "from the state of frame {first}");
     }
 }
 

@@ -40,12 +40,12 @@ fn draw(gpu: &eddy::gpu::Gpu, project: &Project, size: (u32, u32), frames: i32) 
 fn a_cubemap_pass_is_read_at_the_direction_that_it_was_drawn_for() {
     let Some(gpu) = gpu() else { return };
     let cube = cube_pass("o = vec4(rayDir, length(rayOri));", Default::default());
-    let look = panorama(
+    let reader = panorama(
         "o = vec4(texture(iChannel0, d).xyz - d, texture(iChannel0, d).w);",
         Input::pass(PassName::cube()),
         Filter::Linear,
     );
-    let mut engine = draw(&gpu, &project(vec![cube, look]), (128, 64), 1);
+    let mut engine = draw(&gpu, &project(vec![cube, reader]), (128, 64), 1);
     let pixels = engine.read_image().unwrap();
     // Half floats next to 1 are 2^-11 apart; a texel of 1,024 turns by at most 2^-9, half of which the filter averages
     // away.
@@ -58,18 +58,18 @@ fn a_cubemap_pass_is_read_at_the_direction_that_it_was_drawn_for() {
 #[test]
 fn a_cubemap_pass_and_earlier_buffers_read_its_previous_frame_on_every_face() {
     let Some(gpu) = gpu() else { return };
-    let own = Input::pass(PassName::cube());
+    let cube_input = Input::pass(PassName::cube());
     let cube = cube_pass(
         "o = texture(iChannel0, rayDir) + vec4(1., 0., 0., 0.);",
-        [channel(own.clone(), Filter::Nearest), None, None, None],
+        [channel(cube_input.clone(), Filter::Nearest), None, None, None],
     );
     let reads = "void mainImage(out vec4 o, in vec2 p) { o = textureLod(iChannel0, vec3(0., 0., 1.), 0.); }";
-    let earlier_buffer = pass(buffer("A"), reads, [channel(own.clone(), Filter::Nearest), None, None, None]);
+    let earlier_buffer = pass(buffer("A"), reads, [channel(cube_input.clone(), Filter::Nearest), None, None, None]);
     let code = "void mainImage(out vec4 o, in vec2 p) { vec3 d[6] = vec3[](vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), \
                 vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1)); o = vec4(texture(iChannel0, d[int(p.x)]).x, \
                 texelFetch(iChannel1, ivec2(0), 0).x, iChannelResolution[0].xz); }";
-    let look = image(code, [channel(own, Filter::Nearest), nearest("A"), None, None]);
-    let mut engine = draw(&gpu, &project(vec![earlier_buffer, cube, look]), (6, 2), 3);
+    let reader = image(code, [channel(cube_input, Filter::Nearest), nearest("A"), None, None]);
+    let mut engine = draw(&gpu, &project(vec![earlier_buffer, cube, reader]), (6, 2), 3);
     let pixels = engine.read_image().unwrap();
     for x in 0..6 {
         assert_eq!(texel(&pixels, x, 0)[..3], [3.0, 2.0, 1024.0], "face {x}");
@@ -100,8 +100,8 @@ fn cubemap_texels_are_read_at_the_directions_of_their_faces() {
                     if (iChannelResolution[0] != vec3(0.)) o = vec4(-1.); }";
         let input = Input::Media { kind: InputKind::Cubemap, media };
         let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip };
-        let look = image(code, [Some(Channel { input, sampler }), None, None, None]);
-        let mut engine = draw(&gpu, &project(vec![look]), (6, 256), 1);
+        let reader = image(code, [Some(Channel { input, sampler }), None, None, None]);
+        let mut engine = draw(&gpu, &project(vec![reader]), (6, 256), 1);
         let pixels = engine.read_image().unwrap();
         for face in 0..6 {
             for row in 0..256 {
@@ -128,15 +128,15 @@ fn a_volume_is_read_trilinearly_and_its_mips_are_averages() {
                 if (iChannelResolution[0] != vec3(32.) || textureSize(iChannel0, 0) != ivec3(32)) o = vec4(-1.); }";
     let input = Input::Media { kind: InputKind::Volume, media };
     let sampler = Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: false };
-    let look = image(code, [Some(Channel { input, sampler }), None, None, None]);
-    let mut engine = draw(&gpu, &project(vec![look]), (32, 32), 1);
+    let reader = image(code, [Some(Channel { input, sampler }), None, None, None]);
+    let mut engine = draw(&gpu, &project(vec![reader]), (32, 32), 1);
     let pixels = engine.read_image().unwrap();
     for y in 0..32usize {
         for x in 0..32usize {
-            let [own, between, coarse, _] = texel(&pixels, x as u32, y as u32);
+            let [exact, between, coarse, _] = texel(&pixels, x as u32, y as u32);
             let (a, b, c) = (x / 2 * 2, y / 2 * 2, 4);
             let mean = (0..8).map(|i| at(a + i % 2, b + i / 2 % 2, c + i / 4)).sum::<f32>() / 8.0;
-            assert!((own - at(x, y, 5)).abs() < 0.01, "{x},{y}: {own}");
+            assert!((exact - at(x, y, 5)).abs() < 0.01, "{x},{y}: {exact}");
             assert!((between - 0.5 * (at(x, y, 5) + at((x + 1) % 32, y, 5))).abs() < 0.6, "{x},{y}: {between}");
             assert!((coarse - mean).abs() < 0.51, "{x},{y}: {coarse}, not {mean}");
         }

@@ -311,8 +311,8 @@ fn vp9_and_av1_films_can_have_odd_sizes() {
     let line = "render plain.glsl --frames 3 --out a.gif --json";
     assert!(b.line(line).expect(0).out.contains("a GIF has at most 50 frames per second"));
     // The size is rejected before the project is read.
-    let odd = b.line("render nothing-here.glsl --size 161x91 --frames 3 --out a.mp4").expect(2);
-    assert!(odd.err.contains("even width and height, not 161x91"), "{}", odd.err);
+    let odd_size = b.line("render nothing-here.glsl --size 161x91 --frames 3 --out a.mp4").expect(2);
+    assert!(odd_size.err.contains("even width and height, not 161x91"), "{}", odd_size.err);
     let small = b.line("render nothing-here.glsl --size 128x2 --frames 3 --out a.mkv --codec h265").expect(2);
     assert!(small.err.contains("at least 16 pixels each way, not 128x2"), "{}", small.err);
 }
@@ -329,8 +329,8 @@ fn ffmpeg_errors_are_reported_before_drawing_and_leave_no_files() {
     if !has_ffmpeg() {
         return;
     }
-    let odd = b.line("render card.glsl --size 63x36 --frames 3 --out a.mp4").expect(2);
-    assert!(odd.err.contains("even width") && odd.err.contains("63x36"), "{}", odd.err);
+    let odd_size = b.line("render card.glsl --size 63x36 --frames 3 --out a.mp4").expect(2);
+    assert!(odd_size.err.contains("even width") && odd_size.err.contains("63x36"), "{}", odd_size.err);
     b.line("render card.glsl --size 63x35 --frames 3 --out odd.mp4 --chroma 444").expect(0);
     // A compile error leaves the existing film unchanged.
     b.write("a.mp4", "mine");

@@ -48,8 +48,8 @@ fn an_abandoned_frame_shows_the_previous_picture_and_does_not_change_later_frame
             whole.draw(&inputs(frame)).unwrap();
             let drawn = whole.picture().unwrap().bytes;
             // Abandoned after zero, one or two of three bands, or finished.
-            let mut left = 0..frame as u32 % (bands + 1);
-            let mut rows = || left.next().map(|_| 64);
+            let mut remaining = 0..frame as u32 % (bands + 1);
+            let mut rows = || remaining.next().map(|_| 64);
             let is_whole = banded.draw_for(&inputs(frame), DrawFor::Bands(&mut rows)).unwrap().is_whole;
             assert_eq!(is_whole, frame as u32 % (bands + 1) == bands, "{name}, frame {frame}");
             if is_whole {
@@ -78,8 +78,8 @@ fn an_unchanged_picture_is_drawn_after_it_was_abandoned() {
     let expected = picture(&mut whole);
     let abandoned = || {
         let mut engine = engine(&gpu, &constant, SIZE);
-        let mut left = 1;
-        let mut rows = || (std::mem::replace(&mut left, 0) > 0).then_some(64);
+        let mut remaining = 1;
+        let mut rows = || (std::mem::replace(&mut remaining, 0) > 0).then_some(64);
         let drawn = engine.draw_for(&FrameInputs::at_fixed_step(0, 60.0), DrawFor::Bands(&mut rows)).unwrap();
         assert!(!drawn.is_whole);
         engine

@@ -26,15 +26,15 @@ fn a_report_does_not_open_projects_that_only_a_result_names() {
     let temporary = "own/.eddy-save-aB3xYz.tmp";
     b.image("own/image.glsl", "fragColor = vec4(1.0);");
     b.write(temporary, "half");
-    let own = b.path("own").to_str().unwrap().to_owned();
-    let results = Results { cases: vec![case(&own), case("fluid")], ..Results::default() };
+    let own_project = b.path("own").to_str().unwrap().to_owned();
+    let results = Results { cases: vec![case(&own_project), case("fluid")], ..Results::default() };
     results.write(&b.path("theirs")).unwrap();
     b.line("lab merge theirs --out merged").expect(0);
     let page = fs::read_to_string(b.path("merged/stability.html")).unwrap();
-    assert!(page.contains(&own) && b.path(temporary).exists());
+    assert!(page.contains(&own_project) && b.path(temporary).exists());
     assert_eq!(page.matches("<summary>Bounds</summary>").count(), 1, "only the preset has bounds");
     // The bounds of a project that the user named are shown as well.
-    let subject = CheckedProject::load(&own, &[]).unwrap();
+    let subject = CheckedProject::load(&own_project, &[]).unwrap();
     stability::write_of(&b.path("merged"), &results, &[subject]).unwrap();
     let page = fs::read_to_string(b.path("merged/stability.html")).unwrap();
     assert_eq!(page.matches("<summary>Bounds</summary>").count(), 2);

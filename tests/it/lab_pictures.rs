@@ -150,8 +150,8 @@ fn occlusion_matches_traced_rays() {
     assert!(errors.rms > 0.06, "the oldest method passes too: {errors:?}");
     // The sectors of a slice are worth keeping: a horizon that sinks as things get farther away lets too much light
     // in.
-    let all = |method| ao::ByEdge::of(&ao::occlusion(&rig, method, 24.0, (320, 320)).unwrap()).all;
-    let [sectors, horizon] = ["horizons", "gtao"].map(all);
+    let all_errors = |method| ao::ByEdge::of(&ao::occlusion(&rig, method, 24.0, (320, 320)).unwrap()).all;
+    let [sectors, horizon] = ["horizons", "gtao"].map(all_errors);
     println!("sectors {sectors:?}, highest horizon {horizon:?}");
     assert!(sectors.rms < horizon.rms && sectors.mean.abs() < horizon.mean.abs(), "{sectors:?}, {horizon:?}");
 }

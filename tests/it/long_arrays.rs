@@ -205,8 +205,8 @@ fn constant_arrays() -> Vec<(&'static str, String, Texel)> {
             "booleans",
             format!("{main} bool a[600] = bool[]({booleans}); a[x] = !a[x]; o = vec4(a[x], a[y], a[y + 300], 1); }}"),
             |x, y| {
-                let whole = |at: usize| at.is_multiple_of(3);
-                [!whole(x), whole(y) != (x == y), whole(y), true].map(|is| f32::from(u8::from(is)))
+                let is_third = |at: usize| at.is_multiple_of(3);
+                [!is_third(x), is_third(y) != (x == y), is_third(y), true].map(|is| f32::from(u8::from(is)))
             },
         ),
     ]
