@@ -36,13 +36,13 @@ pub(crate) struct Row {
     ratio: usize,
 }
 
-/// Reads `INPUTS` files made by `make`, and fails if one uses more than `most` bytes at once for its length.
+/// Reads `INPUTS` files made by `make`, and fails if reading one uses more bytes at once than `max_bytes` allows.
 pub(crate) fn measure(
     name: &'static str,
     file: &str,
     make: impl Fn(&mut Random) -> Vec<u8>,
     read: impl Fn(&Path) -> bool,
-    most: impl Fn(&[u8]) -> usize,
+    max_bytes: impl Fn(&[u8]) -> usize,
 ) -> Row {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join(file);
@@ -50,17 +50,20 @@ pub(crate) fn measure(
     for n in 0..INPUTS {
         let bytes = make(&mut Random::new(n));
         fs::write(&path, &bytes).unwrap();
-        let (length, most) = (bytes.len(), most(&bytes));
+        let (length, max_bytes) = (bytes.len(), max_bytes(&bytes));
         drop(bytes);
-        let (before, since) = (MEMORY.start(), Instant::now());
+        let (before, start) = (MEMORY.start(), Instant::now());
         row.read += u64::from(read(&path));
         let peak = MEMORY.peak().saturating_sub(before);
-        row.longest = row.longest.max(since.elapsed());
+        row.longest = row.longest.max(start.elapsed());
         row.peak = row.peak.max(peak);
         if length >= 64 << 10 {
             row.ratio = row.ratio.max(peak / length);
         }
-        assert!(peak <= most, "{name}: input {n} of {length} bytes takes {peak} bytes, and {most} are allowed");
+        assert!(
+            peak <= max_bytes,
+            "{name}: input {n} of {length} bytes takes {peak} bytes, but the limit is {max_bytes}"
+        );
     }
     row
 }
@@ -71,7 +74,7 @@ pub(crate) fn check() {
     let mut rows = vec![pictures(), scenes(), checkpoints(), models()];
     rows.extend(super::readers::rows());
     rows.extend(super::streams::rows());
-    println!("  inputs    read     peak  longest  most bytes for a byte");
+    println!("  inputs    read     peak  longest  max bytes per byte");
     for row in &rows {
         let (peak, millis) = (row.peak >> 10, row.longest.as_millis());
         println!("{:8} {:7} {peak:5} KiB {millis:5} ms {:6}  {}", row.inputs, row.read, row.ratio, row.name);
@@ -101,7 +104,7 @@ fn pictures() -> Row {
         if random.below(3) == 0 {
             let width = [1025u32, 32_768, 40_000, u32::MAX >> 1][random.below(4)];
             png[16..20].copy_from_slice(&width.to_be_bytes());
-            super::mutate::mend_png(&mut png);
+            super::mutate::fix_png_checksums(&mut png);
         }
         png
     };
@@ -110,7 +113,7 @@ fn pictures() -> Row {
         media::load(&key, None, None).is_ok()
     };
     // One copy of the texels, of the size in the header, if it is within the limits; otherwise nothing is decoded.
-    let most = |png: &[u8]| {
+    let max_bytes = |png: &[u8]| {
         let side = |at: usize| u64::from(u32::from_be_bytes([png[at], png[at + 1], png[at + 2], png[at + 3]]));
         let (width, height) = (side(16), side(20));
         let is_decoded = width <= u64::from(limits::PICTURE_SIDE);
@@ -126,7 +129,7 @@ fn pictures() -> Row {
         let texels = if is_decoded { texel * width as usize * (height as usize + 16) } else { 0 };
         texels + 2 * png.len() + MIB
     };
-    measure("PNG", "a.png", make, read, most)
+    measure("PNG", "a.png", make, read, max_bytes)
 }
 
 /// Image files whose project has many values, a large manifest, or a late frame.

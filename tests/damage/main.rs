@@ -42,11 +42,11 @@ static MEMORY: memory::Counting = memory::Counting::new();
 
 static PANICS: AtomicUsize = AtomicUsize::new(0);
 
-/// CPU time of the opening thread; work on other threads and by ffmpeg is waited for.
-const MOST_TIME: Duration = Duration::from_secs(2);
+/// CPU time of the opening thread; the time of other threads and of ffmpeg counts as waiting.
+const MAX_CPU_TIME: Duration = Duration::from_secs(2);
 /// Wall-clock time, with a margin for a busy machine.
-const MOST_WAITING: Duration = Duration::from_secs(15);
-const MOST_BYTES: usize = 1 << 30;
+const MAX_WAITING_TIME: Duration = Duration::from_secs(15);
+const MAX_BYTES: usize = 1 << 30;
 /// One in this number of cases is drawn: a device takes a hundred times as long as the rest.
 const DRAW_EVERY: u64 = 40;
 
@@ -56,7 +56,7 @@ struct Tally {
     cases: u64,
     /// The number of projects that were opened, and of those whose pictures and models were all intact.
     opened: u64,
-    whole: u64,
+    intact: u64,
     drawn: u64,
     longest: Duration,
     waited: Duration,
@@ -64,7 +64,7 @@ struct Tally {
 }
 
 #[test]
-fn damaged_files_neither_panic_nor_take_long_nor_take_much() {
+fn damaged_files_do_not_panic_and_stay_within_limits() {
     let number = |name: &str| std::env::var(name).ok().map(|n| n.parse::<u64>().expect(name));
     let (first, cases) = (number("EDDY_DAMAGE_FIRST").unwrap_or(0), number("EDDY_DAMAGE_CASES").unwrap_or(400));
     let draw_every = number("EDDY_DAMAGE_DRAW_EVERY").unwrap_or(DRAW_EVERY);
@@ -73,67 +73,70 @@ fn damaged_files_neither_panic_nor_take_long_nor_take_much() {
     let seeds = seeds::all();
     let dir = tempfile::tempdir().unwrap();
     for seed in &seeds {
-        let home = dir.path().join(seed.name);
-        seed.files.iter().for_each(|file| write(&home, file));
+        let folder = dir.path().join(seed.name);
+        seed.files.iter().for_each(|file| write(&folder, file));
         let mut tally = Tally::default();
-        open(&home.join(seed.entry), gpu.as_ref(), &mut tally);
-        let all = (tally.opened, tally.whole, tally.drawn);
-        assert_eq!(all, (1, 1, u64::from(gpu.is_some())), "{} is whole before it is damaged", seed.name);
+        open(&folder.join(seed.entry), gpu.as_ref(), &mut tally);
+        let all = (tally.opened, tally.intact, tally.drawn);
+        assert_eq!(all, (1, 1, u64::from(gpu.is_some())), "{} is intact before it is damaged", seed.name);
     }
     let mut tallies: BTreeMap<&str, Tally> = BTreeMap::new();
-    let mut wrong = Vec::new();
-    let loud = std::panic::take_hook();
+    let mut failures = Vec::new();
+    let previous_hook = std::panic::take_hook();
     // Decoders work on threads of their own, whose panics are not propagated.
     std::panic::set_hook(Box::new(|_| {
         PANICS.fetch_add(1, Ordering::Relaxed);
     }));
     for case in first..first + cases {
         let seed = &seeds[(case % seeds.len() as u64) as usize];
-        let home = dir.path().join(case.to_string());
-        damaged(seed, &seeds, case).iter().for_each(|file| write(&home, file));
+        let folder = dir.path().join(case.to_string());
+        damaged(seed, &seeds, case).iter().for_each(|file| write(&folder, file));
         let gpu = gpu.as_ref().filter(|_| (case / seeds.len() as u64).is_multiple_of(draw_every));
         let tally = tallies.entry(seed.name).or_default();
         let before = MEMORY.start();
-        let (began, since) = (Clock::now(), Instant::now());
-        let result = catch_unwind(AssertUnwindSafe(|| open(&home.join(seed.entry), gpu, tally)));
-        let (time, bytes) = (began.elapsed(), MEMORY.peak().saturating_sub(before));
-        let waited = since.elapsed();
+        let (start, wall_start) = (Clock::now(), Instant::now());
+        let result = catch_unwind(AssertUnwindSafe(|| open(&folder.join(seed.entry), gpu, tally)));
+        let (time, bytes) = (start.elapsed(), MEMORY.peak().saturating_sub(before));
+        let waited = wall_start.elapsed();
         tally.cases += 1;
         tally.waited = tally.waited.max(waited);
         tally.longest = tally.longest.max(time);
         tally.largest = tally.largest.max(bytes);
-        let trouble = match result {
+        let problem = match result {
             Err(panic) => {
                 PANICS.store(0, Ordering::Relaxed);
-                Some(format!("panicked: {}", said(&*panic)))
+                Some(format!("panicked: {}", panic_message(&*panic)))
             }
             Ok(()) if PANICS.swap(0, Ordering::Relaxed) > 0 => Some("panicked on another thread".into()),
-            Ok(()) if time > MOST_TIME => Some(format!("took {time:.1?}")),
-            Ok(()) if waited > MOST_WAITING => Some(format!("took {waited:.1?} by the wall's clock")),
-            Ok(()) if bytes > MOST_BYTES => Some(format!("took {} MiB", bytes >> 20)),
+            Ok(()) if time > MAX_CPU_TIME => Some(format!("took {time:.1?}")),
+            Ok(()) if waited > MAX_WAITING_TIME => Some(format!("took {waited:.1?} of wall-clock time")),
+            Ok(()) if bytes > MAX_BYTES => Some(format!("took {} MiB", bytes >> 20)),
             Ok(()) => None,
         };
-        if let Some(trouble) = trouble {
-            let kept = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("damage-{case}"));
-            let _ = fs::remove_dir_all(&kept);
-            damaged(seed, &seeds, case).iter().for_each(|file| write(&kept, file));
-            wrong.push(format!("case {case} ({}), kept in {}: {trouble}", seed.name, kept.display()));
+        if let Some(problem) = problem {
+            let failure_folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("damage-{case}"));
+            let _ = fs::remove_dir_all(&failure_folder);
+            damaged(seed, &seeds, case).iter().for_each(|file| write(&failure_folder, file));
+            failures.push(format!("case {case} ({}), saved in {}: {problem}", seed.name, failure_folder.display()));
         }
-        fs::remove_dir_all(&home).unwrap();
+        fs::remove_dir_all(&folder).unwrap();
     }
-    std::panic::set_hook(loud);
-    println!("  cases  opened   whole   drawn  longest   waited  largest");
+    std::panic::set_hook(previous_hook);
+    println!("  cases  opened  intact   drawn  longest   waited  largest");
     for (name, t) in &tallies {
         let (millis, mebibytes) = (t.longest.as_millis(), t.largest >> 20);
         let waited = t.waited.as_millis();
-        let [cases, opened, whole, drawn] = [t.cases, t.opened, t.whole, t.drawn];
-        println!("{cases:7} {opened:7} {whole:7} {drawn:7} {millis:5} ms {waited:5} ms {mebibytes:4} MiB  {name}");
+        let [cases, opened, intact, drawn] = [t.cases, t.opened, t.intact, t.drawn];
+        println!("{cases:7} {opened:7} {intact:7} {drawn:7} {millis:5} ms {waited:5} ms {mebibytes:4} MiB  {name}");
     }
-    assert!(wrong.is_empty(), "{} of {cases}:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(failures.is_empty(), "{} of {cases}:\n{}", failures.len(), failures.join("\n"));
     // A generator that destroys everything tests only the first lines of the readers.
     let opened: u64 = tallies.values().map(|t| t.opened).sum();
-    let whole: u64 = tallies.values().map(|t| t.whole).sum();
-    assert!(opened * 3 > cases && whole * 20 > cases && whole < opened, "{opened} opened and {whole} whole of {cases}");
+    let intact: u64 = tallies.values().map(|t| t.intact).sum();
+    assert!(
+        opened * 3 > cases && intact * 20 > cases && intact < opened,
+        "{opened} opened and {intact} intact of {cases}"
+    );
 }
 
 /// Returns the seed's files with one of them damaged.
@@ -151,13 +154,13 @@ fn damaged(seed: &Seed, seeds: &[Seed], case: u64) -> Vec<File> {
     }
     // Checksums are corrected, otherwise nothing of a PNG beyond its checksums would be reached.
     if random.below(4) > 0 {
-        mutate::mend_png(bytes);
+        mutate::fix_png_checksums(bytes);
     }
     files
 }
 
-fn write(home: &Path, file: &File) {
-    let path = home.join(file.name);
+fn write(folder: &Path, file: &File) {
+    let path = folder.join(file.name);
     fs::create_dir_all(path.parent().unwrap()).unwrap();
     fs::write(path, &file.bytes).unwrap();
 }
@@ -177,7 +180,7 @@ fn open(path: &Path, gpu: Option<&Gpu>, tally: &mut Tally) {
     drop(meshes);
     let (media, warnings) = media::gather(project, None);
     tally.opened += 1;
-    tally.whole += u64::from(errors.is_empty() && warnings.is_empty());
+    tally.intact += u64::from(errors.is_empty() && warnings.is_empty());
     // Frames after the first, which a video decodes when it is loaded.
     let channels = project.passes.iter().flat_map(|pass| pass.bindings.channels());
     for video in channels.filter_map(|channel| media.video(channel.input.media()?)) {
@@ -191,7 +194,7 @@ fn open(path: &Path, gpu: Option<&Gpu>, tally: &mut Tally) {
     tally.drawn += u64::from(drawn);
 }
 
-fn said(panic: &(dyn Any + Send)) -> String {
+fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
 }

@@ -23,8 +23,8 @@ impl Random {
     /// Returns a part of `length` bytes, usually a short one.
     fn range(&mut self, length: usize) -> std::ops::Range<usize> {
         let from = self.below(length + 1);
-        let most = if self.below(3) == 0 { length - from } else { (length - from).min(64) };
-        from..from + self.below(most + 1)
+        let max_length = if self.below(3) == 0 { length - from } else { (length - from).min(64) };
+        from..from + self.below(max_length + 1)
     }
 }
 
@@ -108,7 +108,7 @@ fn number(bytes: &mut Vec<u8>, random: &mut Random) {
 }
 
 /// Corrects the checksums of a PNG's chunks, as far as there are chunks.
-pub(crate) fn mend_png(bytes: &mut [u8]) {
+pub(crate) fn fix_png_checksums(bytes: &mut [u8]) {
     if !bytes.starts_with(b"\x89PNG") {
         return;
     }

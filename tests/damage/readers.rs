@@ -34,7 +34,7 @@ pub(crate) fn rows() -> Vec<Row> {
 }
 
 /// Returns one of the texts, so that a generator makes each kind about equally often.
-fn one<'t>(random: &mut Random, all: &[&'t str]) -> &'t str {
+fn pick<'t>(random: &mut Random, all: &[&'t str]) -> &'t str {
     all[random.below(all.len())]
 }
 
@@ -61,27 +61,27 @@ fn images() -> Row {
         bytes
     };
     // The bytes of the decoder's and of Eddy's texels together, for the size in the file.
-    let most = |bytes: &[u8]| {
+    let max_bytes = |bytes: &[u8]| {
         let size =
             ImageReader::new(Cursor::new(bytes)).with_guessed_format().ok().and_then(|r| r.into_dimensions().ok());
         let texels = size.map_or(0, |(width, height)| u64::from(width) * u64::from(height)).min(512 << 20) as usize;
         40 * texels + 4 * bytes.len() + 4 * MIB
     };
-    measure("JPEG, GIF, WebP, BMP, HDR", "a.png", make, read_picture, most)
+    measure("JPEG, GIF, WebP, BMP, HDR", "a.png", make, read_picture, max_bytes)
 }
 
 /// DDS files that claim to be larger than they are.
 fn textures() -> Row {
     let make = |random: &mut Random| {
         let side = [4u32, 64, 65, 512][random.below(4)];
-        let said = [side, side, 4096, 32_768, u32::MAX][random.below(5)];
+        let claimed = [side, side, 4096, 32_768, u32::MAX][random.below(5)];
         let (flags, bits, masks) = match random.below(3) {
             0 => (0x2_0000u32, 8u32, [0xffu32, 0, 0, 0]),
             1 => (0x2_0001, 16, [0xff, 0, 0, 0xff00]),
             _ => (0x41, 32, [0xff, 0xff00, 0xff_0000, 0xff00_0000]),
         };
         let levels = [1, 4, u32::MAX][random.below(3)];
-        let mut fields = vec![124, 0x2_1007, side, said, 0, [0, 1, u32::MAX][random.below(3)], levels];
+        let mut fields = vec![124, 0x2_1007, side, claimed, 0, [0, 1, u32::MAX][random.below(3)], levels];
         fields.extend([0; 11]);
         fields.extend([32, flags, 0, bits]);
         fields.extend(masks);
@@ -98,9 +98,9 @@ fn textures() -> Row {
 fn arrays() -> Row {
     let make = |random: &mut Random| {
         let side = [8u64, 64, 300][random.below(3)];
-        let said = [side, side, 30_000, 1 << 40, u64::MAX][random.below(5)];
+        let claimed = [side, side, 30_000, 1 << 40, u64::MAX][random.below(5)];
         let (kind, bytes) = [("<f4", 4), ("<f8", 8), ("|u1", 1)][random.below(3)];
-        let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({side}, {said}), }}\n");
+        let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({side}, {claimed}), }}\n");
         let mut file = b"\x93NUMPY\x01\0".to_vec();
         file.extend((header.len() as u16).to_le_bytes());
         file.extend(header.bytes());
@@ -173,7 +173,7 @@ fn site_json() -> Row {
                 r#"{{"inputs":[{inputs}],"outputs":[{{"id":37,"channel":0}}],"code":"{code}","name":"Image","type":"image"}}"#
             )
         };
-        let code = one(random, &["\\n", "x", "//\\n", "#include \\\"a\\\"\\n", "\\u00e9"]);
+        let code = pick(random, &["\\n", "x", "//\\n", "#include \\\"a\\\"\\n", "\\u00e9"]);
         let (passes, more) = match random.below(7) {
             0 => (pass(&repeated(random, input), ""), String::new()),
             1 => (vec![pass("", ""); 1 + random.below(2_000)].join(","), String::new()),

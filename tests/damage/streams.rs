@@ -43,7 +43,7 @@ fn khronos_textures() -> Row {
     const SIDES: [u32; 4] = [4, 64, 65, 512];
     let make = |random: &mut Random| {
         let side = SIDES[random.below(4)];
-        let said = [side, side, 2048, 32_768, u32::MAX][random.below(5)];
+        let claimed = [side, side, 2048, 32_768, u32::MAX][random.below(5)];
         // R8_UNORM, R8G8B8A8_UNORM, R16_UNORM, R32G32B32A32_SFLOAT and BC1, with the bytes of a block of texels.
         let (format, block, bytes) = [(9u32, 1, 1), (37, 1, 4), (70, 1, 2), (109, 1, 16), (131, 4, 8)][random.below(5)];
         let faces = [1u32, 6, 6, u32::MAX][random.below(4)];
@@ -54,7 +54,7 @@ fn khronos_textures() -> Row {
         let mut file = b"\xabKTX 20\xbb\r\n\x1a\n".to_vec();
         let start = 108u64;
         let fields =
-            [format, 1, side, said, 0, layers, faces, 1, if is_packed { 2 } else { 0 }, start as u32 - 4, 4, 0, 0];
+            [format, 1, side, claimed, 0, layers, faces, 1, if is_packed { 2 } else { 0 }, start as u32 - 4, 4, 0, 0];
         file.extend(fields.iter().flat_map(|field| field.to_le_bytes()));
         file.extend([0; 16]);
         let unpacked = [level as u64, u64::MAX][random.below(2)];
@@ -71,14 +71,14 @@ fn khronos_textures() -> Row {
             .any(|d| media::load(&MediaKey { media: media.clone(), dimension: *d, vflip: true }, None, None).is_ok())
     };
     // The texels of all faces and layers declared in the file, as long as they are within the limit.
-    let most = |file: &[u8]| {
+    let max_bytes = |file: &[u8]| {
         let field = |at: usize| u64::from(u32::from_le_bytes(file[at..at + 4].try_into().unwrap()));
         let count = field(32).max(1).saturating_mul(field(36));
         let texels = field(20).saturating_mul(field(24)).saturating_mul(count);
         let texels = if texels.saturating_mul(4) <= limits::PICTURE_BYTES { texels as usize } else { 0 };
         48 * texels + 3 * file.len() + MIB
     };
-    measure("KTX2", "a.ktx2", make, read, most)
+    measure("KTX2", "a.ktx2", make, read, max_bytes)
 }
 
 /// MIDI streams: controllers with running status, interleaved messages, and random bytes.

@@ -1,10 +1,10 @@
-//! `eddy render --checkpoint-every` and `--resume`: frames of a project with a state, drawn by many calls, are those of
-//! one.
+//! `eddy render --checkpoint-every` and `--resume`: frames of a project with state are the same when many calls draw
+//! them as when one does.
 
 use crate::support::program::Bench;
 use std::fs;
 
-/// Sums what it saw of time, mouse, keys, a slider and music; every third frame keeps a part of what it had.
+/// Sums values of time, mouse, keys, a slider and music; every third frame keeps some of its previous texels.
 const HISTORY: &str = "#iUniform float level = 0.5 in { 0.0, 1.0 }
 void mainImage(out vec4 o, in vec2 p) {
     vec4 before = texelFetch(iChannel0, ivec2(p), 0);
@@ -18,8 +18,8 @@ const MANIFEST: &str = "eddy = 1\n[passes.buffer_a]\nformat = \"rgba16f\"\nchann
     [passes.image]\nchannels.0 = { buffer = \"A\" }\n";
 const INPUT: &str = "--size 16x9 --fps 30 --set level=0.25";
 
-/// A folder with the project `p`, which hears a tone that rises.
-fn bench() -> Option<Bench> {
+/// Creates a folder with the project `p`, which plays a rising tone.
+fn project_with_state() -> Option<Bench> {
     let b = Bench::with_gpu()?;
     let sample = |n: u32| (12_000.0 * (f64::from(n) * f64::from(n) * 2e-6).sin()) as i16;
     let frames: Vec<[i16; 2]> = (0..66_150).map(|n| [sample(n); 2]).collect();
@@ -40,8 +40,8 @@ fn files(b: &Bench, folder: &str) -> Vec<(String, Vec<u8>)> {
 }
 
 #[test]
-fn seven_tasks_from_checkpoints_are_one_run() {
-    let Some(b) = bench() else { return };
+fn seven_tasks_from_checkpoints_equal_one_run() {
+    let Some(b) = project_with_state() else { return };
     render(&b, ["--frames", "0-41", "--out", "serial"]).expect(0);
     // Image is not drawn for the checkpoints, and nothing else is written.
     let run =
@@ -54,11 +54,11 @@ fn seven_tasks_from_checkpoints_are_one_run() {
         let shard = format!("{task}/7");
         let run = render(&b, ["--frames", "0-41", "--shard", &shard, "--resume", "states", "--out", "farm", "--json"])
             .expect(0);
-        // Frames of a shard lie next to each other.
+        // The frames of a shard are consecutive.
         assert!(run.json()[0]["frames"].as_u64().unwrap() <= 12, "{}", run.out);
     }
     assert!(files(&b, "serial") == files(&b, "farm"));
-    // One that is named, and a checkpoint of a run that went on from one.
+    // Resume from a named checkpoint, and from a checkpoint of a resumed run.
     render(
         &b,
         ["--frames", "18-23", "--resume", "states/p_000012.eddystate", "--out", "part", "--checkpoint-every", "6"],
@@ -69,24 +69,29 @@ fn seven_tasks_from_checkpoints_are_one_run() {
 }
 
 #[test]
-fn a_checkpoint_of_another_run_is_refused_with_the_reason() {
-    let Some(b) = bench() else { return };
+fn a_checkpoint_of_another_run_is_rejected_with_the_reason() {
+    let Some(b) = project_with_state() else { return };
     render(&b, ["--frames", "0-9", "--checkpoint-every", "5", "--checkpoints", "s"]).expect(0);
     let resumed =
         |more: &[&str]| render(&b, ["--at", "7", "--json", "--resume", "s"].into_iter().chain(more.iter().copied()));
     resumed(&[]).expect(0);
-    for (more, said) in [
+    for (more, expected) in [
         (&["--set", "level=0.75"][..], "have changed since"),
         (&["--date", "2026-01-01"], "have changed since"),
         (&["--resume", "s/p_000010.eddystate"], "cannot be used multiple times"),
     ] {
         let run = resumed(more);
-        assert!(run.code != Some(0) && (run.out.clone() + &run.err).contains(said), "{said}: {} {}", run.out, run.err);
+        assert!(
+            run.code != Some(0) && (run.out.clone() + &run.err).contains(expected),
+            "{expected}: {} {}",
+            run.out,
+            run.err
+        );
     }
     let late = render(&b, ["--at", "7", "--json", "--resume", "s/p_000010.eddystate"]);
     assert!(late.code == Some(2) || late.code == Some(1), "{late:?}");
     assert!((late.out + &late.err).contains("it is before frame 10, and frame 7 is to be written"));
-    // The project has changed; a folder without one draws from the beginning and says so.
+    // The project has changed. A folder without a checkpoint draws from frame 0 and reports it.
     b.write("p/image.glsl", SHOW.replace("0.1", "0.2"));
     let run = resumed(&[]);
     assert!(run.code != Some(0) && (run.out + &run.err).contains("have changed since"));
@@ -94,7 +99,7 @@ fn a_checkpoint_of_another_run_is_refused_with_the_reason() {
     let run = render(&b, ["--at", "7", "--json", "--resume", "empty"]).expect(0);
     assert_eq!(run.json()[0]["frames"], 8);
     assert!(run.out.contains("no checkpoint of p is at or before frame 7"), "{}", run.out);
-    // One that is cut off.
+    // A truncated checkpoint.
     let whole = b.bytes("s/p_000005.eddystate");
     b.write("s/p_000005.eddystate", &whole[..whole.len() / 2]);
     let run = render(&b, ["--at", "7", "--json", "--resume", "s/p_000005.eddystate"]);
@@ -102,7 +107,7 @@ fn a_checkpoint_of_another_run_is_refused_with_the_reason() {
 }
 
 #[test]
-fn a_project_without_a_state_needs_none() {
+fn a_stateless_project_writes_no_checkpoints() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image("plain.glsl", "fragColor = vec4(iTime);");
     let run = b.line("render plain.glsl --size 8x4 --frames 0-9 --checkpoint-every 5 --checkpoints s --json").expect(0);
@@ -111,9 +116,9 @@ fn a_project_without_a_state_needs_none() {
 }
 
 #[test]
-fn pictures_hold_their_project_unless_asked_not_to() {
+fn pictures_contain_their_project_unless_disabled() {
     use eddy::playback::scene::{Scene, SceneInputs};
-    let Some(b) = bench() else { return };
+    let Some(b) = project_with_state() else { return };
     render(&b, ["--at", "12", "--out", "a.png"]).expect(0);
     let scene = Scene::read(&b.path("a.png")).unwrap();
     assert_eq!((scene.frame, scene.size), (12, (16, 9)));
@@ -130,14 +135,14 @@ fn pictures_hold_their_project_unless_asked_not_to() {
     assert!(!Scene::is_in(&b.bytes("b.exr")));
     let floats = |name: &str| image::load_from_memory(&b.bytes(name)).unwrap().into_rgba32f();
     assert_eq!(floats("a.exr"), floats("b.exr"));
-    // What is no frame of the project holds none.
+    // A picture that is not a single frame of the project does not contain it.
     render(&b, ["--at", "12", "--out", "c.png", "--supersample", "2"]).expect(0);
     assert!(!Scene::is_in(&b.bytes("c.png")));
 }
 
 #[test]
-fn a_plan_counts_what_the_tasks_draw_and_writes_nothing() {
-    let Some(b) = bench() else { return };
+fn a_plan_counts_the_frames_of_each_task_and_writes_nothing() {
+    let Some(b) = project_with_state() else { return };
     let plan = |more: &[&str]| {
         let run = render(&b, ["--plan", "--json"].into_iter().chain(more.iter().copied())).expect(0);
         run.json().remove(0)["plan"].clone()
@@ -151,9 +156,9 @@ fn a_plan_counts_what_the_tasks_draw_and_writes_nothing() {
         (&6.into(), &6.into(), &36.into())
     );
     assert!(found["state_ms"].as_f64().is_some_and(|millis| millis > 0.0));
-    // Blocks of 5 and 6 frames: some begin between two checkpoints.
+    // Blocks of 5 and 6 frames: some start between two checkpoints.
     let found = plan(&["--frames", "0-36", "--shard", "0/7"]);
-    assert!(found["resumed"]["most_frames"].as_u64().is_some_and(|most| (6..12).contains(&most)), "{found}");
+    assert!(found["resumed"]["most_frames"].as_u64().is_some_and(|max| (6..12).contains(&max)), "{found}");
     assert!(plan(&["--frames", "0-41"])["resumed"].is_null());
     b.image("plain.glsl", "fragColor = vec4(iTime);");
     let run = b.line("render plain.glsl --size 8x4 --frames 0-41 --shard 0/4 --out o --plan").expect(0);
@@ -167,8 +172,8 @@ fn a_plan_counts_what_the_tasks_draw_and_writes_nothing() {
 
 #[cfg(unix)]
 #[test]
-fn nothing_is_written_through_links_of_a_folder() {
-    let Some(b) = bench() else { return };
+fn symbolic_links_in_the_output_folder_are_not_followed() {
+    let Some(b) = project_with_state() else { return };
     let state = "--frames 4 --checkpoint-every 2 --checkpoints to --out o.png";
     let calls = [
         (state, "p_000002.eddystate"),

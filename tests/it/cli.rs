@@ -1,5 +1,5 @@
-//! The command line as scripts rely on it, on the built program: arguments, exit codes, words and JSON lines. What
-//! needs a graphics device lies in `cli_render.rs`.
+//! The command line as scripts rely on it, tested with the built program: arguments, exit codes, messages and JSON
+//! lines. Tests that need a graphics device are in `cli_render.rs`.
 
 use crate::support::program::{Bench, image, run};
 use std::{fs, process::Stdio};
@@ -7,10 +7,10 @@ use std::{fs, process::Stdio};
 const RED: &str = "fragColor = vec4(1.0, 0.0, 0.0, 1.0);";
 
 #[test]
-fn usage_errors_are_2_and_say_how_it_is_written() {
+fn usage_errors_exit_with_2_and_explain_the_syntax() {
     let b = Bench::new();
     b.image("a.glsl", RED);
-    for (line, says) in [
+    for (line, expected) in [
         ("render", "<PROJECT>"),
         ("render a.glsl", "--out"),
         ("render a.glsl --out o --size 0x0", "a size must be at least 1"),
@@ -32,14 +32,14 @@ fn usage_errors_are_2_and_say_how_it_is_written() {
         ("import a.json", "--out"),
     ] {
         let run = b.line(line).expect(2);
-        assert!(run.err.contains(says), "{line}\n{}", run.err);
+        assert!(run.err.contains(expected), "{line}\n{}", run.err);
         assert!(run.out.is_empty(), "{line}: {}", run.out);
     }
     assert_eq!(b.names("."), ["a.glsl"], "nothing is written before the arguments make sense");
 }
 
 #[test]
-fn help_and_version_are_no_trouble() {
+fn help_and_version_exit_with_0() {
     let b = Bench::new();
     assert!(b.line("--version").expect(0).out.starts_with("eddy "));
     for command in ["", "render", "check", "bench", "list", "import", "export"] {
@@ -48,7 +48,7 @@ fn help_and_version_are_no_trouble() {
 }
 
 #[test]
-fn list_prints_one_preset_a_line_and_each_is_a_project() {
+fn list_prints_one_preset_per_line_and_each_is_a_project() {
     let b = Bench::new();
     let list = b.line("list").expect(0).out;
     let names: Vec<&str> = list.lines().collect();
@@ -60,7 +60,7 @@ fn list_prints_one_preset_a_line_and_each_is_a_project() {
 }
 
 #[test]
-fn check_points_at_the_place_and_counts() {
+fn check_shows_the_place_and_counts_errors() {
     let b = Bench::new();
     b.image("good.glsl", RED);
     b.image("bad.glsl", "    fragColor = vec4(nothing);");
@@ -72,7 +72,7 @@ fn check_points_at_the_place_and_counts() {
 }
 
 #[test]
-fn check_finds_every_error_of_every_pass_reached_or_not() {
+fn check_reports_errors_of_unused_passes() {
     let b = Bench::new();
     b.image("p/image.glsl", RED);
     b.image("p/buffer_a.glsl", "fragColor = vec4(one);");
@@ -100,25 +100,25 @@ fn check_names_pictures_that_cannot_be_read() {
 }
 
 #[test]
-fn check_says_where_the_site_would_read_differently() {
+fn check_warns_where_shadertoy_reads_differently() {
     let b = Bench::new();
     b.image("p/buffer_a.glsl", RED);
     b.image("p/image.glsl", "fragColor = texture(iChannel0, fragCoord) + texture(iChannel1, fragCoord);");
-    let toml = |first: &str, second: &str| {
+    let manifest = |first: &str, second: &str| {
         format!(
             "eddy = 1\n[passes.buffer_a]\n[passes.image]\n\
              channels.0 = {{ buffer = \"A\", {first} }}\nchannels.1 = {{ buffer = \"A\", {second} }}\n"
         )
     };
-    for (first, second, says) in [
+    for (first, second, expected) in [
         ("filter = \"nearest\"", "filter = \"linear\"", Some("filter")),
         ("wrap = \"repeat\"", "wrap = \"clamp\"", Some("wrap")),
         ("wrap = \"repeat\"", "wrap = \"repeat\"", None),
     ] {
-        b.write("p/eddy.toml", toml(first, second));
+        b.write("p/eddy.toml", manifest(first, second));
         let found = b.line("check --json p").expect(0).json().remove(0)["diagnostics"].clone();
         let found = found.as_array().unwrap();
-        match says {
+        match expected {
             None => assert!(found.is_empty(), "{found:?}"),
             Some(word) => {
                 assert_eq!(found.len(), 1, "{found:?}");
@@ -131,7 +131,7 @@ fn check_says_where_the_site_would_read_differently() {
 }
 
 #[test]
-fn a_bad_project_is_named_with_its_file_and_stops_no_other() {
+fn a_bad_project_is_named_with_its_file_and_does_not_stop_others() {
     let b = Bench::new();
     b.image("good.glsl", RED);
     b.write("broken/eddy.toml", "eddy = 1\nname = \"unclosed\n");
@@ -161,14 +161,14 @@ fn a_bad_project_is_named_with_its_file_and_stops_no_other() {
     assert!(matches!(run.code, Some(1 | 2)), "{run:?}");
     let lines = run.json();
     assert_eq!(lines.len(), projects.len());
-    for (line, (project, says)) in lines.iter().zip(projects) {
+    for (line, (project, expected)) in lines.iter().zip(projects) {
         assert_eq!(line["project"], project);
-        if says.is_empty() {
+        if expected.is_empty() {
             assert_eq!(line["status"], "ok", "{line}");
             continue;
         }
         assert!(line["status"] == "diagnostics" || line["status"] == "error", "{line}");
-        assert!(line["diagnostics"].to_string().contains(says), "{line}\nshould name {says}");
+        assert!(line["diagnostics"].to_string().contains(expected), "{line}\nshould name {expected}");
     }
 }
 
@@ -178,7 +178,7 @@ fn an_unreadable_file_is_named() {
     use std::os::unix::fs::PermissionsExt;
     let b = Bench::new();
     b.image("p/image.glsl", RED);
-    // Root reads everything but a link that leads to itself.
+    // Root can read every file except a symbolic link to itself.
     if fs::read("/etc/shadow").is_ok() {
         fs::remove_file(b.path("p/image.glsl")).unwrap();
         std::os::unix::fs::symlink("image.glsl", b.path("p/image.glsl")).unwrap();
@@ -190,7 +190,7 @@ fn an_unreadable_file_is_named() {
 }
 
 #[test]
-fn import_and_export_overwrite_only_when_told_to() {
+fn import_and_export_overwrite_only_with_force() {
     let b = Bench::new();
     let all = |folder: &str| b.names(folder).iter().map(|n| b.bytes(&format!("{folder}/{n}"))).collect::<Vec<_>>();
     b.line("export fluid --out fluid.json").expect(0);
@@ -203,9 +203,9 @@ fn import_and_export_overwrite_only_when_told_to() {
     let before = all("p");
     b.write("p/image.glsl", "mine");
     b.write("p/common.glsl", "mine");
-    let refused = b.line("import fluid.json --out p").expect(2);
+    let rejected = b.line("import fluid.json --out p").expect(2);
     for word in ["--force", "p/image.glsl", "p/common.glsl"] {
-        assert!(refused.err.contains(word), "{word}: {}", refused.err);
+        assert!(rejected.err.contains(word), "{word}: {}", rejected.err);
     }
     assert_eq!(b.bytes("p/image.glsl"), b"mine");
     b.line("import fluid.json --out p --force").expect(0);
@@ -220,7 +220,7 @@ fn import_and_export_overwrite_only_when_told_to() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_window_that_cannot_open_says_what_works_without_one() {
+fn a_window_that_cannot_open_suggests_commands_without_a_window() {
     let b = Bench::new();
     let run =
         run(b.command().arg("fluid").env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET"));
@@ -228,10 +228,10 @@ fn a_window_that_cannot_open_says_what_works_without_one() {
     assert!(run.err.contains("eddy render") || run.err.contains("eddy --help"), "{}", run.err);
 }
 
-/// A limit on the size of files stands for a full disk: both fail in the middle of a write.
+/// A limit on the size of files simulates a full disk: both fail in the middle of a write.
 #[test]
 #[cfg(unix)]
-fn an_export_that_does_not_fit_says_why_once_and_leaves_nothing() {
+fn an_export_that_does_not_fit_reports_one_error_and_leaves_no_file() {
     let b = Bench::new();
     let mut shell = std::process::Command::new("sh");
     shell
@@ -245,7 +245,7 @@ fn an_export_that_does_not_fit_says_why_once_and_leaves_nothing() {
 }
 
 #[test]
-fn a_closed_or_full_standard_output_is_no_panic() {
+fn a_closed_or_full_standard_output_does_not_panic() {
     let b = Bench::new();
     b.image("a.glsl", RED);
     if let Ok(full) = fs::OpenOptions::new().write(true).open("/dev/full") {
@@ -271,16 +271,20 @@ fn uniforms_are_set_on_the_command_line_and_become_constants_of_an_export() {
     assert!(exported.out.contains("red becomes a constant"), "{}", exported.out);
     assert!(String::from_utf8(b.bytes("p.json")).unwrap().contains("const float red = 0.4;\\n// #iUniform float red"));
     b.line("check p.json").expect(0);
-    for (args, says) in [
+    for (args, expected) in [
         ("rde=1", "did you mean red?"),
         ("red=2", "outside its range, 0.0 to 1.0"),
         ("red=1,2", "is a float and takes a number"),
         ("red", "viscosity=0.3"),
     ] {
         let run = b.line(&format!("render p --size 4x4 --out o.png --set {args}")).expect(2);
-        assert!(run.err.contains("--set ") && run.err.contains(says), "{args}: {}", run.err);
+        assert!(run.err.contains("--set ") && run.err.contains(expected), "{args}: {}", run.err);
     }
     b.write("p/eddy.toml", "eddy = 1\n[uniforms]\nred = \"x\"\n[passes.image]\n");
-    let refused = b.line("check p").expect(1);
-    assert!(refused.err.contains("eddy.toml:3:7") && refused.err.contains("true, false, a number"), "{}", refused.err);
+    let rejected = b.line("check p").expect(1);
+    assert!(
+        rejected.err.contains("eddy.toml:3:7") && rejected.err.contains("true, false, a number"),
+        "{}",
+        rejected.err
+    );
 }

@@ -1,38 +1,39 @@
-//! `--probe`, `--assert`, `--replay` and `eddy compare` on the built program.
+//! `--probe`, `--assert`, `--replay` and `eddy compare`, tested with the built program.
 
 use crate::support::{git, program::Bench};
 use gix_object::Kind;
 
-/// A buffer that grows by 1 in red each frame from frame 3 on, and a NaN in green from frame 5 on.
+/// A buffer whose red grows by 1 per frame from frame 3 on, and whose green is NaN from frame 5 on.
 const GROWING: &str = "fragColor = vec4(max(iFrame - 2, 0), iFrame > 4 ? sqrt(float(-iFrame)) : 0., 0., 1.);";
 
-fn growing(b: &Bench) {
+fn write_growing_project(b: &Bench) {
     b.image("growing/buffer_a.glsl", GROWING);
     b.image("growing/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) / 16.0;");
 }
 
 #[test]
-fn numbers_of_passes_are_measured_in_the_frames_that_are_named() {
+fn probes_are_measured_in_the_given_frames() {
     let Some(b) = Bench::with_gpu() else { return };
-    growing(&b);
+    write_growing_project(&b);
     let run = b.line("render growing --size 4x2 --at 1,4,6 --probe sum(buffer_a.x) --probe nonfinite(buffer_a) --json");
     let json = &run.expect(0).json()[0];
     let measured = json["measured"].as_array().unwrap();
-    let of = |i: usize| (measured[i]["quantity"].as_str().unwrap(), &measured[i]["frame"], &measured[i]["value"]);
+    let measurement =
+        |i: usize| (measured[i]["quantity"].as_str().unwrap(), &measured[i]["frame"], &measured[i]["value"]);
     assert_eq!(measured.len(), 6, "{json}");
-    assert_eq!(of(0), ("sum(buffer_a.x)", &1.into(), &0.0.into()));
-    assert_eq!(of(2), ("sum(buffer_a.x)", &4.into(), &16.0.into()));
-    assert_eq!(of(4), ("sum(buffer_a.x)", &6.into(), &32.0.into()));
-    assert_eq!(of(5), ("nonfinite(buffer_a)", &6.into(), &8.0.into()));
+    assert_eq!(measurement(0), ("sum(buffer_a.x)", &1.into(), &0.0.into()));
+    assert_eq!(measurement(2), ("sum(buffer_a.x)", &4.into(), &16.0.into()));
+    assert_eq!(measurement(4), ("sum(buffer_a.x)", &6.into(), &32.0.into()));
+    assert_eq!(measurement(5), ("nonfinite(buffer_a)", &6.into(), &8.0.into()));
     assert_eq!(json["frames"], 7);
-    let words = b.line("render growing --size 4x2 --at 4 --probe max(buffer_a.x)").expect(0);
-    assert!(words.out.contains("max(buffer_a.x) = 2.0 in frame 4"), "{}", words.out);
+    let text = b.line("render growing --size 4x2 --at 4 --probe max(buffer_a.x)").expect(0);
+    assert!(text.out.contains("max(buffer_a.x) = 2.0 in frame 4"), "{}", text.out);
 }
 
 #[test]
-fn a_comment_asks_for_a_number_and_stays_a_comment() {
+fn a_probe_comment_requests_a_measurement() {
     let Some(b) = Bench::with_gpu() else { return };
-    growing(&b);
+    write_growing_project(&b);
     b.image("growing/image.glsl", "//@probe max(buffer_a.x)\nfragColor = vec4(1.); //@probe total(buffer_a)");
     let run = b.line("render growing --size 4x2 --at 4 --json").expect(0);
     let json = &run.json()[0];
@@ -40,39 +41,39 @@ fn a_comment_asks_for_a_number_and_stays_a_comment() {
         (&json["measured"][0]["quantity"], &json["measured"][0]["value"]),
         (&"max(buffer_a.x)".into(), &2.0.into())
     );
-    let said = &json["diagnostics"][0];
+    let diagnostic = &json["diagnostics"][0];
     assert_eq!(
-        (&said["severity"], &said["line"], &said["source"]),
+        (&diagnostic["severity"], &diagnostic["line"], &diagnostic["source"]),
         (&"warning".into(), &3.into(), &"image.glsl".into())
     );
-    assert!(said["message"].as_str().unwrap().contains("not `total`"), "{said}");
+    assert!(diagnostic["message"].as_str().unwrap().contains("not `total`"), "{diagnostic}");
 }
 
 #[test]
-fn a_claim_that_does_not_hold_is_the_authors_to_mend() {
+fn a_false_assertion_exits_with_1() {
     let Some(b) = Bench::with_gpu() else { return };
-    growing(&b);
-    let claims = |claims: &[&str]| {
+    write_growing_project(&b);
+    let render_with = |assertions: &[&str]| {
         let mut arguments = vec!["render", "growing", "--size", "4x2", "--at", "2,4,6", "--json"];
-        claims.iter().for_each(|claim| arguments.extend(["--assert", claim]));
+        assertions.iter().for_each(|assertion| arguments.extend(["--assert", assertion]));
         b.eddy(&arguments)
     };
-    claims(&["max(buffer_a.x) <= 4", "min(image) >= 0", "sum(buffer_a.z) within 1e-4 of first"]).expect(1);
-    claims(&["max(buffer_a.x) <= 4", "sum(buffer_a.z) within 1e-4 of first"]).expect(0);
-    let run = claims(&["max(buffer_a.x) <= 1"]).expect(1);
-    let said = &run.json()[0]["diagnostics"];
-    let message = |i: usize| said[i]["message"].as_str().unwrap();
-    assert_eq!(said.as_array().unwrap().len(), 2, "{said}");
+    render_with(&["max(buffer_a.x) <= 4", "min(image) >= 0", "sum(buffer_a.z) within 1e-4 of first"]).expect(1);
+    render_with(&["max(buffer_a.x) <= 4", "sum(buffer_a.z) within 1e-4 of first"]).expect(0);
+    let run = render_with(&["max(buffer_a.x) <= 1"]).expect(1);
+    let diagnostics = &run.json()[0]["diagnostics"];
+    let message = |i: usize| diagnostics[i]["message"].as_str().unwrap();
+    assert_eq!(diagnostics.as_array().unwrap().len(), 2, "{diagnostics}");
     assert_eq!(message(0), "frame 4: max(buffer_a.x) <= 1 does not hold: it is 2");
     assert_eq!(message(1), "frame 6: max(buffer_a.x) <= 1 does not hold: it is 4");
-    let wrong = b.eddy(["render", "growing", "--assert", "sum(buffer_z) < 1"]).expect(2);
-    assert!(wrong.err.contains("there is no pass buffer_z"), "{}", wrong.err);
-    let wrong = b.eddy(["render", "growing", "--assert", "sum(buffer_a.x) about 1"]).expect(2);
-    assert!(wrong.err.contains("within TOLERANCE of VALUE"), "{}", wrong.err);
+    let invalid = b.eddy(["render", "growing", "--assert", "sum(buffer_z) < 1"]).expect(2);
+    assert!(invalid.err.contains("there is no pass buffer_z"), "{}", invalid.err);
+    let invalid = b.eddy(["render", "growing", "--assert", "sum(buffer_a.x) about 1"]).expect(2);
+    assert!(invalid.err.contains("within TOLERANCE of VALUE"), "{}", invalid.err);
 }
 
 #[test]
-fn two_pictures_are_compared_bit_by_bit_and_as_one_sees_them() {
+fn two_pictures_are_compared_by_bits_and_by_perception() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image("a.glsl", "fragColor = vec4(fragCoord / iResolution.xy, 0.5, 1.0);");
     b.image("b.glsl", "fragColor = vec4(fragCoord / iResolution.xy, fragCoord.x < 8. ? 0.5 : 0.75, 1.0);");
@@ -87,8 +88,9 @@ fn two_pictures_are_compared_bit_by_bit_and_as_one_sees_them() {
     let time = &json["time"];
     assert!(time["ratio"].as_f64().unwrap() > 0.0 && time["repeats"] == 3, "{time}");
 
-    let apart = b.line("compare a.glsl b.glsl --size 16x16 --repeats 0 --json --view difference --out d.png").expect(0);
-    let json = &apart.json()[0];
+    let different =
+        b.line("compare a.glsl b.glsl --size 16x16 --repeats 0 --json --view difference --out d.png").expect(0);
+    let json = &different.json()[0];
     assert_eq!((&json["texels_apart"], &json["largest"]), (&128.into(), &0.25.into()), "{json}");
     // A quarter in one of four components of half of the texels.
     assert!((json["rmse"].as_f64().unwrap() - (0.0625f64 / 8.0).sqrt()).abs() < 1e-9, "{json}");
@@ -96,28 +98,29 @@ fn two_pictures_are_compared_bit_by_bit_and_as_one_sees_them() {
     let picture = b.png("d.png");
     assert_eq!((picture.get_pixel(3, 3).0, picture.get_pixel(12, 3).0), ([0, 0, 0, 255], [0, 0, 64, 255]));
     b.line("compare a.glsl b.glsl --size 16x12 --repeats 0 --out s.png").expect(0);
-    assert_eq!(b.png("s.png").dimensions(), (32, 12), "one beside the other");
+    assert_eq!(b.png("s.png").dimensions(), (32, 12), "the pictures are side by side");
     b.line("compare a.glsl b.glsl --size 16x12 --repeats 0 --view wipe --out w.png").expect(0);
     assert_eq!(b.png("w.png").get_pixel(12, 3).0[2], 191);
     let missing = b.line("compare a.glsl c.glsl --size 16x12").expect(2);
     assert!(missing.err.contains("c.glsl"), "{}", missing.err);
 }
 
-/// A picture that stays the same is left out of a frame, which costs nothing; its time is what drawing it costs.
+/// A picture that does not change is skipped in a frame, which costs nothing; the reported time is that of drawing it.
 #[test]
-fn pictures_at_rest_are_drawn_to_be_timed() {
+fn unchanged_pictures_are_drawn_when_timed() {
     let Some(b) = Bench::with_gpu() else { return };
     let sines = "float s = 0.0; for (int i = 0; i < 50000; i++) s += sin(fragCoord.x + float(i) * 0.37);";
     b.image("long.glsl", &format!("{sines} fragColor = vec4(s);"));
     b.image("short.glsl", "fragColor = vec4(0.5);");
     let run = b.line("compare long.glsl short.glsl --size 32x32 --repeats 3 --json").expect(0);
     let time = &run.json()[0]["time"];
-    // Fifty thousand sines a pixel against one number: a ratio near 1 is of frames in which neither was drawn.
+    // Fifty thousand sines per pixel against one number: a ratio near 1 would mean that neither was drawn in the
+    // frames.
     assert!(time["ratio"].as_f64().unwrap() > 3.0, "{time}");
 }
 
 #[test]
-fn a_project_is_compared_with_what_it_was_in_a_revision() {
+fn a_project_is_compared_with_its_text_in_a_revision() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image("p/image.glsl", "fragColor = vec4(0.25);");
     b.image("one.glsl", "fragColor = vec4(0.25);");
@@ -128,19 +131,20 @@ fn a_project_is_compared_with_what_it_was_in_a_revision() {
         let run = b.line(&format!("compare {project} --revision HEAD --size 16x16 --repeats 0 --json")).expect(0);
         assert_eq!(run.json()[0]["largest"], largest, "{project}: {}", run.out);
     }
-    let wrong = b.line("compare p --revision v9 --size 16x16").expect(2);
-    assert!(wrong.err.contains("no such revision"), "{}", wrong.err);
+    let invalid = b.line("compare p --revision v9 --size 16x16").expect(2);
+    assert!(invalid.err.contains("no such revision"), "{}", invalid.err);
 }
 
-/// What a stranger's repository names is not run, and its trees are not written outside.
+/// Commands in the configuration of an untrusted repository are not run, and its trees are not written outside the
+/// folder.
 #[test]
-fn a_strangers_repository_is_refused_by_what_it_asks_for() {
+fn an_untrusted_repository_runs_nothing_and_writes_nothing_outside() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image("p/image.glsl", "fragColor = vec4(0.25);");
     let root = b.path("p");
     git::commit_all(&root);
-    let (ran, evil) = (b.path("ran"), b.path("evil.glsl"));
-    let run = format!("touch {}", ran.display());
+    let (marker, outside) = (b.path("ran"), b.path("evil.glsl"));
+    let run = format!("touch {}", marker.display());
     let config = format!(
         "[core]\n\trepositoryformatversion = 1\n\tsshCommand = {run} #\n\tfsmonitor = {run} #\n[extensions]\n\t\
          partialClone = origin\n[remote \"origin\"]\n\turl = ssh://nowhere.invalid/x\n\tpromisor = true\n\t\
@@ -150,22 +154,22 @@ fn a_strangers_repository_is_refused_by_what_it_asks_for() {
     let compare = "compare p --revision HEAD --size 16x16 --repeats 0";
     b.line(compare).expect(0);
     let blob = git::object(&root, Kind::Blob, b"payload");
-    let gone = "0123456789012345678901234567890123456789".parse().unwrap();
-    for (name, id, says) in [
-        (evil.to_str().unwrap(), blob, "which is not a valid file name for a project"),
+    let missing_object = "0123456789012345678901234567890123456789".parse().unwrap();
+    for (name, id, expected) in [
+        (outside.to_str().unwrap(), blob, "which is not a valid file name for a project"),
         ("../../evil.glsl", blob, "which is not a valid file name for a project"),
-        ("gone.glsl", gone, "the clone is partial, and Eddy does not fetch"),
+        ("gone.glsl", missing_object, "the clone is partial, and Eddy does not fetch"),
     ] {
         let tree = git::object(&root, Kind::Tree, &git::entry("100644", name, id));
         git::commit(&root, tree);
-        let refused = b.line(compare).expect(2);
-        assert!(refused.err.contains(says), "{name}: {}", refused.err);
+        let rejected = b.line(compare).expect(2);
+        assert!(rejected.err.contains(expected), "{name}: {}", rejected.err);
     }
-    assert!(!ran.exists() && !evil.exists());
+    assert!(!marker.exists() && !outside.exists());
 }
 
 #[test]
-fn a_recording_gives_every_frame_what_it_had() {
+fn a_replay_gives_every_frame_its_recorded_inputs() {
     let Some(b) = Bench::with_gpu() else { return };
     let code = "#iUniform float level = 0.5 in { 0.0, 1.0 }\nvoid mainImage(out vec4 o, in vec2 p) \
                 { o = vec4(iTime, iMouse.x, texelFetch(iChannel0, ivec2(32, 0), 0).x + 2. * level, 1.); }";
@@ -185,19 +189,19 @@ fn a_recording_gives_every_frame_what_it_had() {
     assert_eq!((frame(1).width, frame(1).at(0, 0)), (4, [1.5, 7.0, 1.5, 1.0]));
     assert_eq!((frame(2).width, frame(2).at(5, 1)), (6, [2.0, 7.0, 1.5, 1.0]));
     let all = b.line("render p --replay run.replay --json").expect(0);
-    assert_eq!(all.json()[0]["frames"], 3, "all that were recorded");
-    for (line, says) in [
+    assert_eq!(all.json()[0]["frames"], 3, "all recorded frames");
+    for (line, expected) in [
         ("render p --replay run.replay --frames 4 --json", "3 were recorded"),
         ("render p --replay run.replay --size 8x8 --json", "cannot be used with"),
         ("render p --replay p/image.glsl --json", "not an Eddy recording"),
         ("render p --replay none.replay --json", "cannot read none.replay"),
     ] {
         let run = b.line(line).expect(2);
-        assert!(run.err.contains(says), "{line}: {}", run.err);
+        assert!(run.err.contains(expected), "{line}: {}", run.err);
     }
 }
 
-/// Behind its last frame a recording says nothing.
+/// A recording has no inputs after its last frame.
 #[test]
 fn no_command_draws_more_frames_than_were_recorded() {
     let Some(b) = Bench::with_gpu() else { return };
@@ -235,8 +239,8 @@ fn no_command_draws_more_frames_than_were_recorded() {
     }
 }
 
-/// Planted: Buffer B takes the root of a number that falls below 0 in frame 40 at texel (3, 2); Buffer C hands it on a
-/// frame later, and Image shows it where it looks there, from frame 43 on.
+/// Buffer B takes the square root of a number that falls below 0 in frame 40 at texel (3, 2); Buffer C passes it on a
+/// frame later, and Image shows it from frame 43 on.
 #[test]
 fn the_first_nan_is_named_by_pass_frame_texel_and_line() {
     let Some(b) = Bench::with_gpu() else { return };
@@ -274,10 +278,10 @@ fn the_first_nan_is_named_by_pass_frame_texel_and_line() {
         (&"buffer_b.glsl".into(), &3.into(), &"sqrt(rest)".into())
     );
     assert_eq!(born["numbers"], "-0.5");
-    let words = b.line("trace p --nonfinite --frame 60 --size 8x6").expect(0).out;
+    let text = b.line("trace p --nonfinite --frame 60 --size 8x6").expect(0).out;
     assert!(
-        words.contains("buffer_b, frame 40, texel 3,2") && words.contains("buffer_b.glsl:3:14: first NaN here"),
-        "{words}"
+        text.contains("buffer_b, frame 40, texel 3,2") && text.contains("buffer_b.glsl:3:14: first NaN here"),
+        "{text}"
     );
     let none = b.line("trace p --nonfinite --frame 39 --size 8x6 --json").expect(0);
     assert!(none.json()[0]["nonfinite"].is_null());
@@ -285,7 +289,7 @@ fn the_first_nan_is_named_by_pass_frame_texel_and_line() {
 }
 
 #[test]
-fn a_project_is_held_against_double_precision() {
+fn a_project_is_compared_with_double_precision() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image(
         "p.glsl",
@@ -309,10 +313,10 @@ fn a_project_is_held_against_double_precision() {
     let largest = map.texels.iter().map(|t| t[0]).fold(0.0, f32::max);
     assert!((f64::from(largest) / double["largest"].as_f64().unwrap() - 1.0).abs() < 1e-5);
     assert!(map.texels.iter().all(|t| t[1] == 0.0 && t[3] == 0.0));
-    let words = b.line("lab precision p.glsl --frames 1 --size 16x9 --pixels 8x3").expect(0).out;
-    assert!(words.contains("p.glsl:3:11: cancellation"), "{words}");
+    let text = b.line("lab precision p.glsl --frames 1 --size 16x9 --pixels 8x3").expect(0).out;
+    assert!(text.contains("p.glsl:3:11: cancellation"), "{text}");
 
-    // No device may round these otherwise than IEEE 754 does.
+    // Every device must round these as IEEE 754 does.
     b.image("exact.glsl", "fragColor = vec4(fragCoord * 0.5, 0.25, iFrame);");
     let run = b.line("lab precision exact.glsl --frames 1 --size 16x9 --pixels 8x3 --json").expect(0);
     let walker = serde_json::json!({ "same": 24, "median_ulps": 0, "largest_ulps": 0, "visible": 0, "furthest": null });
@@ -332,6 +336,6 @@ fn a_comment_prints_the_values_of_a_traced_pixel() {
     assert_eq!((&printed[0]["line"], &printed[0]["expression"]), (&4.into(), &"vec2(sum, i)".into()), "{printed}");
     assert_eq!(printed[0]["values"], serde_json::json!([[2.5, 0.0], [5.0, 1.0], [7.5, 2.0]]));
     assert!(printed[1]["error"].as_str().unwrap().contains("nothing"), "{printed}");
-    let words = b.line("trace p.glsl --pixel 2,1 --size 8x6").expect(0).out;
-    assert!(words.contains("Image:4: vec2(sum, i)\n        1  (2.5, 0.0)"), "{words}");
+    let text = b.line("trace p.glsl --pixel 2,1 --size 8x6").expect(0).out;
+    assert!(text.contains("Image:4: vec2(sum, i)\n        1  (2.5, 0.0)"), "{text}");
 }

@@ -1,4 +1,4 @@
-//! Passes that are drawn under a condition: by their pictures, by what a frame does, and by what is said of mistakes.
+//! Passes that are drawn under a condition: their pictures, the cost of a frame, and error messages.
 
 use crate::support::{
     presets::{preset, turn},
@@ -25,8 +25,8 @@ fn when(text: &str) -> Option<Condition> {
     Some(Condition::parse(text).unwrap())
 }
 
-/// Buffer A adds 1 to itself four times a frame while `kind` is 3, Buffer B copies it, and Image adds both.
-fn counting() -> Project {
+/// Buffer A adds 1 to itself four times per frame while `kind` is 3, Buffer B copies it, and Image adds both.
+fn conditional_project() -> Project {
     let copy = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
     let mut a = pass(buffer("A"), SELF, [nearest("A"), None, None, None]);
     a.settings.when = when("kind == 3 && width > 2");
@@ -40,22 +40,22 @@ fn kind(n: i32) -> CustomUniformValues {
     CustomUniformValues::from([("kind".to_owned(), CustomUniformValue::Int(n))])
 }
 
-/// Draws frame `n` with `kind`, and gives the red of Image's first texel.
-fn red(engine: &mut Engine, n: i32, kind_now: i32) -> f32 {
-    engine.set_custom_uniforms(&kind(kind_now));
+/// Draws frame `n` with `kind` and returns the red of Image's first texel.
+fn red(engine: &mut Engine, n: i32, kind_value: i32) -> f32 {
+    engine.set_custom_uniforms(&kind(kind_value));
     engine.draw(&FrameInputs::at_fixed_step(n, 60.0)).unwrap();
     texel(&engine.read_image().unwrap(), 0, 0)[0]
 }
 
 #[test]
-fn a_pass_is_drawn_while_its_condition_is_true_and_is_blank_else() {
+fn a_pass_is_drawn_while_its_condition_is_true_and_is_blank_otherwise() {
     let Some(gpu) = gpu() else { return };
     for skip in [true, false] {
         let options = BuildOptions { skip, ..BuildOptions::default() };
-        let mut engine = engine_with(&gpu, &counting(), &MediaSet::new(), &options, (4, 3));
+        let mut engine = engine_with(&gpu, &conditional_project(), &MediaSet::new(), &options, (4, 3));
         let seen = [3, 3, 2, 2, 3, 3, 2].map(|kind| red(&mut engine, 0, kind));
         assert_eq!(seen, [404.0, 808.0, 0.0, 0.0, 404.0, 808.0, 0.0], "{skip}");
-        // The size of the picture, too.
+        // The condition also depends on the width of the picture.
         engine.resize(2, 3).unwrap();
         assert_eq!([red(&mut engine, 0, 3), red(&mut engine, 1, 3)], [0.0, 0.0], "{skip}");
         engine.resize(3, 3).unwrap();
@@ -64,9 +64,9 @@ fn a_pass_is_drawn_while_its_condition_is_true_and_is_blank_else() {
 }
 
 #[test]
-fn a_pass_that_is_off_holds_its_initial_texels_at_the_present_values() {
+fn a_disabled_pass_contains_its_initial_texels_at_the_current_values() {
     let Some(gpu) = gpu() else { return };
-    let mut project = counting();
+    let mut project = conditional_project();
     project.common = Some(eddy::project::Source {
         name: "common.glsl".into(),
         path: None,
@@ -74,8 +74,8 @@ fn a_pass_that_is_off_holds_its_initial_texels_at_the_present_values() {
     });
     project.passes[0].settings.initial = Some(Fill::expression("vec4(start)"));
     let mut engine = engine(&gpu, &project, (4, 3));
-    let mut draw = |kind_now: i32, start: f64| {
-        let mut values = kind(kind_now);
+    let mut draw = |kind_value: i32, start: f64| {
+        let mut values = kind(kind_value);
         values.insert("start".into(), CustomUniformValue::Float(start));
         engine.set_custom_uniforms(&values);
         engine.draw(&FrameInputs::at_fixed_step(0, 60.0)).unwrap();
@@ -85,25 +85,25 @@ fn a_pass_that_is_off_holds_its_initial_texels_at_the_present_values() {
 }
 
 #[test]
-fn what_is_off_costs_nothing_and_says_why() {
+fn a_disabled_pass_costs_nothing_and_reports_its_condition() {
     let Some(gpu) = gpu() else { return };
-    let project = counting();
+    let project = conditional_project();
     let mut engine = engine(&gpu, &project, (4, 3));
-    let mut drawn = |n: i32, kind_now: i32| {
-        engine.set_custom_uniforms(&kind(kind_now));
+    let mut drawn = |n: i32, kind_value: i32| {
+        engine.set_custom_uniforms(&kind(kind_value));
         let stats = engine.draw(&FrameInputs::at_fixed_step(n, 60.0)).unwrap();
         let costs = engine.pass_costs(&project);
         let a = costs.iter().find(|cost| cost.pass == buffer("A")).unwrap().clone();
-        let all: u64 = costs.iter().map(|cost| cost.moved_bytes).sum();
-        assert_eq!(all, engine.traffic().bytes);
+        let total: u64 = costs.iter().map(|cost| cost.moved_bytes).sum();
+        assert_eq!(total, engine.traffic().bytes);
         (stats.passes_drawn, a.role, a.moved_bytes, a.when)
     };
     let texels = 4 * 3;
-    let said = Some("kind == 3 && width > 2".to_owned());
-    assert_eq!(drawn(0, 3), (6, PassRole::Drawn { is_cached: false }, 4 * 2 * 16 * texels, said.clone()));
-    assert_eq!(drawn(1, 2), (2, PassRole::Off, 0, said.clone()));
-    // Nothing that the others read changes any more.
-    assert_eq!(drawn(2, 2), (0, PassRole::Off, 0, said));
+    let condition = Some("kind == 3 && width > 2".to_owned());
+    assert_eq!(drawn(0, 3), (6, PassRole::Drawn { is_cached: false }, 4 * 2 * 16 * texels, condition.clone()));
+    assert_eq!(drawn(1, 2), (2, PassRole::Off, 0, condition.clone()));
+    // No input of the other passes changes any more.
+    assert_eq!(drawn(2, 2), (0, PassRole::Off, 0, condition));
     for error in [
         engine.inspect(&buffer("A")).err().unwrap(),
         engine.draw_for(&FrameInputs::at_fixed_step(3, 60.0), DrawFor::Inspect(&buffer("A"))).err().unwrap(),
@@ -116,39 +116,39 @@ fn what_is_off_costs_nothing_and_says_why() {
 }
 
 #[test]
-fn frames_that_are_drawn_again_are_the_same() {
+fn redrawn_frames_are_the_same() {
     let Some(gpu) = gpu() else { return };
     let kinds = [3, 3, 1, 1, 3, 1, 3, 3];
-    let project = counting();
+    let project = conditional_project();
     let mut engine = engine(&gpu, &project, (4, 3));
-    let (mut seen, mut kept) = (Vec::new(), Vec::new());
-    for (n, kind_now) in kinds.into_iter().enumerate() {
-        kept.push((engine.checkpoint().unwrap(), engine.state().unwrap()));
-        seen.push(red(&mut engine, n as i32, kind_now));
+    let (mut seen, mut saved) = (Vec::new(), Vec::new());
+    for (n, kind_value) in kinds.into_iter().enumerate() {
+        saved.push((engine.checkpoint().unwrap(), engine.state().unwrap()));
+        seen.push(red(&mut engine, n as i32, kind_value));
     }
-    for begin in (0..kinds.len()).rev() {
-        let (snapshot, state) = &kept[begin];
+    for first in (0..kinds.len()).rev() {
+        let (snapshot, state) = &saved[first];
         assert!(engine.restore(snapshot));
-        let again: Vec<f32> = (begin..kinds.len()).map(|n| red(&mut engine, n as i32, kinds[n])).collect();
-        assert_eq!(again, seen[begin..], "from a snapshot of frame {begin}");
-        // In another process nothing else is there.
+        let redrawn: Vec<f32> = (first..kinds.len()).map(|n| red(&mut engine, n as i32, kinds[n])).collect();
+        assert_eq!(redrawn, seen[first..], "from a snapshot of frame {first}");
+        // Another process has only the saved state.
         let mut other = self::engine(&gpu, &project, (4, 3));
         other.set_state(state).unwrap();
-        let again: Vec<f32> = (begin..kinds.len()).map(|n| red(&mut other, n as i32, kinds[n])).collect();
-        assert_eq!(again, seen[begin..], "from the state of frame {begin}");
+        let redrawn: Vec<f32> = (first..kinds.len()).map(|n| red(&mut other, n as i32, kinds[n])).collect();
+        assert_eq!(redrawn, seen[first..], "from the state of frame {first}");
     }
 }
 
 #[test]
-fn a_project_without_state_stays_one() {
+fn a_condition_does_not_add_state_to_a_project() {
     let Some(gpu) = gpu() else { return };
-    let mut project = counting();
+    let mut project = conditional_project();
     project.passes[0].bindings = Default::default();
     let engine = engine(&gpu, &project, (4, 3));
     assert_eq!((engine.passes_with_state(), engine.checkpoint_bytes()), (vec![], 0));
 }
 
-fn opened(folder: &Path, condition: &str) -> Result<Project, String> {
+fn load_with_condition(folder: &Path, condition: &str) -> Result<Project, String> {
     let manifest = format!("[passes.buffer_a]\nchannels.0 = {{ buffer = \"A\" }}\n{condition}\n[passes.image]\n");
     fs::write(folder.join("eddy.toml"), manifest).unwrap();
     fs::write(folder.join("buffer_a.glsl"), SELF).unwrap();
@@ -156,7 +156,7 @@ fn opened(folder: &Path, condition: &str) -> Result<Project, String> {
     load(folder.to_str().unwrap()).map(|loaded| loaded.project).map_err(|error| error.to_string())
 }
 
-fn said_when_built(gpu: &Gpu, project: &Project) -> String {
+fn build_errors(gpu: &Gpu, project: &Project) -> String {
     match Program::build(gpu, project, &MediaSet::new(), &BuildOptions::default()) {
         Ok(_) => String::new(),
         Err(BuildError::Diagnostics { diagnostics, sources }) => render_all(&diagnostics, &sources),
@@ -165,7 +165,7 @@ fn said_when_built(gpu: &Gpu, project: &Project) -> String {
 }
 
 #[test]
-fn mistakes_name_the_file_the_line_and_the_mend() {
+fn errors_name_the_file_the_line_and_the_fix() {
     let dir = tempfile::tempdir().unwrap();
     for (condition, expected) in [
         ("when = \"kind = 3\"", "write == to compare"),
@@ -173,19 +173,19 @@ fn mistakes_name_the_file_the_line_and_the_mend() {
         ("when = 3", "a condition in quotes"),
         ("when = \"\"", "empty"),
     ] {
-        let said = opened(dir.path(), condition).unwrap_err();
-        assert!(said.contains("eddy.toml:3") && said.contains(expected), "{condition}: {said}");
+        let error_text = load_with_condition(dir.path(), condition).unwrap_err();
+        assert!(error_text.contains("eddy.toml:3") && error_text.contains(expected), "{condition}: {error_text}");
     }
     fs::write(dir.path().join("eddy.toml"), "[passes.image]\nwhen = \"kind == 3\"\n").unwrap();
-    let said = load(dir.path().to_str().unwrap()).map(|_| ()).unwrap_err().to_string();
-    assert!(said.contains("eddy.toml:2") && said.contains("Image is drawn in every frame"), "{said}");
+    let error_text = load(dir.path().to_str().unwrap()).map(|_| ()).unwrap_err().to_string();
+    assert!(error_text.contains("eddy.toml:2") && error_text.contains("Image is drawn in every frame"), "{error_text}");
     let Some(gpu) = gpu() else { return };
-    let mut project = opened(dir.path(), "when = \"kid == 3\"").unwrap();
-    // What nobody reads is checked as well.
-    let said = said_when_built(&gpu, &project);
-    assert!(said.contains("eddy.toml:3:9") && said.contains("did you mean kind?"), "{said}");
+    let mut project = load_with_condition(dir.path(), "when = \"kid == 3\"").unwrap();
+    // A pass that no other pass reads is checked as well.
+    let error_text = build_errors(&gpu, &project);
+    assert!(error_text.contains("eddy.toml:3:9") && error_text.contains("did you mean kind?"), "{error_text}");
     project.edit_passes(&PassEdit::When(buffer("A"), Some("kind == 3".into()))).unwrap();
-    assert_eq!(said_when_built(&gpu, &project), "");
+    assert_eq!(build_errors(&gpu, &project), "");
     let error = project.edit_passes(&PassEdit::When(buffer("A"), Some("kind = 3".into()))).unwrap_err();
     assert!(error.to_string().contains("write == to compare"), "{error}");
     project.edit_passes(&PassEdit::When(PassName::image(), Some("kind == 3".into()))).unwrap_err();
@@ -193,7 +193,7 @@ fn mistakes_name_the_file_the_line_and_the_mend() {
     assert_eq!(project.passes[0].settings.when, None);
 }
 
-/// The bytes of all that a preset draws in some frames, and the draws of the last.
+/// Returns the bits of all texels that a project draws in `frames` frames, and the number of passes drawn in the last.
 fn drawn(gpu: &Gpu, project: &Project, size: (u32, u32), frames: i32) -> (Vec<u32>, u64) {
     let options = BuildOptions { skip: false, ..BuildOptions::default() };
     let mut engine = engine_with(gpu, project, &MediaSet::new(), &options, size);
@@ -220,7 +220,7 @@ fn presets_draw_the_same_without_their_conditions() {
         let (with, fewer) = drawn(&gpu, &project, size, frames);
         project.passes.iter_mut().for_each(|pass| pass.settings.when = None);
         let (without, all) = drawn(&gpu, &project, size, frames);
-        assert!(with == without, "{name} {set}: another picture");
+        assert!(with == without, "{name} {set}: the pictures differ");
         assert_eq!(all - fewer, left_out, "{name} {set}");
     }
 }

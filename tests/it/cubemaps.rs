@@ -1,4 +1,4 @@
-//! Cubemaps and volumes: files and Eddy's own, the cubemap pass, and what a channel says of them.
+//! Cubemaps and volumes: files and built-in ones, the cubemap pass, and the uniforms of their channels.
 
 use crate::support::{gpu, program::Bench, *};
 use eddy::{
@@ -18,7 +18,7 @@ fn cube_pass(body: &str, channels: [Option<Channel>; 4]) -> Pass {
     pass(PassName::cube(), &format!("{CUBE} {{ {body} }}"), channels)
 }
 
-/// Image by the direction of a panorama.
+/// Image that looks up a direction of a panorama.
 fn panorama(body: &str, input: Input, filter: Filter) -> Pass {
     let code = format!(
         "void mainImage(out vec4 o, in vec2 p) {{ vec2 a = (p / iResolution.xy - .5) * vec2(6.2831853, 3.1415927); \
@@ -27,7 +27,7 @@ fn panorama(body: &str, input: Input, filter: Filter) -> Pass {
     image(&code, [channel(input, filter), None, None, None])
 }
 
-fn drawn(gpu: &eddy::gpu::Gpu, project: &Project, size: (u32, u32), frames: i32) -> Engine {
+fn draw(gpu: &eddy::gpu::Gpu, project: &Project, size: (u32, u32), frames: i32) -> Engine {
     let (media, warnings) = media::gather(project, None);
     assert!(warnings.is_empty(), "{warnings:?}");
     let mut engine = engine_with(gpu, project, &media, &BuildOptions::default(), size);
@@ -35,48 +35,49 @@ fn drawn(gpu: &eddy::gpu::Gpu, project: &Project, size: (u32, u32), frames: i32)
     engine
 }
 
-/// The direction that each texel is drawn for comes back by it, over faces, edges and corners alike.
+/// Each texel is read back at the direction that it was drawn for, including at edges and corners of faces.
 #[test]
-fn a_cubemap_pass_is_read_by_the_direction_that_it_was_drawn_for() {
+fn a_cubemap_pass_is_read_at_the_direction_that_it_was_drawn_for() {
     let Some(gpu) = gpu() else { return };
     let cube = cube_pass("o = vec4(rayDir, length(rayOri));", Default::default());
-    let look = panorama(
+    let reader = panorama(
         "o = vec4(texture(iChannel0, d).xyz - d, texture(iChannel0, d).w);",
         Input::pass(PassName::cube()),
         Filter::Linear,
     );
-    let mut engine = drawn(&gpu, &project(vec![cube, look]), (128, 64), 1);
+    let mut engine = draw(&gpu, &project(vec![cube, reader]), (128, 64), 1);
     let pixels = engine.read_image().unwrap();
-    // Half floats next to 1 lie 2^-11 apart; a texel of 1,024 turns by at most 2^-9 of which half is mixed away.
+    // Half floats next to 1 are 2^-11 apart; a texel of 1,024 turns by at most 2^-9, half of which the filter averages
+    // away.
     let worst = pixels.texels.iter().flat_map(|t| t[..3].iter()).fold(0f32, |a, b| a.max(b.abs()));
     assert!(worst < 1.5e-3, "{worst}");
-    // Image's alpha is 1 whatever is written.
+    // Image's alpha is always 1.
     assert!(pixels.texels.iter().all(|t| t[3] == 1.0));
 }
 
 #[test]
-fn a_cubemap_pass_sees_its_last_frame_on_every_face_and_buffers_see_the_last_too() {
+fn a_cubemap_pass_and_earlier_buffers_read_its_previous_frame_on_every_face() {
     let Some(gpu) = gpu() else { return };
-    let own = Input::pass(PassName::cube());
+    let cube_input = Input::pass(PassName::cube());
     let cube = cube_pass(
         "o = texture(iChannel0, rayDir) + vec4(1., 0., 0., 0.);",
-        [channel(own.clone(), Filter::Nearest), None, None, None],
+        [channel(cube_input.clone(), Filter::Nearest), None, None, None],
     );
     let reads = "void mainImage(out vec4 o, in vec2 p) { o = textureLod(iChannel0, vec3(0., 0., 1.), 0.); }";
-    let behind = pass(buffer("A"), reads, [channel(own.clone(), Filter::Nearest), None, None, None]);
+    let earlier_buffer = pass(buffer("A"), reads, [channel(cube_input.clone(), Filter::Nearest), None, None, None]);
     let code = "void mainImage(out vec4 o, in vec2 p) { vec3 d[6] = vec3[](vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), \
                 vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1)); o = vec4(texture(iChannel0, d[int(p.x)]).x, \
                 texelFetch(iChannel1, ivec2(0), 0).x, iChannelResolution[0].xz); }";
-    let look = image(code, [channel(own, Filter::Nearest), nearest("A"), None, None]);
-    let mut engine = drawn(&gpu, &project(vec![behind, cube, look]), (6, 2), 3);
+    let reader = image(code, [channel(cube_input, Filter::Nearest), nearest("A"), None, None]);
+    let mut engine = draw(&gpu, &project(vec![earlier_buffer, cube, reader]), (6, 2), 3);
     let pixels = engine.read_image().unwrap();
     for x in 0..6 {
         assert_eq!(texel(&pixels, x, 0)[..3], [3.0, 2.0, 1024.0], "face {x}");
     }
-    // Back and on again: the state is kept with all faces.
-    let kept = engine.checkpoint().unwrap();
+    // Restoring and continuing: the state contains all faces.
+    let snapshot = engine.checkpoint().unwrap();
     run(&mut engine, 3, 5);
-    assert!(engine.restore(&kept));
+    assert!(engine.restore(&snapshot));
     run(&mut engine, 3, 4);
     assert_eq!(texel(&engine.read_image().unwrap(), 5, 0)[0], 4.0);
     engine.reset();
@@ -84,9 +85,9 @@ fn a_cubemap_pass_sees_its_last_frame_on_every_face_and_buffers_see_the_last_too
     assert_eq!(texel(&engine.read_image().unwrap(), 5, 0)[0], 1.0);
 }
 
-/// Texels of a file come back at their own directions, byte for byte, flipped as the site flips.
+/// Texels of a file are read back at their own directions, byte for byte, flipped as Shadertoy does.
 #[test]
-fn texels_of_a_cubemap_lie_where_its_faces_have_them() {
+fn cubemap_texels_are_read_at_the_directions_of_their_faces() {
     let Some(gpu) = gpu() else { return };
     for vflip in [false, true] {
         let media = Media::Builtin("hall".into());
@@ -99,23 +100,23 @@ fn texels_of_a_cubemap_lie_where_its_faces_have_them() {
                     if (iChannelResolution[0] != vec3(0.)) o = vec4(-1.); }";
         let input = Input::Media { kind: InputKind::Cubemap, media };
         let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip };
-        let look = image(code, [Some(Channel { input, sampler }), None, None, None]);
-        let mut engine = drawn(&gpu, &project(vec![look]), (6, 256), 1);
+        let reader = image(code, [Some(Channel { input, sampler }), None, None, None]);
+        let mut engine = draw(&gpu, &project(vec![reader]), (6, 256), 1);
         let pixels = engine.read_image().unwrap();
         for face in 0..6 {
             for row in 0..256 {
                 let at = ((face as usize * 256 + row as usize) * 256 + 37) * 4;
                 let expected = [0, 1, 2].map(|c| f32::from(texels.bytes[at + c]));
                 let read = texel(&pixels, face, row);
-                let is_it = (0..3).all(|c| (read[c] - expected[c]).abs() < 0.01);
-                assert!(is_it, "face {face}, row {row}, {vflip}: {read:?}, not {expected:?}");
+                let is_equal = (0..3).all(|c| (read[c] - expected[c]).abs() < 0.01);
+                assert!(is_equal, "face {face}, row {row}, {vflip}: {read:?}, not {expected:?}");
             }
         }
     }
 }
 
 #[test]
-fn a_volume_is_read_trilinearly_and_its_mips_are_means() {
+fn a_volume_is_read_trilinearly_and_its_mips_are_averages() {
     let Some(gpu) = gpu() else { return };
     let media = Media::Builtin("noise-rgba-3d".into());
     let key = MediaKey { media: media.clone(), dimension: Dimension::D3, vflip: false };
@@ -127,22 +128,22 @@ fn a_volume_is_read_trilinearly_and_its_mips_are_means() {
                 if (iChannelResolution[0] != vec3(32.) || textureSize(iChannel0, 0) != ivec3(32)) o = vec4(-1.); }";
     let input = Input::Media { kind: InputKind::Volume, media };
     let sampler = Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: false };
-    let look = image(code, [Some(Channel { input, sampler }), None, None, None]);
-    let mut engine = drawn(&gpu, &project(vec![look]), (32, 32), 1);
+    let reader = image(code, [Some(Channel { input, sampler }), None, None, None]);
+    let mut engine = draw(&gpu, &project(vec![reader]), (32, 32), 1);
     let pixels = engine.read_image().unwrap();
     for y in 0..32usize {
         for x in 0..32usize {
-            let [own, between, coarse, _] = texel(&pixels, x as u32, y as u32);
+            let [exact, between, coarse, _] = texel(&pixels, x as u32, y as u32);
             let (a, b, c) = (x / 2 * 2, y / 2 * 2, 4);
             let mean = (0..8).map(|i| at(a + i % 2, b + i / 2 % 2, c + i / 4)).sum::<f32>() / 8.0;
-            assert!((own - at(x, y, 5)).abs() < 0.01, "{x},{y}: {own}");
+            assert!((exact - at(x, y, 5)).abs() < 0.01, "{x},{y}: {exact}");
             assert!((between - 0.5 * (at(x, y, 5) + at((x + 1) % 32, y, 5))).abs() < 0.6, "{x},{y}: {between}");
             assert!((coarse - mean).abs() < 0.51, "{x},{y}: {coarse}, not {mean}");
         }
     }
 }
 
-/// The command line draws a face, and says what it cannot.
+/// The command line draws a named face, and rejects unknown ones.
 #[test]
 fn a_face_is_rendered_by_name() {
     let Some(b) = Bench::with_gpu() else { return };
@@ -156,13 +157,13 @@ fn a_face_is_rendered_by_name() {
         let middle = picture.get_pixel(512, 512).0;
         assert!((0..3).all(|c| middle[c].abs_diff(expected[c]) <= 1), "{face}: {middle:?}");
     }
-    let refused = b.line("render p --size 16x16 --face +x --out f.png").expect(2);
-    assert!(refused.err.contains("--pass cube_a"), "{}", refused.err);
+    let rejected = b.line("render p --size 16x16 --face +x --out f.png").expect(2);
+    assert!(rejected.err.contains("--pass cube_a"), "{}", rejected.err);
     let unknown = b.line("render p --size 16x16 --pass cube_a --face up --out f.png").expect(2);
     assert!(unknown.err.contains("+x"), "{}", unknown.err);
 }
 
-/// A cubemap pass is traced and probed by the face, and Image's probe reads the cubemap of its own frame.
+/// A cubemap pass can be traced and probed by face, and Image's probe reads the cubemap of its own frame.
 #[test]
 fn a_face_is_traced_and_probed() {
     let Some(_) = gpu() else { return };
@@ -173,7 +174,7 @@ fn a_face_is_traced_and_probed() {
     let numbers = |value: &serde_json::Value| -> Vec<f64> {
         value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
     };
-    // The middle of a face, half a texel off.
+    // The centre of a face, half a texel off.
     for (face, expected) in [("+x", [1.0, 0.5, 0.5]), ("-y", [0.5, 0.0, 0.5]), ("-z", [0.5, 0.5, 0.0])] {
         let close = |values: &[f64]| values.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-3);
         let traced =

@@ -1,21 +1,21 @@
-//! Directives in texts are obeyed, or every command refuses them at their line with the same words.
+//! Directives in texts are applied, or every command rejects them at their line with the same message.
 
 use crate::support::program::Bench;
 
 const GREEN: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0, 1.0, 0.0, 1.0); }\n";
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }\n";
 
-/// Runs a project through each command that reads texts, each of which must refuse it with all `parts`, once.
-fn refused(b: &Bench, project: &str, parts: &[&str]) {
+/// Runs each command that reads texts on a project; each must reject it with one error that contains all `parts`.
+fn assert_every_command_rejects(b: &Bench, project: &str, parts: &[&str]) {
     for command in ["check", "render --size 2x2 --frames 1 --out o.png", "bench --frames 1", "export --out o.json"] {
         let (name, options) = command.split_once(' ').unwrap_or((command, ""));
         let run = b.line(&format!("{name} {project} {options}"));
         assert_ne!(run.code, Some(0), "{command}: {run:?}");
-        let said = format!("{}{}", run.out, run.err);
+        let output = format!("{}{}", run.out, run.err);
         for part in parts {
-            assert!(said.contains(part), "{command} does not say {part:?} but\n{said}");
+            assert!(output.contains(part), "{command} does not print {part:?} but\n{output}");
         }
-        assert_eq!(said.matches("error: ").count(), 1, "{command}: {said}");
+        assert_eq!(output.matches("error: ").count(), 1, "{command}: {output}");
         assert!(b.names(".").iter().all(|n| !n.starts_with("o.")), "{command} wrote {:?}", b.names("."));
     }
 }
@@ -59,12 +59,12 @@ fn a_broken_directive_is_one_error_at_its_line_in_every_command() {
         b.write("tone.glsl", "float tone() { return 1.0; }\n");
         let place: &[&str] = if parts.contains(&":3:1") { &[] } else { &["image.glsl:2:"] };
         let all: Vec<&str> = parts.iter().chain(place).copied().collect();
-        refused(&b, ".", &all);
+        assert_every_command_rejects(&b, ".", &all);
     }
 }
 
 #[test]
-fn lines_in_comments_and_in_groups_that_are_not_compiled_do_no_harm() {
+fn directives_in_comments_and_inactive_groups_are_ignored() {
     let b = Bench::new();
     let lines = "#include <stdio.h>\n#iKeyboard\n#import \"x\"\n#pragma include \"x\"\n";
     let text = format!(
@@ -76,15 +76,19 @@ fn lines_in_comments_and_in_groups_that_are_not_compiled_do_no_harm() {
 }
 
 #[test]
-fn channel_lines_where_there_are_no_channels_are_told_of() {
+fn channel_lines_outside_passes_are_reported() {
     let b = Bench::new();
     b.write("p/image.glsl", format!("#include \"tone.glsl\"\n{GREEN}"));
     b.write("p/tone.glsl", "\n#iChannel0 \"keyboard\"\n");
-    refused(&b, "p", &["p/tone.glsl:2:1".strip_prefix("p/").unwrap(), "a channel belongs to a pass"]);
+    assert_every_command_rejects(
+        &b,
+        "p",
+        &["p/tone.glsl:2:1".strip_prefix("p/").unwrap(), "a channel belongs to a pass"],
+    );
     b.write("q/common.glsl", "#iChannel0 \"keyboard\"\n");
     b.write("q/image.glsl", GREEN);
-    refused(&b, "q", &["common.glsl:1:1", "a channel belongs to a pass"]);
-    // With eddy.toml such lines never counted: such a project stays one.
+    assert_every_command_rejects(&b, "q", &["common.glsl:1:1", "a channel belongs to a pass"]);
+    // A project with eddy.toml ignores such lines, so it still opens.
     b.write("r/eddy.toml", "[passes.image]\nchannels.0 = { keyboard = true }\n");
     b.write("r/image.glsl", format!("#iChannel0 \"keyboard\"\n#iChannel1 \"file://a.png\"\n{GREEN}"));
     let run = b.line("check r").expect(0);
@@ -93,7 +97,7 @@ fn channel_lines_where_there_are_no_channels_are_told_of() {
 }
 
 #[test]
-fn a_channel_that_reads_a_pass_that_is_not_there_is_told_of_at_its_line() {
+fn a_channel_that_reads_a_missing_pass_is_a_warning_at_its_line() {
     let b = Bench::new();
     b.write("lone.glsl", format!("\n#iChannel0 \"buffer_a\"\n{SHOW}"));
     let run = b.line("check lone.glsl").expect(0);
@@ -105,14 +109,14 @@ fn a_channel_that_reads_a_pass_that_is_not_there_is_told_of_at_its_line() {
 }
 
 #[test]
-fn a_lone_file_reads_the_files_that_it_names() {
+fn a_single_file_reads_the_files_that_its_channels_name() {
     let Some(b) = Bench::with_gpu() else { return };
     let half = "void mainImage(out vec4 o, in vec2 p) { o = 0.5 * texelFetch(iChannel1, ivec2(p), 0); }\n";
     b.write("show.glsl", format!("#iChannel0 \"file://parts/half.glsl\"\n{SHOW}"));
     b.write("parts/half.glsl", format!("#iChannel1 \"./ones.glsl\"\n{half}"));
     b.write("parts/ones.glsl", "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\n");
     b.line("render show.glsl --size 2x2 --frames 1 --out o.npy").expect(0);
-    assert_eq!(b.npy("o.npy").at(1, 1), [0.5, 0.5, 0.5, 1.0], "what is named is drawn first");
+    assert_eq!(b.npy("o.npy").at(1, 1), [0.5, 0.5, 0.5, 1.0], "the files of channels are drawn first");
     b.line("export show.glsl --out o.json").expect(0);
     b.line("render o.json --size 2x2 --frames 1 --out p.npy").expect(0);
     assert_eq!(b.npy("p.npy").texels, b.npy("o.npy").texels);

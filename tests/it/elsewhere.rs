@@ -1,8 +1,8 @@
-//! Shaders of other programs on the built program: custom shaders of Ghostty, files of ISF.
+//! Shaders of other programs, tested with the built program: custom shaders of Ghostty and ISF files.
 
 use crate::support::program::{Bench, Npy};
 
-/// Shows the terminal, with a frame around the cursor and the number of the style in the corner.
+/// Shows the terminal, with the cursor filled green and values of uniforms in the corner.
 const FRAME: &str = "
 void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     fragColor = texture2D(iChannel0, fragCoord / iResolution.xy);
@@ -21,46 +21,46 @@ fn render(b: &Bench, file: &str, arguments: &[&str]) -> Npy {
 }
 
 #[test]
-fn a_custom_shader_of_ghostty_sees_a_terminal_whose_cursor_moves() {
+fn a_ghostty_shader_sees_a_terminal_with_a_moving_cursor() {
     let Some(b) = Bench::with_gpu() else { return };
     b.write("frame.glsl", FRAME);
-    let green = |picture: &Npy| {
+    let green_box = |picture: &Npy| {
         let is_green = |x: usize, y: usize| picture.at(x, y)[..3] == [0.0, 1.0, 0.0];
         let all: Vec<(usize, usize)> =
             (0..180).flat_map(|y| (0..320).map(move |x| (x, y))).filter(|&(x, y)| is_green(x, y)).collect();
         (all.iter().copied().min().unwrap(), all.len())
     };
     let start = render(&b, "frame.glsl", &["--as", "ghostty", "--mouse", "0:down 9,9"]);
-    // One dot is a pixel here: the cursor is in row 0, column 11.
-    assert_eq!(green(&start), ((4 + 11 * 6, 180 - 4 - 12), 6 * 12));
+    // A dot of the terminal's font is a pixel here: the cursor is in row 0, column 11.
+    assert_eq!(green_box(&start), ((4 + 11 * 6, 180 - 4 - 12), 6 * 12));
     assert_eq!(start.at(0, 0)[..3], [0.0, 0.0, 1.0]);
-    // Ghostty counts frames from 1, has no mouse, and blue is colour 21 of every terminal.
+    // Ghostty counts frames from 1 and has no mouse, and blue is colour 21 of the palette.
     assert_eq!(start.at(1, 0)[..3], [1.0, 0.0, 1.0]);
     let text = (0..320).filter(|&x| start.at(x, 170)[1] > 0.5).count();
     assert!(text > 10, "the prompt has {text} bright dots in this row");
-    // A second later three letters are typed: 0.6 + n * 0.09 s.
+    // Three letters are typed by the time of frame 50: at 0.6 + n * 0.09 s.
     let later = render(&b, "ghostty:frame.glsl", &["--at", "50"]);
-    assert_eq!(green(&later).0, (4 + 14 * 6, 180 - 4 - 12));
+    assert_eq!(green_box(&later).0, (4 + 14 * 6, 180 - 4 - 12));
     assert!((later.at(0, 0)[1] - 0.78).abs() < 1e-6);
-    // A bar is a dot wide.
-    assert_eq!(green(&render(&b, "frame.glsl", &["--as", "ghostty", "--at", "549"])).1, 12);
+    // A bar cursor is a dot wide.
+    assert_eq!(green_box(&render(&b, "frame.glsl", &["--as", "ghostty", "--at", "549"])).1, 12);
 }
 
 #[test]
-fn what_ghostty_lacks_is_said_of_a_file() {
+fn features_that_ghostty_lacks_are_reported() {
     let b = Bench::new();
     b.write("frame.glsl", FRAME);
     let run = b.line("check --for ghostty frame.glsl").expect(0);
     assert!(run.out.contains("ghostty:frame.glsl: ok") || run.out.contains("frame.glsl: ok"), "{}", run.out);
-    let said = format!("{}{}", run.out, run.err);
-    assert!(said.contains("Ghostty does not set `iMouse`"), "{said}");
+    let output = format!("{}{}", run.out, run.err);
+    assert!(output.contains("Ghostty does not set `iMouse`"), "{output}");
     b.write("second.glsl", FRAME.replace("iChannel0", "iChannel1"));
     let run = b.line("check --for ghostty second.glsl").expect(1);
     assert!(format!("{}{}", run.out, run.err).contains("`iChannel1` is not declared"), "{run:?}");
     b.write("slider.glsl", format!("#iUniform float glow = 0.5 in {{ 0.0, 1.0 }}\n{FRAME}"));
     let run = b.line("check --for ghostty slider.glsl").expect(1);
     assert!(format!("{}{}", run.out, run.err).contains("does not know #iUniform"), "{run:?}");
-    // As a shader of Shadertoy's it is told what it is.
+    // Checked as a shader for Shadertoy, it suggests how to open it.
     let run = b.line("check frame.glsl").expect(1);
     assert!(format!("{}{}", run.out, run.err).contains("eddy --as ghostty"), "{run:?}");
     for wrong in ["check --for ghostty missing.glsl", "render --as ghostty . --out o.png"] {
@@ -70,7 +70,7 @@ fn what_ghostty_lacks_is_said_of_a_file() {
 }
 
 #[test]
-fn a_shader_of_ghostty_stays_there() {
+fn a_ghostty_shader_cannot_be_exported_or_translated() {
     let b = Bench::new();
     b.write("frame.glsl", FRAME);
     for line in [
@@ -85,7 +85,7 @@ fn a_shader_of_ghostty_stays_there() {
     assert_eq!(b.names("."), ["frame.glsl"]);
 }
 
-/// An image filter with a buffer that keeps its state, a vertex shader of its own and inputs.
+/// An image filter with a persistent buffer, its own vertex shader and inputs.
 const TRAILS: &str = r#"/*{
     "ISFVSN": "2",
     "INPUTS": [
@@ -111,7 +111,7 @@ void main() {
 "#;
 
 #[test]
-fn a_file_of_isf_is_drawn_with_its_passes_and_inputs() {
+fn an_isf_file_is_drawn_with_its_passes_and_inputs() {
     let Some(b) = Bench::with_gpu() else { return };
     b.write("trails.fs", TRAILS);
     b.write(
@@ -122,7 +122,7 @@ fn a_file_of_isf_is_drawn_with_its_passes_and_inputs() {
     b.line("render trails.fs --size 8x4 --at 2 --out o.npy").expect(0);
     let picture = b.npy("o.npy");
     assert_eq!(picture.at(3, 1), [0.75, (3.5 + 1.0) / 8.0, 1.0, 1.0]);
-    // The slider is called as GLSL does not call a function.
+    // The name of the slider, `step`, is a function of GLSL.
     b.line("render trails.fs --size 8x4 --at 0 --set isf_step=0.5 --out o.npy").expect(0);
     assert_eq!(b.npy("o.npy").at(0, 0)[0], 0.5);
     b.write("wrong.fs", TRAILS.replace("vec4(step)", "vec3(step)"));
@@ -135,7 +135,7 @@ fn a_file_of_isf_is_drawn_with_its_passes_and_inputs() {
 }
 
 #[test]
-fn a_project_as_a_file_of_isf_draws_the_same_picture() {
+fn a_project_exported_as_isf_draws_the_same_picture() {
     let Some(b) = Bench::with_gpu() else { return };
     let state =
         "c = 0.5 * texture(iChannel0, p / iResolution.xy) + vec4(turned(p / iResolution.xy, iTime), 0.0, 1.0) * level;";
@@ -152,10 +152,11 @@ fn a_project_as_a_file_of_isf_draws_the_same_picture() {
         b.line(&format!("render {file} --size 24x16 --at 5 --out {file}.npy")).expect(0);
     }
     let (ours, isf) = (b.npy("glow.npy"), b.npy("glow.fs.npy"));
-    let apart = ours.texels.iter().zip(&isf.texels).flat_map(|(a, b)| a.iter().zip(b).map(|(a, b)| (a - b).abs()));
-    let most = apart.fold(0.0, f32::max);
-    // Texels are read at their centres by a filter, which rounds its weights.
-    assert!(most < 5e-3, "{most}");
+    let differences =
+        ours.texels.iter().zip(&isf.texels).flat_map(|(a, b)| a.iter().zip(b).map(|(a, b)| (a - b).abs()));
+    let max_difference = differences.fold(0.0, f32::max);
+    // Texels are read at their centres with a filter, whose weights are rounded.
+    assert!(max_difference < 5e-3, "{max_difference}");
     assert!(ours.at(3, 3)[0] > 0.01);
     b.write("glow.fs", "another's");
     let run = b.line("export glow --to isf --out glow.fs").expect(2);
@@ -169,7 +170,7 @@ fn a_project_as_a_file_of_isf_draws_the_same_picture() {
 }
 
 #[test]
-fn what_xscreensaver_lacks_is_said_of_a_project() {
+fn features_that_xscreensaver_lacks_are_reported() {
     let b = Bench::new();
     b.image("plain.glsl", "fragColor = vec4(0.5 + 0.5 * sin(iTime), fragCoord / iResolution.xy, 1.0);");
     b.line("check --for xscreensaver plain.glsl").expect(0);

@@ -1,4 +1,4 @@
-//! The rules of multipass drawing, by pictures.
+//! The rules of multipass drawing, tested by pictures.
 
 use crate::support::*;
 use eddy::{
@@ -16,7 +16,7 @@ const READS_ALL: &str = "void mainImage(out vec4 o, in vec2 p) {
 }";
 
 #[test]
-fn truth_table_of_reads_by_pictures() {
+fn reads_return_the_frame_that_the_pass_order_implies() {
     let Some(gpu) = gpu() else { return };
     let letters = ["A", "B", "C", "D"];
     for order in [[0, 1, 2, 3], [3, 1, 0, 2]] {
@@ -24,11 +24,11 @@ fn truth_table_of_reads_by_pictures() {
         let mut passes: Vec<_> = order.iter().map(|&i: &usize| pass(buffer(letters[i]), READS_ALL, all())).collect();
         passes.push(image(READS_ALL, all()));
         let mut engine = ran(&gpu, &project(passes), (2, 1), 3);
-        for (place, &reader) in order.iter().enumerate() {
+        for (position, &reader) in order.iter().enumerate() {
             let seen = texel(&engine.read(&buffer(letters[reader])).unwrap(), 1, 0);
             for source in 0..4 {
-                let source_place = order.iter().position(|&i| i == source).unwrap();
-                let expected = if source_place < place { 3.0 } else { 2.0 };
+                let source_position = order.iter().position(|&i| i == source).unwrap();
+                let expected = if source_position < position { 3.0 } else { 2.0 };
                 assert_eq!(seen[source], expected, "{} reads {} in {order:?}", letters[reader], letters[source]);
             }
         }
@@ -38,7 +38,7 @@ fn truth_table_of_reads_by_pictures() {
 }
 
 #[test]
-fn a_slot_that_the_language_lacks_is_an_error_that_names_the_pass() {
+fn a_channel_beyond_the_language_is_an_error_that_names_the_pass() {
     let mut image = image("void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }", Default::default());
     image.bindings.set(3, nearest("A"));
     image.bindings.set(7, nearest("A"));
@@ -49,21 +49,21 @@ fn a_slot_that_the_language_lacks_is_an_error_that_names_the_pass() {
 }
 
 #[test]
-fn discard_shows_what_a_buffer_held_two_frames_ago_and_image_one_frame_ago() {
+fn discard_shows_the_texels_of_a_buffer_two_frames_ago_and_of_image_one_frame_ago() {
     let Some(gpu) = gpu() else { return };
     let code =
         "void mainImage(out vec4 o, in vec2 p) { if (iFrame == 4) discard; o = vec4(float(iFrame), 7.0, 7.0, 7.0); }";
-    let also = "void mainImage(out vec4 o, in vec2 p) { if (iFrame == 4) discard; o = vec4(float(iFrame) + \
+    let image_code = "void mainImage(out vec4 o, in vec2 p) { if (iFrame == 4) discard; o = vec4(float(iFrame) + \
                 texelFetch(iChannel0, ivec2(0), 0).y); }";
     let project =
-        project(vec![pass(buffer("A"), code, Default::default()), image(also, [nearest("A"), None, None, None])]);
+        project(vec![pass(buffer("A"), code, Default::default()), image(image_code, [nearest("A"), None, None, None])]);
     let mut engine = ran(&gpu, &project, (1, 1), 5);
     assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 0, 0)[0], 2.0);
     assert_eq!(texel(&engine.read_image().unwrap(), 0, 0)[0], 10.0);
 }
 
 #[test]
-fn frame_0_reads_zeros_and_a_reset_brings_them_back() {
+fn frame_0_reads_zeros_also_after_a_reset() {
     let Some(gpu) = gpu() else { return };
     let count = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + 1.0; }";
     let show = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
@@ -98,7 +98,7 @@ fn a_resize_keeps_the_overlap_from_the_bottom_left() {
 }
 
 #[test]
-fn filter_wrap_and_mips_read_as_they_say() {
+fn filter_wrap_and_mips_are_applied() {
     let Some(gpu) = gpu() else { return };
     let fill = "void mainImage(out vec4 o, in vec2 p) { o = vec4(floor(p), 0.0, 1.0); }";
     let show = "void mainImage(out vec4 o, in vec2 p) {
@@ -118,7 +118,7 @@ fn filter_wrap_and_mips_read_as_they_say() {
 }
 
 #[test]
-fn uniforms_arrive_where_they_belong() {
+fn uniforms_have_the_values_of_the_frame_inputs() {
     let Some(gpu) = gpu() else { return };
     let a = "void mainImage(out vec4 o, in vec2 p) {
         int i = int(p.x);
@@ -149,9 +149,9 @@ fn uniforms_arrive_where_they_belong() {
     assert_eq!(texel(&pixels, 4, 0), [5.0, 1.0, 1.0, 0.0]);
 }
 
-/// The three rows of the second pad, its last column and the size; zeros where nothing moves.
+/// The three rows of the second gamepad, its last column and the size; zeros before anything moves.
 #[test]
-fn gamepads_are_a_texture_of_17_by_12() {
+fn gamepads_are_a_texture_of_17_by_12_texels() {
     let Some(gpu) = gpu() else { return };
     let a = "void mainImage(out vec4 o, in vec2 p) {
         if (int(p.x) == 0) o = vec4(texelFetch(iChannel0, ivec2(1, 3), 0).r, texelFetch(iChannel0, ivec2(7, 4), 0).r,
@@ -181,7 +181,7 @@ fn gamepads_are_a_texture_of_17_by_12() {
 }
 
 #[test]
-fn a_new_program_keeps_the_buffers_it_shares_with_the_old() {
+fn a_new_program_keeps_the_buffers_that_it_shares_with_the_old_one() {
     let Some(gpu) = gpu() else { return };
     let count = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + 1.0; }";
     let by_ten = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + 10.0; }";
@@ -200,7 +200,7 @@ fn a_new_program_keeps_the_buffers_it_shares_with_the_old() {
 }
 
 #[test]
-fn impossible_sizes_are_refused_and_leave_the_engine_as_it_was() {
+fn impossible_sizes_are_rejected_and_leave_the_engine_unchanged() {
     let Some(gpu) = gpu() else { return };
     let show = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
     let mut engine = engine(&gpu, &project(vec![image(show, Default::default())]), (2, 2));
@@ -216,7 +216,7 @@ fn impossible_sizes_are_refused_and_leave_the_engine_as_it_was() {
 }
 
 #[test]
-fn bilinear_reads_by_hand_match_the_samplers() {
+fn emulated_bilinear_filtering_matches_the_samplers() {
     let (Some(gpu), Some(plain)) =
         (gpu(), gpu_with(&GpuOptions { use_float32_filtering: false, ..Default::default() }))
     else {
@@ -236,26 +236,26 @@ fn bilinear_reads_by_hand_match_the_samplers() {
         engine.read_image().unwrap()
     };
     assert!(!plain.filters_float32);
-    let (by_sampler, by_hand) = (picture(&gpu), picture(&plain));
+    let (by_sampler, emulated) = (picture(&gpu), picture(&plain));
     let worst = by_sampler
         .texels
         .iter()
         .flatten()
-        .zip(by_hand.texels.iter().flatten())
+        .zip(emulated.texels.iter().flatten())
         .map(|(a, b)| (a - b).abs())
         .fold(0.0, f32::max);
     assert!(worst <= 1.0 / 255.0, "differs by {worst}");
 }
 
-/// The k-th of three texts, each of which the buffers of [`many`] use eight times.
+/// The k-th of three texts, each of which is used by eight of the buffers of [`many_buffers`].
 fn step_text(k: usize, n: u32) -> String {
     format!(
         "void mainImage(out vec4 o, in vec2 p) {{ o = texelFetch(iChannel0, ivec2(p), 0) + noise({k}.0) + {n}.0; }}\n"
     )
 }
 
-/// 24 buffers over three texts, each reading the one before, and Image.
-fn many() -> Project {
+/// 24 buffers with three different texts, each reading the previous one, and Image.
+fn many_buffers() -> Project {
     let name = |i: usize| format!("b{i}");
     let mut passes: Vec<_> = (0..24)
         .map(|i| pass(buffer(&name(i)), &step_text(i % 3, 0), [nearest(&name((i + 23) % 24)), None, None, None]))
@@ -278,7 +278,7 @@ fn work(stages: usize, pipelines: usize) -> BuildWork {
     BuildWork { stages, pipelines }
 }
 
-/// Builds and takes the program up, and draws three frames.
+/// Builds the program, installs it and draws three frames.
 fn rebuild(builder: &mut Builder, engine: &mut Engine, project: &Project) -> (BuildWork, Vec<[f32; 4]>) {
     let built = builder.build(project, &MediaSet::new(), &BuildOptions::default()).unwrap_or_else(|e| panic!("{e:?}"));
     engine.set_program(built.program).unwrap();
@@ -288,17 +288,17 @@ fn rebuild(builder: &mut Builder, engine: &mut Engine, project: &Project) -> (Bu
 }
 
 #[test]
-fn an_edit_builds_what_it_changes_and_nothing_else() {
+fn an_edit_rebuilds_only_what_it_changes() {
     let Some(gpu) = gpu() else { return };
     let (mut builder, mut engine) = (Builder::new(gpu.clone()), Engine::new(gpu.clone(), 2, 2).unwrap());
     let mut rebuild = |project: &Project| {
         let (work, picture) = rebuild(&mut builder, &mut engine, project);
         let mut fresh = engine_with(&gpu, project, &MediaSet::new(), &BuildOptions::default(), (2, 2));
         run(&mut fresh, 0, 3);
-        assert_eq!(picture, fresh.read_image().unwrap().texels, "as with nothing from before");
+        assert_eq!(picture, fresh.read_image().unwrap().texels, "the same as a fresh engine");
         (work, picture)
     };
-    let mut project = many();
+    let mut project = many_buffers();
     let (first, before) = rebuild(&project);
     assert_eq!(first, work(4, 4), "25 passes over four texts");
     assert_eq!(rebuild(&project).0, work(0, 0), "nothing has changed");
@@ -309,29 +309,29 @@ fn an_edit_builds_what_it_changes_and_nothing_else() {
     assert_ne!(before, after);
 
     edit(&mut project, &PassName::image(), &show(1));
-    assert_eq!(rebuild(&project), (work(0, 0), before), "back to the text of before");
+    assert_eq!(rebuild(&project), (work(0, 0), before), "the previous text again");
 
     edit(&mut project, &buffer("b7"), &step_text(1, 5));
-    assert_eq!(rebuild(&project).0, work(1, 1), "one of the eight passes of a text");
+    assert_eq!(rebuild(&project).0, work(1, 1), "one of eight passes with the same text");
 
     edit(&mut project, &PassName::image(), &format!("// a word\n{}", show(1)));
-    assert_eq!(rebuild(&project).0, work(1, 0), "what compiles to the same needs no new pipeline");
+    assert_eq!(rebuild(&project).0, work(1, 0), "identical code needs no new pipeline");
 
     project.passes[3].settings.format = TexelFormat::Rg32f;
-    assert_eq!(rebuild(&project).0, work(0, 1), "another format is another pipeline of the same stage");
+    assert_eq!(rebuild(&project).0, work(0, 1), "a new format needs a new pipeline of the same stage");
 
     project.common.as_mut().unwrap().text = "float noise(float x) { return x * 0.3 + 0.1; }\n".into();
     assert_eq!(rebuild(&project).0, work(5, 6), "Common is part of every stage");
 
     project.common.as_mut().unwrap().text = "float noise(float x) { return x * 0.3 + 0.1; }\nfloat unused;\n".into();
-    assert_eq!(rebuild(&project).0, work(5, 0), "what no pass of it uses changes no stage");
+    assert_eq!(rebuild(&project).0, work(5, 0), "unused code of Common changes no stage");
 }
 
 #[test]
-fn a_broken_edit_costs_nothing_that_was_there() {
+fn a_broken_edit_discards_no_built_stages() {
     let Some(gpu) = gpu() else { return };
     let (mut builder, mut engine) = (Builder::new(gpu.clone()), Engine::new(gpu, 2, 2).unwrap());
-    let project = many();
+    let project = many_buffers();
     let (_, before) = rebuild(&mut builder, &mut engine, &project);
     let mut broken = project.clone();
     for n in 0..5 {
@@ -342,16 +342,16 @@ fn a_broken_edit_costs_nothing_that_was_there() {
     assert_eq!(rebuild(&mut builder, &mut engine, &project), (work(0, 0), before));
 }
 
-/// Passes of one text share what the compiler says of it, each at its own place.
+/// Passes with the same text share its diagnostics, each at its own place.
 #[test]
-fn what_is_wrong_with_a_shared_text_is_said_of_each_pass_that_has_it() {
+fn errors_of_a_shared_text_are_reported_for_each_of_its_passes() {
     let Some(gpu) = gpu() else { return };
     let mut builder = Builder::new(gpu);
-    let mut project = many();
+    let mut project = many_buffers();
     let broken = "void mainImage(out vec4 o, in vec2 p) { o = lenght(p); }\n";
     let broken_passes = [2, 7, 11];
-    for place in broken_passes {
-        let id = project.passes[place].id.clone();
+    for pass_index in broken_passes {
+        let id = project.passes[pass_index].id.clone();
         edit(&mut project, &id, broken);
     }
     for _ in 0..2 {
@@ -361,13 +361,13 @@ fn what_is_wrong_with_a_shared_text_is_said_of_each_pass_that_has_it() {
         let at = broken.find("lenght").unwrap();
         assert!(places.iter().all(|span| span.range() == (at..at + 6)), "{diagnostics:?}");
         let names: Vec<_> = places.iter().map(|span| sources.get(span.source).unwrap().name.clone()).collect();
-        assert_eq!(names, broken_passes.map(|place| project.passes[place].source.name.clone()));
+        assert_eq!(names, broken_passes.map(|pass_index| project.passes[pass_index].source.name.clone()));
     }
 }
 
-/// Targets that are as before are kept, others keep what both sizes or formats have.
+/// Unchanged targets are kept; others keep the texels that fit both sizes or formats.
 #[test]
-fn buffers_keep_their_texels_through_edits_of_their_shape() {
+fn buffers_keep_their_texels_when_their_size_or_format_changes() {
     let Some(gpu) = gpu() else { return };
     let count = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + 1.0; }";
     let show = "void mainImage(out vec4 o, in vec2 p) { o = textureLod(iChannel0, vec2(0.5), 9.0); }";
@@ -377,7 +377,7 @@ fn buffers_keep_their_texels_through_edits_of_their_shape() {
         image(show, [a(Filter::Nearest), None, None, None]),
     ]);
     let mut engine = ran(&gpu, &project, (4, 4), 3);
-    // Mips on and off, and a doubled buffer that becomes single.
+    // Mips on and off, and a double-buffered target that becomes single-buffered.
     for (drawn, change) in (3..).zip(["mips", "none", "no mips", "single"]) {
         match change {
             "mips" => project.passes[1].bindings.set(0, a(Filter::Mipmap)),
@@ -394,7 +394,7 @@ fn buffers_keep_their_texels_through_edits_of_their_shape() {
 }
 
 #[test]
-fn a_place_has_a_texel_of_each_target_and_values_become_a_picture() {
+fn texels_at_a_position_and_pictures_of_values() {
     let Some(gpu) = gpu() else { return };
     let place = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p.x, p.y, iResolution.x, 2.0); }";
     let both = "void mainImage(out vec4 o, in vec2 p) {
@@ -409,17 +409,17 @@ fn a_place_has_a_texel_of_each_target_and_values_become_a_picture() {
     project.passes[1].settings.format = TexelFormat::Rg16f;
     let mut engine = ran(&gpu, &project, (8, 4), 1);
     let texels = engine.texels_at([0.8, 0.3]).unwrap();
-    let told: Vec<_> = texels.iter().map(|t| (t.pass.clone(), t.texel, t.components)).collect();
-    assert_eq!(told, [(buffer("A"), (6, 1), 4), (buffer("B"), (3, 0), 2), (PassName::image(), (6, 1), 4)]);
+    let described: Vec<_> = texels.iter().map(|t| (t.pass.clone(), t.texel, t.components)).collect();
+    assert_eq!(described, [(buffer("A"), (6, 1), 4), (buffer("B"), (3, 0), 2), (PassName::image(), (6, 1), 4)]);
     assert_eq!((texels[0].value, texels[1].value), ([6.5, 1.5, 8.0, 2.0], [3.5, 0.5, 0.0, 1.0]));
-    assert_eq!(engine.texels_at([1.0, 1.0]).unwrap()[0].texel, (7, 3), "the edge is of the last texel");
+    assert_eq!(engine.texels_at([1.0, 1.0]).unwrap()[0].texel, (7, 3), "the edge belongs to the last texel");
 
     let look = ValueLook { low: 0.0, high: 8.0, channel: Some(0), ..ValueLook::default() };
     let picture = engine.picture_of_values(&buffer("A"), 0, &look).unwrap();
     let shade = |x: usize| picture.bytes[4 * x];
     assert_eq!((picture.width, picture.height), (8, 4));
     assert!((i32::from(shade(3)) - 112).abs() <= 1, "3.5 of 8 is {}", shade(3));
-    // Four NaN of a buffer are NaN, violet, and no gap as a probe leaves them.
+    // Four NaN in a buffer are shown as NaN, in violet, and not as a gap of a probe.
     engine.poison(&buffer("A"), (0, 3)).unwrap();
     let violet = engine.picture_of_values(&buffer("A"), 0, &look).unwrap().bytes[..3].to_vec();
     assert_eq!(violet, [204, 26, 230]);

@@ -1,5 +1,5 @@
-//! A project is exported from an open session as Shadertoy JSON: what is lost is named first, nothing is replaced
-//! unasked, and what is read back draws the same picture.
+//! Exporting a project from an open session as Shadertoy JSON: losses are listed first, no file is replaced without
+//! confirmation, and the exported project draws the same picture.
 
 use crate::support::{self, stage::*};
 use eddy::{
@@ -21,7 +21,7 @@ const BUFFER: &str = "void mainImage(out vec4 o, in vec2 p) {
 }";
 const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
 
-fn whole(gpu: Gpu) -> Stage {
+fn open_project(gpu: Gpu) -> Stage {
     let files = [
         ("eddy.toml", MANIFEST),
         ("common.glsl", COMMON),
@@ -34,7 +34,7 @@ fn whole(gpu: Gpu) -> Stage {
     stage
 }
 
-/// Returns the picture of the fifth frame.
+/// Returns the picture of the fifth frame as NPY bytes.
 fn picture(gpu: &Gpu, spec: &Path) -> Vec<u8> {
     let loaded = project::load(spec.to_str().unwrap()).unwrap().project;
     let (media, _) = media::gather(&loaded, None);
@@ -48,7 +48,7 @@ fn picture(gpu: &Gpu, spec: &Path) -> Vec<u8> {
     bytes
 }
 
-fn lost(stage: &Stage) -> (bool, Vec<String>) {
+fn export_question(stage: &Stage) -> (bool, Vec<String>) {
     match stage.session.question() {
         Some(Question::Export { exists, lost, .. }) => (*exists, lost.clone()),
         other => panic!("{other:?}; {:?}", stage.session.notices()),
@@ -56,15 +56,15 @@ fn lost(stage: &Stage) -> (bool, Vec<String>) {
 }
 
 #[test]
-fn an_export_names_what_is_lost_and_read_back_draws_the_same_picture() {
+fn an_export_lists_losses_and_draws_the_same_picture() {
     let Some(gpu) = support::gpu() else { return };
-    let mut stage = whole(gpu.clone());
+    let mut stage = open_project(gpu.clone());
     let file = stage.dir.path().join("out.json");
     stage.session.apply(Command::ExportJson(file.clone()));
-    let (exists, said) = lost(&stage);
+    let (exists, losses) = export_question(&stage);
     assert!(!exists);
     assert_eq!(
-        said,
+        losses,
         [
             "The uniform level becomes a constant with its current value.",
             "Included files are copied into the code: util.glsl."
@@ -72,7 +72,7 @@ fn an_export_names_what_is_lost_and_read_back_draws_the_same_picture() {
     );
     stage.session.apply(Command::Answer(Answer::Cancel));
     assert!(!file.exists() && stage.session.question().is_none());
-    // What is typed is exported, saved or not, and the project stays where it is.
+    // The edited text is exported, whether saved or not, and the project stays at its path.
     stage.edit("void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) * 0.5; }");
     let origin = stage.session.project().origin.clone();
     stage.session.apply(Command::ExportJson(file.clone()));
@@ -82,34 +82,34 @@ fn an_export_names_what_is_lost_and_read_back_draws_the_same_picture() {
     stage.session.apply(Command::Save);
     let (json, folder) = (picture(&gpu, &file), picture(&gpu, &stage.folder()));
     assert!(json == folder, "the pictures differ");
-    // A control: the picture depends on what was said to be lost.
+    // The test is valid: the picture depends on the uniform that is listed as lost.
     stage.write("eddy.toml", MANIFEST.replace("0.25", "0.75"));
     assert!(picture(&gpu, &stage.folder()) != json);
 }
 
 #[test]
-fn a_file_that_is_there_is_replaced_only_when_asked_for_and_kept() {
+fn an_existing_file_is_replaced_only_after_confirmation_and_kept() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.5))]);
     let file = stage.dir.path().join("out.json");
-    // Nothing is lost, nothing is there: nothing is asked. The name gets its ending.
+    // Without losses and without an existing file there is no question. The extension is added to the name.
     stage.session.apply(Command::ExportJson(stage.dir.path().join("out")));
     assert!(stage.session.question().is_none() && file.exists());
     fs::write(&file, "precious").unwrap();
     stage.session.apply(Command::ExportJson(file.clone()));
-    assert_eq!(lost(&stage), (true, Vec::new()));
+    assert_eq!(export_question(&stage), (true, Vec::new()));
     assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
     stage.session.apply(Command::Answer(Answer::Cancel));
     assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
     stage.session.apply(Command::ExportJson(file.clone()));
     stage.session.apply(Command::Answer(Answer::Export));
     assert!(fs::read_to_string(&file).unwrap().contains("renderpass"));
-    let kept = stage.dir.path().join("out.json.replaced-0001/out.json");
-    assert_eq!(fs::read_to_string(kept).unwrap(), "precious");
+    let backup = stage.dir.path().join("out.json.replaced-0001/out.json");
+    assert_eq!(fs::read_to_string(backup).unwrap(), "precious");
 }
 
 #[test]
-fn what_cannot_be_exported_is_refused_before_anything_is_asked() {
+fn a_failing_export_is_rejected_before_the_question() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &format!("#include \"gone.glsl\"\n{}", plain(0.5)))]);
     let file = stage.dir.path().join("out.json");
@@ -127,7 +127,7 @@ fn what_cannot_be_exported_is_refused_before_anything_is_asked() {
 }
 
 #[test]
-fn settings_pictures_and_further_buffers_are_named() {
+fn losses_name_settings_image_files_and_extra_buffers() {
     let mut project = project::load("feedback").unwrap().project;
     assert_eq!(project::json_losses(&project), [""; 0]);
     let buffer = project.passes.iter_mut().find(|pass| pass.id == PassName::buffer("A")).unwrap();
@@ -136,17 +136,17 @@ fn settings_pictures_and_further_buffers_are_named() {
     let mut channel = buffer.bindings.get(0).cloned().unwrap();
     channel.input = project::Input::texture(project::Media::File("rock.png".into()));
     buffer.bindings.set(1, Some(channel));
-    let mut further = buffer.clone();
-    further.id = PassName::buffer("velocity");
-    further.settings = Default::default();
-    further.bindings = Default::default();
-    project.passes.insert(0, further);
-    let said = project::json_losses(&project).join("\n");
+    let mut extra = buffer.clone();
+    extra.id = PassName::buffer("velocity");
+    extra.settings = Default::default();
+    extra.bindings = Default::default();
+    project.passes.insert(0, extra);
+    let losses = project::json_losses(&project).join("\n");
     for sentence in [
         "The size and format of Buffer A are left out.",
         "Shadertoy has only Buffer A to D and cannot read Buffer velocity",
         "iChannel1 of Buffer A reads the image file rock.png; the channel is empty on Shadertoy",
     ] {
-        assert!(said.contains(sentence), "{said}");
+        assert!(losses.contains(sentence), "{losses}");
     }
 }

@@ -1,4 +1,4 @@
-//! What passes hold before frame 0 and at their edges: by pictures, and by what is said of mistakes.
+//! Initial texels and boundaries of passes: their pictures, and the errors about them.
 
 use crate::support::*;
 use eddy::{
@@ -14,14 +14,14 @@ const SELF: &str =
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
 
 /// Buffer A adds 1 to its own red in every frame.
-fn counting(change: impl FnOnce(&mut Project)) -> Project {
+fn counting_project(change: impl FnOnce(&mut Project)) -> Project {
     let a = pass(buffer("A"), SELF, [nearest("A"), None, None, None]);
     let mut project = project(vec![a, image(SHOW, [nearest("A"), None, None, None])]);
     change(&mut project);
     project
 }
 
-fn written(folder: &Path, manifest: &str) -> Project {
+fn write_and_load(folder: &Path, manifest: &str) -> Project {
     fs::write(folder.join("eddy.toml"), manifest).unwrap();
     fs::write(folder.join("buffer_a.glsl"), SELF).unwrap();
     fs::write(folder.join("image.glsl"), SHOW).unwrap();
@@ -29,10 +29,10 @@ fn written(folder: &Path, manifest: &str) -> Project {
 }
 
 #[test]
-fn an_expression_is_what_the_frame_before_the_first_holds_and_again_after_a_reset() {
+fn an_initial_expression_fills_a_buffer_before_frame_0_and_after_a_reset() {
     let Some(gpu) = gpu() else { return };
     for format in [TexelFormat::Rgba32f, TexelFormat::Rgba16f] {
-        let project = counting(|p| {
+        let project = counting_project(|p| {
             p.common = Some(eddy::project::Source {
                 name: "common.glsl".into(),
                 path: None,
@@ -44,20 +44,20 @@ fn an_expression_is_what_the_frame_before_the_first_holds_and_again_after_a_rese
                 Some(Fill::expression("vec4(twice(fragCoord.x), fragCoord.y, iResolution.x, high)"));
         });
         let mut engine = engine(&gpu, &project, (4, 3));
-        let begins = |engine: &mut Engine| {
+        let assert_initial_and_two_frames = |engine: &mut Engine| {
             assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 2, 1), [5.0, 1.5, 4.0, 3.0]);
             run(engine, 0, 2);
             assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 2, 1), [7.0, 1.5, 4.0, 3.0]);
         };
-        begins(&mut engine);
+        assert_initial_and_two_frames(&mut engine);
         engine.reset();
-        begins(&mut engine);
-        // What was there stays, what is new begins as at first.
+        assert_initial_and_two_frames(&mut engine);
+        // Existing texels are kept, new ones get their initial values.
         engine.resize(5, 3).unwrap();
         let grown = engine.read(&buffer("A")).unwrap();
         assert_eq!(texel(&grown, 2, 1), [7.0, 1.5, 4.0, 3.0]);
         assert_eq!(texel(&grown, 4, 1), [9.0, 1.5, 5.0, 3.0]);
-        // An edit goes on.
+        // An edit keeps the texels.
         let built = Program::build(&gpu, &project, &MediaSet::new(), &BuildOptions::default()).unwrap();
         engine.set_program(built.program).unwrap();
         assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 2, 1), [7.0, 1.5, 4.0, 3.0]);
@@ -65,11 +65,11 @@ fn an_expression_is_what_the_frame_before_the_first_holds_and_again_after_a_rese
 }
 
 #[test]
-fn a_boundary_is_overwritten_after_each_draw_and_sees_the_time() {
+fn a_boundary_is_evaluated_after_each_draw() {
     let Some(gpu) = gpu() else { return };
     for skip in [true, false] {
-        let still = "void mainImage(out vec4 o, in vec2 p) { o = vec4(7.0, 7.0, 7.0, 1.0); }";
-        let mut a = pass(buffer("A"), still, Default::default());
+        let constant_code = "void mainImage(out vec4 o, in vec2 p) { o = vec4(7.0, 7.0, 7.0, 1.0); }";
+        let mut a = pass(buffer("A"), constant_code, Default::default());
         a.settings.boundary =
             Some(Boundary { width: 2, value: Fill::expression("vec4(float(iFrame), fragCoord, 1.0)") });
         let project = project(vec![a, image(SHOW, [nearest("A"), None, None, None])]);
@@ -86,9 +86,9 @@ fn a_boundary_is_overwritten_after_each_draw_and_sees_the_time() {
 }
 
 #[test]
-fn a_boundary_and_a_region_go_together() {
+fn a_boundary_and_a_region_can_be_combined() {
     let Some(gpu) = gpu() else { return };
-    let project = counting(|p| {
+    let project = counting_project(|p| {
         p.passes[0].settings.initial = Some(Fill::expression("vec4(5.0)"));
         p.passes[0].settings.region = Some(Region { x: 0, y: 0, width: 2, height: 2 });
         p.passes[0].settings.boundary = Some(Boundary { width: 1, value: Fill::expression("vec4(-1.0)") });
@@ -99,7 +99,7 @@ fn a_boundary_and_a_region_go_together() {
 }
 
 #[test]
-fn files_fill_texel_for_texel_or_stretched() {
+fn files_fill_texel_for_texel_or_scaled() {
     let Some(gpu) = gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let npy = |name: &str, shape: &str, values: &[f32]| {
@@ -115,22 +115,22 @@ fn files_fill_texel_for_texel_or_stretched() {
                     initial = { file = \"state.npy\" } # the start\nboundary = { value = { file = \"state.npy\" }, \
                     width = 1 }\n\
                     [passes.image]\nchannels.0 = { buffer = \"A\", filter = \"nearest\" }\n";
-    let project = written(dir.path(), manifest);
+    let project = write_and_load(dir.path(), manifest);
     let (set, warnings) = media::gather(&project, None);
     assert_eq!(warnings, []);
     let with = |size| engine_with(&gpu, &project, &set, &BuildOptions::default(), size);
     let mut engine = with((2, 2));
-    let begins = engine.read(&buffer("A")).unwrap();
-    assert_eq!([texel(&begins, 1, 0), texel(&begins, 0, 1)], [[2.0, 3.0, 0.0, 1.0], [4.0, 5.0, 0.0, 1.0]]);
+    let initial = engine.read(&buffer("A")).unwrap();
+    assert_eq!([texel(&initial, 1, 0), texel(&initial, 0, 1)], [[2.0, 3.0, 0.0, 1.0], [4.0, 5.0, 0.0, 1.0]]);
     run(&mut engine, 0, 2);
-    assert_eq!(engine.read(&buffer("A")).unwrap(), begins, "all of it is boundary");
+    assert_eq!(engine.read(&buffer("A")).unwrap(), initial, "the boundary covers all texels");
     let mut engine = with((4, 4));
-    let begins = engine.read(&buffer("A")).unwrap();
-    assert_eq!([texel(&begins, 0, 0)[0], texel(&begins, 1, 0)[0], texel(&begins, 3, 3)[0]], [0.0, 0.5, 6.0]);
+    let initial = engine.read(&buffer("A")).unwrap();
+    assert_eq!([texel(&initial, 0, 0)[0], texel(&initial, 1, 0)[0], texel(&initial, 3, 3)[0]], [0.0, 0.5, 6.0]);
     run(&mut engine, 0, 2);
-    assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 1, 1)[0], texel(&begins, 1, 1)[0] + 2.0);
+    assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 1, 1)[0], texel(&initial, 1, 1)[0] + 2.0);
 
-    // A copy elsewhere has its own file; a save in place changes no byte.
+    // A copy elsewhere gets its own copy of the file; saving in place does not change a byte.
     assert_eq!(save(&project, dir.path(), Overwrite::Refuse).unwrap().passes[0].settings, project.passes[0].settings);
     assert_eq!(fs::read_to_string(dir.path().join("eddy.toml")).unwrap(), manifest);
     let copy = tempfile::tempdir().unwrap();
@@ -146,12 +146,12 @@ fn files_fill_texel_for_texel_or_stretched() {
     else {
         panic!("built without its state")
     };
-    let said = render_all(&diagnostics, &sources);
-    assert!(said.contains("initial of Buffer A: cannot read") && said.contains("eddy.toml:3:"), "{said}");
+    let output = render_all(&diagnostics, &sources);
+    assert!(output.contains("initial of Buffer A: cannot read") && output.contains("eddy.toml:3:"), "{output}");
 }
 
 #[test]
-fn mistakes_are_told_at_their_line_of_the_manifest() {
+fn errors_are_reported_at_their_line_of_the_manifest() {
     let Some(gpu) = gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let tail = "\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n";
@@ -164,17 +164,17 @@ fn mistakes_are_told_at_their_line_of_the_manifest() {
         ("boundary = { value = \"vec4(fragCoord.z)\" }", &["eddy.toml:2:"]),
         ("boundary = { width = 1, value = \"\"\"\n  vec4(0.0,\n  nope, 0, 0)\"\"\" }", &["nope", "eddy.toml:4:3"]),
     ] {
-        let project = written(dir.path(), &format!("[passes.buffer_a]\n{keys}{tail}"));
+        let project = write_and_load(dir.path(), &format!("[passes.buffer_a]\n{keys}{tail}"));
         let Err(BuildError::Diagnostics { diagnostics, sources }) =
             Program::build(&gpu, &project, &MediaSet::new(), &BuildOptions::default())
         else {
             panic!("{keys}: it was built")
         };
-        let said = render_all(&diagnostics, &sources);
+        let output = render_all(&diagnostics, &sources);
         for part in expected {
-            assert!(said.contains(part), "{keys}\n{said}");
+            assert!(output.contains(part), "{keys}\n{output}");
         }
-        assert_eq!(diagnostics.iter().filter(|d| d.is_error()).count(), 1, "{said}");
+        assert_eq!(diagnostics.iter().filter(|d| d.is_error()).count(), 1, "{output}");
     }
     for (keys, expected) in [
         ("initial = 3", "initial is an integer, not a GLSL expression"),
@@ -195,12 +195,12 @@ fn mistakes_are_told_at_their_line_of_the_manifest() {
 }
 
 #[test]
-fn saving_keeps_what_fills_and_changes_only_what_is_new() {
+fn saving_keeps_fills_and_rewrites_only_changed_keys() {
     let dir = tempfile::tempdir().unwrap();
     let manifest = "[passes.buffer_a] # one\nchannels.0 = { buffer = \"A\" }\ninitial = 'vec4(\"?\")' # two\n\
                     [passes.buffer_a.boundary] # three\nvalue = \"vec4(1)\"\n[passes.image]\nchannels.0 = { buffer = \
                     \"A\" }\n";
-    let mut project = written(dir.path(), manifest);
+    let mut project = write_and_load(dir.path(), manifest);
     save(&project, dir.path(), Overwrite::Refuse).unwrap();
     assert_eq!(fs::read_to_string(dir.path().join("eddy.toml")).unwrap(), manifest);
     project.passes[0].settings.initial = Some(Fill::expression("vec4(\"\\\n\")"));
@@ -216,11 +216,10 @@ fn saving_keeps_what_fills_and_changes_only_what_is_new() {
 }
 
 #[test]
-fn a_comment_in_the_manifest_changes_no_fill() {
-    // An unrelated change of the manifest is no change of a fill.
+fn a_fill_is_equal_after_an_unrelated_change_of_the_manifest() {
     let dir = tempfile::tempdir().unwrap();
     let keys = "[passes.buffer_a]\ninitial = \"vec4(1)\"\n[passes.image]\n";
-    let one = written(dir.path(), keys);
-    let two = written(dir.path(), &format!("# a comment\n{keys}"));
+    let one = write_and_load(dir.path(), keys);
+    let two = write_and_load(dir.path(), &format!("# a comment\n{keys}"));
     assert_eq!(one, two);
 }

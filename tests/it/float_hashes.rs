@@ -1,5 +1,5 @@
-//! Hashes by `fract(sin(x) * large)` are noted, and the fix replaces them by integer hashes that compile and whose
-//! numbers are spread evenly.
+//! Hashes of the form `fract(sin(x) * large)` get a note, and its fix replaces them by integer hashes that compile and
+//! whose numbers are evenly distributed.
 
 use crate::support::{self, buffer, image, nearest, pass, ran, texel};
 use eddy::{
@@ -9,7 +9,7 @@ use eddy::{
     project::Project,
 };
 
-fn compiled(text: &str) -> (Project, Vec<Diagnostic>) {
+fn compile(text: &str) -> (Project, Vec<Diagnostic>) {
     let project = Project::of_image("hashes".into(), text.into());
     let pass = Sources::new(&project).compile_pass(0, [false; 4], Driver::default());
     let found = pass.map_or_else(|errors| errors, |pass| pass.diagnostics);
@@ -17,23 +17,23 @@ fn compiled(text: &str) -> (Project, Vec<Diagnostic>) {
 }
 
 fn notes(text: &str) -> Vec<Diagnostic> {
-    let (project, found) = compiled(text);
+    let (project, found) = compile(text);
     assert!(!found.iter().any(Diagnostic::is_error), "{text}\n{}", render_all(&found, &project.sources()));
     found.into_iter().filter(|d| d.message.starts_with("differs between GPUs")).collect()
 }
 
-/// Returns the text with every note's fix made, one after the other.
-fn fixed(text: &str) -> String {
+/// Returns the text with the fixes of all notes applied, one after the other.
+fn apply_all_fixes(text: &str) -> String {
     let mut text = text.to_owned();
     for _ in 0..8 {
         let Some(note) = notes(&text).into_iter().next() else { return text };
         let fix = note.fixes.first().unwrap_or_else(|| panic!("no fix: {text}"));
         text = fix.applied(note.span.unwrap().source, &text);
     }
-    panic!("never done: {text}");
+    panic!("the fixes do not end: {text}");
 }
 
-/// A function of one argument, and what its picture shows.
+/// Returns a shader with a function of one argument, which its picture shows.
 fn program(result: &str, argument: &str, body: &str) -> String {
     let vector = |ty: &str, scalar: &str| if ty == "float" { scalar.to_owned() } else { format!("{ty}({scalar})") };
     format!(
@@ -69,13 +69,13 @@ const HASHES: &[(&str, &str, &str)] = &[
 ];
 
 #[test]
-fn float_hashes_are_noted_and_the_fix_compiles() {
+fn float_hashes_have_a_note_and_its_fix_compiles() {
     for (result, argument, body) in HASHES {
         let text = program(result, argument, body);
         let found = notes(&text);
         assert_eq!(found.len(), 1, "{text}");
         assert_eq!(found[0].severity, Severity::Note);
-        let fixed = fixed(&text);
+        let fixed = apply_all_fixes(&text);
         let scalars = |ty: &str| ty.strip_prefix("vec").unwrap_or("1").to_owned();
         let name = format!("pcgHash{}{}(", scalars(result), scalars(argument));
         assert_eq!(fixed.matches(&name).count(), 2, "the function and one call of it:\n{fixed}");
@@ -84,17 +84,17 @@ fn float_hashes_are_noted_and_the_fix_compiles() {
 }
 
 #[test]
-fn two_hashes_of_one_value_share_the_function_and_differ() {
+fn two_hashes_of_one_value_share_a_function_with_different_seeds() {
     let body = "float a = fract(sin(dot(p, vec2(127.1, 311.7))) * 43758.5);
         return vec2(a, fract(sin(dot(p, vec2(269.5, 183.3))) * 43758.5));";
-    let text = fixed(&program("vec2", "vec2", body));
+    let text = apply_all_fixes(&program("vec2", "vec2", body));
     assert_eq!(text.matches("float pcgHash12(vec2 p").count(), 1, "{text}");
     let seeds: Vec<&str> = text.split("pcgHash12(p, ").skip(1).map(|rest| rest.split('u').next().unwrap()).collect();
     assert!(seeds.len() == 2 && seeds[0] != seeds[1], "{text}");
 }
 
 #[test]
-fn other_uses_of_fract_and_sin_are_not_noted() {
+fn other_uses_of_fract_and_sin_have_no_note() {
     for (result, argument, body) in [
         ("float", "float", "return fract(sin(p) * 8.0);"),
         ("float", "float", "return fract(sin(p)) * 43758.5453;"),
@@ -111,7 +111,7 @@ fn other_uses_of_fract_and_sin_are_not_noted() {
     assert!(notes(unused).is_empty());
 }
 
-/// What cannot be hashed as exactly as it is written, or is in a macro, has a note without a fix.
+/// A hash whose input cannot be hashed exactly, or that is in a macro, has a note without a fix.
 #[test]
 fn inexact_inputs_and_macros_have_no_fix() {
     for body in [
@@ -128,10 +128,10 @@ fn inexact_inputs_and_macros_have_no_fix() {
     assert!(found.len() == 1 && found[0].fixes.is_empty(), "{found:?}");
 }
 
-/// The mean of 4,096 even numbers differs from 1/2 by less than five standard errors, sqrt(1/12)/64 = 0.0045 each, and
-/// each 64th of the range has between half and twice its share.
+/// The mean of 4,096 evenly distributed numbers differs from 1/2 by less than five standard errors, sqrt(1/12)/64 =
+/// 0.0045 each, and each 64th of the range has between half and twice its share.
 #[test]
-fn fixed_hashes_of_whole_numbers_are_spread_evenly() {
+fn fixed_hashes_of_whole_numbers_are_evenly_distributed() {
     let Some(gpu) = support::gpu() else { return };
     for (result, argument, body) in [
         ("float", "float", "return fract(sin(p) * 43758.5453);"),
@@ -151,7 +151,7 @@ fn fixed_hashes_of_whole_numbers_are_spread_evenly() {
             "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }",
             [nearest("A"), None, None, None],
         );
-        let project = support::project(vec![pass(buffer("A"), &fixed(&text), Default::default()), show]);
+        let project = support::project(vec![pass(buffer("A"), &apply_all_fixes(&text), Default::default()), show]);
         let pixels = support::preset::read(&mut ran(&gpu, &project, (64, 64), 1), "A");
         let numbers: Vec<f32> = (0..4096).map(|i| texel(&pixels, i % 64, i / 64)[0]).collect();
         let mean = numbers.iter().sum::<f32>() / 4096.0;

@@ -1,4 +1,4 @@
-//! A frame that is drawn in bands is the frame that is drawn at once, also one that was given up in between.
+//! A frame that is drawn in bands equals a frame that is drawn in one piece, also if it is abandoned in between.
 
 use crate::support::*;
 use eddy::{
@@ -10,7 +10,7 @@ use eddy::{
 
 const SIZE: (u32, u32) = (96, 150);
 
-fn preset(gpu: &Gpu, name: &str) -> Engine {
+fn preset_engine(gpu: &Gpu, name: &str) -> Engine {
     let loaded = presets::load(name).unwrap();
     let (media, _) = media::gather(&loaded.project, None);
     let mut engine = engine_with(gpu, &loaded.project, &media, &BuildOptions::default(), SIZE);
@@ -23,11 +23,12 @@ fn inputs(frame: i32) -> FrameInputs {
 }
 
 #[test]
-fn bands_draw_what_one_piece_draws() {
+fn frames_in_bands_equal_frames_in_one_piece() {
     let Some(gpu) = gpu() else { return };
-    // Steps, buffers that are read back, meshes, several targets, a picture whose pixels are not drawn each alone.
+    // Presets with steps, buffers that are read back, meshes, several targets, and a picture whose pixels depend on
+    // their neighbours.
     for name in ["fluid-accurate", "feedback", "particles", "ssao", "gbuffer-edges", "toon-outline", "taa"] {
-        let (mut whole, mut banded) = (preset(&gpu, name), preset(&gpu, name));
+        let (mut whole, mut banded) = (preset_engine(&gpu, name), preset_engine(&gpu, name));
         for (frame, rows) in [1, 64, 0, u32::MAX, 37].into_iter().enumerate() {
             whole.draw(&inputs(frame as i32)).unwrap();
             assert!(banded.draw_for(&inputs(frame as i32), DrawFor::Bands(&mut || Some(rows))).unwrap().is_whole);
@@ -37,18 +38,18 @@ fn bands_draw_what_one_piece_draws() {
 }
 
 #[test]
-fn a_frame_that_is_given_up_shows_the_picture_before_and_changes_none_after_it() {
+fn an_abandoned_frame_shows_the_previous_picture_and_does_not_change_later_frames() {
     let Some(gpu) = gpu() else { return };
     let bands = SIZE.1.div_ceil(64);
     for name in ["fluid-accurate", "feedback", "brick-breaker"] {
-        let (mut whole, mut banded) = (preset(&gpu, name), preset(&gpu, name));
+        let (mut whole, mut banded) = (preset_engine(&gpu, name), preset_engine(&gpu, name));
         for frame in 0..12 {
             let before = banded.picture().unwrap().bytes;
             whole.draw(&inputs(frame)).unwrap();
             let drawn = whole.picture().unwrap().bytes;
-            // After none, one or two of three bands, or not at all.
-            let mut left = 0..frame as u32 % (bands + 1);
-            let mut rows = || left.next().map(|_| 64);
+            // Abandoned after zero, one or two of three bands, or finished.
+            let mut remaining = 0..frame as u32 % (bands + 1);
+            let mut rows = || remaining.next().map(|_| 64);
             let is_whole = banded.draw_for(&inputs(frame), DrawFor::Bands(&mut rows)).unwrap().is_whole;
             assert_eq!(is_whole, frame as u32 % (bands + 1) == bands, "{name}, frame {frame}");
             if is_whole {
@@ -59,43 +60,47 @@ fn a_frame_that_is_given_up_shows_the_picture_before_and_changes_none_after_it()
             if frame % 2 == 0 {
                 assert!(banded.resume(&mut || Some(u32::MAX)).unwrap());
                 assert!(banded.picture().unwrap().bytes == drawn, "{name}, frame {frame}, finished");
-                assert!(!banded.resume(&mut || Some(u32::MAX)).unwrap(), "once");
+                assert!(!banded.resume(&mut || Some(u32::MAX)).unwrap(), "it can be resumed only once");
             }
         }
     }
 }
 
 #[test]
-fn a_picture_that_depends_on_nothing_new_is_drawn_after_it_was_given_up() {
+fn an_unchanged_picture_is_drawn_after_it_was_abandoned() {
     let Some(gpu) = gpu() else { return };
-    let still = project(vec![image(
+    let constant = project(vec![image(
         "void mainImage(out vec4 o, in vec2 p) { o = vec4(p / iResolution.xy, .5, 1.); }",
         Default::default(),
     )]);
     let picture = |engine: &mut Engine| engine.read_image().unwrap().texels;
-    let mut whole = ran(&gpu, &still, SIZE, 1);
+    let mut whole = ran(&gpu, &constant, SIZE, 1);
     let expected = picture(&mut whole);
-    let given_up = || {
-        let mut engine = engine(&gpu, &still, SIZE);
-        let mut left = 1;
-        let mut rows = || (std::mem::replace(&mut left, 0) > 0).then_some(64);
+    let abandoned = || {
+        let mut engine = engine(&gpu, &constant, SIZE);
+        let mut remaining = 1;
+        let mut rows = || (std::mem::replace(&mut remaining, 0) > 0).then_some(64);
         let drawn = engine.draw_for(&FrameInputs::at_fixed_step(0, 60.0), DrawFor::Bands(&mut rows)).unwrap();
         assert!(!drawn.is_whole);
         engine
     };
-    let mut next = given_up();
+    let mut next = abandoned();
     assert!(picture(&mut next) != expected, "rows are missing");
     assert_eq!(next.draw(&FrameInputs::at_fixed_step(1, 60.0)).unwrap().passes_drawn, 1);
     assert!(picture(&mut next) == expected);
-    assert_eq!(next.draw(&FrameInputs::at_fixed_step(2, 60.0)).unwrap().passes_drawn, 0, "and rests from then on");
+    assert_eq!(
+        next.draw(&FrameInputs::at_fixed_step(2, 60.0)).unwrap().passes_drawn,
+        0,
+        "a finished picture is not drawn again"
+    );
     for change in
         [|engine: &mut Engine| engine.reset(), |engine: &mut Engine| engine.resize(SIZE.0, SIZE.1 - 1).unwrap()]
     {
-        let mut changed = given_up();
+        let mut changed = abandoned();
         change(&mut changed);
-        assert!(!changed.resume(&mut || Some(u32::MAX)).unwrap(), "nothing is left of it");
+        assert!(!changed.resume(&mut || Some(u32::MAX)).unwrap(), "the abandoned frame was dropped");
         run(&mut changed, 1, 2);
-        let mut fresh = engine(&gpu, &still, changed.size());
+        let mut fresh = engine(&gpu, &constant, changed.size());
         run(&mut fresh, 1, 2);
         assert!(picture(&mut changed) == picture(&mut fresh));
     }

@@ -1,4 +1,4 @@
-//! Passes that draw meshes, by pictures: where vertices land, what hides what, what each target holds.
+//! Passes that draw meshes, tested by pictures: positions of vertices, depth, and the contents of each target.
 
 use crate::support::{meshes::*, *};
 use eddy::{
@@ -23,7 +23,7 @@ void main() {
     gl_Position = iProjection * iView * world;
 }";
 
-/// World position, normal, texture coordinates and what GL says of the fragment, a target each.
+/// World position, normal, texture coordinates, and GL's coordinates of the fragment, in one target each.
 const FRAGMENT: &str = "#version 300 es
 precision highp float;
 in vec3 vWorld;
@@ -40,19 +40,19 @@ void main() {
     fragment = vec4(gl_FragCoord.xyz, dFdy(gl_FragCoord.y));
 }";
 
-/// What glam has of the camera, apart from the engine's own use of it.
+/// Returns the camera's view and projection matrix, computed with glam independently of the engine.
 fn to_clip(camera: &Camera, aspect: f32) -> Mat4 {
     let (yaw, pitch) = (camera.yaw.to_radians(), camera.pitch.to_radians());
-    let out = Vec3::new((pitch.cos() * yaw.sin()) as f32, pitch.sin() as f32, (pitch.cos() * yaw.cos()) as f32);
+    let direction = Vec3::new((pitch.cos() * yaw.sin()) as f32, pitch.sin() as f32, (pitch.cos() * yaw.cos()) as f32);
     let target = Vec3::from(camera.target.map(|x| x as f32));
-    let eye = target + out * camera.distance as f32;
+    let eye = target + direction * camera.distance as f32;
     let view = glam::camera::rh::view::look_at_mat4(eye, target, Vec3::Y);
     let fov = (camera.fov as f32).to_radians();
     glam::camera::rh::proj::opengl::perspective(fov, aspect, camera.near as f32, camera.far as f32) * view
 }
 
 #[test]
-fn every_fragment_of_a_cube_lies_where_the_projection_puts_it() {
+fn every_fragment_of_a_cube_is_at_its_projected_position() {
     let Some(gpu) = gpu() else { return };
     let size = (96, 64);
     let mut cube = draw("builtin:cube");
@@ -66,28 +66,33 @@ fn every_fragment_of_a_cube_lies_where_the_projection_puts_it() {
         for x in 0..size.0 {
             let at = texel(&world, x, y);
             if at[3] == 0.0 {
-                assert_eq!(texel(&fragment, x, y), [0.0; 4], "what is not covered is clear");
+                assert_eq!(texel(&fragment, x, y), [0.0; 4], "uncovered texels are clear");
                 continue;
             }
             covered += 1;
             let p = clip * Vec4::new(at[0], at[1], at[2], 1.0);
             let window = (p.truncate() / p.w) * 0.5 + 0.5;
-            let place = [window.x * size.0 as f32, window.y * size.1 as f32];
-            assert!((place[0] - (x as f32 + 0.5)).abs() < 0.02, "{place:?} is drawn at {x},{y}");
-            assert!((place[1] - (y as f32 + 0.5)).abs() < 0.02, "{place:?} is drawn at {x},{y}");
-            let said = texel(&fragment, x, y);
-            assert_eq!(said[..2], [x as f32 + 0.5, y as f32 + 0.5]);
-            assert!((said[2] - window.z).abs() < 1e-4, "depth {} at {x},{y}, by GL {}", said[2], window.z);
-            assert_eq!(said[3], 1.0, "y grows upward");
+            let projected = [window.x * size.0 as f32, window.y * size.1 as f32];
+            assert!((projected[0] - (x as f32 + 0.5)).abs() < 0.02, "{projected:?} is drawn at {x},{y}");
+            assert!((projected[1] - (y as f32 + 0.5)).abs() < 0.02, "{projected:?} is drawn at {x},{y}");
+            let coordinates = texel(&fragment, x, y);
+            assert_eq!(coordinates[..2], [x as f32 + 0.5, y as f32 + 0.5]);
+            assert!(
+                (coordinates[2] - window.z).abs() < 1e-4,
+                "depth {} at {x},{y}, expected {}",
+                coordinates[2],
+                window.z
+            );
+            assert_eq!(coordinates[3], 1.0, "y grows upward");
             let n = texel(&normal, x, y);
-            assert_eq!(n[3], 1.0, "only fronts are seen");
+            assert_eq!(n[3], 1.0, "only front faces are visible");
             let [u, v, b, a] = texel(&uv, x, y);
             assert!((-0.01..=1.01).contains(&u) && (-0.01..=1.01).contains(&v) && (b, a) == (0.0, 1.0));
         }
     }
-    // The silhouette by the corners: their hull's area, counted in pixels.
+    // The number of covered pixels is about the area of the convex hull of the projected corners.
     assert!((600..3000).contains(&covered), "{covered}");
-    // Seen from outside, each normal leads to the camera.
+    // On the outside, each normal points to the camera.
     let eye = to_clip(&camera(), 1.5).inverse() * Vec4::new(0.0, 0.0, -1.0, 1.0);
     let eye = eye.truncate() / eye.w;
     for (w, n) in world.texels.iter().zip(&normal.texels).filter(|(w, _)| w[3] > 0.0) {
@@ -103,7 +108,7 @@ fn one_colour(rgb: &str) -> String {
     format!("in vec4 vColor; out vec4 colour; void main() {{ colour = vec4({rgb}, 1.0) * vColor; }}")
 }
 
-/// The texel in the middle of the picture, drawn with two spheres' draws.
+/// Returns the middle texel of a picture of `draws`, whose fragment stages are a red one and a green one.
 fn middle(gpu: &eddy::gpu::Gpu, draws: Vec<MeshDraw>) -> [f32; 3] {
     let (red, green) = (one_colour("1.0, 0.0, 0.0"), one_colour("0.0, 1.0, 0.0"));
     let project = whole(scene(&red, &[FLAT_VERTEX, &green], 1, straight(), draws));
@@ -117,7 +122,7 @@ const GREEN: [f32; 3] = [0.0, 1.0, 0.0];
 const NOTHING: [f32; 3] = [0.0; 3];
 
 #[test]
-fn the_nearer_hides_the_farther_in_either_order() {
+fn nearer_meshes_hide_farther_ones_in_either_order() {
     let Some(gpu) = gpu() else { return };
     let near = MeshDraw { position: [0.0, 0.0, 1.0], scale: 0.5, ..draw("builtin:sphere") };
     let far = MeshDraw { fragment: Stage::File(1), ..draw("builtin:sphere") };
@@ -125,24 +130,24 @@ fn the_nearer_hides_the_farther_in_either_order() {
     assert_eq!(middle(&gpu, vec![near.clone(), far.clone()]), RED);
     assert_eq!(middle(&gpu, vec![far.clone(), near.clone()]), RED);
     assert_eq!(middle(&gpu, vec![near.clone(), with(&far, DepthTest::Always, true)]), GREEN);
-    assert_eq!(middle(&gpu, vec![with(&near, DepthTest::Less, false), far.clone()]), GREEN, "left no depth");
+    assert_eq!(middle(&gpu, vec![with(&near, DepthTest::Less, false), far.clone()]), GREEN, "it wrote no depth");
     assert_eq!(middle(&gpu, vec![far.clone(), with(&near, DepthTest::Greater, true)]), GREEN);
-    // Depth alone, then colour where it is equal: what a z-only pass is for.
+    // Depth only, then colour where the depth is equal, as in a depth prepass.
     let only_depth = MeshDraw { color_write: false, ..near.clone() };
     assert_eq!(middle(&gpu, vec![only_depth.clone(), far.clone()]), NOTHING);
     assert_eq!(middle(&gpu, vec![only_depth, far, with(&near, DepthTest::Equal, false)]), RED);
 }
 
 #[test]
-fn culling_leaves_out_the_side_it_says() {
+fn culling_skips_the_given_side() {
     let Some(gpu) = gpu() else { return };
     let with = |cull, z| MeshDraw { cull, position: [0.0, 0.0, z], ..draw("builtin:sphere") };
-    // Seen from without, then from within.
+    // Seen from outside, then from inside.
     for (cull, expected) in [(Cull::Back, [RED, NOTHING]), (Cull::Front, [RED, RED]), (Cull::None, [RED, RED])] {
         assert_eq!(middle(&gpu, vec![with(cull, 0.0)]), expected[0], "{cull:?}");
-        assert_eq!(middle(&gpu, vec![with(cull, 5.0)]), expected[1], "{cull:?} from within");
+        assert_eq!(middle(&gpu, vec![with(cull, 5.0)]), expected[1], "{cull:?} from inside");
     }
-    // A plane faces up: from straight ahead and below only its back shows.
+    // A plane faces up: turned by -90 degrees, its back faces the camera.
     let plane = |cull, degrees| MeshDraw { cull, rotation: [degrees, 0.0, 0.0], ..draw("builtin:plane") };
     assert_eq!(middle(&gpu, vec![plane(Cull::Back, 90.0)]), RED);
     assert_eq!(middle(&gpu, vec![plane(Cull::Front, 90.0)]), NOTHING);
@@ -151,7 +156,7 @@ fn culling_leaves_out_the_side_it_says() {
 }
 
 #[test]
-fn a_hull_drawn_with_other_program_and_culling_outlines_the_mesh() {
+fn a_hull_with_another_program_and_culling_outlines_the_mesh() {
     let Some(gpu) = gpu() else { return };
     let hull = "in vec3 aPosition; in vec3 aNormal; in vec4 aColor; out vec4 vColor;
         void main() { vColor = aColor; gl_Position = iProjection * iView * vec4(aPosition + 0.1 * aNormal, 1.0); }";
@@ -215,7 +220,7 @@ fn a_stage_reads_channels_uniforms_custom_uniforms_and_tables() {
 }
 
 #[test]
-fn fragments_set_depth_and_are_discarded() {
+fn fragments_can_set_depth_and_be_discarded() {
     let Some(gpu) = gpu() else { return };
     let deep = "in vec4 vColor; out vec4 o; void main() { if (gl_FragCoord.x > 5.0) discard; gl_FragDepth = 0.0; o = \
                 vColor; }";
@@ -225,12 +230,12 @@ fn fragments_set_depth_and_are_discarded() {
     let project = whole(scene(deep, &[FLAT_VERTEX, &green], 1, straight(), vec![far, near]));
     let mut engine = ran(&gpu, &project, (9, 9), 2);
     let pixels = engine.read_image().unwrap();
-    assert_eq!(texel(&pixels, 4, 4)[..3], [1.0; 3], "depth 0 lies before everything");
+    assert_eq!(texel(&pixels, 4, 4)[..3], [1.0; 3], "depth 0 is in front of everything");
     assert_eq!(texel(&pixels, 5, 4)[..3], GREEN);
 }
 
 #[test]
-fn a_scene_rests_until_what_it_reads_has_changed() {
+fn a_scene_is_drawn_again_only_when_its_inputs_change() {
     let Some(gpu) = gpu() else { return };
     let red = one_colour("1.0, 0.0, 0.0");
     let project = whole(scene(&red, &[FLAT_VERTEX], 1, straight(), vec![draw("builtin:cube")]));
@@ -261,7 +266,7 @@ fn a_scene_rests_until_what_it_reads_has_changed() {
 }
 
 #[test]
-fn last_frames_scene_is_there_for_who_reads_it_first() {
+fn an_earlier_pass_reads_the_previous_frame_of_a_scene() {
     let Some(gpu) = gpu() else { return };
     let fragment = "out vec4 o; layout(location = 1) out vec4 before;
         void main() { o = vec4(float(iFrame)); before = vec4(1.0); }";
@@ -279,35 +284,39 @@ fn last_frames_scene_is_there_for_who_reads_it_first() {
     let mut engine = ran(&gpu, &project(vec![reader, scene, show]), (4, 4), 5);
     assert_eq!(texel(&engine.read_image().unwrap(), 1, 1)[0], 3.0 + 1.0);
     let doubled: Vec<bool> = engine.program().unwrap().plan().targets.iter().map(|t| t.doubled).collect();
-    // A; target 0, read before it is drawn; target 1, read after; Image.
+    // A; target 0, which is read before it is drawn; target 1, which is read after; Image.
     assert_eq!(doubled, [false, true, false, false]);
 }
 
 #[test]
-fn what_is_wrong_with_a_scene_is_said_and_nothing_panics() {
+fn errors_in_a_scene_are_reported_without_a_panic() {
     let Some(gpu) = gpu() else { return };
-    let says = |project: &Project| match Program::build(&gpu, project, &MediaSet::new(), &BuildOptions::default()) {
-        Ok(_) => panic!("built"),
-        Err(BuildError::Diagnostics { diagnostics, .. }) => {
-            diagnostics.iter().map(|d| format!("{} ({})", d.message, d.hints.join("; "))).collect::<Vec<_>>()
-        }
-        Err(BuildError::Engine(e)) => vec![e.to_string()],
-    };
+    let error_messages =
+        |project: &Project| match Program::build(&gpu, project, &MediaSet::new(), &BuildOptions::default()) {
+            Ok(_) => panic!("built"),
+            Err(BuildError::Diagnostics { diagnostics, .. }) => {
+                diagnostics.iter().map(|d| format!("{} ({})", d.message, d.hints.join("; "))).collect::<Vec<_>>()
+            }
+            Err(BuildError::Engine(e)) => vec![e.to_string()],
+        };
     let red = one_colour("1.0, 0.0, 0.0");
     let missing = whole(scene(&red, &[FLAT_VERTEX], 1, straight(), vec![draw("no/where.glb"), draw("no/where.glb")]));
-    let said = says(&missing);
-    assert_eq!(said.len(), 1, "{said:?}");
-    assert!(said[0].starts_with("draw 0 of Buffer scene: no/where.glb is a relative path"), "{said:?}");
+    let messages = error_messages(&missing);
+    assert_eq!(messages.len(), 1, "{messages:?}");
+    assert!(messages[0].starts_with("draw 0 of Buffer scene: no/where.glb is a relative path"), "{messages:?}");
     let unknown = whole(scene(&red, &[FLAT_VERTEX], 1, straight(), vec![draw("builtin:knott")]));
-    assert_eq!(says(&unknown), ["draw 0 of Buffer scene: unknown mesh builtin:knott (did you mean builtin:knot?)"]);
+    assert_eq!(
+        error_messages(&unknown),
+        ["draw 0 of Buffer scene: unknown mesh builtin:knott (did you mean builtin:knot?)"]
+    );
 }
 
-/// Drivers that draw on the processor choose for a whole thread whether denormal numbers are zeros, and llvmpipe used
-/// to forget to choose again behind fragments that fail the depth test of 16-bit floats.
+/// Software drivers set for a whole thread whether denormal numbers are flushed to zero, and llvmpipe used to leave
+/// that setting changed after fragments that fail the depth test with 16-bit float targets.
 #[test]
-fn meshes_in_small_floats_leave_arithmetic_alone() {
+fn meshes_in_16_bit_floats_do_not_change_denormal_arithmetic() {
     let Some(gpu) = gpu() else { return };
-    // Half of the least number that is none; the frame's number, because a picture that cannot change is not drawn
+    // Half of the smallest normal number; and the number of the frame, because an unchanged picture is not drawn
     // again.
     let code = "void mainImage(out vec4 o, in vec2 p) {\n\
                 float t = uintBitsToFloat(0x00800000u + uint(p.x)) * (0.25 + 0.25 * step(p.x, 9.5));\n\
@@ -327,14 +336,14 @@ fn meshes_in_small_floats_leave_arithmetic_alone() {
     };
     let before = denormals();
     // The first cube hides the second from most of its own fragments.
-    let mut behind = draw("builtin:cube");
-    (behind.scale, behind.position) = (1.5, [-1.0, -0.5, -2.0]);
+    let mut hidden_cube = draw("builtin:cube");
+    (hidden_cube.scale, hidden_cube.position) = (1.5, [-1.0, -0.5, -2.0]);
     let fragment = "layout(location = 0) out vec4 a; void main() { a = vec4(1); }";
-    let mut cubes = scene(fragment, &[VERTEX], 1, camera(), vec![draw("builtin:cube"), behind]);
+    let mut cubes = scene(fragment, &[VERTEX], 1, camera(), vec![draw("builtin:cube"), hidden_cube]);
     cubes.settings.format = TexelFormat::Rgba16f;
     let mut engine = ran(&gpu, &whole(cubes), (200, 150), 4);
     engine.read_image().unwrap();
     for _ in 0..4 {
-        assert!(denormals() == before, "denormal numbers are treated otherwise");
+        assert!(denormals() == before, "the treatment of denormal numbers has changed");
     }
 }

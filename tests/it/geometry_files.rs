@@ -1,4 +1,4 @@
-//! Passes that draw meshes, as files: read, written, checked, refused and reloaded.
+//! Files of passes that draw meshes: reading, writing, checking, errors and reloading.
 
 use crate::support::{self, program::Bench, stage::Stage};
 use eddy::{
@@ -36,7 +36,7 @@ const HULL: &str = "in vec3 aPosition;\nout vec3 vAt;\nvoid main() { vAt = aPosi
 const FRAGMENT: &str = "in vec3 vAt;\nlayout(location = 0) out vec4 a;\nlayout(location = 1) out vec4 b;\n\
     void main() { a = vec4(0.2, 0.0, 0.0, 1.0); b = vec4(vAt, 1.0); }\n";
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel1, ivec2(p), 0); }\n";
-/// Covers the lower left of the picture, and faces away.
+/// Covers the lower left of the picture, and faces away from the camera.
 const TRIANGLE: &str = "v -1 -1 0\nv 3 -1 0\nv -1 3 0\nf 1 3 2\n";
 
 fn files() -> [(&'static str, &'static str); 6] {
@@ -62,11 +62,11 @@ fn scene_tab(file: &str) -> Tab {
 }
 
 #[test]
-fn a_folder_is_read_and_written_back_as_it_was() {
+fn a_folder_is_read_and_written_back_unchanged() {
     let dir = tempfile::tempdir().unwrap();
-    let home = dir.path().join("scene");
-    write(&home, &[]);
-    let loaded = project::load(home.to_str().unwrap()).unwrap();
+    let folder = dir.path().join("scene");
+    write(&folder, &[]);
+    let loaded = project::load(folder.to_str().unwrap()).unwrap();
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     let mut p = loaded.project;
     let pass = &p.passes[0];
@@ -85,39 +85,45 @@ fn a_folder_is_read_and_written_back_as_it_was() {
         assert_eq!(p.source(&p.tab_of(id).unwrap()).unwrap().name, source.name);
     }
 
-    project::save(&p, &home, Overwrite::Refuse).unwrap();
-    assert_eq!(fs::read_to_string(home.join("eddy.toml")).unwrap(), TOML, "nothing was changed");
+    project::save(&p, &folder, Overwrite::Refuse).unwrap();
+    assert_eq!(
+        fs::read_to_string(folder.join("eddy.toml")).unwrap(),
+        TOML,
+        "the unchanged manifest is kept byte for byte"
+    );
 
-    // A change of one thing leaves the rest as it is written, comments too.
+    // A change of one value leaves the rest as written, including comments.
     p.passes[0].body.geometry_mut().unwrap().camera.yaw = 10.0;
     p.source_mut(&scene_tab("hull.vert.glsl")).unwrap().text = "// hull\n".into();
-    project::save(&p, &home, Overwrite::Refuse).unwrap();
-    let text = fs::read_to_string(home.join("eddy.toml")).unwrap();
+    project::save(&p, &folder, Overwrite::Refuse).unwrap();
+    let text = fs::read_to_string(folder.join("eddy.toml")).unwrap();
     assert_eq!(text, TOML.replace("yaw = 45", "yaw = 10.0"));
-    assert_eq!(fs::read_to_string(home.join("hull.vert.glsl")).unwrap(), "// hull\n");
+    assert_eq!(fs::read_to_string(folder.join("hull.vert.glsl")).unwrap(), "// hull\n");
 
-    // Elsewhere: stages, models, all of it.
+    // A save into another folder writes everything: stages and models.
     p.passes[0].body.geometry_mut().unwrap().draws[0].normals = Some(project::Normals::Flat);
     p.passes[0].body.geometry_mut().unwrap().draws[0].cull = project::Cull::Front;
-    let away = dir.path().join("away");
-    let saved = project::save(&p, &away, Overwrite::Refuse).unwrap();
-    assert_eq!(fs::read_to_string(away.join("models/tri.obj")).unwrap(), TRIANGLE);
-    let read = project::load(away.to_str().unwrap()).unwrap().project;
+    let copy_folder = dir.path().join("away");
+    let saved = project::save(&p, &copy_folder, Overwrite::Refuse).unwrap();
+    assert_eq!(fs::read_to_string(copy_folder.join("models/tri.obj")).unwrap(), TRIANGLE);
+    let read = project::load(copy_folder.to_str().unwrap()).unwrap().project;
     assert_eq!(read.passes, saved.passes);
-    assert!(fs::read_to_string(away.join("eddy.toml")).unwrap().contains("normals = \"flat\", cull = \"front\""));
-    let bare = |p: &project::Project| {
+    assert!(
+        fs::read_to_string(copy_folder.join("eddy.toml")).unwrap().contains("normals = \"flat\", cull = \"front\"")
+    );
+    let without_names = |p: &project::Project| {
         let mut p = p.clone();
         p.tab_sources_mut().into_iter().for_each(|s| (s.name, s.path) = (String::new(), None));
         p.passes
     };
-    assert_eq!(bare(&read), bare(&p));
+    assert_eq!(without_names(&read), without_names(&p));
 }
 
 #[test]
-fn mistakes_in_the_file_are_told_at_their_place() {
+fn errors_in_the_manifest_are_reported_at_their_place() {
     let dir = tempfile::tempdir().unwrap();
     let camera = "camera = { yaw = 45, distance = 6.5, target = [0, 0.5, 0] }";
-    for (from, to, says) in [
+    for (from, to, expected) in [
         ("cull = \"none\"", "cul = \"none\"", "draw 0 has no key cul\n  --> eddy.toml:10:"),
         ("cull = \"none\"", "cull = \"bac\"", "unknown cull \"bac\""),
         ("cull = \"none\"", "normals = \"smoth\"", "unknown normals \"smoth\""),
@@ -144,32 +150,32 @@ fn mistakes_in_the_file_are_told_at_their_place() {
         assert_ne!(text, TOML, "{from}");
         write(dir.path(), &[("eddy.toml", &text)]);
         let error = project::load(dir.path().to_str().unwrap()).expect_err(to).to_string();
-        assert!(error.contains(says), "{to}\n{error}");
+        assert!(error.contains(expected), "{to}\n{error}");
         assert!(error.contains("= help: "), "{error}");
     }
 }
 
 #[test]
-fn tables_of_their_own_say_the_same_as_a_list() {
+fn separate_tables_are_equivalent_to_a_list() {
     let dir = tempfile::tempdir().unwrap();
-    let begin = TOML.find("draw = [").unwrap();
-    let end = TOML[begin..].find("]\n\n").unwrap() + begin + 1;
+    let start = TOML.find("draw = [").unwrap();
+    let end = TOML[start..].find("]\n\n").unwrap() + start + 1;
     let tables = "[[passes.buffer_scene.draw]]\nmesh = \"builtin:knot\"\nvertex = \"hull.vert.glsl\"\n";
-    let text = format!("{}{tables}{}", &TOML[..begin], &TOML[end..]);
+    let text = format!("{}{tables}{}", &TOML[..start], &TOML[end..]);
     write(dir.path(), &[("eddy.toml", &text), ("buffer_scene.glsl", FRAGMENT)]);
     let project = project::load(dir.path().to_str().unwrap()).unwrap().project;
-    assert_eq!(project.passes[0].source.name, "buffer_scene.glsl", "by its usual name where no draw names one");
+    assert_eq!(project.passes[0].source.name, "buffer_scene.glsl", "the default name is used if no draw names a file");
     project::save(&project, dir.path(), Overwrite::Refuse).unwrap();
     assert_eq!(fs::read_to_string(dir.path().join("eddy.toml")).unwrap(), text);
 }
 
 #[test]
-fn check_tells_of_both_stages_and_the_model_by_file_and_line() {
+fn check_reports_errors_of_both_stages_and_the_model_by_file_and_line() {
     let b = Bench::new();
     let folder = b.path("p");
     write(&folder, &[]);
     b.line("check p").expect(0);
-    for (file, text, says) in [
+    for (file, text, expected) in [
         ("scene.vert.glsl", VERTEX.replace("gl_Position", "gl_Positon"), "--> scene.vert.glsl:3:"),
         ("scene.vert.glsl", VERTEX.replace("aPosition", "aPositon"), "a vertex has no attribute `aPositon`"),
         ("scene.vert.glsl", format!("in vec2 aNormal;\n{VERTEX}"), "the attribute `aNormal` is a `vec3`"),
@@ -197,20 +203,20 @@ fn check_tells_of_both_stages_and_the_model_by_file_and_line() {
     ] {
         write(&folder, &[(file, &text)]);
         let run = b.line("check p").expect(1);
-        let all = format!("{}{}", run.out, run.err);
-        assert!(all.contains(says), "{file}: {says}\n{all}");
-        assert_eq!(all.matches("error: ").count(), 1, "{all}");
+        let output = format!("{}{}", run.out, run.err);
+        assert!(output.contains(expected), "{file}: {expected}\n{output}");
+        assert_eq!(output.matches("error: ").count(), 1, "{output}");
     }
     write(&folder, &[]);
     fs::remove_file(folder.join("models/tri.obj")).unwrap();
     let run = b.line("check p").expect(1);
-    let all = format!("{}{}", run.out, run.err);
-    assert!(all.contains("cannot read p/models/tri.obj"), "{all}");
+    let output = format!("{}{}", run.out, run.err);
+    assert!(output.contains("cannot read p/models/tri.obj"), "{output}");
 }
 
-/// What is said of a model that is loaded, but not as its author may think.
+/// Warnings about models that are loaded, but perhaps not as their author expects.
 #[test]
-fn a_model_that_leaves_something_out_is_drawn_with_a_warning() {
+fn a_model_with_ignored_parts_is_drawn_with_a_warning() {
     let Some(_) = support::gpu() else { return };
     let b = Bench::new();
     let folder = b.path("p");
@@ -219,18 +225,18 @@ fn a_model_that_leaves_something_out_is_drawn_with_a_warning() {
         fs::write(folder.join("models/tri.obj"), model).unwrap();
         for command in ["check p --json", "render p --size 8x4 --out p.png --json"] {
             let line = b.line(command).expect(0).json().remove(0);
-            let said = line["diagnostics"].as_array().unwrap();
-            assert_eq!((&line["status"], said.len()), (&"ok".into(), usize::from(warning.is_some())), "{line}");
-            if let Some(words) = warning {
-                let message = said[0]["message"].as_str().unwrap();
-                assert!(said[0]["severity"] == "warning" && message.contains(words), "{line}");
+            let diagnostics = line["diagnostics"].as_array().unwrap();
+            assert_eq!((&line["status"], diagnostics.len()), (&"ok".into(), usize::from(warning.is_some())), "{line}");
+            if let Some(warning) = warning {
+                let message = diagnostics[0]["message"].as_str().unwrap();
+                assert!(diagnostics[0]["severity"] == "warning" && message.contains(warning), "{line}");
             }
         }
         b.png("p.png").get_pixel(0, 3).0[0]
     };
     assert_eq!(red(TRIANGLE.as_bytes(), None), 51);
-    let marked = format!("\u{feff}{TRIANGLE}");
-    assert_eq!(red(marked.as_bytes(), None), 51, "a byte order mark is no part of the text");
+    let with_mark = format!("\u{feff}{TRIANGLE}");
+    assert_eq!(red(with_mark.as_bytes(), None), 51, "a byte order mark is not part of the text");
     let points = "draw 0 of Buffer scene: models/tri.obj: it has no triangles";
     assert_eq!(red(b"v 0 0 0\np 1\n", Some(points)), 0);
     let broken = format!("{TRIANGLE}v nan 0 0\nf 1 2 4\n");
@@ -238,17 +244,20 @@ fn a_model_that_leaves_something_out_is_drawn_with_a_warning() {
 }
 
 #[test]
-fn the_sites_json_cannot_hold_a_scene() {
+fn shadertoy_json_cannot_contain_a_scene() {
     let b = Bench::new();
     write(&b.path("p"), &[]);
     let run = b.line("export p --out p.json").expect(2);
-    let all = format!("{}{}", run.out, run.err);
-    assert!(all.contains("p.json cannot store Buffer scene, which draws meshes: Shadertoy has no such pass"), "{all}");
+    let output = format!("{}{}", run.out, run.err);
+    assert!(
+        output.contains("p.json cannot store Buffer scene, which draws meshes: Shadertoy has no such pass"),
+        "{output}"
+    );
     assert!(!b.path("p.json").exists());
 }
 
 #[test]
-fn a_saved_stage_or_model_shows_at_once_and_a_broken_one_keeps_the_picture() {
+fn a_saved_stage_or_model_is_reloaded_and_a_broken_one_keeps_the_picture() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::bare(gpu);
     write(&stage.folder(), &[]);
@@ -273,17 +282,17 @@ fn a_saved_stage_or_model_shows_at_once_and_a_broken_one_keeps_the_picture() {
     stage.until_compiled();
     assert_eq!(stage.red(), 102);
 
-    // A broken model: one error, and the picture stays.
+    // A broken model: one error, and the picture does not change.
     stage.write("models/tri.obj", "v 0 0\n");
     stage.until("the error", |s| s.diagnostics().iter().any(|d| d.message.contains("tri.obj is broken")));
     assert_eq!((stage.session.diagnostics().len(), stage.red()), (1, 102));
-    // Elsewhere.
+    // The triangle is outside the picture.
     stage.write("models/tri.obj", TRIANGLE.replace("-1", "7"));
     stage.until("the new model", |s| s.diagnostics().is_empty() && !s.compile_state().compiling);
     stage.tick();
     assert_eq!(stage.red(), 0);
 
-    // Edited here, and saved.
+    // A file that is edited here and saved.
     let tab = scene_tab("hull.vert.glsl");
     stage.session.apply(Command::EditText { tab: tab.clone(), text: format!("// mine\n{HULL}") });
     assert!(stage.session.is_tab_dirty(&tab));

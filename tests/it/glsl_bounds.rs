@@ -1,12 +1,13 @@
-//! Indices out of range reach the nearest element and nothing else, wherever the code that holds them is written out
-//! once more or elsewhere: what is known of a counter in one place is not believed in another.
+//! Indices out of range access the nearest element and no other memory, also where code is inlined, unrolled or
+//! duplicated: bounds that are known for a counter in one copy must not be used in another.
 //!
-//! The array `a` lies between `g` and `h`, which must stay as they are.
+//! The array `a` is between `g` and `h`, which must not change.
 
 use crate::support::compute::*;
 
-/// The digits of an array of four numbers below ten, the first element last; and what may be called.
-const BEFORE: &str = "\
+/// `digits` returns an array of four numbers below ten as a decimal number, whose last digit is the first element. The
+/// other functions are for use in cases.
+const FUNCTIONS: &str = "\
 float digits(int v[4]) { int s = 0; for (int k = 3; k >= 0; k--) s = s * 10 + v[(k + I) & 3]; return float(s); }
 int put(inout int v[4], int at) { v[at] = 7; return at; }
 int add(inout int x, int by) { x += by; return x; }
@@ -15,26 +16,26 @@ continue; return v[at]; }
 struct S { int i; };
 ";
 
-/// What `a` holds after these statements, by its digits.
+/// The contents of `a` after the statements `body`, as digits.
 const fn bounds(body: &'static str, digits: f32) -> Case {
-    Case { before: BEFORE, body, expected: [digits, 0.0, 0.0, 1.0] }
+    Case { before: FUNCTIONS, body, expected: [digits, 0.0, 0.0, 1.0] }
 }
 
-/// Draws each case with `a` between its guards.
+/// Draws each case with `a` between the guards `g` and `h`.
 fn check_guarded(cases: &[Case]) {
-    let whole = |case: &Case| {
+    let guarded = |case: &Case| {
         let body = format!(
             "int g[4], a[4], h[4]; g[I] = 0; h[I] = 0; {{ {} }} r = vec4(digits(a), digits(g), digits(h), 1);",
             case.body
         );
-        // The tests are over before this is worth freeing.
+        // Leaking is fine here: the memory is small and the test process ends soon.
         Case { before: case.before, body: body.leak(), expected: case.expected }
     };
-    check(&cases.iter().map(whole).collect::<Vec<_>>());
+    check(&cases.iter().map(guarded).collect::<Vec<_>>());
 }
 
 #[test]
-fn steps_at_a_continue() {
+fn bounds_in_loop_steps_after_a_continue() {
     check_guarded(&[
         bounds("for (int i = 0; i < 4; i += 100, a[i] = 7) { if (I == 0) continue; a[i] = 1; }", 7000.),
         bounds("for (int i = 0; i < 4; i += 100, a[i] = 7) { if (I == 1) continue; a[i] = 1; }", 7001.),
@@ -44,12 +45,12 @@ fn steps_at_a_continue() {
         bounds("for (uint i = 0u; i < 4u; i += 100u, a[i] = 7) { if (I == 0) continue; }", 7000.),
         bounds("for (float x = 0.0; x < 4.0; x += 100.0, a[int(x)] = 7) { if (I == 0) continue; }", 7000.),
         bounds("for (float x = 3.5; x >= 0.0; x -= 100.0, a[int(x)] = 7) { if (I == 0) continue; }", 7.),
-        // Round the end of the numbers.
+        // Steps that wrap around.
         bounds("for (int i = 0; i < 4; i += 2147483647, a[i] = 7) { if (I == 0) continue; }", 7000.),
         bounds("for (int i = 1; i < 4; i += 2147483647, a[i] = 7) { if (I == 0) continue; }", 7007.),
         bounds("for (uint i = 3u; i < 4u; i--, a[i] = 7) { if (I == 0) continue; }", 7777.),
         bounds("for (uint i = 3u; i < 4u; i += 4294967295u, a[i] = 7) { if (I == 0) continue; a[i] = 1; }", 7777.),
-        // Within branches and switches.
+        // Inside branches and switches.
         bounds(
             "for (int i = 0; i < 4; i += 100, a[i] = 7) { switch (i + I) { case 0: continue; default: a[i] = 1; } }",
             7000.,
@@ -64,7 +65,7 @@ fn steps_at_a_continue() {
              1; }",
             7000.,
         ),
-        // By a function, by an assignment within an expression, by one side of a choice.
+        // Writes by a function, by an assignment inside an expression, and on one side of a choice.
         bounds("for (int i = 0; i < 4; i += 100, put(a, i)) { if (I == 0) continue; }", 7000.),
         bounds("int k; for (int i = 0; i < 4; i += 100, k = (a[i] = 7)) { if (I == 0) continue; }", 7000.),
         bounds("for (int i = 0; i < 4; i += 100, I == 0 ? a[i] = 7 : 0) { if (I == 0) continue; }", 7000.),
@@ -78,7 +79,7 @@ fn steps_at_a_continue() {
 }
 
 #[test]
-fn loops_within_loops() {
+fn bounds_in_nested_loops() {
     check_guarded(&[
         bounds(
             "for (int i = 0; i < 2; i++) for (int j = 0; j < 2; j += 50, a[i + j] = 7) { if (I == 0) continue; }",
@@ -104,9 +105,9 @@ fn loops_within_loops() {
     ]);
 }
 
-/// A limit of which nothing is known bounds the counter on one side only, and only where the step cannot wrap.
+/// An unknown limit bounds the counter on one side only, and only if the step cannot wrap.
 #[test]
-fn limits_that_are_not_known() {
+fn bounds_from_unknown_limits() {
     check_guarded(&[
         bounds("int n = I + 9; for (int i = 2; i < n; i++) a[i] = 7;", 7700.),
         bounds(
@@ -124,7 +125,7 @@ fn limits_that_are_not_known() {
 }
 
 #[test]
-fn loops_of_other_kinds() {
+fn bounds_in_while_and_do_loops() {
     check_guarded(&[
         bounds("int i = 0; do { if (I == 0) continue; a[i] = 1; } while (i += 100, a[i] = 7, i < 4);", 7000.),
         bounds("int i = 0; do { i += 100; if (I == 0) continue; } while ((a[i] = 7) < 4);", 7000.),
@@ -132,10 +133,10 @@ fn loops_of_other_kinds() {
         bounds("int n = 4; while (n >= 1) { n -= 100; a[n] = 7; }", 7.),
         bounds("int n = 4; while (n >= 1) { n--; a[n] = 7; }", 7777.),
         bounds("int n = 0; while (n < 4 && (a[n] = 7) > I) { if (I == 0) n += 100; }", 7.),
-        // The test is run once more than the body.
+        // The condition is evaluated once more than the body.
         bounds("for (int i = 0; (a[i] += 7) > 0 && i < 4; i += 100) { if (I == 0) continue; }", 7007.),
         bounds("for (float x = 0.0; (a[int(x)] += 7) > 0 && x < 4.0; x += 100.0) { if (I == 0) continue; }", 7007.),
-        // Behind the loop a counter is what the step made of it.
+        // After the loop a counter has the value from the step.
         bounds("int i = 0; for (; i < 4; i += 100) { if (I == 0) continue; } a[i] = 7;", 7000.),
         bounds("int i = 3; while (i > 0) i -= 100; a[i] = 7;", 7.),
         // A remainder has the divisor's sign.
@@ -146,7 +147,7 @@ fn loops_of_other_kinds() {
 }
 
 #[test]
-fn counters_that_others_write() {
+fn bounds_of_counters_that_other_code_writes() {
     check_guarded(&[
         bounds("for (int i = 0; i < 4;) { add(i, 100); a[i] = 7; }", 7000.),
         bounds("for (int i = 0; i < 4; add(i, 100)) { if (i == 0) add(i, 30); a[i] = 7; }", 7000.),
@@ -164,9 +165,9 @@ fn counters_that_others_write() {
     ]);
 }
 
-/// What a function knows in one call is not what it knows in the next, nor behind a return.
+/// Bounds known in one call of a function must not be used in the next call, nor after a return.
 #[test]
-fn functions_that_become_part_of_their_callers() {
+fn bounds_in_inlined_functions() {
     const FUNCTIONS: &str = "\
 float digits(int v[4]) { int s = 0; for (int k = 3; k >= 0; k--) s = s * 10 + v[(k + I) & 3]; return float(s); }
 int G[4];
@@ -175,17 +176,17 @@ if (I == 1) return 2; } G[n + by] = 6; return n + by; }
 int twice(int at) { int n = at; if (at > 3) { G[n] = 5; return n; } for (int i = 0; i < 4; i += 100, G[i] = 8) { if (i \
 == at) continue; return i; } G[n] = 4; return -n; }
 ";
-    let given = |body, digits| Case { before: FUNCTIONS, body, expected: [digits, 0.0, 0.0, 1.0] };
+    let inlined = |body, digits| Case { before: FUNCTIONS, body, expected: [digits, 0.0, 0.0, 1.0] };
     check(&[
-        given("int q = walk(0, 100); r = vec4(digits(G), 0, 0, 1);", 6007.),
-        given("int q = walk(3, 1); q = walk(I + 90, 1); r = vec4(digits(G), 0, 0, 1);", 6000.),
-        given("int q = walk(walk(3, 100), 1); r = vec4(digits(G), 0, 0, 1);", 6000.),
-        given("twice(0); twice(100); r = vec4(digits(G), 0, 0, 1);", 5004.),
-        given(
+        inlined("int q = walk(0, 100); r = vec4(digits(G), 0, 0, 1);", 6007.),
+        inlined("int q = walk(3, 1); q = walk(I + 90, 1); r = vec4(digits(G), 0, 0, 1);", 6000.),
+        inlined("int q = walk(walk(3, 100), 1); r = vec4(digits(G), 0, 0, 1);", 6000.),
+        inlined("twice(0); twice(100); r = vec4(digits(G), 0, 0, 1);", 5004.),
+        inlined(
             "for (int i = 0; i < 4; i += 100, twice(i)) { if (I == 0) continue; } r = vec4(digits(G), 0, 0, 1);",
             5000.,
         ),
-        given(
+        inlined(
             "for (int i = 0; walk(i, 100) < 0 || i < 4; i += 100) { if (I == 0) continue; } r = vec4(digits(G), 0, 0, \
              1);",
             6007.,
@@ -193,11 +194,11 @@ int twice(int at) { int n = at; if (at > 3) { G[n] = 5; return n; } for (int i =
     ]);
 }
 
-/// The product of two uints can be beyond what an i64 holds.
+/// The product of two uints can exceed the range of an i64.
 #[test]
-fn products_of_large_bounds() {
+fn bounds_of_large_products() {
     check_guarded(&[
-        // What is known of an argument in one call is not of the next, nor of the counter behind its loop.
+        // Bounds of an argument in one call must not be used for the next call, nor those of a counter after its loop.
         bounds("for (int i = 0; i < 3; i++) put(a, i); put(a, I + 9);", 7777.),
         bounds("int i; for (i = 1; i < 3; i++) put(a, i); put(a, i * 9);", 7770.),
         bounds("int w = I - int(iResolution.x); put(a, w); put(a, 9 * int(iResolution.y));", 7007.),
@@ -207,9 +208,9 @@ fn products_of_large_bounds() {
     ]);
 }
 
-/// Vectors, matrices, constant tables and structures clamp as arrays do.
+/// Indices of vectors, matrices, constant tables and structures are clamped as those of arrays are.
 #[test]
-fn parts_of_other_kinds() {
+fn bounds_of_vectors_matrices_and_tables() {
     check(&[
         case(
             "ivec4 v = ivec4(0); for (int i = 0; i < 4; i += 100, v[i] = 7) { if (I == 0) continue; } r = vec4(v);",

@@ -1,11 +1,10 @@
-//! Calls of functions that become part of their callers, being small or called once: nobody can tell them from other
-//! calls.
+//! Calls of functions that are inlined because they are small or called once: they behave like other calls.
 //!
-//! `Z` is a zero no compiler can see through, so that nothing here is folded before it runs.
+//! `Z` is a zero that a compiler cannot see through, so that constant folding does not apply.
 
 use crate::support::compute::*;
 
-/// Section 6.1.1: a parameter is a variable of its own, set anew for each call; so are locals.
+/// Section 6.1.1: a parameter is a variable of its own, initialised for each call; so are locals.
 #[test]
 fn parameters_are_copies() {
     check(&[
@@ -33,7 +32,7 @@ fn parameters_are_copies() {
 }
 
 #[test]
-fn what_is_copied_out() {
+fn out_parameters_are_copied_back() {
     check(&[
         with(
             "void split(float x, out float a, inout float b) { b += x; a += b; }",
@@ -55,9 +54,9 @@ fn what_is_copied_out() {
     ]);
 }
 
-/// A return leaves the function, whatever follows.
+/// A return leaves the function, whatever follows it.
 #[test]
-fn early_returns() {
+fn early_returns_skip_the_rest_of_a_function() {
     check(&[
         with(
             "float sort(float x) { if (x < 0.0) return -1.0; if (x > 10.0) { x *= 2.0; return x; } x += 1.0; return x; \
@@ -90,9 +89,9 @@ fn early_returns() {
     ]);
 }
 
-/// A return from within a loop leaves that, the loops around it and what follows; the next call begins anew.
+/// A return inside loops leaves all of them and skips the code after them; the next call starts with fresh locals.
 #[test]
-fn returns_from_loops() {
+fn returns_leave_all_enclosing_loops() {
     check(&[
         with(
             "int find(int x) { int n = 0; for (int i = 0; i < 4; i++) { for (int j = 0; j < 4; j++) { if (n++ == x) \
@@ -150,10 +149,9 @@ fn returns_from_loops() {
     ]);
 }
 
-/// What a variable holds is known from when it is written until it is written again: in a branch, in a loop, through a
-/// part.
+/// The known value of a variable is valid from one write to the next: in a branch, in a loop, or through a component.
 #[test]
-fn variables_after_branches_and_loops() {
+fn variables_have_their_last_value_after_branches_and_loops() {
     check(&[
         case(
             "float a = Z + 1.0; float b = a; if (Z < 1.0) { b += a; a = 5.0; b += a; } r = vec4(a, b, 0, 0);",
@@ -177,9 +175,9 @@ fn variables_after_branches_and_loops() {
     ]);
 }
 
-/// What is known of one member of a structure stays known while another is written, and no longer.
+/// The known value of a member of a structure stays valid while another member is written, and no longer.
 #[test]
-fn members_hold_what_was_written_last() {
+fn members_have_the_value_that_was_written_last() {
     const LENS: &str = "struct Lens { float focus; vec2 size; float list[2]; }; struct Eye { Lens lens; float far; };\n\
         Lens shared_lens;\n\
         float power(Lens l) { return 1.0 / (1.0 / l.focus - 1.0 / l.size.x); }\n\
@@ -224,8 +222,9 @@ fn members_hold_what_was_written_last() {
     ]);
 }
 
-/// A chain of 60 functions with so many statements that they become one: `link` is the body of each, which calls
-/// `f(..)`, the function before it. Further ones would nest `if`s deeper than llvmpipe counts (`LP_MAX_TGSI_NESTING`).
+/// A chain of 60 functions with so many statements that they are merged into one: `link` is the body of each, which
+/// calls `f(..)`, the previous function. A longer chain would nest `if`s deeper than llvmpipe allows
+/// (`LP_MAX_TGSI_NESTING`).
 fn chain(link: &str) -> &'static str {
     let idle = "x += 1.0; x -= 1.0; ".repeat(20);
     let mut text = "float f0(float x) { return x; }\n".to_owned();
@@ -237,7 +236,7 @@ fn chain(link: &str) -> &'static str {
 }
 
 #[test]
-fn functions_of_a_long_chain_return_as_they_would_alone() {
+fn functions_of_a_long_chain_return_the_same_values_as_alone() {
     check(&[
         with(chain("return f(x) + 1.0;"), "r = vec4(f60(Z), f60(Z + 2.0), 0, 0);", [60., 62., 0., 0.]),
         with(

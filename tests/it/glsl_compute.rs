@@ -1,6 +1,6 @@
-//! What compiled programs compute, by pictures: each case is one texel of a buffer.
+//! The values that compiled programs compute, tested by pictures: each case is one texel of a buffer.
 //!
-//! `Z`, `I` and `U` are zeros no compiler can see through, so that nothing here is folded before it runs.
+//! `Z`, `I` and `U` are zeros that a compiler cannot see through, so that constant folding does not apply.
 
 use crate::support::compute::*;
 
@@ -8,7 +8,7 @@ const INF: f32 = f32::INFINITY;
 const NAN: f32 = f32::NAN;
 
 #[test]
-fn infinities_and_nan() {
+fn infinities_and_nan_are_kept() {
     check(&[
         case("r = vec4(1.0 / 0.0, -1.0 / 0.0, 0.0, 1.0);", [INF, -INF, 0.0, 1.0]),
         case("float n = uintBitsToFloat(0x7fc00000u); r = vec4(isnan(n), n == n, n != n, isinf(n));", [1., 0., 1., 0.]),
@@ -30,7 +30,7 @@ fn infinities_and_nan() {
 }
 
 #[test]
-fn zero_where_webgl_says_zero() {
+fn unwritten_variables_are_zero_as_in_webgl() {
     check(&[
         case("float a; vec3 b; r = vec4(a, b);", [0.; 4]),
         case("for (int i = 0; i < 3; i++) { float a; a += 1.0; r.x = a; } r.yzw = vec3(0.0);", [1., 0., 0., 0.]),
@@ -68,9 +68,9 @@ fn globals() {
 }
 
 #[test]
-fn copies_in_and_out() {
+fn parameters_are_copied_in_and_out() {
     check(&[
-        // A parameter that is only read sees what was passed, whatever happens to the variable meanwhile.
+        // A parameter that is only read has the value that was passed, even if the variable changes meanwhile.
         with(
             "float f(float a[3], inout float b[3]) { b[I + 1] = 9.0; return a[I + 1]; }",
             "float x[3] = float[3](1.0, 2.0, 3.0); r.x = f(x, x); r.y = x[1]; r.zw = vec2(0);",
@@ -274,7 +274,8 @@ fn integers() {
     check(&[
         case("r = vec4(-7 / 2 + I, (I + 13) % 8, (7 + I) / -2, (7 + I) % 4);", [-3., 5., -3., 3.]),
         case("r = vec4((I - 7) / 2, (7u + U) % 4u, (I - 7) >> 1, uint(I - 7) >> 28);", [-3., 3., -4., 15.]),
-        // Undefined (section 5.9). As Mesa computes it on graphics cards (NIR's `imod`): the divisor's sign.
+        // Undefined (section 5.9); on graphics cards Mesa computes the remainder with the divisor's sign (NIR's
+        // `imod`).
         case("r = vec4((I - 7) % 2, (I - 7) % 3, (7 + I) % (I - 3), (I - 7) % (I - 3));", [1., 2., -2., -1.]),
         case("ivec4 a = ivec4(-7, 7, -6, 6) + I; r = vec4(a % ivec4(4, -4, 3, -3));", [1., -1., 0., 0.]),
         case(
@@ -339,7 +340,7 @@ fn floats() {
             [0.5, 0.84375, 0.5, 0.5],
         ),
         case("r = vec4(step(vec2(1, 3), vec2(2.0 + Z)), smoothstep(0.0, 2.0, vec2(0.0, 1.0) + Z));", [1., 0., 0., 0.5]),
-        // Of no width: a step, also where the driver finds that out by itself.
+        // An interval of zero width: a step, also where only the driver can see that.
         case(
             "float e = Z + 0.5; r = vec4(smoothstep(e, e, Z + vec2(0.25, 0.75)), smoothstep(0.5, 0.5, Z + vec2(0.25, \
              0.75)));",
@@ -374,7 +375,7 @@ fn floats() {
             "r = vec4(sinh(Z + 1.0), cosh(Z + 1.0), tanh(Z + 1.0), asinh(Z + 1.0));",
             [1.1752012, 1.5430806, 0.7615942, 0.8813736],
         ),
-        // Drivers' arc sine is right to two digits.
+        // The arc sines of drivers are accurate to two digits.
         case(
             "r = vec4(acosh(Z + 2.0), atanh(Z + 0.5), floor(1e2 * asin(Z + 0.5)), floor(1e2 * acos(Z + 0.5)));",
             [1.316958, 0.5493061, 52., 104.],
@@ -484,15 +485,15 @@ fn aggregates() {
     ]);
 }
 
-/// In memory, in the uniform buffer (arrays of more than 32 elements), and in the storage buffer (256 scalars and
-/// more).
+/// Small tables are in memory, arrays of more than 32 elements in the uniform buffer, and tables of 256 scalars or
+/// more in the storage buffer.
 #[test]
-fn constant_tables_of_every_layout() {
-    tables(8, 40);
-    tables(40, 300);
+fn constant_tables_can_be_read_from_every_kind_of_memory() {
+    check_tables(8, 40);
+    check_tables(40, 300);
 }
 
-fn tables(records: usize, others: usize) {
+fn check_tables(records: usize, others: usize) {
     let list = |count: usize, element: &dyn Fn(usize) -> String| (0..count).map(element).collect::<Vec<_>>().join(", ");
     let structs = list(records, &|i| {
         format!("S(vec3({i}, {i}.25, {i}.5), {i}0.0, mat2x3({}))", list(6, &|k| format!("{}.0", i + k + 1)))
@@ -500,7 +501,7 @@ fn tables(records: usize, others: usize) {
     let threes = list(others, &|i| format!("vec3({i}, {}, {})", i * 2, i * 3));
     let flags = list(others, &|i| (i % 3 == 0).to_string());
     let numbers = list(others, &|i| format!("{i}u"));
-    // A few programs for the life of the test: a case holds text that lives as long as the program.
+    // Leaking a few texts is fine: a case needs a text that lives as long as the program.
     let before: &'static str = Box::leak(
         format!(
             "struct S {{ vec3 v; float f; mat2x3 m; }};\nconst S RECORDS[{records}] = S[]({structs});\n\
@@ -518,7 +519,7 @@ fn tables(records: usize, others: usize) {
         ),
         with(before, "S s = RECORDS[I + 2]; r = vec4(s.v.z, s.m[1].x, THREES[I + 39].yz);", [2.5, 6., 78., 117.]),
         with(before, "r = vec4(FLAGS[I + 9], FLAGS[I + 10], NUMBERS[I + 31], unwritten[I + 17]);", [1., 0., 31., 17.]),
-        // Beyond either end an index is clamped, as WebGL promises.
+        // An index beyond either end is clamped, as WebGL guarantees.
         with(
             before,
             "r = vec4(NUMBERS[I + 999], NUMBERS[I - 9], THREES[I - 1].x, THREES[I + 300].x);",

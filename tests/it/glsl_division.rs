@@ -1,13 +1,12 @@
-//! Divisions of integers that a processor traps on: no program ends the process, and each has the value that WGSL gives
-//! it.
+//! Integer divisions that trap on a processor: they do not end the process, and each has the value that WGSL defines.
 
 use crate::support::{compute::*, program::Bench};
 
-/// The least int.
+/// The smallest int.
 const LEAST: &str = "(-2147483647 - 1)";
 
-/// Expressions that drivers see to be a zero, -1 or the least int once they have put constants in their places.
-const TRAPS: &[&str] = &[
+/// Expressions that drivers recognise as zero, -1 or the smallest int after constant propagation.
+const TRAPPING_CODE: &[&str] = &[
     "int x = LEAST / (int(p.x) * 0 - 1); o = vec4(x);",
     "int x = LEAST % (int(p.x) * 0 - 1); o = vec4(x);",
     "int x = 5 / (int(p.x) * 0); o = vec4(x);",
@@ -21,14 +20,14 @@ const TRAPS: &[&str] = &[
     "int x = LEAST + int(p.x) * 0; o = vec4(x / -1, x % -1, -x, abs(x));",
     "int x = LEAST + int(p.x) * 0; o = vec4(ivec2(x) / ivec2(-1, 3), ivec2(x) % ivec2(-1, 0));",
     "const int x = LEAST / -1, y = LEAST % -1; o = vec4(x, y, LEAST / -1, ivec2(LEAST).y / -1);",
-    // Loops that are written out, functions that become part of their callers, and choices that are computed both ways.
+    // Loops that are unrolled, functions that are inlined, and selections whose both sides are computed.
     "int x = 0; for (int i = -1; i < 2; i++) x += LEAST / i + LEAST % i; o = vec4(x);",
     "int x = 0; for (uint i = 0u; i < 3u; i++) x += int(9u / i) + int(9u % i); o = vec4(x);",
     "o = vec4(quotient(LEAST, -1), quotient(1, 0), remainder(LEAST, -1), remainder(1, 0));",
     "int d = int(p.x) * 0; int x = d != 0 ? LEAST / d : 3; o = vec4(x, d == -1 ? 0 : LEAST % (d - 1), 0, 0);",
     "int d = int(p.x) * 0; if (d > 5) o = vec4(LEAST / d); else if (d < 0) o = vec4(7 % d); else o = vec4(1);",
     "int d = int(p.x) * 0; for (int i = 0; i < 40; i++) { d = min(d, 0); o.x += float((LEAST + i * 0) / (d - 1)); }",
-    // A loop without a round: its counter lies between 1 and 0.
+    // A loop without iterations: the bounds of its counter are 1 and 0.
     "o = vec4(0); for (int i = 1; i < 1; i++) o.x += float(7 / i / 3 + 5 % (7 / i));",
     "int s = int(p.x) * 0; o = vec4(1 << (s + 33), 1 >> (s - 1), 8u >> (s + 64), -1 << (s + 32));",
     "float f = p.x * 0.0; o = vec4(int(1e30 + f), int(-1e30 + f), uint(1e30 + f), int(f / (f * f)));",
@@ -38,39 +37,39 @@ const TRAPS: &[&str] = &[
 const FUNCTIONS: &str = "int quotient(int n, int d) { return n / d; }\nint remainder(int n, int d) { return n % d; }\n";
 
 #[test]
-fn no_division_ends_the_process() {
+fn divisions_do_not_end_the_process() {
     let Some(b) = Bench::with_gpu() else { return };
-    // Each alone, lest one hide another; a few at a time, lest it take long.
+    // Each in its own program, so that one does not mask another; several per call, to save time.
     let mut names = Vec::new();
-    for (i, body) in TRAPS.iter().enumerate() {
+    for (i, body) in TRAPPING_CODE.iter().enumerate() {
         let name = format!("trap_{i}.glsl");
         let text =
             format!("{FUNCTIONS}void mainImage(out vec4 o, in vec2 p) {{\n{}\n}}\n", body.replace("LEAST", LEAST));
         b.write(&name, text);
         names.push(name);
     }
-    for some in names.chunks(6) {
+    for batch in names.chunks(6) {
         let mut args = vec!["render"];
-        args.extend(some.iter().map(String::as_str));
+        args.extend(batch.iter().map(String::as_str));
         args.extend(["--size", "8x4", "--frames", "2", "--out", "pictures"]);
         let run = b.eddy(&args);
-        assert_eq!(run.code, Some(0), "{some:?}: {}", run.err);
+        assert_eq!(run.code, Some(0), "{batch:?}: {}", run.err);
     }
-    assert_eq!(b.names("pictures").len(), TRAPS.len());
-    for (name, body) in names.iter().zip(TRAPS) {
-        is_walked(&b, &format!("{name} --pixel 3,1"), body);
+    assert_eq!(b.names("pictures").len(), TRAPPING_CODE.len());
+    for (name, body) in names.iter().zip(TRAPPING_CODE) {
+        assert_walker_agrees(&b, &format!("{name} --pixel 3,1"), body);
     }
 }
 
-/// The walker gives a pixel of a project the value that the device draws.
-fn is_walked(b: &Bench, args: &str, what: &str) {
+/// Asserts that the walker computes the same value of a pixel as the device.
+fn assert_walker_agrees(b: &Bench, args: &str, what: &str) {
     let run = b.line(&format!("trace {args} --size 8x4 --frame 1 --json")).expect(0);
     let line = &run.json()[0];
     assert_eq!(line["ulps"], serde_json::json!([0, 0, 0, 0]), "{what}: {} not {}", line["value"], line["device"]);
 }
 
 #[test]
-fn no_vertex_stage_ends_the_process() {
+fn divisions_in_a_vertex_stage_do_not_end_the_process() {
     let Some(b) = Bench::with_gpu() else { return };
     b.write(
         "scene/eddy.toml",
@@ -89,10 +88,10 @@ fn no_vertex_stage_ends_the_process() {
     b.write("scene/image.glsl", "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }\n");
     let run = b.line("render scene --size 8x4 --frames 2 --out scene.png");
     assert_eq!(run.code, Some(0), "{}", run.err);
-    is_walked(&b, "scene --pass buffer_scene --pixel 4,2", vertex);
+    assert_walker_agrees(&b, "scene --pass buffer_scene --pixel 4,2", vertex);
 }
 
-/// Nothing here is known before the program runs; then drivers know all.
+/// The operands are unknown to the compiler, and constant for the driver once the program runs.
 #[test]
 fn divisions_have_the_values_of_wgsl() {
     const INTS: &str = "const int LEAST = -2147483647 - 1; float is(int a, int b) { return a == b ? 1.0 : 0.0; }\
@@ -124,7 +123,8 @@ fn divisions_have_the_values_of_wgsl() {
             "ivec2 n = ivec2(LEAST, 9) + I; ivec2 q = n / ivec2(-1, 0), s = n % ivec2(0, -1); r = vec4(is(q.x, LEAST), \
              is(q.y, 9), is(s.x, 0), is(s.y, 0));",
         ),
-        // Guards that need not be there, where what is known of the divisor says so, and those that must.
+        // Divisions whose guards can be omitted because of the bounds of the divisor, and others whose guards are
+        // needed.
         ones("int s = 0; for (int i = 1; i < 4; i++) s += 12 / i + (I + 13) % i; r = vec4(is(s, 24), 1, 1, 1);"),
         ones("int s = 0; for (int i = 0; i < 3; i++) s = s * 10 + (I + 7) / i; r = vec4(is(s, 773), 1, 1, 1);"),
         ones(

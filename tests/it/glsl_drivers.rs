@@ -1,14 +1,14 @@
-//! What the specification leaves open and pictures lean on: as OpenGL drivers and browsers have it, on whatever driver
-//! draws.
+//! Behaviour that the specification leaves open but pictures depend on: as in OpenGL drivers and browsers, on any
+//! driver.
 //!
-//! `Z` is a zero no compiler can see through, so that nothing here is folded before it runs.
+//! `Z` is a zero that a compiler cannot see through, so that constant folding does not apply.
 
 use crate::support::{compute::*, ir, *};
 use eddy::glsl::{self, Driver, PassSource};
 
-/// Drivers take a quotient by a zero they can see for anything.
+/// A driver may replace a quotient by any value if it can see that the divisor is zero.
 #[test]
-fn a_constant_zero_divides() {
+fn divisions_by_a_constant_zero_are_infinite() {
     check(&[
         with(
             "float unite(float a, float b, float k) {\n\
@@ -34,7 +34,7 @@ fn a_constant_zero_divides() {
             "vec2 v; give(v); vec2 q = (Z + vec2(3.0)) / v; r = vec4(q.x, min(q.y, 9.0), 0, 0);",
             [3., 9., 0., 0.],
         ),
-        // Constants that are folded, spread and counted to a zero.
+        // Divisors that become zero by constant folding, by a difference, and in one iteration of a loop.
         case(
             "float k = 1.0; r = vec4(min((Z + 3.0) / (1.0 - k), 5.0), max((Z - 3.0) / (k - 1.0), -6.0), 0, 0);",
             [5., -6., 0., 0.],
@@ -47,7 +47,7 @@ fn a_constant_zero_divides() {
              r = vec4(s, t, over(2.0, 2.0), min((Z + 1.0) / (u - u), 7.0));",
             [3., 5.5, 1., 7.],
         ),
-        // Zeros that functions leave in what they are handed and in variables of the module, and what they multiply.
+        // Zeros that functions store in their out parameters and in global variables, and products with them.
         with(
             "float kept = 1.0; void set() { kept = 0.0; } void clear(out float v) { v = 0.0; }\n\
              float within(out float v) { v = 0.0; return (Z + 1.0) / v; }",
@@ -61,23 +61,23 @@ fn a_constant_zero_divides() {
              max((Z - 1.0) / abs(min(one, 0.0)), -7.0), min((Z + 3.0) / dot(none, vec2(1.0 + Z)), 8.0));",
             [5., 6., -7., 8.],
         ),
-        // Space is repeated along some axes alone by this.
+        // Shaders repeat space along only some axes by `mod` with a zero.
         case("r = vec4(mod(Z + 5.5, 0.0), mod(vec2(Z + 5.5), vec2(0.0, 2.0)), 0);", [5.5, 5.5, 1.5, 0.]),
     ]);
 }
 
 #[test]
-fn negative_floats_as_uints() {
+fn negative_floats_become_zero_as_uints() {
     check(&[case(
         "r = vec4(uint(Z - 1.5), uint(Z - 3000.0), uint(Z + 7.9), uvec2(Z - 4.0, Z + 4.0).y);",
         [0., 0., 7., 4.],
     )]);
 }
 
-/// Section 8.3 writes `mix` as `x (1 - a) + y a`, which is one of its ends where `a` is 0 or 1: no sum `x + a (y - x)`
-/// keeps all of a small number beside a large one.
+/// Section 8.3 defines `mix` as `x (1 - a) + y a`, which equals one of its ends if `a` is 0 or 1; a sum
+/// `x + a (y - x)` would lose digits of a small number next to a large one.
 #[test]
-fn mix_by_a_condition() {
+fn mix_by_zero_or_one_is_exact() {
     check(&[
         case("float x = Z + 18.721829; r = vec4(mix(1000.0, x, step(Z, 1.0)) == x, 0, 0, 0);", [1., 0., 0., 0.]),
         case(
@@ -94,7 +94,7 @@ fn mix_by_a_condition() {
     ]);
 }
 
-/// OpenGL's compilers sum from the last component on, and multiply matrices from the left (`lower/geometry.rs`).
+/// OpenGL's compilers sum starting with the last component, and multiply matrices from the left (`lower/geometry.rs`).
 #[test]
 fn products_are_summed_from_the_last_component() {
     insta::assert_snapshot!(ir::optimised(
@@ -107,12 +107,12 @@ fn products_are_summed_from_the_last_component() {
     ));
 }
 
-/// The checker computes constants as the device computes them (`check/fold_builtin.rs`).
+/// The checker folds constants to the same values that the device computes (`check/fold_builtin.rs`).
 #[test]
-fn constants_are_as_the_device_computes_them() {
+fn folded_constants_equal_the_values_of_the_device() {
     let Some(gpu) = gpu() else { return };
     if gpu.info.device_type != wgpu::DeviceType::Cpu {
-        return skipped("this device may round otherwise");
+        return skipped("this device may round differently");
     }
     check_optimised(&[case(
         "vec2 v = vec2(0.2, 1); r = vec4(cos(Z + 0.3) == cos(0.3), acos(Z + 0.3) == acos(0.3),\n\
@@ -121,12 +121,12 @@ fn constants_are_as_the_device_computes_them() {
     )]);
 }
 
-/// Direct3D has no number for the angle of (0, 0); this device has some number or other.
+/// In Direct3D the angle of (0, 0) is NaN; the device of this test returns some number.
 #[test]
-fn the_angle_of_nowhere() {
+fn the_angle_of_a_zero_vector_is_defined() {
     let Some(mut gpu) = gpu() else { return };
     gpu.nan_angle = true;
-    // Which zeros are negative the device does not ask, but IEEE 754 does.
+    // The device does not check the signs of zeros, although IEEE 754 does.
     let either = case(
         "r = vec4(atan(Z, Z), atan(-Z, -Z), atan(vec2(Z, 1.0), vec2(Z)));",
         [0., 0., 0., std::f32::consts::FRAC_PI_2],
@@ -139,14 +139,14 @@ fn the_angle_of_nowhere() {
     check_on(&gpu, &[known], true);
 }
 
-/// A zero that goes from variable to variable against the order of a loop reaches the divisor after as many rounds; where
-/// these are more than are followed, any divisor may be a zero.
+/// A zero that moves from variable to variable against the order of a loop reaches the divisor after as many
+/// iterations; if there are more than the analysis follows, any divisor may be zero.
 #[test]
-fn a_zero_that_comes_by_a_long_way_is_hidden() {
+fn a_zero_that_moves_through_many_variables_is_hidden() {
     let program = |count: usize, last: f32| {
         let declared: String = (0..count).map(|i| format!("float v{i} = 1.0; ")).collect();
-        let handed_on: String = (1..count).rev().map(|i| format!("v{i} = v{}; ", i - 1)).collect();
-        let divided = format!("s += p.x / v{}; {handed_on}v0 = {last:?};", count - 1);
+        let moved: String = (1..count).rev().map(|i| format!("v{i} = v{}; ", i - 1)).collect();
+        let divided = format!("s += p.x / v{}; {moved}v0 = {last:?};", count - 1);
         let looped = format!("{declared}float s = 0.0; for (int i = 0; i < 200; i++) {{ {divided} }}");
         ir::optimised(&format!("void mainImage(out vec4 o, in vec2 p) {{ {looped} o = vec4(s); }}"), Driver::default())
     };
@@ -155,8 +155,8 @@ fn a_zero_that_comes_by_a_long_way_is_hidden() {
     }
 }
 
-/// Numbers that come together are told apart from those of another call, and the zero that a variable of the module
-/// begins with counts only where something may read it.
+/// Values of one call are distinguished from those of another call, and the initial zero of a global variable counts
+/// only where it may be read.
 #[test]
 fn only_divisors_that_may_be_zero_are_hidden() {
     let hides = |declared: &str, body: &str| {
@@ -164,23 +164,23 @@ fn only_divisors_that_may_be_zero_are_hidden() {
         ir::optimised(&code, Driver::default()).contains("opaque_zero")
     };
     let capsule = "float along(vec3 p, vec3 a, vec3 b) { vec3 ab = b - a; return dot(p - a, ab) / dot(ab, ab); }";
-    let of = |calls: &str| hides(capsule, &format!("vec3 q = p.xyx; o = vec4({calls});"));
+    let hides_in_calls = |calls: &str| hides(capsule, &format!("vec3 q = p.xyx; o = vec4({calls});"));
     let three =
         "along(q, vec3(0), vec3(1, 0, 0)) + along(q, vec3(0), vec3(0, 1, 0)) + along(q, vec3(2), vec3(0, 0, 1))";
-    assert!(!of(three));
-    assert!(of(&format!("{three} + along(q, vec3(1, 2, 3), vec3(1, 2, 3))")));
+    assert!(!hides_in_calls(three));
+    assert!(hides_in_calls(&format!("{three} + along(q, vec3(1, 2, 3), vec3(1, 2, 3))")));
     let scale = "float k; void set() { k = iResolution.y; } float over(float x) { return x / k; }";
-    let of = |body: &str| hides(scale, body);
-    assert!(!of("k = iResolution.x; o = vec4(over(p.x));"));
-    assert!(!of("set(); o = vec4(over(p.x));"));
-    assert!(!of("if (p.x > 3.0) set(); else k = p.y; for (int i = 0; i < 3; i++) o += over(p.x);"));
+    let hides_in_body = |body: &str| hides(scale, body);
+    assert!(!hides_in_body("k = iResolution.x; o = vec4(over(p.x));"));
+    assert!(!hides_in_body("set(); o = vec4(over(p.x));"));
+    assert!(!hides_in_body("if (p.x > 3.0) set(); else k = p.y; for (int i = 0; i < 3; i++) o += over(p.x);"));
     for may_be_first in [
         "o = vec4(over(p.x)); set();",
         "if (p.x > 3.0) set(); o = vec4(over(p.x));",
         "for (int i = 0; i < int(p.x); i++) set(); o = vec4(over(p.x));",
         "if (p.x > 3.0) { k = p.y; o = vec4(1); return; } o = vec4(over(p.x));",
     ] {
-        assert!(of(may_be_first), "{may_be_first}");
+        assert!(hides_in_body(may_be_first), "{may_be_first}");
     }
     check(&[
         with(
@@ -198,9 +198,9 @@ fn only_divisors_that_may_be_zero_are_hidden() {
     ]);
 }
 
-/// `discard` ends the shader (section 6.4), and so every loop that runs then or comes later.
+/// `discard` ends the shader (section 6.4), and so it ends loops that are running or come later.
 #[test]
-fn loops_end_where_a_fragment_is_discarded() {
+fn loops_end_after_a_discard() {
     let driver = Driver { discard_exits: true, ..Driver::default() };
     let exits = |declared: &str, body: &str| {
         let code = format!("{declared} void mainImage(out vec4 o, in vec2 p) {{ o = vec4(0); {body} }}");
@@ -209,7 +209,7 @@ fn loops_end_where_a_fragment_is_discarded() {
     let (test, sum) = ("if (p.x > 9.0) discard;", "for (int i = 0; i < 99; i++) o += sin(p.x * float(i));");
     assert_eq!(exits("", sum), 0);
     assert_eq!(exits("", &format!("{test} {sum}")), 1);
-    assert_eq!(exits("", &format!("{sum} {test}")), 0, "a loop before it is as it was");
+    assert_eq!(exits("", &format!("{sum} {test}")), 0, "a loop before the discard is unchanged");
     assert_eq!(exits("", &format!("{sum} {test} {sum} {sum}")), 2);
     assert_eq!(exits("", &format!("for (int j = 0; j < 50; j++) {{ {sum} if (o.x > 2.0) discard; }}")), 2);
     assert_eq!(exits("", &format!("if (p.y > 2.0) {{ {sum} }} else {{ {test} {sum} }} {sum}")), 2);
@@ -217,7 +217,7 @@ fn loops_end_where_a_fragment_is_discarded() {
     assert_eq!(exits(&functions, "leave(p); o = far(p);"), 1);
     assert_eq!(exits(&functions, "o = far(p); leave(p);"), 0);
     assert_eq!(exits("", &format!("{test} if (p.y > 2.0) discard; o = vec4(1);")), 0, "there is no loop");
-    // The pixel that is drawn has all rounds; no other one stands in for it.
+    // The pixel that is drawn runs all iterations; no helper invocation replaces it.
     check(&[
         case(
             "r = vec4(0); if (Z > 0.0) discard; for (int i = 0; i < 9; i++) r += vec4(i, 1, 0, 0);",
@@ -230,9 +230,9 @@ fn loops_end_where_a_fragment_is_discarded() {
     ]);
 }
 
-/// Small arrays that are made at once are read by choices among their elements, where that is quicker.
+/// Small arrays that are built in one expression are read by selecting among their elements, where that is faster.
 #[test]
-fn small_arrays_are_chosen_from() {
+fn small_arrays_are_read_by_selection() {
     let driver = Driver { small_arrays: true, ..Driver::default() };
     let indexes = |body: &str| {
         let code = format!(
@@ -241,12 +241,12 @@ fn small_arrays_are_chosen_from() {
         ir::indices(&ir::optimised(&code, driver)).lines().count()
     };
     let three = "vec2 a[3] = vec2[](p, p * 2.0, p + 1.0);";
-    let chosen = [
+    let selected = [
         format!("{three} o.xy = a[n % 3];"),
         format!("{three} o.x = a[n % 3].y;"),
         format!("for (int i = 0; i < n; i++) {{ {three} if (i > 3) o.xy += a[i % 3]; else o.x += a[(i + 1) % 3].x; }}"),
     ];
-    let left = [
+    let unchanged = [
         "vec2 a[3]; o.xy = a[n % 3];".to_owned(),
         format!("{three} a[n % 3] = p; o.xy = a[n % 2];"),
         format!("{three} a[1].x = 4.0; o.xy = a[n % 3];"),
@@ -255,10 +255,10 @@ fn small_arrays_are_chosen_from() {
         "vec2 a[3]; if (n > 2) a = vec2[](p, p * 2.0, p + 1.0); o.xy = a[n % 3];".to_owned(),
         "float a[9] = float[](p.x, 1., 2., 3., 4., 5., 6., 7., p.y); o.x = a[n % 9];".to_owned(),
     ];
-    for body in &chosen {
+    for body in &selected {
         assert_eq!(indexes(body), 0, "{body}");
     }
-    for body in &left {
+    for body in &unchanged {
         assert_ne!(indexes(body), 0, "{body}");
     }
     let Some(mut gpu) = gpu() else { return };
@@ -283,9 +283,9 @@ fn small_arrays_are_chosen_from() {
     }
 }
 
-/// A short loop that limits a loop through an array is written out; others are left to the driver.
+/// A short loop that is the limit of an inner loop over an array is unrolled; others are left to the driver.
 #[test]
-fn short_loops_around_arrays_are_written_out() {
+fn short_loops_around_array_loops_are_unrolled() {
     let loops = |body: &str| {
         let code = format!(
             "void mainImage(out vec4 o, in vec2 p) {{ o = vec4(0); vec2 a[4]; for (int i = 0; i < 4; i++) a[i] = p * float(i * i); {body} }}"
@@ -296,7 +296,7 @@ fn short_loops_around_arrays_are_written_out() {
     assert_eq!(loops(&format!("int n = 3; while (n > 0) {{ {inner} n--; }} o.xy = a[0];")), 3);
     assert_eq!(loops(&format!("for (int n = 3; n >= 1; n -= 1) {{ {inner} }} o.xy = a[0];")), 3);
     assert_eq!(loops(&format!("for (int n = 0; n != 4; n++) {{ {inner} if (p.y > 3.0) return; }} o.xy = a[0];")), 4);
-    for left in [
+    for unchanged in [
         format!("for (int n = 3; n > 0; n--) {{ {inner} if (p.y > 3.0) break; }}"),
         format!("for (int n = 3; n > 0; n--) {{ if (p.y > 3.0) continue; {inner} }}"),
         format!("for (int n = 3; n > int(p.x); n--) {{ {inner} }}"),
@@ -306,7 +306,7 @@ fn short_loops_around_arrays_are_written_out() {
         "for (int n = 3; n > 0; n--) for (int i = 0; i < 3; i++) a[i] += a[i + 1];".to_owned(),
         "for (int n = 30; n > 0; n--) for (int i = 0; i < min(n, 3); i++) a[i] += a[i + 1];".to_owned(),
     ] {
-        assert_eq!(loops(&format!("{left} o.xy = a[0];")), 2, "{left}");
+        assert_eq!(loops(&format!("{unchanged} o.xy = a[0];")), 2, "{unchanged}");
     }
     check(&[
         case(
@@ -324,10 +324,10 @@ fn short_loops_around_arrays_are_written_out() {
     ]);
 }
 
-/// Only what a loop changes counts down to a limit; the counter of another loop is left to the driver as it is, which
-/// knows its rounds then.
+/// Only a value that a loop changes can count down to a limit; the counter of another loop is left unchanged, so that
+/// the driver knows its number of iterations.
 #[test]
-fn limits_are_hidden_only_where_something_counts_down_to_them() {
+fn limits_are_hidden_only_if_a_value_counts_down_to_them() {
     let module = |body: &str, opaque_limits: bool| {
         let code = format!(
             "int g; void f() {{ g--; }} void mainImage(out vec4 o, in vec2 p) {{ o = vec4(0); int m = int(p.x), n = 4; \
@@ -361,21 +361,22 @@ fn limits_are_hidden_only_where_something_counts_down_to_them() {
     }
 }
 
-/// What a loop without end does is up to the platform (section 6.3): where a driver could not stop it, it ends.
+/// The behaviour of an infinite loop is up to the platform (section 6.3): where a driver could not stop it, it is
+/// ended.
 #[test]
-fn loops_that_never_end_are_left() {
-    // Rounds of all such loops of a pixel count together; another loop has all of its own.
+fn infinite_loops_are_ended() {
+    // The iterations of all infinite loops of a pixel are counted together; other loops are not limited.
     let Some(mut gpu) = gpu() else { return };
     gpu.most_rounds = Some(1_000);
-    let all = 1_000.0;
+    let limit = 1_000.0;
     check_on(
         &gpu,
         &[
-            case("r = vec4(0); while (Z < 1.0) r.x += 1.0; r.y = 3.0;", [all, 3., 0., 0.]),
+            case("r = vec4(0); while (Z < 1.0) r.x += 1.0; r.y = 3.0;", [limit, 3., 0., 0.]),
             case(
                 "r = vec4(0); while (r.x < 5.0 - Z) r.x++; for (int i = 0; i < 9; i++) { while (r.y >= Z) r.y++; r.z++; \
                  for (int j = 0; j < 7; j++) r.w++; }",
-                [5., all - 6., 9., 63.],
+                [5., limit - 6., 9., 63.],
             ),
         ],
         false,

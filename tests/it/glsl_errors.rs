@@ -1,7 +1,7 @@
-//! What authors read when something is wrong: typical mistakes, `glsl_errors/*.glsl`, each with its full text in caret
-//! form beside it, `*.txt`. After a change of wording run with `EDDY_BLESS=1` and read what changed.
+//! Error messages for typical mistakes: `glsl_errors/*.glsl`, each next to a file `*.txt` with the full text in caret
+//! form. After a change of wording, run with `EDDY_BLESS=1` and read the differences.
 //!
-//! A file is an Image pass; a first line `// pass: sound` or `// pass: cubemap` makes it another.
+//! A file is an Image pass, unless its first line is `// pass: sound` or `// pass: cubemap`.
 
 use eddy::{
     diag::{SourceMap, render_all},
@@ -25,14 +25,14 @@ fn messages(name: &str, code: &str) -> String {
 }
 
 #[test]
-fn typical_mistakes_read_as_written_down() {
+fn messages_for_typical_mistakes_equal_the_stored_texts() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/glsl_errors");
     let mut files: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|path| path.extension().is_some_and(|e| e == "glsl"));
     files.sort();
     assert!(files.len() >= 60, "{} mistakes", files.len());
     let bless = std::env::var_os("EDDY_BLESS").is_some();
-    let mut wrong = String::new();
+    let mut changed = String::new();
     for path in files {
         let name = path.file_name().unwrap().to_str().unwrap();
         let found = messages(name, &fs::read_to_string(&path).unwrap());
@@ -41,8 +41,8 @@ fn typical_mistakes_read_as_written_down() {
         if bless {
             fs::write(&golden, found).unwrap();
         } else if fs::read_to_string(&golden).unwrap_or_default() != found {
-            wrong.push_str(&format!("==== {name}\n{found}\n"));
+            changed.push_str(&format!("==== {name}\n{found}\n"));
         }
     }
-    assert!(wrong.is_empty(), "these messages changed; EDDY_BLESS=1 writes them down:\n{wrong}");
+    assert!(changed.is_empty(), "these messages changed; EDDY_BLESS=1 updates the files:\n{changed}");
 }

@@ -1,12 +1,13 @@
-//! What loops compute: those whose rounds are known beforehand, which drivers write out, and those that read what they
-//! write.
+//! The values that loops compute: loops with a known number of iterations, which drivers unroll, and loops that read
+//! values that they write.
 
 use crate::support::{compute::*, walked::assert_walked, *};
 
 #[test]
-fn loops_of_known_rounds() {
+fn loops_with_a_known_number_of_iterations() {
     check(&[
-        // What a round declares begins anew in each; what it declares from the counter follows the counter.
+        // A variable that is declared in a body starts fresh in each iteration; one that depends on the counter
+        // follows it.
         case(
             "r = vec4(0); for (int i = 0; i < 4; i++) { float f; f += float(i); r.x += f; int d = i * 2; r.y += \
              float(d); }",
@@ -27,7 +28,7 @@ fn loops_of_known_rounds() {
              u[i]; r.y = u[I + i]; }",
             [18., 7., 0., 0.],
         ),
-        // The counter keeps its value behind the loop, and within it is what it was at each use.
+        // The counter keeps its value after the loop, and inside the loop it has the current value at each use.
         case(
             "int i; for (i = 0; i < 5; i += 2) {} r = vec4(i, 0, 0, 0); for (float f = 0.5; f < 3.0; f++) r.y += f;",
             [6., 4.5, 0., 0.],
@@ -63,7 +64,7 @@ fn loops_of_known_rounds() {
              1.0; } }",
             [6., 0., 0., 0.],
         ),
-        // The outer counter bounds an inner loop, and an index.
+        // The outer counter as the bound of an inner loop and of an index.
         case(
             "float a[3] = float[](1.0, 2.0, 4.0); r = vec4(0); for (int i = 0; i < 3; i++) for (int j = 0; j <= i; \
              j++) r.x += a[j + I];",
@@ -72,7 +73,8 @@ fn loops_of_known_rounds() {
     ]);
 }
 
-/// What a round, or what it calls, writes is read anew in the next; what none writes may be read once.
+/// A value that an iteration writes, directly or by a call, is read again in the next one; a value that no iteration
+/// writes may be read once.
 #[test]
 fn loops_read_what_they_write() {
     const STATE: &str = "float G = 1.0; vec2 H; struct S { float a, b; }; S s;\n\
@@ -107,7 +109,7 @@ fn loops_read_what_they_write() {
              add(s.a, 1.0); } r.y += s.a; }",
             [10., 8., 0., 0.],
         ),
-        // A `discard` keeps a function apart.
+        // A `discard` keeps a function from being inlined.
         with(
             "float G = 1.0; float apart(float x) { if (x > 9.0) discard; G += x; return x; }",
             "r = vec4(G); for (int i = 0; i < I + 3; i++) { r.x += G; r.y += apart(2.0); } r.z = G;",
@@ -131,9 +133,9 @@ fn loops_read_what_they_write() {
     ]);
 }
 
-/// A test or a step runs in every round: what it calls begins anew each time.
+/// A condition or a step runs in every iteration: locals of the functions that it calls start fresh each time.
 #[test]
-fn tests_and_steps_begin_anew() {
+fn conditions_and_steps_start_with_fresh_locals() {
     const SUM: &str = "int G; int sum(int i) { int b[4]; b[i & 3] += 1 + i; int s = 0; for (int k = 0; k < 4; k++) s \
                        += b[k]; G += s; return s; }";
     check(&[
@@ -156,8 +158,8 @@ fn tests_and_steps_begin_anew() {
     ]);
 }
 
-/// What eight pixels in a row draw, and the walker too: each a `vec4` that `body` gives `o` for `x`, its number;
-/// `before` is at file scope.
+/// Returns what eight pixels in a row draw, and checks that the walker computes the same: each is the `o` that `body`
+/// sets for its number `x`; `before` is code at file scope.
 fn row(before: &str, body: &str) -> Option<Vec<[f32; 4]>> {
     let gpu = gpu()?;
     let code = format!("{before}\nvoid mainImage(out vec4 o, in vec2 p) {{ int x = int(p.x); {body} }}");
@@ -169,10 +171,10 @@ fn row(before: &str, body: &str) -> Option<Vec<[f32; 4]>> {
     Some((0..8).map(|x| texel(&pixels, x, 0)).collect())
 }
 
-/// A pixel keeps what it left a loop with while others go on.
+/// A pixel keeps the values with which it left a loop while other pixels continue.
 #[test]
 fn pixels_leave_a_loop_one_by_one() {
-    // `old` is of the round's begin, and each exit has the same value of it.
+    // `old` is computed at the start of an iteration, and each exit has the same value of it.
     let old = |x: f32| {
         let (mut a, mut b) = (x * 0.25, x * 0.5);
         loop {
@@ -186,17 +188,17 @@ fn pixels_leave_a_loop_one_by_one() {
     };
     let expected: Vec<_> = (0..8).map(|x| old(x as f32)).collect();
     let start = "float a = float(x) * .25, b = float(x) * .5, old = 0.;";
-    let round = "old = a * 2. + b * float(x); for (int i = 0; i < 1 + min(iFrame, 0); i++) a += min(floor(a) + 1., \
+    let iteration = "old = a * 2. + b * float(x); for (int i = 0; i < 1 + min(iFrame, 0); i++) a += min(floor(a) + 1., \
                  2.); b += a * .5;";
-    for way in [
+    for form in [
         "while (true) { ROUND if (a > float(x)) break; }",
         "for (;;) { ROUND if (a > float(x) || b > 1e6) break; }",
         "do { ROUND } while (a <= float(x));",
         "while (old = -1., true) { ROUND if (a > float(x)) break; }",
     ] {
-        let body = format!("{start} {} o = vec4(old, a, b, 1);", way.replace("ROUND", round));
+        let body = format!("{start} {} o = vec4(old, a, b, 1);", form.replace("ROUND", iteration));
         let Some(drawn) = row("", &body) else { return };
-        assert_eq!(drawn, expected, "{way}");
+        assert_eq!(drawn, expected, "{form}");
     }
     let counted = "ivec3 v = ivec3(0, 0, 2); int fuel = 40;\n\
                    while (true) { int c = v[x]; v[x] = c + 1; if (c < 2) break; if (--fuel < 0) break; } o = vec4(v, \
@@ -206,14 +208,14 @@ fn pixels_leave_a_loop_one_by_one() {
     assert_eq!(drawn, [&first[..], &[[0., 0., 43., 1.]; 6]].concat());
 }
 
-/// A limit that is the lesser of two is no least number of a loop that counts down to it.
+/// A limit that is the minimum of two values is not a lower bound of the counter of a loop that counts down to it.
 #[test]
-fn loops_count_down_to_a_minimum() {
+fn loops_can_count_down_to_a_minimum() {
     const RETURNS: &str = "int until(int least) { int n = 0; for (int i = 4; i > 0; i--) { if (i <= least) return n; n \
                            += i; } return n; }";
     let sum = |x: i32| (x.min(6) + 1..5).sum::<i32>() as f32;
     let expected: Vec<_> = (0..8).map(|x| [sum(x), 0.0, 0.0, 1.0]).collect();
-    for way in [
+    for form in [
         "for (int i = 4; i > min(6, x); i--) n += i;",
         "int least = min(x, 6); for (int i = 4; i >= least + 1; i -= 1) n += i;",
         "int least = min(x, 6); for (int i = 4; !(least >= i); i -= 1) n += i;",
@@ -227,7 +229,7 @@ fn loops_count_down_to_a_minimum() {
         "n = until(min(6, x));",
         "for (float f = 4.; f > min(6., float(x)); f--) n += int(f);",
     ] {
-        let Some(drawn) = row(RETURNS, &format!("int n = 0; {way} o = vec4(n, 0, 0, 1);")) else { return };
-        assert_eq!(drawn, expected, "{way}");
+        let Some(drawn) = row(RETURNS, &format!("int n = 0; {form} o = vec4(n, 0, 0, 1);")) else { return };
+        assert_eq!(drawn, expected, "{form}");
     }
 }

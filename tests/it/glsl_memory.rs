@@ -1,11 +1,11 @@
-//! Arrays and tables: where they lie, how often they are filled, and that what is read from them is right all the same.
+//! Arrays and tables: where they are stored, how often they are filled, and that reads from them are correct.
 //!
-//! To fill or copy memory is what costs: a software driver stores each element once for each pixel and component.
+//! Filling and copying memory is expensive: a software driver stores each element once per pixel and component.
 
 use crate::support::{compiled, compute::*, ir};
 use eddy::glsl::{Compiled, Driver};
 
-/// The module of an Image pass.
+/// Returns the compiled Image pass.
 fn compiled(code: &str) -> Compiled {
     compiled::compiled(code, Driver::default())
 }
@@ -14,13 +14,13 @@ fn list(count: usize, element: &dyn Fn(usize) -> String) -> String {
     (0..count).map(element).collect::<Vec<_>>().join(", ")
 }
 
-/// The program of an Image pass after the last pass of the optimiser.
+/// Returns the program of an Image pass as text, after the last pass of the optimiser.
 fn optimised(code: &str) -> String {
     ir::optimised(code, Driver::default())
 }
 
 #[test]
-fn tables_of_numbers_lie_in_slots_of_a_uniform_buffer() {
+fn tables_of_numbers_are_in_slots_of_a_uniform_buffer() {
     for (count, bytes) in [(33, 33 * 16), (32, 0)] {
         let table = compiled(&format!(
             "const float T[{count}] = float[]({}); void mainImage(out vec4 o, vec2 p) {{ o = vec4(T[int(p.x)]); }}",
@@ -34,7 +34,7 @@ fn tables_of_numbers_lie_in_slots_of_a_uniform_buffer() {
 }
 
 #[test]
-fn what_fills_the_uniform_buffer_leaves_the_next_table_to_the_storage_buffer() {
+fn a_table_after_a_full_uniform_buffer_is_in_the_storage_buffer() {
     let full = compiled(&format!(
         "const float T[1024] = float[]({}); const float N[300] = float[]({});\n\
          void mainImage(out vec4 o, vec2 p) {{ o = vec4(T[int(p.x)], N[int(p.x)], 0, 0); }}",
@@ -45,10 +45,10 @@ fn what_fills_the_uniform_buffer_leaves_the_next_table_to_the_storage_buffer() {
 }
 
 #[test]
-fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
+fn an_array_is_initialised_once_per_call() {
     let code = |declared: &str| {
         format!(
-            // A `discard` keeps a function apart.
+            // A `discard` keeps a function from being inlined.
             "float f(int i) {{ {declared} a[i] += 1.0; if (i > 9) discard; return a[i + 1]; }}\n\
                  void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(int(p.x))); }}"
         )
@@ -59,7 +59,7 @@ fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
 
 #[test]
 fn an_array_handed_on_through_calls_is_not_copied_on_the_way() {
-    // `last` and `middle` have a pointer; the array is of `mainImage` alone.
+    // `last` and `middle` take a pointer; only `mainImage` has the array.
     insta::assert_snapshot!(optimised(
         "float last(float a[4], int i) { if (i > 9) discard; return a[i]; }\n\
          float middle(float a[4], int i) { if (i > 9) discard; return last(a, i) + last(a, i + 1); }\n\
@@ -67,10 +67,11 @@ fn an_array_handed_on_through_calls_is_not_copied_on_the_way() {
     ));
 }
 
-/// A global or a table is read where it lies: the function has no parameter for it.
+/// A global or a table is read in place: the function has no parameter for it.
 #[test]
 fn what_all_functions_see_is_not_handed_over() {
-    // `last` of what its argument points to, of either, `middle` of either, and `mainImage` with the four numbers.
+    // `last` is specialised for its pointer parameter, the global and the table, `middle` for the global and the
+    // table; `mainImage` has the array of four numbers.
     insta::assert_snapshot!(optimised(
         "float G[4]; const float T[4] = float[](1., 2., 3., 4.);\n\
          float last(float a[4], int i) { if (i > 9) discard; return a[i]; }\n\
@@ -83,7 +84,7 @@ fn what_all_functions_see_is_not_handed_over() {
 }
 
 #[test]
-fn globals_handed_over_keep_the_value_they_had() {
+fn globals_passed_as_arguments_keep_their_value() {
     const INLINED: &str = "float G[3]; float[3] H = float[](1.0, 2.0, 3.0); mat2 M; struct S { float a[2]; }; S s;\n\
         float last(float a[3], int i) { return a[i]; }\n\
         float set(float x) { G[0] = x; return x; }\n\
@@ -94,16 +95,17 @@ fn globals_handed_over_keep_the_value_they_had() {
         float column(mat2 m, int i) { return m[i].y; }\n\
         float member(S s, int i) { return s.a[i]; }\n\
         float whole(float a[3], int i) { float b[3] = a; b[i] += 0.5; return a[i] + b[i]; }";
-    // The same functions, which a `discard` keeps apart.
-    let apart: &'static str = Box::leak(INLINED.replace("{ return", "{ if (i > 9) discard; return").into_boxed_str());
-    for calls in [INLINED, apart] {
+    // The same functions, which a `discard` keeps from being inlined.
+    let not_inlined: &'static str =
+        Box::leak(INLINED.replace("{ return", "{ if (i > 9) discard; return").into_boxed_str());
+    for calls in [INLINED, not_inlined] {
         check(&[
             with(
                 calls,
                 "G[I] = 4.0; r = vec4(last(G, I), last(H, I + 2), both(G, H, I), both(H, G, I));",
                 [4., 3., 42., 10.],
             ),
-            // The copy is made after a later argument writes the global, and before the function itself does.
+            // The copy is made after a later argument writes the global, and before the function itself writes it.
             with(calls, "G[0] = 4.0; r.x = later(G, set(5.0), I); r.y = G[I]; r.zw = vec2(0);", [10., 5., 0., 0.]),
             with(calls, "G[0] = 4.0; r.x = within(G, I); r.y = G[I]; r.zw = vec2(0);", [4., 9., 0., 0.]),
             with(calls, "G[0] = 4.0; r.x = change(G, G, I); r.y = G[I]; r.zw = vec2(0);", [4., 7., 0., 0.]),
@@ -116,7 +118,7 @@ fn globals_handed_over_keep_the_value_they_had() {
         ]);
     }
     check(&[
-        // Which global stands for the parameter is another at each call.
+        // A different global replaces the parameter at each call.
         with(
             "float A[2], B[2]; float inner(float a[2], int i) { return a[i]; }\n\
              float outer(float a[2], float b[2], int i) { return inner(a, i) * 10.0 + inner(b, i); }",
@@ -129,7 +131,7 @@ fn globals_handed_over_keep_the_value_they_had() {
 
 #[test]
 fn an_array_handed_on_to_what_becomes_part_of_its_caller_is_not_copied() {
-    // `mainImage` with `a` alone.
+    // Only `mainImage` with `a`.
     insta::assert_snapshot!(optimised(
         "float last(float a[4], int i) { return a[i]; }\n\
          float middle(float a[4], int i) { return last(a, i) + last(a, i + 1); }\n\
@@ -138,8 +140,8 @@ fn an_array_handed_on_to_what_becomes_part_of_its_caller_is_not_copied() {
 }
 
 #[test]
-fn tables_are_read_right_from_slots() {
-    // For the life of the test: a case holds text that lives as long as the program.
+fn tables_in_uniform_slots_have_their_values() {
+    // Leaking is fine here: a case needs a text that lives as long as the program.
     let tables: &'static str = Box::leak(
         format!(
             "const float F[40] = float[]({});\nconst int N[40] = int[]({});\nconst vec2 TWO[40] = vec2[]({});\n\
@@ -167,7 +169,7 @@ fn tables_are_read_right_from_slots() {
 }
 
 #[test]
-fn arrays_begin_anew_and_keep_what_is_theirs() {
+fn arrays_start_fresh_and_do_not_alias() {
     const CALLS: &str = "float last(float a[3], int i) { return a[i]; }\n\
         float middle(float a[3], int i) { return last(a, i) * 10.0 + last(a, i + 1); }\n\
         float change(float a[3], int i) { a[i] = 7.0; return last(a, i); }\n\
@@ -189,7 +191,7 @@ fn arrays_begin_anew_and_keep_what_is_theirs() {
             "for (int k = 0; k < 3; k++) { r.x = counted(I); float a[2]; a[I] += 1.0; r.y = a[I]; } r.zw = vec2(0);",
             [1., 1., 0., 0.],
         ),
-        // The copy of the second argument is made before the first is written.
+        // The copy of the second argument is made before the first argument is written.
         with(
             CALLS,
             "float a[3] = float[](1.0, 2.0, 3.0); float b = both(a, a, I); r = vec4(b, a[I], 0, 0);",
@@ -203,28 +205,29 @@ fn arrays_begin_anew_and_keep_what_is_theirs() {
     ]);
 }
 
-/// The loops of a list, each with the indices that it reads an array of four floats at, behind the optimiser.
+/// Returns the loops of a list, each with the indices at which it reads an array of four floats after the optimiser.
 fn indices_in(loops: &[String]) -> String {
-    let each = |text: &String| {
+    let with_indices = |text: &String| {
         let program = optimised(&format!(
             "void mainImage(out vec4 o, vec2 p) {{ float a[4] = float[](p.x, p.y, 3., 4.); float s;\n\
              {text} o = vec4(s); }}"
         ));
         format!("{text}\n{}", ir::indices(&program))
     };
-    loops.iter().map(each).collect::<Vec<_>>().join("\n")
+    loops.iter().map(with_indices).collect::<Vec<_>>().join("\n")
 }
 
-/// `while (n >= 1) { .. n--; }` keeps n between 0 and where it began; one more write anywhere and nothing is known.
+/// `while (n >= 1) { .. n--; }` keeps n between 0 and its initial value; with one more write its range is unknown.
 #[test]
-fn what_a_loop_counts_needs_no_clamp() {
+fn loop_counters_need_no_clamp() {
     let loops = |parts: &[(&str, &str, &str, &str)]| {
         let one = |&(before, test, step, index): &(&str, &str, &str, &str)| {
             format!("{before} while ({test}) {{ s += a[{index}]; {step} }}")
         };
         indices_in(&parts.iter().map(one).collect::<Vec<_>>())
     };
-    // The last value of a counter lies outside the array: only where the loop's own test keeps it away is that known.
+    // The last value of a counter is outside the array: it is known to be excluded only where the loop's own condition
+    // does.
     insta::assert_snapshot!(
         "known_counters",
         loops(&[
@@ -237,7 +240,7 @@ fn what_a_loop_counts_needs_no_clamp() {
     insta::assert_snapshot!(
         "unknown_counters",
         loops(&[
-            // Half a test is none: `&&` is a branch.
+            // Half of a condition does not count: `&&` is a branch.
             ("int n = 4;", "1 <= n && s < 9.0", "if (p.x > 2.) --n; else s++;", "n - 1"),
             ("int n = 4;", "n >= 1", "n--; if (s > 2.) n = int(p.x);", "n - 1"),
             ("int n = int(p.x);", "n >= 1", "n--;", "n - 1"),
@@ -247,7 +250,7 @@ fn what_a_loop_counts_needs_no_clamp() {
     );
 }
 
-/// An inner loop whose bound the outer one counts: its bound is known to be small.
+/// An inner loop whose bound is the counter of the outer loop: the bound is known to be small.
 #[test]
 fn loops_within_counting_loops() {
     let body = "vec2 p1[4] = vec2[](vec2(Z), vec2(1, 2), vec2(3, 5), vec2(4, 1)), p2[4] = p1; int n = 4;\n\
@@ -263,7 +266,7 @@ fn loops_within_counting_loops() {
 
 /// `for (float x = 0.; x < 4.; x++)` keeps `int(x)` between the literals.
 #[test]
-fn floats_that_a_loop_counts_need_no_clamp() {
+fn float_loop_counters_need_no_clamp() {
     let loops = |heads: &[&str]| {
         indices_in(&heads.iter().map(|head| format!("for ({head}) s += a[int(x)];")).collect::<Vec<_>>())
     };

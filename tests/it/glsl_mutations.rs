@@ -1,7 +1,7 @@
-//! Programs damaged in every way: the compiler answers each with a program or with errors, quickly, and never falls
-//! over.
+//! Programs damaged in every way: the compiler returns a program or errors for each, quickly and without panicking.
 //!
-//! The damage is the same in every run. `EDDY_FUZZ_SECONDS` makes it go on for that long, `EDDY_FUZZ_SEED` elsewhere.
+//! The damage is the same in every run. `EDDY_FUZZ_SECONDS` sets how long it runs, and `EDDY_FUZZ_SEED` makes it
+//! different.
 
 use crate::support::clock::Clock;
 use eddy::{
@@ -10,7 +10,7 @@ use eddy::{
 };
 use std::time::{Duration, Instant};
 
-/// What is put in: all of the language's joints, and what does not belong to it.
+/// Inserted pieces: all kinds of tokens of the language, and some that are not part of it.
 const PIECES: &[&str] = &[
     "(",
     ")",
@@ -131,7 +131,7 @@ const PIECES: &[&str] = &[
     "@",
 ];
 
-/// xorshift: the same numbers everywhere.
+/// xorshift: the same numbers on every machine.
 struct Random(u64);
 
 impl Random {
@@ -151,7 +151,7 @@ fn boundary(text: &str, mut at: usize) -> usize {
     at
 }
 
-fn part<'t>(random: &mut Random, text: &'t str, longest: usize) -> &'t str {
+fn slice<'t>(random: &mut Random, text: &'t str, longest: usize) -> &'t str {
     let start = boundary(text, random.below(text.len() + 1));
     let end = boundary(text, start + random.below(longest)).max(start);
     &text[start..end]
@@ -159,9 +159,9 @@ fn part<'t>(random: &mut Random, text: &'t str, longest: usize) -> &'t str {
 
 fn damaged(random: &mut Random, seeds: &[String]) -> String {
     let seed = &seeds[random.below(seeds.len())];
-    let mut text = if random.below(4) == 0 { part(random, seed, seed.len() + 1).to_owned() } else { seed.clone() };
-    let most = [1, 1, 1, 2, 6][random.below(5)];
-    for _ in 0..=random.below(most) {
+    let mut text = if random.below(4) == 0 { slice(random, seed, seed.len() + 1).to_owned() } else { seed.clone() };
+    let max_changes = [1, 1, 1, 2, 6][random.below(5)];
+    for _ in 0..=random.below(max_changes) {
         let at = boundary(&text, random.below(text.len() + 1));
         match random.below(12) {
             0 => {
@@ -169,12 +169,12 @@ fn damaged(random: &mut Random, seeds: &[String]) -> String {
                 text.replace_range(at..end, "");
             }
             1 => {
-                let copy = part(random, &text, 60).to_owned();
+                let copy = slice(random, &text, 60).to_owned();
                 text.insert_str(at, &copy);
             }
             2 => {
                 let other = &seeds[random.below(seeds.len())];
-                let copy = part(random, other, 200).to_owned();
+                let copy = slice(random, other, 200).to_owned();
                 text.insert_str(at, &copy);
             }
             3 => {
@@ -183,7 +183,8 @@ fn damaged(random: &mut Random, seeds: &[String]) -> String {
                 text.insert_str(at, &piece.repeat(1 + random.below(times)));
             }
             4 | 5 => text.insert_str(at, PIECES[random.below(PIECES.len())]),
-            // Gentle damage, which often leaves a program: a word for another of the text, an operator for another.
+            // Mild damage, which often leaves a valid program: a statement is removed, an operator or a word is
+            // replaced.
             6 | 7 => {
                 let end = text[at..].find(';').map_or(at, |i| at + i + 1);
                 let start = text[..at].rfind([';', '{', '}']).map_or(at, |i| i + 1);
@@ -208,16 +209,16 @@ fn damaged(random: &mut Random, seeds: &[String]) -> String {
     text
 }
 
-/// Names and numbers.
+/// Returns the byte ranges of names and numbers.
 fn words(text: &str) -> Vec<(usize, usize)> {
-    let part = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
     let mut found = Vec::new();
     let mut start = None;
     for (i, c) in text.char_indices().chain([(text.len(), ' ')]) {
-        match (part(c), start) {
+        match (is_part(c), start) {
             (true, None) => start = Some(i),
-            (false, Some(begin)) => {
-                found.push((begin, i));
+            (false, Some(first)) => {
+                found.push((first, i));
                 start = None;
             }
             _ => {}
@@ -226,7 +227,7 @@ fn words(text: &str) -> Vec<(usize, usize)> {
     found
 }
 
-/// Every pass of the presets, and the programs that the tests of the language are made of.
+/// Returns the passes of the presets, and the programs of the compiler's own tests.
 fn seeds() -> Vec<String> {
     let mut seeds = Vec::new();
     for name in eddy::project::presets::names() {
@@ -236,7 +237,7 @@ fn seeds() -> Vec<String> {
     let spec = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/glsl/check/tests/spec");
     for entry in std::fs::read_dir(spec).unwrap() {
         let text = std::fs::read_to_string(entry.unwrap().path()).unwrap();
-        // One file holds many programs, each behind a line that says whether it is right.
+        // A file contains many programs, each after a line that says whether it is valid.
         for program in text.split("\n//").filter_map(|p| p.trim_start_matches("//").strip_prefix("ok")) {
             let program = program.split_once('\n').map_or("", |(_, rest)| rest);
             let entry = if program.contains("mainImage") {
@@ -251,18 +252,18 @@ fn seeds() -> Vec<String> {
     seeds
 }
 
-/// What no text may take.
-const LONG: Duration = Duration::from_secs(1);
+/// The time limit of a text.
+const TIME_LIMIT: Duration = Duration::from_secs(1);
 
 #[test]
-fn any_text_gets_an_answer() {
+fn any_text_is_compiled_or_rejected() {
     let number = |name: &str| std::env::var(name).ok().and_then(|v| v.parse::<u64>().ok());
     let seconds = number("EDDY_FUZZ_SECONDS");
     let mut random = Random(number("EDDY_FUZZ_SEED").unwrap_or(0x9E37_79B9_7F4A_7C15));
     let seeds = seeds();
-    let begin = Instant::now();
+    let start = Instant::now();
     let (mut cases, mut compiled) = (0, 0);
-    while seconds.map_or(cases < 3000, |s| begin.elapsed() < Duration::from_secs(s)) {
+    while seconds.map_or(cases < 3000, |s| start.elapsed() < Duration::from_secs(s)) {
         let text = damaged(&mut random, &seeds);
         cases += 1;
         let kind =
@@ -297,7 +298,7 @@ fn any_text_gets_an_answer() {
                 ..PassSource::image(&text)
             });
             if let Err(errors) = &result {
-                assert!(errors.iter().any(|d| d.is_error()), "refused without an error");
+                assert!(errors.iter().any(|d| d.is_error()), "rejected without an error");
                 let bug = errors.iter().find(|d| d.message.contains("bug in Eddy"));
                 assert!(bug.is_none(), "{bug:?}");
                 let mut sources = SourceMap::default();
@@ -306,32 +307,33 @@ fn any_text_gets_an_answer() {
             }
             result.is_ok()
         };
-        // Caches may be cold, and not every system tells a thread's own time: only what takes long each time does.
-        let mut least = Duration::MAX;
+        // Caches may be cold, and not every system reports a thread's own time: only a text that is slow each time
+        // fails.
+        let mut shortest = Duration::MAX;
         for _ in 0..5 {
-            let begin = Clock::now();
+            let start = Clock::now();
             let result = std::panic::catch_unwind(compile);
             let Ok(ok) = result else { panic!("case {cases}, {kind:?}:\n{text}") };
-            least = least.min(begin.elapsed());
-            if least < LONG {
+            shortest = shortest.min(start.elapsed());
+            if shortest < TIME_LIMIT {
                 compiled += u32::from(ok);
                 break;
             }
         }
-        assert!(least < LONG, "case {cases} took {least:?}:\n{text}");
+        assert!(shortest < TIME_LIMIT, "case {cases} took {shortest:?}:\n{text}");
     }
     println!("{cases} cases, {compiled} of them compiled");
-    assert!(compiled > 0, "the damage leaves nothing to lower");
+    assert!(compiled > 0, "no damaged text compiles");
 }
 
-/// Everything an editor may ask about one place of a text.
-fn ask(analysis: &Analysis, text: &str, at: usize) {
+/// Makes all the requests that an editor may make about one place of a text.
+fn request_all(analysis: &Analysis, text: &str, at: usize) {
     let source = SourceId(0);
     analysis.hover(source, at);
     analysis.near(source, at);
     analysis.definition(source, at);
     for span in analysis.uses(source, at) {
-        assert!(text.get(span.range()).is_some_and(|name| !name.is_empty()), "{span:?} is no name");
+        assert!(text.get(span.range()).is_some_and(|name| !name.is_empty()), "{span:?} is not a name");
     }
     analysis.signature_help(source, at);
     let found = analysis.completions(source, at);
@@ -341,14 +343,14 @@ fn ask(analysis: &Analysis, text: &str, at: usize) {
 }
 
 #[test]
-fn editors_get_an_answer_at_any_place_of_any_text() {
+fn editor_requests_work_at_any_place_of_any_text() {
     let number = |name: &str| std::env::var(name).ok().and_then(|v| v.parse::<u64>().ok());
     let seconds = number("EDDY_FUZZ_SECONDS");
     let mut random = Random(number("EDDY_FUZZ_SEED").unwrap_or(0x9E37_79B9_7F4A_7C15));
     let seeds = seeds();
-    let begin = Instant::now();
+    let start = Instant::now();
     let mut cases = 0;
-    while seconds.map_or(cases < 400, |s| begin.elapsed() < Duration::from_secs(s)) {
+    while seconds.map_or(cases < 400, |s| start.elapsed() < Duration::from_secs(s)) {
         let text = damaged(&mut random, &seeds);
         cases += 1;
         let places: Vec<usize> = (0..8).map(|_| random.below(text.len() + 2)).collect();
@@ -360,29 +362,29 @@ fn editors_get_an_answer_at_any_place_of_any_text() {
                 assert!(text.get(span.range.clone()).is_some(), "{span:?} cuts a character");
                 end = span.range.end;
             }
-            places.iter().for_each(|&at| ask(&analysis, &text, at));
+            places.iter().for_each(|&at| request_all(&analysis, &text, at));
         });
-        assert!(result.is_ok(), "case {cases}, asked at {places:?}:\n{text}");
+        assert!(result.is_ok(), "case {cases}, requests at {places:?}:\n{text}");
     }
 }
 
 #[test]
-fn huge_texts_get_an_answer() {
-    let answer = |text: &str| {
-        let begin = Clock::now();
+fn huge_texts_are_compiled_or_rejected() {
+    let diagnose = |text: &str| {
+        let start = Clock::now();
         let messages = glsl::diagnose(&PassSource::image(text));
-        // Far above what it takes, far below what a quadratic algorithm would.
-        assert!(begin.elapsed() < Duration::from_secs(20), "{:?}: {}", begin.elapsed(), &text[..40]);
+        // Far above the usual time, and far below that of a quadratic algorithm.
+        assert!(start.elapsed() < Duration::from_secs(20), "{:?}: {}", start.elapsed(), &text[..40]);
         messages
     };
     let megabyte = |piece: &str| piece.repeat(1_000_000 / piece.len());
     for piece in
         ["(", "{", "[", "a", "a ", "1.0 ", "/*", "//", "\n", "#\n", "#if 1\n", "a;", "a[", "a(", "\"", "\0", "\u{e9} "]
     {
-        assert!(!answer(&megabyte(piece)).is_empty(), "{piece:?}");
+        assert!(!diagnose(&megabyte(piece)).is_empty(), "{piece:?}");
     }
     let functions: String =
         (0..100_000).map(|i| format!("float f{i}(float x) {{ return x * {i}.0 + 1.0; }}\n")).collect();
     let program = functions + "void mainImage(out vec4 o, in vec2 p) { o = vec4(f99999(p.x)); }\n";
-    assert_eq!(answer(&program), []);
+    assert_eq!(diagnose(&program), []);
 }

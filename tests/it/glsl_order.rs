@@ -1,10 +1,10 @@
-//! The order in which operands and arguments are evaluated and variables among them are read: each case is one texel of a
-//! buffer, as in [`glsl_compute`](super::glsl_compute).
+//! The order in which operands and arguments are evaluated, and when variables among them are read: each case is one
+//! texel of a buffer, as in [`glsl_compute`](super::glsl_compute).
 
 use crate::support::compute::*;
 
 #[test]
-fn order_of_evaluation_and_effects() {
+fn side_effects_happen_in_order_of_evaluation() {
     check(&[
         case("int i = 0; int a = i++ + i++ * 10 + i; r = vec4(a, i, 0, 0);", [12., 2., 0., 0.]),
         with(
@@ -43,8 +43,9 @@ fn order_of_evaluation_and_effects() {
     ]);
 }
 
-/// An operand or argument that is a variable, or a part of one, is read when all others have been evaluated. The numbers
-/// are those of Chromium with two back ends of ANGLE, SPIR-V and OpenGL, which agree on all but the one that says so.
+/// An operand or argument that is a variable, or a part of one, is read after all others have been evaluated. The
+/// numbers are those of Chromium with two back ends of ANGLE, SPIR-V and OpenGL, which agree except where a comment
+/// says so.
 #[test]
 fn variables_among_operands_are_read_last() {
     const HEAD: &str = "float g; vec2 v; float a[2]; struct S { float x; }; S s; struct T { float a; float b; };
@@ -89,7 +90,7 @@ fn variables_among_operands_are_read_last() {
         ("r = vec4(0.); mat2 m = mat2(1., 2., 3., 4.); r.x = m[0][1] * (m[0][1] += 10.);", 144.),
         ("r = vec4(0.); int n = 1; r.x = vec2(n, n += 3).x;", 4.),
         ("r = vec4(0.); int n = 1; r.x = mat2(n, n += 3, n, n)[0].x;", 4.),
-        // Other operands are values at once: a conversion, of which OpenGL makes 4, and an index.
+        // Other operands are evaluated immediately: a conversion, for which OpenGL returns 4, and an index.
         ("r = vec4(0.); int n = 1; r.x = vec2(float(n), float(n += 3)).x;", 1.),
         ("r = vec4(0.); int n = 0; a[0] = 7.; a[1] = 9.; r.x = a[n] * float(++n);", 7.),
         ("r = vec4(0.); int n = 0; v = vec2(3., 5.); r.x = v[n] + float(n += 1) * 10.;", 13.),

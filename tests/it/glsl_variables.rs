@@ -1,20 +1,19 @@
-//! Variables that code writes: taken apart into scalars, free of zeros that nobody reads, and what they hold all the
-//! same.
+//! Variables that code writes: they are split into scalars and not zeroed needlessly, and keep their values.
 
 use crate::support::{compute::*, ir};
 use eddy::glsl::Driver;
 
-/// The variables and globals of each program, under what is special of it.
+/// Returns the declared variables and globals of each program, below the text that is special to it.
 fn declared<'a>(programs: impl IntoIterator<Item = (&'a str, String)>) -> String {
-    let each = programs.into_iter().map(|(name, code)| {
+    let texts = programs.into_iter().map(|(name, code)| {
         let declarations = ir::declarations(&ir::optimised(&code, Driver::default()));
         format!("; {name}\n{declarations}\n")
     });
-    each.collect()
+    texts.collect()
 }
 
 #[test]
-fn variables_hold_what_was_written() {
+fn variables_have_their_written_values() {
     const STATE: &str = "struct S { vec2 a; float b; ivec2 c; }; struct T { S s; mat2 m; S t; };\n\
         void both(inout vec3 v, out mat2 m) { v.x += 1.0; m[1] = v.yz; if (v.x > 99.0) discard; v = v.zxy; }";
     check(&[
@@ -54,7 +53,7 @@ fn variables_hold_what_was_written() {
     ]);
 }
 
-/// Memory that each call fills is there once, and begins with zeros once.
+/// A variable that each call fills exists once, and is zeroed once.
 #[test]
 fn what_is_filled_before_it_is_read_needs_no_zeros() {
     let programs = [
@@ -62,7 +61,7 @@ fn what_is_filled_before_it_is_read_needs_no_zeros() {
         "x = mat2(p, p.yx)[i].y;",
         "x = element(float[](p.x, p.y, 3.0), i);",
         "for (int k = 0; k < i; k++) { float a[2] = float[](x, p.y); a[k] += 1.0; x += a[k & 1]; }",
-        // Some zero is read, or would be if things went another way.
+        // A zero is read, or would be on another path.
         "float a[2]; a[i] = p.x; x = a[i + 1];",
         "float a[2]; if (i > 1) a = float[](p.x, p.y); x = a[i];",
         "float a[2]; while (x < 9.0) { x += a[i] + 1.0; a = float[](p.x, p.y); }",
@@ -84,8 +83,8 @@ fn what_is_filled_before_it_is_read_needs_no_zeros() {
     )]);
 }
 
-/// A driver that compiles anew for uniforms must not see through them. What hides them is work in every round of a
-/// loop.
+/// A driver that recompiles shaders for the values of uniforms must not see through them. The code that hides them
+/// would cost time in every iteration of a loop.
 #[test]
 fn hidden_uniforms_are_read_before_loops() {
     let driver = Driver { opaque_uniforms: true, ..Driver::default() };

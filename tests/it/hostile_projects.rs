@@ -1,5 +1,5 @@
-//! Projects that a stranger made to do harm: nothing outside the project's folder is read or carried away, nothing
-//! outside the destination is written, and what asks for too much is refused by a limit that the message names.
+//! Projects that were made to do harm: no file outside the project's folder is read or exported, no file outside the
+//! destination is written, and excessive demands are rejected with a message that names the limit.
 
 use crate::support::{self, folder_of, program::Bench};
 use eddy::{
@@ -21,8 +21,8 @@ use tempfile::TempDir;
 const IMAGE: &str = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n";
 const SECRET: &str = "// the secret\n";
 
-/// A folder with `secret.glsl` in it and the project in `p`.
-fn place(files: &[(&str, &str)]) -> TempDir {
+/// A folder that contains `secret.glsl`, and the project in `p`.
+fn hostile_folder(files: &[(&str, &str)]) -> TempDir {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("secret.glsl"), SECRET).unwrap();
     for (name, text) in files {
@@ -37,11 +37,11 @@ fn load(path: &Path) -> Result<Project, String> {
     project::load(path.to_str().unwrap()).map(|loaded| loaded.project).map_err(|e| e.to_string())
 }
 
-fn refusal(path: &Path) -> String {
-    load(path).expect_err("the project is refused")
+fn load_error(path: &Path) -> String {
+    load(path).expect_err("the project is rejected")
 }
 
-/// Every file and folder below, by its path from `folder`.
+/// Returns all files and folders in `folder`, as paths relative to it.
 fn tree(folder: &Path) -> BTreeSet<PathBuf> {
     let mut found = BTreeSet::new();
     let mut todo = vec![folder.to_owned()];
@@ -58,8 +58,8 @@ fn tree(folder: &Path) -> BTreeSet<PathBuf> {
 }
 
 #[test]
-fn a_pass_file_is_read_from_the_projects_folder_alone() {
-    for (name, says) in [
+fn a_pass_file_is_read_only_from_the_projects_folder() {
+    for (name, expected) in [
         ("/etc/passwd", "/etc/passwd is an absolute path"),
         ("../secret.glsl", "../secret.glsl leads out of the project's folder"),
         ("sub/../../secret.glsl", "leads out of the project's folder"),
@@ -70,73 +70,73 @@ fn a_pass_file_is_read_from_the_projects_folder_alone() {
         for (table, line) in [("passes.image", 2), ("passes.sound", 2), ("passes.buffer_a", 2), ("common", 2)] {
             let image = if table == "passes.image" { "" } else { "[passes.image]\n" };
             let toml = format!("[{table}]\nfile = \"{name}\"\n{image}");
-            let dir = place(&[("eddy.toml", &toml), ("image.glsl", IMAGE), ("sub/x", "")]);
-            let said = refusal(&dir.path().join("p"));
-            assert!(said.contains(says), "{toml}{said}");
-            assert!(said.contains(&format!("eddy.toml:{line}:")) && said.contains("= help: "), "{said}");
-            assert!(!said.contains("root:") && !said.contains(SECRET), "{said}");
+            let dir = hostile_folder(&[("eddy.toml", &toml), ("image.glsl", IMAGE), ("sub/x", "")]);
+            let message = load_error(&dir.path().join("p"));
+            assert!(message.contains(expected), "{toml}{message}");
+            assert!(message.contains(&format!("eddy.toml:{line}:")) && message.contains("= help: "), "{message}");
+            assert!(!message.contains("root:") && !message.contains(SECRET), "{message}");
         }
     }
 }
 
 #[test]
-fn a_stage_is_read_from_the_projects_folder_alone() {
+fn a_stage_is_read_only_from_the_projects_folder() {
     let toml =
         "[passes.image]\n[passes.buffer_s]\ndraw = [{ mesh = \"builtin:cube\", vertex = \"../payload.vert\" }]\n";
-    let dir = place(&[("eddy.toml", toml), ("image.glsl", IMAGE), ("buffer_s.glsl", "")]);
+    let dir = hostile_folder(&[("eddy.toml", toml), ("image.glsl", IMAGE), ("buffer_s.glsl", "")]);
     fs::write(dir.path().join("payload.vert"), "void main() {}").unwrap();
-    let said = refusal(&dir.path().join("p"));
+    let message = load_error(&dir.path().join("p"));
     assert!(
-        said.contains("../payload.vert leads out of the project's folder") && said.contains("eddy.toml:3:"),
-        "{said}"
+        message.contains("../payload.vert leads out of the project's folder") && message.contains("eddy.toml:3:"),
+        "{message}"
     );
 }
 
 #[cfg(unix)]
 #[test]
-fn links_that_lead_out_and_pipes_are_refused_in_every_place() {
+fn links_out_of_the_folder_and_pipes_are_rejected_everywhere() {
     use std::os::unix::fs::symlink;
     let toml = "[passes.image]\n[passes.sound]\n";
     for name in ["image.glsl", "common.glsl", "sound.glsl", "eddy.toml"] {
         for with_manifest in [true, false] {
             let mut files = vec![("image.glsl", IMAGE), ("sound.glsl", ""), ("common.glsl", "")];
             files.extend(with_manifest.then_some(("eddy.toml", toml)));
-            let dir = place(&files);
+            let dir = hostile_folder(&files);
             let path = dir.path().join("p").join(name);
             let _ = fs::remove_file(&path);
             symlink("../secret.glsl", &path).unwrap();
-            let said = refusal(&dir.path().join("p"));
-            assert!(said.contains(&format!("{name} is a link that leads out of the project's folder")), "{said}");
-            assert!(said.contains("copy the file into the project's folder"), "{said}");
+            let message = load_error(&dir.path().join("p"));
+            assert!(message.contains(&format!("{name} is a link that leads out of the project's folder")), "{message}");
+            assert!(message.contains("copy the file into the project's folder"), "{message}");
             fs::remove_file(&path).unwrap();
             assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
-            let said = refusal(&dir.path().join("p"));
-            assert!(said.contains("it is a pipe, not a regular file"), "{said}");
+            let message = load_error(&dir.path().join("p"));
+            assert!(message.contains("it is a pipe, not a regular file"), "{message}");
         }
     }
     // A single file, and a JSON file.
     for name in ["x.glsl", "x.json"] {
-        let dir = place(&[("readme", "")]);
+        let dir = hostile_folder(&[("readme", "")]);
         let path = dir.path().join("p").join(name);
         symlink("../secret.glsl", &path).unwrap();
-        assert!(refusal(&path).contains("a link that leads out"));
+        assert!(load_error(&path).contains("a link that leads out"));
     }
 }
 
 #[cfg(unix)]
 #[test]
-fn pictures_are_read_from_the_projects_folder_alone() {
-    let dir = place(&[("image.glsl", IMAGE)]);
-    let home = dir.path().join("p");
+fn image_files_are_read_only_from_the_projects_folder() {
+    let dir = hostile_folder(&[("image.glsl", IMAGE)]);
+    let project_folder = dir.path().join("p");
     image::RgbaImage::new(1, 1).save(dir.path().join("out.png")).unwrap();
-    image::RgbaImage::new(1, 1).save(home.join("in.png")).unwrap();
-    std::os::unix::fs::symlink("../out.png", home.join("link.png")).unwrap();
-    assert!(std::process::Command::new("mkfifo").arg(home.join("pipe.png")).status().unwrap().success());
+    image::RgbaImage::new(1, 1).save(project_folder.join("in.png")).unwrap();
+    std::os::unix::fs::symlink("../out.png", project_folder.join("link.png")).unwrap();
+    assert!(std::process::Command::new("mkfifo").arg(project_folder.join("pipe.png")).status().unwrap().success());
     let key = |media| MediaKey { media, dimension: Dimension::D2, vflip: true };
-    let read = |name: &str| eddy::media::load(&key(Media::File(name.into())), Some(&home), None);
+    let read = |name: &str| eddy::media::load(&key(Media::File(name.into())), Some(&project_folder), None);
     assert!(read("in.png").is_ok());
     let absolute = dir.path().join("out.png");
-    for (name, says) in [
+    for (name, expected) in [
         (absolute.to_str().unwrap(), "absolute path"),
         ("../out.png", "leads out"),
         ("link.png", "a link that leads out"),
@@ -144,15 +144,15 @@ fn pictures_are_read_from_the_projects_folder_alone() {
         ("/dev/zero", "absolute path"),
     ] {
         let error = read(name).expect_err(name);
-        assert!(error.to_string().contains(says), "{error}");
+        assert!(error.to_string().contains(expected), "{error}");
         assert!(!error.hint().is_empty());
     }
-    // What the person picked may lie anywhere.
-    assert!(eddy::media::load(&key(Media::Picked(absolute)), Some(&home), None).is_ok());
+    // A file that the user picked may be anywhere.
+    assert!(eddy::media::load(&key(Media::Picked(absolute)), Some(&project_folder), None).is_ok());
 }
 
 #[test]
-fn an_import_writes_into_its_folder_whatever_the_ids_are() {
+fn an_import_writes_only_into_its_folder_for_any_ids() {
     let b = Bench::new();
     let pass = |kind: &str, id: &str, inputs: serde_json::Value| {
         let outputs = json!([{ "id": id, "channel": 0 }]);
@@ -180,17 +180,17 @@ fn an_import_writes_into_its_folder_whatever_the_ids_are() {
     assert_eq!(b.names("deep/er/new"), expected);
     assert_eq!(b.names("deep/er"), ["new", "x.json"]);
     assert_eq!(b.names("."), ["deep"]);
-    // What reads such an id reads the pass that has it.
+    // A channel with such an id reads the pass that has this id.
     let project = load(&b.path("deep/er/new")).unwrap();
     let channel = project.image().unwrap().bindings.get(0).cloned();
     assert_eq!(channel.unwrap().input, Input::buffer("A"));
 }
 
 #[test]
-fn ids_that_a_disk_takes_for_one_become_two_files() {
+fn ids_that_differ_only_in_case_become_two_files() {
     let pass = |kind: &str, id: &str, code: &str| json!({ "outputs": [{ "id": id }], "code": code, "type": kind });
     let passes = [pass("buffer", "buffer_Blur", "1"), pass("buffer", "buffer_bLUR", "2"), pass("image", "4dfGRr", "3")];
-    let dir = place(&[("x.json", &json!({ "ver": "0.1", "renderpass": passes }).to_string())]);
+    let dir = hostile_folder(&[("x.json", &json!({ "ver": "0.1", "renderpass": passes }).to_string())]);
     let to = dir.path().join("new");
     project::save(&load(&dir.path().join("p/x.json")).unwrap(), &to, Overwrite::Refuse).unwrap();
     let names: BTreeSet<String> = tree(&to).iter().map(|p| p.to_str().unwrap().to_lowercase()).collect();
@@ -200,7 +200,7 @@ fn ids_that_a_disk_takes_for_one_become_two_files() {
 }
 
 #[test]
-fn names_of_passes_are_no_paths() {
+fn names_of_passes_cannot_be_paths() {
     for bad in ["a/b", "..", "a\\b", "a.b", "a:b", "a\0", "a\n", "a*", &"x".repeat(limits::NAME + 1)] {
         assert_eq!(PassName::parse(bad), None, "{bad:?}");
         assert_eq!(PassName::parse(&format!("buffer_{bad}")), None, "{bad:?}");
@@ -208,18 +208,19 @@ fn names_of_passes_are_no_paths() {
     for good in ["A", "blur", "Buffer A", "buf_b", "buffer-far-field", "größe", &"x".repeat(limits::NAME)] {
         assert!(PassName::parse(good).is_some(), "{good}");
     }
-    let dir = place(&[("eddy.toml", "[passes.image]\n[passes.\"buffer_a/../../x\"]\n"), ("image.glsl", IMAGE)]);
-    let said = refusal(&dir.path().join("p"));
-    assert!(said.contains("eddy.toml:2:") && said.contains("letters, digits"), "{said}");
+    let dir =
+        hostile_folder(&[("eddy.toml", "[passes.image]\n[passes.\"buffer_a/../../x\"]\n"), ("image.glsl", IMAGE)]);
+    let message = load_error(&dir.path().join("p"));
+    assert!(message.contains("eddy.toml:2:") && message.contains("letters, digits"), "{message}");
     let group = "[passes.image]\n[passes.buffer_a]\n[groups.\"../g\"]\npasses = [\"buffer_a\"]\n";
-    let dir = place(&[("eddy.toml", group), ("image.glsl", IMAGE), ("buffer_a.glsl", "")]);
-    assert!(refusal(&dir.path().join("p")).contains("a group cannot be named \"../g\""));
-    let dir = place(&[("image.glsl", IMAGE), ("buffer_a.old.glsl", IMAGE)]);
+    let dir = hostile_folder(&[("eddy.toml", group), ("image.glsl", IMAGE), ("buffer_a.glsl", "")]);
+    assert!(load_error(&dir.path().join("p")).contains("a group cannot be named \"../g\""));
+    let dir = hostile_folder(&[("image.glsl", IMAGE), ("buffer_a.old.glsl", IMAGE)]);
     let loaded = project::load(dir.path().join("p").to_str().unwrap()).unwrap();
     assert!(loaded.warnings[0].message.contains("buffer_a.old.glsl is not a pass"), "{:?}", loaded.warnings);
 }
 
-/// A project in memory with a geometry pass whose stage has this name.
+/// Returns a project with a geometry pass whose stage file has this name.
 fn with_stage(name: &str) -> Project {
     let mut scene = support::pass(PassName::buffer("scene"), "", Default::default());
     let draw = MeshDraw {
@@ -243,7 +244,7 @@ fn with_stage(name: &str) -> Project {
 }
 
 #[test]
-fn save_as_writes_into_its_folder_alone() {
+fn save_as_writes_only_into_its_folder() {
     for name in [
         "../payload.vert",
         "../../payload.desktop",
@@ -257,17 +258,17 @@ fn save_as_writes_into_its_folder_alone() {
         let error = project::save(&with_stage(name), &to, Overwrite::Allow).expect_err(name).to_string();
         assert!(error.contains("cannot write "), "{error}");
         assert!(tree(dir.path()).is_empty(), "{name}: {:?}", tree(dir.path()));
-        // A pass's file whose text includes something keeps its name, which must be as good.
+        // The file of a pass whose text has includes keeps its name, so the name must be valid, too.
         let mut pass = support::image("// #include \"x\"\n", Default::default());
         (pass.source.name, pass.source.path) = (name.into(), Some(name.into()));
         assert!(project::save(&support::project(vec![pass]), &to, Overwrite::Allow).is_err(), "{name}");
         assert!(tree(dir.path()).is_empty(), "{name}");
     }
-    // Names that are no paths get an ending that no program is started by.
-    for (name, becomes) in [("payload.sh", "payload.sh.glsl"), (".profile", ".profile.glsl"), ("x.vert", "x.vert")] {
+    // Names that are not paths get an extension that is not executable.
+    for (name, saved_as) in [("payload.sh", "payload.sh.glsl"), (".profile", ".profile.glsl"), ("x.vert", "x.vert")] {
         let dir = tempfile::tempdir().unwrap();
         project::save(&with_stage(name), dir.path(), Overwrite::Refuse).unwrap();
-        assert_eq!(fs::read_to_string(dir.path().join(becomes)).unwrap(), "evil");
+        assert_eq!(fs::read_to_string(dir.path().join(saved_as)).unwrap(), "evil");
         assert_eq!(tree(dir.path()).len(), 4);
     }
     for name in ["nul.vert", "COM1.glsl"] {
@@ -279,7 +280,7 @@ fn save_as_writes_into_its_folder_alone() {
 
 #[cfg(unix)]
 #[test]
-fn save_as_follows_no_link_out_of_its_folder() {
+fn save_as_does_not_follow_links_out_of_its_folder() {
     use std::os::unix::fs::symlink;
     let dir = tempfile::tempdir().unwrap();
     let (to, outside) = (dir.path().join("to"), dir.path().join("outside"));
@@ -297,18 +298,18 @@ fn save_as_follows_no_link_out_of_its_folder() {
         assert!(error.contains("link"), "{error}");
         assert_eq!(tree(&outside).len(), 1);
         assert_eq!(fs::read_to_string(outside.join("x.vert")).unwrap(), "mine");
-        assert!(!to.join("eddy.toml").exists(), "nothing is written before all is checked");
+        assert!(!to.join("eddy.toml").exists(), "no file is written before all names are checked");
     }
 }
 
 #[cfg(unix)]
 #[test]
-fn save_as_carries_along_what_lies_in_the_old_folder_alone() {
+fn save_as_copies_only_files_of_the_old_folder() {
     let toml = "[passes.image]\nchannels.0 = { file = \"../out.png\" }\nchannels.1 = { file = \"link.png\" }\n\
                 channels.2 = { file = \"run.sh\" }\nchannels.3 = { file = \"in.png\" }\n\
                 [passes.buffer_s]\ndraw = [{ mesh = \"m/a.gltf\", vertex = \"s.vert\" }]\n";
     let gltf = r#"{"buffers":[{"uri":"../../out.png"},{"uri":"/etc/passwd"},{"uri":"a.bin"}]}"#;
-    let dir = place(&[
+    let dir = hostile_folder(&[
         ("eddy.toml", toml),
         ("image.glsl", IMAGE),
         ("in.png", "in"),
@@ -328,7 +329,7 @@ fn save_as_carries_along_what_lies_in_the_old_folder_alone() {
 }
 
 #[test]
-fn an_export_carries_nothing_from_outside() {
+fn an_export_contains_no_files_from_outside() {
     let b = Bench::new();
     b.write("secret.glsl", SECRET);
     b.write("p/image.glsl", IMAGE);
@@ -351,13 +352,13 @@ fn picked(path: &Path) -> Option<Channel> {
 }
 
 #[test]
-fn a_picked_picture_is_copied_in_by_saving_and_over_nothing() {
-    let dir = place(&[("image.glsl", IMAGE), ("cat.png", "another cat")]);
-    let (home, elsewhere) = (dir.path().join("p"), dir.path().join("elsewhere"));
+fn a_picked_image_file_is_copied_into_the_folder_without_overwriting() {
+    let dir = hostile_folder(&[("image.glsl", IMAGE), ("cat.png", "another cat")]);
+    let (project_folder, elsewhere) = (dir.path().join("p"), dir.path().join("elsewhere"));
     fs::create_dir(&elsewhere).unwrap();
     fs::write(elsewhere.join("cat.png"), "cat").unwrap();
     fs::write(elsewhere.join("we;ird\u{1}.EXE"), "odd").unwrap();
-    let mut project = load(&home).unwrap();
+    let mut project = load(&project_folder).unwrap();
     project.passes[0].bindings = [
         picked(&elsewhere.join("cat.png")),
         picked(&elsewhere.join("we;ird\u{1}.EXE")),
@@ -365,7 +366,7 @@ fn a_picked_picture_is_copied_in_by_saving_and_over_nothing() {
         picked(&elsewhere.join("cat.png")),
     ]
     .into();
-    let saved = project::save(&project, &home, Overwrite::Refuse).unwrap();
+    let saved = project::save(&project, &project_folder, Overwrite::Refuse).unwrap();
     let names = |p: &Project| -> Vec<PathBuf> {
         let media = |c: &Channel| match c.input.media() {
             Some(Media::File(path)) => path.clone(),
@@ -375,18 +376,18 @@ fn a_picked_picture_is_copied_in_by_saving_and_over_nothing() {
     };
     let expected = ["cat_2.png", "we_ird_.png", "gone.png", "cat_2.png"].map(PathBuf::from);
     assert_eq!(names(&saved), expected);
-    assert_eq!(fs::read_to_string(home.join("cat.png")).unwrap(), "another cat");
-    assert_eq!(fs::read_to_string(home.join("cat_2.png")).unwrap(), "cat");
-    assert_eq!(fs::read_to_string(home.join("we_ird_.png")).unwrap(), "odd");
-    assert_eq!(names(&load(&home).unwrap()), expected);
-    // The same again makes no further copy, and one that lies in the folder is named.
+    assert_eq!(fs::read_to_string(project_folder.join("cat.png")).unwrap(), "another cat");
+    assert_eq!(fs::read_to_string(project_folder.join("cat_2.png")).unwrap(), "cat");
+    assert_eq!(fs::read_to_string(project_folder.join("we_ird_.png")).unwrap(), "odd");
+    assert_eq!(names(&load(&project_folder).unwrap()), expected);
+    // Saving again makes no second copy, and a picked file that is in the folder is referenced by its name.
     let mut project = saved;
-    project.passes[0].bindings = [picked(&elsewhere.join("cat.png")), picked(&home.join("cat.png"))].into();
-    let saved = project::save(&project, &home, Overwrite::Refuse).unwrap();
+    project.passes[0].bindings = [picked(&elsewhere.join("cat.png")), picked(&project_folder.join("cat.png"))].into();
+    let saved = project::save(&project, &project_folder, Overwrite::Refuse).unwrap();
     let media: Vec<_> = saved.passes[0].bindings.channels().map(|c| c.input.media().unwrap().clone()).collect();
     assert_eq!(media, [Media::File("cat_2.png".into()), Media::File("cat.png".into())]);
-    assert!(!home.join("cat_3.png").exists());
-    // Where it lies on this machine is in no file.
+    assert!(!project_folder.join("cat_3.png").exists());
+    // The path on this machine is not written into any file.
     project.passes[0].bindings = [picked(&elsewhere.join("cat.png"))].into();
     assert!(project::save(&project, &dir.path().join("x.json"), Overwrite::Refuse).is_err());
     assert!(!project::json::export(&project).contains("elsewhere"));
@@ -394,97 +395,100 @@ fn a_picked_picture_is_copied_in_by_saving_and_over_nothing() {
 
 #[test]
 fn limits_are_named_with_the_file_and_the_line() {
-    let said = |files: &[(&str, &str)]| refusal(&place(files).path().join("p"));
+    let message = |files: &[(&str, &str)]| load_error(&hostile_folder(files).path().join("p"));
     let steps = "[passes.image]\n[passes.buffer_a]\n[groups.g]\npasses = [\"buffer_a\"]\nsteps = 1000000\n";
-    let text = said(&[("eddy.toml", steps), ("image.glsl", IMAGE), ("buffer_a.glsl", IMAGE)]);
+    let text = message(&[("eddy.toml", steps), ("image.glsl", IMAGE), ("buffer_a.glsl", IMAGE)]);
     assert!(text.contains("eddy.toml:5:") && text.contains(&format!("the limit is {}", limits::DRAWS)), "{text}");
 
     let mut many = "[passes.image]\n".to_owned();
     (0..40_000).for_each(|n| many.push_str(&format!("[passes.buffer_x{n}]\nfile=\"a\"\n")));
-    let text = said(&[("eddy.toml", &many), ("image.glsl", IMAGE), ("a", "")]);
+    let text = message(&[("eddy.toml", &many), ("image.glsl", IMAGE), ("a", "")]);
     assert!(text.contains(&format!("more than {} passes", limits::PASSES)), "{}", &text[..500.min(text.len())]);
 
-    let dir = place(&[("image.glsl", "")]);
+    let dir = hostile_folder(&[("image.glsl", "")]);
     let sized =
         |name: &str, bytes: u64| fs::File::create(dir.path().join("p").join(name)).unwrap().set_len(bytes).unwrap();
     sized("image.glsl", limits::GLSL_TEXT.bytes + 1);
-    assert!(refusal(&dir.path().join("p")).contains("image.glsl is larger than 8 MiB, the limit for a GLSL file"));
+    assert!(load_error(&dir.path().join("p")).contains("image.glsl is larger than 8 MiB, the limit for a GLSL file"));
     sized("x.json", 84 << 20);
-    assert!(refusal(&dir.path().join("p/x.json")).contains("x.json is larger than 32 MiB"));
+    assert!(load_error(&dir.path().join("p/x.json")).contains("x.json is larger than 32 MiB"));
     let many = format!("tags = [{}]\n[passes.image]\n", "\"t\",".repeat(limits::MANIFEST_VALUES));
     fs::write(dir.path().join("p/eddy.toml"), many).unwrap();
-    assert!(refusal(&dir.path().join("p")).contains("eddy.toml has more than 131072 values, the limit"));
+    assert!(load_error(&dir.path().join("p")).contains("eddy.toml has more than 131072 values, the limit"));
     sized("eddy.toml", limits::MANIFEST.bytes + 1);
-    assert!(refusal(&dir.path().join("p")).contains("eddy.toml is larger than 2 MiB"));
+    assert!(load_error(&dir.path().join("p")).contains("eddy.toml is larger than 2 MiB"));
     fs::remove_file(dir.path().join("p/eddy.toml")).unwrap();
     sized("image.glsl", 0);
     for n in 0..9 {
         sized(&format!("buffer_{n}.glsl"), limits::GLSL_TEXT.bytes);
     }
-    let text = refusal(&dir.path().join("p"));
+    let text = load_error(&dir.path().join("p"));
     assert!(text.contains("it is more than 64 MiB, the limit for all GLSL files"), "{text}");
 }
 
 #[test]
-fn included_texts_are_limited_together_before_they_are_put_together() {
+fn the_total_size_of_includes_is_limited_before_they_are_joined() {
     // One file of 1 MiB, 100 times: 100 MiB of text from 1 MiB of files.
     let big = "/".repeat(1 << 20);
-    let often = "#include \"big\"\n".repeat(100);
-    let dir = place(&[("image.glsl", &often), ("big", &big)]);
+    let includes = "#include \"big\"\n".repeat(100);
+    let dir = hostile_folder(&[("image.glsl", &includes), ("big", &big)]);
     let project = load(&dir.path().join("p")).unwrap();
     let lines = project.include_lines();
-    let said = eddy::diag::render_all(&lines.diagnostics, &project.sources());
-    assert!(said.contains("image.glsl includes more than 64 MiB") && said.contains("image.glsl:1:1"), "{said}");
+    let message = eddy::diag::render_all(&lines.diagnostics, &project.sources());
+    assert!(
+        message.contains("image.glsl includes more than 64 MiB") && message.contains("image.glsl:1:1"),
+        "{message}"
+    );
     assert!(lines.lines.is_empty());
-    // 9,000 files of 1 MiB that hold no memory of the disk.
+    // 9,000 sparse files of 1 MiB.
     let all: String = (0..9_000).map(|n| format!("#include \"f{n}\"\n")).collect();
-    let dir = place(&[("image.glsl", &all)]);
+    let dir = hostile_folder(&[("image.glsl", &all)]);
     for n in 0..9_000 {
         fs::File::create(dir.path().join(format!("p/f{n}"))).unwrap().set_len(1 << 20).unwrap();
     }
     let project = load(&dir.path().join("p")).unwrap();
     let read: usize = project.includes.iter().map(|i| i.source.text.len()).sum();
     assert!(read as u64 <= limits::ALL_TEXTS.bytes, "{read}");
-    let said = eddy::diag::render_all(&project.include_lines().diagnostics, &project.sources());
-    assert!(said.contains("it is more than 64 MiB"), "{}", &said[..500.min(said.len())]);
+    let message = eddy::diag::render_all(&project.include_lines().diagnostics, &project.sources());
+    assert!(message.contains("it is more than 64 MiB"), "{}", &message[..500.min(message.len())]);
 }
 
 #[test]
-fn lists_of_a_json_file_have_limits_and_what_is_not_read_takes_no_memory() {
+fn json_lists_have_limits_and_unread_values_take_no_memory() {
     let image = json!({ "code": IMAGE, "type": "image" });
     let read =
         |value: serde_json::Value| project::json::import(&value.to_string(), "x.json").map_err(|e| e.to_string());
     let many: Vec<_> = (0..70_000).map(|_| json!({ "code": "", "type": "buffer" })).collect();
-    let said = read(json!({ "ver": "0.1", "renderpass": many })).unwrap_err();
+    let message = read(json!({ "ver": "0.1", "renderpass": many })).unwrap_err();
     assert!(
-        said.contains(&format!("more than {} entries", limits::PASSES + 1)) && said.contains("x.json:1:"),
-        "{said}"
+        message.contains(&format!("more than {} entries", limits::PASSES + 1)) && message.contains("x.json:1:"),
+        "{message}"
     );
     let inputs: Vec<_> = (0..1000).map(|_| json!({ "channel": 0 })).collect();
-    let said =
+    let message =
         read(json!({ "ver": "0.1", "renderpass": [{ "code": "", "type": "image", "inputs": inputs }] })).unwrap_err();
-    assert!(said.contains("more than 64 entries"), "{said}");
+    assert!(message.contains("more than 64 entries"), "{message}");
     let info = json!({ "x": "y".repeat(2 << 20) });
-    let said = read(json!({ "ver": "0.1", "info": info, "renderpass": [image] })).unwrap_err();
-    assert!(said.contains("\"info\" is larger than 1 MiB"), "{said}");
+    let message = read(json!({ "ver": "0.1", "info": info, "renderpass": [image] })).unwrap_err();
+    assert!(message.contains("\"info\" is larger than 1 MiB"), "{message}");
     let (project, _) = read(json!({ "ver": "0.1", "other": "y".repeat(2 << 20), "renderpass": [image] })).unwrap();
     assert_eq!(project.passes.len(), 1);
 }
 
 #[test]
-fn what_a_killed_save_left_is_swept_by_opening_and_by_saving() {
-    let dir = place(&[("image.glsl", IMAGE), (".eddy-save-aB3xYz.tmp", "half"), (".eddy-notes", "mine")]);
-    let home = dir.path().join("p");
-    let project = load(&home).unwrap();
-    assert!(!home.join(".eddy-save-aB3xYz.tmp").exists() && home.join(".eddy-notes").exists());
+fn temporary_files_of_a_killed_save_are_removed_by_opening_and_saving() {
+    let dir = hostile_folder(&[("image.glsl", IMAGE), (".eddy-save-aB3xYz.tmp", "half"), (".eddy-notes", "mine")]);
+    let project_folder = dir.path().join("p");
+    let project = load(&project_folder).unwrap();
+    assert!(!project_folder.join(".eddy-save-aB3xYz.tmp").exists() && project_folder.join(".eddy-notes").exists());
     let to = folder_of(dir.path().join("to"), &[(".eddy-save-aB3xYz.tmp", "half")]);
     project::save(&project, &to, Overwrite::Refuse).unwrap();
     assert!(!to.join(".eddy-save-aB3xYz.tmp").exists());
 }
 
-/// The table of `SECURITY.md` has every limit with its value.
+/// The table in `SECURITY.md` contains every limit with its value.
 #[test]
-fn the_limits_are_written_down_as_they_are() {
+fn the_documented_limits_equal_the_constants() {
     let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/SECURITY.md")).unwrap();
     let source = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/src/project/limits.rs")).unwrap();
     let named: BTreeSet<&str> =
@@ -495,14 +499,14 @@ fn the_limits_are_written_down_as_they_are() {
         .map(|l| l.trim_matches('|').split('|').map(str::trim).collect())
         .collect();
     let written: BTreeSet<&str> = rows.iter().map(|row| row[0].trim_matches('`')).collect();
-    assert_eq!(written, named, "every constant of limits.rs has its row, and no other");
+    assert_eq!(written, named, "every constant of limits.rs has its row, and there are no other rows");
     for row in rows {
         let value = value_of(&source, row[0].trim_matches('`'));
         assert_eq!(row[2], value, "{}", row[0]);
     }
 }
 
-/// A constant's value as the table writes it: bytes in MiB and the like, other numbers with commas.
+/// Returns a constant's value as the table shows it: bytes in MiB and the like, other numbers with commas.
 fn value_of(source: &str, name: &str) -> String {
     let line = source.split(&format!("pub const {name}:")).nth(1).unwrap();
     let text = line.split_once('=').unwrap().1.split(';').next().unwrap();

@@ -1,5 +1,5 @@
-//! Results of the lab, and folders for pictures, that a stranger prepared: nothing outside of the folder is written, and
-//! no project is opened because a result names it.
+//! Malicious results of the lab and output folders: no file outside the folder is written, and no project is opened
+//! because a result names it.
 
 use crate::support::program::Bench;
 use eddy::lab::{
@@ -20,21 +20,21 @@ fn case(project: &str) -> StabilityRecord {
 }
 
 #[test]
-fn a_report_opens_no_project_that_only_a_result_names() {
+fn a_report_does_not_open_projects_that_only_a_result_names() {
     let b = Bench::new();
-    // Opening a folder sweeps what a killed save left there, so that it shows.
-    let left = "own/.eddy-save-aB3xYz.tmp";
+    // Opening a folder removes the temporary files of a killed save, so a removed file would show that it was opened.
+    let temporary = "own/.eddy-save-aB3xYz.tmp";
     b.image("own/image.glsl", "fragColor = vec4(1.0);");
-    b.write(left, "half");
-    let own = b.path("own").to_str().unwrap().to_owned();
-    let results = Results { cases: vec![case(&own), case("fluid")], ..Results::default() };
+    b.write(temporary, "half");
+    let own_project = b.path("own").to_str().unwrap().to_owned();
+    let results = Results { cases: vec![case(&own_project), case("fluid")], ..Results::default() };
     results.write(&b.path("theirs")).unwrap();
     b.line("lab merge theirs --out merged").expect(0);
     let page = fs::read_to_string(b.path("merged/stability.html")).unwrap();
-    assert!(page.contains(&own) && b.path(left).exists());
-    assert_eq!(page.matches("<summary>Bounds</summary>").count(), 1, "the preset's");
-    // A project that the person named has its bounds as well.
-    let subject = CheckedProject::load(&own, &[]).unwrap();
+    assert!(page.contains(&own_project) && b.path(temporary).exists());
+    assert_eq!(page.matches("<summary>Bounds</summary>").count(), 1, "only the preset has bounds");
+    // The bounds of a project that the user named are shown as well.
+    let subject = CheckedProject::load(&own_project, &[]).unwrap();
     stability::write_of(&b.path("merged"), &results, &[subject]).unwrap();
     let page = fs::read_to_string(b.path("merged/stability.html")).unwrap();
     assert_eq!(page.matches("<summary>Bounds</summary>").count(), 2);
@@ -53,19 +53,19 @@ fn results_and_reports_are_not_written_through_links() {
             fs::create_dir_all(&out).unwrap();
             symlink(target, out.join(name)).unwrap();
             let run = b.line("lab merge from --out out").expect(2);
-            let says = if target == "../mine.txt" { "a link leads out of" } else { "a broken link" };
-            assert!(run.err.contains(says) && run.err.contains(name), "{}", run.err);
+            let expected = if target == "../mine.txt" { "a link leads out of" } else { "a broken link" };
+            assert!(run.err.contains(expected) && run.err.contains(name), "{}", run.err);
             assert_eq!(fs::read_to_string(b.path("mine.txt")).unwrap(), "mine");
             assert!(!b.path("not there").exists());
             fs::remove_dir_all(out).unwrap();
         }
     }
-    // A link to a file of the same folder, as a person may have made it, is followed.
+    // A link to a file in the same folder, which a user may have made, is followed.
     b.write("out/kept.html", "before");
     symlink("kept.html", b.path("out/index.html")).unwrap();
     b.line("lab merge from --out out").expect(0);
     assert!(fs::read_to_string(b.path("out/kept.html")).unwrap().contains("Speed against error"));
-    // What never ends and what never begins.
+    // A pipe, whose reading would block.
     fs::create_dir(b.path("pipe")).unwrap();
     let pipe = b.path("pipe").join(RESULTS_FILE);
     assert!(std::process::Command::new("mkfifo").arg(pipe).status().unwrap().success());
@@ -84,7 +84,7 @@ fn pictures_are_not_written_into_a_folder_through_links() {
     let run = b.line("render p --size 4x4 --out p/pictures").expect(2);
     assert!(run.err.contains("a link leads out of p/pictures"), "{}", run.err);
     assert_eq!(fs::read_to_string(b.path("mine.txt")).unwrap(), "mine");
-    // A file that the person named is the person's, also where it is a link.
+    // A file that the user named is written, even if it is a link.
     b.line("render p --size 4x4 --out p/pictures/p.png").expect(0);
     assert_ne!(fs::read(b.path("mine.txt")).unwrap(), b"mine");
 }

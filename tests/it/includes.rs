@@ -1,4 +1,4 @@
-//! `#include` lines from the file to the picture, and back to the file when something is wrong in it.
+//! `#include` lines: from the file to the picture, and from an error back to the file.
 
 use crate::support::{gpu, program::Bench, stage::*};
 use eddy::{
@@ -34,7 +34,7 @@ fn an_error_in_an_included_file_is_shown_there() {
 }
 
 #[test]
-fn a_file_that_no_compiled_group_includes_may_be_missing() {
+fn files_included_only_in_inactive_groups_may_be_missing() {
     let b = Bench::new();
     let image = "void mainImage(out vec4 o, in vec2 p) { o = vec4(K); }\n";
     for group in ["#ifdef NOISE\n@#endif\n", "#if 0\n@#endif\n", "#if 1\n#else\n#if 1\n@#endif\n#endif\n"] {
@@ -45,32 +45,32 @@ fn a_file_that_no_compiled_group_includes_may_be_missing() {
         assert!(!run.err.contains("none.glsl"), "{}", run.err);
         b.line("export p --out p.json --force").expect(0);
     }
-    // A macro of Common decides, and the words are those of a line outside of any group.
+    // A macro in Common activates the line, and the message is the same as for a line outside any group.
     let guarded = format!("#ifdef NOISE\n#include \"lib/none.glsl\"\n#endif\n{image}");
     b.write("p/image.glsl", guarded.as_str());
     b.line("check p").expect(0);
     b.write("p/common.glsl", "#define NOISE\nconst float K = 1.0;\n");
     let run = b.line("check p").expect(1);
-    let words = "#include \"lib/none.glsl\": there is no file lib/none.glsl";
-    assert!(run.err.contains(words) && run.err.contains("image.glsl:2:1"), "{}", run.err);
-    assert_eq!(run.err.matches(words).count(), 1, "{}", run.err);
-    assert!(b.line("export p --out q.json").expect(1).err.contains(words));
-    assert!(b.line("translate p --to wgsl --out w").expect(1).err.contains(words));
-    // In Common itself, which every pass has in front, and in a file that is included.
+    let message = "#include \"lib/none.glsl\": there is no file lib/none.glsl";
+    assert!(run.err.contains(message) && run.err.contains("image.glsl:2:1"), "{}", run.err);
+    assert_eq!(run.err.matches(message).count(), 1, "{}", run.err);
+    assert!(b.line("export p --out q.json").expect(1).err.contains(message));
+    assert!(b.line("translate p --to wgsl --out w").expect(1).err.contains(message));
+    // In Common, which precedes every pass, and in an included file.
     b.write("p/image.glsl", format!("#include \"tone.glsl\"\n{image}"));
     b.write("p/buffer_a.glsl", image);
     b.write("p/tone.glsl", "#if 1\n#include \"later.glsl\"\n#else\n#include \"never.glsl\"\n#endif\n");
     b.write("p/common.glsl", "#include \"first.glsl\"\nconst float K = 1.0;\n#if 0\n#include \"never.glsl\"\n#endif\n");
     let run = b.line("check p").expect(1);
     for (place, file) in [("common.glsl:1:1", "first.glsl"), ("tone.glsl:2:1", "later.glsl")] {
-        let words = format!("there is no file {file}");
-        assert!(run.err.contains(place) && run.err.matches(&words).count() == 1, "{}", run.err);
+        let message = format!("there is no file {file}");
+        assert!(run.err.contains(place) && run.err.matches(&message).count() == 1, "{}", run.err);
     }
     assert!(!run.err.contains("never.glsl"), "{}", run.err);
 }
 
 #[test]
-fn line_numbers_count_through_included_lines_as_in_the_export() {
+fn line_numbers_count_included_lines_as_in_the_export() {
     let Some(b) = Bench::with_gpu() else { return };
     let main = "void mainImage(out vec4 o, in vec2 p) { o = vec4(float(FIRST), float(__LINE__), 0.0, 1.0); }\n";
     b.write("p/image.glsl", format!("int x;\n#include \"two.glsl\"\n#include \"two.glsl\"\n{main}"));
@@ -79,9 +79,9 @@ fn line_numbers_count_through_included_lines_as_in_the_export() {
     for p in ["p", "p.json"] {
         b.line(&format!("render {p} --size 1x1 --out {}.npy", p.replace('.', "_"))).expect(0);
     }
-    let (own, site) = (b.npy("p.npy").at(0, 0), b.npy("p_json.npy").at(0, 0));
-    assert_eq!(own, site);
-    assert!(own[1] > 10.0);
+    let (folder_texel, export_texel) = (b.npy("p.npy").at(0, 0), b.npy("p_json.npy").at(0, 0));
+    assert_eq!(folder_texel, export_texel);
+    assert!(folder_texel[1] > 10.0);
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn an_included_file_is_watched_and_its_errors_name_it() {
         let places = s.diagnostics().iter().filter_map(|d| d.place.as_ref());
         places.into_iter().any(|p| p.tab.as_ref() == Some(&tone()) && p.text == "lib/tone.glsl" && p.line == 1)
     });
-    // A line typed now, of a file that comes later.
+    // An edited line includes a file that does not exist yet.
     stage.edit(&USES.replace("tone.glsl", "late.glsl"));
     stage.session.apply(Command::CompileNow);
     stage.until("the missing file", |s| {
@@ -120,7 +120,7 @@ fn tone() -> Tab {
     Tab::Included("lib/tone.glsl".into())
 }
 
-fn type_into(stage: &mut Stage, text: &str) {
+fn edit_tone(stage: &mut Stage, text: &str) {
     stage.session.apply(Command::EditText { tab: tone(), text: text.into() });
 }
 
@@ -147,13 +147,13 @@ fn an_included_file_is_edited_compiled_and_saved_like_a_pass() {
     assert_eq!(stage.session.project().included_at(&image_tab(), at), Some(tone()));
     assert_eq!(stage.session.project().included_at(&image_tab(), USES.len() - 3), None);
 
-    type_into(&mut stage, "float tone() { return 0.2; }");
+    edit_tone(&mut stage, "float tone() { return 0.2; }");
     assert!(
         stage.session.is_dirty() && stage.session.is_tab_dirty(&tone()) && !stage.session.is_tab_dirty(&image_tab())
     );
     stage.until_red(51);
-    assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 1.0; }", "nothing is written unasked");
-    // An edit that has the files read anew leaves what was typed.
+    assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 1.0; }", "edits are not written before a save");
+    // An edit that rereads the files keeps the edited text.
     stage.edit(&format!("#include \"lib/late.glsl\"\n{USES}"));
     stage.session.apply(Command::CompileNow);
     stage.until("the missing file", |s| s.diagnostics().iter().any(|d| d.message.contains("late.glsl")));
@@ -161,7 +161,7 @@ fn an_included_file_is_edited_compiled_and_saved_like_a_pass() {
     stage.session.apply(Command::CompileNow);
     stage.until("a good compile", |s| s.diagnostics().is_empty());
     assert_eq!(stage.session.text(&tone()), "float tone() { return 0.2; }");
-    // So does a text that includes it no more.
+    // So does a text that no longer includes the file.
     stage.edit(&plain(0.0));
     stage.session.apply(Command::EditText { tab: Tab::Pass(PassName::buffer("A")), text: plain(0.0) });
     stage.session.apply(Command::CompileNow);
@@ -170,25 +170,25 @@ fn an_included_file_is_edited_compiled_and_saved_like_a_pass() {
     stage.session.apply(Command::Save);
     assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 0.2; }");
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
-    // And back to what is on disk is no edit.
+    // Returning to the text on disk is not an edit.
     stage.edit(USES);
     stage.session.apply(Command::CompileNow);
     stage.until_red(51);
-    type_into(&mut stage, "float tone() { return 0.6; }");
+    edit_tone(&mut stage, "float tone() { return 0.6; }");
     assert!(stage.session.is_tab_dirty(&tone()));
-    type_into(&mut stage, "float tone() { return 0.2; }");
+    edit_tone(&mut stage, "float tone() { return 0.2; }");
     assert!(!stage.session.is_tab_dirty(&tone()));
 }
 
 #[test]
 fn a_change_on_disk_of_an_edited_included_file_is_a_conflict() {
     let Some(mut stage) = with_tone("float tone() { return 1.0; }") else { return };
-    // Not edited: it follows.
+    // An unedited file follows the disk.
     let generation = stage.session.text_generation();
     stage.write("lib/tone.glsl", "float tone() { return 0.2; }");
     stage.until_red(51);
     assert!(stage.session.text_generation() > generation && !stage.session.is_dirty());
-    type_into(&mut stage, "float tone() { return 0.6; }");
+    edit_tone(&mut stage, "float tone() { return 0.6; }");
     stage.write("lib/tone.glsl", "float tone() { return 0.4; }");
     stage.until("a question", |s| s.question().is_some());
     let Some(Question::Conflict { tab, file, mine, disk, .. }) = stage.session.question().cloned() else { panic!() };
@@ -198,31 +198,31 @@ fn a_change_on_disk_of_an_edited_included_file_is_a_conflict() {
     assert_eq!(stage.session.text(&tone()), "float tone() { return 0.4; }");
     assert!(!stage.session.is_dirty());
     stage.until_red(102);
-    // And the same where only an edited text includes it, with the answer of the other side.
+    // The same if only an edited text includes the file, with the other answer.
     stage.write("lib/late.glsl", "float late() { return 0.0; }");
     stage.edit(&format!("#include \"lib/late.glsl\"\n{USES}"));
     stage.session.apply(Command::CompileNow);
-    let late = || Tab::Included("lib/late.glsl".into());
-    stage.until("the file", |s| s.tabs().contains(&late()) && !s.compile_state().compiling);
-    stage.session.apply(Command::EditText { tab: late(), text: "float late() { return 1.0; }".into() });
+    let late_tab = || Tab::Included("lib/late.glsl".into());
+    stage.until("the file", |s| s.tabs().contains(&late_tab()) && !s.compile_state().compiling);
+    stage.session.apply(Command::EditText { tab: late_tab(), text: "float late() { return 1.0; }".into() });
     stage.write("lib/late.glsl", "float late() { return 2.0; }");
     stage.until("a question", |s| s.question().is_some());
     stage.session.apply(Command::Answer(Answer::KeepMine));
-    assert_eq!(stage.session.text(&late()), "float late() { return 1.0; }");
+    assert_eq!(stage.session.text(&late_tab()), "float late() { return 1.0; }");
     stage.session.apply(Command::Save);
     assert_eq!(stage.read("lib/late.glsl"), "float late() { return 1.0; }");
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
 }
 
 #[test]
-fn an_edited_included_file_goes_into_the_snapshot_and_into_another_folder() {
+fn an_edited_included_file_is_part_of_snapshots_and_of_save_as() {
     let Some(mut stage) = with_tone("float tone() { return 1.0; }") else { return };
-    type_into(&mut stage, "float tone() { return 0.2; }");
+    edit_tone(&mut stage, "float tone() { return 0.2; }");
     let text = eddy::project::write_snapshot(stage.session.project()).unwrap();
     let mut read = eddy::project::read_snapshot(&text).unwrap();
     read.read_includes();
     assert_eq!(read.source(&tone()).map(|s| &*s.text), Some("float tone() { return 0.2; }"));
-    // A name that leads out of the folder is nobody's file.
+    // A name that leads out of the folder is ignored.
     let hostile = text.replace("\"lib/tone.glsl\"", "\"../tone.glsl\"");
     assert!(hostile != text && eddy::project::read_snapshot(&hostile).unwrap().includes.is_empty());
     let copy = stage.dir.path().join("copy");
@@ -233,7 +233,7 @@ fn an_edited_included_file_goes_into_the_snapshot_and_into_another_folder() {
 }
 
 #[test]
-fn a_file_that_lone_glsl_includes_is_saved_beside_it() {
+fn a_file_that_a_single_glsl_file_includes_is_saved_next_to_it() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::bare(gpu);
     std::fs::create_dir(stage.path("lib")).unwrap();
@@ -242,14 +242,14 @@ fn a_file_that_lone_glsl_includes_is_saved_beside_it() {
     let file = stage.path("lone.glsl");
     stage.session.apply(Command::Open(file.to_str().unwrap().into()));
     stage.compile(Command::Pause);
-    type_into(&mut stage, "float tone() { return 0.2; }");
+    edit_tone(&mut stage, "float tone() { return 0.2; }");
     stage.session.apply(Command::Save);
     assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 0.2; }");
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
 }
 
 #[test]
-fn a_keystroke_reads_no_file_and_a_new_include_is_read_by_the_compile() {
+fn a_keystroke_reads_no_files_and_a_compile_reads_new_includes() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.0))]);
     std::fs::create_dir(stage.path("lib")).unwrap();
@@ -269,11 +269,11 @@ fn a_keystroke_reads_no_file_and_a_new_include_is_read_by_the_compile() {
     stage.write("lib/tone.glsl", "float tone() { return 0.2; }");
     stage.edit(&format!("{USES} // typed"));
     stage.edit(&USES.replace("tone.glsl", "late.glsl"));
-    assert_eq!(read(&stage), before, "nothing is read where the keys come in");
+    assert_eq!(read(&stage), before, "a keystroke reads no files");
     stage.session.apply(Command::CompileNow);
     stage.until("the new file", |s| s.project().includes[0].source.name == "lib/late.glsl");
     stage.until_red(153);
-    // Back, within a text that is compiled anew: the file that has changed meanwhile is read.
+    // The original text again: the compile reads the file, which has changed meanwhile.
     stage.edit(USES);
     stage.session.apply(Command::CompileNow);
     stage.until_red(51);

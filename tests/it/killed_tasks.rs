@@ -1,5 +1,5 @@
-//! Tasks of a simulation that go on from checkpoints and are killed at any time: done again, they write what one run
-//! writes, and nothing is half written meanwhile.
+//! Simulation tasks that resume from checkpoints and are killed at any time: run again, they write the same files as a
+//! single run, and no file is ever incomplete.
 
 use crate::support::{env, program::Bench};
 use std::{
@@ -8,12 +8,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Frames of the run, and how often its state is saved.
+/// The number of frames, and the number between two checkpoints.
 const FRAMES: u32 = 24;
-const EVERY: u32 = 4;
+const CHECKPOINT_INTERVAL: u32 = 4;
 const TASKS: u64 = 3;
 
-/// Returns a call that draws `fluid`, with a hand that stirs it.
+/// Returns a call that draws `fluid`, with a mouse script that stirs it.
 fn fluid(b: &Bench, more: &[&str]) -> Command {
     let mut command = b.command();
     let frames = format!("0-{}", FRAMES - 1);
@@ -30,9 +30,9 @@ fn is_temporary(name: &str) -> bool {
     name.starts_with(".eddy-save-") && name.ends_with(".tmp")
 }
 
-/// Runs a call to its end. Returns how long it took, and how long from its first file on.
-fn timed(b: &Bench, command: &mut Command, folder: &str) -> (Duration, Duration) {
-    let began = Instant::now();
+/// Runs a call to its end. Returns its duration, and the time from its first file to its end.
+fn run_timed(b: &Bench, command: &mut Command, folder: &str) -> (Duration, Duration) {
+    let start = Instant::now();
     let mut child = command.spawn().unwrap();
     let mut first = None;
     loop {
@@ -41,114 +41,125 @@ fn timed(b: &Bench, command: &mut Command, folder: &str) -> (Duration, Duration)
         }
         if let Some(status) = child.try_wait().unwrap() {
             assert!(status.success(), "{command:?}: {status}");
-            return (began.elapsed(), first.map_or(Duration::ZERO, |first| first.elapsed()));
+            return (start.elapsed(), first.map_or(Duration::ZERO, |first| first.elapsed()));
         }
         std::thread::sleep(Duration::from_millis(1));
     }
 }
 
-/// Kills a call: one of two at any time after its start, the other while it writes. Returns whether it was under way.
-fn killed(b: &Bench, command: &mut Command, folder: &str, kill: u64, (whole, writing): (Duration, Duration)) -> bool {
+/// Kills a call: every second one at any time after its start, the others while it writes. Returns whether it was
+/// running.
+fn run_and_kill(
+    b: &Bench,
+    command: &mut Command,
+    folder: &str,
+    kill: u64,
+    (whole, writing): (Duration, Duration),
+) -> bool {
     let mut child = command.spawn().unwrap();
-    // By the golden ratio, which spreads any number of times over the whole.
-    let part = (kill as f64 * 0.618_033_988_75 + 0.5).fract();
+    // The golden ratio spreads any number of times evenly over the interval.
+    let fraction = (kill as f64 * 0.618_033_988_75 + 0.5).fract();
     if kill.is_multiple_of(2) {
-        std::thread::sleep(whole.mul_f64(part));
+        std::thread::sleep(whole.mul_f64(fraction));
     } else {
         while b.names(folder).is_empty() && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(1));
         }
-        std::thread::sleep(writing.mul_f64(part));
+        std::thread::sleep(writing.mul_f64(fraction));
     }
-    let is_under_way = child.try_wait().unwrap().is_none();
+    let was_running = child.try_wait().unwrap().is_none();
     child.kill().unwrap();
     child.wait().unwrap();
-    is_under_way
+    was_running
 }
 
-/// Counts what was found after the kills.
+/// Counts of the files that are found after kills.
 #[derive(Debug, Default)]
-struct Found {
+struct KillReport {
     kills: u64,
-    under_way: u64,
-    whole_files: usize,
+    killed_while_running: u64,
+    complete_files: usize,
     temporary_files: usize,
 }
 
-impl Found {
-    /// Checks the files of a folder after a kill: each is whole, or has the name of a temporary one.
-    fn check(&mut self, b: &Bench, folder: &str, whole: &BTreeMap<String, Vec<u8>>) {
+impl KillReport {
+    /// Checks the files of a folder after a kill: each is complete, or has the name of a temporary file.
+    fn check(&mut self, b: &Bench, folder: &str, expected_files: &BTreeMap<String, Vec<u8>>) {
         for (name, bytes) in files(b, folder) {
             if is_temporary(&name) {
                 self.temporary_files += 1;
                 continue;
             }
-            let expected = whole.get(&name).unwrap_or_else(|| panic!("{folder}: {name} is of no run"));
-            assert!(bytes == *expected, "{folder}: {name} is half written");
-            self.whole_files += 1;
+            let expected = expected_files
+                .get(&name)
+                .unwrap_or_else(|| panic!("{folder}: {name} was not written by the uninterrupted run"));
+            assert!(bytes == *expected, "{folder}: {name} is incomplete");
+            self.complete_files += 1;
         }
     }
 }
 
-fn tasks_are_killed(kills: u64) {
+fn check_killed_tasks(kills: u64) {
     let Some(b) = Bench::with_gpu() else { return };
     assert!(fluid(&b, &["--out", "serial"]).status().unwrap().success());
     let serial = files(&b, "serial");
     assert_eq!(serial.len(), FRAMES as usize);
-    let every = EVERY.to_string();
+    let every = CHECKPOINT_INTERVAL.to_string();
     let checkpoints = |folder: &str| fluid(&b, &["--checkpoint-every", &every, "--checkpoints", folder]);
-    let of_checkpoints = timed(&b, &mut checkpoints("states"), "states");
+    let checkpoint_times = run_timed(&b, &mut checkpoints("states"), "states");
     let states = files(&b, "states");
-    assert_eq!(states.len(), (FRAMES / EVERY) as usize);
+    assert_eq!(states.len(), (FRAMES / CHECKPOINT_INTERVAL) as usize);
     let task = |n: u64, from: &str, out: &str| {
         fluid(&b, &["--shard", &format!("{n}/{TASKS}"), "--resume", from, "--out", out])
     };
-    // All tasks from one set of checkpoints are the serial run.
-    let mut of_task = (Duration::ZERO, Duration::ZERO);
+    // All tasks together, from one set of checkpoints, equal the serial run.
+    let mut task_times = (Duration::ZERO, Duration::ZERO);
     for n in 0..TASKS {
         let folder = format!("task{n}");
-        of_task = timed(&b, &mut task(n, "states", &folder), &folder);
+        task_times = run_timed(&b, &mut task(n, "states", &folder), &folder);
     }
     let parts: Vec<BTreeMap<String, Vec<u8>>> = (0..TASKS).map(|n| files(&b, &format!("task{n}"))).collect();
     assert!(
         parts.iter().flatten().map(|(name, bytes)| (name.clone(), bytes.clone())).collect::<BTreeMap<_, _>>() == serial
     );
-    let mut found = Found::default();
+    let mut report = KillReport::default();
     for kill in 0..kills {
-        found.kills += 1;
-        // Two of the serial runs that write checkpoints, then two of the tasks that go on from them.
+        report.kills += 1;
+        // Two of the serial runs that write checkpoints, then two of the tasks that resume from them.
         if kill % 4 < 2 {
             let folder = format!("states{kill}");
-            found.under_way += u64::from(killed(&b, &mut checkpoints(&folder), &folder, kill, of_checkpoints));
-            found.check(&b, &folder, &states);
-            // What is there serves already, and half a checkpoint of a dead process is none.
-            let some = states.values().next_back().unwrap();
-            b.write(&format!("{folder}/.eddy-save-dead00.tmp"), &some[..some.len() / 2]);
+            report.killed_while_running +=
+                u64::from(run_and_kill(&b, &mut checkpoints(&folder), &folder, kill, checkpoint_times));
+            report.check(&b, &folder, &states);
+            // The existing checkpoints can be used at once, and half a checkpoint of a dead process is ignored.
+            let checkpoint = states.values().next_back().unwrap();
+            b.write(&format!("{folder}/.eddy-save-dead00.tmp"), &checkpoint[..checkpoint.len() / 2]);
             let out = format!("early{kill}");
             assert!(task(TASKS - 1, &folder, &out).status().unwrap().success());
-            assert!(files(&b, &out) == parts[TASKS as usize - 1], "a task from the checkpoints that were there");
+            assert!(files(&b, &out) == parts[TASKS as usize - 1], "a task that uses the existing checkpoints");
             assert!(checkpoints(&folder).status().unwrap().success());
             assert!(files(&b, &folder) == states, "{:?} is not {:?}", b.names(&folder), b.names("states"));
         } else {
             let (n, out) = (kill / 2 % TASKS, format!("killed{kill}"));
-            found.under_way += u64::from(killed(&b, &mut task(n, "states", &out), &out, kill, of_task));
-            found.check(&b, &out, &parts[n as usize]);
+            report.killed_while_running +=
+                u64::from(run_and_kill(&b, &mut task(n, "states", &out), &out, kill, task_times));
+            report.check(&b, &out, &parts[n as usize]);
             assert!(task(n, "states", &out).status().unwrap().success());
             assert!(files(&b, &out) == parts[n as usize], "{:?}", b.names(&out));
         }
     }
-    eprintln!("{found:?}, {of_checkpoints:?} for the checkpoints, {of_task:?} for a task");
-    assert!(found.under_way > 0, "no call was killed in time: {found:?}");
+    eprintln!("{report:?}, {checkpoint_times:?} for the checkpoints, {task_times:?} for a task");
+    assert!(report.killed_while_running > 0, "no call was killed while it was running: {report:?}");
 }
 
 #[test]
-fn killed_tasks_of_a_simulation_are_done_again() {
-    tasks_are_killed(4);
+fn killed_tasks_of_a_simulation_can_be_run_again() {
+    check_killed_tasks(4);
 }
 
-/// `EDDY_KILLS` says how many times; 50 take some minutes.
+/// `EDDY_KILLS` sets the number of kills; 50 take some minutes.
 #[test]
 #[ignore = "takes minutes"]
-fn killed_tasks_of_a_simulation_are_done_again_many_times() {
-    tasks_are_killed(env::number("EDDY_KILLS", 50));
+fn killed_tasks_of_a_simulation_can_be_run_again_many_times() {
+    check_killed_tasks(env::number("EDDY_KILLS", 50));
 }

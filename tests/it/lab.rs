@@ -1,4 +1,4 @@
-//! What the lab's methods promise, as gates: small cases against closed forms and linear theory.
+//! Claims of the lab's methods as gates: small cases compared with closed forms and linear theory.
 
 use crate::support::rig;
 use eddy::lab::{
@@ -20,13 +20,13 @@ fn guay(n: u32) -> Setup {
     Setup::new("fluid_guay", (n, n)).define("METHOD", "ONE_PASS")
 }
 
-/// The components of velocity after so many frames.
+/// Returns the components of velocity after `frames` frames.
 fn velocity(rig: &Rig, setup: &Setup, frames: u32) -> Vec<f64> {
     rig.after(setup, frames, "field").unwrap().components(0, 1)
 }
 
 #[test]
-fn a_chain_of_three_passes_is_three_steps_of_one_bit_for_bit() {
+fn a_chain_of_three_passes_equals_three_steps_of_one_pass_bit_for_bit() {
     let Some(rig) = rig() else { return };
     let texels = |method: &str, frames| {
         let setup = Setup::new("fluid_guay", (33, 20)).define("METHOD", method).uniform("noise", 0.1);
@@ -34,7 +34,7 @@ fn a_chain_of_three_passes_is_three_steps_of_one_bit_for_bit() {
     };
     let chain = texels("CHAIN", 4);
     assert_eq!(chain, texels("ONE_PASS", 12));
-    // Four steps are not three: the comparison can fail.
+    // The comparison can fail: sixteen steps differ from twelve.
     assert_ne!(chain, texels("ONE_PASS", 16));
 }
 
@@ -51,29 +51,30 @@ fn a_shear_wave_decays_by_its_exact_factor() {
         let exact = sampled(n as usize, |_, y| factor * (k * y).sin());
         let error = Norms::of(&measured[..exact.len()], &exact).l2;
         assert!(error < 1e-5, "{method}: {error}");
-        // Half a per cent of viscosity is seen.
+        // A difference of half a per cent in viscosity would be detected.
         let other = (1.0 - 4.0 * 1.005 * nu * dt * (k / 2.0).sin().powi(2)).powi(50);
         assert!((other / factor - 1.0).abs() > 1e-4);
     }
 }
 
-/// Factor a step by which a wave of wave number pi / 2 along both axes grows in a fluid at rest. Velocity and density
-/// are weighted so that the energy of a wave without viscosity grows evenly, though its phase turns.
+/// Returns the factor per step by which a wave with wave number pi / 2 along both axes grows in a fluid at rest.
+/// Velocity and density are weighted so that the energy of a wave without viscosity grows evenly, although its phase
+/// turns.
 fn wave_growth(rig: &Rig, setup: &Setup, weight: f64, steps: u32) -> f64 {
     let wave = "vec4(1e-4 * vec2(sin(1.5707963267949 * (fragCoord.x + fragCoord.y))), 1.0, 1.0)";
     let mut running: Running = rig.open(&setup.clone().initial("field", wave)).unwrap();
     let mut energy = || {
         let field = running.read("field").unwrap();
         let square = |v: Vec<f64>, about: f64| v.iter().map(|x| (x - about).powi(2)).sum::<f64>();
-        let all = square(field.components(0, 1), 0.0) + weight * square(field.component(2), 1.0);
+        let total = square(field.components(0, 1), 0.0) + weight * square(field.component(2), 1.0);
         running.frames(steps).unwrap();
-        all.sqrt()
+        total.sqrt()
     };
     let (before, after) = (energy(), energy());
     (after / before).powf(1.0 / f64::from(steps))
 }
 
-/// Factor a step by which noise grows between two times.
+/// Returns the factor per step by which noise grows between two times.
 fn noise_growth(rig: &Rig, setup: &Setup, from: u32, to: u32) -> f64 {
     let setup = setup.clone().uniform("speed", 0.0).uniform("noise", 1e-5);
     let norm = |v: Vec<f64>| v.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -86,10 +87,10 @@ fn noise_growth(rig: &Rig, setup: &Setup, from: u32, to: u32) -> f64 {
 }
 
 #[test]
-fn a_fluid_at_rest_grows_as_von_neumann_says() {
+fn noise_in_a_fluid_at_rest_grows_as_von_neumann_analysis_predicts() {
     let Some(rig) = rig() else { return };
     let (n, dt, stiffness) = (32, 0.15, 0.2);
-    // No wave of a fluid without viscosity grows faster.
+    // No wave grows faster in a fluid without viscosity.
     let wave = one_pass_growth(dt, 0.0, stiffness, TAU / 4.0, TAU / 4.0);
     assert!((fastest(n, |kx, ky| one_pass_growth(dt, 0.0, stiffness, kx, ky)) - wave).abs() < 1e-12);
     for nu in [0.0, 0.05] {
@@ -98,7 +99,7 @@ fn a_fluid_at_rest_grows_as_von_neumann_says() {
         let measured = wave_growth(&rig, &guay(n as u32).uniform("viscosity", nu), stiffness / dt, 150).ln();
         assert!((measured / theory - 1.0).abs() < 0.05, "nu {nu}: {measured} for {theory}");
     }
-    // Stable from nu = K on; the unstable case of the same test is above.
+    // Stable from nu = K on; the unstable case of the same measurement is above.
     let measured = noise_growth(&rig, &guay(n as u32).uniform("viscosity", 0.21), 100, 300);
     assert!(measured <= 1.0, "{measured}");
     let setup = Setup::new("fluid_guay", (32, 32)).define("METHOD", "FORWARD_BACKWARD").uniform("viscosity", 0.0);
@@ -108,7 +109,7 @@ fn a_fluid_at_rest_grows_as_von_neumann_says() {
 }
 
 #[test]
-fn without_viscosity_a_fluid_at_rest_blows_up_and_forward_backward_does_not() {
+fn the_one_pass_fluid_is_unstable_without_viscosity_and_forward_backward_is_not() {
     let Some(rig) = rig() else { return };
     let largest = |method| {
         let setup = Setup::new("fluid_guay", (32, 32)).define("METHOD", method).uniform("viscosity", 0.0);
@@ -122,7 +123,7 @@ fn without_viscosity_a_fluid_at_rest_blows_up_and_forward_backward_does_not() {
     assert!(forward_backward < 0.005, "{forward_backward}");
 }
 
-/// relL2 of the velocity and nu_eff / nu of a Taylor-Green vortex that has halved.
+/// Returns relL2 of the velocity and nu_eff / nu of a Taylor-Green vortex whose velocity has halved.
 fn vortex(rig: &Rig, method: &str, n: u32, speed: f64) -> (f64, f64) {
     let (dt, nu, k) = (0.15, 0.55, TAU / f64::from(n));
     let solver = fluid::solver(method, n, dt, fluid::Begin { speed, ..fluid::Begin::USUAL });
@@ -138,39 +139,39 @@ fn vortex(rig: &Rig, method: &str, n: u32, speed: f64) -> (f64, f64) {
 }
 
 #[test]
-fn the_projected_fluid_keeps_the_vortex() {
+fn projected_fluids_keep_the_vortex() {
     let Some(rig) = rig() else { return };
     for method in ["maccormack-jacobi-4", "maccormack-cycle"] {
         let (error, ratio) = vortex(&rig, method, 64, 1.0);
         assert!(error < 0.02, "{method}: {error}");
         assert!((0.98..=1.03).contains(&ratio), "{method}: {ratio}");
     }
-    // The gate shuts out what it should.
+    // The gate rejects a method that should fail.
     let (error, ratio) = vortex(&rig, "guay", 64, 1.0);
     assert!(error > 0.2 && ratio > 1.2, "{error} {ratio}");
 }
 
 #[test]
-fn one_v_cycle_leaves_less_than_a_fifth() {
+fn one_v_cycle_reduces_the_residual_to_less_than_a_fifth() {
     let Some(rig) = rig() else { return };
     let n = 128;
     let f = source(n, 3);
     let exact = solution(n, &f);
-    let left = |count| {
+    let remaining = |count| {
         let p = poisson::solved(&rig, "v-cycle", n as u32, &f, count, &exact).unwrap();
         residual(n, &p, &f).iter().map(|r| r * r).sum::<f64>().sqrt()
     };
-    let all: Vec<f64> = (1..=4).map(left).collect();
-    for pair in all.windows(2) {
-        assert!(pair[1] / pair[0] < 0.2, "{all:?}");
+    let residuals: Vec<f64> = (1..=4).map(remaining).collect();
+    for pair in residuals.windows(2) {
+        assert!(pair[1] / pair[0] < 0.2, "{residuals:?}");
     }
     let jacobi = poisson::solved(&rig, "jacobi", n as u32, &f, 20, &exact).unwrap();
-    assert!(Norms::of(&jacobi, &exact).l2 > 0.9, "twenty sweeps do next to nothing");
+    assert!(Norms::of(&jacobi, &exact).l2 > 0.9, "twenty sweeps reduce the error hardly at all");
 }
 
-/// Exponential time differencing errs by its step alone, at second order.
+/// The only error of exponential time differencing is that of its time step, of second order.
 #[test]
-fn exponential_time_differencing_is_of_second_order() {
+fn exponential_time_differencing_is_second_order() {
     let Some(rig) = rig() else { return };
     let error = |method: &str, setting: f64| {
         let point = Point { study: "gray-scott".into(), method: method.into(), setting, grid: 64 };
@@ -179,18 +180,18 @@ fn exponential_time_differencing_is_of_second_order() {
     let errors = [4.0, 2.0, 1.0].map(|dt| error("etd", dt));
     let blurred = error("strang-blur", 2.0);
     println!("etd {errors:.6?}, strang-blur {blurred:.6}");
-    // It is 2.5 at these steps.
+    // The observed order is 2.5 at these steps.
     let observed = order(errors[0], errors[2], 4.0);
     assert!(observed > 1.8 && errors[1] < 0.1 * blurred, "{errors:?}, order {observed}, strang-blur {blurred}");
-    // A wave grows as in the continuum: there is no stencil.
+    // A wave grows as in the continuum, because there is no stencil.
     let (measured, _, continuum) = gray_scott::grown(&rig, "etd", 1.0).unwrap();
     assert!((measured / continuum - 1.0).abs() < 0.02, "{measured} for {continuum}");
 }
 
-/// The row "Gray-Scott, a developed pattern" of docs/lab.md: one that has filled its box, by its statistics.
+/// The row "Gray-Scott, a developed pattern" of docs/lab.md: the statistics of a pattern that fills its box.
 #[test]
-#[ignore = "a minute; `eddy lab gray-scott` has the same figures of every method"]
-fn developed_patterns_have_the_statistics_of_the_table() {
+#[ignore = "a minute; `eddy lab gray-scott` prints these figures for every method"]
+fn developed_patterns_have_the_documented_statistics() {
     let Some(rig) = rig() else { return };
     for (name, dt, expected) in [
         ("etd", 2.0, [0.000, 0.000, 0.000]),
@@ -200,16 +201,17 @@ fn developed_patterns_have_the_statistics_of_the_table() {
         ("reaction-diffusion", 1.0, [0.018, 0.020, -0.041]),
     ] {
         let [found, known] = gray_scott::late(&rig, name, dt).unwrap();
-        let off = |f: fn(&Statistics) -> f64| f(&found) / f(&known) - 1.0;
-        let all = [off(|s| s.mean), off(|s| s.area), off(|s| s.wavelength)];
-        println!("{name}: {all:.4?}");
+        let relative_difference = |f: fn(&Statistics) -> f64| f(&found) / f(&known) - 1.0;
+        let differences =
+            [relative_difference(|s| s.mean), relative_difference(|s| s.area), relative_difference(|s| s.wavelength)];
+        println!("{name}: {differences:.4?}");
         let is_near = |(a, b): (&f64, &f64)| (a - b).abs() < 0.002 + 0.05 * b.abs();
-        assert!(all.iter().zip(&expected).all(is_near), "{name}: {all:?}, {expected:?}");
+        assert!(differences.iter().zip(&expected).all(is_near), "{name}: {differences:?}, {expected:?}");
     }
 }
 
 #[test]
-fn gray_scott_grows_as_linear_theory_says_and_sixteen_bits_stall() {
+fn gray_scott_grows_as_linear_theory_predicts_and_stalls_in_16_bits() {
     let Some(rig) = rig() else { return };
     for dt in [0.5, 1.0] {
         let (measured, theory, continuum) = gray_scott::grown(&rig, "five-point", dt).unwrap();
@@ -217,8 +219,8 @@ fn gray_scott_grows_as_linear_theory_says_and_sixteen_bits_stall() {
         assert!((measured / continuum - 1.0).abs() < 0.05, "{measured} for {continuum}");
     }
     let half = gray_scott::stalled(&rig, Storage::Half, 0.037).unwrap();
-    // Where feed times 1 - u is half of the last bit of a 16-bit float below 1, 2^-12, if a device rounds to the
-    // nearest; a whole one if it cuts off, as lavapipe does.
+    // Feed times 1 - u is half of the last bit of a 16-bit float below 1, 2^-12, if a device rounds to nearest, and a
+    // whole one if it truncates, as lavapipe does.
     let ends = [12, 11].map(|bits| 1.0 - 0.5f64.powi(bits) / 0.037);
     assert!(ends.iter().any(|end| (half - end).abs() < 3e-4), "{half}, not one of {ends:?}");
     let full = gray_scott::stalled(&rig, Storage::AsWritten, 0.037).unwrap();
@@ -226,7 +228,7 @@ fn gray_scott_grows_as_linear_theory_says_and_sixteen_bits_stall() {
 }
 
 #[test]
-fn a_sea_without_v_follows_its_exact_factor() {
+fn gray_scott_without_v_follows_its_exact_factor() {
     let Some(rig) = rig() else { return };
     let setup = Setup::new("gray_scott_stencil", (4, 4)).define("STENCIL", 5).uniform("feed", 0.037);
     let at_rest = setup.clone().initial("field", "vec4(0.5, 0.0, 0.0, 1.0)");
@@ -255,7 +257,7 @@ fn diffusion_converges_at_second_order_to_the_heat_kernel() {
 }
 
 #[test]
-fn a_normalised_blur_keeps_what_there_is_and_nine_taps_do_not() {
+fn normalised_blurs_conserve_the_sum_and_nine_taps_do_not() {
     let Some(rig) = rig() else { return };
     let blur = studies::named(&["blur".into()]).unwrap()[0];
     let grid = blur.grids(Extent::Quick)[0];

@@ -1,4 +1,4 @@
-//! What the window does with the lab, without the window: a point of a study opened as a project, and a run in the
+//! The window's use of the lab, without the window: opening a point of a study as a project, and running in the
 //! background.
 
 use crate::support::{Engines, gpu};
@@ -22,8 +22,8 @@ use std::{
 
 const FRAMES: i32 = 2;
 
-/// Texels of a pass of a project with no media but what it names, after [`FRAMES`] frames.
-fn drawn(engines: &mut Engines, project: &Project, size: (u32, u32), pass: &PassName) -> Vec<[f32; 4]> {
+/// Returns the texels of a pass after [`FRAMES`] frames, with the media that the project names.
+fn draw(engines: &mut Engines, project: &Project, size: (u32, u32), pass: &PassName) -> Vec<[f32; 4]> {
     let (media, warnings) = media::gather(project, None);
     assert!(warnings.is_empty(), "{warnings:?}");
     let options = BuildOptions { wanted: vec![pass.clone()], skip: true, ..BuildOptions::default() };
@@ -46,11 +46,11 @@ fn every_setting_on_every_grid_is_a_project() {
 }
 
 #[test]
-fn every_method_saved_as_a_project_draws_what_was_measured() {
+fn every_method_saved_as_a_project_draws_the_measured_texels() {
     let Some(gpu) = gpu() else { return };
     let mut engines = Engines::new(&gpu);
     let rig = Rig::new(gpu);
-    let mut held = 0;
+    let mut in_memory = 0;
     for study in studies::all() {
         let grid = study.grids(Extent::Quick)[0];
         let points = study.points(Extent::Quick);
@@ -61,7 +61,7 @@ fn every_method_saved_as_a_project_draws_what_was_measured() {
             let setup = (study.setup)(point);
             let Opened { project: opened, size, pass } = open::project(study, point).unwrap();
             assert_eq!((size, &opened.origin), (setup.size(), &Origin::Unsaved), "{point:?}");
-            held += opened.fills().filter(|(.., f)| matches!(f.value, FillValue::InMemory { .. })).count();
+            in_memory += opened.fills().filter(|(.., f)| matches!(f.value, FillValue::InMemory { .. })).count();
             let folder = tempfile::tempdir().unwrap();
             let saved = project::save(&opened, &folder.path().join("saved"), Overwrite::Refuse);
             let saved = saved.unwrap_or_else(|e| panic!("{point:?}: {e}"));
@@ -73,17 +73,17 @@ fn every_method_saved_as_a_project_draws_what_was_measured() {
             let name = pass.key();
             let measured = running.read(name.strip_prefix("buffer_").unwrap_or(name)).unwrap().texels().to_vec();
             let bits = |texels: &[[f32; 4]]| -> Vec<u32> { texels.iter().flatten().map(|v| v.to_bits()).collect() };
-            assert!(bits(&drawn(&mut engines, &opened, size, &pass)) == bits(&measured), "as opened: {point:?}");
-            assert!(bits(&drawn(&mut engines, &loaded.project, size, &pass)) == bits(&measured), "as saved: {point:?}");
-            // A method whose texels are all alike would prove nothing.
+            assert!(bits(&draw(&mut engines, &opened, size, &pass)) == bits(&measured), "as opened: {point:?}");
+            assert!(bits(&draw(&mut engines, &loaded.project, size, &pass)) == bits(&measured), "as saved: {point:?}");
+            // Identical texels would prove nothing.
             assert!(measured.iter().any(|t| t != &measured[0]), "{point:?}");
         }
     }
-    assert!(held > 0, "some method begins with texels that only memory holds");
+    assert!(in_memory > 0, "some method starts with texels that are only in memory");
 }
 
-/// Starts a run of the study *blur* in a folder, and gives what it says until `is_enough` or its end.
-fn heard(gpu: &eddy::gpu::Gpu, out: &Path, is_enough: impl Fn(&[Event]) -> bool) -> Vec<Event> {
+/// Starts a run of the study *blur* in a folder and returns its events until `is_enough` or its end.
+fn run_events(gpu: &eddy::gpu::Gpu, out: &Path, is_enough: impl Fn(&[Event]) -> bool) -> Vec<Event> {
     let study = studies::named(&["blur".into()]).unwrap();
     let options = Options { out: out.to_owned(), extent: Extent::Quick, repeats: 7, shard: Shard::WHOLE };
     let gpu = gpu.clone();
@@ -103,7 +103,7 @@ fn heard(gpu: &eddy::gpu::Gpu, out: &Path, is_enough: impl Fn(&[Event]) -> bool)
 }
 
 #[test]
-fn a_run_tells_each_point_when_it_is_known_stops_when_it_shall_and_goes_on() {
+fn a_run_reports_each_point_and_can_be_stopped_and_resumed() {
     let Some(gpu) = gpu() else { return };
     let folder = tempfile::tempdir().unwrap();
     let errors = |events: &[Event]| -> Vec<eddy::lab::Point> {
@@ -111,21 +111,21 @@ fn a_run_tells_each_point_when_it_is_known_stops_when_it_shall_and_goes_on() {
         events.iter().filter_map(point).collect()
     };
     let is_estimate = |e: &Event| matches!(e, Event::Estimate { millis, .. } if *millis > 0.0);
-    let first = heard(&gpu, folder.path(), |events| events.iter().any(is_estimate));
+    let first = run_events(&gpu, folder.path(), |events| events.iter().any(is_estimate));
     assert!(matches!(first.last(), Some(Event::Ended(Ok(())))), "{:?}", first.last());
     let known = errors(&first);
     assert!(!known.is_empty() && !first.iter().any(|e| matches!(e, Event::Costed(_))));
     let results = Results::read(folder.path()).unwrap();
     assert_eq!(results.errors.len(), known.len());
-    // It says of itself that a window drew beside it.
+    // The run records that a window was drawing at the same time.
     assert!(results.runs.iter().all(|run| run.beside_window));
-    let second = heard(&gpu, folder.path(), |events| errors(events).len() >= 2);
-    let had =
+    let second = run_events(&gpu, folder.path(), |events| errors(events).len() >= 2);
+    let resumed_count =
         second.iter().find_map(|e| if let Event::Resumed(results) = e { Some(results.errors.len()) } else { None });
-    assert_eq!(had, Some(known.len()));
-    assert!(errors(&second).iter().all(|point| !known.contains(point)), "what was known is not measured again");
-    // The command line does not mix its own figures in.
+    assert_eq!(resumed_count, Some(known.len()));
+    assert!(errors(&second).iter().all(|point| !known.contains(point)), "known points are not measured again");
+    // The command line does not add its own measurements to such results.
     let options = Options { out: folder.path().into(), extent: Extent::Quick, repeats: 7, shard: Shard::WHOLE };
-    let refused = eddy::lab::run::run(&gpu, &[], &options, |_| ()).unwrap_err().to_string();
-    assert!(refused.contains("measured beside a window"), "{refused}");
+    let error = eddy::lab::run::run(&gpu, &[], &options, |_| ()).unwrap_err().to_string();
+    assert!(error.contains("measured beside a window"), "{error}");
 }

@@ -1,4 +1,4 @@
-//! What fluids of the lab that are no presets promise, as gates on small grids: their order, single waves, the cavity.
+//! Claims of the lab's fluids that are not presets, as gates on small grids: their order, single waves, the cavity.
 
 use crate::support::rig;
 use eddy::lab::{
@@ -14,39 +14,39 @@ use eddy::lab::{
 };
 use std::f64::consts::{LN_2, TAU};
 
-/// The relative L2 error of eddies that stand still, at half a texel a step.
-fn eddies(rig: &Rig, name: &str, n: u32) -> f64 {
+/// Returns the relative L2 error of stationary eddies, at half a texel per step.
+fn eddy_error(rig: &Rig, name: &str, n: u32) -> f64 {
     let (solver, [_, after], _) = Torus::TaylorGreen.run(rig, name, n, 0.5).unwrap();
     Norms::of(&after, &Torus::TaylorGreen.exact(&solver, n)).l2
 }
 
-/// An f64 program of the same methods has .0072 and .00093 with a reflection, and .135 and .072 of MacCormack without.
-/// Strang's splitting, which begins with the pressure here, has .0025 and .00032.
+/// An f64 program of the same methods has errors of 0.0072 and 0.00093 with a reflection, and of 0.135 and 0.072 with
+/// MacCormack and without one. Strang's splitting, which starts with the pressure here, has 0.0025 and 0.00032.
 #[test]
-fn splittings_of_second_order_are_of_second_order() {
+fn second_order_splittings_have_second_order() {
     let Some(rig) = rig() else { return };
     for name in ["maccormack-strang", "reflection", "covector", "weno"] {
-        let errors = [32, 64].map(|n| eddies(&rig, name, n));
+        let errors = [32, 64].map(|n| eddy_error(&rig, name, n));
         let observed = order(errors[0], errors[1], 2.0);
         println!("{name}: {errors:.5?}, order {observed:.2}");
         assert!(errors[1] < 0.0012 && observed > 1.9, "{name}: {errors:?}, order {observed}");
     }
-    let errors = [32, 64].map(|n| eddies(&rig, "maccormack-cycle", n));
+    let errors = [32, 64].map(|n| eddy_error(&rig, "maccormack-cycle", n));
     let observed = order(errors[0], errors[1], 2.0);
     println!("maccormack-cycle: {errors:.5?}, order {observed:.2}");
     assert!(errors[1] > 0.05 && observed < 1.2, "{errors:?}, order {observed}");
 }
 
-/// APIC errs like a grid's methods of second order. A cell begins with four particles, is given new ones where it has
-/// fewer than three, and has six in the mean after two units of time.
+/// The errors of APIC are like those of second-order grid methods. A cell starts with four particles, gets new ones if
+/// it has fewer than three, and has six on average after two units of time.
 #[test]
-fn particles_carry_the_eddies_and_stay_as_many() {
+fn particles_carry_the_eddies_and_keep_their_density() {
     let Some(rig) = rig() else { return };
-    for (name, most, least_order) in [("apic", 0.002, 2.5), ("flip", 0.012, 1.5)] {
-        let errors = [32, 64].map(|n| eddies(&rig, name, n));
+    for (name, max_error, min_order) in [("apic", 0.002, 2.5), ("flip", 0.012, 1.5)] {
+        let errors = [32, 64].map(|n| eddy_error(&rig, name, n));
         let observed = order(errors[0], errors[1], 2.0);
         println!("{name}: {errors:.5?}, order {observed:.2}");
-        assert!(errors[1] < most && observed > least_order, "{name}: {errors:?}, order {observed}");
+        assert!(errors[1] < max_error && observed > min_order, "{name}: {errors:?}, order {observed}");
         let mut solver = Torus::TaylorGreen.solver(name, 64, 0.5);
         solver.setup = solver.setup.wants(&["sorted", "field"]);
         let mut running = rig.open(&solver.setup).unwrap();
@@ -61,9 +61,9 @@ fn particles_carry_the_eddies_and_stay_as_many() {
     }
 }
 
-/// The relative L2 error of a Taylor-Green vortex that has halved, at a step that falls with the square of the spacing,
-/// as a lattice must have it: then its compressibility falls like the error of the grid.
-fn halved(rig: &Rig, name: &str, n: u32) -> f64 {
+/// Returns the relative L2 error of a Taylor-Green vortex whose velocity has halved. The time step falls with the
+/// square of the spacing, as a lattice requires: then its compressibility error falls like that of the grid.
+fn halved_vortex_error(rig: &Rig, name: &str, n: u32) -> f64 {
     let (side, k) = (f64::from(n), TAU / f64::from(n));
     let flow = Flow { n, dt: 1.6 / side, viscosity: 0.02 * side };
     let pressure = |x: f64, y: f64| 0.25 * ((2.0 * k * x).cos() + (2.0 * k * y).cos());
@@ -76,25 +76,25 @@ fn halved(rig: &Rig, name: &str, n: u32) -> f64 {
     Norms::of(&solver.velocity(&mut running).unwrap(), &taylor_green(n as usize, 1.0, (-rate * time).exp())).l2
 }
 
-/// .0227 and .0056 with one relaxation time, .0209 and .0052 by cumulants, as an f64 program has it.
+/// An f64 program has errors of 0.0227 and 0.0056 with one relaxation time, and of 0.0209 and 0.0052 with cumulants.
 #[test]
-fn lattices_are_of_second_order() {
+fn lattices_are_second_order() {
     let Some(rig) = rig() else { return };
     for name in ["lattice", "lattice-cumulant"] {
-        let errors = [16, 32].map(|n| halved(&rig, name, n));
+        let errors = [16, 32].map(|n| halved_vortex_error(&rig, name, n));
         let observed = order(errors[0], errors[1], 2.0);
         println!("{name}: {errors:.5?}, order {observed:.2}");
         assert!(observed > 1.8, "{name}: {errors:?}, order {observed}");
     }
 }
 
-/// A shear wave decays by its exact factor, and what alternates from texel to texel in the pressure goes where a method
-/// says so. With one relaxation time, a lattice without viscosity keeps .14 of it for 100 steps.
+/// A shear wave decays by its exact factor, and a pressure that alternates from texel to texel decays in the methods
+/// that remove it. With one relaxation time, a lattice without viscosity keeps 0.14 of it for 100 steps.
 #[test]
-fn single_waves_of_the_labs_fluids_do_as_they_should() {
+fn shear_waves_and_checkerboards_of_the_labs_fluids_decay() {
     let Some(rig) = rig() else { return };
     let flow = Flow { n: 32, dt: 0.15, viscosity: 0.55 };
-    for (name, most) in [
+    for (name, max_error) in [
         ("maccormack-strang", 1e-4),
         ("reflection", 1e-4),
         ("covector", 1e-4),
@@ -103,24 +103,24 @@ fn single_waves_of_the_labs_fluids_do_as_they_should() {
         ("flip", 1e-2),
         ("lattice-cumulant", 5e-3),
     ] {
-        let off = (waves::shear_wave(&rig, name, flow, 15.0).unwrap() - 1.0).abs();
-        println!("{name}: {off:.2e}");
-        assert!(off < most, "{name}: {off}");
+        let difference = (waves::shear_wave(&rig, name, flow, 15.0).unwrap() - 1.0).abs();
+        println!("{name}: {difference:.2e}");
+        assert!(difference < max_error, "{name}: {difference}");
     }
-    let left =
+    let remaining =
         |name: &str| waves::checkerboard_left(&rig, name, Flow { viscosity: 0.0, ..flow }, 100).unwrap().unwrap();
     for name in ["maccormack-strang", "reflection", "covector", "weno", "apic", "lattice-cumulant"] {
-        let left = left(name);
-        println!("{name}: {left}");
-        assert!(left < 0.1, "{name}: {left}");
+        let remaining = remaining(name);
+        println!("{name}: {remaining}");
+        assert!(remaining < 0.1, "{name}: {remaining}");
     }
-    let kept = left("lattice");
-    assert!(kept > 0.1, "{kept}");
+    let remaining = remaining("lattice");
+    assert!(remaining > 0.1, "{remaining}");
 }
 
-/// Re = 100 on 32 x 32 texels.
+/// Re = 100 on 32x32 texels.
 #[test]
-fn the_labs_fluids_fill_the_cavity() {
+fn the_labs_fluids_match_the_cavity_tables() {
     let Some(rig) = rig() else { return };
     for (name, courant) in [("maccormack-strang", 1.0), ("reflection", 1.0), ("weno", 0.5), ("lattice-cumulant", 0.2)] {
         let (lines, _) = cavity::lines(&rig, name, 32, courant, REYNOLDS[0], 8.0).unwrap();

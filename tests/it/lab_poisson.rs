@@ -1,4 +1,4 @@
-//! What solvers of Poisson's equation promise, as gates on small grids: the rates of convergence of their theory.
+//! Claims of solvers of Poisson's equation as gates on small grids: the convergence rates that theory predicts.
 
 use crate::support::rig;
 use eddy::lab::{
@@ -14,10 +14,10 @@ use std::f64::consts::{PI, TAU};
 
 const N: u32 = 32;
 
-/// Rounding of 32-bit floats, as a part of p.
+/// The rounding of 32-bit floats, relative to p.
 const ROUNDING: f64 = 1e-5;
 
-/// The energy norm of the error of p, over that of p itself: of -lap.
+/// Returns the energy norm of the error of p, relative to that of p itself; the energy is that of -lap.
 fn energy_error(n: usize, p: &[f64], exact: &[f64]) -> f64 {
     let energy = |e: &[f64]| {
         let lap = residual(n, e, &vec![0.0; n * n]);
@@ -27,26 +27,26 @@ fn energy_error(n: usize, p: &[f64], exact: &[f64]) -> f64 {
     (energy(&error) / energy(exact)).sqrt()
 }
 
-/// 4 sin^2(pi / n), the least eigenvalue of -lap on a torus; the largest is 8.
-fn least_eigenvalue() -> f64 {
+/// Returns 4 sin^2(pi / n), the smallest eigenvalue of -lap on a torus; the largest is 8.
+fn smallest_eigenvalue() -> f64 {
     4.0 * (PI / f64::from(N)).sin().powi(2)
 }
 
-/// Chebyshev's polynomial after k sweeps on the spectrum of the grid: 1 / T_k of its middle over half of its width
-/// (Saad, section 6.11). The source has waves at both ends of the spectrum, so that the bound is nearly met.
+/// Returns Chebyshev's bound after k sweeps on the spectrum of the grid: 1 / T_k of its middle divided by half of its
+/// width (Saad, section 6.11). The source has waves at both ends of the spectrum, so the bound is nearly reached.
 fn chebyshev_bound(k: u32) -> f64 {
-    let least = least_eigenvalue();
-    let s = (8.0 + least) / (8.0 - least);
+    let smallest = smallest_eigenvalue();
+    let s = (8.0 + smallest) / (8.0 - smallest);
     1.0 / (f64::from(k) * s.acosh()).cosh()
 }
 
-/// 2 ((sqrt(kappa) - 1) / (sqrt(kappa) + 1))^k, of conjugate gradients in the energy norm.
+/// Returns 2 ((sqrt(kappa) - 1) / (sqrt(kappa) + 1))^k, the bound of conjugate gradients in the energy norm.
 fn gradients_bound(kappa: f64, k: u32) -> f64 {
     2.0 * ((kappa.sqrt() - 1.0) / (kappa.sqrt() + 1.0)).powi(k as i32)
 }
 
 #[test]
-fn solvers_of_poissons_equation_converge_at_the_rates_of_theory() {
+fn poisson_solvers_converge_at_the_rates_of_theory() {
     let Some(rig) = rig() else { return };
     let n = N as usize;
     let f = source(n, 3);
@@ -61,62 +61,62 @@ fn solvers_of_poissons_equation_converge_at_the_rates_of_theory() {
     for iterations in [10, 20, 40] {
         let found = energy_error(n, &p("conjugate-gradients", iterations), &exact);
         let (bound, chebyshev) = (
-            gradients_bound(8.0 / least_eigenvalue(), iterations),
+            gradients_bound(8.0 / smallest_eigenvalue(), iterations),
             energy_error(n, &p("chebyshev", iterations), &exact),
         );
         println!("gradients, {iterations} iterations: {found:.3e}, at most {bound:.3e}; Chebyshev {chebyshev:.3e}");
-        // Of all polynomials of the degree they have the least energy.
+        // Of all polynomials of this degree, theirs minimises the energy.
         assert!(found < bound + ROUNDING && found < chebyshev + ROUNDING, "{iterations}: {found}");
-        assert!(iterations > 20 || found > 0.05, "{iterations} iterations do not see all of the grid: {found}");
+        assert!(iterations > 20 || found > 0.05, "{iterations} iterations do not reach all of the grid: {found}");
     }
-    // A symmetric V(1,1) cycle leaves .34 of the error on this grid and .35 on finer ones, as an f64 program says: kappa
-    // of the preconditioned equation is at most 1 / (1 - .35).
+    // A symmetric V(1,1) cycle leaves 0.34 of the error on this grid and 0.35 on finer ones, according to an f64
+    // program: kappa of the preconditioned equation is at most 1 / (1 - 0.35).
     for iterations in 1..=4 {
         let found = energy_error(n, &p("multigrid-cg", iterations), &exact);
         let bound = gradients_bound(1.0 / 0.65, iterations);
         println!("gradients with V(1,1), {iterations} iterations: {found:.3e}, at most {bound:.3e}");
         assert!(found < bound + ROUNDING, "{iterations}: {found}, {bound}");
     }
-    // Theirs is .16 to .17 a cycle in the long run, and less at first.
-    let left = |count| residual(n, &p("v-red-black", count), &f).iter().map(|r| r * r).sum::<f64>().sqrt();
-    let all: Vec<f64> = (1..=4).map(left).collect();
-    println!("V(1,1): residuals {all:.3?}");
-    assert!(all.windows(2).all(|pair| pair[1] / pair[0] < 0.18), "{all:?}");
+    // The asymptotic factor is 0.16 to 0.17 per cycle, and less in the first cycles.
+    let remaining = |count| residual(n, &p("v-red-black", count), &f).iter().map(|r| r * r).sum::<f64>().sqrt();
+    let residuals: Vec<f64> = (1..=4).map(remaining).collect();
+    println!("V(1,1): residuals {residuals:.3?}");
+    assert!(residuals.windows(2).all(|pair| pair[1] / pair[0] < 0.18), "{residuals:?}");
     let fourier = error(&p("fft", 1));
     println!("Fourier transform: {fourier:.2e}");
     assert!(fourier < ROUNDING, "{fourier}");
 }
 
-/// A sum of waves whose p is known in the continuum: what the grid's five points miss is of the order of h^2.
+/// Returns a sum of waves and its p in the continuum: the error of the grid's five points is of the order of h^2.
 fn waves() -> (Vec<f64>, Vec<f64>) {
     let n = N as usize;
     let h = TAU / f64::from(N);
-    let all = [(1.0, 0.0, 0.3), (0.0, 1.0, 1.0), (1.0, 1.0, 2.0), (2.0, -1.0, 0.5), (1.0, 3.0, 0.1)];
+    let waves = [(1.0, 0.0, 0.3), (0.0, 1.0, 1.0), (1.0, 1.0, 2.0), (2.0, -1.0, 0.5), (1.0, 3.0, 0.1)];
     let sum = |weight: &dyn Fn(f64) -> f64| {
-        sampled(n, |x, y| all.iter().map(|(a, b, c)| weight(a * a + b * b) * (h * (a * x + b * y) + c).cos()).sum())
+        sampled(n, |x, y| waves.iter().map(|(a, b, c)| weight(a * a + b * b) * (h * (a * x + b * y) + c).cos()).sum())
     };
     (sum(&|_| 1.0), sum(&|square| -1.0 / (square * h * h)))
 }
 
 #[test]
-fn one_pass_of_full_multigrid_errs_by_less_than_the_grid() {
+fn one_pass_of_full_multigrid_has_a_smaller_error_than_the_grid() {
     let Some(rig) = rig() else { return };
     let n = N as usize;
     let (f, continuum) = waves();
     let exact = solution(n, &f);
-    let of_grid = Norms::of(&exact, &continuum).l2;
+    let grid_error = Norms::of(&exact, &continuum).l2;
     let errors =
         [1, 2].map(|cycles| Norms::of(&solved(&rig, "full-multigrid", N, &f, cycles, &exact).unwrap(), &exact).l2);
-    println!("full multigrid: {:.3e} {:.3e}, the grid {of_grid:.3e}", errors[0], errors[1]);
-    assert!(errors[0] < 0.25 * of_grid && errors[1] < 0.2 * errors[0], "{errors:?}, {of_grid}");
-    // A cycle that begins with nothing does not get so far.
+    println!("full multigrid: {:.3e} {:.3e}, the grid {grid_error:.3e}", errors[0], errors[1]);
+    assert!(errors[0] < 0.25 * grid_error && errors[1] < 0.2 * errors[0], "{errors:?}, {grid_error}");
+    // A cycle that starts from zero is less accurate.
     let cycle = Norms::of(&solved(&rig, "v-red-black", N, &f, 1, &exact).unwrap(), &exact).l2;
-    assert!(cycle > of_grid, "{cycle}");
+    assert!(cycle > grid_error, "{cycle}");
 }
 
-/// A checkerboard is the wave that a grid sees least of; a constant in f is no part of the equation.
+/// A checkerboard is the wave that is hardest to see on a grid; a constant in f is not part of the equation.
 #[test]
-fn solvers_of_poissons_equation_take_a_checkerboard_and_a_constant() {
+fn poisson_solvers_handle_a_checkerboard_and_a_constant() {
     let Some(rig) = rig() else { return };
     let n = N as usize;
     let checker: Vec<f64> = (0..n * n).map(|i| if (i % n + i / n).is_multiple_of(2) { 1.0 } else { -1.0 }).collect();
@@ -124,10 +124,10 @@ fn solvers_of_poissons_equation_take_a_checkerboard_and_a_constant() {
     let error = |rig: &Rig, method, f: &[f64], count, exact: &[f64]| {
         Norms::of(&solved(rig, method, N, f, count, exact).unwrap(), exact).l2
     };
-    for (method, count, most) in [
+    for (method, count, limit) in [
         ("chebyshev", 20, chebyshev_bound(20)),
         ("conjugate-gradients", 1, ROUNDING),
-        // With nothing left they stay where they are.
+        // With no residual left they keep their result.
         ("conjugate-gradients", 20, ROUNDING),
         ("multigrid-cg", 4, 1e-3),
         ("v-red-black", 2, ROUNDING),
@@ -136,7 +136,7 @@ fn solvers_of_poissons_equation_take_a_checkerboard_and_a_constant() {
     ] {
         let found = error(&rig, method, &checker, count, &exact);
         println!("{method} {count}, a checkerboard: {found:.2e}");
-        assert!(found < most + ROUNDING, "{method} {count}: {found}");
+        assert!(found < limit + ROUNDING, "{method} {count}: {found}");
     }
     let f: Vec<f64> = source(n, 3).iter().map(|f| f + 0.5).collect();
     assert!((mean(&f) - 0.5).abs() < 1e-9);

@@ -1,4 +1,4 @@
-//! What a run of studies keeps, and what it measures anew.
+//! The results that a run of studies keeps, and those that it measures again.
 
 use crate::support::gpu;
 use eddy::lab::{
@@ -8,7 +8,7 @@ use eddy::lab::{
 };
 use std::path::Path;
 
-/// Heat on a small grid at two rates.
+/// A study of heat on a small grid at two rates.
 const fn heat(setup: fn(&Point) -> Setup) -> Study {
     Study {
         name: "heat",
@@ -22,22 +22,22 @@ const fn heat(setup: fn(&Point) -> Setup) -> Study {
     }
 }
 
-/// `rate`: what the shader says in place of the rate.
-fn drawn(point: &Point, rate: &str) -> Setup {
+/// Returns the setup of a point; `rate` replaces the rate in the shader.
+fn setup_with_rate(point: &Point, rate: &str) -> Setup {
     let setup = Setup::new("diffusion_stencil", (16, 16)).define("STENCIL", 5).uniform("rate", point.setting);
     setup.edit("common", "rate", rate)
 }
 
 fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-    let corner = rig.after(&drawn(point, "rate"), 2, "field")?.component(0)[0];
+    let corner = rig.after(&setup_with_rate(point, "rate"), 2, "field")?.component(0)[0];
     Ok(Measured { frames_per_unit: 1.0, ..Measured::default() }.value("corner", corner))
 }
 
-static AS_IT_IS: Study = heat(|point| drawn(point, "rate"));
-static EDITED: Study = heat(|point| drawn(point, "rate "));
+static ORIGINAL: Study = heat(|point| setup_with_rate(point, "rate"));
+static EDITED: Study = heat(|point| setup_with_rate(point, "rate "));
 
-/// Points measured, points costed, and what is known in the end.
-fn ran(gpu: &eddy::gpu::Gpu, study: &Study, out: &Path, stop_at: Option<u32>) -> (usize, usize, Results) {
+/// Returns the numbers of measured and costed points, and the results at the end.
+fn run_study(gpu: &eddy::gpu::Gpu, study: &Study, out: &Path, stop_at: Option<u32>) -> (usize, usize, Results) {
     let options = Options { out: out.to_owned(), extent: Extent::Quick, repeats: 0, shard: Shard::WHOLE };
     let (mut measured, mut costed) = (0, 0);
     let control = Control { stop: Stop::default(), ..Control::default() };
@@ -52,35 +52,35 @@ fn ran(gpu: &eddy::gpu::Gpu, study: &Study, out: &Path, stop_at: Option<u32>) ->
 }
 
 #[test]
-fn an_edited_shader_is_measured_anew_and_the_same_one_is_not() {
+fn only_an_edited_shader_is_measured_again() {
     let Some(gpu) = gpu() else { return };
     let folder = tempfile::tempdir().unwrap();
-    let (measured, costed, first) = ran(&gpu, &AS_IT_IS, folder.path(), None);
+    let (measured, costed, first) = run_study(&gpu, &ORIGINAL, folder.path(), None);
     assert_eq!((measured, costed), (2, 2));
     assert!(first.errors.iter().all(|e| e.setup.is_some()) && first.costs.iter().all(|c| c.setup.is_some()));
-    assert_eq!(ran(&gpu, &AS_IT_IS, folder.path(), None), (0, 0, first.clone()), "nothing is measured twice");
-    let (measured, costed, second) = ran(&gpu, &EDITED, folder.path(), None);
-    assert_eq!((measured, costed), (2, 2), "as its texts are others");
+    assert_eq!(run_study(&gpu, &ORIGINAL, folder.path(), None), (0, 0, first.clone()), "no point is measured twice");
+    let (measured, costed, second) = run_study(&gpu, &EDITED, folder.path(), None);
+    assert_eq!((measured, costed), (2, 2), "the edited shader is measured again");
     assert_eq!((second.errors.len(), second.costs.len()), (2, 2));
     assert!(second.errors.iter().all(|e| first.errors.iter().all(|f| f.setup != e.setup)));
 }
 
 #[test]
-fn a_run_that_is_stopped_between_turns_keeps_those_and_the_next_one_ends_them() {
+fn a_stopped_run_keeps_its_repeats_and_the_next_run_completes_them() {
     let Some(gpu) = gpu() else { return };
     let folder = tempfile::tempdir().unwrap();
-    let (measured, costed, _) = ran(&gpu, &AS_IT_IS, folder.path(), Some(3));
+    let (measured, costed, _) = run_study(&gpu, &ORIGINAL, folder.path(), Some(3));
     assert_eq!((measured, costed), (2, 0));
     let turns = |results: &Results| results.costs.iter().map(|c| c.cost.repeats).collect::<Vec<_>>();
     assert_eq!(turns(&Results::read(folder.path()).unwrap()), [3, 3]);
-    let (measured, costed, after) = ran(&gpu, &AS_IT_IS, folder.path(), None);
-    assert_eq!((measured, costed), (0, 2), "errors are known, costs are not yet");
+    let (measured, costed, after) = run_study(&gpu, &ORIGINAL, folder.path(), None);
+    assert_eq!((measured, costed), (0, 2), "errors are known, costs are incomplete");
     assert_eq!(turns(&after), [MIN_REPEATS; 2]);
     assert_eq!(turns(&Results::read(folder.path()).unwrap()), [MIN_REPEATS; 2]);
 }
 
 #[test]
-fn the_command_that_merges_refuses_what_does_not_go_together_and_keeps_what_was_there() {
+fn merge_rejects_incompatible_results_and_keeps_existing_ones() {
     let line = |device: &str, extent: &str| {
         format!(
             "{{\"record\":\"run\",\"device\":\"{device}\",\"driver\":\"r\",\"version\":\"1\",\
@@ -94,26 +94,32 @@ fn the_command_that_merges_refuses_what_does_not_go_together_and_keeps_what_was_
         )
     };
     let folder = tempfile::tempdir().unwrap();
-    let kept = |name: &str, text: String| {
+    let write_results = |name: &str, text: String| {
         let path = folder.path().join(name);
         std::fs::create_dir_all(&path).unwrap();
         std::fs::write(path.join("results.jsonl"), text).unwrap();
         path
     };
-    let (one, two) = (kept("one", line("d", "quick") + &error("s")), kept("two", line("d", "quick") + &error("t")));
-    let other = kept("other", line("e", "full") + &error("u"));
+    let (one, two) = (
+        write_results("one", line("d", "quick") + &error("s")),
+        write_results("two", line("d", "quick") + &error("t")),
+    );
+    let other = write_results("other", line("e", "full") + &error("u"));
     let merge = |from: &[&Path]| {
         let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_eddy"));
         let output =
             command.args(["lab", "merge", "--out"]).arg(folder.path().join("out")).args(from).output().unwrap();
         (output.status.code(), String::from_utf8(output.stderr).unwrap())
     };
-    let (code, said) = merge(&[&one, &other]);
-    assert!(code == Some(2) && said.contains("device: e against d") && said.contains("other"), "{code:?} {said}");
-    assert!(!folder.path().join("out").exists(), "nothing is written");
+    let (code, message) = merge(&[&one, &other]);
+    assert!(
+        code == Some(2) && message.contains("device: e against d") && message.contains("other"),
+        "{code:?} {message}"
+    );
+    assert!(!folder.path().join("out").exists(), "no file is written");
     assert_eq!(merge(&[&one]).0, Some(0));
     assert_eq!(merge(&[&two]).0, Some(0));
     let studies = Results::read(&folder.path().join("out")).unwrap().errors;
     assert_eq!(studies.iter().map(|e| e.point.study.as_str()).collect::<Vec<_>>(), ["s", "t"]);
-    assert_eq!(merge(&[&other]).0, Some(2), "what is there already counts");
+    assert_eq!(merge(&[&other]).0, Some(2), "existing results are compared, too");
 }

@@ -1,4 +1,5 @@
-//! Long arrays: a driver that takes minutes over stores one by one gets loops, which compute the same.
+//! Long arrays: for a driver that takes minutes for individual stores, they are initialised by loops, with the same
+//! results.
 
 use crate::support::{
     first_frame::first_frame,
@@ -11,7 +12,7 @@ use eddy::{
 };
 use std::time::Duration;
 
-/// Texels of a picture as NumPy's format has it, rows from the bottom.
+/// Returns the texels of a picture in NumPy's format, with rows from the bottom.
 fn texels(npy: &[u8]) -> Vec<[f32; 4]> {
     let header = u16::from_le_bytes([npy[8], npy[9]]) as usize;
     let numbers: Vec<f32> =
@@ -19,10 +20,10 @@ fn texels(npy: &[u8]) -> Vec<[f32; 4]> {
     numbers.chunks_exact(4).map(|texel| texel.try_into().unwrap()).collect()
 }
 
-/// What a texel of a [`LONG_ARRAYS`] program is, by its column and row.
+/// Returns the texel of a program at a column and a row.
 type Texel = fn(usize, usize) -> [f32; 4];
 
-/// Programs whose long arrays are indexed at run time, and read where nothing was written.
+/// Programs whose long arrays are indexed at run time, and read at unwritten elements.
 const LONG_ARRAYS: &[(&str, &str, Texel)] = &[
     (
         "a local array",
@@ -61,7 +62,7 @@ const LONG_ARRAYS: &[(&str, &str, Texel)] = &[
         |x, y| [5.0, if x == y { 5.0 } else { 0.0 }, 1.0, 1.0],
     ),
     (
-        "an array of each call and of each round",
+        "an array in each call and in each iteration",
         "float count(int at, int rounds) {
             int a[300];
             if (at > 1000) return 1.;
@@ -153,7 +154,7 @@ const LONG_ARRAYS: &[(&str, &str, Texel)] = &[
     ),
 ];
 
-/// The same of programs with constants in many places: 600 numbers of each kind that a constructor may hold.
+/// Similar programs with constants in many places: 600 numbers of each kind that a constructor may contain.
 fn constant_arrays() -> Vec<(&'static str, String, Texel)> {
     let numbers = |piece: fn(usize) -> String| (0..600).map(piece).collect::<Vec<_>>().join(", ");
     let floats = numbers(|i| format!("{}.5", i % 50));
@@ -177,7 +178,7 @@ fn constant_arrays() -> Vec<(&'static str, String, Texel)> {
             |x, y| [if x == y { 77.0 } else { y as f32 + 0.5 }, x as f32 + 0.5, 49.5, 1.0],
         ),
         (
-            "structures, stored in each round",
+            "structures, stored in each iteration",
             format!(
                 "struct S {{ vec3 a; int b; }}; {main} float sum = 0.; for (int i = 0; i < 3; i++) {{ \
                  S s[150] = S[]({parts}); sum += s[x].a.x; s[x].a.x = 5.; s[y].b++; \
@@ -204,16 +205,16 @@ fn constant_arrays() -> Vec<(&'static str, String, Texel)> {
             "booleans",
             format!("{main} bool a[600] = bool[]({booleans}); a[x] = !a[x]; o = vec4(a[x], a[y], a[y + 300], 1); }}"),
             |x, y| {
-                let whole = |at: usize| at.is_multiple_of(3);
-                [!whole(x), whole(y) != (x == y), whole(y), true].map(|is| f32::from(u8::from(is)))
+                let is_third = |at: usize| at.is_multiple_of(3);
+                [!is_third(x), is_third(y) != (x == y), is_third(y), true].map(|is| f32::from(u8::from(is)))
             },
         ),
     ]
 }
 
-/// Some texels of each program, walked.
+/// Some texels of each program, computed by the walker.
 #[test]
-fn long_arrays_are_walked() {
+fn the_walker_computes_long_arrays() {
     let long = LONG_ARRAYS.iter().map(|&(name, text, texel)| (name, text.to_owned(), texel));
     for (name, text, texel) in long.chain(constant_arrays()) {
         let project = project(vec![image(&text, Default::default())]);
@@ -225,7 +226,7 @@ fn long_arrays_are_walked() {
 }
 
 #[test]
-fn long_arrays_of_constants_are_drawn_soon() {
+fn long_arrays_of_constants_compile_quickly() {
     for (name, text, texel) in constant_arrays() {
         let Some(picture) = first_frame(name, &text, Duration::from_secs(30)) else { return };
         for (i, &found) in texels(&picture).iter().enumerate() {
@@ -235,7 +236,7 @@ fn long_arrays_of_constants_are_drawn_soon() {
 }
 
 #[test]
-fn long_arrays_are_drawn_soon_and_begin_with_zeros() {
+fn long_arrays_compile_quickly_and_start_with_zeros() {
     for (name, text, texel) in LONG_ARRAYS {
         let Some(picture) = first_frame(name, text, Duration::from_secs(30)) else { return };
         let texels = texels(&picture);
@@ -246,10 +247,10 @@ fn long_arrays_are_drawn_soon_and_begin_with_zeros() {
     }
 }
 
-/// How many arrays of zeros are stored as a whole.
+/// Returns how many arrays of zeros are stored as a whole.
 fn stores_of_zeros(block: &naga::Block, f: &naga::Function, types: &naga::UniqueArena<naga::Type>) -> usize {
     use naga::{Expression, Statement, TypeInner};
-    let each = |statement: &Statement| match statement {
+    let count = |statement: &Statement| match statement {
         Statement::Store { value, .. } => usize::from(matches!(f.expressions[*value], Expression::ZeroValue(ty)
             if matches!(types[ty].inner, TypeInner::Array { .. }))),
         Statement::Block(block) => stores_of_zeros(block, f, types),
@@ -259,11 +260,11 @@ fn stores_of_zeros(block: &naga::Block, f: &naga::Function, types: &naga::Unique
         }
         _ => 0,
     };
-    block.iter().map(each).sum()
+    block.iter().map(count).sum()
 }
 
 #[test]
-fn zeros_of_long_arrays_are_loops_where_the_driver_asks() {
+fn long_arrays_are_zeroed_by_loops_if_the_driver_needs_it() {
     for (name, text, _) in LONG_ARRAYS {
         let [plain, looped] = [false, true].map(|array_loops| {
             glsl::compile(&PassSource {
@@ -278,7 +279,7 @@ fn zeros_of_long_arrays_are_loops_where_the_driver_asks() {
             assert_eq!(stores_of_zeros(&f.body, f, &looped.module.types), 0, "{name}");
         }
     }
-    // A program with few of them is left as it is.
+    // A program with few array elements is not changed.
     let text =
         "void mainImage(out vec4 o, in vec2 p) { float a[40], b[40]; a[int(p.x)] = b[int(p.y)]; o = vec4(a[3]); }";
     let driver = Driver { array_loops: true, ..Driver::default() };

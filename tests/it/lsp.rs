@@ -1,5 +1,5 @@
-//! `eddy lsp`: sessions of the protocol against what was answered before, the built program over its streams, and texts
-//! that are edited at random against `eddy check`.
+//! `eddy lsp`: sessions of the protocol compared with stored answers, the built program over its streams, and randomly
+//! edited texts compared with `eddy check`.
 
 use crate::support::program::Bench;
 use eddy::{lsp::Server, project::limits};
@@ -12,11 +12,11 @@ use std::{
     process::Stdio,
 };
 
-/// A session that is written down as it goes: what the editor sends, what comes back.
+/// A session that records what the editor sends and what the server answers.
 struct Session {
     server: Server,
     bench: Bench,
-    asked: i32,
+    last_id: i32,
     log: String,
 }
 
@@ -24,9 +24,9 @@ impl Session {
     fn new(files: &[(&str, &str)]) -> Self {
         let bench = Bench::new();
         files.iter().for_each(|(name, text)| bench.write(name, text));
-        let mut session = Self { server: Server::new(), bench, asked: 0, log: String::new() };
-        session.ask("initialize", json!({"capabilities": {"general": {"positionEncodings": ["utf-8"]}}}));
-        session.tell("initialized", json!({}));
+        let mut session = Self { server: Server::new(), bench, last_id: 0, log: String::new() };
+        session.request("initialize", json!({"capabilities": {"general": {"positionEncodings": ["utf-8"]}}}));
+        session.notify("initialized", json!({}));
         session
     }
 
@@ -49,23 +49,23 @@ impl Session {
         }
     }
 
-    fn tell(&mut self, method: &str, params: Value) {
+    fn notify(&mut self, method: &str, params: Value) {
         writeln!(self.log, "--> {method}").unwrap();
         self.send(json!({"method": method, "params": params}));
     }
 
-    fn ask(&mut self, method: &str, params: Value) {
-        self.asked += 1;
-        writeln!(self.log, "--> {} {method}", self.asked).unwrap();
-        self.send(json!({"id": self.asked, "method": method, "params": params}));
+    fn request(&mut self, method: &str, params: Value) {
+        self.last_id += 1;
+        writeln!(self.log, "--> {} {method}", self.last_id).unwrap();
+        self.send(json!({"id": self.last_id, "method": method, "params": params}));
     }
 
     fn open(&mut self, name: &str, text: &str) {
         let document = json!({"uri": self.uri(name), "languageId": "glsl", "version": 1, "text": text});
-        self.tell("textDocument/didOpen", json!({ "textDocument": document }));
+        self.notify("textDocument/didOpen", json!({ "textDocument": document }));
     }
 
-    fn ask_at(&mut self, method: &str, name: &str, (line, character): (u32, u32), more: Value) {
+    fn request_at(&mut self, method: &str, name: &str, (line, character): (u32, u32), more: Value) {
         let mut params = json!({
             "textDocument": {"uri": self.uri(name)},
             "position": {"line": line, "character": character},
@@ -73,15 +73,15 @@ impl Session {
         if let (Some(params), Some(more)) = (params.as_object_mut(), more.as_object()) {
             params.extend(more.clone());
         }
-        self.ask(method, params);
+        self.request(method, params);
     }
 
-    fn ask_about(&mut self, method: &str, name: &str) {
+    fn request_for_document(&mut self, method: &str, name: &str) {
         let range = json!({"start": {"line": 0, "character": 0}, "end": {"line": 999, "character": 0}});
         let params = json!({
             "textDocument": {"uri": self.uri(name)}, "range": range, "context": {"diagnostics": []},
         });
-        self.ask(method, params);
+        self.request(method, params);
     }
 }
 
@@ -127,18 +127,18 @@ fn demo() -> Session {
 fn a_session_of_questions() {
     let mut session = demo();
     for at in [(10, 17), (8, 26), (10, 30), (0, 17)] {
-        session.ask_at("textDocument/hover", "image.glsl", at, json!({}));
-        session.ask_at("textDocument/definition", "image.glsl", at, json!({}));
+        session.request_at("textDocument/hover", "image.glsl", at, json!({}));
+        session.request_at("textDocument/definition", "image.glsl", at, json!({}));
     }
     let all = json!({"context": {"includeDeclaration": true}});
-    session.ask_at("textDocument/references", "image.glsl", (10, 17), all);
-    session.ask_at("textDocument/documentHighlight", "image.glsl", (8, 10), json!({}));
-    session.ask_at("textDocument/signatureHelp", "image.glsl", (10, 35), json!({}));
-    session.ask_at("textDocument/completion", "image.glsl", (11, 25), json!({}));
-    session.ask_at("textDocument/prepareRename", "image.glsl", (10, 17), json!({}));
-    session.ask_at("textDocument/rename", "image.glsl", (10, 17), json!({"newName": "glow"}));
-    session.ask_at("textDocument/rename", "image.glsl", (10, 30), json!({"newName": "pace"}));
-    session.ask_at("textDocument/rename", "image.glsl", (10, 30), json!({"newName": "at"}));
+    session.request_at("textDocument/references", "image.glsl", (10, 17), all);
+    session.request_at("textDocument/documentHighlight", "image.glsl", (8, 10), json!({}));
+    session.request_at("textDocument/signatureHelp", "image.glsl", (10, 35), json!({}));
+    session.request_at("textDocument/completion", "image.glsl", (11, 25), json!({}));
+    session.request_at("textDocument/prepareRename", "image.glsl", (10, 17), json!({}));
+    session.request_at("textDocument/rename", "image.glsl", (10, 17), json!({"newName": "glow"}));
+    session.request_at("textDocument/rename", "image.glsl", (10, 30), json!({"newName": "pace"}));
+    session.request_at("textDocument/rename", "image.glsl", (10, 30), json!({"newName": "at"}));
     insta::assert_snapshot!(session.log);
 }
 
@@ -150,10 +150,10 @@ fn a_session_about_whole_texts() {
             session.open(name, COMMON);
         }
         for method in ["documentSymbol", "foldingRange", "semanticTokens/full", "inlayHint", "codeAction"] {
-            session.ask_about(&format!("textDocument/{method}"), name);
+            session.request_for_document(&format!("textDocument/{method}"), name);
         }
     }
-    session.ask("workspace/symbol", json!({"query": "bri"}));
+    session.request("workspace/symbol", json!({"query": "bri"}));
     insta::assert_snapshot!(session.log);
 }
 
@@ -165,27 +165,32 @@ fn a_session_of_edits() {
         "range": {"start": {"line": 11, "character": 35}, "end": {"line": 11, "character": 44}},
         "text": "texture",
     });
-    session.tell("textDocument/didChange", json!({"textDocument": document, "contentChanges": [change]}));
+    session.notify("textDocument/didChange", json!({"textDocument": document, "contentChanges": [change]}));
     session.open("common.glsl", &COMMON.replace("struct Ray", "struct Line"));
     let document = json!({"uri": session.uri("common.glsl")});
-    session.tell("textDocument/didClose", json!({ "textDocument": document }));
-    session.ask("textDocument/formatting", json!({}));
-    session.ask("textDocument/unheardOf", json!({}));
-    session.ask("shutdown", Value::Null);
+    session.notify("textDocument/didClose", json!({ "textDocument": document }));
+    session.request("textDocument/formatting", json!({}));
+    session.request("textDocument/unheardOf", json!({}));
+    session.request("shutdown", Value::Null);
     insta::assert_snapshot!(session.log);
 }
 
-/// A text of megabytes must not make an answer of gigabytes.
+/// A text of megabytes must not produce an answer of gigabytes.
 #[test]
 fn lists_of_a_document_have_a_limit() {
     let text = "float a;\n".repeat(limits::LSP_ITEMS + 100);
     let mut session = Session::new(&[("many.glsl", &text)]);
     session.open("many.glsl", &text);
     session.log.clear();
-    session.ask_about("textDocument/documentSymbol", "many.glsl");
+    session.request_for_document("textDocument/documentSymbol", "many.glsl");
     assert_eq!(session.log.matches("\"selectionRange\"").count(), limits::LSP_ITEMS);
     session.log.clear();
-    session.ask_at("textDocument/references", "many.glsl", (0, 6), json!({"context": {"includeDeclaration": true}}));
+    session.request_at(
+        "textDocument/references",
+        "many.glsl",
+        (0, 6),
+        json!({"context": {"includeDeclaration": true}}),
+    );
     assert!(session.log.matches("\"range\"").count() <= limits::LSP_ITEMS);
 }
 
@@ -195,7 +200,7 @@ fn framed(message: &Value) -> Vec<u8> {
 }
 
 #[test]
-fn the_program_serves_an_editor_by_its_streams() {
+fn the_program_serves_an_editor_over_its_streams() {
     let b = Bench::new();
     let mut server = b.command().arg("lsp").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     let mut input = server.stdin.take().unwrap();
@@ -216,38 +221,38 @@ fn the_program_serves_an_editor_by_its_streams() {
         serde_json::from_slice::<Value>(&text).unwrap()
     };
     input.write_all(b"Content-Length: 5\r\n\r\n{\"a\":").unwrap();
-    let refused = next();
-    assert_eq!((&refused["id"], &refused["error"]["code"]), (&Value::Null, &json!(-32700)), "{refused}");
-    // One write, so that the second request waits while it is cancelled.
+    let parse_error = next();
+    assert_eq!((&parse_error["id"], &parse_error["error"]["code"]), (&Value::Null, &json!(-32700)), "{parse_error}");
+    // One write, so that the second message is already waiting.
     let mut all = framed(&json!({"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": {"capabilities": {}}}));
     all.extend(framed(&json!({"jsonrpc": "2.0", "method": "initialized", "params": {}})));
     input.write_all(&all).unwrap();
-    let begun = next();
-    assert_eq!(begun["result"]["capabilities"]["positionEncoding"], "utf-16", "{begun}");
-    assert_eq!(begun["jsonrpc"], "2.0");
+    let initialized = next();
+    assert_eq!(initialized["result"]["capabilities"]["positionEncoding"], "utf-16", "{initialized}");
+    assert_eq!(initialized["jsonrpc"], "2.0");
     let text = "void mainImage(out vec4 c, in vec2 p) { c = x; }";
     let document = json!({"uri": "file:///nowhere/a.glsl", "languageId": "glsl", "version": 1, "text": text});
     let open = json!({"jsonrpc": "2.0", "method": "textDocument/didOpen", "params": {"textDocument": document}});
     input.write_all(&framed(&open)).unwrap();
-    let told = next();
+    let published = next();
     assert_eq!(
-        told["params"]["diagnostics"][0]["message"].as_str().unwrap().lines().next(),
+        published["params"]["diagnostics"][0]["message"].as_str().unwrap().lines().next(),
         Some("`x` is not declared")
     );
-    let ends =
+    let last_messages =
         [json!({"jsonrpc": "2.0", "id": "end", "method": "shutdown"}), json!({"jsonrpc": "2.0", "method": "exit"})];
-    input.write_all(&ends.iter().flat_map(framed).collect::<Vec<u8>>()).unwrap();
+    input.write_all(&last_messages.iter().flat_map(framed).collect::<Vec<u8>>()).unwrap();
     assert_eq!(next(), json!({"jsonrpc": "2.0", "id": "end", "result": null}));
     assert_eq!(server.wait().unwrap().code(), Some(0));
 }
 
 #[test]
-fn an_editor_that_goes_without_a_word_ends_the_server() {
+fn the_server_exits_with_1_when_its_input_ends() {
     let run = Bench::new().line("lsp");
     assert_eq!((run.code, run.out.as_str()), (Some(1), ""), "{}", run.err);
 }
 
-/// A generator of numbers, so that a failure can be had again.
+/// A generator of random numbers with a seed, so that a failure can be reproduced.
 struct Random(u64);
 
 impl Random {
@@ -260,10 +265,10 @@ impl Random {
 const PIECES: &[&str] =
     &["", "}", "{", "(", ";", "vec3 q = ", "#if 1\n", "/*", "float x", "é", ".", "1.0", "\n", "#define a b\n", "iTime"];
 
-/// A message without its kind of place: severity, file, line, column, first line.
-type Said = BTreeSet<(String, String, u64, u64, String)>;
+/// A diagnostic: severity, file, line, column, and first line of the message.
+type Diagnostics = BTreeSet<(String, String, u64, u64, String)>;
 
-fn of_check(b: &Bench, spec: &str) -> Said {
+fn check_diagnostics(b: &Bench, spec: &str) -> Diagnostics {
     let run = b.eddy(["check", "--json", spec]);
     let report = &run.json()[0];
     let list = report["diagnostics"].as_array().unwrap();
@@ -293,17 +298,17 @@ fn presets_edited_at_random_have_the_diagnostics_of_check() {
         }
         texts.sort();
         let mut server = Server::new();
-        let mut told: std::collections::BTreeMap<String, Value> = Default::default();
+        let mut published: std::collections::BTreeMap<String, Value> = Default::default();
         let mut send = |message: Value| {
             let mut out = Vec::new();
             server.handle(serde_json::from_value(message).unwrap(), &mut out);
             while server.idle(&mut out) {}
             for message in out.into_iter().map(|message| serde_json::to_value(message).unwrap()) {
                 if let Some(uri) = message.pointer("/params/uri").and_then(Value::as_str) {
-                    told.insert(uri.to_owned(), message["params"]["diagnostics"].clone());
+                    published.insert(uri.to_owned(), message["params"]["diagnostics"].clone());
                 }
             }
-            told.clone()
+            published.clone()
         };
         send(json!({"id": 0, "method": "initialize",
             "params": {"capabilities": {"general": {"positionEncodings": ["utf-32"]}}}}));
@@ -327,12 +332,12 @@ fn presets_edited_at_random_have_the_diagnostics_of_check() {
             text.replace_range(at..end.max(at), PIECES[random.below(PIECES.len())]);
             b.write(&format!("p/{name}"), &text);
             let document = json!({"uri": uri(name), "version": version});
-            let told = send(json!({"method": "textDocument/didChange",
+            let published = send(json!({"method": "textDocument/didChange",
                 "params": {"textDocument": document, "contentChanges": [{"text": text}]}}));
-            let checked = of_check(&b, "p");
-            let placed: Said = checked.iter().filter(|said| !said.1.is_empty()).cloned().collect();
-            let mut found = Said::new();
-            for (uri, list) in &told {
+            let checked = check_diagnostics(&b, "p");
+            let placed: Diagnostics = checked.iter().filter(|diagnostic| !diagnostic.1.is_empty()).cloned().collect();
+            let mut found = Diagnostics::new();
+            for (uri, list) in &published {
                 let file = uri.rsplit('/').next().unwrap().to_owned();
                 for d in list.as_array().unwrap() {
                     let severity = ["", "error", "warning", "note"][d["severity"].as_u64().unwrap() as usize];
@@ -343,11 +348,11 @@ fn presets_edited_at_random_have_the_diagnostics_of_check() {
                 }
             }
             let nowhere: BTreeSet<&String> =
-                checked.iter().filter(|said| said.1.is_empty()).map(|said| &said.4).collect();
-            found.retain(|said| placed.contains(said) || !nowhere.contains(&said.4));
+                checked.iter().filter(|diagnostic| diagnostic.1.is_empty()).map(|diagnostic| &diagnostic.4).collect();
+            found.retain(|diagnostic| placed.contains(diagnostic) || !nowhere.contains(&diagnostic.4));
             assert_eq!(found, placed, "{preset}/{name}, edit {version}");
             broken += usize::from(!placed.is_empty());
         }
     }
-    assert!(broken > 10, "{broken} of 25 edits break something");
+    assert!(broken > 10, "{broken} of 25 edits cause errors");
 }

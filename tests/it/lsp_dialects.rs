@@ -1,4 +1,4 @@
-//! `eddy lsp` and `eddy check` take a file for the same kind of shader, and say the same of it.
+//! `eddy lsp` and `eddy check` detect the same kind of shader in a file, and report the same diagnostics.
 
 use crate::support::program::Bench;
 use eddy::lsp::Server;
@@ -11,21 +11,21 @@ struct Editor {
     uri: String,
     /// The diagnostics of each file.
     published: BTreeMap<String, Value>,
-    asked: i32,
+    last_id: i32,
 }
 
 impl Editor {
     fn open(b: &Bench, name: &str) -> Editor {
         let uri = format!("file://{}", b.path(name).display());
-        let mut editor = Editor { server: Server::new(), uri, published: BTreeMap::new(), asked: 0 };
-        editor.ask("initialize", json!({"capabilities": {"general": {"positionEncodings": ["utf-8"]}}}));
+        let mut editor = Editor { server: Server::new(), uri, published: BTreeMap::new(), last_id: 0 };
+        editor.request("initialize", json!({"capabilities": {"general": {"positionEncodings": ["utf-8"]}}}));
         let text = String::from_utf8(b.bytes(name)).unwrap();
         let document = json!({"uri": editor.uri, "languageId": "glsl", "version": 0, "text": text});
         editor.send(json!({"method": "textDocument/didOpen", "params": {"textDocument": document}}));
         editor
     }
 
-    /// Sends a message, and returns the last answer.
+    /// Sends a message, and returns the last result.
     fn send(&mut self, message: Value) -> Value {
         let mut out = Vec::new();
         self.server.handle(serde_json::from_value(message).unwrap(), &mut out);
@@ -41,16 +41,16 @@ impl Editor {
         answer
     }
 
-    fn ask(&mut self, method: &str, mut params: Value) -> Value {
-        self.asked += 1;
+    fn request(&mut self, method: &str, mut params: Value) -> Value {
+        self.last_id += 1;
         if let (Some(params), false) = (params.as_object_mut(), self.uri.is_empty() || method == "initialize") {
             params.insert("textDocument".into(), json!({"uri": self.uri}));
         }
-        self.send(json!({"id": self.asked, "method": method, "params": params}))
+        self.send(json!({"id": self.last_id, "method": method, "params": params}))
     }
 
-    /// The severity, the line and the first line of each message.
-    fn said(&self) -> BTreeSet<(String, u64, String)> {
+    /// Returns severity, line and first line of each message.
+    fn diagnostics(&self) -> BTreeSet<(String, u64, String)> {
         let all = self.published.values().flat_map(|list| list.as_array().unwrap());
         all.map(|d| {
             let severity = ["", "error", "warning", "note"][d["severity"].as_u64().unwrap() as usize];
@@ -61,7 +61,7 @@ impl Editor {
     }
 }
 
-fn of_check(b: &Bench, name: &str) -> BTreeSet<(String, u64, String)> {
+fn check_diagnostics(b: &Bench, name: &str) -> BTreeSet<(String, u64, String)> {
     let report = &b.eddy(["check", "--json", name]).json()[0];
     let text = |d: &Value, key: &str| d[key].as_str().unwrap().to_owned();
     let list = report["diagnostics"].as_array().unwrap();
@@ -72,7 +72,7 @@ const HEADER: &str =
     r#"/*{"INPUTS": [{"NAME": "level", "TYPE": "float", "MAX": 1.0}, {"NAME": "picture", "TYPE": "image"}]}*/"#;
 
 #[test]
-fn the_language_server_and_check_say_the_same_of_every_kind_of_file() {
+fn the_language_server_and_check_agree_on_every_kind_of_file() {
     let b = Bench::new();
     let isf = |text: &str| format!("{HEADER}\n{text}");
     let plain = |text: &str| format!("#version 300 es\nprecision highp float;\n{text}");
@@ -98,14 +98,18 @@ fn the_language_server_and_check_say_the_same_of_every_kind_of_file() {
         ("o.glsl", "void main() { gl_FragColor = vec4(1.0); }".to_owned(), 1),
     ] {
         b.write(name, &text);
-        let (checked, said) = (of_check(&b, name), Editor::open(&b, name).said());
-        assert_eq!(said, checked, "{name}");
-        assert_eq!(said.iter().filter(|said| said.0 == "error").count(), errors, "{name}: {said:?}");
+        let (checked, diagnostics) = (check_diagnostics(&b, name), Editor::open(&b, name).diagnostics());
+        assert_eq!(diagnostics, checked, "{name}");
+        assert_eq!(
+            diagnostics.iter().filter(|diagnostic| diagnostic.0 == "error").count(),
+            errors,
+            "{name}: {diagnostics:?}"
+        );
     }
 }
 
 #[test]
-fn the_vertex_shader_of_an_isf_file_is_read_with_it() {
+fn the_vertex_shader_of_an_isf_file_is_compiled_with_it() {
     let b = Bench::new();
     b.write(
         "a.fs",
@@ -114,15 +118,15 @@ fn the_vertex_shader_of_an_isf_file_is_read_with_it() {
     let vertex = "varying vec2 right;\nvoid main() { isf_vertShaderInit(); right = isf_FragNormCoord + level; }\n";
     b.write("a.vs", vertex);
     let editor = Editor::open(&b, "a.vs");
-    assert_eq!(editor.said(), BTreeSet::new());
-    assert_eq!(of_check(&b, "a.vs"), BTreeSet::new());
+    assert_eq!(editor.diagnostics(), BTreeSet::new());
+    assert_eq!(check_diagnostics(&b, "a.vs"), BTreeSet::new());
     b.write("a.vs", vertex.replace("level", "levle"));
-    let said = Editor::open(&b, "a.vs").said();
-    assert_eq!(said, of_check(&b, "a.vs"));
-    assert!(said.iter().any(|(_, line, message)| *line == 2 && message.contains("`levle`")), "{said:?}");
-    // Alone it is a vertex shader like others.
+    let diagnostics = Editor::open(&b, "a.vs").diagnostics();
+    assert_eq!(diagnostics, check_diagnostics(&b, "a.vs"));
+    assert!(diagnostics.iter().any(|(_, line, message)| *line == 2 && message.contains("`levle`")), "{diagnostics:?}");
+    // Without an ISF file it is an ordinary vertex shader.
     b.write("alone/b.vs", "#version 300 es\nin vec3 p;\nvoid main() { gl_Position = vec4(p, 1.0); }");
-    assert_eq!(Editor::open(&b, "alone/b.vs").said(), BTreeSet::new());
+    assert_eq!(Editor::open(&b, "alone/b.vs").diagnostics(), BTreeSet::new());
 }
 
 #[test]
@@ -135,13 +139,13 @@ fn inputs_and_names_of_isf_are_completed_and_explained() {
     let mut editor = Editor::open(&b, "a.fs");
     let at = |character: u64| json!({"position": {"line": 1, "character": character}});
     let column = "void main() { gl_FragColor = vec4(".len() as u64;
-    let items = editor.ask("textDocument/completion", at(column));
+    let items = editor.request("textDocument/completion", at(column));
     let labels: BTreeSet<&str> =
         items["items"].as_array().unwrap().iter().map(|item| item["label"].as_str().unwrap()).collect();
     for name in ["level", "picture", "TIME", "RENDERSIZE", "isf_FragNormCoord", "IMG_NORM_PIXEL", "PASSINDEX", "DATE"] {
         assert!(labels.contains(name), "{name}");
     }
-    let hover = |editor: &mut Editor, at: Value| editor.ask("textDocument/hover", at).to_string();
+    let hover = |editor: &mut Editor, at: Value| editor.request("textDocument/hover", at).to_string();
     assert!(hover(&mut editor, at(column + 1)).contains("float level"));
     assert!(hover(&mut editor, at(column + 9)).contains("float TIME"));
 }

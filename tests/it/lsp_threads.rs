@@ -1,4 +1,5 @@
-//! `eddy lsp` while it reads: it answers, gives up what is outdated, and says what is wrong of the newest text alone.
+//! `eddy lsp` while it reads a text: it answers requests, cancels outdated work, and publishes diagnostics of the
+//! newest text only.
 
 use eddy::lsp::Server;
 use serde_json::{Value, json};
@@ -8,7 +9,7 @@ const URI: &str = "file:///nowhere/a.glsl";
 
 struct Editor {
     server: Server,
-    /// All that the server has sent.
+    /// All messages that the server has sent.
     sent: Vec<Value>,
 }
 
@@ -36,8 +37,8 @@ impl Editor {
         }}));
     }
 
-    /// Does what is to be done until nothing is read any more.
-    fn rest(&mut self) {
+    /// Lets the server work until it has read everything.
+    fn finish(&mut self) {
         loop {
             let mut out = Vec::new();
             let has_more = self.server.idle(&mut out);
@@ -57,7 +58,7 @@ impl Editor {
         answer.expect("every request is answered at once").clone()
     }
 
-    /// The version and the number of messages of each publication.
+    /// Returns the version and the number of messages of each publication.
     fn published(&self) -> Vec<(i64, usize)> {
         let lists = self.sent.iter().filter(|message| message["method"] == "textDocument/publishDiagnostics");
         lists
@@ -73,49 +74,49 @@ fn image(body: &str) -> String {
     format!("void mainImage(out vec4 color, in vec2 at) {{ {body} }}")
 }
 
-/// A text that is read for longer than a request waits.
-fn long() -> String {
+/// Returns a text whose reading takes longer than a request waits.
+fn slow_text() -> String {
     image(&(0..40_000).map(|i| format!("color.x = no_function_{i}(1.0);\n")).collect::<String>())
 }
 
 #[test]
-fn a_request_is_answered_while_a_text_is_read_and_outdated_texts_are_given_up() {
+fn requests_are_answered_during_reading_and_outdated_texts_are_cancelled() {
     let mut editor = Editor::new(&json!({"workspace": {"semanticTokens": {"refreshSupport": true}}}));
-    editor.open(&long());
-    let refused = editor.hover(1, 6);
-    // ContentModified: editors ask again, and show nothing.
-    assert_eq!(refused["error"]["code"], -32_801, "{refused}");
+    editor.open(&slow_text());
+    let error_answer = editor.hover(1, 6);
+    // ContentModified: editors repeat the request, and show no error.
+    assert_eq!(error_answer["error"]["code"], -32_801, "{error_answer}");
     assert!(editor.server.is_reading());
     for version in 1..20 {
-        editor.change(version, &format!("{}// {version}", long()));
+        editor.change(version, &format!("{}// {version}", slow_text()));
     }
     editor.change(20, &image("color = vec4(at, sn(1.0), 1.0);"));
-    editor.rest();
-    // Nothing was said of the texts before.
+    editor.finish();
+    // Nothing was published for the previous texts.
     assert_eq!(editor.published(), [(20, 1)]);
     let answer = editor.hover(2, 6);
     assert!(answer["result"].to_string().contains("mainImage"), "{answer}");
-    // Colours that were refused are asked for again.
+    // The client is asked to request rejected semantic tokens again.
     assert!(editor.sent.iter().any(|message| message["method"] == "workspace/semanticTokens/refresh"));
 }
 
 #[test]
-fn a_text_that_takes_long_is_read_in_the_end() {
+fn a_slow_text_is_read_eventually() {
     let mut editor = Editor::new(&json!({}));
-    editor.open(&long());
-    editor.rest();
+    editor.open(&slow_text());
+    editor.finish();
     assert!(matches!(editor.published()[..], [(0, messages)] if messages > 10), "{:?}", editor.published());
     assert!(!editor.sent.iter().any(|message| message["method"] == "workspace/semanticTokens/refresh"));
-    // What is read is known to the next request.
+    // A text that has been read is available to the next request.
     assert!(editor.hover(1, 6)["result"].to_string().contains("mainImage"));
 }
 
 #[test]
-fn a_document_that_is_closed_while_it_is_read_has_no_messages() {
+fn a_document_that_is_closed_during_reading_gets_no_messages() {
     let mut editor = Editor::new(&json!({}));
-    editor.open(&long());
+    editor.open(&slow_text());
     editor.hover(1, 6);
     editor.send(&json!({"method": "textDocument/didClose", "params": {"textDocument": {"uri": URI}}}));
-    editor.rest();
+    editor.finish();
     assert!(editor.published().iter().all(|(_, messages)| *messages == 0), "{:?}", editor.published());
 }

@@ -1,14 +1,14 @@
-//! Doc sentences: none is a clause without a subject, as "Whether it is long." is.
+//! Doc sentences: none is a clause without a subject, such as "Whether it is long."
 
 use super::{source_texts, sources_of_eddy};
 
 /// First words of such clauses.
 const HEADLESS: &[&str] = &["Whether", "What", "Of", "Where", "Which", "How", "Why", "Who", "When"];
 
-/// The command line's help is in these: it says of an option what it takes.
+/// The help of the command line is in these files: it says what an option takes.
 const HELP: &str = "cli/args/";
 
-/// Returns the places where a paragraph of documentation begins with such a word; `path` is relative to `src/`.
+/// Returns the places where a paragraph of documentation starts with such a word; `path` is relative to `src/`.
 fn headless(path: &str, text: &str) -> Vec<String> {
     let mut found = Vec::new();
     let mut is_inside = false;

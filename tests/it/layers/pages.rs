@@ -1,4 +1,4 @@
-//! Pages in Markdown: links lead somewhere, and what stands twice is the same.
+//! Markdown pages: links have targets, and repeated content is the same.
 
 use std::{
     fs,
@@ -38,19 +38,19 @@ fn links(page: &str) -> Vec<String> {
     found
 }
 
-/// Returns the anchors of a page's headings, as GitHub makes them.
+/// Returns the anchors of a page's headings, as GitHub generates them.
 fn anchors(page: &str) -> Vec<String> {
     let headings = page.lines().filter(|line| line.starts_with('#'));
-    let kept = |c: &char| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_');
+    let is_kept = |c: &char| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_');
     headings
-        .map(|line| line.trim_start_matches('#').trim().to_lowercase().chars().filter(kept).collect::<String>())
+        .map(|line| line.trim_start_matches('#').trim().to_lowercase().chars().filter(is_kept).collect::<String>())
         .map(|heading| heading.replace(' ', "-"))
         .collect()
 }
 
-/// Returns the links of a page that lead nowhere; `folder` is that of the page.
+/// Returns the links of a page whose targets do not exist; `folder` is that of the page.
 fn broken(folder: &Path, page: &str) -> Vec<String> {
-    let leads = |link: &String| {
+    let has_target = |link: &String| {
         if link.starts_with("https://") || link.starts_with("http://") {
             return true;
         }
@@ -60,11 +60,11 @@ fn broken(folder: &Path, page: &str) -> Vec<String> {
         let has_anchor = || text.is_some_and(|text| anchors(&text).iter().any(|a| a == anchor));
         (file.is_empty() || path.exists()) && (anchor.is_empty() || has_anchor())
     };
-    links(page).into_iter().filter(|link| !leads(link)).collect()
+    links(page).into_iter().filter(|link| !has_target(link)).collect()
 }
 
 #[test]
-fn links_and_pictures_of_pages_are_there() {
+fn targets_of_links_and_pictures_exist() {
     let mut pages = Vec::new();
     pages_in(root(), &mut pages);
     assert!(pages.len() > 12, "only {} pages were read", pages.len());
@@ -77,7 +77,7 @@ fn links_and_pictures_of_pages_are_there() {
         found.extend(broken(path.parent().unwrap(), &page).iter().map(|link| format!("{shown}: {link}")));
     }
     assert!(count > 40, "only {count} links were read");
-    assert!(found.is_empty(), "{} links lead nowhere:\n{}", found.len(), found.join("\n"));
+    assert!(found.is_empty(), "{} links have no target:\n{}", found.len(), found.join("\n"));
 }
 
 #[test]
@@ -98,9 +98,9 @@ fn rows_of_the_comparison_are_the_same_in_both_places() {
             .map(str::to_owned)
             .collect()
     };
-    let (some, all) = (rows(&read("README.md")), rows(&read("docs/comparison.md")));
-    assert!(some.len() > 10 && all.len() > some.len());
-    for row in some {
+    let (shown_rows, all) = (rows(&read("README.md")), rows(&read("docs/comparison.md")));
+    assert!(shown_rows.len() > 10 && all.len() > shown_rows.len());
+    for row in shown_rows {
         assert!(all.contains(&row), "not in docs/comparison.md: {row}");
     }
 }
@@ -113,7 +113,7 @@ fn first_block(page: &str, language: &str) -> String {
 }
 
 #[test]
-fn the_manifest_on_the_page_is_read() {
+fn the_documented_manifest_can_be_loaded() {
     let folder = tempfile::tempdir().unwrap();
     let code = "#iUniform float viscosity = 0.1 in { 0.0, 1.0 }\n#iUniform color3 tint\n";
     let files = [("eddy.toml", first_block("docs/projects.md", "toml").as_str()), ("common.glsl", code)]

@@ -1,4 +1,4 @@
-//! The paths that a Rust text names, with the module and the line each stands in.
+//! The paths that a Rust text names, each with its module and line.
 
 use proc_macro2::{TokenStream, TokenTree};
 use syn::{
@@ -10,20 +10,20 @@ use syn::{
 /// A path as it is written.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Named {
-    /// The modules of the same file that it stands in, from outside in.
+    /// The modules of the same file that contain it, from the outside in.
     pub within: Vec<String>,
     pub segments: Vec<String>,
     pub line: usize,
 }
 
-/// Returns every path, single names among them. Comments and strings name nothing; what macros are given counts.
+/// Returns every path, including single names. Comments and strings are ignored; arguments of macros count.
 pub(super) fn of_file(file: &File) -> Vec<Named> {
     let mut reader = Reader::default();
     reader.visit_file(file);
     reader.found
 }
 
-/// As [`of_file`], of a text that is no whole file: single statements, for example.
+/// Works like [`of_file`], but on a text that need not be a whole file: single statements, for example.
 pub(super) fn of_tokens(tokens: TokenStream) -> Vec<Named> {
     let mut reader = Reader::default();
     reader.scan(tokens);
@@ -112,6 +112,6 @@ impl<'ast> Visit<'ast> for Reader {
         self.scan(found.tokens.clone());
     }
 
-    /// Who may see an item is no use of it.
+    /// The visibility of an item is not a use of the path.
     fn visit_visibility(&mut self, _: &'ast Visibility) {}
 }

@@ -1,12 +1,12 @@
-//! The texts that people read: what the window shows, what the command line prints and its help, and diagnostics.
+//! The texts that users read: those of the window, the output and help of the command line, and diagnostics.
 //!
-//! `scripts/list-texts FILE` writes them all into one file, to be read in one go by whoever looks after the words.
+//! `scripts/list-texts FILE` writes them all into one file, for reviewing the wording.
 
 use super::{source_texts, sources_of_eddy};
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use std::path::PathBuf;
 
-/// A text and the line on which it stands.
+/// A text and its line.
 #[derive(Debug, PartialEq, Eq)]
 struct Text {
     line: usize,
@@ -35,10 +35,10 @@ const UNSEEN: &[&str] = &[
     "wgsl",
 ];
 
-/// Methods that name an object for a debugger or say why something cannot be.
+/// Methods that take a name for debugging, or the reason why an error is impossible.
 const UNSEEN_METHODS: &[&str] = &["expect", "expect_err", "id_salt", "make_persistent_id"];
 
-/// Places whose texts are for who works on Eddy: bugs of its own, and tests.
+/// Places whose texts are for contributors: internal errors, and tests.
 const UNREAD: &[&str] = &["glsl/emit/", "glsl/ir/", "glsl/opt/", "gui/editor/cost.rs", "gui/frame/", "lab/reference/"];
 
 /// Returns the texts of a file; `has_help` says that its doc comments are the command line's help.
@@ -55,8 +55,8 @@ fn read(stream: TokenStream, has_help: bool, found: &mut Vec<Text>) {
         _ => String::new(),
     };
     let is_sign = |n: usize, sign: char| matches!(trees.get(n), Some(TokenTree::Punct(p)) if p.as_char() == sign);
-    // The line behind that of the doc comment read last: the next one goes on with the same paragraph.
-    let mut goes_on = 0;
+    // The line after that of the last doc comment: a comment on it continues the same paragraph.
+    let mut next_line = 0;
     let mut n = 0;
     while n < trees.len() {
         match &trees[n] {
@@ -68,7 +68,7 @@ fn read(stream: TokenStream, has_help: bool, found: &mut Vec<Text>) {
                 };
                 n += 2 + inner;
                 if is_for_tests(group) {
-                    // The item's body, or the semicolon behind its name.
+                    // Skip the item's body, or the semicolon after its name.
                     while n < trees.len() && !is_sign(n, ';') && !is_braced(&trees[n]) {
                         n += 1;
                     }
@@ -81,11 +81,11 @@ fn read(stream: TokenStream, has_help: bool, found: &mut Vec<Text>) {
                     && !is_of_code(&trees[n..])
                     && let Some(doc) = doc_of(group)
                 {
-                    match found.last_mut().filter(|_| goes_on == line && !doc.is_empty()) {
+                    match found.last_mut().filter(|_| next_line == line && !doc.is_empty()) {
                         Some(last) => last.text = format!("{} {doc}", last.text),
                         None => found.push(Text { line, text: doc }),
                     }
-                    goes_on = line + 1;
+                    next_line = line + 1;
                 } else if attribute(group).is_some_and(|name| ["error", "arg", "command"].contains(&name.as_str())) {
                     read(group.stream(), has_help, found);
                 }
@@ -121,7 +121,7 @@ fn is_braced(tree: &TokenTree) -> bool {
     matches!(tree, TokenTree::Group(group) if group.delimiter() == Delimiter::Brace)
 }
 
-/// Whether what attributes stand before is a function or a constant, whose documentation is no help for the command
+/// Returns whether attributes belong to a function or a constant, whose documentation is not help for the command
 /// line.
 fn is_of_code(rest: &[TokenTree]) -> bool {
     let first = rest.iter().find_map(|tree| match tree {
@@ -142,7 +142,7 @@ fn is_for_tests(group: &Group) -> bool {
     group.stream().to_string().replace(' ', "") == "cfg(test)"
 }
 
-/// The text of a doc comment, which the compiler reads as an attribute.
+/// Returns the text of a doc comment, which the parser reads as an attribute.
 fn doc_of(group: &Group) -> Option<String> {
     let mut trees = group.stream().into_iter();
     let (Some(TokenTree::Ident(name)), _, Some(TokenTree::Literal(text))) = (trees.next(), trees.next(), trees.next())
@@ -152,7 +152,7 @@ fn doc_of(group: &Group) -> Option<String> {
     (name == "doc").then(|| syn::parse_str::<syn::LitStr>(&text.to_string()).ok())?.map(|t| t.value().trim().to_owned())
 }
 
-/// Returns whether a text may be words for people: a name of a key or a file is one word of small letters and signs.
+/// Returns whether a text may be prose: names of keys and files are single words of small letters and signs.
 fn is_words(text: &str) -> bool {
     let mut letters = text.chars().filter(|c| c.is_alphabetic());
     let is_long = letters.by_ref().take(3).count() == 3;
@@ -160,7 +160,7 @@ fn is_words(text: &str) -> bool {
     is_long && (text.trim().contains(' ') || is_capital)
 }
 
-/// Returns every text that people may read, by file, `path` relative to `src/`.
+/// Returns all texts that users may read, by file; paths are relative to `src/`.
 fn all_texts() -> Vec<(String, Vec<Text>)> {
     let files = source_texts(&sources_of_eddy());
     let read = files.into_iter().filter(|(path, _)| {
@@ -179,7 +179,7 @@ fn all_texts() -> Vec<(String, Vec<Text>)> {
     all
 }
 
-/// Words and turns that no colleague would say, and what to write. They are looked for as whole words, in any case.
+/// Phrases to avoid, and what to write instead. They are matched as whole words, in any case.
 const PHRASES: &[(&str, &str)] = &[
     ("anew", "again, or restart"),
     ("any more", "no longer, or leave it out"),
@@ -210,14 +210,14 @@ const PHRASES: &[(&str, &str)] = &[
     ("unasked", "asks before"),
 ];
 
-/// Returns the words of a text in small letters; a sign between two words is a word, so that no phrase spans it, and
-/// so is what is put in when the text is shown.
+/// Returns the words of a text in lower case. A sign between two words is a word, so that no phrase spans it, and so
+/// is a placeholder for a formatted value.
 fn words(text: &str) -> Vec<String> {
     let mut words = vec![String::new()];
-    let mut is_put_in = false;
+    let mut is_placeholder = false;
     for c in text.chars() {
-        is_put_in = c == '{' || is_put_in && c != '}';
-        if is_put_in {
+        is_placeholder = c == '{' || is_placeholder && c != '}';
+        if is_placeholder {
             words.push("{}".into());
         } else if c.is_alphanumeric() || c == '\'' || c == '_' {
             let last = words.last_mut().filter(|word| word.chars().all(|c| c.is_alphanumeric() || "'_".contains(c)));
@@ -235,8 +235,8 @@ fn words(text: &str) -> Vec<String> {
     words
 }
 
-/// Returns what a colleague would not say in a text, and what to write.
-fn odd(text: &str) -> Vec<String> {
+/// Returns the phrases to avoid in a text, with replacements.
+fn violations(text: &str) -> Vec<String> {
     let words = words(text);
     let mut found = Vec::new();
     let has =
@@ -245,12 +245,12 @@ fn odd(text: &str) -> Vec<String> {
         for (phrase, instead) in PHRASES.iter().filter(|(phrase, _)| has(at, phrase)) {
             found.push(format!("\"{phrase}\": write {instead}"));
         }
-        // "It is no picture": "it is not a picture". "There is no picture" is as people speak.
+        // "It is no picture" should be "it is not a picture"; "there is no picture" is normal.
         let is_be = ["is", "are", "was", "were"].contains(&words[at].as_str());
         let is_there = at > 0 && words[at - 1] == "there";
-        let goes_on = words.get(at + 2).map(String::as_str);
-        if is_be && !is_there && has(at + 1, "no") && goes_on.is_some_and(|w| !["longer", "more"].contains(&w)) {
-            found.push(format!("\"{} no {}\": write \"{0} not a\"", words[at], goes_on.unwrap_or_default()));
+        let next_word = words.get(at + 2).map(String::as_str);
+        if is_be && !is_there && has(at + 1, "no") && next_word.is_some_and(|w| !["longer", "more"].contains(&w)) {
+            found.push(format!("\"{} no {}\": write \"{0} not a\"", words[at], next_word.unwrap_or_default()));
         }
     }
     if let [.., or, not] = &words[..]
@@ -258,7 +258,7 @@ fn odd(text: &str) -> Vec<String> {
     {
         found.push("\"or not\" at the end: write Toggle ...".into());
     }
-    // "The breakpoint before", "the letter behind": "the previous breakpoint".
+    // "The breakpoint before", "the letter behind": write "the previous breakpoint".
     if let [.., the, _, last] = &words[..]
         && ["the", "a"].contains(&the.as_str())
         && ["before", "after"].contains(&last.as_str())
@@ -269,7 +269,7 @@ fn odd(text: &str) -> Vec<String> {
 }
 
 #[test]
-fn texts_are_as_a_colleague_would_say_them() {
+fn texts_follow_the_style_rules() {
     let all = all_texts();
     let count: usize = all.iter().map(|(_, texts)| texts.len()).sum();
     assert!(count > 3000, "only {count} texts were read");
@@ -277,14 +277,16 @@ fn texts_are_as_a_colleague_would_say_them() {
     let found: Vec<String> = read
         .flat_map(|(path, texts)| texts.iter().map(move |text| (path, text)))
         .flat_map(|(path, text)| {
-            odd(&text.text).into_iter().map(move |what| format!("src/{path}:{}: {what}: {}", text.line, text.text))
+            violations(&text.text)
+                .into_iter()
+                .map(move |what| format!("src/{path}:{}: {what}: {}", text.line, text.text))
         })
         .collect();
     assert!(found.is_empty(), "{} texts; CONTRIBUTING.md says how we write them:\n{}", found.len(), found.join("\n"));
 }
 
 #[test]
-fn planted_odd_texts_are_caught() {
+fn planted_violations_of_style_are_caught() {
     let caught = [
         "Draw it anew",
         "Frames are not drawn unasked",
@@ -304,7 +306,7 @@ fn planted_odd_texts_are_caught() {
         "Pixels of the canvas",
     ];
     for text in caught {
-        assert_eq!(odd(text).len(), 1, "{text}: {:?}", odd(text));
+        assert_eq!(violations(text).len(), 1, "{text}: {:?}", violations(text));
     }
     for text in [
         "There is no array here",
@@ -314,11 +316,10 @@ fn planted_odd_texts_are_caught() {
         "the line was not reached before",
         "amend, understand, behindhand",
     ] {
-        assert_eq!(odd(text), [""; 0], "{text}");
+        assert_eq!(violations(text), [""; 0], "{text}");
     }
 }
 
-/// What is looked at, and what is not.
 #[test]
 fn texts_are_read_from_code_help_and_errors_and_not_from_tests() {
     let read = |text: &str, has_help| -> Vec<String> {
@@ -335,8 +336,8 @@ fn texts_are_read_from_code_help_and_errors_and_not_from_tests() {
     assert_eq!(read("/// One\npub fn f() {}\n/// Two\n#[arg(long)]\npub b: u8", true), ["Two"]);
 }
 
-/// `TEXTS=FILE cargo test --test it texts_as_a_list -- --ignored` writes the file; `scripts/list-texts FILE` is short
-/// for it.
+/// `TEXTS=FILE cargo test --test it texts_as_a_list -- --ignored` writes the file; `scripts/list-texts FILE` runs
+/// that.
 #[test]
 #[ignore = "writes a file"]
 fn texts_as_a_list() {

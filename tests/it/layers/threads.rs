@@ -1,4 +1,5 @@
-//! Threads are started by `eddy-background`, and elsewhere only where work is not a job with an end that its owner looks for.
+//! Threads are started by `eddy-background`; other code may start one only if its work is not a job whose end its
+//! owner waits for.
 
 use super::{source_texts, sources_of_eddy};
 use std::collections::BTreeMap;
@@ -29,7 +30,7 @@ const STARTED_BY_HAND: &[(&str, &str)] = &[
     ("video/reader.rs", "every frame counts, and the queue is bounded"),
 ];
 
-/// How often code outside of tests starts a thread. Threads of a scope end with the call, and are not counted.
+/// Returns how often code outside tests starts a thread. Threads of a scope end with the call and are not counted.
 fn started(text: &str) -> usize {
     let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
     let code = code.lines().filter(|line| !line.trim_start().starts_with("//"));
@@ -37,7 +38,7 @@ fn started(text: &str) -> usize {
 }
 
 #[test]
-fn threads_are_started_where_a_job_is_not_enough() {
+fn threads_are_started_only_in_listed_files() {
     let texts = source_texts(&sources_of_eddy());
     let files = texts.iter().filter(|(path, _)| !path.ends_with("tests.rs") && !path.contains("/tests/"));
     let found: BTreeMap<&str, usize> =
@@ -47,7 +48,7 @@ fn threads_are_started_where_a_job_is_not_enough() {
 }
 
 #[test]
-fn a_started_thread_is_seen() {
+fn started_threads_are_counted() {
     assert_eq!(started("fn f() { std::thread::spawn(g); }"), 1);
     assert_eq!(started("let t = Builder::new().name(\"x\".into()).spawn(g)?;\nthread::spawn(h);"), 2);
     assert_eq!(started("// thread::spawn(g)\n#[cfg(test)]\nmod tests { fn f() { thread::spawn(g); } }"), 0);
