@@ -1,9 +1,9 @@
-//! Floats that round, walker against device: every operation by itself, on random operands up to the ends of what a
-//! float holds, and small compositions. Both are held against the exact result in double precision, within the
-//! bounds of [`operations`].
+//! Floating-point rounding, walker against device: each operation alone, on random operands up to the limits of a
+//! float, and small compositions. Both are compared with the exact result in double precision, within the bounds of
+//! [`operations`].
 //!
-//! An eighth of `EDDY_RANDOM_PROGRAMS` programs of four compositions are made; `EDDY_RANDOM_SEED` is the first.
-//! `cargo test --test it random_floats -- --nocapture` prints what was found.
+//! `EDDY_RANDOM_PROGRAMS` / 8 programs of four compositions are tested; `EDDY_RANDOM_SEED` is the first seed. `cargo
+//! test --test it random_floats -- --nocapture` prints the errors.
 
 mod operands;
 mod operations;
@@ -20,12 +20,12 @@ use operands::{SIDE, operands, program};
 use operations::{Grade, Operation, operations, ulp};
 use tree::{LEAVES, Random, Tree};
 
-/// Numbers below the least normal one may be taken for zero, wherever they come up.
+/// Subnormal numbers may be flushed to zero, wherever they occur.
 const SLACK: f64 = 4.0 * f32::MIN_POSITIVE as f64;
 
 type Texels = Vec<[f32; 4]>;
 
-/// What the device and the walker make of a program, pixel by pixel; only the device without `is_walked`.
+/// Returns the results of the device and the walker for each pixel of a program; without `is_walked` only the device's.
 fn run_both(gpu: &Gpu, code: &str, is_walked: bool) -> (Texels, Texels) {
     let project = project(vec![
         pass(buffer("A"), code, Default::default()),
@@ -45,12 +45,12 @@ fn run_both(gpu: &Gpu, code: &str, is_walked: bool) -> (Texels, Texels) {
     (drawn, pixels.map(|pixel| tracer.trace(pixel).unwrap().value.unwrap()).collect())
 }
 
-/// What a result may be, and how far it is off as a share of that; above 1 is wrong.
+/// Returns the error of a result as a share of the allowed one; above 1 is wrong.
 fn share(value: f32, exact: f64, allowed: f64) -> f64 {
     let (value, allowed) = (f64::from(value), allowed + SLACK);
     let largest = f64::from(f32::MAX);
     if exact.is_nan() {
-        // No bound holds where the result is not defined.
+        // An undefined result has no bound.
         return 0.0;
     }
     if value.is_infinite() && exact.abs() + allowed >= largest && value.signum() == exact.signum() {
@@ -62,12 +62,12 @@ fn share(value: f32, exact: f64, allowed: f64) -> f64 {
     }
 }
 
-/// The furthest that somebody was off.
+/// The largest errors of one implementation.
 #[derive(Clone, Copy, Debug, Default)]
 struct Worst {
     ulps: f64,
     absolute: f64,
-    /// Of what is allowed.
+    /// As a share of the allowed error.
     share: f64,
 }
 
@@ -83,7 +83,7 @@ impl Worst {
     }
 }
 
-/// How far the results of an operation are off, by these grades.
+/// Returns the largest errors of an operation's results, by grade.
 fn measure(operation: &Operation, seed: u32, results: &[(Grade, &Texels)]) -> Vec<Worst> {
     let mut worst = vec![Worst::default(); results.len()];
     for (at, pixel) in all_pixels((SIDE, SIDE)).into_iter().enumerate() {
@@ -99,7 +99,7 @@ fn measure(operation: &Operation, seed: u32, results: &[(Grade, &Texels)]) -> Ve
     worst
 }
 
-/// What the device is held to.
+/// Returns the grade whose bounds apply to the device.
 fn grade_of(gpu: &Gpu) -> Grade {
     if gpu.info.device_type == wgpu::DeviceType::Cpu { Grade::Lavapipe } else { Grade::Vulkan }
 }
@@ -136,7 +136,7 @@ fn every_operation_is_within_its_bound() {
     println!("{off} operations are not correctly rounded");
 }
 
-/// Four trees, drawn and walked: what is wrong, and the largest shares of both.
+/// Draws and walks four trees; returns the faults and the largest shares of both.
 fn compose(gpu: &Gpu, seed: u64) -> (Vec<String>, [f64; 2]) {
     let mut random = Random(seed);
     let trees: [Tree; 4] = std::array::from_fn(|_| Tree::random(&mut random, 3));
@@ -179,9 +179,9 @@ fn compositions_are_within_the_bounds_of_their_parts() {
     assert!(wrong.is_empty(), "{} faults:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// The control: a result that is off by its last bit, or by a little more than a composition may, is seen.
+/// The control: an error in the last bit, or slightly above the bound of a composition, is detected.
 #[test]
-fn a_planted_wrong_value_is_seen() {
+fn a_planted_error_is_detected() {
     let Some(gpu) = gpu() else { return };
     let all = operations();
     for name in ["a + b", "a * b", "floor", "min"] {

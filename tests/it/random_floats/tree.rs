@@ -5,10 +5,10 @@ use super::{
     operations::{Grade, ROUNDING, SINE, ulp},
 };
 
-/// Of every leaf.
+/// The span of every leaf.
 pub(super) const LEAVES: Span = Span::new(-2, 1).signed();
 
-/// A number that differs from the exact one by no more than `off`.
+/// A number that differs from the exact one by at most `off`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     pub exact: f64,
@@ -22,7 +22,7 @@ pub(super) enum Tree {
     Node(Op, Vec<Tree>),
 }
 
-/// What a tree is made of. Arguments are kept where each is defined: above 0.5, or within a few units.
+/// The operations of a tree. Arguments are kept inside each one's domain: above 0.5, or within a few units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Op {
     Add,
@@ -88,7 +88,7 @@ impl Op {
 
     fn text(self, args: &[String]) -> String {
         let arg = |i: usize| &args[i];
-        // Of what is above 0.5, and of what is within two units.
+        // Maps an argument to above 0.5, or into `limit`.
         let above = |i: usize| format!("(abs({}) + 0.5)", args[i]);
         let within = |i: usize, limit: &str| format!("clamp({}, -{limit}, {limit})", args[i]);
         match self {
@@ -112,7 +112,7 @@ impl Op {
         }
     }
 
-    /// The value, and how far off it may be by this operation and by what it is of.
+    /// Returns the value and its error bound, from this operation and its arguments.
     fn value(self, grade: Grade, args: &[Near]) -> Near {
         let [a, b] = [args[0], *args.get(1).unwrap_or(&args[0])];
         let above = |x: Near| {
@@ -120,7 +120,7 @@ impl Op {
             Near { exact, off: x.off + ROUNDING * (exact + x.off) }
         };
         let within = |x: Near, limit: f64| Near { exact: x.exact.clamp(-limit, limit), ..x };
-        // Not all devices keep the order of sums, and no one needs to: terms count by their magnitudes.
+        // Devices may reorder sums, so terms contribute by their magnitudes.
         let sum = |exact: f64, terms: f64, off: f64, roundings: f64| Near {
             exact,
             off: off + roundings * ROUNDING * (terms + off),
@@ -180,7 +180,7 @@ impl Op {
             Op::Pow => {
                 let (a, b) = (above(a), within(b, 2.0));
                 let exact = a.exact.powf(b.exact);
-                // Of the exponent of two.
+                // The error of the exponent of two.
                 let mut off = 1.5 * b.exact.abs() * a.off / (a.exact - a.off) + a.exact.log2().abs() * b.off;
                 let exponent = b.exact * a.exact.log2();
                 if grade != Grade::Walker {
@@ -216,10 +216,10 @@ impl Op {
     }
 }
 
-/// What lavapipe was found to keep to, as [`super::operations`] has it.
+/// The measured bounds of lavapipe, as in [`super::operations`].
 const SINE_OF_LAVAPIPE: f64 = 2e-7;
 const EXP2_OF_LAVAPIPE: f64 = 6.0;
-/// Vulkan's bound of `log2` near 1.
+/// Vulkan's bound for `log2` near 1.
 const LOG2: f64 = 1.0 / 2_097_152.0;
 
 impl Tree {

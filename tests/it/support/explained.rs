@@ -1,4 +1,4 @@
-//! Why a pixel that is walked differs from the one that a device draws: what the walker itself finds out.
+//! Reasons why a walked pixel differs from the one drawn by a device, as far as the walker can find them.
 
 use super::walked::{all_pixels, is_same};
 use eddy::{
@@ -10,15 +10,15 @@ use eddy::{
     project::Filter,
 };
 
-/// Statements of a pixel.
+/// The limit of statements per pixel.
 pub(crate) const STATEMENTS: u64 = 3_000_000;
-/// A step of 8 bits: what a screen shows.
+/// A step of 8 bits, the smallest difference on a screen.
 pub(crate) const VISIBLE: f64 = 1.0 / 255.0;
 
-/// Ways to move texels by steps of 8 bits.
+/// The number of patterns that move texels by steps of 8 bits.
 const PATTERNS: u64 = 8;
 
-/// A pass of a frame that has been drawn, whose pixels are asked for reasons.
+/// A pass of a drawn frame, whose pixels are to be explained.
 pub(crate) struct Explained<'p> {
     pub sources: &'p Sources<'p>,
     pub index: usize,
@@ -26,7 +26,7 @@ pub(crate) struct Explained<'p> {
 }
 
 impl Explained<'_> {
-    /// Why a pixel differs by so much, as far as the walker finds out.
+    /// Returns the reason why a pixel differs by `apart`, as far as the walker can find it.
     pub(crate) fn why(&self, pixel: (u32, u32), apart: f64) -> String {
         let Ok(audit) = audit(self.sources, self.index, self.read, &[pixel], STATEMENTS) else {
             return "not audited".into();
@@ -57,7 +57,7 @@ impl Explained<'_> {
         Tracer::new(self.sources, self.index, read, extent).ok()?.trace(pixel).ok()?.value
     }
 
-    /// Weights of texels matter: without filters another value comes out.
+    /// Returns how filtering explains the difference: the value changes with the weights of texels.
     fn is_filtered(&self, pixel: (u32, u32), apart: f64) -> Option<&'static str> {
         let mut read = self.read.clone();
         read.channels.iter_mut().for_each(|texture| texture.filter = Filter::Nearest);
@@ -69,8 +69,8 @@ impl Explained<'_> {
         if self.moves_by(&by_quads, pixel)? >= apart / 2.0 {
             return Some("filtered: the level of a quad, taken by lines, moves it as far");
         }
-        // llvmpipe filters textures of 8 bits in numbers of 8 bits, so that each of three steps rounds: what is read may
-        // be off by as many steps, each time otherwise (`walker_textures::texels_of_8_bits_are_mixed_in_8_bits`).
+        // llvmpipe filters 8-bit textures in 8-bit numbers and rounds in each of three steps: a read value may be off
+        // by three steps, differently each time (`walker_textures::texels_of_8_bits_are_mixed_in_8_bits`).
         for pattern in 0..PATTERNS {
             let mut moved = by_quads.clone();
             let mut random = pattern;
@@ -85,21 +85,21 @@ impl Explained<'_> {
                 return Some("filtered in 8 bits: three steps of them move it as far");
             }
         }
-        // Which level is read follows from derivatives, which are undefined where neighbours go other ways (8.8).
+        // The mip level follows from derivatives, which are undefined where neighbours take other branches (8.8).
         let mut coarser = self.read.clone();
         coarser.channels.iter_mut().filter(|texture| texture.filter == Filter::Mipmap).for_each(read_coarser);
-        let is_of_levels = self.moves_by(&coarser, pixel)? >= apart;
-        is_of_levels.then_some("filtered: texels of the next level move it as far")
+        let changes_with_level = self.moves_by(&coarser, pixel)? >= apart;
+        changes_with_level.then_some("filtered: texels of the next level move it as far")
     }
 
-    /// How far the walker's value is from the one of other inputs.
+    /// Returns the distance of the walker's value from the one with other inputs.
     fn moves_by(&self, read: &PassInputs, pixel: (u32, u32)) -> Option<f64> {
         let (own, other) = (self.value(self.read, pixel)?, self.value(read, pixel)?);
         Some(own.iter().zip(other).map(|(&a, b)| f64::from(a - b).abs()).fold(0.0, f64::max))
     }
 
-    /// The walker's own value moves as far where its roundings come out another way, by chance, or where the time and the
-    /// canvas are others by some last bits: a place that lies on the edge of a texel moves by these alone.
+    /// Returns whether the walker's own value moves as far with randomly changed roundings, or if time and resolution
+    /// change in the last bits: a point at the edge of a texel moves by these alone.
     fn is_touchy(&self, pixel: (u32, u32), apart: f64) -> bool {
         let Some(own) = self.value(self.read, pixel) else { return false };
         let is_far = |other: [f32; 4]| {
@@ -121,7 +121,7 @@ impl Explained<'_> {
     }
 }
 
-/// Puts the next level's texels in the place of each level's.
+/// Replaces each level's texels by those of the next level.
 fn read_coarser(texture: &mut TextureCopy) {
     for i in 1..texture.levels.len() {
         let [level, next] = [i - 1, i].map(|i| texture.levels[i].clone());
@@ -132,7 +132,7 @@ fn read_coarser(texture: &mut TextureCopy) {
     }
 }
 
-/// A filtered texture of 8 bits.
+/// Returns whether a texture is filtered and has 8 bits.
 fn has_8_bits(texture: &TextureCopy) -> bool {
     let mut texels = texture.levels[0].texels.iter().flatten();
     texture.filter != Filter::Nearest && texels.all(|x| (x * 255.0 - (x * 255.0).round()).abs() < 1e-3)
