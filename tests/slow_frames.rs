@@ -38,12 +38,12 @@ fn alone(name: &str, test: impl FnOnce(Gpu)) {
     assert!(done.status.success() && output[0].contains("1 passed"), "{}{}", output[0], output[1]);
 }
 
-/// Returns a shader of one red whose loops run `turns` iterations that no compiler can remove, in rounds of 1,000 or
-/// fewer. `ends` is inserted after each round. (llvmpipe ends a shader's loops after 65,535 iterations,
-/// `LP_MAX_TGSI_LOOP_ITERATIONS`.)
-fn looping(red: f32, turns: u32, ends: &str) -> String {
-    let round = turns.min(1000);
-    let rounds = turns / round;
+/// Returns a shader of one red whose loops run for the given number of iterations, which no compiler can remove, in
+/// rounds of 1,000 or fewer. `ends` is inserted after each round. (llvmpipe ends a shader's loops after 65,535
+/// iterations, `LP_MAX_TGSI_LOOP_ITERATIONS`.)
+fn looping(red: f32, iterations: u32, ends: &str) -> String {
+    let round = iterations.min(1000);
+    let rounds = iterations / round;
     format!(
         "void mainImage(out vec4 o, in vec2 p) {{
     float a = p.x;

@@ -122,8 +122,8 @@ fn ffmpeg_decodes_other_formats_and_the_sound_of_videos() {
     b.write("p/list.mp3", "#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\ntone.wav\n#EXT-X-ENDLIST\n");
     for name in ["list.aac", "list.mp3"] {
         project(&b, &format!("{{ file = \"{name}\", kind = \"music\" }}"));
-        let said = b.line("check p").expect(0).err;
-        assert!(said.contains("the channel is silent"), "{name}: {said}");
+        let warnings = b.line("check p").expect(0).err;
+        assert!(warnings.contains("the channel is silent"), "{name}: {warnings}");
     }
     project(&b, "{ file = \"mute.mkv\", kind = \"music\" }");
     assert!(b.line("check p").expect(0).err.contains("the channel is silent"));

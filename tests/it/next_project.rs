@@ -35,17 +35,17 @@ fn with_buffer(folder: &Path) -> String {
 }
 
 /// Returns everything that a front end can read of the open project.
-fn seen(session: &Session) -> String {
+fn visible_state(session: &Session) -> String {
     let project = session.project();
     let custom_uniforms: Vec<_> = session.custom_uniforms().iter().map(|u| session.custom_uniform_value(u)).collect();
-    let said: Vec<_> = session.notices().iter().map(|n| &n.text).collect();
+    let notices: Vec<_> = session.notices().iter().map(|n| &n.text).collect();
     let measures: Vec<_> = session.measures().iter().map(|m| (&m.text, m.record.cells().len())).collect();
     format!(
         "{:#?}",
         (
             (&project.name, project.tabs(), session.tabs(), session.shown_pass(), session.is_dirty()),
             (session.transport(), session.reach(), session.time_range(), session.halt(), session.has_last_good()),
-            (session.compile_state().compiling, session.diagnostics(), said, session.question()),
+            (session.compile_state().compiling, session.diagnostics(), notices, session.question()),
             (session.audit_map(), session.probe().is_some(), session.trace().traced.is_some(), session.trace().trouble),
             (
                 session.divergence().is_some(),
@@ -95,7 +95,7 @@ fn opening_a_project_leaves_nothing_of_the_previous_one() {
     let mut fresh = Stage::bare(gpu.clone());
     open(&mut fresh, &b);
     settle(&mut fresh);
-    let expected = seen(&fresh.session);
+    let expected = visible_state(&fresh.session);
 
     let mut stage = Stage::bare(gpu);
     open(&mut stage, &a);
@@ -153,14 +153,14 @@ fn opening_a_project_leaves_nothing_of_the_previous_one() {
     stage.session.apply(Command::Trace(Some([0.2, 0.2])));
     stage.edit("void mainImage(");
     stage.act(Command::CompileNow);
-    assert_ne!(seen(&stage.session), expected);
+    assert_ne!(visible_state(&stage.session), expected);
     open(&mut stage, &b);
     let notices: Vec<_> = stage.session.notices().iter().map(|n| n.text.as_str()).collect();
     assert!(notices.contains(&"of the window") && !notices.iter().any(|text| text.contains("out of reach")));
     let ids: Vec<u64> = stage.session.notices().iter().map(|n| n.id).collect();
     ids.into_iter().for_each(|id| stage.session.apply(Command::DismissNotice(id)));
     settle(&mut stage);
-    let left = seen(&stage.session);
+    let left = visible_state(&stage.session);
     let differing: Vec<_> = left.lines().zip(expected.lines()).filter(|(a, b)| a != b).collect();
     assert!(left == expected, "{differing:#?}");
 }

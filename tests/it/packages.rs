@@ -183,8 +183,8 @@ fn a_package_has_man_pages_completions_icons_and_metadata() {
     ] {
         has_file(&name);
         if has(check[0]) {
-            let said = failure(Command::new(check[0]).args(&check[1..]).arg(b.path(format!("share/{name}"))));
-            assert_eq!(said, None, "{name}");
+            let errors = failure(Command::new(check[0]).args(&check[1..]).arg(b.path(format!("share/{name}"))));
+            assert_eq!(errors, None, "{name}");
         }
     }
 }

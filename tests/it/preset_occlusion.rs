@@ -72,8 +72,8 @@ fn occlusion_is_never_negative_from_any_direction() {
     let (least, most) = range(&project);
     // A slice has a weight of at most pi / 2.
     assert!(least == 0.0 && most > 0.3 && most <= 1.572, "{least} to {most}");
-    let turned = "normal = normalize(normal - min(dot(normal, view), 0.0) * view);";
-    presets::patch(&mut project, &buffer("B"), turned, "");
+    let correction = "normal = normalize(normal - min(dot(normal, view), 0.0) * view);";
+    presets::patch(&mut project, &buffer("B"), correction, "");
     assert!(range(&project).0 < -0.01, "the test does not detect negative occlusion");
 }
 

@@ -189,9 +189,9 @@ fn every_slider_can_go_to_its_ends_and_back() {
                 _ => [range.min, range.max],
             };
             for end in ends {
-                let mut turned = project.clone();
-                turned.turn_custom_uniform(&custom_uniform, CustomUniformValue::new(custom_uniform.ty, &end));
-                engine.set_custom_uniforms(&turned.custom_uniform_values);
+                let mut changed = project.clone();
+                changed.turn_custom_uniform(&custom_uniform, CustomUniformValue::new(custom_uniform.ty, &end));
+                engine.set_custom_uniforms(&changed.custom_uniform_values);
                 run(&mut engine, 12, true);
                 run(&mut engine, 12, false);
                 check(s, &mut engine, &format!("{} at {end:?}", custom_uniform.name));
@@ -242,13 +242,13 @@ fn all_sliders_can_go_to_their_ends_together_and_back() {
         let mut run = frame_runner((32.0, 20.0));
         run(&mut engine, 3, false);
         for corner in [0, u64::MAX, 0x9e37_79b9_7f4a_7c15, 0x6a09_e667_f3bc_c909, 0xb7e1_5162_8aed_2a6b] {
-            let mut turned = project.clone();
+            let mut changed = project.clone();
             for (i, custom_uniform) in project.custom_uniforms().list.iter().enumerate() {
                 let Some(range) = &custom_uniform.range else { continue };
                 let end = if corner >> i & 1 == 0 { &range.min } else { &range.max };
-                turned.turn_custom_uniform(custom_uniform, CustomUniformValue::new(custom_uniform.ty, end));
+                changed.turn_custom_uniform(custom_uniform, CustomUniformValue::new(custom_uniform.ty, end));
             }
-            engine.set_custom_uniforms(&turned.custom_uniform_values);
+            engine.set_custom_uniforms(&changed.custom_uniform_values);
             run(&mut engine, 20, true);
             run(&mut engine, 20, false);
             check(s, &mut engine, &format!("sliders at {corner:x}"));

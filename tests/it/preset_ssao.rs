@@ -106,7 +106,7 @@ fn occlusion_next_to_a_wall_matches_the_analytic_value() {
         let custom_uniforms: Vec<&str> = custom_uniforms.iter().map(String::as_str).collect();
         let (world, open) = open(&gpu, Some(height), &custom_uniforms);
         let rows = by_distance(&world, &open);
-        let (mut low, mut high, mut beside, mut beyond) = (0.0f64, 0.0f64, 0, 0);
+        let (mut low, mut high, mut near, mut beyond) = (0.0f64, 0.0f64, 0, 0);
         for (distance, hidden) in rows {
             if distance < 0.06 {
                 continue;
@@ -116,15 +116,15 @@ fn occlusion_next_to_a_wall_matches_the_analytic_value() {
                 assert_eq!(hidden, 0.0, "{distance} away, no part of the wall is within {radius}");
                 continue;
             }
-            beside += 1;
+            near += 1;
             let off = hidden - analytic(radius, height, distance, rays);
             (low, high) = (low.min(off), high.max(off));
         }
         println!(
-            "{method}, radius {radius}, wall {height} high: {low:.4} to {high:.4} off, {beside} rows beside, {beyond} \
+            "{method}, radius {radius}, wall {height} high: {low:.4} to {high:.4} off, {near} rows near, {beyond} \
              beyond"
         );
-        assert!(beside > 10 && beyond > 10, "{beside} rows beside the wall, {beyond} beyond");
+        assert!(near > 10 && beyond > 10, "{near} rows near the wall, {beyond} beyond");
         assert!(low > -too_little && high < too_much, "radius {radius}, height {height}: {low} to {high} off");
     }
 }

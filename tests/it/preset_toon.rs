@@ -203,12 +203,12 @@ fn a_depth_offset_hides_the_lines_inside_a_mesh() {
         let all = || pixels.texels.iter().zip(&bare.texels);
         [true, false].map(|inside| all().map(|(t, b)| is_line(t) && is_covered(b) == inside).collect())
     };
-    let ([inside, beside], [inside_pushed, beside_pushed]) =
+    let ([inside, outside], [inside_pushed, outside_pushed]) =
         (lines(&with("depthOffset=0")), lines(&with("depthOffset=4")));
     let number = |set: &[bool]| set.iter().filter(|x| **x).count();
-    println!("inside {} and {}, beside {}", number(&inside), number(&inside_pushed), number(&beside));
+    println!("inside {} and {}, outside {}", number(&inside), number(&inside_pushed), number(&outside));
     assert!(number(&inside) > 500 && number(&inside_pushed) == 0);
-    assert!(number(&beside) > 1000 && beside == beside_pushed, "the silhouette's line is unchanged");
+    assert!(number(&outside) > 1000 && outside == outside_pushed, "the silhouette's line is unchanged");
     let [inside_pulled, _] = lines(&with("depthOffset=-0.2"));
     assert!(number(&inside_pulled) > number(&inside), "pulled forward, lines cover more of the mesh");
 }
@@ -263,8 +263,8 @@ fn line_colour_depends_on_light_texture_and_mesh() {
     let bare = drawn(&gpu, Page::Figure, "builtin:figure", [0.0; 3], 7.0, &["outlineWidth=0"]);
     let colours = |custom_uniforms: &[&str]| -> Vec<[u8; 3]> {
         let pixels = drawn(&gpu, Page::Figure, "builtin:figure", [0.0; 3], 7.0, custom_uniforms);
-        let beside = pixels.texels.iter().zip(&bare.texels).filter(|(t, b)| is_covered(t) && !is_covered(b));
-        let mut all: Vec<[u8; 3]> = beside.map(|(t, _)| [0, 1, 2].map(|i| (t[i] * 255.0).round() as u8)).collect();
+        let outside = pixels.texels.iter().zip(&bare.texels).filter(|(t, b)| is_covered(t) && !is_covered(b));
+        let mut all: Vec<[u8; 3]> = outside.map(|(t, _)| [0, 1, 2].map(|i| (t[i] * 255.0).round() as u8)).collect();
         assert!(all.len() > 500);
         all.sort();
         all.dedup();

@@ -105,6 +105,6 @@ fn a_damaged_picture_is_reported_and_changes_nothing() {
     let before = stage.session.project().clone();
     stage.session.apply(Command::Open(picture.to_str().unwrap().into()));
     assert!(*stage.session.project() == before);
-    let said = stage.notices(Level::Error);
-    assert!(said.len() == 1 && said[0].contains("is damaged") && said[0].contains(".png"), "{said:?}");
+    let errors = stage.notices(Level::Error);
+    assert!(errors.len() == 1 && errors[0].contains("is damaged") && errors[0].contains(".png"), "{errors:?}");
 }

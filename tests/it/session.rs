@@ -358,10 +358,10 @@ fn a_missing_pass_is_a_warning_and_reads_as_zero() {
             stage.write("eddy.toml", "[passes.image]\nchannels.0 = { buffer = \"A\" }\n");
         }
         stage.until_red(0);
-        let said: Vec<&TabDiagnostic> = stage.session.diagnostics().iter().collect();
-        assert_eq!(said.len(), 1, "{said:?}");
-        assert_eq!(said[0].message, "iChannel0 of Image reads Buffer A, but the project has no such pass");
-        assert!(said[0].hints[0].contains("reads zero"), "{said:?}");
+        let warnings: Vec<&TabDiagnostic> = stage.session.diagnostics().iter().collect();
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        assert_eq!(warnings[0].message, "iChannel0 of Image reads Buffer A, but the project has no such pass");
+        assert!(warnings[0].hints[0].contains("reads zero"), "{warnings:?}");
         assert!(matches!(stage.session.compile_state().last, Some(Outcome::Ok { warnings: 1, .. })));
     }
 }
@@ -419,8 +419,8 @@ fn saving_a_single_file_with_moved_sliders_saves_its_code() {
         stage.session.apply(Command::Save);
         assert_eq!(stage.read(name), edited);
         assert!(!stage.session.is_tab_dirty(&tab) && stage.session.is_dirty(), "{:?}", stage.session.notices());
-        let said = stage.session.notices().last().unwrap().text.clone();
-        assert!(said.contains("saved the code of") && said.contains("sliders"), "{said}");
+        let notice = stage.session.notices().last().unwrap().text.clone();
+        assert!(notice.contains("saved the code of") && notice.contains("sliders"), "{notice}");
         assert_eq!(stage.session.take_request(), None);
         stage.session.apply(Command::Save);
         let suggested_name = "lone".to_owned();

@@ -63,12 +63,12 @@ fn values_are_measured_each_frame_while_watched() {
         unmeasured.map(|unmeasured| (unmeasured.why, unmeasured.mend))
     };
     stage.act(Command::WatchCosts(true));
-    let (undrawn, mend) = why(&stage, "sum(buffer_b)").unwrap();
+    let (undrawn, fix) = why(&stage, "sum(buffer_b)").unwrap();
     assert_eq!(undrawn, "Buffer B is not drawn: no channel reads it");
-    assert!(mend.contains("show Buffer B"), "{mend}");
-    let (unknown, mend) = why(&stage, "sum(buffer_q)").unwrap();
+    assert!(fix.contains("show Buffer B"), "{fix}");
+    let (unknown, fix) = why(&stage, "sum(buffer_q)").unwrap();
     assert_eq!(
-        (unknown.as_str(), mend.as_str()),
+        (unknown.as_str(), fix.as_str()),
         ("there is no pass buffer_q", "the project's passes are buffer_a, buffer_b and image")
     );
     assert_eq!(why(&stage, "max(buffer_a.x)"), None);

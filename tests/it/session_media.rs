@@ -41,8 +41,8 @@ fn an_image_file_that_is_a_pipe_opens_at_once_with_a_warning() {
     let took = open(&mut stage);
     assert!(took < Duration::from_secs(1), "{took:?}");
     stage.until_compiled();
-    let said = messages(&stage);
-    assert!(said.len() == 1 && said[0].contains("pic.png: it is a pipe, not a regular file"), "{said:?}");
+    let warnings = messages(&stage);
+    assert!(warnings.len() == 1 && warnings[0].contains("pic.png: it is a pipe, not a regular file"), "{warnings:?}");
     assert_eq!(stage.red(), 0);
 }
 
@@ -60,8 +60,8 @@ fn a_model_that_is_or_names_a_pipe_opens_at_once_with_an_error() {
     let took = open(&mut stage);
     assert!(took < Duration::from_secs(1), "{took:?}");
     stage.until_compiled();
-    let said = messages(&stage);
-    assert!(said.len() == 1 && said[0].contains("m.gltf: it is a pipe"), "{said:?}");
+    let errors = messages(&stage);
+    assert!(errors.len() == 1 && errors[0].contains("m.gltf: it is a pipe"), "{errors:?}");
 
     std::fs::rename(stage.path("m.gltf"), stage.path("m.bin")).unwrap();
     stage.write("m.gltf", r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"m.bin"}]}"#);

@@ -58,7 +58,7 @@ fn a_paused_picture_shows_the_frame_of_its_time() {
 fn a_dropped_animation_is_a_video() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", SHOW)]);
-    for (name, bytes, kind) in [("moves.gif", gif(3), InputKind::Video), ("stands.gif", gif(1), InputKind::Texture)] {
+    for (name, bytes, kind) in [("moves.gif", gif(3), InputKind::Video), ("still.gif", gif(1), InputKind::Texture)] {
         let path = stage.dir.path().join(name);
         std::fs::write(&path, bytes).unwrap();
         let to = Some((eddy::project::PassName::image(), Some(0)));
@@ -182,6 +182,6 @@ fn a_missing_camera_is_reported() {
     let mut stage = Stage::with_options(gpu, |_| SessionOptions { camera, ..SessionOptions::default() });
     stage.session.apply(Command::UseDevice { kind: InputKind::Webcam, on: true });
     stage.until("the camera to be off", |s| s.device_state(InputKind::Webcam) == CameraState::Off);
-    let said = stage.notices(Level::Warning);
-    assert!(said.iter().any(|text| text.contains("camera")), "{said:?}");
+    let warnings = stage.notices(Level::Warning);
+    assert!(warnings.iter().any(|text| text.contains("camera")), "{warnings:?}");
 }

@@ -128,9 +128,9 @@ fn a_sound_pass_reads_textures_and_the_size_of_volumes() {
     let project = sound(&code, channels);
     let (media, warnings) = media::gather(&project, None);
     assert!(warnings.is_empty(), "{warnings:?}");
-    let said: Vec<String> = project::advice(&project).into_iter().map(|warning| warning.message).collect();
-    let about = |channel: &str| said.iter().any(|message| message.starts_with(&format!("{channel} of Sound is")));
-    assert!(!about("iChannel0") && about("iChannel1") && about("iChannel2") && about("iChannel3"), "{said:?}");
+    let advice: Vec<String> = project::advice(&project).into_iter().map(|warning| warning.message).collect();
+    let about = |channel: &str| advice.iter().any(|message| message.starts_with(&format!("{channel} of Sound is")));
+    assert!(!about("iChannel0") && about("iChannel1") && about("iChannel2") && about("iChannel3"), "{advice:?}");
     let samples = block(&mut engine_of(&gpu, &project, &media), 0);
     let key = MediaKey::of_channel(project.passes[0].bindings.get(0).unwrap()).unwrap();
     let texels = &media.get(&key).unwrap().bytes;
@@ -171,8 +171,8 @@ fn errors(gpu: &Gpu, project: &Project) -> Vec<String> {
 fn the_old_form_gets_a_hint_and_other_passes_do_not_matter() {
     let Some(gpu) = gpu() else { return };
     let old = sound("vec2 mainSound(float time) { return vec2(sin(time)); }", Default::default());
-    let said = errors(&gpu, &old);
-    assert!(said.len() == 1 && said[0].contains("vec2 mainSound(int samp, float time)"), "{said:?}");
+    let found = errors(&gpu, &old);
+    assert!(found.len() == 1 && found[0].contains("vec2 mainSound(int samp, float time)"), "{found:?}");
     let mut broken = sound(TONES, Default::default());
     broken.passes[1].source.text = "void mainImage(out vec4 o, in vec2 p) { o = nothing; }".into();
     assert_eq!(errors(&gpu, &broken), Vec::<String>::new());

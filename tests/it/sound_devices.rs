@@ -116,8 +116,8 @@ impl Room {
             let ahead = heard_at.saturating_duration_since(drawn).as_secs_f64();
             let since = drawn.saturating_duration_since(heard_at).as_secs_f64();
             let place = ((time + speed * (ahead - since)) * RATE).rem_euclid(LENGTH);
-            let said = f64::from(*sample) * 32_768.0 / 10.0 + 1000.0;
-            let distance = (place - said).rem_euclid(2000.0);
+            let encoded = f64::from(*sample) * 32_768.0 / 10.0 + 1000.0;
+            let distance = (place - encoded).rem_euclid(2000.0);
             // An interpolated sample at the edge of the saw tooth is ambiguous.
             if (100.0..1900.0).contains(&place.rem_euclid(2000.0)) && (100.0..LENGTH - 100.0).contains(&place) {
                 worst = worst.max(distance.min(2000.0 - distance));

@@ -122,7 +122,7 @@ fn player_process() {
 
 /// A line of the playing process: its state at a moment.
 #[derive(Clone, Copy, Debug)]
-struct Said {
+struct Report {
     at: f64,
     time: f64,
     frames: u32,
@@ -189,14 +189,14 @@ fn played_in_step(seconds: u32) {
         .spawn()
         .unwrap();
     let lines = BufReader::new(player.stdout.take().unwrap()).lines().map_while(Result::ok);
-    let mut said: Vec<Said> = Vec::new();
+    let mut reports: Vec<Report> = Vec::new();
     let mut notices = String::new();
     for line in lines {
         let parts: Vec<&str> = line.split(' ').collect();
         if let ["PLAYED", at, time, frames, _, jumps, underruns] = parts[..] {
             let (at, time) = (at.parse().unwrap(), time.parse().unwrap());
             let [frames, jumps, underruns] = [frames, jumps, underruns].map(|n| n.parse().unwrap());
-            said.push(Said { at, time, frames, jumps, underruns });
+            reports.push(Report { at, time, frames, jumps, underruns });
         } else if line.contains("NOTICE") {
             notices += &format!("{line}\n");
         }
@@ -207,8 +207,11 @@ fn played_in_step(seconds: u32) {
     let heard = listener.join().unwrap();
 
     // The clock at `iTime` 0: the earliest of the reported times, as reports can only be late.
-    let start =
-        said.iter().filter(|said| said.time > 0.0).map(|said| said.at - said.time).fold(f64::INFINITY, f64::min);
+    let start = reports
+        .iter()
+        .filter(|report| report.time > 0.0)
+        .map(|report| report.at - report.time)
+        .fold(f64::INFINITY, f64::min);
     assert!(start.is_finite(), "nothing was drawn; {notices}");
     let mut offsets: Vec<(f64, f64)> = Vec::new();
     for (at, bytes) in &heard {
@@ -233,8 +236,8 @@ fn played_in_step(seconds: u32) {
         all[all.len() / 2]
     };
     let (first, last) = (median(&settled[..settled.len() / 4]), median(&settled[3 * settled.len() / 4..]));
-    let after = |secs: f64| said.iter().find(|said| said.at - start > secs).copied().unwrap();
-    let (early, end) = (after(1.5), *said.last().unwrap());
+    let after = |secs: f64| reports.iter().find(|report| report.at - start > secs).copied().unwrap();
+    let (early, end) = (after(1.5), *reports.last().unwrap());
     let fps = f64::from(end.frames - early.frames) / (end.at - early.at);
     let report = format!(
         "offset {:.1} ms at the start, {:.1} ms at the end, {fps:.1} frames per second, jumps {} and {}, underruns {} and {}; {notices}",

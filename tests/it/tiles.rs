@@ -161,7 +161,7 @@ fn pictures_that_cannot_be_tiled_are_rejected_with_a_reason() {
     b.image("p/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0);");
     b.write("p/eddy.toml", "eddy = 1\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n");
     let large = format!("--size {width}x2");
-    for (args, said) in [
+    for (args, expected) in [
         (
             "holes.glsl --tile 8".to_owned(),
             vec!["Image cannot be drawn in tiles: it discards pixels", "give these pixels a colour"],
@@ -186,7 +186,7 @@ fn pictures_that_cannot_be_tiled_are_rejected_with_a_reason() {
         let run =
             b.line(&format!("render {args} --out out.npy").replace("--format y4m --out out.npy", "--out out.y4m"));
         assert_ne!(run.code, Some(0), "{args}");
-        for words in said {
+        for words in expected {
             assert!(run.err.contains(words), "{args}: {}", run.err);
         }
     }

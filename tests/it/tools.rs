@@ -35,8 +35,8 @@ fn completions_are_valid_shell_scripts() {
         if !has(shell) {
             continue;
         }
-        let said = failure(Command::new(shell).args(check).arg(b.path(shell)));
-        assert_eq!(said, None, "{shell}");
+        let errors = failure(Command::new(shell).args(check).arg(b.path(shell)));
+        assert_eq!(errors, None, "{shell}");
     }
     let script = b.line("completions powershell").expect(0).out;
     assert!(script.contains("Register-ArgumentCompleter") && script.contains("'translate'"));

@@ -123,8 +123,8 @@ fn glslang(version: GlslVersion) {
     });
     for (kind, files) in files {
         assert!(!files.is_empty(), "no {kind}");
-        let said = failure(Command::new("glslangValidator").args(["-S", kind]).args(&files));
-        assert_eq!(said, None, "{kind}");
+        let errors = failure(Command::new("glslangValidator").args(["-S", kind]).args(&files));
+        assert_eq!(errors, None, "{kind}");
     }
 }
 

@@ -106,7 +106,7 @@ fn values_are_saved_and_exported_with_the_project() {
 #[test]
 fn a_value_of_a_wrong_shape_is_one_error_with_a_fix() {
     let Some(gpu) = gpu() else { return };
-    for (declared, value, said, fix) in [
+    for (declared, value, message, fix) in [
         (
             "vec3 v[3]",
             "[[1, 2, 3], [4, 5, 6]]",
@@ -135,7 +135,7 @@ fn a_value_of_a_wrong_shape_is_one_error_with_a_fix() {
         };
         let text = render_all(&diagnostics, &sources);
         assert_eq!(diagnostics.len(), 1, "{text}");
-        assert!(text.contains(said) && text.contains(fix) && text.contains("image.glsl:1:"), "{text}");
+        assert!(text.contains(message) && text.contains(fix) && text.contains("image.glsl:1:"), "{text}");
     }
 }
 

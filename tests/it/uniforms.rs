@@ -77,8 +77,8 @@ fn uniforms_of_common_are_global_and_those_of_a_pass_are_local() {
     assert_eq!(texel(&engine.read_image().unwrap(), 0, 0), [2.5, 1.0, 0.5, 1.0]);
     let mut other = p.clone();
     other.passes[1].source.text = show.replace("shared_one", "own").into();
-    let said = errors(&gpu, &other);
-    assert!(said.contains("`own` is not declared"), "{said}");
+    let message = errors(&gpu, &other);
+    assert!(message.contains("`own` is not declared"), "{message}");
 }
 
 fn errors(gpu: &eddy::gpu::Gpu, project: &eddy::project::Project) -> String {
@@ -102,8 +102,8 @@ fn declaration_errors_are_reported_at_their_line() {
         ("#iUniform float a\nfloat a;", "`a` is already declared by an #iUniform line"),
         ("#iUniform float a\nvoid f() { a = 1.0; }", "`a` is a uniform and cannot be"),
     ] {
-        let said = errors(&gpu, &project(vec![image(&format!("{line}{main}"), Default::default())]));
-        assert!(said.contains(message) && said.contains("--> Image:"), "{line}\n{said}");
+        let found = errors(&gpu, &project(vec![image(&format!("{line}{main}"), Default::default())]));
+        assert!(found.contains(message) && found.contains("--> Image:"), "{line}\n{found}");
     }
     let hidden = "#iUniform float a\nfloat f(float a) { a += 1.0; return a; }";
     engine(&gpu, &project(vec![image(&format!("{hidden}{main}"), Default::default())]), (1, 1));

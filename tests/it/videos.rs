@@ -166,7 +166,7 @@ fn unplayable_videos_are_black_and_reported() {
     std::fs::write(b.path("outside.mp4"), "x").unwrap();
     #[cfg(unix)]
     std::os::unix::fs::symlink(b.path("outside.mp4"), b.path("p/link.mp4")).unwrap();
-    let said = |name: &str, path: Option<&str>| {
+    let errors_of = |name: &str, path: Option<&str>| {
         project(&b, &format!("{{ file = '{name}', kind = \"video\" }}"));
         let mut command = b.command();
         command.args("render p --size 16x9 --out p.npy".split(' '));
@@ -176,7 +176,7 @@ fn unplayable_videos_are_black_and_reported() {
         assert_eq!([shown.at(0, 0), shown.at(0, 8)], [[0.0, 0.0, 0.0, 1.0]; 2], "{name}");
         ran.err
     };
-    let missing = said("clip.mp4", Some(""));
+    let missing = errors_of("clip.mp4", Some(""));
     assert!(missing.contains("ffprobe is not installed") && missing.contains("install ffmpeg"), "{missing}");
     for (name, words) in [
         ("-i", "there is no such file"),
@@ -189,13 +189,13 @@ fn unplayable_videos_are_black_and_reported() {
         ("../outside.mp4", "leads out of the project's folder"),
         ("gone.mp4", "there is no such file"),
     ] {
-        let said = said(name, None);
-        assert!(said.contains(words), "{name}: {said}");
+        let errors = errors_of(name, None);
+        assert!(errors.contains(words), "{name}: {errors}");
     }
     #[cfg(unix)]
-    assert!(said("link.mp4", None).contains("is a link that leads out"), "a link");
+    assert!(errors_of("link.mp4", None).contains("is a link that leads out"), "a link");
     if has_ffmpeg() {
-        let damaged = said("clip.mp4", None);
+        let damaged = errors_of("clip.mp4", None);
         assert!(damaged.contains("the video is damaged") && damaged.contains("ffmpeg -i FILE"), "{damaged}");
     }
 }

@@ -39,7 +39,7 @@ void mainImage(out vec4 o, in vec2 p) {
     let texts = Sources::new(&project);
     let trace = trace::trace(&texts, 0, &read, (5, 1), Extent::default()).unwrap();
     let sources = project.sources();
-    let told: Vec<String> = trace
+    let lines: Vec<String> = trace
         .steps
         .iter()
         .map(|step| {
@@ -57,7 +57,7 @@ void mainImage(out vec4 o, in vec2 p) {
             }
         })
         .collect();
-    insta::assert_snapshot!(told.join("\n"));
+    insta::assert_snapshot!(lines.join("\n"));
     let value = trace.value.unwrap();
     assert_eq!(value, texel(&engine.read(&image).unwrap(), 5, 1));
     let length = (5.5f64 / 8.0).hypot(1.5 / 4.0);

@@ -35,7 +35,7 @@ const NEAR_ULPS: u32 = 64;
 const NEAR: f64 = 4e-6;
 
 /// The prefix of a process's output lines about a pixel or its shader.
-const SAID: &str = "CORPUS ";
+const PREFIX: &str = "CORPUS ";
 
 /// Returns how a pixel compares, from best to worst, and its difference.
 fn class(walked: [f32; 4], drawn: [f32; 4]) -> (&'static str, f64) {
@@ -79,7 +79,7 @@ fn compare(path: &Path) -> Result<(), String> {
         engine.draw(&inputs).map_err(|e| e.to_string())?;
     }
     // The test harness has started a line.
-    println!("\n{SAID}drawn");
+    println!("\n{PREFIX}drawn");
     let sources = Sources::new(&project);
     for id in &wanted {
         walk_pass(&mut engine, (&project, &sources), id, path)?;
@@ -103,23 +103,23 @@ fn walk_pass(
         let found = match tracer.trace(pixel) {
             Ok(trace) => trace.value,
             Err(TraceError::Endless(_)) => {
-                println!("{SAID}long");
+                println!("{PREFIX}long");
                 continue;
             }
             Err(error) => return Err(error.to_string()),
         };
         let texel = texel(&drawn, pixel.0, pixel.1);
         let Some(walked) = found else {
-            println!("{SAID}discarded");
+            println!("{PREFIX}discarded");
             continue;
         };
         let (class, apart) = class(walked, texel);
         if matches!(class, "same" | "near") {
-            println!("{SAID}{class}");
+            println!("{PREFIX}{class}");
             continue;
         }
         let why = pass.why(pixel, apart);
-        println!("{SAID}{class}: {why}");
+        println!("{PREFIX}{class}: {why}");
         if class == "visible" {
             println!("{}, {} at {pixel:?}: {walked:?}, drawn {texel:?}: {why}", path.display(), id.title());
         }
@@ -133,7 +133,7 @@ fn walk_pass(
 fn one_shader_of_the_corpus() {
     let path = std::env::var_os("EDDY_CORPUS_ONE").expect("EDDY_CORPUS_ONE names the shader");
     if let Err(why) = compare(Path::new(&path)) {
-        println!("\n{SAID}failed");
+        println!("\n{PREFIX}failed");
         println!("{}: {}", path.display(), why.lines().next().unwrap_or_default());
     }
 }
@@ -185,7 +185,7 @@ fn a_corpus_matches_the_device() {
             continue;
         };
         for line in text.lines() {
-            match line.strip_prefix(SAID) {
+            match line.strip_prefix(PREFIX) {
                 Some(what @ ("drawn" | "failed")) => add(&format!("shaders: {what}")),
                 Some(what) => add(&format!("pixels: {what}")),
                 None if line.starts_with(&*path.to_string_lossy()) => println!("{line}"),

@@ -12,8 +12,8 @@ use std::{fs, path::Path, process};
 #[test]
 fn a_page_is_chosen_by_extension_and_overwrites_only_with_force() {
     let b = Bench::new();
-    let said = b.line("export feedback --out page.html").expect(0);
-    assert!(said.out.contains("exported to page.html ("), "{}", said.out);
+    let run = b.line("export feedback --out page.html").expect(0);
+    assert!(run.out.contains("exported to page.html ("), "{}", run.out);
     let first = b.bytes("page.html");
     assert!(first.starts_with(b"<!DOCTYPE html>"));
     b.line("export feedback --to html --out page.html").expect(0);

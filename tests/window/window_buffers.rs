@@ -114,12 +114,12 @@ fn texels_show_their_values_and_the_first_nan_its_line() {
     display.shot("buffers-texels.png");
 
     // The same for the pointer in the window's picture.
-    let beside = window.picture_point(0.26, 0.51);
-    window.move_to(beside);
-    let beside = wait_for_buffers(&mut window, "the place in the picture", |e| {
+    let pointed = window.picture_point(0.26, 0.51);
+    window.move_to(pointed);
+    let pointed = wait_for_buffers(&mut window, "the place in the picture", |e| {
         e["under"]["Buffer A"]["texel"] == json!([16, 18])
     });
-    assert_eq!(beside["under"]["Buffer A"]["values"], json!(["16.5", "18.5", "4.125", "-1"]), "{beside}");
+    assert_eq!(pointed["under"]["Buffer A"]["values"], json!(["16.5", "18.5", "4.125", "-1"]), "{pointed}");
 
     // The first NaN, and the line that computes it.
     window.click_on("buffers:find");

@@ -66,10 +66,10 @@ fn a_paused_window_draws_no_frames_and_uses_no_cpu() {
     let least = (0..5)
         .map(|_| {
             window.drain();
-            let (before, said) = (ticks(pid), window.events.len());
+            let (before, first_event) = (ticks(pid), window.events.len());
             std::thread::sleep(span);
             window.drain();
-            let frames = window.events[said..].iter().filter(|e| e["event"] == "frame").count();
+            let frames = window.events[first_event..].iter().filter(|e| e["event"] == "frame").count();
             (frames, ticks(pid) - before)
         })
         .min()

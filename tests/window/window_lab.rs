@@ -88,8 +88,8 @@ fn the_table_of_costs_lists_every_pass_and_can_be_closed() {
     let texels = layout["canvas"][0].as_u64().unwrap() * layout["canvas"][1].as_u64().unwrap();
     let seen: Vec<_> =
         costs["passes"].as_array().unwrap().iter().map(|p| (p["pass"].clone(), p["drawn"].clone())).collect();
-    let said = |name: &str, drawn: bool| (Value::from(name), Value::from(drawn));
-    assert_eq!(seen, [said("Buffer A", true), said("Image", true), said("Buffer B", false)]);
+    let row = |name: &str, drawn: bool| (Value::from(name), Value::from(drawn));
+    assert_eq!(seen, [row("Buffer A", true), row("Image", true), row("Buffer B", false)]);
     assert!(costs["passes"][1]["moved_bytes"].as_u64() <= Some(32 * texels), "{costs} for {texels} texels");
     window.wait_until("its sum", "layout", |e| e["rects"]["costs:sum"].is_array());
     display.shot("costs.png");

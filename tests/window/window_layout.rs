@@ -106,8 +106,8 @@ fn f9_puts_the_code_over_a_picture_that_fills_the_window() {
     // Keys go to the code, and the mouse next to the code goes to the picture.
     window.type_text("// ");
     window.wait_until("the text to be changed", "dirty", |e| e["dirty"] == true);
-    let beside = window.picture_point(0.9, 0.5);
-    window.move_to(beside);
+    let outside_code = window.picture_point(0.9, 0.5);
+    window.move_to(outside_code);
     window.press();
     window.wait_for("the press to reach the picture", |e| e["event"] == "frame" && e["mouse_has_picture"] == true);
     window.release();
@@ -262,8 +262,8 @@ fn a_window_at_rest_uses_no_cpu() {
     std::thread::sleep(rest);
     window.drain();
     let busy = window.cpu_time() - busy;
-    let said: Vec<_> = window.events[events..].iter().map(Value::to_string).collect();
-    assert!(said.is_empty(), "{said:?}");
+    let unexpected: Vec<_> = window.events[events..].iter().map(Value::to_string).collect();
+    assert!(unexpected.is_empty(), "{unexpected:?}");
     assert!(busy <= rest / 100, "{busy:?} of {rest:?}");
 }
 

@@ -13,14 +13,14 @@ use std::{
 };
 
 /// A square that follows the mouse, on a background that gets brighter.
-const HAND: &str = "void mainImage(out vec4 o, in vec2 p) {
+const SQUARE: &str = "void mainImage(out vec4 o, in vec2 p) {
     bool inside = all(lessThan(abs(p - iMouse.xy), vec2(0.1 * iResolution.y)));
     o = vec4(inside ? vec3(1.0) : vec3(0.2 * fract(iTime), 0.0, 0.3), 1.0);
 }
 ";
 
 fn project(home: &Path) -> PathBuf {
-    folder_of(home.join("hand"), &[("image.glsl", HAND)])
+    folder_of(home.join("hand"), &[("image.glsl", SQUARE)])
 }
 
 /// Opens the project and the panel. With `has_ffmpeg`, the window finds ffmpeg in its folder of programs.
@@ -58,8 +58,8 @@ fn wait_for_state(window: &mut Window, state: &str) -> Value {
 fn frames_of(film: &Path) -> u64 {
     let mut probe = Command::new("ffprobe");
     probe.args(["-v", "error", "-count_frames", "-select_streams", "v:0", "-show_entries", "stream=nb_read_frames"]);
-    let said = probe.args(["-of", "csv=p=0"]).arg(film).output().unwrap();
-    String::from_utf8_lossy(&said.stdout).trim().trim_end_matches(',').parse().unwrap()
+    let output = probe.args(["-of", "csv=p=0"]).arg(film).output().unwrap();
+    String::from_utf8_lossy(&output.stdout).trim().trim_end_matches(',').parse().unwrap()
 }
 
 /// Waits for the film and returns its path.

@@ -25,8 +25,8 @@ fn type_size(window: &mut Window, size: &str) {
 
 fn screenshot_size(window: &mut Window) -> (u32, u32) {
     window.keys(&["F12"]);
-    let said = window.wait_for("a saved picture", |e| e["event"] == "notice" && e["path"].is_string());
-    image::image_dimensions(said["path"].as_str().unwrap()).unwrap()
+    let notice = window.wait_for("a saved picture", |e| e["event"] == "notice" && e["path"].is_string());
+    image::image_dimensions(notice["path"].as_str().unwrap()).unwrap()
 }
 
 #[test]

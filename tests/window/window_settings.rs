@@ -91,7 +91,7 @@ fn the_settings_page_writes_the_file_and_follows_it() {
     fs::write(&file, "# theirs\ntheme = \"light\"\nzoom = 1.2\n").unwrap();
     window.wait_hidden("settings:trouble");
     window.wait_until("no notice of the fixed error", "layout", |e| e["rects"]["notices"].is_null());
-    display.shot("settings-mended.png");
+    display.shot("settings-fixed.png");
     window.click_on("setting:zoom:less");
     assert_eq!(wait_for_text(&file, "zoom = 1.1"), "# theirs\ntheme = \"light\"\nzoom = 1.1\n");
     window.keys(&["Escape"]);

@@ -75,7 +75,7 @@ fn a_ray_is_traced_to_its_seventeenth_iteration_and_back() {
     // The walker and the device agree, except for the last bits.
     let values = |name: &str| picked[name][0].as_f64().unwrap();
     assert!((values("value") - values("device")).abs() < 1e-5, "{picked}");
-    display.shot("trace-begun.png");
+    display.shot("trace-start.png");
 
     // A click next to the line numbers sets a breakpoint, another removes it.
     let layout = window.wait_until("the editor", "layout", |e| e["rects"]["editor"].is_array());

@@ -172,12 +172,12 @@ struct Progress {
 impl Progress {
     fn failed(&self, seed: u64, window: &Window, why: &str) -> ! {
         let last: Vec<&str> = self.last.iter().map(String::as_str).collect();
-        let said: Vec<_> = window.events.iter().rev().take(8).rev().map(Value::to_string).collect();
+        let events: Vec<_> = window.events.iter().rev().take(8).rev().map(Value::to_string).collect();
         panic!(
             "seed {seed}, step {}: {why}\nlast steps:\n{}\nlast events:\n{}\n{}",
             self.steps,
             last.join("\n"),
-            said.join("\n"),
+            events.join("\n"),
             window.stderr()
         );
     }

@@ -125,9 +125,9 @@ impl Explained<'_> {
 fn read_coarser(texture: &mut TextureCopy) {
     for i in 1..texture.levels.len() {
         let [level, next] = [i - 1, i].map(|i| texture.levels[i].clone());
-        let beside = |at: u32, size: u32| (at / 2).min(size - 1);
+        let halved = |at: u32, size: u32| (at / 2).min(size - 1);
         let at =
-            |(x, y): (u32, u32)| next.texels[(beside(y, next.height) * next.width + beside(x, next.width)) as usize];
+            |(x, y): (u32, u32)| next.texels[(halved(y, next.height) * next.width + halved(x, next.width)) as usize];
         texture.levels[i - 1].texels = all_pixels((level.width, level.height)).into_iter().map(at).collect();
     }
 }
