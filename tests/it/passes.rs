@@ -1,4 +1,4 @@
-//! Tests by pictures of passes with their own size, format, region and step count, and of skipped passes.
+//! Tests, by their pictures, of passes with their own size, format, region and step count, and of skipped passes.
 
 use crate::support::*;
 use eddy::{

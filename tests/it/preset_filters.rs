@@ -54,14 +54,14 @@ fn a_blur_has_the_requested_sigma_and_keeps_light_and_position() {
             assert!((r.sum - 1.0).abs() < mass, "variant {variant}, sigma {sigma}: the sum is {}", r.sum);
             for axis in 0..2 {
                 assert!(r.centre[axis].abs() < digits, "variant {variant}, sigma {sigma}: {:?}", r.centre);
-                let off = (r.variance[axis] / variance - 1.0).abs();
-                assert!(off < 10.0 * digits, "variant {variant}, sigma {sigma}: {:?}, not {variance}", r.variance);
+                let error = (r.variance[axis] / variance - 1.0).abs();
+                assert!(error < 10.0 * digits, "variant {variant}, sigma {sigma}: {:?}, not {variance}", r.variance);
             }
         }
         for pair in [[1, 2], [4, 5]] {
             let [taps, fetches] = pair.map(|v| blurred_impulse(&gpu, v, sigma, [31, 30]).texels);
-            let most = taps.iter().zip(&fetches).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f32::max);
-            assert!(most < 1e-3, "sigma {sigma}: half as many fetches are {most} from the taps");
+            let difference = taps.iter().zip(&fetches).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f32::max);
+            assert!(difference < 1e-3, "sigma {sigma}: half as many fetches are {difference} from the taps");
         }
     }
 }
@@ -71,16 +71,16 @@ fn a_wide_blur_matches_the_gaussian() {
     let Some(gpu) = gpu() else { return };
     for sigma in [1.0, 1.8, 2.5] {
         let pixels = blurred_impulse(&gpu, 1, sigma, [31, 30]);
-        let (mut off, mut all) = (0.0, 0.0);
+        let (mut error, mut all) = (0.0, 0.0);
         for (i, t) in pixels.texels.iter().enumerate() {
             let (x, y) = ((i % 64) as f64 - 31.0, (i / 64) as f64 - 30.0);
             let exact = (-0.5 * (x * x + y * y) / (sigma * sigma)).exp() / (std::f64::consts::TAU * sigma * sigma);
-            off += (f64::from(t[0]) - exact).powi(2);
+            error += (f64::from(t[0]) - exact).powi(2);
             all += exact * exact;
         }
-        let off = (off / all).sqrt();
-        println!("sigma {sigma}: {off:.4} from the Gaussian (L2, relative)");
-        assert!(off < 0.01, "sigma {sigma}: {off} from the Gaussian");
+        let error = (error / all).sqrt();
+        println!("sigma {sigma}: {error:.4} from the Gaussian (L2, relative)");
+        assert!(error < 0.01, "sigma {sigma}: {error} from the Gaussian");
     }
 }
 
@@ -120,9 +120,9 @@ fn bloom_does_not_change_a_uniform_wall() {
                 picture(&mut engine).texels
             };
             let [off, on] = ["strength=0", "strength=0.9"].map(|s| wall(s, "constant=1.7"));
-            let most = off.iter().zip(&on).flat_map(|(a, b)| (0..3).map(|i| (a[i] - b[i]).abs()));
-            let most = most.fold(0.0, f32::max);
-            assert!(most < 1e-3, "{name} at {size:?}: the wall changes by {most}");
+            let largest = off.iter().zip(&on).flat_map(|(a, b)| (0..3).map(|i| (a[i] - b[i]).abs()));
+            let largest = largest.fold(0.0, f32::max);
+            assert!(largest < 1e-3, "{name} at {size:?}: the wall changes by {largest}");
             assert!(
                 off.iter().all(|t| t == &off[0]) && off[0][0] > 0.3,
                 "{name} at {size:?}: not a uniform wall: {:?}",
@@ -231,10 +231,10 @@ fn taa_keeps_detail_at_rest_and_has_no_ghosts_in_motion() {
     let moving = preset("taa", &[]);
     let (shown, true_) = (resolved(&gpu, &moving, 40, size), truth(&gpu, &moving, TAA_JITTER, 40, size));
     let motion = psnr(&shown, &true_);
-    let off = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).map(|i| f64::from(a[i] - b[i]).abs()).sum::<f64>() / 3.0;
+    let difference = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).map(|i| f64::from(a[i] - b[i]).abs()).sum::<f64>() / 3.0;
     let left = vacated(&gpu, &moving, [34, 40], size);
     let ghosts: Vec<f64> =
-        shown.iter().zip(&true_).zip(&left).filter(|(_, left)| **left).map(|(p, _)| off(p)).collect();
+        shown.iter().zip(&true_).zip(&left).filter(|(_, left)| **left).map(|(p, _)| difference(p)).collect();
     let ghost = ghosts.iter().sum::<f64>() / ghosts.len() as f64;
     // These settings do not affect the samples of Buffer A.
     let other = |custom_uniforms: &[&str], frame: i32, true_: &[[f32; 4]]| {
@@ -256,9 +256,9 @@ fn the_history_stays_in_the_range_of_screen_colours() {
     let Some(gpu) = gpu() else { return };
     // The fourth frame once contained 1.00014.
     let texels = resolved(&gpu, &preset("taa", &[]), 4, (640, 360));
-    let most = texels.iter().flat_map(|t| &t[..3]).copied().fold(0.0, f32::max);
-    let least = texels.iter().flat_map(|t| &t[..3]).copied().fold(1.0, f32::min);
-    assert!(least >= 0.0 && most <= 1.0, "{least} to {most}");
+    let largest = texels.iter().flat_map(|t| &t[..3]).copied().fold(0.0, f32::max);
+    let smallest = texels.iter().flat_map(|t| &t[..3]).copied().fold(1.0, f32::min);
+    assert!(smallest >= 0.0 && largest <= 1.0, "{smallest} to {largest}");
 }
 
 #[test]

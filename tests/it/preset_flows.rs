@@ -42,13 +42,13 @@ fn uniform_rotating_and_sheared_fields_cause_no_flow() {
     let engine = |p: &Project| whole(&gpu, p, true, (128, 128));
     // Away from the seam where the picture repeats; rings of 2, 4 and 8 pixels reach 16 pixels.
     let inner = |flow: &Pixels| {
-        let mut most = 0.0f32;
+        let mut largest = 0.0f32;
         for y in 6..26 {
             for x in 6..26 {
-                most = most.max(texel(flow, x, y)[0].hypot(texel(flow, x, y)[1]));
+                largest = largest.max(texel(flow, x, y)[0].hypot(texel(flow, x, y)[1]));
             }
         }
-        most
+        largest
     };
     let three = ["scales=3"];
     assert!(inner(&flow_of(engine, &[], "vec2(0.6, -0.3)")) < 1e-5, "uniform");
@@ -122,19 +122,19 @@ fn velocity(engine: &mut Engine) -> Pixels {
 }
 
 /// Returns the relative L2 error against `exact`, a velocity in terms of x and y from 0 to 1.
-fn off(found: &Pixels, exact: impl Fn(f64, f64) -> [f64; 2]) -> f64 {
-    let (n, mut off, mut all) = (f64::from(found.width), 0.0, 0.0);
+fn relative_error(found: &Pixels, exact: impl Fn(f64, f64) -> [f64; 2]) -> f64 {
+    let (n, mut error, mut all) = (f64::from(found.width), 0.0, 0.0);
     for y in 0..found.height {
         for x in 0..found.width {
             let (i, j) = (f64::from(x) / n, f64::from(y) / n);
             let half = 0.5 / n;
             for (c, e) in [exact(i, j + half)[0], exact(i + half, j)[1]].into_iter().enumerate() {
-                off += (f64::from(texel(found, x, y)[c]) - e).powi(2);
+                error += (f64::from(texel(found, x, y)[c]) - e).powi(2);
                 all += e * e;
             }
         }
     }
-    (off / all).sqrt()
+    (error / all).sqrt()
 }
 
 #[test]
@@ -207,10 +207,10 @@ fn a_uniform_wind_stays_constant() {
     let project = accurate(&["walls=2", "viscosity=0.0015"], "vec2(0.5, 0.3)");
     let mut engine = square(&gpu, &project, 32);
     draw(&mut engine, 0..1001, untouched);
-    let off = |t: &[f32; 4]| (0..2).map(|c| (t[c] / wind[c] - 1.0).abs()).fold(0.0, f32::max);
-    let most = velocity(&mut engine).texels.iter().map(off).fold(0.0, f32::max);
-    println!("a uniform wind is off by {most:e} of itself after 1,000 frames");
-    assert!(most < 1e-6, "{most:e}");
+    let deviation = |t: &[f32; 4]| (0..2).map(|c| (t[c] / wind[c] - 1.0).abs()).fold(0.0, f32::max);
+    let largest = velocity(&mut engine).texels.iter().map(deviation).fold(0.0, f32::max);
+    println!("a uniform wind is off by {largest:e} of itself after 1,000 frames");
+    assert!(largest < 1e-6, "{largest:e}");
 }
 
 #[test]
@@ -219,14 +219,14 @@ fn a_fast_lid_keeps_speeds_bounded() {
     // Without viscosity, at sliders that request steps of 30 cells.
     let project = preset_with("fluid-accurate", &["walls=1", "lid_speed=2", "speed=10"]);
     let mut engine = whole(&gpu, &project, true, (320, 180));
-    let mut most = 0.0f32;
+    let mut largest = 0.0f32;
     for part in 0..10 {
         draw(&mut engine, 30 * part..30 * part + 30, untouched);
-        most = most.max(fastest(&mut engine));
+        largest = largest.max(fastest(&mut engine));
     }
     let pace = texel(&engine.read(&buffer("pace")).unwrap(), 0, 0)[0];
-    println!("a lid of 2 makes {most} at most, at a pace of {pace}");
-    assert!(most > 1.0 && most < 2.2, "{most}");
+    println!("a lid of 2 makes {largest} at most, at a pace of {pace}");
+    assert!(largest > 1.0 && largest < 2.2, "{largest}");
     assert!(pace < 0.5, "{pace}: time was not slowed down");
     // At the preset's defaults no step is shortened.
     let mut engine = whole(&gpu, &preset_with("fluid-accurate", &[]), true, (320, 180));
@@ -268,8 +268,9 @@ fn dye_wraps_around_a_periodic_picture() {
     draw(&mut engine, 1..33, untouched);
     let faded = (-32.0f64 / 60.0 / 120.0).exp();
     let (kept, last) = (dye_of(&mut engine) / (initial * faded), engine.read(&buffer("dye")).unwrap());
-    let off = first.texels.iter().zip(&last.texels).map(|(a, b)| (f64::from(b[0]) / faded - f64::from(a[0])).powi(2));
-    let rms = (off.sum::<f64>() / first.texels.iter().map(|t| f64::from(t[0]).powi(2)).sum::<f64>()).sqrt();
+    let squares =
+        first.texels.iter().zip(&last.texels).map(|(a, b)| (f64::from(b[0]) / faded - f64::from(a[0])).powi(2));
+    let rms = (squares.sum::<f64>() / first.texels.iter().map(|t| f64::from(t[0]).powi(2)).sum::<f64>()).sqrt();
     println!("once round, {kept:.4} of the dye is left, {rms:.4} of it elsewhere");
     assert!((kept - 1.0).abs() < 1e-3 && rms < 0.05, "{kept}, {rms}");
 }
@@ -316,17 +317,17 @@ fn halving_the_cells_quarters_the_error() {
     // (name, custom uniforms, wind, largest error at 128 cells per side): half a cell per step, for one time unit.
     let cases: [(&str, &[&str], f64, f64); 2] =
         [("at rest", &["walls=0"], 0.0, 3e-4), ("in a wind", &["walls=2"], 0.5, 6e-4)];
-    for (name, custom_uniforms, wind, most) in cases {
+    for (name, custom_uniforms, wind, limit) in cases {
         let errors = [32u32, 64, 128].map(|cells| {
             let initial = format!("{} + vec2({wind:?}, 0.0)", taylor_green(cells));
             let project = accurate(&[custom_uniforms, &[&*courant(0.5, cells)]].concat(), &initial);
             let mut engine = square(&gpu, &project, cells);
             draw(&mut engine, 0..2 * cells as i32 + 1, untouched);
-            off(&velocity(&mut engine), carried_eddies(wind, 1.0, 1.0))
+            relative_error(&velocity(&mut engine), carried_eddies(wind, 1.0, 1.0))
         });
         let order = (errors[0] / errors[2]).log2() / 2.0;
         println!("Taylor-Green {name}: {errors:.5?}, order {order:.2}");
-        assert!(errors[2] < most && order > 1.95, "{name}: {errors:?}, order {order}");
+        assert!(errors[2] < limit && order > 1.95, "{name}: {errors:?}, order {order}");
     }
 }
 
@@ -334,7 +335,7 @@ fn halving_the_cells_quarters_the_error() {
 fn eddies_decay_at_the_taylor_green_rate() {
     let Some(gpu) = gpu() else { return };
     // At 0.15 cells per step, the case of the reference table, and at 2.
-    for (viscosity, number, seconds, most) in [(0.0092, 0.15, 0.85, 0.001), (0.01, 2.0, 1.0, 0.006)] {
+    for (viscosity, number, seconds, limit) in [(0.0092, 0.15, 0.85, 0.001), (0.01, 2.0, 1.0, 0.006)] {
         let cells = 64u32;
         let custom_uniforms = [courant(number, cells), format!("viscosity={viscosity}")];
         let mut engine =
@@ -345,12 +346,12 @@ fn eddies_decay_at_the_taylor_green_rate() {
         let rate = 2.0 * viscosity * (2.0 * PI).powi(2);
         let kept = (-rate * time).exp();
         let found = velocity(&mut engine);
-        let error = off(&found, carried_eddies(0.0, time, kept));
+        let error = relative_error(&found, carried_eddies(0.0, time, kept));
         // The energy of eddies of amplitude 1 is half the number of texels.
         let effective = -(energy(&found) / (0.5 * f64::from(cells * cells))).ln() / (2.0 * rate * time);
         println!("viscosity {viscosity}, {number} cells a step: error {error:.5}, viscosity as {effective:.5} of it");
         assert!(kept < 0.6, "{kept}: hardly anything decayed");
-        assert!(error < most && (effective - 1.0).abs() < most, "error {error}, effective viscosity {effective}");
+        assert!(error < limit && (effective - 1.0).abs() < limit, "error {error}, effective viscosity {effective}");
     }
 }
 
@@ -456,15 +457,15 @@ fn lid_driven_cavity_matches_the_tables_without_noise() {
         assert!((here - v).abs() < 0.01, "v({x}) is {here}, not {v}");
     }
     // The extremum by a high-order method, as of Botella and Peyret, is -0.2140424.
-    let least = (0..cells).map(|j| texel(&found, middle, j)[0]).fold(0.0, f32::min);
-    assert!((f64::from(least) + 0.214_042_4).abs() < 0.001, "{least}");
+    let lowest = (0..cells).map(|j| texel(&found, middle, j)[0]).fold(0.0, f32::min);
+    assert!((f64::from(lowest) + 0.214_042_4).abs() < 0.001, "{lowest}");
     // Cell-to-cell oscillations next to the lid.
     let u = |x: u32, y: u32| texel(&found, x, y)[0];
     let noise = (cells / 8..7 * cells / 8)
         .flat_map(|x| (0..cells).map(move |y| (x, y)))
         .map(|(x, y)| (u(x - 2, y) - 4.0 * u(x - 1, y) + 6.0 * u(x, y) - 4.0 * u(x + 1, y) + u(x + 2, y)).abs())
         .fold(0.0, f32::max);
-    println!("least u {least}, fourth differences up to {noise}");
+    println!("least u {lowest}, fourth differences up to {noise}");
     assert!(noise < 5e-4, "{noise}");
 }
 
@@ -472,7 +473,7 @@ fn lid_driven_cavity_matches_the_tables_without_noise() {
 fn without_viscosity_energy_is_kept_and_never_grows() {
     let Some(gpu) = gpu() else { return };
     // The loss that the preset's text states, also for paths ten times as long.
-    for (speed, least) in [("speed=1", 0.995), ("speed=10", 0.95)] {
+    for (speed, limit) in [("speed=1", 0.995), ("speed=10", 0.95)] {
         let initial = format!("0.2 * {}", taylor_green(48));
         let mut engine = square(&gpu, &accurate(&["viscosity=0", speed], &initial), 48);
         draw(&mut engine, 0..1, untouched);
@@ -485,7 +486,7 @@ fn without_viscosity_energy_is_kept_and_never_grows() {
             before = now;
         }
         println!("{speed}: {:.4} of the energy after 300 frames", before / initial_energy);
-        assert!(before > least * initial_energy, "{speed}: only {} of the energy is left", before / initial_energy);
+        assert!(before > limit * initial_energy, "{speed}: only {} of the energy is left", before / initial_energy);
     }
 }
 
@@ -518,10 +519,10 @@ fn a_uniform_flow_stays_uniform_for_every_number_of_scales() {
                 let [_, flow] = mip_velocity(&gpu, &custom_uniforms, size, "vec2(0.3, -0.1)", 30);
                 let kept = (-0.5f64 / 60.0).exp();
                 for t in &flow.texels {
-                    let off =
+                    let difference =
                         (f64::from(t[0]) / (0.3 * kept) - 1.0).abs().max((f64::from(t[1]) / (-0.1 * kept) - 1.0).abs());
                     // 29 or 30 frames of drag; the same everywhere.
-                    assert!(off < 1e-3, "{size:?} {scales} {weights}: {t:?}");
+                    assert!(difference < 1e-3, "{size:?} {scales} {weights}: {t:?}");
                     assert!((t[0] - flow.texels[0][0]).abs() < 1e-6, "{size:?} {scales} {weights}: not uniform");
                 }
             }
@@ -557,7 +558,7 @@ fn long_steps_of_the_mip_fluid_add_no_energy() {
     let Some(gpu) = gpu() else { return };
     // Without the terms that feed eddies on purpose: only advection and a little drag act on them.
     let rest = ["stirring=0", "turbulence=0", "confinement=0", "drag_seconds=60"];
-    for (speed, least) in [("speed=1", 0.75), ("speed=10", 0.1)] {
+    for (speed, limit) in [("speed=1", 0.75), ("speed=10", 0.1)] {
         let custom_uniforms = [&rest[..], &[speed]].concat();
         let field = format!("0.3 * sin({} * c.yx)", 2.0 * PI / 64.0);
         let mut before = f64::MAX;
@@ -569,6 +570,6 @@ fn long_steps_of_the_mip_fluid_add_no_energy() {
             (before, kept) = (now, now / energy(&initial));
         }
         println!("{speed}: {kept:.3} of the energy after two seconds");
-        assert!(kept > least, "{speed}: only {kept} of the energy is left");
+        assert!(kept > limit, "{speed}: only {kept} of the energy is left");
     }
 }

@@ -58,8 +58,8 @@ fn a_plane_has_no_lines_at_any_angle() {
     for normal in ["vec3(0.0, 0.0, 1.0)", "vec3(0.5, 0.3, 0.6)", "vec3(0.0, 0.95, 0.35)"] {
         for thickness in [1, 4] {
             let flat = lines(&gpu, thickness, &format!("n = normalize({normal}); depth = plane(n, 1.0, p);"));
-            let most = flat.texels.iter().flat_map(|t| [t[0], t[1]]).fold(0.0, f32::max);
-            assert!(most < 1e-3, "{normal}: a line of {most}");
+            let largest = flat.texels.iter().flat_map(|t| [t[0], t[1]]).fold(0.0, f32::max);
+            assert!(largest < 1e-3, "{normal}: a line of {largest}");
         }
     }
 }
@@ -129,9 +129,9 @@ fn an_open_plane_is_not_occluded() {
         let open = occlusion(&gpu, 0.0, custom_uniforms, (160, 90));
         // The averaged square of 4 x 4 texels must be inside the picture.
         let inside = (3..86).flat_map(|y| (3..156).map(move |x| (x, y)));
-        let most = inside.map(|(x, y)| texel(&open, x, y)[0]).fold(0.0, f32::max);
-        println!("open plane, {custom_uniforms:?}: at most {most}");
-        assert!(most < 0.01, "{custom_uniforms:?}: a plane hides {most} of its own sky");
+        let largest = inside.map(|(x, y)| texel(&open, x, y)[0]).fold(0.0, f32::max);
+        println!("open plane, {custom_uniforms:?}: at most {largest}");
+        assert!(largest < 0.01, "{custom_uniforms:?}: a plane hides {largest} of its own sky");
     }
 }
 
@@ -252,8 +252,8 @@ fn a_reflected_point_is_at_its_analytic_position() {
                 continue;
             }
             found += 1;
-            let off = (f64::from(hit[0]) * size[0] - seen[0]).hypot(f64::from(hit[1]) * size[1] - seen[1]);
-            furthest = furthest.max(off);
+            let distance = (f64::from(hit[0]) * size[0] - seen[0]).hypot(f64::from(hit[1]) * size[1] - seen[1]);
+            furthest = furthest.max(distance);
         }
     }
     println!("reflections: {found} of {wanted} found, at most {furthest:.2} px off");

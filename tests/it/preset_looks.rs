@@ -15,7 +15,7 @@ fn filled(pixels: &eddy::engine::Pixels) -> f64 {
 #[test]
 fn the_reaction_fills_a_picture_of_any_size() {
     let Some(gpu) = gpu() else { return };
-    for (custom_uniforms, size, frames, least) in [
+    for (custom_uniforms, size, frames, smallest) in [
         (&[][..], (320, 180), 90, 0.95),
         (&["map=1"], (241, 137), 150, 0.85),
         (&["diffusion=3", "dt=2"], (161, 97), 90, 0.95),
@@ -23,7 +23,7 @@ fn the_reaction_fills_a_picture_of_any_size() {
         let mut engine = drawn(&gpu, &preset("reaction-diffusion", custom_uniforms), size, 0..frames);
         let part = filled(&read(&mut engine, "A"));
         println!("{custom_uniforms:?} at {size:?}: {part:.3} of the picture after {frames} frames");
-        assert!(part > least, "{custom_uniforms:?}: only {part} of the picture has a pattern");
+        assert!(part > smallest, "{custom_uniforms:?}: only {part} of the picture has a pattern");
     }
 }
 
@@ -127,8 +127,8 @@ fn spectrum_has_the_same_brightness_at_any_size() {
     let Some(gpu) = gpu() else { return };
     for size in [(3, 3), (17, 31), (160, 90)] {
         let mut engine = drawn(&gpu, &preset("spectrum", &[]), size, 0..1);
-        let most = picture(&mut engine).texels.iter().flat_map(|t| t[..3].to_vec()).fold(0.0, f32::max);
-        println!("{size:?}: {most}");
-        assert!((0.1..1.6).contains(&most), "{size:?}: {most}");
+        let largest = picture(&mut engine).texels.iter().flat_map(|t| t[..3].to_vec()).fold(0.0, f32::max);
+        println!("{size:?}: {largest}");
+        assert!((0.1..1.6).contains(&largest), "{size:?}: {largest}");
     }
 }

@@ -117,8 +117,8 @@ fn sound_waves_decay_or_grow_as_in_linear_theory() {
             let smoothed = if form == 0 { 0.0 } else { 0.1 * (k / 2.0).sin().powi(4) * r };
             r = (next - smoothed) * (1.0 - 1e-3);
         }
-        let (size, off) = (u.hypot(r), (found[0] - u).hypot(found[1] - r));
-        assert!(off < 0.02 * size, "form {form}, viscosity {viscosity}: ({u}, {r}) by theory, {found:?} found");
+        let (size, error) = (u.hypot(r), (found[0] - u).hypot(found[1] - r));
+        assert!(error < 0.02 * size, "form {form}, viscosity {viscosity}: ({u}, {r}) by theory, {found:?} found");
         assert_eq!(form == 0 && viscosity < stiffness / 2.0, size > 1.5e-3, "viscosity {viscosity}: {size}");
     }
 }
@@ -199,17 +199,17 @@ fn the_fluids_stay_subsonic_and_keep_their_mass() {
         let options = BuildOptions { wanted: vec![buffer(state)], ..Default::default() };
         let mut engine = engine_with(&gpu, &preset(name), &MediaSet::new(), &options, (240, 135));
         draw(&mut engine, 0..120, untouched);
-        let (most, fast, density, mass) = compressibility(&mut engine, state);
-        println!("{name}: Mach {most:.2}, {:.2} % above 0.3, density {density:.2?}, mass {mass:.1e}", 100.0 * fast);
-        assert!(most > 0.1 && most < 0.4001 && fast < 5e-3, "{name}: Mach {most}, {fast} of the cells above 0.3");
+        let (mach, fast, density, mass) = compressibility(&mut engine, state);
+        println!("{name}: Mach {mach:.2}, {:.2} % above 0.3, density {density:.2?}, mass {mass:.1e}", 100.0 * fast);
+        assert!(mach > 0.1 && mach < 0.4001 && fast < 5e-3, "{name}: Mach {mach}, {fast} of the cells above 0.3");
         assert!(density[0] > 0.6 && density[1] < 1.6 && mass.abs() < 1e-4, "{name}: density {density:?}, mass {mass}");
         // A drag from corner to corner in single frames.
         let corners = [[1.0, 1.0], [239.0, 134.0], [239.0, 1.0], [1.0, 134.0]];
         draw(&mut engine, 120..150, |f| held(f, Some(([1.0, 1.0], corners[f as usize % 4]))));
-        let (most, _, density, mass) = compressibility(&mut engine, state);
-        println!("{name} during violent drags: Mach {most:.2}, density {density:.2?}, mass {mass:.1e}");
+        let (mach, _, density, mass) = compressibility(&mut engine, state);
+        println!("{name} during violent drags: Mach {mach:.2}, density {density:.2?}, mass {mass:.1e}");
         assert!(
-            most <= 0.4001 && density[0] >= 0.5 && density[1] <= 3.0 && mass.abs() < 5e-3,
+            mach <= 0.4001 && density[0] >= 0.5 && density[1] <= 3.0 && mass.abs() < 5e-3,
             "{name}: {density:?}, {mass}"
         );
     }
@@ -223,9 +223,9 @@ fn an_undisturbed_fluid_stays_below_its_speed_limit() {
     let mut engine = engine_with(&gpu, &preset("fluid"), &MediaSet::new(), &options, (640, 360));
     for part in 1..4 {
         draw(&mut engine, 133 * (part - 1)..133 * part, untouched);
-        let (most, fast, density, _) = compressibility(&mut engine, "C");
-        println!("Mach {most:.3}, {:.3} % above 0.3, density {density:.3?}", 100.0 * fast);
-        assert!(most < 0.39 && fast < 0.01, "Mach {most}, {fast} of the cells above 0.3");
+        let (mach, fast, density, _) = compressibility(&mut engine, "C");
+        println!("Mach {mach:.3}, {:.3} % above 0.3, density {density:.3?}", 100.0 * fast);
+        assert!(mach < 0.39 && fast < 0.01, "Mach {mach}, {fast} of the cells above 0.3");
         assert!(density[0] > 0.8 && density[1] < 1.2, "{density:?}");
     }
 }
@@ -308,7 +308,7 @@ fn surface_heights_stay_within_their_bounds() {
     let Some(gpu) = gpu() else { return };
     // With the defaults, with the deepest and longest dents that the sliders allow and no surface tension, and with
     // full surface tension.
-    for (custom_uniforms, most) in
+    for (custom_uniforms, limit) in
         [(&[][..], 1.3), (&["dent=4", "settle_seconds=20", "tension=0"], 8.0), (&["tension=1"], 1.3)]
     {
         let options = BuildOptions { wanted: vec![buffer("height")], ..Default::default() };
@@ -319,7 +319,7 @@ fn surface_heights_stay_within_their_bounds() {
         let (low, high) = height.texels.iter().fold((0.0f32, 0.0f32), |(l, h), t| (l.min(t[0]), h.max(t[0])));
         println!("{custom_uniforms:?}: heights from {low} to {high}");
         assert!(
-            all_finite(&height) && high - low > 0.05 && low > -most && high < most,
+            all_finite(&height) && high - low > 0.05 && low > -limit && high < limit,
             "{custom_uniforms:?}: {low} to {high}"
         );
     }
@@ -376,8 +376,8 @@ fn constant_states_of_gray_scott_are_kept() {
         let mut engine = drawn(&gpu, &project, true, (20, 12), 0..10, untouched);
         let state = engine.read(&buffer("A")).unwrap();
         for t in &state.texels {
-            let off = (f64::from(t[0]) - 1.0 + u).abs().max((f64::from(t[1]) - v).abs());
-            assert!(off < 1e-5, "{diffusion}: ({u}, {v}) became {t:?}");
+            let error = (f64::from(t[0]) - 1.0 + u).abs().max((f64::from(t[1]) - v).abs());
+            assert!(error < 1e-5, "{diffusion}: ({u}, {v}) became {t:?}");
         }
     }
 }
@@ -442,8 +442,8 @@ fn a_wave_in_gray_scott_grows_at_the_rate_of_linear_theory() {
             expected = [0, 1].map(|i| expected[i] + jacobian[i][0] * a + jacobian[i][1] * b);
         }
         let size = expected[0].hypot(expected[1]);
-        let off = (found[0] - expected[0]).hypot(found[1] - expected[1]);
-        assert!(off < 0.02 * size, "{diffusion}: {found:?}, not {expected:?}");
+        let error = (found[0] - expected[0]).hypot(found[1] - expected[1]);
+        assert!(error < 0.02 * size, "{diffusion}: {found:?}, not {expected:?}");
         assert!(size > 1e-3, "{size}: this wave did not grow");
     }
 }

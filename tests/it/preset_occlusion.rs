@@ -42,13 +42,13 @@ fn occlusion_on_the_still_life_matches_ray_casting() {
         found.iter().filter(|f| f.0 == DIE && f.1 < 0.5).map(|&(.., measured, expected)| (measured, expected));
     let (all, sides) = (Errors::of(pairs), Errors::of(upright));
     let open: Vec<f64> = found.iter().filter(|f| f.0 == TABLE && f.3 == 0.0).map(|f| f.2).collect();
-    let most = open.iter().copied().fold(0.0, f64::max);
+    let largest = open.iter().copied().fold(0.0, f64::max);
     println!("all: {:.4} off, {:+.4} in the mean, {} points", all.rms, all.mean, all.count);
     println!("the die's upright faces: {:.4} off, {:+.4} in the mean, {} points", sides.rms, sides.mean, sides.count);
-    println!("open table: at most {most:.4}, {} points", open.len());
+    println!("open table: at most {largest:.4}, {} points", open.len());
     assert!(all.count > 1500 && all.rms < 0.05, "{} off", all.rms);
     assert!(sides.count > 30 && sides.mean > -0.05, "the die's upright faces are {} too bright", -sides.mean);
-    assert!(open.len() > 500 && most < 0.01, "the open table is hidden by {most}");
+    assert!(open.len() > 500 && largest < 0.01, "the open table is hidden by {largest}");
 }
 
 /// From some directions, normals at the rim of a shape point away from the camera: occlusion must not become negative.
@@ -64,14 +64,14 @@ fn occlusion_is_never_negative_from_any_direction() {
             let at = [320.0 + 300.0 * (0.11 * turn).sin(), 180.0 + 150.0 * (0.173 * turn).sin()];
             engine.draw(&at_frame(frame, Some(at.map(|v| v.trunc() as f32)))).unwrap();
             let hidden = read(&mut engine, "B");
-            range = hidden.texels.iter().fold(range, |(least, most), t| (least.min(t[0]), most.max(t[0])));
+            range = hidden.texels.iter().fold(range, |(smallest, largest), t| (smallest.min(t[0]), largest.max(t[0])));
         }
         range
     };
     let mut project = preset("gbuffer-ssao-ssr", &[]);
-    let (least, most) = range(&project);
+    let (smallest, largest) = range(&project);
     // A slice has a weight of at most pi / 2.
-    assert!(least == 0.0 && most > 0.3 && most <= 1.572, "{least} to {most}");
+    assert!(smallest == 0.0 && largest > 0.3 && largest <= 1.572, "{smallest} to {largest}");
     let correction = "normal = normalize(normal - min(dot(normal, view), 0.0) * view);";
     presets::patch(&mut project, &buffer("B"), correction, "");
     assert!(range(&project).0 < -0.01, "the test does not detect negative occlusion");
@@ -109,12 +109,12 @@ fn occlusion_on_meshes_matches_ray_casting() {
     let found: Vec<_> = found.into_iter().flatten().collect();
     let Errors { rms, mean, count: n, .. } = Errors::of(found.iter().copied());
     let halo = found.iter().filter(|(measured, expected)| measured - expected > 0.1).count() as f64 / n as f64;
-    let most = found.iter().filter(|(_, expected)| *expected == 0.0).map(|f| f.0).fold(0.0, f64::max);
+    let largest = found.iter().filter(|(_, expected)| *expected == 0.0).map(|f| f.0).fold(0.0, f64::max);
     println!(
-        "{rms:.4} off, {mean:+.4} in the mean, {n} points; 0.1 too much on {:.2} %; in the open {most:.4}",
+        "{rms:.4} off, {mean:+.4} in the mean, {n} points; 0.1 too much on {:.2} %; in the open {largest:.4}",
         100.0 * halo
     );
     assert!(n > 1000 && rms < 0.045, "{rms} off");
     assert!(halo < 0.005, "{} of all points are hidden by 0.1 too much", halo);
-    assert!(most < 0.01, "the open is hidden by {most}");
+    assert!(largest < 0.01, "the open is hidden by {largest}");
 }

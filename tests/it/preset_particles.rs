@@ -61,8 +61,8 @@ fn sparks_fall_ballistically() {
         // Sparks in the air, neither newly born nor at the floor.
         if l[2] == 1.0 && l[0] > 0.0 && b[1] > -0.3 && a[1] > -0.3 {
             let expected = flight(b.map(f64::from), 0.45, 0.15, step);
-            let off = (0..4).map(|i| (f64::from(a[i]) - expected[i]).abs()).fold(0.0, f64::max);
-            assert!(off < 2e-7, "{b:?} became {a:?}, not {expected:?}");
+            let error = (0..4).map(|i| (f64::from(a[i]) - expected[i]).abs()).fold(0.0, f64::max);
+            assert!(error < 2e-7, "{b:?} became {a:?}, not {expected:?}");
             seen += 1;
         }
     }
@@ -95,10 +95,10 @@ fn the_tiles_show_every_particle() {
         assert!(worst < 4e-3, "{size:?}: a pixel differs by {worst}");
     }
     // If a tile's sixty-four slots run out, the loss is as the preset's text states.
-    for (size, most) in [((96, 54), 1e-4), ((64, 36), 0.003), ((32, 18), 0.09)] {
+    for (size, limit) in [((96, 54), 1e-4), ((64, 36), 0.003), ((32, 18), 0.09)] {
         let shown = |all| (0..3).map(|c| mean(&light(all, size), c, |_, _| true)).sum::<f64>();
         let lost = 1.0 - shown(false) / shown(true);
         println!("{size:?}: {lost:.1e} of the light is lost");
-        assert!((-1e-6..most).contains(&lost), "{size:?}: {lost} of the light is lost");
+        assert!((-1e-6..limit).contains(&lost), "{size:?}: {lost} of the light is lost");
     }
 }

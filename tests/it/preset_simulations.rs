@@ -89,18 +89,18 @@ fn violent_drags_on_a_large_picture_keep_the_density_bounded() {
     for (name, state) in [("fluid", "C"), ("fluid-dye", "A"), ("fluid-lit", "A")] {
         let options = BuildOptions { wanted: vec![buffer(state)], ..Default::default() };
         let mut engine = engine_with(&gpu, &preset(name), &MediaSet::new(), &options, size);
-        let (mut least, mut most) = (f32::MAX, f32::MIN);
+        let (mut lowest, mut highest) = (f32::MAX, f32::MIN);
         for part in 0..4 {
             draw(&mut engine, 10 * part..10 * part + 10, |f| violent(f, (640.0, 360.0)));
             let pixels = engine.read(&buffer(state)).unwrap();
             for texel in &pixels.texels[pixels.width as usize..] {
-                (least, most) = (least.min(texel[2]), most.max(texel[2]));
+                (lowest, highest) = (lowest.min(texel[2]), highest.max(texel[2]));
             }
         }
-        println!("{name}: density from {least} to {most}");
+        println!("{name}: density from {lowest} to {highest}");
         // 1 plus or minus Mach 0.4, the largest speed of the method, and half as much again where walls reflect it.
-        assert!(least > 0.6 && most < 1.6, "{name}: density from {least} to {most}");
-        assert!(least < 0.9, "{name} was not compressed, so the test is blind");
+        assert!(lowest > 0.6 && highest < 1.6, "{name}: density from {lowest} to {highest}");
+        assert!(lowest < 0.9, "{name} was not compressed, so the test is blind");
     }
 }
 
@@ -108,8 +108,8 @@ fn violent_drags_on_a_large_picture_keep_the_density_bounded() {
 fn the_fluids_paint_only_has_poured_colours() {
     let Some(gpu) = gpu() else { return };
     // The range of each component over the five pigments.
-    let (least, most) = ([0.05, 0.12, 0.10], [0.98, 0.62, 0.62]);
-    let is_poured = |colour: [f32; 3]| (0..3).all(|i| colour[i] > least[i] - 0.001 && colour[i] < most[i] + 0.001);
+    let (lowest, highest) = ([0.05, 0.12, 0.10], [0.98, 0.62, 0.62]);
+    let is_poured = |colour: [f32; 3]| (0..3).all(|i| colour[i] > lowest[i] - 0.001 && colour[i] < highest[i] + 0.001);
     // Colours of paint that is thick enough to have one, at intervals of frames.
     let colours = |project: &Project| {
         let mut engine = whole(&gpu, project, true, (48, 27));

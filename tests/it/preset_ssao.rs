@@ -117,8 +117,8 @@ fn occlusion_next_to_a_wall_matches_the_analytic_value() {
                 continue;
             }
             near += 1;
-            let off = hidden - analytic(radius, height, distance, rays);
-            (low, high) = (low.min(off), high.max(off));
+            let error = hidden - analytic(radius, height, distance, rays);
+            (low, high) = (low.min(error), high.max(error));
         }
         println!(
             "{method}, radius {radius}, wall {height} high: {low:.4} to {high:.4} off, {near} rows near, {beyond} \

@@ -60,8 +60,8 @@ fn a_resize_draws_no_stroke_from_the_old_position() {
         engine.resize(size.0, size.1).unwrap();
         // The mouse was at (2, 3) of a picture of another size: a line from there would be wrong.
         engine.draw(&at_frame(4, Some([25.0, 14.0]))).unwrap();
-        let most = strokes(&read(&mut engine, "A")).iter().map(|t| t[3]).fold(0.0, f32::max);
-        assert!(most < 1e-3, "{size:?}: ink of {most}");
+        let largest = strokes(&read(&mut engine, "A")).iter().map(|t| t[3]).fold(0.0, f32::max);
+        assert!(largest < 1e-3, "{size:?}: ink of {largest}");
         for name in ["A", "B"] {
             let texels = strokes(&read(&mut engine, name));
             assert!(texels.iter().all(|t| t[3] >= 0.0), "{size:?}: a stored mouse remains in the picture of {name}");
@@ -176,14 +176,14 @@ fn texels_added_by_a_resize_initialise_themselves() {
 fn an_unstable_balance_is_left_only_with_noise() {
     let Some(gpu) = gpu() else { return };
     let mut engine = tricks(&gpu);
-    let most = |pixels: &Pixels, works| half(pixels, works).iter().map(|t| t[0].abs()).fold(0.0, f32::max);
+    let largest = |pixels: &Pixels, works| half(pixels, works).iter().map(|t| t[0].abs()).fold(0.0, f32::max);
     draw(&mut engine, 0..1);
-    let initial = most(&read(&mut engine, "noise"), true);
+    let initial = largest(&read(&mut engine, "noise"), true);
     assert!(initial > 5e-4 && initial <= 1e-3, "{initial}");
     draw(&mut engine, 1..240);
     let pixels = read(&mut engine, "noise");
-    assert_eq!(most(&pixels, false), 0.0, "zeros stay zeros");
-    assert!(most(&pixels, true) > 0.5, "the noise grew to {} only", most(&pixels, true));
+    assert_eq!(largest(&pixels, false), 0.0, "zeros stay zeros");
+    assert!(largest(&pixels, true) > 0.5, "the noise grew to {} only", largest(&pixels, true));
 }
 
 #[test]

@@ -239,8 +239,8 @@ fn the_sound_of_a_live_recording_follows_its_picture() {
         }
         assert_eq!(clicks.len(), 3, "{format:?}: {clicks:?}");
         for (click, start) in clicks.iter().zip(&starts) {
-            let apart = (*click as f64 / 44_100.0 - start).abs();
-            assert!(apart < 1.0 / 60.0, "{format:?}: a click at {click} is {apart} s from {start}");
+            let distance = (*click as f64 / 44_100.0 - start).abs();
+            assert!(distance < 1.0 / 60.0, "{format:?}: a click at {click} is {distance} s from {start}");
         }
         if format == Format::Mkv {
             // Lossless sound has the slider's values.

@@ -425,7 +425,7 @@ fn saving_a_single_file_with_moved_sliders_saves_its_code() {
         stage.session.apply(Command::Save);
         let suggested_name = "lone".to_owned();
         assert_eq!(stage.session.take_request(), Some(Request::SaveAs { suggested_name }));
-        // Before closing, everything is to be saved.
+        // Closing with Save has to save everything.
         stage.session.apply(Command::EditText { tab: tab.clone(), text: text.into() });
         stage.session.apply(Command::Close);
         stage.session.apply(Command::Answer(Answer::Save));

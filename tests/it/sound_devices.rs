@@ -213,7 +213,7 @@ fn volume_and_mute_apply_and_shared_music_plays_once() {
     assert_eq!(room.stage.session.sources_heard(), 1);
     let loudest = |room: &Room| {
         let left = room.heard().1;
-        left[left.len() - 9000..].iter().fold(0.0_f32, |most, sample| most.max(sample.abs()))
+        left[left.len() - 9000..].iter().fold(0.0_f32, |largest, sample| largest.max(sample.abs()))
     };
     let full = loudest(&room);
     assert!((full - 10_000.0 / 32_768.0).abs() < 0.01, "{full}");

@@ -254,8 +254,8 @@ fn played_in_step(seconds: u32) {
     let load: f64 = load.split(' ').next().and_then(|load| load.parse().ok()).unwrap_or(0.0);
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     // The picture alone uses all processors.
-    let most = if load > 1.5 * processors as f64 { 1 + seconds / 10 } else { 0 };
-    assert!(end.underruns - early.underruns <= most, "load {load}: {report}");
+    let allowed = if load > 1.5 * processors as f64 { 1 + seconds / 10 } else { 0 };
+    assert!(end.underruns - early.underruns <= allowed, "load {load}: {report}");
     assert!((first - last).abs() < 0.02, "drift: {report}");
     assert!(first.abs() < 0.02 && last.abs() < 0.02, "{report}");
 }

@@ -39,26 +39,26 @@ const PREFIX: &str = "CORPUS ";
 
 /// Returns how a pixel compares, from best to worst, and its difference.
 fn class(walked: [f32; 4], drawn: [f32; 4]) -> (&'static str, f64) {
-    let mut most = 0.0f64;
+    let mut largest = 0.0f64;
     let mut is_near = true;
     for (a, b) in walked.into_iter().zip(drawn) {
         if is_same(a, b) {
             continue;
         }
-        let apart = (f64::from(a) - f64::from(b)).abs();
-        let apart = if apart.is_nan() { f64::INFINITY } else { apart };
-        is_near &= ulps(a, b) <= NEAR_ULPS || apart <= NEAR;
+        let difference = (f64::from(a) - f64::from(b)).abs();
+        let difference = if difference.is_nan() { f64::INFINITY } else { difference };
+        is_near &= ulps(a, b) <= NEAR_ULPS || difference <= NEAR;
         // Values that a screen clamps to the same are equal.
         let shown = |x: f32| if x.is_nan() { 0.0 } else { f64::from(x.clamp(0.0, 1.0)) };
         let is_buffer_like = !(0.0..=1.0).contains(&a) || !(0.0..=1.0).contains(&b);
-        let relative = apart / f64::from(b.abs()).max(1.0);
-        most = most.max(if is_buffer_like { relative } else { (shown(a) - shown(b)).abs() });
+        let relative = difference / f64::from(b.abs()).max(1.0);
+        largest = largest.max(if is_buffer_like { relative } else { (shown(a) - shown(b)).abs() });
     }
-    match most {
+    match largest {
         0.0 => ("same", 0.0),
-        _ if is_near => ("near", most),
-        most if most < VISIBLE => ("invisible", most),
-        most => ("visible", most),
+        _ if is_near => ("near", largest),
+        largest if largest < VISIBLE => ("invisible", largest),
+        largest => ("visible", largest),
     }
 }
 
@@ -113,12 +113,12 @@ fn walk_pass(
             println!("{PREFIX}discarded");
             continue;
         };
-        let (class, apart) = class(walked, texel);
+        let (class, difference) = class(walked, texel);
         if matches!(class, "same" | "near") {
             println!("{PREFIX}{class}");
             continue;
         }
-        let why = pass.why(pixel, apart);
+        let why = pass.why(pixel, difference);
         println!("{PREFIX}{class}: {why}");
         if class == "visible" {
             println!("{}, {} at {pixel:?}: {walked:?}, drawn {texel:?}: {why}", path.display(), id.title());

@@ -47,7 +47,7 @@ struct Compared {
     clear: usize,
     covered: usize,
     /// The texels whose difference exceeds the tolerance.
-    off: Vec<String>,
+    differing: Vec<String>,
 }
 
 /// Walks all texels of a scene's first target.
@@ -65,17 +65,22 @@ fn compared(gpu: &Gpu, project: &Project) -> Compared {
             (trace.value.expect("a fragment that is not discarded has a value"), texel(&device, pixel.0, pixel.1));
         let close = |(a, b): (&f32, &f32)| a == b || (a - b).abs() <= 1e-5 * b.abs().max(1.0);
         if !value.iter().zip(&texel).all(close) {
-            compared.off.push(format!("{pixel:?}: {value:?}, drawn {texel:?}, {:?}", trace.origin));
+            compared.differing.push(format!("{pixel:?}: {value:?}, drawn {texel:?}, {:?}", trace.origin));
         }
     }
     compared
 }
 
 #[track_caller]
-fn assert_agrees(gpu: &Gpu, what: &str, scene: eddy::project::Pass, most: usize) -> Compared {
+fn assert_agrees(gpu: &Gpu, what: &str, scene: eddy::project::Pass, allowed: usize) -> Compared {
     let compared = compared(gpu, &whole(scene));
-    eprintln!("{what}: {} covered, {} clear, {} off", compared.covered, compared.clear, compared.off.len());
-    assert!(compared.off.len() <= most, "{what}, {} texels:\n{}", compared.off.len(), compared.off.join("\n"));
+    eprintln!("{what}: {} covered, {} clear, {} off", compared.covered, compared.clear, compared.differing.len());
+    assert!(
+        compared.differing.len() <= allowed,
+        "{what}, {} texels:\n{}",
+        compared.differing.len(),
+        compared.differing.join("\n")
+    );
     compared
 }
 
@@ -225,7 +230,7 @@ fn colours_replace_each_other_without_blending() {
 #[test]
 fn mesh_passes_of_presets_match_the_device() {
     let Some(gpu) = gpu() else { return };
-    let (mut texels, mut off) = (0, Vec::new());
+    let (mut texels, mut differing) = (0, Vec::new());
     for (name, passes) in
         [("ssao", &["geometry", "backs", "occlusion", "lighting"][..]), ("toon-outline", &["scene"][..])]
     {
@@ -246,14 +251,19 @@ fn mesh_passes_of_presets_match_the_device() {
                     if !value.iter().zip(&texel).take(settings.format.components()).all(close) {
                         wrong += 1;
                         let what = format!("{name}, {}, frame {frame}, {x},{y}", pass.title());
-                        off.push(format!("{what}: {value:?}, drawn {texel:?}, {:?}", trace.origin));
+                        differing.push(format!("{what}: {value:?}, drawn {texel:?}, {:?}", trace.origin));
                     }
                 }
                 eprintln!("{name}, {}, frame {frame}: {wrong} of 200", pass.title());
             }
         }
     }
-    assert!(texels == 2000 && 200 * off.len() <= texels, "{} of {texels}:\n{}", off.len(), off.join("\n"));
+    assert!(
+        texels == 2000 && 200 * differing.len() <= texels,
+        "{} of {texels}:\n{}",
+        differing.len(),
+        differing.join("\n")
+    );
 }
 
 /// Returns the tolerance: one step of 8 bits, some steps of half precision, or the interpolation error of single

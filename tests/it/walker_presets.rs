@@ -78,11 +78,11 @@ struct Found {
     ulps: u32,
     /// The largest difference of all pixels.
     absolute: f32,
-    off: Vec<Off>,
+    outliers: Vec<Outlier>,
 }
 
 #[derive(Clone, Debug)]
-struct Off {
+struct Outlier {
     place: String,
     why: String,
 }
@@ -137,21 +137,23 @@ fn walk_pass(
         found.walked += 1;
         let pairs = || value.into_iter().map(|x| stored(format, x)).zip(drawn).take(format.components());
         found.same += usize::from(pairs().all(|(a, b)| is_same(a, b)));
-        let mut most = 0.0f32;
+        let mut largest = 0.0f32;
         for (a, b) in pairs().filter(|&(a, b)| !is_same(a, b)) {
-            let apart = (a - b).abs() - step(format, b);
-            let apart = if apart.is_nan() { f32::INFINITY } else { apart.max(0.0) / b.abs().max(1.0) };
-            found.absolute = found.absolute.max(apart);
-            if apart > NEAR {
+            let difference = (a - b).abs() - step(format, b);
+            let difference = if difference.is_nan() { f32::INFINITY } else { difference.max(0.0) / b.abs().max(1.0) };
+            found.absolute = found.absolute.max(difference);
+            if difference > NEAR {
                 match ulps(a, b) {
                     few @ ..=NEAR_ULPS => found.ulps = found.ulps.max(few),
-                    _ => most = most.max(apart),
+                    _ => largest = largest.max(difference),
                 }
             }
         }
-        if most > 0.0 {
-            let why = Explained { sources, index, read }.why(pixel, most.into());
-            found.off.push(Off { place: format!("frame {frame} at {pixel:?}: {value:?}, drawn {drawn:?}"), why });
+        if largest > 0.0 {
+            let why = Explained { sources, index, read }.why(pixel, largest.into());
+            found
+                .outliers
+                .push(Outlier { place: format!("frame {frame} at {pixel:?}: {value:?}, drawn {drawn:?}"), why });
         }
     }
 }
@@ -161,21 +163,21 @@ fn judge(preset: &str, id: &PassName, found: &Found) -> Vec<String> {
     let title = id.title();
     let exception = EXCEPTIONS.iter().find(|exception| exception.preset == preset && exception.pass == title);
     let Some(Exception { absolute, share, reasons, .. }) = exception else {
-        return found.off.iter().map(|off| format!("{preset}, {title}, {}: {}", off.place, off.why)).collect();
+        return found.outliers.iter().map(|o| format!("{preset}, {title}, {}: {}", o.place, o.why)).collect();
     };
-    let is_named = |off: &&Off| !reasons.iter().any(|reason| off.why.starts_with(reason));
+    let is_unnamed = |outlier: &&Outlier| !reasons.iter().any(|reason| outlier.why.starts_with(reason));
     let mut wrong: Vec<String> = found
-        .off
+        .outliers
         .iter()
-        .filter(is_named)
-        .map(|off| format!("{preset}, {title}, {}: {}, not {reasons:?}", off.place, off.why))
+        .filter(is_unnamed)
+        .map(|o| format!("{preset}, {title}, {}: {}, not {reasons:?}", o.place, o.why))
         .collect();
     if found.absolute > *absolute {
         wrong.push(format!("{preset}, {title}: off by {}, not {absolute}", found.absolute));
     }
     // With few pixels, one or two exceptions may exceed the share by chance.
-    if found.off.len() > 2 + share * found.walked / 1000 {
-        wrong.push(format!("{preset}, {title}: {} of {} are off", found.off.len(), found.walked));
+    if found.outliers.len() > 2 + share * found.walked / 1000 {
+        wrong.push(format!("{preset}, {title}: {} of {} are off", found.outliers.len(), found.walked));
     }
     wrong
 }
@@ -228,17 +230,20 @@ fn walk_presets(first: usize) {
     let (mut wrong, mut all) = (Vec::new(), Found::default());
     for name in presets::names().iter().skip(first).step_by(2) {
         for (id, found) in walk_preset(&gpu, name) {
-            let Found { walked, same, ulps, absolute, off } = &found;
-            let why: BTreeSet<&str> = off.iter().map(|off| off.why.as_str()).collect();
+            let Found { walked, same, ulps, absolute, outliers } = &found;
+            let why: BTreeSet<&str> = outliers.iter().map(|outlier| outlier.why.as_str()).collect();
             let title = id.title();
-            println!("| {name} | {title} | {walked} | {same} | {ulps} | {absolute:.1e} | {} | {why:?} |", off.len());
+            println!(
+                "| {name} | {title} | {walked} | {same} | {ulps} | {absolute:.1e} | {} | {why:?} |",
+                outliers.len()
+            );
             wrong.extend(judge(name, &id, &found));
             all.walked += walked;
             all.same += same;
-            all.off.extend(found.off);
+            all.outliers.extend(found.outliers);
         }
     }
-    println!("{} pixels, {} the same in every bit, {} not near", all.walked, all.same, all.off.len());
+    println!("{} pixels, {} the same in every bit, {} not near", all.walked, all.same, all.outliers.len());
     assert!(all.walked > 100, "{} pixels", all.walked);
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

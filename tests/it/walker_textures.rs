@@ -104,44 +104,44 @@ fn reading((filter, wrap): (Filter, Wrap), expression: &str) -> Project {
 
 /// Returns the largest difference of a component over 16 x 16 pixels, between one project as drawn and another as
 /// walked.
-fn apart(gpu: &Gpu, drawn: &Project, walked: &Project) -> f64 {
-    apart_by(gpu, drawn, walked, LevelBy::Pixel)
+fn largest_difference(gpu: &Gpu, drawn: &Project, walked: &Project) -> f64 {
+    difference_by(gpu, drawn, walked, LevelBy::Pixel)
 }
 
 /// The same, with levels chosen as on some devices.
-fn apart_by(gpu: &Gpu, drawn: &Project, walked: &Project, level_by: LevelBy) -> f64 {
+fn difference_by(gpu: &Gpu, drawn: &Project, walked: &Project, level_by: LevelBy) -> f64 {
     let (mut engine, own) = (engine(gpu, drawn, (16, 16)), buffer("B"));
     run(&mut engine, 0, 1);
     let (mut read, texels) = (engine.inspect(&own).unwrap(), engine.read(&own).unwrap());
     read.channels.iter_mut().for_each(|texture| texture.level_by = level_by);
     let pixels = all_pixels(read.size);
-    let mut most = 0.0f64;
+    let mut largest = 0.0f64;
     for (&(x, y), value) in pixels.iter().zip(walk(walked, &own, &read, &pixels)) {
         for (a, b) in value.expect("no pixel is discarded").into_iter().zip(texel(&texels, x, y)) {
-            let by = if is_same(a, b) { 0.0 } else { (f64::from(a) - f64::from(b)).abs() };
-            most = if by.is_nan() { f64::INFINITY } else { most.max(by) };
+            let difference = if is_same(a, b) { 0.0 } else { (f64::from(a) - f64::from(b)).abs() };
+            largest = if difference.is_nan() { f64::INFINITY } else { largest.max(difference) };
         }
     }
-    most
+    largest
 }
 
 /// Checks all expressions with these samplers: reports those that differ by more than `bound`, and the largest
 /// difference.
 fn check(gpu: &Gpu, filters: &[Filter], expressions: &[&str], bound: f64) {
-    let (mut wrong, mut most) = (Vec::new(), 0.0f64);
+    let (mut wrong, mut largest) = (Vec::new(), 0.0f64);
     for &filter in filters {
         for wrap in [Wrap::Clamp, Wrap::Repeat] {
             for expression in expressions {
                 let project = reading((filter, wrap), expression);
-                let by = apart(gpu, &project, &project);
-                most = most.max(by);
-                if by > bound {
-                    wrong.push(format!("{by} with {filter:?}, {wrap:?}: {expression}"));
+                let difference = largest_difference(gpu, &project, &project);
+                largest = largest.max(difference);
+                if difference > bound {
+                    wrong.push(format!("{difference} with {filter:?}, {wrap:?}: {expression}"));
                 }
             }
         }
     }
-    println!("at most {most}, that is {} of 1/256, of {filters:?}", most * 256.0);
+    println!("at most {largest}, that is {} of 1/256, of {filters:?}", largest * 256.0);
     assert!(wrong.is_empty(), "more than {bound}:\n{}", wrong.join("\n"));
 }
 
@@ -180,15 +180,15 @@ fn levels_are_within_the_precision_of_weights() {
 fn fractional_levels_match_the_device() {
     let Some(gpu) = gpu() else { return };
     let is_cpu = gpu.info.device_type == wgpu::DeviceType::Cpu;
-    let mut apart_otherwise = 0.0f64;
+    let mut largest_by_pixel = 0.0f64;
     for expression in BETWEEN.iter().chain(OF_QUADS.iter().filter(|_| is_cpu)) {
         let project = reading((Filter::Mipmap, Wrap::Repeat), expression);
-        let [pixel, quad] = [LevelBy::Pixel, LevelBy::Quad].map(|by| apart_by(&gpu, &project, &project, by));
-        let (own, most) = if is_cpu { (quad, 4e-6) } else { (pixel, 3.0 / 256.0) };
-        assert!(own <= most, "{own}: {expression}");
-        apart_otherwise = apart_otherwise.max(pixel);
+        let [pixel, quad] = [LevelBy::Pixel, LevelBy::Quad].map(|by| difference_by(&gpu, &project, &project, by));
+        let (difference, limit) = if is_cpu { (quad, 4e-6) } else { (pixel, 3.0 / 256.0) };
+        assert!(difference <= limit, "{difference}: {expression}");
+        largest_by_pixel = largest_by_pixel.max(pixel);
     }
-    assert!(!is_cpu || apart_otherwise > 1e-3, "{apart_otherwise}: the test does not distinguish the two");
+    assert!(!is_cpu || largest_by_pixel > 1e-3, "{largest_by_pixel}: the test does not distinguish the two");
 }
 
 /// For 8-bit textures llvmpipe, on which lavapipe is based, filters in 8 bits: weights and the results of each of three
@@ -196,14 +196,14 @@ fn fractional_levels_match_the_device() {
 #[test]
 fn texels_of_8_bits_are_mixed_in_8_bits() {
     let Some(gpu) = gpu() else { return };
-    let mut most = 0.0f64;
+    let mut largest = 0.0f64;
     for expression in SAMPLED {
         let mut project = reading((Filter::Linear, Wrap::Repeat), expression);
         project.passes[0].settings.format = TexelFormat::Rgba8;
-        most = most.max(apart(&gpu, &project, &project));
+        largest = largest.max(largest_difference(&gpu, &project, &project));
     }
-    println!("at most {} of 1/255", most * 255.0);
-    assert!(most <= 3.0 / 255.0, "{most}");
+    println!("at most {} of 1/255", largest * 255.0);
+    assert!(largest <= 3.0 / 255.0, "{largest}");
 }
 
 /// The control: a neighbouring texel, and a weight with a larger error than a device may have, are detected.
@@ -212,7 +212,7 @@ fn a_wrong_texel_and_a_wrong_weight_are_detected() {
     let Some(gpu) = gpu() else { return };
     let difference = |filter, drawn: &str, walked: &str| {
         let [drawn, walked] = [drawn, walked].map(|expression| reading((filter, Wrap::Repeat), expression));
-        apart(&gpu, &drawn, &walked)
+        largest_difference(&gpu, &drawn, &walked)
     };
     assert!(difference(Filter::Nearest, "texture(iChannel0, uv)", "textureOffset(iChannel0, uv, ivec2(1, 0))") > 0.5);
     // A twentieth of a texel.

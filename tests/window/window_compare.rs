@@ -32,12 +32,12 @@ fn an_edit_is_compared_with_its_last_save_and_another_project() {
     window.click_on("editor");
     window.keys(&["ctrl+Home", "Down", "End", "Left", "BackSpace", "BackSpace"]);
     window.type_text("75");
-    let apart =
+    let difference =
         wait_for_compare(&mut window, "the edit's", |e| e["state"] == "ended" && near(&e["figures"]["rmse"], 0.25));
-    assert!(near(&apart["figures"]["largest"], 0.5), "{apart}");
-    let size = apart["figures"]["size"].as_array().unwrap().iter().map(|n| n.as_u64().unwrap()).product::<u64>();
-    assert_eq!(apart["figures"]["texels_apart"].as_u64(), Some(size));
-    assert!(apart["figures"]["ratio"][1].as_f64() > Some(0.0), "{apart}");
+    assert!(near(&difference["figures"]["largest"], 0.5), "{difference}");
+    let size = difference["figures"]["size"].as_array().unwrap().iter().map(|n| n.as_u64().unwrap()).product::<u64>();
+    assert_eq!(difference["figures"]["texels_apart"].as_u64(), Some(size));
+    assert!(difference["figures"]["ratio"][1].as_f64() > Some(0.0), "{difference}");
     display.shot("compare-side.png");
 
     // The wipe line follows the mouse, and moves by keys.

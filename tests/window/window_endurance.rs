@@ -63,7 +63,7 @@ fn a_paused_window_draws_no_frames_and_uses_no_cpu() {
     let span = Duration::from_secs(4);
     // Work requested before the pause, and other programs, may still have an effect: takes the quietest of several
     // spans.
-    let least = (0..5)
+    let quietest = (0..5)
         .map(|_| {
             window.drain();
             let (before, first_event) = (ticks(pid), window.events.len());
@@ -74,8 +74,8 @@ fn a_paused_window_draws_no_frames_and_uses_no_cpu() {
         })
         .min()
         .unwrap();
-    assert_eq!(least.0, 0, "frames are drawn while paused");
-    assert!(least.1 <= span.as_secs(), "{} hundredths of a second in {span:?}, more than 1 % of a core", least.1);
+    assert_eq!(quietest.0, 0, "frames are drawn while paused");
+    assert!(quietest.1 <= span.as_secs(), "{} hundredths of a second in {span:?}, more than 1 % of a core", quietest.1);
 }
 
 /// All keys except those that end the window or leave the project on purpose, as the palette can.
@@ -208,13 +208,13 @@ fn at_rest(window: &mut Window) -> (u64, u64) {
     window.keys(&["ctrl+shift+F5"]);
     window.wait_until("the reset", "frame", |e| e["frame"].as_u64() < Some(60));
     // The memory of a picture that filled the screen is freed in the following frames.
-    let least = (0..20).map(|_| {
+    let smallest = (0..20).map(|_| {
         std::thread::sleep(Duration::from_millis(100));
         window.resident()
     });
-    let least = least.min().unwrap();
+    let smallest = smallest.min().unwrap();
     window.drain();
-    (least, pixels(window))
+    (smallest, pixels(window))
 }
 
 /// Returns the recovery files.
@@ -234,7 +234,7 @@ fn random_input_neither_ends_the_window_nor_loses_text_nor_leaks_memory() {
     warm_up(&mut window);
     let opened_at = Instant::now();
     let (warm, end) = (Duration::from_secs(secs / 4), Duration::from_secs(secs));
-    let (mut start, mut most, mut steps) = (None, 0, 0);
+    let (mut start, mut peak, mut steps) = (None, 0, 0);
     while opened_at.elapsed() < end {
         random_input(&window, &mut random, size);
         steps += 1;
@@ -243,7 +243,7 @@ fn random_input_neither_ends_the_window_nor_loses_text_nor_leaks_memory() {
             let code = window.wait_exit();
             panic!("the window ended with {code:?} after {steps} steps of seed {seed}: {}", window.stderr());
         }
-        most = most.max(window.resident());
+        peak = peak.max(window.resident());
         if start.is_none() && opened_at.elapsed() >= warm {
             start = Some(at_rest(&mut window));
         }
@@ -255,7 +255,7 @@ fn random_input_neither_ends_the_window_nor_loses_text_nor_leaks_memory() {
     // A larger picture is not a leak.
     let (start, small) = start.unwrap_or((last, large));
     let limit = start + start / 5 + PIXEL * large.saturating_sub(small);
-    println!("{steps} steps: resident {} MiB, at most {}, at the end {}", start >> 20, most >> 20, last >> 20);
+    println!("{steps} steps: resident {} MiB, at most {}, at the end {}", start >> 20, peak >> 20, last >> 20);
     assert!(last < limit, "resident memory went from {} MiB to {} MiB", start >> 20, last >> 20);
 
     // The recovery file contains the saved text.

@@ -167,8 +167,8 @@ fn a_live_film_shows_the_mouse() {
     };
     let places: Vec<usize> = pictures.chunks_exact(width * height * 3).filter_map(place).collect();
     assert!(places.windows(2).all(|pair| pair[1] + 2 >= pair[0]), "{places:?}");
-    let (least, most) = (places.iter().min().unwrap(), places.iter().max().unwrap());
-    assert!((60..110).contains(least) && (200..260).contains(most), "{places:?}");
+    let (leftmost, rightmost) = (places.iter().min().unwrap(), places.iter().max().unwrap());
+    assert!((60..110).contains(leftmost) && (200..260).contains(rightmost), "{places:?}");
     // The picture's size and time are restored.
     window.wait_until("real time", "time", |e| e["fixed_rate"].is_null());
     display.shot("recorder-live-done.png");

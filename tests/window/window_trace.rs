@@ -289,8 +289,8 @@ fn the_panel_finds_the_assignment_that_differs_on_the_device() {
     let middle = window.picture_point(0.5, 0.5);
     window.click_holding(&["ctrl", "shift"], middle);
     let picked = traced(&mut window, "the traced pixel", |e| e["pixel"].is_array());
-    let apart = picked["ulps"].as_array().unwrap().iter().any(|ulps| ulps.as_u64() > Some(0));
-    assert!(apart && picked["parted"].is_null(), "{picked}");
+    let differs = picked["ulps"].as_array().unwrap().iter().any(|ulps| ulps.as_u64() > Some(0));
+    assert!(differs && picked["parted"].is_null(), "{picked}");
     window.click_on("trace:part");
     let parted = traced(&mut window, "the first difference", |e| e["parted"]["compared"].is_u64());
     assert_eq!((&parted["parted"]["name"], &parted["parted"]["compared"]), (&"t".into(), &2.into()), "{parted}");

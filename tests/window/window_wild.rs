@@ -163,7 +163,7 @@ fn random_action(window: &Window, keyboard: &Keyboard, random: &mut Random, acti
 struct Progress {
     steps: u64,
     starts: u64,
-    most: u64,
+    peak_memory: u64,
     /// The slowest response.
     slowest: Duration,
     last: VecDeque<String>,
@@ -184,13 +184,13 @@ impl Progress {
 }
 
 /// Returns the problem found, if any.
-fn find_problem(window: &Window, pings: &mut Pings, seen: &mut Progress) -> Option<String> {
+fn find_problem(window: &Window, pings: &mut Pings, progress: &mut Progress) -> Option<String> {
     match pings.ask(HANG) {
-        Some(took) => seen.slowest = seen.slowest.max(took),
+        Some(took) => progress.slowest = progress.slowest.max(took),
         None => return Some(format!("the window does not respond for {HANG:?}")),
     }
     let resident = window.resident();
-    seen.most = seen.most.max(resident);
+    progress.peak_memory = progress.peak_memory.max(resident);
     let layout = window.newest("layout");
     let pixels: u64 = layout.map_or(0, |e| (0..2).map(|i| e["canvas"][i].as_u64().unwrap_or(0)).product());
     if resident > MEMORY + PIXEL * pixels {
@@ -255,8 +255,8 @@ fn random_input_all_over_the_window_does_not_break_it() {
             (window, pings) = start();
         }
     }
-    let Progress { steps, starts, most, slowest, .. } = &progress;
-    println!("seed {seed}: {steps} steps, {starts} restarts, at most {} MiB, slowest {slowest:?}", most >> 20);
+    let Progress { steps, starts, peak_memory, slowest, .. } = &progress;
+    println!("seed {seed}: {steps} steps, {starts} restarts, at most {} MiB, slowest {slowest:?}", peak_memory >> 20);
 
     // Killed in its current state, with time for the last letters: unsaved work is offered again.
     std::thread::sleep(Duration::from_secs(3));

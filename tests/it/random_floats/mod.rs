@@ -75,10 +75,10 @@ impl Worst {
     fn add(&mut self, value: f32, exact: f64, allowed: f64) {
         let share = share(value, exact, allowed);
         self.share = self.share.max(share);
-        let off = (f64::from(value) - exact).abs();
-        if off.is_finite() && off > SLACK {
-            self.ulps = self.ulps.max(off / ulp(exact));
-            self.absolute = self.absolute.max(off);
+        let error = (f64::from(value) - exact).abs();
+        if error.is_finite() && error > SLACK {
+            self.ulps = self.ulps.max(error / ulp(exact));
+            self.absolute = self.absolute.max(error);
         }
     }
 }
@@ -112,7 +112,7 @@ fn first_seed() -> u64 {
 fn every_operation_is_within_its_bound() {
     let Some(gpu) = gpu() else { return };
     let (grade, seed) = (grade_of(&gpu), first_seed() as u32 * 4096);
-    let (mut wrong, mut off) = (Vec::new(), 0);
+    let (mut wrong, mut inexact) = (Vec::new(), 0);
     println!("| operation | Vulkan's bound | device, ULPs | device, absolute | walker, ULPs |");
     println!("|---|---|---|---|---|");
     for operation in operations() {
@@ -130,10 +130,10 @@ fn every_operation_is_within_its_bound() {
                 wrong.push(format!("{}: {who}: {worst:?}", operation.name));
             }
         }
-        off += usize::from(device.ulps > 0.6);
+        inexact += usize::from(device.ulps > 0.6);
     }
     assert!(wrong.is_empty(), "{} operations:\n{}", wrong.len(), wrong.join("\n"));
-    println!("{off} operations are not correctly rounded");
+    println!("{inexact} operations are not correctly rounded");
 }
 
 /// Draws and walks four trees; returns the faults and the largest shares of both.
@@ -143,7 +143,7 @@ fn compose(gpu: &Gpu, seed: u64) -> (Vec<String>, [f64; 2]) {
     let texts: Vec<String> = trees.iter().map(Tree::text).collect();
     let code = program(seed as u32 * 4096, [LEAVES; 3], &format!("vec4({})", texts.join(",\n        ")));
     let (drawn, walked) = run_both(gpu, &code, true);
-    let (mut wrong, mut most) = (Vec::new(), [0.0f64; 2]);
+    let (mut wrong, mut largest) = (Vec::new(), [0.0f64; 2]);
     for (at, pixel) in all_pixels((SIDE, SIDE)).into_iter().enumerate() {
         let operands = operands(seed as u32 * 4096, pixel, [LEAVES; 3]);
         for (i, tree) in trees.iter().enumerate() {
@@ -151,8 +151,8 @@ fn compose(gpu: &Gpu, seed: u64) -> (Vec<String>, [f64; 2]) {
                 [(grade_of(gpu), drawn[at][i]), (Grade::Walker, walked[at][i])].into_iter().enumerate()
             {
                 let near = tree.value(grade, &operands);
-                let share = share(value, near.exact, near.off);
-                most[by] = most[by].max(share);
+                let share = share(value, near.exact, near.error);
+                largest[by] = largest[by].max(share);
                 if share > 1.0 && wrong.len() < 2 {
                     wrong.push(format!(
                         "seed {seed}, {grade:?} at {pixel:?}: {value:?}, not {near:?}: {}\n{operands:?}",
@@ -162,20 +162,25 @@ fn compose(gpu: &Gpu, seed: u64) -> (Vec<String>, [f64; 2]) {
             }
         }
     }
-    (wrong, most)
+    (wrong, largest)
 }
 
 #[test]
 fn compositions_are_within_the_bounds_of_their_parts() {
     let Some(gpu) = gpu() else { return };
     let count = (number("EDDY_RANDOM_PROGRAMS", 500) / 8).max(1);
-    let (mut wrong, mut most) = (Vec::new(), [0.0f64; 2]);
+    let (mut wrong, mut largest) = (Vec::new(), [0.0f64; 2]);
     for seed in first_seed()..first_seed() + count {
         let (faults, shares) = compose(&gpu, seed);
         wrong.extend(faults);
-        most = [most[0].max(shares[0]), most[1].max(shares[1])];
+        largest = [largest[0].max(shares[0]), largest[1].max(shares[1])];
     }
-    println!("{} compositions: of their bounds the device takes {:.3}, the walker {:.3}", 4 * count, most[0], most[1]);
+    println!(
+        "{} compositions: of their bounds the device takes {:.3}, the walker {:.3}",
+        4 * count,
+        largest[0],
+        largest[1]
+    );
     assert!(wrong.is_empty(), "{} faults:\n{}", wrong.len(), wrong.join("\n"));
 }
 
@@ -196,7 +201,7 @@ fn a_planted_error_is_detected() {
     let (drawn, _) = run_both(&gpu, &program(1, [LEAVES; 3], &text), false);
     let seen = all_pixels((SIDE, SIDE)).into_iter().zip(&drawn).filter(|(pixel, texel)| {
         let near = tree.value(Grade::Lavapipe, &operands(1, *pixel, [LEAVES; 3]));
-        share(texel[0], near.exact, near.off) > 1.0
+        share(texel[0], near.exact, near.error) > 1.0
     });
     let seen = seen.count();
     assert!(seen > 200, "{seen} of 256 pixels of {}", tree.text());

@@ -143,8 +143,8 @@ fn logarithm(x: f64, _: f64, exact: f64) -> f64 {
 fn power(x: f64, y: f64, exact: f64) -> f64 {
     let log = x.log2();
     let exponent = y * log;
-    let off = y.abs() * logarithm(x, 0.0, log) + ulp(exponent) / 2.0;
-    exact * (off.exp2() - 1.0) + exponential(exponent, 0.0, exact)
+    let error = y.abs() * logarithm(x, 0.0, log) + ulp(exponent) / 2.0;
+    exact * (error.exp2() - 1.0) + exponential(exponent, 0.0, exact)
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -308,12 +308,12 @@ pub(super) fn operations() -> Vec<Operation> {
             ("length", "vec4(length(a), length(a.xyz), length(a.xy), distance(a, b))"),
             Span::new(-3, 3).signed(),
             |[a, b, _]| {
-                let apart: Vector = std::array::from_fn(|i| a[i] - b[i]);
-                [dot(a, a), dot(&a[..3], &a[..3]), dot(&a[..2], &a[..2]), dot(&apart, &apart)].map(f64::sqrt)
+                let difference: Vector = std::array::from_fn(|i| a[i] - b[i]);
+                [dot(a, a), dot(&a[..3], &a[..3]), dot(&a[..2], &a[..2]), dot(&difference, &difference)].map(f64::sqrt)
             },
             (10.0, |[a, b, _]| {
-                let apart: Vector = std::array::from_fn(|i| a[i].abs() + b[i].abs());
-                [size(a, a), size(&a[..3], &a[..3]), size(&a[..2], &a[..2]), size(&apart, &apart)].map(f64::sqrt)
+                let sum: Vector = std::array::from_fn(|i| a[i].abs() + b[i].abs());
+                [size(a, a), size(&a[..3], &a[..3]), size(&a[..2], &a[..2]), size(&sum, &sum)].map(f64::sqrt)
             }),
             "that of sqrt(dot(a, a))",
         ),

@@ -26,8 +26,8 @@ pub(crate) struct Explained<'p> {
 }
 
 impl Explained<'_> {
-    /// Returns the reason why a pixel differs by `apart`, as far as the walker can find it.
-    pub(crate) fn why(&self, pixel: (u32, u32), apart: f64) -> String {
+    /// Returns the reason why a pixel differs by `difference`, as far as the walker can find it.
+    pub(crate) fn why(&self, pixel: (u32, u32), difference: f64) -> String {
         let Ok(audit) = audit(self.sources, self.index, self.read, &[pixel], STATEMENTS) else {
             return "not audited".into();
         };
@@ -35,18 +35,18 @@ impl Explained<'_> {
             let finding = audit.findings.iter().find(|finding| finding.kind.class() == class);
             finding.map(|finding| format!("{}, {}", finding.kind.name(), finding.kind.message()))
         };
-        if audit.pixels.iter().any(|audited| audited.error >= apart / 16.0) {
-            return "rounding: single precision is as far from double".into();
+        if audit.pixels.iter().any(|audited| audited.error >= difference / 16.0) {
+            return "rounding: the error of single precision is as large".into();
         }
-        if self.is_touchy(pixel, apart) {
-            return "ill-conditioned: other last bits move it as far".into();
+        if self.is_ill_conditioned(pixel, difference) {
+            return "ill-conditioned: changed last bits move the value as far".into();
         }
-        if let Some(why) = self.is_filtered(pixel, apart) {
+        if let Some(why) = self.is_filtered(pixel, difference) {
             return why.into();
         }
         let has_none = |texture: &TextureCopy| !texture.levels[0].texels.iter().flatten().all(|x| x.is_finite());
-        if !apart.is_finite() && self.read.channels.iter().any(has_none) {
-            return "nonfinite, texels that are read are no numbers".into();
+        if !difference.is_finite() && self.read.channels.iter().any(has_none) {
+            return "nonfinite, a texel that is read is not finite".into();
         }
         let left = of(Class::Undefined).or_else(|| of(Class::Nonfinite)).or_else(|| of(Class::Decided));
         left.unwrap_or_else(|| "not explained".into())
@@ -58,16 +58,16 @@ impl Explained<'_> {
     }
 
     /// Returns how filtering explains the difference: the value changes with the weights of texels.
-    fn is_filtered(&self, pixel: (u32, u32), apart: f64) -> Option<&'static str> {
+    fn is_filtered(&self, pixel: (u32, u32), difference: f64) -> Option<&'static str> {
         let mut read = self.read.clone();
         read.channels.iter_mut().for_each(|texture| texture.filter = Filter::Nearest);
-        if self.moves_by(&read, pixel)? >= apart {
-            return Some("filtered: it is of texels that differ as much");
+        if self.moves_by(&read, pixel)? >= difference {
+            return Some("filtered: the filtered texels differ as much");
         }
         let mut by_quads = self.read.clone();
         by_quads.channels.iter_mut().for_each(|texture| texture.level_by = LevelBy::Quad);
-        if self.moves_by(&by_quads, pixel)? >= apart / 2.0 {
-            return Some("filtered: the level of a quad, taken by lines, moves it as far");
+        if self.moves_by(&by_quads, pixel)? >= difference / 2.0 {
+            return Some("filtered: the level of the quad, as a device computes it, moves the value as far");
         }
         // llvmpipe filters 8-bit textures in 8-bit numbers and rounds in each of three steps: a read value may be off
         // by three steps, differently each time (`walker_textures::texels_of_8_bits_are_mixed_in_8_bits`).
@@ -81,15 +81,15 @@ impl Explained<'_> {
                     *x += ((random >> 33) % 7) as f32 / 255.0 - 3.0 / 255.0;
                 }
             }
-            if self.moves_by(&moved, pixel)? >= apart / 2.0 {
-                return Some("filtered in 8 bits: three steps of them move it as far");
+            if self.moves_by(&moved, pixel)? >= difference / 2.0 {
+                return Some("filtered in 8 bits: errors of three steps move the value as far");
             }
         }
         // The mip level follows from derivatives, which are undefined where neighbours take other branches (8.8).
         let mut coarser = self.read.clone();
         coarser.channels.iter_mut().filter(|texture| texture.filter == Filter::Mipmap).for_each(read_coarser);
-        let changes_with_level = self.moves_by(&coarser, pixel)? >= apart;
-        changes_with_level.then_some("filtered: texels of the next level move it as far")
+        let changes_with_level = self.moves_by(&coarser, pixel)? >= difference;
+        changes_with_level.then_some("filtered: the texels of the next level move the value as far")
     }
 
     /// Returns the distance of the walker's value from the one with other inputs.
@@ -100,12 +100,12 @@ impl Explained<'_> {
 
     /// Returns whether the walker's own value moves as far with randomly changed roundings, or if time and resolution
     /// change in the last bits: a point at the edge of a texel moves by these alone.
-    fn is_touchy(&self, pixel: (u32, u32), apart: f64) -> bool {
+    fn is_ill_conditioned(&self, pixel: (u32, u32), difference: f64) -> bool {
         let Some(own) = self.value(self.read, pixel) else { return false };
         let is_far = |other: [f32; 4]| {
             own.iter().zip(other).any(|(&a, b)| {
                 let distance = f64::from(a - b).abs();
-                !is_same(a, b) && (distance >= apart / 4.0 || distance.is_nan())
+                !is_same(a, b) && (distance >= difference / 4.0 || distance.is_nan())
             })
         };
         let jittered = |seed| jittered(self.sources, self.index, self.read, pixel, (STATEMENTS, seed)).ok();

@@ -23,8 +23,8 @@ impl Keyboard {
     pub(crate) fn of(display: &Display) -> Keyboard {
         let (connection, _) = RustConnection::connect(Some(display.name())).unwrap();
         let setup = connection.setup();
-        let (least, most) = (setup.min_keycode, setup.max_keycode);
-        let mapping = connection.get_keyboard_mapping(least, most - least + 1).unwrap().reply().unwrap();
+        let (first, last) = (setup.min_keycode, setup.max_keycode);
+        let mapping = connection.get_keyboard_mapping(first, last - first + 1).unwrap().reply().unwrap();
         let keys = mapping.keysyms.chunks(mapping.keysyms_per_keycode.into()).map(<[u32]>::to_vec).collect();
         Keyboard { connection, keys }
     }

@@ -30,7 +30,8 @@ pub(crate) fn values(name: &str, custom_uniforms: &[&str]) -> CustomUniformValue
     preset_with(name, custom_uniforms).custom_uniform_values
 }
 
-/// Replaces `old` by `new` in a pass's text, which must contain it: a changed preset shall not pass by accident.
+/// Replaces `old` by `new` in a pass's text, which must contain it, so that a change of the preset cannot disable a
+/// test.
 pub(crate) fn patch(project: &mut Project, id: &PassName, old: &str, new: &str) {
     let source = &mut project.pass_mut(id).unwrap().source;
     assert!(source.text.contains(old), "{} no longer contains `{old}`", source.name);

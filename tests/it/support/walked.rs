@@ -40,7 +40,7 @@ pub(crate) fn all_pixels((width, height): (u32, u32)) -> Vec<Pixel> {
     (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).collect()
 }
 
-/// Returns whether numbers are equal, where zeros of both signs are equal, and NaNs.
+/// Returns whether two numbers are equal. Zeros of both signs are equal, and so are all NaNs.
 pub(crate) fn is_same(a: f32, b: f32) -> bool {
     a == b || a.is_nan() && b.is_nan()
 }
