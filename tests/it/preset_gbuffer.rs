@@ -299,7 +299,7 @@ fn a_reflection_starts_at_the_foot_of_its_object_without_gaps() {
     assert!(dashed.iter().any(|share| *share < 0.95), "{dashed:?}");
 }
 
-// ------------------------------------------------------------------------------------------------------------ the edges
+// ----------------------------------------------------------------------------------------------------------- the edges
 
 /// Returns the root mean square difference between the picture and the coverage of each pixel along a slanted edge.
 fn coverage_error(gpu: &eddy::gpu::Gpu, image: Option<&str>) -> f64 {
