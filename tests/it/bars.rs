@@ -3,7 +3,7 @@
 //! `benches/step_back.rs` print more.
 //!
 //! The third of them is a replay of 1,000 recorded frames that is equal byte for byte:
-//! `EDDY_REPLAY_FRAMES=1000 cargo test --test window what_a_hand_did`.
+//! `EDDY_REPLAY_FRAMES=1000 cargo test --test window recorded_input`.
 
 use crate::support::{clock::Clock, *};
 use eddy::{

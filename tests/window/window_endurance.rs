@@ -265,9 +265,9 @@ fn random_input_neither_ends_the_window_nor_loses_text_nor_leaks_memory() {
         std::thread::sleep(Duration::from_secs(3));
         let kept = kept(home.path());
         window.keys(&["ctrl+s"]);
-        let is_there = window.newest("opened").is_some_and(|e| e["origin"]["folder"].is_string());
-        let folder = home.path().join(if is_there { "project" } else { "worked" });
-        if !is_there {
+        let has_path = window.newest("opened").is_some_and(|e| e["origin"]["folder"].is_string());
+        let folder = home.path().join(if has_path { "project" } else { "worked" });
+        if !has_path {
             // A pasted shader or a preset replaced the project, and has no path yet.
             window.wait_shown("field:path");
             window.enter(folder.to_str().unwrap());
