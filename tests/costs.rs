@@ -1,6 +1,6 @@
-//! What each pass costs: bytes by the plan, milliseconds by either clock, and the same from the command line.
+//! Costs of each pass: bytes by the plan, milliseconds by both clocks, and the output of the command line.
 //!
-//! A program of its own, because one test compares milliseconds of passes: other tests would draw meanwhile.
+//! A separate program, because one test compares milliseconds of passes: other tests would draw at the same time.
 
 #[path = "it/support/mod.rs"]
 mod support;
@@ -16,16 +16,17 @@ use support::{buffer, engine_with, gpu_with, image, nearest, pass, project};
 
 const SIZE: (u32, u32) = (64, 32);
 
-/// A cheap pass that reads itself, a dear one of half the size, Image that reads both, and one that nobody reads.
+/// A cheap pass that reads itself, an expensive one of half the size, Image that reads both, and a pass that no other
+/// reads.
 fn chain() -> Project {
     let own = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + vec4(0.25); }";
-    let dear = "void mainImage(out vec4 o, in vec2 p) { float s = p.x + texelFetch(iChannel0, ivec2(p), 0).x; \
+    let expensive = "void mainImage(out vec4 o, in vec2 p) { float s = p.x + texelFetch(iChannel0, ivec2(p), 0).x; \
                 for (int i = 0; i < 4000; ++i) s = sin(s + float(i)); o = vec4(s); }";
     let both = "void mainImage(out vec4 o, in vec2 p) { ivec2 q = ivec2(p); \
                 o = texelFetch(iChannel0, q, 0) + texelFetch(iChannel1, q / 2, 0) + texelFetch(iChannel2, q, 0); }";
     let mut project = project(vec![
         pass(buffer("A"), own, [nearest("A"), None, None, None]),
-        pass(buffer("B"), dear, [nearest("A"), None, None, None]),
+        pass(buffer("B"), expensive, [nearest("A"), None, None, None]),
         pass(buffer("C"), own, [nearest("C"), None, None, None]),
         // Buffer A twice: read once.
         image(both, [nearest("A"), nearest("B"), nearest("A"), None]),
@@ -36,7 +37,7 @@ fn chain() -> Project {
 }
 
 #[test]
-fn bytes_are_those_of_the_plan_and_an_unread_pass_is_said() {
+fn bytes_match_the_plan_and_an_unread_pass_is_reported() {
     let Some(gpu) = gpu_with(&GpuOptions::default()) else { return };
     let project = chain();
     let mut engine = engine_with(&gpu, &project, &MediaSet::new(), &BuildOptions::default(), SIZE);
@@ -48,15 +49,15 @@ fn bytes_are_those_of_the_plan_and_an_unread_pass_is_said() {
     assert_eq!(
         seen,
         [
-            // Two textures of 16 bytes a texel; one read, one written.
+            // Two textures of 16 bytes per texel; one is read, one written.
             ("buffer_a", drawn, 2 * 16 * texels, 2 * 16 * texels, texels),
-            // A quarter of the texels of 2 bytes, and all of Buffer A.
+            // A quarter of the texels, 2 bytes each, and all of Buffer A.
             ("buffer_b", drawn, 2 * texels / 4, 2 * texels / 4 + 16 * texels, texels / 4),
             ("image", drawn, 16 * texels, 16 * texels + 16 * texels + 2 * texels / 4, texels),
             ("buffer_c", PassRole::Unread, 0, 0, 0),
         ]
     );
-    // What each reads, also of the pass that is not drawn.
+    // The reads of each pass, also of the one that is not drawn.
     let reads =
         |i: usize| costs[i].reads.iter().map(|r| (r.channel, r.pass.key(), r.when, r.is_used)).collect::<Vec<_>>();
     assert_eq!(reads(0), [(0, "buffer_a", ReadTiming::LastFrame, true)]);
@@ -68,7 +69,7 @@ fn bytes_are_those_of_the_plan_and_an_unread_pass_is_said() {
 }
 
 #[test]
-fn a_pass_that_rests_is_said_to() {
+fn a_skipped_pass_is_reported_as_cached() {
     let Some(gpu) = gpu_with(&GpuOptions::default()) else { return };
     let still = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p, 0.0, 1.0); }";
     let project = project(vec![image(still, Default::default())]);
@@ -81,26 +82,26 @@ fn a_pass_that_rests_is_said_to() {
 }
 
 #[test]
-fn without_timestamps_passes_are_waited_for_and_the_picture_is_the_same() {
+fn without_timestamps_passes_are_waited_for_and_draw_the_same_picture() {
     let Some(gpu) = gpu_with(&GpuOptions { use_timestamps: false, ..Default::default() }) else { return };
     let project = chain();
     let open = || engine_with(&gpu, &project, &MediaSet::new(), &BuildOptions::default(), SIZE);
     let (mut waited, mut plain) = (open(), open());
     assert_eq!(waited.cost_clock(), CostClock::Waited);
-    let began = Instant::now();
-    let mut least = [f64::INFINITY; 3];
+    let start = Instant::now();
+    let mut fastest = [f64::INFINITY; 3];
     for frame in 0..6 {
         let inputs = FrameInputs::at_fixed_step(frame, 60.0);
         plain.draw(&inputs).unwrap();
-        let mut now = || began.elapsed().as_secs_f64() * 1e3;
+        let mut now = || start.elapsed().as_secs_f64() * 1e3;
         let Drawn { stats, times, .. } = waited.draw_for(&inputs, DrawFor::Timed(&mut now)).unwrap();
         assert_eq!((stats.passes_drawn, times.len()), (3, 3));
-        for (least, time) in least.iter_mut().zip(&times) {
-            *least = least.min(time.gpu_millis);
+        for (fastest, time) in fastest.iter_mut().zip(&times) {
+            *fastest = fastest.min(time.gpu_millis);
         }
     }
-    let [cheap, dear, image] = least;
-    assert!(dear > 3.0 * cheap && dear > 3.0 * image, "{least:?}");
+    let [cheap, expensive, image] = fastest;
+    assert!(expensive > 3.0 * cheap && expensive > 3.0 * image, "{fastest:?}");
     let read = |engine: &mut eddy::engine::Engine, id| engine.read(&id).unwrap().texels;
     for id in [buffer("A"), buffer("B"), eddy::project::PassName::image()] {
         assert!(read(&mut waited, id.clone()) == read(&mut plain, id.clone()), "{id:?}");
@@ -108,7 +109,7 @@ fn without_timestamps_passes_are_waited_for_and_the_picture_is_the_same() {
 }
 
 #[test]
-fn the_command_line_says_bytes_beside_milliseconds() {
+fn bench_prints_bytes_next_to_milliseconds() {
     if gpu_with(&GpuOptions::default()).is_none() {
         return;
     }
@@ -121,7 +122,7 @@ fn the_command_line_says_bytes_beside_milliseconds() {
         String::from_utf8(output.stdout).unwrap()
     };
     let line: serde_json::Value = serde_json::from_str(bench(&["--json"]).trim()).unwrap();
-    // What was there before still is.
+    // Members of earlier versions are still there.
     for member in ["cpu_us_per_pass", "worst_ms", "target_bytes", "target_bytes_saved", "passes_rested", "frame_ms"] {
         assert!(line[member].is_number(), "{member}: {line}");
     }

@@ -1,6 +1,6 @@
-//! Uniforms as a driver needs them that compiles a program anew for every frame where a branch depends on them alone.
+//! Uniforms for a driver that recompiles a program every frame if a branch depends only on uniforms.
 //!
-//! A program of its own, because one test measures the memory of its process: the other only compiles a few lines.
+//! A separate program, because one test measures the memory of its process; the others only compile a few lines.
 
 #[path = "it/support/mod.rs"]
 mod support;
@@ -9,10 +9,10 @@ use eddy::glsl::{self, CustomUniform, CustomUniformKind, Driver, PassKind, PassS
 use naga::{AddressSpace, BinaryOperator, Expression, Function, Handle, Module};
 use support::*;
 
-/// What stands for the number of a load in a message.
+/// Identifies a load.
 type Load = Handle<Expression>;
 
-/// Loads from uniform blocks, and those that anything but a join with the zero sees.
+/// Returns the number of loads from uniform blocks, and those loads that are used without being ORed with the zero.
 fn loads(module: &Module, function: &Function) -> (usize, Vec<Load>) {
     let of = |handle: Load| &function.expressions[handle];
     let is_uniform = |mut pointer: Load| loop {
@@ -38,14 +38,14 @@ fn loads(module: &Module, function: &Function) -> (usize, Vec<Load>) {
     let seen = |load: Load| {
         let mut bits = function.expressions.iter();
         let bits = bits.find(|(_, e)| matches!(e, Expression::As { expr, convert: None, .. } if *expr == load));
-        // Ints are joined as they are.
+        // Integers are ORed without a bitcast.
         !is_joined(bits.map_or(load, |(bits, _)| bits))
     };
     (all.len(), all.iter().copied().filter(|load| seen(*load)).collect())
 }
 
 #[test]
-fn are_values_of_the_pixel_where_the_driver_asks_for_it() {
+fn opaque_uniforms_hide_every_uniform_load() {
     let custom_uniforms = [
         CustomUniform { name: "level", kind: CustomUniformKind::Float, slot: 0 },
         CustomUniform { name: "many", kind: CustomUniformKind::Int, slot: 1 },
@@ -86,12 +86,12 @@ fn are_values_of_the_pixel_where_the_driver_asks_for_it() {
             }
         }
         assert!(count >= at_least, "{kind:?}: {count} loads");
-        assert!(seen[0] >= at_least && seen[1] == 0, "{kind:?}: {seen:?} see the uniforms themselves");
+        assert!(seen[0] >= at_least && seen[1] == 0, "{kind:?}: {seen:?} loads use uniforms directly");
         assert_eq!(plain.reflection, opaque.reflection, "{kind:?}");
     }
 }
 
-/// Ends of a program that may discard.
+/// Counts the `Kill` statements of a block and its nested blocks.
 fn kills(block: &naga::Block) -> usize {
     let of = |statement: &naga::Statement| match statement {
         naga::Statement::Kill => 1,
@@ -102,9 +102,9 @@ fn kills(block: &naga::Block) -> usize {
     block.iter().map(of).sum()
 }
 
-/// Whatever else the driver asks for, and without a word of it in what is known of the pass.
+/// `may_discard` works with and without `opaque_uniforms`, and the reflection does not report a discard.
 #[test]
-fn fragments_seem_to_discard_where_the_driver_asks_for_it() {
+fn may_discard_adds_a_discard_that_reflection_omits() {
     let code = "out vec4 o; void main() { o = vec4(1); }";
     let source = PassSource { kind: PassKind::Fragment, ..PassSource::image(code) };
     for (may_discard, opaque_uniforms) in [(false, false), (false, true), (true, false), (true, true)] {
@@ -115,17 +115,17 @@ fn fragments_seem_to_discard_where_the_driver_asks_for_it() {
     }
 }
 
-/// Memory of this process, in bytes. `None` where the system has no such file.
+/// Returns the resident memory of this process in bytes, or `None` if the system has no such file.
 fn resident() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let kilobytes = status.lines().find_map(|line| line.strip_prefix("VmRSS:")?.strip_suffix("kB"))?;
     Some(kilobytes.trim().parse::<u64>().ok()? * 1024)
 }
 
-/// A preset of many scales, whose loops and branches ask the mouse and the custom_uniforms: lavapipe used to keep 2 MiB
-/// of programs a frame of it.
+/// A preset of many scales, whose loops and branches depend on the mouse and custom uniforms: lavapipe used to keep 2
+/// MiB of compiled programs for each of its frames.
 #[test]
-fn frames_take_no_memory() {
+fn drawing_frames_does_not_grow_memory() {
     let Some(gpu) = gpu() else { return };
     let project = eddy::project::presets::load("mip-fluid").expect("a preset").project;
     let mut engine = engine(&gpu, &project, (64, 36));

@@ -3,7 +3,7 @@
 //! `benches/step_back.rs` print more.
 //!
 //! A further requirement is that a replay of 1,000 recorded frames is equal byte for byte:
-//! `EDDY_REPLAY_FRAMES=1000 cargo test --test window what_a_hand_did`.
+//! `EDDY_REPLAY_FRAMES=1000 cargo test --test window recorded_input`.
 
 use crate::support::{clock::Clock, *};
 use eddy::{

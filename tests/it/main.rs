@@ -1,16 +1,15 @@
-//! The tests of Eddy from outside: one program, because each program of tests is linked with all of the library.
-//! `cargo test --test it glsl_loops` runs the tests of one file, `cargo test --test it glsl_loops::pixels` those of it
-//! whose names begin so.
+//! Tests of Eddy's public interface, in one program because each test program links the whole library. `cargo test
+//! --test it glsl_loops` runs the tests of one file, `cargo test --test it glsl_loops::pixels` those in it whose names
+//! start with `pixels`.
 //!
-//! They run beside each other, on as many threads as there are processors. A test that cannot bear that is a program of
-//! its own:
-//! - `damage` counts what is allocated, by an allocator of its own, and has a panic hook;
+//! They run concurrently, on as many threads as there are processors. Tests that need isolation are separate programs:
+//! - `damage` counts allocations with its own allocator, and has a panic hook;
 //! - `driver_uniforms` measures the memory of its process;
 //! - `costs` compares milliseconds of passes, which are drawn while nothing else is;
-//! - `window` opens windows on displays of their own, with real keys and clicks, and waits for what they show;
-//! - `lost_device` opens such a window itself, on its first thread, and loses its device.
+//! - `window` opens windows on its own displays, sends real keys and clicks, and waits for the result;
+//! - `lost_device` opens such a window itself, on its first thread, and makes it lose its device.
 //!
-//! All share `support`. Times that a test here asks of the compiler are those of its thread ([`support::clock`]).
+//! All share `support`. Compile times in these tests are CPU times of the test's thread ([`support::clock`]).
 
 mod support;
 

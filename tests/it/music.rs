@@ -1,9 +1,10 @@
-//! Music as a texture: the analyser's rows, the same whichever frames were drawn, and what stands in for a missing file.
+//! Music as a texture: the analyser's rows, which do not depend on the frames drawn before, and the fallback for a
+//! missing file.
 
 use crate::support::{ffmpeg::has_ffmpeg, program::Bench};
 use std::f64::consts::TAU;
 
-/// A WAV file of a sine, 16 bits, stereo, 44.1 kHz.
+/// Returns a WAV file of a sine: 16 bits, stereo, 44.1 kHz.
 fn wav(hertz: f64, seconds: f64) -> Vec<u8> {
     let count = (seconds * 44_100.0) as u32;
     let mut file = b"RIFF".to_vec();
@@ -20,7 +21,7 @@ fn wav(hertz: f64, seconds: f64) -> Vec<u8> {
     file
 }
 
-/// A project whose Image shows the texture, texel for texel, and in its third row what the uniforms say.
+/// Writes a project whose Image shows the texture texel by texel, and the uniforms in its third row.
 fn project(b: &Bench, channel: &str) {
     b.write("p/eddy.toml", format!("[passes.image]\nchannels.0 = {channel}\n"));
     b.image(
@@ -36,13 +37,13 @@ fn texels(b: &Bench, at: &str) -> crate::support::program::Npy {
 }
 
 #[test]
-fn a_sine_peaks_at_its_bin_and_a_frame_is_the_same_alone_and_in_a_run() {
+fn a_sine_peaks_at_its_bin_and_frames_do_not_depend_on_earlier_ones() {
     let Some(b) = Bench::with_gpu() else { return };
     b.write("p/tone.wav", wav(440.0, 1.0));
     project(&b, "{ file = \"tone.wav\", kind = \"music\" }");
     let alone = texels(&b, "50");
     let peak = (0..512).max_by(|x, y| alone.at(*x, 0)[0].total_cmp(&alone.at(*y, 0)[0])).unwrap();
-    assert!((20..=21).contains(&peak), "440 Hz lies in bin 20.4, not {peak}");
+    assert!((20..=21).contains(&peak), "440 Hz is in bin 20.4, not {peak}");
     // The wave swings by 600 of 32,768 around 128 of 255.
     let wave: Vec<f32> = (0..512).map(|x| alone.at(x, 1)[0] * 255.0).collect();
     let (low, high) = wave.iter().fold((255f32, 0f32), |(low, high), v| (low.min(*v), high.max(*v)));
@@ -58,7 +59,7 @@ fn a_sine_peaks_at_its_bin_and_a_frame_is_the_same_alone_and_in_a_run() {
 }
 
 #[test]
-fn music_that_cannot_be_read_is_silent_and_that_of_the_site_is_made_up() {
+fn unreadable_music_is_silent_and_missing_shadertoy_music_is_synthetic() {
     let Some(b) = Bench::with_gpu() else { return };
     b.write("p/bad.mp3", [7; 4000]);
     for name in ["gone.mp3", "bad.mp3"] {
@@ -68,7 +69,7 @@ fn music_that_cannot_be_read_is_silent_and_that_of_the_site_is_made_up() {
         let shown = b.npy("p.npy");
         for x in [0, 3, 100, 511] {
             assert_eq!(shown.at(x, 0)[0], 0.0, "{name}: no level");
-            assert!((shown.at(x, 1)[0] - 128.0 / 255.0).abs() < 1e-6, "{name}: the wave rests");
+            assert!((shown.at(x, 1)[0] - 128.0 / 255.0).abs() < 1e-6, "{name}: the wave is flat");
         }
         // The time, and the size of the texture.
         assert_eq!(shown.at(0, 2), [0.0, 512.0, 2.0, 1.0], "{name}");
@@ -95,7 +96,7 @@ fn music_that_cannot_be_read_is_silent_and_that_of_the_site_is_made_up() {
 
 /// ffmpeg decodes Opus, AC-3 and the sound of videos.
 #[test]
-fn ffmpeg_decodes_other_sounds_and_those_of_videos() {
+fn ffmpeg_decodes_other_formats_and_the_sound_of_videos() {
     let Some(b) = Bench::with_gpu().filter(|_| has_ffmpeg()) else { return };
     b.write("p/tone.wav", wav(440.0, 1.0));
     let convert = |options: &[&str], name: &str| {
@@ -114,22 +115,22 @@ fn ffmpeg_decodes_other_sounds_and_those_of_videos() {
         project(&b, &format!("{{ file = \"{name}\", kind = \"music\" }}"));
         let texels = texels(&b, "50");
         let peak = (0..512).max_by(|x, y| texels.at(*x, 0)[0].total_cmp(&texels.at(*y, 0)[0])).unwrap();
-        assert!((20..=21).contains(&peak), "{name}: 440 Hz lies in bin 20.4, not {peak}");
+        assert!((20..=21).contains(&peak), "{name}: 440 Hz is in bin 20.4, not {peak}");
     }
-    // A file that leads ffmpeg to another one is refused, whatever its ending.
+    // A playlist that points ffmpeg to another file is refused, whatever its extension.
     b.write("p/list.aac", "ffconcat version 1.0\nfile tone.wav\n");
     b.write("p/list.mp3", "#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\ntone.wav\n#EXT-X-ENDLIST\n");
     for name in ["list.aac", "list.mp3"] {
         project(&b, &format!("{{ file = \"{name}\", kind = \"music\" }}"));
-        let said = b.line("check p").expect(0).err;
-        assert!(said.contains("the channel is silent"), "{name}: {said}");
+        let warnings = b.line("check p").expect(0).err;
+        assert!(warnings.contains("the channel is silent"), "{name}: {warnings}");
     }
     project(&b, "{ file = \"mute.mkv\", kind = \"music\" }");
     assert!(b.line("check p").expect(0).err.contains("the channel is silent"));
 }
 
 #[test]
-fn a_microphone_that_nobody_records_is_the_sites_own_spectrum_too() {
+fn an_unrecorded_microphone_gets_the_synthetic_spectrum() {
     let Some(b) = Bench::with_gpu() else { return };
     project(&b, "{ microphone = true }");
     let run = b.line("render p --size 512x3 --at 30 --out p.npy").expect(0);
@@ -141,7 +142,7 @@ fn a_microphone_that_nobody_records_is_the_sites_own_spectrum_too() {
 }
 
 #[test]
-fn a_damaged_file_is_named_with_the_mend() {
+fn a_damaged_file_is_reported_with_a_fix() {
     let Some(b) = Bench::with_gpu() else { return };
     b.write("p/bad.mp3", [7; 4000]);
     project(&b, "{ file = \"bad.mp3\", kind = \"music\" }");

@@ -1,4 +1,4 @@
-//! Another project is opened: nothing of the one before is left, whatever was done to it.
+//! Opening another project: nothing of the previous one remains, whatever was done to it.
 
 use crate::support::{self, stage::*};
 use eddy::{
@@ -34,18 +34,18 @@ fn with_buffer(folder: &Path) -> String {
     write(folder, &[("eddy.toml", MANIFEST), ("buffer_a.glsl", KEEP), ("image.glsl", SHOW)])
 }
 
-/// Everything that a front end can see of the open project.
-fn seen(session: &Session) -> String {
+/// Returns everything that a front end can read of the open project.
+fn visible_state(session: &Session) -> String {
     let project = session.project();
     let custom_uniforms: Vec<_> = session.custom_uniforms().iter().map(|u| session.custom_uniform_value(u)).collect();
-    let said: Vec<_> = session.notices().iter().map(|n| &n.text).collect();
+    let notices: Vec<_> = session.notices().iter().map(|n| &n.text).collect();
     let measures: Vec<_> = session.measures().iter().map(|m| (&m.text, m.record.cells().len())).collect();
     format!(
         "{:#?}",
         (
             (&project.name, project.tabs(), session.tabs(), session.shown_pass(), session.is_dirty()),
             (session.transport(), session.reach(), session.time_range(), session.halt(), session.has_last_good()),
-            (session.compile_state().compiling, session.diagnostics(), said, session.question()),
+            (session.compile_state().compiling, session.diagnostics(), notices, session.question()),
             (session.audit_map(), session.probe().is_some(), session.trace().traced.is_some(), session.trace().trouble),
             (
                 session.divergence().is_some(),
@@ -65,10 +65,10 @@ fn seen(session: &Session) -> String {
     )
 }
 
-/// Ticks until nothing is under way. Its time of now is no matter of the project.
-fn rest(stage: &mut Stage) {
+/// Resets and ticks until no work is in progress, so that the time does not differ between projects.
+fn settle(stage: &mut Stage) {
     stage.session.apply(Command::Pause);
-    // What a panel looks at is the window's; there is none here.
+    // Panels choose the targets to watch; there is no window here.
     stage.compile(Command::WatchTargets(Vec::new()));
     stage.until("rest", |s| !s.transport().is_seeking);
     stage.session.apply(Command::Reset);
@@ -76,12 +76,12 @@ fn rest(stage: &mut Stage) {
 }
 
 #[test]
-fn nothing_of_a_project_is_left_when_another_is_opened() {
+fn opening_a_project_leaves_nothing_of_the_previous_one() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let a = "#iUniform float gain = 0.5 in { 0.0, 1.0 }\n//@probe max(image.x)\n".to_owned() + KEEP;
     let a = write(&dir.path().join("a"), &[("eddy.toml", MANIFEST), ("buffer_a.glsl", &a), ("image.glsl", SHOW)]);
-    // A second file with everything that the first has a name for.
+    // A second project with the same pass and uniform names as the first.
     let b = "#iUniform float gain = 0.5 in { 0.0, 1.0 }\n//@probe max(image.x)\n".to_owned() + KEEP;
     let b = write(&dir.path().join("b"), &[("eddy.toml", MANIFEST), ("buffer_a.glsl", &b), ("image.glsl", SHOW)]);
     let open = |stage: &mut Stage, path: &str| {
@@ -94,8 +94,8 @@ fn nothing_of_a_project_is_left_when_another_is_opened() {
     };
     let mut fresh = Stage::bare(gpu.clone());
     open(&mut fresh, &b);
-    rest(&mut fresh);
-    let expected = seen(&fresh.session);
+    settle(&mut fresh);
+    let expected = visible_state(&fresh.session);
 
     let mut stage = Stage::bare(gpu);
     open(&mut stage, &a);
@@ -148,25 +148,25 @@ fn nothing_of_a_project_is_left_when_another_is_opened() {
     stage.for_a_while();
     stage.compile(Command::Probe(Some(ProbePlace { tab: image_tab(), at: SHOW.find("texel").unwrap(), visit: 0 })));
     stage.session.apply(Command::Record);
-    // Some of it is still under way when the other project comes.
+    // Some of this work is still in progress when the other project is opened.
     stage.session.apply(Command::Audit);
     stage.session.apply(Command::Trace(Some([0.2, 0.2])));
     stage.edit("void mainImage(");
     stage.act(Command::CompileNow);
-    assert_ne!(seen(&stage.session), expected);
+    assert_ne!(visible_state(&stage.session), expected);
     open(&mut stage, &b);
     let notices: Vec<_> = stage.session.notices().iter().map(|n| n.text.as_str()).collect();
     assert!(notices.contains(&"of the window") && !notices.iter().any(|text| text.contains("out of reach")));
     let ids: Vec<u64> = stage.session.notices().iter().map(|n| n.id).collect();
     ids.into_iter().for_each(|id| stage.session.apply(Command::DismissNotice(id)));
-    rest(&mut stage);
-    let left = seen(&stage.session);
+    settle(&mut stage);
+    let left = visible_state(&stage.session);
     let differing: Vec<_> = left.lines().zip(expected.lines()).filter(|(a, b)| a != b).collect();
     assert!(left == expected, "{differing:#?}");
 }
 
 #[test]
-fn a_compile_of_the_project_before_is_not_taken_for_the_next_ones() {
+fn a_compile_result_of_the_previous_project_is_discarded() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let open = |name: &str, text: &str| write(&dir.path().join(name), &[("image.glsl", text)]);
@@ -186,7 +186,7 @@ fn a_compile_of_the_project_before_is_not_taken_for_the_next_ones() {
 }
 
 #[test]
-fn notices_end_with_what_they_are_about() {
+fn notices_are_dismissed_when_their_cause_is_resolved() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("eddy.toml", MANIFEST), ("buffer_a.glsl", KEEP), ("image.glsl", SHOW)]);
     let count = |stage: &Stage| stage.session.notices().iter().filter(|n| n.level != Level::Info).count();
@@ -203,24 +203,24 @@ fn notices_end_with_what_they_are_about() {
     assert_eq!([after(&mut stage, size(-1.0)), after(&mut stage, size(-2.0)), after(&mut stage, size(1.0))], [2, 2, 1]);
     let open = |text: &str| vec![Command::Open(text.into())];
     assert_eq!([after(&mut stage, open("/none")), after(&mut stage, open("/none of these"))], [2, 2]);
-    // Files that make no project, until they do.
+    // The files are not a valid project, then they are again.
     stage.write("eddy.toml", "eddy = ");
     stage.session.apply(Command::Focus(true));
     stage.until("a warning", |s| s.notices().iter().any(|n| n.text.contains("are unchanged")));
     stage.write("eddy.toml", MANIFEST);
     stage.session.apply(Command::Focus(true));
-    stage.until("that it is over", |s| !s.notices().iter().any(|n| n.text.contains("are unchanged")));
-    // A file that is gone, until it is back.
+    stage.until("the warning to be dismissed", |s| !s.notices().iter().any(|n| n.text.contains("are unchanged")));
+    // A file is deleted, then restored.
     fs::remove_file(stage.path("image.glsl")).unwrap();
     stage.session.apply(Command::Focus(true));
     stage.until("a warning", |s| s.notices().iter().any(|n| n.text.contains("was deleted")));
     stage.write("image.glsl", SHOW);
     stage.session.apply(Command::Focus(true));
-    stage.until("that it is over", |s| !s.notices().iter().any(|n| n.text.contains("was deleted")));
+    stage.until("the warning to be dismissed", |s| !s.notices().iter().any(|n| n.text.contains("was deleted")));
 }
 
 #[test]
-fn figures_are_told_of_what_is_drawn_and_of_nothing_else() {
+fn timings_are_shown_only_while_a_program_is_drawn() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let broken = write(&dir.path().join("broken"), &[("image.glsl", "void mainImage(")]);
@@ -239,25 +239,25 @@ fn figures_are_told_of_what_is_drawn_and_of_nothing_else() {
 }
 
 #[test]
-fn the_map_of_errors_goes_when_another_picture_is_shown() {
+fn the_audit_map_is_hidden_when_the_picture_changes() {
     let Some(gpu) = support::gpu() else { return };
     let sine = "void mainImage(out vec4 o, in vec2 p) { o = vec4(sin(p.x * 91.7 + iTime) * 0.5 + 0.5); }";
     let mut stage = Stage::open(gpu, &[("image.glsl", sine)]);
-    let ways = [
+    let changes = [
         Command::Step,
         Command::StepBack(1),
         Command::MouseDown { x: 2.0, y: 2.0 },
         Command::SetFixedSize(Some((16, 9))),
         Command::Play,
     ];
-    for way in ways {
-        let what = format!("{way:?}");
-        // While it plays too: the picture stands still as the map does.
+    for change in changes {
+        let what = format!("{change:?}");
+        // Also from playback: showing the map pauses.
         stage.act(Command::Play);
         stage.session.apply(Command::Audit);
         assert!(!stage.session.transport().playing, "{what}");
         stage.until("the map", |s| s.audit_map().is_some());
-        stage.act(way);
+        stage.act(change);
         assert!(stage.session.audit_map().is_none(), "{what}");
     }
 }
@@ -267,14 +267,14 @@ fn place(stage: &Stage) -> (f64, i32, bool) {
     (transport.time_secs, transport.frame, transport.playing)
 }
 
-fn remembering(gpu: &Gpu, state: &Path) -> Stage {
+fn stage_with_state(gpu: &Gpu, state: &Path) -> Stage {
     let state = state.to_owned();
     Stage::with_options(gpu.clone(), move |_| SessionOptions { state_dir: Some(state), ..SessionOptions::default() })
 }
 
-/// Opens a project and waits for what it shows.
-fn opened(gpu: &Gpu, state: &Path, project: &str) -> Stage {
-    let mut stage = remembering(gpu, state);
+/// Opens a project and waits until its saved frame is drawn.
+fn open_and_wait(gpu: &Gpu, state: &Path, project: &str) -> Stage {
+    let mut stage = stage_with_state(gpu, state);
     stage.compile(Command::Open(project.into()));
     stage.until("the frame that was left", |s| !s.transport().is_seeking);
     stage.tick();
@@ -296,12 +296,12 @@ fn runs(state: &Path) -> Vec<PathBuf> {
 }
 
 #[test]
-fn a_project_with_a_state_comes_back_paused_at_its_frame_or_begins_at_0() {
+fn a_project_with_state_reopens_at_its_paused_frame_or_starts_at_0() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let (state, folder) = (dir.path().join("state"), dir.path().join("p"));
     let project = with_buffer(&folder);
-    let mut stage = remembering(&gpu, &state);
+    let mut stage = stage_with_state(&gpu, &state);
     stage.session.apply(Command::Open(project.clone()));
     stage.compile(Command::Pause);
     stage.session.apply(Command::Seek(1.5));
@@ -311,12 +311,12 @@ fn a_project_with_a_state_comes_back_paused_at_its_frame_or_begins_at_0() {
     assert_eq!(left, (1.5, 91, false));
     close(stage);
     assert_eq!(runs(&state).len(), 1);
-    // The seed of its first second is in it, though that second is over.
-    let mut again = opened(&gpu, &state, &project);
+    // It includes the seed of the first second, which has passed.
+    let mut again = open_and_wait(&gpu, &state, &project);
     assert_eq!(place(&again), left);
     assert!(texels(&mut again) == picture);
     assert!(again.notices(Level::Warning).is_empty(), "{:?}", again.notices(Level::Warning));
-    // Back and forth as if it had never been closed.
+    // Steps back and seeks as if it had never been closed.
     again.act(Command::StepBack(40));
     assert_eq!(place(&again).1, 51);
     again.session.apply(Command::Seek(1.5));
@@ -324,7 +324,7 @@ fn a_project_with_a_state_comes_back_paused_at_its_frame_or_begins_at_0() {
     assert!(texels(&mut again) == picture);
     close(again);
     // In a window of another size.
-    let mut other = remembering(&gpu, &state);
+    let mut other = stage_with_state(&gpu, &state);
     other.session.apply(Command::SetFixedSize(Some((12, 6))));
     other.compile(Command::Open(project.clone()));
     other.until("the frame that was left", |s| !s.transport().is_seeking);
@@ -334,36 +334,36 @@ fn a_project_with_a_state_comes_back_paused_at_its_frame_or_begins_at_0() {
     other.act(Command::Screenshot);
     let shot = other.session.notices().last().and_then(|n| n.path.clone()).unwrap();
     assert_eq!(image::open(&shot).unwrap().to_rgb8().dimensions(), (12, 6));
-    // Closed while it plays it begins at 0, with the buffers.
+    // Closed while playing, it starts at 0 with its buffers cleared.
     other.act(Command::Play);
     close(other);
     assert!(runs(&state).is_empty());
-    let mut playing = remembering(&gpu, &state);
+    let mut playing = stage_with_state(&gpu, &state);
     playing.session.apply(Command::Open(project.clone()));
     assert_eq!(place(&playing), (0.0, 0, true));
     playing.until_compiled();
     assert!(place(&playing).0 < 1.0);
     assert!(playing.red() < 40, "a few frames from black");
     close(playing);
-    // Where the run is not known any more, paused at 0.
-    let mut paused = opened(&gpu, &state, &project);
+    // If the saved run is unreadable, it opens paused at 0.
+    let mut paused = open_and_wait(&gpu, &state, &project);
     paused.session.apply(Command::Pause);
     paused.session.apply(Command::Seek(1.0));
     paused.until("the time", |s| !s.transport().is_seeking);
     close(paused);
     runs(&state).iter().for_each(|file| fs::write(file, "{\"eddy_recording\":1}\nno frame\n").unwrap());
-    assert_eq!(place(&opened(&gpu, &state, &project)), (0.0, 0, false));
+    assert_eq!(place(&open_and_wait(&gpu, &state, &project)), (0.0, 0, false));
 }
 
 #[test]
-fn a_project_without_a_state_goes_on_at_its_time_and_frame() {
+fn a_project_without_state_resumes_at_its_time_and_frame() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let state = dir.path().join("state");
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(iTime * 0.25, float(iFrame) / 255.0, 0.0, 1.0); }";
     let project = write(&dir.path().join("p"), &[("image.glsl", text)]);
     for (is_paused, frames) in [(true, 7), (false, 3)] {
-        let mut stage = opened(&gpu, &state, &project);
+        let mut stage = open_and_wait(&gpu, &state, &project);
         stage.session.apply(Command::Pause);
         (0..frames).for_each(|_| stage.session.apply(Command::Step));
         stage.tick();
@@ -373,7 +373,7 @@ fn a_project_without_a_state_goes_on_at_its_time_and_frame() {
             stage.session.apply(Command::Play);
         }
         close(stage);
-        let mut again = remembering(&gpu, &state);
+        let mut again = stage_with_state(&gpu, &state);
         again.session.apply(Command::Open(project.clone()));
         if is_paused {
             again.until_compiled();
@@ -385,16 +385,16 @@ fn a_project_without_a_state_goes_on_at_its_time_and_frame() {
         }
         close(again);
     }
-    assert!(runs(&state).is_empty(), "no inputs are kept of it");
+    assert!(runs(&state).is_empty(), "inputs were saved for a project without state");
 }
 
 #[test]
-fn a_program_that_comes_late_is_gone_to_its_frame_and_who_plays_begins_at_0() {
+fn a_late_program_seeks_to_the_saved_frame_and_play_starts_at_0() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let (state, folder) = (dir.path().join("state"), dir.path().join("p"));
     let project = with_buffer(&folder);
-    let mut stage = opened(&gpu, &state, &project);
+    let mut stage = open_and_wait(&gpu, &state, &project);
     stage.session.apply(Command::Pause);
     stage.session.apply(Command::Seek(0.5));
     stage.until("the time", |s| !s.transport().is_seeking);
@@ -402,7 +402,7 @@ fn a_program_that_comes_late_is_gone_to_its_frame_and_who_plays_begins_at_0() {
     close(stage);
     // It does not compile when it is opened.
     fs::write(folder.join("image.glsl"), "void mainImage(").unwrap();
-    let mut broken = remembering(&gpu, &state);
+    let mut broken = stage_with_state(&gpu, &state);
     broken.compile(Command::Open(project.clone()));
     broken.for_a_while();
     assert_eq!(broken.frames(), 0);
@@ -415,11 +415,11 @@ fn a_program_that_comes_late_is_gone_to_its_frame_and_who_plays_begins_at_0() {
     assert!(texels(&mut broken) == picture);
     broken.session.apply(Command::Save);
     close(broken);
-    // Closed before it was there: it is as it was.
-    let mut early = remembering(&gpu, &state);
+    // Closed before the frame is drawn: the saved position is unchanged.
+    let mut early = stage_with_state(&gpu, &state);
     early.session.apply(Command::Open(project.clone()));
     close(early);
-    let mut played = remembering(&gpu, &state);
+    let mut played = stage_with_state(&gpu, &state);
     played.session.apply(Command::Open(project.clone()));
     assert!(played.session.transport().is_seeking);
     played.compile(Command::Play);
@@ -427,9 +427,9 @@ fn a_program_that_comes_late_is_gone_to_its_frame_and_who_plays_begins_at_0() {
     assert!(playing && time < 0.5 && frame < 20, "{time} {frame}");
 }
 
-/// What was chosen for a project is there when it is opened again, and is not the next project's.
+/// A project's size and scale are restored when it is opened again, and do not apply to the next project.
 #[test]
-fn the_size_and_the_scale_of_a_picture_come_back_with_their_project() {
+fn picture_size_and_scale_are_restored_with_their_project() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::with_options(gpu.clone(), |dir| SessionOptions {
         state_dir: Some(dir.join("state")),
@@ -452,12 +452,12 @@ fn the_size_and_the_scale_of_a_picture_come_back_with_their_project() {
     assert_eq!(stage.session.transport().scale, 1.0);
     assert_eq!(open(&mut stage, &a), (27, 48));
     assert_eq!((stage.session.transport().scale, stage.session.transport().fixed_size), (0.25, Some((27, 48))));
-    // A saved picture has it.
+    // A screenshot has this size.
     stage.session.apply(Command::Screenshot);
     stage.until("a saved picture", |s| s.notices().iter().any(|n| n.path.is_some()));
     let saved = stage.session.notices().iter().find_map(|n| n.path.clone()).unwrap();
     assert_eq!(image::open(saved).unwrap().to_rgb8().dimensions(), (27, 48));
-    // A person's mistake in the file is no size.
+    // An invalid size in the file is ignored.
     let file = stage.dir.path().join("state/projects.toml");
     let text = fs::read_to_string(&file).unwrap();
     assert!(text.contains("size = [27, 48]") && text.contains("scale = 0.25"), "{text}");
@@ -467,9 +467,9 @@ fn the_size_and_the_scale_of_a_picture_come_back_with_their_project() {
     assert_eq!(stage.session.transport().scale, 1.0);
 }
 
-/// The list of recent projects shows what was seen last of each, and of no other.
+/// The list of recent projects shows each project's own last picture.
 #[test]
-fn the_last_picture_of_a_project_is_kept_small_when_it_is_left() {
+fn the_last_picture_of_a_project_is_saved_as_a_thumbnail() {
     let Some(gpu) = support::gpu() else { return };
     for (draws_on_thread, is_paused) in [(false, true), (true, true), (true, false)] {
         let mut stage = Stage::with_options(gpu.clone(), |dir| SessionOptions {
@@ -506,14 +506,14 @@ fn the_last_picture_of_a_project_is_kept_small_when_it_is_left() {
         // It is written on another thread.
         let file = stage.session.last_picture(&a).unwrap().0;
         stage.until("the picture of the project that was left", |_| file.is_file());
-        assert_eq!(red(&stage, &a), Some((size, 8)), "apart {draws_on_thread}");
-        // It stays open, and something else is looked at.
+        assert_eq!(red(&stage, &a), Some((size, 8)), "draws on a thread: {draws_on_thread}");
+        // The project stays open while another page covers it.
         let (_, before) = stage.session.last_picture(&b).unwrap();
         stage.session.apply(Command::Cover(true));
         stage.until("a picture", |session| session.last_picture(&b).unwrap().1 > before);
         assert_eq!(red(&stage, &b), Some((size, 4)));
         stage.session.apply(Command::Cover(false));
-        // What never drew has none, and is not given that of the one before.
+        // A project that never drew has none, not the previous project's.
         open(&mut stage, &bad);
         open(&mut stage, &a);
         assert_eq!(red(&stage, &bad), None);

@@ -1,5 +1,5 @@
-//! What `scripts/package` packs, and the files of `packaging/`: they agree with Cargo.toml, with each other and with what
-//! Eddy opens. `scripts/test-deb` installs a package; it needs a network and root.
+//! The output of `scripts/package` and the files of `packaging/` agree with Cargo.toml, with each other and with the
+//! files that Eddy opens. `scripts/test-deb` installs a package; it needs a network and root.
 
 use crate::support::{
     program::{Bench, run},
@@ -23,7 +23,7 @@ fn text(name: &str) -> String {
     fs::read_to_string(root().join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-/// Returns what stands between two marks, at each place.
+/// Returns every text between two markers.
 fn all_between<'a>(text: &'a str, from: &str, to: &str) -> Vec<&'a str> {
     text.split(from).skip(1).filter_map(|rest| rest.split_once(to)).map(|(found, _)| found).collect()
 }
@@ -62,7 +62,7 @@ fn all_files_have_one_id() {
 }
 
 #[test]
-fn types_of_files_are_the_same_everywhere() {
+fn file_types_are_the_same_everywhere() {
     let mime = text(&format!("packaging/linux/{ID}.xml"));
     let described = set(all_between(&mime, "<mime-type type=\"", "\""));
     assert_eq!(described.len(), 3, "{described:?}");
@@ -75,7 +75,7 @@ fn types_of_files_are_the_same_everywhere() {
 }
 
 #[test]
-fn what_the_types_name_is_opened() {
+fn files_of_all_registered_types_open() {
     let b = Bench::new();
     let shader = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }";
     b.write("project/image.glsl", shader);
@@ -97,7 +97,7 @@ fn what_the_types_name_is_opened() {
     b.line("check project").expect(0);
 }
 
-/// Cargo.toml's `[package.metadata.deb]`.
+/// Returns Cargo.toml's `[package.metadata.deb]`.
 fn deb() -> toml::Table {
     let manifest: toml::Table = text("Cargo.toml").parse().unwrap();
     manifest["package"]["metadata"]["deb"].as_table().unwrap().clone()
@@ -108,7 +108,7 @@ fn strings(value: &toml::Value) -> Vec<String> {
 }
 
 #[test]
-fn debian_installs_the_libraries_that_are_opened_at_run_time() {
+fn debian_depends_on_the_libraries_opened_at_run_time() {
     let setup = text("scripts/setup");
     let opened: Vec<&str> = setup
         .lines()
@@ -126,7 +126,7 @@ fn debian_installs_the_libraries_that_are_opened_at_run_time() {
     assert!(root().join(deb["changelog"].as_str().unwrap()).is_file());
 }
 
-/// What lies in a folder, with the folders below it, as paths from there.
+/// Returns the files in a folder and its subfolders, as paths relative to it.
 fn files_in(folder: &Path) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     let mut open = vec![folder.to_owned()];
@@ -145,7 +145,7 @@ fn files_in(folder: &Path) -> BTreeSet<String> {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_package_has_pages_completions_icons_and_descriptions() {
+fn a_package_has_man_pages_completions_icons_and_metadata() {
     let b = Bench::new();
     let mut script = Command::new("sh");
     script.arg(root().join("scripts/package")).args(["share", "--binary", env!("CARGO_BIN_EXE_eddy"), "--out"]);
@@ -173,7 +173,7 @@ fn a_package_has_pages_completions_icons_and_descriptions() {
     for size in [16, 24, 32, 48, 64, 128, 256, 512] {
         let icon = b.png(&format!("share/icons/hicolor/{size}x{size}/apps/{ID}.png"));
         assert_eq!(icon.dimensions(), (size, size));
-        // It is on a rounded square, and has the shader's two colours.
+        // The corners are transparent, as the icon is a rounded square with the shader's two colours.
         assert_eq!((icon.get_pixel(0, 0)[3], icon.get_pixel(size / 2, size / 4)[3]), (0, 255), "{size}");
     }
     for (name, check) in [
@@ -183,8 +183,8 @@ fn a_package_has_pages_completions_icons_and_descriptions() {
     ] {
         has_file(&name);
         if has(check[0]) {
-            let said = failure(Command::new(check[0]).args(&check[1..]).arg(b.path(format!("share/{name}"))));
-            assert_eq!(said, None, "{name}");
+            let errors = failure(Command::new(check[0]).args(&check[1..]).arg(b.path(format!("share/{name}"))));
+            assert_eq!(errors, None, "{name}");
         }
     }
 }
@@ -196,7 +196,7 @@ fn formats_in(text: &str) -> BTreeSet<&str> {
 }
 
 #[test]
-fn pages_and_workflows_name_formats_that_there_are() {
+fn docs_and_workflows_name_existing_formats() {
     let script = text("scripts/package");
     let listed = script.lines().skip_while(|line| !line.starts_with("# Makes packages")).skip(1);
     let listed = listed.map_while(|line| line.strip_prefix("#   ")?.split_whitespace().next());

@@ -1,4 +1,4 @@
-//! Edits of passes in a session: the way back, what was typed meanwhile, saving, and a disk that changes under them.
+//! Edits of passes in a session: undo, text typed in the meantime, saving, and changes on disk.
 
 use crate::support::{self, stage::*};
 use eddy::{
@@ -42,7 +42,7 @@ fn type_in(stage: &mut Stage, tab: Tab, text: &str) {
 }
 
 #[test]
-fn a_pass_that_was_removed_comes_back_with_its_text() {
+fn undo_restores_a_removed_pass_with_its_text() {
     let Some(mut stage) = open() else { return };
     type_in(&mut stage, tab("A"), &plain(0.75));
     edit(&mut stage, PassEdit::Remove(tab("A")));
@@ -51,7 +51,7 @@ fn a_pass_that_was_removed_comes_back_with_its_text() {
     assert_eq!(notice.text, "Buffer A was removed");
     assert_eq!(notice.undoes, stage.session.pass_undo().map(|step| step.serial));
     stage.until_red(0);
-    // What is typed elsewhere meanwhile stays.
+    // Text typed into another pass in the meantime stays.
     type_in(&mut stage, tab("B"), &plain(0.125));
     stage.session.apply(Command::UndoPassEdit);
     assert_eq!(stage.session.text(&tab("A")), plain(0.75));
@@ -66,18 +66,18 @@ fn a_pass_that_was_removed_comes_back_with_its_text() {
 }
 
 #[test]
-fn a_new_name_is_saved_taken_back_and_saved_again() {
+fn a_rename_is_saved_undone_and_saved_again() {
     let Some(mut stage) = open() else { return };
     stage.session.apply(Command::ShowPass(buffer("A")));
     rename(&mut stage, "A", "glow");
     assert_eq!(*stage.session.shown_pass(), buffer("glow"));
-    assert!(stage.session.is_dirty() && !stage.session.is_tab_dirty(&tab("glow")), "its text is the disk's");
+    assert!(stage.session.is_dirty() && !stage.session.is_tab_dirty(&tab("glow")), "its text is unchanged");
     type_in(&mut stage, tab("glow"), &plain(0.75));
     stage.session.apply(Command::Save);
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
     assert_eq!(stage.read("buffer_glow.glsl"), plain(0.75));
     assert!(!stage.path("buffer_a.glsl").exists() && stage.read("eddy.toml").contains("# the first"));
-    // Back, with what was typed since, and the file follows.
+    // Undo keeps the text typed since, and saving renames the file back.
     stage.session.apply(Command::UndoPassEdit);
     assert_eq!(stage.session.text(&tab("A")), plain(0.75));
     assert_eq!(*stage.session.shown_pass(), buffer("A"));
@@ -89,18 +89,18 @@ fn a_new_name_is_saved_taken_back_and_saved_again() {
     assert_eq!(
         stage.session.renamed_passes(),
         [(buffer("A"), buffer("glow")), (buffer("glow"), buffer("A"))],
-        "a front end follows both"
+        "both renames are reported to front ends"
     );
 }
 
 #[test]
-fn a_disk_that_changes_under_a_new_name_loses_nothing() {
+fn disk_changes_after_a_rename_lose_no_text() {
     let Some(mut stage) = open() else { return };
     rename(&mut stage, "A", "glow");
-    // Another program writes the file that the pass is still in: untouched here, it is taken.
+    // Another program writes the old file, which the unsaved rename still uses: without edits, the text is reloaded.
     stage.write("buffer_a.glsl", plain(0.75));
     stage.until("the text of the disk", |s| s.text(&tab("glow")) == plain(0.75));
-    // Edited here too, it is asked which of them.
+    // With edits too, the user is asked which text to keep.
     type_in(&mut stage, tab("glow"), &plain(0.125));
     stage.write("buffer_a.glsl", plain(1.0));
     stage.until("the question", |s| s.question().is_some());
@@ -114,7 +114,7 @@ fn a_disk_that_changes_under_a_new_name_loses_nothing() {
 }
 
 #[test]
-fn channels_and_dragged_numbers_are_taken_back_in_whole_steps() {
+fn a_drag_or_a_channel_change_is_one_undo_step() {
     let Some(mut stage) = open() else { return };
     let before = stage.session.project().clone();
     for steps in 2..30 {
@@ -126,9 +126,9 @@ fn channels_and_dragged_numbers_are_taken_back_in_whole_steps() {
     let image = stage.session.project().image().unwrap();
     assert_eq!(image.bindings.get(0).unwrap().input, Input::buffer("A"));
     stage.session.apply(Command::UndoPassEdit);
-    assert_eq!(*stage.session.project(), before, "one drag is one step");
+    assert_eq!(*stage.session.project(), before, "a drag is one undo step");
     assert!(stage.session.pass_undo().is_none());
-    // Another project's steps are not this one's.
+    // Undo steps are cleared when another project is opened.
     edit(&mut stage, PassEdit::Steps(buffer("A"), 2));
     stage.session.apply(Command::Save);
     stage.session.apply(Command::New);
@@ -136,7 +136,7 @@ fn channels_and_dragged_numbers_are_taken_back_in_whole_steps() {
 }
 
 #[test]
-fn a_model_from_elsewhere_is_saved_with_the_project() {
+fn an_external_model_is_copied_into_the_project_on_save() {
     let Some(mut stage) = open() else { return };
     let elsewhere = tempfile::tempdir().unwrap();
     let file = elsewhere.path().join("tri angle.obj");
@@ -150,7 +150,7 @@ fn a_model_from_elsewhere_is_saved_with_the_project() {
     assert_eq!(draws(&stage), MeshSource::Picked(file));
     stage.compile(Command::CompileNow);
     assert!(stage.is_ok(), "{:?}", stage.session.diagnostics());
-    // Another file has the name that the copy would get.
+    // A file of the copy's name already exists.
     stage.write("tri angle.obj", "somebody else's");
     stage.session.apply(Command::Save);
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());

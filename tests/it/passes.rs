@@ -1,4 +1,4 @@
-//! Passes of their own size, format, region and step count, and passes that rest, by pictures.
+//! Tests, by their pictures, of passes with their own size, format, region and step count, and of skipped passes.
 
 use crate::support::*;
 use eddy::{
@@ -20,7 +20,7 @@ fn no_skip(gpu: &Gpu, project: &Project, size: (u32, u32)) -> Engine {
     )
 }
 
-/// Frames drawn with and without skipping give the same bytes; gives those of the last.
+/// Asserts that frames are identical with and without skipping, and returns the last.
 fn same_with_no_skip(gpu: &Gpu, project: &Project, size: (u32, u32), inputs: &[FrameInputs]) -> Pixels {
     let (mut lean, mut full) = (engine(gpu, project, size), no_skip(gpu, project, size));
     let mut last = None;
@@ -39,7 +39,7 @@ fn frames(n: i32) -> Vec<FrameInputs> {
 }
 
 #[test]
-fn a_pass_has_its_own_size_and_readers_know_it() {
+fn a_pass_has_its_own_size_which_readers_see() {
     let Some(gpu) = gpu() else { return };
     let a = "void mainImage(out vec4 o, in vec2 p) { o = vec4(iResolution.xy, p); }";
     let show = "void mainImage(out vec4 o, in vec2 p) {
@@ -67,7 +67,7 @@ fn a_pass_has_its_own_size_and_readers_know_it() {
 }
 
 #[test]
-fn formats_hold_what_they_can_and_read_back_as_floats() {
+fn formats_round_as_specified_and_read_back_as_floats() {
     let Some(gpu) = gpu() else { return };
     let a = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5, -1.0, 1000.0625, 0.25) + p.x * 0.0; }";
     for format in TexelFormat::ALL {
@@ -78,7 +78,7 @@ fn formats_hold_what_they_can_and_read_back_as_floats() {
         let project = project(vec![a, image(show, mips)]);
         let pixels = same_with_no_skip(&gpu, &project, (4, 4), &frames(1));
         let name = format.name();
-        let holds = |v: f32| match name {
+        let rounded = |v: f32| match name {
             n if n.ends_with("32f") => v,
             // 11 bits of mantissa: steps of a half at 1000.
             n if n.ends_with("16f") => {
@@ -93,7 +93,7 @@ fn formats_hold_what_they_can_and_read_back_as_floats() {
         let channels = name.bytes().take_while(u8::is_ascii_alphabetic).count();
         let written = [0.5, -1.0, 1000.0625, 0.25];
         let expected: [f32; 4] = std::array::from_fn(|i| match i {
-            i if i < channels => holds(written[i]),
+            i if i < channels => rounded(written[i]),
             3 => 1.0,
             _ => 0.0,
         });
@@ -107,7 +107,7 @@ fn formats_hold_what_they_can_and_read_back_as_floats() {
 }
 
 #[test]
-fn only_the_region_is_drawn_and_the_rest_is_what_it_was() {
+fn only_the_region_is_drawn_and_the_rest_is_unchanged() {
     let Some(gpu) = gpu() else { return };
     let count = "void mainImage(out vec4 o, in vec2 p) { o = vec4(float(iFrame + 1), p, 1.0); }";
     let own = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + vec4(1.0, p, 1.0); }";
@@ -123,7 +123,7 @@ fn only_the_region_is_drawn_and_the_rest_is_what_it_was() {
             }
         }
     }
-    // A first program writes everything, a second only a region: the rest stays from frame to frame.
+    // A first program writes every texel, a second only a region: the others stay unchanged.
     let fill = "void mainImage(out vec4 o, in vec2 p) { o = vec4(7.0); }";
     let show = image(SHOW, [nearest("A"), None, None, None]);
     let mut engine = ran(&gpu, &project(vec![pass(buffer("A"), fill, Default::default()), show.clone()]), (3, 1), 1);
@@ -153,7 +153,7 @@ fn solver(steps: u32) -> Project {
 }
 
 #[test]
-fn a_group_is_stepped_in_order_and_sees_its_newest() {
+fn a_group_runs_its_steps_in_order_and_reads_the_newest_values() {
     let Some(gpu) = gpu() else { return };
     for steps in [1, 2, 3, 8] {
         let (mut value, mut sum) = (0.0f32, 0.0f32);
@@ -166,7 +166,7 @@ fn a_group_is_stepped_in_order_and_sees_its_newest() {
         let pixels = same_with_no_skip(&gpu, &solver(steps), (2, 2), &frames(3));
         assert_eq!(texel(&pixels, 1, 1)[..2], [value, sum], "{steps} steps");
     }
-    // In one piece or in two.
+    // Drawing frames in one run or in two gives the same picture.
     let (mut whole, mut halves) = (engine(&gpu, &solver(3), (2, 2)), engine(&gpu, &solver(3), (2, 2)));
     run(&mut whole, 0, 4);
     run(&mut halves, 0, 2);
@@ -174,8 +174,8 @@ fn a_group_is_stepped_in_order_and_sees_its_newest() {
     assert_eq!(whole.read_image().unwrap(), halves.read_image().unwrap());
 }
 
-/// B is made of A and a custom uniform, A of nothing that moves, C of the mouse, D of keys; Image of all.
-fn resting() -> Project {
+/// B depends on A and a custom uniform, A on no input, C on the mouse, D on keys; Image on B, C and D.
+fn skippable() -> Project {
     let c = |n: &str| nearest(n);
     let fixed = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p, 1.0, 1.0); }";
     let b = "#iUniform float gain = 2.0\nvoid mainImage(out vec4 o, in vec2 p) { o = gain * texelFetch(iChannel0, \
@@ -195,15 +195,15 @@ fn resting() -> Project {
 }
 
 #[test]
-fn what_did_not_change_is_not_drawn_again_and_every_change_is() {
+fn unchanged_passes_are_skipped_and_changed_ones_are_redrawn() {
     let Some(gpu) = gpu() else { return };
-    let mut project = resting();
+    let mut project = skippable();
     let mut engine = engine(&gpu, &project, (4, 4));
     let mut inputs = FrameInputs::at_fixed_step(0, 60.0);
     let draw = |engine: &mut Engine, inputs: &FrameInputs, what: &str, drawn: u64| {
         let stats = engine.draw(inputs).unwrap();
         assert_eq!((stats.passes_drawn, stats.passes_cached), (drawn, 5 - drawn), "{what}");
-        // What it shows is what drawing everything shows.
+        // The picture equals the one with every pass drawn.
         let mut full = no_skip(&gpu, &project, engine.size());
         full.set_custom_uniforms(&project.custom_uniform_values);
         full.draw(inputs).unwrap();
@@ -212,7 +212,7 @@ fn what_did_not_change_is_not_drawn_again_and_every_change_is() {
     };
     draw(&mut engine, &inputs, "the first frame", 5);
     inputs = FrameInputs::at_fixed_step(1, 60.0);
-    assert_eq!(draw(&mut engine, &inputs, "time goes by and nobody reads it", 0), 5 * 16 * 16);
+    assert_eq!(draw(&mut engine, &inputs, "time passes and no pass reads it", 0), 5 * 16 * 16);
     inputs.mouse = [1.0, 2.0, 3.0, 4.0];
     draw(&mut engine, &inputs, "the mouse: C and Image", 2);
     inputs.keyboard.press(32);
@@ -236,7 +236,7 @@ fn what_did_not_change_is_not_drawn_again_and_every_change_is() {
 }
 
 #[test]
-fn late_readers_self_readers_and_discards_rest_without_a_trace() {
+fn skipping_is_exact_for_late_reads_self_reads_and_discards() {
     let Some(gpu) = gpu() else { return };
     let early =
         "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + float(int(iMouse.x)); }";

@@ -1,5 +1,5 @@
-//! A paused picture stands still: whatever is done to its code or its window shows the same frame, drawn from the same
-//! state, and nothing of it is in the frames that follow.
+//! A paused picture is unchanged: edits of its code and changes of its window redraw the same frame from the same
+//! state, and leave no trace in the following frames.
 
 use crate::support::{self, stage::*};
 use eddy::{
@@ -8,7 +8,7 @@ use eddy::{
 };
 use std::{fs, time::Duration};
 
-/// Adds up what it sees of time, input and a slider, twice a frame; some texels keep what they had two draws before.
+/// Accumulates time, input and a slider, twice per frame; some texels keep their value from two draws before.
 const SUM: &str = "#iUniform float gain = 0.25 in { 0.0, 1.0 }
 void mainImage(out vec4 o, in vec2 p) {
     vec4 old = texelFetch(iChannel0, ivec2(p), 0);
@@ -30,7 +30,7 @@ fn buffer_a() -> Tab {
     Tab::Pass(PassName::buffer("A"))
 }
 
-/// Paused at frame 100, with a hand that has been on it.
+/// Returns a stage paused at frame 101, after a drag of the mouse.
 fn stage(gpu: eddy::gpu::Gpu) -> Stage {
     let mut stage = Stage::open(gpu, &[("eddy.toml", MANIFEST), ("buffer_a.glsl", SUM), ("image.glsl", SHOW)]);
     assert!(stage.is_ok(), "{:?}", stage.session.notices());
@@ -42,7 +42,7 @@ fn stage(gpu: eddy::gpu::Gpu) -> Stage {
         stage.act(Command::Step);
     }
     stage.act(Command::MouseUp);
-    assert_eq!(place(&stage).1, 101, "input draws a frame, as on the site");
+    assert_eq!(place(&stage).1, 101, "input draws a frame, as on Shadertoy");
     stage
 }
 
@@ -62,7 +62,7 @@ fn edit(stage: &mut Stage, tab: Tab, text: &str) {
     stage.tick();
 }
 
-/// The texels of the frame after the one that is shown.
+/// Steps, and returns the texels of the next frame.
 fn next(stage: &mut Stage) -> Vec<u8> {
     stage.act(Command::Step);
     texels(stage)
@@ -81,11 +81,11 @@ fn an_edit_while_paused_draws_the_same_frame_from_the_same_state() {
         others.push(texels(&mut edited));
         edit(&mut edited, buffer_a(), SUM);
         assert_eq!(place(&edited), shown);
-        assert!(texels(&mut edited) == before, "as if there had been no edit");
+        assert!(texels(&mut edited) == before, "the original code draws the original frame");
     }
     others.dedup();
-    assert!(others.len() == 1 && others[0] != before, "the other code draws one and the same frame each time");
-    // Image alone; a mistake; a channel; another pass, and none.
+    assert!(others.len() == 1 && others[0] != before, "the other code draws the same, different frame each time");
+    // Edits of Image alone: a change and an error; then a channel, and a pass that is added and removed.
     edit(&mut edited, image_tab(), &SHOW.replace("0);", "0).yxzw;"));
     edit(&mut edited, image_tab(), "void mainImage(");
     edit(&mut edited, image_tab(), SHOW);
@@ -95,7 +95,7 @@ fn an_edit_while_paused_draws_the_same_frame_from_the_same_state() {
     }
     edited.compile(Command::AddTab(Tab::Pass(PassName::buffer("B"))));
     edited.compile(Command::EditPasses(PassEdit::Remove(Tab::Pass(PassName::buffer("B")))));
-    // From disk as well.
+    // Changes on disk.
     edited.write("buffer_a.glsl", &other);
     edited.session.apply(Command::Focus(true));
     edited.until("the text of the disk", |s| s.text(&buffer_a()).contains("1.5"));
@@ -105,20 +105,20 @@ fn an_edit_while_paused_draws_the_same_frame_from_the_same_state() {
     assert_eq!(place(&edited), shown);
     assert!(texels(&mut edited) == before);
     for _ in 0..5 {
-        assert!(next(&mut edited) == next(&mut control), "what follows is what would have followed");
+        assert!(next(&mut edited) == next(&mut control), "the following frames are unaffected");
     }
     assert_eq!(place(&edited), place(&control));
     assert!(edited.notices(Level::Warning).is_empty(), "{:?}", edited.notices(Level::Warning));
 }
 
 #[test]
-fn looking_at_a_paused_picture_steps_nothing() {
+fn inspecting_a_paused_picture_does_not_advance_it() {
     let Some(gpu) = support::gpu() else { return };
-    let (mut looked, mut control) = (stage(gpu.clone()), stage(gpu));
-    let (shown, before) = (place(&looked), texels(&mut looked));
+    let (mut inspected, mut control) = (stage(gpu.clone()), stage(gpu));
+    let (shown, before) = (place(&inspected), texels(&mut inspected));
     let at = SUM.find("old * 1.25").unwrap();
     let probe = |at: usize| Command::Probe(Some(ProbePlace { tab: buffer_a(), at, visit: 0 }));
-    let looks: Vec<Vec<Command>> = vec![
+    let inspections: Vec<Vec<Command>> = vec![
         vec![probe(at)],
         vec![probe(at + 6)],
         vec![Command::Probe(None)],
@@ -144,53 +144,53 @@ fn looking_at_a_paused_picture_steps_nothing() {
         vec![Command::SetViewport { width: 20, height: 20 }],
         vec![Command::SetFixedSize(Some((8, 4)))],
     ];
-    for commands in looks {
+    for commands in inspections {
         let what = format!("{commands:?}");
-        commands.into_iter().for_each(|command| looked.session.apply(command));
-        looked.until_compiled();
+        commands.into_iter().for_each(|command| inspected.session.apply(command));
+        inspected.until_compiled();
         for _ in 0..20 {
-            looked.tick();
+            inspected.tick();
             std::thread::sleep(Duration::from_millis(1));
         }
-        assert_eq!(place(&looked), shown, "{what}");
-        assert!(!looked.session.transport().playing, "{what}");
+        assert_eq!(place(&inspected), shown, "{what}");
+        assert!(!inspected.session.transport().playing, "{what}");
     }
-    assert!(texels(&mut looked) == before, "the texels that a smaller canvas has no room for are back");
-    assert!(next(&mut looked) == next(&mut control));
+    assert!(texels(&mut inspected) == before, "the texels outside a smaller picture are restored");
+    assert!(next(&mut inspected) == next(&mut control));
 }
 
 #[test]
-fn a_slider_that_is_turned_while_paused_draws_the_same_frame() {
+fn moving_a_slider_while_paused_redraws_the_same_frame() {
     let Some(gpu) = support::gpu() else { return };
-    let (mut turned, mut control) = (stage(gpu.clone()), stage(gpu));
-    let (shown, before) = (place(&turned), texels(&mut turned));
+    let (mut moved, mut control) = (stage(gpu.clone()), stage(gpu));
+    let (shown, before) = (place(&moved), texels(&mut moved));
     for value in ["gain=0.5", "gain=0.75", "gain=0.25"] {
-        turned.act(Command::AssignCustomUniform(value.into()));
-        assert_eq!(place(&turned), shown);
-        assert_eq!(texels(&mut turned) == before, value == "gain=0.25", "{value}");
+        moved.act(Command::AssignCustomUniform(value.into()));
+        assert_eq!(place(&moved), shown);
+        assert_eq!(texels(&mut moved) == before, value == "gain=0.25", "{value}");
     }
-    // On a smaller canvas too, from the texels of the large one.
-    turned.act(Command::SetFixedSize(Some((5, 3))));
-    turned.act(Command::AssignCustomUniform("gain=0.125".into()));
-    assert_eq!(turned.session.transport().resolution, (5, 3));
-    turned.session.apply(Command::SetFixedSize(Some((8, 4))));
-    turned.act(Command::AssignCustomUniform("gain=0.25".into()));
-    assert!(texels(&mut turned) == before);
-    assert!(next(&mut turned) == next(&mut control));
-    // To have changed it before a frame is to have drawn that frame with it.
+    // Also at a smaller size, from the texels of the large picture.
+    moved.act(Command::SetFixedSize(Some((5, 3))));
+    moved.act(Command::AssignCustomUniform("gain=0.125".into()));
+    assert_eq!(moved.session.transport().resolution, (5, 3));
+    moved.session.apply(Command::SetFixedSize(Some((8, 4))));
+    moved.act(Command::AssignCustomUniform("gain=0.25".into()));
+    assert!(texels(&mut moved) == before);
+    assert!(next(&mut moved) == next(&mut control));
+    // Changing it before a frame is the same as drawing that frame with the new value.
     control.session.apply(Command::AssignCustomUniform("gain=1.0".into()));
-    turned.act(Command::AssignCustomUniform("gain=1.0".into()));
-    assert!(next(&mut turned) == next(&mut control));
+    moved.act(Command::AssignCustomUniform("gain=1.0".into()));
+    assert!(next(&mut moved) == next(&mut control));
 }
 
 #[test]
-fn what_begins_to_run_before_the_frame_is_drawn_again_misses_no_step() {
+fn playing_before_the_redraw_skips_no_step() {
     let Some(gpu) = support::gpu() else { return };
     let (mut edited, mut control) = (stage(gpu.clone()), stage(gpu));
     for stage in [&mut edited, &mut control] {
         stage.session.apply(Command::SetFixedRate(Some(60.0)));
     }
-    let begin = |stage: &mut Stage| {
+    let play_to_110 = |stage: &mut Stage| {
         stage.session.apply(Command::Play);
         while place(stage).1 < 110 {
             stage.tick();
@@ -201,15 +201,15 @@ fn what_begins_to_run_before_the_frame_is_drawn_again_misses_no_step() {
     edited.session.apply(Command::SetFixedSize(Some((4, 2))));
     edited.session.apply(Command::SetFixedSize(Some((8, 4))));
     edited.session.apply(Command::CompileNow);
-    begin(&mut edited);
+    play_to_110(&mut edited);
     edited.until_compiled();
-    begin(&mut control);
+    play_to_110(&mut control);
     assert_eq!(place(&edited), place(&control));
     assert!(texels(&mut edited) == texels(&mut control));
 }
 
 #[test]
-fn frame_0_of_new_code_begins_as_that_code_begins() {
+fn frame_0_is_redrawn_from_the_initial_state_of_new_code() {
     let Some(gpu) = support::gpu() else { return };
     let seeded = |red: &str| {
         format!(
@@ -226,5 +226,5 @@ fn frame_0_of_new_code_begins_as_that_code_begins() {
     assert_eq!((stage.red(), place(&stage).1), (214, 0), "0.56 · 0.5 + 0.56");
     stage.act(Command::Step);
     edit(&mut stage, buffer_a(), &seeded("0.2"));
-    assert_eq!((stage.red(), place(&stage).1), (214, 1), "what was seeded stays");
+    assert_eq!((stage.red(), place(&stage).1), (214, 1), "the seed is kept after frame 0");
 }

@@ -1,4 +1,4 @@
-//! What the presets that bloom promise: a spot keeps its light and its place wherever it is, at every size.
+//! Bloom presets: a spot keeps its light and its position everywhere, at every size.
 
 use crate::support::{preset::*, *};
 use eddy::{
@@ -8,24 +8,24 @@ use eddy::{
     project::{PassName, Project},
 };
 
-/// A lit texel where the mouse is.
+/// A lit texel at the mouse.
 const SPOT: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(ivec2(p) == ivec2(iMouse.xy) ? 1.0 : 0.0); }";
 
-/// An engine whose Buffer A is the spot, and that looks at the light that Image has before its curve: the first value of
-/// a variable there.
+/// Returns an engine whose Buffer A is the spot, and that probes the light in Image before its tone curve: the first
+/// value of a variable there.
 fn bloom_of_a_spot(gpu: &Gpu, name: &str, size: (u32, u32)) -> Engine {
     let custom_uniforms = if name == "bloom" { &["strength=1"][..] } else { &["strength=1", "calm=false"] };
     let mut project = preset(name, custom_uniforms);
     replace(&mut project, "A", SPOT);
     let index = project.image_index().unwrap();
     let declaration = if name == "bloom" { "vec3 light" } else { "vec3 wide" };
-    let begin = project.passes[index].source.text.find(declaration).expect(declaration);
-    let at = (begin + declaration.len() - 1) as u32;
+    let start = project.passes[index].source.text.find(declaration).expect(declaration);
+    let at = (start + declaration.len() - 1) as u32;
     let options = BuildOptions::default().probing(PassName::image(), Project::pass_id(index), at);
     engine_with(gpu, &project, &MediaSet::new(), &options, size)
 }
 
-/// The sum of the light, and how far its centroid is from the spot, in pixels.
+/// Returns the sum of the light, and the distance of its centroid from the spot in pixels.
 fn total_and_shift(engine: &mut Engine, at: [u32; 2]) -> (f64, f64) {
     engine.draw(&at_frame(0, Some(at.map(|v| v as f32)))).unwrap();
     let pixels = engine.read(&BuildOptions::probed()).unwrap();
@@ -49,8 +49,8 @@ fn a_spot_keeps_its_light_and_its_place_at_every_phase_and_size() {
         for &size in sizes {
             let mut engine = bloom_of_a_spot(&gpu, name, size);
             let (mut low, mut high, mut furthest) = (f64::MAX, 0.0f64, 0.0f64);
-            // In the middle, where no light comes to an edge, over all phases of a texel of level 4 along either axis:
-            // two steps with no divisor in common with 16.
+            // In the middle, where no light reaches an edge, over all phases of a texel of level 4 along either axis:
+            // the two steps are coprime to 16.
             for i in 0..16u32 {
                 let at = [size.0 / 2 - 8 + 7 * i % 16, size.1 / 2 - 8 + (11 * i + 3) % 16];
                 let (sum, shift) = total_and_shift(&mut engine, at);
@@ -64,9 +64,9 @@ fn a_spot_keeps_its_light_and_its_place_at_every_phase_and_size() {
 }
 
 #[test]
-fn light_that_would_leave_the_picture_comes_back() {
+fn light_is_kept_at_the_edges_of_the_picture() {
     let Some(gpu) = gpu() else { return };
-    // The pyramids of the last three have texels that are partly beyond the picture's upper and right edges.
+    // The pyramids of the last three sizes have texels that are partly beyond the picture's upper and right edges.
     for size in [(320, 180), (333, 187), (321, 179), (349, 201)] {
         for name in ["bloom", "bloom-sized"] {
             let mut engine = bloom_of_a_spot(&gpu, name, size);
@@ -79,11 +79,11 @@ fn light_that_would_leave_the_picture_comes_back() {
     }
 }
 
-/// A dark wall with one texel of a million.
+/// A dark wall with one texel of value 1e6.
 const FIREFLY: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(ivec2(p) == ivec2(iMouse.xy) ? 1e6 : 0.05); }";
 
 #[test]
-fn one_texel_of_a_million_does_not_flash() {
+fn one_extremely_bright_texel_does_not_flash() {
     let Some(gpu) = gpu() else { return };
     for name in ["bloom", "bloom-sized"] {
         let shown = |custom_uniforms: &[&str]| {

@@ -1,11 +1,11 @@
-//! What the presets that filter pictures promise: blurs, bloom, anti-aliasing.
+//! Presets that filter pictures: blurs, bloom, anti-aliasing.
 
 use crate::support::{preset::*, *};
 use eddy::{engine::Pixels, project::Project};
 
 // ---------------------------------------------------------------------------------------------------------------- blur
 
-/// Sum, and mean and variance of the place along x and y about `at`.
+/// The sum, and the mean and variance of the position along x and y relative to `at`.
 struct Response {
     sum: f64,
     centre: [f64; 2],
@@ -28,7 +28,7 @@ fn response(pixels: &Pixels, at: [u32; 2]) -> Response {
     Response { sum: moments[0][0], centre, variance }
 }
 
-/// One lit texel, where the mouse is.
+/// One lit texel at the mouse.
 const IMPULSE: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(ivec2(p) == ivec2(iMouse.xy) ? 1.0 : 0.0); }";
 
 fn blurred_impulse(gpu: &eddy::gpu::Gpu, variant: u32, sigma: f64, at: [u32; 2]) -> Pixels {
@@ -40,10 +40,10 @@ fn blurred_impulse(gpu: &eddy::gpu::Gpu, variant: u32, sigma: f64, at: [u32; 2])
 }
 
 #[test]
-fn a_blur_has_the_sigma_asked_for_and_keeps_light_and_place() {
+fn a_blur_has_the_requested_sigma_and_keeps_light_and_position() {
     let Some(gpu) = gpu() else { return };
     for sigma in [0.3, 0.5, 1.0, 1.8, 2.5] {
-        // 4 and 5 are the nine taps 5 9 12 15 16 15 12 9 5, whatever sigma is: of the variance 448 / 98.
+        // Variants 4 and 5 use the nine taps 5 9 12 15 16 15 12 9 5 for every sigma: their variance is 448 / 98.
         for (variant, mass, digits, variance) in [
             (1, 1e-6, 1e-5, sigma * sigma),
             (2, 1e-5, 3e-3, sigma * sigma),
@@ -54,38 +54,38 @@ fn a_blur_has_the_sigma_asked_for_and_keeps_light_and_place() {
             assert!((r.sum - 1.0).abs() < mass, "variant {variant}, sigma {sigma}: the sum is {}", r.sum);
             for axis in 0..2 {
                 assert!(r.centre[axis].abs() < digits, "variant {variant}, sigma {sigma}: {:?}", r.centre);
-                let off = (r.variance[axis] / variance - 1.0).abs();
-                assert!(off < 10.0 * digits, "variant {variant}, sigma {sigma}: {:?}, not {variance}", r.variance);
+                let error = (r.variance[axis] / variance - 1.0).abs();
+                assert!(error < 10.0 * digits, "variant {variant}, sigma {sigma}: {:?}, not {variance}", r.variance);
             }
         }
         for pair in [[1, 2], [4, 5]] {
             let [taps, fetches] = pair.map(|v| blurred_impulse(&gpu, v, sigma, [31, 30]).texels);
-            let most = taps.iter().zip(&fetches).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f32::max);
-            assert!(most < 1e-3, "sigma {sigma}: half as many fetches are {most} from the taps");
+            let difference = taps.iter().zip(&fetches).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f32::max);
+            assert!(difference < 1e-3, "sigma {sigma}: half as many fetches are {difference} from the taps");
         }
     }
 }
 
 #[test]
-fn a_wide_blur_is_the_gaussian() {
+fn a_wide_blur_matches_the_gaussian() {
     let Some(gpu) = gpu() else { return };
     for sigma in [1.0, 1.8, 2.5] {
         let pixels = blurred_impulse(&gpu, 1, sigma, [31, 30]);
-        let (mut off, mut all) = (0.0, 0.0);
+        let (mut error, mut all) = (0.0, 0.0);
         for (i, t) in pixels.texels.iter().enumerate() {
             let (x, y) = ((i % 64) as f64 - 31.0, (i / 64) as f64 - 30.0);
             let exact = (-0.5 * (x * x + y * y) / (sigma * sigma)).exp() / (std::f64::consts::TAU * sigma * sigma);
-            off += (f64::from(t[0]) - exact).powi(2);
+            error += (f64::from(t[0]) - exact).powi(2);
             all += exact * exact;
         }
-        let off = (off / all).sqrt();
-        println!("sigma {sigma}: {off:.4} from the Gaussian (L2, relative)");
-        assert!(off < 0.01, "sigma {sigma}: {off} from the Gaussian");
+        let error = (error / all).sqrt();
+        println!("sigma {sigma}: {error:.4} from the Gaussian (L2, relative)");
+        assert!(error < 0.01, "sigma {sigma}: {error} from the Gaussian");
     }
 }
 
 #[test]
-fn a_mip_level_keeps_light_and_place_in_the_mean_over_its_phases() {
+fn a_mip_blur_keeps_mean_light_and_position_over_all_phases() {
     let Some(gpu) = gpu() else { return };
     let sigma = 1.8; // between levels 1 and 2: the kernel repeats every 4 texels
     let (mut centre, mut variance, mut furthest) = ([0.0; 2], [0.0; 2], 0.0f64);
@@ -105,13 +105,13 @@ fn a_mip_level_keeps_light_and_place_in_the_mean_over_its_phases() {
         assert!((variance[axis] / (sigma * sigma) - 1.0).abs() < 0.15, "{variance:?}, wanted {}", sigma * sigma);
     }
     assert!(furthest <= 1.5, "a box of 4 texels moves a texel by up to (4 - 1) / 2, not {furthest}");
-    assert!(furthest > 0.1, "and it does move some, or the test sees nothing");
+    assert!(furthest > 0.1, "no phase moves a texel, so the test is blind");
 }
 
 // --------------------------------------------------------------------------------------------------------------- bloom
 
 #[test]
-fn bloom_leaves_a_wall_of_one_colour_alone() {
+fn bloom_does_not_change_a_uniform_wall() {
     let Some(gpu) = gpu() else { return };
     for name in ["bloom", "bloom-sized"] {
         for size in [(96, 54), (97, 41), (33, 200), (5, 3), (1, 1)] {
@@ -120,10 +120,14 @@ fn bloom_leaves_a_wall_of_one_colour_alone() {
                 picture(&mut engine).texels
             };
             let [off, on] = ["strength=0", "strength=0.9"].map(|s| wall(s, "constant=1.7"));
-            let most = off.iter().zip(&on).flat_map(|(a, b)| (0..3).map(|i| (a[i] - b[i]).abs()));
-            let most = most.fold(0.0, f32::max);
-            assert!(most < 1e-3, "{name} at {size:?}: the wall changes by {most}");
-            assert!(off.iter().all(|t| t == &off[0]) && off[0][0] > 0.3, "{name} at {size:?}: no wall: {:?}", off[0]);
+            let largest = off.iter().zip(&on).flat_map(|(a, b)| (0..3).map(|i| (a[i] - b[i]).abs()));
+            let largest = largest.fold(0.0, f32::max);
+            assert!(largest < 1e-3, "{name} at {size:?}: the wall changes by {largest}");
+            assert!(
+                off.iter().all(|t| t == &off[0]) && off[0][0] > 0.3,
+                "{name} at {size:?}: not a uniform wall: {:?}",
+                off[0]
+            );
         }
         let neon = |strength: &str| {
             let mut engine = drawn(&gpu, &preset(name, &[strength]), (96, 54), 0..2);
@@ -137,7 +141,7 @@ fn bloom_leaves_a_wall_of_one_colour_alone() {
 
 const GRID_OF_64: &str = "int i) {\n    return (vec2(i % 8, i / 8 % 8) + 0.5) / 8.0 - 0.5;";
 
-/// The mean of 64 samples on a grid in each pixel, of what Buffer A draws at the time of `frame`.
+/// Returns the mean of 64 samples on a grid in each pixel of Buffer A at the time of `frame`.
 fn truth(gpu: &eddy::gpu::Gpu, project: &Project, jitter: &str, frame: i32, size: (u32, u32)) -> Vec<[f32; 4]> {
     let mut project = project.clone();
     patch_common(&mut project, jitter, GRID_OF_64);
@@ -156,7 +160,7 @@ const TAA_JITTER: &str = "int i) {
     int phase = i % PHASES + 1; // the sequence begins at 1: number 0 is the pixel's corner
     return jittered ? vec2(radicalInverse(phase, 2), radicalInverse(phase, 3)) - 0.5 : vec2(0.0);";
 
-/// A dark half and a light half, the edge between them at a slant.
+/// A dark half and a light half, separated by a slanted edge.
 const EDGE: &str = "void mainImage(out vec4 o, in vec2 p) {
     bool light = dot(p + jitter(iFrame) - 0.5 * iResolution.xy, vec2(0.31, 0.95)) > 0.3;
     o = vec4(light ? vec3(0.9, 0.8, 0.6) : vec3(0.1, 0.15, 0.3), 0.0);
@@ -168,7 +172,7 @@ fn resolved(gpu: &eddy::gpu::Gpu, project: &Project, frame: i32, size: (u32, u32
 }
 
 #[test]
-fn a_resting_edge_comes_within_35_db_of_64_samples() {
+fn a_static_edge_is_within_35_db_of_64_samples() {
     let Some(gpu) = gpu() else { return };
     let size = (64, 64);
     let measure = |custom_uniforms: &[&str]| {
@@ -184,7 +188,7 @@ fn a_resting_edge_comes_within_35_db_of_64_samples() {
 }
 
 #[test]
-fn a_wider_box_keeps_more_detail_at_rest() {
+fn a_wider_clamp_box_keeps_more_detail_at_rest() {
     let Some(gpu) = gpu() else { return };
     let size = (160, 90);
     let measure = |gamma: &str| {
@@ -196,7 +200,8 @@ fn a_wider_box_keeps_more_detail_at_rest() {
     assert!(wide > narrow + 1.0, "gamma 1.25 {wide} dB, 0.75 {narrow}");
 }
 
-/// Where the wall alone is seen though an object covered it some frames ago: by Buffer A, whose alpha is the object.
+/// Returns the pixels that show only the wall now and were covered by an object in an earlier frame, from Buffer A,
+/// whose alpha is the object's number.
 fn vacated(gpu: &eddy::gpu::Gpu, project: &Project, frames: [i32; 2], size: (u32, u32)) -> Vec<bool> {
     let [before, now] = frames.map(|frame| {
         let mut engine = whole(gpu, project, size);
@@ -217,7 +222,7 @@ fn vacated(gpu: &eddy::gpu::Gpu, project: &Project, frames: [i32; 2], size: (u32
 }
 
 #[test]
-fn at_rest_detail_is_kept_and_in_motion_no_ghost() {
+fn taa_keeps_detail_at_rest_and_has_no_ghosts_in_motion() {
     let Some(gpu) = gpu() else { return };
     let size = (320, 180);
     let at_rest = preset("taa", &["speed=0"]);
@@ -226,12 +231,12 @@ fn at_rest_detail_is_kept_and_in_motion_no_ghost() {
     let moving = preset("taa", &[]);
     let (shown, true_) = (resolved(&gpu, &moving, 40, size), truth(&gpu, &moving, TAA_JITTER, 40, size));
     let motion = psnr(&shown, &true_);
-    let off = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).map(|i| f64::from(a[i] - b[i]).abs()).sum::<f64>() / 3.0;
+    let difference = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).map(|i| f64::from(a[i] - b[i]).abs()).sum::<f64>() / 3.0;
     let left = vacated(&gpu, &moving, [34, 40], size);
     let ghosts: Vec<f64> =
-        shown.iter().zip(&true_).zip(&left).filter(|(_, left)| **left).map(|(p, _)| off(p)).collect();
+        shown.iter().zip(&true_).zip(&left).filter(|(_, left)| **left).map(|(p, _)| difference(p)).collect();
     let ghost = ghosts.iter().sum::<f64>() / ghosts.len() as f64;
-    // What the samples of Buffer A are is decided before these settings count.
+    // These settings do not affect the samples of Buffer A.
     let other = |custom_uniforms: &[&str], frame: i32, true_: &[[f32; 4]]| {
         psnr(&resolved(&gpu, &preset("taa", custom_uniforms), frame, size), true_)
     };
@@ -245,19 +250,19 @@ fn at_rest_detail_is_kept_and_in_motion_no_ghost() {
     assert!(ghosts.len() > 20 && ghost < 0.04, "{} vacated pixels are {ghost} off", ghosts.len());
 }
 
-/// The clamp's box is one of Y, Co and Cg, and has corners that are no colours of a screen.
+/// The clamp's box is in Y, Co and Cg, and its corners are outside the range of screen colours.
 #[test]
-fn a_history_holds_colours_of_a_screen() {
+fn the_history_stays_in_the_range_of_screen_colours() {
     let Some(gpu) = gpu() else { return };
-    // The fourth frame held 1.00014 in a texel.
+    // The fourth frame once contained 1.00014.
     let texels = resolved(&gpu, &preset("taa", &[]), 4, (640, 360));
-    let most = texels.iter().flat_map(|t| &t[..3]).copied().fold(0.0, f32::max);
-    let least = texels.iter().flat_map(|t| &t[..3]).copied().fold(1.0, f32::min);
-    assert!(least >= 0.0 && most <= 1.0, "{least} to {most}");
+    let largest = texels.iter().flat_map(|t| &t[..3]).copied().fold(0.0, f32::max);
+    let smallest = texels.iter().flat_map(|t| &t[..3]).copied().fold(1.0, f32::min);
+    assert!(smallest >= 0.0 && largest <= 1.0, "{smallest} to {largest}");
 }
 
 #[test]
-fn motion_vectors_and_catmull_rom_are_worth_their_cost() {
+fn motion_vectors_and_catmull_rom_improve_quality() {
     let Some(gpu) = gpu() else { return };
     let size = (160, 90);
     let measure = |custom_uniforms: &[&str]| {
@@ -272,7 +277,7 @@ fn motion_vectors_and_catmull_rom_are_worth_their_cost() {
     assert!(all > one_sample + 1.0, "{all} dB, one sample {one_sample}");
 }
 
-/// As the chain's Buffer B takes its mean: c / (1 + luminance).
+/// Returns the texels as the chain's Buffer B averages them: c / (1 + luminance).
 fn compressed(texels: &[[f32; 4]]) -> Vec<[f32; 4]> {
     let one = |t: &[f32; 4]| {
         let by = 1.0 + 0.25 * t[0] + 0.5 * t[1] + 0.25 * t[2];
@@ -288,7 +293,7 @@ fn the_chains_history_follows_the_camera() {
     let measure = |custom_uniforms: &[&str]| {
         let project = preset("scene-bloom-taa", custom_uniforms);
         let mut samples = project.clone();
-        // Each sample as the history takes its mean, so that the truth is a mean of the same thing.
+        // Each sample is compressed as in the history, so that the reference is a mean of the same values.
         let source = &mut samples.pass_mut(&buffer("A")).unwrap().source;
         let text = source.text.trim_end().strip_suffix('}').unwrap().to_owned();
         source.text = format!("{text}light.rgb /= 1.0 + dot(light.rgb, vec3(0.25, 0.5, 0.25));\n}}").into();
@@ -297,13 +302,13 @@ fn the_chains_history_follows_the_camera() {
     };
     let [moving, one_sample, fast] = [measure(&[]), measure(&["blend=1"]), measure(&["orbit=1"])];
     println!("chain: moving {moving:.1} dB, one sample {one_sample:.1}, moving fast {fast:.1}");
-    // With one box everywhere, and no mean of what is young, it was 30.9 dB.
+    // With the same box everywhere, and no averaging of young history, it was 30.9 dB.
     assert!(fast > 33.5, "the camera moving fast: {fast} dB");
     assert!(moving > one_sample + 3.0, "the camera moving: {moving} dB, one sample {one_sample}");
 }
 
 #[test]
-fn one_bad_number_in_a_history_heals() {
+fn a_nan_or_infinity_leaves_the_history() {
     let Some(gpu) = gpu() else { return };
     for name in ["taa", "scene-bloom-taa"] {
         for number in ["0x7fc00000u", "0x7f800000u"] {
@@ -316,11 +321,11 @@ fn one_bad_number_in_a_history_heals() {
             let text = source.text.trim_end().strip_suffix('}').unwrap().to_owned();
             source.text = format!("{text}{bad}").into();
             let mut engine = drawn(&gpu, &project, (48, 27), 0..6);
-            assert!(!all_finite(&read(&mut engine, "B")), "{name}: {number} did not arrive");
+            assert!(!all_finite(&read(&mut engine, "B")), "{name}: {number} was not written");
             draw(&mut engine, 6..8);
             assert!(
                 all_finite(&read(&mut engine, "B")) && all_finite(&picture(&mut engine)),
-                "{name}: {number} lives on"
+                "{name}: {number} persists"
             );
         }
     }

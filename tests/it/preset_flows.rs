@@ -1,4 +1,4 @@
-//! What the presets that solve for a flow mean, measured: self-advection, the accurate fluid, the multi-scale fluid.
+//! Measurements of the presets that solve for a flow: self-advection, the accurate fluid, the multi-scale fluid.
 
 use crate::support::{presets::*, *};
 use eddy::{
@@ -11,23 +11,23 @@ use std::f64::consts::PI;
 // ---------------------------------------------------------------------------------------------------- self-advection
 
 #[test]
-fn leaving_the_rings_early_changes_nothing_else() {
+fn leaving_the_ring_loop_early_does_not_change_the_flow() {
     let Some(gpu) = gpu() else { return };
-    // Rings of 2 * 1.25^n pixels on a canvas 36 high: the twelfth has 23 of them, the thirteenth 29, past 0.7 * 36 =
-    // 25.
+    // Rings of 2 * 1.25^n pixels in a picture 36 pixels high: the twelfth has a radius of 23, the thirteenth of 29,
+    // beyond 0.7 * 36 = 25.
     let flow = |custom_uniforms: &[&str]| {
         let project = preset_with("self-advection", custom_uniforms);
         let mut engine = drawn(&gpu, &project, true, (64, 36), 0..12, drag);
         [buffer("flow"), PassName::image()].map(|id| bits(&engine.read(&id).unwrap()))
     };
     let all = flow(&["growth=1.25", "scales=20"]);
-    assert!(all == flow(&["growth=1.25", "scales=12"]), "a ring past the limit was looked at");
-    assert!(all != flow(&["growth=1.25", "scales=11"]), "a ring within the limit was not");
-    // None of the rings: no flow.
+    assert!(all == flow(&["growth=1.25", "scales=12"]), "a ring beyond the limit was sampled");
+    assert!(all != flow(&["growth=1.25", "scales=11"]), "a ring within the limit was not sampled");
+    // Without rings there is no flow.
     assert!(flow(&["scales=0"])[0].iter().all(|t| t[..2] == [0, 0]));
 }
 
-/// The flow that a field of vectors makes; `field` is GLSL in terms of `c`, the pixel's place.
+/// Returns the flow of a vector field; `field` is GLSL in terms of `c`, the pixel's position.
 fn flow_of(engine: impl Fn(&Project) -> Engine, custom_uniforms: &[&str], field: &str) -> Pixels {
     let mut project = preset_with("self-advection", custom_uniforms);
     overwrite(&mut project, "paint", &format!("o = vec4({field}, 0.0, 0.0);"));
@@ -37,24 +37,24 @@ fn flow_of(engine: impl Fn(&Project) -> Engine, custom_uniforms: &[&str], field:
 }
 
 #[test]
-fn what_turns_nothing_and_what_turns_as_one_moves_nothing() {
+fn uniform_rotating_and_sheared_fields_cause_no_flow() {
     let Some(gpu) = gpu() else { return };
     let engine = |p: &Project| whole(&gpu, p, true, (128, 128));
-    // Away from the seam where the picture repeats; rings of 2, 4 and 8 pixels reach 16.
+    // Away from the seam where the picture repeats; rings of 2, 4 and 8 pixels reach 16 pixels.
     let inner = |flow: &Pixels| {
-        let mut most = 0.0f32;
+        let mut largest = 0.0f32;
         for y in 6..26 {
             for x in 6..26 {
-                most = most.max(texel(flow, x, y)[0].hypot(texel(flow, x, y)[1]));
+                largest = largest.max(texel(flow, x, y)[0].hypot(texel(flow, x, y)[1]));
             }
         }
-        most
+        largest
     };
     let three = ["scales=3"];
     assert!(inner(&flow_of(engine, &[], "vec2(0.6, -0.3)")) < 1e-5, "uniform");
     assert!(inner(&flow_of(engine, &three, "0.01 * perp(c - 64.0)")) < 1e-4, "a rigid rotation");
     assert!(inner(&flow_of(engine, &three, "vec2(0.01 * (c.y - 64.0), 0.0)")) < 1e-4, "a shear");
-    // An eddy in the middle carries around with it what is about it, the way it turns.
+    // An eddy in the middle moves its surroundings around it, in its direction of rotation.
     let eddy = flow_of(engine, &["scales=5"], "perp(c - 64.0) / 6.0 * exp(-dot(c - 64.0, c - 64.0) / 72.0)");
     for step in 0..12 {
         let angle = f64::from(step) * PI / 6.0;
@@ -68,13 +68,13 @@ fn what_turns_nothing_and_what_turns_as_one_moves_nothing() {
 
 // ---------------------------------------------------------------------------------------------------- fluid-accurate
 
-/// A face's velocity as the texel has it, 0 in the walls.
+/// Returns the velocity on a texel's faces, 0 in the walls.
 fn faces(u: &Pixels, x: u32, y: u32) -> [f64; 2] {
     let at = |x, y, c: usize| if x < u.width && y < u.height { f64::from(texel(u, x, y)[c]) } else { 0.0 };
     [if x > 0 { at(x, y, 0) } else { 0.0 }, if y > 0 { at(x, y, 1) } else { 0.0 }]
 }
 
-/// Root mean square of the divergence of a staggered velocity.
+/// Returns the root mean square of the divergence of a staggered velocity.
 fn divergence(u: &Pixels) -> f64 {
     let mut sum = 0.0;
     for y in 0..u.height {
@@ -90,8 +90,8 @@ fn energy(u: &Pixels) -> f64 {
     u.texels.iter().map(|t| f64::from(t[0]).powi(2) + f64::from(t[1]).powi(2)).sum()
 }
 
-/// The accurate fluid with nothing that drives it, from a velocity that a GLSL expression in terms of `at`, the middle
-/// of a face in cells, gives in frame 0. Nobody looks at its dye.
+/// Returns the accurate fluid without jets or dye, with an initial velocity in frame 0 from a GLSL expression in terms
+/// of `at`, the middle of a face in cells.
 fn accurate(custom_uniforms: &[&str], initial: &str) -> Project {
     let mut project = preset_with("fluid-accurate", &[&["jets=0"], custom_uniforms].concat());
     let code = format!(
@@ -106,13 +106,13 @@ fn accurate(custom_uniforms: &[&str], initial: &str) -> Project {
     project
 }
 
-/// An engine whose velocity can be read, `cells` each way.
+/// Returns an engine of `cells` by `cells` whose velocity can be read.
 fn square(gpu: &eddy::gpu::Gpu, project: &Project, cells: u32) -> Engine {
     let options = BuildOptions { wanted: vec![buffer("velocity")], ..Default::default() };
     engine_with(gpu, project, &MediaSet::new(), &options, (2 * cells, 2 * cells))
 }
 
-/// The slider `speed` at which a velocity of 1 crosses so many cells in a frame.
+/// Returns the value of the slider `speed` at which a velocity of 1 crosses `number` cells per frame.
 fn courant(number: f64, cells: u32) -> String {
     format!("speed={}", number * 60.0 / f64::from(cells))
 }
@@ -121,34 +121,33 @@ fn velocity(engine: &mut Engine) -> Pixels {
     engine.read(&buffer("velocity")).unwrap()
 }
 
-/// Relative L2 error against `exact`, a velocity in terms of x and y from 0 to 1.
-fn off(found: &Pixels, exact: impl Fn(f64, f64) -> [f64; 2]) -> f64 {
-    let (n, mut off, mut all) = (f64::from(found.width), 0.0, 0.0);
+/// Returns the relative L2 error against `exact`, a velocity in terms of x and y from 0 to 1.
+fn relative_error(found: &Pixels, exact: impl Fn(f64, f64) -> [f64; 2]) -> f64 {
+    let (n, mut error, mut all) = (f64::from(found.width), 0.0, 0.0);
     for y in 0..found.height {
         for x in 0..found.width {
             let (i, j) = (f64::from(x) / n, f64::from(y) / n);
             let half = 0.5 / n;
             for (c, e) in [exact(i, j + half)[0], exact(i + half, j)[1]].into_iter().enumerate() {
-                off += (f64::from(texel(found, x, y)[c]) - e).powi(2);
+                error += (f64::from(texel(found, x, y)[c]) - e).powi(2);
                 all += e * e;
             }
         }
     }
-    (off / all).sqrt()
+    (error / all).sqrt()
 }
 
 #[test]
-fn a_v_cycle_leaves_no_more_divergence_than_stated() {
+fn a_v_cycle_reduces_divergence_to_a_fifth() {
     let Some(gpu) = gpu() else { return };
-    // Divergence of every wavelength: noise, and a swelling as long as the canvas, which is what sweeps alone do not
-    // see.
+    // Divergence of every wavelength: noise, and a wave as long as the picture, which sweeps alone barely reduce.
     let seed =
         "if (iFrame == 0) o.xy = 0.1 * (fract(sin(vec2(p.x * 12 + p.y * 78, p.x * 39 + p.y * 11)) * 4375.8) - 0.5)
         + sin(3.1416 * vec2(p) / vec2(textureSize(iChannel0, 0))) * vec2(1.0, 0.5);
         if (p.x == 0) o.x = 0.0;
         if (p.y == 0) o.y = 0.0;";
     for size in [(128, 128), (192, 108), (131, 97), (66, 250), (480, 270), (1024, 64), (1920, 1080)] {
-        // Time stands, so that a frame is a projection of what the last one left, and nothing else.
+        // Time is stopped, so each frame only projects the result of the previous one.
         let mut project = preset_with("fluid-accurate", &["speed=0"]);
         overwrite(&mut project, "advected", seed);
         let mut engine = drawn(&gpu, &project, true, size, 0..1, untouched);
@@ -160,13 +159,13 @@ fn a_v_cycle_leaves_no_more_divergence_than_stated() {
         }
         let factors: Vec<f64> = left.windows(2).map(|w| w[1] / w[0]).collect();
         println!("{size:?}: {factors:.3?}");
-        assert!(factors.iter().all(|f| *f < 0.2), "{size:?}: divergence falls by {factors:?} a cycle");
+        assert!(factors.iter().all(|f| *f < 0.2), "{size:?}: divergence is scaled by {factors:?} per cycle");
     }
 }
 
-/// The coarsest grid is swept, not solved: where it had many cells, what the sweeps left grew from frame to frame.
+/// The coarsest grid is smoothed, not solved: if it had many cells, the remaining error grew from frame to frame.
 #[test]
-fn a_hand_in_a_long_canvas_moves_no_faster_than_it_may() {
+fn dragging_in_a_long_picture_keeps_the_speed_bounded() {
     let Some(gpu) = gpu() else { return };
     let project = preset_with("fluid-accurate", &[]);
     let mut engine = whole(&gpu, &project, true, (4096, 16));
@@ -176,18 +175,18 @@ fn a_hand_in_a_long_canvas_moves_no_faster_than_it_may() {
         held(frame, (30..60).contains(&frame).then_some((from, at)))
     });
     let fastest = velocity(&mut engine).texels.iter().map(|t| t[0].hypot(t[1])).fold(0.0, f32::max);
-    // Heights a second: the bound of `lab stability`.
+    // Picture heights per second: the bound of `lab stability`.
     assert!(fastest < 4.5, "{fastest}");
 }
 
-/// Taylor's and Green's eddies, one wave across, `at` in cells: u = sin kx cos ky, v = -cos kx sin ky. Free-slip walls
-/// fit them.
+/// Taylor-Green eddies, one wave across, `at` in cells: u = sin kx cos ky, v = -cos kx sin ky. They satisfy free-slip
+/// walls.
 fn taylor_green(cells: u32) -> String {
     let k = 2.0 * PI / f64::from(cells);
     format!("vec2(sin({k} * at.x) * cos({k} * at.y), -cos({k} * at.x) * sin({k} * at.y))")
 }
 
-/// The same in terms of the box, carried by a wind along x for `time` and decayed to `kept`.
+/// The same eddies in box coordinates, carried by a wind along x for `time` and decayed to `kept`.
 fn carried_eddies(wind: f64, time: f64, kept: f64) -> impl Fn(f64, f64) -> [f64; 2] {
     move |x, y| {
         let (x, y) = (2.0 * PI * (x - wind * time), 2.0 * PI * y);
@@ -195,40 +194,40 @@ fn carried_eddies(wind: f64, time: f64, kept: f64) -> impl Fn(f64, f64) -> [f64;
     }
 }
 
-/// The largest speed in the velocity.
+/// Returns the largest speed in the velocity.
 fn fastest(engine: &mut Engine) -> f32 {
     velocity(engine).texels.iter().map(|t| t[0].hypot(t[1])).fold(0.0, f32::max)
 }
 
 #[test]
-fn a_uniform_wind_neither_gains_nor_loses() {
+fn a_uniform_wind_stays_constant() {
     let Some(gpu) = gpu() else { return };
-    // A thousand frames with viscosity: what each of them rounds to one side adds up.
+    // A thousand frames with viscosity: biased rounding errors would accumulate.
     let wind = [0.5f32, 0.3];
     let project = accurate(&["walls=2", "viscosity=0.0015"], "vec2(0.5, 0.3)");
     let mut engine = square(&gpu, &project, 32);
     draw(&mut engine, 0..1001, untouched);
-    let off = |t: &[f32; 4]| (0..2).map(|c| (t[c] / wind[c] - 1.0).abs()).fold(0.0, f32::max);
-    let most = velocity(&mut engine).texels.iter().map(off).fold(0.0, f32::max);
-    println!("a uniform wind is off by {most:e} of itself after 1,000 frames");
-    assert!(most < 1e-6, "{most:e}");
+    let deviation = |t: &[f32; 4]| (0..2).map(|c| (t[c] / wind[c] - 1.0).abs()).fold(0.0, f32::max);
+    let largest = velocity(&mut engine).texels.iter().map(deviation).fold(0.0, f32::max);
+    println!("a uniform wind is off by {largest:e} of itself after 1,000 frames");
+    assert!(largest < 1e-6, "{largest:e}");
 }
 
 #[test]
-fn a_quick_lid_makes_nothing_faster_than_itself() {
+fn a_fast_lid_keeps_speeds_bounded() {
     let Some(gpu) = gpu() else { return };
-    // Without viscosity, at steps that the sliders ask to be of 30 cells.
+    // Without viscosity, at sliders that request steps of 30 cells.
     let project = preset_with("fluid-accurate", &["walls=1", "lid_speed=2", "speed=10"]);
     let mut engine = whole(&gpu, &project, true, (320, 180));
-    let mut most = 0.0f32;
+    let mut largest = 0.0f32;
     for part in 0..10 {
         draw(&mut engine, 30 * part..30 * part + 30, untouched);
-        most = most.max(fastest(&mut engine));
+        largest = largest.max(fastest(&mut engine));
     }
     let pace = texel(&engine.read(&buffer("pace")).unwrap(), 0, 0)[0];
-    println!("a lid of 2 makes {most} at most, at a pace of {pace}");
-    assert!(most > 1.0 && most < 2.2, "{most}");
-    assert!(pace < 0.5, "{pace}: time was to go slower");
+    println!("a lid of 2 makes {largest} at most, at a pace of {pace}");
+    assert!(largest > 1.0 && largest < 2.2, "{largest}");
+    assert!(pace < 0.5, "{pace}: time was not slowed down");
     // At the preset's defaults no step is shortened.
     let mut engine = whole(&gpu, &preset_with("fluid-accurate", &[]), true, (320, 180));
     for part in 0..4 {
@@ -237,13 +236,13 @@ fn a_quick_lid_makes_nothing_faster_than_itself() {
     }
 }
 
-/// The sum of a dye in canvas pixels.
+/// Returns the sum of the dye in picture pixels.
 fn dye_of(engine: &mut Engine) -> f64 {
     engine.read(&buffer("dye")).unwrap().texels.iter().map(|t| f64::from(t[0])).sum()
 }
 
-/// The preset with nothing that drives it or pours, from a velocity in terms of `at` in cells, and a round blob of dye of
-/// a radius of 12 pixels in the middle.
+/// Returns the preset without jets, with an initial velocity in terms of `at` in cells, and a round blob of dye with a
+/// radius of 12 pixels in the middle.
 fn with_blob(custom_uniforms: &[&str], initial: &str) -> Project {
     let mut project = preset_with("fluid-accurate", &[&["jets=0", "fade_seconds=120"], custom_uniforms].concat());
     let code = format!(
@@ -260,17 +259,18 @@ fn with_blob(custom_uniforms: &[&str], initial: &str) -> Project {
 }
 
 #[test]
-fn dye_goes_round_where_the_picture_repeats() {
+fn dye_wraps_around_a_periodic_picture() {
     let Some(gpu) = gpu() else { return };
-    // Once round a canvas of 128 pixels, 4 pixels a frame, in a wind along both axes.
+    // Once around a picture of 128 pixels, at 4 pixels per frame, in a wind along both axes.
     let mut engine = whole(&gpu, &with_blob(&["walls=2"], "vec2(1.875, 1.875)"), true, (128, 128));
     draw(&mut engine, 0..1, untouched);
-    let (begin, first) = (dye_of(&mut engine), engine.read(&buffer("dye")).unwrap());
+    let (initial, first) = (dye_of(&mut engine), engine.read(&buffer("dye")).unwrap());
     draw(&mut engine, 1..33, untouched);
     let faded = (-32.0f64 / 60.0 / 120.0).exp();
-    let (kept, last) = (dye_of(&mut engine) / (begin * faded), engine.read(&buffer("dye")).unwrap());
-    let off = first.texels.iter().zip(&last.texels).map(|(a, b)| (f64::from(b[0]) / faded - f64::from(a[0])).powi(2));
-    let rms = (off.sum::<f64>() / first.texels.iter().map(|t| f64::from(t[0]).powi(2)).sum::<f64>()).sqrt();
+    let (kept, last) = (dye_of(&mut engine) / (initial * faded), engine.read(&buffer("dye")).unwrap());
+    let squares =
+        first.texels.iter().zip(&last.texels).map(|(a, b)| (f64::from(b[0]) / faded - f64::from(a[0])).powi(2));
+    let rms = (squares.sum::<f64>() / first.texels.iter().map(|t| f64::from(t[0]).powi(2)).sum::<f64>()).sqrt();
     println!("once round, {kept:.4} of the dye is left, {rms:.4} of it elsewhere");
     assert!((kept - 1.0).abs() < 1e-3 && rms < 0.05, "{kept}, {rms}");
 }
@@ -278,22 +278,22 @@ fn dye_goes_round_where_the_picture_repeats() {
 #[test]
 fn a_closed_box_keeps_its_dye() {
     let Some(gpu) = gpu() else { return };
-    // Eddies that wind the blob up for five seconds.
+    // Eddies that stir the blob for five seconds.
     let k = 2.0 * PI / 64.0;
     let initial = format!("0.5 * vec2(sin({k} * at.x) * cos({k} * at.y), -cos({k} * at.x) * sin({k} * at.y))");
     for walls in ["walls=0", "walls=2"] {
         let mut engine = whole(&gpu, &with_blob(&[walls], &initial), true, (256, 256));
         draw(&mut engine, 0..1, untouched);
-        let begin = dye_of(&mut engine);
+        let initial_dye = dye_of(&mut engine);
         draw(&mut engine, 1..301, untouched);
-        let kept = dye_of(&mut engine) / (begin * (-300.0f64 / 60.0 / 120.0).exp());
+        let kept = dye_of(&mut engine) / (initial_dye * (-300.0f64 / 60.0 / 120.0).exp());
         println!("{walls}: {kept:.4} of the dye after five seconds");
         assert!((kept - 1.0).abs() < 5e-3, "{walls}: {kept}");
     }
 }
 
 #[test]
-fn jets_push_by_the_second_and_not_by_the_frame() {
+fn jets_do_not_depend_on_the_frame_rate() {
     let Some(gpu) = gpu() else { return };
     // After two seconds at three frame rates: the energy of the flow, and the dye.
     let found = [30, 60, 120].map(|rate| {
@@ -314,29 +314,28 @@ fn jets_push_by_the_second_and_not_by_the_frame() {
 #[test]
 fn halving_the_cells_quarters_the_error() {
     let Some(gpu) = gpu() else { return };
-    // (what it is called, custom uniforms, wind, most of the error at 128 cells a side): half a cell a step, for one
-    // time unit.
+    // (name, custom uniforms, wind, largest error at 128 cells per side): half a cell per step, for one time unit.
     let cases: [(&str, &[&str], f64, f64); 2] =
         [("at rest", &["walls=0"], 0.0, 3e-4), ("in a wind", &["walls=2"], 0.5, 6e-4)];
-    for (name, custom_uniforms, wind, most) in cases {
+    for (name, custom_uniforms, wind, limit) in cases {
         let errors = [32u32, 64, 128].map(|cells| {
             let initial = format!("{} + vec2({wind:?}, 0.0)", taylor_green(cells));
             let project = accurate(&[custom_uniforms, &[&*courant(0.5, cells)]].concat(), &initial);
             let mut engine = square(&gpu, &project, cells);
             draw(&mut engine, 0..2 * cells as i32 + 1, untouched);
-            off(&velocity(&mut engine), carried_eddies(wind, 1.0, 1.0))
+            relative_error(&velocity(&mut engine), carried_eddies(wind, 1.0, 1.0))
         });
         let order = (errors[0] / errors[2]).log2() / 2.0;
         println!("Taylor-Green {name}: {errors:.5?}, order {order:.2}");
-        assert!(errors[2] < most && order > 1.95, "{name}: {errors:?}, order {order}");
+        assert!(errors[2] < limit && order > 1.95, "{name}: {errors:?}, order {order}");
     }
 }
 
 #[test]
-fn eddies_decay_as_taylor_and_green_say() {
+fn eddies_decay_at_the_taylor_green_rate() {
     let Some(gpu) = gpu() else { return };
-    // At 0.15 cells a step, the case of the reference table, and at 2.
-    for (viscosity, number, seconds, most) in [(0.0092, 0.15, 0.85, 0.001), (0.01, 2.0, 1.0, 0.006)] {
+    // At 0.15 cells per step, the case of the reference table, and at 2.
+    for (viscosity, number, seconds, limit) in [(0.0092, 0.15, 0.85, 0.001), (0.01, 2.0, 1.0, 0.006)] {
         let cells = 64u32;
         let custom_uniforms = [courant(number, cells), format!("viscosity={viscosity}")];
         let mut engine =
@@ -347,19 +346,19 @@ fn eddies_decay_as_taylor_and_green_say() {
         let rate = 2.0 * viscosity * (2.0 * PI).powi(2);
         let kept = (-rate * time).exp();
         let found = velocity(&mut engine);
-        let error = off(&found, carried_eddies(0.0, time, kept));
-        // The energy of eddies of amplitude 1 is a half of the texels.
+        let error = relative_error(&found, carried_eddies(0.0, time, kept));
+        // The energy of eddies of amplitude 1 is half the number of texels.
         let effective = -(energy(&found) / (0.5 * f64::from(cells * cells))).ln() / (2.0 * rate * time);
         println!("viscosity {viscosity}, {number} cells a step: error {error:.5}, viscosity as {effective:.5} of it");
         assert!(kept < 0.6, "{kept}: hardly anything decayed");
-        assert!(error < most && (effective - 1.0).abs() < most, "error {error}, effective viscosity {effective}");
+        assert!(error < limit && (effective - 1.0).abs() < limit, "error {error}, effective viscosity {effective}");
     }
 }
 
-/// A shear that is one wave across only decays, by e^(-nu k^2 t). Second differences would err by k^2 / 12 in cells: 5 %
-/// and 1.3 % of the rate of waves of 8 and 16 cells.
+/// A sinusoidal shear only decays, by e^(-nu k^2 t). Second differences would have an error of k^2 / 12 in cells: 5 %
+/// and 1.3 % of the rate for waves of 8 and 16 cells.
 #[test]
-fn viscosity_is_of_fourth_order() {
+fn viscosity_is_fourth_order_accurate() {
     let Some(gpu) = gpu() else { return };
     let cells = 64u32;
     let error = |wave: u32, viscosity: f64, speed: f64, steps: i32| {
@@ -376,7 +375,7 @@ fn viscosity_is_of_fourth_order() {
         -kept.ln() / exact - 1.0
     };
     let (coarse, fine) = (error(8, 0.005, 1.0, 6), error(16, 0.005, 1.0, 24));
-    // More than 2 cells squared a step.
+    // More than 2 cells squared per step.
     let quick = error(16, 0.01, 10.0, 1);
     println!("rates of waves of 8 and 16 cells are off by {coarse:.5} and {fine:.6}; in one long step {quick:.1e}");
     assert!(coarse.abs() < 0.005 && fine.abs() < 3e-4 && (coarse / fine).log2() > 3.5, "{coarse}, {fine}");
@@ -384,10 +383,10 @@ fn viscosity_is_of_fourth_order() {
 }
 
 #[test]
-fn every_viscosity_is_borne_on_a_canvas_of_any_height() {
+fn every_viscosity_is_stable_at_any_height() {
     let Some(gpu) = gpu() else { return };
-    // A narrow canvas 1080 high has the numbers of a wide one: viscosity in cells squared a step is 4.9 and 490 at the
-    // ends.
+    // A narrow picture 1080 high has the same numbers as a wide one: viscosity in cells squared per step is 4.9 and 490
+    // at the ends.
     for custom_uniforms in
         [["viscosity=0.0001", "speed=1"], ["viscosity=0.0005", "speed=1"], ["viscosity=0.01", "speed=10"]]
     {
@@ -406,9 +405,9 @@ fn every_viscosity_is_borne_on_a_canvas_of_any_height() {
 /// Two shear layers in a periodic box that roll up: D. Brown, M. Minion, "Performance of Under-resolved Two-dimensional
 /// Incompressible Flow Simulations", J. Comput. Phys. 122, 1995; rho = 30, delta = 0.05, nu = 1e-4, at t = 1.
 #[test]
-fn shear_layers_keep_the_energy_that_a_spectral_method_keeps() {
+fn shear_layers_keep_as_much_energy_as_a_spectral_method() {
     let Some(gpu) = gpu() else { return };
-    // Of 256 x 256 modes, fourth-order Runge-Kutta with steps of 1/1024, in f64.
+    // 256 x 256 modes, fourth-order Runge-Kutta with steps of 1/1024, in f64.
     const SPECTRAL: f64 = 0.982_792;
     let cells = 128u32;
     let initial = "vec2(tanh(30.0 * (at.y < 64.0 ? at.y / 128.0 - 0.25 : 0.75 - at.y / 128.0)),
@@ -416,16 +415,16 @@ fn shear_layers_keep_the_energy_that_a_spectral_method_keeps() {
     let project = accurate(&["walls=2", "viscosity=0.0001", &courant(0.5, cells)], initial);
     let mut engine = square(&gpu, &project, cells);
     draw(&mut engine, 0..1, untouched);
-    let begin = energy(&velocity(&mut engine));
+    let initial_energy = energy(&velocity(&mut engine));
     draw(&mut engine, 1..2 * cells as i32 + 1, untouched);
-    let kept = energy(&velocity(&mut engine)) / begin;
+    let kept = energy(&velocity(&mut engine)) / initial_energy;
     println!("shear layers keep {kept:.5} of their energy, {SPECTRAL} by a spectral method");
     assert!((kept - SPECTRAL).abs() < 0.001, "{kept}");
 }
 
-/// The cavity of U. Ghia, K. Ghia, C. Shin, J. Comput. Phys. 48, 1982: a box whose lid moves. At two cells a step.
+/// The lid-driven cavity of U. Ghia, K. Ghia, C. Shin, J. Comput. Phys. 48, 1982, at two cells per step.
 #[test]
-fn a_moving_lid_turns_the_fluid_as_the_tables_say_and_makes_no_noise() {
+fn lid_driven_cavity_matches_the_tables_without_noise() {
     let Some(gpu) = gpu() else { return };
     // (y, u at x = 1/2) and (x, v at y = 1/2) for Re = 100, tables I and II.
     let across = [
@@ -443,7 +442,7 @@ fn a_moving_lid_turns_the_fluid_as_the_tables_say_and_makes_no_noise() {
     draw(&mut engine, 0..12 * cells as i32 / 2, untouched);
     let found = velocity(&mut engine);
     let (middle, n) = (cells / 2, f64::from(cells));
-    // The faces of the middle line lie on it; along it they are half a cell from the walls.
+    // The faces of the middle line are on it; the outermost are half a cell from the walls.
     let on_line = |at: f64, value: &dyn Fn(u32) -> f32| {
         let g = at * n - 0.5;
         let (i, f) = (g.floor() as u32, g.fract());
@@ -457,44 +456,44 @@ fn a_moving_lid_turns_the_fluid_as_the_tables_say_and_makes_no_noise() {
         let here = on_line(x, &|i| texel(&found, i, middle)[1]);
         assert!((here - v).abs() < 0.01, "v({x}) is {here}, not {v}");
     }
-    // Botella's and Peyret's kind of accuracy: the extremum of a high-order method is -0.2140424.
-    let least = (0..cells).map(|j| texel(&found, middle, j)[0]).fold(0.0, f32::min);
-    assert!((f64::from(least) + 0.214_042_4).abs() < 0.001, "{least}");
-    // What alternates from cell to cell beside the lid.
+    // The extremum by a high-order method, as of Botella and Peyret, is -0.2140424.
+    let lowest = (0..cells).map(|j| texel(&found, middle, j)[0]).fold(0.0, f32::min);
+    assert!((f64::from(lowest) + 0.214_042_4).abs() < 0.001, "{lowest}");
+    // Cell-to-cell oscillations next to the lid.
     let u = |x: u32, y: u32| texel(&found, x, y)[0];
     let noise = (cells / 8..7 * cells / 8)
         .flat_map(|x| (0..cells).map(move |y| (x, y)))
         .map(|(x, y)| (u(x - 2, y) - 4.0 * u(x - 1, y) + 6.0 * u(x, y) - 4.0 * u(x + 1, y) + u(x + 2, y)).abs())
         .fold(0.0, f32::max);
-    println!("least u {least}, fourth differences up to {noise}");
+    println!("least u {lowest}, fourth differences up to {noise}");
     assert!(noise < 5e-4, "{noise}");
 }
 
 #[test]
-fn without_viscosity_energy_is_kept_and_never_made() {
+fn without_viscosity_energy_is_kept_and_never_grows() {
     let Some(gpu) = gpu() else { return };
-    // What the preset's text says, which a path ten times as long costs.
-    for (speed, least) in [("speed=1", 0.995), ("speed=10", 0.95)] {
+    // The loss that the preset's text states, also for paths ten times as long.
+    for (speed, limit) in [("speed=1", 0.995), ("speed=10", 0.95)] {
         let initial = format!("0.2 * {}", taylor_green(48));
         let mut engine = square(&gpu, &accurate(&["viscosity=0", speed], &initial), 48);
         draw(&mut engine, 0..1, untouched);
-        let begin = energy(&velocity(&mut engine));
-        let mut before = begin;
+        let initial_energy = energy(&velocity(&mut engine));
+        let mut before = initial_energy;
         for part in 0..6 {
             draw(&mut engine, 1 + 50 * part..51 + 50 * part, untouched);
             let now = energy(&velocity(&mut engine));
             assert!(now <= before * 1.001, "{speed}: energy grew from {before} to {now}");
             before = now;
         }
-        println!("{speed}: {:.4} of the energy after 300 frames", before / begin);
-        assert!(before > least * begin, "{speed}: only {} of the energy is left", before / begin);
+        println!("{speed}: {:.4} of the energy after 300 frames", before / initial_energy);
+        assert!(before > limit * initial_energy, "{speed}: only {} of the energy is left", before / initial_energy);
     }
 }
 
 // --------------------------------------------------------------------------------------------------------- mip-fluid
 
-/// The mip fluid's velocity after `frames` frames from one written in frame 0, in GLSL in terms of `c`, the texel's
-/// middle.
+/// Returns the mip fluid's velocity after frame 0, which is written from GLSL in terms of `c`, the texel's middle, and
+/// after `frames` frames.
 fn mip_velocity(
     gpu: &eddy::gpu::Gpu,
     custom_uniforms: &[&str],
@@ -505,13 +504,13 @@ fn mip_velocity(
     let mut project = preset_with("mip-fluid", custom_uniforms);
     overwrite(&mut project, "moved", &format!("if (iFrame == 0) o = vec4({field}, 0.0, 0.0);"));
     let mut engine = drawn(gpu, &project, true, size, 0..1, untouched);
-    let begin = engine.read(&buffer("moved")).unwrap();
+    let initial = engine.read(&buffer("moved")).unwrap();
     draw(&mut engine, 1..frames, untouched);
-    [begin, engine.read(&buffer("velocity")).unwrap()]
+    [initial, engine.read(&buffer("velocity")).unwrap()]
 }
 
 #[test]
-fn a_uniform_flow_stays_uniform_on_every_number_of_scales() {
+fn a_uniform_flow_stays_uniform_for_every_number_of_scales() {
     let Some(gpu) = gpu() else { return };
     for size in [(64, 64), (96, 54), (75, 43), (128, 4)] {
         for scales in ["scales=0", "scales=1", "scales=5", "scales=12"] {
@@ -520,10 +519,10 @@ fn a_uniform_flow_stays_uniform_on_every_number_of_scales() {
                 let [_, flow] = mip_velocity(&gpu, &custom_uniforms, size, "vec2(0.3, -0.1)", 30);
                 let kept = (-0.5f64 / 60.0).exp();
                 for t in &flow.texels {
-                    let off =
+                    let difference =
                         (f64::from(t[0]) / (0.3 * kept) - 1.0).abs().max((f64::from(t[1]) / (-0.1 * kept) - 1.0).abs());
                     // 29 or 30 frames of drag; the same everywhere.
-                    assert!(off < 1e-3, "{size:?} {scales} {weights}: {t:?}");
+                    assert!(difference < 1e-3, "{size:?} {scales} {weights}: {t:?}");
                     assert!((t[0] - flow.texels[0][0]).abs() < 1e-6, "{size:?} {scales} {weights}: not uniform");
                 }
             }
@@ -532,9 +531,10 @@ fn a_uniform_flow_stays_uniform_on_every_number_of_scales() {
 }
 
 #[test]
-fn the_sum_over_mips_takes_from_every_wave_of_divergence() {
+fn the_sum_over_mips_reduces_divergence_at_every_wavelength() {
     let Some(gpu) = gpu() else { return };
-    // Sound waves of 2 to 32 lengths across 128 texels, each way; what one frame leaves of their divergence.
+    // Longitudinal waves of 1 to 32 periods across 128 texels, along each axis, and the fraction of their divergence
+    // left after one frame.
     let left = |custom_uniforms: &[&str], wave: i32, axis: &str| {
         let k = 2.0 * PI * f64::from(wave) / 128.0;
         let unit = if axis == "x" { "vec2(1.0, 0.0)" } else { "vec2(0.0, 1.0)" };
@@ -554,22 +554,22 @@ fn the_sum_over_mips_takes_from_every_wave_of_divergence() {
 }
 
 #[test]
-fn a_long_step_of_the_mip_fluid_blurs_and_makes_no_energy() {
+fn long_steps_of_the_mip_fluid_add_no_energy() {
     let Some(gpu) = gpu() else { return };
-    // Without what feeds eddies on purpose: eddies of which nothing but advection and a little drag takes.
+    // Without the terms that feed eddies on purpose: only advection and a little drag act on them.
     let rest = ["stirring=0", "turbulence=0", "confinement=0", "drag_seconds=60"];
-    for (speed, least) in [("speed=1", 0.75), ("speed=10", 0.1)] {
+    for (speed, limit) in [("speed=1", 0.75), ("speed=10", 0.1)] {
         let custom_uniforms = [&rest[..], &[speed]].concat();
         let field = format!("0.3 * sin({} * c.yx)", 2.0 * PI / 64.0);
         let mut before = f64::MAX;
         let mut kept = 1.0;
         for frames in [1, 30, 60, 120] {
-            let [begin, now] = mip_velocity(&gpu, &custom_uniforms, (128, 128), &field, frames);
+            let [initial, now] = mip_velocity(&gpu, &custom_uniforms, (128, 128), &field, frames);
             let now = energy(&now);
             assert!(now <= before * 1.001, "{speed}: energy grew from {before} to {now} by frame {frames}");
-            (before, kept) = (now, now / energy(&begin));
+            (before, kept) = (now, now / energy(&initial));
         }
         println!("{speed}: {kept:.3} of the energy after two seconds");
-        assert!(kept > least, "{speed}: only {kept} of the energy is left");
+        assert!(kept > limit, "{speed}: only {kept} of the energy is left");
     }
 }

@@ -1,4 +1,4 @@
-//! What the deferred presets promise, on geometry that a test writes into the G-buffer by formula.
+//! Deferred presets, on analytic geometry that a test writes into the G-buffer.
 
 use crate::support::{preset::*, *};
 use eddy::{engine::Pixels, project::Project};
@@ -17,7 +17,7 @@ fn along(a: V, b: V, by: f64) -> V {
 
 // --------------------------------------------------------------------------------------------------------------- edges
 
-/// The lines that Buffer B finds in a G-buffer of planes: x by depth, y by normal.
+/// Returns the lines that Buffer B finds in a G-buffer of planes: x by depth, y by normal.
 fn lines(gpu: &eddy::gpu::Gpu, thickness: u32, geometry: &str) -> Pixels {
     let mut project = preset("gbuffer-edges", &[&format!("thickness={thickness}")]);
     let text = format!(
@@ -31,14 +31,14 @@ fn lines(gpu: &eddy::gpu::Gpu, thickness: u32, geometry: &str) -> Pixels {
     read(&mut engine, "B")
 }
 
-/// In how many columns of each row there is a line; the rows at the border, where the picture ends, left out.
+/// Returns the number of columns with a line in each row, without the rows at the border, where the picture ends.
 fn widths(pixels: &Pixels, channel: usize) -> Vec<usize> {
     let row = |y| (6..58).filter(|&x| texel(pixels, x, y)[channel] > 0.5).count();
     (6..30).map(row).collect()
 }
 
 #[test]
-fn a_step_and_a_crease_are_lines_as_wide_as_stated() {
+fn lines_of_steps_and_creases_have_the_set_thickness() {
     let Some(gpu) = gpu() else { return };
     for thickness in 1..=5 {
         let step = lines(&gpu, thickness, "depth = p.x < 32.0 ? 5.0 : 6.0;");
@@ -47,24 +47,24 @@ fn a_step_and_a_crease_are_lines_as_wide_as_stated() {
         // A roof: two planes that meet in column 32, with a turn of 74 degrees.
         let roof = lines(&gpu, thickness, "n = vec3(p.x < 32.0 ? -0.6 : 0.6, 0.0, 0.8); depth = plane(n, 4.0, p);");
         assert_eq!(widths(&roof, 1), vec![thickness as usize; 24], "a crease");
-        assert_eq!(widths(&roof, 0), vec![0; 24], "whose depth has no step");
+        assert_eq!(widths(&roof, 0), vec![0; 24], "its depth has no step");
     }
 }
 
 #[test]
-fn a_plane_has_no_line_at_any_angle() {
+fn a_plane_has_no_lines_at_any_angle() {
     let Some(gpu) = gpu() else { return };
-    // The last is seen at 4 degrees: its depth doubles within a few texels.
+    // The last plane is seen at 4 degrees: its depth doubles within a few texels.
     for normal in ["vec3(0.0, 0.0, 1.0)", "vec3(0.5, 0.3, 0.6)", "vec3(0.0, 0.95, 0.35)"] {
         for thickness in [1, 4] {
             let flat = lines(&gpu, thickness, &format!("n = normalize({normal}); depth = plane(n, 1.0, p);"));
-            let most = flat.texels.iter().flat_map(|t| [t[0], t[1]]).fold(0.0, f32::max);
-            assert!(most < 1e-3, "{normal}: a line of {most}");
+            let largest = flat.texels.iter().flat_map(|t| [t[0], t[1]]).fold(0.0, f32::max);
+            assert!(largest < 1e-3, "{normal}: a line of {largest}");
         }
     }
 }
 
-// --------------------------------------------------------------------------------------- a floor and a wall behind it
+// -------------------------------------------------------------------------------------------- a floor and a wall on it
 
 const EYE: V = [0.0, 2.0, 2.0];
 const PITCH: f64 = 0.36; // radians the camera looks down
@@ -76,7 +76,8 @@ fn axes() -> [V; 3] {
     [[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]
 }
 
-/// A wall of a height at WALL_Z, facing the camera, on an endless floor; beyond it there is nothing.
+/// Writes a G-buffer of a wall of `height` at WALL_Z, facing the camera, on an endless floor; beyond it there is no
+/// surface.
 fn corner(project: &mut Project, height: f64) {
     let [_, up, back] = axes();
     let (up, back) = (format!("{up:?}").replace(['[', ']'], ""), format!("{back:?}").replace(['[', ']'], ""));
@@ -99,7 +100,7 @@ fn corner(project: &mut Project, height: f64) {
     replace(project, "A", &text);
 }
 
-/// Where a pixel's ray, of depth 1, goes; and where a point is seen, in pixels.
+/// Returns the direction of a pixel's ray, of depth 1. `pixel_of` is the inverse: it projects a point to pixels.
 fn ray(pixel: [f64; 2], size: [f64; 2]) -> V {
     let [right, up, back] = axes();
     let q = [0, 1].map(|i| (pixel[i] - 0.5 * size[i]) / (size[1] * FOCAL));
@@ -122,27 +123,27 @@ fn occlusion(gpu: &eddy::gpu::Gpu, height: f64, custom_uniforms: &[&str], size: 
 }
 
 #[test]
-fn an_open_plane_sees_its_whole_sky() {
+fn an_open_plane_is_not_occluded() {
     let Some(gpu) = gpu() else { return };
     for custom_uniforms in [&[][..], &["radius=4", "slices=1"], &["radius=4", "slices=8", "steps=16"]] {
         let open = occlusion(&gpu, 0.0, custom_uniforms, (160, 90));
-        // The square of 4 x 4 texels whose mean is taken must be whole.
+        // The averaged square of 4 x 4 texels must be inside the picture.
         let inside = (3..86).flat_map(|y| (3..156).map(move |x| (x, y)));
-        let most = inside.map(|(x, y)| texel(&open, x, y)[0]).fold(0.0, f32::max);
-        println!("open plane, {custom_uniforms:?}: at most {most}");
-        assert!(most < 0.01, "{custom_uniforms:?}: a plane hides {most} of its own sky");
+        let largest = inside.map(|(x, y)| texel(&open, x, y)[0]).fold(0.0, f32::max);
+        println!("open plane, {custom_uniforms:?}: at most {largest}");
+        assert!(largest < 0.01, "{custom_uniforms:?}: a plane hides {largest} of its own sky");
     }
 }
 
 #[test]
-fn beside_a_wall_the_hidden_part_of_the_sky_is_the_analytic_one() {
+fn occlusion_next_to_a_wall_matches_the_analytic_value() {
     let Some(gpu) = gpu() else { return };
     let size = [320.0, 180.0];
     let height = 0.8f64;
     let pixels = occlusion(&gpu, height, &["radius=4", "slices=8", "steps=16"], (320, 180));
-    // A wall without ends hides (1 - cos t) / 2 of the cosine-weighted sky, t = atan(height / distance).
-    // Stated bias: up to 0.04 too little. The picture has an end and the wall has none, what is far counts less, and
-    // the march finds the wall's upper edge only nearly.
+    // An endless wall hides (1 - cos t) / 2 of the cosine-weighted sky, t = atan(height / distance). The accepted bias
+    // is up to 0.04 too little: the picture ends and the wall does not, distant surfaces have less weight, and the
+    // march finds the wall's upper edge only approximately.
     for distance in [0.3, 0.4, 0.8, 1.2] {
         let expected = 0.5 * (1.0 - (height / distance).atan().cos());
         let (mut sum, mut n) = (0.0, 0);
@@ -157,18 +158,19 @@ fn beside_a_wall_the_hidden_part_of_the_sky_is_the_analytic_one() {
     }
 }
 
-/// Columns in the middle, where the wall's ends are far, and rows of the floor that are hidden by some and not by most.
+/// Columns in the middle, far from the wall's ends.
 const COLUMNS: std::ops::Range<u32> = 96..224;
 
+/// Returns the rows of the floor that are partly but not mostly occluded.
 fn hidden_rows(surfaces: &Pixels, hidden: &Pixels) -> Vec<u32> {
     let mean = |y: u32| COLUMNS.map(|x| texel(hidden, x, y)[0]).sum::<f32>() / COLUMNS.len() as f32;
     let is_floor = |y: &u32| (texel(surfaces, 160, *y)[3] - 1.5).abs() < 0.1 && (0.03..0.4).contains(&mean(*y));
     (0..surfaces.height).filter(is_floor).collect()
 }
 
-/// What is left of the square of 4 x 4 texels of half the size by which directions are turned, beside a wall along
-/// which nothing changes: the most by which columns differ that are at other places in it. And how much of what changes
-/// from row to row changes at one place of it, of 8 rows: 1 of a slope that is even.
+/// Measures the visible pattern of the 4 x 4 texels, at half size, by which directions are rotated, next to a wall
+/// along which nothing changes. Returns the largest difference between columns at different places in the pattern, and
+/// the share of the change from row to row that occurs at one of 8 rows of the pattern: 1 for an even slope.
 fn pattern(gpu: &eddy::gpu::Gpu, planted: Option<(&str, &str)>) -> (f32, f32) {
     let mut project = preset("gbuffer-ssao-ssr", &[]);
     corner(&mut project, 0.8);
@@ -196,12 +198,12 @@ fn pattern(gpu: &eddy::gpu::Gpu, planted: Option<(&str, &str)>) -> (f32, f32) {
 }
 
 #[test]
-fn no_square_of_texels_is_seen_in_the_occlusion() {
+fn occlusion_has_no_visible_pattern() {
     let Some(gpu) = gpu() else { return };
     let (across, steps) = pattern(&gpu, None);
     println!("columns differ by {across:.5}, a row's share of the steps {steps:.2}");
     assert!(across < 0.002 && steps < 4.0, "{across} {steps}");
-    // Both see what they should: noise that is not averaged, and blocks of four texels.
+    // Both measures detect planted errors: noise that is not averaged, and blocks of four texels.
     let raw = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
     let noisy = pattern(&gpu, Some(("soft", raw))).0;
     let blocks = "void mainImage(out vec4 o, in vec2 p) {
@@ -215,7 +217,7 @@ fn no_square_of_texels_is_seen_in_the_occlusion() {
 // --------------------------------------------------------------------------------------------------------- reflections
 
 #[test]
-fn a_mirrored_point_is_where_geometry_says() {
+fn a_reflected_point_is_at_its_analytic_position() {
     let Some(gpu) = gpu() else { return };
     let (size, height) = ([160.0, 90.0], 2.5);
     let mut project = preset("gbuffer-ssao-ssr", &[]);
@@ -233,13 +235,13 @@ fn a_mirrored_point_is_where_geometry_says() {
             if floor[2] <= WALL_Z {
                 continue;
             }
-            // Mirrored in the floor, on to the wall.
+            // Reflected in the floor, onto the wall.
             let mirrored = [d[0], -d[1], d[2]];
             let at = along(floor, mirrored, (WALL_Z - floor[2]) / mirrored[2]);
             let seen = pixel_of(at, size);
             let length = dot(along(at, floor, -1.0), along(at, floor, -1.0)).sqrt();
             let inside = (0..2).all(|i| seen[i] > 8.0 && seen[i] < size[i] - 8.0);
-            // Next to the wall's foot the way in the picture is shorter than the march's first step.
+            // Next to the wall's foot the path in the picture is shorter than the march's first step.
             let way = (seen[0] - f64::from(x)).hypot(seen[1] - f64::from(y));
             if at[1] >= height - 0.05 || !inside || length > 4.5 || way < 3.0 {
                 continue;
@@ -250,8 +252,8 @@ fn a_mirrored_point_is_where_geometry_says() {
                 continue;
             }
             found += 1;
-            let off = (f64::from(hit[0]) * size[0] - seen[0]).hypot(f64::from(hit[1]) * size[1] - seen[1]);
-            furthest = furthest.max(off);
+            let distance = (f64::from(hit[0]) * size[0] - seen[0]).hypot(f64::from(hit[1]) * size[1] - seen[1]);
+            furthest = furthest.max(distance);
         }
     }
     println!("reflections: {found} of {wanted} found, at most {furthest:.2} px off");
@@ -259,7 +261,8 @@ fn a_mirrored_point_is_where_geometry_says() {
     assert!(furthest < 1.5, "a mirrored point is {furthest} px off");
 }
 
-/// The share of columns whose reflection is found, row by row from a wall's foot on: beside it lies its mirror image.
+/// Returns the share of columns whose reflection is found, for each row from a wall's foot on, where its mirror image
+/// is.
 fn found_from_the_foot(gpu: &eddy::gpu::Gpu, planted: &[(&str, &str)]) -> Vec<f64> {
     let mut project = preset("gbuffer-ssao-ssr", &[]);
     corner(&mut project, 2.5);
@@ -280,12 +283,12 @@ fn found_from_the_foot(gpu: &eddy::gpu::Gpu, planted: &[(&str, &str)]) -> Vec<f6
 }
 
 #[test]
-fn a_mirror_image_begins_at_the_foot_of_what_is_mirrored_without_gaps() {
+fn a_reflection_starts_at_the_foot_of_its_object_without_gaps() {
     let Some(gpu) = gpu() else { return };
     let found = found_from_the_foot(&gpu, &[]);
     println!("found from the foot on: {found:?}");
     assert!(found.iter().all(|share| *share == 1.0), "{found:?}");
-    // Strides that are long from the beginning, and a depth of things that does not grow with them, leave dashes.
+    // Strides that are long from the start, and a thickness that does not grow with them, leave gaps.
     let dashed = found_from_the_foot(
         &gpu,
         &[
@@ -296,10 +299,10 @@ fn a_mirror_image_begins_at_the_foot_of_what_is_mirrored_without_gaps() {
     assert!(dashed.iter().any(|share| *share < 0.95), "{dashed:?}");
 }
 
-// ------------------------------------------------------------------------------------------------------------ the edges
+// ----------------------------------------------------------------------------------------------------------- the edges
 
-/// Root mean square distance of the picture from the part of a pixel that a slanted edge covers, along the edge.
-fn off_coverage(gpu: &eddy::gpu::Gpu, image: Option<&str>) -> f64 {
+/// Returns the root mean square difference between the picture and the coverage of each pixel along a slanted edge.
+fn coverage_error(gpu: &eddy::gpu::Gpu, image: Option<&str>) -> f64 {
     let mut project = preset("gbuffer-ssao-ssr", &[]);
     replace(
         &mut project,
@@ -329,9 +332,9 @@ fn off_coverage(gpu: &eddy::gpu::Gpu, image: Option<&str>) -> f64 {
 #[test]
 fn edges_are_smooth() {
     let Some(gpu) = gpu() else { return };
-    let smoothed = off_coverage(&gpu, None);
+    let smoothed = coverage_error(&gpu, None);
     let raw = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
-    let jagged = off_coverage(&gpu, Some(raw));
+    let jagged = coverage_error(&gpu, Some(raw));
     println!("off the covered part: {smoothed:.3}, without anti-aliasing {jagged:.3}");
     assert!(smoothed < 0.1 && smoothed < 0.5 * jagged, "{smoothed} {jagged}");
 }

@@ -1,7 +1,7 @@
-//! The compiler makes these programs of the presets, after the last pass of the optimiser.
+//! The presets' programs after the last pass of the optimiser.
 //!
-//! A change of the compiler shows here what it does to programs of some size, instruction by instruction: all of them are
-//! 1.3 MB, as a function that several passes share is written once. `INSTA_UPDATE=always` takes a change over.
+//! They show the effect of a change of the compiler on programs of some size, instruction by instruction: all of them
+//! are 1.3 MB, as a function shared by several passes is written once. `INSTA_UPDATE=always` accepts a change.
 
 use crate::support::{
     ir::{final_programs, without_repeats},
@@ -11,7 +11,7 @@ use eddy::{engine::Sources, glsl::Driver, project::presets::names};
 use std::{collections::BTreeSet, fs, path::Path};
 
 #[test]
-fn presets_compile_to_these_programs() {
+fn presets_compile_to_the_programs_of_their_snapshots() {
     for name in names() {
         let project = preset(name);
         let texts = Sources::new(&project);

@@ -1,10 +1,9 @@
-//! What the presets that are there to be looked at promise of their pictures, and the bounds that every slider leaves
-//! them in.
+//! Pictures of the presets made for their looks, and the range of the pictures for all slider values.
 
 use crate::support::{preset::*, presets::overwrite, presets::untouched, *};
 use eddy::project::{CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues};
 
-/// The part of all squares of 16 x 16 texels in which V is seen.
+/// Returns the share of squares of 16 x 16 texels in which V is present.
 fn filled(pixels: &eddy::engine::Pixels) -> f64 {
     let (columns, rows) = (pixels.width / 16, pixels.height / 16);
     let is_alive =
@@ -14,29 +13,29 @@ fn filled(pixels: &eddy::engine::Pixels) -> f64 {
 }
 
 #[test]
-fn the_reaction_fills_the_canvas_however_large_it_is() {
+fn the_reaction_fills_a_picture_of_any_size() {
     let Some(gpu) = gpu() else { return };
-    for (custom_uniforms, size, frames, least) in [
+    for (custom_uniforms, size, frames, smallest) in [
         (&[][..], (320, 180), 90, 0.95),
         (&["map=1"], (241, 137), 150, 0.85),
         (&["diffusion=3", "dt=2"], (161, 97), 90, 0.95),
     ] {
         let mut engine = drawn(&gpu, &preset("reaction-diffusion", custom_uniforms), size, 0..frames);
         let part = filled(&read(&mut engine, "A"));
-        println!("{custom_uniforms:?} at {size:?}: {part:.3} of the canvas after {frames} frames");
-        assert!(part > least, "{custom_uniforms:?}: only {part} of the canvas has a pattern");
+        println!("{custom_uniforms:?} at {size:?}: {part:.3} of the picture after {frames} frames");
+        assert!(part > smallest, "{custom_uniforms:?}: only {part} of the picture has a pattern");
     }
 }
 
 #[test]
-fn a_blur_in_two_passes_diffuses_exactly_at_any_step() {
+fn a_two_pass_blur_diffuses_exactly_at_any_step() {
     let Some(gpu) = gpu() else { return };
     let (width, mode) = (48u32, 5.0);
     let wave = std::f64::consts::PI * mode / f64::from(width);
     for dt in [0.5f64, 1.0, 2.5, 5.0] {
         let custom_uniforms = ["sower=0", "sway=0", "feed=0", "kill=0", "diffusion=3", &format!("dt={dt}")];
         let mut project = preset("reaction-diffusion", &custom_uniforms);
-        // U alone: nothing reacts.
+        // U alone does not react.
         let seed = format!("if (iFrame == 0) o = vec4(0.4 + 0.1 * cos({wave} * (float(p.x) + 0.5)), 0.0, 0.0, 0.0);");
         overwrite(&mut project, "A", &seed);
         let mut engine = drawn(&gpu, &project, (width, 5), 0..3);
@@ -47,15 +46,15 @@ fn a_blur_in_two_passes_diffuses_exactly_at_any_step() {
             mean += value / f64::from(width);
             found += 2.0 / f64::from(width) * value * (wave * (f64::from(x) + 0.5)).cos();
         }
-        // Sixteen steps; the discrete Gaussian of variance t multiplies a wave by exp(t (cos k - 1)).
+        // Sixteen steps; the discrete Gaussian of variance t scales a wave by exp(t (cos k - 1)).
         let expected = 0.1 * (16.0 * 2.0 * 0.209_715_2 * dt * (wave.cos() - 1.0)).exp();
         assert!((mean - 0.4).abs() < 1e-5, "dt {dt}: the mean went from 0.4 to {mean}");
         assert!((found - expected).abs() < 2e-4 * 0.1, "dt {dt}: {found}, not {expected}");
     }
 }
 
-/// The part of pixels that are brighter by `step` than the mean of those a pixel away on both sides, along either axis:
-/// rims that are one pixel wide.
+/// Returns the share of pixels that are brighter by `step` than both neighbours along either axis: rims that are one
+/// pixel wide.
 fn rims(pixels: &eddy::engine::Pixels, step: f32) -> f64 {
     let luma = |x: u32, y: u32| texel(pixels, x, y)[..3].iter().sum::<f32>() / 3.0;
     let is_rim = |x: u32, y: u32| {
@@ -67,7 +66,7 @@ fn rims(pixels: &eddy::engine::Pixels, step: f32) -> f64 {
 }
 
 #[test]
-fn fronts_in_the_stirred_paint_have_no_bright_rims() {
+fn fronts_in_stirred_paint_have_no_bright_rims() {
     let Some(gpu) = gpu() else { return };
     for size in [(256, 144), (161, 91)] {
         let mut engine = engine(&gpu, &preset("self-advection", &[]), size);
@@ -81,7 +80,7 @@ fn fronts_in_the_stirred_paint_have_no_bright_rims() {
 const SWITCH: CustomUniformRange = CustomUniformRange { min: [0.0; 4], max: [1.0; 4] };
 
 #[test]
-fn every_slider_at_both_ends_leaves_a_picture_in_range() {
+fn pictures_stay_in_range_at_both_ends_of_every_slider() {
     let Some(gpu) = gpu() else { return };
     for name in [
         "bloom",
@@ -121,15 +120,15 @@ fn every_slider_at_both_ends_leaves_a_picture_in_range() {
     }
 }
 
-/// Light is at most 1.5 times an ink and the line of the wave, and a picture about its square root, on a canvas where a
-/// pixel is as high as a ridge, too.
+/// Light is at most 1.5 times an ink plus the line of the wave, and a picture approximately its square root, also if a
+/// pixel is as high as a ridge.
 #[test]
-fn spectrum_is_no_brighter_on_nine_pixels() {
+fn spectrum_has_the_same_brightness_at_any_size() {
     let Some(gpu) = gpu() else { return };
     for size in [(3, 3), (17, 31), (160, 90)] {
         let mut engine = drawn(&gpu, &preset("spectrum", &[]), size, 0..1);
-        let most = picture(&mut engine).texels.iter().flat_map(|t| t[..3].to_vec()).fold(0.0, f32::max);
-        println!("{size:?}: {most}");
-        assert!((0.1..1.6).contains(&most), "{size:?}: {most}");
+        let largest = picture(&mut engine).texels.iter().flat_map(|t| t[..3].to_vec()).fold(0.0, f32::max);
+        println!("{size:?}: {largest}");
+        assert!((0.1..1.6).contains(&largest), "{size:?}: {largest}");
     }
 }

@@ -1,4 +1,4 @@
-//! What each simulation among the presets means, measured: the numbers of its method, not the look of its picture.
+//! Measurements of the simulations among the presets: quantities of their methods, not the look of their pictures.
 
 use crate::support::{presets::*, *};
 use eddy::{
@@ -9,7 +9,7 @@ use eddy::{
 
 // ------------------------------------------------------------------------------------------------------------- fluid
 
-/// The fluid with its three sub-steps as one pass that reads itself, drawn `steps` times a frame.
+/// Returns the fluid with its three sub-steps as one pass that reads itself, drawn `steps` times per frame.
 fn fluid_in_one_pass(custom_uniforms: &[&str], steps: u32) -> Project {
     let mut project = preset_with("fluid", custom_uniforms);
     project.passes.retain(|p| p.id == buffer("A") || p.id.is_image());
@@ -19,7 +19,7 @@ fn fluid_in_one_pass(custom_uniforms: &[&str], steps: u32) -> Project {
 }
 
 #[test]
-fn the_fluid_as_a_chain_and_by_steps_is_the_same_bytes() {
+fn a_chain_of_passes_and_a_group_of_steps_draw_the_same_fluid() {
     let Some(gpu) = gpu() else { return };
     let (chain, steps) = (preset("fluid"), fluid_in_one_pass(&[], 3));
     let [mut chain, mut steps] = [chain, steps].map(|p| whole(&gpu, &p, true, (48, 27)));
@@ -32,7 +32,7 @@ fn the_fluid_as_a_chain_and_by_steps_is_the_same_bytes() {
     }
 }
 
-/// (kinetic energy, mean density - 1) of the fluid.
+/// Returns (kinetic energy, mean density - 1) of the fluid.
 fn energy_and_mass(engine: &mut Engine, name: &str) -> (f64, f64) {
     let state = engine.read(&buffer(name)).unwrap();
     let fluid = &state.texels[state.width as usize..];
@@ -41,29 +41,29 @@ fn energy_and_mass(engine: &mut Engine, name: &str) -> (f64, f64) {
     (energy, mass / fluid.len() as f64 - 1.0)
 }
 
-/// Noise of 1e-3 in the velocity in frame 1: of every wavelength, so that an instability at any of them would grow.
+/// Noise of 1e-3 in the velocity in frame 1: it contains every wavelength, so an instability at any of them would grow.
 const NOISE: &str = "if (iFrame == 1 && p.y > 0)
     o.xy += 1e-3 * (fract(sin(vec2(p.x * 12 + p.y * 78, p.x * 39 + p.y * 11)) * 43758.5) - 0.5);";
 
 #[test]
-fn still_water_keeps_still_and_keeps_its_mass() {
+fn still_water_stays_still_and_keeps_its_mass() {
     let Some(gpu) = gpu() else { return };
     let mut project = preset_with("fluid", &["nozzles=0"]);
     overwrite(&mut project, "A", NOISE);
     let mut engine = drawn(&gpu, &project, true, (33, 19), 0..3, untouched);
-    let (begin, _) = energy_and_mass(&mut engine, "C");
-    assert!(begin > 1e-6, "{begin}: the noise did not arrive");
+    let (initial, _) = energy_and_mass(&mut engine, "C");
+    assert!(initial > 1e-6, "{initial}: the noise was not added");
     draw(&mut engine, 3..400, untouched);
     let (end, mass) = energy_and_mass(&mut engine, "C");
-    assert!(end < 1e-2 * begin, "energy went from {begin} to {end}");
+    assert!(end < 1e-2 * initial, "energy went from {initial} to {end}");
     assert!(mass.abs() < 1e-5, "mass is off by {mass} of itself");
 }
 
 #[test]
 fn the_fluid_keeps_its_mass_under_jets() {
     let Some(gpu) = gpu() else { return };
-    // No term that mends the mass: what is kept is kept by the differences. They cancel in pairs, so what is left is
-    // rounding.
+    // Without the term that restores the mass, only the differences keep it. They cancel in pairs, so the remaining
+    // error is rounding.
     let mut project = preset("fluid");
     patch_file(&mut project, "solver.glsl", "RECOVERY = 1e-3", "RECOVERY = 0.0");
     let mut engine = drawn(&gpu, &project, true, (64, 36), 0..300, untouched);
@@ -73,13 +73,13 @@ fn the_fluid_keeps_its_mass_under_jets() {
 }
 
 #[test]
-fn sound_in_the_fluid_decays_or_grows_as_linear_theory_says() {
+fn sound_waves_decay_or_grow_as_in_linear_theory() {
     let Some(gpu) = gpu() else { return };
     let (width, mode) = (48u32, 6.0);
     let k = std::f64::consts::PI * mode / f64::from(width);
-    // (form, viscosity, K). As published: its defaults; no viscosity, where every wave grows; viscosity = K, where none
-    // does; half of it. Forward-backward: the defaults, without viscosity as fast as is allowed, and what the sliders
-    // ask for held back.
+    // (form, viscosity, K). The published form: its defaults; no viscosity, where every wave grows; viscosity = K,
+    // where none does; half of that. Forward-backward: the defaults, without viscosity at the highest allowed speed,
+    // and sliders that are limited.
     let cases = [
         (0, 0.5, 0.4, 0.4),
         (0, 0.0, 0.4, 0.4),
@@ -93,7 +93,7 @@ fn sound_in_the_fluid_decays_or_grows_as_linear_theory_says() {
         let set = [format!("viscosity={viscosity}"), format!("stiffness={stiffness}"), format!("form={form}")];
         let custom_uniforms = [&*set[0], &*set[1], &*set[2], "nozzles=0", "confinement=0", "edge_drag=0"];
         let mut project = fluid_in_one_pass(&custom_uniforms, 1);
-        // A standing wave that the walls reflect onto itself.
+        // A standing wave, which the walls reflect onto itself.
         let seed =
             format!("if (iFrame == 0 && p.y > 0) o = vec4(1e-3 * sin({k} * (float(p.x) + 0.5)), 0.0, 1.0, 0.0);");
         overwrite(&mut project, "A", &seed);
@@ -117,20 +117,20 @@ fn sound_in_the_fluid_decays_or_grows_as_linear_theory_says() {
             let smoothed = if form == 0 { 0.0 } else { 0.1 * (k / 2.0).sin().powi(4) * r };
             r = (next - smoothed) * (1.0 - 1e-3);
         }
-        let (size, off) = (u.hypot(r), (found[0] - u).hypot(found[1] - r));
-        assert!(off < 0.02 * size, "form {form}, viscosity {viscosity}: ({u}, {r}) by theory, {found:?} found");
+        let (size, error) = (u.hypot(r), (found[0] - u).hypot(found[1] - r));
+        assert!(error < 0.02 * size, "form {form}, viscosity {viscosity}: ({u}, {r}) by theory, {found:?} found");
         assert_eq!(form == 0 && viscosity < stiffness / 2.0, size > 1.5e-3, "viscosity {viscosity}: {size}");
     }
 }
 
-/// Whether the foot of the picture is hatched.
+/// Returns whether the bottom of the picture is hatched.
 fn hatched(engine: &mut Engine) -> bool {
     let image = engine.read_image().unwrap();
     (0..image.width).any(|x| texel(&image, x, 0)[0] > 2.0 * texel(&image, x, 0)[1])
 }
 
 #[test]
-fn the_fluid_comes_back_from_sliders_beyond_its_method() {
+fn the_fluid_recovers_from_unstable_sliders() {
     let Some(gpu) = gpu() else { return };
     let published = ["nozzles=0", "form=0", "stiffness=0.4", "viscosity=0.5"];
     for beyond in [&["viscosity=0"][..], &["dt=2"], &["stiffness=1", "viscosity=0.1"], &["viscosity=1.25", "dt=0.5"]] {
@@ -141,20 +141,20 @@ fn the_fluid_comes_back_from_sliders_beyond_its_method() {
         engine.set_custom_uniforms(&values("fluid", &[&published, beyond].concat()));
         draw(&mut engine, 30..1200, untouched);
         let (wild, _) = energy_and_mass(&mut engine, "C");
-        assert!(wild.is_finite() && wild > 1e-3, "{beyond:?}: {wild}, so nothing is beyond the method here");
+        assert!(wild.is_finite() && wild > 1e-3, "{beyond:?}: {wild}, so these sliders are not unstable");
         assert!(hatched(&mut engine), "{beyond:?} is not marked");
         engine.set_custom_uniforms(&values("fluid", &published));
         draw(&mut engine, 1200..1800, untouched);
         let (calm, mass) = energy_and_mass(&mut engine, "C");
         assert!(calm < 1e-2 * wild && calm < 1e-4, "{beyond:?}: energy {wild}, ten seconds later {calm}");
-        // What the density limits made or took is on its way back.
+        // The mass added or removed by the density limits is recovering.
         assert!(mass.abs() < 0.2, "{beyond:?}: mass is off by {mass}");
         assert!(!hatched(&mut engine));
     }
 }
 
 #[test]
-fn forward_and_backward_no_slider_makes_energy() {
+fn no_slider_adds_energy_to_the_forward_backward_form() {
     let Some(gpu) = gpu() else { return };
     for (custom_uniforms, marked) in [
         (&["viscosity=0", "stiffness=0.7"][..], false),
@@ -167,18 +167,19 @@ fn forward_and_backward_no_slider_makes_energy() {
         let mut project = preset_with("fluid", &[&["nozzles=0"], custom_uniforms].concat());
         overwrite(&mut project, "A", NOISE);
         let mut engine = drawn(&gpu, &project, true, (32, 20), 0..3, untouched);
-        let (begin, _) = energy_and_mass(&mut engine, "C");
+        let (initial, _) = energy_and_mass(&mut engine, "C");
         draw(&mut engine, 3..600, untouched);
         let (end, mass) = energy_and_mass(&mut engine, "C");
         assert!(
-            begin > 1e-6 && end < begin && mass.abs() < 1e-4,
-            "{custom_uniforms:?}: {begin} became {end}, mass {mass}"
+            initial > 1e-6 && end < initial && mass.abs() < 1e-4,
+            "{custom_uniforms:?}: {initial} became {end}, mass {mass}"
         );
         assert_eq!(hatched(&mut engine), marked, "{custom_uniforms:?}");
     }
 }
 
-/// (greatest Mach number, part of the cells faster than 0.3, least and greatest density, mean density - 1) of a fluid.
+/// Returns (largest Mach number, share of the cells faster than Mach 0.3, least and largest density, mean density - 1)
+/// of a fluid.
 fn compressibility(engine: &mut Engine, name: &str) -> (f32, f64, [f32; 2], f64) {
     // The speed of sound at the default sliders, sqrt(K / dt) for K = 2.2 and dt = 0.2.
     const SOUND: f32 = 3.316_625;
@@ -192,45 +193,45 @@ fn compressibility(engine: &mut Engine, name: &str) -> (f32, f64, [f32; 2], f64)
 }
 
 #[test]
-fn the_fluids_are_slower_than_their_sound_and_keep_their_mass() {
+fn the_fluids_stay_subsonic_and_keep_their_mass() {
     let Some(gpu) = gpu() else { return };
     for (name, state) in [("fluid", "C"), ("fluid-dye", "A"), ("fluid-lit", "A")] {
         let options = BuildOptions { wanted: vec![buffer(state)], ..Default::default() };
         let mut engine = engine_with(&gpu, &preset(name), &MediaSet::new(), &options, (240, 135));
         draw(&mut engine, 0..120, untouched);
-        let (most, fast, density, mass) = compressibility(&mut engine, state);
-        println!("{name}: Mach {most:.2}, {:.2} % above 0.3, density {density:.2?}, mass {mass:.1e}", 100.0 * fast);
-        assert!(most > 0.1 && most < 0.4001 && fast < 5e-3, "{name}: Mach {most}, {fast} of the cells above 0.3");
+        let (mach, fast, density, mass) = compressibility(&mut engine, state);
+        println!("{name}: Mach {mach:.2}, {:.2} % above 0.3, density {density:.2?}, mass {mass:.1e}", 100.0 * fast);
+        assert!(mach > 0.1 && mach < 0.4001 && fast < 5e-3, "{name}: Mach {mach}, {fast} of the cells above 0.3");
         assert!(density[0] > 0.6 && density[1] < 1.6 && mass.abs() < 1e-4, "{name}: density {density:?}, mass {mass}");
-        // A hand that goes from corner to corner in single frames.
+        // A drag from corner to corner in single frames.
         let corners = [[1.0, 1.0], [239.0, 134.0], [239.0, 1.0], [1.0, 134.0]];
         draw(&mut engine, 120..150, |f| held(f, Some(([1.0, 1.0], corners[f as usize % 4]))));
-        let (most, _, density, mass) = compressibility(&mut engine, state);
-        println!("{name} under a violent hand: Mach {most:.2}, density {density:.2?}, mass {mass:.1e}");
+        let (mach, _, density, mass) = compressibility(&mut engine, state);
+        println!("{name} during violent drags: Mach {mach:.2}, density {density:.2?}, mass {mass:.1e}");
         assert!(
-            most <= 0.4001 && density[0] >= 0.5 && density[1] <= 3.0 && mass.abs() < 5e-3,
+            mach <= 0.4001 && density[0] >= 0.5 && density[1] <= 3.0 && mass.abs() < 5e-3,
             "{name}: {density:?}, {mass}"
         );
     }
 }
 
 #[test]
-fn left_alone_the_fluid_stays_below_its_limit_of_speed() {
+fn an_undisturbed_fluid_stays_below_its_speed_limit() {
     let Some(gpu) = gpu() else { return };
-    // At the size of a window, where streams have room to meet.
+    // At the size of a window, where jets have room to meet.
     let options = BuildOptions { wanted: vec![buffer("C")], ..Default::default() };
     let mut engine = engine_with(&gpu, &preset("fluid"), &MediaSet::new(), &options, (640, 360));
     for part in 1..4 {
         draw(&mut engine, 133 * (part - 1)..133 * part, untouched);
-        let (most, fast, density, _) = compressibility(&mut engine, "C");
-        println!("Mach {most:.3}, {:.3} % above 0.3, density {density:.3?}", 100.0 * fast);
-        assert!(most < 0.39 && fast < 0.01, "Mach {most}, {fast} of the cells above 0.3");
+        let (mach, fast, density, _) = compressibility(&mut engine, "C");
+        println!("Mach {mach:.3}, {:.3} % above 0.3, density {density:.3?}", 100.0 * fast);
+        assert!(mach < 0.39 && fast < 0.01, "Mach {mach}, {fast} of the cells above 0.3");
         assert!(density[0] > 0.8 && density[1] < 1.2, "{density:?}");
     }
 }
 
 #[test]
-fn a_density_that_alternates_from_cell_to_cell_dies() {
+fn density_that_alternates_between_cells_decays() {
     let Some(gpu) = gpu() else { return };
     for pattern in ["(p.x + p.y) % 2", "p.x % 2", "p.y % 2"] {
         let mut project = preset_with("fluid", &["nozzles=0"]);
@@ -247,7 +248,7 @@ fn a_density_that_alternates_from_cell_to_cell_dies() {
 // --------------------------------------------------------------------------------------------------- fluid-dye, -lit
 
 #[test]
-fn dye_in_still_fluid_comes_and_goes_as_stated() {
+fn dye_in_still_fluid_is_poured_and_decays_at_the_set_rates() {
     let Some(gpu) = gpu() else { return };
     let project = preset_with("fluid-dye", &["blows=0"]);
     let (width, height, frames) = (96u32, 54u32, 60);
@@ -265,7 +266,7 @@ fn dye_in_still_fluid_comes_and_goes_as_stated() {
         let expected = area * pours[c] * step * (1.0 - f64::powi(kept, frames)) / (1.0 - kept);
         assert!((poured[c] / expected - 1.0).abs() < 1e-3, "component {c}: {} poured, not {expected}", poured[c]);
     }
-    // The mouse is down where it does not matter, so that the emitters rest: what is there only decays.
+    // The mouse is held away from the measured dye, which stops the emitters: the dye only decays.
     let pressed = |f| held(f, Some(([2.0, 2.0], [2.0, 2.0])));
     draw(&mut engine, frames..frames + 1, pressed);
     let before = total_right(&mut engine, width);
@@ -277,17 +278,17 @@ fn dye_in_still_fluid_comes_and_goes_as_stated() {
     }
 }
 
-/// Dye away from the bottom left, where the test holds the mouse.
+/// Returns the dye away from the bottom left, where the test holds the mouse.
 fn total_right(engine: &mut Engine, width: u32) -> [f64; 3] {
     let dye = engine.read(&buffer("dye")).unwrap();
     [0, 1, 2].map(|c| mean(&dye, c, |x, y| x > width / 6 && y > 12))
 }
 
 #[test]
-fn moving_dye_decays_as_stated_too() {
+fn moving_dye_decays_at_the_set_rate() {
     let Some(gpu) = gpu() else { return };
-    // Without decay and without an emitter the flow carries dye about and keeps it to a few percent: semi-Lagrangian
-    // advection is not conservative, and this is by how much here.
+    // Without decay and emitters the flow moves the dye and keeps it to a few percent: semi-Lagrangian advection is not
+    // conservative, and this is its error here.
     let mut project = preset_with("fluid-dye", &["decay_seconds=30,1,2", "pours=0,0,0"]);
     overwrite(&mut project, "dye", "if (iFrame == 60 && p.y > 8 && p.y < 46 && p.x > 8 && p.x < 88) o = vec4(1.0);");
     let mut engine = whole(&gpu, &project, true, (96, 54));
@@ -303,10 +304,11 @@ fn moving_dye_decays_as_stated_too() {
 }
 
 #[test]
-fn the_surface_stays_within_its_bounds() {
+fn surface_heights_stay_within_their_bounds() {
     let Some(gpu) = gpu() else { return };
-    // Untouched, and with every dent as deep and as lasting as the sliders allow, and with and without surface tension.
-    for (custom_uniforms, most) in
+    // With the defaults, with the deepest and longest dents that the sliders allow and no surface tension, and with
+    // full surface tension.
+    for (custom_uniforms, limit) in
         [(&[][..], 1.3), (&["dent=4", "settle_seconds=20", "tension=0"], 8.0), (&["tension=1"], 1.3)]
     {
         let options = BuildOptions { wanted: vec![buffer("height")], ..Default::default() };
@@ -317,14 +319,14 @@ fn the_surface_stays_within_its_bounds() {
         let (low, high) = height.texels.iter().fold((0.0f32, 0.0f32), |(l, h), t| (l.min(t[0]), h.max(t[0])));
         println!("{custom_uniforms:?}: heights from {low} to {high}");
         assert!(
-            all_finite(&height) && high - low > 0.05 && low > -most && high < most,
+            all_finite(&height) && high - low > 0.05 && low > -limit && high < limit,
             "{custom_uniforms:?}: {low} to {high}"
         );
     }
 }
 
 #[test]
-fn normals_are_those_of_a_known_height_field() {
+fn normals_match_a_known_height_field() {
     let Some(gpu) = gpu() else { return };
     let (width, height) = (64u32, 48u32);
     let (kx, ky, a) = (0.21f64, 0.17f64, 0.4f64);
@@ -343,7 +345,7 @@ fn normals_are_those_of_a_known_height_field() {
             };
             let (cx, cy) = (a * (kx * fx).cos() * (ky * fy).cos(), -a * (kx * fx).sin() * (ky * fy).sin());
             let found = texel(&normals, x, y);
-            // First as the differences have it, sin k for k, then as calculus does.
+            // First with the factor of the differences, sin k for k, then with the exact derivative.
             for (i, n) in [unit(cx * kx.sin(), cy * ky.sin()), unit(cx * kx, cy * ky)].into_iter().enumerate() {
                 worst[i] = (0..3).map(|c| (f64::from(found[c]) - n[c]).abs()).fold(worst[i], f64::max);
             }
@@ -357,14 +359,15 @@ fn normals_are_those_of_a_known_height_field() {
 const STILL: [&str; 2] = ["sower=0", "sway=0"];
 
 #[test]
-fn constant_states_of_gray_scott_stay() {
+fn constant_states_of_gray_scott_are_kept() {
     let Some(gpu) = gpu() else { return };
     for diffusion in ["diffusion=0", "diffusion=1", "diffusion=2"] {
         let mut project = preset_with("reaction-diffusion", &[&STILL[..], &[diffusion]].concat());
         let mut engine = drawn(&gpu, &project, true, (20, 12), 0..20, untouched);
         let fed = engine.read(&buffer("A")).unwrap();
         assert!(fed.texels.iter().all(|t| t[..2] == [0.0; 2]), "the fed state");
-        // The other one: u v = F + k, v = F (1 - u) / (F + k). It is a saddle; rounding has not led away from it yet.
+        // The other state: u v = F + k, v = F (1 - u) / (F + k). It is a saddle, but rounding has not led away from it
+        // yet.
         let (f, k) = (0.0545f64, 0.062f64);
         let u = 0.5 * (1.0 - (1.0 - 4.0 * (f + k).powi(2) / f).sqrt());
         let v = f * (1.0 - u) / (f + k);
@@ -373,14 +376,14 @@ fn constant_states_of_gray_scott_stay() {
         let mut engine = drawn(&gpu, &project, true, (20, 12), 0..10, untouched);
         let state = engine.read(&buffer("A")).unwrap();
         for t in &state.texels {
-            let off = (f64::from(t[0]) - 1.0 + u).abs().max((f64::from(t[1]) - v).abs());
-            assert!(off < 1e-5, "{diffusion}: ({u}, {v}) became {t:?}");
+            let error = (f64::from(t[0]) - 1.0 + u).abs().max((f64::from(t[1]) - v).abs());
+            assert!(error < 1e-5, "{diffusion}: ({u}, {v}) became {t:?}");
         }
     }
 }
 
 #[test]
-fn diffusion_keeps_the_total_and_reaction_the_sum_of_both() {
+fn diffusion_keeps_each_total_and_reaction_their_sum() {
     let Some(gpu) = gpu() else { return };
     for diffusion in ["diffusion=0", "diffusion=1", "diffusion=2"] {
         let mut project = preset_with("reaction-diffusion", &[&STILL[..], &[diffusion, "feed=0", "kill=0"]].concat());
@@ -393,12 +396,15 @@ fn diffusion_keeps_the_total_and_reaction_the_sum_of_both() {
             let state = engine.read(&buffer("A")).unwrap();
             [0, 1].map(|c| mean(&state, c, |_, _| true))
         };
-        let begin = sums(&mut engine, 0);
+        let initial = sums(&mut engine, 0);
         draw(&mut engine, 1..4, untouched);
         let end = sums(&mut engine, 4);
-        // u + v is 1 - (1 - u) + v. What v gained u lost.
-        assert!(((end[1] - end[0]) - (begin[1] - begin[0])).abs() < 2e-6, "{diffusion}: {begin:?} became {end:?}");
-        assert!(end[1] - begin[1] > 1e-3, "{diffusion}: nothing reacted");
+        // u + v is 1 - (1 - u) + v: v gains what u loses.
+        assert!(
+            ((end[1] - end[0]) - (initial[1] - initial[0])).abs() < 2e-6,
+            "{diffusion}: {initial:?} became {end:?}"
+        );
+        assert!(end[1] - initial[1] > 1e-3, "{diffusion}: nothing reacted");
     }
 }
 
@@ -436,8 +442,8 @@ fn a_wave_in_gray_scott_grows_at_the_rate_of_linear_theory() {
             expected = [0, 1].map(|i| expected[i] + jacobian[i][0] * a + jacobian[i][1] * b);
         }
         let size = expected[0].hypot(expected[1]);
-        let off = (found[0] - expected[0]).hypot(found[1] - expected[1]);
-        assert!(off < 0.02 * size, "{diffusion}: {found:?}, not {expected:?}");
-        assert!(size > 1e-3, "{size}: this wave does not grow");
+        let error = (found[0] - expected[0]).hypot(found[1] - expected[1]);
+        assert!(error < 0.02 * size, "{diffusion}: {found:?}, not {expected:?}");
+        assert!(size > 1e-3, "{size}: this wave did not grow");
     }
 }

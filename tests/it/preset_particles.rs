@@ -1,26 +1,26 @@
-//! What the preset `particles` means: every particle lives as long as its texel says, and none is ever made or lost.
+//! The preset `particles`: every particle lives as long as its texel states, and none is created or lost.
 
 use crate::support::{presets::*, *};
 use eddy::{engine::Pixels, lab::reference::motion::flight, media::MediaSet};
 
-/// (age, lifetime, type, births) of all.
+/// Returns (age, lifetime, type, births) of every particle.
 fn lives(pixels: &Pixels) -> Vec<[f32; 4]> {
     pixels.texels.clone()
 }
 
-fn of_each_type(lives: &[[f32; 4]]) -> [usize; 3] {
+fn count_by_type(lives: &[[f32; 4]]) -> [usize; 3] {
     [0.0, 1.0, 2.0].map(|t| lives.iter().filter(|l| l[2] == t).count())
 }
 
 #[test]
-fn particles_live_as_long_as_they_say_and_none_is_lost() {
+fn particles_live_for_their_lifetime_and_none_is_lost() {
     let Some(gpu) = gpu() else { return };
     for custom_uniforms in [&[][..], &["lifetime=0.1"], &["speed=10"]] {
         let project = preset_with("particles", custom_uniforms);
         let mut engine = drawn(&gpu, &project, true, (64, 36), 0..1, drag);
         let step = if custom_uniforms == ["speed=10"] { 10.0 / 60.0 } else { 1.0f32 / 60.0 };
         let mut before = lives(&engine.read(&buffer("life")).unwrap());
-        assert_eq!(of_each_type(&before), [512, 384, 128]);
+        assert_eq!(count_by_type(&before), [512, 384, 128]);
         let mut births = 0;
         for frame in 1..120 {
             draw(&mut engine, frame..frame + 1, drag);
@@ -28,7 +28,7 @@ fn particles_live_as_long_as_they_say_and_none_is_lost() {
             for (n, (b, a)) in before.iter().zip(&now).enumerate() {
                 assert_eq!(b[2], a[2], "particle {n} changed its type");
                 if b[0] + step < b[1] - 1e-5 {
-                    // It lives on: older by the step, nothing else different.
+                    // It is still alive: older by the step, otherwise unchanged.
                     assert!(
                         (a[0] - b[0] - step).abs() < 1e-5 && a[1] == b[1] && a[3] == b[3],
                         "{n}: {b:?} became {a:?}"
@@ -40,15 +40,15 @@ fn particles_live_as_long_as_they_say_and_none_is_lost() {
             }
             before = now;
         }
-        assert_eq!(of_each_type(&before), [512, 384, 128]);
+        assert_eq!(count_by_type(&before), [512, 384, 128]);
         assert!(births > 300, "only {births} died in two seconds");
-        let told: f32 = before.iter().map(|l| l[3] - 1.0).sum();
-        assert!((told - births as f32).abs() <= 8.0, "{births} births seen, {told} told");
+        let counted: f32 = before.iter().map(|l| l[3] - 1.0).sum();
+        assert!((counted - births as f32).abs() <= 8.0, "{births} births seen, {counted} counted by the particles");
     }
 }
 
 #[test]
-fn sparks_fall_as_far_as_gravity_says() {
+fn sparks_fall_ballistically() {
     let Some(gpu) = gpu() else { return };
     let project = preset("particles");
     let mut engine = drawn(&gpu, &project, true, (64, 36), 0..30, untouched);
@@ -58,11 +58,11 @@ fn sparks_fall_as_far_as_gravity_says() {
     let [after, life] = read(&mut engine);
     let (step, mut seen) = (1.0 / 60.0, 0);
     for ((b, a), l) in before.iter().zip(&after).zip(&life) {
-        // Sparks in the air, not born just now and not at the floor.
+        // Sparks in the air, neither newly born nor at the floor.
         if l[2] == 1.0 && l[0] > 0.0 && b[1] > -0.3 && a[1] > -0.3 {
             let expected = flight(b.map(f64::from), 0.45, 0.15, step);
-            let off = (0..4).map(|i| (f64::from(a[i]) - expected[i]).abs()).fold(0.0, f64::max);
-            assert!(off < 2e-7, "{b:?} became {a:?}, not {expected:?}");
+            let error = (0..4).map(|i| (f64::from(a[i]) - expected[i]).abs()).fold(0.0, f64::max);
+            assert!(error < 2e-7, "{b:?} became {a:?}, not {expected:?}");
             seen += 1;
         }
     }
@@ -72,7 +72,7 @@ fn sparks_fall_as_far_as_gravity_says() {
 #[test]
 fn the_tiles_show_every_particle() {
     let Some(gpu) = gpu() else { return };
-    // With one tile's worth of slots for every particle near it, what the tiles show is what asking all thousand shows.
+    // The picture from the tiles' lists equals the picture that tests all thousand particles at every pixel.
     let light = |all: bool, size: (u32, u32)| {
         let mut project = preset_with("particles", &["lifetime=5"]);
         if all {
@@ -91,14 +91,14 @@ fn the_tiles_show_every_particle() {
         let differ = |a: &[f32; 4], b: &[f32; 4]| (0..3).map(|c| (a[c] - b[c]).abs()).fold(0.0, f32::max);
         let worst = tiled.texels.iter().zip(&all.texels).map(|(a, b)| differ(a, b)).fold(0.0, f32::max);
         println!("{size:?}: {worst}");
-        assert!(mean(&all, 2, |_, _| true) > 0.02, "nothing shines");
+        assert!(mean(&all, 2, |_, _| true) > 0.02, "the picture is black");
         assert!(worst < 4e-3, "{size:?}: a pixel differs by {worst}");
     }
-    // Where a tile's sixty-four places run out, the preset's text says how much is lost.
-    for (size, most) in [((96, 54), 1e-4), ((64, 36), 0.003), ((32, 18), 0.09)] {
+    // If a tile's sixty-four slots run out, the loss is as the preset's text states.
+    for (size, limit) in [((96, 54), 1e-4), ((64, 36), 0.003), ((32, 18), 0.09)] {
         let shown = |all| (0..3).map(|c| mean(&light(all, size), c, |_, _| true)).sum::<f64>();
         let lost = 1.0 - shown(false) / shown(true);
         println!("{size:?}: {lost:.1e} of the light is lost");
-        assert!((-1e-6..most).contains(&lost), "{size:?}: {lost} of the light is lost");
+        assert!((-1e-6..limit).contains(&lost), "{size:?}: {lost} of the light is lost");
     }
 }

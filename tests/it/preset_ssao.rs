@@ -1,4 +1,4 @@
-//! What the preset `ssao` promises, on meshes whose occlusion is known.
+//! The preset `ssao` on meshes whose occlusion is known.
 
 use crate::support::{preset::*, *};
 use eddy::{
@@ -12,13 +12,12 @@ use std::f64::consts::PI;
 const SIZE: (u32, u32) = (320, 180);
 const WALL_Z: f64 = -2.0;
 
-/// From in front and above, as on a stage.
+/// Returns a camera in front of the scene and above it.
 fn camera() -> Camera {
     Camera { yaw: 0.0, pitch: 35.0, distance: 5.0, target: [0.0, 0.1, -1.5], fov: 30.0, ..Camera::default() }
 }
 
-/// In place of the scene a floor that ends at a wall of a height, which faces the camera; the wall and the floor go on
-/// to the sides.
+/// Replaces the scene by a floor that ends at a wall of `height`, which faces the camera; both extend to the sides.
 fn corner(project: &mut Project, height: Option<f64>) {
     for name in ["geometry", "backs", "occlusion", "lighting"] {
         let geometry = project.pass_mut(&buffer(name)).unwrap().body.geometry_mut().unwrap();
@@ -37,7 +36,7 @@ fn corner(project: &mut Project, height: Option<f64>) {
     }
 }
 
-/// The world's positions, and what is open, in a scene of [`corner`].
+/// Returns world positions and the visible share of the sky in a scene of [`corner`].
 fn open(gpu: &Gpu, height: Option<f64>, custom_uniforms: &[&str]) -> (Pixels, Pixels) {
     let mut project = preset("ssao", custom_uniforms);
     corner(&mut project, height);
@@ -45,14 +44,15 @@ fn open(gpu: &Gpu, height: Option<f64>, custom_uniforms: &[&str]) -> (Pixels, Pi
     (engine.read_target(&buffer("geometry"), 1).unwrap(), read(&mut engine, "blur"))
 }
 
-/// The part of the kernel that a wall of a height at a distance hides. A point at a length s in the direction w is
-/// inside of the wall if s w.x > distance and s w.y < height; a ray is blocked up to there if it meets the wall's
-/// front, distance / w.x far, below its height. w.x and w.z are uniform on the unit disc, s = radius (0.1 + 0.9 u u).
+/// Returns the share of the kernel that a wall of `height` at `distance` hides. A point at length s in direction w is
+/// inside the wall if s w.x > distance and s w.y < height; a ray up to it is blocked if it meets the wall's front, at
+/// distance / w.x, below its height. w.x and w.z are uniform on the unit disc, s = radius (0.1 + 0.9 u u).
 fn analytic(radius: f64, height: f64, distance: f64, rays: bool) -> f64 {
     const N: usize = 400;
     let middle = |i: usize| (i as f64 + 0.5) / N as f64;
     let of_length = |s: f64| {
-        // Over the square of the distance from the disc's middle, which is uniform, and in closed form over the angle.
+        // Integrates numerically over the squared distance from the disc's centre, which is uniform, and in closed form
+        // over the angle.
         let of_square = |square: f64| {
             let up = (1.0 - square).sqrt();
             let is_below = rays || s * up < height;
@@ -65,7 +65,7 @@ fn analytic(radius: f64, height: f64, distance: f64, rays: bool) -> f64 {
     (0..N).map(|i| of_length(radius * (0.1 + 0.9 * middle(i).powi(2)))).sum::<f64>() / N as f64
 }
 
-/// Of each row of floor texels: the distance from the wall, and the mean of what is hidden.
+/// Returns, for each row of floor texels, the distance from the wall and the mean occlusion.
 fn by_distance(world: &Pixels, open: &Pixels) -> Vec<(f64, f64)> {
     let row = |y: u32| {
         let texels = (0..world.width).map(|x| (texel(world, x, y), texel(open, x, y)[0]));
@@ -78,7 +78,7 @@ fn by_distance(world: &Pixels, open: &Pixels) -> Vec<(f64, f64)> {
 }
 
 #[test]
-fn the_analytic_occlusion_is_the_closed_form_beside_a_high_wall() {
+fn analytic_occlusion_matches_the_closed_form_for_a_high_wall() {
     let segment = |c: f64| if c < 1.0 { (c.acos() - c * (1.0 - c * c).sqrt()) / PI } else { 0.0 };
     for distance in [0.05, 0.2, 0.4, 0.59, 0.7] {
         let mean = (0..4000).map(|i| (f64::from(i) + 0.5) / 4000.0);
@@ -91,7 +91,7 @@ fn the_analytic_occlusion_is_the_closed_form_beside_a_high_wall() {
 }
 
 #[test]
-fn beside_a_wall_the_occlusion_is_the_analytic_one_within_the_stated_bias() {
+fn occlusion_next_to_a_wall_matches_the_analytic_value() {
     let Some(gpu) = gpu() else { return };
     for (radius, height, rays, too_little, too_much) in [
         (0.3, 2.0, true, 0.025, 0.025),
@@ -106,31 +106,31 @@ fn beside_a_wall_the_occlusion_is_the_analytic_one_within_the_stated_bias() {
         let custom_uniforms: Vec<&str> = custom_uniforms.iter().map(String::as_str).collect();
         let (world, open) = open(&gpu, Some(height), &custom_uniforms);
         let rows = by_distance(&world, &open);
-        let (mut low, mut high, mut beside, mut beyond) = (0.0f64, 0.0f64, 0, 0);
+        let (mut low, mut high, mut near, mut beyond) = (0.0f64, 0.0f64, 0, 0);
         for (distance, hidden) in rows {
             if distance < 0.06 {
                 continue;
             }
             if distance > radius + 0.06 {
                 beyond += 1;
-                assert_eq!(hidden, 0.0, "{distance} away, nothing of a wall is within {radius}");
+                assert_eq!(hidden, 0.0, "{distance} away, no part of the wall is within {radius}");
                 continue;
             }
-            beside += 1;
-            let off = hidden - analytic(radius, height, distance, rays);
-            (low, high) = (low.min(off), high.max(off));
+            near += 1;
+            let error = hidden - analytic(radius, height, distance, rays);
+            (low, high) = (low.min(error), high.max(error));
         }
         println!(
-            "{method}, radius {radius}, wall {height} high: {low:.4} to {high:.4} off, {beside} rows beside, {beyond} \
+            "{method}, radius {radius}, wall {height} high: {low:.4} to {high:.4} off, {near} rows near, {beyond} \
              beyond"
         );
-        assert!(beside > 10 && beyond > 10, "{beside} rows beside the wall, {beyond} beyond");
+        assert!(near > 10 && beyond > 10, "{near} rows near the wall, {beyond} beyond");
         assert!(low > -too_little && high < too_much, "radius {radius}, height {height}: {low} to {high} off");
     }
 }
 
 #[test]
-fn an_open_plane_is_open() {
+fn an_open_plane_is_not_occluded() {
     let Some(gpu) = gpu() else { return };
     for custom_uniforms in
         [&["bias=0.002"][..], &["radius=2", "bias=0.002"], &["radius=0.05"], &["method=1", "bias=0.002"]]
@@ -155,7 +155,7 @@ fn the_kernel_is_a_cosine_weighted_hemisphere() {
     let length = |p: &[f64; 3]| p.iter().map(|x| x * x).sum::<f64>().sqrt();
     assert!(points.iter().all(|p| p[2] > 0.0 && (0.1 - 1e-6..=1.0).contains(&length(p))));
     let mean = |f: &dyn Fn(&[f64; 3]) -> f64| points.iter().map(f).sum::<f64>() / 64.0;
-    // The cosine's mean is 2/3, its square's 1/2, both sides weigh the same; a length's mean is 0.1 + 0.9 / 3.
+    // The cosine's mean is 2/3, that of its square 1/2, both sides have equal weight; the mean length is 0.1 + 0.9 / 3.
     for (what, measured, expected) in [
         ("cosine", mean(&|p| p[2] / length(p)), 2.0 / 3.0),
         ("its square", mean(&|p| (p[2] / length(p)).powi(2)), 0.5),
@@ -169,7 +169,7 @@ fn the_kernel_is_a_cosine_weighted_hemisphere() {
 
 const SPACE: u8 = 32;
 
-/// Draws a frame at which Space is pressed, and one after it was let go.
+/// Draws a frame with Space pressed and one after its release, and returns the picture.
 fn press(engine: &mut Engine, frame: i32) -> Pixels {
     let mut down = FrameInputs::at_fixed_step(frame, 60.0);
     down.keyboard.press(SPACE);
@@ -179,16 +179,16 @@ fn press(engine: &mut Engine, frame: i32) -> Pixels {
 }
 
 #[test]
-fn space_steps_through_occlusion_on_off_and_alone() {
+fn space_cycles_occlusion_on_off_and_alone() {
     let Some(gpu) = gpu() else { return };
     let mut engine = drawn(&gpu, &preset("ssao", &["lampSpeed=0"]), (160, 90), 0..1);
     let on = picture(&mut engine);
     let off = press(&mut engine, 1);
     let alone = press(&mut engine, 3);
     let again = press(&mut engine, 5);
-    assert_eq!(on.texels, again.texels, "three steps are a round");
+    assert_eq!(on.texels, again.texels, "three presses return to the start");
     let blur = read(&mut engine, "blur");
-    // Not one texel would be brighter, were it not for the smoothing of edges.
+    // Without the smoothing of edges, no texel would be brighter.
     let (mut darker, mut brighter, mut grey) = (0, 0, 0);
     for i in 0..on.texels.len() {
         let luma = |p: &Pixels| p.texels[i][0] + p.texels[i][1] + p.texels[i][2];
@@ -199,5 +199,5 @@ fn space_steps_through_occlusion_on_off_and_alone() {
         grey += usize::from((r - blur.texels[i][0]).abs() < 1e-3);
     }
     assert!(darker > 500 && 50 * brighter < darker, "occlusion darkens: {darker} texels darker, {brighter} brighter");
-    assert!(grey > on.texels.len() * 8 / 10, "what is shown alone is what was measured: {grey}");
+    assert!(grey > on.texels.len() * 8 / 10, "the occlusion shown alone differs from the blurred one: {grey}");
 }

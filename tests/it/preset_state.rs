@@ -1,11 +1,11 @@
-//! What the presets about state promise: the mouse a frame ago, and each trick's claim, measured.
+//! Presets about state: the mouse of the previous frame, and a measurement of each trick.
 
 use crate::support::{preset::*, *};
 use eddy::engine::{Engine, Pixels};
 
 // ----------------------------------------------------------------------------------------------------------- the mouse
 
-/// Where the mouse is in each frame: it wanders, is let go of, and jumps.
+/// Returns the mouse in each frame: it moves, is released, and jumps.
 fn wander(frame: i32) -> Option<[f32; 2]> {
     match frame {
         0..6 | 20..25 => None,
@@ -13,31 +13,31 @@ fn wander(frame: i32) -> Option<[f32; 2]> {
     }
 }
 
-/// The mouse as the two memories have it: x, y, 1 while held.
+/// Returns the mouse as stored by the two buffers: x, y, 1 while held.
 fn memories(engine: &mut Engine) -> [[f32; 3]; 2] {
     let (a, b) = (read(engine, "A"), read(engine, "B"));
     let last = (b.width - 1, b.height - 1);
     [texel(&a, 0, 0), texel(&b, last.0, last.1)].map(|[x, y, held, _]| [x, y, held])
 }
 
-/// What both pictures have besides row 0 and the memory of B.
+/// Returns the texels that both pictures have, without row 0 and the stored mouse of B.
 fn strokes(pixels: &Pixels) -> Vec<[f32; 4]> {
     let width = pixels.width as usize;
     pixels.texels[width..pixels.texels.len() - 1].to_vec()
 }
 
 #[test]
-fn both_ways_remember_the_same_mouse_each_frame() {
+fn both_buffers_store_the_same_mouse_each_frame() {
     let Some(gpu) = gpu() else { return };
     let mut engine = whole(&gpu, &preset("mouse-state", &[]), (48, 27));
     let mut before: Option<[[f32; 3]; 2]> = None;
     for frame in 0..40 {
-        // What the shader finds there in this frame is what was left there in the last.
+        // The values that the shader reads in this frame are those stored in the previous one.
         if let Some([first, fixed]) = before {
             assert_eq!(first, fixed, "in frame {frame}");
             match wander(frame - 1) {
                 Some([x, y]) => assert_eq!(first, [x, y, 1.0], "the mouse of frame {}", frame - 1),
-                // Never touched: the hand on the rose curve; the uniform has no "released" here.
+                // Not pressed: the pen that draws the rose curve; the uniform has no "released" state here.
                 None => assert_eq!(first[2], 1.0),
             }
         }
@@ -50,7 +50,7 @@ fn both_ways_remember_the_same_mouse_each_frame() {
 }
 
 #[test]
-fn after_a_resize_neither_draws_a_stroke_from_where_it_was() {
+fn a_resize_draws_no_stroke_from_the_old_position() {
     let Some(gpu) = gpu() else { return };
     for size in [(80, 45), (30, 17)] {
         let mut engine = whole(&gpu, &preset("mouse-state", &["fade=0.2"]), (48, 27));
@@ -58,13 +58,13 @@ fn after_a_resize_neither_draws_a_stroke_from_where_it_was() {
             engine.draw(&at_frame(frame, Some([2.0, 3.0]))).unwrap();
         }
         engine.resize(size.0, size.1).unwrap();
-        // The mouse was at (2, 3) of another canvas: a line from there to here would be wrong.
+        // The mouse was at (2, 3) of a picture of another size: a line from there would be wrong.
         engine.draw(&at_frame(4, Some([25.0, 14.0]))).unwrap();
-        let most = strokes(&read(&mut engine, "A")).iter().map(|t| t[3]).fold(0.0, f32::max);
-        assert!(most < 1e-3, "{size:?}: ink of {most}");
+        let largest = strokes(&read(&mut engine, "A")).iter().map(|t| t[3]).fold(0.0, f32::max);
+        assert!(largest < 1e-3, "{size:?}: ink of {largest}");
         for name in ["A", "B"] {
             let texels = strokes(&read(&mut engine, name));
-            assert!(texels.iter().all(|t| t[3] >= 0.0), "{size:?}: a memory is left in the picture of {name}");
+            assert!(texels.iter().all(|t| t[3] >= 0.0), "{size:?}: a stored mouse remains in the picture of {name}");
         }
         engine.draw(&at_frame(5, Some([20.0, 10.0]))).unwrap();
         assert!(strokes(&read(&mut engine, "B")).iter().any(|t| t[3] > 0.5), "{size:?}: the next stroke is drawn");
@@ -80,7 +80,7 @@ fn tricks(gpu: &eddy::gpu::Gpu) -> Engine {
     whole(gpu, &preset(TRICKS, &[]), (96, 54))
 }
 
-/// The half of a buffer in which the trick is used, or the other.
+/// Returns the half of a buffer with the trick, or the half without it.
 fn half(pixels: &Pixels, works: bool) -> Vec<[f32; 4]> {
     let width = pixels.width / 2;
     let from = if works { pixels.width - width } else { 0 };
@@ -88,7 +88,7 @@ fn half(pixels: &Pixels, works: bool) -> Vec<[f32; 4]> {
 }
 
 #[test]
-fn a_region_holds_the_state_a_discard_holds_and_draws_nothing_else() {
+fn a_region_keeps_the_same_state_as_a_discard_and_draws_nothing_else() {
     let Some(gpu) = gpu() else { return };
     let mut engine = tricks(&gpu);
     let balls = |pixels: &Pixels| pixels.texels[..24].iter().map(|t| t.map(f32::to_bits)).collect::<Vec<_>>();
@@ -97,14 +97,17 @@ fn a_region_holds_the_state_a_discard_holds_and_draws_nothing_else() {
         draw(&mut engine, frame..frame + 1);
         let (region, discard) = (read(&mut engine, "region"), read(&mut engine, "discard"));
         assert!(balls(&region) == balls(&discard), "frame {frame}");
-        assert_ne!(balls(&region), last, "the balls stand still in frame {frame}");
+        assert_ne!(balls(&region), last, "the balls do not move in frame {frame}");
         last = balls(&region);
-        assert!(region.texels[24..].iter().all(|t| *t == [0.0; 4]), "something else was drawn in frame {frame}");
+        assert!(
+            region.texels[24..].iter().all(|t| *t == [0.0; 4]),
+            "texels outside the region were drawn in frame {frame}"
+        );
     }
 }
 
 #[test]
-fn what_was_drawn_once_and_discarded_since_is_there_every_other_frame() {
+fn texels_drawn_once_and_then_discarded_flicker() {
     let Some(gpu) = gpu() else { return };
     let mut engine = tricks(&gpu);
     let above = |pixels: &Pixels, works| half(pixels, works)[64..].iter().map(|t| f64::from(t[3])).sum::<f64>();
@@ -120,10 +123,11 @@ fn what_was_drawn_once_and_discarded_since_is_there_every_other_frame() {
 }
 
 #[test]
-fn waves_die_in_a_soft_wall_and_live_on_in_a_hard_one() {
+fn waves_are_absorbed_by_soft_walls_and_reflected_by_hard_ones() {
     let Some(gpu) = gpu() else { return };
     let mut engine = tricks(&gpu);
-    // What the leapfrog conserves: the square of the change, and the slopes of this frame times those of the last.
+    // The leapfrog scheme's conserved energy: the square of the change, plus the slopes of this frame times those of
+    // the previous one.
     let energy = |pixels: &Pixels, works: bool| {
         let texels = half(pixels, works);
         let at = |x: usize, y: usize| f64::from(texels[y * 96 + x][0]);
@@ -137,21 +141,21 @@ fn waves_die_in_a_soft_wall_and_live_on_in_a_hard_one() {
         motion + 0.35 * (along + across)
     };
     draw(&mut engine, 0..13); // the drop falls in frame 10
-    let begin = [false, true].map(|works| energy(&read(&mut engine, "waves"), works));
-    assert!(begin[0] > 0.1 && (begin[0] / begin[1] - 1.0).abs() < 1e-3, "{begin:?}");
+    let initial = [false, true].map(|works| energy(&read(&mut engine, "waves"), works));
+    assert!(initial[0] > 0.1 && (initial[0] / initial[1] - 1.0).abs() < 1e-3, "{initial:?}");
     draw(&mut engine, 13..160);
     let end = [false, true].map(|works| energy(&read(&mut engine, "waves"), works));
     println!(
         "waves: {:.3} of the energy is left in hard walls, {:.2e} in soft ones",
-        end[0] / begin[0],
-        end[1] / begin[1]
+        end[0] / initial[0],
+        end[1] / initial[1]
     );
-    assert!((end[0] / begin[0] - 1.0).abs() < 1e-3, "hard: {} of {}", end[0], begin[0]);
-    assert!(end[1] < 0.02 * begin[1], "soft: {} of {}", end[1], begin[1]);
+    assert!((end[0] / initial[0] - 1.0).abs() < 1e-3, "hard: {} of {}", end[0], initial[0]);
+    assert!(end[1] < 0.02 * initial[1], "soft: {} of {}", end[1], initial[1]);
 }
 
 #[test]
-fn texels_that_a_resize_makes_start_by_themselves() {
+fn texels_added_by_a_resize_initialise_themselves() {
     let Some(gpu) = gpu() else { return };
     let mut engine = tricks(&gpu);
     let done = |pixels: &Pixels, works| half(pixels, works).iter().map(|t| t[3]).fold(8.0, f32::min);
@@ -159,31 +163,31 @@ fn texels_that_a_resize_makes_start_by_themselves() {
         draw(&mut engine, frame..frame + 1);
         let pixels = read(&mut engine, "progress");
         assert_eq!(done(&pixels, false), 8.0, "all at once");
-        assert_eq!(done(&pixels, true), (frame as f32 + 1.0).min(8.0), "an octave a frame");
+        assert_eq!(done(&pixels, true), (frame as f32 + 1.0).min(8.0), "one octave per frame");
     }
     engine.resize(160, 90).unwrap();
     draw(&mut engine, 10..18);
     let pixels = read(&mut engine, "progress");
     assert_eq!(done(&pixels, true), 8.0, "new texels have caught up");
-    assert_eq!(done(&pixels, false), 0.0, "after `iFrame == 0` nobody starts");
+    assert_eq!(done(&pixels, false), 0.0, "initialisation at `iFrame == 0` misses new texels");
 }
 
 #[test]
-fn a_balance_is_left_only_where_noise_finds_out() {
+fn an_unstable_balance_is_left_only_with_noise() {
     let Some(gpu) = gpu() else { return };
     let mut engine = tricks(&gpu);
-    let most = |pixels: &Pixels, works| half(pixels, works).iter().map(|t| t[0].abs()).fold(0.0, f32::max);
+    let largest = |pixels: &Pixels, works| half(pixels, works).iter().map(|t| t[0].abs()).fold(0.0, f32::max);
     draw(&mut engine, 0..1);
-    let begin = most(&read(&mut engine, "noise"), true);
-    assert!(begin > 5e-4 && begin <= 1e-3, "{begin}");
+    let initial = largest(&read(&mut engine, "noise"), true);
+    assert!(initial > 5e-4 && initial <= 1e-3, "{initial}");
     draw(&mut engine, 1..240);
     let pixels = read(&mut engine, "noise");
-    assert_eq!(most(&pixels, false), 0.0, "zeros stay zeros");
-    assert!(most(&pixels, true) > 0.5, "the noise grew to {} only", most(&pixels, true));
+    assert_eq!(largest(&pixels, false), 0.0, "zeros stay zeros");
+    assert!(largest(&pixels, true) > 0.5, "the noise grew to {} only", largest(&pixels, true));
 }
 
 #[test]
-fn one_bad_number_in_a_state_heals() {
+fn a_nan_leaves_the_state() {
     let Some(gpu) = gpu() else { return };
     for (name, buffer_name) in [
         ("mouse-state", "A"),
@@ -196,7 +200,7 @@ fn one_bad_number_in_a_state_heals() {
     ] {
         let mut project = preset(name, &[]);
         let source = &mut project.pass_mut(&buffer(buffer_name)).unwrap().source;
-        // Inside of the data, where the pass has some; as a second entry point, so that no early return skips it.
+        // Inside the data of passes that store some; as a second entry point, so that no early return skips it.
         let at = if matches!(buffer_name, "discard" | "region") { "ivec2(7, 0)" } else { "ivec2(20, 10)" };
         source.text = format!(
             "#define mainImage own\n{}\n#undef mainImage\nvoid mainImage(out vec4 o, in vec2 p) {{ own(o, p); \
@@ -205,8 +209,8 @@ fn one_bad_number_in_a_state_heals() {
         )
         .into();
         let mut engine = drawn(&gpu, &project, (96, 54), 0..6);
-        assert!(!all_finite(&read(&mut engine, buffer_name)), "{name} {buffer_name}: it did not arrive");
+        assert!(!all_finite(&read(&mut engine, buffer_name)), "{name} {buffer_name}: the NaN was not written");
         draw(&mut engine, 6..9);
-        assert!(all_finite(&read(&mut engine, buffer_name)), "{name} {buffer_name}: it lives on");
+        assert!(all_finite(&read(&mut engine, buffer_name)), "{name} {buffer_name}: the NaN persists");
     }
 }

@@ -1,4 +1,4 @@
-//! What the preset `toon-outline` promises of its lines.
+//! The outlines of the preset `toon-outline`.
 
 use crate::support::{preset::*, *};
 use eddy::{
@@ -7,11 +7,11 @@ use eddy::{
     project::{Camera, MeshDraw, MeshSource, Project},
 };
 
-/// The canvas; the scene is drawn twice as large.
+/// The picture's size; the scene is drawn at twice this size.
 const SIZE: (u32, u32) = (320, 180);
 const FOV: f64 = 30.0;
 
-/// Lines of pure green, which no surface has, and everything else about them off.
+/// Lines of pure green, which no surface has, with all other line features off.
 const PLAIN: [&str; 8] = [
     "spin=0",
     "widthMask=0",
@@ -23,7 +23,7 @@ const PLAIN: [&str; 8] = [
     "outlineWidth=0.1",
 ];
 
-/// Which of the preset's meshes gives its programs: each has a page of the textures, and three draws.
+/// The preset's mesh whose programs are used: each has a page of the textures, and three draws.
 #[derive(Clone, Copy)]
 enum Page {
     Figure,
@@ -35,10 +35,9 @@ fn camera(distance: f64) -> Camera {
     Camera { yaw: 0.0, pitch: 0.0, distance, fov: FOV, near: 0.5, far: 60.0, ..Camera::default() }
 }
 
-/// One mesh about the origin, turned, with a page's programs, and behind it in drawing order what else there is.
+/// Returns a scene of one rotated mesh at the origin, drawn by a page's three draws.
 fn scene(page: Page, mesh: &str, rotation: [f64; 3], distance: f64, custom_uniforms: &[&str]) -> Project {
     let mut project = preset("toon-outline", &PLAIN);
-    // One by one: a custom uniform may be turned once.
     custom_uniforms.iter().for_each(|custom_uniform| project.set_custom_uniform(custom_uniform).unwrap());
     let geometry = project.pass_mut(&buffer("scene")).unwrap().body.geometry_mut().unwrap();
     geometry.camera = camera(distance);
@@ -76,7 +75,7 @@ fn count(pixels: &Pixels, is: impl Fn(&[f32; 4]) -> bool) -> usize {
     pixels.texels.iter().filter(|t| is(t)).count()
 }
 
-/// The formula of the preset's Common, in pixels, for a sphere of radius 1 whose line is so wide near by.
+/// The formula of the preset's Common, in pixels, for a sphere of radius 1 whose line has `width` when near.
 fn formula(width: f64, distance: f64, nearest: f64, farthest: f64, height: f64) -> f64 {
     let t = ((distance - nearest) / (farthest - nearest)).clamp(0.0, 1.0);
     let w = width * (1.0 - t * t * (3.0 - 2.0 * t));
@@ -85,7 +84,7 @@ fn formula(width: f64, distance: f64, nearest: f64, farthest: f64, height: f64) 
 }
 
 #[test]
-fn a_line_is_as_many_pixels_wide_as_its_formula_says() {
+fn line_width_in_pixels_matches_the_formula() {
     let Some(gpu) = gpu() else { return };
     let (width, nearest, farthest) = (0.2, 4.0, 16.0);
     for mode in ["outlineMode=0", "outlineMode=1"] {
@@ -93,11 +92,11 @@ fn a_line_is_as_many_pixels_wide_as_its_formula_says() {
             let custom_uniforms = [mode, "outlineWidth=0.2", "nearest=4", "farthest=16"];
             let pixels = drawn(&gpu, Page::Figure, "builtin:sphere", [0.0; 3], distance, &custom_uniforms);
             let expected = formula(width, distance, nearest, farthest, f64::from(pixels.height));
-            // Rings have the areas of discs; so a width is known to a part of a pixel.
+            // The ring's width from the areas of two discs, which is accurate to a fraction of a pixel.
             let radius = |n: usize| (n as f64 / std::f64::consts::PI).sqrt();
             let (all, lines) = (count(&pixels, is_covered), count(&pixels, is_line));
             let measured = radius(all) - radius(all - lines);
-            // And along the row through the middle, on both sides.
+            // The width along the middle row, on both sides.
             let row = pixels.height / 2;
             let along = (0..pixels.width).filter(|x| is_line(&texel(&pixels, *x, row))).count() as f64 / 2.0;
             println!("{mode}, {distance}: {measured:.3} px, {along} along a row; formula {expected:.3}");
@@ -112,16 +111,16 @@ fn a_line_is_as_many_pixels_wide_as_its_formula_says() {
 }
 
 #[test]
-fn the_width_mask_makes_a_line_thinner_as_far_as_it_counts() {
+fn the_width_mask_thins_lines_by_its_strength() {
     let Some(gpu) = gpu() else { return };
     let lines = |mask: &str| count(&drawn(&gpu, Page::Figure, "builtin:sphere", [0.0; 3], 6.0, &[mask]), is_line);
     let [none, half, all] = ["widthMask=0", "widthMask=0.5", "widthMask=1"].map(lines);
-    // The mask is 0.45 to 1.
+    // The mask's values are 0.45 to 1.
     assert!(all < half && half < none && all as f64 > 0.45 * none as f64, "{none}, {half}, {all}");
 }
 
 #[test]
-fn without_width_and_with_depth_alone_there_is_no_line() {
+fn zero_width_or_depth_only_draws_no_line() {
     let Some(gpu) = gpu() else { return };
     for (page, mesh) in [(Page::Figure, "builtin:figure"), (Page::Cube, "builtin:cube"), (Page::Knot, "builtin:knot")] {
         let with = |custom_uniforms: &[&str]| drawn(&gpu, page, mesh, [20.0, 30.0, 0.0], 7.0, custom_uniforms);
@@ -135,7 +134,7 @@ fn without_width_and_with_depth_alone_there_is_no_line() {
 }
 
 #[test]
-fn depth_alone_hides_what_is_drawn_behind() {
+fn depth_only_lines_hide_later_draws_behind_them() {
     let Some(gpu) = gpu() else { return };
     // A large cube behind the sphere, drawn after it.
     let with = |z_only: &str| {
@@ -154,15 +153,15 @@ fn depth_alone_hides_what_is_drawn_behind() {
     assert!(count(&lines, is_line) > 500);
     for (line, gap) in lines.texels.iter().zip(&gaps.texels) {
         if is_line(line) {
-            assert_eq!(*gap, [0.0; 4], "where the line was, nothing is");
+            assert_eq!(*gap, [0.0; 4], "the line's texels are empty");
         } else {
-            assert_eq!(line, gap, "nothing else changes");
+            assert_eq!(line, gap, "other texels are unchanged");
         }
     }
 }
 
 #[test]
-fn what_is_cut_out_and_its_inverse_are_the_whole() {
+fn clipping_and_its_inverse_add_up_to_the_whole_mesh() {
     let Some(gpu) = gpu() else { return };
     for clipping in ["clipping=1", "clipping=2"] {
         for level in ["clipLevel=0.25", "clipLevel=0.5", "clipLevel=0.8"] {
@@ -174,16 +173,16 @@ fn what_is_cut_out_and_its_inverse_are_the_whole() {
             let (kept, inverse) = (with("clipInverse=false"), with("clipInverse=true"));
             let mut counts = [0; 2];
             for ((whole, a), b) in uncut.texels.iter().zip(&kept.texels).zip(&inverse.texels) {
-                assert!(!(is_covered(a) && is_covered(b)), "one of both, not both");
+                assert!(!(is_covered(a) && is_covered(b)), "no texel is in both");
                 let either = if is_covered(a) { a } else { b };
-                assert_eq!(either, whole, "together they are the whole");
+                assert_eq!(either, whole, "together they are the whole mesh");
                 counts[0] += usize::from(is_covered(a));
                 counts[1] += usize::from(is_covered(b));
             }
             println!("{clipping}, {level}: {counts:?}");
             assert!(counts.iter().all(|n| *n > 500), "{clipping}, {level}: {counts:?}");
         }
-        // The level's end: everything is kept. And lines are cut out with their mesh.
+        // At level 0 everything is kept, and lines are clipped with their mesh.
         let lines = |custom_uniforms: &[&str]| {
             let all = [&[clipping][..], custom_uniforms].concat();
             drawn(&gpu, Page::Figure, "builtin:sphere", [0.0; 3], 5.0, &all)
@@ -195,26 +194,26 @@ fn what_is_cut_out_and_its_inverse_are_the_whole() {
 }
 
 #[test]
-fn an_offset_of_depth_hides_the_lines_inside_of_a_mesh() {
+fn a_depth_offset_hides_the_lines_inside_a_mesh() {
     let Some(gpu) = gpu() else { return };
     let with = |offset: &str| drawn(&gpu, Page::Knot, "builtin:knot", [0.0; 3], 6.0, &[offset]);
     let bare = drawn(&gpu, Page::Knot, "builtin:knot", [0.0; 3], 6.0, &["outlineWidth=0"]);
-    // Lines before the mesh itself, and beside it.
+    // Lines in front of the mesh, and outside its silhouette.
     let lines = |pixels: &Pixels| -> [Vec<bool>; 2] {
         let all = || pixels.texels.iter().zip(&bare.texels);
         [true, false].map(|inside| all().map(|(t, b)| is_line(t) && is_covered(b) == inside).collect())
     };
-    let ([inside, beside], [inside_pushed, beside_pushed]) =
+    let ([inside, outside], [inside_pushed, outside_pushed]) =
         (lines(&with("depthOffset=0")), lines(&with("depthOffset=4")));
     let number = |set: &[bool]| set.iter().filter(|x| **x).count();
-    println!("inside {} and {}, beside {}", number(&inside), number(&inside_pushed), number(&beside));
+    println!("inside {} and {}, outside {}", number(&inside), number(&inside_pushed), number(&outside));
     assert!(number(&inside) > 500 && number(&inside_pushed) == 0);
-    assert!(number(&beside) > 1000 && beside == beside_pushed, "the silhouette's line stays where it is");
+    assert!(number(&outside) > 1000 && outside == outside_pushed, "the silhouette's line is unchanged");
     let [inside_pulled, _] = lines(&with("depthOffset=-0.2"));
-    assert!(number(&inside_pulled) > number(&inside), "pulled, it comes before more of the mesh");
+    assert!(number(&inside_pulled) > number(&inside), "pulled forward, lines cover more of the mesh");
 }
 
-/// Texels that are not covered though they lie within the convex hull of those that are.
+/// Counts the texels that are not covered although they are within the convex hull of those that are.
 fn notches(pixels: &Pixels) -> usize {
     let at = |i: usize| [(i as u32 % pixels.width) as i64, (i as u32 / pixels.width) as i64];
     let mut points: Vec<[i64; 2]> =
@@ -251,21 +250,21 @@ fn scaled_positions_and_baked_normals_keep_a_cubes_corners_closed() {
     let [open, closed, smooth] = [&split, &scaled, &baked].map(notches);
     println!("notches: {open} along split normals, {closed} scaled, {smooth} baked");
     // A cube's silhouette is convex, and so is that of a larger one.
-    assert!(open > 200, "along split normals the hull comes apart: {open}");
+    assert!(open > 200, "along split normals the hull has gaps: {open}");
     assert_eq!([closed, smooth], [0, 0]);
-    // For a cube the baked normals are those from its middle: the same hull, but for roundings.
+    // A cube's baked normals point away from its centre: the same hull, except for rounding.
     let unlike = scaled.texels.iter().zip(&baked.texels).filter(|(a, b)| is_line(a) != is_line(b)).count();
     assert!(unlike <= 20 && count(&scaled, is_line) > 500, "{unlike} texels differ");
 }
 
 #[test]
-fn a_lines_colour_is_its_own_the_lights_the_textures_and_the_meshs() {
+fn line_colour_depends_on_light_texture_and_mesh() {
     let Some(gpu) = gpu() else { return };
     let bare = drawn(&gpu, Page::Figure, "builtin:figure", [0.0; 3], 7.0, &["outlineWidth=0"]);
     let colours = |custom_uniforms: &[&str]| -> Vec<[u8; 3]> {
         let pixels = drawn(&gpu, Page::Figure, "builtin:figure", [0.0; 3], 7.0, custom_uniforms);
-        let beside = pixels.texels.iter().zip(&bare.texels).filter(|(t, b)| is_covered(t) && !is_covered(b));
-        let mut all: Vec<[u8; 3]> = beside.map(|(t, _)| [0, 1, 2].map(|i| (t[i] * 255.0).round() as u8)).collect();
+        let outside = pixels.texels.iter().zip(&bare.texels).filter(|(t, b)| is_covered(t) && !is_covered(b));
+        let mut all: Vec<[u8; 3]> = outside.map(|(t, _)| [0, 1, 2].map(|i| (t[i] * 255.0).round() as u8)).collect();
         assert!(all.len() > 500);
         all.sort();
         all.dedup();
@@ -276,8 +275,8 @@ fn a_lines_colour_is_its_own_the_lights_the_textures_and_the_meshs() {
     assert_eq!(colours(&["outlineColour=1,0.2,0.4", light, "lightColoured=true"]), [[51, 51, 61]]);
     assert_eq!(colours(&["outlineColour=1,0.2,0.4", light]), [[255, 51, 102]]);
     let floor = colours(&["outlineColour=1,0.2,0.4", light, "lightColoured=true", "lineAmbient=0.6"]);
-    assert_eq!(floor, [[153, 51, 61]], "no component of the light counts less than the ambient");
-    // The parts' colours, squared: coat, skin, hat and brass are all beside the figure somewhere.
+    assert_eq!(floor, [[153, 51, 61]], "the ambient is the minimum of each component of the light");
+    // The squared colours of the parts: coat, skin, hat and brass are all next to the silhouette somewhere.
     let squared = [[0.24, 0.42, 0.72], [0.93, 0.74, 0.58], [0.12, 0.13, 0.16], [0.85, 0.62, 0.22]]
         .map(|c: [f32; 3]| c.map(|x| (x * x * 255.0).round() as u8));
     let blended = colours(&["blendBase=1"]);
@@ -287,13 +286,13 @@ fn a_lines_colour_is_its_own_the_lights_the_textures_and_the_meshs() {
     let textured = colours(&["outlineColour=1,1,1", "outlineTexture=1"]);
     assert!(textured.len() > 20 && textured.iter().all(|c| c[0] >= 139 && c[1] <= c[0]), "{textured:?}");
     let replaced = colours(&["outlineColour=1,1,1", "outlineTexture=1", "blendBase=1", "textureReplaces=true"]);
-    assert_eq!(replaced, textured, "the texture in place of the blend");
+    assert_eq!(replaced, textured, "the texture replaces the blend");
 }
 
 #[test]
-fn depth_alone_of_no_width_hides_what_the_mesh_hides() {
+fn a_depth_only_hull_of_zero_width_hides_what_the_mesh_hides() {
     let Some(gpu) = gpu() else { return };
-    // The hull alone, and a large cube behind it, drawn after it.
+    // The hull alone, then a large cube behind it.
     let seen = |custom_uniforms: &[&str]| {
         let mut project = scene(Page::Figure, "builtin:sphere", [0.0; 3], 6.0, custom_uniforms);
         let geometry = project.pass_mut(&buffer("scene")).unwrap().body.geometry_mut().unwrap();
@@ -305,7 +304,7 @@ fn depth_alone_of_no_width_hides_what_the_mesh_hides() {
     };
     let whole = seen(&["zOnly=false"]);
     let hidden = |custom_uniforms: &[&str]| whole - seen(&[&["zOnly=true"][..], custom_uniforms].concat());
-    // A sphere of radius 1, and with its line of 0.1.
+    // The projected area of a sphere; with its line of 0.1 the radius is 1.1.
     let disc = |r: f64| {
         std::f64::consts::PI * (360.0 / (2.0 * (FOV / 2.0).to_radians().tan()) * r / (36.0 - r * r).sqrt()).powi(2)
     };

@@ -1,4 +1,4 @@
-//! What the presets promise, measured on the device: not that pixels change, but that the right quantity does.
+//! Measurements of the presets on the device: not that pixels change, but that the right quantity does.
 
 use crate::support::{presets::*, *};
 use eddy::{
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 const LEFT_ARROW: u8 = 37;
 const SPACE: u8 = 32;
 
-/// What several projects need is in a folder of `shared/`, once.
+/// Texts used by several projects are stored once, in a folder of `shared/`.
 #[test]
 fn no_text_in_the_binary_is_a_copy_of_another() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -30,7 +30,7 @@ fn no_text_in_the_binary_is_a_copy_of_another() {
                         panic!("{} and {} have the same function:\n{function}", first.display(), path.display());
                     }
                 }
-                // Of one line is a text that only includes another.
+                // A text of one line only includes another file.
                 if text.lines().count() > 1
                     && let Some(first) = files.insert(text, path.clone())
                 {
@@ -42,7 +42,7 @@ fn no_text_in_the_binary_is_a_copy_of_another() {
     assert!(files.len() > 300 && functions.len() > 50, "{} files, {} functions", files.len(), functions.len());
 }
 
-/// The functions of a text that have five lines or more. Each pass has its own `mainImage`.
+/// Returns the functions of a text that have five lines or more. Each pass has its own `mainImage`.
 fn long_functions(text: &str) -> impl Iterator<Item = &str> {
     let starts = text.match_indices(") {\n").map(|(at, _)| text[..at].rfind('\n').map_or(0, |line| line + 1));
     let heads = starts.filter(|start| text[*start..].starts_with(char::is_alphanumeric));
@@ -51,7 +51,7 @@ fn long_functions(text: &str) -> impl Iterator<Item = &str> {
 }
 
 #[test]
-fn three_chained_sub_steps_are_three_steps_of_one_pass() {
+fn three_chained_passes_equal_three_steps_of_one_pass() {
     let Some(gpu) = gpu() else { return };
     let chain = preset("fluid");
     let mut single = chain.clone();
@@ -69,14 +69,14 @@ fn three_chained_sub_steps_are_three_steps_of_one_pass() {
             assert_ne!(
                 bits(&c),
                 bits(&chain.read(&buffer("B")).unwrap()),
-                "the fluid stands still: the test sees nothing"
+                "the fluid does not move, so the test is blind"
             );
         }
     }
 }
 
 #[test]
-fn drawing_what_nobody_needs_changes_no_byte() {
+fn drawing_unneeded_passes_changes_no_byte() {
     let Some(gpu) = gpu() else { return };
     for name in presets::names() {
         let project = preset(name);
@@ -87,8 +87,9 @@ fn drawing_what_nobody_needs_changes_no_byte() {
             draw(&mut engine, 0..12, drag);
             bits(&engine.read_image().unwrap())
         });
-        assert!(pictures[0] == pictures[1], "{name} is another picture when nothing is skipped");
-        // Of frames that nobody sees, what others read is enough: some are seen one after the other, some not at all.
+        assert!(pictures[0] == pictures[1], "{name} has a different picture when nothing is skipped");
+        // For frames that are not shown, only the passes that later frames read are drawn: some frames here are shown
+        // one after the other, some not at all.
         let mut engine = engines.whole(&project, true, (48, 27));
         let mut drawn = 0;
         for frame in 0..12 {
@@ -99,13 +100,13 @@ fn drawing_what_nobody_needs_changes_no_byte() {
             drawn += if matches!(frame, 7) { frame_stats.passes_drawn } else { 0 };
         }
         assert!(bits(&engine.read_image().unwrap()) == pictures[0], "{name} depends on frames that were not seen");
-        let most = engine.draw(&drag(12)).unwrap().passes_drawn;
-        assert!(drawn < most, "{name}: {drawn} of {most} draws of a frame that nobody sees");
+        let all = engine.draw(&drag(12)).unwrap().passes_drawn;
+        assert!(drawn < all, "{name}: {drawn} of {all} draws of a frame that is not shown");
     }
 }
 
 #[test]
-fn a_run_repeats_itself_whole_or_in_halves() {
+fn a_run_gives_the_same_result_whole_or_in_halves() {
     let Some(gpu) = gpu() else { return };
     for name in presets::names() {
         let project = preset(name);
@@ -121,21 +122,18 @@ fn a_run_repeats_itself_whole_or_in_halves() {
         }
         let after = bits(&engines[0].read_image().unwrap());
         draw(&mut engines[0], 12..13, drag);
-        assert!(
-            after != bits(&engines[0].read_image().unwrap()),
-            "{name} does not move, so the test would prove nothing"
-        );
+        assert!(after != bits(&engines[0].read_image().unwrap()), "{name} does not move, so the test is blind");
     }
 }
 
-/// Mean of a channel over columns 12..30 of rows 6..=12: where the drag goes.
-fn mean_on_the_way(pixels: &Pixels, channel: usize) -> f32 {
+/// Returns the mean of a channel over columns 12..30 of rows 6..=12: the path of the drag.
+fn mean_along_drag(pixels: &Pixels, channel: usize) -> f32 {
     let texels: Vec<f32> =
         (6..=12).flat_map(|y| (12..30).map(move |x| (x, y))).map(|(x, y)| texel(pixels, x, y)[channel]).collect();
     texels.iter().sum::<f32>() / texels.len() as f32
 }
 
-/// Where the dye lies along x, weighted by its thickness.
+/// Returns the centre of the dye along x, weighted by its thickness.
 fn dye_centre(pixels: &Pixels) -> f32 {
     let (mut sum, mut weight) = (0.0, 0.0);
     for y in 1..pixels.height {
@@ -151,25 +149,25 @@ fn dye_centre(pixels: &Pixels) -> f32 {
 #[test]
 fn a_drag_pushes_the_fluid_along_and_carries_the_dye() {
     let Some(gpu) = gpu() else { return };
-    // Still water, so that what moves was moved by the mouse.
+    // The water is still, so only the mouse moves it.
     let project = preset_with("fluid", &["nozzles=0"]);
     let mut engine = drawn(&gpu, &project, true, (64, 36), 0..10, drag);
-    assert_eq!(mean_on_the_way(&engine.read(&buffer("C")).unwrap(), 0), 0.0);
+    assert_eq!(mean_along_drag(&engine.read(&buffer("C")).unwrap(), 0), 0.0);
     draw(&mut engine, 10..25, drag);
-    let [along, across] = [0, 1].map(|channel| mean_on_the_way(&engine.read(&buffer("C")).unwrap(), channel));
+    let [along, across] = [0, 1].map(|channel| mean_along_drag(&engine.read(&buffer("C")).unwrap(), channel));
     assert!(along > 0.1 && across.abs() < 0.2 * along, "along {along}, across {across}");
     let before = dye_centre(&engine.read(&buffer("D")).unwrap());
-    // The mouse is up: only the fluid moves the dye now.
+    // The mouse is released: only the fluid moves the dye.
     draw(&mut engine, 25..55, |f| held(f, None));
     let after = dye_centre(&engine.read(&buffer("D")).unwrap());
     assert!(after > before + 0.5, "the dye's centre went from {before} to {after}");
 }
 
-/// The others are drawn at these sizes by `preset_simulations`, with a violent hand.
+/// `preset_simulations` draws the others at these sizes, with violent drags.
 #[test]
-fn every_preset_that_is_no_simulation_survives_every_size() {
+fn other_presets_are_finite_at_every_size() {
     let Some(gpu) = gpu() else { return };
-    for name in presets::names().iter().filter(|name| !crate::preset_simulations::are_drawn_of(name)) {
+    for name in presets::names().iter().filter(|name| !crate::preset_simulations::tests_preset(name)) {
         let project = preset(name);
         let mut engine = whole(&gpu, &project, true, (48, 27));
         for size in [(1, 1), (1, 2), (2, 1), (3, 3), (17, 31), (4096, 1), (1, 4096)] {
@@ -190,7 +188,7 @@ fn a_trail_fades_by_exp_of_minus_33_over_the_height() {
     let project = preset("feedback");
     for size in [(48, 27), (40, 90)] {
         let mut engine = drawn(&gpu, &project, true, size, 0..20, |f| held(f, None));
-        // The mouse is held from now on: the pens that draw by themselves rest, and their trails only fade.
+        // The mouse is held from here on: the automatic pens stop, and their trails only fade.
         let mouse = |f| held(f, Some(([5.0, 5.0], [5.0, 5.0])));
         draw(&mut engine, 20..21, mouse);
         let before = engine.read(&buffer("A")).unwrap();
@@ -219,7 +217,7 @@ fn a_trail_fades_by_exp_of_minus_33_over_the_height() {
 fn the_paddle_follows_the_mouse_and_the_keys() {
     let Some(gpu) = gpu() else { return };
     let mut engine = drawn(&gpu, &preset("brick-breaker"), true, (64, 36), 0..5, |f| held(f, None));
-    // Five pixels are a field unit's worth: 320 units across 64 pixels, the middle of the pixel counts.
+    // A pixel is five field units: 320 units across 64 pixels, measured at the pixel's centre.
     for (frame, x) in [(5, 20.0), (6, 40.0), (7, 33.0)] {
         draw(&mut engine, frame..frame + 1, |f| held(f, Some(([20.0, 9.0], [x, 9.0]))));
         let paddle = texel(&engine.read(&buffer("A")).unwrap(), 1, 0)[0];
@@ -240,7 +238,7 @@ fn the_paddle_follows_the_mouse_and_the_keys() {
     assert!(texel(&engine.read(&buffer("A")).unwrap(), 0, 0)[3] > 0.0, "Space launches it upwards");
 }
 
-/// Returns Brick Breaker without bricks and paddle, with a floor, and a ball that begins so.
+/// Returns Brick Breaker without bricks and paddle, with a floor, and a ball with this initial velocity.
 fn ball_alone(velocity: [f32; 2]) -> Project {
     let mut project = preset("brick-breaker");
     let a = buffer("A");
@@ -263,14 +261,14 @@ fn the_ball_never_tunnels_and_never_changes_speed() {
         for frame in 1..60 {
             draw(&mut engine, frame..frame + 1, |f| held(f, None));
             let ball = texel(&engine.read(&a).unwrap(), 0, 0);
-            assert_eq!([ball[2].abs(), ball[3].abs()], velocity, "reflections only turn signs");
+            assert_eq!([ball[2].abs(), ball[3].abs()], velocity, "reflections only change signs");
             assert_eq!([0, 1].map(|k| f64::from(ball[k])), unfolded(start, velocity, frame), "{speed}, frame {frame}");
         }
     }
 }
 
-/// Where the ball is after so many frames without bricks and paddle: on a straight line in a plane tiled with mirrored
-/// fields. Its places, its walls and the way of a frame are whole numbers of 2^-15 units.
+/// Returns the position of the ball after `frames` frames without bricks and paddle: on a straight line in a plane
+/// tiled with mirrored fields. Its positions, the walls and the path per frame are multiples of 2^-15 units.
 fn unfolded(start: [f32; 4], velocity: [f32; 2], frames: i32) -> [f64; 2] {
     let ticks = |units: f64| (units * 32768.0).round_ties_even();
     let (low, high) = (ticks(2.4), [ticks(317.6), ticks(159.6)]);
@@ -284,7 +282,7 @@ fn unfolded(start: [f32; 4], velocity: [f32; 2], frames: i32) -> [f64; 2] {
 #[test]
 fn the_ball_follows_the_unfolded_path_for_a_hundred_thousand_bounces() {
     let Some(gpu) = gpu() else { return };
-    // 10,000 units a frame meet some 70 walls in each.
+    // At 10,000 units per frame it meets some 70 walls in each frame.
     let velocity = [0.6f32 * 6e5, 0.8 * 6e5];
     let (project, a) = (ball_alone(velocity), buffer("A"));
     let mut engine = drawn(&gpu, &project, true, (16, 9), 0..1, untouched);
@@ -294,7 +292,7 @@ fn the_ball_follows_the_unfolded_path_for_a_hundred_thousand_bounces() {
         draw(&mut engine, frame..frame + 25, untouched);
         frame += 25;
         let ball = texel(&engine.read(&a).unwrap(), 0, 0);
-        assert_eq!([ball[2].abs(), ball[3].abs()], velocity, "reflections only turn signs");
+        assert_eq!([ball[2].abs(), ball[3].abs()], velocity, "reflections only change signs");
         let way = |k: usize, length: f64| f64::from(velocity[k]) / 60.0 * f64::from(frame - 1) / length;
         bounces = way(0, 315.2) + way(1, 157.2);
         let expected = unfolded(start, velocity, frame - 1);
@@ -313,7 +311,7 @@ fn the_game_survives_a_resize() {
     let bricks = |pixels: &Pixels| rows(pixels)[16..].iter().filter(|t| t[0] > 0.5).count();
     assert!(bricks(&before) < 96, "nothing was broken in 90 frames");
     engine.resize(21, 11).unwrap();
-    // As in a pause: time stands, so the game must too.
+    // As in a pause: time is stopped, so the game must be too.
     engine.draw(&FrameInputs { time_secs: 89.0 / 60.0, ..held(90, None) }).unwrap();
     let after = engine.read(&buffer("A")).unwrap();
     assert_eq!(rows(&before)[0], rows(&after)[0], "the ball");

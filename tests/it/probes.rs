@@ -1,4 +1,4 @@
-//! Probes: a value of the code that is drawn, and what is drawn besides.
+//! Probes: the value of an expression in the code is drawn, without changing other results.
 
 use crate::{
     support::{
@@ -17,17 +17,17 @@ use eddy::{
 
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
 
-/// The probe of the first value of the expression at a part of a pass's text.
+/// Returns the probe of the first value of the expression at `text` in a pass.
 fn probe_of(project: &Project, id: &PassName, text: &str) -> Option<(PassName, Probe)> {
     let index = project.passes.iter().position(|p| p.id == *id).unwrap();
     let at = project.passes[index].source.text.find(text).unwrap() as u32;
     Some((id.clone(), Probe { source: Project::pass_id(index), at, visit: 0 }))
 }
 
-/// While a value is probed the buffers go on as if nobody looked, also those of a group, and those that the value does
-/// not need; and the value is this frame's, wherever its pass stands in the project.
+/// While a value is probed, the buffers are drawn as without it, including those of a group and those that the value
+/// does not need; the value is of this frame, wherever its pass is in the project.
 #[test]
-fn a_probe_disturbs_no_buffer_and_is_of_this_frame() {
+fn a_probe_changes_no_buffer_and_shows_this_frame() {
     let Some(gpu) = gpu() else { return };
     let step = "void mainImage(out vec4 o, vec2 p) { vec4 s = texelFetch(iChannel0, ivec2(p), 0); vec4 t = \
                 texelFetch(iChannel1, ivec2(p), 0); o = s * 0.5 + t + vec4(1.0, p, 0.0); }\n";
@@ -67,18 +67,18 @@ fn a_probe_disturbs_no_buffer_and_is_of_this_frame() {
         assert!(probed_a == a && probed_b == b, "{text} of {}", id.title());
         let value = value.unwrap();
         match text {
-            // What Image reads has been drawn before it, though Image stands first.
+            // The buffers that Image reads are drawn before it, although Image is first in the project.
             "a = " => assert!(value == a),
             "one = " => assert!(value.iter().all(|v| v[0] == 4.0)),
-            // In the last step of the group, where a has been drawn already.
+            // In the last step of the group, after `a` was drawn.
             "t + vec4" => assert!(value == a),
             _ => assert!(value.iter().all(|v| v[0] > 0.0)),
         }
     }
 }
 
-/// A buffer draws a probed value beside its picture, in the same pass: the frame has no pass more, and every texel of
-/// every pass is the same, bit for bit.
+/// A buffer draws a probed value together with its picture, in the same pass: the frame has no additional pass, and
+/// every texel of every pass is identical.
 #[test]
 fn a_probe_of_any_buffer_of_the_presets_changes_no_texel() {
     let Some(gpu) = gpu() else { return };
@@ -115,7 +115,7 @@ fn a_probe_of_any_buffer_of_the_presets_changes_no_texel() {
                 let probe = Probe { source: Project::pass_id(index), at: *at as u32, visit: 0 };
                 sources.probed(index, &probe).map(|_| probe)
             };
-            // One in the midst of its text.
+            // One in the middle of its text.
             let Some(probe) = places[places.len() / 2..].iter().find_map(is_value) else { continue };
             let (passes_probed, texels_probed, value) = drawn(Some((pass.id.clone(), probe)));
             assert_eq!(passes_probed, passes, "{name}, {}", pass.id.title());
@@ -129,10 +129,10 @@ fn a_probe_of_any_buffer_of_the_presets_changes_no_texel() {
     assert!(seen > 40, "{seen} passes");
 }
 
-/// Where a pass discards, and outside of its region, nothing was evaluated last, so there is no value; its boundary
-/// holds the author's texels and the probe what the pass evaluated there.
+/// Where a pass discards, and outside its region, no value was evaluated; its boundary contains the author's texels,
+/// and the probe the value that the pass evaluated there.
 #[test]
-fn no_value_where_nothing_is_drawn() {
+fn undrawn_texels_have_no_probe_value() {
     let Some(gpu) = gpu() else { return };
     let code = "void mainImage(out vec4 o, vec2 p) { float x = p.x + float(iFrame); if (p.y > 3.0) discard; \
                 o = texelFetch(iChannel0, ivec2(p), 0) + x; }\n";
@@ -162,7 +162,7 @@ fn no_value_where_nothing_is_drawn() {
 }
 
 #[test]
-fn a_pass_of_meshes_is_not_probed() {
+fn a_geometry_pass_cannot_be_probed() {
     let Some(gpu) = gpu() else { return };
     let project = all_presets::load("ssao").unwrap().project;
     let pass = project.passes.iter().find(|p| !p.body.is_screen()).unwrap().id.clone();
@@ -170,7 +170,7 @@ fn a_pass_of_meshes_is_not_probed() {
     let options = BuildOptions { wanted: vec![BuildOptions::probed()], probe, ..Default::default() };
     let (media, _) = media::gather(&project, None);
     let Err(BuildError::Diagnostics { diagnostics, .. }) = Program::build(&gpu, &project, &media, &options) else {
-        panic!("it is");
+        panic!("the pass is probed");
     };
     assert!(diagnostics.iter().any(|d| d.message.contains("cannot be probed")), "{diagnostics:?}");
 }

@@ -1,5 +1,5 @@
-//! Frames by ranges and shards on the built program: names, what is kept, bytes of an array of tasks against one run, and
-//! tasks that are killed.
+//! Frames by ranges and shards with the built program: names, frames that are kept, an array of tasks compared with one
+//! run byte by byte, and killed tasks.
 
 use crate::support::program::{Bench, run};
 use std::{
@@ -9,7 +9,7 @@ use std::{
 
 const PLACE: &str = "fragColor = vec4(fragCoord / iResolution.xy, fract(float(iFrame) * 0.37 + iTime), 1.0);";
 
-/// Counts frames in a buffer, and keeps what a `discard` leaves.
+/// Writes a project that counts frames in a buffer.
 fn counting(b: &Bench) {
     b.image(
         "count/buffer_a.glsl",
@@ -29,7 +29,7 @@ fn assert_same(b: &Bench, one: &str, other: &str, count: usize) {
 }
 
 #[test]
-fn frames_of_a_range_have_their_numbers_and_what_is_there_is_kept() {
+fn frames_of_a_range_are_numbered_and_existing_files_are_kept() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image("place.glsl", PLACE);
     let line = "render place.glsl --size 4x4 --out o --frames 3-9:3,12";
@@ -45,7 +45,7 @@ fn frames_of_a_range_have_their_numbers_and_what_is_there_is_kept() {
     assert_eq!((&run.json()[0]["frames"], &run.json()[0]["kept"]), (&0.into(), &4.into()));
     b.line(&format!("{line} --overwrite")).expect(0);
     assert_ne!(b.bytes("o/place_0009.png"), b"mine");
-    // A single frame that is named otherwise is written as ever.
+    // A single frame has a name without a number and is always written.
     b.line("render place.glsl --size 4x4 --at 9 --out p").expect(0);
     assert_eq!(b.bytes("p/place.png"), b.bytes("o/place_0009.png"));
     b.write("p/place.png", "old");
@@ -54,7 +54,7 @@ fn frames_of_a_range_have_their_numbers_and_what_is_there_is_kept() {
 }
 
 #[test]
-fn frames_that_are_passed_over_change_nothing() {
+fn skipped_frames_do_not_change_the_others() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image("place.glsl", PLACE);
     counting(&b);
@@ -82,7 +82,7 @@ fn frames_that_are_passed_over_change_nothing() {
 }
 
 #[test]
-fn an_array_of_tasks_writes_what_one_run_does() {
+fn an_array_of_tasks_writes_the_same_files_as_one_run() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image("place.glsl", PLACE);
     counting(&b);
@@ -96,7 +96,7 @@ fn an_array_of_tasks_writes_what_one_run_does() {
         }
         assert_same(&b, &format!("{project}.one"), &format!("{project}.array"), 26);
     }
-    // A scheduler says which part it is.
+    // A scheduler sets the shard by environment variables.
     for task in 0..4u32 {
         let slurm = [
             ("SLURM_ARRAY_TASK_ID", (task * 5 + 10).to_string()),
@@ -116,7 +116,7 @@ fn an_array_of_tasks_writes_what_one_run_does() {
     assert_same(&b, "place.glsl.one", "seq", 26);
     let none = b.line("render place.glsl --frames 0-25 --out none --shard auto").expect(2);
     assert!(none.err.contains("SLURM_ARRAY_TASK_ID") && none.err.contains("i/n"), "{}", none.err);
-    // More tasks than frames: some have nothing to do, and that is no trouble.
+    // With more tasks than frames, some tasks have nothing to do, which is not an error.
     assert_eq!(
         b.line("render place.glsl --size 4x4 --frames 0-1 --out few --shard 1/3").expect(0).out.lines().count(),
         1
@@ -124,15 +124,15 @@ fn an_array_of_tasks_writes_what_one_run_does() {
     assert_eq!(b.line("render place.glsl --size 4x4 --frames 0-1 --out few --shard 0/3").expect(0).out, "");
 }
 
-/// `EDDY_KILLS` says how many times.
+/// `EDDY_KILLS` is the number of killed tasks.
 #[test]
-fn a_task_that_is_killed_and_done_again_writes_the_same_bytes() {
+fn a_killed_and_restarted_task_writes_the_same_bytes() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image("place.glsl", PLACE);
     let line = "render place.glsl --size 96x54 --frames 0-29";
-    let began = Instant::now();
+    let start = Instant::now();
     b.line(&format!("{line} --out one")).expect(0);
-    let whole = began.elapsed();
+    let whole = start.elapsed();
     let kills = std::env::var("EDDY_KILLS").ok().and_then(|kills| kills.parse().ok()).unwrap_or(5u32);
     let mut killed_while_writing = 0;
     for kill in 0..kills {
@@ -140,7 +140,7 @@ fn a_task_that_is_killed_and_done_again_writes_the_same_bytes() {
         let mut command = b.command();
         command.args(format!("{line} --out {out}").split(' ')).stdout(Stdio::null()).stderr(Stdio::null());
         let mut child = command.spawn().unwrap();
-        // Some time while pictures are written: by the golden ratio, which spreads any number of them.
+        // A moment while pictures are written: by the golden ratio, which spreads any number of them.
         let part = (f64::from(kill) * 0.618_033_988_75 + 0.5).fract();
         let first = b.path(format!("{out}/place_0000.png"));
         let give_up = Instant::now() + Duration::from_secs(60);
@@ -154,7 +154,7 @@ fn a_task_that_is_killed_and_done_again_writes_the_same_bytes() {
         let pictures = || names.iter().filter(|name| name.ends_with(".png"));
         killed_while_writing += u32::from(pictures().count() < 30);
         for name in pictures() {
-            assert!(b.bytes(&format!("{out}/{name}")) == b.bytes(&format!("one/{name}")), "{name} is half written");
+            assert!(b.bytes(&format!("{out}/{name}")) == b.bytes(&format!("one/{name}")), "{name} is incomplete");
         }
         b.line(&format!("{line} --out {out}")).expect(0);
         assert_same(&b, "one", &out, 30);

@@ -1,5 +1,5 @@
-//! Films that a session makes: a range has the bytes that `eddy render` writes, what is recorded live has every frame, and
-//! nothing is left of what is cancelled.
+//! Films made by a session: a range has the bytes that `eddy render` writes, a live recording has every frame, and a
+//! cancelled film leaves no files.
 
 use crate::support::{
     self,
@@ -20,7 +20,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Sums what it saw of time and mouse.
+/// Accumulates time and mouse.
 const SUM: &str = "#iUniform float level = 0.5 in { 0.0, 1.0 }
 void mainImage(out vec4 o, in vec2 p) {
     o = fract(texelFetch(iChannel0, ivec2(p), 0) + vec4(iTimeDelta, abs(iMouse.x) * 0.01, level * 0.01, 1.0));
@@ -53,8 +53,8 @@ fn live(stage: &Stage, form: &FilmForm) -> Box<FilmOrder> {
     Box::new(checked.live.unwrap_or_else(|| panic!("{:?} {:?}", checked.errors, checked.not_live)))
 }
 
-/// Waits until a film is complete, and returns its place.
-fn made(stage: &mut Stage) -> PathBuf {
+/// Waits until a film is complete, and returns its path.
+fn finish_film(stage: &mut Stage) -> PathBuf {
     stage.until("a film", |session| session.film().is_some_and(|film| !film.is_busy()));
     match stage.session.film() {
         Some(FilmView::Done(done)) => done.path.clone(),
@@ -62,7 +62,7 @@ fn made(stage: &mut Stage) -> PathBuf {
     }
 }
 
-/// Returns the files of a folder, or a file alone.
+/// Returns the files of a folder, or a single file.
 fn files(path: &Path) -> BTreeMap<String, Vec<u8>> {
     let name = |path: &Path| path.file_name().unwrap().to_string_lossy().into_owned();
     if path.is_file() {
@@ -110,10 +110,10 @@ fn a_range_has_the_bytes_that_render_writes() {
         }
         let order = range(&stage, &form);
         stage.session.apply(Command::MakeFilm(order));
-        // What is done meanwhile is not in it.
+        // Changes made in the meantime are not in the film.
         stage.session.apply(Command::AssignCustomUniform("level=0.9".into()));
         stage.act(Command::Step);
-        let path = made(&mut stage);
+        let path = finish_film(&mut stage);
         stage.session.apply(Command::ResetCustomUniforms);
         let name = if form.format.is_still() { "rendered".into() } else { format!("rendered.{}", form.format.name()) };
         let rendered = render(&stage, &name, &format!("{options} --size 64x36"));
@@ -127,9 +127,9 @@ fn a_range_has_the_bytes_that_render_writes() {
     assert!(names(&stage.folder()).iter().all(|name| !name.starts_with('.')), "{:?}", names(&stage.folder()));
 }
 
-/// A film of a window is drawn on the window's device, in the window's own frames.
+/// A live film is drawn on the window's device, in the window's own frames.
 #[test]
-fn what_is_recorded_live_has_every_frame_and_a_fixed_step() {
+fn a_live_recording_has_every_frame_and_a_fixed_step() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
     stage.act(Command::SetFixedSize(Some((64, 36))));
@@ -144,7 +144,7 @@ fn what_is_recorded_live_has_every_frame_and_a_fixed_step() {
     // Ticks ten times as often as frames are due.
     let mut ticks = 0;
     while frames(&stage.session) < 20 {
-        // The clock of this test stands still while the encoder has no room.
+        // The clock of this test is stopped while the encoder has no room.
         if !matches!(stage.session.film(), Some(FilmView::Live(live)) if live.waits) {
             now += Duration::from_micros(3_333);
             ticks += 1;
@@ -157,13 +157,13 @@ fn what_is_recorded_live_has_every_frame_and_a_fixed_step() {
     }
     assert!((180..=220).contains(&ticks), "{ticks} ticks of a tenth of a frame");
     stage.act(Command::StopFilm);
-    let folder = made(&mut stage);
+    let folder = finish_film(&mut stage);
     let pictures: Vec<_> =
         names(&folder).iter().map(|name| image::open(folder.join(name)).unwrap().to_rgba8()).collect();
     assert_eq!(pictures.len(), 20);
     let transport = stage.session.transport();
-    assert_eq!((transport.fixed_rate, transport.fixed_size), (None, Some((64, 36))), "as they were before");
-    // As the command line draws it, with the same hand.
+    assert_eq!((transport.fixed_rate, transport.fixed_size), (None, Some((64, 36))), "rate and size are restored");
+    // The same frames as drawn by the command line, with the same mouse.
     let out = stage.dir.path().join("rendered");
     let mut eddy = Process::new(env!("CARGO_BIN_EXE_eddy"));
     eddy.arg("render").arg(stage.folder()).args(["--frames", "0-19", "--fps", "30", "--size", "64x36", "--no-project"]);
@@ -173,15 +173,15 @@ fn what_is_recorded_live_has_every_frame_and_a_fixed_step() {
     let moved = pictures[4..7]
         .windows(2)
         .map(|pair| i32::from(pair[1].get_pixel(0, 0).0[1]) - i32::from(pair[0].get_pixel(0, 0).0[1]));
-    assert!(moved.collect::<Vec<_>>() == [51, 51], "the hand is in it from frame 5 on");
+    assert!(moved.collect::<Vec<_>>() == [51, 51], "the mouse is not recorded from frame 5 on");
 }
 
-/// Ticks thirty times a second of a clock of its own until a recording has so many frames.
+/// Ticks thirty times per second of its own clock until a recording has `count` frames.
 fn record_until(stage: &mut Stage, now: &mut Instant, count: u32) {
     for _ in 0..100_000 {
         match stage.session.film() {
             Some(FilmView::Live(live)) if live.frames >= count => return,
-            // The clock stands still while the encoder has no room.
+            // The clock is stopped while the encoder has no room.
             Some(FilmView::Live(live)) if live.waits => {}
             Some(FilmView::Live(_)) => *now += Duration::from_micros(33_334),
             other => panic!("{other:?}"),
@@ -191,9 +191,9 @@ fn record_until(stage: &mut Stage, now: &mut Instant, count: u32) {
     panic!("{:?}", stage.session.film());
 }
 
-/// In the film a second of time begins where the picture becomes dark, and with it a click.
+/// Each second of the film's time starts where the picture becomes dark, together with a click.
 #[test]
-fn what_is_recorded_live_has_the_sound_of_the_times_that_it_shows() {
+fn the_sound_of_a_live_recording_follows_its_picture() {
     let Some(gpu) = support::gpu().filter(|_| has_ffmpeg()) else { return };
     let sound = "#iUniform float level = 0.9 in { 0.0, 1.0 }\n\
                  vec2 mainSound(int samp, float time) { return vec2(samp % 44100 < 44 ? level : 0.0); }\n";
@@ -220,15 +220,15 @@ fn what_is_recorded_live_has_the_sound_of_the_times_that_it_shows() {
         stage.session.apply(Command::Play);
         record_until(&mut stage, &mut now, 80);
         stage.act(Command::StopFilm);
-        let film = made(&mut stage);
+        let film = finish_film(&mut stage);
         assert!(matches!(stage.session.film(), Some(FilmView::Done(done)) if done.note.is_none()));
         let pixels = decoded(&film);
         let shown: Vec<f64> =
             pixels.chunks_exact(64 * 36 * 3).map(|frame| f64::from(frame[frame.len() / 2]) / 255.0).collect();
         assert_eq!(shown.len(), 80);
-        let begins = (0..80).filter(|&n| n == 0 || shown[n] < shown[n - 1] - 0.5);
-        let begins: Vec<f64> = begins.map(|n| n as f64 / 30.0 - shown[n]).collect();
-        assert_eq!(begins.len(), 3, "{begins:?}");
+        let starts = (0..80).filter(|&n| n == 0 || shown[n] < shown[n - 1] - 0.5);
+        let starts: Vec<f64> = starts.map(|n| n as f64 / 30.0 - shown[n]).collect();
+        assert_eq!(starts.len(), 3, "{starts:?}");
         let samples = decoded_sound(&film);
         assert!(samples.len().abs_diff(80 * 1_470) < 1_470, "{}", samples.len());
         let mut clicks: Vec<usize> = Vec::new();
@@ -238,12 +238,12 @@ fn what_is_recorded_live_has_the_sound_of_the_times_that_it_shows() {
             }
         }
         assert_eq!(clicks.len(), 3, "{format:?}: {clicks:?}");
-        for (click, begin) in clicks.iter().zip(&begins) {
-            let apart = (*click as f64 / 44_100.0 - begin).abs();
-            assert!(apart < 1.0 / 60.0, "{format:?}: a click at {click} is {apart} s from {begin}");
+        for (click, start) in clicks.iter().zip(&starts) {
+            let distance = (*click as f64 / 44_100.0 - start).abs();
+            assert!(distance < 1.0 / 60.0, "{format:?}: a click at {click} is {distance} s from {start}");
         }
         if format == Format::Mkv {
-            // Without loss: the slider's values.
+            // Lossless sound has the slider's values.
             let levels = clicks.iter().map(|n| (f64::from(samples[n + 10]) / 3_276.8).round()).collect::<Vec<_>>();
             assert_eq!(levels, [9.0, 9.0, 4.0]);
         }
@@ -258,7 +258,7 @@ fn what_is_recorded_live_has_the_sound_of_the_times_that_it_shows() {
 }
 
 #[test]
-fn a_film_that_is_cancelled_leaves_nothing() {
+fn a_cancelled_film_leaves_no_files() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
     let before = names(&stage.folder());
@@ -293,7 +293,7 @@ fn a_film_that_is_cancelled_leaves_nothing() {
 }
 
 #[test]
-fn a_file_that_came_meanwhile_is_not_replaced_and_one_that_may_be_is() {
+fn a_film_replaces_an_existing_file_only_with_consent() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
     let path = stage.folder().join("a.y4m");
@@ -301,7 +301,7 @@ fn a_file_that_came_meanwhile_is_not_replaced_and_one_that_may_be_is() {
     let order = range(&stage, &form);
     fs::write(&path, "mine").unwrap();
     stage.session.apply(Command::MakeFilm(order));
-    stage.until("the end", |session| session.film().is_some_and(|film| !film.is_busy()));
+    stage.until("the film to fail", |session| session.film().is_some_and(|film| !film.is_busy()));
     assert!(matches!(stage.session.film(), Some(FilmView::Failed(_))), "{:?}", stage.session.film());
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
     assert_eq!(stage.notices(Level::Error).len(), 1);
@@ -309,25 +309,25 @@ fn a_file_that_came_meanwhile_is_not_replaced_and_one_that_may_be_is() {
     assert!(checked.error(FilmField::File).is_some() && checked.range.is_none());
     let order = form.check(&stage.session.film_facts(), true).range.unwrap();
     stage.session.apply(Command::MakeFilm(Box::new(order)));
-    assert_eq!(made(&mut stage), path);
+    assert_eq!(finish_film(&mut stage), path);
     assert!(fs::read(&path).unwrap().starts_with(b"YUV4MPEG2"));
 }
 
 #[test]
-fn a_project_that_does_not_compile_is_no_film_and_says_where() {
+fn a_film_of_a_broken_project_fails_with_the_place_of_the_error() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
     stage.edit("void mainImage(out vec4 o, in vec2 p) { o = missing; }");
     stage.until_compiled();
     let order = range(&stage, &form("0-9", "30", Format::Png));
     stage.session.apply(Command::MakeFilm(order));
-    stage.until("the end", |session| session.film().is_some_and(|film| !film.is_busy()));
+    stage.until("the film to fail", |session| session.film().is_some_and(|film| !film.is_busy()));
     let Some(FilmView::Failed(why)) = stage.session.film() else { panic!("{:?}", stage.session.film()) };
     assert!(why.contains("missing") && why.contains(":1:"), "{why}");
 }
 
 #[test]
-fn closing_asks_what_becomes_of_a_film() {
+fn closing_during_a_film_asks_first() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
     let asked = |stage: &Stage| match stage.session.question() {
@@ -344,14 +344,14 @@ fn closing_asks_what_becomes_of_a_film() {
     stage.act(Command::Close);
     stage.act(Command::Answer(Answer::Discard));
     assert_eq!(stage.session.take_request(), Some(Request::Exit));
-    // One that is live is completed first.
+    // A live film is completed first.
     let order = live(&stage, &form("0-1", "30", Format::Y4m));
     stage.session.apply(Command::MakeFilm(order));
     stage.until("some frames", |session| matches!(session.film(), Some(FilmView::Live(live)) if live.frames > 3));
     stage.session.apply(Command::Close);
     assert_eq!(asked(&stage), Some(true));
     stage.session.apply(Command::Answer(Answer::Finish));
-    let path = made(&mut stage);
+    let path = finish_film(&mut stage);
     assert_eq!(stage.session.take_request(), Some(Request::Exit));
     assert!(fs::read(path).unwrap().starts_with(b"YUV4MPEG2"));
 }

@@ -15,7 +15,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Names the state folder to the process that is killed.
+/// Passes the state folder to the process that is killed.
 const STATE: &str = "EDDY_TEST_STATE";
 const PROJECT: &str = "EDDY_TEST_PROJECT";
 
@@ -24,7 +24,7 @@ fn session(gpu: &Gpu, state: &Path) -> Session {
     Session::with_options(gpu.clone(), Arc::new(|| ()), options).unwrap()
 }
 
-/// A session that has opened the project.
+/// Opens a session with the project.
 fn session_of(gpu: &Gpu, state: &Path, project: &Path) -> Session {
     let mut session = session(gpu, state);
     session.apply(Command::Open(project.display().to_string()));
@@ -36,14 +36,14 @@ fn recovery_files(state: &Path) -> Vec<PathBuf> {
     entries.map(|e| e.path()).filter(|p| p.extension().is_some_and(|e| e == "json")).collect()
 }
 
-/// Ticks until something is so.
+/// Ticks until `value` returns a value.
 fn until<T>(session: &mut Session, what: &str, mut value: impl FnMut(&Session) -> Option<T>) -> T {
     let end = Instant::now() + Duration::from_secs(30);
     loop {
         if let Some(value) = value(session) {
             return value;
         }
-        assert!(Instant::now() < end, "never: {what}; notices: {:#?}", session.notices());
+        assert!(Instant::now() < end, "timed out waiting for {what}; notices: {:#?}", session.notices());
         session.tick(Instant::now());
         std::thread::sleep(Duration::from_millis(2));
     }
@@ -67,13 +67,13 @@ fn write_project(dir: &Path) -> PathBuf {
     folder
 }
 
-/// Ends a session as a crash does: nothing is forgotten, and what waits is written.
+/// Ends a session as a crash does: recovery files stay, and pending ones are written.
 fn crash(session: Session) {
     drop(session);
 }
 
 #[test]
-fn a_crashed_session_is_offered_with_its_difference_and_taken_up() {
+fn a_crashed_session_is_offered_with_a_diff_and_recovered() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let (state, folder) = (dir.path().join("state"), write_project(dir.path()));
@@ -91,13 +91,13 @@ fn a_crashed_session_is_offered_with_its_difference_and_taken_up() {
     let line = |red: f32| plain(red).lines().nth(1).unwrap().to_owned();
     assert_eq!(changed, [&DiffLine::Disk(line(0.2)), &DiffLine::Mine(line(0.4))]);
     assert!(offered.is_structure_changed, "Common is new");
-    assert_eq!(second.text(&image_tab()), plain(0.2), "nothing is taken before the answer");
+    assert_eq!(second.text(&image_tab()), plain(0.2), "nothing is recovered before the answer");
     second.apply(Command::Answer(Answer::Recover));
     assert_eq!(second.text(&image_tab()), plain(0.4));
     assert!(second.is_dirty() && !second.transport().playing);
     assert!(second.tabs().contains(&Tab::Common));
     assert_eq!(recovery_files(&state).len(), 1, "it is not saved yet");
-    // And once more, from what was taken up.
+    // The recovered session can be recovered again.
     crash(second);
     let mut third = session(&gpu, &state);
     offer(&mut third);
@@ -108,7 +108,7 @@ fn a_crashed_session_is_offered_with_its_difference_and_taken_up() {
 }
 
 #[test]
-fn nothing_is_kept_after_a_save_a_discard_or_an_undo() {
+fn recovery_files_are_removed_after_a_save_discard_or_undo() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let (state, folder) = (dir.path().join("state"), write_project(dir.path()));
@@ -134,7 +134,7 @@ fn nothing_is_kept_after_a_save_a_discard_or_an_undo() {
 }
 
 #[test]
-fn new_and_preset_work_is_offered_and_can_wait_or_go() {
+fn work_on_new_projects_and_presets_can_be_recovered_later_or_discarded() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let state = dir.path().join("state");
@@ -167,7 +167,7 @@ fn new_and_preset_work_is_offered_and_can_wait_or_go() {
 }
 
 #[test]
-fn recovered_work_does_not_push_unsaved_work_aside() {
+fn recovery_asks_before_discarding_unsaved_work() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let (state, folder) = (dir.path().join("state"), write_project(dir.path()));
@@ -175,7 +175,7 @@ fn recovered_work_does_not_push_unsaved_work_aside() {
     edit(&mut first, &plain(0.4));
     crash(first);
     let mut next = session(&gpu, &state);
-    // Typed before the question was there.
+    // Typed before the question was shown.
     edit(&mut next, &plain(0.8));
     offer(&mut next);
     next.apply(Command::Answer(Answer::Recover));
@@ -186,7 +186,7 @@ fn recovered_work_does_not_push_unsaved_work_aside() {
 }
 
 #[test]
-fn commands_without_a_window_keep_nothing() {
+fn commands_without_a_window_write_no_recovery_files() {
     let Some(_) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let project = write_project(dir.path());
@@ -200,27 +200,27 @@ fn commands_without_a_window_keep_nothing() {
     }
 }
 
-/// Types a line with a growing number and says each on standard output, until it is killed.
+/// Types a line with a growing number and prints each number to standard error, until it is killed.
 #[test]
-#[ignore = "is started by `killed_at_any_moment_it_loses_at_most_a_second`"]
-fn a_session_that_types() {
+#[ignore = "is started by `a_kill_at_any_moment_loses_at_most_a_second`"]
+fn typing_process() {
     let (Some(state), Some(project)) = (env::var_os(STATE), env::var_os(PROJECT)) else { return };
     let gpu = support::gpu().unwrap();
     let mut session = session(&gpu, Path::new(&state));
     session.apply(Command::Open(project.to_string_lossy().into_owned()));
     for number in 0.. {
-        // No tick between them: a frame may take long, and what is typed must not wait for it.
+        // No tick in between: a frame may take long, and saving typed text must not wait for it.
         edit(&mut session, &format!("// {number}\n{}", plain(0.4)));
         writeln!(std::io::stderr(), "typed {number}").unwrap();
         std::thread::sleep(Duration::from_millis(7));
     }
 }
 
-/// Kills a process that types, some time after its first key. Returns the last numbers that it had typed when it was
-/// killed and a second before that.
+/// Kills a typing process `after` its first key. Returns the last numbers that it had typed when it was killed and one
+/// second earlier.
 fn kill_one(state: &Path, project: &Path, after: Duration) -> (u64, Option<u64>) {
     let mut child = process::Command::new(env::current_exe().unwrap())
-        .args(["recovery::a_session_that_types", "--exact", "--ignored", "--nocapture"])
+        .args(["recovery::typing_process", "--exact", "--ignored", "--nocapture"])
         .env(STATE, state)
         .env(PROJECT, project)
         .stdout(Stdio::null())
@@ -246,16 +246,16 @@ fn kill_one(state: &Path, project: &Path, after: Duration) -> (u64, Option<u64>)
 
 /// `EDDY_KILLS=100` is a long run.
 #[test]
-fn killed_at_any_moment_it_loses_at_most_a_second() {
+fn a_kill_at_any_moment_loses_at_most_a_second() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let project = write_project(dir.path());
     let mut lost = Vec::new();
     let kills = support::env::number("EDDY_KILLS", 25);
     let state = |kill| dir.path().join(format!("state-{kill}"));
-    // At every phase of the writing: the steps share no factor with its rhythm.
+    // At every phase of the writing: the steps share no factor with its interval.
     let kill = |kill| (kill, kill_one(&state(kill), &project, Duration::from_millis(1000 + kill * 109 % 650)));
-    // They wait more than they compute.
+    // The processes wait more than they compute.
     const AT_ONCE: u64 = 4;
     let killed: Vec<_> = std::thread::scope(|scope| {
         let kill = &kill;
@@ -270,8 +270,8 @@ fn killed_at_any_moment_it_loses_at_most_a_second() {
         next.apply(Command::Answer(Answer::Recover));
         let text = next.text(&image_tab()).to_owned();
         let number: u64 = text.lines().next().unwrap()[3..].parse().unwrap();
-        assert_eq!(text, format!("// {number}\n{}", plain(0.4)), "whole");
-        assert!(safe.is_none_or(|safe| number >= safe), "kill {kill}: {number} of {safe:?} is there");
+        assert_eq!(text, format!("// {number}\n{}", plain(0.4)), "the text is complete");
+        assert!(safe.is_none_or(|safe| number >= safe), "kill {kill}: {number} was recovered, {safe:?} expected");
         lost.push(last.saturating_sub(number));
     }
     lost.sort_unstable();

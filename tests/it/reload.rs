@@ -1,4 +1,4 @@
-//! Hot reload: every way an editor saves comes to one reload, and nothing of either side is lost.
+//! Hot reload: every way in which an editor saves causes one reload, and no text of either side is lost.
 
 use crate::support::{self, stage::*};
 use eddy::{
@@ -33,7 +33,7 @@ fn a_save_in_place_or_by_rename_is_one_reload() {
 }
 
 #[test]
-fn a_burst_of_writes_is_one_reload_and_the_same_content_is_none() {
+fn a_burst_of_writes_is_one_reload_and_unchanged_content_is_none() {
     let Some(mut stage) = open(&[("image.glsl", &plain(0.2))]) else { return };
     for i in 0..20 {
         stage.write("image.glsl", plain(i as f32 / 32.0));
@@ -58,7 +58,7 @@ fn a_half_written_file_is_waited_for() {
         while std::time::Instant::now() < until {
             stage.tick();
         }
-        assert_ne!(stage.session.text(&image_tab()), "", "the last whole text stays");
+        assert_ne!(stage.session.text(&image_tab()), "", "the last complete text is kept");
         let text = format!("// é\n{}", plain(if half.is_empty() { 0.4 } else { 0.6 }));
         stage.write("image.glsl", &text);
         stage.until("the whole text", |s| s.text(&image_tab()) == text);
@@ -68,13 +68,13 @@ fn a_half_written_file_is_waited_for() {
     stage.write("image.glsl", b"\xff\xfe never UTF-8");
     stage.until("a notice", |s| s.notices().iter().any(|n| n.level == Level::Warning));
     stage.for_a_while();
-    assert_eq!(stage.notices(Level::Warning).len(), 1, "said once: {:?}", stage.session.notices());
+    assert_eq!(stage.notices(Level::Warning).len(), 1, "one notice: {:?}", stage.session.notices());
     assert!(stage.notices(Level::Warning)[0].contains("image.glsl is not UTF-8"));
     assert!(stage.session.text(&image_tab()).contains("0.6"));
 }
 
 #[test]
-fn an_edited_tab_asks_and_keeps_both_texts_whatever_the_answer() {
+fn a_conflict_keeps_both_texts_for_every_answer() {
     for answer in ["mine", "disk", "elsewhere"] {
         let Some(mut stage) = open(&[("image.glsl", &plain(0.2))]) else { return };
         stage.edit(&plain(0.4));
@@ -84,7 +84,7 @@ fn an_edited_tab_asks_and_keeps_both_texts_whatever_the_answer() {
         assert_eq!((tab.as_ref(), file), (Some(&image_tab()), &stage.path("image.glsl")));
         assert_eq!((&**mine, &**disk), (&*plain(0.4), &*plain(0.6)));
         assert_eq!(diff.iter().filter(|l| !matches!(l, DiffLine::Both(_))).count(), 2);
-        assert_eq!(stage.session.text(&image_tab()), plain(0.4), "the edit stays until the answer");
+        assert_eq!(stage.session.text(&image_tab()), plain(0.4), "the edit is kept until the answer");
         let elsewhere = stage.path("elsewhere.txt");
         stage.session.apply(Command::Answer(match answer {
             "mine" => Answer::KeepMine,
@@ -115,7 +115,7 @@ fn an_edited_tab_asks_and_keeps_both_texts_whatever_the_answer() {
     }
 }
 
-/// By a path from the current folder, as it is typed in a terminal.
+/// Returns the path relative to the current folder, as it is typed in a terminal.
 fn relative(path: &Path) -> PathBuf {
     let here = std::env::current_dir().unwrap();
     let up = here.components().skip(1).map(|_| Path::new(".."));
@@ -123,7 +123,7 @@ fn relative(path: &Path) -> PathBuf {
 }
 
 #[test]
-fn the_other_text_is_kept_beside_a_file_that_was_opened_by_a_relative_path() {
+fn the_other_text_is_saved_next_to_a_file_opened_by_a_relative_path() {
     for name in ["edit.glsl", "."] {
         let Some(gpu) = support::gpu() else { return };
         let mut stage = Stage::bare(gpu);
@@ -148,13 +148,13 @@ fn save_mine_as_never_overwrites() {
     stage.until("the question", |s| s.question().is_some());
     let notes = stage.path("notes.txt");
     stage.session.apply(Command::Answer(Answer::SaveMineAs(notes)));
-    assert!(stage.session.question().is_some(), "the question stands on");
+    assert!(stage.session.question().is_some(), "the question is still open");
     assert_eq!(stage.read("notes.txt"), "notes");
     assert_eq!(stage.session.text(&image_tab()), plain(0.4));
 }
 
 #[test]
-fn saving_over_a_change_nobody_has_seen_yet_asks_first() {
+fn saving_over_an_unseen_change_asks_first() {
     let Some(mut stage) = open(&[("image.glsl", &plain(0.2))]) else { return };
     stage.edit(&plain(0.4));
     stage.write("image.glsl", plain(0.6));
@@ -164,7 +164,7 @@ fn saving_over_a_change_nobody_has_seen_yet_asks_first() {
 }
 
 #[test]
-fn a_save_of_our_own_is_no_reload() {
+fn our_own_save_causes_no_reload() {
     let Some(mut stage) = open(&[("image.glsl", &plain(0.2))]) else { return };
     stage.edit(&plain(0.4));
     stage.session.apply(Command::Save);
@@ -178,7 +178,7 @@ fn a_save_of_our_own_is_no_reload() {
 }
 
 #[test]
-fn a_deleted_file_keeps_its_text_and_saving_writes_it_again() {
+fn the_text_of_a_deleted_file_is_kept_and_saved_again() {
     let a = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\n";
     let Some(mut stage) = open(&[("buffer_a.glsl", a), ("image.glsl", &plain(0.2))]) else { return };
     let tab = Tab::Pass(PassName::buffer("A"));
@@ -200,7 +200,7 @@ fn a_deleted_file_keeps_its_text_and_saving_writes_it_again() {
 }
 
 #[test]
-fn eddy_toml_reloads_passes_and_channels_and_time_goes_on() {
+fn reloading_eddy_toml_updates_passes_and_keeps_time() {
     let toml = "eddy = 1\nname = \"One\"\n[passes.image]\n";
     let Some(mut stage) = open(&[("eddy.toml", toml), ("image.glsl", &plain(0.2))]) else { return };
     for _ in 0..3 {
@@ -216,22 +216,22 @@ fn eddy_toml_reloads_passes_and_channels_and_time_goes_on() {
     assert_eq!(stage.session.project().name, "Two");
     assert!(stage.session.project().image().unwrap().bindings.get(0).is_some());
     stage.until_compiled();
-    assert!(stage.session.transport().frame >= 3, "time goes on");
+    assert!(stage.session.transport().frame >= 3, "time is kept");
 
     stage.session.apply(Command::SetResetOnReload(true));
     stage.write("image.glsl", plain(0.4));
     stage.until("the reload", |s| s.text(&image_tab()) == plain(0.4));
     stage.until_compiled();
-    assert_eq!(stage.session.transport().frame, 0, "unless the switch says otherwise");
+    assert_eq!(stage.session.transport().frame, 0, "time is reset if the setting says so");
 
     stage.write("eddy.toml", "eddy = 1\n[passes.image\n");
     stage.until("a notice", |s| s.notices().iter().any(|n| n.level == Level::Warning));
     assert!(stage.notices(Level::Warning)[0].contains("eddy.toml"), "{:?}", stage.notices(Level::Warning));
-    assert_eq!(stage.session.project().passes.len(), 2, "the last whole one stays");
+    assert_eq!(stage.session.project().passes.len(), 2, "the last valid project is kept");
 }
 
 #[test]
-fn channels_changed_here_and_on_disk_ask() {
+fn channels_changed_here_and_on_disk_are_a_conflict() {
     let toml = "eddy = 1\n[passes.image]\n";
     let Some(mut stage) = open(&[("eddy.toml", toml), ("image.glsl", &plain(0.2))]) else { return };
     let channel = eddy::project::Channel::new(eddy::project::Input::KEYBOARD);
@@ -256,7 +256,7 @@ fn picture(red: u8) -> Vec<u8> {
 }
 
 #[test]
-fn a_picture_changed_on_disk_is_read_again() {
+fn an_image_file_changed_on_disk_is_reloaded() {
     let shader = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(0), 0); }\n";
     let toml = "eddy = 1\n[passes.image]\nchannels.0 = { file = \"pic.png\", filter = \"nearest\" }\n";
     let Some(gpu) = support::gpu() else { return };
@@ -271,7 +271,7 @@ fn a_picture_changed_on_disk_is_read_again() {
     file.write_all(&picture(200)).unwrap();
     drop(file);
     stage.until_red(200);
-    // Before its first compile has read anything.
+    // Before the first compile has read any file.
     stage.session.apply(Command::Open(stage.folder().to_str().unwrap().into()));
     stage.write("pic.png", picture(100));
     stage.until_compiled();
@@ -279,13 +279,13 @@ fn a_picture_changed_on_disk_is_read_again() {
 }
 
 #[test]
-fn writes_without_an_end_beside_the_sources_do_not_hide_a_change() {
+fn endless_writes_next_to_the_sources_do_not_hide_a_change() {
     let Some(mut stage) = open(&[("image.glsl", &plain(0.2))]) else { return };
     stage.write("image.glsl", plain(0.4));
     let end = Instant::now() + Duration::from_secs(30);
     let mut line = 0;
     while stage.session.text(&image_tab()) != plain(0.4) {
-        assert!(Instant::now() < end, "the log put the reload off for ever");
+        assert!(Instant::now() < end, "the log delays the reload forever");
         line += 1;
         stage.write("run.log", format!("{line}\n"));
         stage.tick();
@@ -294,7 +294,7 @@ fn writes_without_an_end_beside_the_sources_do_not_hide_a_change() {
 }
 
 #[test]
-fn a_picture_chosen_here_is_watched_wherever_it_lies() {
+fn a_picked_image_file_is_watched_in_any_folder() {
     let shader = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(0), 0); }\n";
     let Some(mut stage) = open(&[("eddy.toml", "eddy = 1\n[passes.image]\n"), ("image.glsl", shader)]) else { return };
     let elsewhere = tempfile::tempdir().unwrap();
@@ -309,7 +309,7 @@ fn a_picture_chosen_here_is_watched_wherever_it_lies() {
 }
 
 #[test]
-fn a_picture_read_by_a_compile_that_was_overtaken_is_not_forgotten() {
+fn an_image_file_read_by_a_superseded_compile_is_still_reloaded() {
     let shader = |n: u32| {
         format!("// {n}\nvoid mainImage(out vec4 o, in vec2 p) {{ o = texelFetch(iChannel0, ivec2(0), 0); }}\n")
     };
@@ -323,7 +323,8 @@ fn a_picture_read_by_a_compile_that_was_overtaken_is_not_forgotten() {
     for n in 1..12 {
         let red = if n % 2 == 0 { 50 } else { 200 };
         stage.write("pic.png", picture(red));
-        // Compiles one after the other, most begun before the last has ended, while the new picture is found.
+        // Compiles one after the other, most of them started before the previous one has ended, while the new image
+        // file is detected.
         let end = Instant::now() + Duration::from_millis(300);
         let mut edits = 0;
         while Instant::now() < end {

@@ -1,4 +1,4 @@
-//! Pictures that hold their project: dropped on the window, they are the frame that they show.
+//! Pictures that contain their project: dropped on the window, they reopen at the frame that they show.
 
 use crate::support::{self, stage::*};
 use crate::time_travel::{stage, steps, texels};
@@ -9,8 +9,8 @@ use eddy::{
 };
 use std::{fs, path::Path};
 
-/// Another session that is given a picture.
-fn opened(picture: &Path) -> Stage {
+/// Opens a picture in another session.
+fn open_picture(picture: &Path) -> Stage {
     let mut stage = Stage::bare(support::gpu().unwrap());
     let name = stage.path("picture.png");
     fs::copy(picture, &name).unwrap();
@@ -25,24 +25,24 @@ fn until_frame(stage: &mut Stage, frame: i32) {
 }
 
 #[test]
-fn a_picture_of_a_state_is_drawn_again_from_its_inputs() {
+fn a_picture_with_state_is_redrawn_from_its_inputs() {
     let Some(gpu) = support::gpu() else { return };
     let mut before = stage(gpu);
     steps(&mut before, 0..150);
     let wanted = texels(&mut before);
     let picture = before.screenshot();
-    let mut after = opened(&picture);
+    let mut after = open_picture(&picture);
     until_frame(&mut after, 150);
     assert_eq!(after.session.shown_pass(), &PassName::buffer("A"));
     assert!(texels(&mut after) == wanted);
     assert!(!after.session.transport().playing && !after.session.is_dirty());
     let text = "opened from the image, paused at frame 150";
     assert!(after.notices(Level::Info).contains(&text), "{:?}", after.session.notices());
-    // On from there: the frames to come are those of the run.
+    // The following frames are those of the original run.
     steps(&mut before, 150..160);
     steps(&mut after, 150..160);
     assert!(texels(&mut after) == texels(&mut before));
-    // The code is there, and nothing of where it was.
+    // The picture contains the code, but not its path.
     let scene = Scene::read(&picture).unwrap();
     assert!(scene.project.passes.iter().all(|pass| pass.source.path.is_none() && !pass.source.text.is_empty()));
     let bytes = fs::read(&picture).unwrap();
@@ -51,7 +51,7 @@ fn a_picture_of_a_state_is_drawn_again_from_its_inputs() {
 }
 
 #[test]
-fn a_picture_without_a_state_has_its_time_and_its_mouse() {
+fn a_picture_without_state_keeps_its_time_and_mouse() {
     let Some(gpu) = support::gpu() else { return };
     let text =
         "void mainImage(out vec4 o, in vec2 p) { o = fract(vec4(iTime, iMouse.x / 8.0, iMouse.w / 4.0, iDate.w)); }";
@@ -64,14 +64,14 @@ fn a_picture_without_a_state_has_its_time_and_its_mouse() {
     }
     let (wanted, frame) = (texels(&mut before), before.session.transport().frame);
     let picture = before.screenshot();
-    let mut after = opened(&picture);
+    let mut after = open_picture(&picture);
     until_frame(&mut after, frame);
     assert!(texels(&mut after) == wanted);
     assert_eq!(&*after.session.project().passes[0].source.text, text);
 }
 
 #[test]
-fn on_a_channel_it_is_a_picture_and_without_the_project_too() {
+fn a_picture_on_a_channel_or_without_project_is_a_texture() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.25))]);
     let picture = stage.screenshot();
@@ -82,7 +82,7 @@ fn on_a_channel_it_is_a_picture_and_without_the_project_too() {
     bring(&mut stage, Some(2));
     let channels = |stage: &Stage| stage.session.project().passes[0].bindings.channels().count();
     assert_eq!(channels(&stage), 1);
-    // Unsaved work is asked about first.
+    // Unsaved work causes a question first.
     bring(&mut stage, None);
     assert!(stage.session.question().is_some() && channels(&stage) == 1);
     let mut plain_stage = Stage::open(support::gpu().unwrap(), &[("image.glsl", &plain(0.5))]);
@@ -94,7 +94,7 @@ fn on_a_channel_it_is_a_picture_and_without_the_project_too() {
 }
 
 #[test]
-fn a_damaged_picture_is_told_and_changes_nothing() {
+fn a_damaged_picture_is_reported_and_changes_nothing() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.25))]);
     let picture = stage.screenshot();
@@ -105,6 +105,6 @@ fn a_damaged_picture_is_told_and_changes_nothing() {
     let before = stage.session.project().clone();
     stage.session.apply(Command::Open(picture.to_str().unwrap().into()));
     assert!(*stage.session.project() == before);
-    let said = stage.notices(Level::Error);
-    assert!(said.len() == 1 && said[0].contains("is damaged") && said[0].contains(".png"), "{said:?}");
+    let errors = stage.notices(Level::Error);
+    assert!(errors.len() == 1 && errors[0].contains("is damaged") && errors[0].contains(".png"), "{errors:?}");
 }

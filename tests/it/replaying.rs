@@ -1,4 +1,5 @@
-//! A recording is played in an open session as the command line draws it, and leaves everything as it was.
+//! A recording is played in an open session with the same result as on the command line, and changes nothing of the
+//! project.
 
 use super::time_travel::{recorded, stage, steps, texels};
 use crate::support::{self, stage::*};
@@ -18,13 +19,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Begins to play a file.
+/// Starts to play a file.
 fn play(stage: &mut Stage, file: &Path) {
     stage.session.apply(Command::PlayRecording(file.to_owned()));
     stage.until("a recording that plays", |session| session.replay().is_some());
 }
 
-/// Ticks, 60 times a second of a time of its own, until so many frames have been drawn, or all.
+/// Ticks at 60 frames per second of its own clock until `frames` frames have been drawn, or all.
 fn draw(stage: &mut Stage, frames: usize) {
     let mut now = Instant::now();
     for _ in 0..20_000 {
@@ -55,9 +56,9 @@ fn rendered(gpu: &Gpu, spec: &str, file: &Path, pass: &PassName) -> Vec<u8> {
     bytes
 }
 
-/// The hand, the keys, the canvas and the date are the recording's, whatever happens to the window meanwhile.
+/// Mouse, keys, size and date come from the recording, whatever happens to the window in the meantime.
 #[test]
-fn what_was_recorded_is_played_bit_for_bit_and_ends_paused() {
+fn a_recording_is_played_bit_for_bit_and_ends_paused() {
     let Some(gpu) = support::gpu() else { return };
     for preset in ["brick-breaker", "fluid"] {
         let (file, last, _folder) = recorded(&gpu, preset, 240);
@@ -76,13 +77,16 @@ fn what_was_recorded_is_played_bit_for_bit_and_ends_paused() {
         draw(&mut stage, usize::MAX);
         assert!(!stage.session.transport().playing);
         assert_eq!(stage.session.transport().resolution, (80, 45));
-        assert!(texels(&mut stage) == last, "{preset}: as it was when it was recorded");
-        assert!(texels(&mut stage) == rendered(&gpu, preset, &file, &PassName::image()), "{preset}: as it is rendered");
+        assert!(texels(&mut stage) == last, "{preset}: equal to the recorded picture");
+        assert!(
+            texels(&mut stage) == rendered(&gpu, preset, &file, &PassName::image()),
+            "{preset}: equal to the rendered picture"
+        );
         let notices = stage.notices(Level::Info).join("\n");
         assert!(notices.contains("ended: the picture is paused at frame"), "{notices}");
         assert!(stage.notices(Level::Warning).is_empty() && stage.notices(Level::Error).is_empty());
         assert!(!stage.session.is_dirty());
-        // Paused it stays, and an own size takes over again.
+        // It stays paused, and the user's own size applies again.
         stage.for_a_while();
         assert!(texels(&mut stage) == last);
         stage.act(Command::SetFixedSize(Some((40, 20))));
@@ -90,8 +94,8 @@ fn what_was_recorded_is_played_bit_for_bit_and_ends_paused() {
     }
 }
 
-/// Records frames by steps, with a hand and a slider. Gives the file, and what the pass held after some of them.
-fn by_steps(stage: &mut Stage) -> (PathBuf, Vec<(i32, f64, Vec<u8>)>) {
+/// Records frames by steps, with a mouse and a slider. Returns the file, and the texels of the pass after some frames.
+fn record_steps(stage: &mut Stage) -> (PathBuf, Vec<(i32, f64, Vec<u8>)>) {
     stage.session.apply(Command::Record);
     let mut known = Vec::new();
     for (from, to) in [(0, 20), (20, 61), (61, 130)] {
@@ -106,11 +110,11 @@ fn by_steps(stage: &mut Stage) -> (PathBuf, Vec<(i32, f64, Vec<u8>)>) {
 }
 
 #[test]
-fn sliders_are_the_recordings_until_it_is_over_and_the_projects_after_it() {
+fn sliders_follow_the_recording_until_it_ends() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu.clone());
-    let (file, known) = by_steps(&mut stage);
-    // A slider stands elsewhere than the recording has it.
+    let (file, known) = record_steps(&mut stage);
+    // A slider has another value than in the recording.
     stage.act(Command::AssignCustomUniform("level=0.75".into()));
     let before = stage.session.project().clone();
     play(&mut stage, &file);
@@ -118,21 +122,21 @@ fn sliders_are_the_recordings_until_it_is_over_and_the_projects_after_it() {
     let folder = stage.folder();
     let buffer = PassName::buffer("A");
     let end = texels(&mut stage);
-    assert!(end == known.last().unwrap().2, "as it was recorded");
-    assert!(end == rendered(&gpu, folder.to_str().unwrap(), &file, &buffer), "as it is rendered");
-    assert_eq!(*stage.session.project(), before, "nothing of the project is changed");
-    // Played again it is the same, also at another speed.
+    assert!(end == known.last().unwrap().2, "equal to the recorded texels");
+    assert!(end == rendered(&gpu, folder.to_str().unwrap(), &file, &buffer), "equal to the rendered texels");
+    assert_eq!(*stage.session.project(), before, "the project is unchanged");
+    // Playing it again, also at another speed, gives the same result.
     stage.session.apply(Command::SetSpeed(8.0));
     play(&mut stage, &file);
     draw(&mut stage, usize::MAX);
     assert!(texels(&mut stage) == end);
-    // The next frame is the project's own.
+    // The next frame uses the project's own values.
     stage.act(Command::Step);
     assert_eq!(stage.session.transport().frame, 130);
     let own = texels(&mut stage);
     stage.act(Command::StepBack(1));
-    assert!(texels(&mut stage) == end, "the frame before it is still the recording's");
-    // The same with the recording's value is another frame.
+    assert!(texels(&mut stage) == end, "the previous frame still has the recording's values");
+    // With the recording's value the next frame is different.
     play(&mut stage, &file);
     draw(&mut stage, usize::MAX);
     stage.session.apply(Command::AssignCustomUniform("level=0.125".into()));
@@ -141,25 +145,25 @@ fn sliders_are_the_recordings_until_it_is_over_and_the_projects_after_it() {
 }
 
 #[test]
-fn a_recording_is_paused_sought_stepped_and_stopped() {
+fn a_recording_can_be_paused_sought_stepped_and_stopped() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
-    let (file, known) = by_steps(&mut stage);
+    let (file, known) = record_steps(&mut stage);
     play(&mut stage, &file);
     draw(&mut stage, 30);
     let frames = stage.session.replay().unwrap().frames;
     stage.session.apply(Command::Pause);
-    // Further than it has been played, back, and over again.
+    // Beyond the played part, back, and again.
     for (frame, time, wanted) in [&known[1], &known[0], &known[1], &known[0]] {
         stage.session.apply(Command::Seek(*time + 1e-4));
-        stage.until("the time that was sought", |session| !session.transport().is_seeking);
+        stage.until("the seek", |session| !session.transport().is_seeking);
         let replay = stage.session.replay().expect("it is not over");
         assert_eq!((replay.drawn as i32, replay.frames), (frame + 1, frames));
         assert_eq!(stage.session.transport().frame, *frame);
         assert!(!stage.session.transport().playing);
         assert!(texels(&mut stage) == *wanted, "frame {frame}");
     }
-    // Paused, nothing is drawn, whatever a hand does.
+    // While paused, input draws no frame.
     stage.session.apply(Command::MouseDown { x: 1.0, y: 1.0 });
     stage.session.apply(Command::KeyDown(32));
     stage.for_a_while();
@@ -172,7 +176,7 @@ fn a_recording_is_paused_sought_stepped_and_stopped() {
     stage.act(Command::StopReplay);
     assert!(stage.session.replay().is_none() && texels(&mut stage) == known[1].2);
     assert!(stage.notices(Level::Info).iter().any(|text| text.contains("continues live")));
-    // From here on it is a hand's again.
+    // From here on, the picture follows live input.
     let frame = stage.session.transport().frame;
     stage.act(Command::MouseDown { x: 1.0, y: 1.0 });
     assert_eq!(stage.session.transport().frame, frame + 1, "input draws a frame while paused");
@@ -180,10 +184,10 @@ fn a_recording_is_paused_sought_stepped_and_stopped() {
 }
 
 #[test]
-fn what_ends_a_recording_says_so() {
+fn stopping_a_replay_is_reported_with_its_reason() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
-    let (file, _) = by_steps(&mut stage);
+    let (file, _) = record_steps(&mut stage);
     for (command, why) in [
         (Command::Reset, "the picture was reset"),
         (Command::SetFixedSize(Some((12, 6))), "the resolution was changed"),
@@ -199,20 +203,20 @@ fn what_ends_a_recording_says_so() {
         let ids: Vec<u64> = stage.session.notices().iter().map(|notice| notice.id).collect();
         ids.into_iter().for_each(|id| stage.session.apply(Command::DismissNotice(id)));
     }
-    // A recording that begins to play ends one that is made, and loses nothing of it.
+    // Playing a recording stops the one being made, and saves it.
     stage.tick();
     steps(&mut stage, 0..3);
     play(&mut stage, &file);
     assert!(stage.session.recorded_frames().is_none());
     assert!(stage.path("project-0002.replay").exists());
-    // Another project has nothing to do with it.
+    // Opening another project ends the replay.
     stage.session.apply(Command::Open("feedback".into()));
     stage.session.apply(Command::Answer(Answer::Discard));
     assert!(stage.session.replay().is_none());
 }
 
 #[test]
-fn a_file_that_cannot_be_played_is_named_with_its_line_and_what_to_do() {
+fn an_invalid_recording_is_reported_with_its_line_and_a_fix() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
     let before = texels(&mut stage);
@@ -234,14 +238,14 @@ fn a_file_that_cannot_be_played_is_named_with_its_line_and_what_to_do() {
         assert!(error.starts_with(&format!("cannot play {}: ", file.display())), "{error}");
         assert!(stage.session.replay().is_none());
     }
-    assert!(texels(&mut stage) == before, "the picture is as it was");
+    assert!(texels(&mut stage) == before, "the picture is unchanged");
 }
 
 #[test]
-fn a_recording_of_another_project_is_played_with_a_warning_and_none_without_a_project() {
+fn a_recording_of_another_project_is_played_with_a_warning() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
-    let (file, _) = by_steps(&mut stage);
+    let (file, _) = record_steps(&mut stage);
     stage.session.apply(Command::Open("feedback".into()));
     stage.compile(Command::Answer(Answer::Discard));
     stage.session.apply(Command::Bring { paths: vec![file.clone()], to: None });

@@ -1,8 +1,8 @@
-//! Files that earlier versions wrote: they open, draw the same pictures and are saved without loss.
+//! Files written by earlier versions: they open, draw the same pictures and are saved without loss.
 //!
-//! `tests/saved` has projects of every form with their pictures and fingerprints, recordings, checkpoints, images with a
-//! project in them, recovery files, recent projects, and the window's files. A file of it never changes. `EDDY_BLESS=1 cargo
-//! test --test it saved_files` writes those that are missing, which is how a new form is added.
+//! `tests/saved` contains projects of every form with their pictures and fingerprints, recordings, checkpoints, images
+//! that contain a project, recovery files, recent projects, and the window's files. Its files never change.
+//! `EDDY_BLESS=1 cargo test --test it saved_files` writes those that are missing, which is how a new form is added.
 
 use crate::support::{self, program::*, stage::*};
 use eddy::{
@@ -25,7 +25,7 @@ const INPUT: [&str; 8] =
     ["--size", "32x18", "--frames", "4", "--mouse", "0:down 4,4; 2:move 20,9", "--keys", "1:down 65"];
 /// The placeholder for the folder of a test in files that name one.
 const FOLDER: &str = "@FOLDER@";
-/// Steps of 1/255 by which another device may differ, and the part of the pixels that may differ by more.
+/// The difference of another device in steps of 1/255, and the share of the pixels that may differ by more.
 const LEVELS: u8 = 2;
 const SHARE: f64 = 0.03;
 
@@ -37,7 +37,7 @@ fn is_blessing() -> bool {
     std::env::var_os("EDDY_BLESS").is_some()
 }
 
-/// Writes a file that is missing; one that is there never changes.
+/// Writes a missing file; existing files never change.
 fn bless(name: &str, content: impl FnOnce() -> Vec<u8>) {
     let path = saved(name);
     if is_blessing() && !path.exists() {
@@ -54,7 +54,7 @@ fn names(folder: &str) -> Vec<String> {
     names
 }
 
-/// What Eddy is given to open a project of the set.
+/// Returns the argument by which Eddy opens a project of the set.
 fn spec(name: &str) -> String {
     let prefix = if name.starts_with("ghostty") { "ghostty:" } else { "" };
     format!("{prefix}{}", saved("projects").join(name).display())
@@ -72,7 +72,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Every file below a folder (or the file itself), by its path in it.
+/// Returns every file below a folder (or the file itself), by its relative path.
 fn files(root: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     fn visit(root: &Path, path: &Path, found: &mut BTreeMap<PathBuf, Vec<u8>>) {
         if path.is_file() {
@@ -95,7 +95,7 @@ fn assert_same_picture(name: &str, kept: &[u8], drawn: &image::RgbaImage) {
     assert!(share <= SHARE, "{name}: {:.1} % of the pixels differ", 100.0 * share);
 }
 
-/// Draws projects, and returns the names of their pictures below `out`.
+/// Draws projects into `out`.
 fn draw(b: &Bench, specs: &[String], out: &str) {
     let specs = specs.iter().map(String::as_str);
     b.eddy(["render"].into_iter().chain(specs).chain(INPUT).chain(["--no-project", "--out", out])).expect(0);
@@ -106,7 +106,7 @@ fn stem(name: &str) -> String {
 }
 
 #[test]
-fn projects_draw_their_pictures() {
+fn projects_draw_the_same_pictures() {
     let Some(b) = Bench::with_gpu() else { return };
     let projects = names("projects");
     draw(&b, &projects.iter().map(|name| spec(name)).collect::<Vec<_>>(), "out");
@@ -120,7 +120,7 @@ fn projects_draw_their_pictures() {
     assert_eq!(names("pictures").len(), projects.len());
 }
 
-/// Results on disk are known by the fingerprints of their projects.
+/// Results on disk are identified by the fingerprints of their projects.
 #[test]
 fn projects_keep_their_fingerprints() {
     let line = |name: &String| {
@@ -165,7 +165,7 @@ fn saving_elsewhere_keeps_pictures() {
     let mut specs = Vec::new();
     for name in names("projects") {
         if name.starts_with("ghostty") {
-            continue; // Saved elsewhere it is a folder, which has a test in `elsewhere.rs`.
+            continue; // Saved elsewhere, it becomes a folder, which has a test in `elsewhere.rs`.
         }
         let loaded = project::load(&spec(&name)).unwrap();
         let target = b.path("copies").join(stem(&name));
@@ -180,7 +180,7 @@ fn saving_elsewhere_keeps_pictures() {
     }
 }
 
-/// Recordings that use every member of a frame between them.
+/// Returns recordings that together use every member of a frame.
 fn recordings() -> Vec<(&'static str, Recording)> {
     let recording = |name: &'static str, change: &dyn Fn(i32, &mut RecordedFrame)| {
         let frame = |n: i32| {
@@ -226,7 +226,7 @@ fn recordings() -> Vec<(&'static str, Recording)> {
     ]
 }
 
-/// A project that shows every input that a recording holds.
+/// A project that shows every input of a recording.
 const SHOWS_INPUT: &str = "#iUniform float level = 0.5 in { 0.0, 1.0 }
 #iUniform color3 tint = color3(1.0)
 void mainImage(out vec4 o, in vec2 p) {
@@ -325,13 +325,13 @@ fn until<T>(session: &mut Session, what: &str, mut value: impl FnMut(&Session) -
         if let Some(value) = value(session) {
             return value;
         }
-        assert!(Instant::now() < end, "{what} did not come; notices: {:#?}", session.notices());
+        assert!(Instant::now() < end, "timed out waiting for {what}; notices: {:#?}", session.notices());
         session.tick(Instant::now());
         std::thread::sleep(Duration::from_millis(2));
     }
 }
 
-/// Replaces a folder's path in a file, which is [`FOLDER`] in the set.
+/// Replaces a folder's path in a file; the set contains [`FOLDER`] instead.
 fn with_folder(bytes: &[u8], from: &str, to: &str) -> Vec<u8> {
     String::from_utf8(bytes.to_vec()).unwrap().replace(from, to).into_bytes()
 }

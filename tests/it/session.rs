@@ -1,4 +1,4 @@
-//! A session without a window: when it draws, what it captures, what it asks before anything is lost.
+//! A session without a window: when it draws, what it captures, and what it asks before work is lost.
 
 use crate::support::{self, folder_of, stage::*};
 use eddy::{
@@ -21,7 +21,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Sums what it saw of time and input, so that any frame that differs shows.
+/// Accumulates time and input, so that any different frame is visible in the result.
 const HISTORY: &str = "void mainImage(out vec4 o, in vec2 p) {
     vec4 before = texelFetch(iChannel0, ivec2(p), 0);
     o = fract(before + vec4(iTime * 0.37 + float(iFrame) * 0.11, iTimeDelta, iFrameRate * 0.003, 0.0)
@@ -34,10 +34,10 @@ fn line(d: &TabDiagnostic) -> Option<usize> {
 }
 
 #[test]
-fn a_screenshot_is_what_an_offline_run_draws() {
+fn a_screenshot_equals_an_offline_run() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu.clone(), &[("buffer_a.glsl", HISTORY), ("image.glsl", SHOW)]);
-    assert_eq!(stage.frames(), 1, "paused: the new program's one frame");
+    assert_eq!(stage.frames(), 1, "paused: the one frame of the new program");
     stage.session.apply(Command::MouseDown { x: 3.5, y: 2.5 });
     for _ in 0..5 {
         stage.session.apply(Command::Step);
@@ -46,7 +46,7 @@ fn a_screenshot_is_what_an_offline_run_draws() {
     let transport = stage.session.transport();
     assert_eq!((transport.frame, transport.time_secs, transport.playing), (5, 5.0 / 60.0, false));
     let path = stage.screenshot();
-    assert_eq!(path, stage.path("project-0001.png"), "a project on disk keeps its pictures");
+    assert_eq!(path, stage.path("project-0001.png"), "pictures are saved in the project's folder");
 
     let loaded = project::load(stage.folder().to_str().unwrap()).unwrap().project;
     let (media, _) = media::gather(&loaded, None);
@@ -71,7 +71,7 @@ fn a_screenshot_is_what_an_offline_run_draws() {
 }
 
 #[test]
-fn a_run_is_the_same_in_one_piece_or_in_two() {
+fn a_run_gives_the_same_result_in_one_or_two_parts() {
     let Some(gpu) = support::gpu() else { return };
     let a = support::pass(support::buffer("A"), HISTORY, [support::nearest("A"), None, None, None]);
     let project = support::project(vec![a, support::image(SHOW, [support::nearest("A"), None, None, None])]);
@@ -102,12 +102,12 @@ fn a_run_is_the_same_in_one_piece_or_in_two() {
 }
 
 #[test]
-fn paused_it_draws_one_frame_for_each_change_and_none_without() {
+fn while_paused_each_change_draws_one_frame() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.5))]);
-    let (mut drawn, mut again) = (stage.frames(), 0);
+    let (mut drawn, mut redraws) = (stage.frames(), 0);
     let mut expect = |stage: &mut Stage, what: &str, commands: Vec<Command>, frames: u32| {
-        again += u32::from(what.starts_with("again: "));
+        redraws += u32::from(what.starts_with("redraw: "));
         let time = stage.session.transport().time_secs;
         commands.into_iter().for_each(|c| stage.session.apply(c));
         stage.tick();
@@ -116,25 +116,25 @@ fn paused_it_draws_one_frame_for_each_change_and_none_without() {
         assert_eq!(stage.session.transport().time_secs, time, "time is frozen: {what}");
         drawn = stage.frames();
         let number = stage.session.transport().frame as u32;
-        assert_eq!(number, drawn - 1 - again, "iFrame goes on with input alone: {what}");
+        assert_eq!(number, drawn - 1 - redraws, "iFrame advances only with input: {what}");
     };
     expect(&mut stage, "nothing", vec![], 0);
-    expect(&mut stage, "a pointer passing by", vec![Command::MouseMove { x: 1.0, y: 1.0 }], 0);
+    expect(&mut stage, "a pointer move without a press", vec![Command::MouseMove { x: 1.0, y: 1.0 }], 0);
     expect(&mut stage, "a press", vec![Command::MouseDown { x: 1.0, y: 1.0 }], 1);
     expect(&mut stage, "a drag", vec![Command::MouseMove { x: 2.0, y: 1.0 }, Command::MouseMove { x: 3.0, y: 1.0 }], 1);
     expect(&mut stage, "a release", vec![Command::MouseUp], 1);
     expect(&mut stage, "a key", vec![Command::KeyDown(32)], 1);
-    expect(&mut stage, "its repeat", vec![Command::KeyDown(32)], 0);
-    expect(&mut stage, "again: a size", vec![Command::SetFixedSize(Some((16, 4)))], 1);
+    expect(&mut stage, "a key repeat", vec![Command::KeyDown(32)], 0);
+    expect(&mut stage, "redraw: a size", vec![Command::SetFixedSize(Some((16, 4)))], 1);
     expect(&mut stage, "the same size", vec![Command::SetFixedSize(Some((16, 4)))], 0);
     let channel = Some(Channel::new(Input::KEYBOARD));
     stage.compile(Command::SetChannel { pass: PassName::image(), index: 1, channel });
-    expect(&mut stage, "again: a channel, once it is compiled", vec![], 1);
+    expect(&mut stage, "redraw: a channel, after its compile", vec![], 1);
     assert!(stage.tick().wake_at.is_none(), "nothing to wait for");
 }
 
 #[test]
-fn playing_draws_a_frame_a_tick_at_the_times_it_is_given() {
+fn playing_draws_one_frame_per_tick_at_the_given_time() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.5))]);
     stage.session.apply(Command::Reset);
@@ -150,18 +150,19 @@ fn playing_draws_a_frame_a_tick_at_the_times_it_is_given() {
     }
     stage.session.apply(Command::Focus(true));
     stage.session.tick(start + Duration::from_secs(60));
-    assert!((stage.session.transport().time_secs - 0.06).abs() < 1e-9, "focus does not jump");
+    assert!((stage.session.transport().time_secs - 0.06).abs() < 1e-9, "time does not jump on focus");
 }
 
 #[test]
-fn an_edit_compiles_after_quiet_and_an_error_keeps_the_picture() {
+fn an_edit_compiles_after_the_debounce_and_an_error_keeps_the_picture() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("common.glsl", "float two() { return 2.0; }\n"), ("image.glsl", &plain(0.2))]);
     assert_eq!(stage.red(), 51);
     stage.settle();
     let start = Instant::now() + Duration::from_secs(100);
     stage.edit(&plain(0.4));
-    // At once where the last compile was fast, else after no more than the longest quiet; the last keystroke counts.
+    // At once if the last compile was fast, otherwise after at most the longest debounce delay, counted from the last
+    // keystroke.
     let is_soon = |wake: Option<Instant>, now| wake.is_none_or(|at| at <= now + Duration::from_millis(200));
     assert!(is_soon(stage.session.tick(start).wake_at, start));
     stage.edit(&plain(0.6));
@@ -190,12 +191,12 @@ fn an_edit_compiles_after_quiet_and_an_error_keeps_the_picture() {
 }
 
 #[test]
-fn what_is_drawn_while_there_are_errors_is_told() {
+fn the_picture_shown_during_errors_is_reported() {
     let Some(gpu) = support::gpu() else { return };
     let broken = "void mainImage(out vec4 o, in vec2 p) {\n    o = nowhere;\n}\n";
     let failed = |meanwhile| Some(Outcome::Failed { errors: 1, meanwhile });
     let mut stage = Stage::open(gpu, &[("image.glsl", broken)]);
-    assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::Nothing), "there never was a picture");
+    assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::Nothing), "no picture was drawn yet");
     stage.session.apply(Command::Screenshot);
     assert_eq!(stage.notices(Level::Warning), ["there is no picture to save yet"]);
 
@@ -206,14 +207,14 @@ fn what_is_drawn_while_there_are_errors_is_told() {
     stage.compile(Command::CompileNow);
     assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::LastGood));
 
-    // Another project that has none: the one before is gone, and its picture with it.
+    // Another project without a picture: the previous project's is dropped.
     stage.edit(&plain(0.2));
     stage.session.apply(Command::Save);
     let other = folder_of(stage.dir.path().join("other"), &[("image.glsl", broken)]);
     stage.compile(Command::Open(other.to_str().unwrap().into()));
     assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::Nothing));
 
-    // A channel that names nothing: an error, and the picture is the newest text's all the same.
+    // A channel with an unknown name is an error, but the picture is the newest text's.
     stage.edit(&format!("#iChannel0 \"nothing of this name\"\n{}", plain(0.4)));
     stage.compile(Command::CompileNow);
     assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::Newest));
@@ -221,7 +222,7 @@ fn what_is_drawn_while_there_are_errors_is_told() {
 }
 
 #[test]
-fn nothing_unsaved_is_left_without_a_question() {
+fn unsaved_changes_cause_a_question() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.2))]);
     stage.session.apply(Command::Close);
@@ -236,7 +237,7 @@ fn nothing_unsaved_is_left_without_a_question() {
         stage.session.apply(command);
         assert_eq!(stage.session.question(), Some(&Question::Unsaved { then, tabs: vec![image_tab()] }));
         stage.session.apply(Command::Answer(Answer::TakeDisk));
-        assert!(stage.session.question().is_some(), "an answer that does not fit changes nothing");
+        assert!(stage.session.question().is_some(), "an answer to another question changes nothing");
         stage.session.apply(Command::Answer(Answer::Cancel));
         assert!(stage.session.question().is_none() && stage.session.take_request().is_none());
         assert_eq!(stage.session.text(&image_tab()), plain(0.4));
@@ -249,7 +250,7 @@ fn nothing_unsaved_is_left_without_a_question() {
 }
 
 #[test]
-fn what_has_no_place_of_its_own_is_saved_where_the_user_says() {
+fn a_new_project_is_saved_where_the_user_chooses() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::bare(gpu);
     stage.edit(&plain(0.4));
@@ -260,7 +261,7 @@ fn what_has_no_place_of_its_own_is_saved_where_the_user_says() {
     stage.session.apply(Command::Answer(Answer::Save));
     assert_eq!(stage.session.take_request(), Some(Request::SaveAs { suggested_name: "Untitled".into() }));
     assert!(stage.session.is_dirty(), "not saved yet");
-    // The folder holds a foreign file in the way: a question, and it stays until the answer.
+    // The folder contains another file of this name: a question, and the file stays until the answer.
     stage.write("image.glsl", "somebody else's");
     stage.session.apply(Command::SaveAs(stage.folder()));
     assert!(matches!(stage.session.question(), Some(Question::Overwrite { .. })), "{:?}", stage.session.question());
@@ -283,7 +284,7 @@ fn what_has_no_place_of_its_own_is_saved_where_the_user_says() {
 }
 
 #[test]
-fn a_save_as_takes_the_new_folders_name_and_a_save_keeps_its_own() {
+fn save_as_takes_the_folders_name_and_save_keeps_the_authors() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::bare(gpu);
     stage.session.apply(Command::Open("feedback".into()));
@@ -292,10 +293,10 @@ fn a_save_as_takes_the_new_folders_name_and_a_save_keeps_its_own() {
     assert_eq!(stage.session.project().name, "My own");
     let back = |folder: &std::path::Path| project::load(folder.to_str().unwrap()).unwrap().project;
     assert_eq!(back(&folder).name, "My own");
-    assert!(!back(&folder).info.description.is_empty(), "the rest stays");
+    assert!(!back(&folder).info.description.is_empty(), "the other fields are kept");
     stage.until_compiled();
     assert_eq!(stage.screenshot(), folder.join("My-own-0001.png"));
-    // A name that the author gave is kept where it is saved in place, also by a Save As.
+    // A name set by the author is kept when saving in place, also by Save As.
     let named = fs::read_to_string(folder.join("eddy.toml")).unwrap().replace("\"My own\"", "\"A name\"");
     fs::write(folder.join("eddy.toml"), named).unwrap();
     stage.until("the name", |s| s.project().name == "A name");
@@ -308,7 +309,7 @@ fn a_save_as_takes_the_new_folders_name_and_a_save_keeps_its_own() {
 }
 
 #[test]
-fn a_failing_save_and_a_failing_open_lose_nothing() {
+fn a_failed_save_or_open_loses_nothing() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.2))]);
     stage.session.apply(Command::Open(stage.dir.path().join("gone").to_str().unwrap().into()));
@@ -324,7 +325,7 @@ fn a_failing_save_and_a_failing_open_lose_nothing() {
 }
 
 #[test]
-fn a_size_the_device_cannot_draw_is_told_once_and_the_old_one_stays() {
+fn an_unsupported_size_is_reported_once_and_not_applied() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.2))]);
     stage.act(Command::SetFixedSize(Some((1 << 20, 4))));
@@ -343,7 +344,7 @@ fn a_size_the_device_cannot_draw_is_told_once_and_the_old_one_stays() {
 }
 
 #[test]
-fn a_pass_that_vanishes_is_warned_of_and_the_picture_is_drawn_without_it() {
+fn a_missing_pass_is_a_warning_and_reads_as_zero() {
     let Some(gpu) = support::gpu() else { return };
     for by_hand in [true, false] {
         let manifest = "[passes.buffer_a]\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n";
@@ -357,16 +358,16 @@ fn a_pass_that_vanishes_is_warned_of_and_the_picture_is_drawn_without_it() {
             stage.write("eddy.toml", "[passes.image]\nchannels.0 = { buffer = \"A\" }\n");
         }
         stage.until_red(0);
-        let said: Vec<&TabDiagnostic> = stage.session.diagnostics().iter().collect();
-        assert_eq!(said.len(), 1, "{said:?}");
-        assert_eq!(said[0].message, "iChannel0 of Image reads Buffer A, but the project has no such pass");
-        assert!(said[0].hints[0].contains("reads zero"), "{said:?}");
+        let warnings: Vec<&TabDiagnostic> = stage.session.diagnostics().iter().collect();
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        assert_eq!(warnings[0].message, "iChannel0 of Image reads Buffer A, but the project has no such pass");
+        assert!(warnings[0].hints[0].contains("reads zero"), "{warnings:?}");
         assert!(matches!(stage.session.compile_state().last, Some(Outcome::Ok { warnings: 1, .. })));
     }
 }
 
 #[test]
-fn a_session_ends_while_it_compiles() {
+fn a_session_can_be_dropped_while_it_compiles() {
     let Some(gpu) = support::gpu() else { return };
     let mut session = Session::new(gpu, Arc::new(|| ())).unwrap();
     session.tick(Instant::now());
@@ -374,7 +375,7 @@ fn a_session_ends_while_it_compiles() {
 }
 
 #[test]
-fn channel_lines_in_a_lone_file_count_as_they_are_typed() {
+fn channel_lines_in_a_single_file_apply_while_typing() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::bare(gpu);
     stage.write("lone.glsl", plain(0.2));
@@ -396,10 +397,10 @@ fn channel_lines_in_a_lone_file_count_as_they_are_typed() {
     assert!(channels(&stage).get(1).is_none());
 }
 
-/// A lone file has no place for a slider's value. Its code is written all the same, and once nothing but the value is left
-/// a place is asked for that can hold it.
+/// A single file cannot store a slider's value. Its code is saved anyway, and once only the value is unsaved, saving
+/// asks for a folder.
 #[test]
-fn the_code_of_a_lone_file_is_saved_whatever_its_sliders_are() {
+fn saving_a_single_file_with_moved_sliders_saves_its_code() {
     let Some(gpu) = support::gpu() else { return };
     let isf = "/*{ \"ISFVSN\": \"2\", \"INPUTS\": [\n{ \"NAME\": \"level\", \"TYPE\": \"float\", \"MAX\": 1.0 }\n] }*/\n\
                void main() { gl_FragColor = vec4(level); }\n";
@@ -418,13 +419,13 @@ fn the_code_of_a_lone_file_is_saved_whatever_its_sliders_are() {
         stage.session.apply(Command::Save);
         assert_eq!(stage.read(name), edited);
         assert!(!stage.session.is_tab_dirty(&tab) && stage.session.is_dirty(), "{:?}", stage.session.notices());
-        let said = stage.session.notices().last().unwrap().text.clone();
-        assert!(said.contains("saved the code of") && said.contains("sliders"), "{said}");
+        let notice = stage.session.notices().last().unwrap().text.clone();
+        assert!(notice.contains("saved the code of") && notice.contains("sliders"), "{notice}");
         assert_eq!(stage.session.take_request(), None);
         stage.session.apply(Command::Save);
         let suggested_name = "lone".to_owned();
         assert_eq!(stage.session.take_request(), Some(Request::SaveAs { suggested_name }));
-        // Where the project is about to be left, all of it is to be kept.
+        // Closing with Save has to save everything.
         stage.session.apply(Command::EditText { tab: tab.clone(), text: text.into() });
         stage.session.apply(Command::Close);
         stage.session.apply(Command::Answer(Answer::Save));
@@ -433,9 +434,9 @@ fn the_code_of_a_lone_file_is_saved_whatever_its_sliders_are() {
     }
 }
 
-/// A buffer that is added to a shader of Ghostty has no place in its file: saving asks for a folder.
+/// A Ghostty shader's file cannot store an added buffer: saving asks for a folder.
 #[test]
-fn what_is_added_to_a_shader_of_ghostty_is_not_lost_by_saving() {
+fn a_buffer_added_to_a_ghostty_shader_is_saved_in_a_folder() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::bare(gpu);
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0); }\n";
@@ -457,9 +458,9 @@ fn what_is_added_to_a_shader_of_ghostty_is_not_lost_by_saving() {
     assert!(stage.read("folder/buffer_b.glsl").contains("0.5"));
 }
 
-/// Everything that `eddy check` warns of is in the window's list of problems.
+/// Every warning of `eddy check` is in the window's list of problems.
 #[test]
-fn what_check_warns_of_is_in_the_list_of_problems() {
+fn warnings_of_check_are_in_the_list_of_problems() {
     let Some(gpu) = support::gpu() else { return };
     let files = [
         (
@@ -480,18 +481,18 @@ fn what_check_warns_of_is_in_the_list_of_problems() {
         std::process::Command::new(env!("CARGO_BIN_EXE_eddy")).arg("check").arg("--json").arg(&folder).output();
     let line = String::from_utf8(output.unwrap().stdout).unwrap();
     let report: serde_json::Value = serde_json::from_str(line.lines().next().unwrap()).unwrap();
-    let told: Vec<&str> =
+    let reported: Vec<&str> =
         report["diagnostics"].as_array().unwrap().iter().map(|d| d["message"].as_str().unwrap()).collect();
-    assert!(told.len() >= 4, "the project is to be warned of: {told:?}");
+    assert!(reported.len() >= 4, "check reports too few warnings: {reported:?}");
     let shown: Vec<&str> = stage.session.diagnostics().iter().map(|d| d.message.as_str()).collect();
-    for message in told {
+    for message in reported {
         assert!(shown.contains(&message), "{message} is not shown, but {shown:#?}");
     }
 }
 
-/// Files of a project in the way: each is named, none is replaced but by the answer, and each is kept.
+/// Files of another project at the target: each is named, replaced only after the answer, and kept as a copy.
 #[test]
-fn a_save_into_another_projects_folder_names_every_file_and_keeps_what_it_replaces() {
+fn saving_into_another_projects_folder_asks_and_keeps_replaced_files() {
     let Some(gpu) = support::gpu() else { return };
     let options =
         |dir: &std::path::Path| SessionOptions { recovery: Some(dir.join("kept")), ..SessionOptions::default() };
@@ -511,7 +512,7 @@ fn a_save_into_another_projects_folder_names_every_file_and_keeps_what_it_replac
     assert_eq!(asked(&mut stage), all);
     stage.session.apply(Command::Answer(Answer::Cancel));
     there.iter().for_each(|(name, text)| assert_eq!(stage.read(name), *text, "{name}"));
-    // What has appeared since the question was not in it: it is asked about, too.
+    // A file that appeared after the question causes another one.
     assert_eq!(asked(&mut stage), all);
     stage.session.apply(Command::Answer(Answer::Cancel));
     stage.write("image.glsl", plain(0.4));
@@ -523,12 +524,13 @@ fn a_save_into_another_projects_folder_names_every_file_and_keeps_what_it_replac
     stage.session.apply(Command::Answer(Answer::Overwrite));
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
     assert_eq!(stage.read("image.glsl"), plain(0.4));
-    let kept = stage.session.notices().iter().find_map(|n| n.path.clone()).expect("a notice says where they are");
+    let kept =
+        stage.session.notices().iter().find_map(|n| n.path.clone()).expect("a notice with the folder of the copies");
     assert!(kept.starts_with(stage.dir.path().join("kept/replaced")), "{}", kept.display());
     for (name, text) in there {
         assert_eq!(fs::read_to_string(kept.join(name)).unwrap(), text, "{name}");
     }
-    // The file that a project of one file is saved to is in the way as well.
+    // The target file of a single-file project is protected in the same way.
     let one = stage.dir.path().join("one.json");
     fs::write(&one, "{}").unwrap();
     stage.session.apply(Command::SaveAs(one.clone()));

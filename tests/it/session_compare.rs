@@ -1,4 +1,4 @@
-//! The open project held against another one in a session: the same inputs, frame for frame.
+//! The open project compared with another one in a session: the same inputs, frame by frame.
 
 use crate::support::{self, stage::*};
 use eddy::{
@@ -11,7 +11,7 @@ use eddy::{
 };
 use std::{fs, sync::Arc};
 
-/// Sums what it saw of time and of the hand, so that any input that differs shows.
+/// Accumulates time and mouse, so that any different input is visible in the result.
 const HISTORY: &str = "void mainImage(out vec4 o, in vec2 p) {
     vec4 before = texelFetch(iChannel0, ivec2(p), 0);
     o = before * 0.5 + vec4(iTime + float(iFrame), p + iMouse.xy, 1.0);
@@ -27,7 +27,7 @@ fn ended(session: &Session) -> Option<Result<&Arc<Comparison>, &str>> {
     }
 }
 
-/// Compares, and waits for the end.
+/// Starts a comparison and waits for its end.
 fn compare(stage: &mut Stage, against: Baseline) -> Result<Arc<Comparison>, String> {
     stage.session.apply(Command::Compare(Some(against)));
     assert!(matches!(stage.session.comparison(), Some(Status::UnderWay(_))));
@@ -39,7 +39,7 @@ fn bits(texels: &[[f32; 4]]) -> Vec<u32> {
     texels.iter().flatten().map(|x| x.to_bits()).collect()
 }
 
-/// A run with a hand on the picture, and canvases of two sizes.
+/// Runs frames with a mouse drag and two sizes.
 fn run(stage: &mut Stage) {
     for frame in 0..9u16 {
         if frame == 2 {
@@ -56,7 +56,7 @@ fn run(stage: &mut Stage) {
 }
 
 #[test]
-fn an_edit_and_its_last_save_draw_the_same_frames_from_the_same_inputs() {
+fn comparing_with_the_last_save_uses_the_same_inputs() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &FILES);
     stage.session.apply(Command::Reset);
@@ -66,33 +66,33 @@ fn an_edit_and_its_last_save_draw_the_same_frames_from_the_same_inputs() {
     assert_eq!((same.frame, same.is_cut, (same.ours.width, same.ours.height)), (frame, false, (12, 6)));
     assert!(same.frames >= 9 && !same.turns.is_empty() && same.turns.iter().all(|(a, b)| *a > 0.0 && *b > 0.0));
     assert_eq!(bits(&same.ours.texels), bits(&same.theirs.texels));
-    // What both drew is what the session draws.
+    // The picture of both equals the session's own.
     stage.session.apply(Command::SaveTexels);
     let written = fs::read(stage.path("project-0001.npy")).unwrap();
     let drawn: Vec<u8> = bits(&same.ours.texels).iter().flat_map(|x| x.to_le_bytes()).collect();
-    assert!(written.ends_with(&drawn), "the session's own picture");
+    assert!(written.ends_with(&drawn), "the comparison differs from the session's own picture");
     assert!(!stage.session.is_comparison_old());
 
-    // The texts are read again for the file that was written beside them.
+    // The saved file appears in the project's folder, which causes a reload.
     stage.settle();
     stage.edit(MORE);
     stage.until_compiled();
     assert!(stage.session.is_comparison_old());
     let edited = compare(&mut stage, Baseline::LastSave).unwrap();
-    // Image's alpha is 1, whatever is written there.
+    // Image's alpha is always 1.
     let more: Vec<[f32; 4]> =
         edited.theirs.texels.iter().map(|t| [t[0] + 0.25, t[1] + 0.25, t[2] + 0.25, t[3]]).collect();
     assert_eq!(bits(&edited.ours.texels), bits(&more));
     assert!(!stage.session.is_comparison_old() && stage.session.is_dirty());
 
-    // Another project has nothing to do with it.
+    // Opening another project drops the comparison.
     stage.session.apply(Command::Save);
     stage.session.apply(Command::Open("feedback".into()));
     assert!(stage.session.comparison().is_none());
 }
 
 #[test]
-fn without_a_state_only_the_newest_frame_is_drawn() {
+fn a_stateless_comparison_draws_only_the_newest_frame() {
     let Some(gpu) = support::gpu() else { return };
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(iFrame, iTime, p.x, 1.0); }";
     let mut stage = Stage::open(gpu, &[("image.glsl", text)]);
@@ -110,7 +110,7 @@ fn without_a_state_only_the_newest_frame_is_drawn() {
 }
 
 #[test]
-fn a_revision_is_drawn_as_it_was_and_what_is_not_there_is_said() {
+fn a_git_revision_is_compared_and_missing_baselines_are_reported() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.25))]);
     let folder = stage.folder();
@@ -133,7 +133,7 @@ fn a_revision_is_drawn_as_it_was_and_what_is_not_there_is_said() {
     fs::write(&broken, "void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(1.0) + lenght(p);\n}\n").unwrap();
     let wrong = compare(&mut stage, Baseline::Project(broken.display().to_string())).unwrap_err();
     assert!(wrong.contains("broken.glsl") && wrong.contains("lenght") && wrong.contains('2'), "{wrong}");
-    // One that is stopped leaves what was there before, and the next one begins.
+    // Stopping a comparison keeps the previous result, and the next one can start.
     stage.session.apply(Command::Compare(Some(Baseline::LastSave)));
     stage.session.apply(Command::Compare(None));
     stage.for_a_while();
@@ -141,10 +141,10 @@ fn a_revision_is_drawn_as_it_was_and_what_is_not_there_is_said() {
     assert!(compare(&mut stage, Baseline::LastSave).is_ok());
 }
 
-/// The other project may be a stranger's, and one that the driver takes minutes for.
+/// The other project may be untrusted, and may take the driver minutes to compile.
 #[cfg(unix)]
 #[test]
-fn a_large_project_to_compare_with_is_tried_first() {
+fn a_large_project_is_test_compiled_before_a_comparison() {
     use std::os::unix::fs::PermissionsExt;
     let Some(gpu) = support::gpu().filter(|gpu| gpu.compiles_here) else { return };
     let mut stage = Stage::with_options(gpu, |folder| {

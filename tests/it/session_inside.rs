@@ -1,4 +1,4 @@
-//! A session whose code is looked into: a traced pixel and a probe change nothing of what is simulated.
+//! Traces and probes in a session: they do not change the simulation.
 
 use crate::support::{self, stage::*};
 use eddy::{
@@ -11,7 +11,7 @@ use eddy::{
 };
 use std::fs;
 
-/// Sums what it saw of time, so that any frame that differs shows.
+/// Accumulates time, so that any different frame is visible in the result.
 const HISTORY: &str = "void mainImage(out vec4 o, in vec2 p) {
     vec4 before = texelFetch(iChannel0, ivec2(p), 0);
     o = before * 0.5 + vec4(iTime + float(iFrame), p, 1.0);
@@ -33,7 +33,7 @@ fn step(stage: &mut Stage, count: usize) {
 }
 
 #[test]
-fn a_pixel_is_traced_from_what_is_there_and_nothing_is_drawn_for_it() {
+fn a_pixel_is_traced_without_drawing_a_frame() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &FILES);
     step(&mut stage, 5);
@@ -47,7 +47,7 @@ fn a_pixel_is_traced_from_what_is_there_and_nothing_is_drawn_for_it() {
         assert_eq!((traced.value, traced.ulps()), (Some(traced.device), Some(vec![0; 4])), "{}", pass.title());
     }
     assert_eq!((stage.frames(), stage.session.transport().frame), (frames, frame));
-    // The next frame is walked through by itself.
+    // The next frame is traced automatically.
     step(&mut stage, 1);
     stage.until("the next frame's", |s| s.trace().traced.is_some_and(|traced| traced.frame == frame + 1));
     let traced = stage.session.trace().traced.unwrap();
@@ -57,12 +57,12 @@ fn a_pixel_is_traced_from_what_is_there_and_nothing_is_drawn_for_it() {
 }
 
 #[test]
-fn a_probe_has_the_numbers_and_the_buffers_go_on() {
+fn a_probe_shows_its_values_and_buffers_keep_running() {
     let Some(gpu) = support::gpu() else { return };
     let run = |probes: bool| {
         let mut stage = Stage::open(gpu.clone(), &FILES);
         step(&mut stage, 3);
-        // Another program draws one frame while paused, whatever it draws.
+        // A new program draws one frame while paused, with or without a probe.
         let at = SHOW.find("p.x * 2.0").unwrap() + 5;
         let place = ProbePlace { tab: Tab::image(), at, visit: 0 };
         stage.compile(if probes { Command::Probe(Some(place)) } else { Command::CompileNow });
@@ -83,19 +83,19 @@ fn a_probe_has_the_numbers_and_the_buffers_go_on() {
         (stage.session.transport().frame, fs::read(stage.path("project-buffer_a-0001.npy")).unwrap())
     };
     let (with, without) = (run(true), run(false));
-    assert_eq!(with.0, without.0, "as many frames");
-    assert!(with.1 == without.1, "the value that was probed does not read the buffer, which goes on all the same");
+    assert_eq!(with.0, without.0, "the same number of frames");
+    assert!(with.1 == without.1, "the buffer runs although the probed value does not read it");
 }
 
 #[test]
-fn a_probe_that_is_shown_otherwise_is_painted_though_nothing_is_drawn() {
+fn changing_a_probes_look_repaints_without_drawing_a_frame() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::with_options(gpu, |_| SessionOptions { draws_on_thread: true, ..SessionOptions::default() });
     FILES.iter().for_each(|(name, text)| stage.write(name, text));
     let folder = stage.folder();
     stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
     stage.session.apply(Command::Pause);
-    // A picture that is drawn within a few milliseconds is waited for in the tick that asks for it.
+    // A large picture, as one that is drawn within a few milliseconds is waited for in the tick that requests it.
     stage.compile(Command::SetFixedSize(Some((2048, 1024))));
     let at = SHOW.find("p.x * 2.0").unwrap() + 5;
     let place = ProbePlace { tab: Tab::image(), at, visit: 0 };
@@ -104,18 +104,18 @@ fn a_probe_that_is_shown_otherwise_is_painted_though_nothing_is_drawn() {
     stage.for_a_while();
     let frames = stage.frames();
     stage.session.apply(Command::LookAtProbe(ProbeLook { paint: Paint::FalseColour, ..ProbeLook::default() }));
-    // The tick that hears of the wish, then one that has the picture.
+    // One tick receives the command, a later one has the picture.
     assert!(stage.tick().changed);
     let end = std::time::Instant::now() + std::time::Duration::from_secs(30);
     while !stage.tick().changed {
-        assert!(std::time::Instant::now() < end, "never painted");
+        assert!(std::time::Instant::now() < end, "timed out waiting for the repaint");
         std::thread::sleep(std::time::Duration::from_millis(2));
     }
     assert_eq!(stage.frames(), frames);
 }
 
 #[test]
-fn a_breakpoint_stands_where_a_statement_does() {
+fn a_breakpoint_is_placed_on_the_next_statement() {
     let Some(gpu) = support::gpu() else { return };
     let image = "// A comment.\n\
         float twice(float x) {\n\
@@ -146,11 +146,11 @@ fn a_breakpoint_stands_where_a_statement_does() {
     let found: Vec<Option<usize>> = (0..=18).map(|line| at(&image_tab(), line)).collect();
     let wanted = [4, 4, 4, 4, 4, 8, 8, 8, 8, 8, 13, 13, 13, 13, 14, 16, 16].map(Some);
     assert_eq!(found[..17], wanted);
-    assert_eq!(found[17..], [None, None], "none is below");
+    assert_eq!(found[17..], [None, None], "no statement follows");
     let shade = Tab::Included("shade.glsl".into());
     assert_eq!([0, 2, 3].map(|line| at(&shade, line)), [Some(2), Some(2), None]);
     assert_eq!([0, 2, 3].map(|line| at(&Tab::Common, line)), [Some(2), Some(2), None]);
-    // What the compiler does not understand is no reason to fall over.
+    // Code that does not parse must not cause a panic.
     for text in ["", "{", "void mainImage(", "void mainImage(out vec4 o, in vec2 p) { o = ; for (;; }", "float f() {"] {
         stage.edit(text);
         for line in 0..3 {

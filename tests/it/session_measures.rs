@@ -1,4 +1,4 @@
-//! A session whose comments ask for numbers: they are measured while somebody looks, and what is drawn does not change.
+//! Measures declared by comments: they are evaluated while they are watched, and do not change the picture.
 
 use crate::support::{self, stage::*};
 use eddy::{
@@ -7,7 +7,7 @@ use eddy::{
 };
 use std::fs;
 
-/// Red grows by 1 each frame, green is NaN from frame 5 on.
+/// Red grows by 1 per frame, green is NaN from frame 5 on.
 const GROWING: &str = "//@probe max(buffer_a.x)
 void mainImage(out vec4 o, in vec2 p) {
     o = texelFetch(iChannel0, ivec2(p), 0);
@@ -40,13 +40,13 @@ fn watch_all(stage: &mut Stage) {
     stage.act(Command::WatchMeasures(all));
 }
 
-/// Frames with their values.
+/// Returns frames with their values.
 fn values(stage: &Stage, text: &str) -> Vec<(i32, f64)> {
     measure(&stage.session, text).record.samples().map(|sample| (sample.frame, sample.value)).collect()
 }
 
 #[test]
-fn numbers_are_measured_frame_by_frame_while_somebody_looks() {
+fn values_are_measured_each_frame_while_watched() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu.clone(), &files());
     step(&mut stage, 1);
@@ -57,18 +57,18 @@ fn numbers_are_measured_frame_by_frame_while_somebody_looks() {
     assert_eq!(values(&stage, "max(buffer_a.x)"), (0..8).map(|n| (n, f64::from(n + 1))).collect::<Vec<_>>());
     let green = values(&stage, "max(buffer_a.y)");
     assert!(green[..5].iter().all(|(_, value)| *value == 0.25) && green[5..].iter().all(|(_, value)| value.is_nan()));
-    // What has no number says why, and how it gets one.
+    // A measure without a value states the reason and the fix.
     let why = |stage: &Stage, text: &str| {
         let unmeasured = stage.session.unmeasured(measure(&stage.session, text)).map(|why| why.into_owned());
         unmeasured.map(|unmeasured| (unmeasured.why, unmeasured.mend))
     };
     stage.act(Command::WatchCosts(true));
-    let (undrawn, mend) = why(&stage, "sum(buffer_b)").unwrap();
+    let (undrawn, fix) = why(&stage, "sum(buffer_b)").unwrap();
     assert_eq!(undrawn, "Buffer B is not drawn: no channel reads it");
-    assert!(mend.contains("show Buffer B"), "{mend}");
-    let (unknown, mend) = why(&stage, "sum(buffer_q)").unwrap();
+    assert!(fix.contains("show Buffer B"), "{fix}");
+    let (unknown, fix) = why(&stage, "sum(buffer_q)").unwrap();
     assert_eq!(
-        (unknown.as_str(), mend.as_str()),
+        (unknown.as_str(), fix.as_str()),
         ("there is no pass buffer_q", "the project's passes are buffer_a, buffer_b and image")
     );
     assert_eq!(why(&stage, "max(buffer_a.x)"), None);
@@ -80,7 +80,7 @@ fn numbers_are_measured_frame_by_frame_while_somebody_looks() {
     stage.compile(Command::ShowPass(PassName::image()));
     step(&mut stage, 1);
 
-    // Nobody looks: nothing is measured, and frames go on.
+    // Without a watcher no values are measured, and frames continue.
     stage.act(Command::WatchMeasures(vec![]));
     let (count, frames) = (stage.session.measured_frames(), stage.frames());
     step(&mut stage, 5);
@@ -110,7 +110,7 @@ fn records_follow_time_and_edits() {
     stage.tick();
     assert_eq!(values(&stage, "max(buffer_a.x)").last(), Some(&(5, 6.0)));
 
-    // An edit elsewhere keeps it, one of the comment begins another.
+    // An edit elsewhere keeps the record, an edit of the comment starts another.
     let serial = measure(&stage.session, "max(buffer_a.x)").serial;
     stage.edit(&format!("// more\n{SHOW}"));
     stage.compile(Command::CompileNow);
@@ -130,7 +130,7 @@ fn records_follow_time_and_edits() {
 }
 
 #[test]
-fn what_was_measured_goes_into_new_files() {
+fn measured_values_are_saved_to_new_files() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu.clone(), &files());
     stage.session.apply(Command::SaveMeasures);
@@ -144,7 +144,7 @@ fn what_was_measured_goes_into_new_files() {
     assert_eq!(rows[0], "frame,time,max(buffer_a.x),max(buffer_a.y),sum(buffer_b)");
     assert_eq!((rows.len(), rows[1]), (7, "0,0.0,1.0,0.25,"), "{table}");
     assert!(rows[6].starts_with("5,") && rows[6].ends_with(",6.0,NaN,"), "{table}");
-    // One that is there stays as it is.
+    // An existing file is not replaced.
     fs::write(stage.path("project-measured-0002.csv"), "mine").unwrap();
     stage.session.apply(Command::SaveMeasures);
     assert_eq!(stage.read("project-measured-0002.csv"), "mine");
@@ -154,7 +154,7 @@ fn what_was_measured_goes_into_new_files() {
 }
 
 #[test]
-fn a_session_that_draws_apart_measures_too_and_draws_the_same() {
+fn measuring_on_the_drawing_thread_does_not_change_the_picture() {
     let Some(gpu) = support::gpu() else { return };
     let run = |measures: bool| {
         let mut stage =
@@ -167,8 +167,8 @@ fn a_session_that_draws_apart_measures_too_and_draws_the_same() {
         if measures {
             watch_all(&mut stage);
         }
-        // The buffer's red is the number of frames since the reset.
-        // The first frame since the reset is drawn by itself.
+        // The buffer's red is the number of frames since the reset. The first frame after the reset is drawn
+        // automatically.
         stage.for_a_while();
         (0..9).for_each(|_| stage.session.apply(Command::Step));
         stage.until("the frames", |s| s.transport().frame == 9);

@@ -1,4 +1,4 @@
-//! Pictures and models of an open project: read beside the window, and never in its way.
+//! Image files and models of an open project: loading them does not block the window.
 
 use crate::support::{self, stage::Stage};
 use eddy::session::{Command, FallbackPicture, Outcome};
@@ -12,12 +12,12 @@ const MODEL: &str = "eddy = 1\n\n[passes.buffer_a]\ndraw = [{ mesh = \"m.gltf\",
 const VERTEX: &str = "in vec3 aPosition;\nvoid main() { gl_Position = vec4(aPosition, 1.0); }\n";
 const FRAGMENT: &str = "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n";
 
-/// Opens the project, with the time that takes the caller.
+/// Opens the project and returns the time that the calls took.
 fn open(stage: &mut Stage) -> Duration {
-    let began = Instant::now();
+    let start = Instant::now();
     stage.session.apply(Command::Open(stage.folder().to_str().unwrap().into()));
     stage.act(Command::Pause);
-    began.elapsed()
+    start.elapsed()
 }
 
 fn messages(stage: &Stage) -> Vec<&str> {
@@ -32,7 +32,7 @@ fn pipe(stage: &Stage, name: &str) {
 
 #[cfg(unix)]
 #[test]
-fn a_picture_that_is_a_pipe_opens_at_once_with_a_word_about_it() {
+fn an_image_file_that_is_a_pipe_opens_at_once_with_a_warning() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::bare(gpu);
     stage.write("eddy.toml", TOML);
@@ -41,14 +41,14 @@ fn a_picture_that_is_a_pipe_opens_at_once_with_a_word_about_it() {
     let took = open(&mut stage);
     assert!(took < Duration::from_secs(1), "{took:?}");
     stage.until_compiled();
-    let said = messages(&stage);
-    assert!(said.len() == 1 && said[0].contains("pic.png: it is a pipe, not a regular file"), "{said:?}");
+    let warnings = messages(&stage);
+    assert!(warnings.len() == 1 && warnings[0].contains("pic.png: it is a pipe, not a regular file"), "{warnings:?}");
     assert_eq!(stage.red(), 0);
 }
 
 #[cfg(unix)]
 #[test]
-fn a_model_that_is_a_pipe_or_names_one_opens_at_once_with_an_error() {
+fn a_model_that_is_or_names_a_pipe_opens_at_once_with_an_error() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::bare(gpu);
     for (name, text) in
@@ -60,14 +60,14 @@ fn a_model_that_is_a_pipe_or_names_one_opens_at_once_with_an_error() {
     let took = open(&mut stage);
     assert!(took < Duration::from_secs(1), "{took:?}");
     stage.until_compiled();
-    let said = messages(&stage);
-    assert!(said.len() == 1 && said[0].contains("m.gltf: it is a pipe"), "{said:?}");
+    let errors = messages(&stage);
+    assert!(errors.len() == 1 && errors[0].contains("m.gltf: it is a pipe"), "{errors:?}");
 
     std::fs::rename(stage.path("m.gltf"), stage.path("m.bin")).unwrap();
     stage.write("m.gltf", r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"m.bin"}]}"#);
     let took = open(&mut stage);
     assert!(took < Duration::from_secs(1), "{took:?}");
-    stage.until("the pipe behind the model", |s| {
+    stage.until("the error about the model's pipe", |s| {
         s.diagnostics()
             .iter()
             .any(|d| d.message.contains("m.gltf refers to a file: ") && d.message.contains("is a pipe"))
@@ -75,7 +75,7 @@ fn a_model_that_is_a_pipe_or_names_one_opens_at_once_with_an_error() {
 }
 
 #[test]
-fn a_picture_that_changes_on_disk_is_read_again_and_one_that_does_not_is_not() {
+fn only_a_changed_image_file_is_reloaded() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::bare(gpu);
     stage.write("eddy.toml", TOML);
@@ -90,7 +90,7 @@ fn a_picture_that_changes_on_disk_is_read_again_and_one_that_does_not_is_not() {
     stage.settle();
     paint(&stage, 102);
     stage.until_red(102);
-    // A file that is none of the project's is no reason to compile: the picture stands.
+    // A file outside the project causes no compile and no frame.
     stage.settle();
     let frames = stage.frames();
     stage.write("notes.txt", "nothing");
@@ -99,7 +99,7 @@ fn a_picture_that_changes_on_disk_is_read_again_and_one_that_does_not_is_not() {
 }
 
 #[test]
-fn errors_without_a_line_are_counted() {
+fn errors_without_a_line_are_in_the_error_count() {
     let Some(gpu) = support::gpu() else { return };
     let side = gpu.device.limits().max_texture_dimension_2d + 1;
     let mut stage = Stage::bare(gpu);
@@ -115,7 +115,7 @@ fn errors_without_a_line_are_counted() {
     assert_eq!(stage.session.compile_state().last, one, "{:?}", messages(&stage));
     assert!(messages(&stage)[0].contains("accessor 77, but there are 0"), "{:?}", messages(&stage));
 
-    // What the device refuses is an error of the list too.
+    // An error of the device is counted too.
     stage.write("eddy.toml", TOML);
     ImageBuffer::<Rgba<u8>, _>::from_pixel(side, 1, Rgba([9, 0, 0, 255])).save(stage.path("pic.png")).unwrap();
     open(&mut stage);

@@ -1,4 +1,4 @@
-//! The sound pass of an open project: a track that is made beside the picture, again only where it sounds different.
+//! The sound pass of an open project: a track that is drawn in the background, and again only if the sound changes.
 
 use crate::support::{
     self,
@@ -15,7 +15,7 @@ fn constant(value: &str) -> String {
     format!("vec2 mainSound(int samp, float time) {{ return vec2({value}, -0.5); }}\n")
 }
 
-/// The first frame of the track, once it is made.
+/// Returns the revision and the first frame of the track, once it is drawn.
 fn first(session: &Session) -> Option<(u64, [i16; 2])> {
     let (revision, track) = session.sound_track()?;
     Some((revision, track.frame(0)?))
@@ -41,7 +41,7 @@ const QUARTER: i16 = 8_193;
 const HALF: i16 = 16_385;
 
 #[test]
-fn a_track_is_made_once_and_again_only_where_it_sounds_different() {
+fn a_track_is_drawn_again_only_if_its_sound_changes() {
     let Some(gpu) = support::gpu() else { return };
     let common = "float level() { return 0.25; }\n";
     let sound = constant("level()");
@@ -59,7 +59,7 @@ fn a_track_is_made_once_and_again_only_where_it_sounds_different() {
     assert_eq!(file.len(), 44 + 4 * 7_938_000, "{}", saved.display());
     assert_eq!(i16::from_le_bytes([file[44], file[45]]), QUARTER);
 
-    // The picture, a comment, and what of Common the sound does not call leave it alone.
+    // The picture, a comment, and functions of Common that the sound does not call do not affect it.
     stage.edit(&plain(0.4));
     stage.until_red(102);
     edit_sound(&mut stage, &format!("// louder?\n{sound}"));
@@ -72,39 +72,39 @@ fn a_track_is_made_once_and_again_only_where_it_sounds_different() {
     assert_eq!(now, revision);
     assert!(Arc::ptr_eq(&same, &track));
 
-    // Common changes it, and so does the pass.
+    // A change of Common affects it, and one of the pass.
     stage.session.apply(Command::EditText { tab: Tab::Common, text: common.replace("0.25", "0.5") });
     let second = until_left(&mut stage, HALF);
     assert!(second > revision);
-    assert_eq!(track.frame(0), Some([QUARTER, -16_383]), "what may be playing does not change");
+    assert_eq!(track.frame(0), Some([QUARTER, -16_383]), "the track that may be playing does not change");
     edit_sound(&mut stage, &constant("0.25"));
     assert!(until_left(&mut stage, QUARTER) > second);
 
-    // Without the pass there is nothing to hear; another project begins anew.
+    // Without the pass there is no track.
     stage.session.apply(Command::EditPasses(PassEdit::Remove(Tab::sound())));
     stage.until("silence", |session| session.sound_track().is_none() && session.sound().is_none());
 }
 
 #[test]
-fn a_slider_makes_another_track_if_the_sound_reads_it() {
+fn a_slider_redraws_the_track_only_if_the_sound_reads_it() {
     let Some(gpu) = support::gpu() else { return };
     let sound = format!("#iUniform float level = 0.25 in {{0.0, 1.0}}\n{}", constant("level"));
     let show = format!("#iUniform float tint = 0.2 in {{0.0, 1.0}}\n{}", plain(0.2).replace("0.2", "tint"));
     let mut stage = Stage::open(gpu, &[("sound.glsl", &sound), ("image.glsl", &show)]);
     let revision = until_left(&mut stage, QUARTER);
-    let turn = |stage: &mut Stage, name: &str| {
+    let set_slider = |stage: &mut Stage, name: &str| {
         let value = Some(CustomUniformValue::Float(0.5));
         stage.session.apply(Command::SetCustomUniform { name: name.into(), value });
     };
-    turn(&mut stage, "tint");
+    set_slider(&mut stage, "tint");
     stage.for_a_while();
     assert_eq!(first(&stage.session).unwrap().0, revision);
-    turn(&mut stage, "level");
+    set_slider(&mut stage, "level");
     assert!(until_left(&mut stage, HALF) > revision);
 }
 
 #[test]
-fn errors_are_in_the_tab_of_the_pass_and_the_picture_goes_on() {
+fn sound_errors_are_in_their_tab_and_the_picture_keeps_running() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("sound.glsl", &constant("0.25")), ("image.glsl", &plain(0.2))]);
     let revision = until_left(&mut stage, QUARTER);
@@ -113,7 +113,7 @@ fn errors_are_in_the_tab_of_the_pass_and_the_picture_goes_on() {
     assert!(matches!(stage.session.compile_state().last, Some(Outcome::Failed { errors: 1, .. })));
     stage.edit(&plain(0.4));
     stage.until_red(102);
-    assert_eq!(first(&stage.session).unwrap().0, revision, "the last good sound stays");
+    assert_eq!(first(&stage.session).unwrap().0, revision, "the last good sound is kept");
     edit_sound(&mut stage, &constant("0.5"));
     until_left(&mut stage, HALF);
     assert!(stage.session.diagnostics().is_empty());
@@ -125,7 +125,7 @@ fn errors_are_in_the_tab_of_the_pass_and_the_picture_goes_on() {
 }
 
 #[test]
-fn a_sound_that_takes_forever_holds_neither_the_picture_nor_the_end() {
+fn an_endless_sound_blocks_neither_the_picture_nor_the_exit() {
     let Some(gpu) = support::gpu() else { return };
     let slow = "vec2 mainSound(int samp, float time) { float a = time; for (int i = 0; i < 100000000; i++) \
                 a = fract(sin(a) * 43758.5 + float(i & 1)); return vec2(a); }";

@@ -1,5 +1,5 @@
-//! Videos and the camera in a session: a paused picture shows the frame of its time, and a camera is on only after a person has
-//! turned it on for the open project.
+//! Videos and the camera in a session: a paused picture shows the frame of its time, and a camera is on only after the
+//! user has turned it on for the open project.
 
 use crate::support::{self, ffmpeg::has_ffmpeg, stage::*};
 use eddy::{
@@ -15,7 +15,7 @@ use image::{
 
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(0), 0); }";
 
-/// Frames of 100 ms, with their number in red.
+/// Returns a GIF with frames of 100 ms, with their number in red.
 fn gif(frames: u8) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = GifEncoder::new(&mut bytes);
@@ -42,11 +42,11 @@ fn a_paused_picture_shows_the_frame_of_its_time() {
     assert!(stage.is_ok(), "{:?}", stage.session.notices());
     for (seconds, wanted) in [(0.55, 5), (0.05, 0), (0.95, 9), (1.25, 2), (0.35, 3)] {
         stage.session.apply(Command::Seek(seconds));
-        // One that was late is drawn again while time stands.
+        // A late video frame is drawn again while time is stopped.
         stage.settle();
         assert_eq!(stage.red(), wanted * 20, "at {seconds}");
     }
-    // An edit goes on from the same frame.
+    // An edit keeps the same frame.
     stage.edit(&SHOW.replace("ivec2(0), 0)", "ivec2(0), 0) * 0.5"));
     stage.session.apply(Command::CompileNow);
     stage.until_compiled();
@@ -55,10 +55,10 @@ fn a_paused_picture_shows_the_frame_of_its_time() {
 }
 
 #[test]
-fn what_is_dropped_and_moves_is_a_video() {
+fn a_dropped_animation_is_a_video() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", SHOW)]);
-    for (name, bytes, kind) in [("moves.gif", gif(3), InputKind::Video), ("stands.gif", gif(1), InputKind::Texture)] {
+    for (name, bytes, kind) in [("moves.gif", gif(3), InputKind::Video), ("still.gif", gif(1), InputKind::Texture)] {
         let path = stage.dir.path().join(name);
         std::fs::write(&path, bytes).unwrap();
         let to = Some((eddy::project::PassName::image(), Some(0)));
@@ -69,7 +69,7 @@ fn what_is_dropped_and_moves_is_a_video() {
 }
 
 #[test]
-fn a_camera_is_on_only_while_a_person_wants_it_and_for_one_project() {
+fn a_camera_is_on_only_by_consent_for_one_project() {
     let Some(gpu) = support::gpu() else { return };
     if !has_ffmpeg() {
         return;
@@ -92,7 +92,7 @@ fn a_camera_is_on_only_while_a_person_wants_it_and_for_one_project() {
         "a project alone turns nothing on"
     );
     stage.session.apply(Command::UseDevice { kind: webcam, on: true });
-    stage.until("the camera is on", |s| s.device_state(webcam) == CameraState::On);
+    stage.until("the camera to be on", |s| s.device_state(webcam) == CameraState::On);
     stage.until_compiled();
     stage.settle();
     assert_eq!(stage.red(), 24);
@@ -102,22 +102,22 @@ fn a_camera_is_on_only_while_a_person_wants_it_and_for_one_project() {
     stage.settle();
     assert_eq!(stage.red(), 0);
     stage.session.apply(Command::UseDevice { kind: webcam, on: true });
-    stage.until("the camera is on", |s| s.device_state(webcam) == CameraState::On);
-    // Another project asks again, even the same one.
+    stage.until("the camera to be on", |s| s.device_state(webcam) == CameraState::On);
+    // Opening a project, even the same one, requires consent again.
     stage.session.apply(Command::Open(folder));
     stage.until("another project", |s| s.device_state(webcam) == CameraState::Off);
     stage.for_a_while();
     assert_eq!(stage.session.device_state(webcam), CameraState::Off);
 }
 
-/// The trace, the search for a difference from the device and the comparison read what the shown frame read.
+/// The trace, the search for a divergence from the device and the comparison read the inputs of the shown frame.
 #[test]
-fn a_trace_and_a_comparison_have_the_picture_of_the_camera_that_was_shown() {
+fn a_trace_and_a_comparison_read_the_shown_camera_frame() {
     let Some(gpu) = support::gpu() else { return };
     if !has_ffmpeg() {
         return;
     }
-    // Every frame is of another grey, and none is black.
+    // Every frame has a different grey, and none is black.
     let camera = CameraSource::of_text("lavfi:nullsrc=s=16x16:r=30,geq=lum='60+mod(N*7,150)':cb=128:cr=128");
     let mut stage = Stage::with_options(gpu, |_| SessionOptions { camera, ..SessionOptions::default() });
     stage.write("eddy.toml", "[passes.image]\nchannels.0 = { webcam = true }\n");
@@ -127,7 +127,7 @@ fn a_trace_and_a_comparison_have_the_picture_of_the_camera_that_was_shown() {
     stage.session.apply(Command::Pause);
     stage.until_compiled();
     stage.session.apply(Command::UseDevice { kind: InputKind::Webcam, on: true });
-    stage.until("the camera is on", |s| s.device_state(InputKind::Webcam) == CameraState::On);
+    stage.until("the camera to be on", |s| s.device_state(InputKind::Webcam) == CameraState::On);
     stage.until_compiled();
     stage.session.apply(Command::Step);
     stage.settle();
@@ -151,7 +151,7 @@ fn a_trace_and_a_comparison_have_the_picture_of_the_camera_that_was_shown() {
 }
 
 #[test]
-fn a_trace_and_a_comparison_have_the_frame_of_a_video() {
+fn a_trace_and_a_comparison_read_the_shown_video_frame() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::bare(gpu);
     stage.write("a.gif", gif(10));
@@ -176,12 +176,12 @@ fn a_trace_and_a_comparison_have_the_frame_of_a_video() {
 }
 
 #[test]
-fn a_camera_that_is_not_there_is_told_of() {
+fn a_missing_camera_is_reported() {
     let Some(gpu) = support::gpu() else { return };
     let camera = CameraSource::of_text("/dev/video-of-nobody");
     let mut stage = Stage::with_options(gpu, |_| SessionOptions { camera, ..SessionOptions::default() });
     stage.session.apply(Command::UseDevice { kind: InputKind::Webcam, on: true });
-    stage.until("it is off again", |s| s.device_state(InputKind::Webcam) == CameraState::Off);
-    let said = stage.notices(Level::Warning);
-    assert!(said.iter().any(|text| text.contains("camera")), "{said:?}");
+    stage.until("the camera to be off", |s| s.device_state(InputKind::Webcam) == CameraState::Off);
+    let warnings = stage.notices(Level::Warning);
+    assert!(warnings.iter().any(|text| text.contains("camera")), "{warnings:?}");
 }

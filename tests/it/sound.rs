@@ -1,4 +1,4 @@
-//! Sound passes: samples as Shadertoy computes them, what such a pass reads, files, and that no picture depends on one.
+//! Sound passes: samples as computed by Shadertoy, inputs, files, and independence of the picture.
 
 use crate::support::{gpu, program::Bench, *};
 use eddy::{
@@ -12,7 +12,7 @@ use eddy::{
 };
 use std::{f64::consts::TAU, sync::Arc};
 
-/// Left 440 Hz, right 330 Hz at half the level, with a phase that is exact however late it is.
+/// 440 Hz on the left, 330 Hz at half the level on the right, with a phase that is exact at any time.
 const TONES: &str = "float turn(int samp, int hertz) { return 6.28318530718 * float((samp % 44100) * hertz % 44100) / \
                      44100.0; }\nvec2 mainSound(int samp, float time) { return vec2(sin(turn(samp, 440)), \
                      0.5 * sin(turn(samp, 330))); }";
@@ -22,7 +22,7 @@ fn sound(code: &str, channels: [Option<Channel>; 4]) -> Project {
     project(vec![pass(PassName::sound(), code, channels), image(SHOW, Default::default())])
 }
 
-/// A sound pass with this body.
+/// Returns a sound pass with this body.
 fn samples_of(body: &str) -> String {
     format!("vec2 mainSound(int samp, float time) {{ {body} }}")
 }
@@ -35,7 +35,7 @@ fn block(engine: &mut Engine, number: u32) -> Vec<[i16; 2]> {
     engine.draw_sound(number, [2026.0, 0.0, 9.0, 77.25], &mut || Some(64)).unwrap().expect("all rows are drawn")
 }
 
-/// The 16 bits of a value, and the sample that they are.
+/// Returns the 16-bit sample of a value. [`value`] is its inverse.
 fn quantised(value: f64) -> i16 {
     (((0.5 + 0.5 * value) * 65536.0).floor() - 32767.0).clamp(-32767.0, 32767.0) as i16
 }
@@ -45,7 +45,7 @@ fn value(sample: i16) -> f64 {
 }
 
 #[test]
-fn samples_are_the_formulas_over_the_borders_of_blocks_and_to_the_end() {
+fn samples_match_the_formula_across_blocks_and_to_the_end() {
     let Some(gpu) = gpu() else { return };
     let mut engine = engine_of(&gpu, &sound(TONES, Default::default()), &MediaSet::new());
     for number in [0, 1, SOUND_BLOCKS - 1] {
@@ -56,7 +56,7 @@ fn samples_are_the_formulas_over_the_borders_of_blocks_and_to_the_end() {
             let tone = |hertz: f64| (TAU * (hertz * f64::from(n % 44_100) / 44_100.0)).sin();
             let wanted = [quantised(tone(440.0)), quantised(0.5 * tone(330.0))];
             for side in 0..2 {
-                // The sine of 32-bit floats may fall on the other side of a step. Where a value is 1, see below.
+                // A sine of 32-bit floats may round to the neighbouring step. For values of 1, see below.
                 let is_near = (i32::from(got[side]) - i32::from(wanted[side])).abs() <= 1 || wanted[side] > 32_760;
                 assert!(is_near, "sample {n}: {got:?}, not {wanted:?}");
             }
@@ -64,10 +64,10 @@ fn samples_are_the_formulas_over_the_borders_of_blocks_and_to_the_end() {
     }
 }
 
-/// 1 is 65,536 in 17 bits: its high byte saturates, so that it plays as 0.992. So does everything above, and what is
-/// below -1 keeps its low byte (`shadertoy.md`, section 8).
+/// 1 is 65,536 in 17 bits: its high byte saturates, so it plays as 0.992, like everything above; values below -1 keep
+/// their low byte (`shadertoy.md`, section 8).
 #[test]
-fn full_scale_and_beyond_are_as_on_the_site() {
+fn full_scale_and_beyond_are_as_on_shadertoy() {
     let Some(gpu) = gpu() else { return };
     let code = samples_of("float v[6] = float[](1.0, -1.0, 0.0, 0.999999, 1.5, -1.25); return vec2(v[samp % 6], 0.0);");
     let samples = block(&mut engine_of(&gpu, &sound(&code, Default::default()), &MediaSet::new()), 0);
@@ -77,7 +77,7 @@ fn full_scale_and_beyond_are_as_on_the_site() {
 }
 
 #[test]
-fn the_time_and_the_uniforms_of_a_block() {
+fn time_and_uniforms_of_a_block_are_as_on_shadertoy() {
     let Some(gpu) = gpu() else { return };
     let code = samples_of(
         "return vec2(time / 256.0, samp % 2 == 0 ? float(iSampleOffset) / 8388608.0 : iTimeOffset / 256.0);",
@@ -85,12 +85,12 @@ fn the_time_and_the_uniforms_of_a_block() {
     let mut engine = engine_of(&gpu, &sound(&code, Default::default()), &MediaSet::new());
     for number in [0, 7, 30] {
         let samples = block(&mut engine, number);
-        let (offset, begin) = (number * BLOCK_FRAMES, (f64::from(number * BLOCK_FRAMES) / 44_100.0) as f32);
+        let (offset, start) = (number * BLOCK_FRAMES, (f64::from(number * BLOCK_FRAMES) / 44_100.0) as f32);
         for n in [0u32, 1, 777, BLOCK_FRAMES - 1] {
-            let time = begin + n as f32 / 44_100.0;
+            let time = start + n as f32 / 44_100.0;
             let [left, right] = samples[n as usize].map(value);
             assert!((left - f64::from(time) / 256.0).abs() < 4e-5, "{number}, {n}: {left}");
-            let wanted = if n % 2 == 0 { f64::from(offset) / 8_388_608.0 } else { f64::from(begin) / 256.0 };
+            let wanted = if n % 2 == 0 { f64::from(offset) / 8_388_608.0 } else { f64::from(start) / 256.0 };
             assert!((right - wanted).abs() < 4e-5, "{number}, {n}: {right}, not {wanted}");
         }
     }
@@ -99,7 +99,7 @@ fn the_time_and_the_uniforms_of_a_block() {
          65536.0, iChannelTime[0]); return vec2(v[samp % 6]);",
     );
     let samples = block(&mut engine_of(&gpu, &sound(&code, Default::default()), &MediaSet::new()), 0);
-    // The seconds of the date are whole: 77.25 was given.
+    // The seconds of the date are whole: the input is 77.25.
     let wanted = [2026.0 / 4096.0, 0.0, 9.0 / 32.0, 77.0 / 128.0, 44_100.0 / 65_536.0, 0.0];
     for (n, wanted) in wanted.into_iter().enumerate() {
         assert!((value(samples[n][0]) - wanted).abs() < 4e-5, "{n}: {}, not {wanted}", value(samples[n][0]));
@@ -115,7 +115,7 @@ fn builtin(kind: InputKind, name: &str) -> Input {
 }
 
 #[test]
-fn a_sound_pass_reads_pictures_and_of_a_volume_the_size() {
+fn a_sound_pass_reads_textures_and_the_size_of_volumes() {
     let Some(gpu) = gpu() else { return };
     let (noise, volume) = (builtin(InputKind::Texture, "noise-rgba-64"), builtin(InputKind::Volume, "noise-grey-3d"));
     let channels = [read(noise), read(volume), read(Input::buffer("A")), read(Input::KEYBOARD)];
@@ -128,9 +128,9 @@ fn a_sound_pass_reads_pictures_and_of_a_volume_the_size() {
     let project = sound(&code, channels);
     let (media, warnings) = media::gather(&project, None);
     assert!(warnings.is_empty(), "{warnings:?}");
-    let said: Vec<String> = project::advice(&project).into_iter().map(|warning| warning.message).collect();
-    let about = |channel: &str| said.iter().any(|message| message.starts_with(&format!("{channel} of Sound is")));
-    assert!(!about("iChannel0") && about("iChannel1") && about("iChannel2") && about("iChannel3"), "{said:?}");
+    let advice: Vec<String> = project::advice(&project).into_iter().map(|warning| warning.message).collect();
+    let about = |channel: &str| advice.iter().any(|message| message.starts_with(&format!("{channel} of Sound is")));
+    assert!(!about("iChannel0") && about("iChannel1") && about("iChannel2") && about("iChannel3"), "{advice:?}");
     let samples = block(&mut engine_of(&gpu, &project, &media), 0);
     let key = MediaKey::of_channel(project.passes[0].bindings.get(0).unwrap()).unwrap();
     let texels = &media.get(&key).unwrap().bytes;
@@ -139,15 +139,15 @@ fn a_sound_pass_reads_pictures_and_of_a_volume_the_size() {
         let got = samples[n][0];
         assert!(wanted > 32_760 || (i32::from(got) - i32::from(wanted)).abs() <= 1, "{n}: {got}, not {wanted}");
     }
-    // Opaque black, of size 0: what an empty channel reads.
+    // Other channels read as an empty one: opaque black, of size 0.
     for (n, wanted) in [0.5, 0.25, 0.5, 0.0, 0.5, 0.0, 0.5].into_iter().enumerate() {
         assert!((value(samples[n][1]) - wanted).abs() < 4e-5, "{n}: {}, not {wanted}", value(samples[n][1]));
     }
 }
 
-/// A channel with a volume is no `sampler3D` in a sound pass.
+/// In a sound pass, a channel with a volume is a `sampler2D`, not a `sampler3D`.
 #[test]
-fn a_volume_is_a_sampler_of_two_dimensions_there() {
+fn a_volume_is_a_sampler2d_in_a_sound_pass() {
     let Some(gpu) = gpu() else { return };
     let volume = read(builtin(InputKind::Volume, "noise-grey-3d"));
     let code = samples_of("return texture(iChannel0, vec3(time)).xy;");
@@ -168,18 +168,18 @@ fn errors(gpu: &Gpu, project: &Project) -> Vec<String> {
 }
 
 #[test]
-fn the_old_form_is_told_the_new_one_and_other_passes_do_not_matter() {
+fn the_old_form_gets_a_hint_and_other_passes_do_not_matter() {
     let Some(gpu) = gpu() else { return };
     let old = sound("vec2 mainSound(float time) { return vec2(sin(time)); }", Default::default());
-    let said = errors(&gpu, &old);
-    assert!(said.len() == 1 && said[0].contains("vec2 mainSound(int samp, float time)"), "{said:?}");
+    let found = errors(&gpu, &old);
+    assert!(found.len() == 1 && found[0].contains("vec2 mainSound(int samp, float time)"), "{found:?}");
     let mut broken = sound(TONES, Default::default());
     broken.passes[1].source.text = "void mainImage(out vec4 o, in vec2 p) { o = nothing; }".into();
     assert_eq!(errors(&gpu, &broken), Vec::<String>::new());
 }
 
 #[test]
-fn a_picture_is_the_same_with_a_sound_pass_without_one_and_with_a_broken_one() {
+fn sound_passes_do_not_change_the_picture() {
     let Some(gpu) = gpu() else { return };
     let picture = |project: &Project, skip: bool| {
         let options = BuildOptions { skip, ..BuildOptions::default() };
@@ -196,18 +196,18 @@ fn a_picture_is_the_same_with_a_sound_pass_without_one_and_with_a_broken_one() {
 }
 
 #[test]
-fn a_block_that_is_given_up_leaves_no_trace_in_the_next() {
+fn a_cancelled_block_does_not_affect_the_next() {
     let Some(gpu) = gpu() else { return };
     let mut engine = engine_of(&gpu, &sound(TONES, Default::default()), &MediaSet::new());
     let whole = block(&mut engine, 3);
     let mut bands = 0;
-    let given_up = engine.draw_sound(4, [0.0; 4], &mut || {
+    let cancelled = engine.draw_sound(4, [0.0; 4], &mut || {
         bands += 1;
         (bands < 4).then_some(10)
     });
-    assert!(given_up.unwrap().is_none());
+    assert!(cancelled.unwrap().is_none());
     assert!(block(&mut engine, 3) == whole);
-    // However it is cut into bands.
+    // For any division into bands.
     let mut rows = 0;
     let cut = engine.draw_sound(3, [0.0; 4], &mut || {
         rows += 7;
@@ -217,7 +217,7 @@ fn a_block_that_is_given_up_leaves_no_trace_in_the_next() {
 }
 
 #[test]
-fn programs_that_make_the_same_sound_are_known() {
+fn programs_with_the_same_sound_are_recognised() {
     let Some(gpu) = gpu() else { return };
     let mut builder = Builder::new(gpu.clone());
     let code = format!("#iUniform float level = 0.5 in {{0.0, 1.0}}\n{}", samples_of("return vec2(level);"));
@@ -251,7 +251,7 @@ fn programs_that_make_the_same_sound_are_known() {
 #[test]
 fn a_tone_peaks_at_its_bin_and_all_is_silent_after_the_end() {
     let Some(gpu) = gpu() else { return };
-    // Louder ones fill several bins.
+    // Louder tones fill several bins.
     let quiet = TONES.replace("vec2(sin", "0.02 * vec2(sin");
     let mut engine = engine_of(&gpu, &sound(&quiet, Default::default()), &MediaSet::new());
     let track = Arc::new(Track::new(SOUND_FRAMES as usize, BLOCK_FRAMES as usize));
@@ -263,7 +263,7 @@ fn a_tone_peaks_at_its_bin_and_all_is_silent_after_the_end() {
     let texture = spectrum.at(&track, 44_100 * 2);
     let peak = (0..BINS).max_by_key(|bin| texture[*bin]).unwrap();
     // 440 Hz is twice as loud as 330 Hz. A bin is 21.5 Hz.
-    assert_eq!(peak, 20, "440 Hz lies in bin 20.4");
+    assert_eq!(peak, 20, "440 Hz is in bin 20.4");
     let end = i64::from(SOUND_FRAMES);
     assert_ne!(track.frame(end - 10), Some([0, 0]));
     assert_eq!([end, end + 1, end + 44_100].map(|n| track.frame(n)), [Some([0, 0]); 3]);
@@ -275,7 +275,7 @@ fn write_project(b: &Bench, code: &str) {
 }
 
 #[test]
-fn a_file_has_the_samples_and_is_the_same_each_time() {
+fn a_sound_file_has_the_samples_and_is_reproducible() {
     let Some(_) = gpu() else { return };
     let b = Bench::new();
     write_project(&b, TONES);
@@ -284,7 +284,7 @@ fn a_file_has_the_samples_and_is_the_same_each_time() {
     let file = b.bytes("a.wav");
     assert_eq!((file.len(), &file[..4]), (44 + 4 * 286_650, &b"RIFF"[..]));
     let sample = |n: usize| i16::from_le_bytes(file[44 + 2 * n..][..2].try_into().unwrap());
-    // A quarter of a turn of 440 Hz is 25.06 samples; of 330 Hz it is 33.4. 6 s is in the second block.
+    // A quarter of a period of 440 Hz is 25.06 samples; of 330 Hz it is 33.4. 6 s is in the second block.
     assert_eq!([sample(0), sample(1)], [1, 1]);
     for (n, hertz, side, level) in
         [(25, 440.0, 0, 1.0), (33, 330.0, 1, 0.5), (265_000, 440.0, 0, 1.0), (286_649, 330.0, 1, 0.5)]
@@ -309,7 +309,7 @@ fn a_file_has_the_samples_and_is_the_same_each_time() {
 }
 
 #[test]
-fn what_is_wrong_with_a_sound_is_said_and_nothing_is_written() {
+fn sound_errors_are_reported_and_write_no_file() {
     let Some(_) = gpu() else { return };
     let b = Bench::new();
     b.image("quiet.glsl", "fragColor = vec4(1.0);");
@@ -347,9 +347,9 @@ fn a_slow_sound_ends_with_an_error_and_the_picture_is_drawn() {
     assert_eq!(b.names("."), ["p", "p.png"]);
 }
 
-/// A project of the site's JSON with a sound pass that reads a texture of its stock, and back.
+/// A project with a sound pass is exported to Shadertoy's JSON and imported again.
 #[test]
-fn a_sound_pass_goes_to_the_site_and_back() {
+fn a_sound_pass_survives_export_and_import() {
     let b = Bench::new();
     write_project(&b, TONES);
     b.line("export p --out p.json").expect(0);
@@ -363,7 +363,7 @@ fn a_sound_pass_goes_to_the_site_and_back() {
 }
 
 #[test]
-fn one_rate_is_used_everywhere() {
+fn the_sample_rate_is_the_same_everywhere() {
     assert_eq!(SOUND_FRAMES, 180 * SAMPLE_RATE);
     let _: Pass = pass(PassName::sound(), TONES, Default::default());
 }

@@ -1,4 +1,4 @@
-//! Sound that is heard with the picture and recorded for it: a session with devices that run by the test's own clock.
+//! Sound that is played with the picture and recorded for it: a session with devices that run by the test's own clock.
 
 use crate::support::{gpu, stage::Stage};
 use eddy::{
@@ -19,12 +19,12 @@ use std::{
 };
 
 const RATE: f64 = 44_100.0;
-/// Samples of the song.
+/// The number of samples of the song.
 const LENGTH: f64 = 441_000.0;
 const SONG: &str = "channels.0 = { file = \"song.wav\", kind = \"music\" }";
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, vec2(0.1, 0.75)); }\n";
 
-/// A WAV file of 16 bits, stereo, 44.1 kHz, with the same on both channels.
+/// Returns a WAV file of 16 bits, stereo, 44.1 kHz, with the same samples on both channels.
 pub(crate) fn wav(samples: impl ExactSizeIterator<Item = i16>) -> Vec<u8> {
     let count = samples.len() as u32;
     let mut file = b"RIFF".to_vec();
@@ -40,12 +40,12 @@ pub(crate) fn wav(samples: impl ExactSizeIterator<Item = i16>) -> Vec<u8> {
     file
 }
 
-/// Ten seconds whose sample `n` says what `n` is, 22 times in a second.
+/// Returns sample `n` of a saw tooth with 22 periods per second, from which `n` can be read.
 fn saw(n: usize) -> i16 {
     ((n % 2000) as i16 - 1000) * 10
 }
 
-/// A session that plays by a clock of its own, with a device that plays by the same.
+/// A session that runs by its own clock, with a device that runs by the same clock.
 struct Room {
     stage: Stage,
     host: FakeHost,
@@ -84,12 +84,12 @@ impl Room {
         Self::open(host, SONG)
     }
 
-    /// So much time goes by, at 60 frames a second.
+    /// Advances the clock by `secs`, at 60 frames per second.
     fn run(&mut self, secs: f64) {
         let end = self.now + Duration::from_secs_f64(secs);
         while self.now < end {
             self.stage.session.tick(self.now);
-            // As the device has it: what is to be heard in the next frame is mixed now.
+            // Like a real device, it mixes the sound of the next frame now.
             self.host.out.run_until(self.now);
             self.now += Duration::from_micros(16_667);
         }
@@ -99,13 +99,13 @@ impl Room {
         self.stage.session.transport().time_secs
     }
 
-    /// The left channel of what was heard since the last call, and the moment of its first sample.
+    /// Returns the left channel of the samples played since the last call, and the time of the first sample.
     fn heard(&self) -> (Instant, Vec<f32>) {
         let (at, samples) = self.host.out.take_heard();
         (at.expect("something was played"), samples.chunks(2).map(|frame| frame[0]).collect())
     }
 
-    /// The worst distance, in samples, of what was heard in the last `secs` from the file at `iTime`.
+    /// Returns the largest distance, in samples, of the last `secs` of played sound from the file at `iTime`.
     fn worst(&self, secs: f64, speed: f64) -> f64 {
         let (at, left) = self.heard();
         // The newest frame was drawn at the tick before now.
@@ -116,9 +116,9 @@ impl Room {
             let ahead = heard_at.saturating_duration_since(drawn).as_secs_f64();
             let since = drawn.saturating_duration_since(heard_at).as_secs_f64();
             let place = ((time + speed * (ahead - since)) * RATE).rem_euclid(LENGTH);
-            let said = f64::from(*sample) * 32_768.0 / 10.0 + 1000.0;
-            let distance = (place - said).rem_euclid(2000.0);
-            // At the edge of the saw tooth an interpolated sample says nothing.
+            let encoded = f64::from(*sample) * 32_768.0 / 10.0 + 1000.0;
+            let distance = (place - encoded).rem_euclid(2000.0);
+            // An interpolated sample at the edge of the saw tooth is ambiguous.
             if (100.0..1900.0).contains(&place.rem_euclid(2000.0)) && (100.0..LENGTH - 100.0).contains(&place) {
                 worst = worst.max(distance.min(2000.0 - distance));
             }
@@ -128,10 +128,10 @@ impl Room {
 }
 
 #[test]
-fn what_is_heard_is_the_file_at_the_pictures_time() {
+fn the_sound_plays_at_the_pictures_time() {
     let Some(mut room) = Room::with_song(FakeHost::default()) else { return };
     room.run(0.2);
-    assert!(!room.host.out.is_open(), "nothing is opened before something is heard");
+    assert!(!room.host.out.is_open(), "the device is opened before it is needed");
     room.stage.session.apply(Command::Play);
     room.run(1.0);
     assert!(room.host.out.is_open());
@@ -146,14 +146,14 @@ fn what_is_heard_is_the_file_at_the_pictures_time() {
         let worst = room.worst(0.4, 1.0);
         assert!(worst < 1.0, "{worst} samples off after a seek to {secs}");
     }
-    // Past the end it begins again.
+    // At the end it loops.
     room.stage.session.apply(Command::Seek(9.8));
     room.run(0.6);
     assert!(room.worst(0.25, 1.0) < 1.0);
     room.stage.session.apply(Command::Reset);
     room.run(0.5);
     assert!(room.time() < 0.52 && room.worst(0.4, 1.0) < 1.0);
-    // Speeds: the file at iTime, read faster or slower.
+    // At other speeds, the file is read faster or slower at iTime.
     for speed in [0.25, 0.5, 2.0, 4.0] {
         room.stage.session.apply(Command::Seek(1.0));
         room.stage.session.apply(Command::SetSpeed(speed));
@@ -165,12 +165,12 @@ fn what_is_heard_is_the_file_at_the_pictures_time() {
     room.run(0.2);
     room.heard();
     room.run(0.2);
-    assert!(room.heard().1.iter().all(|sample| *sample == 0.0), "too fast to be heard");
+    assert!(room.heard().1.iter().all(|sample| *sample == 0.0), "sound at a speed of 8");
     assert_eq!(room.stage.notices(Level::Warning), [""; 0]);
 }
 
 #[test]
-fn a_pause_a_fixed_rate_and_a_hidden_window_are_silent_and_the_sound_goes_on_where_the_picture_does() {
+fn pause_fixed_rate_and_hidden_window_are_silent_and_sound_resumes_in_step() {
     let Some(mut room) = Room::with_song(FakeHost::default()) else { return };
     let silence: [(Command, Command); 3] = [
         (Command::Pause, Command::Play),
@@ -184,13 +184,13 @@ fn a_pause_a_fixed_rate_and_a_hidden_window_are_silent_and_the_sound_goes_on_whe
         room.run(0.1);
         room.heard();
         room.run(0.5);
-        assert!(room.heard().1.iter().all(|sample| *sample == 0.0), "silent after {stop:?}");
+        assert!(room.heard().1.iter().all(|sample| *sample == 0.0), "sound after {stop:?}");
         room.stage.session.apply(go_on);
         room.run(0.5);
         let worst = room.worst(0.4, 1.0);
         assert!(worst < 1.0, "{worst} samples off after {stop:?}");
     }
-    // Steps and scrubs while paused are not heard.
+    // Steps and seeks while paused are silent.
     room.stage.session.apply(Command::Pause);
     room.run(0.1);
     room.heard();
@@ -204,7 +204,7 @@ fn a_pause_a_fixed_rate_and_a_hidden_window_are_silent_and_the_sound_goes_on_whe
 }
 
 #[test]
-fn volume_and_mute_are_heard_and_music_that_two_passes_read_plays_once() {
+fn volume_and_mute_apply_and_shared_music_plays_once() {
     let two = "channels.0 = { file = \"song.wav\", kind = \"music\" }\n[passes.buffer_a]\nchannels.0 = { file = \
                \"song.wav\", kind = \"music\" }";
     let Some(mut room) = Room::open(FakeHost::default(), two) else { return };
@@ -213,13 +213,13 @@ fn volume_and_mute_are_heard_and_music_that_two_passes_read_plays_once() {
     assert_eq!(room.stage.session.sources_heard(), 1);
     let loudest = |room: &Room| {
         let left = room.heard().1;
-        left[left.len() - 9000..].iter().fold(0.0_f32, |most, sample| most.max(sample.abs()))
+        left[left.len() - 9000..].iter().fold(0.0_f32, |largest, sample| largest.max(sample.abs()))
     };
     let full = loudest(&room);
     assert!((full - 10_000.0 / 32_768.0).abs() < 0.01, "{full}");
     room.stage.session.apply(Command::SetVolume(0.5));
     room.run(0.5);
-    assert!((loudest(&room) - full / 4.0).abs() < 0.01, "half the way is a quarter");
+    assert!((loudest(&room) - full / 4.0).abs() < 0.01, "a volume of a half is a quarter of the level");
     room.stage.session.apply(Command::SetMute(true));
     room.run(0.5);
     assert_eq!(loudest(&room), 0.0);
@@ -228,7 +228,7 @@ fn volume_and_mute_are_heard_and_music_that_two_passes_read_plays_once() {
     assert!((loudest(&room) - full / 4.0).abs() < 0.01);
     let view = room.stage.session.output_view().unwrap();
     assert!(view.has_sound && !view.is_muted && view.volume == 0.5);
-    // A sound pass beside it, and another after an edit.
+    // A sound pass in addition, and another one after an edit.
     for (revision, value) in [(1, 3000_i16), (2, -3000)] {
         let track = Track::new(441_000, 44_100);
         (0..10).for_each(|block| track.write(block, vec![[value; 2]; 44_100]));
@@ -238,7 +238,7 @@ fn volume_and_mute_are_heard_and_music_that_two_passes_read_plays_once() {
         assert_eq!(room.stage.session.sources_heard(), 2);
         let left = room.heard().1;
         let mean = left[left.len() - 8000..].iter().sum::<f32>() / 8000.0;
-        // Four whole teeth of the song, whose mean is near nothing.
+        // Four whole periods of the song, whose mean is almost zero.
         assert!((mean - f32::from(value) / 32_768.0).abs() < 0.001, "{mean}");
     }
     // Another project is silent.
@@ -249,29 +249,29 @@ fn volume_and_mute_are_heard_and_music_that_two_passes_read_plays_once() {
 }
 
 #[test]
-fn a_device_that_is_missing_or_vanishes_is_told_of_once_and_comes_back() {
+fn a_missing_device_is_reported_once_and_reopened() {
     let host = FakeHost::default();
     host.out.set_names(&[]);
     let Some(mut room) = Room::with_song(host) else { return };
     room.stage.session.apply(Command::Play);
     room.run(7.0);
-    let told = |room: &Room| room.stage.count("no sound: ");
-    assert_eq!(told(&room), 1);
-    assert!(room.time() > 6.5, "the picture goes on");
+    let reported = |room: &Room| room.stage.count("no sound: ");
+    assert_eq!(reported(&room), 1);
+    assert!(room.time() > 6.5, "the picture keeps running");
     assert_eq!(room.host.out.attempts(), 3, "every three seconds");
     assert!(matches!(room.stage.session.output_view().unwrap().device, DeviceState::Missing(_)));
     room.host.out.set_names(&["speakers"]);
     room.run(3.5);
     assert!(room.host.out.is_open());
-    assert_eq!((told(&room), room.stage.count("sound plays on speakers")), (0, 1));
+    assert_eq!((reported(&room), room.stage.count("sound plays on speakers")), (0, 1));
     assert!(room.worst(0.3, 1.0) < 1.0, "in step with the picture");
     room.host.out.set_names(&[]);
     room.run(1.0);
-    assert_eq!(told(&room), 1);
+    assert_eq!(reported(&room), 1);
     room.host.out.set_names(&["headphones"]);
     room.run(3.5);
-    assert!(room.host.out.is_open() && told(&room) == 0);
-    // By name: one that is not there, and then the one that is.
+    assert!(room.host.out.is_open() && reported(&room) == 0);
+    // By name: a missing one, then the existing one.
     room.stage.session.apply(Command::SetAudioOutput(Some("Kitchen".into())));
     room.run(0.5);
     assert!(!room.host.out.is_open());
@@ -283,14 +283,14 @@ fn a_device_that_is_missing_or_vanishes_is_told_of_once_and_comes_back() {
 }
 
 #[test]
-fn a_project_without_sound_opens_nothing_and_says_nothing() {
+fn a_project_without_sound_opens_no_device() {
     let host = FakeHost::default();
     host.out.set_names(&[]);
     let Some(mut room) = Room::open(host, "channels.0 = { keyboard = true }") else { return };
     room.stage.session.apply(Command::Play);
     room.run(5.0);
     assert_eq!((room.host.out.attempts(), room.stage.session.notices().len()), (0, 0));
-    // Nor where there is no sound at all.
+    // Nor in a session without sound devices.
     let Some(gpu) = gpu() else { return };
     let mut bare = Stage::open(gpu, &[("image.glsl", SHOW)]);
     bare.session.apply(Command::UseMicrophone(true));
@@ -300,7 +300,7 @@ fn a_project_without_sound_opens_nothing_and_says_nothing() {
 }
 
 #[test]
-fn a_device_is_closed_when_it_is_not_needed_for_long() {
+fn an_unused_device_is_closed_after_a_while() {
     let Some(mut room) = Room::with_song(FakeHost::default()) else { return };
     room.stage.session.apply(Command::Play);
     room.run(0.5);
@@ -315,7 +315,7 @@ fn a_device_is_closed_when_it_is_not_needed_for_long() {
 }
 
 #[test]
-fn another_rate_of_the_device_changes_no_place() {
+fn another_device_rate_keeps_the_position() {
     let host = FakeHost { out: FakeOut::new(Format { rate: 48_000, channels: 2 }, 480), ..FakeHost::default() };
     let Some(mut room) = Room::with_song(host) else { return };
     room.stage.session.apply(Command::Play);
@@ -332,23 +332,23 @@ fn another_rate_of_the_device_changes_no_place() {
             worst = worst.max((f64::from(*sample) * 32_768.0 / 10.0 + 1000.0 - place).abs());
         }
     }
-    assert!(worst < 3.0, "{worst} samples off: the ripple of the saw tooth's edge");
+    assert!(worst < 3.0, "{worst} samples off, more than the ripple of the saw tooth's edge");
 }
 
-/// The brightest place of the first row: which bin the shader saw.
+/// Returns the red of the first pixel, by which the test knows what the shader read.
 fn seen(room: &mut Room) -> u8 {
     room.stage.red()
 }
 
 #[test]
-fn a_microphone_is_opened_by_a_person_alone_and_its_frames_are_recorded() {
+fn a_microphone_is_opened_only_by_consent_and_its_frames_are_recorded() {
     let host = FakeHost::default();
     let Some(mut room) = Room::open(host, "channels.0 = { microphone = true }") else { return };
-    // The wave at rest is 128; the made-up one never is for long.
+    // A silent wave is 128; the synthetic one is not for long.
     room.host.input.plug_in();
     room.stage.session.apply(Command::Play);
     room.run(0.3);
-    assert!(!room.host.input.is_open(), "no project opens it");
+    assert!(!room.host.input.is_open(), "a project alone opened it");
     let view = room.stage.session.microphone_view().unwrap();
     assert!(view.is_read && !view.is_on);
     room.stage.session.apply(Command::UseMicrophone(true));
@@ -366,11 +366,11 @@ fn a_microphone_is_opened_by_a_person_alone_and_its_frames_are_recorded() {
     room.stage.session.apply(Command::Pause);
     room.run(0.1);
     let shown = seen(&mut room);
-    // An image holds its project, and nothing that was heard.
+    // An image contains its project, but no recorded sound.
     let picture = room.stage.screenshot();
     let SceneInputs::Recording(held) = Scene::read(&picture).unwrap().inputs else { panic!("inputs of the window") };
     assert!(held.frames.len() == 1 && held.frames[0].inputs.microphone.is_none());
-    // What is heard while time stands is not seen.
+    // Sound that arrives while time is stopped is not shown.
     room.host.input.hear(&vec![0.9; 4410]);
     room.run(0.1);
     assert_eq!(seen(&mut room), shown);
@@ -380,7 +380,7 @@ fn a_microphone_is_opened_by_a_person_alone_and_its_frames_are_recorded() {
     let file = notice.and_then(|notice| notice.path.clone()).expect("a recording");
     let text = std::fs::read_to_string(&file).unwrap();
     assert!(text.matches("\"mic\"").count() >= 29, "{} frames with it", text.matches("\"mic\"").count());
-    // It is closed at once, and the recording has what it heard.
+    // It is closed at once, and the recording replays its sound.
     room.stage.session.apply(Command::UseMicrophone(false));
     room.run(0.05);
     assert!(!room.host.input.is_open());
@@ -404,7 +404,7 @@ fn a_microphone_is_closed_when_another_project_opens() {
     room.stage.session.apply(Command::UseMicrophone(true));
     room.run(0.2);
     assert!(room.host.input.is_open());
-    // The next one reads it as well, and nobody has switched it on for that one.
+    // The next project reads it as well, but the user has not turned it on for that one.
     std::fs::create_dir(room.stage.path("next")).unwrap();
     room.stage.write("next/eddy.toml", format!("[passes.image]\n{reads}\n"));
     room.stage.write("next/image.glsl", SHOW);
@@ -420,7 +420,7 @@ fn a_microphone_is_closed_when_another_project_opens() {
     assert!(room.host.input.is_open());
 }
 
-/// Leaves a copy of the state folder as a crash would have at this moment.
+/// Returns a copy of the state folder, as a crash would leave it at this moment.
 fn crashed(state: &Path) -> tempfile::TempDir {
     let copy = tempfile::tempdir().unwrap();
     for entry in std::fs::read_dir(state).unwrap() {
@@ -433,7 +433,7 @@ fn crashed(state: &Path) -> tempfile::TempDir {
 }
 
 #[test]
-fn a_sound_device_that_ended_the_program_is_not_opened_at_the_next_start() {
+fn a_sound_device_that_crashed_eddy_is_not_opened_at_the_next_start() {
     let state = tempfile::tempdir().unwrap();
     let start = |state: &Path| Room::with_state(FakeHost::default(), SONG, Some(state.to_owned()));
     let Some(mut room) = start(state.path()) else { return };
@@ -441,7 +441,7 @@ fn a_sound_device_that_ended_the_program_is_not_opened_at_the_next_start() {
     room.run(0.1);
     assert_eq!(room.host.out.attempts(), 1);
     let after_crash = crashed(state.path());
-    // One that plays for a while has left nothing, and neither has a run that ends as it should.
+    // A device that plays for a while leaves no mark, and neither does a run that ends normally.
     room.run(1.5);
     let well = crashed(state.path());
     drop(room);
@@ -455,11 +455,11 @@ fn a_sound_device_that_ended_the_program_is_not_opened_at_the_next_start() {
     );
     assert!(next.stage.session.output_view().unwrap().ended_before);
     drop(next);
-    // Until somebody asks for it.
+    // Until the user requests it.
     let mut again = start(after_crash.path()).unwrap();
     again.stage.session.apply(Command::Play);
     again.run(0.5);
-    assert_eq!(again.host.out.attempts(), 0, "nobody has asked yet");
+    assert_eq!(again.host.out.attempts(), 0, "it was opened without a request");
     again.stage.session.apply(Command::OpenSoundAgain);
     again.run(0.1);
     assert!(again.host.out.is_open() && again.stage.count("Eddy ended while") == 0);
@@ -486,7 +486,7 @@ fn a_sound_device_that_ended_the_program_is_not_opened_at_the_next_start() {
 }
 
 #[test]
-fn a_microphone_that_is_not_there_is_told_of_and_one_that_no_channel_reads_stays_closed() {
+fn a_missing_microphone_is_reported_and_an_unread_one_is_closed() {
     let Some(mut room) = Room::open(FakeHost::default(), "channels.0 = { microphone = true }") else { return };
     room.stage.session.apply(Command::Play);
     room.stage.session.apply(Command::UseMicrophone(true));
@@ -502,7 +502,7 @@ fn a_microphone_that_is_not_there_is_told_of_and_one_that_no_channel_reads_stays
 }
 
 #[test]
-fn a_song_that_is_dropped_is_music_of_a_free_channel() {
+fn a_dropped_sound_file_is_music_on_a_free_channel() {
     let Some(mut room) = Room::open(FakeHost::default(), "channels.0 = { keyboard = true }") else { return };
     let elsewhere = room.stage.dir.path().join("tune.WAV");
     std::fs::write(&elsewhere, wav((0..44_100).map(saw))).unwrap();
@@ -513,7 +513,7 @@ fn a_song_that_is_dropped_is_music_of_a_free_channel() {
     assert_eq!(channel.input.kind(), InputKind::Music);
     assert_eq!(channel.input.media(), Some(&Media::Picked(elsewhere)));
     assert_eq!(room.stage.count("iChannel1 of Image reads tune.WAV"), 1);
-    // A copy comes into the project's folder when it is saved.
+    // Saving copies it into the project's folder.
     room.stage.session.apply(Command::Save);
     room.run(0.3);
     assert!(room.stage.path("tune.wav").is_file());

@@ -1,7 +1,7 @@
-//! Sound on a real server: a PulseAudio of the test's own with a sink that nobody hears, whose monitor is recorded and
-//! compared with the file.
+//! Sound on a real server: the test starts its own PulseAudio with a null sink, whose monitor is recorded and compared
+//! with the file.
 //!
-//! The session that plays runs in another process, this program once more: what it opens is chosen by its environment.
+//! The playing session runs in another process of this program, selected by environment variables.
 
 use crate::support::{gpu, skipped, stage::Stage};
 use eddy::{
@@ -18,9 +18,10 @@ use std::{
 };
 
 const RATE: f64 = 44_100.0;
-/// Samples of a tooth of the left channel, which says where in the file it is; the right channel says which tooth.
+/// Samples per tooth of the left channel, which encodes the position in the tooth; the right channel encodes the number
+/// of the tooth.
 const TOOTH: usize = 2000;
-/// The folder of the project, for the process that plays it.
+/// Passes the folder of the project to the process that plays it.
 const PLAYS: &str = "EDDY_TEST_PLAYS";
 const SECONDS: &str = "EDDY_TEST_SECONDS";
 
@@ -28,7 +29,7 @@ fn unix() -> f64 {
     SystemTime::now().duration_since(UNIX_EPOCH).unwrap().as_secs_f64()
 }
 
-/// Ends a process that the test has started.
+/// Kills a process started by the test when dropped.
 struct Server(Child);
 
 impl Drop for Server {
@@ -42,7 +43,7 @@ fn is_installed(program: &str) -> bool {
     Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
 }
 
-/// The environment in which ALSA's default device is the server's.
+/// Returns the environment in which ALSA's default device is the server's.
 fn environment(home: &Path) -> Vec<(&'static str, PathBuf)> {
     let config = home.join("asound.conf");
     let text = "</usr/share/alsa/alsa.conf>\npcm.!default { type pulse }\nctl.!default { type pulse }\n";
@@ -61,7 +62,7 @@ fn has_alsa_plugin() -> bool {
     folders.chain([PathBuf::from("/usr/lib")]).any(|f| f.join("alsa-lib/libasound_module_pcm_pulse.so").exists())
 }
 
-/// A file whose every sample says where it is.
+/// Returns a file in which every sample encodes its position.
 fn numbered_wav(seconds: usize) -> Vec<u8> {
     let count = (seconds * 44_100) as u32;
     let mut file = b"RIFF".to_vec();
@@ -78,7 +79,7 @@ fn numbered_wav(seconds: usize) -> Vec<u8> {
     file
 }
 
-/// The position in the file that two neighbouring frames tell, in samples; none near an edge, or where it is silent.
+/// Returns the position in the file encoded by two consecutive frames, in samples; `None` near an edge, or in silence.
 fn place(frame: [i16; 2], before: [i16; 2]) -> Option<f64> {
     let within = f64::from(frame[0]) / 10.0 + 1000.0;
     let is_whole = (f64::from(frame[0]) - f64::from(before[0]) - 10.0).abs() < 5.0;
@@ -87,12 +88,12 @@ fn place(frame: [i16; 2], before: [i16; 2]) -> Option<f64> {
     (is_whole && is_near).then_some(tooth.round() * TOOTH as f64 + within)
 }
 
-/// Plays in this process if it was started for that: see [`played_in_step`].
+/// Plays in this process if it was started for that by [`played_in_step`].
 #[test]
-fn plays() {
+fn player_process() {
     let Some(folder) = std::env::var_os(PLAYS) else { return };
     let seconds: f64 = std::env::var(SECONDS).unwrap().parse().unwrap();
-    let gpu = gpu().expect("the parent has looked for one");
+    let gpu = gpu().expect("the parent process has found a device");
     let mut stage = Stage::with_options(gpu, |_| SessionOptions {
         audio: Some(Arc::new(Machine)),
         draws_on_thread: true,
@@ -113,15 +114,15 @@ fn plays() {
         }
         newest = stage.session.notices().last().map(|notice| notice.id).max(newest);
         let transport = stage.session.transport();
-        let (behind, jumps, underruns) = stage.session.sound_health().unwrap_or_default();
-        println!("PLAYED {} {} {frames} {behind} {jumps} {underruns}", unix(), transport.time_secs);
+        let (lag, jumps, underruns) = stage.session.sound_health().unwrap_or_default();
+        println!("PLAYED {} {} {frames} {lag} {jumps} {underruns}", unix(), transport.time_secs);
         std::thread::sleep(Duration::from_millis(20));
     }
 }
 
-/// Holds what the process that plays has said of a moment.
+/// A line of the playing process: its state at a moment.
 #[derive(Clone, Copy, Debug)]
-struct Said {
+struct Report {
     at: f64,
     time: f64,
     frames: u32,
@@ -150,7 +151,7 @@ fn played_in_step(seconds: u32) {
     let _server = Server(server);
     let end = Instant::now() + Duration::from_secs(10);
     while !run.join("pulse/native").exists() {
-        assert!(Instant::now() < end, "the server has started");
+        assert!(Instant::now() < end, "timed out waiting for the server");
         std::thread::sleep(Duration::from_millis(20));
     }
 
@@ -159,7 +160,7 @@ fn played_in_step(seconds: u32) {
     fs::write(project.join("song.wav"), numbered_wav(20)).unwrap();
     fs::write(project.join("eddy.toml"), "[passes.image]\nchannels.0 = { file = \"song.wav\", kind = \"music\" }\n")
         .unwrap();
-    // About two frames a second by software on two cores.
+    // About two frames per second in software on two cores.
     let slow = "void mainImage(out vec4 o, in vec2 p) {\n    float x = texture(iChannel0, p).x;\n    \
                 for (int i = 0; i < 1500; ++i) x = sin(x + float(i) + iTime);\n    o = vec4(x);\n}\n";
     fs::write(project.join("image.glsl"), slow).unwrap();
@@ -170,7 +171,7 @@ fn played_in_step(seconds: u32) {
         Command::new("parec").args(record).envs(environment.clone()).stdout(Stdio::piped()).spawn().unwrap();
     let mut recorded = recorder.stdout.take().unwrap();
     let _recorder = Server(recorder);
-    // Each with the moment at which it came.
+    // Each block with the time of its arrival.
     let listener = std::thread::spawn(move || {
         let (mut heard, mut bytes) = (Vec::new(), [0; 1764]);
         while recorded.read_exact(&mut bytes).is_ok() {
@@ -180,7 +181,7 @@ fn played_in_step(seconds: u32) {
     });
 
     let mut player = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "sound_server::plays", "--nocapture", "--test-threads=1"])
+        .args(["--exact", "sound_server::player_process", "--nocapture", "--test-threads=1"])
         .envs(environment)
         .env(PLAYS, &project)
         .env(SECONDS, seconds.to_string())
@@ -188,14 +189,14 @@ fn played_in_step(seconds: u32) {
         .spawn()
         .unwrap();
     let lines = BufReader::new(player.stdout.take().unwrap()).lines().map_while(Result::ok);
-    let mut said: Vec<Said> = Vec::new();
+    let mut reports: Vec<Report> = Vec::new();
     let mut notices = String::new();
     for line in lines {
         let parts: Vec<&str> = line.split(' ').collect();
         if let ["PLAYED", at, time, frames, _, jumps, underruns] = parts[..] {
             let (at, time) = (at.parse().unwrap(), time.parse().unwrap());
             let [frames, jumps, underruns] = [frames, jumps, underruns].map(|n| n.parse().unwrap());
-            said.push(Said { at, time, frames, jumps, underruns });
+            reports.push(Report { at, time, frames, jumps, underruns });
         } else if line.contains("NOTICE") {
             notices += &format!("{line}\n");
         }
@@ -205,9 +206,12 @@ fn played_in_step(seconds: u32) {
     drop(_server);
     let heard = listener.join().unwrap();
 
-    // `iTime` over the clock: the earliest moment that any of it was said at lies on its line.
-    let start =
-        said.iter().filter(|said| said.time > 0.0).map(|said| said.at - said.time).fold(f64::INFINITY, f64::min);
+    // The clock at `iTime` 0: the earliest of the reported times, as reports can only be late.
+    let start = reports
+        .iter()
+        .filter(|report| report.time > 0.0)
+        .map(|report| report.at - report.time)
+        .fold(f64::INFINITY, f64::min);
     assert!(start.is_finite(), "nothing was drawn; {notices}");
     let mut offsets: Vec<(f64, f64)> = Vec::new();
     for (at, bytes) in &heard {
@@ -217,7 +221,7 @@ fn played_in_step(seconds: u32) {
             .collect();
         let last = frames.len() - 1;
         if let Some(place) = place(frames[last], frames[last - 1]) {
-            // The file has 20 seconds, 441 teeth, of which the right channel tells 300.
+            // The file has 20 seconds, 441 teeth, of which the right channel distinguishes 300.
             let length = 300.0 * TOOTH as f64 / RATE;
             let time = (at - start).rem_euclid(20.0).rem_euclid(length);
             let offset = place / RATE - time;
@@ -232,11 +236,11 @@ fn played_in_step(seconds: u32) {
         all[all.len() / 2]
     };
     let (first, last) = (median(&settled[..settled.len() / 4]), median(&settled[3 * settled.len() / 4..]));
-    let after = |secs: f64| said.iter().find(|said| said.at - start > secs).copied().unwrap();
-    let (early, end) = (after(1.5), *said.last().unwrap());
+    let after = |secs: f64| reports.iter().find(|report| report.at - start > secs).copied().unwrap();
+    let (early, end) = (after(1.5), *reports.last().unwrap());
     let fps = f64::from(end.frames - early.frames) / (end.at - early.at);
     let report = format!(
-        "offset {:.1} ms at first, {:.1} ms at last, {fps:.1} frames a second, jumps {} and {}, underruns {} and {}; {notices}",
+        "offset {:.1} ms at the start, {:.1} ms at the end, {fps:.1} frames per second, jumps {} and {}, underruns {} and {}; {notices}",
         1e3 * first,
         1e3 * last,
         early.jumps,
@@ -245,24 +249,24 @@ fn played_in_step(seconds: u32) {
         end.underruns
     );
     println!("{report}");
-    // Where more wants to run than there are processors, a thread of no priority may wait for longer than a buffer.
+    // On an overloaded machine, a thread without priority may wait for longer than a buffer.
     let load = fs::read_to_string("/proc/loadavg").unwrap_or_default();
     let load: f64 = load.split(' ').next().and_then(|load| load.parse().ok()).unwrap_or(0.0);
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
-    // The picture alone takes all of them.
-    let most = if load > 1.5 * processors as f64 { 1 + seconds / 10 } else { 0 };
-    assert!(end.underruns - early.underruns <= most, "load {load}: {report}");
-    assert!((first - last).abs() < 0.02, "it drifts: {report}");
+    // The picture alone uses all processors.
+    let allowed = if load > 1.5 * processors as f64 { 1 + seconds / 10 } else { 0 };
+    assert!(end.underruns - early.underruns <= allowed, "load {load}: {report}");
+    assert!((first - last).abs() < 0.02, "drift: {report}");
     assert!(first.abs() < 0.02 && last.abs() < 0.02, "{report}");
 }
 
 #[test]
-fn eight_seconds_are_in_step_with_a_slow_picture() {
+fn eight_seconds_stay_in_step_with_a_slow_picture() {
     played_in_step(8);
 }
 
 #[test]
 #[ignore = "takes a minute of real time"]
-fn a_minute_is_in_step_with_a_slow_picture() {
+fn a_minute_stays_in_step_with_a_slow_picture() {
     played_in_step(60);
 }

@@ -1,11 +1,11 @@
-//! Control characters of a stranger's text never reach the terminal, whichever command says it and wherever it is: in names
-//! of folders and files, keys, values, code and messages. JSON stays JSON.
+//! Control characters of untrusted text never reach the terminal, in any command and from any source: names of folders
+//! and files, keys, values, code and messages. JSON stays valid JSON.
 
 use crate::support::{gpu, program::Bench};
 use eddy::diag::is_terminal_control;
 use std::{fs, process::Stdio};
 
-/// Sequences that a terminal or a reader of lines obeys.
+/// Sequences that a terminal or a line reader interprets.
 const CONTROLS: [(&str, &str); 22] = [
     ("erase", "\u{1b}[2J"),
     ("title", "\u{1b}]0;OWNED\u{7}"),
@@ -40,12 +40,12 @@ fn code(text: String) -> (String, Vec<(String, String)>) {
     ("p".into(), vec![("image.glsl".into(), text)])
 }
 
-/// A project of this `eddy.toml`.
+/// Returns a project with this `eddy.toml`.
 fn manifest(text: String) -> (String, Vec<(String, String)>) {
     ("p".into(), vec![("eddy.toml".into(), text), ("image.glsl".into(), IMAGE.into())])
 }
 
-/// Returns a text of TOML.
+/// Returns a TOML string.
 fn quoted(text: &str) -> String {
     format!("\"{}\"", text.chars().map(|c| format!("\\U{:08x}", u32::from(c))).collect::<String>())
 }
@@ -81,7 +81,7 @@ const PLACES: [(&str, Place); 24] = [
     ("damaged manifest", |c| manifest(format!("[passes.image]\nx = {c}\n"))),
 ];
 
-/// Returns what is wrong with an output.
+/// Returns the error in an output, if any.
 fn leak(bytes: &[u8]) -> Option<String> {
     let Ok(text) = std::str::from_utf8(bytes) else { return Some("it is not UTF-8".into()) };
     let is_leak = |c: &char| !matches!(c, '\n' | '\t') && is_terminal_control(*c);
@@ -91,7 +91,7 @@ fn leak(bytes: &[u8]) -> Option<String> {
     text.lines().any(|line| line.starts_with("FORGED")).then(|| "a line is forged".into())
 }
 
-/// Runs Eddy, and returns what is wrong with its output.
+/// Runs Eddy, and returns the error in its output, if any.
 fn leak_of(bench: &Bench, arguments: &[&str]) -> Option<String> {
     let mut command = bench.command();
     command.args(arguments).stdin(Stdio::null()).env("XDG_CONFIG_HOME", bench.path("config"));
@@ -112,7 +112,7 @@ fn write(bench: &Bench, below: &str, (folder, files): (String, Vec<(String, Stri
 }
 
 #[test]
-fn no_control_of_a_project_reaches_the_terminal_wherever_it_is() {
+fn no_control_character_of_a_project_reaches_the_terminal() {
     let bench = Bench::new();
     let mut projects = Vec::new();
     for (n, (_, control)) in CONTROLS.iter().enumerate() {
@@ -131,7 +131,7 @@ fn no_control_of_a_project_reaches_the_terminal_wherever_it_is() {
     assert!(leaks.is_empty(), "{} calls leak:\n{}", leaks.len(), leaks.join("\n"));
 }
 
-/// Returns the names that a command lists in its help, which clap makes of the definitions.
+/// Returns the commands in a help text, which clap generates from the definitions.
 fn commands(bench: &Bench, of: &[&str]) -> Vec<String> {
     let output = bench.command().args(of).arg("--help").output().unwrap();
     let help = String::from_utf8(output.stdout).unwrap();
@@ -146,7 +146,7 @@ fn calls<'a>(command: &str, good: &'a str, bad: &'a str, out: &'a str) -> Vec<Ve
     let with = |words: &[&'a str]| words.iter().chain(&small).copied().collect::<Vec<_>>();
     match command {
         "render" => {
-            // A bar has codes of its own.
+            // A progress bar prints its own control codes.
             let call = |style| with(&["render", good, bad, "--out", out, "--progress", style]);
             let mut all: Vec<_> = ["none", "plain", "openjd"].map(call).into();
             all.push(with(&["render", good, bad, "--json"]));
@@ -178,7 +178,7 @@ fn calls<'a>(command: &str, good: &'a str, bad: &'a str, out: &'a str) -> Vec<Ve
 }
 
 #[test]
-fn no_command_prints_controls_of_a_hostile_project() {
+fn no_command_prints_control_characters_of_a_hostile_project() {
     let bench = Bench::new();
     let all: String = CONTROLS.iter().map(|(_, control)| *control).collect();
     let drawable = "void mainImage(out vec4 o, in vec2 p) {\n  o = vec4(p, 0, 1);\n}\n".to_owned();
@@ -206,15 +206,15 @@ fn no_command_prints_controls_of_a_hostile_project() {
         }
     }
     let drawn = fs::read_dir(bench.path(&out)).is_ok_and(|files| files.count() > 0);
-    assert!(drawn || !has_gpu, "the project that can be drawn was not");
-    // Errors of usage repeat what was typed, or what a shell has put there.
+    assert!(drawn || !has_gpu, "the drawable project was not drawn");
+    // Usage errors repeat the arguments, which may come from a shell's expansion.
     for call in [vec!["check", "--no\u{1b}[2J"], vec!["\u{9b}31m", "--x"], vec!["render", &good, "--size", &all]] {
         leaks.extend(leak_of(&bench, &call));
     }
     assert!(leaks.is_empty(), "{} calls leak:\n{}", leaks.len(), leaks.join("\n"));
 }
 
-/// Files that write to the streams of the process themselves, and what they write.
+/// Files that write to the standard streams directly, and what they write.
 const WRITERS: [(&str, &str); 7] = [
     ("cli/terminal.rs", "the writer that escapes"),
     ("cli/leave.rs", "flushes"),
@@ -226,7 +226,7 @@ const WRITERS: [(&str, &str); 7] = [
 ];
 
 #[test]
-fn only_the_writer_that_escapes_writes_to_the_terminal() {
+fn only_the_escaping_writer_writes_to_the_terminal() {
     let mut todo = vec![std::path::PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/src"))];
     let (mut found, mut seen) = (Vec::new(), 0);
     while let Some(folder) = todo.pop() {

@@ -1,7 +1,7 @@
-//! The presets' pictures in the gallery: `assets/thumbnails/NAME.jpg`.
+//! The presets' thumbnails in the gallery: `assets/thumbnails/NAME.jpg`.
 //!
-//! `EDDY_BLESS=1 cargo test --test it thumbnails` draws those that are missing; remove a picture to have it drawn anew,
-//! and look at what came.
+//! `EDDY_BLESS=1 cargo test --test it thumbnails` draws those that are missing; to redraw a thumbnail, remove it first,
+//! and look at the result.
 
 use crate::support::*;
 use eddy::{
@@ -21,19 +21,19 @@ use std::{
 };
 
 const SIZE: (u32, u32) = (320, 180);
-/// The gallery is in the program, and everybody downloads it.
+/// The gallery is part of the binary, so every user downloads it.
 const MOST_BYTES: u64 = 24 << 10;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/thumbnails")
 }
 
-/// How a preset's picture is drawn.
+/// The settings for drawing a preset's thumbnail.
 struct Moment {
-    /// The frame that shows what the preset is about, and the mouse until then.
+    /// The frame that shows the preset's purpose, and the mouse until then.
     frame: i32,
     mouse: String,
-    /// Pixels drawn for one that is kept, each way: edges as smooth as on a dense screen.
+    /// Drawn pixels per pixel of the thumbnail, along each axis, for smooth edges.
     fine: u32,
 }
 
@@ -52,7 +52,7 @@ fn moment(name: &str) -> Moment {
         std::iter::once(down).chain(moves).chain([format!("{}:up", from + frames)]).collect::<Vec<_>>().join("; ")
     };
     let (frame, mouse) = match name {
-        // A drag would turn these away from the side that they were composed for.
+        // A drag would rotate these away from their composed view.
         "toon-outline" | "ssao" | "gbuffer-edges" | "gbuffer-ssao-ssr" | "scene-bloom-taa" | "taa" => {
             (30, String::new())
         }
@@ -88,7 +88,7 @@ fn draw(name: &str) -> Option<RgbImage> {
 }
 
 fn write(picture: &RgbImage, path: &Path) {
-    // As fine as the size allows.
+    // The best quality that fits the size.
     for quality in (40..=88).rev().step_by(4) {
         let mut bytes = Vec::new();
         JpegEncoder::new_with_quality(&mut bytes, quality).encode_image(picture).unwrap();
@@ -100,7 +100,7 @@ fn write(picture: &RgbImage, path: &Path) {
 }
 
 #[test]
-fn every_preset_has_a_picture_of_its_own_and_no_other_lies_there() {
+fn every_preset_has_a_thumbnail_and_there_are_no_others() {
     let path = |name: &str| folder().join(format!("{name}.jpg"));
     if std::env::var_os("EDDY_BLESS").is_some() {
         fs::create_dir_all(folder()).unwrap();
@@ -115,14 +115,14 @@ fn every_preset_has_a_picture_of_its_own_and_no_other_lies_there() {
         .filter(|name| !name.starts_with('.'))
         .collect();
     let wanted: BTreeSet<String> = presets::names().iter().map(|name| format!("{name}.jpg")).collect();
-    let help = "remove what is no preset's; EDDY_BLESS=1 cargo test --test it thumbnails draws what is missing";
+    let help = "remove files without a preset; EDDY_BLESS=1 cargo test --test it thumbnails draws missing ones";
     assert_eq!(there, wanted, "{help}");
     for name in presets::names() {
         let file = path(name);
         let picture = image::open(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display())).to_rgb8();
         assert_eq!(picture.dimensions(), SIZE, "{name}");
-        assert!(fs::metadata(&file).unwrap().len() <= MOST_BYTES, "{name} is too large for what everybody downloads");
+        assert!(fs::metadata(&file).unwrap().len() <= MOST_BYTES, "{name} is too large for the binary");
         let first = picture.get_pixel(0, 0);
-        assert!(picture.pixels().any(|pixel| pixel != first), "{name} is a picture of nothing");
+        assert!(picture.pixels().any(|pixel| pixel != first), "{name} has only one colour");
     }
 }

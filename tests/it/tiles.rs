@@ -1,10 +1,11 @@
-//! Pictures that `eddy render` draws in tiles have the bytes of those that are drawn in one piece, and may be larger than the
-//! device's textures.
+//! Pictures that `eddy render` draws in tiles have the same bytes as those drawn in one piece, and may be larger than
+//! the device's textures.
 
 use crate::support::program::{Bench, Npy};
 use eddy::playback::scene::Scene;
 
-/// Everything that a tile could change: places, derivatives along both axes, mip levels, neighbours that took another branch.
+/// Everything that tiles could affect: positions, derivatives along both axes, mip levels, neighbours in another
+/// branch.
 const PLACES: &str = "#define H(p) sin(p.x * p.y * .05 + cos(p.x * .7))
 void mainImage(out vec4 o, in vec2 p) {
     float h = H(p), d = 0.;
@@ -26,10 +27,10 @@ fn places(b: &Bench) {
 }
 
 #[test]
-fn places_derivatives_and_mip_levels_are_those_of_one_piece() {
+fn tiles_keep_positions_derivatives_and_mip_levels() {
     let Some(b) = Bench::with_gpu() else { return };
     places(&b);
-    // Odd sizes: the quads of the last column and row hang over.
+    // Odd sizes: the quads of the last column and row extend beyond the picture.
     for size in ["67x45", "64x64", "1x3"] {
         b.line(&format!("render places --size {size} --at 5 --out whole.npy")).expect(0);
         for tile in [4, 12, 16, 36, 1000] {
@@ -37,15 +38,15 @@ fn places_derivatives_and_mip_levels_are_those_of_one_piece() {
             assert!(b.bytes("tiled.npy") == b.bytes("whole.npy"), "{size} in tiles of {tile}");
         }
     }
-    // The comparison sees a difference where there is one.
+    // The comparison detects a difference.
     b.line("render places --size 1x3 --at 6 --out tiled.npy").expect(0);
     assert!(b.bytes("tiled.npy") != b.bytes("whole.npy"));
 }
 
 #[test]
-fn presets_in_tiles_are_those_in_one_piece() {
+fn presets_in_tiles_equal_those_in_one_piece() {
     let Some(b) = Bench::with_gpu() else { return };
-    // Derivatives and mip levels in Image, buffers of a size of their own, states, cubemaps, meshes in buffers.
+    // Derivatives and mip levels in Image, buffers with their own size, states, cubemaps, meshes in buffers.
     for name in
         ["sky-spheres", "mip-fluid", "feedback", "bloom-sized", "gaussian-blur", "toon-outline", "ssao", "nocturne"]
     {
@@ -58,7 +59,7 @@ fn presets_in_tiles_are_those_in_one_piece() {
 }
 
 #[test]
-fn all_files_have_the_same_picture() {
+fn all_formats_have_the_same_picture() {
     let Some(b) = Bench::with_gpu() else { return };
     places(&b);
     let draw = |more: &str, out: &str| b.line(&format!("render places --size 33x29 {more} --out {out}")).expect(0);
@@ -71,13 +72,13 @@ fn all_files_have_the_same_picture() {
             _ => assert!(tiled == whole, "{format}"),
         }
     }
-    // Several texels, or several pictures, of which each pixel is the mean.
+    // Several texels, or several pictures, are averaged per pixel.
     for more in ["--supersample 3", "--shutter 0.5 --samples 3", "--supersample 2 --shutter 1 --samples 2"] {
         draw(&format!("{more} --at 2"), "whole.npy");
         draw(&format!("{more} --at 2 --tile 8"), "tiled.npy");
         assert!(b.bytes("tiled.npy") == b.bytes("whole.npy"), "{more}");
     }
-    // Frames that are encoded in one piece.
+    // Frames are encoded in one piece.
     draw("--frames 0-3 --chroma 444", "whole.y4m");
     draw("--frames 0-3 --chroma 444 --tile 12", "tiled.y4m");
     assert!(b.bytes("tiled.y4m") == b.bytes("whole.y4m"));
@@ -88,7 +89,7 @@ fn all_files_have_the_same_picture() {
 }
 
 #[test]
-fn a_picture_in_tiles_opens_as_its_frame() {
+fn a_tiled_picture_opens_at_its_frame() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image("a.glsl", "fragColor = vec4(fract(fragCoord / 7.0), iTime, 1.0);");
     for name in ["a.png", "a.exr"] {
@@ -100,14 +101,14 @@ fn a_picture_in_tiles_opens_as_its_frame() {
     assert!(Scene::read(&b.path("b.png")).is_err());
 }
 
-/// More pixels across than a texture of the device has texels.
+/// Returns a width greater than that of the device's largest texture.
 fn too_wide() -> Option<u32> {
     let gpu = crate::support::gpu()?;
     Some(gpu.device.limits().max_texture_dimension_2d + 38)
 }
 
 #[test]
-fn a_picture_is_larger_than_a_texture() {
+fn a_picture_can_be_larger_than_a_texture() {
     let (Some(b), Some(width)) = (Bench::with_gpu(), too_wide()) else { return };
     b.image("a.glsl", "fragColor = vec4(fragCoord, iResolution.x, dFdx(fragCoord.x * fragCoord.x));");
     b.line(&format!("render a.glsl --size {width}x3 --out a.npy")).expect(0);
@@ -120,14 +121,14 @@ fn a_picture_is_larger_than_a_texture() {
     }
     b.line(&format!("render a.glsl --size 4x{width} --out b.npy")).expect(0);
     assert_eq!(b.npy("b.npy").at(3, width as usize - 1)[..2], [3.5, width as f32 - 0.5]);
-    // Four times as many, and then the mean.
+    // Four times the pixels, averaged.
     let half = width / 2;
     b.line(&format!("render a.glsl --size {half}x2 --supersample 2 --out c.npy")).expect(0);
     assert_eq!(b.npy("c.npy").at(half as usize - 1, 0)[..3], [width as f32 - 1.0, 1.0, width as f32]);
 }
 
 #[test]
-fn shards_and_checkpoints_work_alike() {
+fn shards_and_checkpoints_work_with_tiles() {
     let (Some(b), Some(width)) = (Bench::with_gpu(), too_wide()) else { return };
     b.write("p/eddy.toml", "eddy = 1\n[passes.buffer_a]\nsize = [4, 4]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n");
     b.image(
@@ -145,13 +146,13 @@ fn shards_and_checkpoints_work_alike() {
     for name in b.names("serial") {
         assert!(b.bytes(&format!("farm/{name}")) == b.bytes(&format!("serial/{name}")), "{name}");
     }
-    // The size of its tiles is nothing to a state.
+    // A state does not depend on the size of the tiles.
     draw("--at 5 --resume states --tile 64 --out other.npy");
     assert!(b.bytes("other.npy") == b.bytes("serial/p_0005.npy"));
 }
 
 #[test]
-fn what_cannot_be_drawn_in_tiles_says_why() {
+fn pictures_that_cannot_be_tiled_are_rejected_with_a_reason() {
     let (Some(b), Some(width)) = (Bench::with_gpu(), too_wide()) else { return };
     let limit = width - 38;
     b.image("holes.glsl", "if (fragCoord.x > 5.0) discard; fragColor = vec4(1.0);");
@@ -160,7 +161,7 @@ fn what_cannot_be_drawn_in_tiles_says_why() {
     b.image("p/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0);");
     b.write("p/eddy.toml", "eddy = 1\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n");
     let large = format!("--size {width}x2");
-    for (args, said) in [
+    for (args, expected) in [
         (
             "holes.glsl --tile 8".to_owned(),
             vec!["Image cannot be drawn in tiles: it discards pixels", "give these pixels a colour"],
@@ -185,7 +186,7 @@ fn what_cannot_be_drawn_in_tiles_says_why() {
         let run =
             b.line(&format!("render {args} --out out.npy").replace("--format y4m --out out.npy", "--out out.y4m"));
         assert_ne!(run.code, Some(0), "{args}");
-        for words in said {
+        for words in expected {
             assert!(run.err.contains(words), "{args}: {}", run.err);
         }
     }
@@ -194,5 +195,5 @@ fn what_cannot_be_drawn_in_tiles_says_why() {
     }
     let run = b.line("render plain.glsl --size 8x8 --tile 4 --format exr --out -");
     assert!(run.err.contains("needs a file"), "{}", run.err);
-    assert_eq!(b.names("."), ["holes.glsl", "p", "plain.glsl"], "nothing half is left");
+    assert_eq!(b.names("."), ["holes.glsl", "p", "plain.glsl"], "incomplete files are left");
 }

@@ -1,4 +1,4 @@
-//! Frames that were drawn before: gone back to, and drawn again from their recorded inputs, bit for bit.
+//! Earlier frames: stepped back to, and drawn again from their recorded inputs, bit for bit.
 
 use crate::support::{self, stage::*};
 use eddy::{
@@ -16,7 +16,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Sums what it saw of time, input and a slider; some texels keep what they had two frames before.
+/// Accumulates time, input and a slider; some texels keep their value from two frames before.
 const HISTORY: &str = "#iUniform float level = 0.5 in { 0.0, 1.0 }
 void mainImage(out vec4 o, in vec2 p) {
     vec4 before = texelFetch(iChannel0, ivec2(p), 0);
@@ -35,14 +35,14 @@ pub(super) fn stage(gpu: eddy::gpu::Gpu) -> Stage {
     stage
 }
 
-/// The texels of the pass that is shown.
+/// Returns the texels of the shown pass.
 pub(super) fn texels(stage: &mut Stage) -> Vec<u8> {
     stage.act(Command::SaveTexels);
     let notice = stage.session.notices().iter().rev().find_map(|n| n.path.clone()).unwrap();
     fs::read(notice).unwrap()
 }
 
-/// Draws as many frames as there are, one after the other, with a hand that moves and a slider that is turned.
+/// Draws frames one after the other, with a moving mouse and a slider that changes.
 pub(super) fn steps(stage: &mut Stage, frames: std::ops::Range<i32>) {
     for frame in frames {
         match frame {
@@ -57,7 +57,7 @@ pub(super) fn steps(stage: &mut Stage, frames: std::ops::Range<i32>) {
 }
 
 #[test]
-fn one_goes_back_to_any_frame_with_the_buffers_as_they_were() {
+fn stepping_back_restores_the_buffers_of_any_frame() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
     let first = stage.session.transport().frame;
@@ -75,7 +75,7 @@ fn one_goes_back_to_any_frame_with_the_buffers_as_they_were() {
         assert!(!stage.session.transport().playing);
         at = frame;
     }
-    // On from there as ever.
+    // Steps continue from there.
     let frame = stage.session.transport().frame;
     stage.act(Command::Step);
     assert_eq!(stage.session.transport().frame, frame + 1);
@@ -83,7 +83,7 @@ fn one_goes_back_to_any_frame_with_the_buffers_as_they_were() {
 }
 
 #[test]
-fn what_is_out_of_reach_is_told_and_changes_nothing() {
+fn stepping_back_too_far_is_reported_and_changes_nothing() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
     steps(&mut stage, 0..10);
@@ -94,12 +94,15 @@ fn what_is_out_of_reach_is_told_and_changes_nothing() {
     stage.act(Command::Reset);
     stage.act(Command::StepBack(1));
     let warnings = stage.notices(Level::Warning);
-    assert!(warnings.len() == 1 && warnings[0].contains("restarts at frame 0"), "the one before is over: {warnings:?}");
+    assert!(
+        warnings.len() == 1 && warnings[0].contains("restarts at frame 0"),
+        "the earlier notice was not dismissed: {warnings:?}"
+    );
 }
 
-/// A checkpoint is put into an engine that has drawn nothing, so what it lacks is zeros there.
+/// A checkpoint is restored into an engine that has drawn no frame, so missing data would be zeros.
 #[test]
-fn a_checkpoint_holds_all_that_later_frames_read() {
+fn a_checkpoint_contains_everything_that_later_frames_read() {
     let Some(gpu) = support::gpu() else { return };
     for preset in project::presets::names() {
         let project = support::presets::preset(preset);
@@ -118,7 +121,7 @@ fn a_checkpoint_holds_all_that_later_frames_read() {
             let (kept, whole) = (checkpoint.bytes(), ran.snapshot().unwrap().bytes());
             assert!(kept == ran.checkpoint_bytes() && kept < whole + u64::from(!skip), "{preset}: {kept} of {whole}");
             let mut restored = engine();
-            // The same by way of the process's memory, as a file has it.
+            // The same through the process's memory, as from a file.
             if skip {
                 restored.set_state(&ran.state().unwrap()).unwrap();
             } else {
@@ -133,28 +136,28 @@ fn a_checkpoint_holds_all_that_later_frames_read() {
     }
 }
 
-/// Time and number of the frame that is shown.
+/// Returns the time and number of the shown frame.
 fn place(stage: &Stage) -> (f64, i32) {
     let transport = stage.session.transport();
     (transport.time_secs, transport.frame)
 }
 
 #[test]
-fn what_was_gone_back_from_is_gone_forward_to_until_something_else_is_drawn() {
+fn later_frames_can_be_redone_until_another_input() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
     steps(&mut stage, 0..150);
     let last = texels(&mut stage);
     stage.act(Command::StepBack(100));
     assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (50, 100));
-    // With the mouse and the slider that those frames had.
+    // With the mouse and slider values of those frames.
     for _ in 0..100 {
         stage.session.apply(Command::Step);
     }
     stage.tick();
     assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (150, 0));
     assert!(texels(&mut stage) == last);
-    // A slider that is turned makes another run of it, from the frame that is shown on.
+    // Moving a slider starts another run from the shown frame.
     stage.act(Command::StepBack(20));
     stage.act(Command::AssignCustomUniform("level=0.75".into()));
     assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (130, 0));
@@ -166,7 +169,7 @@ fn what_was_gone_back_from_is_gone_forward_to_until_something_else_is_drawn() {
 }
 
 #[test]
-fn a_picture_without_a_state_is_there_at_any_time_at_once() {
+fn a_picture_without_state_seeks_to_any_time_in_one_frame() {
     let Some(gpu) = support::gpu() else { return };
     let time = "void mainImage(out vec4 o, in vec2 p) { o = vec4(iTime, float(iFrame), 0.0, 1.0); }";
     let mut stage = Stage::open(gpu, &[("image.glsl", time)]);
@@ -181,7 +184,7 @@ fn a_picture_without_a_state_is_there_at_any_time_at_once() {
     stage.session.apply(Command::Seek(f64::NAN));
     stage.act(Command::Seek(-3.0));
     assert_eq!(place(&stage), (0.0, 0));
-    // While it runs, it runs on from there.
+    // While playing, it continues from there.
     stage.session.apply(Command::Play);
     stage.session.apply(Command::Seek(7.0));
     let now = Instant::now();
@@ -191,18 +194,18 @@ fn a_picture_without_a_state_is_there_at_any_time_at_once() {
 }
 
 #[test]
-fn a_state_is_drawn_again_for_an_earlier_time_and_on_for_a_later_one() {
+fn seeking_with_state_redraws_earlier_and_continues_to_later_times() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
     steps(&mut stage, 0..60);
     let one_second = texels(&mut stage);
     steps(&mut stage, 60..150);
     stage.act(Command::Seek(1.004));
-    assert_eq!(place(&stage), (1.0, 60), "the last frame that is not later");
+    assert_eq!(place(&stage), (1.0, 60), "the last frame at or before the time");
     assert!(texels(&mut stage) == one_second);
     stage.act(Command::Seek(2.0));
     assert_eq!((place(&stage), stage.session.reach().ahead), ((2.0, 120), 30));
-    // Beyond what was drawn: the same as to go on step by step.
+    // Beyond the drawn frames: the same as stepping there.
     stage.act(Command::Seek(3.0));
     assert_eq!((place(&stage), stage.session.transport().is_seeking), ((3.0, 180), false));
     let sought = texels(&mut stage);
@@ -212,7 +215,7 @@ fn a_state_is_drawn_again_for_an_earlier_time_and_on_for_a_later_one() {
     }
     assert_eq!(place(&stage), (3.0, 180));
     assert!(texels(&mut stage) == sought);
-    // On another canvas there is nothing to go back in: it begins at 0.
+    // At another size there are no earlier frames: it starts at 0.
     stage.act(Command::SetFixedSize(Some((10, 4))));
     stage.act(Command::Seek(0.5));
     assert_eq!(place(&stage), (0.5, 30));
@@ -220,41 +223,41 @@ fn a_state_is_drawn_again_for_an_earlier_time_and_on_for_a_later_one() {
 }
 
 #[test]
-fn a_range_is_played_again_and_again_from_the_same_state() {
+fn a_time_range_loops_from_the_same_state() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
     steps(&mut stage, 0..60);
-    let begin = texels(&mut stage);
+    let initial = texels(&mut stage);
     stage.session.apply(Command::SetTimeRange(TimeRange::new(1.0, 1.5)));
     stage.session.apply(Command::SetFixedRate(Some(60.0)));
     stage.session.apply(Command::Play);
-    let (mut now, mut turns, mut before) = (Instant::now(), 0, 1.0);
+    let (mut now, mut loops, mut before) = (Instant::now(), 0, 1.0);
     for _ in 0..200 {
         now += Duration::from_millis(7);
         stage.session.tick(now);
         let (time, _) = place(&stage);
         assert!((1.0..1.5).contains(&time), "{time}");
-        turns += i32::from(time < before);
+        loops += i32::from(time < before);
         before = time;
         if time == 1.0 {
-            assert!(texels(&mut stage) == begin);
+            assert!(texels(&mut stage) == initial);
         }
         assert!(stage.session.transport().playing);
     }
-    assert!(turns >= 5, "{turns}");
-    // In real time, of which a slow frame takes a tenth of a second.
+    assert!(loops >= 5, "{loops}");
+    // In real time, where a slow frame takes a tenth of a second.
     stage.session.apply(Command::SetFixedRate(None));
-    let (mut turns, mut latest) = (0, 0.0f64);
+    let (mut loops, mut latest) = (0, 0.0f64);
     for _ in 0..40 {
         now += Duration::from_millis(100);
         stage.session.tick(now);
         let (time, _) = place(&stage);
         assert!((1.0..1.5).contains(&time), "{time}");
-        turns += i32::from(time < before);
+        loops += i32::from(time < before);
         before = time;
         latest = latest.max(time);
     }
-    assert!(turns >= 5 && latest > 1.35, "{turns}, up to {latest}");
+    assert!(loops >= 5 && latest > 1.35, "{loops}, up to {latest}");
     stage.session.apply(Command::SetTimeRange(None));
     for _ in 0..60 {
         now += Duration::from_millis(7);
@@ -264,7 +267,7 @@ fn a_range_is_played_again_and_again_from_the_same_state() {
 }
 
 #[test]
-fn new_code_shows_the_same_frame_of_the_same_inputs() {
+fn new_code_redraws_the_same_frame_from_the_same_inputs() {
     let Some(gpu) = support::gpu() else { return };
     let other = HISTORY.replace("0.37", "0.41");
     let buffer_a = || Tab::Pass(PassName::buffer("A"));
@@ -279,23 +282,23 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
     let original = texels(&mut kept);
     let shown = place(&kept);
     edited(&mut kept, &other);
-    assert_eq!(place(&kept), shown, "no frame is added");
+    assert_eq!(place(&kept), shown, "the frame changed");
     let changed = texels(&mut kept);
     assert!(changed != original);
-    // As by the new code from the beginning.
+    // Equal to the new code from frame 0 on.
     let mut fresh = stage(gpu);
     edited(&mut fresh, &other);
     fresh.session.apply(Command::Reset);
     steps(&mut fresh, 0..120);
     assert_eq!(place(&fresh), shown);
     assert!(texels(&mut fresh) == changed);
-    // And back, from the middle of the run: what was ahead still is.
+    // Back to the old code, from the middle of the run: the later frames are still available.
     kept.act(Command::StepBack(40));
     edited(&mut kept, HISTORY);
     assert_eq!((place(&kept).1, kept.session.reach().ahead), (shown.1 - 40, 40));
     kept.act(Command::Seek(shown.0));
     assert!(texels(&mut kept) == original);
-    // A new size of the canvas is an input like others.
+    // A new size is an input like others.
     let resized = |stage: &mut Stage| {
         stage.session.apply(Command::SetFixedSize(Some((8, 4))));
         stage.session.apply(Command::Reset);
@@ -311,9 +314,9 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
     assert!(changed != original);
     resized(&mut fresh);
     assert!(texels(&mut fresh) == changed);
-    // Back goes as far as the canvas is the same: the frame that was shown was drawn again on it.
+    // Stepping back is possible as long as the size is the same: the shown frame was drawn again at it.
     assert_eq!(kept.session.reach().back, 60);
-    // Without the switch only the frame that is shown is drawn by the new code.
+    // Without the setting, the new code draws only the shown frame.
     kept.session.apply(Command::SetKeepInputs(false));
     edited(&mut kept, HISTORY);
     assert_eq!(place(&kept), shown);
@@ -321,8 +324,8 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
     assert!(mixed != changed && mixed != original);
 }
 
-/// Plays a preset for so many frames of uneven length with a hand on it, and records it. Gives the recording and what
-/// the pass holds at the end.
+/// Plays and records a preset for `frames` frames of uneven length, with mouse and keys. Returns the recording and the
+/// final texels of the pass.
 pub(super) fn recorded(gpu: &eddy::gpu::Gpu, preset: &str, frames: u32) -> (PathBuf, Vec<u8>, tempfile::TempDir) {
     let mut stage = Stage::bare(gpu.clone());
     stage.session.apply(Command::SetFixedSize(Some((64, 36))));
@@ -380,7 +383,7 @@ fn a_recorded_run_is_replayed_bit_for_bit() {
 }
 
 #[test]
-fn an_audit_is_told_in_the_list_of_problems_until_the_next_compile() {
+fn audit_findings_are_listed_as_problems_until_the_next_compile() {
     let Some(gpu) = support::gpu() else { return };
     let code = "void mainImage(out vec4 o, in vec2 p) {\n    float c;\n    if (p.x > 1e9) c = 1.;\n    \
                 o = vec4(c + 0.25, sqrt(p.x - 4.0), 0.0, 1.0);\n}\n";
@@ -388,13 +391,13 @@ fn an_audit_is_told_in_the_list_of_problems_until_the_next_compile() {
     assert!(stage.session.diagnostics().is_empty());
     stage.session.apply(Command::Audit);
     stage.until("findings", |session| !session.diagnostics().is_empty());
-    let told: Vec<_> =
+    let reported: Vec<_> =
         stage.session.diagnostics().iter().map(|d| (d.place.as_ref().unwrap().line, &*d.message)).collect();
     // An undefined variable is reported at its declaration, the others where they arise.
     let line = |message: &str| if message.contains("was never written") { 2 } else { 4 };
-    assert!(told.iter().all(|(at, message)| *at == line(message)), "{told:?}");
+    assert!(reported.iter().all(|(at, message)| *at == line(message)), "{reported:?}");
     for what in ["first NaN here", "was never written", "square root of a negative number"] {
-        assert!(told.iter().any(|(_, message)| message.contains(what)), "{what}: {told:?}");
+        assert!(reported.iter().any(|(_, message)| message.contains(what)), "{what}: {reported:?}");
     }
     assert!(
         stage

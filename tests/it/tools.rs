@@ -1,4 +1,4 @@
-//! `eddy doctor`, reports of panics, manual pages and completions, on the built program.
+//! `eddy doctor`, panic reports, manual pages and completions of the built program.
 
 use crate::support::{
     program::{Bench, run},
@@ -28,22 +28,22 @@ fn manual_pages_are_well_formed_and_not_overwritten() {
 }
 
 #[test]
-fn completions_are_scripts_of_their_shells() {
+fn completions_are_valid_shell_scripts() {
     let b = Bench::new();
     for (shell, check) in [("bash", &["-n"][..]), ("zsh", &["-n"]), ("fish", &["--no-execute"])] {
         b.write(shell, b.line(&format!("completions {shell}")).expect(0).out);
         if !has(shell) {
             continue;
         }
-        let said = failure(Command::new(shell).args(check).arg(b.path(shell)));
-        assert_eq!(said, None, "{shell}");
+        let errors = failure(Command::new(shell).args(check).arg(b.path(shell)));
+        assert_eq!(errors, None, "{shell}");
     }
     let script = b.line("completions powershell").expect(0).out;
     assert!(script.contains("Register-ArgumentCompleter") && script.contains("'translate'"));
     assert!(b.line("completions tcsh").expect(2).err.contains("powershell"));
 }
 
-/// The script is run with programs of the same names in the places of `scripts/setup` and cargo.
+/// The script runs with stubs in place of `scripts/setup` and cargo.
 #[cfg(unix)]
 #[test]
 fn every_command_works_through_the_run_script() {
@@ -52,7 +52,7 @@ fn every_command_works_through_the_run_script() {
     b.line("man --out pages").expect(0);
     let pages = b.names("pages").into_iter();
     let commands = pages.filter_map(|page| page.strip_prefix("eddy-")?.strip_suffix(".1").map(str::to_owned));
-    // A page of a command within a command has one more part.
+    // The page of a subcommand has one more part.
     let commands: Vec<String> = commands.filter(|name| !name.contains('-')).chain(["help".into()]).collect();
     assert!(commands.len() > 10 && commands.contains(&"doctor".to_owned()), "{commands:?}");
     b.write("scripts/run", std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/run")).unwrap());
@@ -75,7 +75,7 @@ fn every_command_works_through_the_run_script() {
         assert_eq!(script(&[command, "x"]).trim(), format!("{command} x"));
     }
     assert_eq!(script(&["--version"]).trim(), "--version");
-    // A project is none of them: without a display its pictures are drawn.
+    // A project is not a command: without a display its pictures are drawn.
     assert!(script(&["my-project"]).starts_with("render my-project --size"));
 }
 
@@ -94,7 +94,7 @@ fn bash_completes_a_command() {
 }
 
 #[test]
-fn doctor_describes_the_machine_and_no_person() {
+fn doctor_describes_the_machine_without_personal_data() {
     let b = Bench::new();
     let home = b.path(".").canonicalize().unwrap();
     let doctor = |line: &str| {
@@ -121,12 +121,12 @@ fn doctor_describes_the_machine_and_no_person() {
     let home = home.to_str().unwrap();
     assert!(!text.out.contains(home) && !json.out.contains(home), "{}", text.out);
     for folder in [".config/eddy", ".cache/eddy", ".local/state/eddy"] {
-        assert!(!b.path(folder).exists(), "{folder} was made");
+        assert!(!b.path(folder).exists(), "{folder} was created");
     }
 }
 
 #[test]
-fn a_panic_leaves_a_report_that_says_where_it_is() {
+fn a_panic_writes_a_report_and_prints_its_path() {
     let b = Bench::new();
     let home = b.path(".").canonicalize().unwrap();
     let mut command = b.command();

@@ -1,4 +1,4 @@
-//! Presets through all writers of other languages, and what they write through compilers of these where there are any.
+//! Presets translated to all languages, and the results checked by compilers of these languages where installed.
 
 use crate::support::{
     presets::preset,
@@ -15,7 +15,8 @@ fn translated(name: &str, language: Language) -> Translation {
     translate(&preset(name), language).unwrap_or_else(|errors| panic!("{name} as {language}: {errors:#?}"))
 }
 
-/// Calls `check` for each shader of every preset in a language, with the bytes of its file; what it returns is an error.
+/// Calls `check` for each shader of every preset in a language, with the bytes of its file; `check` returns an error,
+/// if any.
 fn each_stage(language: Language, mut check: impl FnMut(&str, &StageInfo, &[u8]) -> Option<String>) {
     let mut troubles = Vec::new();
     let mut count = 0;
@@ -36,21 +37,21 @@ fn each_stage(language: Language, mut check: impl FnMut(&str, &StageInfo, &[u8])
     assert!(troubles.is_empty(), "{language}: {} of {count}\n{}", troubles.len(), troubles.join("\n"));
 }
 
-/// Writes a shader for a compiler to read, and returns what that says against it.
+/// Writes a shader for a compiler to read, and returns the compiler's errors, if any.
 fn compiled(folder: &Path, name: &str, bytes: &[u8], command: impl FnOnce(&Path) -> Command) -> Option<String> {
     let path = folder.join(name);
     std::fs::write(&path, bytes).unwrap();
     failure(&mut command(&path))
 }
 
-/// The one language for which there is no compiler here.
+/// The only language without a compiler here.
 #[test]
-fn every_preset_is_written_in_msl() {
+fn every_preset_is_translated_to_msl() {
     each_stage(Language::Msl, |_, _, bytes| bytes.is_empty().then(|| "an empty file".into()));
 }
 
 #[test]
-fn wgsl_of_presets_is_read_again_and_valid() {
+fn wgsl_of_presets_is_valid() {
     use naga::valid::{Capabilities, ValidationFlags, Validator};
     each_stage(Language::Wgsl, |_, _, bytes| {
         let text = std::str::from_utf8(bytes).unwrap();
@@ -78,8 +79,8 @@ fn spirv_of_presets_is_valid_for_vulkan() {
     });
 }
 
-/// Returns HLSL without two things that Microsoft's compilers take and glslang does not: a cast of 0 to an array, and calls in
-/// the initialisers of globals, which it takes for recursion.
+/// Returns HLSL without two constructs that Microsoft's compilers accept and glslang does not: a cast of 0 to an array,
+/// and calls in the initialisers of globals, which glslang treats as recursion.
 fn hlsl_for_glslang(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for line in text.lines() {
@@ -101,13 +102,13 @@ fn hlsl_for_glslang(text: &str) -> String {
 }
 
 #[test]
-fn hlsl_keeps_all_but_what_glslang_lacks() {
+fn hlsl_for_glslang_changes_only_unsupported_constructs() {
     let text = "static float2 a[4] = (float2[4])0;\nfloat b[2] = (float[2])0;\nfloat c[2] = d;\nreturn (int[3])0;\n";
     let expected = "static float2 a[4];\nfloat b[2];\nfloat c[2] = d;\nint zero[3]; return zero;\n";
     assert_eq!(hlsl_for_glslang(text), expected);
 }
 
-/// Hands all shaders of a version to glslang, of each stage at once: to set up its built-ins takes it longer than a shader.
+/// Passes all shaders of a version to glslang, one call per stage: setting up its built-ins takes longer than a shader.
 fn glslang(version: GlslVersion) {
     if !has_required("glslangValidator") {
         return;
@@ -122,8 +123,8 @@ fn glslang(version: GlslVersion) {
     });
     for (kind, files) in files {
         assert!(!files.is_empty(), "no {kind}");
-        let said = failure(Command::new("glslangValidator").args(["-S", kind]).args(&files));
-        assert_eq!(said, None, "{kind}");
+        let errors = failure(Command::new("glslangValidator").args(["-S", kind]).args(&files));
+        assert_eq!(errors, None, "{kind}");
     }
 }
 
@@ -160,7 +161,7 @@ fn hlsl_of_presets_compiles() {
     });
 }
 
-/// Two passes, a table, a uniform of the author's own and a picture.
+/// Writes a project of two passes, a feedback buffer and a custom uniform.
 fn golden_project(b: &Bench) {
     let manifest = "name = \"Golden\"\n\n[passes.buffer_a]\nformat = \"rgba16f\"\nsize = 0.5\ninitial = \"vec4(0.25)\"\n\
         channels.0 = { buffer = \"A\", filter = \"nearest\" }\n\n[passes.image]\n\
@@ -174,7 +175,7 @@ fn golden_project(b: &Bench) {
 }
 
 #[test]
-fn a_small_project_is_written_as_it_was() {
+fn a_small_project_matches_its_snapshots() {
     let b = Bench::new();
     golden_project(&b);
     for (language, options) in
@@ -193,12 +194,12 @@ fn a_small_project_is_written_as_it_was() {
 }
 
 #[test]
-fn files_are_not_overwritten_unasked() {
+fn files_are_overwritten_only_with_force() {
     let b = Bench::new();
     golden_project(&b);
     let first = b.line("translate p --to wgsl").expect(0);
     assert!(first.out.contains("p-wgsl"), "{}", first.out);
-    // The same again changes nothing, so there is nothing to refuse.
+    // Writing identical files again is allowed.
     b.line("translate p --to wgsl").expect(0);
     b.write("p-wgsl/image.frag.wgsl", "mine");
     let refused = b.line("translate p --to wgsl").expect(2);
@@ -218,7 +219,7 @@ fn errors_have_exit_codes_places_and_json() {
     let line = &b.line("translate bad.glsl --to msl --json").expect(1).json()[0];
     assert_eq!((&line["status"], &line["diagnostics"][0]["line"]), (&"diagnostics".into(), &2.into()));
     assert_eq!(line["files"], serde_json::json!([]));
-    assert_eq!(b.names("."), ["bad.glsl"], "nothing is written");
+    assert_eq!(b.names("."), ["bad.glsl"], "a file was written");
     b.image("pack.glsl", "    fragColor = vec4(packHalf2x16(fragCoord));");
     let refused = b.line("translate pack.glsl --to glsl --glsl-version 330").expect(1);
     assert!(refused.err.contains("pack.glsl:2:") && refused.err.contains("--glsl-version 450"), "{}", refused.err);

@@ -1,4 +1,4 @@
-//! Values in `eddy.toml` for uniforms that a text declares in GLSL's own way.
+//! Values in `eddy.toml` for uniforms declared in plain GLSL.
 
 use crate::support::{walked::assert_walked, *};
 use eddy::{
@@ -9,7 +9,7 @@ use eddy::{
 };
 use std::{fs, path::PathBuf};
 
-/// A folder with these files of its own.
+/// Creates a separate folder with these files.
 fn folder(name: &str, toml: &str, image: &str) -> PathBuf {
     let dir = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("uniform_values_{name}"));
     let _ = fs::remove_dir_all(&dir);
@@ -65,7 +65,7 @@ void mainImage(out vec4 o, in vec2 p) {
 }";
 
 #[test]
-fn every_type_takes_its_values_from_the_file() {
+fn every_type_gets_its_values_from_the_file() {
     let Some(gpu) = gpu() else { return };
     let project = open("types", TOML, IMAGE);
     let options = BuildOptions { wanted: vec![buffer("A")], skip: true, ..BuildOptions::default() };
@@ -87,7 +87,7 @@ fn every_type_takes_its_values_from_the_file() {
 }
 
 #[test]
-fn values_are_kept_when_the_project_is_saved_and_go_with_an_export() {
+fn values_are_saved_and_exported_with_the_project() {
     let project = open("saved", TOML, IMAGE);
     assert!(matches!(&project.custom_uniform_values["kernel"], CustomUniformValue::List(all) if all.len() == 5));
     let copy = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("uniform_values_copy");
@@ -100,13 +100,13 @@ fn values_are_kept_when_the_project_is_saved_and_go_with_an_export() {
     save(&project, &file, Overwrite::Refuse).unwrap();
     let json = fs::read_to_string(&file).unwrap();
     assert!(json.contains("const uint bits[2] = uint[](4294967295u, 7u);"), "{json}");
-    assert!(json.contains("uniform vec4 absent[3];"), "what has no value stays as it is");
+    assert!(json.contains("uniform vec4 absent[3];"), "a uniform without a value is unchanged");
 }
 
 #[test]
-fn a_value_of_another_shape_is_one_error_with_its_mend() {
+fn a_value_of_a_wrong_shape_is_one_error_with_a_fix() {
     let Some(gpu) = gpu() else { return };
-    for (declared, value, said, mend) in [
+    for (declared, value, message, fix) in [
         (
             "vec3 v[3]",
             "[[1, 2, 3], [4, 5, 6]]",
@@ -131,16 +131,16 @@ fn a_value_of_another_shape_is_one_error_with_its_mend() {
         let Err(BuildError::Diagnostics { diagnostics, sources }) =
             Program::build(&gpu, &project, &MediaSet::new(), &BuildOptions::default())
         else {
-            panic!("{declared} took {value}");
+            panic!("{declared} accepted {value}");
         };
         let text = render_all(&diagnostics, &sources);
         assert_eq!(diagnostics.len(), 1, "{text}");
-        assert!(text.contains(said) && text.contains(mend) && text.contains("image.glsl:1:"), "{text}");
+        assert!(text.contains(message) && text.contains(fix) && text.contains("image.glsl:1:"), "{text}");
     }
 }
 
 #[test]
-fn a_value_is_no_constant_expression_and_an_unknown_name_is_said() {
+fn a_value_is_not_a_constant_and_an_unknown_name_is_reported() {
     let Some(gpu) = gpu() else { return };
     let toml = "[passes.image]\n[uniforms]\nn = 3\nkernal = [[1, 2, 3]]\n";
     let image = "uniform int n;\n// uniform vec3 kernal[1];\nvoid mainImage(out vec4 o, in vec2 p) { float a[n]; o = \
@@ -149,18 +149,18 @@ fn a_value_is_no_constant_expression_and_an_unknown_name_is_said() {
     let warnings: Vec<&str> = loaded.warnings.iter().map(|w| w.message.as_str()).collect();
     assert!(matches!(warnings[..], [one] if one.contains("`kernal`")), "{warnings:?}");
     let built = Program::build(&gpu, &loaded.project, &MediaSet::new(), &BuildOptions::default());
-    assert!(matches!(built, Err(BuildError::Diagnostics { .. })), "a uniform is no length of an array");
+    assert!(matches!(built, Err(BuildError::Diagnostics { .. })), "a uniform was accepted as the length of an array");
 }
 
 #[test]
-fn a_given_uniform_cannot_be_assigned_to() {
+fn a_uniform_with_a_value_cannot_be_assigned() {
     let Some(gpu) = gpu() else { return };
     let image = "uniform float v[2];\nvoid mainImage(out vec4 o, in vec2 p) { v[0] = 1.0; o = vec4(v[0]); }";
     let project = open("assigned", "[passes.image]\n[uniforms]\nv = [1, 2]\n", image);
     let Err(BuildError::Diagnostics { diagnostics, .. }) =
         Program::build(&gpu, &project, &MediaSet::new(), &BuildOptions::default())
     else {
-        panic!("assigned");
+        panic!("the assignment was accepted");
     };
     assert!(
         matches!(&diagnostics[..], [one] if one.message.contains("`v` is a uniform and cannot be")),

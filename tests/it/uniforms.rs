@@ -1,4 +1,4 @@
-//! The author's own uniforms, from an `#iUniform` line to the picture.
+//! Custom uniforms, from an `#iUniform` line to the picture.
 
 use crate::support::{stage::*, walked::assert_walked, *};
 use eddy::{
@@ -30,7 +30,7 @@ fn row(pixels: &eddy::engine::Pixels) -> Vec<[f32; 4]> {
 }
 
 #[test]
-fn every_type_reaches_the_shader_and_turning_one_compiles_nothing() {
+fn every_type_reaches_the_shader_and_changes_compile_nothing() {
     let Some(gpu) = gpu() else { return };
     let a = pass(buffer("A"), ALL, Default::default());
     let mut project =
@@ -48,22 +48,22 @@ fn every_type_reaches_the_shader_and_turning_one_compiles_nothing() {
         project.set_custom_uniform(set).unwrap();
     }
     assert!(engine.set_custom_uniforms(&project.custom_uniform_values));
-    assert!(!engine.set_custom_uniforms(&project.custom_uniform_values), "nothing is different");
+    assert!(!engine.set_custom_uniforms(&project.custom_uniform_values), "equal values were reported as a change");
     run(&mut engine, 1, 2);
     assert_walked(&mut engine, &project, &buffer("A"));
-    let turned = row(&engine.read(&buffer("A")).unwrap());
+    let changed = row(&engine.read(&buffer("A")).unwrap());
     assert_eq!(
-        turned,
+        changed,
         [[-1e-3, 2147483648.0, 7.0, 7.0], [0.0, 0.0, 1.0, 0.0], [9.0, 8.0, 7.0, 6.0], [9.0, 1.0, 0.0, 6.0]]
     );
-    // A program made of the project as it stands now begins so.
+    // A program built from the project's current values starts with them.
     let mut fresh = engine_with(&gpu, &project, &MediaSet::new(), &options, (4, 1));
     run(&mut fresh, 0, 1);
-    assert_eq!(row(&fresh.read(&buffer("A")).unwrap()), turned);
+    assert_eq!(row(&fresh.read(&buffer("A")).unwrap()), changed);
 }
 
 #[test]
-fn common_declares_for_every_pass_and_a_pass_for_itself() {
+fn uniforms_of_common_are_global_and_those_of_a_pass_are_local() {
     let Some(gpu) = gpu() else { return };
     let write =
         "#iUniform float own = 2.0\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(own, shared_one, 0.0, 1.0); }";
@@ -75,10 +75,10 @@ fn common_declares_for_every_pass_and_a_pass_for_itself() {
     assert_walked(&mut engine, &p, &buffer("A"));
     assert_walked(&mut engine, &p, &PassName::image());
     assert_eq!(texel(&engine.read_image().unwrap(), 0, 0), [2.5, 1.0, 0.5, 1.0]);
-    let mut stranger = p.clone();
-    stranger.passes[1].source.text = show.replace("shared_one", "own").into();
-    let said = errors(&gpu, &stranger);
-    assert!(said.contains("`own` is not declared"), "{said}");
+    let mut other = p.clone();
+    other.passes[1].source.text = show.replace("shared_one", "own").into();
+    let message = errors(&gpu, &other);
+    assert!(message.contains("`own` is not declared"), "{message}");
 }
 
 fn errors(gpu: &eddy::gpu::Gpu, project: &eddy::project::Project) -> String {
@@ -90,7 +90,7 @@ fn errors(gpu: &eddy::gpu::Gpu, project: &eddy::project::Project) -> String {
 }
 
 #[test]
-fn what_is_wrong_with_a_declaration_is_told_at_its_line() {
+fn declaration_errors_are_reported_at_their_line() {
     let Some(gpu) = gpu() else { return };
     let main = "\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }";
     for (line, message) in [
@@ -102,8 +102,8 @@ fn what_is_wrong_with_a_declaration_is_told_at_its_line() {
         ("#iUniform float a\nfloat a;", "`a` is already declared by an #iUniform line"),
         ("#iUniform float a\nvoid f() { a = 1.0; }", "`a` is a uniform and cannot be"),
     ] {
-        let said = errors(&gpu, &project(vec![image(&format!("{line}{main}"), Default::default())]));
-        assert!(said.contains(message) && said.contains("--> Image:"), "{line}\n{said}");
+        let found = errors(&gpu, &project(vec![image(&format!("{line}{main}"), Default::default())]));
+        assert!(found.contains(message) && found.contains("--> Image:"), "{line}\n{found}");
     }
     let hidden = "#iUniform float a\nfloat f(float a) { a += 1.0; return a; }";
     engine(&gpu, &project(vec![image(&format!("{hidden}{main}"), Default::default())]), (1, 1));
@@ -119,7 +119,7 @@ fn set(name: &str, value: CustomUniformValue) -> Command {
 }
 
 #[test]
-fn turning_a_custom_uniform_while_paused_draws_one_frame_and_saving_writes_it_down() {
+fn a_slider_moved_while_paused_draws_one_frame_and_is_saved() {
     let Some(gpu) = gpu() else { return };
     let toml = "# mine\neddy = 1\n\n[uniforms] # turned\nred = 0.4 # warm\n\n[passes.image]\n";
     let mut stage = Stage::open(gpu, &[("image.glsl", SLIDER), ("eddy.toml", toml)]);
@@ -153,12 +153,12 @@ fn turning_a_custom_uniform_while_paused_draws_one_frame_and_saving_writes_it_do
 }
 
 #[test]
-fn a_turned_uniform_is_undone_and_the_question_says_what_changed() {
+fn uniform_changes_can_be_undone_and_are_listed_as_unsaved() {
     let Some(gpu) = gpu() else { return };
     let toml = "eddy = 1\n\n[passes.image]\n";
     let mut stage = Stage::open(gpu, &[("image.glsl", SLIDER), ("eddy.toml", toml)]);
     assert_eq!(stage.session.unsaved_parts(), [""; 0]);
-    // A drag is many values and one step; another uniform is another step.
+    // A drag has many values and is one undo step; another uniform is another step.
     for red in [0.3, 0.5, 0.8] {
         stage.session.apply(set("red", CustomUniformValue::Float(red)));
     }
@@ -169,13 +169,17 @@ fn a_turned_uniform_is_undone_and_the_question_says_what_changed() {
     stage.act(Command::UndoPassEdit);
     assert_eq!((stage.red(), title(&stage).as_deref()), (204, Some("change red")));
     stage.act(Command::UndoPassEdit);
-    assert_eq!((stage.red(), stage.session.is_dirty(), title(&stage)), (51, false, None), "the whole drag is one step");
+    assert_eq!(
+        (stage.red(), stage.session.is_dirty(), title(&stage)),
+        (51, false, None),
+        "the whole drag is one undo step"
+    );
     stage.act(Command::RedoPassEdit);
     assert_eq!(stage.red(), 204);
     stage.session.apply(Command::ResetCustomUniforms);
     stage.act(Command::UndoPassEdit);
-    assert_eq!(stage.red(), 204, "resetting all is a step, too");
-    // Steps of passes lie in the same history, and each brings back its own.
+    assert_eq!(stage.red(), 204, "resetting all values is an undo step");
+    // Pass edits are in the same undo history, and each step restores its own change.
     stage.session.apply(Command::AddTab(eddy::project::Tab::Common));
     assert_eq!(stage.session.unsaved_parts(), ["Common", "the list of passes", "uniform red"]);
     stage.act(Command::UndoPassEdit);
@@ -183,7 +187,7 @@ fn a_turned_uniform_is_undone_and_the_question_says_what_changed() {
 }
 
 #[test]
-fn custom_uniforms_follow_the_text_and_the_disk() {
+fn custom_uniforms_follow_edits_and_reloads() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", SLIDER)]);
     stage.session.apply(set("red", CustomUniformValue::Float(0.8)));
@@ -193,7 +197,7 @@ fn custom_uniforms_follow_the_text_and_the_disk() {
     assert_eq!(stage.red(), 128, "within the new range");
     stage.edit(SLIDER);
     stage.compile(Command::CompileNow);
-    assert_eq!(stage.red(), 204, "and back");
+    assert_eq!(stage.red(), 204, "in the old range again");
     stage.session.apply(Command::Save);
     assert!(stage.read("eddy.toml").contains("[uniforms]\nred = 0.8\n"), "{}", stage.read("eddy.toml"));
     stage.write("eddy.toml", stage.read("eddy.toml").replace("0.8", "0.4"));
@@ -205,7 +209,7 @@ fn custom_uniforms_follow_the_text_and_the_disk() {
 }
 
 #[test]
-fn an_editor_knows_them_and_what_included_files_declare() {
+fn editor_services_know_custom_uniforms_and_included_files() {
     let code = "#include \"lib.glsl\"\n#iUniform color3 tint\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(tint, \
                 half_of(1.0)); }";
     let mut project = project(vec![image(code, Default::default())]);

@@ -1,5 +1,5 @@
-//! What a channel reads that nothing is bound to, or whose media are not there: one opaque black texel, as in WebGL,
-//! where a buffer without a pass is a texture of zeros. Drawn by the device, and walked.
+//! Reads of channels without an input, or whose media are missing: one opaque black texel, as in WebGL, while a buffer
+//! without a pass is a texture of zeros. Drawn by the device, and walked.
 
 use crate::support::{gpu, meshes, program::Bench, walked::assert_walked, *};
 use eddy::project::{Channel, Input, InputKind, Media, PassName, Project, Sampler};
@@ -7,7 +7,7 @@ use eddy::project::{Channel, Input, InputKind, Media, PassName, Project, Sampler
 const OPAQUE: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 const ZERO: [f32; 4] = [0.0; 4];
 
-/// Reads of a plane.
+/// Reads of a two-dimensional texture.
 const READS: &[(&str, [f32; 4])] = &[
     ("texture(iChannel0, vec2(0.3, 0.7))", OPAQUE),
     ("texture(iChannel0, p * 40.0, 2.0)", OPAQUE),
@@ -23,22 +23,22 @@ const READS: &[(&str, [f32; 4])] = &[
     ("vec4(textureSize(iChannel0, 1), textureSize(iChannel0, 40 + int(p.x)))", [1.0; 4]),
 ];
 
-/// Reads of a space, and of a direction.
+/// Reads of a volume, and of a cubemap.
 const DEEP_READS: &[&str] = &[
     "texture(iChannel0, vec3(0.3, 0.7, -2.0))",
     "textureLod(iChannel0, vec3(p, 1.0), 2.0)",
     "textureGrad(iChannel0, vec3(p, 1.0), vec3(1.0), vec3(0.5))",
 ];
 
-/// Inputs without a texture. The engine is given no media here, so that a file is missing too; without a file
-/// music has a spectrum all the same, and a webcam without a camera is as large as on the site.
+/// Returns inputs without a texture. The engine gets no media here, so files are missing too; without a file music
+/// still has a spectrum, and a webcam without a camera has the same size as on Shadertoy.
 fn planes() -> Vec<Option<Input>> {
     let file = || Media::File("nowhere".into());
     let inputs = [Input::Media { kind: InputKind::Video, media: file() }, Input::texture(file())];
     [None].into_iter().chain(inputs.map(Some)).collect()
 }
 
-/// A buffer B of a single expression of channel 0.
+/// Returns a project whose buffer B is a single expression that reads channel 0.
 fn reading(input: Option<Input>, expression: &str) -> Project {
     let code = format!("void mainImage(out vec4 o, in vec2 p) {{ o = {expression}; }}");
     let channel = input.map(|input| Channel { input, sampler: Sampler::TEXTURE });
@@ -46,7 +46,7 @@ fn reading(input: Option<Input>, expression: &str) -> Project {
     project(vec![pass(buffer("B"), &code, [channel, None, None, None]), image(show, [nearest("B"), None, None, None])])
 }
 
-/// Draws and walks the expression.
+/// Draws and walks the expression, and checks both results.
 #[track_caller]
 fn check(input: Option<Input>, expression: &str, expected: [f32; 4]) {
     let Some(gpu) = gpu() else { return };
@@ -57,7 +57,7 @@ fn check(input: Option<Input>, expression: &str, expected: [f32; 4]) {
 }
 
 #[test]
-fn a_channel_without_a_texture_is_one_opaque_black_texel_to_every_read() {
+fn a_channel_without_a_texture_reads_as_one_opaque_black_texel() {
     for input in planes() {
         READS.iter().for_each(|(expression, expected)| check(input.clone(), expression, *expected));
     }
@@ -68,14 +68,14 @@ fn a_channel_without_a_texture_is_one_opaque_black_texel_to_every_read() {
         Input::pass(PassName::cube()),
     ] {
         for read in DEEP_READS {
-            // llvmpipe's weights of eight equal texels make a bit less than 1.
+            // llvmpipe's weights of eight equal texels add up to slightly less than 1.
             check(Some(input.clone()), &format!("floor({read} * 4.0 + 0.5) / 4.0"), OPAQUE);
         }
     }
 }
 
 #[test]
-fn a_buffer_without_a_pass_and_the_frame_before_the_first_are_zeros() {
+fn a_missing_buffer_and_the_frame_before_the_first_are_zeros() {
     for (expression, expected) in [
         ("texture(iChannel0, vec2(0.3, 0.7))", ZERO),
         ("textureLod(iChannel0, vec2(0.3, 0.7), 0.0)", ZERO),
@@ -90,7 +90,7 @@ fn a_buffer_without_a_pass_and_the_frame_before_the_first_are_zeros() {
 }
 
 #[test]
-fn vertices_read_the_same_of_a_channel_without_a_texture() {
+fn vertex_stages_read_a_channel_without_a_texture_alike() {
     let Some(gpu) = gpu() else { return };
     let vertex = "in vec3 aPosition; out vec4 read; void main() { read = textureLod(iChannel0, aPosition.xy, 0.0) * \
                   vec4(1.0, 1.0, 1.0, 0.5) + texelFetch(iChannel1, ivec2(0), 0) * vec4(1.0, 1.0, 1.0, 0.25); \
@@ -105,7 +105,7 @@ fn vertices_read_the_same_of_a_channel_without_a_texture() {
 }
 
 #[test]
-fn trace_and_render_agree_about_a_picture_that_is_missing() {
+fn trace_and_render_agree_about_a_missing_image_file() {
     let Some(b) = Bench::with_gpu() else { return };
     b.write("w/eddy.toml", "[passes.image]\nchannels.0 = { file = \"gone.png\" }\nchannels.1 = { webcam = true }\n");
     b.image(

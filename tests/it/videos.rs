@@ -1,5 +1,5 @@
-//! Videos and webcams as textures, on the built program: frames by `iTime`, the same in every run, and what is said of those
-//! that cannot be played. Files are made here; what needs ffmpeg is left out where it is not installed.
+//! Videos and webcams as textures, with the built program: frames by `iTime`, the same in every run, and errors of
+//! those that cannot be played. Files are generated here; tests that need ffmpeg are skipped if it is not installed.
 
 use crate::support::{
     ffmpeg::has_ffmpeg,
@@ -16,7 +16,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// A colour that says the number of a frame; the top half has it in blue, too.
+/// Returns a colour that encodes a frame's number; the top half has it in blue, too.
 fn color(n: u32, is_top: bool) -> Rgba<u8> {
     let value = (n * 8) as u8;
     Rgba([value, 255 - value, if is_top { value } else { 0 }, 255])
@@ -26,7 +26,7 @@ fn picture(n: u32) -> RgbaImage {
     RgbaImage::from_fn(16, 8, |_, y| color(n, y < 4))
 }
 
-/// An animated GIF whose frames last so many milliseconds.
+/// Returns an animated GIF with these frame durations in milliseconds.
 fn gif(delays: &[u32]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = GifEncoder::new(&mut bytes);
@@ -39,7 +39,7 @@ fn gif(delays: &[u32]) -> Vec<u8> {
     bytes
 }
 
-/// Encodes frames without loss.
+/// Encodes frames losslessly.
 fn encode(path: &Path, frames: u32, rate: u32) {
     use std::io::Write;
     std::fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -57,7 +57,7 @@ fn encode(path: &Path, frames: u32, rate: u32) {
     assert!(child.wait().unwrap().success());
 }
 
-/// A project whose Image shows the texture, texel for texel, and above it what the uniforms say.
+/// Writes a project whose Image shows the texture texel by texel, and the uniforms above it.
 fn project(b: &Bench, channel: &str) {
     b.write("p/eddy.toml", format!("[passes.image]\nchannels.0 = {channel}\n"));
     b.image(
@@ -72,7 +72,7 @@ fn texels(b: &Bench, more: &str) -> Npy {
     b.npy("p.npy")
 }
 
-/// The number of the frame that is shown, with its top row at the top.
+/// Returns the number of the shown frame, and checks that its top row is at the top.
 fn number(shown: &Npy) -> u32 {
     let bytes = |at: [f32; 4]| at.map(|v| (v * 255.0).round() as u8);
     let (bottom, top) = (bytes(shown.at(3, 1)), bytes(shown.at(3, 6)));
@@ -81,7 +81,7 @@ fn number(shown: &Npy) -> u32 {
 }
 
 #[test]
-fn a_frame_depends_on_time_alone() {
+fn a_video_frame_depends_only_on_time() {
     let Some(_) = gpu() else { return };
     if !has_ffmpeg() {
         return;
@@ -99,7 +99,7 @@ fn a_frame_depends_on_time_alone() {
         let position = (f64::from(frame) / f64::from(fps)) % 1.0;
         assert!((f64::from(time) - position).abs() < 1e-5, "frame {frame} at {fps}: {time}");
     }
-    // In a run, alone, and with everything drawn: the same bytes.
+    // In a run, alone, and without skipping: the same bytes.
     b.line("render p --size 16x9 --fps 30 --frames 50 --at 10,49 --format npy --out run").expect(0);
     b.line("render p --size 16x9 --fps 30 --frames 50 --at 10,49 --no-skip --format npy --out again").expect(0);
     for (name, frame) in [("p_0010.npy", 10), ("p_0049.npy", 49)] {
@@ -110,7 +110,7 @@ fn a_frame_depends_on_time_alone() {
 }
 
 #[test]
-fn the_ending_makes_a_video_in_a_text_and_it_can_lie_the_other_way() {
+fn channel_lines_open_videos_by_extension_or_type_and_can_flip_them() {
     let Some(_) = gpu() else { return };
     if !has_ffmpeg() {
         return;
@@ -127,9 +127,9 @@ fn the_ending_makes_a_video_in_a_text_and_it_can_lie_the_other_way() {
     );
     b.line("render p --size 3x1 --fps 4 --at 2 --out p.png").expect(0);
     let png = b.png("p.png");
-    assert_eq!(png.get_pixel(0, 0), &color(2, false), "not flipped, row 7 is the bottom one");
-    assert_eq!(png.get_pixel(1, 0), &color(0, false), "an image file stands still");
-    assert_eq!(png.get_pixel(2, 0), &color(1, false), "and plays where the text says so");
+    assert_eq!(png.get_pixel(0, 0), &color(2, false), "without a flip, row 7 is the bottom row");
+    assert_eq!(png.get_pixel(1, 0), &color(0, false), "a GIF without a type is an image");
+    assert_eq!(png.get_pixel(2, 0), &color(1, false), "with the type Video it plays");
 }
 
 #[test]
@@ -159,14 +159,14 @@ fn animated_images_and_sequences_play_without_ffmpeg() {
 }
 
 #[test]
-fn what_cannot_be_played_is_black_and_told_of() {
+fn unplayable_videos_are_black_and_reported() {
     let Some(_) = gpu() else { return };
     let b = Bench::new();
     b.write("p/clip.mp4", "not a video at all");
     std::fs::write(b.path("outside.mp4"), "x").unwrap();
     #[cfg(unix)]
     std::os::unix::fs::symlink(b.path("outside.mp4"), b.path("p/link.mp4")).unwrap();
-    let said = |name: &str, path: Option<&str>| {
+    let errors_of = |name: &str, path: Option<&str>| {
         project(&b, &format!("{{ file = '{name}', kind = \"video\" }}"));
         let mut command = b.command();
         command.args("render p --size 16x9 --out p.npy".split(' '));
@@ -176,7 +176,7 @@ fn what_cannot_be_played_is_black_and_told_of() {
         assert_eq!([shown.at(0, 0), shown.at(0, 8)], [[0.0, 0.0, 0.0, 1.0]; 2], "{name}");
         ran.err
     };
-    let missing = said("clip.mp4", Some(""));
+    let missing = errors_of("clip.mp4", Some(""));
     assert!(missing.contains("ffprobe is not installed") && missing.contains("install ffmpeg"), "{missing}");
     for (name, words) in [
         ("-i", "there is no such file"),
@@ -189,20 +189,20 @@ fn what_cannot_be_played_is_black_and_told_of() {
         ("../outside.mp4", "leads out of the project's folder"),
         ("gone.mp4", "there is no such file"),
     ] {
-        let said = said(name, None);
-        assert!(said.contains(words), "{name}: {said}");
+        let errors = errors_of(name, None);
+        assert!(errors.contains(words), "{name}: {errors}");
     }
     #[cfg(unix)]
-    assert!(said("link.mp4", None).contains("is a link that leads out"), "a link");
+    assert!(errors_of("link.mp4", None).contains("is a link that leads out"), "a link");
     if has_ffmpeg() {
-        let damaged = said("clip.mp4", None);
+        let damaged = errors_of("clip.mp4", None);
         assert!(damaged.contains("the video is damaged") && damaged.contains("ffmpeg -i FILE"), "{damaged}");
     }
 }
 
 #[cfg(unix)]
 #[test]
-fn a_hanging_ffmpeg_is_given_up() {
+fn a_hanging_ffmpeg_is_killed_after_a_timeout() {
     use std::os::unix::fs::PermissionsExt;
     let Some(_) = gpu() else { return };
     let b = Bench::new();
@@ -212,16 +212,16 @@ fn a_hanging_ffmpeg_is_given_up() {
         std::fs::set_permissions(b.path(format!("bin/{name}")), std::fs::Permissions::from_mode(0o755)).unwrap();
     }
     project(&b, "{ file = \"clip.mp4\", kind = \"video\" }");
-    let began = Instant::now();
+    let start = Instant::now();
     let mut command = b.command();
     command.args("render p --size 16x9 --out p.npy".split(' ')).env("PATH", b.path("bin"));
     let ran = run(&mut command).expect(0);
     assert!(ran.err.contains("ffprobe gave no answer for 10 s"), "{}", ran.err);
-    assert!(began.elapsed() < Duration::from_secs(60), "{:?}", began.elapsed());
+    assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
 }
 
 #[test]
-fn a_webcam_is_black_until_one_is_named() {
+fn a_webcam_is_black_without_the_webcam_option() {
     let Some(_) = gpu() else { return };
     let b = Bench::new();
     project(&b, "{ webcam = true }");
@@ -241,7 +241,7 @@ fn a_webcam_is_black_until_one_is_named() {
 }
 
 #[test]
-fn mip_levels_of_a_video_change_with_it() {
+fn mip_levels_of_a_video_follow_its_frames() {
     let Some(_) = gpu() else { return };
     let b = Bench::new();
     b.write("p/a.gif", gif(&[100, 100, 100]));

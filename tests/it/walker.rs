@@ -1,4 +1,4 @@
-//! The walker against the device, and `eddy trace` and `eddy probe` on the built program.
+//! The walker compared with the device, and `eddy trace` and `eddy probe` with the built program.
 
 use crate::{
     support::{gpu, program::Bench, *},
@@ -39,7 +39,7 @@ void mainImage(out vec4 o, in vec2 p) {
     let texts = Sources::new(&project);
     let trace = trace::trace(&texts, 0, &read, (5, 1), Extent::default()).unwrap();
     let sources = project.sources();
-    let told: Vec<String> = trace
+    let lines: Vec<String> = trace
         .steps
         .iter()
         .map(|step| {
@@ -57,12 +57,12 @@ void mainImage(out vec4 o, in vec2 p) {
             }
         })
         .collect();
-    insta::assert_snapshot!(told.join("\n"));
+    insta::assert_snapshot!(lines.join("\n"));
     let value = trace.value.unwrap();
     assert_eq!(value, texel(&engine.read(&image).unwrap(), 5, 1));
     let length = (5.5f64 / 8.0).hypot(1.5 / 4.0);
     assert!((trace.double.unwrap()[0] - 4.0 * length).abs() < 1e-14, "{:?}", trace.double);
-    // Fewer steps are kept, and the rest is counted.
+    // With fewer steps kept, the others are counted.
     let short = trace::trace(&texts, 0, &read, (5, 1), Extent { steps: 3, ..Extent::default() }).unwrap();
     assert_eq!((short.steps.len(), short.left_out as usize), (3, trace.steps.len() - 3));
     let outside = trace::trace(&texts, 0, &read, (8, 0), Extent::default()).unwrap_err().to_string();
@@ -72,7 +72,7 @@ void mainImage(out vec4 o, in vec2 p) {
 }
 
 #[test]
-fn eddy_trace_tells_every_step_and_the_distance_from_the_device() {
+fn eddy_trace_prints_every_step_and_the_distance_from_the_device() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image("p/buffer_a.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + vec4(0.25);");
     b.image("p/image.glsl", "vec4 past = texelFetch(iChannel0, ivec2(fragCoord), 0); fragColor = past / 3.0;");
@@ -84,16 +84,16 @@ fn eddy_trace_tells_every_step_and_the_distance_from_the_device() {
     let past = line["steps"].as_array().unwrap().iter().find(|step| step["name"] == "past").unwrap();
     assert_eq!(past["value"], serde_json::json!([1.0, 1.0, 1.0, 1.0]));
     assert_eq!((&past["source"], &past["line"]), (&"image.glsl".into(), &2.into()));
-    // Of the buffer: what it reads is the frame before.
+    // For the buffer, which reads the previous frame.
     let run = b.line("trace p --pass buffer_a --pixel 0,0 --frame 3 --size 4x4").expect(0);
     assert!(run.out.contains("fragColor = (1.0, 1.0, 1.0, 1.0)") && run.out.contains("(0, 0, 0, 0)"), "{}", run.out);
     b.line("trace p --pixel 4,0 --size 4x4").expect(2);
     b.line("trace p --pixel nowhere --size 4x4").expect(2);
 }
 
-/// Texels of a boundary, and beyond a region, are not what the pass computes.
+/// Texels of a boundary, and outside a region, are not the values that the pass computes.
 #[test]
-fn eddy_trace_and_the_audit_know_which_texels_a_pass_does_not_draw() {
+fn trace_and_audit_know_which_texels_a_pass_does_not_draw() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image("p/buffer_a.glsl", "fragColor = vec4(fragCoord, atan(fragCoord.x, fragCoord.y), 1.0);");
     b.image("p/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0);");
@@ -127,20 +127,20 @@ fn eddy_trace_and_the_audit_know_which_texels_a_pass_does_not_draw() {
     let drawn = json(2, 7);
     assert!(drawn["boundary"].is_null() && drawn["outside"].is_null(), "{drawn}");
     assert_eq!((&drawn["value"][0], &drawn["device"][1]), (&2.5.into(), &7.5.into()));
-    // A grid over the texels that the pass draws: the red is exact in each.
+    // A grid over the texels that the pass draws: red is exact in each.
     let run =
         b.line("lab precision p --pass buffer_a --frames 2 --size 12x10 --pixels 3x3 --map m.npy --json").expect(0);
     let audited = &run.json()[0]["double"];
     assert_eq!(audited["pixels"], 9, "{audited}");
     let map = b.npy("m.npy");
     assert!(map.texels.iter().all(|texel| texel[0] == 0.0) && map.texels.iter().any(|texel| texel[2] > 0.0));
-    // A region beyond the target.
+    // A region outside the target.
     b.image("q/buffer_a.glsl", "fragColor = vec4(1.0);");
     let manifest = "[passes.image]\nchannels.0 = { buffer = \"A\" }\n[passes.buffer_a]\nregion = [40, 0, 1, 1]\n";
     b.write("q/eddy.toml", manifest);
     b.image("q/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0);");
     let run = b.line("lab precision q --pass buffer_a --frames 1 --size 12x10 --json").expect(0);
-    assert_eq!(run.json()[0]["double"]["pixels"], 0, "nothing is drawn");
+    assert_eq!(run.json()[0]["double"]["pixels"], 0, "no texel is drawn");
     let run = b.line("trace q --pass buffer_a --size 12x10 --pixel 0,0").expect(0);
     assert!(run.out.contains("keeps its initial zeros"), "{}", run.out);
 }
@@ -160,11 +160,11 @@ fn eddy_probe_draws_the_value_of_an_expression() {
         let run = b.line(&format!("probe p {at} --size 4x2 --pixel 3,1 --json {more}")).expect(0);
         run.json()[0].clone()
     };
-    // `uv` where it is declared, the literal, and a variable that is used.
+    // `uv` at its declaration, the literal, and a variable that is read.
     assert_eq!(probe("image:6:11", "")["value"], serde_json::json!([0.875, 0.75, 0.0, 1.0]));
     assert_eq!(probe("image:7:15", "")["value"][2], serde_json::json!(0.0));
     assert_eq!(probe("image:7:14", "")["value"], serde_json::json!([0.875, 0.75, 0.0, 1.0]));
-    // The third turn of the loop, where only half of the pixels come by; and a function of Common.
+    // The third iteration of the loop, which only half of the pixels reach; and a function of Common.
     let third = probe("image:4:47", "--visit 2");
     assert_eq!((&third["value"], &third["visited"]), (&serde_json::json!([2.0, 2.0, 2.0, 1.0]), &4.into()), "{third}");
     let call = probe("common:1:38", "--out v.npy");
@@ -178,9 +178,9 @@ fn eddy_probe_draws_the_value_of_an_expression() {
     b.line("probe p image:8:1 --size 4x2").expect(1);
 }
 
-/// Drivers make `atan` of a polynomial; the walker's is the nearest number.
+/// Drivers compute `atan` by a polynomial; the walker's is correctly rounded.
 #[test]
-fn eddy_trace_names_the_first_assignment_that_the_device_makes_otherwise() {
+fn eddy_trace_names_the_first_assignment_that_differs_on_the_device() {
     let Some(b) = Bench::with_gpu() else { return };
     let code = |root: &str| {
         format!(
@@ -197,7 +197,7 @@ fn eddy_trace_names_the_first_assignment_that_the_device_makes_otherwise() {
     b.write("p/image.glsl", code("atan(p.x, p.y)"));
     let traced = json("--frame 3");
     assert_eq!((&traced["value"][2], &traced["device"][2]), (&4.0.into(), &4.0.into()), "{traced}");
-    assert!(traced["ulps"][0].as_u64() > Some(0), "take another operation that no device has exactly: {traced}");
+    assert!(traced["ulps"][0].as_u64() > Some(0), "use another operation that is not exact on devices: {traced}");
     let parted = &traced["parted"];
     let first = &parted["first"];
     assert_eq!(
@@ -210,7 +210,7 @@ fn eddy_trace_names_the_first_assignment_that_the_device_makes_otherwise() {
     assert!(compared >= 4 && Some(compared) < parted["assignments"].as_u64(), "y and s thrice, then t: {parted}");
     let words = b.line("trace p --pixel 2,1 --size 4x4").expect(0).out;
     assert!(words.contains("differs first at image.glsl:10:15: atan(p.x, p.y)"), "{words}");
-    // Of fewer probes half of the assignments are looked at first, and none is too few.
+    // With fewer probes the binary search starts in the middle, and 0 probes disable it.
     assert_eq!(json("--probes 4")["parted"]["compared"], 4);
     assert!(json("--probes 0")["parted"].is_null());
     b.write("p/image.glsl", code("0.25 * p.x"));
@@ -218,18 +218,18 @@ fn eddy_trace_names_the_first_assignment_that_the_device_makes_otherwise() {
     assert!(agrees["ulps"] == serde_json::json!([0, 0, 0, 0]) && agrees["parted"].is_null(), "{agrees}");
 }
 
-/// Undefined, but the walker is asked what this device draws.
+/// Undefined, but the walker must predict this device's result.
 #[test]
-fn a_float_beyond_the_range_of_an_int_is_what_the_device_makes_of_it() {
+fn out_of_range_float_to_int_conversions_match_the_device() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image("p.glsl", "vec2 p = fragCoord * 1e20; fragColor = vec4(int(p.x), int(-p.x), uint(p.y), uint(-p.y));");
     let run = b.line("trace p.glsl --pixel 2,1 --size 4x4 --json").expect(0);
     assert_eq!(run.json()[0]["ulps"], serde_json::json!([0, 0, 0, 0]), "{}", run.out);
 }
 
-/// Without a file's name the place of the expression makes one.
+/// Without a file name, the name is derived from the place of the expression.
 #[test]
-fn eddy_probe_writes_the_format_that_is_asked_for() {
+fn eddy_probe_writes_the_requested_format() {
     let Some(b) = Bench::with_gpu() else { return };
     b.write("p/common.glsl", "float half_of(float x) { return 0.5 * x; }\n");
     b.image("p/image.glsl", "fragColor = vec4(half_of(fragCoord.x));");
@@ -239,7 +239,7 @@ fn eddy_probe_writes_the_format_that_is_asked_for() {
     let run = b.line("probe p common:1:38 --size 4x2 --format png --json").expect(0);
     assert_eq!(run.json()[0]["written"], "p_common_1_38.png");
     assert_eq!(b.png("p_common_1_38.png").dimensions(), (4, 2));
-    // Nothing is written over unasked.
+    // Existing files are not overwritten without `--out`.
     b.write("p_image_2_18.npy", "mine");
     let again = b.line("probe p image:2:18 --size 4x2 --format npy").expect(2);
     assert!(again.err.contains("p_image_2_18.npy already exists") && again.err.contains("--out"), "{}", again.err);
@@ -249,14 +249,14 @@ fn eddy_probe_writes_the_format_that_is_asked_for() {
     assert_eq!(b.names("."), ["p", "p_common_1_38.png", "p_image_2_18.npy"]);
 }
 
-/// The debugger takes a pass's inputs after the frame: they must be what the pass read while it was drawn.
+/// The debugger copies a pass's inputs after the frame: they must equal those that the pass read while it was drawn.
 #[test]
-fn what_a_pass_read_is_still_there_after_the_frame() {
+fn inputs_of_a_pass_are_unchanged_after_the_frame() {
     let Some(gpu) = gpu() else { return };
     let mut seen = 0;
     for name in presets::names() {
         let mut project = presets::load(name).unwrap().project;
-        // Nothing runs for the texels of a pass that is off.
+        // A pass that is not drawn runs no code.
         project.passes.iter_mut().for_each(|pass| pass.settings.when = None);
         let (media, _) = media::gather(&project, None);
         let pictures: Vec<_> = project.passes.iter().filter(|pass| pass.id.is_picture()).collect();
@@ -276,7 +276,7 @@ fn what_a_pass_read_is_still_there_after_the_frame() {
     assert!(seen > 60, "{seen} passes");
 }
 
-/// A ray marcher of some 500 lines: a sphere a line.
+/// Returns a ray marcher of some 500 lines, with one sphere per line.
 fn long_marcher() -> String {
     let spheres: String = (0..480)
         .map(|i| {
@@ -295,10 +295,10 @@ fn long_marcher() -> String {
     )
 }
 
-/// `cargo test --test it walker::what_ -- --ignored --nocapture`
+/// `cargo test --test it walker::cost_of -- --ignored --nocapture`
 #[test]
-#[ignore = "prints times; they mean something on a quiet machine only"]
-fn what_a_probe_and_a_traced_pixel_cost() {
+#[ignore = "prints times, which are meaningful only on an idle machine"]
+fn cost_of_a_probe_and_a_traced_pixel() {
     let Some(gpu) = gpu() else { return };
     let median = |mut list: Vec<f64>| {
         list.sort_by(f64::total_cmp);
@@ -323,17 +323,17 @@ fn what_a_probe_and_a_traced_pixel_cost() {
             engine_with(&gpu, &project, &media, &options, (640, 360))
         };
         let millis = |engine: &mut Engine, frame| {
-            let began = std::time::Instant::now();
+            let start = std::time::Instant::now();
             engine.draw(&inputs(frame)).unwrap();
             gpu.wait().unwrap();
-            began.elapsed().as_secs_f64() * 1e3
+            start.elapsed().as_secs_f64() * 1e3
         };
         let sources = Sources::new(&project);
         let places: Vec<usize> = text.match_indices(" = ").map(|(at, _)| at + 3).collect();
         for at in [0, places.len() / 2, places.len().saturating_sub(1)].map(|i| places[i]) {
             let probe = eddy::glsl::Probe { source: Project::pass_id(index), at: at as u32, visit: 0 };
             let Some(found) = sources.probed(index, &probe) else { continue };
-            // Frame by frame in turns, as the machine does other things too.
+            // Frames of both alternate, as other processes affect the times.
             let (mut picture, mut probed) = (engine(None), engine(Some((PassName::image(), probe))));
             let pairs = (0..24).map(|frame| (millis(&mut picture, frame), millis(&mut probed, frame)));
             let pairs: Vec<(f64, f64)> = pairs.skip(3).collect();
@@ -347,10 +347,10 @@ fn what_a_probe_and_a_traced_pixel_cost() {
         }
         for place in [[0.5, 0.5], [0.3, 0.6]] {
             let (read, drawn) = (picture.inspect(&PassName::image()).unwrap(), picture.read_image().unwrap());
-            let began = std::time::Instant::now();
+            let start = std::time::Instant::now();
             let taken = (read, &drawn);
             let traced = trace::Traced::new(project.clone(), &PassName::image(), 2, taken, place).unwrap();
-            let millis = began.elapsed().as_secs_f64() * 1e3;
+            let millis = start.elapsed().as_secs_f64() * 1e3;
             let (lines, moments) = (text.lines().count(), traced.history.moments.len());
             println!("{name}: {lines} lines, {moments} moments in {millis:.2} ms");
         }

@@ -1,10 +1,10 @@
-//! Passes that draw meshes: the walker's rasterizer against the device's, and what `eddy trace`, the debugger and the
-//! audit make of such passes.
+//! Passes that draw meshes: the walker's rasterizer compared with the device's, and the results of `eddy trace`, the
+//! debugger and the audit for such passes.
 //!
-//! The two round differently. A device interpolates varyings in single precision, the walker in double; so values are
-//! compared with a tolerance. Which pixels a triangle covers is decided by corners that are rounded to 1/256 of a
-//! pixel, and a position whose last bits differ may be rounded otherwise; so near an edge, and where two surfaces meet,
-//! a texel may show the other one. Those are counted, and each test says how many it allows.
+//! The two round differently. A device interpolates varyings in single precision, the walker in double, so values are
+//! compared with a tolerance. Coverage is decided by corners that are rounded to 1/256 of a pixel, and a position with
+//! different last bits may round to another one: near an edge, and where two surfaces meet, a texel may show the other
+//! surface. Those texels are counted, and each test states how many it allows.
 
 use crate::support::{gpu, meshes::*, program::Bench, *};
 use eddy::{
@@ -21,7 +21,7 @@ use std::sync::Arc;
 
 const SIZE: (u32, u32) = (48, 32);
 
-/// What a pass reads in a frame of a run, and what it draws.
+/// Returns the inputs and the picture of a pass in a frame of a run.
 fn drawn(gpu: &Gpu, project: &Project, pass: &PassName, size: (u32, u32), frame: i32) -> (PassInputs, Pixels) {
     let (media, _) = media::gather(project, None);
     let options = BuildOptions { wanted: vec![pass.clone()], skip: false, ..BuildOptions::default() };
@@ -41,13 +41,13 @@ fn tracer<'p>(project: &Project, pass: &PassName, read: &'p PassInputs) -> Trace
     Tracer::new(&Sources::new(project), index, read, extent).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// What the walker makes of a scene.
+/// The result of walking a scene.
 #[derive(Debug, Default)]
 struct Compared {
     clear: usize,
     covered: usize,
-    /// The texels that are further apart than the tolerance.
-    off: Vec<String>,
+    /// The texels whose difference exceeds the tolerance.
+    differing: Vec<String>,
 }
 
 /// Walks all texels of a scene's first target.
@@ -62,20 +62,25 @@ fn compared(gpu: &Gpu, project: &Project) -> Compared {
             _ => compared.covered += 1,
         }
         let (value, texel) =
-            (trace.value.expect("a fragment that stays has a value"), texel(&device, pixel.0, pixel.1));
+            (trace.value.expect("a fragment that is not discarded has a value"), texel(&device, pixel.0, pixel.1));
         let close = |(a, b): (&f32, &f32)| a == b || (a - b).abs() <= 1e-5 * b.abs().max(1.0);
         if !value.iter().zip(&texel).all(close) {
-            compared.off.push(format!("{pixel:?}: {value:?}, drawn {texel:?}, {:?}", trace.origin));
+            compared.differing.push(format!("{pixel:?}: {value:?}, drawn {texel:?}, {:?}", trace.origin));
         }
     }
     compared
 }
 
 #[track_caller]
-fn agrees(gpu: &Gpu, what: &str, scene: eddy::project::Pass, most: usize) -> Compared {
+fn assert_agrees(gpu: &Gpu, what: &str, scene: eddy::project::Pass, allowed: usize) -> Compared {
     let compared = compared(gpu, &whole(scene));
-    eprintln!("{what}: {} covered, {} clear, {} off", compared.covered, compared.clear, compared.off.len());
-    assert!(compared.off.len() <= most, "{what}, {} texels:\n{}", compared.off.len(), compared.off.join("\n"));
+    eprintln!("{what}: {} covered, {} clear, {} off", compared.covered, compared.clear, compared.differing.len());
+    assert!(
+        compared.differing.len() <= allowed,
+        "{what}, {} texels:\n{}",
+        compared.differing.len(),
+        compared.differing.join("\n")
+    );
     compared
 }
 
@@ -86,20 +91,20 @@ void main() {
     gl_Position = iProjection * iView * iModel * vec4(aPosition, 1.0);
 }";
 
-/// A fragment stage that reads what [`VERTEX`] hands on.
+/// Returns a fragment stage that reads the outputs of [`VERTEX`].
 fn fragment(body: &str) -> String {
     format!(
         "in vec3 vNormal; in vec2 vUv; flat in int vNumber;\nlayout(location = 0) out vec4 o;\nvoid main() {{ {body} }}"
     )
 }
 
-fn turned(mesh: &str) -> MeshDraw {
+fn rotated(mesh: &str) -> MeshDraw {
     MeshDraw { rotation: [10.0, 20.0, 30.0], position: [0.3, 0.1, -0.2], ..draw(mesh) }
 }
 
-/// What is handed to a fragment: varyings, a flat one, the built-in inputs, and how they change from pixel to pixel.
+/// The inputs of a fragment: varyings, a flat one, the built-in inputs, and their derivatives.
 #[test]
-fn a_fragment_is_handed_what_the_device_hands_it() {
+fn fragment_inputs_match_the_device() {
     let Some(gpu) = gpu() else { return };
     for (what, body) in [
         ("varyings", "o = vec4(vNormal, vUv.x + vUv.y);"),
@@ -109,20 +114,20 @@ fn a_fragment_is_handed_what_the_device_hands_it() {
         ("camera", "o = vec4(iCameraPosition, iModel[3].x) + iView[3];"),
     ] {
         for mesh in ["builtin:cube", "builtin:figure", "builtin:plane"] {
-            let draws = vec![MeshDraw { cull: Cull::None, ..turned(mesh) }];
-            let compared = agrees(&gpu, what, scene(&fragment(body), &[VERTEX], 1, camera(), draws), 0);
+            let draws = vec![MeshDraw { cull: Cull::None, ..rotated(mesh) }];
+            let compared = assert_agrees(&gpu, what, scene(&fragment(body), &[VERTEX], 1, camera(), draws), 0);
             assert!(compared.covered > 50 && compared.clear > 100, "{what}: {compared:?}");
         }
     }
     let slopes = fragment("o = vec4(dFdx(vUv), dFdy(vUv));");
-    // A face that is seen from its edge hands on some 10 a pixel, and a difference keeps what single precision lost of
-    // both: two texels there are apart by 1.5e-5 of themselves.
-    agrees(&gpu, "derivatives", scene(&slopes, &[VERTEX], 1, camera(), vec![turned("builtin:cube")]), 2);
+    // On a face seen edge-on, varyings change by some 10 per pixel, and a difference has the rounding errors of both
+    // operands: two texels there differ by a relative 1.5e-5.
+    assert_agrees(&gpu, "derivatives", scene(&slopes, &[VERTEX], 1, camera(), vec![rotated("builtin:cube")]), 2);
 }
 
-/// Edges that run through the centres of pixels: from one centre to another, and between two triangles.
+/// Edges through the centres of pixels: from one centre to another, and between two triangles.
 #[test]
-fn a_centre_on_an_edge_is_covered_as_on_the_device() {
+fn pixel_centres_on_edges_are_covered_as_on_the_device() {
     let Some(gpu) = gpu() else { return };
     // The plane's corners are the centres of the pixels (4, 3) and (20, 19).
     let vertex = "in vec3 aPosition; flat out int vNumber; out vec3 vNormal; out vec2 vUv;
@@ -132,98 +137,100 @@ fn a_centre_on_an_edge_is_covered_as_on_the_device() {
             gl_Position = vec4(at / vec2(24.0, 16.0) - 1.0, 0.0, 1.0);
         }";
     let plane = MeshDraw { cull: Cull::None, ..draw("builtin:plane") };
-    let compared = agrees(&gpu, "edges", scene(&fragment("o = vec4(1.0);"), &[vertex], 1, straight(), vec![plane]), 0);
-    assert_eq!(compared.covered, 16 * 16, "two edges of the four have their centres");
+    let compared =
+        assert_agrees(&gpu, "edges", scene(&fragment("o = vec4(1.0);"), &[vertex], 1, straight(), vec![plane]), 0);
+    assert_eq!(compared.covered, 16 * 16, "two of the four edges include their centres");
 }
 
 #[test]
-fn what_is_discarded_shows_what_lies_behind() {
+fn discarded_fragments_show_the_surface_behind() {
     let Some(gpu) = gpu() else { return };
     let holes = fragment("if (fract(6.0 * vUv.x) < 0.5) discard; o = vec4(vUv, 0.0, 1.0);");
     let whole = fragment("o = vec4(vNormal, 2.0);");
-    let near = turned("builtin:cube");
+    let near = rotated("builtin:cube");
     let far = MeshDraw { fragment: Stage::File(1), scale: 1.5, position: [0.0, 0.0, -2.5], ..near.clone() };
     for draws in [vec![near.clone(), far.clone()], vec![far, near]] {
-        // The holes' borders lie where a varying has a value, so that the last bits decide.
-        agrees(&gpu, "discard", scene(&holes, &[VERTEX, &whole], 1, camera(), draws), 2);
+        // The borders of the holes are at values of a varying, so the last bits decide.
+        assert_agrees(&gpu, "discard", scene(&holes, &[VERTEX, &whole], 1, camera(), draws), 2);
     }
 }
 
 #[test]
-fn a_mesh_around_the_camera_is_cut_off_at_the_near_plane() {
+fn meshes_are_clipped_at_the_near_and_far_planes() {
     let Some(gpu) = gpu() else { return };
     let near = Camera { near: 0.5, distance: 2.0, ..camera() };
     let floor = MeshDraw { scale: 30.0, position: [0.0, -0.6, 0.0], ..draw("builtin:plane") };
     let body = fragment("o = vec4(vUv, gl_FragCoord.z, 1.0);");
-    let compared = agrees(&gpu, "floor", scene(&body, &[VERTEX], 1, near, vec![floor]), 0);
+    let compared = assert_agrees(&gpu, "floor", scene(&body, &[VERTEX], 1, near, vec![floor]), 0);
     assert!(compared.covered > 300, "{compared:?}");
-    let around = MeshDraw { cull: Cull::None, scale: 2.0, ..turned("builtin:cube") };
-    let compared = agrees(&gpu, "around", scene(&body, &[VERTEX], 1, near, vec![around]), 0);
+    let around = MeshDraw { cull: Cull::None, scale: 2.0, ..rotated("builtin:cube") };
+    let compared = assert_agrees(&gpu, "around", scene(&body, &[VERTEX], 1, near, vec![around]), 0);
     assert!(compared.covered > 1000, "{compared:?}");
     let close = Camera { near: 0.5, far: 2.6, distance: 2.2, ..camera() };
-    let both = agrees(&gpu, "near and far", scene(&body, &[VERTEX], 1, close, vec![turned("builtin:torus")]), 2);
+    let both =
+        assert_agrees(&gpu, "near and far", scene(&body, &[VERTEX], 1, close, vec![rotated("builtin:torus")]), 2);
     assert!(both.clear > 50, "{both:?}");
 }
 
 #[test]
-fn culling_leaves_out_what_the_device_leaves_out() {
+fn culling_matches_the_device() {
     let Some(gpu) = gpu() else { return };
     let body = fragment("o = vec4(vNormal, gl_FrontFacing ? 1.0 : 0.5);");
     for cull in Cull::ALL {
         for mesh in ["builtin:cube", "builtin:knot", "builtin:plane"] {
             let draws = vec![MeshDraw { cull, rotation: [50.0, 0.0, 10.0], ..draw(mesh) }];
-            agrees(&gpu, &format!("{cull:?} {mesh}"), scene(&body, &[VERTEX], 1, camera(), draws), 2);
+            assert_agrees(&gpu, &format!("{cull:?} {mesh}"), scene(&body, &[VERTEX], 1, camera(), draws), 2);
         }
     }
 }
 
 #[test]
-fn every_depth_test_lets_the_same_fragments_through() {
+fn every_depth_test_matches_the_device() {
     let Some(gpu) = gpu() else { return };
     let red = fragment("o = vec4(1.0, vUv, 1.0);");
     let green = fragment("o = vec4(2.0, vNormal);");
-    // Depths of their own, in steps so that many are equal.
+    // Depths set by the shader in steps, so that many are equal.
     let steps = fragment("o = vec4(3.0, vUv, 0.0); gl_FragDepth = floor(gl_FragCoord.z * 200.0) / 200.0;");
     let stages = [VERTEX, &green, &steps];
     for depth in DepthTest::ALL {
-        let first = turned("builtin:cube");
-        let second = MeshDraw { fragment: Stage::File(1), depth, scale: 1.3, ..turned("builtin:sphere") };
+        let first = rotated("builtin:cube");
+        let second = MeshDraw { fragment: Stage::File(1), depth, scale: 1.3, ..rotated("builtin:sphere") };
         let what = format!("{depth:?}");
-        agrees(&gpu, &what, scene(&red, &stages, 1, camera(), vec![first.clone(), second.clone()]), 1);
+        assert_agrees(&gpu, &what, scene(&red, &stages, 1, camera(), vec![first.clone(), second.clone()]), 1);
         let again = MeshDraw { depth, ..second.clone() };
-        agrees(&gpu, &what, scene(&red, &stages, 1, camera(), vec![draw("builtin:sphere"), again]), 1);
+        assert_agrees(&gpu, &what, scene(&red, &stages, 1, camera(), vec![draw("builtin:sphere"), again]), 1);
         let stepped = MeshDraw { fragment: Stage::File(2), ..first.clone() };
         let behind = MeshDraw { fragment: Stage::File(2), ..second };
-        // A step may lie in the last bits of a depth.
-        agrees(&gpu, &what, scene(&red, &stages, 1, camera(), vec![stepped, behind]), 3);
+        // A step may be within the last bits of a depth.
+        assert_agrees(&gpu, &what, scene(&red, &stages, 1, camera(), vec![stepped, behind]), 3);
     }
-    let quiet = MeshDraw { color_write: false, ..turned("builtin:cube") };
-    let behind = MeshDraw { fragment: Stage::File(1), scale: 1.4, ..turned("builtin:sphere") };
-    agrees(&gpu, "depth alone", scene(&red, &stages, 1, camera(), vec![quiet, behind.clone()]), 1);
-    let open = MeshDraw { depth_write: false, ..turned("builtin:cube") };
-    agrees(&gpu, "no depth", scene(&red, &stages, 1, camera(), vec![open, behind]), 1);
+    let quiet = MeshDraw { color_write: false, ..rotated("builtin:cube") };
+    let behind = MeshDraw { fragment: Stage::File(1), scale: 1.4, ..rotated("builtin:sphere") };
+    assert_agrees(&gpu, "depth alone", scene(&red, &stages, 1, camera(), vec![quiet, behind.clone()]), 1);
+    let open = MeshDraw { depth_write: false, ..rotated("builtin:cube") };
+    assert_agrees(&gpu, "no depth", scene(&red, &stages, 1, camera(), vec![open, behind]), 1);
 }
 
-/// Nothing blends in a pass that draws meshes: a colour with alpha takes the place of what was there.
+/// Passes that draw meshes do not blend: a colour with alpha replaces the previous one.
 #[test]
-fn a_colour_takes_the_place_of_what_was_there() {
+fn colours_replace_each_other_without_blending() {
     let Some(gpu) = gpu() else { return };
     let faint = fragment("o = vec4(vUv, 1.0, 0.25);");
-    let far = MeshDraw { scale: 1.5, position: [0.0, 0.0, -2.5], ..turned("builtin:cube") };
-    let near = MeshDraw { depth_write: false, ..turned("builtin:cube") };
-    agrees(&gpu, "alpha", scene(&faint, &[VERTEX], 1, camera(), vec![far, near]), 1);
-    // A stage without the first output leaves the first target alone.
+    let far = MeshDraw { scale: 1.5, position: [0.0, 0.0, -2.5], ..rotated("builtin:cube") };
+    let near = MeshDraw { depth_write: false, ..rotated("builtin:cube") };
+    assert_agrees(&gpu, "alpha", scene(&faint, &[VERTEX], 1, camera(), vec![far, near]), 1);
+    // A stage without the first output does not change the first target.
     let second = "in vec3 vNormal; layout(location = 1) out vec4 o; void main() { o = vec4(vNormal, 1.0); }";
-    let draws = vec![MeshDraw { fragment: Stage::File(1), ..turned("builtin:cube") }];
-    let compared = agrees(&gpu, "second", scene(&faint, &[VERTEX, second], 2, camera(), draws), 0);
+    let draws = vec![MeshDraw { fragment: Stage::File(1), ..rotated("builtin:cube") }];
+    let compared = assert_agrees(&gpu, "second", scene(&faint, &[VERTEX, second], 2, camera(), draws), 0);
     assert_eq!(compared.covered, 0);
 }
 
-/// Every pass of a preset that draws meshes, at 200 pixels of three frames of a drag.
+/// Every mesh pass of the presets, at 200 pixels of two frames of a drag.
 #[test]
-fn the_mesh_passes_of_presets_are_walked_to_what_the_device_draws() {
+fn mesh_passes_of_presets_match_the_device() {
     let Some(gpu) = gpu() else { return };
-    let (mut texels, mut off) = (0, Vec::new());
+    let (mut texels, mut differing) = (0, Vec::new());
     for (name, passes) in
         [("ssao", &["geometry", "backs", "occlusion", "lighting"][..]), ("toon-outline", &["scene"][..])]
     {
@@ -244,17 +251,23 @@ fn the_mesh_passes_of_presets_are_walked_to_what_the_device_draws() {
                     if !value.iter().zip(&texel).take(settings.format.components()).all(close) {
                         wrong += 1;
                         let what = format!("{name}, {}, frame {frame}, {x},{y}", pass.title());
-                        off.push(format!("{what}: {value:?}, drawn {texel:?}, {:?}", trace.origin));
+                        differing.push(format!("{what}: {value:?}, drawn {texel:?}, {:?}", trace.origin));
                     }
                 }
                 eprintln!("{name}, {}, frame {frame}: {wrong} of 200", pass.title());
             }
         }
     }
-    assert!(texels == 2000 && 200 * off.len() <= texels, "{} of {texels}:\n{}", off.len(), off.join("\n"));
+    assert!(
+        texels == 2000 && 200 * differing.len() <= texels,
+        "{} of {texels}:\n{}",
+        differing.len(),
+        differing.join("\n")
+    );
 }
 
-/// A step of 8 bits, some of half precision, and of single precision what interpolation loses.
+/// Returns the tolerance: one step of 8 bits, some steps of half precision, or the interpolation error of single
+/// precision.
 fn tolerance(format: TexelFormat) -> f32 {
     match format {
         TexelFormat::R8 | TexelFormat::Rg8 | TexelFormat::Rgba8 => 1.01 / 255.0,
@@ -264,7 +277,7 @@ fn tolerance(format: TexelFormat) -> f32 {
 }
 
 #[test]
-fn eddy_trace_names_the_triangle_and_has_the_device_s_value() {
+fn eddy_trace_names_the_triangle_and_matches_the_device() {
     let Some(b) = Bench::with_gpu() else { return };
     let run = b.line("trace ssao --pass buffer_backs --pixel 80,40 --frame 2 --size 160x90 --json").expect(0);
     let line = &run.json()[0];
@@ -274,7 +287,7 @@ fn eddy_trace_names_the_triangle_and_has_the_device_s_value() {
     assert!(value < 0.0 && (value - device).abs() <= 1e-6 * device.abs(), "{line}");
     let set = |name: &str| line["steps"].as_array().unwrap().iter().any(|step| step["name"] == name);
     assert!(set("vView") && set("depth"), "{line}");
-    // The corner of the picture is clear.
+    // The corner of the picture is not covered.
     let run = b.line("trace ssao --pass buffer_backs --pixel 0,0 --size 160x90 --json").expect(0);
     let line = &run.json()[0];
     assert_eq!((&line["clear"], &line["value"][0]), (&true.into(), &line["device"][0]), "{line}");
@@ -286,12 +299,12 @@ fn eddy_trace_names_the_triangle_and_has_the_device_s_value() {
 }
 
 #[test]
-fn a_fragment_stage_is_stepped_through_and_watched() {
+fn a_fragment_stage_can_be_stepped_and_watched() {
     let Some(gpu) = gpu() else { return };
     let text = "in vec3 vNormal;\nin vec2 vUv;\nlayout(location = 0) out vec4 o;\nfloat twice(float x) { return 2.0 * \
                 x; }\nvoid main() {\n    float a = twice(vUv.x);\n    \
                 o = vec4(a, vNormal.y, 0.0, 1.0); //@print a + vUv.y\n}\n";
-    let own = MeshDraw { fragment: Stage::File(1), ..turned("builtin:cube") };
+    let own = MeshDraw { fragment: Stage::File(1), ..rotated("builtin:cube") };
     let project = whole(scene(&fragment("o = vec4(1.0);"), &[VERTEX, text], 1, camera(), vec![own]));
     let scene = buffer("scene");
     let (read, device) = drawn(&gpu, &project, &scene, SIZE, 0);
@@ -311,7 +324,7 @@ fn a_fragment_stage_is_stepped_through_and_watched() {
     assert_eq!((printed.len(), printed[0].tab.title().as_str(), printed[0].line), (1, "stage_1.glsl", 6));
     let sum = printed[0].values[0].1.as_ref().unwrap().numbers[0].as_f64();
     assert!((sum - f64::from(a) - uv[1].as_f64()).abs() < 1e-6, "{sum}");
-    // Where nothing is drawn there is nothing to step through.
+    // A pixel that no triangle covers cannot be stepped.
     match Traced::new(project, &scene, 0, (read, &device), [0.0, 0.0]) {
         Err(error @ TraceError::Clear((0, 0))) => assert!(error.to_string().contains("pixel 0,0"), "{error}"),
         other => panic!("{other:?}"),
@@ -322,15 +335,18 @@ fn a_fragment_stage_is_stepped_through_and_watched() {
 fn an_audit_follows_varyings_in_both_precisions() {
     let Some(gpu) = gpu() else { return };
     let lossy = fragment("float big = 4000.0 + vUv.x; o = vec4(fract(big * big), vNormal);");
-    let project = whole(scene(&lossy, &[VERTEX], 1, camera(), vec![turned("builtin:cube")]));
+    let project = whole(scene(&lossy, &[VERTEX], 1, camera(), vec![rotated("builtin:cube")]));
     let (read, _) = drawn(&gpu, &project, &buffer("scene"), SIZE, 0);
     let index = project.passes.iter().position(|p| p.id == buffer("scene")).unwrap();
     let pixels = audit::spread((12, 8), SIZE);
     let audit = audit::audit(&Sources::new(&project), index, &read, &pixels, STEPS).unwrap();
     let worst = audit.pixels.iter().map(|pixel| pixel.error).fold(0.0, f64::max);
     assert!(worst > 0.05 && !audit.findings.is_empty(), "{worst}");
-    // What is handed on is as good as single precision is.
+    // Varyings have the accuracy of single precision.
     let normals = audit.pixels.iter().flat_map(|p| (1..4).map(|i| (f64::from(p.single[i]) - p.double[i]).abs()));
     assert!(normals.fold(0.0, f64::max) < 1e-6);
-    assert!(audit.pixels.iter().any(|pixel| pixel.error == 0.0 && pixel.single == [0.0; 4]), "some are clear");
+    assert!(
+        audit.pixels.iter().any(|pixel| pixel.error == 0.0 && pixel.single == [0.0; 4]),
+        "some pixels are not covered"
+    );
 }

@@ -1,8 +1,8 @@
-//! Every pass of every preset, walker against device: at three frames of a drag, each at some pixels, within what a
-//! table allows and says why.
+//! Every pass of every preset, walker compared with device: at three frames of a drag, at some pixels each, within the
+//! bounds of a table that also gives the reasons.
 //!
-//! `EDDY_WALK_PIXELS=200` walks so many pixels a pass and frame instead of a few.
-//! `cargo test --test it walker_presets -- --nocapture` prints what was found.
+//! `EDDY_WALK_PIXELS=200` walks this number of pixels per pass and frame. `cargo test --test it walker_presets --
+//! --nocapture` prints the results.
 
 use crate::support::{
     env::number,
@@ -22,21 +22,20 @@ use std::collections::BTreeSet;
 const SIZE: (u32, u32) = (64, 36);
 const FRAMES: [i32; 3] = [3, 30, 120];
 
-/// What every pixel is within, beside one step of a format that is no float of 32 bits: so many numbers of single
-/// precision, or, near zero, a difference. That is what the last bits of `sin` and its like, and sums in another order,
-/// come to.
+/// The bounds of every pixel, in addition to one step of a format other than 32-bit float: a distance in ULPs, or, near
+/// zero, a difference. They cover the last bits of functions such as `sin`, and reordered sums.
 const NEAR_ULPS: u32 = 64;
 const NEAR: f32 = 4e-6;
 
-/// Pixels that may be off by more.
+/// Pixels that may differ by more.
 struct Exception {
     preset: &'static str,
     pass: &'static str,
-    /// How far, relative to values above 1.
+    /// The largest difference, relative to values above 1.
     absolute: f32,
-    /// How many in a thousand.
+    /// The number of pixels per thousand.
     share: usize,
-    /// What the walker must find to be the reason, one of these.
+    /// The allowed reasons, one of which the walker must find.
     reasons: &'static [&'static str],
 }
 
@@ -49,46 +48,46 @@ const fn exception(
     Exception { preset, pass, absolute, share, reasons }
 }
 
-/// What the walker says of a value that single precision has as far from the exact one as the device has.
+/// The walker's reasons for a value whose error in single precision is as large as the device's difference.
 const ROUNDING: &[&str] = &["rounding", "ill-conditioned"];
 const FILTERED: &[&str] = &["filtered"];
 
-/// Twice of what was seen at 200 pixels of a pass and frame.
+/// Twice the largest differences at 200 pixels per pass and frame.
 const EXCEPTIONS: &[Exception] = &[
-    // Noise by hashes, which take the fraction of a large product: last bits come out as many times larger.
+    // Noise by hashes, which take the fraction of a large product: errors in the last bits are magnified by its size.
     exception("bloom", "Buffer A", (7e-4, 330), ROUNDING),
     exception("bloom-sized", "Buffer A", (2e-3, 30), ROUNDING),
     exception("gallery-of-tricks", "Buffer progress", (2e-4, 80), ROUNDING),
     exception("gbuffer-edges", "Image", (2e-3, 700), ROUNDING),
-    // Rays that are marched along a surface or end at its edge, and normals by differences of distances.
+    // Rays marched along a surface or ending at its edge, and normals by differences of distances.
     exception("scene-bloom-taa", "Buffer A", (1e-4, 5), ROUNDING),
     exception("gbuffer-edges", "Buffer A", (3e-5, 80), ROUNDING),
     exception("gbuffer-ssao-ssr", "Buffer A", (3e-5, 80), ROUNDING),
     exception("gbuffer-ssao-ssr", "Buffer B", (1e-2, 5), ROUNDING),
     exception("gbuffer-ssao-ssr", "Buffer light", (3e-5, 20), ROUNDING),
-    // A picture of 8 bits, filtered.
+    // A filtered 8-bit picture.
     exception("toon-outline", "Image", (1.5 / 255.0, 280), FILTERED),
 ];
 
-/// What a pass came to.
+/// The results of a pass.
 #[derive(Clone, Debug, Default)]
 struct Found {
     walked: usize,
     same: usize,
-    /// Of those that are near by them.
+    /// The largest distance of pixels within the ULP bound.
     ulps: u32,
-    /// Of all.
+    /// The largest difference of all pixels.
     absolute: f32,
-    off: Vec<Off>,
+    outliers: Vec<Outlier>,
 }
 
 #[derive(Clone, Debug)]
-struct Off {
+struct Outlier {
     place: String,
     why: String,
 }
 
-/// A step of what a target stores at a value; 0 for floats of 32 bits.
+/// Returns a target's step at a value; 0 for 32-bit floats.
 fn step(format: TexelFormat, at: f32) -> f32 {
     match format {
         TexelFormat::R8 | TexelFormat::Rg8 | TexelFormat::Rgba8 => 1.0 / 255.0,
@@ -98,12 +97,12 @@ fn step(format: TexelFormat, at: f32) -> f32 {
     }
 }
 
-/// The nearest value that a target of 8 bits stores.
+/// Returns the value in the range of an 8-bit target.
 fn stored(format: TexelFormat, value: f32) -> f32 {
     if step(format, 1.0) == 1.0 / 255.0 { value.clamp(0.0, 1.0) } else { value }
 }
 
-/// Texels that a pass leaves as it computes them.
+/// Returns whether the pass computes a texel, and does not overwrite it by its boundary.
 fn is_computed(pass: &Pass, size: (u32, u32), (x, y): Pixel) -> bool {
     let is_inside = pass.settings.region.is_none_or(|region| {
         let columns = region.x..region.x + region.width;
@@ -132,59 +131,61 @@ fn walk_pass(
     let spread = (0..number("EDDY_WALK_PIXELS", 4) as u32).map(|n| n * 1_597 % (width * height));
     for pixel in spread.map(|at| (at % width, at / width)).filter(|&pixel| is_computed(pass, read.size, pixel)) {
         let trace = tracer.trace(pixel).unwrap_or_else(|e| panic!("{} at {pixel:?}: {e}", pass.id.title()));
-        // What is discarded keeps what it held.
+        // A discarded pixel keeps its previous value.
         let Some(value) = trace.value else { continue };
         let drawn = texel(drawn, pixel.0, pixel.1);
         found.walked += 1;
         let pairs = || value.into_iter().map(|x| stored(format, x)).zip(drawn).take(format.components());
         found.same += usize::from(pairs().all(|(a, b)| is_same(a, b)));
-        let mut most = 0.0f32;
+        let mut largest = 0.0f32;
         for (a, b) in pairs().filter(|&(a, b)| !is_same(a, b)) {
-            let apart = (a - b).abs() - step(format, b);
-            let apart = if apart.is_nan() { f32::INFINITY } else { apart.max(0.0) / b.abs().max(1.0) };
-            found.absolute = found.absolute.max(apart);
-            if apart > NEAR {
+            let difference = (a - b).abs() - step(format, b);
+            let difference = if difference.is_nan() { f32::INFINITY } else { difference.max(0.0) / b.abs().max(1.0) };
+            found.absolute = found.absolute.max(difference);
+            if difference > NEAR {
                 match ulps(a, b) {
                     few @ ..=NEAR_ULPS => found.ulps = found.ulps.max(few),
-                    _ => most = most.max(apart),
+                    _ => largest = largest.max(difference),
                 }
             }
         }
-        if most > 0.0 {
-            let why = Explained { sources, index, read }.why(pixel, most.into());
-            found.off.push(Off { place: format!("frame {frame} at {pixel:?}: {value:?}, drawn {drawn:?}"), why });
+        if largest > 0.0 {
+            let why = Explained { sources, index, read }.why(pixel, largest.into());
+            found
+                .outliers
+                .push(Outlier { place: format!("frame {frame} at {pixel:?}: {value:?}, drawn {drawn:?}"), why });
         }
     }
 }
 
-/// What is wrong with a pass, against the exceptions.
+/// Returns the errors of a pass, given the exceptions.
 fn judge(preset: &str, id: &PassName, found: &Found) -> Vec<String> {
     let title = id.title();
     let exception = EXCEPTIONS.iter().find(|exception| exception.preset == preset && exception.pass == title);
     let Some(Exception { absolute, share, reasons, .. }) = exception else {
-        return found.off.iter().map(|off| format!("{preset}, {title}, {}: {}", off.place, off.why)).collect();
+        return found.outliers.iter().map(|o| format!("{preset}, {title}, {}: {}", o.place, o.why)).collect();
     };
-    let is_named = |off: &&Off| !reasons.iter().any(|reason| off.why.starts_with(reason));
+    let is_unnamed = |outlier: &&Outlier| !reasons.iter().any(|reason| outlier.why.starts_with(reason));
     let mut wrong: Vec<String> = found
-        .off
+        .outliers
         .iter()
-        .filter(is_named)
-        .map(|off| format!("{preset}, {title}, {}: {}, not {reasons:?}", off.place, off.why))
+        .filter(is_unnamed)
+        .map(|o| format!("{preset}, {title}, {}: {}, not {reasons:?}", o.place, o.why))
         .collect();
     if found.absolute > *absolute {
         wrong.push(format!("{preset}, {title}: off by {}, not {absolute}", found.absolute));
     }
-    // Of a few pixels one may happen to be among them.
-    if found.off.len() > 2 + share * found.walked / 1000 {
-        wrong.push(format!("{preset}, {title}: {} of {} are off", found.off.len(), found.walked));
+    // With few pixels, one or two exceptions may exceed the share by chance.
+    if found.outliers.len() > 2 + share * found.walked / 1000 {
+        wrong.push(format!("{preset}, {title}: {} of {} are off", found.outliers.len(), found.walked));
     }
     wrong
 }
 
-/// Draws a preset, and walks through its passes at each of the frames.
+/// Draws a preset, and walks its passes at each of the frames.
 fn walk_preset(gpu: &Gpu, name: &str) -> Vec<(PassName, Found)> {
     let mut project = project::presets::load(name).unwrap().project;
-    // Nothing runs for the texels of a pass that is off.
+    // A pass that is not drawn runs no code.
     project.passes.iter_mut().for_each(|pass| pass.settings.when = None);
     let (media, _) = media::gather(&project, None);
     let sources = Sources::new(&project);
@@ -193,7 +194,7 @@ fn walk_preset(gpu: &Gpu, name: &str) -> Vec<(PassName, Found)> {
     let options = BuildOptions { wanted: wanted.clone(), skip: false, ..BuildOptions::default() };
     let mut engine = engine_with(gpu, &project, &media, &options, SIZE);
     let mut found: Vec<(PassName, Found)> = wanted.into_iter().map(|id| (id, Found::default())).collect();
-    // Without state a frame is what it is whatever was drawn before.
+    // Without state a frame does not depend on earlier ones.
     let has_state = !project.stateful_passes().is_empty();
     let mut drawn_to = 0;
     for frame in FRAMES {
@@ -202,7 +203,7 @@ fn walk_preset(gpu: &Gpu, name: &str) -> Vec<(PassName, Found)> {
         drawn_to = frame + 1;
         let before = engine.snapshot().unwrap();
         for (index, (id, found)) in found.iter_mut().enumerate() {
-            // Passes of one group overwrite what others of it have read, so each is looked at in its own drawing.
+            // Passes of a group overwrite the inputs of others in it, so each is inspected in its own drawing.
             assert!(engine.restore(&before));
             let read = inspect(&mut engine, &inputs(frame), id);
             let drawn = engine.read(id).unwrap();
@@ -212,41 +213,44 @@ fn walk_preset(gpu: &Gpu, name: &str) -> Vec<(PassName, Found)> {
     found
 }
 
-/// A test each, so that two cores share the presets.
+/// Two tests, so that two cores share the presets.
 #[test]
-fn presets_are_walked_to_what_the_device_draws() {
+fn even_presets_match_the_device() {
     walk_presets(0);
 }
 
 #[test]
-fn the_other_presets_are_walked_to_what_the_device_draws() {
+fn odd_presets_match_the_device() {
     walk_presets(1);
 }
 
-/// Walks every second preset, from the `first` on.
+/// Walks every second preset, starting at `first`.
 fn walk_presets(first: usize) {
     let Some(gpu) = gpu() else { return };
     let (mut wrong, mut all) = (Vec::new(), Found::default());
     for name in presets::names().iter().skip(first).step_by(2) {
         for (id, found) in walk_preset(&gpu, name) {
-            let Found { walked, same, ulps, absolute, off } = &found;
-            let why: BTreeSet<&str> = off.iter().map(|off| off.why.as_str()).collect();
+            let Found { walked, same, ulps, absolute, outliers } = &found;
+            let why: BTreeSet<&str> = outliers.iter().map(|outlier| outlier.why.as_str()).collect();
             let title = id.title();
-            println!("| {name} | {title} | {walked} | {same} | {ulps} | {absolute:.1e} | {} | {why:?} |", off.len());
+            println!(
+                "| {name} | {title} | {walked} | {same} | {ulps} | {absolute:.1e} | {} | {why:?} |",
+                outliers.len()
+            );
             wrong.extend(judge(name, &id, &found));
             all.walked += walked;
             all.same += same;
-            all.off.extend(found.off);
+            all.outliers.extend(found.outliers);
         }
     }
-    println!("{} pixels, {} the same in every bit, {} not near", all.walked, all.same, all.off.len());
+    println!("{} pixels, {} the same in every bit, {} not near", all.walked, all.same, all.outliers.len());
     assert!(all.walked > 100, "{} pixels", all.walked);
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The control: a pass that is walked with another number in it is found to be off.
+/// The control: a pass that is walked with a changed number is reported.
 #[test]
-fn a_preset_that_is_not_what_is_drawn_is_seen() {
+fn a_changed_preset_is_detected() {
     let Some(gpu) = gpu() else { return };
     let project = project::presets::load("feedback").unwrap().project;
     let mut engine = ran(&gpu, &project, SIZE, 4);

@@ -1,4 +1,4 @@
-//! The HTML page of a project: by the command line, from an open session, and in a browser where there is one.
+//! The HTML page of a project: by the command line, from an open session, and in a browser if one is installed.
 
 use crate::support::{
     self,
@@ -10,10 +10,10 @@ use eddy::session::{Answer, Command, Level, Question};
 use std::{fs, path::Path, process};
 
 #[test]
-fn a_page_is_written_by_its_ending_and_replaces_nothing_unasked() {
+fn a_page_is_chosen_by_extension_and_overwrites_only_with_force() {
     let b = Bench::new();
-    let said = b.line("export feedback --out page.html").expect(0);
-    assert!(said.out.contains("exported to page.html ("), "{}", said.out);
+    let run = b.line("export feedback --out page.html").expect(0);
+    assert!(run.out.contains("exported to page.html ("), "{}", run.out);
     let first = b.bytes("page.html");
     assert!(first.starts_with(b"<!DOCTYPE html>"));
     b.line("export feedback --to html --out page.html").expect(0);
@@ -31,7 +31,7 @@ fn a_page_is_written_by_its_ending_and_replaces_nothing_unasked() {
 }
 
 #[test]
-fn a_session_asks_before_it_replaces_a_page_and_keeps_the_old_one() {
+fn a_session_asks_before_replacing_a_page_and_keeps_the_old_one() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.5))]);
     let file = stage.dir.path().join("out.html");
@@ -52,11 +52,11 @@ fn a_session_asks_before_it_replaces_a_page_and_keeps_the_old_one() {
     assert!(stage.notices(Level::Error).join("\n").contains("oops"), "{:?}", stage.session.notices());
 }
 
-/// Buffers, cubemaps, meshes, groups, an initial value, a uniform: one preset of each kind. `scripts/compare-html` without
-/// names compares all.
+/// Buffers, cubemaps, meshes, groups, an initial value, a uniform: one preset of each kind. Without names,
+/// `scripts/compare-html` compares all presets.
 #[test]
 #[ignore = "takes a minute, and needs chromium"]
-fn pages_draw_what_eddy_draws() {
+fn pages_draw_the_same_pictures_as_eddy() {
     if !has("chromium") || support::gpu().is_none() {
         return;
     }

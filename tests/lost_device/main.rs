@@ -1,8 +1,9 @@
-//! End to end: a real window whose device is lost goes on with another.
+//! End to end: a real window whose device is lost continues with a new one.
 //!
-//! Nothing that `eddy` does loses a device, so this program is the test and the window: the test starts the program again with
-//! [`LOSS`] in its environment, and then it opens the window as `eddy` does, and loses the window's device when a file
-//! appears. A window needs a process's first thread, which the usual harness does not give, so there is none.
+//! No command of `eddy` loses a device, so this program is both the test and the window: the test starts the program
+//! again with [`LOSS`] in its environment, and that process opens the window like `eddy` and loses the window's device
+//! when a file appears. A window needs the process's first thread, which the usual harness does not provide, so there
+//! is no harness.
 
 #[path = "../it/support/mod.rs"]
 mod support;
@@ -15,13 +16,13 @@ use eddy::{
 use std::{env, ffi::OsString, fs, path::PathBuf, process::ExitCode, time::Duration};
 use support::window::{Display, Window};
 
-/// The environment variable that names the file.
+/// The environment variable with the path of the file.
 const LOSS: &str = "EDDY_TEST_LOSE_DEVICE";
 
 const GREEN: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0, 1.0, 0.0, 1.0); }\n";
 
-/// The name that filters of `cargo test` choose by.
-const NAME: &str = "a_window_whose_device_is_lost_goes_on_with_another";
+/// The name that the filters of `cargo test` match.
+const NAME: &str = "a_window_recovers_from_a_lost_device";
 
 fn main() -> ExitCode {
     if let Some(file) = env::var_os(LOSS) {
@@ -32,17 +33,17 @@ fn main() -> ExitCode {
         println!("{NAME}: test");
         return ExitCode::SUCCESS;
     }
-    // As the usual harness: words choose the tests whose names they are in. This one is not among the ignored ones.
+    // Like the usual harness: a word selects the tests whose names contain it. This test is not ignored.
     let mut words = arguments.iter().filter(|a| !a.starts_with('-')).peekable();
     let is_chosen = words.peek().is_none() || words.any(|word| NAME.contains(word.as_str()));
     if is_chosen && !arguments.iter().any(|a| a == "--ignored") {
-        a_window_whose_device_is_lost_goes_on_with_another();
+        a_window_recovers_from_a_lost_device();
         println!("test {NAME} ... ok");
     }
     ExitCode::SUCCESS
 }
 
-/// Opens the window that the command line asks for, and loses its device when the file appears.
+/// Opens the window as requested by the command line, and loses its device when the file appears.
 fn window(file: OsString) -> ExitCode {
     cli::install_log_and_reports();
     let Next::Window(window) = cli::main() else { return ExitCode::FAILURE };
@@ -72,7 +73,7 @@ fn window(file: OsString) -> ExitCode {
     }
 }
 
-fn a_window_whose_device_is_lost_goes_on_with_another() {
+fn a_window_recovers_from_a_lost_device() {
     let Some((display, home)) = Display::with_home() else { return };
     let (file, loss) = (home.path().join("image.glsl"), home.path().join("lose-it"));
     fs::write(&file, GREEN).unwrap();
@@ -84,7 +85,7 @@ fn a_window_whose_device_is_lost_goes_on_with_another() {
     window.wait_until("the picture's place", "layout", |e| e["viewport"].is_array());
     window.wait_until("the first compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
     window.wait_until("a frame", "frame", |e| e["frame"].as_u64() > Some(3));
-    // What is shown while paused is to be shown again, and what is not saved is to be kept.
+    // The paused picture must be shown again, and the unsaved text must be kept.
     window.pause();
     window.click_on("editor");
     window.keys(&["ctrl+End"]);
@@ -104,7 +105,7 @@ fn a_window_whose_device_is_lost_goes_on_with_another() {
 
     fs::write(&loss, "").unwrap();
     window.move_to((away.0 + 1, away.1));
-    window.wait_for("the word of it", |e| {
+    window.wait_for("the notice", |e| {
         e["event"] == "notice" && e["text"].as_str().unwrap().contains("the window has switched to a new one")
     });
     std::thread::sleep(Duration::from_millis(500));
@@ -112,7 +113,7 @@ fn a_window_whose_device_is_lost_goes_on_with_another() {
     display.shot("device-lost.png");
     let at = |image: &image::RgbImage| *image.get_pixel(picture.0 as u32, picture.1 as u32);
     assert_eq!((at(&before), at(&after)), (image::Rgb([0, 255, 0]), image::Rgb([0, 255, 0])));
-    // The lines of code; below them the warning has its place.
+    // The lines of code; the warning is below them.
     let [left, top, width, _] = editor.map(|x| x as u32);
     let pixels = || (top + 4..top + 60).flat_map(|y| (left + 4..left + width - 20).map(move |x| (x, y)));
     let written = pixels().filter(|&(x, y)| before.get_pixel(x, y).0[1] > 128).count();
@@ -127,5 +128,5 @@ fn a_window_whose_device_is_lost_goes_on_with_another() {
     window.click_on("button:play");
     window.wait_until("it to play", "frame", |e| e["playing"] == true);
     window.keys(&["ctrl+q"]);
-    assert_eq!(window.ends(), Some(0), "{}", window.complaints());
+    assert_eq!(window.wait_exit(), Some(0), "{}", window.stderr());
 }

@@ -1,4 +1,4 @@
-//! End to end: the real window on a display of its own, moved by real mouse and key events.
+//! End to end: the real window on a separate display, controlled by real mouse and key events.
 
 #[path = "../it/support/mod.rs"]
 mod support;
@@ -34,7 +34,7 @@ mod window_slow;
 #[cfg(all(feature = "audio", target_os = "linux"))]
 mod window_sound;
 mod window_state;
-// The portal is spoken to by a library that only the window needs.
+// Access to the portal needs a library that only the window uses.
 #[cfg(all(feature = "gui", not(any(windows, target_os = "macos"))))]
 mod window_theme;
 mod window_time;

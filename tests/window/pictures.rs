@@ -1,6 +1,6 @@
-//! The pictures of README.md and docs: the real window, moved by real mouse and key events.
+//! The pictures of README.md and docs: the real window, controlled by real mouse and key events.
 //!
-//! `scripts/draw-pictures` runs these and encodes what they write into the folder that `EDDY_PICTURES` names.
+//! `scripts/draw-pictures` runs these and encodes the files that they write into the folder `EDDY_PICTURES`.
 
 use crate::support::window::{Display, Window, folder_of};
 use image::{Rgb, RgbImage, imageops};
@@ -17,7 +17,7 @@ fn folder() -> PathBuf {
     PathBuf::from(std::env::var_os("EDDY_PICTURES").expect("EDDY_PICTURES names the folder to write to"))
 }
 
-/// The screen with a pointer, which X11 leaves out of pictures.
+/// Returns a picture of the screen with a pointer, which X11 omits.
 fn photographed(display: &Display, pointer: Option<(i64, i64)>) -> RgbImage {
     let file = tempfile::Builder::new().suffix(".png").tempfile().unwrap();
     display.photograph(file.path());
@@ -28,7 +28,7 @@ fn photographed(display: &Display, pointer: Option<(i64, i64)>) -> RgbImage {
     picture
 }
 
-/// An arrow of 18 rows with a dark edge: the pixels from its left edge to its right one, by row.
+/// Draws an arrow of 18 rows with a dark edge, row by row.
 fn draw_pointer(picture: &mut RgbImage, (x, y): (i64, i64)) {
     for row in 0..18_i64 {
         let width = if row < 13 { row + 1 } else { 18 - row };
@@ -45,7 +45,7 @@ fn draw_pointer(picture: &mut RgbImage, (x, y): (i64, i64)) {
     }
 }
 
-/// A moving picture: its frames as files, and the arguments by which `img2webp` joins them.
+/// An animation: its frames as files, and the arguments for `img2webp`.
 struct Film<'a> {
     display: &'a Display,
     folder: PathBuf,
@@ -60,7 +60,7 @@ impl<'a> Film<'a> {
         Self { display, folder, pointer: (640, 500), frames: 0, list: String::new() }
     }
 
-    /// Takes a frame that is shown for some milliseconds.
+    /// Adds a frame with a duration in milliseconds.
     fn frame(&mut self, millis: u32) {
         let picture = photographed(self.display, Some(self.pointer));
         let small = imageops::resize(&picture, 1024, 640, imageops::FilterType::CatmullRom);
@@ -70,7 +70,7 @@ impl<'a> Film<'a> {
         self.frames += 1;
     }
 
-    /// Waits until the picture has gone on, however slow the machine is.
+    /// Waits until the picture has advanced, however slow the machine is.
     fn wait(&self, window: &mut Window) {
         std::thread::sleep(Duration::from_millis(60));
         window.drain();
@@ -122,7 +122,7 @@ impl<'a> Film<'a> {
     }
 }
 
-/// A point of the code: a line and a column, from 1, while the text is not scrolled.
+/// Returns the point of a line and a column in the code, both from 1, while the text is not scrolled.
 fn code_point(window: &mut Window, line: i64, column: i64) -> (i64, i64) {
     let [x, y, ..] = window.rect("editor");
     (x as i64 + 4 + (column - 1) * 73 / 10 * 107 / 100, y as i64 + (line - 1) * 18 + 9)
@@ -139,7 +139,7 @@ fn film() {
     let card = window.centre("preset:fluid");
     film.move_to(&mut window, card, 6);
     window.click(card);
-    window.compiled();
+    window.wait_compiled();
     window.wait_until("the picture", "frame", |e| e["frame"].as_i64() >= Some(2));
     film.frame(300);
 
@@ -178,7 +178,7 @@ fn film() {
     film.frame(1500);
     film.keys(&window, &["ctrl+period"], 900);
     window.keys(&["Return"]);
-    window.compiled();
+    window.wait_compiled();
     std::thread::sleep(Duration::from_millis(500));
     film.frame(500);
 
@@ -208,7 +208,7 @@ fn film() {
     film.end();
 }
 
-/// Saves the column of the window that the code is in: its last rows.
+/// Saves the last rows of the window's column with the code.
 fn save_column(name: &str, display: &Display, window: &mut Window, rows: u32) {
     let left = (window.rect("editor")[0] - 57.0).max(0.0) as u32;
     let picture = photographed(display, None);
@@ -265,11 +265,11 @@ fn editor() {
     save_column("editor.png", &display, &mut window, 442);
 }
 
-/// Finds the first place of a text in the code and types another over it.
+/// Finds the first occurrence of a text in the code and replaces it.
 fn replace(window: &mut Window, text: &str, by: &str) {
     window.click_on("editor");
     window.keys(&["ctrl+Home", "ctrl+f"]);
-    window.shows("field:find");
+    window.wait_shown("field:find");
     window.type_text(text);
     window.keys(&["Return", "Escape"]);
     window.type_text(by);
@@ -282,7 +282,7 @@ fn trace() {
     let folder = project(home.path(), &[("image.glsl", SCENE)]);
     let mut window = Window::of_size(&display, home.path(), "1100x900", folder.to_str().unwrap());
     window.keys(&["ctrl+shift+d"]);
-    window.shows("trace:pick");
+    window.wait_shown("trace:pick");
     let pixel = window.picture_point(0.45, 0.6);
     window.click_holding(&["ctrl", "shift"], pixel);
     window.wait_until("the traced pixel", "trace", |e| e["pixel"].is_array());
@@ -301,7 +301,7 @@ fn buffers() {
     let mut window = Window::of_size(&display, home.path(), "1280x800", "fluid");
     paint(&mut window);
     window.keys(&["ctrl+shift+t"]);
-    window.shows("buffers:canvas");
+    window.wait_shown("buffers:canvas");
     let [x, y, width, height] = window.rect("buffers:canvas");
     window.move_to(((x + 0.4 * width) as i64, (y + 0.5 * height) as i64));
     std::thread::sleep(Duration::from_secs(3));
@@ -335,7 +335,7 @@ fn measurements() {
     let folder = project(home.path(), &files);
     let mut window = Window::of_size(&display, home.path(), "1100x900", folder.to_str().unwrap());
     window.keys(&["ctrl+shift+j"]);
-    window.shows("panel:measurements");
+    window.wait_shown("panel:measurements");
     std::thread::sleep(Duration::from_secs(30));
     save_column("measurements.png", &display, &mut window, 362);
 }
@@ -373,7 +373,7 @@ fn compare() {
     let mut window = Window::of_size(&display, home.path(), "1280x800", folder.to_str().unwrap());
     // With fewer steps, rays that pass near the ball end before the floor.
     replace(&mut window, "90", "14");
-    window.compiled();
+    window.wait_compiled();
     window.keys(&["ctrl+shift+o"]);
     window.click_on("compare:begin");
     window.wait_until("the comparison", "compare", |e| e["state"] == "ended");

@@ -1,4 +1,4 @@
-//! Numbers that look random and are the same for the same seed, and the keys that the window knows.
+//! Pseudo-random numbers from a seed, and the keys of the window's actions.
 
 /// splitmix64.
 pub(crate) struct Random(pub u64);
@@ -17,12 +17,12 @@ impl Random {
     }
 }
 
-/// A number from the environment.
+/// Returns a number from the environment.
 pub(crate) fn number(name: &str, otherwise: u64) -> u64 {
     std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(otherwise)
 }
 
-/// The keys of every action, in xdotool's names, as the table of actions has them. A new action is in it by itself.
+/// Returns the keys of every action, in xdotool's names, from the table of actions, so that new actions are included.
 pub(crate) fn of_actions() -> Vec<String> {
     let table = include_str!("../../src/gui/actions/table.rs");
     let mut keys: Vec<String> = table.split('"').filter_map(xdotool).collect();
@@ -31,9 +31,9 @@ pub(crate) fn of_actions() -> Vec<String> {
     keys
 }
 
-/// A key as xdotool calls it; none for a text that is no key.
+/// Returns xdotool's name of a key; `None` for a text that is not a key.
 fn xdotool(text: &str) -> Option<String> {
-    // Ctrl and + too ends in two signs.
+    // Ctrl with the plus key is written with two plus signs.
     let (modifiers, key) = match text.strip_suffix("++") {
         Some(modifiers) => (modifiers, "+"),
         None => text.rsplit_once('+').unwrap_or(("", text)),
@@ -72,7 +72,7 @@ fn xdotool(text: &str) -> Option<String> {
 }
 
 #[test]
-fn the_keys_of_the_table_are_read() {
+fn keys_are_read_from_the_table_of_actions() {
     let keys = of_actions();
     assert!(keys.len() > 100, "{keys:?}");
     for key in ["ctrl+s", "ctrl+shift+s", "F11", "shift+alt+F11", "ctrl+Return", "ctrl+plus", "alt+bracketleft"] {

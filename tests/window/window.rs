@@ -1,4 +1,5 @@
-//! End to end: the real window on a display of its own, moved by real mouse and key events, judged by what it saved.
+//! End to end: the real window on a separate display, controlled by real mouse and key events, checked by the files
+//! that it saves.
 
 use crate::support::window::{Display, Window, folder_of};
 use serde_json::Value;
@@ -8,7 +9,7 @@ use std::{
     process::Command,
 };
 
-/// Float texels as the window saved them: rows from the bottom.
+/// Float texels saved by the window: rows from the bottom.
 struct Texels {
     width: usize,
     height: usize,
@@ -34,7 +35,7 @@ impl Texels {
         self.values[y * self.width + x]
     }
 
-    /// Mean of `f` over texels between fractions of the width and of the height.
+    /// Returns the mean of `f` over texels between fractions of the width and of the height.
     fn mean(&self, u: (f64, f64), v: (f64, f64), f: impl Fn([f32; 4]) -> f32) -> f32 {
         let range = |(a, b): (f64, f64), n: usize| (a * n as f64) as usize..((b * n as f64) as usize).max(1);
         let mut sum = (0.0f64, 0usize);
@@ -47,7 +48,7 @@ impl Texels {
     }
 }
 
-/// Presses a key that saves something and gives the file's path as the notice says it.
+/// Presses a key that saves a file and returns the file's path from the notice.
 fn saved(window: &mut Window, key: &str) -> PathBuf {
     window.drain();
     window.keys(&[key]);
@@ -58,7 +59,7 @@ fn saved(window: &mut Window, key: &str) -> PathBuf {
 fn saved_texels(window: &mut Window, pass: &str) -> Texels {
     window.click_on("combo:pass");
     window.click_on(&format!("pass:{pass}"));
-    // A pass shown for the first time may have to be compiled into the frame first.
+    // A pass that is shown for the first time may have to be compiled first.
     window.wait_until("the pass to be shown", "shown", |e| e["pass"] == pass);
     let path = saved(window, "ctrl+shift+e");
     let key = pass.to_lowercase().replace(' ', "_");
@@ -72,14 +73,14 @@ fn compiled(window: &mut Window, ok: bool) -> Value {
     })
 }
 
-/// The colour in the middle of the picture as the screenshot key saves it.
+/// Returns the colour in the middle of the picture, as saved by the screenshot key.
 fn colour(window: &mut Window) -> [u8; 3] {
     let picture = image::open(saved(window, "ctrl+p")).unwrap().to_rgb8();
     picture.get_pixel(picture.width() / 2, picture.height() / 2).0
 }
 
-/// Waits until the picture has a colour: what was compiled newest may be of the text before.
-pub(super) fn turns(window: &mut Window, expected: [u8; 3]) {
+/// Waits until the picture has a colour: the newest compile may be of the previous text.
+pub(super) fn wait_for_colour(window: &mut Window, expected: [u8; 3]) {
     for _ in 0..30 {
         if colour(window) == expected {
             return;
@@ -95,7 +96,7 @@ fn one_pass_project(home: &Path, code: &str) -> PathBuf {
 const GREEN: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0, 1.0, 0.0, 1.0); }";
 
 #[test]
-fn dragging_across_the_fluid_sets_it_in_motion_along_the_drag_and_carries_dye() {
+fn dragging_across_the_fluid_moves_it_along_and_carries_dye() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &["fluid"]);
     compiled(&mut window, true);
@@ -123,7 +124,7 @@ fn dragging_across_the_fluid_sets_it_in_motion_along_the_drag_and_carries_dye() 
 }
 
 #[test]
-fn typing_shows_the_new_colour_and_an_error_keeps_the_old_one() {
+fn typing_changes_the_picture_and_an_error_keeps_it() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = one_pass_project(home.path(), GREEN);
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
@@ -135,13 +136,13 @@ fn typing_shows_the_new_colour_and_an_error_keeps_the_old_one() {
     window.drain();
     window.type_text("void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0, 0.0, 0.0, 1.0); }");
     window.keys(&["alt+Return"]);
-    turns(&mut window, [255, 0, 0]);
+    wait_for_colour(&mut window, [255, 0, 0]);
 
-    // A second line with a mistake: marked at its line, and the red picture goes on.
+    // A second line with an error: it is marked at its line, and the red picture stays.
     window.click_on("editor");
     window.keys(&["ctrl+End", "Return"]);
     window.type_text("float f() { return missing; }");
-    // While one types, the beginnings of the line are compiled too.
+    // While typing, the incomplete line is compiled too.
     let failed = window.wait_until("the mistake to be found", "compiled", |e| {
         e["diagnostics"][0]["message"].as_str().is_some_and(|m| m.contains("missing"))
     });
@@ -160,7 +161,7 @@ fn typing_shows_the_new_colour_and_an_error_keeps_the_old_one() {
         }
     }
     compiled(&mut window, true);
-    // What is on disk was never touched.
+    // The file on disk is unchanged.
     assert_eq!(fs::read_to_string(folder.join("image.glsl")).unwrap(), GREEN);
 }
 
@@ -171,19 +172,19 @@ fn a_file_changed_by_another_program_is_reloaded() {
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
     compiled(&mut window, true);
     window.drain();
-    // As editors do: a new file, then a rename over the old one.
+    // Like editors: a new file, then a rename over the old one.
     fs::write(folder.join(".image.glsl.new"), GREEN.replace("0.0, 1.0, 0.0", "0.0, 0.0, 1.0")).unwrap();
     fs::rename(folder.join(".image.glsl.new"), folder.join("image.glsl")).unwrap();
     window.wait_for("a reload", |e| e["event"] == "reloaded");
-    turns(&mut window, [0, 0, 255]);
+    wait_for_colour(&mut window, [0, 0, 255]);
 }
 
 #[test]
-fn the_screenshot_is_what_render_draws_byte_for_byte() {
+fn a_screenshot_equals_the_picture_of_render() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &["feedback"]);
     compiled(&mut window, true);
-    // A reset that is asked for before there is a picture leaves frame 0 to the step after it.
+    // A reset before the first picture would leave frame 0 to the next step.
     window.wait_until("frames", "frame", |e| e["frame"].as_u64() > Some(2));
     window.pause();
     window.keys(&["alt+Down"]);
@@ -206,9 +207,9 @@ fn the_screenshot_is_what_render_draws_byte_for_byte() {
     assert!(shot.pixels().any(|p| p.0[0] > 40), "the picture is not empty");
 }
 
-/// `EDDY_REPLAY_FRAMES` records that many.
+/// `EDDY_REPLAY_FRAMES` is the number of recorded frames.
 #[test]
-fn what_a_hand_did_is_drawn_again_by_the_command_line_byte_for_byte() {
+fn recorded_input_is_replayed_exactly_by_the_command_line() {
     let Some(display) = Display::open() else { return };
     let frames = std::env::var("EDDY_REPLAY_FRAMES").ok().and_then(|n| n.parse().ok()).unwrap_or(90);
     for preset in ["brick-breaker", "fluid"] {
@@ -216,7 +217,7 @@ fn what_a_hand_did_is_drawn_again_by_the_command_line_byte_for_byte() {
         let mut window = Window::open(&display, home.path(), &[preset]);
         compiled(&mut window, true);
         window.keys(&["ctrl+shift+r"]);
-        window.shows("button:recording");
+        window.wait_shown("button:recording");
         window.draw_strokes_until(frames);
         window.pause();
         let shot = image::open(saved(&mut window, "F12")).unwrap().to_rgba8();
@@ -246,7 +247,7 @@ fn dragging_in_brick_breaker_moves_the_paddle() {
             window.wait_for("a frame", |e| e["event"] == "frame");
         }
         window.release();
-        // `const ivec2 PADDLE` of the preset's Common: x of the texel is the paddle's place in the playfield.
+        // `const ivec2 PADDLE` in the preset's Common: the texel's x is the paddle's position in the playfield.
         saved_texels(&mut window, "Buffer A").at(1, 0)[0]
     };
     let (left, right) = (paddle_at(0.3), paddle_at(0.7));
@@ -254,7 +255,7 @@ fn dragging_in_brick_breaker_moves_the_paddle() {
 }
 
 #[test]
-fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
+fn a_slider_changes_a_paused_picture_and_can_be_reset() {
     let Some((display, home)) = Display::with_home() else { return };
     let code = "#iUniform float red = 0.0 in { 0.0, 1.0 }\n#iUniform color3 tint\n#iUniform bool on\n#iUniform vec3 \
                 at\n\
@@ -264,7 +265,7 @@ fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
     let mut window = Window::open(&display, home.path(), &[folder, "--set", "tint=0,1,0"]);
     compiled(&mut window, true);
     window.pause();
-    // Held until it shows: a press and a release between two frames drag nothing.
+    // Held until the value changes: a press and a release between two frames are not a drag.
     let slider = window.centre("uniform:red");
     window.move_to(slider);
     window.press();
@@ -272,7 +273,7 @@ fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
     window.release();
     window.click_on("uniform:on");
     window.wait_until("the switch", "uniforms", |e| e["values"]["on"][0] == 1.0);
-    // Notices of saved pictures lie over the lower rows for a while: the first picture comes after the last click
+    // Notices of saved pictures cover the lower rows for a while, so the first picture is saved after the last click
     // there.
     let [red, green, blue] = colour(&mut window);
     assert!((20..=235).contains(&red), "red is {red} with the slider about half way");
@@ -284,9 +285,9 @@ fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
     assert_eq!(colour(&mut window), [0, 0, 0]);
 }
 
-/// The gallery draws its thumbnails on a thread of its own: the device is at work when the surface takes its new size.
+/// The gallery draws its thumbnails on a separate thread: the device is busy when the surface is resized.
 #[test]
-fn a_hundred_sizes_in_a_row_are_followed_without_a_complaint() {
+fn a_hundred_resizes_cause_no_errors() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &[]);
     for i in 0..100 {
@@ -294,8 +295,8 @@ fn a_hundred_sizes_in_a_row_are_followed_without_a_complaint() {
         window.drain();
     }
     window.resize(700, 500);
-    assert!(window.lives());
-    assert_eq!(window.complaints(), "");
+    assert!(window.is_running());
+    assert_eq!(window.stderr(), "");
     let errors: Vec<_> = window.events.iter().filter(|e| e["event"] == "notice" && e["level"] == "error").collect();
     assert!(errors.is_empty(), "{errors:?}");
 }

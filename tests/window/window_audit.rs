@@ -1,9 +1,9 @@
-//! End to end: how wrong the picture is, by real keys and clicks.
+//! End to end: the audit of rounding errors, with real keys and clicks.
 
 use crate::support::window::{Display, Window, folder_of};
 use std::fs;
 
-/// To the right of the middle almost equal numbers are subtracted; the left half is exact.
+/// In the right half nearly equal numbers are subtracted; the left half is exact.
 const CODE: &str = "void mainImage(out vec4 o, in vec2 c) {
     vec2 uv = c / iResolution.xy;
     float a = 1000.0 + uv.x * 1e-2;
@@ -13,7 +13,7 @@ const CODE: &str = "void mainImage(out vec4 o, in vec2 c) {
 ";
 
 #[test]
-fn the_map_of_errors_lies_over_the_picture_and_its_worst_pixel_is_traced() {
+fn the_audit_map_covers_the_picture_and_its_worst_pixel_is_traced() {
     let Some(display) = Display::of_size(1300, 900) else { return };
     for theme in ["dark", "light"] {
         let home = tempfile::tempdir().unwrap();
@@ -30,15 +30,15 @@ fn the_map_of_errors_lies_over_the_picture_and_its_worst_pixel_is_traced() {
         assert_eq!((&audit["pixels"], &audit["cells"], worst.len()), (&576.into(), &576.into(), 5), "{audit}");
         let errors: Vec<f64> = worst.iter().map(|worst| worst["error"].as_f64().unwrap()).collect();
         assert!(errors[0] > 1e-4 && errors.is_sorted_by(|a, b| a >= b), "{audit}");
-        window.shows("audit:worst:4");
+        window.wait_shown("audit:worst:4");
         display.shot(&format!("audit-{theme}.png"));
         window.click_on("audit:worst:0");
         let traced = window.wait_until("the worst pixel", "trace", |e| e["pixel"].is_array());
         assert_eq!(traced["pixel"], worst[0]["pixel"], "{audit}");
         display.shot(&format!("audit-traced-{theme}.png"));
-        // An edit makes it old.
+        // An edit hides it.
         window.click_on("editor");
         window.type_text(" ");
-        window.hides("audit");
+        window.wait_hidden("audit");
     }
 }

@@ -1,4 +1,4 @@
-//! End to end: the popup of a channel lists what the project's folder has, and a click reads it.
+//! End to end: the popup of a channel lists the media in the project's folder, and a click selects one.
 
 use crate::support::window::{Display, Window, folder_of};
 use std::{
@@ -7,13 +7,13 @@ use std::{
 };
 
 #[test]
-fn the_files_of_the_project_are_listed_with_pictures_and_read_by_a_click() {
+fn media_files_of_the_project_are_listed_and_selected_by_a_click() {
     let Some((display, home)) = Display::with_home() else { return };
     let show = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p / iResolution.xy); }";
     let folder = folder_of(home.path().join("project"), &[("image.glsl", show)]);
     fs::create_dir(folder.join("media")).unwrap();
     image::RgbImage::from_pixel(8, 8, image::Rgb([250, 120, 0])).save(folder.join("media/orange.png")).unwrap();
-    // A second of silence: a WAV file of 8 bits, mono.
+    // One second of silence: a WAV file of 8 bits, mono.
     let mut wav = b"RIFF".to_vec();
     wav.extend((36_u32 + 44_100).to_le_bytes());
     wav.extend(b"WAVEfmt \x10\0\0\0\x01\0\x01\0");
@@ -23,11 +23,11 @@ fn the_files_of_the_project_are_listed_with_pictures_and_read_by_a_click() {
     wav.extend([128_u8; 44_100]);
     fs::write(folder.join("quiet.wav"), wav).unwrap();
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    window.compiled();
+    window.wait_compiled();
     window.click_on("channel:0");
-    window.shows("choose:file:media/orange.png");
-    window.shows("choose:file:quiet.wav");
-    window.hides("choose:file:image.glsl");
+    window.wait_shown("choose:file:media/orange.png");
+    window.wait_shown("choose:file:quiet.wav");
+    window.wait_hidden("choose:file:image.glsl");
     window.click_on("choose:file:media/orange.png");
     window.keys(&["Escape"]);
     window.keys(&["ctrl+s"]);

@@ -1,7 +1,7 @@
-//! End to end: what a window costs a processor at rest, and what a typed letter does in a long text. It prints figures,
-//! which are for reading and bound nothing.
+//! End to end: CPU time of a window at rest, and the cost of a typed letter in a long text. It prints figures for
+//! information and asserts no limits.
 //!
-//! `cargo test --test window costs -- --ignored --nocapture`, on a quiet machine and with an optimised `EDDY_BINARY`.
+//! `cargo test --test window costs -- --ignored --nocapture`, on an idle machine and with an optimised `EDDY_BINARY`.
 
 use crate::{
     random::number,
@@ -22,7 +22,7 @@ const TYPED: &str = "a typed letter costs so much, and one more the same";
 fn open<'a>(display: &'a Display, home: &Path, code: &str) -> Window<'a> {
     let folder = folder_of(home.join("project"), &[("image.glsl", code)]);
     let mut window = Window::open_project(display, home, &folder);
-    // The caret of code that has the keyboard blinks; the picture has it.
+    // The caret of focused code blinks, so the picture gets the focus.
     let corner = window.picture_point(0.05, 0.05);
     window.click(corner);
     window
@@ -34,14 +34,14 @@ fn pause(window: &mut Window) {
     std::thread::sleep(Duration::from_secs(3));
 }
 
-/// Percents of a core over some time without input.
+/// Returns the CPU time as a percentage of a core over a time without input.
 fn at_rest(window: &Window, span: Duration) -> f64 {
-    let before = window.busy();
+    let before = window.cpu_time();
     std::thread::sleep(span);
-    100.0 * (window.busy() - before).as_secs_f64() / span.as_secs_f64()
+    100.0 * (window.cpu_time() - before).as_secs_f64() / span.as_secs_f64()
 }
 
-/// Two thousand lines of functions, three of which are called.
+/// Returns two thousand lines of functions, three of which are called.
 fn long() -> String {
     let mut text = String::new();
     for i in 0..249 {
@@ -54,27 +54,27 @@ fn long() -> String {
 }
 
 #[test]
-#[ignore = "prints figures; they mean something on a quiet machine only"]
+#[ignore = "prints figures, which are meaningful only on an idle machine"]
 fn costs_at_rest_and_of_a_typed_letter() {
     let Some(display) = Display::open() else { return };
     let hundred = include_str!("hundred_lines.glsl");
-    // Each has a home of its own: whether a project was paused is remembered.
+    // Each has a separate home folder, as the paused state of a project is saved.
     let homes: [_; 4] = std::array::from_fn(|_| tempfile::tempdir().unwrap());
     {
         let mut window = open(&display, homes[0].path(), hundred);
         pause(&mut window);
         println!("paused: {:.2} % of a core", at_rest(&window, SPAN));
-        // The first edit after a pause, `EDDY_PAUSE_SECS=3600` after an hour's.
+        // The first edit after a pause; `EDDY_PAUSE_SECS=3600` makes it an hour.
         window.click_on("editor");
         window.keys(&["ctrl+Home", "Down", "Down", "Down", "End", "Left", "Left"]);
         let keyboard = Keyboard::of(&display);
         std::thread::sleep(Duration::from_secs(number("EDDY_PAUSE_SECS", 60)));
         for which in ["first", "second", "third"] {
             let before = window.wait_until("a picture", "drawn", |e| e["programs"].as_u64() > Some(0));
-            let began = Instant::now();
+            let start = Instant::now();
             keyboard.tap('1');
             window.wait_until("the picture", "drawn", |e| e["programs"].as_u64() > before["programs"].as_u64());
-            println!("{which} edit after a pause: {:.0} ms", began.elapsed().as_secs_f64() * 1e3);
+            println!("{which} edit after a pause: {:.0} ms", start.elapsed().as_secs_f64() * 1e3);
             std::thread::sleep(Duration::from_secs(1));
         }
     }
@@ -95,15 +95,15 @@ fn costs_at_rest_and_of_a_typed_letter() {
         let keyboard = Keyboard::of(&display);
         keyboard.type_text("// ");
         std::thread::sleep(Duration::from_secs(2));
-        let (before, began) = (window.busy(), Instant::now());
+        let (before, start) = (window.cpu_time(), Instant::now());
         for letter in TYPED.chars() {
             keyboard.type_text(&letter.to_string());
             std::thread::sleep(Duration::from_millis(gap));
         }
-        // What is typed is compiled and kept.
+        // The typed text is compiled and saved for recovery.
         std::thread::sleep(Duration::from_secs(3));
-        let blinking = began.elapsed().mul_f64(share);
-        let each = (window.busy() - before).saturating_sub(blinking) / TYPED.len() as u32;
+        let blinking = start.elapsed().mul_f64(share);
+        let each = (window.cpu_time() - before).saturating_sub(blinking) / TYPED.len() as u32;
         println!("2,000 lines, {name}: {:.1} ms of a core per letter", each.as_secs_f64() * 1e3);
     }
 }

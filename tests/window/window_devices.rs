@@ -1,4 +1,5 @@
-//! End to end: the camera is off until a person presses its button, shown while it is on, and off again by its light.
+//! End to end: the camera is off until the user presses its button, shown by a light while it is on, and turned off by
+//! that light.
 
 use crate::support::{
     ffmpeg::has_ffmpeg,
@@ -7,13 +8,13 @@ use crate::support::{
 use std::fs;
 
 #[test]
-fn the_camera_is_turned_on_by_hand_and_its_light_turns_it_off() {
+fn the_camera_is_turned_on_by_its_button_and_off_by_its_light() {
     let Some(display) = Display::open() else { return };
     if !has_ffmpeg() {
         return;
     }
     let home = tempfile::tempdir().unwrap();
-    // The window finds no programs but those that lie here.
+    // The window finds only the programs in this folder.
     let path = std::env::var_os("PATH").unwrap();
     let mut found = std::env::split_paths(&path).map(|folder| folder.join("ffmpeg"));
     let ffmpeg = found.find(|path| path.is_file()).unwrap();
@@ -26,14 +27,14 @@ fn the_camera_is_turned_on_by_hand_and_its_light_turns_it_off() {
     fs::write(project.join("image.glsl"), show).unwrap();
     let project = project.to_str().unwrap();
     let mut window = Window::open(&display, home.path(), &[project, "--webcam", "lavfi:testsrc=s=320x240:r=30"]);
-    window.compiled();
-    window.shows("button:camera");
-    window.hides("light:camera");
+    window.wait_compiled();
+    window.wait_shown("button:camera");
+    window.wait_hidden("light:camera");
     window.click_on("button:camera");
-    window.shows("light:camera");
-    window.hides("button:camera");
+    window.wait_shown("light:camera");
+    window.wait_hidden("button:camera");
     display.shot("camera.png");
     window.click_on("light:camera");
-    window.shows("button:camera");
-    window.hides("light:camera");
+    window.wait_shown("button:camera");
+    window.wait_hidden("light:camera");
 }

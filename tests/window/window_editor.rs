@@ -1,4 +1,4 @@
-//! End to end: help while writing, in the real window, by real key events, judged by the files it saves.
+//! End to end: code assistance in the real window, with real key events, checked by the saved files.
 
 use crate::support::window::{Display, Window, folder_of};
 use std::{fs, path::Path};
@@ -16,14 +16,14 @@ fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
     window
 }
 
-/// Puts the caret at a line and column, both from 1.
+/// Moves the caret to a line and column, both from 1.
 fn go_to(window: &mut Window, line: usize, column: usize) {
     window.keys(&["ctrl+Home"]);
     window.keys(&vec!["Down"; line - 1]);
     window.keys(&vec!["Right"; column - 1]);
 }
 
-/// Saves, and gives a file's text.
+/// Saves, and returns a file's text.
 pub(crate) fn saved(window: &mut Window, home: &Path, file: &str) -> String {
     window.wait_until("the text to be unsaved", "dirty", |e| e["dirty"] == true);
     window.save();
@@ -31,10 +31,10 @@ pub(crate) fn saved(window: &mut Window, home: &Path, file: &str) -> String {
 }
 
 #[test]
-fn lines_are_opened_indented_and_put_into_comments_and_every_use_is_selected() {
+fn lines_are_inserted_indented_and_commented_and_all_occurrences_selected() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
-    // In the middle of the third line: lines come below and above it, and it stays whole.
+    // In the middle of the third line: lines are inserted below and above it, and it is not split.
     go_to(&mut window, 3, 8);
     window.keys(&["ctrl+Return"]);
     window.type_text("float a;");
@@ -47,48 +47,48 @@ fn lines_are_opened_indented_and_put_into_comments_and_every_use_is_selected() {
     window.keys(&["Home", "shift+End", "shift+alt+a"]);
     let text = saved(&mut window, home.path(), "image.glsl");
     assert!(text.contains("        /* float b; */\n"), "{text}");
-    // A word and all that are the same.
+    // A word and all its occurrences.
     go_to(&mut window, 3, 10);
     window.keys(&["ctrl+shift+l"]);
     window.type_text("at");
     window.keys(&["Escape"]);
     let text = saved(&mut window, home.path(), "image.glsl");
     assert!(text.contains("vec2 at = ") && text.contains("brightness(at, 0.1)"), "{text}");
-    // The Lab has another key, which opens it from here.
+    // The Lab's own key opens it from here.
     window.keys(&["ctrl+shift+y"]);
-    window.shows("panel:lab");
+    window.wait_shown("panel:lab");
 }
 
 #[test]
-fn a_proposal_is_taken_by_enter_and_a_call_shows_what_it_takes() {
+fn enter_accepts_a_completion_and_a_call_shows_its_signature() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     go_to(&mut window, 5, 5);
     window.type_text("vec3 n = norm");
-    window.shows("completion:normalize");
+    window.wait_shown("completion:normalize");
     display.shot("completion.png");
     window.keys(&["Return"]);
-    window.hides("completions");
+    window.wait_hidden("completions");
     window.type_text("(");
-    window.shows("signature");
+    window.wait_shown("signature");
     display.shot("signature.png");
-    // What the author declared comes first, also from Common, and members follow from the type.
+    // The author's declarations come first, also those of Common, and members follow from the type.
     window.type_text("vec3(bri");
-    window.shows("completion:brightness");
+    window.wait_shown("completion:brightness");
     window.keys(&["Tab"]);
-    window.hides("completions");
+    window.wait_hidden("completions");
     window.type_text("(fragCoord.");
-    window.shows("completion:xy");
+    window.wait_shown("completion:xy");
     display.shot("members.png");
     window.type_text("x");
-    // A word that is whole already leaves Enter to the text.
+    // For a complete word, Enter inserts a line break.
     window.type_text("y, 1.0)));");
-    window.hides("completions");
+    window.wait_hidden("completions");
     window.keys(&["Return"]);
     window.submit("float speed = uv.x");
     window.type_text("+ spee");
     window.keys(&["Escape"]);
-    window.hides("completions");
+    window.wait_hidden("completions");
     window.type_text("x;");
     let text = saved(&mut window, home.path(), "image.glsl");
     let wanted = "    vec3 n = normalize(vec3(brightness(fragCoord.xy, 1.0)));\n    float speed = uv.x\n    + speex;\n";
@@ -96,20 +96,20 @@ fn a_proposal_is_taken_by_enter_and_a_call_shows_what_it_takes() {
 }
 
 #[test]
-fn the_way_leads_from_a_name_to_its_declaration_and_to_its_uses() {
+fn a_name_leads_to_its_declaration_and_its_uses() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     go_to(&mut window, 4, 25);
-    // The list has the declaration in Common and the use here.
+    // The list has the declaration in Common and the use in Image.
     window.keys(&["shift+F12"]);
-    window.shows("use:1");
+    window.wait_shown("use:1");
     window.wait_until("two uses and no more", "layout", |e| e["rects"]["use:2"].is_null());
     display.shot("uses.png");
     window.keys(&["Escape"]);
-    window.hides("use:0");
+    window.wait_hidden("use:0");
     window.keys(&["F12"]);
-    // Common has no channels.
-    window.hides("channel:0");
+    // Common has no channels, so they are hidden.
+    window.wait_hidden("channel:0");
     // The name in Common is selected now: typing replaces it there.
     window.type_text("glow");
     let text = saved(&mut window, home.path(), "common.glsl");
@@ -117,23 +117,23 @@ fn the_way_leads_from_a_name_to_its_declaration_and_to_its_uses() {
 }
 
 #[test]
-fn a_pointer_at_rest_is_told_what_it_is_on() {
+fn a_resting_pointer_shows_hover_information() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     let layout = window.newest("layout").unwrap();
     let left = layout["rects"]["editor"][0].as_f64().unwrap();
     let top = layout["rects"]["editor"][1].as_f64().unwrap();
-    // `mainImage` begins the text, behind `void `.
+    // `mainImage` starts the text, after `void `.
     window.move_to((left as i64 + 70, top as i64 + 10));
-    window.shows("hover");
+    window.wait_shown("hover");
     display.shot("hover.png");
     window.move_to((left as i64 + 70, top as i64 + 260));
-    window.hides("hover");
+    window.wait_hidden("hover");
 }
 
-/// The strip under the editor offers each target of a pass that draws meshes.
+/// The strip below the editor offers each target of a pass that draws meshes.
 #[test]
-fn a_channel_is_given_a_further_target_by_the_mouse() {
+fn a_second_target_is_selected_for_a_channel_by_mouse() {
     let Some((display, home)) = Display::with_home() else { return };
     let toml = "[passes.buffer_scene]\ntargets = [\"rgba8\", \"rgba16f\"]\n\
                 draw = [{ mesh = \"builtin:cube\", vertex = \"cube.vert.glsl\" }]\n\n\
@@ -150,7 +150,7 @@ fn a_channel_is_given_a_further_target_by_the_mouse() {
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
     window.wait_until("the first compile", "compiled", |e| e["compiling"] == false);
     window.click_on("channel:0");
-    window.shows("choose:buffer:scene:1");
+    window.wait_shown("choose:buffer:scene:1");
     display.shot("targets.png");
     window.click_on("choose:buffer:scene:1");
     saved(&mut window, home.path(), "image.glsl");

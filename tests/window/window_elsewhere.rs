@@ -1,9 +1,9 @@
-//! End to end: files of other programs in the real window. They are opened, changed by the keyboard, saved as what they
-//! are, and opened again from the gallery.
+//! End to end: files of other programs in the real window. They are opened, edited by keyboard, saved in their own
+//! format, and opened again from the gallery.
 
 use crate::{
     support::window::{Display, Window},
-    window::turns,
+    window::wait_for_colour,
 };
 use std::fs;
 
@@ -11,16 +11,16 @@ const GLOW: &str = "void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(iCurso
                     1.0);\n}\n";
 
 #[test]
-fn a_shader_of_ghostty_is_edited_saved_and_opened_again_as_one() {
+fn a_ghostty_shader_is_edited_saved_and_reopened_as_one() {
     let Some((display, home)) = Display::with_home() else { return };
     let file = home.path().join("glow.glsl");
     fs::write(&file, GLOW).unwrap();
     let mut window = Window::open(&display, home.path(), &["--as", "ghostty", file.to_str().unwrap()]);
     window.resize(1000, 700);
-    window.compiled();
-    // The stand-in terminal is a pass that can be looked at.
-    window.shows("tab:Buffer terminal");
-    turns(&mut window, [0, 255, 0]);
+    window.wait_compiled();
+    // The simulated terminal is a pass that can be viewed.
+    window.wait_shown("tab:Buffer terminal");
+    wait_for_colour(&mut window, [0, 255, 0]);
     window.click_on("editor");
     window.keys(&["ctrl+Home", "Down", "End", "Return"]);
     window.type_text("o.b = iPalette[300].r;");
@@ -30,14 +30,14 @@ fn a_shader_of_ghostty_is_edited_saved_and_opened_again_as_one() {
     assert_eq!(failed["diagnostics"][0]["line"], 3, "{failed}");
     window.keys(&["shift+Home"]);
     window.type_text("o.b = float(iFocus);");
-    turns(&mut window, [0, 255, 255]);
+    wait_for_colour(&mut window, [0, 255, 255]);
     display.shot("ghostty.png");
     window.save();
-    let mended = GLOW.replace("1.0);\n", "1.0);\n    o.b = float(iFocus);\n");
-    assert_eq!(fs::read_to_string(&file).unwrap(), mended);
-    let beside: Vec<_> = fs::read_dir(home.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-    assert!(!beside.iter().any(|name| name.to_string_lossy().contains("terminal")), "{beside:?}");
-    // Without `--as`, from where it was opened last.
+    let edited = GLOW.replace("1.0);\n", "1.0);\n    o.b = float(iFocus);\n");
+    assert_eq!(fs::read_to_string(&file).unwrap(), edited);
+    let files: Vec<_> = fs::read_dir(home.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert!(!files.iter().any(|name| name.to_string_lossy().contains("terminal")), "{files:?}");
+    // Without `--as`, from the recent projects.
     window.keys(&["ctrl+shift+g"]);
     window.click_on("gallery:search");
     window.type_text("trails");
@@ -45,13 +45,13 @@ fn a_shader_of_ghostty_is_edited_saved_and_opened_again_as_one() {
     window.wait_until("the preset", "opened", |e| e["origin"]["preset"] == "feedback");
     window.keys(&["ctrl+shift+g"]);
     let recent = format!("recent:{}", file.display());
-    window.shows(&recent);
+    window.wait_shown(&recent);
     display.shot("ghostty-recent.png");
     window.click_on(&recent);
     window.wait_until("the file", "opened", |e| e["name"] == "glow");
-    window.compiled();
-    window.shows("tab:Buffer terminal");
-    turns(&mut window, [0, 255, 255]);
+    window.wait_compiled();
+    window.wait_shown("tab:Buffer terminal");
+    wait_for_colour(&mut window, [0, 255, 255]);
 }
 
 const TRAILS: &str = r#"/*{
@@ -67,41 +67,41 @@ void main() {
 "#;
 
 #[test]
-fn an_isf_file_has_sliders_of_its_inputs_and_is_saved_as_one() {
+fn an_isf_file_has_sliders_for_its_inputs_and_is_saved_as_one() {
     let Some((display, home)) = Display::with_home() else { return };
     let file = home.path().join("trails.fs");
     fs::write(&file, TRAILS).unwrap();
     let mut window = Window::open(&display, home.path(), &[file.to_str().unwrap()]);
     window.resize(1000, 700);
-    window.compiled();
-    window.shows("uniform:level");
-    turns(&mut window, [0, 255, 0]);
-    // A host's picture stands in for its image.
-    window.shows("channel:0");
+    window.wait_compiled();
+    window.wait_shown("uniform:level");
+    wait_for_colour(&mut window, [0, 255, 0]);
+    // A substitute picture is on its image input.
+    window.wait_shown("channel:0");
     display.shot("isf.png");
-    // The tab in front is the author's file, not the pass that is made of it.
-    window.shows("tab:trails.fs");
+    // The active tab is the author's file, not the generated pass.
+    window.wait_shown("tab:trails.fs");
     window.click_on("editor");
     window.keys(&["ctrl+Home"]);
     window.keys(&["Down"; 8]);
     window.keys(&["End", "Return"]);
     window.type_text("gl_FragColor.r = 1.0;");
-    turns(&mut window, [255, 255, 0]);
+    wait_for_colour(&mut window, [255, 255, 0]);
     window.save();
     let text = TRAILS.replace("1.0);\n", "1.0);\n    gl_FragColor.r = 1.0;\n");
     assert_eq!(fs::read_to_string(&file).unwrap(), text);
-    // The header is text like any other, and is followed once it is saved.
+    // The header is text like any other, and takes effect once it is saved.
     window.keys(&["ctrl+Home", "Down", "Down", "Down", "End", "Return"]);
     window.type_text("{ \"NAME\": \"green\", \"TYPE\": \"float\", \"DEFAULT\": 0.0 },");
     window.keys(&["ctrl+End", "Up", "Up", "End", "Return"]);
     window.type_text("gl_FragColor.g = green;");
-    // Saved only when the text has been compiled without the input: the save itself has to compile it anew.
+    // Saves only after a compile without the input: the save itself has to compile again.
     window.wait_until("the input to be missing", "compiled", |e| {
         e["compiling"] == false && e["diagnostics"][0]["message"].as_str().is_some_and(|m| m.contains("`green`"))
     });
     window.save();
-    window.shows("uniform:green");
-    turns(&mut window, [255, 0, 0]);
+    window.wait_shown("uniform:green");
+    wait_for_colour(&mut window, [255, 0, 0]);
     display.shot("isf-input.png");
     let saved = fs::read_to_string(&file).unwrap();
     assert!(saved.contains("\"green\"") && saved.contains("gl_FragColor.g = green;"), "{saved}");

@@ -1,7 +1,8 @@
-//! End to end: a window at rest costs nothing, and one that is worked at random for as long as one likes neither ends
-//! nor loses a text nor grows.
+//! End to end: a window at rest uses no CPU time, and random input for any time neither ends it nor loses text nor
+//! leaks memory.
 //!
-//! `EDDY_ENDURANCE_SECS=600 cargo test --test window endurance` works it for ten minutes, `EDDY_SEED` in another way.
+//! `EDDY_ENDURANCE_SECS=600 cargo test --test window endurance` runs for ten minutes, `EDDY_SEED` selects another
+//! sequence.
 
 use crate::{
     random::{Random, number},
@@ -17,21 +18,21 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Processor time of a process so far, in hundredths of a second.
+/// Returns the CPU time of a process so far, in hundredths of a second.
 fn ticks(pid: u64) -> u64 {
     let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap();
-    // Behind the name, which may have spaces: the state is the third field, the times are the 14th and 15th.
+    // After the name, which may contain spaces: the state is the third field, the times are the 14th and 15th.
     let fields: Vec<&str> = stat.rsplit_once(')').unwrap().1.split_whitespace().collect();
     fields[11].parse::<u64>().unwrap() + fields[12].parse::<u64>().unwrap()
 }
 
-/// Pixels of the picture, which its menu gives other sizes.
+/// Returns the number of pixels of the picture, whose size the menu can change.
 fn pixels(window: &Window) -> u64 {
     let layout = window.newest("layout").unwrap();
     (0..2).map(|i| layout["canvas"][i].as_u64().unwrap()).product()
 }
 
-/// Bytes that a pixel takes: two passes of four floats, the picture, what is shown of it, and its way there.
+/// Bytes per pixel: two passes of four floats, the picture, the shown copy, and transfer buffers.
 const PIXEL: u64 = 64;
 
 fn pid(window: &Window) -> u64 {
@@ -52,31 +53,32 @@ fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
 }
 
 #[test]
-fn a_paused_window_draws_nothing_and_takes_no_time() {
+fn a_paused_window_draws_no_frames_and_uses_no_cpu() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     window.keys(&["F5"]);
     window.wait_until("the pause", "frame", |e| e["playing"] == false && e["fps"].is_null());
-    // The caret of code that has the keyboard blinks; the picture has it.
+    // The caret of focused code blinks, so the picture has the focus.
     let pid = pid(&window);
     let span = Duration::from_secs(4);
-    // What was asked for before the pause, and other programs' work, may still be felt: the quietest of a few spans.
-    let least = (0..5)
+    // Work requested before the pause, and other programs, may still have an effect: takes the quietest of several
+    // spans.
+    let quietest = (0..5)
         .map(|_| {
             window.drain();
-            let (before, said) = (ticks(pid), window.events.len());
+            let (before, first_event) = (ticks(pid), window.events.len());
             std::thread::sleep(span);
             window.drain();
-            let frames = window.events[said..].iter().filter(|e| e["event"] == "frame").count();
+            let frames = window.events[first_event..].iter().filter(|e| e["event"] == "frame").count();
             (frames, ticks(pid) - before)
         })
         .min()
         .unwrap();
-    assert_eq!(least.0, 0, "frames are drawn while paused");
-    assert!(least.1 <= span.as_secs(), "{} hundredths of a second in {span:?}, more than 1 % of a core", least.1);
+    assert_eq!(quietest.0, 0, "frames are drawn while paused");
+    assert!(quietest.1 <= span.as_secs(), "{} hundredths of a second in {span:?}, more than 1 % of a core", quietest.1);
 }
 
-/// Everything but what ends the window or leaves the project by a person's own will, as the palette can.
+/// All keys except those that end the window or leave the project on purpose, as the palette can.
 const KEYS: [&str; 61] = [
     "a",
     "e",
@@ -142,8 +144,8 @@ const KEYS: [&str; 61] = [
 ];
 const WORDS: [&str; 6] = ["vec3 ", "o.x = uv.y;", "float f(", "// ", "#define A ", "for (int i"];
 
-fn work(window: &Window, random: &mut Random, size: (u64, u64)) {
-    // Below the bar at the top, whose buttons leave the project.
+fn random_input(window: &Window, random: &mut Random, size: (u64, u64)) {
+    // Below the top bar, whose buttons leave the project.
     let at = (random.below(size.0) as i64, 44 + random.below(size.1 - 44) as i64);
     match random.below(10) {
         0..5 => window.keys(&[random.of(&KEYS)]),
@@ -162,9 +164,9 @@ fn work(window: &Window, random: &mut Random, size: (u64, u64)) {
     }
 }
 
-/// Uses what is loaded when it is first used, which is no growth: what the keys do, and a picture that fills the screen
-/// while it plays and goes back. Mesa's software driver keeps some 60 MiB of that in its heap, and after several turns
-/// no more than that.
+/// Uses everything that is loaded on first use, which is not a leak: the actions of all keys, and a picture that fills
+/// the screen while it plays and returns. Mesa's software driver keeps some 60 MiB of that in its heap, and no more
+/// after several rounds.
 fn warm_up(window: &mut Window) {
     for key in KEYS {
         window.keys(&[key]);
@@ -193,10 +195,11 @@ fn warm_up(window: &mut Window) {
     }
 }
 
-/// Resident memory when nothing is open and the run has just begun, with the pixels of the picture then.
+/// Returns the resident memory with all panels closed and the run just reset, and the pixels of the picture at that
+/// time.
 ///
-/// A run keeps snapshots of its passes to go back to, up to 256 MiB of them: at 374 x 211 pixels they are 40 MiB after
-/// a few seconds, at 1000 x 700 all of it. A reset lets go of them. What is left would be left for good.
+/// A run keeps snapshots of its passes for stepping back, up to 256 MiB: at 374 x 211 pixels 40 MiB after a few
+/// seconds, at 1000 x 700 all of it. A reset frees them. Remaining growth would be a leak.
 fn at_rest(window: &mut Window) -> (u64, u64) {
     for _ in 0..6 {
         window.keys(&["Escape"]);
@@ -204,17 +207,17 @@ fn at_rest(window: &mut Window) -> (u64, u64) {
     window.wait_until("no question", "question", |e| e["kind"].is_null());
     window.keys(&["ctrl+shift+F5"]);
     window.wait_until("the reset", "frame", |e| e["frame"].as_u64() < Some(60));
-    // A picture that filled the screen a moment ago is given back with the frames that follow.
-    let least = (0..20).map(|_| {
+    // The memory of a picture that filled the screen is freed in the following frames.
+    let smallest = (0..20).map(|_| {
         std::thread::sleep(Duration::from_millis(100));
         window.resident()
     });
-    let least = least.min().unwrap();
+    let smallest = smallest.min().unwrap();
     window.drain();
-    (least, pixels(window))
+    (smallest, pixels(window))
 }
 
-/// The texts that are kept from a crash, by the name of their tab.
+/// Returns the recovery files.
 fn kept(home: &Path) -> Vec<Value> {
     let entries = fs::read_dir(home.join(".local/state/eddy/recovery")).into_iter().flatten().flatten();
     let texts = entries.map(|e| e.path()).filter(|p| p.extension().is_some_and(|e| e == "json"));
@@ -222,51 +225,51 @@ fn kept(home: &Path) -> Vec<Value> {
 }
 
 #[test]
-fn a_window_worked_at_random_neither_ends_nor_loses_a_text_nor_grows() {
+fn random_input_neither_ends_the_window_nor_loses_text_nor_leaks_memory() {
     let Some((display, home)) = Display::with_home() else { return };
     let (secs, seed) = (number("EDDY_ENDURANCE_SECS", 20), number("EDDY_SEED", 7));
     let mut window = open(&display, home.path());
     let mut random = Random(seed);
     let size = (760, 440);
     warm_up(&mut window);
-    let began = Instant::now();
+    let opened_at = Instant::now();
     let (warm, end) = (Duration::from_secs(secs / 4), Duration::from_secs(secs));
-    let (mut start, mut most, mut steps) = (None, 0, 0);
-    while began.elapsed() < end {
-        work(&window, &mut random, size);
+    let (mut start, mut peak, mut steps) = (None, 0, 0);
+    while opened_at.elapsed() < end {
+        random_input(&window, &mut random, size);
         steps += 1;
         window.drain();
-        if !window.lives() {
-            let code = window.ends();
-            panic!("it ended with {code:?} after {steps} steps of seed {seed}: {}", window.complaints());
+        if !window.is_running() {
+            let code = window.wait_exit();
+            panic!("the window ended with {code:?} after {steps} steps of seed {seed}: {}", window.stderr());
         }
-        most = most.max(window.resident());
-        if start.is_none() && began.elapsed() >= warm {
+        peak = peak.max(window.resident());
+        if start.is_none() && opened_at.elapsed() >= warm {
             start = Some(at_rest(&mut window));
         }
     }
     let (last, large) = at_rest(&mut window);
-    assert!(!window.complaints().contains("panicked"), "{}", window.complaints());
+    assert!(!window.stderr().contains("panicked"), "{}", window.stderr());
     let notices: Vec<_> = window.events.iter().filter(|e| e["event"] == "notice").map(|e| e["text"].clone()).collect();
     assert!(!notices.iter().any(|t| t.as_str().unwrap().contains("bug in Eddy")), "{notices:?}");
-    // A picture that was made larger is no growth.
+    // A larger picture is not a leak.
     let (start, small) = start.unwrap_or((last, large));
     let limit = start + start / 5 + PIXEL * large.saturating_sub(small);
-    println!("{steps} steps: resident {} MiB, at most {}, at the end {}", start >> 20, most >> 20, last >> 20);
+    println!("{steps} steps: resident {} MiB, at most {}, at the end {}", start >> 20, peak >> 20, last >> 20);
     assert!(last < limit, "resident memory went from {} MiB to {} MiB", start >> 20, last >> 20);
 
-    // What was kept from a crash is what is saved.
+    // The recovery file contains the saved text.
     window.keys(&["F6"]);
     window.drain();
     if window.newest("dirty").is_some_and(|e| e["dirty"] == true) {
         std::thread::sleep(Duration::from_secs(3));
         let kept = kept(home.path());
         window.keys(&["ctrl+s"]);
-        let is_there = window.newest("opened").is_some_and(|e| e["origin"]["folder"].is_string());
-        let folder = home.path().join(if is_there { "project" } else { "worked" });
-        if !is_there {
-            // What was pasted beside the code, or a preset, took the project's place, and lies nowhere yet.
-            window.shows("field:path");
+        let has_path = window.newest("opened").is_some_and(|e| e["origin"]["folder"].is_string());
+        let folder = home.path().join(if has_path { "project" } else { "worked" });
+        if !has_path {
+            // A pasted shader or a preset replaced the project, and has no path yet.
+            window.wait_shown("field:path");
             window.enter(folder.to_str().unwrap());
         }
         window.wait_until("the save", "dirty", |e| e["dirty"] == false);
@@ -279,42 +282,45 @@ fn a_window_worked_at_random_neither_ends_nor_loses_a_text_nor_grows() {
 }
 
 #[test]
-#[ignore = "prints times; they mean something on a quiet machine only"]
-fn a_key_is_seen_in_the_picture_of_a_hundred_lines() {
+#[ignore = "prints times, which are meaningful only on an idle machine"]
+fn latency_from_key_to_picture_with_a_hundred_lines() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("project");
     fs::create_dir(&folder).unwrap();
-    // `EDDY_SHADER=FILE` takes another text, whose fourth line ends in a number like that of this one.
+    // `EDDY_SHADER=FILE` uses another text, whose fourth line ends in a number like this one's.
     let text = match std::env::var_os("EDDY_SHADER") {
         Some(file) => fs::read_to_string(file).unwrap(),
         None => include_str!("hundred_lines.glsl").to_owned(),
     };
     fs::write(folder.join("image.glsl"), &text).unwrap();
-    // `EDDY_WINDOW=420x300` makes the picture small, so that a software driver takes no longer for it than a GPU.
+    // `EDDY_WINDOW=420x300` makes the picture small, so that a software driver is as fast as a GPU.
     let size = std::env::var("EDDY_WINDOW").unwrap_or_else(|_| "760x440".into());
     let mut window = Window::open_as(&display, home.path(), Some(&size), &[], &[folder.to_str().unwrap()]);
     window.wait_until("the first compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
     window.click_on("editor");
-    // In the number of the fourth line, 40.0.
+    // The caret is in the number of the fourth line, 40.0.
     window.keys(&["ctrl+Home", "Down", "Down", "Down", "End", "Left", "Left"]);
     let keyboard = Keyboard::of(&display);
-    let (mut millis, mut behind) = (Vec::new(), Vec::new());
+    let (mut millis, mut without_debounce) = (Vec::new(), Vec::new());
     for (n, digit) in "1234567891234567891234567891234".chars().enumerate() {
-        // The quiet that is waited for is as long as the compile before took.
+        // The debounce delay is as long as the previous compile.
         window.drain();
         let before = window.wait_until("a picture", "drawn", |e| e["programs"].as_u64() > Some(0));
         let debounce = before["debounce_ms"].as_f64().unwrap();
-        let began = Instant::now();
+        let start = Instant::now();
         keyboard.tap(digit);
         window.wait_until("the picture", "drawn", |e| e["programs"].as_u64() > before["programs"].as_u64());
-        let took = began.elapsed().as_secs_f64() * 1000.0;
+        let took = start.elapsed().as_secs_f64() * 1000.0;
         millis.push(took);
-        behind.push(took - debounce);
-        // At any moment of a frame, and not always at the same.
+        without_debounce.push(took - debounce);
+        // At varying moments of a frame.
         std::thread::sleep(Duration::from_millis(300 + n as u64 * 37 % 100));
     }
     millis.sort_by(f64::total_cmp);
-    behind.sort_by(f64::total_cmp);
+    without_debounce.sort_by(f64::total_cmp);
     println!("from the key to the picture: {:.0} to {:.0} ms, median {:.0}", millis[0], millis[30], millis[15]);
-    println!("without the debounce: {:.0} to {:.0} ms, median {:.0}", behind[0], behind[30], behind[15]);
+    println!(
+        "without the debounce: {:.0} to {:.0} ms, median {:.0}",
+        without_debounce[0], without_debounce[30], without_debounce[15]
+    );
 }

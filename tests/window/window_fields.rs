@@ -1,5 +1,5 @@
-//! End to end: one key is one thing, a field keeps the keyboard beside its buttons, and included files are tabs. By real
-//! keys and mouse, judged by files.
+//! End to end: each key has one effect, a field keeps the focus when its buttons are clicked, and included files are
+//! tabs. With real keys and mouse, checked by files.
 
 use crate::{
     support::window::{Display, Window},
@@ -16,7 +16,7 @@ fn open<'a>(display: &'a Display, home: &Path, files: &[(&str, &str)]) -> Window
         fs::write(folder.join(name), text).unwrap();
     }
     let mut window = Window::open(display, home, &[folder.to_str().unwrap()]);
-    window.compiled();
+    window.wait_compiled();
     window.click_on("editor");
     window.keys(&["ctrl+Home"]);
     window
@@ -31,10 +31,10 @@ fn a_key_with_alt_acts_and_types_nothing() {
     }
     window.wait_until("one frame, then pause", "frame", |e| e["playing"] == false);
     window.wait_until("a loop", "time", |e| e["range"].is_array());
-    // What is typed next is there, and in the find bar the same.
+    // The text typed next is inserted, also in the find bar.
     window.type_text("//[,.]");
     window.keys(&["ctrl+h"]);
-    window.shows("field:replace");
+    window.wait_shown("field:replace");
     window.keys(&["alt+period", "alt+comma", "alt+bracketleft", "alt+c"]);
     window.type_text("0.5");
     window.keys(&["Tab"]);
@@ -46,9 +46,9 @@ fn a_key_with_alt_acts_and_types_nothing() {
     assert_eq!(text, format!("//[,.]{}", IMAGE.replace("0.5", "0.25")));
 }
 
-/// On a German keyboard the brackets are typed with AltGr.
+/// On a German keyboard, brackets are typed with AltGr.
 #[test]
-fn alt_gr_types() {
+fn alt_gr_types_characters() {
     let Some((display, home)) = Display::with_home() else { return };
     if !display.layout("de") {
         return;
@@ -58,7 +58,7 @@ fn alt_gr_types() {
     for key in ["8", "9", "7", "0", "q"] {
         window.hold(&["ISO_Level3_Shift"]);
         window.keys_as_held(&[key]);
-        window.let_go(&["ISO_Level3_Shift"]);
+        window.release_keys(&["ISO_Level3_Shift"]);
     }
     window.type_text("x");
     window.keys(&["Delete"]);
@@ -72,7 +72,7 @@ fn the_find_bar_keeps_the_keyboard_when_its_buttons_are_clicked() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path(), &[("image.glsl", IMAGE)]);
     window.keys(&["ctrl+h"]);
-    window.shows("field:replace");
+    window.wait_shown("field:replace");
     window.type_text("vec");
     for button in ["find:case", "find:regex", "find:regex", "find:case", "find:next", "find:previous"] {
         window.click_on(button);
@@ -101,10 +101,10 @@ fn an_included_file_opens_from_its_line_and_its_name_and_is_saved() {
     let Some((display, home)) = Display::with_home() else { return };
     let files = [("image.glsl", USES), ("buffer_a.glsl", USES), ("lib/tone.glsl", TONE)];
     let mut window = open(&display, home.path(), &files);
-    window.hides("tab:lib/tone.glsl");
-    // The line that includes it.
+    window.wait_hidden("tab:lib/tone.glsl");
+    // From the line that includes it.
     window.keys(&["F12"]);
-    window.shows("tab:lib/tone.glsl");
+    window.wait_shown("tab:lib/tone.glsl");
     display.shot("included.png");
     window.submit("// by hand");
     window.wait_until("its tab unsaved", "dirty", |e| {
@@ -113,26 +113,26 @@ fn an_included_file_opens_from_its_line_and_its_name_and_is_saved() {
     assert_eq!(fs::read_to_string(home.path().join("project/lib/tone.glsl")).unwrap(), TONE);
     let text = saved(&mut window, home.path(), "lib/tone.glsl");
     assert_eq!(text, format!("// by hand\n{TONE}"));
-    window.compiled();
-    // A mistake in it is listed, and its row leads there.
+    window.wait_compiled();
+    // An error in it is listed, and its row leads there.
     window.keys(&["ctrl+End"]);
     window.type_text("float none() { return nothing; }");
     window.wait_until("an error", "compiled", |e| e["compiling"] == false && e["ok"] == false);
     window.click_on("tab:Image");
     window.click_on("problem:0");
     window.keys(&["ctrl+End", "shift+Home", "BackSpace"]);
-    // For this moment the text is the file's.
+    // The text equals the file again.
     window.wait_until("its tab as saved", "dirty", |e| e["dirty"] == false);
     window.type_text("// end");
     let text = saved(&mut window, home.path(), "lib/tone.glsl");
     assert_eq!(text, format!("// by hand\n{TONE}// end"));
-    // The name of a function of it.
+    // From the name of a function in it.
     window.click_on("tab:Image");
     window.keys(&["ctrl+Home", "Down", "Down", "Down", "End", "Left", "Left", "Left", "Left", "Left", "Left", "F12"]);
     window.type_text("half_");
     let text = saved(&mut window, home.path(), "lib/tone.glsl");
     assert!(text.contains("float half_()"), "{text}");
-    // It is closed by its sign.
+    // It is closed by its close button.
     window.click_on("tab:close:lib/tone.glsl");
-    window.hides("tab:lib/tone.glsl");
+    window.wait_hidden("tab:lib/tone.glsl");
 }

@@ -1,4 +1,4 @@
-//! End to end: how long the first start takes. It prints a time, which is for reading and bounds nothing.
+//! End to end: the time of the first start. It is printed for information and has no limit.
 //!
 //! `cargo test --release --test window first_start -- --ignored --nocapture`
 
@@ -6,15 +6,14 @@ use crate::support::window::{Display, Window};
 use serde_json::Value;
 use std::time::Instant;
 
-/// In a home folder with nothing in it, from the start of the process until every picture of the gallery that is in
-/// sight is there.
+/// In an empty home folder, from the start of the process until every visible picture of the gallery is shown.
 #[test]
-#[ignore = "prints a time; it means something on a quiet machine only"]
+#[ignore = "prints a time, which is meaningful only on an idle machine"]
 fn first_start() {
     let Some((display, home)) = Display::of_size_with_home(1280, 800) else { return };
-    let began = Instant::now();
+    let start = Instant::now();
     let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &[]);
-    let started = began.elapsed();
+    let started = start.elapsed();
     let is_full = |layout: &Value| {
         let Some(rects) = layout["rects"].as_object() else { return false };
         let mut seen = rects.iter().filter(|(_, rect)| rect[1].as_f64().is_some_and(|top| top < 780.0));
@@ -29,7 +28,7 @@ fn first_start() {
         all && presets > 3
     };
     let layout = window.wait_until("every picture in sight", "layout", is_full);
-    let full = began.elapsed();
+    let full = start.elapsed();
     let count = layout["rects"].as_object().unwrap().keys().filter(|name| name.starts_with("picture:")).count();
     println!("first layout after {:.2} s, {count} pictures after {:.2} s", started.as_secs_f64(), full.as_secs_f64());
 }

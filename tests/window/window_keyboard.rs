@@ -1,4 +1,4 @@
-//! End to end: the keyboard alone, from the start to a saved picture. By real key events, judged by files.
+//! End to end: the keyboard alone, from the start to a saved picture. With real key events, checked by files.
 
 use crate::support::window::{Display, Window, folder_of};
 use std::{fs, path::Path};
@@ -7,7 +7,7 @@ fn focus(window: &mut Window, widget: &str) {
     window.wait_until(&format!("the keyboard at {widget}"), "focus", |e| e["widget"] == widget);
 }
 
-/// Presses a key until a widget has the keyboard.
+/// Presses a key until a widget has the focus.
 fn go_to(window: &mut Window, key: &str, widget: &str) {
     for _ in 0..60 {
         let before = window.newest("focus");
@@ -17,10 +17,10 @@ fn go_to(window: &mut Window, key: &str, widget: &str) {
         window.keys(&[key]);
         window.wait_until("the keyboard to move", "focus", |e| Some(e) != before.as_ref());
     }
-    panic!("{key} never came to {widget}");
+    panic!("{key} did not reach {widget}");
 }
 
-/// Presses a key until something whose name begins so has the keyboard.
+/// Presses a key until a widget with one of these name prefixes has the focus.
 fn go_to_part(window: &mut Window, key: &str, names: &[&str]) {
     for _ in 0..20 {
         let before = window.newest("focus");
@@ -30,7 +30,7 @@ fn go_to_part(window: &mut Window, key: &str, names: &[&str]) {
             return;
         }
     }
-    panic!("{key} never came to {names:?}");
+    panic!("{key} did not reach {names:?}");
 }
 
 #[test]
@@ -43,10 +43,10 @@ fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
     let drawn = |e: &serde_json::Value| e["programs"].as_u64().unwrap_or(0);
     let before = window.newest("drawn").as_ref().map_or(0, drawn);
     window.keys(&["Return"]);
-    window.compiled();
+    window.wait_compiled();
     window.wait_until("its picture", "drawn", |e| drawn(e) > before);
     focus(&mut window, "picture");
-    // To the code, a line of one's own, saved into a folder whose path is typed.
+    // To the code, a new line, saved into a folder whose path is typed.
     go_to(&mut window, "F6", "code");
     window.keys(&["ctrl+Home"]);
     window.type_text("// by keys ");
@@ -60,7 +60,7 @@ fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
     let text = fs::read_to_string(folder.join("image.glsl")).unwrap();
     assert!(text.starts_with("// by keys "), "{text}");
     focus(&mut window, "code");
-    // The picture, by its button in the bar.
+    // A screenshot, by its button in the bar.
     go_to_part(&mut window, "shift+F6", &["button:reset", "button:play"]);
     display.shot("keyboard-transport.png");
     go_to(&mut window, "Tab", "button:screenshot");
@@ -70,13 +70,13 @@ fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
     let path = Path::new(notice["path"].as_str().unwrap());
     assert!(image::open(path).unwrap().width() > 0, "{}", path.display());
     display.shot("keyboard-notice.png");
-    // Escape gives the keyboard back to who had it last.
+    // Escape returns the focus to its previous widget.
     window.keys(&["Escape"]);
     focus(&mut window, "code");
 }
 
 #[test]
-fn dialogs_menus_and_the_help_are_worked_by_keys_and_give_the_keyboard_back() {
+fn dialogs_menus_and_help_work_by_keys_and_return_the_focus() {
     let Some((display, home)) = Display::with_home() else { return };
     let text = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n\
                 void mainImage(out vec4 o, in vec2 p) { o = vec4(red); }\n";
@@ -90,7 +90,7 @@ fn dialogs_menus_and_the_help_are_worked_by_keys_and_give_the_keyboard_back() {
     window.keys(&["Next"]);
     display.shot("help.png");
     window.keys(&["Escape"]);
-    window.hides("field:help");
+    window.wait_hidden("field:help");
     focus(&mut window, "code");
     // A slider, by the arrow keys.
     go_to_part(&mut window, "F6", &["uniform"]);
@@ -99,18 +99,18 @@ fn dialogs_menus_and_the_help_are_worked_by_keys_and_give_the_keyboard_back() {
     window.wait_until("the slider", "uniforms", |e| e["values"]["red"][0].as_f64().is_some_and(|x| x > 0.5));
     window.keys(&["Escape"]);
     focus(&mut window, "code");
-    // A channel's list, opened and closed: the channel has the keyboard again.
+    // A channel's list, opened and closed: the channel has the focus again.
     go_to(&mut window, "F6", "channel:0");
     window.keys(&["Return"]);
-    window.shows("choose:none");
+    window.wait_shown("choose:none");
     go_to(&mut window, "Tab", "choose:keyboard");
     display.shot("keyboard-channel.png");
     window.keys(&["Escape"]);
-    window.hides("choose:none");
+    window.wait_hidden("choose:none");
     focus(&mut window, "channel:0");
     window.keys(&["Escape"]);
     focus(&mut window, "code");
-    // A question: Enter presses what has the colour.
+    // A question: Enter presses the highlighted button.
     window.keys(&["ctrl+Home"]);
     window.type_text("// more ");
     window.wait_until("an unsaved text", "dirty", |e| e["dirty"] == true);

@@ -1,5 +1,5 @@
-//! End to end: the command palette, finding and replacing, several carets and moved lines, by real key events, judged
-//! by the file that is saved.
+//! End to end: the command palette, find and replace, several carets and moved lines, with real key events, checked by
+//! the saved file.
 
 use crate::support::window::{Display, Window, folder_of};
 use std::{fs, path::Path};
@@ -23,26 +23,26 @@ fn saved(window: &mut Window, home: &Path) -> String {
 }
 
 #[test]
-fn the_palette_finds_an_action_and_gives_the_keyboard_back() {
+fn the_palette_runs_an_action_and_returns_the_focus() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     window.search_palette("cost");
-    window.shows("palette:costs");
-    window.hides("palette:save");
+    window.wait_shown("palette:costs");
+    window.wait_hidden("palette:save");
     display.shot("palette.png");
     window.keys(&["Return"]);
-    window.hides("palette");
+    window.wait_hidden("palette");
     window.wait_until("the table of costs", "layout", |e| e["rects"]["costs:sum"].is_array());
-    // What had the keyboard has it again, and the code's own actions are in the list too.
+    // The code has the focus again, and its own actions are in the list too.
     window.type_text("// ");
     window.search_palette("copy down");
-    window.shows("palette:copy-lines-down");
+    window.wait_shown("palette:copy-lines-down");
     window.keys(&["Return"]);
-    window.hides("palette");
+    window.wait_hidden("palette");
     window.keys(&["ctrl+shift+p"]);
-    window.shows("field:palette");
+    window.wait_shown("field:palette");
     window.keys(&["Escape"]);
-    window.hides("palette");
+    window.wait_hidden("palette");
     window.type_text("x");
     let text = saved(&mut window, home.path());
     let lines: Vec<&str> = text.lines().take(2).collect();
@@ -54,7 +54,7 @@ fn a_word_is_replaced_by_the_bar_and_by_many_carets() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     window.keys(&["ctrl+h"]);
-    window.shows("field:replace");
+    window.wait_shown("field:replace");
     window.type_text("(\\w+)\\.x\\b");
     window.keys(&["alt+r"]);
     window.click_on("field:replace");
@@ -62,8 +62,8 @@ fn a_word_is_replaced_by_the_bar_and_by_many_carets() {
     display.shot("replace.png");
     window.click_on("find:replace-all");
     window.keys(&["Escape"]);
-    window.hides("field:find");
-    // The word, its next occurrence, and the one after that.
+    window.wait_hidden("field:find");
+    // The word, its next occurrence, and the one after it.
     window.keys(&["ctrl+Home", "Down", "Down", "End"]);
     window.keys(&["ctrl+Left"; 8]);
     window.keys(&["ctrl+d", "ctrl+d", "ctrl+d"]);
@@ -76,18 +76,18 @@ fn a_word_is_replaced_by_the_bar_and_by_many_carets() {
 }
 
 #[test]
-fn lines_move_copy_and_go_and_f3_finds_on() {
+fn lines_are_moved_copied_and_deleted_and_f3_finds_the_next() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     window.keys(&["Down", "Down", "alt+Down", "shift+alt+Down", "alt+Up", "alt+Up", "ctrl+shift+k"]);
-    // The line moved below the next one, was copied there, and the copy went up two lines and away.
+    // The line was moved below the next one and copied there; the copy was moved up two lines and deleted.
     let lines: Vec<&str> = IMAGE.lines().collect();
     let mut wanted = [lines[0], lines[1], lines[3], lines[2], lines[4], lines[5]];
     window.keys(&["ctrl+f"]);
-    window.shows("field:find");
+    window.wait_shown("field:find");
     window.type_text("uv");
     window.keys(&["Return", "Escape"]);
-    window.hides("field:find");
+    window.wait_hidden("field:find");
     window.keys(&["F3", "shift+F3"]);
     window.keys(&["ctrl+Home", "F3"]);
     window.type_text("st");
@@ -98,7 +98,7 @@ fn lines_move_copy_and_go_and_f3_finds_on() {
 }
 
 #[test]
-fn a_folded_block_is_gone_past_and_long_lines_wrap() {
+fn the_caret_skips_folded_blocks_and_long_lines_wrap() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = open(&display, home.path());
     window.keys(&["Down", "ctrl+shift+bracketleft", "Down"]);
@@ -116,7 +116,7 @@ fn a_folded_block_is_gone_past_and_long_lines_wrap() {
 }
 
 #[test]
-fn a_file_gives_keys_and_says_what_is_wrong_in_it() {
+fn a_keybindings_file_sets_keys_and_reports_errors() {
     let Some((display, home)) = Display::with_home() else { return };
     folder_of(home.path().join(".config/eddy"), &[("keybindings.toml", "palette = \"F9\"\npalete = \"F10\"\n")]);
     let mut window = open(&display, home.path());
@@ -126,6 +126,6 @@ fn a_file_gives_keys_and_says_what_is_wrong_in_it() {
     let text = notice["text"].as_str().unwrap();
     assert!(text.ends_with("keybindings.toml:2: unknown action \"palete\"; did you mean \"palette\"?"), "{text}");
     window.keys(&["F9"]);
-    window.shows("field:palette");
+    window.wait_shown("field:palette");
     display.shot("keys.png");
 }

@@ -1,5 +1,5 @@
 //! End to end: a window that is killed at any moment of typing, saving, saving as and renaming a pass. Every file on
-//! disk is the old one or the new one, the project there can be opened, and what was typed comes back at the next start.
+//! disk is the old one or the new one, the project on disk opens, and the typed text is recovered at the next start.
 //!
 //! `EDDY_KILLS=100 cargo test --test window kills_while_saving -- --nocapture` kills it a hundred times.
 
@@ -18,10 +18,10 @@ use std::{
 const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }\n";
 const BUFFER: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.25, 0.0, 0.0, 1.0); }\n";
 const MANIFEST: &str = "# Kept.\n[passes.buffer_a]\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n";
-/// Nobody asks for this file to be written.
+/// A file that no save may write.
 const NOTES: &str = "what the author has to remember\n";
 
-/// What the window is doing when it is killed.
+/// The activity of the window when it is killed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Doing {
     Typing,
@@ -30,37 +30,38 @@ enum Doing {
     Renaming,
 }
 
-/// Texts of the project's files as the last kills may have left them.
+/// The possible texts of the project's files after the last kills.
 struct Expected {
-    /// What the code of Image is, saved or not.
+    /// The code of Image, saved or not.
     image: String,
-    /// All that `image.glsl` may be on disk.
+    /// The possible texts of `image.glsl` on disk.
     saved: BTreeSet<String>,
-    /// What the buffer's name in the manifest may be.
+    /// The possible names of the buffer in the manifest.
     buffers: BTreeSet<String>,
-    /// All names that it had: a kill between the new manifest and the removal of the old file leaves that, whole.
+    /// All previous names: a kill between writing the new manifest and removing the old file leaves the old file,
+    /// complete.
     former: BTreeSet<String>,
     folder: PathBuf,
 }
 
-/// The texts in the recovery files.
+/// Returns the texts in the recovery files.
 fn kept(home: &Path) -> Vec<String> {
     let entries = fs::read_dir(home.join(".local/state/eddy/recovery")).into_iter().flatten().flatten();
     let files = entries.map(|e| e.path()).filter(|p| p.extension().is_some_and(|e| e == "json"));
-    // A file may have gone meanwhile; one that is there is whole.
+    // A file may be removed in the meantime; existing ones are complete.
     let texts = files.filter_map(|path| fs::read_to_string(path).ok());
     texts.map(|text| serde_json::from_str::<serde_json::Value>(&text).expect(&text).to_string()).collect()
 }
 
-/// The texts in the recovery files hold a text.
+/// Returns whether the recovery files contain a text.
 fn keeps(home: &Path, text: &str) -> bool {
     let quoted = serde_json::Value::from(text).to_string();
     kept(home).iter().any(|kept| kept.contains(quoted.trim_matches('"')))
 }
 
-/// Every file of a project's folder is one of those that it may be, and there is nothing else but what a killed save
-/// leaves behind. A folder that is being written for the first time may lack files.
-fn whole(folder: &Path, expected: &Expected, is_new: bool) {
+/// Asserts that every file of a project's folder has one of its possible texts, and that there are no other files
+/// except those that a killed save leaves. A folder that is being written for the first time may lack files.
+fn assert_complete(folder: &Path, expected: &Expected, is_new: bool) {
     let buffers: BTreeSet<String> = expected.former.iter().map(|name| format!("buffer_{name}.glsl")).collect();
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name().into_string().unwrap();
@@ -74,13 +75,13 @@ fn whole(folder: &Path, expected: &Expected, is_new: bool) {
             "eddy.toml" => {
                 let names = |name: &String| text.contains(&format!("[passes.buffer_{name}]"));
                 assert_eq!(expected.buffers.iter().filter(|name| names(name)).count(), 1, "{name}:\n{text}");
-                // A project that is saved elsewhere gets a manifest of its own.
+                // A project that is saved elsewhere gets its own manifest.
                 let is_first = folder.ends_with("project");
                 assert!(text.contains("# Kept.") || !is_first, "{name}:\n{text}");
                 assert!(text.contains("[passes.image]") && text.contains("channels"), "{name}:\n{text}");
             }
             name if buffers.contains(name) => assert_eq!(text, BUFFER, "{name}"),
-            name => panic!("what is {name}? {text:?}"),
+            name => panic!("unexpected file {name}: {text:?}"),
         }
     }
     if is_new {
@@ -91,16 +92,16 @@ fn whole(folder: &Path, expected: &Expected, is_new: bool) {
     assert_eq!(checked.status.code(), Some(0), "{checked:?}");
 }
 
-/// Types a path into the field for it.
+/// Types a path into the path field.
 fn type_path(window: &mut Window, path: &Path) {
-    window.shows("field:path");
+    window.wait_shown("field:path");
     window.enter(path.to_str().unwrap());
 }
 
-/// Opens the project with what was left behind, if anything was. Returns whether it was.
+/// Opens the project and recovers unsaved text, if there is any. Returns whether there was.
 fn open<'a>(display: &'a Display, home: &Path, folder: &Path) -> (Window<'a>, bool) {
     let mut window = Window::open_as(display, home, Some("1000x700"), &[], &[folder.to_str().unwrap()]);
-    // Files are read by a thread; the question comes with the first frames.
+    // A thread reads the files; the question is shown in the first frames.
     let is_left = !kept(home).is_empty();
     if is_left {
         window.wait_until("the question", "question", |e| e["kind"] == "recover");
@@ -108,34 +109,34 @@ fn open<'a>(display: &'a Display, home: &Path, folder: &Path) -> (Window<'a>, bo
         window.click_on("answer:recover");
         window.wait_until("no question", "question", |e| e["kind"].is_null());
     }
-    window.compiled();
+    window.wait_compiled();
     (window, is_left)
 }
 
-/// The name of the buffer is changed in the window of passes, as people do.
+/// Renames the buffer in the window of passes, like a user.
 fn rename(window: &mut Window, from: &str, to: &str) {
     window.keys(&["ctrl+shift+b"]);
     window.click_on(&format!("passes:row:{}", title(from)));
     window.fill("passes:name", to);
-    window.shows(&format!("tab:{}", title(to)));
+    window.wait_shown(&format!("tab:{}", title(to)));
     window.keys(&["ctrl+shift+b"]);
-    window.hides("passes:name");
+    window.wait_hidden("passes:name");
 }
 
 fn title(name: &str) -> String {
     if name.len() == 1 { format!("Buffer {}", name.to_uppercase()) } else { format!("Buffer {name}") }
 }
 
-/// The buffer's name by the manifest on disk.
+/// Returns the buffer's name in the manifest on disk.
 fn buffer_on_disk(folder: &Path, expected: &Expected) -> String {
     let text = fs::read_to_string(folder.join("eddy.toml")).unwrap();
     let named = |name: &&String| text.contains(&format!("[passes.buffer_{name}]"));
     expected.buffers.iter().find(named).unwrap().clone()
 }
 
-/// `EDDY_KILLS=100` kills as often, `EDDY_SEED` at other moments.
+/// `EDDY_KILLS` is the number of kills, `EDDY_SEED` selects other moments.
 #[test]
-fn kills_while_saving_leave_whole_files_and_every_text() {
+fn kills_while_saving_leave_complete_files_and_lose_no_text() {
     let Some(display) = Display::open() else { return };
     let (kills, seed) = (number("EDDY_KILLS", 4), number("EDDY_SEED", 1));
     let home = tempfile::tempdir().unwrap();
@@ -155,7 +156,7 @@ fn kills_while_saving_leave_whole_files_and_every_text() {
         let doing = [Doing::Saving, Doing::Renaming, Doing::SavingAs, Doing::Typing][(n % 4) as usize];
         let (mut window, is_left) = open(&display, home, &expected.folder);
         recovered += u64::from(is_left);
-        // What was recovered is saved first, so that what lies on disk is known.
+        // Recovered text is saved first, so that the files on disk are known.
         window.keys(&["F6"]);
         window.click_on("tab:Image");
         window.click_on("editor");
@@ -201,19 +202,19 @@ fn kills_while_saving_leave_whole_files_and_every_text() {
         if doing != Doing::Typing {
             expected.saved.insert(expected.image.clone());
         }
-        // From before the key is taken to after everything is written.
+        // From before the key is received to after all files are written.
         std::thread::sleep(Duration::from_micros(random.below(250_000)));
         window.kill();
         let context = format!("kill {n} of seed {seed}, {doing:?}");
         println!("{context}");
-        whole(&expected.folder, &expected, false);
+        assert_complete(&expected.folder, &expected, false);
         let is_here =
             |folder: &Path| fs::read_to_string(folder.join("image.glsl")).is_ok_and(|text| text == expected.image);
         if let Some(folder) = target {
-            whole(&folder, &expected, true);
-            // Once nothing is kept any more, everything is there.
+            assert_complete(&folder, &expected, true);
+            // Once no recovery file is left, all files are complete.
             if kept(home).is_empty() {
-                whole(&folder, &expected, false);
+                assert_complete(&folder, &expected, false);
                 expected.folder = folder;
             }
         }

@@ -1,4 +1,4 @@
-//! End to end: where panels are, the themes, presenting, and what is kept from one start to the next.
+//! End to end: the places of panels, the themes, code over the picture, and the state kept from one start to the next.
 
 use crate::support::window::{Display, Window, folder_of};
 use serde_json::Value;
@@ -8,7 +8,7 @@ use std::{
     time::Duration,
 };
 
-/// Two passes, three channels in use, two uniforms.
+/// Writes a project with two passes, three used channels and two uniforms.
 fn project(home: &Path) -> PathBuf {
     let buffer = "void mainImage(out vec4 o, in vec2 p)\n{\n    vec2 uv = p / iResolution.xy;\n    \
                   o = vec4(fract(uv * 4.0), 0.5 + 0.5 * sin(iTime), 1.0);\n}\n";
@@ -27,7 +27,7 @@ fn rect(event: &Value) -> [f64; 4] {
     std::array::from_fn(|i| event[i].as_f64().unwrap_or_else(|| panic!("no place: {event}")))
 }
 
-/// Each size in both themes: nothing is cut off, the picture fills its panel, the code has room.
+/// Each size in both themes: no widget is cut off, the picture fills its panel, and the code has room.
 #[test]
 fn every_size_has_room_for_the_picture_and_the_code() {
     let cases = [("900x600", 1), ("1280x800", 1), ("1920x1080", 1), ("2560x1600", 2)];
@@ -43,7 +43,7 @@ fn every_size_has_room_for_the_picture_and_the_code() {
             let environment = [("WINIT_X11_SCALE_FACTOR", factor.as_str())];
             let path = folder.to_str().unwrap();
             let mut window = Window::open_as(&display, home.path(), Some(size), &environment, &[path]);
-            window.compiled();
+            window.wait_compiled();
             window.keys(&["F5"]);
             window.wait_until("the pause", "frame", |e| e["playing"] == false);
             window.centre("channel:0");
@@ -72,29 +72,29 @@ fn every_size_has_room_for_the_picture_and_the_code() {
 }
 
 #[test]
-fn a_window_beside_an_editor_shows_the_picture_alone_for_this_run() {
+fn follow_shows_the_picture_without_the_editor_for_one_run() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let path = folder.to_str().unwrap();
-    // The editor names the file that it has open: the project that has it is opened.
+    // The external editor passes its open file: the project that contains it is opened.
     let file = folder.join("buffer_a.glsl");
     let mut window = Window::open(&display, home.path(), &["--follow", file.to_str().unwrap()]);
-    window.compiled();
+    window.wait_compiled();
     let layout = window.wait_until("the picture alone", "layout", |e| e["rects"]["panel:uniforms"].is_array());
     assert!(layout["rects"]["editor"].is_null() && layout["rects"]["panel:channels"].is_null(), "{layout}");
-    // What the editor saves is drawn.
+    // Saved changes of the external editor are drawn.
     let image = fs::read_to_string(folder.join("image.glsl")).unwrap();
     fs::write(folder.join("image.glsl"), image.replace("* tint, 1.0", "* tint * 0.5, 1.0")).unwrap();
-    window.compiled();
+    window.wait_compiled();
     window.keys(&["ctrl+q"]);
-    assert_eq!(window.ends(), Some(0));
+    assert_eq!(window.wait_exit(), Some(0));
     let mut window = Window::open(&display, home.path(), &[path]);
-    window.shows("editor");
-    window.shows("panel:channels");
+    window.wait_shown("editor");
+    window.wait_shown("panel:channels");
 }
 
 #[test]
-fn presenting_puts_the_code_over_a_picture_that_fills_the_window() {
+fn f9_puts_the_code_over_a_picture_that_fills_the_window() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let mut window = Window::open_project(&display, home.path(), &folder);
@@ -102,12 +102,12 @@ fn presenting_puts_the_code_over_a_picture_that_fills_the_window() {
     let fills = |e: &Value| rect(&e["viewport"]) == [0.0, 0.0, 760.0, 440.0] && e["canvas"] == e["window"];
     let layout = window.wait_until("the picture to fill the window", "layout", fills);
     assert!(rect(&layout["rects"]["editor"])[2] > 300.0, "{layout}");
-    window.hides("button:gallery");
-    // One types, and the picture has the mouse beside the code.
+    window.wait_hidden("button:gallery");
+    // Keys go to the code, and the mouse next to the code goes to the picture.
     window.type_text("// ");
     window.wait_until("the text to be changed", "dirty", |e| e["dirty"] == true);
-    let beside = window.picture_point(0.9, 0.5);
-    window.move_to(beside);
+    let outside_code = window.picture_point(0.9, 0.5);
+    window.move_to(outside_code);
     window.press();
     window.wait_for("the press to reach the picture", |e| e["event"] == "frame" && e["mouse_has_picture"] == true);
     window.release();
@@ -118,19 +118,19 @@ fn presenting_puts_the_code_over_a_picture_that_fills_the_window() {
     window.release();
     window.keys(&["F11"]);
     window.keys(&["F9"]);
-    // Full screen without the code: the picture alone, as large as the screen where somebody manages windows.
+    // Full screen without code: the picture alone, the size of the screen if windows are managed.
     let (width, height) = if display.is_managed() { (1000.0, 700.0) } else { (760.0, 440.0) };
     let is_alone = |e: &Value| e["rects"]["editor"].is_null() && rect(&e["viewport"]) == [0.0, 0.0, width, height];
     let layout = window.wait_until("the picture alone", "layout", is_alone);
     assert_eq!(layout["canvas"], layout["window"]);
     display.shot("full-screen.png");
     window.keys(&["F11"]);
-    window.shows("button:gallery");
+    window.wait_shown("button:gallery");
     window.wait_until("its own size again", "layout", |e| e["window"] == serde_json::json!([760, 440]));
 }
 
 #[test]
-fn the_window_comes_back_as_it_was_closed() {
+fn the_window_reopens_as_it_was_closed() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let path = folder.to_str().unwrap();
@@ -138,24 +138,24 @@ fn the_window_comes_back_as_it_was_closed() {
     let (mut time, mut editor) = (0.0, [0.0; 4]);
     {
         let mut window = Window::open_as(&display, home.path(), None, &[], &[path]);
-        window.compiled();
+        window.wait_compiled();
         window.resize(940, 620);
         window.wait_for("some time", |e| e["event"] == "frame" && e["time"].as_f64() > Some(0.3));
         window.keys(&["F5"]);
         let paused = window.wait_until("the pause", "frame", |e| e["playing"] == false);
         time = f64::max(time, paused["time"].as_f64().unwrap());
         window.click_on("panel:close:uniforms");
-        window.hides("panel:uniforms");
+        window.wait_hidden("panel:uniforms");
         window.click_on("button:view");
         window.click_on("theme:light");
         window.click_on("zoom:in");
         window.wait_until("the zoom", "layout", |e| (e["pixels_per_point"].as_f64().unwrap() - 1.1).abs() < 1e-3);
         window.keys(&["Escape"]);
-        window.hides("theme:light");
+        window.wait_hidden("theme:light");
         window.keys(&["alt+z"]);
         editor = f64_max(editor, rect(&window.newest("layout").unwrap()["rects"]["editor"]));
         window.keys(&["ctrl+q"]);
-        assert_eq!(window.ends(), Some(0));
+        assert_eq!(window.wait_exit(), Some(0));
     }
     let settings = fs::read_to_string(home.path().join(".config/eddy/settings.toml")).unwrap();
     for line in ["theme = \"light\"", "zoom = 1.1", "word-wrap = true"] {
@@ -165,14 +165,14 @@ fn the_window_comes_back_as_it_was_closed() {
     assert!(recent.contains(&format!("path = \"{path}\"")) && recent.contains("paused = true"), "{recent}");
 
     let mut window = Window::open_as(&display, home.path(), None, &[], &[path]);
-    window.compiled();
+    window.wait_compiled();
     let frame = window.wait_until("the first frame", "frame", |e| e["frame"].as_u64() == Some(0) || e["time"] != 0.0);
     assert_eq!(frame["playing"], false, "{frame}");
     assert!((frame["time"].as_f64().unwrap() - time).abs() < 0.2, "{frame}, closed at {time}");
     let layout = window.wait_until("the layout", "layout", |e| size(e) == Some((940, 620)));
     assert!((layout["pixels_per_point"].as_f64().unwrap() - 1.1).abs() < 1e-3, "{layout}");
     assert!(layout["rects"]["panel:uniforms"].is_null(), "{layout}");
-    // A window that is still getting its size is laid out more than once.
+    // A window that is being resized is laid out more than once.
     window.wait_until("the code in its place", "layout", |e| rect(&e["rects"]["editor"]) == editor);
     display.shot("again.png");
     let shot = home.path().join("light.png");
@@ -186,7 +186,7 @@ fn f64_max(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
 }
 
 #[test]
-fn what_is_wrong_in_the_settings_is_said_with_its_line() {
+fn errors_in_the_settings_are_reported_with_their_line() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     folder_of(home.path().join(".config/eddy"), &[("settings.toml", "code-size = 16\nthem = \"light\"\n")]);
@@ -198,29 +198,29 @@ fn what_is_wrong_in_the_settings_is_said_with_its_line() {
     assert!(text.ends_with("settings.toml:2: unknown setting \"them\"; did you mean \"theme\"?"), "{text}");
 }
 
-/// A hand moves the line between picture and code, and a panel by its title; the next start has them there.
+/// A panel is dragged by its title; its place is kept at the next start.
 #[test]
-fn panels_are_dragged_and_stay() {
+fn dragged_panels_keep_their_place() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let path = folder.to_str().unwrap();
     let mut moved = [0.0; 4];
     for turn in 0..2 {
         let mut window = Window::open_as(&display, home.path(), Some("980x640"), &[], &[path]);
-        window.compiled();
-        // It is left paused, and opens so the next time.
+        window.wait_compiled();
+        // It is closed paused, and opens paused.
         if turn == 0 {
             window.keys(&["F5"]);
         }
         window.wait_until("the pause", "frame", |e| e["playing"] == false);
-        window.shows("panel:channels");
+        window.wait_shown("panel:channels");
         let before = rect(&window.newest("layout").unwrap()["rects"]["panel:channels"]);
         if turn == 0 {
             let from = window.centre("panel:channels");
             let editor = rect(&window.newest("layout").unwrap()["rects"]["editor"]);
             window.move_to(from);
             window.press();
-            // To the lower edge of the code.
+            // Drags to the lower edge of the code.
             for step in 1..=6 {
                 let part = f64::from(step) / 6.0;
                 let to = (editor[0] + editor[2] / 2.0, 624.0);
@@ -241,13 +241,13 @@ fn panels_are_dragged_and_stay() {
             window.wait_until("the usual layout", "layout", |e| rect(&e["rects"]["panel:channels"])[0] < 40.0);
         }
         window.keys(&["ctrl+q"]);
-        assert_eq!(window.ends(), Some(0));
+        assert_eq!(window.wait_exit(), Some(0));
     }
 }
 
-/// Paused and left alone, a window draws nothing and takes no processor.
+/// A paused window without input draws no frames and uses no CPU time.
 #[test]
-fn a_window_at_rest_takes_no_time() {
+fn a_window_at_rest_uses_no_cpu() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path());
     let mut window = Window::open_project(&display, home.path(), &folder);
@@ -257,17 +257,17 @@ fn a_window_at_rest_takes_no_time() {
     window.wait_until("the pause", "frame", |e| e["playing"] == false);
     std::thread::sleep(Duration::from_secs(2));
     window.drain();
-    let (events, busy) = (window.events.len(), window.busy());
+    let (events, busy) = (window.events.len(), window.cpu_time());
     let rest = Duration::from_secs(5);
     std::thread::sleep(rest);
     window.drain();
-    let busy = window.busy() - busy;
-    let said: Vec<_> = window.events[events..].iter().map(Value::to_string).collect();
-    assert!(said.is_empty(), "{said:?}");
+    let busy = window.cpu_time() - busy;
+    let unexpected: Vec<_> = window.events[events..].iter().map(Value::to_string).collect();
+    assert!(unexpected.is_empty(), "{unexpected:?}");
     assert!(busy <= rest / 100, "{busy:?} of {rest:?}");
 }
 
-/// A channel that a buffer feeds shows that buffer as it is drawn, and as it is while paused.
+/// A channel that reads a buffer shows that buffer live, also while paused.
 #[test]
 fn a_channel_shows_its_buffer_live() {
     let Some((display, home)) = Display::with_home() else { return };
@@ -296,15 +296,15 @@ fn a_channel_shows_its_buffer_live() {
         }
     };
     shows(&mut window, [0, 255, 0]);
-    // Changed while paused: drawn once more.
+    // Changed while paused: redrawn.
     fs::write(folder.join("buffer_a.glsl"), green.replace("0.0, 1.0, 0.0", "0.0, 0.0, 1.0")).unwrap();
     window.wait_for("a reload", |e| e["event"] == "reloaded");
     shows(&mut window, [0, 0, 255]);
 }
 
-/// By its frame: made as large as the screen, closed so, opened so, and back at the size and place it had before.
+/// With window frames: maximised, closed, reopened maximised, and restored to its previous size.
 #[test]
-fn a_window_that_was_closed_as_large_as_the_screen_opens_so() {
+fn a_window_closed_maximised_reopens_maximised() {
     let Some(display) = Display::with_frames(1300, 820) else { return };
     let home = tempfile::tempdir().unwrap();
     let folder = project(home.path());
@@ -313,7 +313,7 @@ fn a_window_that_was_closed_as_large_as_the_screen_opens_so() {
     let is_large = |e: &Value| size(e).is_some_and(|(width, height)| width > 1280 && height > 760);
     for turn in 0..2 {
         let mut window = Window::open_as(&display, home.path(), None, &[], &[path]);
-        window.compiled();
+        window.wait_compiled();
         if turn == 0 {
             window.keys(&["F5"]);
             window.resize(940, 620);
@@ -328,15 +328,15 @@ fn a_window_that_was_closed_as_large_as_the_screen_opens_so() {
             window.wait_until("the screen's size", "layout", is_large);
         }
         window.keys(&["alt+F4"]);
-        assert_eq!(window.ends(), Some(0), "{}", window.complaints());
+        assert_eq!(window.wait_exit(), Some(0), "{}", window.stderr());
     }
     let kept = fs::read_to_string(home.path().join(".local/state/eddy/window.toml")).unwrap();
     assert!(kept.contains("maximized = true"), "{kept}");
 }
 
-/// The code of Image is in front at the start, however many tabs come before its own.
+/// The tab of Image is active at the start, however many tabs come before it.
 #[test]
-fn the_tab_in_front_is_in_sight_in_a_row_of_twenty() {
+fn the_active_tab_is_visible_among_twenty() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = home.path().join("twenty");
     fs::create_dir_all(&folder).unwrap();
@@ -354,7 +354,7 @@ fn the_tab_in_front_is_in_sight_in_a_row_of_twenty() {
         tab[0] + tab[2] < add[0] + 1.0 && tab[0] > code[0] - 60.0
     };
     window.wait_until("the tab in sight", "layout", is_seen);
-    // So it is when another panel gives the code another place.
+    // The same after another panel moves the code.
     window.resize(1000, 700);
     window.keys(&["ctrl+shift+t"]);
     window.wait_until("the panel", "layout", |e| e["rects"]["panel:buffers"].is_array());

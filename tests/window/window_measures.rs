@@ -1,4 +1,4 @@
-//! End to end: numbers of passes over time, by real keys and clicks.
+//! End to end: measurements of passes over time, with real keys and clicks.
 
 use crate::support::window::{Display, Window, folder_of};
 use serde_json::{Value, json};
@@ -7,7 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Red grows by 1 each frame; blue is a NaN in every twentieth frame.
+/// Red grows by 1 per frame; blue is NaN in every twentieth frame.
 const A: &str = "//@probe max(buffer_a.x)
 //@probe mean(buffer_a.y)
 void mainImage(out vec4 o, in vec2 p) {
@@ -48,7 +48,7 @@ fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
     window
 }
 
-fn seen(window: &mut Window, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
+fn wait_for_measures(window: &mut Window, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
     window.wait_until(what, "measurements", fits)
 }
 
@@ -58,16 +58,16 @@ fn pause(window: &mut Window) -> i64 {
 }
 
 #[test]
-fn comments_have_their_numbers_over_time() {
+fn measures_in_comments_are_plotted_over_time() {
     let Some((display, home)) = Display::of_size_with_home(1280, 1000) else { return };
     let mut window = open(&display, home.path());
     window.keys(&["ctrl+shift+j"]);
-    window.shows("panel:measurements");
-    seen(&mut window, "a record", |e| e["cards"][0]["samples"].as_i64() >= Some(30));
+    window.wait_shown("panel:measurements");
+    wait_for_measures(&mut window, "a record", |e| e["cards"][0]["samples"].as_i64() >= Some(30));
     // The card of `sum(buffer_a.z)` is the third.
-    seen(&mut window, "a NaN", |e| e["cards"][2]["nonfinite"].as_i64() >= Some(1));
+    wait_for_measures(&mut window, "a NaN", |e| e["cards"][2]["nonfinite"].as_i64() >= Some(1));
     let frame = pause(&mut window);
-    let rest = seen(&mut window, "the newest number", |e| e["cards"][0]["frame"] == frame);
+    let rest = wait_for_measures(&mut window, "the newest number", |e| e["cards"][0]["frame"] == frame);
     let cards = rest["cards"].as_array().unwrap();
     let comments: Vec<_> =
         cards.iter().map(|card| (card["text"].as_str().unwrap(), &card["tab"], &card["line"])).collect();
@@ -87,15 +87,19 @@ fn comments_have_their_numbers_over_time() {
     display.shot("measures-dark.png");
 
     window.click_on("measures:axis:time");
-    seen(&mut window, "time across", |e| e["axis"] == "iTime");
+    wait_for_measures(&mut window, "time across", |e| e["axis"] == "iTime");
 
-    // A reset begins anew, and a table is saved.
+    // A reset restarts the record, and a table is saved.
     window.keys(&["alt+Down"]);
-    let begun = seen(&mut window, "a new record", |e| e["cards"][0]["frame"] == 0);
-    assert_eq!((&begun["cards"][0]["samples"], &begun["cards"][0]["value"]), (&json!(1), &json!(1.0)), "{begun}");
+    let restarted = wait_for_measures(&mut window, "a new record", |e| e["cards"][0]["frame"] == 0);
+    assert_eq!(
+        (&restarted["cards"][0]["samples"], &restarted["cards"][0]["value"]),
+        (&json!(1), &json!(1.0)),
+        "{restarted}"
+    );
     for frame in 1..=3 {
         window.keys(&["alt+period"]);
-        seen(&mut window, "the next frame", |e| e["cards"][0]["frame"] == frame);
+        wait_for_measures(&mut window, "the next frame", |e| e["cards"][0]["frame"] == frame);
     }
     window.click_on("measures:save");
     let notice = window.wait_until("the file", "notice", |e| e["path"].is_string());
@@ -104,30 +108,31 @@ fn comments_have_their_numbers_over_time() {
     assert_eq!((rows.len(), rows[0].split(',').count()), (5, 6), "{table}");
     assert!(rows[4].starts_with("3,") && rows[4].contains(",4.0,"), "{table}");
     window.click_on("measures:clear");
-    seen(&mut window, "nothing", |e| e["cards"][0]["samples"] == 0 && e["cards"][0]["frame"].is_null());
+    wait_for_measures(&mut window, "nothing", |e| e["cards"][0]["samples"] == 0 && e["cards"][0]["frame"].is_null());
 }
 
 #[test]
-fn a_closed_panel_measures_nothing_and_leaves_a_gap() {
+fn a_closed_panel_stops_measuring_and_leaves_a_gap() {
     let Some((display, home)) = Display::of_size_with_home(1280, 1000) else { return };
     folder_of(home.path().join(".config/eddy"), &[("settings.toml", "theme = \"light\"\n")]);
     let mut window = open(&display, home.path());
     window.keys(&["ctrl+shift+j"]);
-    window.shows("panel:measurements");
-    seen(&mut window, "a record", |e| e["cards"][0]["samples"].as_i64() >= Some(20));
+    window.wait_shown("panel:measurements");
+    wait_for_measures(&mut window, "a record", |e| e["cards"][0]["samples"].as_i64() >= Some(20));
     window.keys(&["ctrl+shift+j"]);
-    window.hides("panel:measurements");
+    window.wait_hidden("panel:measurements");
     let closed = window.newest("frame").unwrap()["frame"].as_i64().unwrap();
     window.wait_until("frames without it", "frame", |e| e["frame"].as_i64() >= Some(closed + 40));
     window.keys(&["ctrl+shift+j"]);
-    window.shows("panel:measurements");
-    let again = seen(&mut window, "a later number", |e| e["cards"][0]["frame"].as_i64() >= Some(closed + 40));
+    window.wait_shown("panel:measurements");
+    let again =
+        wait_for_measures(&mut window, "a later number", |e| e["cards"][0]["frame"].as_i64() >= Some(closed + 40));
     let samples = again["cards"][0]["samples"].as_i64().unwrap();
     assert!(samples < again["cards"][0]["frame"].as_i64().unwrap() - 30, "{again}");
-    seen(&mut window, "some more", |e| e["cards"][0]["samples"].as_i64() >= Some(samples + 20));
+    wait_for_measures(&mut window, "some more", |e| e["cards"][0]["samples"].as_i64() >= Some(samples + 20));
     pause(&mut window);
-    // The cards below are scrolled to.
-    window.shows("measures:card:0");
+    // Scrolls to the cards below.
+    window.wait_shown("measures:card:0");
     display.shot("measures-light.png");
     let at = window.centre("measures:card:0");
     window.move_to(at);
@@ -137,7 +142,8 @@ fn a_closed_panel_measures_nothing_and_leaves_a_gap() {
     window.wait_until("the last card in sight", "layout", |e| {
         e["rects"]["measures:card:4"][1].as_f64().is_some_and(|top| top < 960.0)
     });
-    let last = seen(&mut window, "why", |e| e["cards"][3]["why"] == "Buffer C is not drawn: no channel reads it");
+    let last =
+        wait_for_measures(&mut window, "why", |e| e["cards"][3]["why"] == "Buffer C is not drawn: no channel reads it");
     assert!(last["cards"][3]["mend"].as_str().unwrap().contains("show Buffer C"), "{last}");
     display.shot("measures-light-end.png");
 }

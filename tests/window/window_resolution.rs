@@ -1,10 +1,10 @@
-//! End to end: a picture of a size that is typed, which may be larger than the window.
+//! End to end: a picture with a typed size, which may be larger than the window.
 
 use crate::support::window::{Display, Window, folder_of};
 use serde_json::json;
 use std::{fs, path::Path};
 
-/// Red and green are where the mouse is pressed, in parts of the picture.
+/// Red and green encode the pressed mouse position, as fractions of the picture.
 const MOUSE: &str = "void mainImage(out vec4 o, in vec2 p) {
     vec2 at = iMouse.xy / iResolution.xy;
     o = vec4(iMouse.z > 0.0 ? at : vec2(0.0), p.y > p.x ? 1.0 : 0.0, 1.0);
@@ -15,7 +15,7 @@ fn light(home: &Path) {
     folder_of(home.join(".config/eddy"), &[("settings.toml", "theme = \"light\"\n")]);
 }
 
-/// Types a size into the field of the menu.
+/// Types a size into the menu's field.
 fn type_size(window: &mut Window, size: &str) {
     window.click_on("combo:size");
     window.click_on("size:field");
@@ -25,30 +25,30 @@ fn type_size(window: &mut Window, size: &str) {
 
 fn screenshot_size(window: &mut Window) -> (u32, u32) {
     window.keys(&["F12"]);
-    let said = window.wait_for("a saved picture", |e| e["event"] == "notice" && e["path"].is_string());
-    image::image_dimensions(said["path"].as_str().unwrap()).unwrap()
+    let notice = window.wait_for("a saved picture", |e| e["event"] == "notice" && e["path"].is_string());
+    image::image_dimensions(notice["path"].as_str().unwrap()).unwrap()
 }
 
 #[test]
-fn a_typed_size_is_drawn_shown_whole_and_saved() {
+fn a_typed_size_is_drawn_fitted_and_saved() {
     let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let file = home.path().join("mouse.glsl");
     fs::write(&file, MOUSE).unwrap();
     let mut window = Window::open(&display, home.path(), &["--paused", file.to_str().unwrap()]);
     window.resize(1300, 900);
-    window.compiled();
+    window.wait_compiled();
     window.keys(&["F5"]);
     for (text, size, shape) in [("1080x1920", (1080, 1920), 9.0 / 16.0), ("3840 × 2160", (3840, 2160), 16.0 / 9.0)] {
         let text = if text.contains('×') { "3840 x 2160" } else { text };
         type_size(&mut window, text);
         window.wait_until("the size", "layout", |e| e["canvas"] == json!([size.0, size.1]));
-        window.hides("size:field");
+        window.wait_hidden("size:field");
         let [x, y, width, height] = window.viewport();
         let panel = window.rect("picture");
         assert!((width / height - shape).abs() < 0.01, "{width} x {height}");
         assert!(x >= panel[0] && y >= panel[1], "{x} {y} in {panel:?}");
         assert!(x + width <= panel[0] + panel[2] + 1.0 && y + height <= panel[1] + panel[3] + 1.0);
-        // The pointer at three quarters and a quarter of what is shown is there in the picture's own pixels.
+        // The pointer at three quarters and a quarter of the shown picture is mapped to the picture's own pixels.
         let at = window.picture_point(0.75, 0.25);
         window.move_to(at);
         window.press();
@@ -69,15 +69,15 @@ fn a_typed_size_is_drawn_shown_whole_and_saved() {
         display.shot(&format!("resolution-{}.png", size.0));
     }
     window.keys(&["ctrl+q"]);
-    assert_eq!(window.ends(), Some(0));
-    // In another window, which is smaller.
+    assert_eq!(window.wait_exit(), Some(0));
+    // In another, smaller window.
     let mut window = Window::open(&display, home.path(), &[file.to_str().unwrap()]);
-    window.compiled();
-    window.wait_until("the size as it was", "layout", |e| e["canvas"] == json!([3840, 2160]));
+    window.wait_compiled();
+    window.wait_until("the saved size", "layout", |e| e["canvas"] == json!([3840, 2160]));
 }
 
 #[test]
-fn what_is_not_a_size_is_said_at_the_field() {
+fn an_invalid_size_is_reported_at_the_field() {
     for is_light in [false, true] {
         let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
         if is_light {
@@ -87,25 +87,25 @@ fn what_is_not_a_size_is_said_at_the_field() {
         fs::write(&file, MOUSE).unwrap();
         let mut window = Window::open(&display, home.path(), &[file.to_str().unwrap()]);
         window.resize(1300, 900);
-        window.compiled();
+        window.wait_compiled();
         window.rect("combo:size");
         let before = window.newest("layout").unwrap()["canvas"].clone();
         for (n, bad) in ["1080", "0x4", "99999x4", "4x-4"].into_iter().enumerate() {
             type_size(&mut window, bad);
-            window.shows("size:error");
+            window.wait_shown("size:error");
             display.shot(&format!("resolution-bad-{n}-{}.png", if is_light { "light" } else { "dark" }));
-            // The field keeps the keyboard and the text.
+            // The field keeps the focus and the text.
             window.wait_until("the keyboard in the size", "focus", |e| e["widget"] == "size:field");
             window.keys(&["BackSpace"]);
-            window.hides("size:error");
-            // The menu forgets what is left in the field when it closes.
+            window.wait_hidden("size:error");
+            // The menu discards the field's text when it closes.
             window.keys(&["Escape"]);
-            window.hides("size:field");
+            window.wait_hidden("size:field");
         }
         assert_eq!(window.newest("layout").unwrap()["canvas"], before);
-        // By the palette, whose entry leads into the field.
+        // By the palette, whose entry opens the field.
         window.search_palette("portrait");
-        window.shows("palette:picture-size");
+        window.wait_shown("palette:picture-size");
         window.keys(&["Return"]);
         window.wait_until("the keyboard in the size", "focus", |e| e["widget"] == "size:field");
         window.submit("90x160");

@@ -1,5 +1,5 @@
-//! End to end: typing reaches the code, saving always finds a way, and what was typed outlives the process. By real
-//! keys in the real window, on a machine with no file dialogs, judged by the files.
+//! End to end: typing reaches the code, saving always works, and typed text survives the process. With real keys in the
+//! real window, on a machine without file dialogs, checked by the files.
 
 use crate::support::window::{Display, Window, folder_of};
 use std::{
@@ -14,14 +14,14 @@ fn question(window: &mut Window, kind: &str) {
     window.wait_until(&format!("the question {kind}"), "question", |e| e["kind"] == kind);
 }
 
-/// Types at the beginning of the text that has the keyboard.
+/// Types at the start of the focused text.
 fn type_at_start(window: &mut Window, text: &str) {
     window.keys(&["ctrl+Home"]);
     window.type_text(text);
     window.wait_until("an unsaved text", "dirty", |e| e["dirty"] == true);
 }
 
-/// Types a path into the field for it.
+/// Types a path into the path field.
 fn type_path(window: &mut Window, path: &Path) {
     window.wait_until("the field for a path", "layout", |e| e["rects"]["field:path"].is_array());
     window.enter(path.to_str().unwrap());
@@ -33,14 +33,14 @@ fn recovery_files(home: &Path) -> Vec<PathBuf> {
 }
 
 #[test]
-fn a_new_shader_takes_typing_and_is_saved_by_a_typed_path() {
+fn a_new_shader_is_typed_and_saved_by_a_typed_path() {
     let Some((display, home)) = Display::with_home() else { return };
     let mut window = Window::open(&display, home.path(), &[]);
     // From the gallery.
     window.click_on("gallery:new");
     window.wait_until("the editor", "layout", |e| e["rects"]["editor"].is_array());
     type_at_start(&mut window, "// first ");
-    // By its key, with the first one thrown away.
+    // By its key, discarding the first one.
     window.keys(&["ctrl+n"]);
     question(&mut window, "unsaved");
     window.click_on("answer:discard");
@@ -54,7 +54,7 @@ fn a_new_shader_takes_typing_and_is_saved_by_a_typed_path() {
     window.wait_until("the save", "dirty", |e| e["dirty"] == false);
     let text = fs::read_to_string(folder.join("image.glsl")).unwrap();
     assert!(text.starts_with("// second ") && !text.contains("first"), "{text}");
-    // A field that is closed saves nothing, and can be had again.
+    // Closing the path field does not save, and it can be opened again.
     type_at_start(&mut window, "// third ");
     for _ in 0..2 {
         window.keys(&["ctrl+shift+s"]);
@@ -66,13 +66,13 @@ fn a_new_shader_takes_typing_and_is_saved_by_a_typed_path() {
 }
 
 #[test]
-fn save_as_calls_everything_by_the_new_folder() {
+fn save_as_renames_the_project_to_the_new_folder() {
     let Some((display, home)) = Display::with_home() else { return };
     let old = folder_of(
         home.path().join("old"),
         &[("image.glsl", IMAGE), ("eddy.toml", "eddy = 1\nname = \"The old one\"\n[passes.image]\n")],
     );
-    // By a relative path, and saved to one.
+    // Opened by a relative path, and saved to one.
     let mut window = Window::open(&display, home.path(), &["old"]);
     window.wait_until("the first picture", "compiled", |e| e["compiling"] == false && e["ok"] == true);
     assert!(window.title().contains("The old one"), "{}", window.title());
@@ -90,14 +90,14 @@ fn save_as_calls_everything_by_the_new_folder() {
 }
 
 #[test]
-fn a_killed_window_offers_what_was_typed_at_the_next_start() {
+fn a_killed_window_offers_its_text_at_the_next_start() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = folder_of(home.path().join("project"), &[("image.glsl", IMAGE)]);
     let project = folder.to_str().unwrap();
     let mut window = Window::open(&display, home.path(), &[project]);
     window.click_on("editor");
     type_at_start(&mut window, "// typed and never saved ");
-    // As soon as the last key has been taken, however slow the frames are here.
+    // Killed as soon as the last key has been received, however slow the frames are.
     let end = Instant::now() + Duration::from_secs(60);
     let is_kept = |file: &PathBuf| fs::read_to_string(file).is_ok_and(|text| text.contains("never saved void"));
     while !recovery_files(home.path()).iter().any(is_kept) {
@@ -118,12 +118,12 @@ fn a_killed_window_offers_what_was_typed_at_the_next_start() {
     assert_eq!(fs::read_to_string(folder.join("image.glsl")).unwrap(), format!("// typed and never saved {IMAGE}"));
     let end = Instant::now() + Duration::from_secs(20);
     while !recovery_files(home.path()).is_empty() {
-        assert!(Instant::now() < end, "the recovery file stays");
+        assert!(Instant::now() < end, "the recovery file is still there");
         std::thread::sleep(Duration::from_millis(20));
     }
 }
 
-/// What is in the recovery file of the only text.
+/// Returns the text in the recovery file, if there is only one.
 fn kept(home: &Path) -> Option<String> {
     fn texts(value: &serde_json::Value, found: &mut Vec<String>) {
         match value {
@@ -135,16 +135,16 @@ fn kept(home: &Path) -> Option<String> {
     }
     let mut found = Vec::new();
     for file in recovery_files(home) {
-        // Whole whenever it is read.
+        // The file is complete whenever it is read.
         texts(&serde_json::from_str(&fs::read_to_string(file).ok()?).unwrap(), &mut found);
     }
     found.into_iter().filter(|text| text.ends_with(IMAGE)).max_by_key(String::len)
 }
 
-/// Killed in the middle of typing, again and again: each start has what was typed before, and a part of the rest.
-/// `EDDY_KILLS=100` kills as often.
+/// Killed during typing, repeatedly: each start has the previously typed text, and a part of the rest. `EDDY_KILLS` is
+/// the number of kills.
 #[test]
-fn kills_in_the_middle_of_typing_lose_the_last_letters_at_most() {
+fn kills_during_typing_lose_at_most_the_last_letters() {
     const MORE: &str = "/* and what was being typed */ ";
     let kills = std::env::var("EDDY_KILLS").ok().and_then(|n| n.parse().ok()).unwrap_or(3);
     let Some((display, home)) = Display::with_home() else { return };
@@ -152,8 +152,8 @@ fn kills_in_the_middle_of_typing_lose_the_last_letters_at_most() {
     let mut expected = IMAGE.to_owned();
     let recover = |window: &mut Window| {
         question(window, "recover");
-        // A dialog finds its place in its second frame, which on a busy machine may be long after the first. The button
-        // gets the keyboard later than that.
+        // A dialog gets its position in its second frame, which on a busy machine may be long after the first. The
+        // button gets the focus later than that.
         window.wait_until("the button with the keyboard", "focus", |e| e["widget"] == "answer:recover");
         window.click_on("answer:recover");
         window.wait_until("the recovered work", "dirty", |e| e["dirty"] == true);
@@ -191,7 +191,7 @@ fn kills_in_the_middle_of_typing_lose_the_last_letters_at_most() {
 }
 
 #[test]
-fn the_copy_of_a_conflict_lies_beside_a_file_that_was_opened_by_a_relative_path() {
+fn a_conflict_copy_is_next_to_a_file_opened_by_a_relative_path() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = folder_of(home.path().join("w"), &[("edit.glsl", IMAGE)]);
     let mut window = Window::open(&display, home.path(), &["w/edit.glsl"]);
@@ -209,7 +209,7 @@ fn the_copy_of_a_conflict_lies_beside_a_file_that_was_opened_by_a_relative_path(
         assert!(Instant::now() < end, "no {}", copy.display());
         std::thread::sleep(Duration::from_millis(20));
     }
-    assert!(!folder.join("w").exists(), "not in a folder of that name within it");
+    assert!(!folder.join("w").exists(), "the copy is in a nested folder");
     window.click_on("editor");
     window.save();
     assert_eq!(fs::read_to_string(folder.join("edit.glsl")).unwrap(), format!("/* mine */ {IMAGE}"));

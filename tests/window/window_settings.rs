@@ -1,4 +1,4 @@
-//! End to end: the page of settings writes the file and follows it, and the list of recent projects has their pictures.
+//! End to end: the settings page writes the file and follows it, and the list of recent projects shows their pictures.
 
 use crate::support::window::{Display, Window, folder_of};
 use serde_json::Value;
@@ -16,15 +16,15 @@ fn settings_file(home: &Path, text: &str) -> PathBuf {
     folder.join("settings.toml")
 }
 
-/// Waits until the file says something, and returns all that it says.
-fn says(file: &Path, wanted: &str) -> String {
+/// Waits until the file contains a text, and returns its content.
+fn wait_for_text(file: &Path, wanted: &str) -> String {
     let end = Instant::now() + Duration::from_secs(30);
     loop {
         let text = fs::read_to_string(file).unwrap_or_default();
         if text.contains(wanted) {
             return text;
         }
-        assert!(Instant::now() < end, "never {wanted:?} in:\n{text}");
+        assert!(Instant::now() < end, "timed out waiting for {wanted:?} in:\n{text}");
         std::thread::sleep(Duration::from_millis(50));
     }
 }
@@ -35,31 +35,31 @@ fn shader(home: &Path, name: &str, text: &str) -> PathBuf {
 }
 
 #[test]
-fn the_page_of_settings_writes_the_file_and_follows_it() {
+fn the_settings_page_writes_the_file_and_follows_it() {
     let Some((display, home)) = Display::of_size_with_home(1300, 1500) else { return };
     let file = settings_file(home.path(), "# mine\ntheme = \"dark\" # at night\n\nmine-too = 3\n");
     let project = shader(home.path(), "red.glsl", RED);
     let mut window = Window::open(&display, home.path(), &["--paused", project.to_str().unwrap()]);
     window.resize(1300, 1500);
-    window.compiled();
+    window.wait_compiled();
     window.keys(&["ctrl+comma"]);
-    window.shows("settings:page");
-    // A key that Eddy does not know is said, and does not keep anybody from changing the others.
-    window.shows("settings:trouble");
+    window.wait_shown("settings:page");
+    // An unknown key is reported, and the other settings can still be changed.
+    window.wait_shown("settings:trouble");
     display.shot("settings-dark.png");
     window.click_on("setting:theme:light");
-    let text = says(&file, "theme = \"light\"");
+    let text = wait_for_text(&file, "theme = \"light\"");
     assert_eq!(text, "# mine\ntheme = \"light\" # at night\n\nmine-too = 3\n");
     window.click_on("setting:word-wrap");
     window.click_on("setting:code-size:more");
-    let text = says(&file, "code-size = 14");
+    let text = wait_for_text(&file, "code-size = 14");
     assert!(text.starts_with("# mine\ntheme = \"light\" # at night\n") && text.contains("mine-too = 3\n"), "{text}");
-    says(&file, "word-wrap = true");
+    wait_for_text(&file, "word-wrap = true");
     display.shot("settings-light.png");
     // A number is typed.
     window.fill("setting:frame-timeout", "7.5");
-    says(&file, "frame-timeout = 7.5");
-    // A number is dragged, and written once the hand lets go.
+    wait_for_text(&file, "frame-timeout = 7.5");
+    // A number is dragged, and written once the mouse is released.
     let [x, y, width, height] = window.rect("setting:code-size");
     let at = ((x + width / 2.0) as i64, (y + height / 2.0) as i64);
     window.move_to(at);
@@ -76,8 +76,8 @@ fn the_page_of_settings_writes_the_file_and_follows_it() {
         std::thread::sleep(Duration::from_millis(50));
     }
     window.click_on("setting:code-size:reset");
-    says(&file, "code-size = 13");
-    // Another program writes the file while the page is open: the page shows it, and says where it is wrong.
+    wait_for_text(&file, "code-size = 13");
+    // Another program writes the file while the page is open: the page shows it, and the place of its error.
     fs::write(&file, "# theirs\ntheme = \"dark\"\nzoom = = 2\n").unwrap();
     window.wait_for("the mistake", |e| {
         e["event"] == "notice" && e["text"].as_str().is_some_and(|text| text.contains("settings.toml:3:"))
@@ -87,18 +87,18 @@ fn the_page_of_settings_writes_the_file_and_follows_it() {
     window.click_on("setting:theme:light");
     window.click_on("setting:word-wrap");
     std::thread::sleep(Duration::from_millis(1200));
-    assert_eq!(fs::read_to_string(&file).unwrap(), before, "what is not understood is not overwritten");
+    assert_eq!(fs::read_to_string(&file).unwrap(), before, "an invalid file is not overwritten");
     fs::write(&file, "# theirs\ntheme = \"light\"\nzoom = 1.2\n").unwrap();
-    window.hides("settings:trouble");
-    window.wait_until("no notice of what is mended", "layout", |e| e["rects"]["notices"].is_null());
-    display.shot("settings-mended.png");
+    window.wait_hidden("settings:trouble");
+    window.wait_until("no notice of the fixed error", "layout", |e| e["rects"]["notices"].is_null());
+    display.shot("settings-fixed.png");
     window.click_on("setting:zoom:less");
-    assert_eq!(says(&file, "zoom = 1.1"), "# theirs\ntheme = \"light\"\nzoom = 1.1\n");
+    assert_eq!(wait_for_text(&file, "zoom = 1.1"), "# theirs\ntheme = \"light\"\nzoom = 1.1\n");
     window.keys(&["Escape"]);
-    window.hides("settings:page");
+    window.wait_hidden("settings:page");
 }
 
-/// The uppermost row of the palette.
+/// Returns the first row of the palette.
 fn first_row(layout: &Value) -> Option<&str> {
     let rows = layout["rects"].as_object()?.iter().filter(|(name, _)| name.starts_with("palette:"));
     let top = |rect: &Value| rect[1].as_f64().unwrap_or(f64::MAX);
@@ -106,45 +106,45 @@ fn first_row(layout: &Value) -> Option<&str> {
 }
 
 #[test]
-fn a_font_that_is_none_is_said_at_its_field_and_the_palette_finds_the_page() {
+fn an_invalid_font_is_reported_at_its_field_and_the_palette_finds_the_page() {
     let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let file = home.path().join(".config/eddy/settings.toml");
     let project = shader(home.path(), "red.glsl", RED);
     let mut window = Window::open(&display, home.path(), &["--paused", project.to_str().unwrap()]);
     window.resize(1300, 900);
-    window.compiled();
+    window.wait_compiled();
     for word in ["settings", "preferences", "options"] {
         window.search_palette(word);
-        // Return takes the first row, which stands while letters are still to come.
+        // Return takes the first row, which is stable while more letters are typed.
         let is_first = |layout: &Value| first_row(layout) == Some("palette:open-settings");
         window.wait_until("the settings on top", "layout", is_first);
         window.keys(&["Return"]);
-        window.shows("settings:page");
+        window.wait_shown("settings:page");
         window.keys(&["Escape"]);
-        window.hides("settings:page");
+        window.wait_hidden("settings:page");
     }
-    assert!(!file.exists(), "looking writes nothing");
+    assert!(!file.exists(), "opening the page wrote the file");
     window.keys(&["ctrl+comma"]);
     window.click_on("setting:code-font");
     window.submit("/no/such/font.ttf");
-    window.shows("setting:code-font:error");
+    window.wait_shown("setting:code-font:error");
     display.shot("settings-font.png");
-    assert!(!file.exists(), "what cannot be used is not written");
-    // By the dialog, which without a desktop is a field.
+    assert!(!file.exists(), "an invalid font was written");
+    // By the dialog, which is a field without a desktop.
     let font = home.path().join("mine.ttf");
     fs::write(&font, epaint_default_fonts::UBUNTU_LIGHT).unwrap();
     window.click_on("setting:code-font:choose");
-    window.shows("field:path");
+    window.wait_shown("field:path");
     window.enter(font.to_str().unwrap());
-    says(&file, &format!("\ncode-font = \"{}\"\n", font.display()));
-    window.hides("setting:code-font:error");
-    window.shows("settings:page");
-    // The rest of the new file is its comments.
+    wait_for_text(&file, &format!("\ncode-font = \"{}\"\n", font.display()));
+    window.wait_hidden("setting:code-font:error");
+    window.wait_shown("settings:page");
+    // The new file also contains the comments.
     assert!(fs::read_to_string(&file).unwrap().contains("# theme = \"system\""));
 }
 
 #[test]
-fn recent_projects_have_their_last_picture_and_a_damaged_one_is_a_plain_card() {
+fn recent_projects_show_their_last_picture_and_damaged_ones_a_plain_card() {
     for theme in ["dark", "light"] {
         let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
         settings_file(home.path(), &format!("theme = \"{theme}\"\n"));
@@ -153,20 +153,20 @@ fn recent_projects_have_their_last_picture_and_a_damaged_one_is_a_plain_card() {
         let count = || fs::read_dir(&cache).map_or(0, |files| files.count());
         let mut window = Window::open(&display, home.path(), &[red.to_str().unwrap()]);
         window.resize(1300, 900);
-        window.compiled();
+        window.wait_compiled();
         window.wait_until("a frame", "frame", |e| e["frame"].as_u64() > Some(1));
         assert_eq!(count(), 0);
-        // It is shown of the project that is open, too.
+        // The open project has one, too.
         window.keys(&["ctrl+shift+g"]);
-        window.shows(&format!("recent-picture:{}", red.display()));
+        window.wait_shown(&format!("recent-picture:{}", red.display()));
         assert_eq!(count(), 1);
         window.keys(&["ctrl+shift+g", "ctrl+q"]);
-        assert_eq!(window.ends(), Some(0));
+        assert_eq!(window.wait_exit(), Some(0));
         let mut window = Window::open(&display, home.path(), &[green.to_str().unwrap()]);
-        window.compiled();
+        window.wait_compiled();
         window.wait_until("a frame", "frame", |e| e["frame"].as_u64() > Some(1));
         window.keys(&["ctrl+q"]);
-        assert_eq!(window.ends(), Some(0));
+        assert_eq!(window.wait_exit(), Some(0));
         assert_eq!(count(), 2);
         let mut window = Window::open(&display, home.path(), &[]);
         window.resize(1300, 900);
@@ -180,7 +180,7 @@ fn recent_projects_have_their_last_picture_and_a_damaged_one_is_a_plain_card() {
         assert!(r > 215 && g < 70 && (90..170).contains(&b), "{r} {g} {b}");
         let [r, g, b] = colour(&mut window, &green);
         assert!(r < 50 && g > 190 && b < 50, "{r} {g} {b}");
-        // One grid: a recent project's card is as wide as a preset's, and begins where those do.
+        // One grid: a recent project's card has the width of a preset's, and starts at the same column.
         let card = window.rect(&format!("recent:{}", green.display()));
         let layout = window.newest("layout").unwrap();
         let preset =

@@ -1,5 +1,5 @@
-//! End to end: what is a project's goes with it, a paused picture stands still, and what is closed comes back as it was
-//! left. By real keys and clicks.
+//! End to end: project state is kept per project, a paused picture does not change, and a closed project reopens as it
+//! was. With real keys and clicks.
 
 use crate::support::window::{Display, Window};
 use serde_json::Value;
@@ -9,7 +9,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Counts the frames that it has seen in red; what it is seeded with in its first second stays in green.
+/// Counts its frames in red; the seed of its first second stays in green.
 const COUNT: &str = "void mainImage(out vec4 o, in vec2 p) {
     o = texelFetch(iChannel0, ivec2(p), 0) + vec4(1.0 / 256.0, 0.0, 0.0, 1.0);
     if (iTime < 1.0) o.g = 0.5;
@@ -32,21 +32,21 @@ fn project(home: &Path, name: &str) -> PathBuf {
     folder
 }
 
-/// Opens it paused, before its first frame, and goes to frame 90.
+/// Opens the project paused, before its first frame, and seeks to frame 90.
 fn at_frame_90<'a>(display: &'a Display, home: &Path, folder: &Path) -> Window<'a> {
     let mut window = Window::open(display, home, &["--paused", folder.to_str().unwrap()]);
     window.resize(1300, 900);
-    window.compiled();
+    window.wait_compiled();
     window.keys(&["alt+g"]);
     window.wait_until("the keyboard in the time", "focus", |e| e["widget"] == "time:field");
     window.submit("1.5");
     window.wait_until("a second and a half", "frame", |e| e["frame"] == 90);
     window.keys(&["Escape"]);
-    window.hides("time:field");
+    window.wait_hidden("time:field");
     window
 }
 
-/// The colour in the middle of the picture.
+/// Returns the colour in the middle of the picture.
 fn colour(display: &Display, window: &mut Window, home: &Path) -> [u8; 3] {
     let middle = window.picture_point(0.5, 0.5);
     let file = home.join("shot.png");
@@ -54,8 +54,8 @@ fn colour(display: &Display, window: &mut Window, home: &Path) -> [u8; 3] {
     image::open(&file).unwrap().to_rgb8().get_pixel(middle.0 as u32, middle.1 as u32).0
 }
 
-/// Waits until the middle of the picture has a colour, and returns what it has in the end.
-fn comes_to(display: &Display, window: &mut Window, home: &Path, wanted: [u8; 3]) -> [u8; 3] {
+/// Waits until the middle of the picture has a colour, and returns its final colour.
+fn final_colour(display: &Display, window: &mut Window, home: &Path, wanted: [u8; 3]) -> [u8; 3] {
     let end = Instant::now() + Duration::from_secs(30);
     loop {
         let seen = colour(display, window, home);
@@ -86,7 +86,7 @@ fn files(folder: &Path) -> Vec<(String, String)> {
 }
 
 #[test]
-fn a_save_over_another_project_names_every_file_and_enter_replaces_none() {
+fn saving_over_another_project_lists_its_files_and_enter_cancels() {
     let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let mine = project(home.path(), "mine");
     let theirs = home.path().join("theirs");
@@ -99,14 +99,14 @@ fn a_save_over_another_project_names_every_file_and_enter_replaces_none() {
     let before = files(&theirs);
     let mut window = Window::open(&display, home.path(), &["--paused", mine.to_str().unwrap()]);
     window.resize(1300, 900);
-    window.compiled();
+    window.wait_compiled();
     for key in ["Return", "space", "Escape"] {
         window.keys(&["ctrl+shift+s"]);
         type_path(&mut window, &theirs);
         question(&mut window, "overwrite");
-        window.wait_until("the safe answer has the keyboard", "focus", |e| e["widget"] == "answer:cancel");
+        window.wait_until("the safe answer to have the focus", "focus", |e| e["widget"] == "answer:cancel");
         for name in ["eddy.toml", "buffer_a.glsl", "image.glsl"] {
-            window.shows(&format!("replaces:{name}"));
+            window.wait_shown(&format!("replaces:{name}"));
         }
         display.shot("replace.png");
         window.keys(&[key]);
@@ -124,12 +124,12 @@ fn a_save_over_another_project_names_every_file_and_enter_replaces_none() {
 }
 
 #[test]
-fn a_paused_picture_stands_still_whatever_is_done_to_its_code_or_window() {
+fn a_paused_picture_does_not_change_with_code_or_window() {
     let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path(), "count");
     let mut window = at_frame_90(&display, home.path(), &folder);
-    assert_eq!(comes_to(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
-    // Edits, each in the picture before the next one.
+    assert_eq!(final_colour(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
+    // Edits, each drawn before the next one.
     window.click_on("editor");
     for n in 1..=4 {
         let drawn = |e: &Value| e["programs"].as_u64();
@@ -138,17 +138,17 @@ fn a_paused_picture_stands_still_whatever_is_done_to_its_code_or_window() {
         window.keys(&["ctrl+End"]);
         window.type_text(&format!("// {n}"));
         window.wait_until("the edit in the picture", "drawn", |e| drawn(e) > Some(before));
-        window.compiled();
+        window.wait_compiled();
     }
-    // A value of the code, and the picture again.
+    // A probed value, then the picture again.
     window.keys(&["ctrl+g"]);
     window.type_text("3:11");
     window.keys(&["Return", "ctrl+shift+i"]);
     window.wait_until("the probe", "probe", |e| e["text"].is_string() && e["range"].is_array());
     window.keys(&["Escape"]);
     window.wait_until("the picture", "probe", |e| e["text"].is_null());
-    window.compiled();
-    // The map of errors, the trace of a pixel, a picture on disk.
+    window.wait_compiled();
+    // The audit map, the trace of a pixel, a screenshot.
     window.keys(&["ctrl+shift+u"]);
     window.wait_until("the audit", "audit", |e| e["worst"].is_array());
     let middle = window.picture_point(0.5, 0.5);
@@ -166,21 +166,21 @@ fn a_paused_picture_stands_still_whatever_is_done_to_its_code_or_window() {
         window.events.iter().filter(|e| e["event"] == "frame").filter_map(|e| e["frame"].as_i64()).collect();
     let from = frames.iter().position(|frame| *frame == 90).unwrap();
     assert!(frames[from..].iter().all(|frame| *frame == 90), "{:?}", &frames[from..]);
-    assert_eq!(comes_to(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
+    assert_eq!(final_colour(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
     display.shot("paused.png");
-    // And one step is one step.
+    // One step advances one frame.
     window.keys(&["alt+period"]);
     window.wait_until("a step", "frame", |e| e["frame"] == 91);
-    assert_eq!(comes_to(&display, &mut window, home.path(), [92, 128, 0]), [92, 128, 0]);
+    assert_eq!(final_colour(&display, &mut window, home.path(), [92, 128, 0]), [92, 128, 0]);
 }
 
 #[test]
-fn a_project_that_was_closed_paused_is_as_it_was_left() {
+fn a_project_closed_paused_reopens_at_its_frame() {
     let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let (folder, other) = (project(home.path(), "count"), project(home.path(), "other"));
     let mut window = at_frame_90(&display, home.path(), &folder);
-    assert_eq!(comes_to(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
-    // Another one in the same window, and back.
+    assert_eq!(final_colour(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
+    // Another project in the same window, and back.
     window.keys(&["ctrl+o"]);
     type_path(&mut window, &other.join("eddy.toml"));
     window.wait_until("the other one", "opened", |e| e["name"] == "other");
@@ -189,19 +189,19 @@ fn a_project_that_was_closed_paused_is_as_it_was_left() {
     type_path(&mut window, &folder.join("eddy.toml"));
     window.wait_until("the first one", "opened", |e| e["name"] == "count");
     window.wait_until("its frame", "frame", |e| e["frame"] == 90 && e["playing"] == false);
-    assert_eq!(comes_to(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
+    assert_eq!(final_colour(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
     window.keys(&["ctrl+q"]);
-    assert_eq!(window.ends(), Some(0));
-    // In another window, which is smaller.
+    assert_eq!(window.wait_exit(), Some(0));
+    // In another, smaller window.
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    window.compiled();
+    window.wait_compiled();
     window.wait_until("the frame", "frame", |e| e["frame"] == 90);
-    assert_eq!(comes_to(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
+    assert_eq!(final_colour(&display, &mut window, home.path(), [91, 128, 0]), [91, 128, 0]);
     display.shot("reopened.png");
 }
 
 #[test]
-fn what_was_done_to_a_project_is_not_done_to_the_next() {
+fn project_state_does_not_carry_over_to_the_next() {
     let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let (first, second) = (project(home.path(), "first"), project(home.path(), "second"));
     let mut window = at_frame_90(&display, home.path(), &first);
@@ -228,21 +228,21 @@ fn what_was_done_to_a_project_is_not_done_to_the_next() {
     window.wait_until("all pixels", "layout", |e| e["canvas"] == whole);
     let left = window.wait_until("no breakpoint", "trace", |e| e["breakpoints"].as_array().is_some_and(Vec::is_empty));
     assert!(left["pixel"].is_null(), "{left}");
-    window.compiled();
+    window.wait_compiled();
     let layout = window.wait_until("no notice", "layout", |e| e["rects"]["notices"].is_null());
     assert!(layout["rects"]["audit"].is_null());
     display.shot("state-second.png");
 }
 
-/// A dialog that changes its size while it is there makes the first click miss.
+/// If a dialog resized while it is shown, the first click would miss.
 #[test]
-fn the_question_of_recovered_work_stands_where_it_came() {
+fn the_recovery_dialog_does_not_move() {
     let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path(), "project");
     let long: String = (0..120).map(|n| format!("// line {n} of a text that is longer than the dialog\n")).collect();
     fs::write(folder.join("image.glsl"), format!("{long}{SHOW}")).unwrap();
     let mut window = Window::open(&display, home.path(), &["--paused", folder.to_str().unwrap()]);
-    window.compiled();
+    window.wait_compiled();
     window.click_on("editor");
     window.keys(&["ctrl+End"]);
     for line in 0..6 {
@@ -265,7 +265,7 @@ fn the_question_of_recovered_work_stands_where_it_came() {
         assert!(Instant::now() < end, "no recovery file");
         std::thread::sleep(Duration::from_millis(20));
     }
-    // A file that is being written has another name until it is whole.
+    // A file that is being written has another name until it is complete.
     std::thread::sleep(Duration::from_millis(500));
     window.kill();
     for (size, arguments) in [("760x440", vec![]), ("1280x860", vec![folder.to_str().unwrap()])] {
@@ -292,15 +292,15 @@ fn the_question_of_recovered_work_stands_where_it_came() {
 
 #[cfg(unix)]
 #[test]
-fn a_pipe_in_the_place_of_a_file_of_settings_does_not_stop_the_window() {
+fn pipes_instead_of_settings_files_do_not_block_the_window() {
     let Some((display, home)) = Display::with_home() else { return };
     let home = home.path();
     let folder = project(home, "p");
-    // Where the files are is what a run leaves.
+    // A first run creates the files, which shows their places.
     let mut window = Window::open(&display, home, &["--paused", folder.to_str().unwrap()]);
-    window.compiled();
+    window.wait_compiled();
     window.keys(&["ctrl+q"]);
-    assert_eq!(window.ends(), Some(0));
+    assert_eq!(window.wait_exit(), Some(0));
     let mut places = Vec::new();
     let mut todo = vec![home.join(".config"), home.join(".local")];
     while let Some(at) = todo.pop() {
@@ -319,13 +319,14 @@ fn a_pipe_in_the_place_of_a_file_of_settings_does_not_stop_the_window() {
         assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success(), "{}", path.display());
     }
     let mut window = Window::open(&display, home, &["--paused", folder.to_str().unwrap()]);
-    window.compiled();
+    window.wait_compiled();
     window.keys(&["ctrl+q"]);
-    assert_eq!(window.ends(), Some(0));
+    assert_eq!(window.wait_exit(), Some(0));
 }
 
-/// The files are as large as they may be, or larger. SECURITY.md ("Memory and time of each reader") has the bounds: 96 MiB for
-/// the values of one TOML file, which are read one after another, three times the font and twice the recovery file.
+/// The files have their largest allowed size, or exceed it. SECURITY.md ("Memory and time of each reader") has the
+/// bounds: 96 MiB for the values of one TOML file, which are read one after another, three times the font and twice the
+/// recovery file.
 #[test]
 fn large_files_of_settings_and_recovery_take_bounded_memory() {
     let Some((display, home)) = Display::with_home() else { return };
@@ -333,12 +334,12 @@ fn large_files_of_settings_and_recovery_take_bounded_memory() {
     let folder = project(home, "p");
     let peak = |says: &str| {
         let mut window = Window::open(&display, home, &["--paused", folder.to_str().unwrap()]);
-        window.compiled();
-        let complaints = window.complaints();
+        window.wait_compiled();
+        let complaints = window.stderr();
         assert!(complaints.contains(says), "{complaints}");
         let peak = window.peak_resident();
         window.keys(&["ctrl+q"]);
-        assert_eq!(window.ends(), Some(0));
+        assert_eq!(window.wait_exit(), Some(0));
         peak
     };
     let usual = peak("");

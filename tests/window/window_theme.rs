@@ -1,4 +1,4 @@
-//! End to end: the window is dark or light as the desktop says, by a portal of our own on a D-Bus of our own.
+//! End to end: the window is dark or light as the desktop prefers, with the test's own portal on its own D-Bus.
 #![cfg(target_os = "linux")]
 
 use crate::support::window::{Display, Window};
@@ -23,7 +23,7 @@ const KEY: &str = "color-scheme";
 const DARK: u32 = 1;
 const LIGHT: u32 = 2;
 
-/// A bus that only this test knows. Ends with the value.
+/// A private bus of this test. Dropping it stops the server.
 struct Bus {
     server: Child,
     address: String,
@@ -50,7 +50,7 @@ impl Drop for Bus {
     }
 }
 
-/// What the desktop's settings say.
+/// The desktop's settings.
 struct Settings(Arc<AtomicU32>);
 
 #[zbus::interface(name = "org.freedesktop.portal.Settings", crate = "ashpd::zbus")]
@@ -59,7 +59,7 @@ impl Settings {
         if (namespace, key) != (NAMESPACE, KEY) {
             return Err(fdo::Error::Failed(format!("no {key} of {namespace}")));
         }
-        // A variant within a variant, as the portal's first version has it.
+        // A variant inside a variant, as in the portal's first version.
         let inner = Value::new(Value::U32(self.0.load(Ordering::Relaxed)));
         inner.try_to_owned().map_err(|e| fdo::Error::Failed(e.to_string()))
     }
@@ -78,12 +78,12 @@ impl Settings {
     ) -> zbus::Result<()>;
 }
 
-fn is(window: &mut Window, theme: &str) {
+fn wait_for_theme(window: &mut Window, theme: &str) {
     window.wait_until(&format!("the {theme} window"), "theme", |e| e["shown"] == theme);
 }
 
 #[test]
-fn the_window_follows_what_the_desktop_prefers_until_one_chooses() {
+fn the_window_follows_the_desktop_theme_unless_one_is_set() {
     let Some((display, home)) = Display::with_home() else { return };
     let bus = Bus::start();
     let scheme = Arc::new(AtomicU32::new(LIGHT));
@@ -98,21 +98,21 @@ fn the_window_follows_what_the_desktop_prefers_until_one_chooses() {
     let environment = [("DBUS_SESSION_BUS_ADDRESS", bus.address.as_str())];
     let arguments = [file.to_str().unwrap()];
     let mut window = Window::open_as(&display, home.path(), Some("760x440"), &environment, &arguments);
-    is(&mut window, "light");
+    wait_for_theme(&mut window, "light");
     display.shot("system-light.png");
-    // It changes its mind, and is followed at once.
+    // A change of the preference is followed at once.
     scheme.store(DARK, Ordering::Relaxed);
-    let told = async {
+    let signal = async {
         let emitter = SignalEmitter::new(&connection, PATH)?;
         Settings::setting_changed(&emitter, NAMESPACE, KEY, Value::U32(DARK)).await
     };
-    pollster::block_on(told).unwrap();
-    is(&mut window, "dark");
-    // Who has chosen is asked no more.
+    pollster::block_on(signal).unwrap();
+    wait_for_theme(&mut window, "dark");
+    // A theme in the settings overrides the preference.
     let settings = home.path().join(".config/eddy");
     fs::create_dir_all(&settings).unwrap();
     drop(window);
     fs::write(settings.join("settings.toml"), "theme = \"light\"\n").unwrap();
     let mut window = Window::open_as(&display, home.path(), Some("760x440"), &environment, &arguments);
-    is(&mut window, "light");
+    wait_for_theme(&mut window, "light");
 }

@@ -1,4 +1,4 @@
-//! End to end: time that is typed, dragged, looped and kept over an edit, by real keys and clicks.
+//! End to end: time is typed, dragged, looped and kept during an edit, with real keys and clicks.
 
 use crate::support::window::{Display, Window, folder_of};
 use serde_json::Value;
@@ -7,7 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Counts the frames it has seen, and shows them.
+/// Counts its frames, and shows the count.
 const COUNT: &str = "void mainImage(out vec4 o, in vec2 p) {
     o = texelFetch(iChannel0, ivec2(p), 0) + vec4(1.0 / 256.0, 0.0, 0.0, 1.0);
 }
@@ -27,15 +27,15 @@ fn project(home: &Path) -> PathBuf {
     folder_of(home.join("count"), &[("eddy.toml", MANIFEST), ("buffer_a.glsl", COUNT), ("image.glsl", SHOW)])
 }
 
-/// Opens it paused, before its first frame.
+/// Opens the project paused, before its first frame.
 fn open<'a>(display: &'a Display, home: &Path, folder: &Path) -> Window<'a> {
     let mut window = Window::open(display, home, &["--paused", folder.to_str().unwrap()]);
     window.resize(1300, 900);
-    window.compiled();
+    window.wait_compiled();
     window
 }
 
-/// Opens the menu of time and types.
+/// Opens the time menu and types a time.
 fn go_to(window: &mut Window, text: &str) {
     window.keys(&["alt+g"]);
     window.wait_until("the keyboard in the time", "focus", |e| e["widget"] == "time:field");
@@ -47,14 +47,14 @@ fn time_is_typed_dragged_and_looped() {
     let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path());
     let mut window = open(&display, home.path(), &folder);
-    // Frame by frame on the way there, as the state has to.
+    // It draws all frames up to there, as the state requires.
     go_to(&mut window, "0:02");
     let there = window.wait_until("two seconds", "frame", |e| e["frame"] == 120);
     assert_eq!((time(&there), &there["playing"]), (2.0, &false.into()));
     display.shot("time-menu.png");
     window.keys(&["Escape"]);
-    window.hides("time:field");
-    // The line ends at ten seconds, as nobody has been further.
+    window.wait_hidden("time:field");
+    // The timeline ends at ten seconds, as no later time was reached.
     let at = |window: &mut Window, secs: f64| {
         let place = window.rect("timeline");
         (((place[0] + 4.0) + (place[2] - 8.0) * secs / 10.0).round() as i64, (place[1] + place[3] / 2.0) as i64)
@@ -63,7 +63,7 @@ fn time_is_typed_dragged_and_looped() {
     window.click(one);
     let back = window.wait_until("a second", "frame", |e| e["frame"].as_i64().is_some_and(|f| (57..=63).contains(&f)));
     assert_eq!(back["playing"], false);
-    // Shift and a drag mark what is played again and again.
+    // A drag with Shift marks the loop.
     let (from, to) = (at(&mut window, 1.0), at(&mut window, 1.5));
     window.hold(&["shift"]);
     window.move_to(from);
@@ -74,36 +74,36 @@ fn time_is_typed_dragged_and_looped() {
     let range = window.wait_until("a range", "time", |e| e["range"][1].as_f64().is_some_and(is_near));
     let end = range["range"][1].as_f64().unwrap();
     window.release();
-    window.let_go(&["shift"]);
+    window.release_keys(&["shift"]);
     window.keys(&["F5"]);
     window.wait_until("the clock", "frame", |e| e["playing"] == true);
-    let mut turns = 0;
+    let mut loops = 0;
     let mut before = 0.0;
-    while turns < 3 {
+    while loops < 3 {
         let frame = window.wait_until("a frame of the loop", "frame", |e| time(e) != before);
         assert!(time(&frame) < end + 1e-6, "{frame}, {end}");
-        turns += i32::from(time(&frame) < before);
+        loops += i32::from(time(&frame) < before);
         before = time(&frame);
         window.drain();
     }
     display.shot("time-loop.png");
-    // Half as fast, and no loop any more.
+    // Half the speed, and no loop.
     window.click_on("button:time");
     window.click_on("time:speed:1/2");
     window.wait_until("half the speed", "time", |e| e["speed"] == 0.5);
     window.keys(&["Escape"]);
-    window.hides("time:field");
+    window.wait_hidden("time:field");
     window.hold(&["shift"]);
     window.click(from);
-    window.let_go(&["shift"]);
+    window.release_keys(&["shift"]);
     window.wait_until("no loop", "time", |e| e["range"].is_null());
-    window.wait_until("a time behind it", "frame", |e| time(e) > 1.7);
+    window.wait_until("a time after it", "frame", |e| time(e) > 1.7);
     window.keys(&["F5"]);
     window.wait_until("the pause", "frame", |e| e["playing"] == false);
 }
 
 #[test]
-fn an_edit_shows_the_same_frame_where_that_is_asked_for() {
+fn keep_inputs_redraws_the_same_frame_after_an_edit() {
     let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path());
     let mut window = open(&display, home.path(), &folder);
@@ -112,7 +112,7 @@ fn an_edit_shows_the_same_frame_where_that_is_asked_for() {
     window.click_on("time:keep-inputs");
     window.wait_until("the switch", "time", |e| e["keeps_inputs"] == true);
     window.keys(&["Escape"]);
-    window.hides("time:field");
+    window.wait_hidden("time:field");
     let red = |window: &mut Window| {
         let middle = window.picture_point(0.5, 0.5);
         let file = home.path().join("shot.png");
@@ -121,7 +121,7 @@ fn an_edit_shows_the_same_frame_where_that_is_asked_for() {
     };
     display.shot("time-kept.png");
     assert_eq!(red(&mut window), 91);
-    // Twice as much a frame.
+    // Twice the amount per frame.
     fs::write(folder.join("buffer_a.glsl"), COUNT.replace("1.0 / 256.0", "2.0 / 256.0")).unwrap();
     let mut seen = 0;
     for _ in 0..100 {

@@ -1,4 +1,4 @@
-//! End to end: the way of a pixel and the value of an expression, by real keys and clicks.
+//! End to end: the trace of a pixel and the value of an expression, with real keys and clicks.
 
 use crate::support::window::{Display, Window, folder_of};
 use serde_json::Value;
@@ -7,7 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// A ray marcher: in the middle the ray comes nearer by a quarter of what is left, from 3.
+/// A ray marcher: in the middle, each step covers a quarter of the remaining distance, from 3.
 const MARCHER: &str = "float map(vec3 p) {
     return length(p - vec3(0.0, 0.0, 4.0)) - 1.0;
 }
@@ -38,7 +38,7 @@ fn project(home: &Path, code: &str) -> PathBuf {
     folder_of(home.join("marcher"), &[("image.glsl", code)])
 }
 
-/// Puts the caret at a line, or a line and a column.
+/// Moves the caret to a line, or to a line and a column.
 fn go_to(window: &mut Window, place: &str) {
     window.keys(&["ctrl+g"]);
     window.submit(place);
@@ -48,38 +48,42 @@ fn traced(window: &mut Window, what: &str, fits: impl Fn(&Value) -> bool) -> Val
     window.wait_until(what, "trace", fits)
 }
 
-/// A number among the variables.
+/// Returns the number in a variable.
 fn number(event: &Value, name: &str) -> f64 {
     let text = event["variables"][name].as_str().unwrap_or_else(|| panic!("no {name} in {event}"));
     text.parse().unwrap()
 }
 
 #[test]
-fn a_ray_is_followed_to_its_seventeenth_turn_and_back() {
+fn a_ray_is_traced_to_its_seventeenth_iteration_and_back() {
     let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path(), MARCHER);
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1300, 900);
     window.keys(&["ctrl+shift+d"]);
-    window.shows("trace:pick");
+    window.wait_shown("trace:pick");
     let middle = window.picture_point(0.5, 0.5);
     window.click_holding(&["ctrl", "shift"], middle);
-    let begun = traced(&mut window, "the traced pixel", |e| e["pixel"].is_array());
-    assert_eq!((&begun["pass"], &begun["line"], &begun["depth"]), (&"Image".into(), &5.into(), &0.into()), "{begun}");
+    let picked = traced(&mut window, "the traced pixel", |e| e["pixel"].is_array());
+    assert_eq!(
+        (&picked["pass"], &picked["line"], &picked["depth"]),
+        (&"Image".into(), &5.into(), &0.into()),
+        "{picked}"
+    );
     let frame = window.wait_until("the pause", "frame", |e| e["playing"] == false);
-    assert_eq!(begun["frame"], frame["frame"]);
-    // The walker and the device are of one mind, but for their last bits.
-    let values = |name: &str| begun[name][0].as_f64().unwrap();
-    assert!((values("value") - values("device")).abs() < 1e-5, "{begun}");
-    display.shot("trace-begun.png");
+    assert_eq!(picked["frame"], frame["frame"]);
+    // The walker and the device agree, except for the last bits.
+    let values = |name: &str| picked[name][0].as_f64().unwrap();
+    assert!((values("value") - values("device")).abs() < 1e-5, "{picked}");
+    display.shot("trace-start.png");
 
-    // A click beside the numbers sets a breakpoint, another takes it away.
+    // A click next to the line numbers sets a breakpoint, another removes it.
     let layout = window.wait_until("the editor", "layout", |e| e["rects"]["editor"].is_array());
     let editor: Vec<f64> = layout["rects"]["editor"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
-    let beside = ((editor[0] - 24.0) as i64, (editor[1] + 30.0) as i64);
-    window.click(beside);
+    let margin = ((editor[0] - 24.0) as i64, (editor[1] + 30.0) as i64);
+    window.click(margin);
     traced(&mut window, "a breakpoint", |e| e["breakpoints"].as_array().is_some_and(|list| list.len() == 1));
-    window.click(beside);
+    window.click(margin);
     traced(&mut window, "none", |e| e["breakpoints"].as_array().is_some_and(Vec::is_empty));
 
     // With a condition, in the loop.
@@ -90,17 +94,17 @@ fn a_ray_is_followed_to_its_seventeenth_turn_and_back() {
     window.type_text("i == 17 && d < .01");
     traced(&mut window, "the condition", |e| e["breakpoints"][0]["condition"] == "i == 17 && d < .01");
     window.keys(&["F5"]);
-    let stopped = traced(&mut window, "the seventeenth turn", |e| e["line"] == 12);
+    let stopped = traced(&mut window, "the seventeenth iteration", |e| e["line"] == 12);
     assert_eq!((number(&stopped, "i"), &stopped["turn"]), (17.0, &18.into()), "{stopped}");
     let near = 0.75f64.powi(17) * 0.75;
     assert!((number(&stopped, "d") - near).abs() < 1e-4, "{stopped}");
-    // What the comment prints is there too, a value for each turn.
-    let printed = traced(&mut window, "what is printed", |e| e["printed"][0]["line"] == 10);
+    // The values printed by the comment are listed too, one per iteration.
+    let printed = traced(&mut window, "the printed values", |e| e["printed"][0]["line"] == 10);
     let list = printed["printed"][0]["values"].as_array().unwrap();
     assert_eq!(list.len() as u64, printed["turns"].as_u64().unwrap());
     assert_eq!(list[17], printed["variables"]["d"]);
 
-    // A watch of an expression that calls the author's own function, and one that is wrong.
+    // A watch of an expression that calls one of the author's functions, and an invalid one.
     window.click_on("trace:watch:new");
     window.submit("map(rd * t) * 2.0");
     let value = |e: &Value| e["watches"]["map(rd * t) * 2.0"].as_str().and_then(|text| text.parse::<f64>().ok());
@@ -108,19 +112,19 @@ fn a_ray_is_followed_to_its_seventeenth_turn_and_back() {
     assert!((value(&watched).unwrap() - near * 6.0).abs() < 1e-3, "{watched}");
     window.submit("nonsense");
     let wrong = |e: &Value| e["watches"]["nonsense"].as_str().is_some_and(|text| text.contains("nonsense"));
-    traced(&mut window, "what is wrong", wrong);
+    traced(&mut window, "the error", wrong);
     display.shot("trace-stopped.png");
 
-    // Back: before the sum, and before the turn.
+    // Back: before the sum, and before the iteration.
     window.keys(&["alt+F10"]);
-    let back = traced(&mut window, "the line before", |e| e["line"] == 11);
+    let back = traced(&mut window, "the previous line", |e| e["line"] == 11);
     assert!((number(&back, "t") + number(&back, "d") - number(&stopped, "t")).abs() < 1e-6, "{back}");
     assert_eq!(back["changed"], serde_json::json!(["t"]), "{back}");
     window.keys(&["F10"]);
     traced(&mut window, "the line again", |e| e["line"] == 12);
-    // No other moment fits: back to the begin, and on again.
+    // No other moment matches: back to the start, and forward again.
     window.keys(&["alt+F5"]);
-    traced(&mut window, "the begin", |e| e["line"] == 5);
+    traced(&mut window, "the start", |e| e["line"] == 5);
     // Into the function from the caret's line, and out of it.
     go_to(&mut window, "10");
     window.keys(&["ctrl+F10"]);
@@ -130,9 +134,9 @@ fn a_ray_is_followed_to_its_seventeenth_turn_and_back() {
     assert_eq!(inside["depth"], 1);
     window.keys(&["shift+F11"]);
     traced(&mut window, "out of it", |e| e["line"] == 11 && e["depth"] == 0);
-    // A row of the loop leads to its turn.
+    // A row of the loop leads to its iteration.
     window.click_on("trace:turn:3");
-    traced(&mut window, "the third turn", |e| e["turn"] == 3);
+    traced(&mut window, "the third iteration", |e| e["turn"] == 3);
     display.shot("trace-turns.png");
 }
 
@@ -162,7 +166,7 @@ channels.0 = { buffer = "scene" }
 "#;
 
 #[test]
-fn a_pixel_of_a_mesh_is_told_with_its_draw_and_triangle() {
+fn a_traced_mesh_pixel_shows_its_draw_and_triangle() {
     let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let image = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
     let folder = project(home.path(), image);
@@ -172,7 +176,7 @@ fn a_pixel_of_a_mesh_is_told_with_its_draw_and_triangle() {
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1300, 900);
     window.keys(&["ctrl+shift+d"]);
-    window.shows("trace:pick");
+    window.wait_shown("trace:pick");
     window.click_on("combo:pass");
     window.click_on("pass:Buffer scene");
     window.wait_until("the pass to be shown", "shown", |e| e["pass"] == "Buffer scene");
@@ -183,12 +187,12 @@ fn a_pixel_of_a_mesh_is_told_with_its_draw_and_triangle() {
     assert_eq!((&mesh["draw"], &mesh["front"]), (&1.into(), &true.into()), "{traced}");
     assert!(mesh["name"].as_str().unwrap().contains("cube") && mesh["triangle"].as_u64() < Some(12), "{traced}");
     assert_eq!((&traced["value"], &traced["device"]), (&[0.75; 4].as_slice().into(), &[0.75; 4].as_slice().into()));
-    window.shows("trace:mesh");
+    window.wait_shown("trace:mesh");
     display.shot("trace-mesh.png");
 }
 
 #[test]
-fn a_breakpoint_moves_with_its_line_and_an_edit_is_walked_anew() {
+fn a_breakpoint_moves_with_its_line_and_an_edit_is_traced_again() {
     let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let folder = project(home.path(), MARCHER);
     let mut window = Window::open_project(&display, home.path(), &folder);
@@ -203,7 +207,7 @@ fn a_breakpoint_moves_with_its_line_and_an_edit_is_walked_anew() {
     go_to(&mut window, "16");
     window.keys(&["F9"]);
     traced(&mut window, "the breakpoint", |e| e["breakpoints"][0]["line"] == 16);
-    // A line more at the begin of the text.
+    // A new line at the start of the text.
     window.keys(&["ctrl+Home"]);
     window.submit("float scale = 2.0;");
     traced(&mut window, "the breakpoint below", |e| e["breakpoints"][0]["line"] == 17);
@@ -214,7 +218,7 @@ fn a_breakpoint_moves_with_its_line_and_an_edit_is_walked_anew() {
 }
 
 #[test]
-fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
+fn a_probe_shows_the_value_under_the_mouse_and_follows_edits() {
     let Some((display, home)) = Display::with_home() else { return };
     let folder = project(home.path(), PROBED);
     let mut window = Window::open_project(&display, home.path(), &folder);
@@ -228,7 +232,7 @@ fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
         (&probed["text"], &probed["type"], &probed["line"]),
         (&"c.x * 2.0 - c.y".into(), &"float".into(), &2.into())
     );
-    window.shows("probe:histogram");
+    window.wait_shown("probe:histogram");
     let at = window.picture_point(0.25, 0.3);
     window.move_to(at);
     let under = window.wait_until("the number", "probe", |e| e["number"].is_string());
@@ -238,17 +242,17 @@ fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
     window.click_on("probe:false-colour");
     display.shot("probe-false-colour.png");
 
-    // A vector, at its second name.
+    // A vector, by the second name.
     window.click_on("editor");
     go_to(&mut window, "3:12");
     window.keys(&["ctrl+shift+i"]);
     window.wait_until("the vector", "probe", |e| e["type"] == "vec3" && e["range"][2].is_array());
-    // What is typed before it moves it.
+    // Text typed before the probed expression moves it.
     window.keys(&["ctrl+Home"]);
     window.submit("// more");
     window.wait_until("the line below", "probe", |e| e["line"] == 4);
-    window.compiled();
-    // Without its line there is no value, and with it again there is.
+    window.wait_compiled();
+    // Without its line there is no value.
     go_to(&mut window, "4");
     window.keys(&["ctrl+shift+k"]);
     let gone = window.wait_until("its end", "probe", |e| e["trouble"].is_string());
@@ -256,24 +260,24 @@ fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
     display.shot("probe-gone.png");
     window.keys(&["Escape"]);
     window.wait_until("the picture", "probe", |e| e["text"].is_null() && e["trouble"].is_null());
-    window.hides("probe");
-    window.compiled();
+    window.wait_hidden("probe");
+    window.wait_compiled();
 
-    // With two keys held, what the pointer is over, as long as they are.
+    // While two keys are held, the expression under the pointer is probed.
     let layout = window.wait_until("the editor", "layout", |e| e["rects"]["editor"].is_array());
     let corner = [0, 1].map(|i| layout["rects"]["editor"][i].as_f64().unwrap() as i64);
-    // In the declaration of g, whose line is the third now.
+    // In the declaration of g, which is now in the third line.
     window.move_to((corner[0] + 84, corner[1] + 2 * 18 + 9));
     window.hold(&["ctrl", "alt"]);
-    let pointed = window.wait_until("what is pointed at", "probe", |e| e["text"].is_string());
+    let pointed = window.wait_until("the value under the pointer", "probe", |e| e["text"].is_string());
     assert_eq!(pointed["line"], 3, "{pointed}");
-    window.let_go(&["ctrl", "alt"]);
+    window.release_keys(&["ctrl", "alt"]);
     window.wait_until("the picture", "probe", |e| e["text"].is_null());
 }
 
-/// Drivers make `atan` of a polynomial; the walker's is the nearest number.
+/// Drivers compute `atan` by a polynomial; the walker's is correctly rounded.
 #[test]
-fn the_panel_finds_the_assignment_that_the_device_makes_otherwise() {
+fn the_panel_finds_the_assignment_that_differs_on_the_device() {
     let Some((display, home)) = Display::of_size_with_home(1300, 900) else { return };
     let code = "void mainImage(out vec4 o, in vec2 c) {\n    float s = c.x * 0.5;\n    vec3 t = atan(vec3(0.3, 0.7, 1.9) * c.x / c.y);\n    \
                 o = vec4(t, s);\n}\n";
@@ -281,18 +285,18 @@ fn the_panel_finds_the_assignment_that_the_device_makes_otherwise() {
     let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1300, 900);
     window.keys(&["ctrl+shift+d"]);
-    window.shows("trace:pick");
+    window.wait_shown("trace:pick");
     let middle = window.picture_point(0.5, 0.5);
     window.click_holding(&["ctrl", "shift"], middle);
-    let begun = traced(&mut window, "the traced pixel", |e| e["pixel"].is_array());
-    let apart = begun["ulps"].as_array().unwrap().iter().any(|ulps| ulps.as_u64() > Some(0));
-    assert!(apart && begun["parted"].is_null(), "{begun}");
+    let picked = traced(&mut window, "the traced pixel", |e| e["pixel"].is_array());
+    let differs = picked["ulps"].as_array().unwrap().iter().any(|ulps| ulps.as_u64() > Some(0));
+    assert!(differs && picked["parted"].is_null(), "{picked}");
     window.click_on("trace:part");
-    let parted = traced(&mut window, "where they part", |e| e["parted"]["compared"].is_u64());
+    let parted = traced(&mut window, "the first difference", |e| e["parted"]["compared"].is_u64());
     assert_eq!((&parted["parted"]["name"], &parted["parted"]["compared"]), (&"t".into(), &2.into()), "{parted}");
-    window.shows("trace:parted");
+    window.wait_shown("trace:parted");
     display.shot("trace-parted.png");
-    // The foot of the panel is whole at the window's edge, and where there is no room for it one scrolls there.
+    // The bottom of the panel is visible at the window's edge, and in a low window it can be scrolled to.
     let [_, top, _, height] = window.rect("trace:part");
     assert!(top + height < 898.0, "{top} + {height}");
     window.resize(900, 600);
@@ -300,7 +304,7 @@ fn the_panel_finds_the_assignment_that_the_device_makes_otherwise() {
     let [x, y, ..] = window.rect("trace:where");
     window.move_to((x as i64 + 20, y as i64 + 60));
     (0..12).for_each(|_| window.wheel(false));
-    window.wait_until("the foot of a low panel", "layout", |e| {
+    window.wait_until("the bottom of a low panel", "layout", |e| {
         let bottom = e["rects"]["trace:part"][1].as_f64().zip(e["rects"]["trace:part"][3].as_f64());
         e["window"][1] == 600 && bottom.is_some_and(|(top, height)| top + height <= 600.0)
     });

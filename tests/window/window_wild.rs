@@ -1,6 +1,6 @@
-//! End to end: a window that is worked all over, by every key of every action, by clicks on whatever it shows, menus,
-//! dialogs and the ways out of it among them, by drags, the wheel and other sizes. It goes on reacting, never ends by
-//! itself, stays small and leaves other people's files alone.
+//! End to end: a window that receives random input of all kinds: every key of every action, clicks on every visible
+//! widget including menus, dialogs and ways to leave them, drags, the wheel and resizes. It keeps responding, never
+//! ends by itself, stays small and does not touch other files.
 //!
 //! `EDDY_SECONDS=600 EDDY_SEED=3 cargo test --test window all_over -- --ignored --nocapture`
 
@@ -22,11 +22,11 @@ use std::{
 };
 
 const SCREEN: (u64, u64) = (1000, 700);
-/// A window that does not react for so long hangs.
+/// A window that does not respond for this time hangs.
 const HANG: Duration = Duration::from_secs(10);
-/// Resident memory that is never passed, but for the pixels of a large picture.
+/// The limit of resident memory, except for the pixels of a large picture.
 const MEMORY: u64 = 1 << 30;
-/// Bytes of a pixel of the picture: three passes of four floats, all of them twice, what is shown and its way there.
+/// Bytes per pixel of the picture: three passes of four floats, all of them twice, the shown copy and transfer buffers.
 const PIXEL: u64 = 160;
 const WORDS: [&str; 8] = ["vec3 ", "o.x = uv.y;", "float f(", "// ", "#define A ", "for (int i", "#include \"", "1e38"];
 const TYPING: [&str; 12] =
@@ -47,7 +47,7 @@ fn project(home: &Path) -> PathBuf {
         ("project/shared.glsl", "float wave(float t) { return 0.5 + 0.5 * sin(t); }\n"),
         ("project/buffer_a.glsl", buffer),
         ("project/eddy.toml", manifest),
-        // Nobody asks for these to be written.
+        // Files that no action may write.
         ("project/notes.txt", "what the author has to remember\n"),
         ("project/old_image.glsl.txt", image),
         ("other/image.glsl", "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\n"),
@@ -60,7 +60,7 @@ fn project(home: &Path) -> PathBuf {
     folder
 }
 
-/// The files that the window has no reason to touch, with what is in them, and what lies in the root folder.
+/// Returns the files that the window must not touch, with their content, and the entries of the root folder.
 fn bystanders(home: &Path) -> BTreeMap<PathBuf, Option<Vec<u8>>> {
     let names = ["project/notes.txt", "project/old_image.glsl.txt", "other/image.glsl", "other/eddy.toml"];
     let files = names.iter().map(|name| (home.join(name), fs::read(home.join(name)).ok()));
@@ -68,7 +68,7 @@ fn bystanders(home: &Path) -> BTreeMap<PathBuf, Option<Vec<u8>>> {
     files.chain(root).collect()
 }
 
-/// Where widgets are that have names, with the name of each.
+/// Returns the names and centres of the named widgets.
 fn widgets(window: &Window) -> Vec<(String, (i64, i64))> {
     let Some(layout) = window.newest("layout") else { return Vec::new() };
     let rects = layout["rects"].as_object().into_iter().flatten();
@@ -79,11 +79,11 @@ fn widgets(window: &Window) -> Vec<(String, (i64, i64))> {
     rects.filter_map(|(name, rect)| Some((name.clone(), centre(rect)?))).collect()
 }
 
-/// Does one thing, and says which. The window lies in the screen's corner.
-fn work(window: &Window, hands: &Keyboard, random: &mut Random, actions: &[String]) -> String {
+/// Performs one random action, and returns its description. The window is in the screen's corner.
+fn random_action(window: &Window, keyboard: &Keyboard, random: &mut Random, actions: &[String]) -> String {
     let at = |random: &mut Random| (random.below(SCREEN.0) as i64, random.below(SCREEN.1) as i64);
     let widgets = widgets(window);
-    // Paths stay relative, and so in the home folder.
+    // Paths stay relative, and therefore in the home folder.
     let is_path = widgets.iter().any(|(name, _)| name == "field:path");
     let place = |random: &mut Random| match random.below(3) {
         0 => at(random),
@@ -93,12 +93,12 @@ fn work(window: &Window, hands: &Keyboard, random: &mut Random, actions: &[Strin
     match random.below(20) {
         0..3 => {
             let key = random.of(&TYPING);
-            hands.press(key);
+            keyboard.press(key);
             format!("key {key}")
         }
         3..8 => {
             let key = &actions[random.below(actions.len() as u64) as usize];
-            hands.press(key);
+            keyboard.press(key);
             format!("key {key}")
         }
         8 | 9 => {
@@ -106,20 +106,20 @@ fn work(window: &Window, hands: &Keyboard, random: &mut Random, actions: &[Strin
             if is_path && word.contains('/') {
                 return String::new();
             }
-            hands.type_text(word);
+            keyboard.type_text(word);
             format!("type {word:?}")
         }
         10..14 if !widgets.is_empty() => {
             let (name, at) = &widgets[random.below(widgets.len() as u64) as usize];
-            hands.point(*at);
-            hands.click(1);
+            keyboard.point(*at);
+            keyboard.click(1);
             format!("click on {name} at {at:?}")
         }
         10..16 => {
             let (at, button) = (place(random), [1, 1, 1, 3, 2][random.below(5) as usize]);
             let times = if random.below(4) == 0 { 2 } else { 1 };
-            hands.point(at);
-            (0..times).for_each(|_| hands.click(button));
+            keyboard.point(at);
+            (0..times).for_each(|_| keyboard.click(button));
             format!("{times} clicks of button {button} at {at:?}")
         }
         16 | 17 => {
@@ -130,24 +130,24 @@ fn work(window: &Window, hands: &Keyboard, random: &mut Random, actions: &[Strin
                 2 => &["alt"],
                 _ => &[],
             };
-            hands.holding(held, || {
-                hands.point(from);
-                hands.button_down(1);
-                hands.point(((from.0 + to.0) / 2, (from.1 + to.1) / 2));
-                // A press, a drag and a release that come in one frame move nothing.
+            keyboard.holding(held, || {
+                keyboard.point(from);
+                keyboard.button_down(1);
+                keyboard.point(((from.0 + to.0) / 2, (from.1 + to.1) / 2));
+                // A press, a drag and a release within one frame have no effect.
                 std::thread::sleep(Duration::from_millis(60));
-                hands.point(to);
+                keyboard.point(to);
                 std::thread::sleep(Duration::from_millis(60));
-                hands.button_up(1);
+                keyboard.button_up(1);
             });
             format!("drag from {from:?} to {to:?} with {held:?}")
         }
         18 => {
             let (at, button) = (place(random), 4 + random.below(2) as u8);
-            hands.point(at);
+            keyboard.point(at);
             let held: &[&str] = if random.below(3) == 0 { &["ctrl"] } else { &[] };
-            let turns = 1 + random.below(4);
-            hands.holding(held, || (0..turns).for_each(|_| hands.click(button)));
+            let steps = 1 + random.below(4);
+            keyboard.holding(held, || (0..steps).for_each(|_| keyboard.click(button)));
             format!("wheel at {at:?} with {held:?}")
         }
         _ => {
@@ -158,46 +158,46 @@ fn work(window: &Window, hands: &Keyboard, random: &mut Random, actions: &[Strin
     }
 }
 
-/// What was seen of a run.
+/// Statistics of a run.
 #[derive(Default)]
-struct Seen {
+struct Progress {
     steps: u64,
     starts: u64,
-    most: u64,
-    /// The slowest answer.
+    peak_memory: u64,
+    /// The slowest response.
     slowest: Duration,
     last: VecDeque<String>,
 }
 
-impl Seen {
+impl Progress {
     fn failed(&self, seed: u64, window: &Window, why: &str) -> ! {
         let last: Vec<&str> = self.last.iter().map(String::as_str).collect();
-        let said: Vec<_> = window.events.iter().rev().take(8).rev().map(Value::to_string).collect();
+        let events: Vec<_> = window.events.iter().rev().take(8).rev().map(Value::to_string).collect();
         panic!(
             "seed {seed}, step {}: {why}\nlast steps:\n{}\nlast events:\n{}\n{}",
             self.steps,
             last.join("\n"),
-            said.join("\n"),
-            window.complaints()
+            events.join("\n"),
+            window.stderr()
         );
     }
 }
 
-/// Whether everything is as it should be; else what is not.
-fn trouble(window: &Window, pings: &mut Pings, seen: &mut Seen) -> Option<String> {
+/// Returns the problem found, if any.
+fn find_problem(window: &Window, pings: &mut Pings, progress: &mut Progress) -> Option<String> {
     match pings.ask(HANG) {
-        Some(took) => seen.slowest = seen.slowest.max(took),
-        None => return Some(format!("it does not react for {HANG:?}")),
+        Some(took) => progress.slowest = progress.slowest.max(took),
+        None => return Some(format!("the window does not respond for {HANG:?}")),
     }
     let resident = window.resident();
-    seen.most = seen.most.max(resident);
+    progress.peak_memory = progress.peak_memory.max(resident);
     let layout = window.newest("layout");
     let pixels: u64 = layout.map_or(0, |e| (0..2).map(|i| e["canvas"][i].as_u64().unwrap_or(0)).product());
     if resident > MEMORY + PIXEL * pixels {
-        return Some(format!("it has {} MiB, with a picture of {pixels} pixels", resident >> 20));
+        return Some(format!("the window has {} MiB, with a picture of {pixels} pixels", resident >> 20));
     }
-    if window.complaints().contains("panicked") {
-        return Some("it panicked".into());
+    if window.stderr().contains("panicked") {
+        return Some("the window panicked".into());
     }
     let notices = window.events.iter().filter(|e| e["event"] == "notice").filter_map(|e| e["text"].as_str());
     notices.into_iter().find(|text| text.contains("bug in Eddy")).map(str::to_owned)
@@ -205,14 +205,14 @@ fn trouble(window: &Window, pings: &mut Pings, seen: &mut Seen) -> Option<String
 
 #[test]
 #[ignore = "ten minutes"]
-fn a_window_that_is_worked_all_over_goes_on() {
+fn random_input_all_over_the_window_does_not_break_it() {
     let Some(display) = Display::open() else { return };
     let (seconds, seed) = (number("EDDY_SECONDS", 600), number("EDDY_SEED", 1));
     let home = tempfile::tempdir().unwrap();
     let folder = project(home.path());
     let before = bystanders(home.path());
-    let (actions, mut random, mut seen) = (of_actions(), Random(seed), Seen::default());
-    let (hands, began) = (Keyboard::of(&display), Instant::now());
+    let (actions, mut random, mut progress) = (of_actions(), Random(seed), Progress::default());
+    let (keyboard, started_at) = (Keyboard::of(&display), Instant::now());
     let start = || {
         let mut window = Window::start(&display, home.path(), Some("760x440"), &[], &[folder.to_str().unwrap()]);
         window.drain();
@@ -220,55 +220,55 @@ fn a_window_that_is_worked_all_over_goes_on() {
         (window, pings)
     };
     let (mut window, mut pings) = start();
-    while began.elapsed() < Duration::from_secs(seconds) {
-        let done = work(&window, &hands, &mut random, &actions);
-        // About as fast as hands are; a frame takes longer than that now and then.
+    while started_at.elapsed() < Duration::from_secs(seconds) {
+        let done = random_action(&window, &keyboard, &mut random, &actions);
+        // About as fast as a user; a frame sometimes takes longer.
         std::thread::sleep(Duration::from_millis(random.below(60)));
-        seen.steps += 1;
-        seen.last.push_back(done);
-        if seen.last.len() > 40 {
-            seen.last.pop_front();
+        progress.steps += 1;
+        progress.last.push_back(done);
+        if progress.last.len() > 40 {
+            progress.last.pop_front();
         }
         window.drain();
-        if seen.steps % 8 == 0 && window.lives() {
-            let found = trouble(&window, &mut pings, &mut seen);
-            // It may have ended meanwhile, as it was told to.
-            if let Some(why) = found.filter(|_| window.lives()) {
-                seen.failed(seed, &window, &why);
+        if progress.steps % 8 == 0 && window.is_running() {
+            let found = find_problem(&window, &mut pings, &mut progress);
+            // It may have ended in the meantime, as it was told to.
+            if let Some(why) = found.filter(|_| window.is_running()) {
+                progress.failed(seed, &window, &why);
             }
             let now = bystanders(home.path());
             if now != before {
                 let changed = now.iter().find(|(path, text)| before.get(*path) != Some(*text));
-                seen.failed(seed, &window, &format!("a file that nobody asked for was written: {changed:?}"));
+                progress.failed(seed, &window, &format!("an unrelated file was written: {changed:?}"));
             }
-            // What was said long ago is of no use.
+            // Old events are not needed.
             if window.events.len() > 20_000 {
                 window.forget_all_but_newest();
             }
         }
-        if !window.lives() {
-            let code = window.ends();
-            if code != Some(0) || window.complaints().contains("panicked") {
-                seen.failed(seed, &window, &format!("it ended with {code:?}"));
+        if !window.is_running() {
+            let code = window.wait_exit();
+            if code != Some(0) || window.stderr().contains("panicked") {
+                progress.failed(seed, &window, &format!("the window ended with {code:?}"));
             }
-            seen.starts += 1;
+            progress.starts += 1;
             (window, pings) = start();
         }
     }
-    let Seen { steps, starts, most, slowest, .. } = &seen;
-    println!("seed {seed}: {steps} steps, {starts} more starts, at most {} MiB, slowest {slowest:?}", most >> 20);
+    let Progress { steps, starts, peak_memory, slowest, .. } = &progress;
+    println!("seed {seed}: {steps} steps, {starts} restarts, at most {} MiB, slowest {slowest:?}", peak_memory >> 20);
 
-    // Killed as it is, with time for the last letters: what is not saved is offered again.
+    // Killed in its current state, with time for the last letters: unsaved work is offered again.
     std::thread::sleep(Duration::from_secs(3));
     window.drain();
     let is_dirty = window.newest("dirty").is_some_and(|e| e["dirty"] == true);
     window.kill();
     let (mut window, _) = start();
     if is_dirty {
-        window.wait_until("the work that was not saved", "question", |e| e["kind"] == "recover");
+        window.wait_until("the unsaved work", "question", |e| e["kind"] == "recover");
     }
     drop(window);
-    // What is on disk is a project.
+    // The files on disk are still a project.
     assert!(folder.join("image.glsl").is_file() && folder.join("eddy.toml").is_file(), "seed {seed}");
     let eddy = env!("CARGO_BIN_EXE_eddy");
     let checked = Command::new(eddy).args(["check", "--json"]).arg(&folder).env("HOME", home.path()).output().unwrap();

@@ -1,9 +1,9 @@
-//! Floats that round, walker against device: every operation by itself, on random operands up to the ends of what a
-//! float holds, and small compositions. Both are held against the exact result in double precision, within the
-//! bounds of [`operations`].
+//! Floating-point rounding, walker against device: each operation alone, on random operands up to the limits of a
+//! float, and small compositions. Both are compared with the exact result in double precision, within the bounds of
+//! [`operations`].
 //!
-//! An eighth of `EDDY_RANDOM_PROGRAMS` programs of four compositions are made; `EDDY_RANDOM_SEED` is the first.
-//! `cargo test --test it random_floats -- --nocapture` prints what was found.
+//! `EDDY_RANDOM_PROGRAMS` / 8 programs of four compositions are tested; `EDDY_RANDOM_SEED` is the first seed. `cargo
+//! test --test it random_floats -- --nocapture` prints the errors.
 
 mod operands;
 mod operations;
@@ -20,12 +20,12 @@ use operands::{SIDE, operands, program};
 use operations::{Grade, Operation, operations, ulp};
 use tree::{LEAVES, Random, Tree};
 
-/// Numbers below the least normal one may be taken for zero, wherever they come up.
+/// Subnormal numbers may be flushed to zero, wherever they occur.
 const SLACK: f64 = 4.0 * f32::MIN_POSITIVE as f64;
 
 type Texels = Vec<[f32; 4]>;
 
-/// What the device and the walker make of a program, pixel by pixel; only the device without `is_walked`.
+/// Returns the results of the device and the walker for each pixel of a program; without `is_walked` only the device's.
 fn run_both(gpu: &Gpu, code: &str, is_walked: bool) -> (Texels, Texels) {
     let project = project(vec![
         pass(buffer("A"), code, Default::default()),
@@ -45,12 +45,12 @@ fn run_both(gpu: &Gpu, code: &str, is_walked: bool) -> (Texels, Texels) {
     (drawn, pixels.map(|pixel| tracer.trace(pixel).unwrap().value.unwrap()).collect())
 }
 
-/// What a result may be, and how far it is off as a share of that; above 1 is wrong.
+/// Returns the error of a result as a share of the allowed one; above 1 is wrong.
 fn share(value: f32, exact: f64, allowed: f64) -> f64 {
     let (value, allowed) = (f64::from(value), allowed + SLACK);
     let largest = f64::from(f32::MAX);
     if exact.is_nan() {
-        // No bound holds where the result is not defined.
+        // An undefined result has no bound.
         return 0.0;
     }
     if value.is_infinite() && exact.abs() + allowed >= largest && value.signum() == exact.signum() {
@@ -62,12 +62,12 @@ fn share(value: f32, exact: f64, allowed: f64) -> f64 {
     }
 }
 
-/// The furthest that somebody was off.
+/// The largest errors of one implementation.
 #[derive(Clone, Copy, Debug, Default)]
 struct Worst {
     ulps: f64,
     absolute: f64,
-    /// Of what is allowed.
+    /// As a share of the allowed error.
     share: f64,
 }
 
@@ -75,15 +75,15 @@ impl Worst {
     fn add(&mut self, value: f32, exact: f64, allowed: f64) {
         let share = share(value, exact, allowed);
         self.share = self.share.max(share);
-        let off = (f64::from(value) - exact).abs();
-        if off.is_finite() && off > SLACK {
-            self.ulps = self.ulps.max(off / ulp(exact));
-            self.absolute = self.absolute.max(off);
+        let error = (f64::from(value) - exact).abs();
+        if error.is_finite() && error > SLACK {
+            self.ulps = self.ulps.max(error / ulp(exact));
+            self.absolute = self.absolute.max(error);
         }
     }
 }
 
-/// How far the results of an operation are off, by these grades.
+/// Returns the largest errors of an operation's results, by grade.
 fn measure(operation: &Operation, seed: u32, results: &[(Grade, &Texels)]) -> Vec<Worst> {
     let mut worst = vec![Worst::default(); results.len()];
     for (at, pixel) in all_pixels((SIDE, SIDE)).into_iter().enumerate() {
@@ -99,7 +99,7 @@ fn measure(operation: &Operation, seed: u32, results: &[(Grade, &Texels)]) -> Ve
     worst
 }
 
-/// What the device is held to.
+/// Returns the grade whose bounds apply to the device.
 fn grade_of(gpu: &Gpu) -> Grade {
     if gpu.info.device_type == wgpu::DeviceType::Cpu { Grade::Lavapipe } else { Grade::Vulkan }
 }
@@ -112,7 +112,7 @@ fn first_seed() -> u64 {
 fn every_operation_is_within_its_bound() {
     let Some(gpu) = gpu() else { return };
     let (grade, seed) = (grade_of(&gpu), first_seed() as u32 * 4096);
-    let (mut wrong, mut off) = (Vec::new(), 0);
+    let (mut wrong, mut inexact) = (Vec::new(), 0);
     println!("| operation | Vulkan's bound | device, ULPs | device, absolute | walker, ULPs |");
     println!("|---|---|---|---|---|");
     for operation in operations() {
@@ -130,20 +130,20 @@ fn every_operation_is_within_its_bound() {
                 wrong.push(format!("{}: {who}: {worst:?}", operation.name));
             }
         }
-        off += usize::from(device.ulps > 0.6);
+        inexact += usize::from(device.ulps > 0.6);
     }
     assert!(wrong.is_empty(), "{} operations:\n{}", wrong.len(), wrong.join("\n"));
-    println!("{off} operations are not correctly rounded");
+    println!("{inexact} operations are not correctly rounded");
 }
 
-/// Four trees, drawn and walked: what is wrong, and the largest shares of both.
+/// Draws and walks four trees; returns the faults and the largest shares of both.
 fn compose(gpu: &Gpu, seed: u64) -> (Vec<String>, [f64; 2]) {
     let mut random = Random(seed);
     let trees: [Tree; 4] = std::array::from_fn(|_| Tree::random(&mut random, 3));
     let texts: Vec<String> = trees.iter().map(Tree::text).collect();
     let code = program(seed as u32 * 4096, [LEAVES; 3], &format!("vec4({})", texts.join(",\n        ")));
     let (drawn, walked) = run_both(gpu, &code, true);
-    let (mut wrong, mut most) = (Vec::new(), [0.0f64; 2]);
+    let (mut wrong, mut largest) = (Vec::new(), [0.0f64; 2]);
     for (at, pixel) in all_pixels((SIDE, SIDE)).into_iter().enumerate() {
         let operands = operands(seed as u32 * 4096, pixel, [LEAVES; 3]);
         for (i, tree) in trees.iter().enumerate() {
@@ -151,8 +151,8 @@ fn compose(gpu: &Gpu, seed: u64) -> (Vec<String>, [f64; 2]) {
                 [(grade_of(gpu), drawn[at][i]), (Grade::Walker, walked[at][i])].into_iter().enumerate()
             {
                 let near = tree.value(grade, &operands);
-                let share = share(value, near.exact, near.off);
-                most[by] = most[by].max(share);
+                let share = share(value, near.exact, near.error);
+                largest[by] = largest[by].max(share);
                 if share > 1.0 && wrong.len() < 2 {
                     wrong.push(format!(
                         "seed {seed}, {grade:?} at {pixel:?}: {value:?}, not {near:?}: {}\n{operands:?}",
@@ -162,26 +162,31 @@ fn compose(gpu: &Gpu, seed: u64) -> (Vec<String>, [f64; 2]) {
             }
         }
     }
-    (wrong, most)
+    (wrong, largest)
 }
 
 #[test]
 fn compositions_are_within_the_bounds_of_their_parts() {
     let Some(gpu) = gpu() else { return };
     let count = (number("EDDY_RANDOM_PROGRAMS", 500) / 8).max(1);
-    let (mut wrong, mut most) = (Vec::new(), [0.0f64; 2]);
+    let (mut wrong, mut largest) = (Vec::new(), [0.0f64; 2]);
     for seed in first_seed()..first_seed() + count {
         let (faults, shares) = compose(&gpu, seed);
         wrong.extend(faults);
-        most = [most[0].max(shares[0]), most[1].max(shares[1])];
+        largest = [largest[0].max(shares[0]), largest[1].max(shares[1])];
     }
-    println!("{} compositions: of their bounds the device takes {:.3}, the walker {:.3}", 4 * count, most[0], most[1]);
+    println!(
+        "{} compositions: of their bounds the device takes {:.3}, the walker {:.3}",
+        4 * count,
+        largest[0],
+        largest[1]
+    );
     assert!(wrong.is_empty(), "{} faults:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// The control: a result that is off by its last bit, or by a little more than a composition may, is seen.
+/// The control: an error in the last bit, or slightly above the bound of a composition, is detected.
 #[test]
-fn a_planted_wrong_value_is_seen() {
+fn a_planted_error_is_detected() {
     let Some(gpu) = gpu() else { return };
     let all = operations();
     for name in ["a + b", "a * b", "floor", "min"] {
@@ -196,7 +201,7 @@ fn a_planted_wrong_value_is_seen() {
     let (drawn, _) = run_both(&gpu, &program(1, [LEAVES; 3], &text), false);
     let seen = all_pixels((SIDE, SIDE)).into_iter().zip(&drawn).filter(|(pixel, texel)| {
         let near = tree.value(Grade::Lavapipe, &operands(1, *pixel, [LEAVES; 3]));
-        share(texel[0], near.exact, near.off) > 1.0
+        share(texel[0], near.exact, near.error) > 1.0
     });
     let seen = seen.count();
     assert!(seen > 200, "{seen} of 256 pixels of {}", tree.text());

@@ -1,15 +1,15 @@
-//! Random operands: made of bits by the program and by the test alike, so that both have the same numbers.
+//! Random operands, generated from bits by both the program and the test, so that both have the same numbers.
 
-/// Pixels of a picture across and up, each with operands of its own.
+/// The width and height of the picture in pixels; each has its own operands.
 pub(super) const SIDE: u32 = 16;
 
-/// Operands of an operation; each is a vector of four.
+/// The number of operands of an operation; each is a vector of four.
 pub(super) const COUNT: usize = 3;
 
-/// The magnitudes that an operand has.
+/// The range of magnitudes of an operand.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
-    /// Powers of two: from the first one up to the next behind the last.
+    /// Powers of two: from 2^low up to the one after 2^high.
     low: i32,
     high: i32,
     is_signed: bool,
@@ -48,14 +48,14 @@ fn hash(n: u32) -> u32 {
     n ^ n >> 16
 }
 
-/// The operands of a pixel.
+/// Returns the operands of a pixel.
 pub(super) fn operands(seed: u32, (x, y): (u32, u32), spans: [Span; COUNT]) -> [[f64; 4]; COUNT] {
     let first = seed.wrapping_add(16 * (x + SIDE * y));
     let number = |k: usize, i: usize| spans[k].operand(first.wrapping_add((4 * k + i) as u32)).into();
     std::array::from_fn(|k| std::array::from_fn(|i| number(k, i)))
 }
 
-/// A program that draws the value of an expression over them, `a`, `b` and `c`.
+/// Returns a program that draws the value of an expression over the operands `a`, `b` and `c`.
 pub(super) fn program(seed: u32, spans: [Span; COUNT], expression: &str) -> String {
     let operand = |(k, span): (usize, Span)| {
         let Span { low, high, is_signed, has_zeros } = span;

@@ -1,15 +1,14 @@
-//! The operations, each with what it is exactly and how far a device may be from that.
+//! The operations, each with its exact result and the error bounds of devices.
 //!
-//! Bounds are those of the Vulkan specification, "Precision and Operation of SPIR-V Instructions", which WGSL's
-//! "Floating Point Accuracy" repeats; `lavapipe` is what Mesa's driver on the processor was found to keep to where
-//! that is another bound.
+//! The bounds are those of the Vulkan specification, "Precision and Operation of SPIR-V Instructions", which WGSL's
+//! "Floating Point Accuracy" repeats; `lavapipe` is the measured bound of Mesa's software driver where it differs.
 
 use super::operands::{COUNT, Span};
 
 pub(super) type Vector = [f64; 4];
 pub(super) type Operands = [Vector; COUNT];
 
-/// Who computes.
+/// The implementation whose bounds apply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Grade {
     /// Any device.
@@ -18,16 +17,16 @@ pub(super) enum Grade {
     Walker,
 }
 
-/// How far a result may be from the exact one.
+/// The largest allowed error of a result.
 #[derive(Clone, Copy)]
 pub(super) enum Bound {
-    /// The nearest number of single precision.
+    /// Correctly rounded to single precision.
     Rounded,
     Ulps(f64),
     Absolute(f64),
     /// An absolute error that follows from the operands and the exact result.
     Each(fn(f64, f64, f64) -> f64),
-    /// So many roundings of a sum of terms, whose magnitudes together are these: for sums taken in any order.
+    /// A number of roundings of a sum of terms, and the sums of the terms' magnitudes: for sums in any order.
     Terms(f64, fn(&Operands) -> Vector),
 }
 
@@ -46,7 +45,7 @@ pub(super) struct Operation {
     pub spans: [Span; COUNT],
     pub exact: Exact,
     pub vulkan: Bound,
-    /// The bound's source in words.
+    /// The source of the bound.
     pub source: &'static str,
     pub lavapipe: Bound,
     pub walker: Bound,
@@ -69,19 +68,19 @@ impl Operation {
     }
 }
 
-/// The distance of neighbouring numbers of single precision at a number.
+/// Returns the distance between neighbouring single-precision numbers at `at`.
 pub(super) fn ulp(at: f64) -> f64 {
     let exponent = at.abs().max(f64::from(f32::MIN_POSITIVE)).log2().floor();
     (exponent - 23.0).exp2()
 }
 
-/// Half of the distance of neighbours, relative to the lesser one.
+/// Half the distance between neighbouring numbers, relative to the lesser one.
 pub(super) const ROUNDING: f64 = 1.0 / (1u32 << 24) as f64;
 
 impl Bound {
-    /// The absolute error that is allowed in a component.
+    /// Returns the allowed absolute error of a component.
     pub(super) fn allowed(&self, operands: &Operands, i: usize, exact: f64) -> f64 {
-        // The last digit of the double precision beside it.
+        // Half a ULP, plus a margin for the rounding of double precision.
         let half = 0.5 * ulp(exact) * (1.0 + 1e-6);
         match *self {
             Bound::Rounded => half,
@@ -93,9 +92,9 @@ impl Bound {
     }
 }
 
-/// Numbers whose sums and products stay far from both ends.
+/// Numbers whose sums and products are far from overflow and underflow.
 const MIDDLE: Span = Span::new(-30, 30).signed().or_zero();
-/// All but the denormal ones.
+/// All numbers except subnormal ones.
 const ALL: Span = Span::new(-126, 127).signed().or_zero();
 const POSITIVE: Span = Span::new(-126, 127);
 const SMALL: Span = Span::new(-3, 3).signed().or_zero();
@@ -112,13 +111,13 @@ const fn row(
     Operation { name, text, spans: [span; COUNT], exact, vulkan, source, lavapipe: vulkan, walker: Bound::Ulps(1.0) }
 }
 
-/// An operation that IEEE 754 fixes.
+/// An operation that IEEE 754 defines exactly.
 const fn rounded(name: &'static str, text: &'static str, span: Span, each: fn(f64, f64, f64) -> f64) -> Operation {
     let row = row(name, text, span, Exact::Each(each), Bound::Rounded, "correctly rounded");
     Operation { walker: Bound::Rounded, ..row }
 }
 
-/// A sum of products, or what follows from one.
+/// A sum of products, or a function of one.
 const fn whole(
     (name, text): (&'static str, &'static str),
     span: Span,
@@ -135,30 +134,30 @@ fn exponential(x: f64, _: f64, exact: f64) -> f64 {
     (3.0 + 2.0 * x.abs()) * ulp(exact)
 }
 
-/// `log` and `log2`: 3 ULPs, between 0.5 and 2 by 2^-21.
+/// `log` and `log2`: 3 ULPs; between 0.5 and 2, 2^-21.
 fn logarithm(x: f64, _: f64, exact: f64) -> f64 {
     if (0.5..=2.0).contains(&x) { (-21f64).exp2() } else { 3.0 * ulp(exact) }
 }
 
-/// `pow`: that of `exp2(y * log2(x))`.
+/// `pow`: the bound of `exp2(y * log2(x))`.
 fn power(x: f64, y: f64, exact: f64) -> f64 {
     let log = x.log2();
     let exponent = y * log;
-    let off = y.abs() * logarithm(x, 0.0, log) + ulp(exponent) / 2.0;
-    exact * (off.exp2() - 1.0) + exponential(exponent, 0.0, exact)
+    let error = y.abs() * logarithm(x, 0.0, log) + ulp(exponent) / 2.0;
+    exact * (error.exp2() - 1.0) + exponential(exponent, 0.0, exact)
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The magnitudes of a dot product's terms.
+/// Returns the sum of the magnitudes of a dot product's terms.
 fn size(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a * b).abs()).sum()
 }
 
-/// A matrix of two columns by a vector.
-fn turned(m: &Vector, v: &[f64], product: fn(&[f64], &[f64]) -> f64) -> [f64; 2] {
+/// Multiplies a matrix of two columns by a vector.
+fn multiply(m: &Vector, v: &[f64], product: fn(&[f64], &[f64]) -> f64) -> [f64; 2] {
     [0, 1].map(|row| product(&[m[row], m[row + 2]], &v[..2]))
 }
 
@@ -198,7 +197,7 @@ pub(super) fn operations() -> Vec<Operation> {
                 ("mod", "mod(a, b)"),
                 SMALL,
                 |[a, b, _]| std::array::from_fn(|i| a[i] - b[i] * (a[i] / b[i]).floor()),
-                // A quotient beside a whole number may be taken for that: then by all of `b`.
+                // A quotient near a whole number may be rounded to it: then the error is up to `b`.
                 (2.0, |[a, b, _]| {
                     std::array::from_fn(|i| {
                         let quotient = a[i] / b[i];
@@ -268,7 +267,7 @@ pub(super) fn operations() -> Vec<Operation> {
             "that of sin(a) / cos(a)",
         ),
         each("atan", "atan(a)", MIDDLE, |a, _, _| a.atan(), Bound::Ulps(4096.0), "4096 ULPs"),
-        // glibc's manual gives atan2f two ULPs.
+        // glibc's manual states two ULPs for atan2f.
         Operation {
             walker: Bound::Ulps(2.0),
             ..each(
@@ -309,12 +308,12 @@ pub(super) fn operations() -> Vec<Operation> {
             ("length", "vec4(length(a), length(a.xyz), length(a.xy), distance(a, b))"),
             Span::new(-3, 3).signed(),
             |[a, b, _]| {
-                let apart: Vector = std::array::from_fn(|i| a[i] - b[i]);
-                [dot(a, a), dot(&a[..3], &a[..3]), dot(&a[..2], &a[..2]), dot(&apart, &apart)].map(f64::sqrt)
+                let difference: Vector = std::array::from_fn(|i| a[i] - b[i]);
+                [dot(a, a), dot(&a[..3], &a[..3]), dot(&a[..2], &a[..2]), dot(&difference, &difference)].map(f64::sqrt)
             },
             (10.0, |[a, b, _]| {
-                let apart: Vector = std::array::from_fn(|i| a[i].abs() + b[i].abs());
-                [size(a, a), size(&a[..3], &a[..3]), size(&a[..2], &a[..2]), size(&apart, &apart)].map(f64::sqrt)
+                let sum: Vector = std::array::from_fn(|i| a[i].abs() + b[i].abs());
+                [size(a, a), size(&a[..3], &a[..3]), size(&a[..2], &a[..2]), size(&sum, &sum)].map(f64::sqrt)
             }),
             "that of sqrt(dot(a, a))",
         ),
@@ -339,11 +338,11 @@ pub(super) fn operations() -> Vec<Operation> {
             ("mat2 * vec2", "vec4(mat2(a.xy, a.zw) * b.xy, b.xy * mat2(a.xz, a.yw))"),
             SMALL,
             |[a, b, _]| {
-                let [x, y] = turned(a, b, dot);
+                let [x, y] = multiply(a, b, dot);
                 [x, y, x, y]
             },
             (3.0, |[a, b, _]| {
-                let [x, y] = turned(a, b, size);
+                let [x, y] = multiply(a, b, size);
                 [x, y, x, y]
             }),
             "that of the sums of products",
@@ -355,11 +354,11 @@ pub(super) fn operations() -> Vec<Operation> {
             ),
             SMALL,
             |[a, b, _]| {
-                let ([x, y], [z, w]) = (turned(a, &b[..2], dot), turned(a, &b[2..], dot));
+                let ([x, y], [z, w]) = (multiply(a, &b[..2], dot), multiply(a, &b[2..], dot));
                 [x + z, y + w, x + z, y + w]
             },
             (5.0, |[a, b, _]| {
-                let ([x, y], [z, w]) = (turned(a, &b[..2], size), turned(a, &b[2..], size));
+                let ([x, y], [z, w]) = (multiply(a, &b[..2], size), multiply(a, &b[2..], size));
                 [x + z, y + w, x + z, y + w]
             }),
             "that of the sums of products",
@@ -372,10 +371,11 @@ pub(super) fn operations() -> Vec<Operation> {
     operations
 }
 
-/// Vulkan's bound of `sin` and `cos`.
+/// Vulkan's bound for `sin` and `cos`.
 pub(super) const SINE: f64 = 1.0 / 2048.0;
 
-/// Where lavapipe was found to keep to less, about twice of what was seen; `log2` takes up to 2.7 of the 3 ULPs.
+/// The operations for which lavapipe was found to have a smaller error; bounds are about twice the measured errors;
+/// `log2` takes up to 2.7 of the 3 ULPs.
 const LAVAPIPE: &[(&str, Bound)] = &[
     ("sqrt", Bound::Rounded),
     ("exp2", Bound::Ulps(6.0)),

@@ -5,14 +5,14 @@ use super::{
     operations::{Grade, ROUNDING, SINE, ulp},
 };
 
-/// Of every leaf.
+/// The span of every leaf.
 pub(super) const LEAVES: Span = Span::new(-2, 1).signed();
 
-/// A number that differs from the exact one by no more than `off`.
+/// A number that differs from the exact one by at most `error`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     pub exact: f64,
-    pub off: f64,
+    pub error: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -22,7 +22,7 @@ pub(super) enum Tree {
     Node(Op, Vec<Tree>),
 }
 
-/// What a tree is made of. Arguments are kept where each is defined: above 0.5, or within a few units.
+/// The operations of a tree. Arguments are kept inside each one's domain: above 0.5, or within a few units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Op {
     Add,
@@ -88,7 +88,7 @@ impl Op {
 
     fn text(self, args: &[String]) -> String {
         let arg = |i: usize| &args[i];
-        // Of what is above 0.5, and of what is within two units.
+        // Maps an argument to above 0.5, or into `limit`.
         let above = |i: usize| format!("(abs({}) + 0.5)", args[i]);
         let within = |i: usize, limit: &str| format!("clamp({}, -{limit}, {limit})", args[i]);
         match self {
@@ -112,20 +112,20 @@ impl Op {
         }
     }
 
-    /// The value, and how far off it may be by this operation and by what it is of.
+    /// Returns the value and its error bound, from this operation and its arguments.
     fn value(self, grade: Grade, args: &[Near]) -> Near {
         let [a, b] = [args[0], *args.get(1).unwrap_or(&args[0])];
         let above = |x: Near| {
             let exact = x.exact.abs() + 0.5;
-            Near { exact, off: x.off + ROUNDING * (exact + x.off) }
+            Near { exact, error: x.error + ROUNDING * (exact + x.error) }
         };
         let within = |x: Near, limit: f64| Near { exact: x.exact.clamp(-limit, limit), ..x };
-        // Not all devices keep the order of sums, and no one needs to: terms count by their magnitudes.
-        let sum = |exact: f64, terms: f64, off: f64, roundings: f64| Near {
+        // Devices may reorder sums, so terms contribute by their magnitudes.
+        let sum = |exact: f64, terms: f64, error: f64, roundings: f64| Near {
             exact,
-            off: off + roundings * ROUNDING * (terms + off),
+            error: error + roundings * ROUNDING * (terms + error),
         };
-        let product = |a: Near, b: Near| a.exact.abs() * b.off + b.exact.abs() * a.off + a.off * b.off;
+        let product = |a: Near, b: Near| a.exact.abs() * b.error + b.exact.abs() * a.error + a.error * b.error;
         let ulps = |exact: f64, vulkan: f64, lavapipe: f64, walker: f64| {
             let count = match grade {
                 Grade::Vulkan => vulkan,
@@ -135,24 +135,24 @@ impl Op {
             count * ulp(exact)
         };
         match self {
-            Op::Add => sum(a.exact + b.exact, a.exact.abs() + b.exact.abs(), a.off + b.off, 1.0),
-            Op::Subtract => sum(a.exact - b.exact, a.exact.abs() + b.exact.abs(), a.off + b.off, 1.0),
+            Op::Add => sum(a.exact + b.exact, a.exact.abs() + b.exact.abs(), a.error + b.error, 1.0),
+            Op::Subtract => sum(a.exact - b.exact, a.exact.abs() + b.exact.abs(), a.error + b.error, 1.0),
             Op::Multiply => sum(a.exact * b.exact, (a.exact * b.exact).abs(), product(a, b), 2.0),
             Op::Divide => {
                 let b = above(b);
                 let exact = a.exact / b.exact;
-                let off = (a.off + exact.abs() * b.off) / (b.exact - b.off);
-                Near { exact, off: off + ulps(exact.abs() + off, 2.5, 1.0, 0.51) }
+                let error = (a.error + exact.abs() * b.error) / (b.exact - b.error);
+                Near { exact, error: error + ulps(exact.abs() + error, 2.5, 1.0, 0.51) }
             }
             Op::Sqrt => {
                 let a = above(a);
-                let (exact, off) = (a.exact.sqrt(), a.off / (a.exact - a.off).sqrt());
-                Near { exact, off: off + ulps(exact + off, 5.0, 1.0, 0.51) }
+                let (exact, error) = (a.exact.sqrt(), a.error / (a.exact - a.error).sqrt());
+                Near { exact, error: error + ulps(exact + error, 5.0, 1.0, 0.51) }
             }
             Op::InverseSqrt => {
                 let a = above(a);
-                let (exact, off) = (1.0 / a.exact.sqrt(), a.off / (a.exact - a.off).powf(1.5));
-                Near { exact, off: off + ulps(exact + off, 2.0, 2.0, 1.51) }
+                let (exact, error) = (1.0 / a.exact.sqrt(), a.error / (a.exact - a.error).powf(1.5));
+                Near { exact, error: error + ulps(exact + error, 2.0, 2.0, 1.51) }
             }
             Op::Sin | Op::Cos => {
                 let a = within(a, 3.0);
@@ -162,40 +162,41 @@ impl Op {
                     Grade::Lavapipe => SINE_OF_LAVAPIPE,
                     Grade::Walker => ulp(exact),
                 };
-                Near { exact, off: a.off + own }
+                Near { exact, error: a.error + own }
             }
             Op::Exp2 => {
                 let a = within(a, 4.0);
                 let exact = a.exact.exp2();
-                let off = exact * (a.off.exp2() - 1.0);
-                let own = ulps(exact + off, 3.0 + 2.0 * a.exact.abs(), EXP2_OF_LAVAPIPE, 1.0);
-                Near { exact, off: off + own }
+                let error = exact * (a.error.exp2() - 1.0);
+                let own = ulps(exact + error, 3.0 + 2.0 * a.exact.abs(), EXP2_OF_LAVAPIPE, 1.0);
+                Near { exact, error: error + own }
             }
             Op::Log2 => {
                 let a = above(a);
-                let (exact, off) = (a.exact.log2(), 1.5 * a.off / (a.exact - a.off));
+                let (exact, error) = (a.exact.log2(), 1.5 * a.error / (a.exact - a.error));
                 let own = if grade == Grade::Walker { ulp(exact) } else { (3.0 * ulp(exact)).max(LOG2) };
-                Near { exact, off: off + own }
+                Near { exact, error: error + own }
             }
             Op::Pow => {
                 let (a, b) = (above(a), within(b, 2.0));
                 let exact = a.exact.powf(b.exact);
-                // Of the exponent of two.
-                let mut off = 1.5 * b.exact.abs() * a.off / (a.exact - a.off) + a.exact.log2().abs() * b.off;
+                // The error of the exponent of two.
+                let mut error = 1.5 * b.exact.abs() * a.error / (a.exact - a.error) + a.exact.log2().abs() * b.error;
                 let exponent = b.exact * a.exact.log2();
                 if grade != Grade::Walker {
-                    off += b.exact.abs() * (3.0 * ulp(a.exact.log2())).max(LOG2) + ulp(exponent);
+                    error += b.exact.abs() * (3.0 * ulp(a.exact.log2())).max(LOG2) + ulp(exponent);
                 }
                 let own = ulps(exact, 3.0 + 2.0 * exponent.abs(), EXP2_OF_LAVAPIPE, 1.0);
-                Near { exact, off: exact * (off.exp2() - 1.0) + 1.1 * own }
+                Near { exact, error: exact * (error.exp2() - 1.0) + 1.1 * own }
             }
-            Op::Min => Near { exact: a.exact.min(b.exact), off: a.off.max(b.off) },
-            Op::Max => Near { exact: a.exact.max(b.exact), off: a.off.max(b.off) },
+            Op::Min => Near { exact: a.exact.min(b.exact), error: a.error.max(b.error) },
+            Op::Max => Near { exact: a.exact.max(b.exact), error: a.error.max(b.error) },
             Op::Mix => {
                 let t = args[2].exact.clamp(0.0, 1.0);
-                let terms = a.exact.abs() + b.exact.abs() + a.off + b.off;
-                let off = (1.0 - t) * a.off + t * b.off + args[2].off * terms + (a.off + b.off) * args[2].off;
-                sum(a.exact * (1.0 - t) + b.exact * t, terms, off, 4.0)
+                let terms = a.exact.abs() + b.exact.abs() + a.error + b.error;
+                let error =
+                    (1.0 - t) * a.error + t * b.error + args[2].error * terms + (a.error + b.error) * args[2].error;
+                sum(a.exact * (1.0 - t) + b.exact * t, terms, error, 4.0)
             }
             Op::Dot => {
                 let [c, d] = [args[2], args[3]];
@@ -204,22 +205,22 @@ impl Op {
             }
             Op::Length => {
                 let exact = a.exact.hypot(b.exact);
-                sum(exact, exact, a.off + b.off, if grade == Grade::Vulkan { 14.0 } else { 6.0 })
+                sum(exact, exact, a.error + b.error, if grade == Grade::Vulkan { 14.0 } else { 6.0 })
             }
             Op::Normalize => {
                 let b = above(b);
                 let length = a.exact.hypot(b.exact);
-                let off = 2.0 * (a.off + b.off) / (length - a.off - b.off);
-                sum(a.exact / length, 1.0, off, if grade == Grade::Vulkan { 16.0 } else { 8.0 })
+                let error = 2.0 * (a.error + b.error) / (length - a.error - b.error);
+                sum(a.exact / length, 1.0, error, if grade == Grade::Vulkan { 16.0 } else { 8.0 })
             }
         }
     }
 }
 
-/// What lavapipe was found to keep to, as [`super::operations`] has it.
+/// The measured bounds of lavapipe, as in [`super::operations`].
 const SINE_OF_LAVAPIPE: f64 = 2e-7;
 const EXP2_OF_LAVAPIPE: f64 = 6.0;
-/// Vulkan's bound of `log2` near 1.
+/// Vulkan's bound for `log2` near 1.
 const LOG2: f64 = 1.0 / 2_097_152.0;
 
 impl Tree {
@@ -240,7 +241,7 @@ impl Tree {
 
     pub(super) fn value(&self, grade: Grade, operands: &[[f64; 4]; 3]) -> Near {
         match self {
-            Tree::Leaf(k, i) => Near { exact: operands[*k][*i], off: 0.0 },
+            Tree::Leaf(k, i) => Near { exact: operands[*k][*i], error: 0.0 },
             Tree::Node(op, args) => {
                 let args: Vec<Near> = args.iter().map(|arg| arg.value(grade, operands)).collect();
                 op.value(grade, &args)

@@ -1,9 +1,10 @@
-//! Random programs: each is drawn as an author writes it, and with everything said in the text that Eddy promises
-//! without: every index clamped, every variable with its zero, every division guarded. Both must give what a small
-//! interpreter gives.
+//! Random programs: each is drawn as an author writes it, and with everything that Eddy guarantees written out: every
+//! index clamped, every variable initialised to zero, every division guarded. Both must return the results of a small
+//! interpreter.
 //!
-//! `EDDY_RANDOM_PROGRAMS` says how many, `EDDY_RANDOM_SEED` which is the first. A program that fails is printed with
-//! its seed, made as small as statements can be left out of it; a single one is printed before it is drawn.
+//! `EDDY_RANDOM_PROGRAMS` is the number of programs, `EDDY_RANDOM_SEED` the first seed. A failing program is printed
+//! with its seed, without the statements that the failure does not need; a single program is printed before it is
+//! drawn.
 
 mod random;
 
@@ -31,7 +32,7 @@ const WIDTH: usize = 6;
 const HEIGHT: usize = 4;
 const FRAMES: i32 = 3;
 
-/// How long a pixel may take, in statements and expressions.
+/// The limit of evaluated statements and expressions per pixel.
 const STEPS: u32 = 200_000;
 
 const REFUSED: &str = " is refused:";
@@ -40,7 +41,7 @@ const NAMES: [&str; 2] = ["A", "B"];
 
 type Texels = Vec<[f32; 4]>;
 
-/// Buffers that feed each other.
+/// Buffers that read each other.
 #[derive(Clone)]
 struct Case {
     passes: Vec<Program>,
@@ -52,7 +53,7 @@ impl Case {
         Self { passes: (0..count).map(|pass| make(seed * 2 + pass)).collect() }
     }
 
-    /// What both channels of a pass read: itself or the first pass, and the last one.
+    /// Returns the passes that the two channels read: the first and the last.
     fn channels(&self) -> [usize; 2] {
         [0, self.passes.len() - 1]
     }
@@ -63,7 +64,7 @@ impl Case {
         texts.collect()
     }
 
-    /// What each buffer holds after each frame.
+    /// Returns the texels of each buffer after each frame.
     fn expected(&self) -> Result<Vec<Texels>, TooLong> {
         let mut buffers = vec![vec![[0.0; 4]; WIDTH * HEIGHT]; self.passes.len()];
         let mut all = Vec::new();
@@ -82,7 +83,7 @@ impl Case {
         Ok(all)
     }
 
-    /// The same, drawn.
+    /// Draws the buffers and returns the same texels.
     fn drawn(&self, gpu: &Gpu, form: Form) -> Result<Vec<Texels>, String> {
         let channels = self.channels().map(|channel| nearest(NAMES[channel]));
         let passes = self.passes.iter().zip(NAMES).map(|(program, name)| {
@@ -116,7 +117,7 @@ impl Case {
         Ok(all)
     }
 
-    /// Where what is drawn differs from what should be; `None` where nothing does.
+    /// Returns the first difference from the expected texels; `None` if all are equal.
     fn fault(&self, gpu: &Gpu) -> Option<String> {
         let expected = self.expected().ok()?;
         [Form::Explicit, Form::Plain].into_iter().find_map(|form| match self.drawn(gpu, form) {
@@ -125,7 +126,7 @@ impl Case {
         })
     }
 
-    /// Without the statements that the fault does not need. What does not compile stays as it is.
+    /// Removes the statements that the fault does not need. A case that does not compile is returned unchanged.
     fn shrunk(&self, gpu: &Gpu) -> Case {
         let fails = |case: &Case| case.fault(gpu).is_some_and(|fault| !fault.contains(REFUSED));
         let mut best = self.clone();
@@ -144,7 +145,7 @@ impl Case {
     }
 }
 
-/// Walks through a buffer of a frame for all of its pixels: a second opinion that owes nothing to a driver.
+/// Compares every pixel of a buffer with the walker: a second implementation that does not depend on a driver.
 fn walk(project: &Project, index: usize, read: &PassInputs, drawn: &Texels) -> Result<(), String> {
     let extent = Extent { steps: 0, ..Extent::default() };
     let tracer = Tracer::new(&Sources::new(project), index, read, extent).map_err(|e| e.to_string())?;
@@ -158,7 +159,7 @@ fn walk(project: &Project, index: usize, read: &PassInputs, drawn: &Texels) -> R
     Ok(())
 }
 
-/// The first texel that differs.
+/// Returns a description of the first texel that differs.
 fn difference(drawn: &[Texels], expected: &[Texels]) -> Option<String> {
     assert_eq!(drawn.len(), expected.len());
     let buffers = drawn.len() / FRAMES as usize;
@@ -178,7 +179,7 @@ fn difference(drawn: &[Texels], expected: &[Texels]) -> Option<String> {
 }
 
 #[test]
-fn programs_compute_what_they_say() {
+fn programs_match_the_interpreter() {
     let Some(gpu) = gpu() else { return };
     let (count, first) = (number("EDDY_RANDOM_PROGRAMS", 300), number("EDDY_RANDOM_SEED", 1));
     let (next, faults) = (AtomicU64::new(first), Mutex::new(Vec::new()));
@@ -193,12 +194,12 @@ fn programs_compute_what_they_say() {
                     }
                     let case = Case::of(seed);
                     if count == 1 {
-                        // Before it is drawn: a driver may not come back.
+                        // Before it is drawn, as a driver may hang.
                         println!("{}", case.text(Form::Plain));
                     }
                     if case.fault(&gpu).is_some() {
                         let case = case.shrunk(&gpu);
-                        let fault = case.fault(&gpu).expect("it stays");
+                        let fault = case.fault(&gpu).expect("the fault is still there");
                         let text = case.text(Form::Plain);
                         faults.lock().unwrap().push(format!("seed {seed}: {fault}\n{text}"));
                     }
@@ -210,9 +211,9 @@ fn programs_compute_what_they_say() {
     assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
 }
 
-/// The control: indices that are clamped elsewhere give another picture, often enough to be found.
+/// The control: a different clamp of indices changes enough pictures to be found.
 #[test]
-fn a_wrong_clamp_is_seen() {
+fn a_wrong_clamp_is_detected() {
     let Some(gpu) = gpu() else { return };
     let seeds = 1..=24;
     let seen = seeds.clone().filter(|&seed| {

@@ -1,8 +1,8 @@
-//! Time that a thread has had on a processor, so that what else the machine does counts little.
+//! CPU time of a thread, which depends little on the load of the machine.
 
 use std::time::{Duration, Instant};
 
-/// Measures the thread that made it; the wall's time where the system does not say (`proc(5)`, `schedstat`).
+/// Measures the thread that created it; wall time if the system does not report CPU time (`proc(5)`, `schedstat`).
 pub(crate) enum Clock {
     Thread(Duration),
     Wall(Instant),
@@ -15,8 +15,8 @@ impl Clock {
 
     pub(crate) fn elapsed(&self) -> Duration {
         match self {
-            Clock::Thread(began) => thread().unwrap_or_default().saturating_sub(*began),
-            Clock::Wall(began) => began.elapsed(),
+            Clock::Thread(start) => thread().unwrap_or_default().saturating_sub(*start),
+            Clock::Wall(start) => start.elapsed(),
         }
     }
 }

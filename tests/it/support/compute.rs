@@ -1,4 +1,4 @@
-//! One texel of a buffer for each small program: what it computes on a device, held against what it should.
+//! Small programs that each compute one texel of a buffer, compared with the expected value.
 
 use crate::support::*;
 use eddy::{
@@ -6,7 +6,7 @@ use eddy::{
     engine::FrameInputs,
 };
 
-/// Where a program says what it computed.
+/// A program and its expected result.
 pub(crate) struct Case {
     /// Declarations at file scope.
     pub before: &'static str,
@@ -23,7 +23,7 @@ pub(crate) const fn with(before: &'static str, body: &'static str, expected: [f3
     Case { before, body, expected }
 }
 
-/// Draws each case alone, and walks through it on the processor; tells of all that differ.
+/// Draws each case and runs it with the walker; reports all that differ.
 #[track_caller]
 pub(crate) fn check(cases: &[Case]) {
     if let Some(gpu) = gpu() {
@@ -31,7 +31,7 @@ pub(crate) fn check(cases: &[Case]) {
     }
 }
 
-/// Draws each case alone, and walks through none: what only the optimiser brings about.
+/// Draws each case without the walker: for effects of the optimiser alone.
 #[track_caller]
 pub(crate) fn check_optimised(cases: &[Case]) {
     if let Some(gpu) = gpu() {
@@ -39,7 +39,7 @@ pub(crate) fn check_optimised(cases: &[Case]) {
     }
 }
 
-/// As [`check`] or [`check_optimised`] on this device.
+/// Like [`check`] or [`check_optimised`], on this device.
 #[track_caller]
 pub(crate) fn check_on(gpu: &eddy::gpu::Gpu, cases: &[Case], is_walked: bool) {
     let mut wrong = Vec::new();
@@ -78,7 +78,7 @@ pub(crate) fn check_on(gpu: &eddy::gpu::Gpu, cases: &[Case], is_walked: bool) {
         if !is_walked {
             continue;
         }
-        // The walker owes nothing to a driver.
+        // The walker does not depend on a driver.
         let texts = eddy::engine::Sources::new(&project);
         let walked = trace::trace(&texts, 0, &read, (0, 0), Extent { steps: 0, ..Extent::default() });
         let walked = walked.unwrap_or_else(|error| panic!("{}: {error}", case.body)).value;

@@ -1,4 +1,4 @@
-//! A display of its own for each test: Xvfb, with a window manager where the machine has one.
+//! A separate display for each test: Xvfb, with a window manager if one is installed.
 
 use super::{missing, skipped};
 use std::{
@@ -9,7 +9,7 @@ use std::{
 };
 use tempfile::TempDir;
 
-/// A display that nobody sees. Ends with the value.
+/// A virtual display. Dropping it stops the server.
 pub(crate) struct Display {
     server: Child,
     name: String,
@@ -17,12 +17,13 @@ pub(crate) struct Display {
 }
 
 impl Display {
-    /// `None` after saying so where the machine has no Xvfb or xdotool; with `EDDY_REQUIRE_GPU=1` that is a failure.
+    /// Opens a display. Returns `None`, and counts a skipped test, if Xvfb or xdotool is missing; with
+    /// `EDDY_REQUIRE_GPU=1` that is a failure.
     pub(crate) fn open() -> Option<Display> {
         Self::of_size(1000, 700)
     }
 
-    /// The same with a home folder for a window.
+    /// The same, with a home folder for a window.
     pub(crate) fn with_home() -> Option<(Display, TempDir)> {
         Self::of_size_with_home(1000, 700)
     }
@@ -31,12 +32,12 @@ impl Display {
         Some((Self::of_size(width, height)?, tempfile::tempdir().unwrap()))
     }
 
-    /// The same with a screen of so many pixels.
+    /// The same, with a screen of this size.
     pub(crate) fn of_size(width: u32, height: u32) -> Option<Display> {
         Self::with(width, height, false)
     }
 
-    /// The same with frames round windows, by which they have a place that people gave them. `None` without a window
+    /// The same, with frames around windows, which then keep positions set by the user. Returns `None` without a window
     /// manager.
     pub(crate) fn with_frames(width: u32, height: u32) -> Option<Display> {
         let display = Self::with(width, height, true)?;
@@ -48,12 +49,12 @@ impl Display {
     }
 
     fn with(width: u32, height: u32, has_frames: bool) -> Option<Display> {
-        let absent = ["Xvfb", "xdotool"].into_iter().find(|tool| !is_there(tool));
+        let absent = ["Xvfb", "xdotool"].into_iter().find(|tool| !is_installed(tool));
         if let Some(tool) = absent {
             missing(tool);
             return None;
         }
-        // The server picks a free number and says which.
+        // The server picks a free number and prints it.
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-noreset", "-screen", "0", &format!("{width}x{height}x24"), "-nolisten", "tcp"])
             .stdout(Stdio::piped())
@@ -71,12 +72,13 @@ impl Display {
         &self.name
     }
 
-    /// Windows are managed: they can fill the screen, and are maximised by Super+M and closed by Alt+F4.
+    /// Returns whether windows are managed: they can fill the screen, and are maximised by Super+M and closed by
+    /// Alt+F4.
     pub(crate) fn is_managed(&self) -> bool {
         self.manager.is_some()
     }
 
-    /// Gives the keyboard a layout, as `de`. False after saying so where the machine cannot.
+    /// Sets a keyboard layout, such as `de`. Returns false, and counts a skipped test, if the machine cannot.
     pub(crate) fn layout(&self, name: &str) -> bool {
         let set = Command::new("setxkbmap").env("DISPLAY", &self.name).arg(name).status();
         let is_set = set.is_ok_and(|status| status.success());
@@ -91,12 +93,12 @@ impl Display {
         String::from_utf8_lossy(&output.stdout).trim().to_owned()
     }
 
-    /// A picture of the whole display, for a person to look at when something is wrong.
+    /// Saves a picture of the whole display, to diagnose a failure.
     pub(crate) fn photograph(&self, path: &Path) {
         let _ = Command::new("import").env("DISPLAY", &self.name).args(["-window", "root"]).arg(path).status();
     }
 
-    /// A picture of the whole display in the folder that `EDDY_SHOTS` names, for a person to look at.
+    /// Saves a picture of the whole display in the folder `EDDY_SHOTS`, to look at.
     pub(crate) fn shot(&self, name: &str) {
         if let Some(folder) = std::env::var_os("EDDY_SHOTS") {
             // Popups fade in.
@@ -114,12 +116,12 @@ impl Drop for Display {
     }
 }
 
-fn is_there(tool: &str) -> bool {
-    let sought = Command::new("sh").args(["-c", &format!("command -v {tool} >/dev/null")]).status();
-    sought.is_ok_and(|status| status.success())
+fn is_installed(tool: &str) -> bool {
+    let found = Command::new("sh").args(["-c", &format!("command -v {tool} >/dev/null")]).status();
+    found.is_ok_and(|status| status.success())
 }
 
-/// A window manager. Ends with the value, and before its display.
+/// A window manager. Dropped before its display.
 struct Manager {
     process: Child,
     /// Its settings.
@@ -127,14 +129,14 @@ struct Manager {
 }
 
 impl Manager {
-    /// `None` where the machine has none: windows then lie on the bare screen.
+    /// Returns `None` if no window manager is installed: windows are then on the bare screen.
     fn start(display: &str, has_frames: bool) -> Option<Manager> {
-        if !is_there("openbox") {
+        if !is_installed("openbox") {
             return None;
         }
         let home = tempfile::tempdir().unwrap();
         let file = home.path().join("rc.xml");
-        // Without frames a window lies in the screen's corner, so that its pixels are the screen's.
+        // Without frames a window is in the screen's corner, so that window pixels are screen pixels.
         let every = if has_frames {
             ""
         } else {
@@ -154,11 +156,11 @@ impl Manager {
             .spawn()
             .unwrap();
         let manager = Manager { process, _home: home };
-        // It manages windows once it says how many desktops there are.
+        // It is ready once it reports the number of desktops.
         let end = Instant::now() + Duration::from_secs(20);
-        let asks = || Command::new("xdotool").env("DISPLAY", display).arg("get_num_desktops").output().unwrap();
-        while asks().stdout.trim_ascii() != b"1" {
-            assert!(Instant::now() < end, "openbox does not begin");
+        let query = || Command::new("xdotool").env("DISPLAY", display).arg("get_num_desktops").output().unwrap();
+        while query().stdout.trim_ascii() != b"1" {
+            assert!(Instant::now() < end, "openbox does not start");
             std::thread::sleep(Duration::from_millis(20));
         }
         Some(manager)
@@ -172,8 +174,8 @@ impl Drop for Manager {
     }
 }
 
-/// Openbox without keys of its own, which would be taken from the window: but for two, by which tests do what people
-/// do with a frame.
+/// Openbox without its own keys, which the window would not receive, except for two with which tests do what users do
+/// with a frame.
 const SETTINGS: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <openbox_config xmlns="http://openbox.org/3.4/rc">
   <focus><focusNew>yes</focusNew><followMouse>no</followMouse></focus>

@@ -18,10 +18,10 @@ use x11rb::{
     wrapper::ConnectionExt as _,
 };
 
-/// The window takes a dragged file, or says that it does not, before this.
-const PATIENCE: Duration = Duration::from_secs(30);
+/// The time within which a window accepts or refuses a dragged file.
+const DROP_TIMEOUT: Duration = Duration::from_secs(30);
 
-/// A file manager's window, which nobody sees.
+/// A file manager's window, which is invisible.
 pub(crate) struct Drops {
     connection: RustConnection,
     window: u32,
@@ -37,7 +37,7 @@ impl Drops {
         Drops { connection, window }
     }
 
-    /// Drops a file on a place of the screen; false if the target refuses it.
+    /// Drops a file on a point of the screen; returns false if the target refuses it.
     pub(crate) fn drop_file(&self, target: u32, file: &Path, (x, y): (i64, i64)) -> bool {
         let (selection, list, copy) =
             (self.atom("XdndSelection"), self.atom("text/uri-list"), self.atom("XdndActionCopy"));
@@ -49,12 +49,12 @@ impl Drops {
         let uris = format!("file://{}\r\n", file.display().to_string().replace(' ', "%20"));
         let (mut is_taken, mut is_read) = (None, false);
         let (status, finished) = (self.atom("XdndStatus"), self.atom("XdndFinished"));
-        let end = Instant::now() + PATIENCE;
+        let end = Instant::now() + DROP_TIMEOUT;
         let mut is_dropped = false;
         while Instant::now() < end {
             match self.connection.poll_for_event().unwrap() {
                 Some(Event::SelectionRequest(request)) => {
-                    self.hand_over(&request, list, uris.as_bytes());
+                    self.send_uris(&request, list, uris.as_bytes());
                     is_read = true;
                 }
                 Some(Event::ClientMessage(message)) if message.type_ == status => {
@@ -66,7 +66,7 @@ impl Drops {
             }
             match is_taken {
                 Some(false) => return false,
-                // The drop comes a moment after the target has seen what is dragged, as from a hand.
+                // The drop follows a moment after the target has seen the dragged file, as with a real user.
                 Some(true) if is_read && !is_dropped => {
                     std::thread::sleep(Duration::from_millis(200));
                     self.tell(target, "XdndDrop", [source, 0, x11rb::CURRENT_TIME, 0, 0]);
@@ -87,8 +87,8 @@ impl Drops {
         self.connection.send_event(false, target, EventMask::NO_EVENT, message).unwrap().check().unwrap();
     }
 
-    /// Answers the target's question for the files' names.
-    fn hand_over(&self, request: &SelectionRequestEvent, list: u32, uris: &[u8]) {
+    /// Answers the target's request for the files' names.
+    fn send_uris(&self, request: &SelectionRequestEvent, list: u32, uris: &[u8]) {
         let property = if request.target == list { request.property } else { AtomEnum::NONE.into() };
         if property != x11rb::NONE {
             let (mode, requestor) = (PropMode::REPLACE, request.requestor);

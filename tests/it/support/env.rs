@@ -1,6 +1,6 @@
-//! Numbers that somebody gives a test by variables of the environment.
+//! Numbers that configure tests by environment variables.
 
-/// The number that a variable holds; `otherwise` where it is not set.
+/// Returns the number in a variable; `otherwise` if it is not set.
 pub(crate) fn number(name: &str, otherwise: u64) -> u64 {
     std::env::var(name).map_or(otherwise, |text| text.parse().unwrap_or_else(|e| panic!("{name}={text}: {e}")))
 }

@@ -1,4 +1,4 @@
-//! ffmpeg and ffprobe, where they are installed: what they say of a film, and its pictures and samples.
+//! ffmpeg and ffprobe, if installed: properties of a film, and its pictures and samples.
 
 use super::missing;
 use std::{
@@ -6,7 +6,7 @@ use std::{
     process::{Command, Stdio},
 };
 
-/// Says whether ffmpeg is there, and counts a test that is left out.
+/// Returns whether ffmpeg is installed, and counts a skipped test if not.
 pub(crate) fn has_ffmpeg() -> bool {
     let runs = Command::new("ffmpeg").arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status();
     let is_here = runs.is_ok_and(|status| status.success());
@@ -22,7 +22,7 @@ fn output(command: &mut Command) -> Vec<u8> {
     output.stdout
 }
 
-/// Returns what ffprobe says of a file and its streams.
+/// Returns ffprobe's output for a file and its streams.
 pub(crate) fn probed(film: &Path) -> serde_json::Value {
     let mut command = Command::new("ffprobe");
     command.args(["-v", "error", "-show_streams", "-show_format", "-of", "json"]).arg(film);
@@ -34,7 +34,7 @@ pub(crate) fn decoded(film: &Path) -> Vec<u8> {
     decoded_by(film, "")
 }
 
-/// Does the same with options of the filter that converts, each with a colon after it.
+/// The same, with options for the converting filter, each followed by a colon.
 pub(crate) fn decoded_by(film: &Path, options: &str) -> Vec<u8> {
     let mut command = Command::new("ffmpeg");
     command.args(["-v", "error", "-i"]).arg(film).args(["-map", "0:v:0", "-fps_mode", "passthrough"]);

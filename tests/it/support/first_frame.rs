@@ -1,4 +1,4 @@
-//! The first frame of a program, in a process of its own.
+//! The first frame of a program, in a separate process.
 
 use super::skipped;
 use std::{
@@ -6,8 +6,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Draws one frame in a process of its own, without what the driver has kept of earlier runs, and gives its picture's
-/// bytes.
+/// Draws one frame in a separate process, without the driver's shader cache, and returns its picture's bytes.
 pub(crate) fn first_frame(name: &str, text: &str, limit: Duration) -> Option<Vec<u8>> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("image.glsl"), text).unwrap();
@@ -22,11 +21,11 @@ pub(crate) fn first_frame(name: &str, text: &str, limit: Duration) -> Option<Vec
         .unwrap();
     let start = Instant::now();
     while child.try_wait().unwrap().is_none() {
-        // The machine may be busy with others.
-        if processor_time_of(child.id()).unwrap_or_else(|| start.elapsed()) > limit {
+        // CPU time, as the machine may be busy.
+        if cpu_time_of(child.id()).unwrap_or_else(|| start.elapsed()) > limit {
             child.kill().unwrap();
             child.wait().unwrap();
-            panic!("{name} takes more than {limit:?} to its first frame");
+            panic!("{name} takes more than {limit:?} until its first frame");
         }
         std::thread::sleep(Duration::from_millis(50));
     }
@@ -39,9 +38,9 @@ pub(crate) fn first_frame(name: &str, text: &str, limit: Duration) -> Option<Vec
     Some(std::fs::read(out).unwrap())
 }
 
-/// What a process has taken, all threads together; `None` where the system does not say (`proc(5)`: fields 14 and 15 of
-/// `stat`, in hundredths of a second).
-fn processor_time_of(process: u32) -> Option<Duration> {
+/// Returns the CPU time of all threads of a process; `None` if the system does not report it (`proc(5)`: fields 14 and
+/// 15 of `stat`, in hundredths of a second).
+fn cpu_time_of(process: u32) -> Option<Duration> {
     let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
     let ticks = |field: usize| fields.get(field).and_then(|text| text.parse::<u64>().ok());

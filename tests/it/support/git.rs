@@ -1,10 +1,10 @@
-//! Commits made without git, which a machine need not have.
+//! Commits made without the git program, which may not be installed.
 
 use gix_hash::{Kind as Hash, ObjectId};
 use gix_object::{Kind, Write};
 use std::{fs, path::Path};
 
-/// Commits all files of a folder, which becomes a git repository where it is none, to its branch `main`.
+/// Commits all files of a folder to its branch `main`, and makes it a git repository first if necessary.
 pub(crate) fn commit_all(root: &Path) -> ObjectId {
     let git = root.join(".git");
     for folder in ["objects", "refs/heads"] {
@@ -31,7 +31,7 @@ pub(crate) fn object(root: &Path, kind: Kind, bytes: &[u8]) -> ObjectId {
     gix_odb::loose::Store::at(root.join(".git/objects"), Hash::Sha1).write_buf(kind, bytes).unwrap()
 }
 
-/// The bytes of a tree's entry.
+/// Returns the bytes of a tree's entry.
 pub(crate) fn entry(mode: &str, name: &str, id: ObjectId) -> Vec<u8> {
     [mode.as_bytes(), b" ", name.as_bytes(), b"\0", id.as_slice()].concat()
 }
@@ -40,7 +40,7 @@ fn tree_of(folder: &Path, git: &Path) -> ObjectId {
     let root = git.parent().unwrap();
     let mut names: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     names.retain(|path| path != git);
-    // As git sorts them: a folder as if `/` stood behind its name.
+    // Git sorts a folder as if its name ended with `/`.
     names.sort_by_key(|path| path.to_string_lossy().into_owned() + if path.is_dir() { "/" } else { "" });
     let entry = |path: &std::path::PathBuf| {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();

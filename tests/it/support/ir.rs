@@ -1,4 +1,4 @@
-//! The text of the compiler's intermediate representation, for snapshots that a person reads.
+//! The text of the compiler's intermediate representation, for readable snapshots.
 
 use eddy::glsl::{self, Driver, Link, PassSource};
 use std::{collections::HashMap, fmt::Write};
@@ -12,7 +12,7 @@ pub(crate) fn optimised(code: &str, driver: Driver) -> String {
     program.trim_end().to_owned()
 }
 
-/// Returns the programs after the last pass, one for each stage that the text of `dump_ir` goes through.
+/// Returns the programs after the last pass, one for each stage in the text of `dump_ir`.
 pub(crate) fn final_programs(dump: &str) -> Vec<&str> {
     let sections: Vec<&str> = dump.split("; after ").skip(1).collect();
     let is_last = |next: Option<&&str>| next.is_none_or(|next| next.starts_with("lower\n"));
@@ -33,37 +33,37 @@ pub(crate) fn declarations(program: &str) -> String {
 /// Returns the indices that a program reads and writes elements at, each with all that it is computed from:
 /// `load $0[(subtract (load $1), 1)]`.
 pub(crate) fn indices(program: &str) -> String {
-    let mut made = HashMap::new();
+    let mut expressions = HashMap::new();
     let mut out = String::new();
     for line in program.lines().map(str::trim_start) {
         if line.starts_with("fn ") || line.starts_with("entry ") {
-            made.clear();
+            expressions.clear();
         }
         let Some((name, text)) = line.split_once(" = ").filter(|(name, _)| name.starts_with('%')) else {
             if let Some((place, _)) = line.split_once(" <- ").filter(|(place, _)| place.contains("[%")) {
-                let _ = writeln!(out, "    {} <- ..", expanded(place, &made));
+                let _ = writeln!(out, "    {} <- ..", expanded(place, &expressions));
             }
             continue;
         };
-        let text = expanded(text, &made);
+        let text = expanded(text, &expressions);
         if line.contains("[%") {
             let _ = writeln!(out, "    {text}");
         }
         let name = name.split(':').next().expect("a name");
-        made.insert(name.to_owned(), text);
+        expressions.insert(name.to_owned(), text);
     }
     out
 }
 
-/// Returns the text of an operation with the values in it replaced by what made them. An operation within another has
-/// parentheses.
-fn expanded(text: &str, made: &HashMap<String, String>) -> String {
+/// Returns the text of an operation with its operands replaced by the operations that computed them. A nested operation
+/// has parentheses.
+fn expanded(text: &str, expressions: &HashMap<String, String>) -> String {
     let mut out = String::new();
     let mut rest = text;
     while let Some(at) = rest.find('%') {
         let end = rest[at + 1..].find(|c: char| !c.is_ascii_digit()).map_or(rest.len(), |n| at + 1 + n);
         out.push_str(&rest[..at]);
-        match made.get(&rest[at..end]) {
+        match expressions.get(&rest[at..end]) {
             Some(text) if text.contains(' ') => {
                 let _ = write!(out, "({text})");
             }
@@ -75,11 +75,11 @@ fn expanded(text: &str, made: &HashMap<String, String>) -> String {
     out + rest
 }
 
-/// Returns the text of several programs, each behind its title. A function, or all globals of a program, whose text is that
-/// of one before is a line that names the place of that one.
+/// Returns the text of several programs, each after its title. A function, or all globals of a program, with the same
+/// text as an earlier one is a line that names the place of that one.
 ///
-/// The text after a function's number is compared as it is. What it calls, and which globals it uses, it says by
-/// number, so functions that only look the same may do different things.
+/// The text after a function's number is compared. Calls and globals are identified by number, so functions with the
+/// same text may do different things.
 pub(crate) fn without_repeats(programs: &[(String, String)]) -> String {
     let mut seen: HashMap<&str, String> = HashMap::new();
     let mut out = String::new();
@@ -87,7 +87,7 @@ pub(crate) fn without_repeats(programs: &[(String, String)]) -> String {
         let _ = writeln!(out, "=== {title}");
         for part in parts(program) {
             let part = part.trim_end();
-            // The name is to the first parenthesis; globals have none.
+            // The name ends at the first parenthesis; globals have none.
             let (name, text) = match part.starts_with("fn ") || part.starts_with("entry ") {
                 true => part.split_at(part.find('(').expect("a function's parameters")),
                 false => ("globals", part),
@@ -106,7 +106,7 @@ pub(crate) fn without_repeats(programs: &[(String, String)]) -> String {
     out
 }
 
-/// Splits a program in its globals, if it has any, and its functions.
+/// Splits a program into its globals, if it has any, and its functions.
 fn parts(program: &str) -> impl Iterator<Item = &str> {
     let declares = |line: &str| line.starts_with("fn ") || line.starts_with("entry ");
     let lines = program.split_inclusive('\n').scan(0, |at, line| {

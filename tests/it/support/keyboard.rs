@@ -1,5 +1,4 @@
-//! The keyboard and the mouse of a display: what they do goes to the server at once, without a program that has to be
-//! started for each.
+//! The keyboard and mouse of a display: events go directly to the server, without starting a program for each.
 
 use super::display::Display;
 use x11rb::{
@@ -16,7 +15,7 @@ use x11rb::{
 
 pub(crate) struct Keyboard {
     connection: RustConnection,
-    /// Keysyms of each key, from the first keycode on.
+    /// The keysyms of each key, from the first keycode on.
     keys: Vec<Vec<u32>>,
 }
 
@@ -24,15 +23,16 @@ impl Keyboard {
     pub(crate) fn of(display: &Display) -> Keyboard {
         let (connection, _) = RustConnection::connect(Some(display.name())).unwrap();
         let setup = connection.setup();
-        let (least, most) = (setup.min_keycode, setup.max_keycode);
-        let mapping = connection.get_keyboard_mapping(least, most - least + 1).unwrap().reply().unwrap();
+        let (first, last) = (setup.min_keycode, setup.max_keycode);
+        let mapping = connection.get_keyboard_mapping(first, last - first + 1).unwrap().reply().unwrap();
         let keys = mapping.keysyms.chunks(mapping.keysyms_per_keycode.into()).map(<[u32]>::to_vec).collect();
         Keyboard { connection, keys }
     }
 
-    /// Presses and releases the key of a character of ASCII that needs no other key. Returns when the server has both.
+    /// Presses and releases the key of an ASCII character that needs no modifier. Returns when the server has received
+    /// both.
     pub(crate) fn tap(&self, character: char) {
-        // Keysyms of ASCII are its codes.
+        // The keysyms of ASCII characters are their codes.
         let index = self.keys.iter().position(|symbols| symbols.first() == Some(&character.into())).unwrap();
         let code = self.connection.setup().min_keycode + u8::try_from(index).unwrap();
         for kind in [KEY_PRESS_EVENT, KEY_RELEASE_EVENT] {
@@ -51,7 +51,7 @@ impl Keyboard {
         self.hold(&parts, KEY_RELEASE_EVENT);
     }
 
-    /// Types ASCII.
+    /// Types ASCII text.
     pub(crate) fn type_text(&self, text: &str) {
         for character in text.chars() {
             let (code, is_shifted) = self.code(character.into()).unwrap_or_else(|| panic!("no key {character:?}"));
@@ -63,13 +63,13 @@ impl Keyboard {
         }
     }
 
-    /// Moves the pointer to a place of the screen.
+    /// Moves the pointer to a point of the screen.
     pub(crate) fn point(&self, (x, y): (i64, i64)) {
         let (x, y) = (x as i16, y as i16);
         self.connection.xtest_fake_input(MOTION_NOTIFY_EVENT, 0, 0, x11rb::NONE, x, y, 0).unwrap().check().unwrap();
     }
 
-    /// Does something while modifiers are held.
+    /// Calls `act` while modifiers are held.
     pub(crate) fn holding(&self, modifiers: &[&str], act: impl FnOnce()) {
         self.hold(modifiers, KEY_PRESS_EVENT);
         act();
@@ -100,7 +100,7 @@ impl Keyboard {
         self.connection.xtest_fake_input(kind, detail, 0, x11rb::NONE, 0, 0, 0).unwrap().check().unwrap();
     }
 
-    /// The key of a keysym, and whether it is on it with Shift only.
+    /// Returns the key of a keysym, and whether it needs Shift.
     fn code(&self, keysym: u32) -> Option<(u8, bool)> {
         let on = |column: usize| self.keys.iter().position(|symbols| symbols.get(column) == Some(&keysym));
         let (index, is_shifted) = on(0).map(|index| (index, false)).or_else(|| Some((on(1)?, true)))?;
@@ -108,7 +108,7 @@ impl Keyboard {
     }
 }
 
-/// The number of a keysym (`keysymdef.h`) by xdotool's name of it.
+/// Returns the number of a keysym (`keysymdef.h`) from xdotool's name.
 fn keysym(name: &str) -> u32 {
     match name {
         "ctrl" => 0xffe3,

@@ -1,4 +1,4 @@
-//! Passes that draw meshes, made in code.
+//! Passes that draw meshes, built in code.
 
 use super::{buffer, image, pass, project};
 use eddy::project::{
@@ -6,7 +6,7 @@ use eddy::project::{
     Sampler, Source, Stage, TexelFormat, Wrap,
 };
 
-/// A mesh before the camera, as a manifest that says nothing more has it.
+/// Returns a mesh in front of the camera with the defaults of a manifest.
 pub(crate) fn draw(mesh: &str) -> MeshDraw {
     MeshDraw {
         mesh: MeshSource::parse(mesh),
@@ -27,7 +27,7 @@ pub(crate) fn source(name: &str, text: &str) -> Source {
     Source { name: name.into(), path: None, text: text.into() }
 }
 
-/// A pass `scene` of 32-bit targets; its own text is the fragment stage, `stages` are further texts.
+/// Returns a pass `scene` with 32-bit targets; its own text is the fragment stage, `stages` are further texts.
 pub(crate) fn scene(fragment: &str, stages: &[&str], targets: usize, camera: Camera, draws: Vec<MeshDraw>) -> Pass {
     let mut scene = pass(buffer("scene"), fragment, Default::default());
     scene.body = Body::Meshes(Geometry {
@@ -39,7 +39,7 @@ pub(crate) fn scene(fragment: &str, stages: &[&str], targets: usize, camera: Cam
     scene
 }
 
-/// A channel that reads a target of the scene.
+/// Returns a channel that reads a target of the scene.
 pub(crate) fn target(index: usize) -> Option<Channel> {
     let input = match index {
         0 => Input::buffer("scene"),
@@ -48,12 +48,12 @@ pub(crate) fn target(index: usize) -> Option<Channel> {
     Some(Channel { input, sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true } })
 }
 
-/// The sum of what four channels hold.
+/// An Image pass that adds its four channels.
 pub(crate) const SUM: &str = "void mainImage(out vec4 o, in vec2 p) { ivec2 i = ivec2(p);
     o = texelFetch(iChannel0, i, 0) + texelFetch(iChannel1, i, 0) + texelFetch(iChannel2, i, 0) + \
     texelFetch(iChannel3, i, 0); }";
 
-/// A project of a scene, and Image that shows it.
+/// Returns a project of a scene, and an Image that shows it.
 pub(crate) fn whole(scene: Pass) -> Project {
     let count = scene.formats().len();
     project(vec![scene, image(SUM, [0, 1, 2, 3].map(|i| if i < count { target(i) } else { None }))])

@@ -1,5 +1,5 @@
-//! What several test files need: a device, and projects made in code.
-#![allow(dead_code, unused_imports, reason = "every program of tests uses its own part")]
+//! Shared parts of the tests: a device, and projects built in code.
+#![allow(dead_code, unused_imports, reason = "each test program uses some of it")]
 
 pub(crate) mod clock;
 pub(crate) mod compiled;
@@ -33,12 +33,12 @@ use eddy::{
 };
 use std::{fs, path::PathBuf};
 
-/// A device for studies.
+/// Returns a device for studies.
 pub(crate) fn rig() -> Option<Rig> {
     gpu().map(Rig::new)
 }
 
-/// Makes a folder with these files.
+/// Creates a folder with these files.
 pub(crate) fn folder_of(folder: PathBuf, files: &[(&str, &str)]) -> PathBuf {
     fs::create_dir_all(&folder).unwrap();
     files.iter().for_each(|(name, text)| fs::write(folder.join(name), text).unwrap());
@@ -49,7 +49,7 @@ pub(crate) fn buffer(name: &str) -> PassName {
     PassName::buffer(name)
 }
 
-/// A channel that reads a buffer.
+/// Returns a channel that reads a buffer.
 pub(crate) fn reads(name: &str, filter: Filter, wrap: Wrap) -> Option<Channel> {
     Some(Channel { input: Input::buffer(name), sampler: Sampler { filter, wrap, vflip: true } })
 }
@@ -71,12 +71,12 @@ pub(crate) fn project(passes: Vec<Pass>) -> Project {
     Project::new("test", passes, Origin::Unsaved)
 }
 
-/// An engine at a size with the project's program in it.
-/// Draws a frame and returns what a pass reads in it.
+/// Draws a frame and returns the inputs of a pass in it.
 pub(crate) fn inspect(engine: &mut Engine, inputs: &FrameInputs, pass: &PassName) -> PassInputs {
     engine.draw_for(inputs, DrawFor::Inspect(pass)).unwrap().read.unwrap()
 }
 
+/// Returns an engine of this size with the project's program.
 pub(crate) fn engine_with(
     gpu: &Gpu,
     project: &Project,
@@ -87,7 +87,7 @@ pub(crate) fn engine_with(
     Engines::new(gpu).with(project, media, options, size)
 }
 
-/// Makes engines of projects that have passes in common, which are compiled once.
+/// Builds engines of projects with passes in common, which are compiled once.
 pub(crate) struct Engines {
     gpu: Gpu,
     builder: Builder,
@@ -116,21 +116,21 @@ pub(crate) fn engine(gpu: &Gpu, project: &Project, size: (u32, u32)) -> Engine {
     engine_with(gpu, project, &MediaSet::new(), &BuildOptions::default(), size)
 }
 
-/// Draws frames `from..to` at 60 frames a second.
+/// Draws frames `from..to` at 60 frames per second.
 pub(crate) fn run(engine: &mut Engine, from: i32, to: i32) {
     for frame in from..to {
         engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).unwrap();
     }
 }
 
-/// An engine with the project's program, after so many frames.
+/// Returns an engine with the project's program, after this number of frames.
 pub(crate) fn ran(gpu: &Gpu, project: &Project, size: (u32, u32), frames: i32) -> Engine {
     let mut engine = engine(gpu, project, size);
     run(&mut engine, 0, frames);
     engine
 }
 
-/// The texel at (x, y), counted from the bottom left.
+/// Returns the texel at (x, y), counted from the bottom left.
 pub(crate) fn texel(pixels: &Pixels, x: u32, y: u32) -> [f32; 4] {
     pixels.texels[(y * pixels.width + x) as usize]
 }

@@ -1,4 +1,4 @@
-//! Asks a window whether its event loop still turns, as window managers do before they offer to end a program
+//! Checks that a window's event loop responds, as window managers do before they offer to kill a program
 //! (`_NET_WM_PING` of the Extended Window Manager Hints).
 
 use super::display::Display;
@@ -33,21 +33,21 @@ impl Pings {
         Pings { connection, root, window, protocols, ping, sent: 0 }
     }
 
-    /// The time until the answer; none if it does not come in time, or if the window is gone.
-    pub(crate) fn ask(&mut self, patience: Duration) -> Option<Duration> {
+    /// Returns the time until the answer; `None` if it does not arrive in time, or if the window is gone.
+    pub(crate) fn ask(&mut self, timeout: Duration) -> Option<Duration> {
         self.sent += 1;
         let data = [self.ping, self.sent, self.window, 0, 0];
         let message = ClientMessageEvent::new(32, self.window, self.protocols, data);
-        let began = Instant::now();
+        let start = Instant::now();
         self.connection.send_event(false, self.window, EventMask::NO_EVENT, message).ok()?.check().ok()?;
-        while began.elapsed() < patience {
+        while start.elapsed() < timeout {
             match self.connection.poll_for_event().ok()? {
                 Some(Event::ClientMessage(answer))
                     if answer.type_ == self.protocols
                         && answer.window == self.root
                         && answer.data.as_data32()[..2] == data[..2] =>
                 {
-                    return Some(began.elapsed());
+                    return Some(start.elapsed());
                 }
                 Some(_) => {}
                 None => std::thread::sleep(Duration::from_millis(2)),

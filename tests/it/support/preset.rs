@@ -1,4 +1,4 @@
-//! Shorter ways to what [`presets`] has, and measures of pictures, for the tests of filters.
+//! Shorthands for [`presets`], and measures of pictures, for the tests of filters.
 
 use crate::support::{buffer, presets};
 use eddy::{
@@ -9,24 +9,24 @@ use eddy::{
 
 pub(crate) use presets::{all_finite, preset_with as preset};
 
-/// Gives a buffer another text, one that a test knows all about.
+/// Replaces a buffer's text by one that a test knows completely.
 pub(crate) fn replace(project: &mut Project, name: &str, text: &str) {
     project.pass_mut(&buffer(name)).unwrap().source.text = text.into();
 }
 
-/// Puts `new` in place of `old` in Common, which must have it.
+/// Replaces `old` by `new` in Common, which must contain it.
 pub(crate) fn patch_common(project: &mut Project, old: &str, new: &str) {
     let common = project.common.as_mut().unwrap();
-    assert!(common.text.contains(old), "Common no longer says `{old}`");
+    assert!(common.text.contains(old), "Common no longer contains `{old}`");
     common.text = common.text.replace(old, new).into();
 }
 
-/// An engine in which every pass can be read.
+/// Returns an engine in which every pass can be read.
 pub(crate) fn whole(gpu: &Gpu, project: &Project, size: (u32, u32)) -> Engine {
     presets::whole(gpu, project, true, size)
 }
 
-/// Frame `frame`, with the mouse as the engine's uniform has it: held at `at`, or never touched.
+/// Returns the input of frame `frame`, with the mouse held at `at`, or never pressed.
 pub(crate) fn at_frame(frame: i32, at: Option<[f32; 2]>) -> FrameInputs {
     presets::held(frame, at.map(|[x, y]| ([x.max(1.0), y], [x, y])))
 }
@@ -35,7 +35,7 @@ pub(crate) fn draw(engine: &mut Engine, frames: std::ops::Range<i32>) {
     presets::draw(engine, frames, presets::untouched);
 }
 
-/// An engine with all buffers of a project, after these frames.
+/// Returns an engine with all buffers of a project, after these frames.
 pub(crate) fn drawn(gpu: &Gpu, project: &Project, size: (u32, u32), frames: std::ops::Range<i32>) -> Engine {
     let mut engine = whole(gpu, project, size);
     draw(&mut engine, frames);
@@ -50,7 +50,7 @@ pub(crate) fn picture(engine: &mut Engine) -> Pixels {
     engine.read_image().unwrap()
 }
 
-/// Peak signal-to-noise ratio of the colours in dB, where 1 is the peak.
+/// Returns the peak signal-to-noise ratio of the colours in dB, where 1 is the peak.
 pub(crate) fn psnr(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {
     assert_eq!(a.len(), b.len());
     let square = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).map(|i| f64::from(a[i] - b[i]).powi(2)).sum::<f64>();
@@ -58,7 +58,7 @@ pub(crate) fn psnr(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {
     -10.0 * mean.log10()
 }
 
-/// The mean of several pictures.
+/// Returns the mean of several pictures.
 pub(crate) fn mean(pictures: &[Pixels]) -> Vec<[f32; 4]> {
     let mut sum = vec![[0.0f64; 4]; pictures[0].texels.len()];
     for texels in pictures.iter().map(|p| &p.texels) {

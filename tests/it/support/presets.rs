@@ -1,4 +1,4 @@
-//! What the tests of presets share: a preset with its texts changed, frames with a mouse in them, buffers read back.
+//! Shared parts of the tests of presets: presets with changed texts, frames with a mouse, buffers that are read back.
 
 use super::{Engines, buffer};
 use eddy::{
@@ -12,7 +12,7 @@ pub(crate) fn preset(name: &str) -> Project {
     presets::load(name).unwrap_or_else(|e| panic!("{e}")).project
 }
 
-/// A preset with its sliders set.
+/// Returns a preset with its sliders set.
 pub(crate) fn preset_with(name: &str, custom_uniforms: &[&str]) -> Project {
     let mut project = preset(name);
     turn(&mut project, custom_uniforms);
@@ -25,27 +25,27 @@ pub(crate) fn turn(project: &mut Project, custom_uniforms: &[&str]) {
     }
 }
 
-/// The values that sliders of a running program are turned to.
+/// Returns values to set on the sliders of a running program.
 pub(crate) fn values(name: &str, custom_uniforms: &[&str]) -> CustomUniformValues {
     preset_with(name, custom_uniforms).custom_uniform_values
 }
 
-/// Puts `new` in place of `old` in a pass's text, which must have it: a preset that changed shall not pass by accident.
+/// Replaces `old` by `new` in a pass's text, which must contain it, so that a change of the preset cannot disable a
+/// test.
 pub(crate) fn patch(project: &mut Project, id: &PassName, old: &str, new: &str) {
     let source = &mut project.pass_mut(id).unwrap().source;
-    assert!(source.text.contains(old), "{} no longer says `{old}`", source.name);
+    assert!(source.text.contains(old), "{} no longer contains `{old}`", source.name);
     source.text = source.text.replace(old, new).into();
 }
 
-/// The same in an included file.
+/// The same, in an included file.
 pub(crate) fn patch_file(project: &mut Project, file: &str, old: &str, new: &str) {
     let included = project.includes.iter_mut().find(|i| i.source.name == file).unwrap();
-    assert!(included.source.text.contains(old), "{file} no longer says `{old}`");
+    assert!(included.source.text.contains(old), "{file} no longer contains `{old}`");
     included.source.text = included.source.text.replace(old, new).into();
 }
 
-/// Lets `code` have the last word on what a pass writes: it sees `o`, the texel as the preset would have it, and its
-/// address `p`.
+/// Lets `code` modify what a pass writes: it sees `o`, the texel that the preset writes, and its address `p`.
 pub(crate) fn overwrite(project: &mut Project, name: &str, code: &str) {
     let source = &mut project.pass_mut(&buffer(name)).unwrap().source;
     source.text = format!(
@@ -56,7 +56,7 @@ pub(crate) fn overwrite(project: &mut Project, name: &str, code: &str) {
     .into();
 }
 
-/// Numbers that are none, made from iFrame so that no compiler can know them beforehand: a NaN and both infinities.
+/// Numbers that are not finite, computed from iFrame so that no compiler can know them: a NaN and both infinities.
 pub(crate) const BROKEN: [&str; 3] = ["0x7fc00000u", "0x7f800000u", "0xff800000u"];
 
 /// Writes one of [`BROKEN`] into one texel of a pass in frame `frame`.
@@ -67,7 +67,7 @@ pub(crate) fn break_texel(project: &mut Project, name: &str, (x, y): (u32, u32),
     overwrite(project, name, &code);
 }
 
-/// Frame `frame` with the mouse held at `at` since it was pressed at `from`, or never touched.
+/// Returns the input of frame `frame` with the mouse held at `at` since it was pressed at `from`, or never pressed.
 pub(crate) fn held(frame: i32, mouse: Option<([f32; 2], [f32; 2])>) -> FrameInputs {
     let mut inputs = FrameInputs::at_fixed_step(frame, 60.0);
     inputs.mouse = match mouse {
@@ -81,7 +81,7 @@ pub(crate) fn untouched(frame: i32) -> FrameInputs {
     held(frame, None)
 }
 
-/// A drag from (12, 9) to the right, pressed in frames 10 to 24 and never released before.
+/// Returns the input of a drag from (12, 9) to the right, held in frames 10 to 24.
 pub(crate) fn drag(frame: i32) -> FrameInputs {
     let moved = (frame - 10).clamp(0, 14) as f32;
     held(frame, (10..25).contains(&frame).then_some(([12.0, 9.0], [12.0 + moved, 9.0])))
@@ -101,7 +101,7 @@ pub(crate) fn buffers(project: &Project) -> impl Iterator<Item = &PassName> {
     project.passes.iter().map(|p| &p.id).filter(|id| id.is_picture())
 }
 
-/// An engine in which every pass can be read.
+/// Returns an engine in which every pass can be read.
 pub(crate) fn whole(gpu: &Gpu, project: &Project, skip: bool, size: (u32, u32)) -> Engine {
     Engines::new(gpu).whole(project, skip, size)
 }
@@ -113,7 +113,7 @@ impl Engines {
     }
 }
 
-/// The same after these frames.
+/// The same, after these frames.
 pub(crate) fn drawn(
     gpu: &Gpu,
     project: &Project,
@@ -127,7 +127,7 @@ pub(crate) fn drawn(
     engine
 }
 
-/// Mean of a component over the texels that `at` takes, in f64.
+/// Returns the mean of a component over the texels for which `at` returns true, in f64.
 pub(crate) fn mean(pixels: &Pixels, component: usize, at: impl Fn(u32, u32) -> bool) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for (i, texel) in pixels.texels.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What tests of the built program share: running it in a folder of its own and reading what it wrote.
+//! Shared parts of the tests of the built program: running it in a separate folder and reading its output files.
 
 use super::gpu;
 use std::{
@@ -8,7 +8,7 @@ use std::{
     process::{Command, Stdio},
 };
 
-/// What a run of the program left behind.
+/// The result of a run of the program.
 #[derive(Debug)]
 pub(crate) struct Run {
     pub code: Option<i32>,
@@ -17,7 +17,7 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    /// Standard output as JSON, one object a line.
+    /// Returns standard output as JSON, one object per line.
     pub(crate) fn json(&self) -> Vec<serde_json::Value> {
         let parse = |line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{line:?}: {e}\n{self:?}"));
         self.out.lines().map(parse).collect()
@@ -31,7 +31,7 @@ impl Run {
     }
 }
 
-/// A folder of its own for one test, and the program run in it.
+/// A separate folder for one test, and the program run in it.
 pub(crate) struct Bench {
     dir: tempfile::TempDir,
 }
@@ -41,7 +41,7 @@ impl Bench {
         Bench { dir: tempfile::tempdir().unwrap() }
     }
 
-    /// `None` where the machine has no device.
+    /// Returns `None` if the machine has no device.
     pub(crate) fn with_gpu() -> Option<Bench> {
         gpu().map(|_| Bench::new())
     }
@@ -50,14 +50,14 @@ impl Bench {
         self.dir.path().join(name)
     }
 
-    /// Writes a file, and the folders it lies in.
+    /// Writes a file, and creates its folders.
     pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) {
         let path = self.path(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, content).unwrap();
     }
 
-    /// One Image pass whose `mainImage` has this body.
+    /// Writes an Image pass whose `mainImage` has this body.
     pub(crate) fn image(&self, name: &str, body: &str) {
         self.write(name, image(body));
     }
@@ -72,7 +72,7 @@ impl Bench {
         run(self.command().args(args))
     }
 
-    /// Arguments parted by blanks.
+    /// Runs the program with arguments separated by spaces.
     pub(crate) fn line(&self, args: &str) -> Run {
         self.eddy(args.split_whitespace())
     }
@@ -81,7 +81,7 @@ impl Bench {
         fs::read(self.path(name)).unwrap_or_else(|e| panic!("{name}: {e}; there are {:?}", self.names(".")))
     }
 
-    /// Sorted names of what lies in a folder.
+    /// Returns the sorted names of the files in a folder.
     pub(crate) fn names(&self, folder: &str) -> Vec<String> {
         let mut names: Vec<String> = fs::read_dir(self.path(folder))
             .map(|d| d.map(|e| e.unwrap().file_name().into_string().unwrap()).collect())
@@ -112,7 +112,7 @@ pub(crate) fn run(command: &mut Command) -> Run {
     }
 }
 
-/// A float picture as `--format npy` writes it. Row 0 is the bottom.
+/// A float picture, as written by `--format npy`. Row 0 is the bottom.
 pub(crate) struct Npy {
     pub width: usize,
     pub height: usize,
@@ -138,7 +138,7 @@ impl Npy {
         }
     }
 
-    /// `y` counts from the bottom.
+    /// Returns a texel; `y` counts from the bottom.
     pub(crate) fn at(&self, x: usize, y: usize) -> [f32; 4] {
         self.texels[y * self.width + x]
     }

@@ -1,4 +1,4 @@
-//! A session without a window, ticked by hand, and a project's folder to go with it.
+//! A session without a window, ticked by the test, with a project's folder.
 
 use eddy::{
     gpu::Gpu,
@@ -16,7 +16,7 @@ pub(crate) fn image_tab() -> Tab {
     Tab::image()
 }
 
-/// An Image pass of one colour.
+/// Returns an Image pass of one colour.
 pub(crate) fn plain(red: f32) -> String {
     format!("void mainImage(out vec4 o, in vec2 p) {{\n    o = vec4({red:?}, 0.0, 0.0, 1.0);\n}}\n")
 }
@@ -28,7 +28,7 @@ pub(crate) struct Stage {
 }
 
 impl Stage {
-    /// A paused session of 8x4 pixels with the given files open as a folder, its first frame drawn.
+    /// Opens a paused session of 8x4 pixels with the given files as a folder, and draws its first frame.
     pub(crate) fn open(gpu: Gpu, files: &[(&str, &str)]) -> Stage {
         let mut stage = Self::bare(gpu);
         for (name, text) in files {
@@ -45,7 +45,7 @@ impl Stage {
         Self::with_options(gpu, |_| SessionOptions::default())
     }
 
-    /// As [`Stage::bare`] with more options, which may name paths in the stage's own folder.
+    /// Like [`Stage::bare`], with more options, which may name paths in the stage's own folder.
     pub(crate) fn with_options(gpu: Gpu, options: impl FnOnce(&Path) -> SessionOptions) -> Stage {
         let dir = tempfile::tempdir().unwrap();
         fs::create_dir(dir.path().join("project")).unwrap();
@@ -81,20 +81,20 @@ impl Stage {
         tick
     }
 
-    /// Does what a command asks for, with a tick after it.
+    /// Applies a command and ticks once.
     pub(crate) fn act(&mut self, command: Command) {
         self.session.apply(command);
         self.tick();
     }
 
-    /// Does what a command asks for, and waits until what follows from it is compiled.
+    /// Applies a command and waits until the resulting program is compiled.
     pub(crate) fn compile(&mut self, command: Command) {
         self.session.apply(command);
         self.until_compiled();
     }
 
-    /// Lets the watcher tell of what was written before the session began to watch: until nothing is pending for a
-    /// while.
+    /// Lets the watcher report files that were written before the session started to watch: ticks until no work is
+    /// pending for a while.
     pub(crate) fn settle(&mut self) {
         let mut quiet = 0;
         while quiet < 15 {
@@ -103,22 +103,22 @@ impl Stage {
         }
     }
 
-    /// Frames drawn so far.
+    /// Returns the number of frames drawn so far.
     pub(crate) fn frames(&self) -> u32 {
         self.frames
     }
 
-    /// Ticks until something is so.
+    /// Ticks until `condition` is true.
     pub(crate) fn until(&mut self, what: &str, condition: impl Fn(&Session) -> bool) {
         let end = Instant::now() + Duration::from_secs(30);
         while !condition(&self.session) {
-            assert!(Instant::now() < end, "never: {what}; notices: {:#?}", self.session.notices());
+            assert!(Instant::now() < end, "timed out waiting for {what}; notices: {:#?}", self.session.notices());
             self.tick();
             std::thread::sleep(Duration::from_millis(2));
         }
     }
 
-    /// Ticks for a while: for what must not happen.
+    /// Ticks for a while, to check that something does not happen.
     pub(crate) fn for_a_while(&mut self) {
         let end = Instant::now() + Duration::from_millis(700);
         while Instant::now() < end {
@@ -144,23 +144,27 @@ impl Stage {
         self.session.notices().iter().filter(|n| n.level == level).map(|n| n.text.as_str()).collect()
     }
 
-    /// How many notices of any level begin so.
+    /// Returns the number of notices of any level with this prefix.
     pub(crate) fn count(&self, start: &str) -> usize {
         self.session.notices().iter().filter(|n| n.text.starts_with(start)).count()
     }
 
-    /// Red of the picture's first pixel, by the way of a screenshot.
+    /// Returns the red of the picture's first pixel, read from a screenshot.
     pub(crate) fn red(&mut self) -> u8 {
         let path = self.screenshot();
         image::open(&path).unwrap().to_rgba8().get_pixel(0, 0).0[0]
     }
 
-    /// Ticks until the picture's first pixel is so red. A compile can begin and end within one tick, so to wait for one
-    /// to begin can be to wait for ever: what it leads to is what to wait for.
+    /// Ticks until the picture's first pixel has this red. A compile can start and end within one tick, so a test
+    /// cannot wait for its start, only for its result.
     pub(crate) fn until_red(&mut self, red: u8) {
         let end = Instant::now() + Duration::from_secs(30);
         while self.red() != red {
-            assert!(Instant::now() < end, "never {red}; notices: {:#?}", self.session.notices());
+            assert!(
+                Instant::now() < end,
+                "timed out waiting for a red of {red}; notices: {:#?}",
+                self.session.notices()
+            );
             self.for_a_while();
         }
     }
@@ -168,7 +172,7 @@ impl Stage {
     pub(crate) fn screenshot(&mut self) -> PathBuf {
         let before = self.session.notices().len();
         self.session.apply(Command::Screenshot);
-        // A session that draws apart has it when the frame under way is drawn.
+        // A session that draws on a thread has it when the frame in flight is drawn.
         self.until("a notice of the picture", |s| s.notices().len() > before);
         let notice = self.session.notices().last().unwrap();
         assert!(notice.text.starts_with("saved "), "{}", notice.text);
@@ -176,7 +180,7 @@ impl Stage {
     }
 }
 
-/// As many editors save: a new file, renamed over the old one.
+/// Saves like many editors: writes a new file and renames it over the old one.
 pub(crate) fn replace(path: &Path, text: &str) {
     let new = path.with_extension("tmp~");
     fs::write(&new, text).unwrap();

@@ -1,4 +1,4 @@
-//! The walker beside what a device draws.
+//! The walker compared with a device.
 
 use super::texel;
 use bytemuck::Zeroable;
@@ -9,10 +9,10 @@ use eddy::{
     project::{PassName, Project},
 };
 
-/// A place in a picture, counted from the bottom left.
+/// A pixel of a picture, counted from the bottom left.
 pub(crate) type Pixel = (u32, u32);
 
-/// What a pass reads whose program asks for no uniform and no channel.
+/// Returns the inputs of a pass whose program reads no uniform and no channel.
 pub(crate) fn nothing_read(size: (u32, u32)) -> PassInputs {
     PassInputs {
         face: 0,
@@ -24,7 +24,7 @@ pub(crate) fn nothing_read(size: (u32, u32)) -> PassInputs {
     }
 }
 
-/// Walks through a pass for these pixels; `None` where one is discarded.
+/// Walks a pass for these pixels; a discarded one is `None`.
 #[track_caller]
 pub(crate) fn walk(project: &Project, id: &PassName, read: &PassInputs, pixels: &[Pixel]) -> Vec<Option<[f32; 4]>> {
     let index = project.passes.iter().position(|pass| pass.id == *id).expect("the pass");
@@ -35,24 +35,24 @@ pub(crate) fn walk(project: &Project, id: &PassName, read: &PassInputs, pixels: 
     pixels.iter().map(value).collect()
 }
 
-/// All places of a picture.
+/// Returns all pixels of a picture.
 pub(crate) fn all_pixels((width, height): (u32, u32)) -> Vec<Pixel> {
     (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).collect()
 }
 
-/// The same number, of two zeros and two NaN too.
+/// Returns whether two numbers are equal. Zeros of both signs are equal, and so are all NaNs.
 pub(crate) fn is_same(a: f32, b: f32) -> bool {
     a == b || a.is_nan() && b.is_nan()
 }
 
-/// Walks through a pass of the newest frame for all of its pixels: every component must be what was drawn.
+/// Walks a pass of the newest frame for all of its pixels, and asserts that every component equals the drawn one.
 #[track_caller]
 pub(crate) fn assert_walked(engine: &mut Engine, project: &Project, id: &PassName) {
     let (read, drawn) = (engine.inspect(id).unwrap(), engine.read(id).unwrap());
     let pixels = all_pixels(read.size);
     for (&pixel, value) in pixels.iter().zip(walk(project, id, &read, &pixels)) {
         let drawn = texel(&drawn, pixel.0, pixel.1);
-        let value = value.expect("nothing is discarded");
+        let value = value.expect("no pixel is discarded");
         assert!(
             value.iter().zip(drawn).all(|(&a, b)| is_same(a, b)),
             "{} at {pixel:?}: walked {value:?}, drawn {drawn:?}",

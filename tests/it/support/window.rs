@@ -1,4 +1,4 @@
-//! The real window on a display of its own: Xvfb, the `eddy` binary with `--json`, xdotool for hands.
+//! The real window on a separate display: Xvfb, the `eddy` binary with `--json`, and xdotool for input.
 
 pub(crate) use super::{display::Display, folder_of};
 use serde_json::Value;
@@ -11,18 +11,18 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The software driver paints slowly on a busy machine; a test waits for what it can see, never for a fixed time, and
-/// gives up after this.
-const PATIENCE: Duration = Duration::from_secs(60);
-/// A picture that plays has its next frame by then, on a busy machine too; else it has been paused.
+/// The software driver draws slowly on a busy machine; tests wait for visible results, never for a fixed time, and give
+/// up after this.
+const WAIT_TIMEOUT: Duration = Duration::from_secs(60);
+/// The time within which a playing picture has its next frame, also on a busy machine; otherwise it has been paused.
 const NEXT_FRAME: Duration = Duration::from_secs(10);
-/// A window that says nothing for so long has come to rest.
+/// A window without events for this time has settled.
 const SETTLED: Duration = Duration::from_millis(400);
 
-/// A window that plays has drawn its first frames by then, if it draws any.
-const BEGINS: Duration = Duration::from_secs(4);
+/// The time within which a playing window has drawn its first frames, if it draws any.
+const FIRST_FRAMES: Duration = Duration::from_secs(4);
 
-/// The file in the home folder that a window's standard error goes to.
+/// The file in the home folder that receives a window's standard error.
 pub(crate) const STANDARD_ERROR: &str = "stderr.txt";
 
 /// A running `eddy` window.
@@ -30,19 +30,19 @@ pub(crate) struct Window<'a> {
     display: &'a Display,
     process: Child,
     lines: Receiver<Value>,
-    /// Everything said so far.
+    /// All events so far.
     pub events: Vec<Value>,
     id: String,
     home: std::path::PathBuf,
 }
 
 impl<'a> Window<'a> {
-    /// Opens a window with the given arguments, `home` being the home folder (and so where pictures go).
+    /// Opens a window with the given arguments and home folder, which also receives pictures.
     pub(crate) fn open(display: &'a Display, home: &Path, arguments: &[&str]) -> Window<'a> {
         Self::open_as(display, home, Some("760x440"), &[], arguments)
     }
 
-    /// The same with a size, or as large as it was when it was closed last, and with further environment variables.
+    /// The same, with a size, or the size at which it was last closed, and with further environment variables.
     pub(crate) fn open_as(
         display: &'a Display,
         home: &Path,
@@ -58,7 +58,7 @@ impl<'a> Window<'a> {
         window
     }
 
-    /// The same where the picture's panel may have been closed before.
+    /// The same if the picture's panel may have been closed before.
     pub(crate) fn start(
         display: &'a Display,
         home: &Path,
@@ -66,12 +66,12 @@ impl<'a> Window<'a> {
         environment: &[(&str, &str)],
         arguments: &[&str],
     ) -> Window<'a> {
-        // `EDDY_BINARY` is another build of it, as one that is optimised.
+        // `EDDY_BINARY` is another build, for example an optimised one.
         let program = std::env::var_os("EDDY_BINARY").unwrap_or_else(|| env!("CARGO_BIN_EXE_eddy").into());
         Self::start_program(&program, display, home, size, environment, arguments)
     }
 
-    /// The same by another program, which takes the arguments of `eddy`.
+    /// The same with another program, which takes the arguments of `eddy`.
     pub(crate) fn start_program(
         program: &OsStr,
         display: &'a Display,
@@ -82,7 +82,7 @@ impl<'a> Window<'a> {
     ) -> Window<'a> {
         let runtime = home.join("runtime");
         std::fs::create_dir_all(&runtime).unwrap();
-        // A busy machine's slow frame is no reason to pause.
+        // A slow frame on a busy machine must not pause.
         let has_limit = arguments.contains(&"--frame-timeout");
         let patient: &[&str] = if has_limit { &[] } else { &["--frame-timeout", "60"] };
         let mut process = Command::new(program)
@@ -100,7 +100,7 @@ impl<'a> Window<'a> {
             .env_remove("XDG_CONFIG_HOME")
             .env_remove("XDG_STATE_HOME")
             .env_remove("XDG_CACHE_HOME")
-            // No file dialogs of this desktop's: no program, and no portal above.
+            // No file dialogs of the desktop: no programs, and no portal (see above).
             .env("PATH", home.join("no-programs"))
             .current_dir(home)
             .stdout(Stdio::piped())
@@ -130,22 +130,22 @@ impl<'a> Window<'a> {
         window
     }
 
-    /// Opens a window with a project and waits until that is compiled.
+    /// Opens a window with a project and waits until it is compiled.
     pub(crate) fn open_project(display: &'a Display, home: &Path, project: &Path) -> Window<'a> {
         let mut window = Self::open(display, home, &[project.to_str().unwrap()]);
-        window.compiled();
+        window.wait_compiled();
         window
     }
 
-    /// The same with a window of a size.
+    /// The same, with a window size.
     pub(crate) fn of_size(display: &'a Display, home: &Path, size: &str, project: &str) -> Window<'a> {
         let mut window = Self::open_as(display, home, Some(size), &[], &[project]);
-        window.compiled();
+        window.wait_compiled();
         window
     }
 
-    /// Waits until the newest text of the project that was opened last is compiled without an error.
-    pub(crate) fn compiled(&mut self) {
+    /// Waits until the newest text of the project that was opened last is compiled without errors.
+    pub(crate) fn wait_compiled(&mut self) {
         self.drain();
         let fits = |e: &Value| e["event"] == "compiled" && e["compiling"] == false && e["ok"] == true;
         let newest = self.events.iter().rev().find(|e| e["event"] == "compiled" || e["event"] == "opened");
@@ -154,9 +154,9 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// The first event from now on that fits; panics with what was said instead when patience ends.
+    /// Returns the first event from now on for which `fits` is true; panics with the last events after the timeout.
     pub(crate) fn wait_for(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
-        let end = Instant::now() + PATIENCE;
+        let end = Instant::now() + WAIT_TIMEOUT;
         loop {
             match self.lines.recv_timeout(end.saturating_duration_since(Instant::now())) {
                 Ok(event) => {
@@ -165,13 +165,13 @@ impl<'a> Window<'a> {
                         return event;
                     }
                 }
-                Err(RecvTimeoutError::Timeout) => self.fail(&format!("waited in vain for {what}")),
+                Err(RecvTimeoutError::Timeout) => self.fail(&format!("timed out waiting for {what}")),
                 Err(RecvTimeoutError::Disconnected) => self.fail(&format!("the window ended while waiting for {what}")),
             }
         }
     }
 
-    /// As [`Window::wait_for`], but an event that was said already counts too if it is the newest of its name.
+    /// Like [`Window::wait_for`], but also accepts the newest event of this name so far.
     pub(crate) fn wait_until(&mut self, what: &str, name: &str, fits: impl Fn(&Value) -> bool) -> Value {
         self.drain();
         match self.newest(name) {
@@ -180,17 +180,17 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// Waits until a named widget is there.
-    pub(crate) fn shows(&mut self, widget: &str) {
+    /// Waits until a named widget is shown.
+    pub(crate) fn wait_shown(&mut self, widget: &str) {
         self.wait_until(&format!("{widget} to be shown"), "layout", |e| e["rects"][widget].is_array());
     }
 
-    /// Waits until a named widget is gone.
-    pub(crate) fn hides(&mut self, widget: &str) {
+    /// Waits until a named widget is hidden.
+    pub(crate) fn wait_hidden(&mut self, widget: &str) {
         self.wait_until(&format!("{widget} to be hidden"), "layout", |e| e["rects"][widget].is_null());
     }
 
-    /// Takes in what has been said meanwhile.
+    /// Receives the pending events.
     pub(crate) fn drain(&mut self) {
         while let Ok(event) = self.lines.try_recv() {
             self.events.push(event);
@@ -201,7 +201,7 @@ impl<'a> Window<'a> {
         self.events.iter().rev().find(|e| e["event"] == name).cloned()
     }
 
-    /// Frames that were told of after the newest layout.
+    /// Returns the number of frame events after the newest layout.
     fn frames_since_layout(&self) -> usize {
         self.events.iter().rev().take_while(|e| e["event"] != "layout").filter(|e| e["event"] == "frame").count()
     }
@@ -214,29 +214,29 @@ impl<'a> Window<'a> {
         panic!("{why}; the display is in {}; last events:\n{}\n{error}", shot.display(), tail.join("\n"));
     }
 
-    /// Where a named widget is: its centre, in pixels of the window.
+    /// Returns the centre of a named widget, in pixels of the window.
     pub(crate) fn centre(&mut self, widget: &str) -> (i64, i64) {
         let r = self.rect(widget).map(|x| x as i64);
         (r[0] + r[2] / 2, r[1] + r[3] / 2)
     }
 
-    /// Its place: x, y, width, height.
+    /// Returns its rectangle: x, y, width, height.
     pub(crate) fn rect(&mut self, widget: &str) -> [f64; 4] {
         let name = widget.to_owned();
         let has = |e: &Value| e["rects"][&name].is_array();
         let mut layout = self.wait_until(&format!("the widget {widget}"), "layout", has);
-        // A popup finds its place in its second frame: look again until nothing moves any more. While a picture plays
-        // its frames tell, however far apart; a window that is paused, or covered by the gallery, says nothing when it
-        // has come to rest.
+        // A popup gets its position in its second frame: reads layouts until it does not move. While a picture plays,
+        // its frame events show the progress, however far apart; a window that is paused, or covered by the gallery,
+        // sends no events once it has settled.
         let is_halted = self.newest("halt").is_some_and(|halt| halt["kind"].is_string());
         let frame = self.newest("frame").filter(|frame| frame["playing"] == true && layout["viewport"].is_array());
-        let patience = match frame.filter(|_| !is_halted) {
+        let timeout = match frame.filter(|_| !is_halted) {
             Some(frame) if frame["fps"].is_number() => NEXT_FRAME,
-            // It begins to play, or has nothing to draw.
-            Some(_) => BEGINS,
+            // It is starting to play, or has no frame to draw.
+            Some(_) => FIRST_FRAMES,
             None => SETTLED,
         };
-        while let Ok(event) = self.lines.recv_timeout(patience) {
+        while let Ok(event) = self.lines.recv_timeout(timeout) {
             self.events.push(event.clone());
             if event["event"] == "layout" && has(&event) {
                 layout = event;
@@ -247,14 +247,14 @@ impl<'a> Window<'a> {
         std::array::from_fn(|i| layout["rects"][widget][i].as_f64().unwrap())
     }
 
-    /// The picture's place in the window: x, y, width, height.
+    /// Returns the picture's rectangle in the window: x, y, width, height.
     pub(crate) fn viewport(&mut self) -> [f64; 4] {
         self.drain();
         let layout = self.newest("layout").unwrap();
         std::array::from_fn(|i| layout["viewport"][i].as_f64().unwrap())
     }
 
-    /// A point of the picture, from its bottom left, as fractions.
+    /// Returns a point of the picture, from its bottom left, as fractions.
     pub(crate) fn picture_point(&mut self, u: f64, v: f64) -> (i64, i64) {
         let [x, y, width, height] = self.viewport();
         ((x + u * width) as i64, (y + (1.0 - v) * height) as i64)
@@ -268,12 +268,12 @@ impl<'a> Window<'a> {
         self.display.tool(&["mousedown", "1"]);
     }
 
-    /// Turns the wheel by one step where the pointer is.
+    /// Turns the wheel by one step at the pointer.
     pub(crate) fn wheel(&self, up: bool) {
         self.display.tool(&["click", if up { "4" } else { "5" }]);
     }
 
-    /// Presses and releases a button of the mouse where the pointer is.
+    /// Clicks a mouse button at the pointer.
     pub(crate) fn button(&self, number: &str) {
         self.display.tool(&["click", number]);
     }
@@ -282,7 +282,7 @@ impl<'a> Window<'a> {
         self.display.tool(&["mouseup", "1"]);
     }
 
-    /// Draws short strokes all over the picture, one move a frame, until this frame is drawn.
+    /// Draws short strokes all over the picture, one move per frame, until this frame is drawn.
     pub(crate) fn draw_strokes_until(&mut self, frame: i64) {
         let mut step = 0;
         while self.newest("frame").is_none_or(|e| e["frame"].as_i64() < Some(frame)) {
@@ -305,12 +305,12 @@ impl<'a> Window<'a> {
         self.display.tool(&["click", "1"]);
     }
 
-    /// Clicks while keys are held, in xdotool's names.
+    /// Clicks while holding keys, in xdotool's names.
     pub(crate) fn click_holding(&self, keys: &[&str], at: (i64, i64)) {
         self.move_to(at);
         self.hold(keys);
         self.display.tool(&["click", "1"]);
-        self.let_go(keys);
+        self.release_keys(keys);
     }
 
     /// Holds keys down.
@@ -318,7 +318,7 @@ impl<'a> Window<'a> {
         keys.iter().for_each(|key| drop(self.display.tool(&["keydown", key])));
     }
 
-    pub(crate) fn let_go(&self, keys: &[&str]) {
+    pub(crate) fn release_keys(&self, keys: &[&str]) {
         keys.iter().for_each(|key| drop(self.display.tool(&["keyup", key])));
     }
 
@@ -327,12 +327,12 @@ impl<'a> Window<'a> {
         self.click(at);
     }
 
-    /// Gives the window a size at once, without waiting for it to follow.
+    /// Requests a size, without waiting for the window to follow.
     pub(crate) fn ask_size(&self, width: u32, height: u32) {
         self.display.tool(&["windowsize", &self.id, &width.to_string(), &height.to_string()]);
     }
 
-    /// Gives it a size in pixels, and waits until it is laid out anew: a click on what is about to move would miss it.
+    /// Sets a size in pixels, and waits for the new layout: a click on a widget that is about to move would miss it.
     pub(crate) fn resize(&mut self, width: u32, height: u32) {
         self.ask_size(width, height);
         let is = |e: &Value, i: usize, pixels: u32| {
@@ -342,54 +342,55 @@ impl<'a> Window<'a> {
         self.wait_until("the new size", "layout", |e| is(e, 0, width) && is(e, 1, height));
     }
 
-    /// Ends the process at once, as a power cut does (SIGKILL).
+    /// Kills the process at once (SIGKILL), like a power cut.
     pub(crate) fn kill(mut self) {
         self.process.kill().unwrap();
         self.process.wait().unwrap();
     }
 
-    /// Processor time that the window has taken so far, on all cores.
-    pub(crate) fn busy(&self) -> Duration {
+    /// Returns the CPU time of the window so far, on all cores.
+    pub(crate) fn cpu_time(&self) -> Duration {
         let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.process.id())).unwrap();
-        // Behind the name in brackets, which may hold anything: the 12th and 13th, in hundredths of a second.
-        let behind = stat.rsplit_once(')').unwrap().1;
-        let ticks: u64 = behind.split_whitespace().skip(11).take(2).map(|n| n.parse::<u64>().unwrap()).sum();
+        // After the name in parentheses, which may contain any character: the 12th and 13th field, in hundredths of a
+        // second.
+        let fields = stat.rsplit_once(')').unwrap().1;
+        let ticks: u64 = fields.split_whitespace().skip(11).take(2).map(|n| n.parse::<u64>().unwrap()).sum();
         Duration::from_millis(ticks * 10)
     }
 
-    /// Resident memory in bytes; nothing once the process has ended.
+    /// Returns the resident memory in bytes; 0 once the process has ended.
     pub(crate) fn resident(&self) -> u64 {
         let statm = std::fs::read_to_string(format!("/proc/{}/statm", self.process.id())).unwrap_or_default();
         statm.split_whitespace().nth(1).and_then(|pages| pages.parse::<u64>().ok()).unwrap_or(0) * 4096
     }
 
-    /// The most resident memory so far, in bytes; nothing once the process has ended.
+    /// Returns the peak resident memory so far, in bytes; 0 once the process has ended.
     pub(crate) fn peak_resident(&self) -> u64 {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.process.id())).unwrap_or_default();
         let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB"));
         peak.and_then(|kilobytes| kilobytes.parse::<u64>().ok()).unwrap_or(0) * 1024
     }
 
-    /// The server's number of it.
+    /// Returns the X server's number of the window.
     pub(crate) fn number(&self) -> u32 {
         self.id.parse().unwrap()
     }
 
-    /// Lets go of what was said, but for the newest of each event.
+    /// Drops all events except the newest of each name.
     pub(crate) fn forget_all_but_newest(&mut self) {
         let mut named = std::collections::BTreeSet::new();
         let newest = self.events.drain(..).rev().filter(|e| named.insert(e["event"].to_string())).collect::<Vec<_>>();
         self.events.extend(newest.into_iter().rev());
     }
 
-    /// What the window is called.
+    /// Returns the title of the window.
     pub(crate) fn title(&self) -> String {
         self.display.tool(&["getwindowname", &self.id])
     }
 
-    /// Waits for the process to end. Returns its exit code; none if a signal ended it, or nothing has.
-    pub(crate) fn ends(&mut self) -> Option<i32> {
-        let end = Instant::now() + PATIENCE;
+    /// Waits for the process to end. Returns its exit code; `None` if a signal ended it, or on a timeout.
+    pub(crate) fn wait_exit(&mut self) -> Option<i32> {
+        let end = Instant::now() + WAIT_TIMEOUT;
         while Instant::now() < end {
             if let Some(status) = self.process.try_wait().unwrap() {
                 return status.code();
@@ -399,13 +400,13 @@ impl<'a> Window<'a> {
         None
     }
 
-    /// The process has not ended.
-    pub(crate) fn lives(&mut self) -> bool {
+    /// Returns whether the process is running.
+    pub(crate) fn is_running(&mut self) -> bool {
         self.process.try_wait().unwrap().is_none()
     }
 
-    /// What the window has written to standard error.
-    pub(crate) fn complaints(&self) -> String {
+    /// Returns the window's standard error.
+    pub(crate) fn stderr(&self) -> String {
         std::fs::read_to_string(self.home.join(STANDARD_ERROR)).unwrap()
     }
 
@@ -416,30 +417,30 @@ impl<'a> Window<'a> {
         }
     }
 
-    /// Does the same beside what is held down.
+    /// The same, while other keys are held.
     pub(crate) fn keys_as_held(&self, keys: &[&str]) {
         keys.iter().for_each(|key| drop(self.display.tool(&["key", key])));
     }
 
-    /// Types, and ends with Return.
+    /// Types a text and presses Return.
     pub(crate) fn submit(&self, text: &str) {
         self.type_text(text);
         self.keys(&["Return"]);
     }
 
-    /// Pauses the picture, and waits until it stands still.
+    /// Pauses the picture and waits until it is paused.
     pub(crate) fn pause(&mut self) {
         self.keys(&["alt+Up"]);
         self.wait_until("the pause", "frame", |e| e["playing"] == false);
     }
 
-    /// Types over what the field with the keyboard holds, and ends with Return.
+    /// Replaces the content of the focused field and presses Return.
     pub(crate) fn enter(&self, text: &str) {
         self.keys(&["ctrl+a"]);
         self.submit(text);
     }
 
-    /// Clicks on a field and types over what it holds.
+    /// Clicks on a field, replaces its content and presses Return.
     pub(crate) fn fill(&mut self, field: &str, text: &str) {
         self.click_on(field);
         self.enter(text);
@@ -448,11 +449,11 @@ impl<'a> Window<'a> {
     /// Opens the palette and types in it.
     pub(crate) fn search_palette(&mut self, text: &str) {
         self.keys(&["ctrl+shift+p"]);
-        self.shows("field:palette");
+        self.wait_shown("field:palette");
         self.type_text(text);
     }
 
-    /// Saves the project, and waits until that is done.
+    /// Saves the project and waits until it is saved.
     pub(crate) fn save(&mut self) {
         self.keys(&["ctrl+s"]);
         self.wait_until("the save", "dirty", |e| e["dirty"] == false);

@@ -1,21 +1,21 @@
-//! Runs a program for one pixel: 32-bit words that wrap, from left to right, with what Eddy promises where GLSL leaves
-//! it open.
+//! Runs a program for one pixel: 32-bit words that wrap, evaluation from left to right, and Eddy's guarantees where
+//! GLSL leaves behaviour undefined.
 
 use super::{Arg, Base, Expr, FUEL, Link, Logic, Mode, Op, Place, Prefix, Program, Stmt, Ty, VarId};
 
-/// What a pixel reads.
+/// The inputs of a pixel.
 pub(crate) struct Inputs<'a> {
-    /// Column, row, number of the frame.
+    /// Column, row, frame number.
     pub given: [i32; 3],
-    /// What the channels hold: columns, and texels from the bottom left.
+    /// The contents of the channels: the number of columns, and texels from the bottom left.
     pub channels: [(usize, &'a [[f32; 4]]); 2],
 }
 
-/// The program takes longer than anybody would wait.
+/// The program exceeded its limit of steps.
 #[derive(Debug)]
 pub(crate) struct TooLong;
 
-/// The texel that the program gives; `steps` counts down.
+/// Returns the texel of the program; `steps` counts down.
 pub(crate) fn run(program: &Program, inputs: &Inputs<'_>, steps: &mut u32) -> Result<[f32; 4], TooLong> {
     let mut machine = Machine {
         program,
@@ -41,7 +41,7 @@ pub(crate) fn run(program: &Program, inputs: &Inputs<'_>, steps: &mut u32) -> Re
     Ok([r0 & 65535, r0 >> 16, r1 & 65535, r1 >> 16].map(|half| half as f32))
 }
 
-/// The type of each word of a value.
+/// Appends the type of each word of a value.
 fn bases_of(program: &Program, ty: &Ty, out: &mut Vec<Base>) {
     match ty {
         Ty::Num(base, size) => out.extend(std::iter::repeat_n(*base, (*size).into())),
@@ -63,7 +63,7 @@ type Words = Vec<u32>;
 struct Machine<'a> {
     program: &'a Program,
     inputs: &'a Inputs<'a>,
-    /// By variable: there is no recursion.
+    /// By variable: without recursion, one instance is enough.
     memory: Vec<Words>,
     fuel: i32,
     steps: &'a mut u32,
@@ -157,7 +157,7 @@ impl Machine<'_> {
         Ok(Flow::Next)
     }
 
-    /// The words of a variable that a place names, its indices clamped.
+    /// Returns the words of a variable that a place names, with its indices clamped.
     fn place(&mut self, place: &Place) -> Result<(VarId, Vec<usize>), TooLong> {
         let mut ty = self.program.vars[place.var].ty.clone();
         let mut at: Vec<usize> = (0..self.memory[place.var].len()).collect();
@@ -166,7 +166,7 @@ impl Machine<'_> {
             let size = self.program.words(&part);
             match link {
                 Link::Field(index) => {
-                    let Ty::Struct(id) = ty else { unreachable!("a field of no structure") };
+                    let Ty::Struct(id) = ty else { unreachable!("a field of a type that is not a structure") };
                     let before: usize = self.program.structs[id][..*index].iter().map(|f| self.program.words(f)).sum();
                     at = at[before..before + size].to_vec();
                 }
@@ -196,7 +196,7 @@ impl Machine<'_> {
         }
     }
 
-    /// An operand in its turn: a variable is read when the others have been evaluated.
+    /// Evaluates an operand; a variable is read only after all operands have been evaluated.
     fn operand(&mut self, expr: &Expr) -> Result<Operand, TooLong> {
         Ok(match expr {
             Expr::Read(place, _) => Operand::Place(self.place(place)?),
@@ -253,7 +253,7 @@ impl Machine<'_> {
                 let value = match op {
                     Logic::And => left && self.scalar(right)? != 0,
                     Logic::Or => left || self.scalar(right)? != 0,
-                    Logic::Xor => unreachable!("has been"),
+                    Logic::Xor => unreachable!("handled above"),
                 };
                 vec![value.into()]
             }
@@ -359,7 +359,7 @@ impl Machine<'_> {
     }
 }
 
-/// An operand that has been evaluated: its value, or where it is read.
+/// An evaluated operand: its value, or the place to read.
 enum Operand {
     Value(Words),
     Place((VarId, Vec<usize>)),
@@ -377,12 +377,12 @@ fn convert(bits: u32, from: Base, to: Base) -> u32 {
     }
 }
 
-/// Component by component; `ty` is the result's, `base` that of the left side.
+/// Applies an operator to each component; `ty` is the result's type, `base` that of the left side.
 fn binary(op: Op, base: Base, l: &[u32], r: &[u32], ty: &Ty) -> Words {
     match op {
         Op::Equal | Op::NotEqual => {
             let same = match base {
-                // No matrix or structure holds a float that is no number, or a negative zero.
+                // No matrix or structure contains a NaN or a negative zero.
                 Base::Float => l.iter().zip(r).all(|(&l, &r)| f32::from_bits(l) == f32::from_bits(r)),
                 _ => l == r,
             };
@@ -427,7 +427,7 @@ fn int(op: Op, base: Base, l: u32, r: u32) -> u32 {
         Op::Rem if signed => {
             let (l, r) = (l as i32, r as i32);
             let rest = l.wrapping_rem(r);
-            // The divisor's sign.
+            // The result has the divisor's sign.
             (if rest != 0 && (rest ^ r) < 0 { rest + r } else { rest }) as u32
         }
         Op::Rem => l % r,
@@ -441,6 +441,6 @@ fn int(op: Op, base: Base, l: u32, r: u32) -> u32 {
         Op::LessEqual => order.is_le().into(),
         Op::Greater => order.is_gt().into(),
         Op::GreaterEqual => order.is_ge().into(),
-        Op::Equal | Op::NotEqual => unreachable!("of whole values"),
+        Op::Equal | Op::NotEqual => unreachable!("compared as whole values"),
     }
 }

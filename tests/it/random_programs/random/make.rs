@@ -1,16 +1,17 @@
-//! Makes programs: declarations and statements. Expressions are in [`super::values`].
+//! Generates programs: declarations and statements. Expressions are in [`super::values`].
 
 use super::{
     BOOL, Base, Expr, FLOAT, Function, INT, Link, Logic, Mode, Op, Place, Program, Stmt, Ty, UINT, Var, VarId,
 };
 
-/// Numbers that depend on the seed alone (Steele, Lea and Flood: SplitMix).
+/// Pseudo-random numbers (Steele, Lea and Flood: SplitMix).
 #[derive(Default)]
 pub(crate) struct Rng(u64);
 
 impl Rng {
     pub(crate) fn new(seed: u64) -> Self {
-        // Not the factor of the step, with which the numbers of one seed would be those of the next, one place on.
+        // A factor other than the step below, with which each seed's numbers would be those of the next seed, shifted
+        // by one.
         Self(seed.wrapping_mul(0xd134_2543_de82_ef95))
     }
 
@@ -26,7 +27,7 @@ impl Rng {
         (self.next() % count as u64) as usize
     }
 
-    /// True in so many of a hundred.
+    /// Returns true with a probability of `percent` %.
     pub(crate) fn percent(&mut self, percent: usize) -> bool {
         self.below(100) < percent
     }
@@ -36,7 +37,7 @@ impl Rng {
     }
 }
 
-/// The program of a seed.
+/// Generates the program of a seed.
 pub(crate) fn make(seed: u64) -> Program {
     let mut maker = Maker { rng: Rng::new(seed), scopes: vec![Vec::new()], ..Maker::default() };
     maker.program();
@@ -47,21 +48,22 @@ pub(crate) fn make(seed: u64) -> Program {
 pub(super) struct Maker {
     pub rng: Rng,
     pub program: Program,
-    /// What can be named, from the outermost scope on.
+    /// The variables in scope, from the outermost scope on.
     pub scopes: Vec<Vec<VarId>>,
     /// Variables that only a loop's step may write.
     pub counters: Vec<VarId>,
-    /// What loops at hand count, whatever else writes it: steps must be able to name it.
+    /// The counters of the enclosing loops, including those that other statements may write: steps must be able to name
+    /// them.
     stepped: Vec<VarId>,
-    /// How many scopes there are within the cases of each switch at hand.
+    /// The number of scopes inside the cases of each enclosing switch.
     cases: Vec<usize>,
-    /// Of the function at hand.
+    /// The result type of the current function.
     result: Option<Ty>,
     in_function: bool,
     loops: usize,
     breakable: usize,
     depth: usize,
-    /// How many statements may still be made.
+    /// The number of statements that may still be generated.
     budget: i32,
 }
 
@@ -90,7 +92,7 @@ impl Maker {
             let declared = self.declaration();
             body.push(declared);
         }
-        // Arrays on both sides of another one: what strays from it is seen.
+        // An array between two others: a write outside its bounds changes one of them.
         let len = 2 + self.rng.below(5) as u32;
         for ty in [INT, UINT, INT].map(|scalar| Ty::Array(Box::new(scalar), len)) {
             let init = self.rng.percent(50).then(|| self.construct(&ty, 1));
@@ -109,7 +111,7 @@ impl Maker {
         id
     }
 
-    /// A local that may be named from now on.
+    /// Declares a local and adds it to the current scope.
     fn declare(&mut self, ty: Ty, init: Option<Expr>) -> Stmt {
         let var = self.var(ty, false);
         self.scopes.last_mut().expect("a scope").push(var);
@@ -133,12 +135,12 @@ impl Maker {
         declared
     }
 
-    /// Sometimes gives a variable the name of one of an outer scope, which then cannot be named.
+    /// Sometimes renames a variable to one of an outer scope, which is then hidden.
     fn shadow(&mut self, var: VarId) {
         let (_, outer) = self.scopes.split_last().expect("a scope");
         let mut outer: Vec<VarId> = outer.iter().skip(1).flatten().copied().collect();
         outer.retain(|var| !self.stepped.contains(var));
-        // What is declared in one case hides names in the next.
+        // A declaration in one case hides names in the next.
         let in_case = self.cases.last() == Some(&self.scopes.len());
         if outer.is_empty() || in_case || self.depth < 2 || !self.rng.percent(15) {
             return;
@@ -151,7 +153,7 @@ impl Maker {
         }
     }
 
-    /// What can be named here: not what something else of that name hides.
+    /// Returns the visible variables: those that are not hidden by another one of the same name.
     pub(super) fn visible(&self) -> Vec<VarId> {
         let mut found: Vec<VarId> = Vec::new();
         for &var in self.scopes.iter().rev().flat_map(|scope| scope.iter().rev()) {
@@ -182,7 +184,7 @@ impl Maker {
         }
     }
 
-    /// An array.
+    /// Returns a random array type.
     fn table_type(&mut self) -> Ty {
         let len = if self.rng.percent(4) { 33 + self.rng.below(8) } else { 1 + self.rng.below(6) } as u32;
         let element = match self.rng.below(6) {
@@ -229,7 +231,7 @@ impl Maker {
         list
     }
 
-    /// In the scope at hand.
+    /// Generates statements in the current scope.
     fn statements(&mut self, statements: usize) -> Vec<Stmt> {
         self.depth += 1;
         let mut list = Vec::new();
@@ -282,7 +284,7 @@ impl Maker {
         }
     }
 
-    /// A loop; what it counts may be declared before it.
+    /// Generates a loop; its counter may be declared before it.
     fn any_loop(&mut self, out: &mut Vec<Stmt>) -> Stmt {
         match self.rng.below(10) {
             0..=5 => self.counting_loop(),
@@ -314,7 +316,8 @@ impl Maker {
         body
     }
 
-    /// `for (int i = a; i < b; i += c)` with steps of every kind, among them some that are much greater than the range.
+    /// Generates `for (int i = a; i < b; i += c)` with steps of every kind, among them some that are much greater than
+    /// the range.
     fn counting_loop(&mut self) -> Stmt {
         let base = *self.rng.pick(&[Base::Int, Base::Int, Base::Int, Base::Uint, Base::Float]);
         let ty = Ty::Num(base, 1);
@@ -357,7 +360,7 @@ impl Maker {
         if !free {
             self.counters.push(counter);
         }
-        // The scope of the declaration holds the step, too.
+        // The step is in the scope of the declaration, too.
         self.scopes.push(vec![counter]);
         let step = if self.rng.percent(60) {
             let other = if self.rng.percent(70) { self.indexed_by(counter) } else { None };
@@ -386,7 +389,7 @@ impl Maker {
         }
     }
 
-    /// What a comma takes: no `void`, array or structure.
+    /// Generates an operand of a comma: not a `void`, an array or a structure.
     fn effect_with_value(&mut self) -> Expr {
         loop {
             let effect = self.effect();
@@ -397,7 +400,7 @@ impl Maker {
         }
     }
 
-    /// `a[i] = ..`, if there is an array.
+    /// Generates `a[i] = ..` if an array is visible.
     fn indexed_by(&mut self, counter: VarId) -> Option<Expr> {
         let arrays: Vec<VarId> = self.visible();
         let arrays: Vec<VarId> = arrays
@@ -418,14 +421,14 @@ impl Maker {
         Some(Expr::Assign(place, Box::new(value), *element))
     }
 
-    /// A counter as an int or uint.
+    /// Returns a counter as an int or uint.
     pub(super) fn counted(&mut self, counter: VarId) -> Expr {
         let ty = self.program.vars[counter].ty.clone();
         let read = Expr::Read(Place::whole(counter), ty.clone());
         if ty == FLOAT { Expr::Convert(Base::Int, Box::new(read)) } else { read }
     }
 
-    /// `int n = 4; while (n >= 1) { ..; n--; }`.
+    /// Generates `int n = 4; while (n >= 1) { ..; n--; }`.
     fn while_loop(&mut self, out: &mut Vec<Stmt>) -> Stmt {
         let ty = if self.rng.percent(75) { INT } else { UINT };
         let base = ty.base().expect("a scalar");
@@ -452,13 +455,13 @@ impl Maker {
         self.stepped.push(counter);
         let mut body = self.loop_body(Vec::new());
         self.stepped.pop();
-        // What counts stays a counter: it is in scope behind the loop.
+        // The variable is still in scope after the loop, so it remains a counter.
         let by = *self.rng.pick(&[1, 1, 1, 2, 1_500_000_000]);
         let op = if down { Op::Sub } else { Op::Add };
         let step = Stmt::Expr(Expr::AssignOp(op, place, Box::new(number(by, base)), ty));
         let at = self.rng.below(body.len() + 1);
         if self.rng.percent(25) {
-            // First: what the body declares hides names that the condition may use.
+            // At the start, as declarations of the body hide names that the condition may use.
             let cond = self.condition();
             body.insert(0, Stmt::If(cond, vec![step], Vec::new()));
         } else {
@@ -488,7 +491,7 @@ impl Maker {
             let count = if labels.len() > 1 && self.rng.percent(20) { 2 } else { 1 };
             let taken = labels.drain(..count).collect();
             let count = 1 + self.rng.below(2);
-            // What a case declares is there in the next, but was perhaps never given a value: it is not named.
+            // A variable declared in one case is visible in the next, but may be uninitialised: it is not used there.
             let before = self.scopes.last().expect("a scope").len();
             let mut body = self.statements(count);
             self.scopes.last_mut().expect("a scope").truncate(before);

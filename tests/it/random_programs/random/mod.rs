@@ -1,9 +1,8 @@
-//! Random programs in GLSL ES 3.00 whose every number is exact: their syntax, who makes them, prints them and runs
-//! them.
+//! Random programs in GLSL ES 3.00 with exact arithmetic: their syntax, and the generator, printer and interpreter.
 //!
-//! All numbers are ints and uints, which wrap, and floats that hold small whole numbers. So the same program has one
-//! result only, on every device and in [`interpret`]; any difference is a fault. Order is from left to right, and
-//! variables among operands are read last, as Eddy promises it.
+//! All numbers are ints and uints, which wrap, and floats with small whole values. So a program has exactly one result
+//! on every device and in [`interpret`]; any difference is a bug. Evaluation is from left to right, and variables among
+//! operands are read last, as Eddy guarantees.
 
 pub(super) mod interpret;
 pub(super) mod make;
@@ -11,7 +10,7 @@ pub(super) mod print;
 pub(super) mod shrink;
 mod values;
 
-/// What a scalar holds; each is one 32-bit word.
+/// The type of a scalar; each is one 32-bit word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Base {
     Int,
@@ -27,7 +26,7 @@ pub(super) enum Ty {
     /// Columns and rows.
     Mat(u8, u8),
     Array(Box<Ty>, u32),
-    /// By number among [`Program::structs`].
+    /// An index into [`Program::structs`].
     Struct(usize),
 }
 
@@ -38,7 +37,7 @@ pub(super) const FLOAT: Ty = Ty::Num(Base::Float, 1);
 
 pub(super) type VarId = usize;
 
-/// How often [`Stmt::Fuel`] lets a pixel pass.
+/// The number of times that [`Stmt::Fuel`] lets a pixel continue.
 pub(super) const FUEL: i32 = 40;
 
 #[derive(Clone, Debug)]
@@ -99,15 +98,15 @@ pub(super) enum Logic {
 
 #[derive(Clone, Debug)]
 pub(super) enum Expr {
-    /// A scalar's word.
+    /// The bits of a scalar.
     Literal(u32, Base),
     Read(Place, Ty),
     Prefix(Prefix, Box<Expr>, Ty),
-    /// With the type of the result. One side may be a scalar where the other is a vector.
+    /// With the type of the result. One side may be a scalar if the other is a vector.
     Binary(Op, Box<Expr>, Box<Expr>, Ty),
     Logic(Logic, Box<Expr>, Box<Expr>),
     Ternary(Box<Expr>, Box<Expr>, Box<Expr>, Ty),
-    /// A scalar to another type.
+    /// A scalar converted to another type.
     Convert(Base, Box<Expr>),
     Construct(Ty, Vec<Expr>),
     Call(usize, Vec<Arg>, Ty),
@@ -129,7 +128,7 @@ pub(super) enum Expr {
         ty: Ty,
     },
     Abs(Box<Expr>),
-    /// The component of what a channel holds at int coordinates.
+    /// A component of a channel's texel at int coordinates.
     Fetch {
         channel: usize,
         at: Box<(Expr, Expr)>,
@@ -142,7 +141,7 @@ pub(super) enum Expr {
 #[derive(Clone, Debug)]
 pub(super) enum Arg {
     In(Expr),
-    /// To an `out` or `inout` parameter.
+    /// For an `out` or `inout` parameter.
     Place(Place),
 }
 
@@ -159,10 +158,10 @@ pub(super) enum Stmt {
     },
     While(Expr, Vec<Stmt>),
     Do(Vec<Stmt>, Expr),
-    /// Labels (none: `default`) and what they begin.
+    /// Labels (`None`: `default`) and the statements after them.
     Switch(Expr, Vec<(Vec<Option<u32>>, Vec<Stmt>)>),
     Block(Vec<Stmt>),
-    /// `if (--fuel < 0) break;`: no loop goes on for ever.
+    /// `if (--fuel < 0) break;`: every loop ends.
     Fuel,
     Break,
     Continue,
@@ -184,22 +183,22 @@ pub(super) struct Function {
     pub body: Vec<Stmt>,
 }
 
-/// One pass. Its results are two words for each pixel, in 16-bit halves.
+/// One pass. Its results are two words per pixel, in 16-bit halves.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Program {
     pub structs: Vec<Vec<Ty>>,
     pub vars: Vec<Var>,
-    /// With their values, in order.
+    /// With their initial values, in order.
     pub globals: Vec<(VarId, Option<Expr>)>,
     pub functions: Vec<Function>,
-    /// Of `mainImage`.
+    /// The body of `mainImage`.
     pub body: Vec<Stmt>,
-    /// What its results are computed from at the end, besides the globals.
+    /// The variables from which the results are computed at the end, besides the globals.
     pub results: Vec<VarId>,
 }
 
 impl Program {
-    /// 32-bit words of a value.
+    /// Returns the number of 32-bit words of a value.
     pub(super) fn words(&self, ty: &Ty) -> usize {
         match ty {
             Ty::Num(_, size) => usize::from(*size),
@@ -209,7 +208,7 @@ impl Program {
         }
     }
 
-    /// The type of a part.
+    /// Returns the type of a part.
     pub(super) fn part(&self, ty: &Ty, link: &Link) -> Ty {
         match (ty, link) {
             (Ty::Struct(id), Link::Field(index)) => self.structs[*id][*index].clone(),
@@ -223,7 +222,7 @@ impl Program {
 }
 
 impl Ty {
-    /// Elements, columns or components.
+    /// Returns the number of elements, columns or components.
     pub(super) fn extent(&self) -> u32 {
         match self {
             Ty::Num(_, size) => (*size).into(),
@@ -262,7 +261,7 @@ impl Expr {
         }
     }
 
-    /// Expressions within this one, those in indices too.
+    /// Returns the operands of this expression, including those in indices.
     fn parts(&self) -> Vec<&Expr> {
         let mut out: Vec<&Expr> = Vec::new();
         match self {
@@ -292,13 +291,13 @@ impl Expr {
         out
     }
 
-    /// Whether it changes anything, or calls what may.
+    /// Returns whether it has side effects, or calls a function, which may.
     pub(super) fn has_effects(&self) -> bool {
         matches!(self, Expr::Assign(..) | Expr::AssignOp(..) | Expr::Step { .. } | Expr::Call(..))
             || self.parts().into_iter().any(Expr::has_effects)
     }
 
-    /// Whether it is a constant expression.
+    /// Returns whether it is a constant expression.
     pub(super) fn is_constant(&self, vars: &[Var]) -> bool {
         let own = match self {
             Expr::Read(place, _) => vars[place.var].constant,

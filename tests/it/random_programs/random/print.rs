@@ -1,19 +1,19 @@
-//! A program as text: as an author writes it, or with everything said that GLSL leaves to the implementation.
+//! A program as text: as an author writes it, or with everything written out that GLSL leaves to the implementation.
 
 use super::{Arg, Base, Expr, FUEL, Function, Link, Logic, Mode, Op, Place, Prefix, Program, Stmt, Ty};
 use std::fmt::Write;
 
-/// How much is said.
+/// The form of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
     Plain,
-    /// Every index is clamped, every variable has its zero, every division and shift its guard in the text.
+    /// Every index is clamped, every variable initialised to zero, every division and shift guarded in the text.
     Explicit,
-    /// As `Explicit`, but indices are clamped to one element less: for a test of the comparison itself.
+    /// As `Explicit`, but indices are clamped to one element fewer: a test of the comparison itself.
     Wrong,
 }
 
-/// Divisions as Eddy defines them.
+/// Divisions as defined by Eddy.
 const DIVISIONS: &str = "\
 int quotient(int n, int d) { if (d == 0) return n; if (d == -1) return 0 - n; return n / d; }
 int remainder(int n, int d) {
@@ -26,7 +26,7 @@ uint quotient(uint n, uint d) { if (d == 0u) return n; return n / d; }
 uint remainder(uint n, uint d) { if (d == 0u) return 0u; return n % d; }
 ";
 
-/// The text of a pass.
+/// Returns the text of a pass.
 pub(crate) fn print(program: &Program, form: Form) -> String {
     let mut printer = Printer { program, form, out: String::new(), depth: 0, result: None };
     printer.program();
@@ -38,7 +38,7 @@ struct Printer<'a> {
     form: Form,
     out: String,
     depth: usize,
-    /// Of the function at hand.
+    /// The result type of the current function.
     result: Option<Ty>,
 }
 
@@ -91,7 +91,7 @@ impl Printer<'_> {
             Ty::Mat(columns, rows) => {
                 (0..*columns).for_each(|i| self.mix_in(&format!("{name}[{i}]"), &Ty::Num(Base::Float, *rows)));
             }
-            // One statement a scalar of a long array keeps drivers' compilers busy for minutes.
+            // With one statement per scalar of a long array, drivers compile for minutes.
             Ty::Array(element, len) if self.program.words(ty) > 8 => {
                 let counter = format!("k{}", name.matches('[').count());
                 let _ = writeln!(self.out, "  for (int {counter} = 0; {counter} < {len}; {counter}++) {{");
@@ -157,7 +157,7 @@ impl Printer<'_> {
         self.line("}");
     }
 
-    /// A type with what is declared; `name` begins with a space.
+    /// Returns a type followed by the declared name; `name` starts with a space.
     fn declaration(&self, ty: &Ty, name: &str) -> String {
         format!("{}{name}", self.ty(ty))
     }
@@ -381,7 +381,7 @@ impl Printer<'_> {
             Expr::AssignOp(op, place, value, _) => {
                 let (at, right) = (self.place(place), self.expr(value));
                 match op {
-                    // What is divided by changes nothing, so that the place may be read before it.
+                    // The divisor has no side effects, so the place may be read before it.
                     Op::Div if explicit => format!("({at} = quotient({at}, {right}))"),
                     Op::Rem if explicit => format!("({at} = remainder({at}, {right}))"),
                     _ => format!("({at} {}= {right})", symbol(*op)),
@@ -403,7 +403,7 @@ impl Printer<'_> {
         }
     }
 
-    /// What a prefix stands before: `- -1` is no `--1`.
+    /// Returns the operand of a prefix operator: `- -1` must not become `--1`.
     fn operand(&self, of: &Expr) -> String {
         let text = self.expr(of);
         if text.starts_with(['-', '+']) { format!("({text})") } else { text }

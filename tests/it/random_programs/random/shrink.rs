@@ -1,8 +1,9 @@
-//! Makes a program that shows a fault smaller.
+//! Shrinks a program that shows a fault.
 
 use super::{Program, Stmt};
 
-/// Leaves out statements, one after the other, while `fails` says that the fault stays; at most so many attempts.
+/// Removes statements, one after the other, while `fails` reports that the fault remains; stops after `attempts`
+/// attempts.
 pub(crate) fn shrink(program: &Program, mut attempts: usize, mut fails: impl FnMut(&Program) -> bool) -> Program {
     let mut best = program.clone();
     loop {
@@ -29,8 +30,8 @@ pub(crate) fn shrink(program: &Program, mut attempts: usize, mut fails: impl FnM
     }
 }
 
-/// Removes the statement of this number, the outer ones counted before those within; puts in its place what it consists
-/// of when it is met once more.
+/// Removes the statement with index `left`, in an order that counts outer statements before the inner ones. Returns
+/// whether it was found; `left` counts down.
 fn remove(list: &mut Vec<Stmt>, left: &mut usize) -> bool {
     let mut i = 0;
     while i < list.len() {

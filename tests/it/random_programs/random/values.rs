@@ -1,4 +1,4 @@
-//! Makes expressions.
+//! Generates expressions.
 
 use super::{
     Arg, BOOL, Base, Expr, FLOAT, INT, Link, Logic, Mode, Op, Place, Prefix, Ty, UINT, VarId,
@@ -6,7 +6,7 @@ use super::{
 };
 
 impl Maker {
-    /// An expression of this type, so deep at most.
+    /// Generates an expression of this type, of at most this depth.
     pub(super) fn value(&mut self, ty: &Ty, depth: usize) -> Expr {
         if depth == 0 || self.rng.percent(25) {
             if let (true, Some(read)) = (self.rng.percent(75), self.read(ty, depth)) {
@@ -41,7 +41,7 @@ impl Maker {
         }
     }
 
-    /// What needs no variable.
+    /// Generates an expression without variables.
     fn leaf(&mut self, ty: &Ty, depth: usize) -> Expr {
         match ty {
             Ty::Num(Base::Float, 1) => self.float(depth),
@@ -52,7 +52,7 @@ impl Maker {
         }
     }
 
-    /// A small whole number.
+    /// Generates a float with a small whole value.
     fn float(&mut self, depth: usize) -> Expr {
         if depth == 0 || self.rng.percent(30) {
             return number(self.rng.below(50) as i32, Base::Float);
@@ -79,7 +79,7 @@ impl Maker {
         Expr::Fetch { channel: self.rng.below(2), at: Box::new(at), component: self.rng.below(4) as u8 }
     }
 
-    /// A constant expression.
+    /// Generates a constant expression.
     pub(super) fn literals(&mut self, ty: &Ty) -> Expr {
         match ty {
             Ty::Num(Base::Bool, 1) => Expr::Literal(self.rng.below(2) as u32, Base::Bool),
@@ -113,7 +113,7 @@ impl Maker {
         }
     }
 
-    /// A constructor.
+    /// Generates a constructor.
     pub(super) fn construct(&mut self, ty: &Ty, depth: usize) -> Expr {
         let depth = depth.saturating_sub(1);
         let parts: Vec<Ty> = match ty {
@@ -134,7 +134,7 @@ impl Maker {
             Ty::Array(element, len) => vec![(**element).clone(); *len as usize],
             Ty::Struct(id) => self.program.structs[*id].clone(),
         };
-        // Long texts say no more.
+        // Longer texts do not test more.
         if self.program.words(ty) > 8 && self.rng.percent(70) {
             return self.literals(ty);
         }
@@ -167,7 +167,7 @@ impl Maker {
         }
     }
 
-    /// Of ints or uints.
+    /// Generates an expression of ints or uints.
     fn number(&mut self, base: Base, size: u8, depth: usize) -> Expr {
         let ty = Ty::Num(base, size);
         match self.rng.below(14) {
@@ -219,26 +219,26 @@ impl Maker {
         Expr::Binary(op, Box::new(left), Box::new(right), ty.clone())
     }
 
-    /// The right side of an operator. What the language leaves open must not be folded, which the compiler does its own
-    /// way.
+    /// Generates the right side of an operator. Operations that GLSL leaves undefined must not be constant, as the
+    /// compiler would fold them in its own way.
     fn second(&mut self, op: Op, base: Base, ty: &Ty, constant: bool, depth: usize) -> Expr {
         let right = self.value(ty, depth - 1);
         match op {
             Op::Shl | Op::Shr if right.is_constant(&self.program.vars) => number(self.rng.below(32) as i32, base),
             Op::Div | Op::Rem if right.is_constant(&self.program.vars) => {
                 if constant {
-                    // One of the sides is no constant.
+                    // One of the sides must not be constant.
                     let other = self.read(ty, depth).filter(|read| !read.is_constant(&self.program.vars));
-                    return other.unwrap_or_else(|| self.anything(ty));
+                    return other.unwrap_or_else(|| self.non_constant(ty));
                 }
-                if right.has_zero() { self.anything(ty) } else { right }
+                if right.has_zero() { self.non_constant(ty) } else { right }
             }
             _ => right,
         }
     }
 
-    /// No constant.
-    fn anything(&mut self, ty: &Ty) -> Expr {
+    /// Generates an expression that is not constant.
+    fn non_constant(&mut self, ty: &Ty) -> Expr {
         let base = ty.base().expect("numbers");
         let of = Expr::Given(self.rng.below(3)).into_base(base);
         match ty {
@@ -247,7 +247,7 @@ impl Maker {
         }
     }
 
-    /// A variable that a loop counts, or something near it.
+    /// Generates a read of a loop's counter, or a value near it.
     fn counter(&mut self) -> Option<Expr> {
         let visible = self.visible();
         let mut counters: Vec<VarId> = self.counters.iter().copied().filter(|v| visible.contains(v)).collect();
@@ -272,7 +272,7 @@ impl Maker {
         })
     }
 
-    /// An index: often one that is known to be in range, as often one that is not.
+    /// Generates an index: often known to be in range, as often not.
     fn index(&mut self, len: u32, depth: usize) -> Expr {
         if self.rng.percent(25) || depth == 0 && self.rng.percent(50) {
             return number(self.rng.below(len as usize) as i32, Base::Int);
@@ -298,18 +298,18 @@ impl Maker {
         index
     }
 
-    /// A variable or a part of one.
+    /// Generates a read of a variable or a part of one.
     fn read(&mut self, ty: &Ty, depth: usize) -> Option<Expr> {
         let place = self.place(ty, depth, false)?;
         Some(Expr::Read(place, ty.clone()))
     }
 
-    /// A place of this type.
+    /// Picks a place of this type.
     fn place(&mut self, ty: &Ty, depth: usize, to_write: bool) -> Option<Place> {
         let mut vars = self.visible();
         vars.retain(|var| {
             let declared = &self.program.vars[*var];
-            // Counters of floats are read as ints, and not written.
+            // Float counters are read as ints, and not written.
             let counter = self.counters.contains(var);
             let float = declared.ty == FLOAT && counter;
             !(float || to_write && (declared.constant || counter))
@@ -344,7 +344,7 @@ impl Maker {
                     Ty::Struct(id) => Link::Field(self.rng.below(self.program.structs[*id].len())),
                     Ty::Mat(..) | Ty::Array(..) => Link::Index(Box::new(self.index(at.extent(), depth))),
                 };
-                // Swizzles of other types lead nowhere.
+                // A swizzle of another base type cannot lead to this type.
                 if matches!(link, Link::Swizzle(_)) && at.base() != ty.base() {
                     break;
                 }
@@ -358,7 +358,7 @@ impl Maker {
         None
     }
 
-    /// An expression that changes something.
+    /// Generates an expression with side effects.
     pub(super) fn effect(&mut self) -> Expr {
         for _ in 0..6 {
             if let (true, Some(call)) = (self.rng.percent(20), self.call(None, 2)) {
@@ -377,7 +377,7 @@ impl Maker {
         Expr::Given(0)
     }
 
-    /// An assignment of this type.
+    /// Generates an assignment of this type.
     fn effect_of(&mut self, ty: &Ty, depth: usize) -> Option<Expr> {
         let place = self.place(ty, depth.min(2), true)?;
         let whole = matches!(ty.base(), Some(Base::Int | Base::Uint));
@@ -394,7 +394,7 @@ impl Maker {
                     Op::Shl => number(self.rng.below(32) as i32, base),
                     _ => self.second(op, base, ty, false, depth.max(1)),
                 };
-                // The text with guards names the place twice.
+                // The guarded text names the place twice.
                 let pure = |value: &Expr| !value.has_effects();
                 if matches!(op, Op::Div | Op::Rem) && !(pure(&value) && place.indices().all(pure)) {
                     value = self.value(ty, 0);
@@ -406,7 +406,7 @@ impl Maker {
         })
     }
 
-    /// A call of a function with this result; of any where no value is needed.
+    /// Generates a call of a function with this result type; of any function if no value is needed.
     fn call(&mut self, result: Option<&Ty>, depth: usize) -> Option<Expr> {
         let functions = &self.program.functions;
         let fits = |at: &usize| result.is_none() || functions[*at].result.as_ref() == result;
@@ -430,12 +430,12 @@ impl Maker {
 }
 
 impl Expr {
-    /// Converted, where it is not of that type.
+    /// Converts the expression if it is not of that type.
     fn into_base(self, base: Base) -> Expr {
         if self.ty().base() == Some(base) { self } else { Expr::Convert(base, Box::new(self)) }
     }
 
-    /// Whether a constant may hold a zero somewhere.
+    /// Returns whether a constant may contain a zero.
     fn has_zero(&self) -> bool {
         match self {
             Expr::Literal(bits, _) => *bits == 0,
