@@ -149,7 +149,7 @@ impl ApplicationHandler<AppEvent> for App {
             // The picture or something else is ready: paint at the screen's refresh rate.
             AppEvent::Wake => {
                 let now = Instant::now();
-                running.session.attend(now);
+                running.session.on_wake(now);
                 running.paint_by(running.paced(running.after_first_frame(now)));
             }
             // Handle user input before the next frame of the picture.

@@ -15,7 +15,7 @@ impl Session {
     /// Executes a command of the user. Never fails: errors become notices.
     pub fn apply(&mut self, command: Command) {
         self.open.host.changed |= !is_input(&command);
-        self.open.host.notices.begin_command();
+        self.open.host.notices.start_command();
         self.execute(command);
         // Not in a tick, which a slow frame may delay.
         self.services.recovery.keep_unsaved(&mut self.open);
@@ -71,7 +71,7 @@ impl Session {
             Command::LearnControl(target) => self.services.controls.learn_control(&mut self.open, target),
             Command::ForgetControl(target) => self.services.controls.forget_control(&mut self.open, &target),
             Command::Hold => self.open.hold(),
-            Command::GoOn => self.open.go_on_drawing(),
+            Command::GoOn => self.open.continue_drawing(),
             Command::DrawSmaller => self.draw_smaller(),
             Command::DrawLastGood => self.draw_last_good(),
             Command::Step => self.open.step_forward(),
@@ -89,15 +89,15 @@ impl Session {
                 self.open.canvas.set_viewport((width, height));
             }
             Command::SetScale(scale) => self.open.set_scale(scale),
-            Command::SetFixedSize(size) => self.open.ask_size(CanvasSize { fixed: size, ..self.open.canvas.asked }),
+            Command::SetFixedSize(size) => self.open.request_size(CanvasSize { fixed: size, ..self.open.canvas.asked }),
             Command::SetChannel { pass, index, channel } => {
                 self.open.set_channel(&pass, index, channel);
             }
             Command::SetCustomUniform { name, value } => self.open.set_custom_uniform(&name, value),
             Command::AssignCustomUniform(assignment) => {
-                self.open.settled(About::CustomUniform);
+                self.open.dismiss_notices(About::CustomUniform);
                 match self.open.documents.current_mut().set_custom_uniform(&assignment) {
-                    Ok(()) => self.open.custom_uniforms_turned(),
+                    Ok(()) => self.open.custom_uniforms_changed(),
                     Err(why) => self.open.notice_about(About::CustomUniform, Level::Error, format!("not set: {why}")),
                 }
             }
@@ -110,7 +110,7 @@ impl Session {
                 if self.project().custom_uniform_values != before {
                     self.open.pass_history.push_uniforms(before, None);
                 }
-                self.open.custom_uniforms_turned();
+                self.open.custom_uniforms_changed();
             }
             Command::AddTab(tab) => self.open.add_tab(&tab),
             Command::EditPasses(edit) => self.open.edit_passes(edit),
@@ -136,7 +136,7 @@ impl Session {
             Command::Screenshot => self.capture(capture::Format::Png),
             Command::SaveTexels => self.capture(capture::Format::Npy),
             Command::Record => self.open.record(),
-            Command::MakeFilm(order) => self.begin_film(*order),
+            Command::MakeFilm(order) => self.start_film(*order),
             Command::StopFilm => self.stop_film(),
             Command::CancelFilm => self.cancel_film(),
             Command::FindEncoders => self.find_encoders(),
@@ -147,7 +147,7 @@ impl Session {
             Command::FindDivergence => self.open.want_divergence(),
             Command::ShowPass(pass) => self.open.show_pass(pass),
             Command::Probe(place) => {
-                if self.open.read_backs.probing.want(place, self.open.documents.current()) {
+                if self.open.read_backs.probe.want(place, self.open.documents.current()) {
                     self.open.compile_soon();
                 }
             }
@@ -155,17 +155,17 @@ impl Session {
                 if at.is_some() {
                     self.open.pause();
                 }
-                let probed = self.open.read_backs.probing.view().and_then(|view| Some(view.value?.ok()?.pass.clone()));
+                let probed = self.open.read_backs.probe.view().and_then(|view| Some(view.value?.ok()?.pass.clone()));
                 let pass = probed.unwrap_or_else(|| self.open.picture.shown.clone());
                 // With a probe the pass itself may not be drawn.
-                if at.is_some() && self.open.read_backs.probing.want(None, self.open.documents.current()) {
+                if at.is_some() && self.open.read_backs.probe.want(None, self.open.documents.current()) {
                     self.open.compile_soon();
                 }
                 self.open.trace.want(at.map(|at| TracedPixel { pass, at }));
             }
             Command::LookAtProbe(look) => {
-                self.open.read_backs.probing.set_look(look);
-                self.open.look_anew();
+                self.open.read_backs.probe.set_look(look);
+                self.open.update_probe_display();
             }
             Command::WatchCosts(on) => {
                 self.open.read_backs.costs.watch(on);
@@ -173,8 +173,8 @@ impl Session {
             }
             Command::WatchTargets(targets) => self.open.read_backs.miniatures.watch(targets),
             Command::WatchBuffers(watch) => self.open.read_backs.buffers.watch(watch),
-            Command::WatchMeasures(seen) => self.open.read_backs.measuring.watch(seen),
-            Command::ClearMeasures => self.open.read_backs.measuring.clear(),
+            Command::WatchMeasures(seen) => self.open.read_backs.measurements.watch(seen),
+            Command::ClearMeasures => self.open.read_backs.measurements.clear(),
             Command::SaveMeasures => self.open.save_measures(),
             Command::SaveSound => self.services.sound_pass.save_sound(&mut self.open),
             Command::FindNonfinite(is_wanted) => self.open.nan_search.want(is_wanted),
@@ -231,7 +231,7 @@ impl OpenProject {
         }
         self.documents.set_text(tab, text);
         self.follow_renamed_uniforms(&old, text);
-        self.read_backs.probing.follow(self.documents.current());
+        self.read_backs.probe.follow(self.documents.current());
         if let (Some(before), Tab::Pass(id)) = (before, tab) {
             let now = self.declared_channels(tab);
             if before != now
@@ -268,7 +268,7 @@ impl OpenProject {
         }
         let is_drawn = self.engine.draws(&pass);
         self.picture.shown = pass.clone();
-        if self.read_backs.probing.want(None, self.documents.current()) {
+        if self.read_backs.probe.want(None, self.documents.current()) {
             // The program does not draw the pass that is shown now.
             return self.compile_soon();
         }

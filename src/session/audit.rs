@@ -62,7 +62,7 @@ pub struct WorstPixel {
     pub double: [f64; 4],
 }
 
-pub(super) struct Auditing {
+pub(super) struct PictureAudit {
     background: Background<(Project, Inspected), (), AuditSummary>,
     input: Ticket<Result<Inspected, EngineError>>,
     /// The newest map, shown while its frame is.
@@ -71,7 +71,7 @@ pub(super) struct Auditing {
     of_frame: u64,
 }
 
-impl Auditing {
+impl PictureAudit {
     pub(crate) fn new(wake: Wake) -> Self {
         let work = |(project, inspected): (Project, Inspected), _: &_| audit_pass(&project, inspected);
         let background = Background::lazy("audit", "the CPU interpreter", wake, work);
@@ -103,7 +103,7 @@ impl OpenProject {
     }
 
     pub(super) fn ask_audit(&mut self) {
-        self.settled(About::Audit);
+        self.dismiss_notices(About::Audit);
         if self.is_playing() {
             self.pause();
         }
@@ -156,7 +156,7 @@ impl OpenProject {
     }
 
     /// Drops the map: another picture is shown than the one that was audited.
-    pub(super) fn picture_is_other(&mut self) {
+    pub(super) fn on_picture_changed(&mut self) {
         self.picture.frames_drawn += 1;
         self.audit.map = None;
     }

@@ -63,16 +63,16 @@ impl Canvas {
 
 impl OpenProject {
     pub(super) fn set_scale(&mut self, scale: f32) {
-        self.settled(About::Scale);
+        self.dismiss_notices(About::Scale);
         if scale.is_finite() && scale > 0.0 {
-            self.ask_size(CanvasSize { scale, ..self.canvas.asked });
+            self.request_size(CanvasSize { scale, ..self.canvas.asked });
         } else {
             self.notice_about(About::Scale, Level::Error, format!("the resolution scale must be above 0, not {scale}"));
         }
     }
 
     /// Sets the requested canvas size: of the open project, or if there is none, of each project to come.
-    pub(super) fn ask_size(&mut self, size: CanvasSize) {
+    pub(super) fn request_size(&mut self, size: CanvasSize) {
         self.end_replay("the resolution was changed");
         self.canvas.replayed = None;
         self.canvas.asked = size;
@@ -88,12 +88,12 @@ impl OpenProject {
         let is_new = size != self.engine.coming_size() && self.canvas.refused != Some(size);
         self.changes.size = is_new.then_some(size);
         if !is_new && self.canvas.refused.is_none() {
-            self.settled(About::CanvasSize);
+            self.dismiss_notices(About::CanvasSize);
         }
     }
 
     /// Handles a canvas size that the device does not accept.
-    pub(super) fn size_refused(&mut self, size: (u32, u32), error: &EngineError) {
+    pub(super) fn on_size_rejected(&mut self, size: (u32, u32), error: &EngineError) {
         self.canvas.refused = Some(size);
         let (width, height) = self.engine.size();
         let text = format!("{error}; the picture stays at {width}x{height}");

@@ -83,10 +83,10 @@ impl Session {
             stem: capture::stem_for(project, &self.open.picture.shown),
             source,
         });
-        if !self.services.drawing.is_apart() {
+        if !self.services.drawing.is_on_thread() {
             let mut tasks = Tasks::default();
             self.services.captures.request(&mut tasks);
-            self.hand_in(None, false, tasks);
+            self.submit_frame(None, false, tasks);
             self.take_drawn(false);
         }
     }

@@ -13,13 +13,13 @@ use eddy_playback::{
 };
 use std::sync::Arc;
 
-pub(super) struct Comparing {
+pub(super) struct ProjectComparison {
     pub background: Background<CompareJob, Count, Arc<Comparison>>,
     against: Option<Baseline>,
     input: Ticket<(Run, Option<CameraFrame>)>,
 }
 
-impl Comparing {
+impl ProjectComparison {
     pub(crate) fn new(wake: Wake) -> Self {
         let work = |job: CompareJob, control: &_| compare(job, control).map(Arc::new);
         let background = Background::lazy("comparison", "the comparison", wake, work);
@@ -55,7 +55,7 @@ impl OpenProject {
 
     /// Submits the frames that both projects draw.
     pub(super) fn compare(&mut self, device: &Device) {
-        let Comparing { background, against, input } = &mut self.comparison;
+        let ProjectComparison { background, against, input } = &mut self.comparison;
         let (Some(input), Some(against)) = (input.take(), against.clone()) else { return };
         self.host.changed = true;
         let (run, camera) = input.output;

@@ -106,7 +106,7 @@ impl OpenProject {
         if kind != InputKind::Webcam {
             return;
         }
-        self.settled(About::Device);
+        self.dismiss_notices(About::Device);
         if !on {
             self.devices.consent.withdraw(kind);
             if self.devices.turn_camera_off() {

@@ -2,7 +2,7 @@
 
 use super::{
     Session,
-    drawing::{Done, DrawnFrame, Job, Tasks, TileLimit, beside},
+    drawing::{DrawnFrame, Job, JobResult, Tasks, TileLimit, beside},
     open_project::OpenProject,
     view::{About, Level},
 };
@@ -12,8 +12,8 @@ use std::time::Duration;
 
 impl Session {
     /// Takes the engine's result, if there is one. Returns whether a frame was drawn.
-    pub(super) fn take_drawn(&mut self, is_just_handed_in: bool) -> bool {
-        self.take_result(is_just_handed_in).is_some_and(|done| self.take_done(done))
+    pub(super) fn take_drawn(&mut self, was_just_submitted: bool) -> bool {
+        self.take_result(was_just_submitted).is_some_and(|done| self.take_done(done))
     }
 
     /// Submits a job with all pending changes and what `fill` adds.
@@ -24,14 +24,14 @@ impl Session {
     }
 
     /// Takes the result of the job in flight, and records what it says of the engine.
-    pub(super) fn take_result(&mut self, is_just_handed_in: bool) -> Option<Done> {
-        let (mut done, is_of_project) = self.services.drawing.take(is_just_handed_in)?;
+    pub(super) fn take_result(&mut self, was_just_submitted: bool) -> Option<JobResult> {
+        let (mut done, is_of_project) = self.services.drawing.take(was_just_submitted)?;
         if is_of_project {
             self.open.engine.finish(&mut done);
             return Some(done);
         }
         self.open.engine.take_size(&done);
-        Some(Done { gave_up: done.gave_up, ..Done::default() })
+        Some(JobResult { thread_error: done.thread_error, ..JobResult::default() })
     }
 
     /// Submits pending changes and due frames, one job after the other, as long as the engine accepts them: while
@@ -49,7 +49,7 @@ impl Session {
                 continue;
             }
             let frame = self.next_frame(&mut has_run);
-            let again = frame.is_none() && self.open.take_again();
+            let again = frame.is_none() && self.open.take_redraw();
             let mut tasks = self.due_tasks(frame.is_some() || again);
             if frame.is_some() {
                 self.request_film_frame(&mut tasks);
@@ -57,7 +57,7 @@ impl Session {
             if frame.is_none() && !again && tasks.is_empty() && self.open.changes.is_empty() {
                 break;
             }
-            self.hand_in(frame, again, tasks);
+            self.submit_frame(frame, again, tasks);
             is_drawn |= self.take_drawn(true);
         }
         is_drawn
@@ -76,7 +76,7 @@ impl Session {
         }
         // The first frame of a new program does not wait for the next tick.
         let may_run = (!*has_run || self.open.picture.is_program_new)
-            && !self.open.gives_way()
+            && !self.open.is_waiting_for_compile()
             && self.services.films.may_draw(self.open.host.now);
         *has_run |= !is_step && self.open.playback.is_running();
         let is_new = is_step || self.open.playback.is_running();
@@ -86,23 +86,23 @@ impl Session {
         if is_new {
             self.note_heard(inputs.time_secs);
         }
-        self.open.take_values_back();
+        self.open.restore_values();
         Some(inputs)
     }
 
     /// `again`: the shown frame is drawn again.
-    pub(super) fn hand_in(&mut self, frame: Option<FrameInputs>, again: bool, tasks: Tasks) {
+    pub(super) fn submit_frame(&mut self, frame: Option<FrameInputs>, again: bool, tasks: Tasks) {
         let stays = self.open.stays() && !std::mem::take(&mut self.open.playback.replay.follows);
         // Before a new frame the shown one is drawn again, with what was changed meanwhile.
         self.open.note_job(frame.as_ref(), again || (stays && frame.is_some()));
         if let Some(frame) = &frame {
-            self.open.read_backs.measuring.begin_frame(frame.frame);
+            self.open.read_backs.measurements.begin_frame(frame.frame);
         } else if again {
-            self.open.read_backs.measuring.draw_again(self.open.playback.frame());
+            self.open.read_backs.measurements.redraw(self.open.playback.frame());
         }
         let costs_of = self.open.read_backs.costs.is_watched().then(|| self.open.documents.current().clone());
         let tile_limit = self.tile_limit();
-        let may_wait = self.open.is_one_of_many() && tasks.is_empty() && costs_of.is_none();
+        let may_wait = self.open.frame_may_be_dropped() && tasks.is_empty() && costs_of.is_none();
         if self.open.changes.program.is_some() {
             self.open.mark_new_code();
         }
@@ -113,28 +113,28 @@ impl Session {
     }
 
     fn tile_limit(&self) -> Option<TileLimit> {
-        self.services.drawing.is_apart().then(|| TileLimit { frame: self.open.halt.limit() })
+        self.services.drawing.is_on_thread().then(|| TileLimit { frame: self.open.halt.limit() })
     }
 
-    fn take_done(&mut self, done: Done) -> bool {
+    fn take_done(&mut self, done: JobResult) -> bool {
         self.write_captures();
-        if let Some(why) = done.gave_up {
-            self.engine_is_gone(&why);
+        if let Some(why) = done.thread_error {
+            self.on_device_lost(&why);
             return false;
         }
         if let Some(Ok(picture)) = self.services.last_pictures.ticket.take().map(|read| read.output) {
             self.picture_is_read(&picture);
         }
-        self.services.display.generation += u64::from(done.is_display_new && !self.services.drawing.is_apart());
+        self.services.display.generation += u64::from(done.is_display_new && !self.services.drawing.is_on_thread());
         // An engine on the session's own thread draws into the display itself.
-        self.services.display.shown_count += u64::from(done.picture.is_some() || !self.services.drawing.is_apart());
+        self.services.display.shown_count += u64::from(done.picture.is_some() || !self.services.drawing.is_on_thread());
         self.services.display.is_new |= done.picture.is_some();
         if let Some(Err(e)) = done.restarted {
             self.stop_drawing(&e);
             return false;
         }
-        if done.is_again_lost {
-            self.open.again_is_lost();
+        if done.cannot_redraw {
+            self.open.on_redraw_impossible();
         }
         let has_frame = done.frame.is_some() || matches!(done.travelled, Some(Some(Ok(_))));
         if let Some(travelled) = done.travelled {
@@ -144,25 +144,25 @@ impl Session {
         self.feed_film();
         match done.resized {
             Some((_, Ok(()))) => {
-                self.open.settled(About::CanvasSize);
-                self.open.halt.begin_pace();
-                self.open.playback.is_again_due |= !has_frame;
+                self.open.dismiss_notices(About::CanvasSize);
+                self.open.halt.reset_pace();
+                self.open.playback.is_redraw_due |= !has_frame;
                 self.open.host.changed = true;
             }
-            Some((size, Err(e))) => self.open.size_refused(size, &e),
+            Some((size, Err(e))) => self.open.on_size_rejected(size, &e),
             None => {}
         }
         match done.program {
-            Some(Ok(())) => self.program_is_there(done.forecast),
+            Some(Ok(())) => self.on_program_installed(done.forecast),
             Some(Err(e)) => {
                 self.refused(&e);
                 return false;
             }
             None => {}
         }
-        self.open.playback.is_again_due |= done.custom_uniforms_changed && !has_frame;
+        self.open.playback.is_redraw_due |= done.custom_uniforms_changed && !has_frame;
         // While the picture runs, the next frame shows it.
-        self.open.playback.is_again_due |= done.is_late && has_frame && !self.open.playback.is_running();
+        self.open.playback.is_redraw_due |= done.is_late && has_frame && !self.open.playback.is_running();
         self.open.host.changed |= self.open.read_backs.costs.is_watched();
         match done.frame.transpose().and_then(|frame| Ok((frame, done.picture.transpose()?))) {
             Ok((frame, picture)) => {
@@ -171,7 +171,7 @@ impl Session {
                     self.open.host.changed |= frame.is_none();
                     match self.services.drawing.show(&picture) {
                         Ok(is_new) => self.services.display.generation += u64::from(is_new),
-                        Err(e) => self.tell_of(&e),
+                        Err(e) => self.report_gpu_error(&e),
                     }
                 }
                 let is_drawn = frame.is_some();
@@ -189,8 +189,8 @@ impl Session {
 
     fn frame_is_drawn(&mut self, frame: DrawnFrame) {
         let DrawnFrame { cpu_micros, times, took } = frame;
-        self.open.picture_is_other();
-        self.open.settled(About::Drawing);
+        self.open.on_picture_changed();
+        self.open.dismiss_notices(About::Drawing);
         self.open.read_backs.cpu_micros = cpu_micros;
         if let Some(times) = times {
             self.open.read_backs.costs.add(times, self.open.engine.clock());
@@ -203,15 +203,15 @@ impl Session {
     }
 
     /// The newest program draws from now on.
-    fn program_is_there(&mut self, forecast: Option<Duration>) {
-        self.open.playback.is_again_due = true;
-        self.services.audio.program_is_there();
+    fn on_program_installed(&mut self, forecast: Option<Duration>) {
+        self.open.playback.is_redraw_due = true;
+        self.services.audio.on_program_installed();
         self.open.playback.seeking.awaits_program = false;
         self.open.picture.is_program_new = true;
         self.open.host.changed = true;
         self.open.compile.set_compiling(self.open.is_compile_under_way());
         if let Some(millis) = self.open.engine.new_program_millis() {
-            self.open.settled_by_edit();
+            self.open.dismiss_code_notices();
             self.open.compile.succeed(millis);
             if std::mem::take(&mut self.open.compile.resets) {
                 self.open.reset();
@@ -228,8 +228,8 @@ impl Session {
     /// Handles a frame that could not be drawn: the picture stops, everything else continues.
     pub(super) fn stop_drawing(&mut self, error: &EngineError) {
         let is_lost = matches!(error, EngineError::Gpu(GpuError::Lost(_)));
-        if is_lost && self.services.drawing.is_apart() {
-            self.engine_is_gone(&error.to_string());
+        if is_lost && self.services.drawing.is_on_thread() {
+            self.on_device_lost(&error.to_string());
             return;
         }
         self.open.playback.clock.pause();
@@ -262,13 +262,13 @@ impl Session {
 impl OpenProject {
     /// Returns whether the next frame is followed by similar ones, so that it may be dropped. The first frame of a
     /// program is always shown, however soon another follows, and so is a frame that is drawn while time is paused.
-    pub(super) fn is_one_of_many(&self) -> bool {
+    pub(super) fn frame_may_be_dropped(&self) -> bool {
         self.playback.clock.is_playing() && !self.picture.is_program_new && self.changes.is_empty()
     }
 
     /// Tells the engine how to display a probe, if that has changed.
-    pub(super) fn look_anew(&mut self) {
-        if let Some(look) = self.read_backs.probing.take_look(false) {
+    pub(super) fn update_probe_display(&mut self) {
+        if let Some(look) = self.read_backs.probe.take_look(false) {
             self.changes.look = Some(look);
         }
     }

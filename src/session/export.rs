@@ -17,7 +17,7 @@ impl OpenProject {
     /// Writes the project to a JSON file if nothing is lost and the file does not exist; asks first otherwise. The
     /// project's origin and unsaved state stay.
     pub(super) fn export_json(&mut self, file: &Path) {
-        self.settled(About::Export);
+        self.dismiss_notices(About::Export);
         let file = as_json(&std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
         self.settle_includes();
         if let Err(why) = exportable(self.project(), &file) {
@@ -45,7 +45,7 @@ impl OpenProject {
                     file.to_owned(),
                 );
                 if let Some(kept) = kept {
-                    self.tell_of_kept(1, kept);
+                    self.report_kept_files(1, kept);
                 }
             }
             // The file was created while the question was open.

@@ -16,7 +16,7 @@ impl OpenProject {
     /// Writes the project to an HTML file if the page shows everything and the file does not exist; asks first
     /// otherwise. The project's origin and unsaved state stay.
     pub(super) fn export_page(&mut self, file: &Path) {
-        self.settled(About::Export);
+        self.dismiss_notices(About::Export);
         let file = as_html(&std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
         self.settle_includes();
         if file.is_dir() {
@@ -43,7 +43,7 @@ impl OpenProject {
                 let text = format!("exported {}", file.display());
                 self.notice_with_path(About::Export, Level::Info, text, file.to_owned());
                 if let Some(kept) = kept.filter(|kept| kept.exists()) {
-                    self.tell_of_kept(1, kept);
+                    self.report_kept_files(1, kept);
                 }
             }
             // The file was created while the question was open.

@@ -28,12 +28,14 @@ impl Session {
                 self.open.notice_about(About::Question, Level::Warning, "answer the open question first");
             }
             Command::Open(spec) if scene::holds_project(Path::new(&spec)) => self.open_picture(Path::new(&spec)),
-            Command::Open(spec) => self.unless_unsaved(PendingAction::Open(spec)),
-            Command::OpenProject { project, size } => self.unless_unsaved(PendingAction::OpenProject { project, size }),
+            Command::Open(spec) => self.ask_to_save_then(PendingAction::Open(spec)),
+            Command::OpenProject { project, size } => {
+                self.ask_to_save_then(PendingAction::OpenProject { project, size })
+            }
             Command::Paste(text) => self.paste(&text),
             Command::Bring { paths, to } => self.bring(paths, to),
-            Command::New => self.unless_unsaved(PendingAction::New),
-            Command::Close => self.unless_unsaved(PendingAction::Close),
+            Command::New => self.ask_to_save_then(PendingAction::New),
+            Command::Close => self.ask_to_save_then(PendingAction::Close),
             Command::Save => {
                 self.save();
             }
@@ -44,16 +46,16 @@ impl Session {
         }
     }
 
-    pub(super) fn unless_unsaved(&mut self, then: PendingAction) {
+    pub(super) fn ask_to_save_then(&mut self, then: PendingAction) {
         if self.is_dirty() {
             let tabs = self.open.documents.dirty_tabs();
             self.open.ask(Question::Unsaved { then, tabs });
         } else {
-            self.go_on(then);
+            self.perform(then);
         }
     }
 
-    fn go_on(&mut self, then: PendingAction) {
+    fn perform(&mut self, then: PendingAction) {
         match then {
             PendingAction::Open(spec) => self.open(&spec),
             PendingAction::OpenProject { project, size } => {
@@ -80,7 +82,7 @@ impl Session {
     }
 
     fn open(&mut self, spec: &str) {
-        self.open.settled(About::Opening);
+        self.open.dismiss_notices(About::Opening);
         match project::load(spec) {
             Ok(loaded) => {
                 self.replace(Documents::new(loaded.project));
@@ -92,7 +94,7 @@ impl Session {
 
     /// Writes the project to where it came from. Returns whether nothing unsaved is left.
     fn save(&mut self) -> bool {
-        self.open.settled(About::Saving);
+        self.open.dismiss_notices(About::Saving);
         let home = match &self.project().origin {
             Origin::Folder { path, .. } | Origin::File(path) => path.clone(),
             Origin::Unsaved | Origin::Preset(_) | Origin::Json(_) => {
@@ -144,7 +146,7 @@ impl Session {
 
     /// `replaced`: the foreign files that the user allows replacing.
     fn save_as(&mut self, folder: &Path, replaced: &[PathBuf]) {
-        self.open.settled(About::Saving);
+        self.open.dismiss_notices(About::Saving);
         // A typed path may be relative to where Eddy was started.
         let folder = &std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         let home = capture::base_folder(self.project()).and_then(|home| home.canonicalize().ok());
@@ -161,7 +163,7 @@ impl Session {
             Ok((saved, kept)) => {
                 self.saved(saved);
                 if let Some(kept) = kept {
-                    self.open.tell_of_kept(replaced.len(), kept);
+                    self.open.report_kept_files(replaced.len(), kept);
                 }
                 // Pictures are read from the new place, and the texts have new names in diagnostics.
                 self.open.disk.has_moved();
@@ -186,20 +188,20 @@ impl Session {
             self.open.pass_history.clear();
             self.open.after_reload();
         }
-        self.place_known();
-        self.open.disk_is_known();
+        self.record_recent();
+        self.open.remember_disk();
         self.open.compile.saved();
         self.open.notice(Level::Info, format!("saved {place}"));
     }
 
     fn finish_save(&mut self) {
         if let Some(then) = self.open.host.dialog.after_save.take() {
-            self.go_on(then);
+            self.perform(then);
         }
     }
 
     fn answer(&mut self, answer: Answer) {
-        self.open.settled(About::Question);
+        self.open.dismiss_notices(About::Question);
         let Some(question) = self.open.host.dialog.questions.pop_front() else { return };
         match (question, answer) {
             (Question::Unsaved { then, .. }, Answer::Save) => {
@@ -208,7 +210,7 @@ impl Session {
                     self.finish_save();
                 }
             }
-            (Question::Unsaved { then, .. }, Answer::Discard) => self.go_on(then),
+            (Question::Unsaved { then, .. }, Answer::Discard) => self.perform(then),
             (Question::Overwrite { folder, files }, Answer::Overwrite) => self.save_as(&folder, &files),
             (Question::Export { file, exists, .. }, Answer::Export) if is_page(&file) => {
                 self.open.write_page(&file, exists)
@@ -218,7 +220,7 @@ impl Session {
             (Question::Film { .. }, Answer::Finish) => self.close_after_film(),
             (Question::Film { .. }, Answer::Discard) => {
                 self.cancel_film();
-                self.unless_unsaved(PendingAction::Close);
+                self.ask_to_save_then(PendingAction::Close);
             }
             (Question::Unsaved { .. } | Question::Overwrite { .. }, Answer::Cancel) => {
                 self.open.host.dialog.after_save = None
@@ -260,7 +262,7 @@ impl OpenProject {
     }
 
     /// Reports where the files that a save has replaced are kept.
-    pub(super) fn tell_of_kept(&mut self, count: usize, kept: PathBuf) {
+    pub(super) fn report_kept_files(&mut self, count: usize, kept: PathBuf) {
         let files =
             if count == 1 { "the file that was replaced is".into() } else { format!("the {count} replaced files are") };
         let time = self.host.options.recovery.as_ref().map(|_| format!(" for {KEPT_DAYS} days")).unwrap_or_default();
@@ -334,7 +336,7 @@ impl OpenProject {
         self.compile.read = kept;
     }
 
-    pub(super) fn tell_diagnostics(&mut self, diagnostics: &[Diagnostic], sources: &SourceMap) {
+    pub(super) fn report_diagnostics(&mut self, diagnostics: &[Diagnostic], sources: &SourceMap) {
         for d in diagnostics {
             self.notice(Level::Warning, eddy_diag::render(d, sources).trim_end());
         }

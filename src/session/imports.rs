@@ -20,11 +20,11 @@ const MEASURED: u64 = 48 << 20;
 impl Session {
     /// Imports a pasted text.
     pub(super) fn paste(&mut self, text: &str) {
-        self.open.settled(About::Opening);
+        self.open.dismiss_notices(About::Opening);
         match project::import_of_text(text) {
             Ok(TextImport::Project(loaded)) => {
-                self.open.tell_diagnostics(&loaded.warnings, &loaded.sources);
-                self.unless_unsaved(PendingAction::Keep(Box::new(loaded.project)));
+                self.open.report_diagnostics(&loaded.warnings, &loaded.sources);
+                self.ask_to_save_then(PendingAction::Keep(Box::new(loaded.project)));
             }
             Ok(TextImport::Place(place)) => {
                 let path = Path::new(&place);
@@ -41,9 +41,9 @@ impl Session {
     /// Imports files. `to`: the front pass and the channel that they were dropped on, or `None` if no project is shown:
     /// then a picture or a model creates a new one.
     pub(super) fn bring(&mut self, paths: Vec<PathBuf>, to: Option<(PassName, Option<usize>)>) {
-        self.open.settled(About::Opening);
+        self.open.dismiss_notices(About::Opening);
         let of = |kind: FileKind| paths.iter().filter(move |p| project::kind_of_file(p) == kind);
-        self.open.tell_unfit(&paths);
+        self.open.report_unusable_file(&paths);
         let projects: Vec<&Path> = of(FileKind::Project).map(PathBuf::as_path).collect();
         if let Some(first) = projects.first() {
             let parts = project::folder_of_parts(&projects);
@@ -76,7 +76,7 @@ impl Session {
             None => {
                 let mut project = project::new_for(first, pictures.is_empty());
                 let done = self.open.put_in(&mut project, &PassName::image(), None, &pictures, &models);
-                self.unless_unsaved(PendingAction::Keep(Box::new(project)));
+                self.ask_to_save_then(PendingAction::Keep(Box::new(project)));
                 self.open.notice(Level::Info, format!("a new shader: {done}"));
             }
             Some((pass, channel)) => {
@@ -158,7 +158,7 @@ impl OpenProject {
         said.join("; ")
     }
 
-    fn tell_unfit(&mut self, paths: &[PathBuf]) {
+    fn report_unusable_file(&mut self, paths: &[PathBuf]) {
         for path in paths {
             let name = name(path);
             match project::kind_of_file(path) {

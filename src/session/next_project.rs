@@ -23,7 +23,7 @@ impl Session {
         self.open.forget_notices();
         self.restore_run();
         self.open.hold_after_trouble();
-        self.open.disk_is_known();
+        self.open.remember_disk();
         self.open.compile_soon();
         self.open.read_declared_uniforms();
     }

@@ -10,12 +10,12 @@ use eddy_debugger::nonfinite::{SearchEnd, SearchJob, search};
 use eddy_engine::CameraFrame;
 use eddy_playback::run::{Replay, ReplayFrom};
 
-pub(super) struct Searching {
+pub(super) struct NanSearch {
     pub background: Background<SearchJob, Count, SearchEnd>,
     input: Ticket<Option<(Replay, Option<CameraFrame>)>>,
 }
 
-impl Searching {
+impl NanSearch {
     pub(crate) fn new(wake: Wake) -> Self {
         let background = Background::lazy("first NaN", "the search", wake, search);
         Self { background, input: Ticket::default() }
@@ -45,7 +45,7 @@ impl OpenProject {
 
     /// Submits the frames to search for the first NaN.
     pub(super) fn search_frames(&mut self, device: &Device) {
-        let Searching { background, input } = &mut self.nan_search;
+        let NanSearch { background, input } = &mut self.nan_search;
         let Some(input) = input.take() else { return };
         self.host.changed = true;
         let (Some((Replay { snapshot, frames }, camera)), Some(project)) =

@@ -12,7 +12,7 @@ pub(super) struct Notices {
     list: Vec<Notice>,
     /// The number of the next one, and of the next one when the current command started.
     next: u64,
-    command_began: u64,
+    first_of_command: u64,
 }
 
 impl Notices {
@@ -29,8 +29,8 @@ impl Notices {
     }
 
     /// Marks the start of a command: later notices are about its effects.
-    pub(crate) fn begin_command(&mut self) {
-        self.command_began = self.next;
+    pub(crate) fn start_command(&mut self) {
+        self.first_of_command = self.next;
     }
 
     fn push(&mut self, about: About, level: Level, text: String, at: Instant) {
@@ -83,13 +83,13 @@ impl OpenProject {
     }
 
     /// The problem was fixed or the operation is retried: dismisses the notices about it. Success notices expire.
-    pub(super) fn settled(&mut self, about: About) {
+    pub(super) fn dismiss_notices(&mut self, about: About) {
         self.host.changed |= self.host.notices.retain(|notice| notice.about != about || notice.level == Level::Info);
     }
 
     /// A program of a text that was edited after the notices draws: dismisses notices about code, which are about an
     /// older text.
-    pub(super) fn settled_by_edit(&mut self) {
+    pub(super) fn dismiss_code_notices(&mut self) {
         if let Some(edited) = self.compile.edited_at {
             self.host.changed |= self.host.notices.retain(|notice| notice.about != About::Code || notice.at > edited);
         }
@@ -98,7 +98,7 @@ impl OpenProject {
     /// Another project is opened: dismisses notices of the previous one. Notices of the current command are about the
     /// new one.
     pub(super) fn forget_notices(&mut self) {
-        let first = self.host.notices.command_began;
+        let first = self.host.notices.first_of_command;
         self.host.notices.retain(|notice| notice.about == About::Window || notice.id >= first);
         self.host.changed = true;
     }

@@ -5,21 +5,21 @@
 //! cannot leave anything else behind.
 
 use super::{
-    audit::Auditing,
+    audit::PictureAudit,
     canvas::Canvas,
-    compare::Comparing,
+    compare::ProjectComparison,
     compile::CompileControl,
     devices::Devices,
     disk::DiskSync,
     documents::Documents,
-    drawing::{Changes, EngineStatus, Job},
+    drawing::{EngineStatus, Job, PendingChanges},
     halt::HaltControl,
     host::Host,
-    nonfinite::Searching,
+    nonfinite::NanSearch,
     pass_history::PassHistory,
     playback::Playback,
     read_back::ReadBacks,
-    trace::Tracing,
+    trace::PixelTrace,
     uniforms::TextUniforms,
 };
 use eddy_project::PassName;
@@ -37,16 +37,16 @@ pub(super) struct OpenProject {
     pub canvas: Canvas,
     pub devices: Devices,
     /// The changes that go to the engine with the next job.
-    pub changes: Changes,
+    pub changes: PendingChanges,
     pub engine: EngineStatus,
     pub halt: HaltControl,
     pub picture: Picture,
     pub read_backs: ReadBacks,
-    pub trace: Tracing,
-    pub audit: Auditing,
+    pub trace: PixelTrace,
+    pub audit: PictureAudit,
     /// The search for the first NaN.
-    pub nan_search: Searching,
-    pub comparison: Comparing,
+    pub nan_search: NanSearch,
+    pub comparison: ProjectComparison,
 }
 
 /// The picture of the shown pass.
@@ -72,15 +72,15 @@ impl OpenProject {
             playback: Playback::default(),
             canvas: Canvas::default(),
             devices: Devices::default(),
-            changes: Changes::default(),
+            changes: PendingChanges::default(),
             engine,
             halt: HaltControl::new(options.frame_limit, options.state_dir.as_deref()),
             picture: Picture::default(),
             read_backs: ReadBacks::default(),
-            trace: Tracing::new(wake.clone()),
-            audit: Auditing::new(wake.clone()),
-            nan_search: Searching::new(wake.clone()),
-            comparison: Comparing::new(wake.clone()),
+            trace: PixelTrace::new(wake.clone()),
+            audit: PictureAudit::new(wake.clone()),
+            nan_search: NanSearch::new(wake.clone()),
+            comparison: ProjectComparison::new(wake.clone()),
             host,
         }
     }

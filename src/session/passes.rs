@@ -24,7 +24,7 @@ impl OpenProject {
     }
 
     pub(super) fn edit_passes(&mut self, edit: PassEdit) {
-        self.settled(About::PassEdit);
+        self.dismiss_notices(About::PassEdit);
         let before = self.project().clone();
         let is_untouched = match &edit {
             PassEdit::Remove(tab) => before.source(tab).is_none_or(|s| is_untouched(&s.text, tab)),
@@ -94,7 +94,7 @@ impl OpenProject {
             UndoState::Passes(project) => *project,
             UndoState::Uniforms(values, name) => {
                 let here = std::mem::replace(&mut self.documents.current_mut().custom_uniform_values, values);
-                self.custom_uniforms_turned();
+                self.custom_uniforms_changed();
                 self.host.changed = true;
                 let (serial, title, renamed) = (step.serial, step.title, None);
                 return Step {

@@ -7,10 +7,10 @@ use super::{
     buffers::BufferReads,
     costs::Costs,
     drawing::{RenderTask, Renderer, Tasks},
-    measures::Measuring,
+    measures::Measurements,
     miniatures::Miniatures,
     open_project::OpenProject,
-    probe::Probing,
+    probe::ProbeState,
 };
 use eddy_engine::{CameraFrame, EngineError, PassInputs, Picture, Pixels};
 use eddy_playback::run::{Replay, ReplayFrom, Run};
@@ -40,16 +40,16 @@ pub(super) trait ReadBack {
 pub(super) struct ReadBacks {
     pub cpu_micros: f64,
     pub costs: Costs,
-    pub probing: Probing,
+    pub probe: ProbeState,
     pub miniatures: Miniatures,
     pub buffers: BufferReads,
-    pub measuring: Measuring,
+    pub measurements: Measurements,
 }
 
 impl ReadBacks {
     /// Returns the repeated read-backs, in their order.
     fn read_backs(&mut self) -> [&mut dyn ReadBack; 4] {
-        [&mut self.miniatures, &mut self.probing, &mut self.buffers, &mut self.measuring]
+        [&mut self.miniatures, &mut self.probe, &mut self.buffers, &mut self.measurements]
     }
 
     /// The read-backs of another project, for the panels that watch this one's.
@@ -57,10 +57,10 @@ impl ReadBacks {
         Self {
             cpu_micros: 0.0,
             costs: Costs::watched(self.costs.is_watched()),
-            probing: Probing::default(),
+            probe: ProbeState::default(),
             miniatures: self.miniatures.successor(),
             buffers: self.buffers.successor(),
-            measuring: self.measuring.successor(),
+            measurements: self.measurements.successor(),
         }
     }
 }
@@ -73,7 +73,7 @@ impl Session {
         let is_there = self.open.engine.has_program() && !self.open.is_program_coming();
         let mut tasks = Tasks::default();
         // During a resize there is no valid picture.
-        let is_between = self.open.changes.size.is_some() || self.open.playback.is_again_due;
+        let is_between = self.open.changes.size.is_some() || self.open.playback.is_redraw_due;
         if is_between && !has_frame && is_there && !self.open.halt.is_halted() {
             return tasks;
         }
@@ -108,8 +108,8 @@ impl Session {
     pub(super) fn take_outputs(&mut self, has_frame: bool) {
         let is_new = self.open.read_backs.read_backs().map(|read_back| read_back.receive(has_frame)).contains(&true);
         self.open.host.changed |= is_new;
-        if self.open.read_backs.probing.take_news() {
-            self.open.look_anew();
+        if self.open.read_backs.probe.take_news() {
+            self.open.update_probe_display();
         }
         let device = self.services.drawing.device();
         self.open.search_frames(&device);

@@ -29,7 +29,7 @@ const PATIENCE: Duration = Duration::from_millis(500);
 
 impl Session {
     /// Records the path of the open project, if it has one, and returns its entry.
-    pub(super) fn place_known(&mut self) -> Option<RecentProject> {
+    pub(super) fn record_recent(&mut self) -> Option<RecentProject> {
         let project = self.open.documents.current();
         match self.services.recent.opened(&project.origin, project.dialect) {
             Ok(known) => known,
@@ -43,7 +43,7 @@ impl Session {
     /// Stores the time of the open project.
     pub(super) fn keep_time(&mut self) {
         // The frames of the last session have not been drawn again yet: keep what is stored.
-        if self.open.playback.seeking.is_taking_up {
+        if self.open.playback.seeking.is_restoring {
             return;
         }
         self.keep_picture();
@@ -109,7 +109,7 @@ impl Session {
 
     /// Requests a read-back from the engine, and waits for it until `end`.
     fn ask_engine<T: RenderTask>(&mut self, end: Instant, task: T) -> Option<T::Output> {
-        self.rest_until(end)?;
+        self.wait_idle_until(end)?;
         let mut tasks = Tasks::default();
         let mut ticket = tasks.add(task);
         // Pending changes are submitted later, if the project stays open.
@@ -126,7 +126,7 @@ impl Session {
     }
 
     /// Waits for the job in progress. `None` if it does not end in time.
-    fn rest_until(&mut self, end: Instant) -> Option<()> {
+    fn wait_idle_until(&mut self, end: Instant) -> Option<()> {
         while self.services.drawing.is_busy() {
             self.take_drawn(false);
             if Instant::now() >= end {
@@ -139,7 +139,7 @@ impl Session {
 
     /// Restores the time of the project that has just been opened.
     pub(super) fn restore_run(&mut self) {
-        let Some(RecentProject { time_secs, frame, paused, size, scale, .. }) = self.place_known() else { return };
+        let Some(RecentProject { time_secs, frame, paused, size, scale, .. }) = self.record_recent() else { return };
         self.open.restore_size(size, scale);
         let is_playing = !paused;
         if !self.open.has_state() {
@@ -150,8 +150,8 @@ impl Session {
         self.open.playback.clock = Clock::at(0.0, None, is_playing);
         let origin = &self.open.documents.current().origin;
         let Some(frames) = paused.then(|| self.services.runs.of(origin)).flatten() else { return };
-        self.open.playback.seeking.goal = frames.len().checked_sub(1).map(|last| SeekTarget::Anew(last as u64));
-        (self.open.playback.seeking.awaits_program, self.open.playback.seeking.is_taking_up) = (true, true);
+        self.open.playback.seeking.goal = frames.len().checked_sub(1).map(|last| SeekTarget::Redraw(last as u64));
+        (self.open.playback.seeking.awaits_program, self.open.playback.seeking.is_restoring) = (true, true);
         self.open.changes.run = Some(frames);
     }
 }
@@ -161,7 +161,7 @@ impl OpenProject {
     /// way of a seek.
     pub(super) fn is_picture_of_project(&self) -> bool {
         let is_drawn = self.engine.has_program() && !self.is_program_coming() && !self.picture.is_program_new;
-        let is_passing = self.read_backs.probing.view().is_some() || self.playback.is_seeking();
+        let is_passing = self.read_backs.probe.view().is_some() || self.playback.is_seeking();
         is_drawn && self.playback.has_drawn() && !is_passing
     }
 

@@ -64,7 +64,7 @@ impl Session {
     /// Opens the project of a picture, at the frame that it shows.
     pub(super) fn open_picture(&mut self, path: &Path) {
         match Scene::read(path) {
-            Ok(scene) => self.unless_unsaved(PendingAction::OpenPicture(Box::new(scene))),
+            Ok(scene) => self.ask_to_save_then(PendingAction::OpenPicture(Box::new(scene))),
             Err(error) => self.open.notice_about(About::Opening, Level::Error, error.to_string()),
         }
     }
@@ -92,8 +92,8 @@ impl Session {
         self.open.playback.mouse.follow(last.inputs.mouse, last.inputs.drag);
         self.open.playback.clock = Clock::at(0.0, None, false);
         if is_whole {
-            self.open.playback.seeking.goal = Some(SeekTarget::Anew(frames.len() as u64 - 1));
-            (self.open.playback.seeking.awaits_program, self.open.playback.seeking.is_taking_up) = (true, true);
+            self.open.playback.seeking.goal = Some(SeekTarget::Redraw(frames.len() as u64 - 1));
+            (self.open.playback.seeking.awaits_program, self.open.playback.seeking.is_restoring) = (true, true);
             self.open.changes.run = Some(frames);
             self.open.notice(Level::Info, format!("opened from the image, paused at frame {frame}"));
         } else {

@@ -2,7 +2,7 @@
 
 use super::{
     analysis::Analyst, audio::Audio, captures::Captures, compile::Compiler, controls::Controls, drawing::Drawing,
-    films::Films, last_pictures::LastPictures, recent::Recent, recovery::UnsavedWork, runs::Runs, sound::Sounding,
+    films::Films, last_pictures::LastPictures, recent::Recent, recovery::UnsavedWork, runs::Runs, sound::SoundPass,
 };
 use std::{
     thread::JoinHandle,
@@ -17,7 +17,7 @@ pub(super) struct Services {
     pub captures: Captures,
     pub analyst: Analyst,
     pub audio: Audio,
-    pub sound_pass: Sounding,
+    pub sound_pass: SoundPass,
     pub controls: Controls,
     pub films: Films,
     pub recent: Recent,

@@ -43,7 +43,7 @@ pub struct TraceView<'s> {
     pub trouble: Option<&'s str>,
 }
 
-pub(super) struct Tracing {
+pub(super) struct PixelTrace {
     walk: Background<TraceJob, (), Arc<Traced>>,
     /// The traced pixel; it is traced again whenever its picture changes.
     pixel: Option<TracedPixel>,
@@ -51,7 +51,7 @@ pub(super) struct Tracing {
     pub divergence: Divergence,
 }
 
-impl Tracing {
+impl PixelTrace {
     pub(crate) fn new(wake: Wake) -> Self {
         let work = |job: TraceJob, _: &_| {
             let TraceJob { project, at, frame, inspected: Inspected { pass, inputs, picture } } = job;
@@ -161,7 +161,7 @@ impl OpenProject {
 
     /// Submits the inputs that the traced pass read; after another frame the pixel is traced again.
     pub(super) fn trace_pixel(&mut self, has_frame: bool) {
-        let Tracing { walk, pixel: Some(pixel), input, .. } = &mut self.trace else { return };
+        let PixelTrace { walk, pixel: Some(pixel), input, .. } = &mut self.trace else { return };
         let Some(input) = input.take() else {
             if has_frame {
                 walk.request();

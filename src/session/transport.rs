@@ -35,9 +35,9 @@ impl Session {
         let reach = self.open.engine.reach();
         match travelled {
             Some(Ok(travelled)) => {
-                self.open.picture_is_other();
+                self.open.on_picture_changed();
                 if self.open.playback.travelled(&travelled, reach.shown) {
-                    self.open.read_backs.measuring.go_to(travelled.inputs.frame);
+                    self.open.read_backs.measurements.go_to(travelled.inputs.frame);
                 }
             }
             Some(Err(error)) => {
@@ -117,7 +117,7 @@ impl Session {
 
 impl OpenProject {
     pub(super) fn play(&mut self) {
-        self.settled(About::Seeking);
+        self.dismiss_notices(About::Seeking);
         self.override_halt();
         self.playback.play();
     }
@@ -133,22 +133,22 @@ impl OpenProject {
     }
 
     fn reset_buffers(&mut self) {
-        self.settled(About::Seeking);
+        self.dismiss_notices(About::Seeking);
         self.end_replay("the picture was reset");
         self.canvas.replayed = None;
-        self.take_values_back();
+        self.restore_values();
         self.changes.reset = true;
     }
 
     /// Shows the frame that is this number of frames before the shown one, and pauses.
     pub(super) fn step_back(&mut self, by: usize) {
-        self.settled(About::Seeking);
+        self.dismiss_notices(About::Seeking);
         self.override_halt();
         self.playback.step_back(by);
     }
 
     pub(super) fn step_forward(&mut self) {
-        self.settled(About::Seeking);
+        self.dismiss_notices(About::Seeking);
         self.override_halt();
         self.playback.step_forward(self.engine.reach().ahead);
     }
@@ -159,7 +159,7 @@ impl OpenProject {
             return;
         }
         let secs = secs.max(0.0);
-        self.settled(About::Seeking);
+        self.dismiss_notices(About::Seeking);
         self.override_halt();
         // A recording must be a continuous run.
         self.end_recording();
@@ -192,7 +192,7 @@ impl OpenProject {
             );
             return;
         }
-        self.playback.draw_anew(reach.shown);
+        self.playback.redraw_run(reach.shown);
     }
 
     fn keeps_inputs_of(&self, reach: Reach) -> bool {
@@ -200,7 +200,7 @@ impl OpenProject {
     }
 
     /// Returns whether a pending program draws all frames since the reset again.
-    pub(super) fn draws_all_anew(&self) -> bool {
+    pub(super) fn redraws_run(&self) -> bool {
         let reach = self.engine.reach();
         self.changes.program.is_some() && reach.is_whole && self.keeps_inputs_of(reach)
     }
@@ -216,26 +216,26 @@ impl OpenProject {
     }
 
     /// Returns whether the shown frame is to be drawn again now, once: no other is due.
-    pub(super) fn take_again(&mut self) -> bool {
+    pub(super) fn take_redraw(&mut self) -> bool {
         let wanted = &self.changes;
         let is_other_coming = wanted.restart || wanted.program.is_some() || wanted.size.is_some();
         let is_ready = self.engine.has_program() && !is_other_coming && !self.halt.is_halted();
-        is_ready && self.playback.take_again()
+        is_ready && self.playback.take_redraw()
     }
 
     /// Returns whether a change of the program or the canvas is followed by the shown frame only.
     pub(super) fn stays(&self) -> bool {
         let wanted = &self.changes;
-        let begins_anew = wanted.restart || wanted.reset || self.compile.resets || self.draws_all_anew();
-        self.playback.is_still() && !begins_anew
+        let restarts = wanted.restart || wanted.reset || self.compile.resets || self.redraws_run();
+        self.playback.is_still() && !restarts
     }
 
     /// The shown frame cannot be drawn again: the next one shows the change.
-    pub(super) fn again_is_lost(&mut self) {
+    pub(super) fn on_redraw_impossible(&mut self) {
         self.playback.is_frame_due = true;
         if self.has_state() {
             let text = "the buffers are too large to be kept: a change while paused draws one frame more";
-            self.notice_once(About::Again, Level::Info, text);
+            self.notice_once(About::Redraw, Level::Info, text);
         }
     }
 
@@ -285,7 +285,7 @@ impl OpenProject {
 
     /// Starts reading a recording, which is played when it is loaded.
     pub(super) fn play_recording(&mut self, file: PathBuf) {
-        self.settled(About::Replay);
+        self.dismiss_notices(About::Replay);
         let file = std::path::absolute(&file).unwrap_or(file);
         match Reading::start(file, self.host.wake.clone()) {
             Ok(reading) => self.playback.replay.reading = Some(reading),
@@ -305,7 +305,7 @@ impl OpenProject {
 
     /// Returns the frame of the recording that is due now. `is_step`: a frame is requested, whatever the time.
     pub(super) fn next_replayed(&mut self, is_step: bool) -> Option<FrameInputs> {
-        let (may_run, may_start) = (!self.gives_way(), !self.is_compile_under_way());
+        let (may_run, may_start) = (!self.is_waiting_for_compile(), !self.is_compile_under_way());
         let next = self.playback.next_replayed(self.host.now, is_step, may_run, may_start)?;
         let ReplayedFrame { frame, change, is_last } = next;
         if let Some(size) = change.size {
@@ -329,9 +329,9 @@ impl OpenProject {
     }
 
     /// Gives the engine the project's own values again, before a frame that is not the recording's.
-    pub(super) fn take_values_back(&mut self) {
+    pub(super) fn restore_values(&mut self) {
         if self.playback.replay.has_values && !self.playback.is_replaying() {
-            self.custom_uniforms_turned();
+            self.custom_uniforms_changed();
             self.playback.replay.follows = true;
         }
     }

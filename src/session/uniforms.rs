@@ -107,11 +107,11 @@ impl OpenProject {
         if self.project().custom_uniform_values != before {
             self.pass_history.push_uniforms(before, Some(name));
         }
-        self.custom_uniforms_turned();
+        self.custom_uniforms_changed();
     }
 
     /// Submits the values to the running program; while paused, one frame shows them.
-    pub(super) fn custom_uniforms_turned(&mut self) {
+    pub(super) fn custom_uniforms_changed(&mut self) {
         let played = self.playback.replay.playing.as_ref().and_then(|playing| playing.values());
         self.playback.replay.has_values = played.is_some();
         let mut values = played.unwrap_or(&self.documents.current().custom_uniform_values).clone();

@@ -61,7 +61,7 @@ pub enum About {
     PassEdit,
     Audit,
     /// The shown frame, which cannot be drawn again.
-    Again,
+    Redraw,
     /// A replay.
     Replay,
     /// A device that plays sound.

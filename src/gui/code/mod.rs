@@ -241,7 +241,7 @@ impl CodePanel {
     /// Takes over texts that were changed outside the editors.
     pub(super) fn prepare(&mut self, session: &Session) {
         let project = session.project();
-        if std::mem::replace(&mut self.begun, session.begun()) != session.begun() {
+        if std::mem::replace(&mut self.begun, session.new_shader_count()) != session.new_shader_count() {
             self.takes_focus = true;
         }
         if self.project.0 != project.name || !same_place(&self.project.1, &project.origin) {

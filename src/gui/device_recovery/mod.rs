@@ -39,7 +39,7 @@ impl DeviceLosses {
             Ok(()) => return Ok(()),
             Err(reason @ GpuError::Lost(_)) => reason,
             Err(refused) => {
-                session.tell_of(&refused);
+                session.report_gpu_error(&refused);
                 return Ok(());
             }
         };

@@ -30,7 +30,7 @@ impl Audio {
 impl Audio {
     pub(crate) fn use_microphone(&mut self, open: &mut OpenProject, on: bool) {
         self.uses_microphone = on;
-        open.settled(About::Microphone);
+        open.dismiss_notices(About::Microphone);
         self.input_is_missing = false;
         self.hear(open);
     }
@@ -55,7 +55,7 @@ impl Audio {
                 );
                 open.notice_about(About::Microphone, Level::Warning, text);
             }
-            Some(News::Back(_) | News::Over) => open.settled(About::Microphone),
+            Some(News::Back(_) | News::Over) => open.dismiss_notices(About::Microphone),
             None => {}
         }
     }

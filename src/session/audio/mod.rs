@@ -121,7 +121,7 @@ impl Audio {
     }
 
     /// Switches to that music: the new program draws from now on.
-    pub(crate) fn program_is_there(&mut self) {
+    pub(crate) fn on_program_installed(&mut self) {
         if let Some(sounds) = self.coming.take() {
             self.sounds = sounds;
         }
@@ -292,7 +292,7 @@ impl Audio {
         let is_drawn = open.engine.has_program() && !open.halt.is_halted() && !open.halt.is_device_gone();
         let line = open.playback.line().filter(|_| is_drawn);
         self.play(line, &open.host.wake, open.host.now);
-        self.tell_of_the_end_before(open);
+        self.report_crash_of_output(open);
         let Some(player) = &self.player else { return };
         match news(player.state(), &mut self.output_is_missing) {
             Some(News::Missing(why)) => {
@@ -300,16 +300,16 @@ impl Audio {
                 open.notice_about(About::Sound, Level::Warning, text);
             }
             Some(News::Back(name)) => {
-                open.settled(About::Sound);
+                open.dismiss_notices(About::Sound);
                 open.notice_about(About::Sound, Level::Info, format!("sound plays on {name}"));
             }
-            Some(News::Over) => open.settled(About::Sound),
+            Some(News::Over) => open.dismiss_notices(About::Sound),
             None => {}
         }
     }
 
     /// Reports that sound is off because a sound driver crashed the previous run.
-    fn tell_of_the_end_before(&mut self, open: &mut OpenProject) {
+    fn report_crash_of_output(&mut self, open: &mut OpenProject) {
         let Some(before) = self.ended_before.clone().filter(|_| self.has_sound()) else { return };
         if std::mem::replace(&mut self.is_end_told, true) {
             return;
@@ -324,7 +324,7 @@ impl Audio {
 
     pub(crate) fn open_sound_again(&mut self, open: &mut OpenProject) {
         self.open_again();
-        open.settled(About::Sound);
+        open.dismiss_notices(About::Sound);
     }
 
     pub(crate) fn hide(&mut self, open: &mut OpenProject, is_hidden: bool) {

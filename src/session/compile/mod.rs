@@ -6,7 +6,7 @@
 
 mod worker;
 
-pub(super) use worker::{Compiled, Compiler, Done, Job};
+pub(super) use worker::{CompileResult, Compiled, Compiler, Job};
 
 use super::{
     debounce::Debounce,
@@ -42,7 +42,7 @@ pub(super) struct CompileControl {
     /// Compile in the next tick, whatever the debounce says.
     is_wanted: bool,
     /// Check whether a picture or a model has changed on disk, as soon as the worker is free.
-    pub is_look_wanted: bool,
+    pub is_file_check_due: bool,
     /// The program being compiled starts from frame zero.
     pub resets: bool,
     /// The project to compile instead of the newest text.
@@ -79,7 +79,7 @@ impl CompileControl {
             is_edited: false,
             edited_at: None,
             is_wanted: true,
-            is_look_wanted: false,
+            is_file_check_due: false,
             resets: false,
             fallback: None,
             newest_since: None,
@@ -159,11 +159,11 @@ impl CompileControl {
         }
         let is_compile = take(&mut self.is_wanted) || is_due || self.fallback.is_some();
         // A check must not replace a compile in progress, and a compile checks as well.
-        let is_look = self.is_look_wanted && !self.is_submitted;
-        if !is_compile && !is_look {
+        let is_check_only = self.is_file_check_due && !self.is_submitted;
+        if !is_compile && !is_check_only {
             return None;
         }
-        self.is_look_wanted = false;
+        self.is_file_check_due = false;
         let fallback = self.fallback.take();
         let is_fallback = fallback.is_some();
         if is_compile {
@@ -174,8 +174,8 @@ impl CompileControl {
         let include_edit = self.unread_includes().filter(|_| is_compile && !is_fallback);
         let Source { project, shown, opened, probe, camera } = source;
         let (project, shown) = (fallback.unwrap_or_else(|| project.clone()), shown.clone());
-        let is_look = !is_compile;
-        Some(Job { is_fallback, project, shown, opened, include_edit, probe, camera, is_look })
+        let is_check_only = !is_compile;
+        Some(Job { is_fallback, project, shown, opened, include_edit, probe, camera, is_check_only })
     }
 
     /// Records the result of the newest job; `is_check`: it has only checked files.

@@ -42,12 +42,12 @@ pub(crate) struct Job {
     /// The probed value to draw instead of the picture, and whether it no longer exists in the text.
     pub probe: Option<(ProbePlace, bool)>,
     /// Only checks whether pictures and models on disk differ from those of the last compile.
-    pub is_look: bool,
+    pub is_check_only: bool,
 }
 
 /// The thread that compiles, for one project after the other.
 pub(crate) struct Compiler {
-    worker: Background<Job, (), Done>,
+    worker: Background<Job, (), CompileResult>,
     /// The number of submitted jobs.
     jobs: Arc<AtomicU64>,
 }
@@ -72,7 +72,7 @@ impl Compiler {
     }
 
     /// Takes the result of the newest job; an error is a bug in the worker.
-    pub(crate) fn take(&mut self) -> Option<Result<Done, String>> {
+    pub(crate) fn take(&mut self) -> Option<Result<CompileResult, String>> {
         self.worker.take()
     }
 
@@ -87,7 +87,10 @@ impl Compiler {
     }
 
     #[cfg(test)]
-    pub(crate) fn replace_worker(&mut self, worker: Background<Job, (), Done>) -> Background<Job, (), Done> {
+    pub(crate) fn replace_worker(
+        &mut self,
+        worker: Background<Job, (), CompileResult>,
+    ) -> Background<Job, (), CompileResult> {
         mem::replace(&mut self.worker, worker)
     }
 }
@@ -97,12 +100,12 @@ fn spawn(
     options: &SessionOptions,
     jobs: Arc<AtomicU64>,
     wake: Wake,
-) -> io::Result<Background<Job, (), Done>> {
+) -> io::Result<Background<Job, (), CompileResult>> {
     Background::new("compile", "the compiler", wake, work(device, options, jobs))
 }
 
 /// The result of a job.
-pub(crate) struct Done {
+pub(crate) struct CompileResult {
     /// Pictures, models and the files that these name, including missing ones.
     pub files: Vec<PathBuf>,
     /// True for a check that found pictures or models different from those of the last compile.
@@ -146,7 +149,7 @@ fn work(
     device: Device,
     options: &SessionOptions,
     jobs: Arc<AtomicU64>,
-) -> impl FnMut(Job, &Control<()>) -> Result<Done, String> + Send + use<> {
+) -> impl FnMut(Job, &Control<()>) -> Result<CompileResult, String> + Send + use<> {
     let media_dir = options.media_dir.clone();
     let trial = options.trials.as_ref().map(|trials| trials.trial(media_dir.clone(), jobs));
     let mut media = Media { dir: media_dir, ..Media::default() };
@@ -165,8 +168,8 @@ fn work(
         }
         let named = media.named(&job);
         let files = named.stamps.iter().map(|(path, _)| path.clone()).collect();
-        if job.is_look {
-            return Ok(Done { files, is_changed: media.of != Some(named), includes: None, compiled: None });
+        if job.is_check_only {
+            return Ok(CompileResult { files, is_changed: media.of != Some(named), includes: None, compiled: None });
         }
         let mut found = media.update(&job, named);
         let trial = trial.clone();
@@ -204,7 +207,7 @@ fn work(
         let Job { project, is_fallback, .. } = job;
         let sounds = sounds(&project, &media.set);
         let compiled = Compiled { project, is_fallback, program, diagnostics, took, probe, heard, sounds };
-        Ok(Done { files, is_changed: false, includes, compiled: Some(compiled) })
+        Ok(CompileResult { files, is_changed: false, includes, compiled: Some(compiled) })
     }
 }
 

@@ -14,7 +14,7 @@ impl Controls {
         if self.pads.is_some() == on {
             return;
         }
-        open.settled(About::Gamepads);
+        open.dismiss_notices(About::Gamepads);
         self.is_pad_told = false;
         if !on {
             self.pads = None;

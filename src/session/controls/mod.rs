@@ -156,7 +156,7 @@ impl Controls {
         if self.osc.as_ref().map(OscInput::asked) == address {
             return;
         }
-        open.settled(About::Osc);
+        open.dismiss_notices(About::Osc);
         self.is_osc_told = false;
         // Close the old socket first: the new one may have the same address.
         self.osc = None;
@@ -171,7 +171,7 @@ impl Controls {
         if self.choice == choice {
             return;
         }
-        open.settled(About::Midi);
+        open.dismiss_notices(About::Midi);
         (self.is_midi_told, self.announced) = (false, Vec::new());
         self.choice = choice.clone();
         if let Some(midi) = self.midi() {
@@ -207,8 +207,8 @@ impl Controls {
         if let Some(midi) = &mut self.midi {
             midi.step(open.host.now);
         }
-        self.tell_of_osc(open);
-        self.tell_of_midi(open);
+        self.report_osc_state(open);
+        self.report_midi_state(open);
         self.follow_gamepads(open);
         let events = self.queue.take();
         if events.is_empty() {
@@ -216,10 +216,10 @@ impl Controls {
         }
         let events = dispatched(events, || open.osc_listeners());
         self.learn(open, &events);
-        self.turn_by_controls(open, &events);
+        self.apply_controls(open, &events);
     }
 
-    fn tell_of_osc(&mut self, open: &mut OpenProject) {
+    fn report_osc_state(&mut self, open: &mut OpenProject) {
         let Some(osc) = &self.osc else { return };
         match osc.state() {
             OscState::Missing(why) if !std::mem::replace(&mut self.is_osc_told, true) => {
@@ -228,14 +228,14 @@ impl Controls {
                 open.notice_about(About::Osc, Level::Warning, text);
             }
             OscState::Listening(at) if std::mem::take(&mut self.is_osc_told) => {
-                open.settled(About::Osc);
+                open.dismiss_notices(About::Osc);
                 open.notice_about(About::Osc, Level::Info, format!("OSC listens at {at}"));
             }
             OscState::Starting | OscState::Missing(_) | OscState::Listening(_) => {}
         }
     }
 
-    fn tell_of_midi(&mut self, open: &mut OpenProject) {
+    fn report_midi_state(&mut self, open: &mut OpenProject) {
         let state = match &self.midi {
             Some(midi) if self.choice != MidiChoice::Off => midi.state(),
             _ => return,
@@ -252,7 +252,7 @@ impl Controls {
                 let text = format!("MIDI: {why}. Eddy looks for devices every 2 seconds");
                 open.notice_about(About::Midi, Level::Warning, text);
             }
-            None if std::mem::take(&mut self.is_midi_told) => open.settled(About::Midi),
+            None if std::mem::take(&mut self.is_midi_told) => open.dismiss_notices(About::Midi),
             _ => {}
         }
     }
@@ -288,7 +288,7 @@ impl Controls {
     }
 
     /// Sets the uniforms of the controls that have moved.
-    fn turn_by_controls(&mut self, open: &mut OpenProject, events: &[ControlEvent]) {
+    fn apply_controls(&mut self, open: &mut OpenProject, events: &[ControlEvent]) {
         let before = open.project().custom_uniform_values.clone();
         let bindings = open.project().controls.clone();
         let uniforms: Vec<CustomUniform> = open
@@ -322,7 +322,7 @@ impl Controls {
         open.host.changed |= !events.is_empty();
         if open.project().custom_uniform_values != before {
             open.pass_history.push_controls(before, turned);
-            open.custom_uniforms_turned();
+            open.custom_uniforms_changed();
             open.host.changed = true;
         }
     }

@@ -17,13 +17,13 @@ impl OpenProject {
         match self.disk.check(self.host.now, &self.documents) {
             Check::Nothing => {}
             Check::Project(project) => {
-                self.settled(About::Files);
+                self.dismiss_notices(About::Files);
                 self.merge(*project);
             }
             Check::Unusable { why } => {
-                self.tell_gone();
+                self.report_missing_files();
                 if let Some(why) = why {
-                    self.settled(About::Files);
+                    self.dismiss_notices(About::Files);
                     let text = format!("{why}\nThe texts and the picture here are unchanged");
                     self.notice_about(About::Files, Level::Warning, text);
                 }
@@ -41,8 +41,8 @@ impl OpenProject {
     fn merge(&mut self, disk: Loaded) {
         let merge = self.documents.merge(disk.project);
         self.note_reading(&disk.warnings, &disk.sources);
-        merge.gone.iter().for_each(|tab| self.tell_one_gone(tab));
-        self.tell_gone();
+        merge.gone.iter().for_each(|tab| self.report_missing_file(tab));
+        self.report_missing_files();
         self.ask_conflicts(&merge);
         if merge.changes_project() {
             let names: Vec<String> = merge.taken.iter().map(Tab::title).collect();
@@ -59,8 +59,8 @@ impl OpenProject {
         if self.project().includes != before {
             self.compile_soon();
         }
-        self.disk_is_known();
-        self.compile.is_look_wanted = true;
+        self.remember_disk();
+        self.compile.is_file_check_due = true;
     }
 
     /// Updates the session after the project was changed outside the editor.
@@ -112,7 +112,7 @@ impl OpenProject {
     }
 
     /// Reports missing or empty files, once each.
-    fn tell_gone(&mut self) {
+    fn report_missing_files(&mut self) {
         let saved = self.documents.saved();
         // A missing included file is an error at the line that includes it.
         let is_own = |tab: &Tab| !matches!(tab, Tab::Included(_)) || self.documents.is_tab_dirty(tab);
@@ -123,13 +123,13 @@ impl OpenProject {
         };
         let gone: Vec<Tab> = saved.tabs().into_iter().filter(is_own).filter(is_gone).collect();
         if gone.is_empty() {
-            self.settled(About::MissingFile);
+            self.dismiss_notices(About::MissingFile);
         }
         let new = self.documents.set_missing(gone.into_iter().collect());
-        new.iter().for_each(|tab| self.tell_one_gone(tab));
+        new.iter().for_each(|tab| self.report_missing_file(tab));
     }
 
-    fn tell_one_gone(&mut self, tab: &Tab) {
+    fn report_missing_file(&mut self, tab: &Tab) {
         let name = self.project().source(tab).map_or_else(|| tab.title(), |s| s.name.clone());
         self.notice_about(
             About::MissingFile,
@@ -166,15 +166,15 @@ impl OpenProject {
     }
 
     /// Records that the disk matches `documents`, and watches it.
-    pub(crate) fn disk_is_known(&mut self) {
-        self.watch_what_is_read();
+    pub(crate) fn remember_disk(&mut self) {
+        self.watch_folders();
         self.disk.remember(&self.documents);
     }
 
     /// Watches the folders of all files that the project reads, as far as the last compile has found them.
-    pub(crate) fn watch_what_is_read(&mut self) {
+    pub(crate) fn watch_folders(&mut self) {
         let Some(failed) = self.disk.watch(self.documents.current(), &self.host.wake) else { return };
-        self.settled(About::Watching);
+        self.dismiss_notices(About::Watching);
         for text in failed {
             self.notice_about(About::Watching, Level::Warning, text);
         }

@@ -9,11 +9,11 @@ use std::{
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum FrameControl {
     #[default]
-    GoOn,
+    Continue,
     /// It waits, but not beyond this time.
     WaitUntil(Instant),
     /// It is abandoned.
-    GiveUp,
+    Abandon,
 }
 
 /// The next step of the frame that is being drawn. All clones share the same state.
@@ -45,8 +45,8 @@ impl Gate {
         let mut control = self.lock();
         loop {
             let left = match *control {
-                FrameControl::GoOn => return true,
-                FrameControl::GiveUp => return false,
+                FrameControl::Continue => return true,
+                FrameControl::Abandon => return false,
                 FrameControl::WaitUntil(until) => until.saturating_duration_since(Instant::now()),
             };
             if left.is_zero() {
@@ -71,7 +71,7 @@ mod tests {
     fn frame_waits_until_continued_abandoned_or_timed_out() {
         let gate = Gate::default();
         assert!(gate.pass());
-        gate.set(FrameControl::GiveUp);
+        gate.set(FrameControl::Abandon);
         assert!(!gate.pass());
         let after = |control: FrameControl| {
             let (gate, end) = (Gate::default(), Instant::now() + Duration::from_secs(60));
@@ -85,8 +85,8 @@ mod tests {
             assert!(Instant::now() < end, "it was told");
             passes
         };
-        assert!(after(FrameControl::GoOn));
-        assert!(!after(FrameControl::GiveUp));
+        assert!(after(FrameControl::Continue));
+        assert!(!after(FrameControl::Abandon));
         let until = Instant::now() + Duration::from_millis(30);
         gate.set(FrameControl::WaitUntil(until));
         assert!(gate.pass() && Instant::now() >= until);

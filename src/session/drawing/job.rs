@@ -11,9 +11,9 @@ use eddy_playback::run::Frame;
 use eddy_project::{CustomUniform, CustomUniformValues, PassName, Project};
 use std::time::Duration;
 
-/// Changes pending for the engine; a newer one of a kind replaces the older.
+/// PendingChanges pending for the engine; a newer one of a kind replaces the older.
 #[derive(Default)]
-pub(crate) struct Changes {
+pub(crate) struct PendingChanges {
     /// Start with an engine that has drawn nothing.
     pub restart: bool,
     pub size: Option<(u32, u32)>,
@@ -30,7 +30,7 @@ pub(crate) struct Changes {
     pub costs: bool,
 }
 
-impl Changes {
+impl PendingChanges {
     pub(crate) fn is_empty(&self) -> bool {
         let Self { restart, size, program, custom_uniforms, shown, look, reset, run, costs } = self;
         let is_asked = *restart || *reset || *costs || run.is_some();
@@ -74,7 +74,7 @@ impl PendingProgram {
 /// One unit of work for the engine: first the changes in the order of their fields, then the frame, then the tasks.
 #[derive(Default)]
 pub(crate) struct Job {
-    pub changes: Changes,
+    pub changes: PendingChanges,
     pub frame: Option<FrameInputs>,
     /// Show another frame of the run.
     pub travel: Option<SeekTarget>,
@@ -101,7 +101,7 @@ pub(crate) struct TileLimit {
 
 /// The answer to a job. A field is `None` if the job did not request it.
 #[derive(Default)]
-pub(crate) struct Done {
+pub(crate) struct JobResult {
     pub restarted: Option<Result<(), EngineError>>,
     pub resized: Option<((u32, u32), Result<(), EngineError>)>,
     pub program: Option<Result<(), EngineError>>,
@@ -113,7 +113,7 @@ pub(crate) struct Done {
     pub is_display_new: bool,
     pub frame: Option<Result<DrawnFrame, EngineError>>,
     /// The shown frame should have been drawn again, but its inputs are not kept.
-    pub is_again_lost: bool,
+    pub cannot_redraw: bool,
     /// The frame shows a video frame that is too old.
     pub is_late: bool,
     /// The frame of the run that is shown now; `Some(None)` if the goal is out of reach.
@@ -129,7 +129,7 @@ pub(crate) struct Done {
     /// The duration of the job, if another thread did it.
     pub took: Duration,
     /// The reason why the engine's thread has ended.
-    pub gave_up: Option<String>,
+    pub thread_error: Option<String>,
 }
 
 /// A submitted frame; on a thread of its own, a drawn frame.

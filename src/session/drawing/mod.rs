@@ -14,7 +14,7 @@ mod task;
 
 pub(super) use gate::FrameControl;
 pub(super) use history::SeekProgress;
-pub(super) use job::{Changes, Done, DrawnFrame, Job, PendingProgram, ProgramOrigin, TileLimit};
+pub(super) use job::{DrawnFrame, Job, JobResult, PendingChanges, PendingProgram, ProgramOrigin, TileLimit};
 pub(super) use render_thread::{Device, Open, beside};
 pub(super) use renderer::Renderer;
 pub(super) use status::EngineStatus;
@@ -53,12 +53,12 @@ struct InFlight {
 }
 
 enum Backend {
-    Inline { renderer: Box<Renderer>, device: Device, done: Option<Box<Done>> },
-    RenderThread(Box<Remote>),
+    Inline { renderer: Box<Renderer>, device: Device, done: Option<Box<JobResult>> },
+    RenderThread(Box<ThreadBackend>),
 }
 
 /// An engine on another thread, and its newest picture on the window's device.
-struct Remote {
+struct ThreadBackend {
     thread: RenderThread,
     device: Device,
     /// Controls a frame that may wait.
@@ -89,7 +89,7 @@ impl Drawing {
         let thread = RenderThread::start(open.clone(), device.clone(), size, window.rasteriser(), wake.clone())?;
         let display = Presenter::texture(&window, size.0, size.1).map_err(EngineError::from)?;
         let gate = Gate::default();
-        let remote = Remote { thread, device, gate, open, wake, window, display, took: Duration::MAX };
+        let remote = ThreadBackend { thread, device, gate, open, wake, window, display, took: Duration::MAX };
         let mut drawing = Self::new(Backend::RenderThread(Box::new(remote)));
         drawing.in_flight = Some(InFlight::opening(Instant::now(), 0));
         Ok(drawing)
@@ -104,7 +104,7 @@ impl Drawing {
         matches!(&self.backend, Backend::RenderThread(remote) if remote.window.rasteriser().shares_processor())
     }
 
-    pub(crate) fn is_apart(&self) -> bool {
+    pub(crate) fn is_on_thread(&self) -> bool {
         matches!(self.backend, Backend::RenderThread(_))
     }
 
@@ -156,7 +156,7 @@ impl Drawing {
     }
 
     /// Controls the frame that is being drawn, if it may wait.
-    pub(crate) fn steer(&self, control: FrameControl) {
+    pub(crate) fn set_frame_control(&self, control: FrameControl) {
         if let Backend::RenderThread(remote) = &self.backend {
             remote.gate.set(control);
         }
@@ -171,10 +171,10 @@ impl Drawing {
         }
     }
 
-    /// Submits a job. The engine must be idle. With `may_wait` its frame follows [`Drawing::steer`].
+    /// Submits a job. The engine must be idle. With `may_wait` its frame follows [`Drawing::set_frame_control`].
     pub(crate) fn submit(&mut self, now: Instant, may_wait: bool, mut job: Job) {
         if let Backend::RenderThread(remote) = &self.backend {
-            remote.gate.set(FrameControl::GoOn);
+            remote.gate.set(FrameControl::Continue);
             job.gate = may_wait.then(|| remote.gate.clone());
         }
         self.in_flight = Some(InFlight { since: now, serial: self.serial, is_opening: false });
@@ -186,12 +186,12 @@ impl Drawing {
 
     /// Returns the result of the job, once, and whether that is of the open project. Waits for a moment if the last job
     /// was that fast.
-    pub(crate) fn take(&mut self, is_just_handed_in: bool) -> Option<(Done, bool)> {
+    pub(crate) fn take(&mut self, was_just_submitted: bool) -> Option<(JobResult, bool)> {
         self.in_flight.as_ref()?;
         let mut done = match &mut self.backend {
             Backend::Inline { done, .. } => done.take().map(|done| *done),
             Backend::RenderThread(remote) => {
-                let waits = is_just_handed_in && remote.took < PATIENCE;
+                let waits = was_just_submitted && remote.took < PATIENCE;
                 remote.thread.take(if waits { PATIENCE } else { Duration::ZERO })
             }
         }?;
@@ -228,7 +228,7 @@ impl Drawing {
     pub(crate) fn restart_thread(&mut self, now: Instant, size: (u32, u32)) -> std::io::Result<()> {
         let Backend::RenderThread(remote) = &mut self.backend else { return Ok(()) };
         let device = Device::default();
-        let Remote { open, wake, window, .. } = &**remote;
+        let ThreadBackend { open, wake, window, .. } = &**remote;
         let thread = RenderThread::start(open.clone(), device.clone(), size, window.rasteriser(), wake.clone())?;
         (remote.device, remote.gate, remote.took) = (device, Gate::default(), Duration::MAX);
         self.left.extend(std::mem::replace(&mut remote.thread, thread).leave());
@@ -243,7 +243,7 @@ impl Drawing {
     }
 
     /// Waits for the end of the job, up to `patience`. Returns false if it is still running.
-    pub(crate) fn rest(&mut self, patience: Duration) -> bool {
+    pub(crate) fn wait_idle(&mut self, patience: Duration) -> bool {
         let end = Instant::now() + patience;
         while self.is_busy() && self.take(false).is_none() {
             if Instant::now() >= end {

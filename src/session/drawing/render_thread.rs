@@ -1,7 +1,7 @@
 //! An engine on a thread of its own, with a device of its own, so that only the next frame waits for a frame.
 
 use super::{
-    job::{Done, Job},
+    job::{Job, JobResult},
     renderer::Renderer,
 };
 use eddy_gpu::{Gpu, GpuError, GpuOptions, Rasteriser};
@@ -38,7 +38,7 @@ pub(crate) fn beside(window: Gpu) -> Open {
 pub(super) struct RenderThread {
     /// `None` after the last job.
     jobs: Option<Sender<Job>>,
-    results: Receiver<Done>,
+    results: Receiver<JobResult>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -53,7 +53,7 @@ impl RenderThread {
     ) -> std::io::Result<RenderThread> {
         let (jobs, queue) = channel::<Job>();
         let (sender, results) = channel();
-        let tell = move |done: Done| {
+        let tell = move |done: JobResult| {
             let is_heard = sender.send(done).is_ok();
             wake();
             is_heard
@@ -68,20 +68,20 @@ impl RenderThread {
             let mut renderer = match renderer {
                 Ok(renderer) => renderer,
                 Err(why) => {
-                    tell(Done { gave_up: Some(why), ..Done::default() });
+                    tell(JobResult { thread_error: Some(why), ..JobResult::default() });
                     return;
                 }
             };
-            if !tell(Done { restarted: Some(Ok(())), ..Done::default() }) {
+            if !tell(JobResult { restarted: Some(Ok(())), ..JobResult::default() }) {
                 return;
             }
             while let Ok(job) = queue.recv() {
                 let began = Instant::now();
-                let done = caught(|| renderer.work(job)).map(|done| Done { took: began.elapsed(), ..done });
+                let done = caught(|| renderer.work(job)).map(|done| JobResult { took: began.elapsed(), ..done });
                 let is_over = done.is_err();
-                let done = done.unwrap_or_else(|why| Done {
-                    gave_up: Some(format!("this is a bug in Eddy: {why}")),
-                    ..Done::default()
+                let done = done.unwrap_or_else(|why| JobResult {
+                    thread_error: Some(format!("this is a bug in Eddy: {why}")),
+                    ..JobResult::default()
                 });
                 if !tell(done) || is_over {
                     return;
@@ -101,8 +101,9 @@ impl RenderThread {
     }
 
     /// Returns the answer to the submitted job, if it arrives within a time.
-    pub(super) fn take(&self, within: Duration) -> Option<Done> {
-        let ended = || Some(Done { gave_up: Some("the drawing thread has ended".into()), ..Done::default() });
+    pub(super) fn take(&self, within: Duration) -> Option<JobResult> {
+        let ended =
+            || Some(JobResult { thread_error: Some("the drawing thread has ended".into()), ..JobResult::default() });
         if within.is_zero() {
             return match self.results.try_recv() {
                 Ok(done) => Some(done),

@@ -1,6 +1,6 @@
 //! The state of the engine for the open project, as its last result reported it.
 
-use super::{Done, Job, ProgramOrigin};
+use super::{Job, JobResult, ProgramOrigin};
 use crate::playback::Reach;
 use eddy_engine::{CostClock, PassCost};
 use eddy_gpu::Gpu;
@@ -111,7 +111,7 @@ impl EngineStatus {
     }
 
     /// Records the result of that job.
-    pub(crate) fn finish(&mut self, done: &mut Done) {
+    pub(crate) fn finish(&mut self, done: &mut JobResult) {
         let Submitted { program, .. } = take(&mut self.submitted);
         self.take_size(done);
         if let Some(Ok(())) = &done.program {
@@ -125,7 +125,7 @@ impl EngineStatus {
     }
 
     /// Records the size of the picture after a job, which may be of the previous project.
-    pub(crate) fn take_size(&mut self, done: &Done) {
+    pub(crate) fn take_size(&mut self, done: &JobResult) {
         if let Some((size, Ok(()))) = &done.resized {
             self.size = *size;
         }

@@ -66,7 +66,7 @@ impl Pace {
     }
 
     /// Time is paused: later frames are not measured against earlier ones.
-    pub(super) fn rest(&mut self) {
+    pub(super) fn wait_idle(&mut self) {
         (self.due, self.window) = (None, None);
     }
 
@@ -256,7 +256,7 @@ mod tests {
         }
         assert_eq!(pace.due(), Some(start + at(6000)), "it goes on from now");
         assert!(pace.speed().is_some_and(|speed| (speed - 0.25).abs() < 0.05), "{:?}", pace.speed());
-        pace.rest();
+        pace.wait_idle();
         assert_eq!(pace.due(), None);
     }
 }

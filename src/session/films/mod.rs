@@ -171,8 +171,8 @@ impl Session {
     }
 
     /// Starts a film.
-    pub(super) fn begin_film(&mut self, order: FilmOrder) {
-        self.open.settled(About::Film);
+    pub(super) fn start_film(&mut self, order: FilmOrder) {
+        self.open.dismiss_notices(About::Film);
         if self.services.films.is_busy() {
             return self.open.notice_about(
                 About::Film,
@@ -219,7 +219,7 @@ impl Session {
         self.open.end_replay("a film is recorded");
         let before = (self.open.canvas.asked, self.open.playback.clock.fixed_rate());
         if order.size != self.open.engine.size() || self.open.canvas.asked.fixed.is_none() {
-            self.open.ask_size(CanvasSize { fixed: Some(order.size), ..self.open.canvas.asked });
+            self.open.request_size(CanvasSize { fixed: Some(order.size), ..self.open.canvas.asked });
         }
         self.open.playback.clock.set_fixed_rate(Some(order.fps));
         self.services.films.ended = None;
@@ -261,7 +261,7 @@ impl Session {
         let (size, rate) = live.before;
         // The user may have chosen others meanwhile.
         if self.open.canvas.asked.fixed == Some(live.order.size) {
-            self.open.ask_size(size);
+            self.open.request_size(size);
         }
         if self.open.playback.clock.fixed_rate() == Some(live.order.fps) {
             self.open.playback.clock.set_fixed_rate(rate);
@@ -314,7 +314,7 @@ impl Session {
         let is_running = self.open.playback.is_running();
         let Some(live) = &mut self.services.films.live else { return };
         if !is_running {
-            live.pace.rest();
+            live.pace.wait_idle();
         }
         let before = live.frames();
         let fed = live.feed();
@@ -353,7 +353,7 @@ impl Session {
                 self.open.notice_with_path(About::Film, Level::Info, text, done.path.clone());
                 self.services.films.ended = Some(Ended::Done(done));
                 if closes {
-                    self.unless_unsaved(PendingAction::Close);
+                    self.ask_to_save_then(PendingAction::Close);
                 }
             }
             Err(why) => self.film_failed(why),
@@ -375,7 +375,7 @@ impl Session {
         if self.services.films.is_busy() {
             self.services.films.closes = true;
         } else {
-            self.unless_unsaved(PendingAction::Close);
+            self.ask_to_save_then(PendingAction::Close);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     Session,
-    compile::{Compiled, Done, Source},
+    compile::{CompileResult, Compiled, Source},
     drawing::{FrameControl, PendingProgram},
     open_project::OpenProject,
     view::{About, Level, Tick},
@@ -37,8 +37,8 @@ impl Session {
         self.services.recovery.keep_unsaved(&mut self.open);
         self.services.audio.hear(&mut self.open);
         self.services.controls.follow_controls(&mut self.open);
-        self.open.follow_measures();
-        self.steer_frame();
+        self.open.update_measures();
+        self.update_frame_control();
         // If a processor both draws and paints, painting the picture would be slower while another frame is drawn.
         let is_picture_new = std::mem::take(&mut self.services.display.is_new);
         self.services.display.waits_for_painting = is_picture_new && self.services.drawing.shares_processor();
@@ -53,11 +53,11 @@ impl Session {
     /// Takes a finished compile, and submits its program with its first frame before the next tick is due, so that
     /// edits are visible sooner. Nothing else is drawn. Call it when the session has woken the front end; the next tick
     /// reports the changes.
-    pub fn attend(&mut self, now: Instant) {
+    pub fn on_wake(&mut self, now: Instant) {
         self.open.host.now = now;
         self.services.display.has_drawn |= self.take_drawn(false);
         self.take_compiled();
-        self.steer_frame();
+        self.update_frame_control();
         if self.open.changes.program.is_some() || self.open.picture.is_program_new {
             self.open.fit_canvas();
             self.services.display.has_drawn |= self.draw_due_frames(false);
@@ -73,11 +73,11 @@ impl Session {
     }
 
     /// Makes the frame that is being drawn wait for the newest text, and abandons it for that text's program.
-    fn steer_frame(&self) {
-        self.services.drawing.steer(match self.open.gives_way_until() {
-            _ if self.open.changes.program.is_some() => FrameControl::GiveUp,
+    fn update_frame_control(&self) {
+        self.services.drawing.set_frame_control(match self.open.compile_wait_end() {
+            _ if self.open.changes.program.is_some() => FrameControl::Abandon,
             Some(until) => FrameControl::WaitUntil(until),
-            None => FrameControl::GoOn,
+            None => FrameControl::Continue,
         });
     }
 
@@ -85,7 +85,8 @@ impl Session {
     /// compile, or its first frame is being drawn.
     pub fn is_first_frame_coming(&self) -> bool {
         let is_drawn = self.services.drawing.is_busy() && !self.open.halt.is_held();
-        self.open.gives_way() || (is_drawn && (self.open.is_program_coming() || self.open.picture.is_program_new))
+        self.open.is_waiting_for_compile()
+            || (is_drawn && (self.open.is_program_coming() || self.open.picture.is_program_new))
     }
 
     fn wake_at(&self) -> Option<Instant> {
@@ -93,14 +94,15 @@ impl Session {
             self.open.playback.is_running() && self.open.engine.has_program() && !self.open.halt.is_device_gone();
         // The end of a frame in progress wakes the session.
         let is_busy = self.services.drawing.is_busy() || self.services.display.waits_for_painting;
-        let is_held = self.open.halt.is_halted() || is_busy || self.open.gives_way();
+        let is_held = self.open.halt.is_halted() || is_busy || self.open.is_waiting_for_compile();
         let is_next_due = is_running && !is_held;
         // A frame of a recording may become due only after the previous picture was painted, and nothing else wakes the
         // session.
-        let is_free = !self.open.halt.is_halted() && !self.services.drawing.is_busy() && !self.open.gives_way();
+        let is_free =
+            !self.open.halt.is_halted() && !self.services.drawing.is_busy() && !self.open.is_waiting_for_compile();
         let replayed = self.open.playback.replay_due(self.open.host.now).filter(|_| is_running && is_free);
         let is_next_due = is_next_due && !self.open.playback.is_replaying();
-        let resumes = self.open.gives_way_until().filter(|_| is_running);
+        let resumes = self.open.compile_wait_end().filter(|_| is_running);
         let (drawing, sound) = (self.drawing_deadline(), self.services.sound_pass.sound_deadline());
         let deadlines = [
             self.open.compile.edits.deadline(),
@@ -121,26 +123,26 @@ impl Session {
             project,
             shown,
             opened: self.open.disk.opened(),
-            probe: self.open.read_backs.probing.order(),
+            probe: self.open.read_backs.probe.order(),
             camera: self.open.devices.camera().cloned(),
         };
         if let Some(job) = self.open.compile.due_job(self.open.host.now, source) {
-            self.open.host.changed |= !job.is_look;
+            self.open.host.changed |= !job.is_check_only;
             self.services.compiler.start(job);
         }
     }
 
     fn take_compiled(&mut self) {
         let Some(result) = self.services.compiler.take() else { return };
-        self.open.compile.receive(matches!(result, Ok(Done { compiled: None, .. })));
+        self.open.compile.receive(matches!(result, Ok(CompileResult { compiled: None, .. })));
         let compiled = match result {
-            Ok(Done { files, is_changed, includes, compiled }) => {
+            Ok(CompileResult { files, is_changed, includes, compiled }) => {
                 let has_new_files = self.open.disk.set_media_files(files) | includes.is_some();
                 if let Some((edit, includes)) = includes {
                     self.open.take_includes(includes, edit);
                 }
                 if has_new_files {
-                    self.open.watch_what_is_read();
+                    self.open.watch_folders();
                 }
                 if is_changed {
                     self.open.compile_soon();
@@ -193,10 +195,10 @@ impl Session {
         self.open.forget_old_names(&project);
         self.open.changes.program = Some(PendingProgram::new(program, project, millis));
         // They may have been set while it was being compiled.
-        self.open.custom_uniforms_turned();
-        self.open.read_backs.probing.built(probe);
+        self.open.custom_uniforms_changed();
+        self.open.read_backs.probe.built(probe);
         self.open.changes.shown = Some(self.open.pictured());
-        self.open.changes.look = self.open.read_backs.probing.take_look(true);
+        self.open.changes.look = self.open.read_backs.probe.take_look(true);
         self.open.compile.set_compiling(self.open.is_compile_under_way());
     }
 
@@ -208,18 +210,18 @@ impl Session {
     }
 
     /// Reports an error of the graphics layer that no caller was waiting for. Reported once, however often it occurs.
-    pub fn tell_of(&mut self, error: &GpuError) {
+    pub fn report_gpu_error(&mut self, error: &GpuError) {
         self.open.notice_once(About::Window, Level::Error, &error.to_string());
     }
 }
 
 impl OpenProject {
     /// Returns whether the newest text is being compiled and likely to be done soon, judging by the previous compile.
-    pub(super) fn gives_way(&self) -> bool {
-        self.gives_way_until().is_some()
+    pub(super) fn is_waiting_for_compile(&self) -> bool {
+        self.compile_wait_end().is_some()
     }
 
-    fn gives_way_until(&self) -> Option<Instant> {
+    fn compile_wait_end(&self) -> Option<Instant> {
         self.compile.holds_frames_until(self.host.now)
     }
 

@@ -86,7 +86,7 @@ fn graphics_errors_are_reported_once() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = Session::new(gpu, Arc::new(|| ())).unwrap();
     for _ in 0..3 {
-        session.tell_of(&GpuError::Refused { what: "the window".into(), reason: "planted".into() });
+        session.report_gpu_error(&GpuError::Refused { what: "the window".into(), reason: "planted".into() });
     }
     assert_eq!(session.notices().iter().filter(|n| n.text.contains("planted")).count(), 1);
 }
@@ -133,9 +133,9 @@ fn slower_compile_than_expected_blocks_no_frames() {
     session.open.compile.expect(Duration::ZERO);
     session.open.host.now = began;
     session.open.compile.set_newest_since(Some(began));
-    assert!(session.open.gives_way() && session.wake_at().is_some_and(|at| at <= began + BRIEF));
+    assert!(session.open.is_waiting_for_compile() && session.wake_at().is_some_and(|at| at <= began + BRIEF));
     session.open.host.now = began + BRIEF;
-    assert!(!session.open.gives_way());
+    assert!(!session.open.is_waiting_for_compile());
 }
 
 #[test]
@@ -184,14 +184,14 @@ fn frame_waits_for_newest_text_and_is_abandoned_for_its_program() {
     session.open.compile.set_newest_since(None);
     session.open.compile.expect(Duration::ZERO);
     let control = |session: &Session| {
-        session.steer_frame();
+        session.update_frame_control();
         session.services.drawing.frame_control().unwrap()
     };
-    assert_eq!(control(&session), FrameControl::GoOn);
+    assert_eq!(control(&session), FrameControl::Continue);
     session.open.compile.set_newest_since(Some(now));
     assert_eq!(control(&session), FrameControl::WaitUntil(now + BRIEF));
     session.open.host.now = now + BRIEF;
-    assert_eq!(control(&session), FrameControl::GoOn, "it is no longer a compile that is not felt");
+    assert_eq!(control(&session), FrameControl::Continue, "it is no longer a compile that is not felt");
     session.open.compile.set_newest_since(None);
     // For a text with a valid program, the previous frame is abandoned as soon as the program is available.
     let tab = Tab::image();
@@ -204,24 +204,24 @@ fn frame_waits_for_newest_text_and_is_abandoned_for_its_program() {
         session.start_compile();
         session.take_compiled();
     }
-    assert_eq!(control(&session), FrameControl::GiveUp);
+    assert_eq!(control(&session), FrameControl::Abandon);
     let before = session.services.display.programs_drawn;
     tick_until(&mut session, "the program's first frame", |s| s.services.display.programs_drawn > before);
-    assert_eq!(session.services.drawing.frame_control(), Some(FrameControl::GoOn), "what comes after it is drawn");
+    assert_eq!(session.services.drawing.frame_control(), Some(FrameControl::Continue), "what comes after it is drawn");
 }
 
 #[test]
 fn first_frame_and_paused_frames_do_not_wait() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = open_apart(gpu);
-    tick_until(&mut session, "a frame that nothing else goes with", |s| s.open.is_one_of_many());
+    tick_until(&mut session, "a frame that nothing else goes with", |s| s.open.frame_may_be_dropped());
     session.open.picture.is_program_new = true;
-    assert!(!session.open.is_one_of_many(), "the first one");
+    assert!(!session.open.frame_may_be_dropped(), "the first one");
     session.open.picture.is_program_new = false;
-    assert!(session.open.is_one_of_many());
+    assert!(session.open.frame_may_be_dropped());
     session.open.changes.reset = true;
-    assert!(!session.open.is_one_of_many(), "a change goes with it");
+    assert!(!session.open.frame_may_be_dropped(), "a change goes with it");
     session.open.changes.reset = false;
     session.apply(Command::Pause);
-    assert!(!session.open.is_one_of_many(), "time stands");
+    assert!(!session.open.frame_may_be_dropped(), "time stands");
 }

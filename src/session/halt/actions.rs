@@ -3,14 +3,14 @@
 use super::{HaltControl, OverdueAction, Verdict};
 use crate::{
     Session,
-    drawing::{Changes, ProgramOrigin},
+    drawing::{PendingChanges, ProgramOrigin},
     open_project::OpenProject,
     view::{About, Halt, Level},
 };
 use std::time::{Duration, Instant};
 
 /// The maximum wait at exit for a frame that is being drawn.
-const FAREWELL: Duration = Duration::from_millis(500);
+const EXIT_TIMEOUT: Duration = Duration::from_millis(500);
 
 impl Session {
     /// Checks whether a frame has been drawn for too long.
@@ -25,19 +25,19 @@ impl Session {
             OverdueAction::MakeRoom => {
                 let lost = self.services.drawing.lost_threads();
                 if HaltControl::may_take_device(self.open.host.now, self.open.compile.edited_at, lost) {
-                    self.start_anew();
+                    self.replace_device();
                     self.open.end_halt_of_frame();
                     self.open.compile_soon();
                 }
             }
-            OverdueAction::GiveUp => self.give_up_frame(age),
+            OverdueAction::AbandonDevice => self.abandon_frame(age),
         }
     }
 
-    fn give_up_frame(&mut self, age: Duration) {
+    fn abandon_frame(&mut self, age: Duration) {
         let secs = age.as_secs_f64().round();
-        self.open.halt.give_up_frame();
-        self.start_anew();
+        self.open.halt.abandon_frame();
+        self.replace_device();
         let is_good = self.open.fall_back(&format!(
             "a frame of this code did not finish within {secs} s, and its GPU device was dropped; change the code, or \
              compile again to retry"
@@ -62,11 +62,11 @@ impl Session {
         self.open
             .halt
             .overdue(self.open.host.now, self.services.drawing.draws_since())
-            .filter(|_| self.services.drawing.is_apart())
+            .filter(|_| self.services.drawing.is_on_thread())
     }
 
     /// Abandons the drawing device with its threads, and opens a new one. It has no program yet.
-    fn start_anew(&mut self) {
+    fn replace_device(&mut self) {
         if let Err(e) = self.services.drawing.restart_thread(self.open.host.now, self.open.engine.size()) {
             self.open.halt.lose_device();
             self.open.notice_about(
@@ -77,7 +77,7 @@ impl Session {
             return;
         }
         self.open.engine = self.open.engine.successor();
-        self.open.changes = Changes::default();
+        self.open.changes = PendingChanges::default();
         self.open.compile.change_compiler();
         let (device, options, wake) =
             (self.services.drawing.device(), &self.open.host.options, self.open.host.wake.clone());
@@ -94,7 +94,7 @@ impl Session {
     }
 
     /// Handles the loss of the device, or a panic of the drawing thread.
-    pub(crate) fn engine_is_gone(&mut self, why: &str) {
+    pub(crate) fn on_device_lost(&mut self, why: &str) {
         self.film_lost_device();
         let is_again = self.open.halt.device_is_lost(self.open.host.now, self.open.compile.edited_at);
         if is_again {
@@ -106,7 +106,7 @@ impl Session {
             );
             return;
         }
-        self.start_anew();
+        self.replace_device();
         if self.open.halt.is_new() {
             self.open.fall_back(&format!("the GPU device was lost in the first frame of this code ({why})"));
         } else {
@@ -128,7 +128,7 @@ impl Session {
         self.open.canvas.shrink(factor);
         self.open.end_halt();
         if is_overdue {
-            self.start_anew();
+            self.replace_device();
             self.open.compile_soon();
         }
         self.open.resume();
@@ -142,7 +142,7 @@ impl Session {
         let limit = self.open.halt.limit().as_secs_f64();
         self.open.end_halt();
         if is_overdue {
-            self.start_anew();
+            self.replace_device();
         } else {
             self.open.engine.drop_program();
         }
@@ -156,7 +156,7 @@ impl Session {
     /// Records the time of a drawn frame.
     pub(crate) fn frame_took(&mut self, took: Duration) {
         let newest = self.open.engine.project().filter(|_| self.open.engine.is_newest_program());
-        match self.open.halt.frame_took(took, newest, self.services.drawing.is_apart()) {
+        match self.open.halt.frame_took(took, newest, self.services.drawing.is_on_thread()) {
             Verdict::Halt(halt) => self.open.halt_with(halt),
             Verdict::EndHalt => {
                 self.open.end_halt();
@@ -169,11 +169,11 @@ impl Session {
     /// Waits briefly for the frame in progress. Returns whether drawing threads are hung: only the end of the process
     /// ends them.
     pub fn end(&mut self) -> bool {
-        let has_lost = !self.open.comparison.background.end(FAREWELL)
-            | self.services.sound_pass.end(FAREWELL)
-            | self.services.films.end(FAREWELL)
-            | !self.services.closing.end(FAREWELL);
-        !self.services.drawing.rest(FAREWELL) || self.services.drawing.lost_threads() > 0 || has_lost
+        let has_lost = !self.open.comparison.background.end(EXIT_TIMEOUT)
+            | self.services.sound_pass.end(EXIT_TIMEOUT)
+            | self.services.films.end(EXIT_TIMEOUT)
+            | !self.services.closing.end(EXIT_TIMEOUT);
+        !self.services.drawing.wait_idle(EXIT_TIMEOUT) || self.services.drawing.lost_threads() > 0 || has_lost
     }
 }
 
@@ -195,7 +195,7 @@ impl OpenProject {
         let Some(halt) = self.halt.end() else { return };
         self.host.changed = true;
         match halt {
-            Halt::Forecast { .. } => self.playback.is_again_due = true,
+            Halt::Forecast { .. } => self.playback.is_redraw_due = true,
             Halt::Opened { .. } => _ = self.compile.set_compiling(self.is_compile_under_way()),
             Halt::Drawing { .. } | Halt::Drawn { .. } => {}
         }
@@ -216,7 +216,7 @@ impl OpenProject {
         }
     }
 
-    pub(crate) fn go_on_drawing(&mut self) {
+    pub(crate) fn continue_drawing(&mut self) {
         self.halt.allow_more(self.host.now);
         self.end_halt();
         self.resume();
@@ -243,7 +243,7 @@ impl OpenProject {
     pub(crate) fn mark_new_code(&mut self) {
         let origin = self.changes.program.as_ref().and_then(|coming| coming.origin.as_ref());
         let newest = origin.filter(|origin| origin.millis.is_some()).map(|ProgramOrigin { project, .. }| project);
-        self.halt.begin_code(newest);
+        self.halt.on_new_code(newest);
     }
 
     pub(crate) fn halt_for_new_program(&mut self, forecast: Option<Duration>) {
@@ -255,7 +255,7 @@ impl OpenProject {
 
     /// Holds a newly opened project if it hung or crashed the process last time.
     pub(crate) fn hold_after_trouble(&mut self) {
-        if self.halt.finds_trouble_of(self.documents.current()) {
+        if self.halt.found_marker_of(self.documents.current()) {
             self.hold_after(true);
         }
     }
@@ -276,11 +276,11 @@ impl OpenProject {
 impl Drop for Session {
     /// Waits briefly for a frame, but not at all for a hung device.
     fn drop(&mut self) {
-        self.open.comparison.background.end(FAREWELL);
-        self.services.closing.end(FAREWELL);
-        self.services.sound_pass.end(FAREWELL);
-        self.services.films.end(FAREWELL);
-        if !self.services.drawing.rest(FAREWELL) {
+        self.open.comparison.background.end(EXIT_TIMEOUT);
+        self.services.closing.end(EXIT_TIMEOUT);
+        self.services.sound_pass.end(EXIT_TIMEOUT);
+        self.services.films.end(EXIT_TIMEOUT);
+        if !self.services.drawing.wait_idle(EXIT_TIMEOUT) {
             self.services.compiler.leave();
             return;
         }

@@ -18,9 +18,9 @@ use std::{
 };
 
 /// A device that is still drawing a frame is abandoned after this many frame limits.
-const GIVE_UP: u32 = 5;
+const ABANDON_AFTER: u32 = 5;
 /// The same for new code, which drivers compile in its first frame: many passes take seconds on a busy processor.
-const GIVE_UP_NEW: u32 = 15;
+const ABANDON_NEW_AFTER: u32 = 15;
 /// A frame that the user allows to continue may take this many limits, or this many times what it has taken.
 const ALLOWED_LIMITS: u32 = 5;
 const ALLOWED_TIMES: u32 = 3;
@@ -67,7 +67,7 @@ pub(super) enum OverdueAction {
     Wait,
     /// Newer code gets the device of the old code, if it may take it yet.
     MakeRoom,
-    GiveUp,
+    AbandonDevice,
 }
 
 impl HaltControl {
@@ -91,7 +91,7 @@ impl HaltControl {
     }
 
     /// Returns whether a project hung or crashed the process when it was last open.
-    pub(crate) fn finds_trouble_of(&mut self, project: &Project) -> bool {
+    pub(crate) fn found_marker_of(&mut self, project: &Project) -> bool {
         self.marker.find(project)
     }
 
@@ -165,7 +165,7 @@ impl HaltControl {
     }
 
     /// Resets the statistics: frames of other code or another canvas take a different time.
-    pub(crate) fn begin_pace(&mut self) {
+    pub(crate) fn reset_pace(&mut self) {
         self.pace.begin();
     }
 
@@ -206,14 +206,14 @@ impl HaltControl {
     pub(crate) fn judge_overdue(&self, age: Duration, is_newer_wanted: bool) -> OverdueAction {
         match () {
             () if is_newer_wanted => OverdueAction::MakeRoom,
-            () if age >= self.patience() => OverdueAction::GiveUp,
+            () if age >= self.patience() => OverdueAction::AbandonDevice,
             () => OverdueAction::Wait,
         }
     }
 
     /// The time after which a device that is still drawing a frame is abandoned.
     fn patience(&self) -> Duration {
-        self.limit() * if self.is_new { GIVE_UP_NEW } else { GIVE_UP }
+        self.limit() * if self.is_new { ABANDON_NEW_AFTER } else { ABANDON_AFTER }
     }
 
     /// Returns when to judge the frame in progress next.
@@ -240,7 +240,7 @@ impl HaltControl {
     }
 
     /// Records that a frame of the current program hangs. Code that was good until now would hang again.
-    pub(crate) fn give_up_frame(&mut self) {
+    pub(crate) fn abandon_frame(&mut self) {
         if !self.is_new {
             self.good = None;
         }
@@ -260,7 +260,7 @@ impl HaltControl {
     }
 
     /// Code is about to reach the device. `project`: set if it is of the newest text.
-    pub(crate) fn begin_code(&mut self, project: Option<&Project>) {
+    pub(crate) fn on_new_code(&mut self, project: Option<&Project>) {
         if let Some(project) = project {
             self.marker.set(project);
         }
@@ -329,9 +329,9 @@ mod tests {
         let age = control.overdue(at(10), Some(since)).unwrap();
         assert_eq!(
             [true, false].map(|newer| control.judge_overdue(age, newer)),
-            [OverdueAction::MakeRoom, OverdueAction::GiveUp]
+            [OverdueAction::MakeRoom, OverdueAction::AbandonDevice]
         );
-        control.begin_code(None);
+        control.on_new_code(None);
         assert_eq!(control.judge_overdue(age, false), OverdueAction::Wait);
         assert_eq!(control.deadline(at(0), Some(since), false), Some(at(2)));
         control.start(Halt::Drawing { limit: LIMIT, since }, true, None);

@@ -13,7 +13,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Measuring takes at most one part in this many of the time: each read-back waits for the device.
+/// Measurements takes at most one part in this many of the time: each read-back waits for the device.
 const SHARE: u32 = 20;
 
 /// A measuring comment, and its number over time.
@@ -72,7 +72,7 @@ pub(super) struct Measured {
 }
 
 #[derive(Default)]
-pub(crate) struct Measuring {
+pub(crate) struct Measurements {
     measures: Vec<Measure>,
     /// The state of the project when the comments were read.
     read_at: Option<(u64, u64)>,
@@ -91,7 +91,7 @@ pub(crate) struct Measuring {
     pub(super) ticket: Ticket<Option<Measured>>,
 }
 
-impl Measuring {
+impl Measurements {
     /// The measurements of another project, whose comments may have the same texts.
     pub(crate) fn successor(&self) -> Self {
         Self { next_serial: self.next_serial, count: self.count, ..Self::default() }
@@ -158,7 +158,7 @@ impl Measuring {
     }
 
     /// The shown frame is drawn again: it is measured again.
-    pub(crate) fn draw_again(&mut self, frame: i32) {
+    pub(crate) fn redraw(&mut self, frame: i32) {
         self.measures.iter_mut().for_each(|measure| measure.record.keep_before(frame));
         self.is_due = true;
     }
@@ -189,7 +189,7 @@ impl Measuring {
     }
 }
 
-impl ReadBack for Measuring {
+impl ReadBack for Measurements {
     fn request(&mut self, at: &Moment, tasks: &mut Tasks) {
         if let Some(task) = self.due(at.now, at.has_frame, at.is_playing || at.is_seeking) {
             self.ticket = tasks.add(task);

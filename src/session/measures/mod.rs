@@ -8,7 +8,7 @@ mod measuring;
 mod record;
 
 pub use measuring::Measure;
-pub(super) use measuring::Measuring;
+pub(super) use measuring::Measurements;
 pub use record::{Cell, MOST, Record, Sample};
 
 use super::{
@@ -38,18 +38,18 @@ impl OpenProject {
     /// Every measuring comment of the project, with its samples while it was watched
     /// ([`Command::WatchMeasures`](super::Command::WatchMeasures)).
     pub(crate) fn measures(&self) -> &[Measure] {
-        self.read_backs.measuring.measures()
+        self.read_backs.measurements.measures()
     }
 
     /// Updates the comments after edits.
-    pub(super) fn follow_measures(&mut self) {
+    pub(super) fn update_measures(&mut self) {
         let state = (self.disk.opened(), self.documents.revision());
-        self.host.changed |= self.read_backs.measuring.follow(self.documents.current(), state);
+        self.host.changed |= self.read_backs.measurements.follow(self.documents.current(), state);
     }
 
     /// Writes the measured values to a new file next to the pictures.
     pub(super) fn save_measures(&mut self) {
-        let measures = self.read_backs.measuring.measures();
+        let measures = self.read_backs.measurements.measures();
         if measures.iter().all(|measure| measure.record.newest().is_none()) {
             self.notice_about(About::Capture, Level::Warning, "nothing to save: nothing has been measured yet");
             return;

@@ -133,7 +133,7 @@ fn project(image: &str) -> Project {
 }
 
 /// The comments, each with its line.
-fn summaries(measuring: &Measuring) -> Vec<(u64, &str, usize, bool)> {
+fn summaries(measuring: &Measurements) -> Vec<(u64, &str, usize, bool)> {
     measuring
         .measures()
         .iter()
@@ -142,7 +142,7 @@ fn summaries(measuring: &Measuring) -> Vec<(u64, &str, usize, bool)> {
 }
 
 /// Draws a frame, and measures what is due.
-fn draw(measuring: &mut Measuring, frame: i32, now: Instant, is_running: bool) -> Option<usize> {
+fn draw(measuring: &mut Measurements, frame: i32, now: Instant, is_running: bool) -> Option<usize> {
     measuring.begin_frame(frame);
     let wanted = measuring.due(now, true, is_running).map(|wanted| wanted.0);
     if let Some(wanted) = &wanted {
@@ -156,7 +156,7 @@ fn draw(measuring: &mut Measuring, frame: i32, now: Instant, is_running: bool) -
 
 #[test]
 fn record_is_kept_until_the_text_of_its_comment_changes() {
-    let (mut measuring, now) = (Measuring::default(), Instant::now());
+    let (mut measuring, now) = (Measurements::default(), Instant::now());
     measuring.follow(&project("//@probe max(image.x)\n//@probe min(image)\n"), (1, 1));
     measuring.watch(vec![1, 2]);
     draw(&mut measuring, 0, now, false);
@@ -178,7 +178,7 @@ fn record_is_kept_until_the_text_of_its_comment_changes() {
 
 #[test]
 fn unmeasurable_comments_have_a_reason_and_are_not_requested() {
-    let (mut measuring, now) = (Measuring::default(), Instant::now());
+    let (mut measuring, now) = (Measurements::default(), Instant::now());
     let text = "//@probe total(image)\n//@probe sum(buffer_q)\n//@probe max(image:2)\n//@probe max(image)\n";
     measuring.follow(&project(text), (1, 1));
     let why = |at: usize| measuring.measures()[at].quantity.clone().unwrap_err();
@@ -194,7 +194,7 @@ fn unmeasurable_comments_have_a_reason_and_are_not_requested() {
 
 #[test]
 fn only_watched_comments_are_measured_within_the_time_share() {
-    let (mut measuring, now) = (Measuring::default(), Instant::now());
+    let (mut measuring, now) = (Measurements::default(), Instant::now());
     measuring.follow(&project("//@probe max(image.x)\n//@probe min(image)\n"), (1, 1));
     assert_eq!(draw(&mut measuring, 0, now, true), None);
     measuring.watch(vec![2]);
@@ -216,10 +216,11 @@ fn only_watched_comments_are_measured_within_the_time_share() {
 
 #[test]
 fn reset_or_seek_back_truncates_the_record() {
-    let (mut measuring, now) = (Measuring::default(), Instant::now());
+    let (mut measuring, now) = (Measurements::default(), Instant::now());
     measuring.follow(&project("//@probe max(image.x)\n"), (1, 1));
     measuring.watch(vec![1]);
-    let frames = |measuring: &Measuring| measuring.measures()[0].record.samples().map(|s| s.frame).collect::<Vec<_>>();
+    let frames =
+        |measuring: &Measurements| measuring.measures()[0].record.samples().map(|s| s.frame).collect::<Vec<_>>();
     (0..6).for_each(|frame| assert!(draw(&mut measuring, frame, now, false).is_some()));
     measuring.go_to(3);
     assert_eq!(frames(&measuring), [0, 1, 2, 3]);
@@ -237,7 +238,7 @@ fn reset_or_seek_back_truncates_the_record() {
 
 #[test]
 fn a_table_has_a_row_for_each_frame() {
-    let mut measuring = Measuring::default();
+    let mut measuring = Measurements::default();
     let text = "//@probe max(image.x)\n//@probe total(image)\n//@probe min(image)\n//@probe min(image)\n";
     measuring.follow(&project(text), (1, 1));
     let mut measured = |frame: i32, values: &[(u64, Option<f64>)]| {

@@ -43,7 +43,7 @@ pub(crate) struct Playback {
     /// A frame must be drawn even if time is paused.
     pub is_frame_due: bool,
     /// The shown frame must be drawn again: the code, the canvas or a value has changed since.
-    pub is_again_due: bool,
+    pub is_redraw_due: bool,
     /// The picture is not visible.
     is_covered: bool,
 }
@@ -85,7 +85,7 @@ impl Playback {
 
     /// Returns whether no frame is to be drawn.
     pub(crate) fn is_settled(&self) -> bool {
-        !self.is_running() && !self.is_frame_due && !self.is_again_due && self.steps == 0
+        !self.is_running() && !self.is_frame_due && !self.is_redraw_due && self.steps == 0
     }
 
     /// Returns whether a frame has been drawn since the reset.
@@ -166,12 +166,12 @@ impl Playback {
     }
 
     pub(crate) fn forget_due_frames(&mut self) {
-        (self.is_frame_due, self.is_again_due) = (false, false);
+        (self.is_frame_due, self.is_redraw_due) = (false, false);
     }
 
     /// Returns whether the shown frame is to be drawn again now, once: no other is due.
-    pub(crate) fn take_again(&mut self) -> bool {
-        self.is_still() && take(&mut self.is_again_due)
+    pub(crate) fn take_redraw(&mut self) -> bool {
+        self.is_still() && take(&mut self.is_redraw_due)
     }
 
     /// Returns the inputs of the frame that is due. `may_run`: a frame of the running picture may be drawn.
@@ -183,7 +183,7 @@ impl Playback {
                 return None;
             }
             self.clock.running_frame(now)
-        } else if self.is_frame_due || (self.is_again_due && !self.has_drawn()) {
+        } else if self.is_frame_due || (self.is_redraw_due && !self.has_drawn()) {
             self.clock.forced_frame()
         } else {
             return None;

@@ -1,6 +1,6 @@
 //! Records the inputs of drawn frames.
 
-use crate::drawing::Changes;
+use crate::drawing::PendingChanges;
 use eddy_engine::FrameInputs;
 use eddy_playback::recording::{RecordedFrame, Recording};
 use eddy_project::CustomUniformValues;
@@ -22,7 +22,13 @@ impl Recorder {
 
     /// Records a job for the engine: its changes, the resulting canvas size, and its frame, or that it draws the last
     /// one again.
-    pub(crate) fn note(&mut self, changes: &Changes, size: (u32, u32), frame: Option<&FrameInputs>, again: bool) {
+    pub(crate) fn note(
+        &mut self,
+        changes: &PendingChanges,
+        size: (u32, u32),
+        frame: Option<&FrameInputs>,
+        again: bool,
+    ) {
         self.is_reset |= changes.reset;
         if let Some(values) = &changes.custom_uniforms {
             self.values.clone_from(values);

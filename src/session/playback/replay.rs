@@ -267,7 +267,7 @@ impl Playback {
         let (frame, change) = playing.take(now)?;
         let is_last = playing.is_over();
         self.replay.follows = true;
-        self.is_again_due = false;
+        self.is_redraw_due = false;
         let inputs = &frame.inputs;
         self.clock.draw(inputs.frame, inputs.time_secs, inputs.frame_rate);
         Some(ReplayedFrame { frame, change, is_last })

@@ -18,7 +18,7 @@ pub(crate) enum SeekTarget {
     /// The last frame whose `iTime` is at most this, in seconds, or the first that can be shown.
     Time(f64),
     /// The same as `Frame`, with a new program: every frame is drawn again from the run's start.
-    Anew(u64),
+    Redraw(u64),
 }
 
 /// The range of frames for seeking.
@@ -59,7 +59,7 @@ pub(crate) struct Seeking {
     /// The project has just been opened: its first program seeks there.
     pub awaits_program: bool,
     /// The frames up to where the project was closed are being drawn.
-    pub is_taking_up: bool,
+    pub is_restoring: bool,
     /// `iTime` up to which frames are drawn at a fixed step, once the goal is reached.
     pub until: Option<f64>,
     /// The picture plays after that.
@@ -74,7 +74,7 @@ impl Seeking {
     /// Ends a seek at its current position.
     pub(crate) fn cancel(&mut self) {
         (self.goal, self.is_under_way, self.until, self.resumes) = (None, false, None, false);
-        (self.awaits_program, self.is_taking_up) = (false, false);
+        (self.awaits_program, self.is_restoring) = (false, false);
     }
 
     pub(crate) fn is_seeking(&self) -> bool {
@@ -135,12 +135,12 @@ impl Playback {
     }
 
     /// Draws all frames since the reset again, up to the one with this number.
-    pub(crate) fn draw_anew(&mut self, shown: u64) {
+    pub(crate) fn redraw_run(&mut self, shown: u64) {
         let resumes = self.is_playing();
         self.seeking.cancel();
         self.clock.pause();
         self.forget_due_frames();
-        self.seeking.goal = Some(SeekTarget::Anew(shown));
+        self.seeking.goal = Some(SeekTarget::Redraw(shown));
         self.seeking.resumes = resumes;
     }
 
@@ -173,7 +173,7 @@ impl Playback {
             return false;
         }
         // With its own canvas size the picture was different.
-        self.is_again_due = travelled.is_display_new;
+        self.is_redraw_due = travelled.is_display_new;
         self.arrive();
         true
     }
@@ -195,7 +195,7 @@ impl Playback {
     }
 
     fn arrive(&mut self) {
-        self.seeking.is_taking_up = false;
+        self.seeking.is_restoring = false;
         if self.seeking.until.is_none() && take(&mut self.seeking.resumes) {
             self.resume();
         }

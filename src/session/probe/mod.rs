@@ -78,7 +78,7 @@ pub struct ProbeNumbers {
 
 /// The current probe, if there is one.
 #[derive(Default)]
-pub(super) struct Probing {
+pub(super) struct ProbeState {
     wanted: Option<ProbeRequest>,
     /// The value in the running program.
     built: Option<Result<ProbedValue, String>>,
@@ -121,7 +121,7 @@ impl RenderTask for ReadNumbers {
     }
 }
 
-impl Probing {
+impl ProbeState {
     /// Sets the probed expression, or none. Returns whether the program must be rebuilt.
     pub(crate) fn want(&mut self, place: Option<ProbePlace>, project: &Project) -> bool {
         let is_new = place.as_ref() != self.wanted.as_ref().map(|wanted| &wanted.place);
@@ -222,7 +222,7 @@ impl Probing {
     }
 }
 
-impl ReadBack for Probing {
+impl ReadBack for ProbeState {
     fn request(&mut self, at: &Moment, tasks: &mut Tasks) {
         if let Some(task) = self.due(at.now, at.is_playing) {
             self.ticket = tasks.add(task);

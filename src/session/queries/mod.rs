@@ -85,7 +85,7 @@ impl Session {
     }
 
     /// Counts the shaders created by [`Command::New`](super::Command::New).
-    pub fn begun(&self) -> u64 {
+    pub fn new_shader_count(&self) -> u64 {
         self.open.host.new_shader_count
     }
 
@@ -182,7 +182,7 @@ impl Session {
     /// Returns the value that is drawn instead of the picture, if requested: see
     /// [`Command::Probe`](super::Command::Probe).
     pub fn probe(&self) -> Option<ProbeView<'_>> {
-        self.open.read_backs.probing.view()
+        self.open.read_backs.probe.view()
     }
 
     pub fn shown_pass(&self) -> &PassName {
@@ -243,7 +243,7 @@ impl OpenProject {
 
     /// Returns the pass that the display shows: the shown pass, or that of a probed value.
     pub(super) fn pictured(&self) -> PassName {
-        if self.read_backs.probing.is_drawn() { BuildOptions::probed() } else { self.picture.shown.clone() }
+        if self.read_backs.probe.is_drawn() { BuildOptions::probed() } else { self.picture.shown.clone() }
     }
 
     pub(crate) fn text(&self, tab: &Tab) -> &str {

@@ -49,7 +49,7 @@ impl Session {
 
     /// Returns how many frames have been measured since the session started.
     pub fn measured_frames(&self) -> u64 {
-        self.open.read_backs.measuring.count()
+        self.open.read_backs.measurements.count()
     }
 
     /// Returns why nothing is measured for a comment. The reason for a pass that is not drawn is known while costs are

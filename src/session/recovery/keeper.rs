@@ -202,7 +202,7 @@ impl Keeper {
 
     fn scan(&mut self) {
         replaced::sweep(&self.folder, SystemTime::now());
-        let slots = match Slot::left_behind(&self.folder) {
+        let slots = match Slot::left_over(&self.folder) {
             Ok(slots) => slots,
             Err(e) => return self.report_failure("looked for", Err(e)),
         };

@@ -44,7 +44,7 @@ impl Slot {
     }
 
     /// Returns every slot whose process has ended; this process owns them from now on.
-    pub(super) fn left_behind(folder: &Path) -> io::Result<Vec<Slot>> {
+    pub(super) fn left_over(folder: &Path) -> io::Result<Vec<Slot>> {
         let entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
             Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),

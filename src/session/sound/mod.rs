@@ -61,7 +61,7 @@ struct Source {
     /// The texts of the pass, of Common, and of all included files.
     texts: Vec<Arc<str>>,
     bindings: Bindings,
-    /// The addresses of their texels, which [`Sounding::kept`] keeps alive.
+    /// The addresses of their texels, which [`SoundPass::kept`] keeps alive.
     texels: Vec<Option<usize>>,
     values: CustomUniformValues,
 }
@@ -167,7 +167,7 @@ impl Shared {
 }
 
 /// The sound of the open project.
-pub(super) struct Sounding {
+pub(super) struct SoundPass {
     /// `None` until there is a sound pass, and after one was abandoned.
     thread: Option<Background<Order, (), ()>>,
     open: Open,
@@ -205,7 +205,7 @@ pub struct SoundView {
     pub trouble: Option<String>,
 }
 
-impl Sounding {
+impl SoundPass {
     pub(crate) fn new(open: Open, rasteriser: Rasteriser, wake: Wake) -> Self {
         Self {
             thread: None,
@@ -371,7 +371,7 @@ impl Session {
     }
 }
 
-impl Sounding {
+impl SoundPass {
     /// Returns the track of the sound pass and its revision, which grows with each new track; `None` if there is no
     /// sound pass that compiles. Blocks of the track may still be missing.
     pub(crate) fn sound_track(&self) -> Option<(u64, Arc<Track>)> {
@@ -419,7 +419,7 @@ mod tests {
     #[test]
     fn hung_step_is_abandoned_and_finished_blocks_stay() {
         let open: Open = Arc::new(|| panic!("no device is asked for"));
-        let mut sounding = Sounding::new(open, Rasteriser::GPU, Arc::new(|| ()));
+        let mut sounding = SoundPass::new(open, Rasteriser::GPU, Arc::new(|| ()));
         let (go_on, waits) = channel::<()>();
         let (begun, has_begun) = channel();
         let shared = sounding.shared.clone();

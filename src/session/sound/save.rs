@@ -1,6 +1,6 @@
 //! Writes the whole track to a file next to the pictures.
 
-use super::Sounding;
+use super::SoundPass;
 use crate::{
     open_project::OpenProject,
     view::{About, Level},
@@ -10,7 +10,7 @@ use eddy_playback::capture;
 use eddy_project::PassName;
 use std::io::Write;
 
-impl Sounding {
+impl SoundPass {
     /// Returns why the sound cannot be saved yet; `None` if it can.
     pub(crate) fn sound_unsaved(&self) -> Option<&'static str> {
         match self.sound_track() {

@@ -2,7 +2,7 @@
 //! and inputs. Its effect on the next frame's state is applied once, however often it is drawn.
 //!
 //! A change of the program or the canvas discards the contents of the targets. Therefore the contents before the frame
-//! are restored ([`History::rewind`]), the change is made, and the frame is drawn ([`History::prepare_again`]). That
+//! are restored ([`History::rewind`]), the change is made, and the frame is drawn ([`History::prepare_redraw`]). That
 //! state is kept for the next time.
 
 use super::{BUDGET, Frame, History};
@@ -86,9 +86,9 @@ impl History {
     }
 
     /// Returns the inputs of the shown frame, for the engine to draw it again with the current program, canvas and
-    /// values; [`History::frame_drawn_again`] follows. `None` if the state that it was drawn from is no longer
+    /// values; [`History::frame_redrawn`] follows. `None` if the state that it was drawn from is no longer
     /// available.
-    pub(crate) fn prepare_again(&mut self, engine: &mut Engine) -> Result<Option<FrameInputs>, EngineError> {
+    pub(crate) fn prepare_redraw(&mut self, engine: &mut Engine) -> Result<Option<FrameInputs>, EngineError> {
         if !self.rewind(engine, false)? {
             return Ok(None);
         }
@@ -110,21 +110,21 @@ impl History {
     }
 
     /// Records that the frame has been drawn again.
-    pub(crate) fn frame_drawn_again(&mut self, took: Duration) {
+    pub(crate) fn frame_redrawn(&mut self, took: Duration) {
         self.again.rewound = None;
         self.drawn += 1;
         self.learn(took);
     }
 
     /// Takes over a run that another process has drawn: its frames are ahead of the contents of the targets.
-    pub(crate) fn take_up(&mut self, frames: Vec<Frame>) {
+    pub(crate) fn load_run(&mut self, frames: Vec<Frame>) {
         self.begin(true);
         self.frames = frames.into();
     }
 
     /// Sets the canvas size while frames are drawn on their original canvas on the way to a goal: the new size applies
     /// after that. Returns false if no seek is in progress.
-    pub(crate) fn resize_behind(&mut self, size: (u32, u32)) -> bool {
+    pub(crate) fn resize_before_frame(&mut self, size: (u32, u32)) -> bool {
         let is_on_the_way = self.canvas.is_some();
         if is_on_the_way {
             self.canvas = Some(size);
@@ -157,7 +157,7 @@ impl Again {
     }
 
     /// A new frame is drawn: the frames after it belong to another run.
-    pub(super) fn drop_behind(&mut self, number: u64) {
+    pub(super) fn drop_frames_after(&mut self, number: u64) {
         self.before.take_if(|before| before.number > number);
     }
 }

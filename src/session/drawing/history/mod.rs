@@ -114,7 +114,7 @@ impl History {
         (self.floor, self.canvas) = (self.drawn, None);
     }
 
-    /// Another program draws from now on. The inputs of the frames are kept: [`SeekTarget::Anew`] draws them with the
+    /// Another program draws from now on. The inputs of the frames are kept: [`SeekTarget::Redraw`] draws them with the
     /// new program.
     pub(crate) fn change_program(&mut self) {
         self.snapshots.clear();
@@ -130,10 +130,10 @@ impl History {
     pub(crate) fn before_frame(&mut self, engine: &mut Engine) -> Result<(), EngineError> {
         // The preceding frame has not been drawn by this program yet.
         if self.again.rewound.is_some()
-            && let Some(inputs) = self.prepare_again(engine)?
+            && let Some(inputs) = self.prepare_redraw(engine)?
         {
             engine.draw(&inputs)?;
-            self.frame_drawn_again(self.took);
+            self.frame_redrawn(self.took);
         }
         // On the way to a frame that is no longer wanted.
         if self.put_canvas_back(engine)? {
@@ -143,7 +143,7 @@ impl History {
         while self.snapshots.back().is_some_and(|(at, _)| *at > self.drawn) {
             self.snapshots.pop_back();
         }
-        self.again.drop_behind(self.drawn);
+        self.again.drop_frames_after(self.drawn);
         self.keep(engine, self.interval());
         let has_texture = |inputs: &FrameInputs| inputs.microphone.is_some() || inputs.gamepads != Gamepads::default();
         let hears = self.frames.back().is_some_and(|frame| has_texture(&frame.inputs));
@@ -273,7 +273,7 @@ impl History {
         let number = match goal {
             SeekTarget::By(frames) => self.shown()?.checked_add_signed(frames)?,
             SeekTarget::Frame(number) => number,
-            SeekTarget::Anew(number) => return (number < self.end() && self.is_whole).then_some(number),
+            SeekTarget::Redraw(number) => return (number < self.end() && self.is_whole).then_some(number),
             // Time may have been set back on the way.
             SeekTarget::Time(secs) => {
                 let found = self.frames.iter().rposition(|frame| frame.inputs.time_secs <= secs);
@@ -293,7 +293,7 @@ impl History {
     ) -> Option<Result<SeekProgress, EngineError>> {
         let number = self.number(goal)?;
         self.again.rewound = None;
-        if let SeekTarget::Anew(_) = goal {
+        if let SeekTarget::Redraw(_) = goal {
             engine.reset();
             self.snapshots.clear();
             self.again = Again::default();

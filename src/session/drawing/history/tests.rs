@@ -22,7 +22,7 @@ fn long_run_keeps_its_newest_frames() {
     }
     // Without a snapshot nothing before the shown frame is available.
     assert_eq!(
-        (history.reach().back, history.number(SeekTarget::By(-1)), history.number(SeekTarget::Anew(5))),
+        (history.reach().back, history.number(SeekTarget::By(-1)), history.number(SeekTarget::Redraw(5))),
         (0, None, None)
     );
 }
@@ -105,13 +105,13 @@ fn new_code_draws_frames_on_their_original_canvas() {
         let travelled = history.travel(engine, goal, Duration::from_secs(secs)).unwrap().unwrap();
         (travelled.left, travelled.is_display_new, engine.size())
     };
-    assert_eq!(travel(&mut history, &mut engine, SeekTarget::Anew(9), 0), (9, true, small));
+    assert_eq!(travel(&mut history, &mut engine, SeekTarget::Redraw(9), 0), (9, true, small));
     assert_eq!(travel(&mut history, &mut engine, SeekTarget::Frame(9), 60), (0, true, large));
     assert_eq!(travel(&mut history, &mut engine, SeekTarget::By(-4), 60), (0, false, large));
     assert_eq!(history.number(SeekTarget::By(-1)), None, "that one is on the small canvas");
     // Something else is drawn before the goal is reached.
-    assert_eq!(travel(&mut history, &mut engine, SeekTarget::Anew(9), 0), (9, true, small));
+    assert_eq!(travel(&mut history, &mut engine, SeekTarget::Redraw(9), 0), (9, true, small));
     step(&mut history, &mut engine, 1);
     assert_eq!((engine.size(), history.reach().shown, history.reach().ahead), (large, 1, 0));
-    assert_eq!(travel(&mut history, &mut engine, SeekTarget::Anew(1), 60), (0, true, large));
+    assert_eq!(travel(&mut history, &mut engine, SeekTarget::Redraw(1), 60), (0, true, large));
 }

@@ -3,7 +3,7 @@
 use super::{
     gate::Gate,
     history::History,
-    job::{Changes, Done, DrawnFrame, Job, TileLimit},
+    job::{DrawnFrame, Job, JobResult, PendingChanges, TileLimit},
 };
 use eddy_engine::{CostClock, DrawFor, Engine, EngineError, FrameInputs, PassTime, Program};
 use eddy_gpu::Gpu;
@@ -27,7 +27,7 @@ pub(crate) struct Renderer {
     /// The duration of the newest frame that was drawn whole.
     whole_took: Duration,
     /// The newest frame was abandoned part way.
-    is_given_up: bool,
+    is_abandoned: bool,
 }
 
 impl Renderer {
@@ -36,7 +36,7 @@ impl Renderer {
         let mut engine = Engine::new(gpu, width, height)?;
         engine.set_timing(true);
         let history = History::default();
-        Ok(Self { engine, hands_out, history, shown: None, whole_took: Duration::ZERO, is_given_up: false })
+        Ok(Self { engine, hands_out, history, shown: None, whole_took: Duration::ZERO, is_abandoned: false })
     }
 
     pub(crate) fn engine(&self) -> &Engine {
@@ -56,9 +56,9 @@ impl Renderer {
         self.shown
     }
 
-    pub(crate) fn work(&mut self, job: Job) -> Done {
+    pub(crate) fn work(&mut self, job: Job) -> JobResult {
         let Job { changes, frame, travel, stays, again, tasks, costs_of, tile_limit, gate } = job;
-        let mut done = Done::default();
+        let mut done = JobResult::default();
         // A new program draws its own frame.
         if changes.program.is_none() || !tasks.is_empty() {
             done.is_display_new |= self.finish();
@@ -74,7 +74,7 @@ impl Renderer {
             self.rewind(false);
         }
         if again {
-            self.draw_again(costs_of.is_some(), &mut done);
+            self.redraw(costs_of.is_some(), &mut done);
         }
         if let Some(goal) = travel {
             let travelled = self.history.travel(&mut self.engine, goal, PATIENCE);
@@ -102,7 +102,7 @@ impl Renderer {
         // The canvas after a resize or a change of program has no valid picture until the next frame.
         let is_other = matches!(done.resized, Some((_, Ok(())))) || matches!(done.program, Some(Ok(())));
         let is_between = !has_drawn && is_other && done.restarted.is_none() && self.engine.program().is_some();
-        let is_whole = !self.is_given_up;
+        let is_whole = !self.is_abandoned;
         if self.hands_out && (done.is_display_new || has_drawn) && is_whole && !is_between {
             done.picture = Some(self.engine.picture());
         }
@@ -121,22 +121,22 @@ impl Renderer {
     }
 
     /// Draws the shown frame again.
-    fn draw_again(&mut self, is_watched: bool, done: &mut Done) {
+    fn redraw(&mut self, is_watched: bool, done: &mut JobResult) {
         let size = self.engine.size();
-        let drawn = match self.history.prepare_again(&mut self.engine) {
+        let drawn = match self.history.prepare_redraw(&mut self.engine) {
             Ok(Some(inputs)) => {
                 self.shown = Some((inputs.frame, inputs.time_secs));
                 self.draw(&inputs, is_watched, None)
             }
             Ok(None) => {
-                done.is_again_lost = true;
+                done.cannot_redraw = true;
                 return;
             }
             Err(error) => Err(error),
         };
         done.is_display_new |= self.engine.size() != size;
         match &drawn {
-            Ok(drawn) => self.history.frame_drawn_again(drawn.took),
+            Ok(drawn) => self.history.frame_redrawn(drawn.took),
             Err(_) => self.history.begin(false),
         }
         done.frame = Some(drawn);
@@ -145,13 +145,13 @@ impl Renderer {
     /// `canvas`: the size of the picture so far.
     fn change(
         &mut self,
-        changes: Changes,
+        changes: PendingChanges,
         canvas: (u32, u32),
         tile_limit: Option<TileLimit>,
         inputs: &FrameInputs,
-        done: &mut Done,
+        done: &mut JobResult,
     ) {
-        let Changes { restart, size, program, custom_uniforms, shown, look, reset, run, costs: _ } = changes;
+        let PendingChanges { restart, size, program, custom_uniforms, shown, look, reset, run, costs: _ } = changes;
         if restart {
             let made = Renderer::new(self.engine.gpu().clone(), self.engine.size(), self.hands_out);
             done.restarted = Some(made.map(|renderer| *self = renderer));
@@ -170,7 +170,7 @@ impl Renderer {
                 self.finish();
             }
             done.program = Some(tried.and_then(|program| self.engine.set_program(program)));
-            self.is_given_up &= !matches!(done.program, Some(Ok(())));
+            self.is_abandoned &= !matches!(done.program, Some(Ok(())));
             self.history.change_program();
             done.is_display_new = true;
         }
@@ -192,13 +192,13 @@ impl Renderer {
             self.shown = None;
         }
         if let Some(frames) = run {
-            self.history.take_up(frames);
+            self.history.load_run(frames);
         }
     }
 
     /// `canvas`: the size of the picture so far.
-    fn resize(&mut self, (width, height): (u32, u32), canvas: (u32, u32), done: &mut Done) {
-        if self.history.resize_behind((width, height)) {
+    fn resize(&mut self, (width, height): (u32, u32), canvas: (u32, u32), done: &mut JobResult) {
+        if self.history.resize_before_frame((width, height)) {
             done.resized = Some(((width, height), Ok(())));
             return;
         }
@@ -223,7 +223,7 @@ impl Renderer {
         mut program: Program,
         limit: TileLimit,
         inputs: &FrameInputs,
-        done: &mut Done,
+        done: &mut JobResult,
     ) -> Result<Program, EngineError> {
         let canvas = self.engine.size();
         let telling = limit.frame / TELLING;
@@ -249,7 +249,7 @@ impl Renderer {
 
     /// Draws the rest of an abandoned frame. Returns whether there was any.
     fn finish(&mut self) -> bool {
-        if !std::mem::take(&mut self.is_given_up) {
+        if !std::mem::take(&mut self.is_abandoned) {
             return false;
         }
         // A lost device is reported by the next request to it.
@@ -274,7 +274,7 @@ impl Renderer {
                 goes_on.then_some(rows)
             };
             let is_whole = self.engine.draw_for(inputs, DrawFor::Bands(&mut next_rows))?.is_whole;
-            self.is_given_up = !is_whole;
+            self.is_abandoned = !is_whole;
             let took = began.elapsed().saturating_sub(waited);
             if is_whole {
                 self.whole_took = took;
@@ -292,7 +292,7 @@ impl Renderer {
             }
             times = self.engine.pass_times();
         }
-        (self.whole_took, self.is_given_up) = (began.elapsed(), false);
+        (self.whole_took, self.is_abandoned) = (began.elapsed(), false);
         Ok(DrawnFrame { cpu_micros, times, took: self.whole_took })
     }
 }

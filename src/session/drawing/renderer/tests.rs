@@ -18,26 +18,26 @@ fn resize_or_new_program_is_shown_with_its_first_frame() {
     let build = |gpu: &Gpu| Program::build(gpu, &project, &media, &BuildOptions::default()).unwrap().program;
     let (program, other) = (build(&gpu), build(&gpu));
     let mut renderer = Renderer::new(gpu, (16, 9), true).unwrap();
-    let mut sizes = |changes: Changes, frame: Option<i32>| {
+    let mut sizes = |changes: PendingChanges, frame: Option<i32>| {
         let frame = frame.map(|frame| FrameInputs::at_fixed_step(frame, 60.0));
         let done = renderer.work(Job { changes, frame, ..Job::default() });
         done.picture.map(|picture| picture.unwrap()).map(|picture| (picture.width, picture.height))
     };
-    let resize = |size| Changes { size: Some(size), ..Changes::default() };
+    let resize = |size| PendingChanges { size: Some(size), ..PendingChanges::default() };
     assert_eq!(sizes(resize((32, 18)), None), Some((32, 18)), "without a program it is black");
     let program = Some(PendingProgram { program, origin: None });
     let shown = Some(PassName::image());
-    assert_eq!(sizes(Changes { program, shown, ..Changes::default() }, Some(0)), Some((32, 18)));
+    assert_eq!(sizes(PendingChanges { program, shown, ..PendingChanges::default() }, Some(0)), Some((32, 18)));
     assert_eq!(sizes(resize((64, 36)), None), None);
-    assert_eq!(sizes(Changes::default(), Some(1)), Some((64, 36)));
+    assert_eq!(sizes(PendingChanges::default(), Some(1)), Some((64, 36)));
     assert_eq!(sizes(resize((32, 18)), Some(2)), Some((32, 18)));
     let program = Some(PendingProgram { program: other, origin: None });
-    assert_eq!(sizes(Changes { program, ..Changes::default() }, None), None);
-    assert_eq!(sizes(Changes::default(), Some(3)), Some((32, 18)));
+    assert_eq!(sizes(PendingChanges { program, ..PendingChanges::default() }, None), None);
+    assert_eq!(sizes(PendingChanges::default(), Some(3)), Some((32, 18)));
 }
 
 /// Draws a frame that may wait, with the rest of a job.
-fn frame(renderer: &mut Renderer, n: i32, gate: Option<Gate>, job: Job) -> Done {
+fn frame(renderer: &mut Renderer, n: i32, gate: Option<Gate>, job: Job) -> JobResult {
     // The last frame was slow enough for three bands.
     renderer.whole_took = BAND * 3;
     renderer.work(Job { frame: Some(FrameInputs::at_fixed_step(n, 60.0)), gate, ..job })
@@ -56,12 +56,13 @@ fn abandoned_frame_is_not_delivered_and_is_finished_before_reads() {
         let mut renderer = Renderer::new(gpu.clone(), (64, 192), true).unwrap();
         let program = Some(PendingProgram { program: build(), origin: None });
         let shown = Some(PassName::image());
-        renderer.work(Job { changes: Changes { program, shown, ..Changes::default() }, ..Job::default() });
+        renderer
+            .work(Job { changes: PendingChanges { program, shown, ..PendingChanges::default() }, ..Job::default() });
         renderer
     };
-    let picture = |done: Done| done.picture.map(|picture| picture.unwrap().bytes);
+    let picture = |done: JobResult| done.picture.map(|picture| picture.unwrap().bytes);
     let (gate, other) = (Gate::default(), Gate::default());
-    gate.set(FrameControl::GiveUp);
+    gate.set(FrameControl::Abandon);
     let (mut whole, mut given_up) = (start(), start());
     for n in 0..3 {
         let expected = picture(frame(&mut whole, n, Some(other.clone()), Job::default()));
@@ -74,7 +75,7 @@ fn abandoned_frame_is_not_delivered_and_is_finished_before_reads() {
             1 => {
                 let read = |renderer: &mut Renderer, program: Option<Program>| {
                     let program = program.map(|program| PendingProgram { program, origin: None });
-                    let changes = Changes { program, ..Changes::default() };
+                    let changes = PendingChanges { program, ..PendingChanges::default() };
                     let mut tasks = Tasks::default();
                     let mut ticket = tasks.add(ReadPicture);
                     let done = renderer.work(Job { changes, tasks, ..Job::default() });
@@ -86,7 +87,7 @@ fn abandoned_frame_is_not_delivered_and_is_finished_before_reads() {
             // A program that is too slow to be drawn.
             _ => {
                 let program = Some(PendingProgram { program: build(), origin: None });
-                let changes = Changes { program, ..Changes::default() };
+                let changes = PendingChanges { program, ..PendingChanges::default() };
                 let tile_limit = Some(TileLimit { frame: Duration::from_nanos(20) });
                 let done = given_up.work(Job { changes, tile_limit, ..Job::default() });
                 assert!(done.forecast.is_some() && done.picture.is_none());
@@ -100,7 +101,7 @@ fn abandoned_frame_is_not_delivered_and_is_finished_before_reads() {
     // Only the other program's frame is drawn.
     frame(&mut given_up, 4, Some(gate), Job::default());
     let program = Some(PendingProgram { program: build(), origin: None });
-    let changes = Changes { program, ..Changes::default() };
+    let changes = PendingChanges { program, ..PendingChanges::default() };
     let done = frame(&mut given_up, 5, None, Job { changes, ..Job::default() });
     frame(&mut whole, 4, None, Job::default());
     assert_eq!(picture(done), picture(frame(&mut whole, 5, None, Job::default())));
