@@ -1,7 +1,7 @@
-//! What differs where the processor draws.
+//! The differences between a GPU and a processor that draws.
 //!
-//! A software rasteriser, such as lavapipe or SwiftShader, shares cores and memory with the rest of the program. This is the only
-//! place that knows what follows from that; for a GPU each answer is that of a device of its own.
+//! A software rasteriser, such as lavapipe or SwiftShader, shares cores and memory with the rest of the program. Only this
+//! module knows what follows from that. For a GPU its methods have no effect, or return what holds for a separate device.
 
 use super::Gpu;
 use std::time::Duration;

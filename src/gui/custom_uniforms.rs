@@ -3,7 +3,7 @@
 use super::{dock::COLLAPSED, theme, ui_output::UiOutput, uniform_row};
 use crate::{
     project::{CustomUniform, Dialect},
-    session::{Command, Session},
+    session::{EditCommand, Session},
 };
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, Vec2};
 
@@ -41,7 +41,7 @@ pub(super) fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     if custom_uniforms.iter().any(|k| session.custom_uniform_value(k) != k.default) {
         let reset = ui.add(Button::new("Reset all").small()).on_hover_text("Reset all uniforms to their defaults");
         if out.clicked("uniforms:reset", &reset) {
-            out.ask(Command::ResetCustomUniforms);
+            out.ask(EditCommand::ResetCustomUniforms);
         }
     }
 }

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     control::osc::OscState,
     project::InputKind,
-    session::{CameraState, Command, Session},
+    session::{CameraCommand, CameraState, Session},
 };
 use egui::{Button, Color32, FontId, Response, RichText, Ui, vec2};
 
@@ -70,7 +70,7 @@ pub(super) fn light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutpu
         CameraState::On => "light:camera",
     };
     if out.clicked(place, &button.on_hover_text(tip)) {
-        out.ask(Command::UseDevice { kind, on: state == CameraState::Off });
+        out.ask(CameraCommand::UseDevice { kind, on: state == CameraState::Off });
     }
 }
 
@@ -81,14 +81,14 @@ pub(super) fn choose(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     ui.horizontal_wrapped(|ui| {
         let name = if is_off { "Use the camera" } else { "Turn the camera off" };
         if out.clicked("choose:camera", &ui.button(name)) {
-            out.ask(Command::UseDevice { kind, on: is_off });
+            out.ask(CameraCommand::UseDevice { kind, on: is_off });
         }
         let (cameras, now) = session.cameras();
         for camera in cameras.iter().filter(|_| cameras.len() > 1) {
             let is_on = now.is_some_and(|source| source.to_string() == camera.id);
             let item = ui.selectable_label(is_on, &camera.name).on_hover_text(&camera.id);
             if out.clicked(&format!("choose:camera:{}", camera.id), &item) && !is_on {
-                out.ask(Command::ChooseCamera(camera.id.clone()));
+                out.ask(CameraCommand::ChooseCamera(camera.id.clone()));
             }
         }
     });

@@ -5,7 +5,7 @@ use super::{
     theme,
     ui_output::{ShellCommand, UiOutput},
 };
-use crate::session::{AuditMap, Command, Session, WorstPixel};
+use crate::session::{AuditMap, Session, ToolCommand, WorstPixel};
 use egui::{Area, Color32, Frame, Id, Margin, Order, Pos2, Rect, RichText, Ui, vec2};
 use serde_json::{Value, json};
 
@@ -60,7 +60,7 @@ fn card(ui: &mut Ui, map: &AuditMap, out: &mut UiOutput) {
         );
         let close = icons::flat(ui, Icon::Close, "Hide the error map").on_hover_text("Hide the error map");
         if out.clicked("audit:close", &close) {
-            out.ask(Command::HideAudit);
+            out.ask(ToolCommand::HideAudit);
         }
     });
     scale(ui, out);

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     control::{midi::MidiChoice, osc::OscState},
-    session::{Command, ControlsView, Session},
+    session::{ControlCommand, ControlsView, Session, SoundCommand},
 };
 use egui::{
     Align, Button, ComboBox, DragValue, Frame, Id, Layout, Margin, Modal, RichText, Role, ScrollArea, TextEdit, Ui,
@@ -91,10 +91,10 @@ impl SettingsPage {
     ) -> bool {
         let controls = session.controls_view();
         if self.is_new && controls.has_midi {
-            out.ask(Command::ListMidiDevices);
+            out.ask(ControlCommand::ListMidiDevices);
         }
         if self.is_new && session.output_view().is_some() {
-            out.ask(Command::ListAudioDevices);
+            out.ask(SoundCommand::ListAudioDevices);
         }
         // A machine without sound has no devices to choose from.
         let is_shown = |key: &Key| match key.control {

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     project::Tab,
-    session::{Command, FilmView, Session},
+    session::{EditCommand, FilmCommand, FilmView, Session, ViewCommand},
 };
 use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
 
@@ -156,7 +156,7 @@ fn film(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     accessible::name(&button, egui::Role::Button, name);
     if out.clicked("button:film", &button.on_hover_text(format!("{}; {what}", film.words()))) {
         match is_live {
-            true => out.ask(Command::StopFilm),
+            true => out.ask(FilmCommand::StopFilm),
             false => out.act(Action::Panel(Panel::Recorder)),
         }
     }
@@ -233,7 +233,7 @@ fn shown_pass(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
                 }
                 let entry = ui.selectable_label(id == *shown, id.title());
                 if out.clicked(&format!("pass:{}", id.title()), &entry) {
-                    out.ask(Command::ShowPass(id));
+                    out.ask(ViewCommand::ShowPass(id));
                 }
             }
         })
@@ -255,7 +255,7 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut UiOut
         let reset = session.reset_on_reload();
         let switch = menus::switch(ui, reset, "Reset when a file is reloaded", String::new());
         if out.clicked("switch:reset-on-reload", &switch) {
-            out.ask(Command::SetResetOnReload(!reset));
+            out.ask(EditCommand::SetResetOnReload(!reset));
         }
         ui.separator();
         let all = [

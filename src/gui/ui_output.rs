@@ -100,8 +100,8 @@ impl UiOutput {
         Self { keys, ..Self::default() }
     }
 
-    pub(super) fn ask(&mut self, command: Command) {
-        self.commands.push(command);
+    pub(super) fn ask(&mut self, command: impl Into<Command>) {
+        self.commands.push(command.into());
     }
 
     pub(super) fn act(&mut self, action: Action) {

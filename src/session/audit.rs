@@ -96,7 +96,7 @@ impl PictureAudit {
 }
 
 impl OpenProject {
-    /// Returns the errors of the audited pixels ([`Command::Audit`](super::Command::Audit)) while its findings are
+    /// Returns the errors of the audited pixels ([`ToolCommand::Audit`](super::ToolCommand::Audit)) while its findings are
     /// listed.
     pub(crate) fn audit_map(&self) -> Option<&AuditMap> {
         self.audit.map.as_ref()

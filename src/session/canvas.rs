@@ -1,6 +1,7 @@
 //! The size of the picture: the requested size, and the size that the device accepts.
 
 use super::{
+    command::CanvasCommand,
     open_project::OpenProject,
     view::{About, Level},
 };
@@ -10,9 +11,9 @@ use eddy_engine::EngineError;
 #[derive(Default)]
 pub(super) struct Canvas {
     pub viewport: Option<(u32, u32)>,
-    pub asked: CanvasSize,
+    pub requested: CanvasSize,
     /// The size requested before any project was opened: each project starts with it.
-    pub usual: CanvasSize,
+    pub default_size: CanvasSize,
     /// The size of the recording that plays, or played until now.
     pub replayed: Option<(u32, u32)>,
     /// A size that the device did not accept; it is not retried.
@@ -36,7 +37,12 @@ impl Default for CanvasSize {
 impl Canvas {
     /// The canvas of another project, of the size requested before any was opened.
     pub(crate) fn successor(&self) -> Self {
-        Self { viewport: self.viewport, asked: self.usual, usual: self.usual, ..Self::default() }
+        Self {
+            viewport: self.viewport,
+            requested: self.default_size,
+            default_size: self.default_size,
+            ..Self::default()
+        }
     }
 
     pub(crate) fn set_viewport(&mut self, size: (u32, u32)) {
@@ -48,24 +54,38 @@ impl Canvas {
     /// Makes both sides smaller.
     pub(crate) fn shrink(&mut self, factor: f64) {
         let side = |side: u32| ((f64::from(side) * factor) as u32).max(1);
-        match &mut self.asked.fixed {
+        match &mut self.requested.fixed {
             Some((width, height)) => (*width, *height) = (side(*width), side(*height)),
-            None => self.asked.scale *= factor as f32,
+            None => self.requested.scale *= factor as f32,
         }
     }
 
     /// Size in pixels, at least one each way; `None` before the viewport is known.
     fn size(&self) -> Option<(u32, u32)> {
-        let scaled = |v: u32| ((f64::from(v) * f64::from(self.asked.scale)).floor() as u32).max(1);
-        self.replayed.or(self.asked.fixed).or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
+        let scaled = |v: u32| ((f64::from(v) * f64::from(self.requested.scale)).floor() as u32).max(1);
+        self.replayed.or(self.requested.fixed).or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
     }
 }
 
 impl OpenProject {
+    pub(super) fn apply_canvas(&mut self, command: CanvasCommand) {
+        match command {
+            // Minimised windows have no area; the picture keeps its size.
+            CanvasCommand::SetViewport { width: 0, .. } | CanvasCommand::SetViewport { height: 0, .. } => {}
+            CanvasCommand::SetViewport { width, height } => self.canvas.set_viewport((width, height)),
+            CanvasCommand::SetScale(scale) => self.set_scale(scale),
+            CanvasCommand::SetFixedSize(size) => {
+                self.request_size(CanvasSize { fixed: size, ..self.canvas.requested });
+            }
+            // These are about the window.
+            CanvasCommand::Cover(_) | CanvasCommand::Hide(_) => {}
+        }
+    }
+
     pub(super) fn set_scale(&mut self, scale: f32) {
         self.dismiss_notices(About::Scale);
         if scale.is_finite() && scale > 0.0 {
-            self.request_size(CanvasSize { scale, ..self.canvas.asked });
+            self.request_size(CanvasSize { scale, ..self.canvas.requested });
         } else {
             self.notice_about(About::Scale, Level::Error, format!("the resolution scale must be above 0, not {scale}"));
         }
@@ -75,9 +95,9 @@ impl OpenProject {
     pub(super) fn request_size(&mut self, size: CanvasSize) {
         self.end_replay("the resolution was changed");
         self.canvas.replayed = None;
-        self.canvas.asked = size;
+        self.canvas.requested = size;
         if self.host.serial == 0 {
-            self.canvas.usual = size;
+            self.canvas.default_size = size;
         }
         self.canvas.refused = None;
     }

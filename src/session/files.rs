@@ -2,7 +2,7 @@
 
 use super::{
     Session,
-    command::{Answer, Command, PendingAction, Question, Request},
+    command::{Answer, FileCommand, PendingAction, Question, Request},
     documents::Documents,
     export_page::is_page,
     open_project::OpenProject,
@@ -20,29 +20,29 @@ use std::{
 };
 
 impl Session {
-    pub(super) fn apply_to_files(&mut self, command: Command) {
+    pub(super) fn apply_to_files(&mut self, command: FileCommand) {
         match command {
-            Command::Answer(answer) => self.answer(answer),
+            FileCommand::Answer(answer) => self.answer(answer),
             // A front end shows nothing else while a question is open; a script may still send commands.
             _ if self.question().is_some() => {
                 self.open.notice_about(About::Question, Level::Warning, "answer the open question first");
             }
-            Command::Open(spec) if scene::holds_project(Path::new(&spec)) => self.open_picture(Path::new(&spec)),
-            Command::Open(spec) => self.ask_to_save_then(PendingAction::Open(spec)),
-            Command::OpenProject { project, size } => {
+            FileCommand::Open(spec) if scene::holds_project(Path::new(&spec)) => self.open_picture(Path::new(&spec)),
+            FileCommand::Open(spec) => self.ask_to_save_then(PendingAction::Open(spec)),
+            FileCommand::OpenProject { project, size } => {
                 self.ask_to_save_then(PendingAction::OpenProject { project, size })
             }
-            Command::Paste(text) => self.paste(&text),
-            Command::Bring { paths, to } => self.bring(paths, to),
-            Command::New => self.ask_to_save_then(PendingAction::New),
-            Command::Close => self.ask_to_save_then(PendingAction::Close),
-            Command::Save => {
+            FileCommand::Paste(text) => self.paste(&text),
+            FileCommand::Bring { paths, to } => self.bring(paths, to),
+            FileCommand::New => self.ask_to_save_then(PendingAction::New),
+            FileCommand::Close => self.ask_to_save_then(PendingAction::Close),
+            FileCommand::Save => {
                 self.save();
             }
-            Command::SaveAs(folder) => self.save_as(&folder, &[]),
-            Command::ExportJson(file) => self.open.export_json(&file),
-            Command::ExportPage(file) => self.open.export_page(&file),
-            _ => self.open.host.dialog.after_save = None,
+            FileCommand::SaveAs(folder) => self.save_as(&folder, &[]),
+            FileCommand::ExportJson(file) => self.open.export_json(&file),
+            FileCommand::ExportPage(file) => self.open.export_page(&file),
+            FileCommand::SaveAsCancelled => self.open.host.dialog.after_save = None,
         }
     }
 
@@ -61,7 +61,7 @@ impl Session {
             PendingAction::OpenProject { project, size } => {
                 self.replace(Documents::new(*project));
                 if size.is_some() {
-                    self.open.canvas.asked.fixed = size;
+                    self.open.canvas.requested.fixed = size;
                 }
             }
             PendingAction::OpenPicture(scene) => self.show_scene(&scene),

@@ -1,4 +1,4 @@
-//! What an open project knows of the window, and what it reports to it.
+//! The window of an open project: its settings and its time, and the notices and questions that it is to show.
 
 use super::{
     SessionOptions,
@@ -17,7 +17,7 @@ pub(super) struct Host {
     pub now: Instant,
     /// Counts the projects that have replaced another.
     pub serial: u64,
-    /// Counts the shaders created by [`Command::New`](super::Command::New).
+    /// Counts the shaders created by [`FileCommand::New`](super::FileCommand::New).
     pub new_shader_count: u64,
     pub notices: Notices,
     pub dialog: Dialog,

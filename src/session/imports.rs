@@ -5,7 +5,7 @@
 
 use super::{
     Session,
-    command::{Command, PendingAction},
+    command::{FileCommand, PendingAction},
     open_project::OpenProject,
     scene,
     view::{About, Level},
@@ -31,7 +31,7 @@ impl Session {
                 if path.exists() && project::kind_of_file(path) != FileKind::Project {
                     self.bring(vec![path.to_owned()], None);
                 } else {
-                    self.apply_to_files(Command::Open(place));
+                    self.apply_to_files(FileCommand::Open(place));
                 }
             }
             Err(e) => self.open.notice_about(About::Opening, Level::Warning, format!("nothing was pasted: {e}")),
@@ -57,7 +57,7 @@ impl Session {
                 self.open.notice(Level::Info, text);
             }
             let place = parts.unwrap_or(first).display().to_string();
-            return self.apply_to_files(Command::Open(place));
+            return self.apply_to_files(FileCommand::Open(place));
         }
         // Dropped on a channel, a picture is only a picture.
         let is_on_channel = matches!(&to, Some((_, Some(_))));

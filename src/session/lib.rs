@@ -66,7 +66,11 @@ pub mod view;
 pub use analysis::TabAnalysis;
 pub use audio::{MicrophoneView, OutputView};
 pub use audit::{AuditMap, WorstPixel};
-pub use command::{Answer, Command, DiffLine, PendingAction, Question, Recovered, RecoveredTab, Request};
+pub use command::{
+    Answer, CameraCommand, CanvasCommand, CaptureCommand, Command, ControlCommand, DiffLine, EditCommand, FileCommand,
+    FilmCommand, HaltCommand, InputCommand, NoticeCommand, PendingAction, Question, Recovered, RecoveredTab, Request,
+    SoundCommand, ToolCommand, TransportCommand, ViewCommand,
+};
 pub use controls::ControlsView;
 pub use costs::{PassCosts, TimedPass};
 pub use devices::{CameraState, DeviceConsent};

@@ -14,7 +14,7 @@ use eddy_project::{PassEdit, PassName, Project, Tab};
 use std::time::Instant;
 
 impl OpenProject {
-    /// The edit that [`Command::RedoPassEdit`](super::Command::RedoPassEdit) redoes.
+    /// The edit that [`EditCommand::RedoPassEdit`](super::EditCommand::RedoPassEdit) redoes.
     pub(crate) fn pass_redo(&self) -> Option<PassStep<'_>> {
         self.pass_history.redo.last().map(Step::shown)
     }

@@ -41,7 +41,7 @@ pub struct RecentProject {
 }
 
 impl RecentProject {
-    /// Returns the argument of [`Command::Open`](super::Command::Open) that opens it in the same way.
+    /// Returns the argument of [`FileCommand::Open`](super::FileCommand::Open) that opens it in the same way.
     pub fn spec(&self) -> String {
         eddy_project::spec_of(&self.path, if self.ghostty { Dialect::Ghostty } else { Dialect::Shadertoy })
     }

@@ -25,7 +25,7 @@ use std::{
 };
 
 /// The maximum wait for the inputs of the run when a project is closed.
-const PATIENCE: Duration = Duration::from_millis(500);
+const CLOSE_TIMEOUT: Duration = Duration::from_millis(500);
 
 impl Session {
     /// Records the path of the open project, if it has one, and returns its entry.
@@ -50,13 +50,13 @@ impl Session {
         let clock = &self.open.playback.clock;
         // A picture that was halted while playing plays again once it is drawn fast enough.
         let is_paused = !self.open.is_playing() && !self.open.halt.resumes();
-        let (CanvasSize { scale, fixed }, usual) = (self.open.canvas.asked, self.open.canvas.usual);
+        let (CanvasSize { scale, fixed }, default_size) = (self.open.canvas.requested, self.open.canvas.default_size);
         let left = Left {
             time_secs: clock.time_secs(),
             frame: clock.next_frame_number() - 1,
             is_paused,
-            size: fixed.filter(|_| fixed != usual.fixed),
-            scale: Some(scale).filter(|scale| *scale != usual.scale),
+            size: fixed.filter(|_| fixed != default_size.fixed),
+            scale: Some(scale).filter(|scale| *scale != default_size.scale),
         };
         let origin = self.open.documents.current().origin.clone();
         if let Err(why) = self.services.recent.left(&origin, left) {
@@ -88,7 +88,7 @@ impl Session {
         if !self.services.last_pictures.is_kept() || self.open.halt.is_halted() || !self.open.is_picture_of_project() {
             return;
         }
-        let end = Instant::now() + PATIENCE;
+        let end = Instant::now() + CLOSE_TIMEOUT;
         if let Some(Ok(picture)) = self.ask_engine(end, ReadPicture) {
             self.picture_is_read(&picture);
         }
@@ -104,7 +104,7 @@ impl Session {
 
     /// Requests the run from the engine, and waits for it up to a limit.
     fn take_run(&mut self) -> Option<Run> {
-        self.ask_engine(Instant::now() + PATIENCE, TakeRun).map(|(run, _)| run)
+        self.ask_engine(Instant::now() + CLOSE_TIMEOUT, TakeRun).map(|(run, _)| run)
     }
 
     /// Requests a read-back from the engine, and waits for it until `end`.
@@ -167,9 +167,9 @@ impl OpenProject {
 
     /// Restores the size of the picture. The file can be edited by hand: invalid sizes are ignored.
     fn restore_size(&mut self, size: Option<(u32, u32)>, scale: Option<f32>) {
-        let usual = self.canvas.usual;
-        let fixed = size.filter(|(width, height)| *width > 0 && *height > 0).or(usual.fixed);
-        let scale = scale.filter(|scale| scale.is_finite() && *scale > 0.0).unwrap_or(usual.scale);
-        self.canvas.asked = CanvasSize { scale, fixed };
+        let default_size = self.canvas.default_size;
+        let fixed = size.filter(|(width, height)| *width > 0 && *height > 0).or(default_size.fixed);
+        let scale = scale.filter(|scale| scale.is_finite() && *scale > 0.0).unwrap_or(default_size.scale);
+        self.canvas.requested = CanvasSize { scale, fixed };
     }
 }

@@ -74,7 +74,7 @@ impl Session {
         if scene.project.pass(&scene.pass).is_some() {
             self.open.show_pass(scene.pass.clone());
         }
-        self.open.canvas.asked.fixed = Some(scene.size);
+        self.open.canvas.requested.fixed = Some(scene.size);
         let has_state = self.open.has_state();
         let frames = match scene.frames(has_state) {
             Ok(frames) => frames,

@@ -1,4 +1,4 @@
-//! What the window has however many projects are opened: devices, threads, and files of the user's state.
+//! The devices, threads and files that a window has for all projects that are opened in it, one after the other.
 
 use super::{
     analysis::Analyst, audio::Audio, captures::Captures, compile::Compiler, controls::Controls, drawing::Drawing,

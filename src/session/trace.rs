@@ -132,14 +132,14 @@ impl Divergence {
 }
 impl OpenProject {
     /// The search for the first difference from the device in the traced pixel
-    /// ([`Command::FindDivergence`](super::Command::FindDivergence)); `None` if it was not requested.
+    /// ([`ToolCommand::FindDivergence`](super::ToolCommand::FindDivergence)); `None` if it was not requested.
     pub(crate) fn divergence(&self) -> Option<Status<'_, (), DivergenceFound>> {
         let Divergence { background, of, .. } = &self.trace.divergence;
         of.as_ref().zip(self.trace.traced()).filter(|(of, traced)| Arc::ptr_eq(of, traced))?;
         background.status()
     }
 
-    /// The trace of the chosen pixel ([`Command::Trace`](super::Command::Trace)).
+    /// The trace of the chosen pixel ([`ToolCommand::Trace`](super::ToolCommand::Trace)).
     pub(crate) fn trace(&self) -> TraceView<'_> {
         TraceView {
             traced: self.trace.traced(),

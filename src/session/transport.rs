@@ -3,6 +3,7 @@
 
 use super::{
     Session,
+    command::TransportCommand,
     drawing::SeekProgress,
     open_project::OpenProject,
     playback::{Reach, Reading, Recorder, ReplayView, ReplayedFrame, TimeRange, name},
@@ -116,6 +117,26 @@ impl Session {
 }
 
 impl OpenProject {
+    pub(super) fn apply_transport(&mut self, command: TransportCommand) {
+        match command {
+            TransportCommand::Play => self.play(),
+            TransportCommand::Pause => self.pause(),
+            TransportCommand::TogglePlay if self.is_playing() => self.pause(),
+            TransportCommand::TogglePlay => self.play(),
+            TransportCommand::Step => self.step_forward(),
+            TransportCommand::StepBack(by) => self.step_back(by),
+            TransportCommand::Seek(secs) => self.seek(secs),
+            TransportCommand::SetSpeed(speed) => self.playback.clock.set_speed(speed),
+            TransportCommand::SetFixedRate(rate) => self.playback.clock.set_fixed_rate(rate),
+            TransportCommand::SetTimeRange(range) => self.playback.seeking.range = range,
+            TransportCommand::SetKeepInputs(on) => self.playback.seeking.keeps_inputs = on,
+            TransportCommand::Reset => self.reset(),
+            TransportCommand::Record => self.record(),
+            TransportCommand::PlayRecording(file) => self.play_recording(file),
+            TransportCommand::StopReplay => self.end_replay("the picture continues live from there"),
+        }
+    }
+
     pub(super) fn play(&mut self) {
         self.dismiss_notices(About::Seeking);
         self.override_halt();

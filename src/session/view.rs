@@ -84,7 +84,7 @@ pub enum About {
 /// A message to the user that is shown once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Notice {
-    /// For [`Command::DismissNotice`](super::Command::DismissNotice); grows.
+    /// For [`NoticeCommand::DismissNotice`](super::NoticeCommand::DismissNotice); grows.
     pub id: u64,
     pub level: Level,
     pub text: String,
@@ -213,8 +213,8 @@ pub enum FallbackPicture {
     Newest,
 }
 
-/// The reason why the picture is halted. [`Command::GoOn`](super::Command::GoOn),
-/// [`DrawSmaller`](super::Command::DrawSmaller) and [`DrawLastGood`](super::Command::DrawLastGood) end it.
+/// The reason why the picture is halted. [`HaltCommand::GoOn`](super::HaltCommand::GoOn),
+/// [`DrawSmaller`](super::HaltCommand::DrawSmaller) and [`DrawLastGood`](super::HaltCommand::DrawLastGood) end it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Halt {
     /// A frame is taking longer than the limit, and the device is still drawing it.

@@ -8,7 +8,7 @@ use eddy::{
     media,
     playback::{npy, offline::Offline, script::ScriptedInputs},
     project::{self, PassName},
-    session::{Answer, Command, Level, Question},
+    session::{Answer, FileCommand, Level, Question},
 };
 use std::{fs, path::Path};
 
@@ -60,7 +60,7 @@ fn an_export_lists_losses_and_draws_the_same_picture() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = open_project(gpu.clone());
     let file = stage.dir.path().join("out.json");
-    stage.session.apply(Command::ExportJson(file.clone()));
+    stage.session.apply(FileCommand::ExportJson(file.clone()));
     let (exists, losses) = export_question(&stage);
     assert!(!exists);
     assert_eq!(
@@ -70,16 +70,16 @@ fn an_export_lists_losses_and_draws_the_same_picture() {
             "Included files are copied into the code: util.glsl."
         ]
     );
-    stage.session.apply(Command::Answer(Answer::Cancel));
+    stage.session.apply(FileCommand::Answer(Answer::Cancel));
     assert!(!file.exists() && stage.session.question().is_none());
     // The edited text is exported, whether saved or not, and the project stays at its path.
     stage.edit("void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) * 0.5; }");
     let origin = stage.session.project().origin.clone();
-    stage.session.apply(Command::ExportJson(file.clone()));
-    stage.session.apply(Command::Answer(Answer::Export));
+    stage.session.apply(FileCommand::ExportJson(file.clone()));
+    stage.session.apply(FileCommand::Answer(Answer::Export));
     assert_eq!(stage.count(&format!("exported {}", file.display())), 1, "{:?}", stage.session.notices());
     assert!(stage.session.is_dirty() && stage.session.project().origin == origin);
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     let (json, folder) = (picture(&gpu, &file), picture(&gpu, &stage.folder()));
     assert!(json == folder, "the pictures differ");
     // The test is valid: the picture depends on the uniform that is listed as lost.
@@ -93,16 +93,16 @@ fn an_existing_file_is_replaced_only_after_confirmation_and_kept() {
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.5))]);
     let file = stage.dir.path().join("out.json");
     // Without losses and without an existing file there is no question. The extension is added to the name.
-    stage.session.apply(Command::ExportJson(stage.dir.path().join("out")));
+    stage.session.apply(FileCommand::ExportJson(stage.dir.path().join("out")));
     assert!(stage.session.question().is_none() && file.exists());
     fs::write(&file, "precious").unwrap();
-    stage.session.apply(Command::ExportJson(file.clone()));
+    stage.session.apply(FileCommand::ExportJson(file.clone()));
     assert_eq!(export_question(&stage), (true, Vec::new()));
     assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
-    stage.session.apply(Command::Answer(Answer::Cancel));
+    stage.session.apply(FileCommand::Answer(Answer::Cancel));
     assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
-    stage.session.apply(Command::ExportJson(file.clone()));
-    stage.session.apply(Command::Answer(Answer::Export));
+    stage.session.apply(FileCommand::ExportJson(file.clone()));
+    stage.session.apply(FileCommand::Answer(Answer::Export));
     assert!(fs::read_to_string(&file).unwrap().contains("renderpass"));
     let backup = stage.dir.path().join("out.json.replaced-0001/out.json");
     assert_eq!(fs::read_to_string(backup).unwrap(), "precious");
@@ -113,7 +113,7 @@ fn a_failing_export_is_rejected_before_the_question() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &format!("#include \"gone.glsl\"\n{}", plain(0.5)))]);
     let file = stage.dir.path().join("out.json");
-    stage.session.apply(Command::ExportJson(file.clone()));
+    stage.session.apply(FileCommand::ExportJson(file.clone()));
     let notices = stage.notices(Level::Error).join("\n");
     assert!(
         notices.contains("not exported: ") && notices.contains("gone.glsl") && notices.contains("image.glsl:1"),
@@ -122,7 +122,7 @@ fn a_failing_export_is_rejected_before_the_question() {
     assert!(stage.session.question().is_none() && !file.exists());
     let folder = stage.dir.path().join("folder.json");
     fs::create_dir(&folder).unwrap();
-    stage.session.apply(Command::ExportJson(folder));
+    stage.session.apply(FileCommand::ExportJson(folder));
     assert!(stage.notices(Level::Error).join("\n").contains("is a folder"), "{:?}", stage.session.notices());
 }
 

@@ -7,7 +7,7 @@ use crate::{
         theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    session::{Command, Count, Session, Status},
+    session::{Count, Session, Status, ToolCommand},
 };
 use egui::{Label, RichText, Ui};
 
@@ -22,7 +22,7 @@ pub(super) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mu
         Some(Status::UnderWay(Count { done, of })) => {
             // Before the words, which get wider: a button must not move away from the pointer.
             if out.clicked("buffers:stop", &ui.button("Stop")) {
-                out.ask(Command::FindNonfinite(false));
+                out.ask(ToolCommand::FindNonfinite(false));
             }
             ui.spinner();
             ui.label(format!("Searching for the first NaN: frame {done} of {of}"));
@@ -57,7 +57,7 @@ pub(super) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mu
             find(ui, "Search again", out);
             let close = ui.button("Close").on_hover_text("Dismiss");
             if out.clicked("buffers:close-search", &close) {
-                out.ask(Command::FindNonfinite(false));
+                out.ask(ToolCommand::FindNonfinite(false));
             }
         }
     });
@@ -67,7 +67,7 @@ fn find(ui: &mut Ui, name: &str, out: &mut UiOutput) {
     let tip = "Replays the kept frames in the background and reports the first NaN: pass, frame, texel and line";
     let response = ui.button(name).on_hover_text(tip);
     if out.clicked("buffers:find", &response) {
-        out.ask(Command::FindNonfinite(true));
+        out.ask(ToolCommand::FindNonfinite(true));
     }
 }
 

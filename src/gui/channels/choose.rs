@@ -14,7 +14,7 @@ use crate::{
     },
     media,
     project::{Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassName, Wrap},
-    session::{Command, Session},
+    session::{EditCommand, FileCommand, Session, SoundCommand},
 };
 use egui::{ComboBox, FontId, Rect, ScrollArea, Sense, Ui, pos2, vec2};
 use std::time::Instant;
@@ -30,7 +30,7 @@ pub(super) fn choose(
 ) {
     let session = swatches.session;
     let set = |out: &mut UiOutput, channel: Option<Channel>| {
-        out.ask(Command::SetChannel { pass: pass.clone(), index, channel });
+        out.ask(EditCommand::SetChannel { pass: pass.clone(), index, channel });
     };
     let now = channel.map(|c| &c.input);
     ui.colored_label(theme::of(ui).weak, format!("iChannel{index} of {} reads", pass.title()));
@@ -141,7 +141,7 @@ fn files(
                 texture_card(ui, rect, &name, &input, chosen || response.hovered(), swatches);
             }
             if out.clicked(&format!("choose:file:{shown}"), &response) && !chosen {
-                out.ask(Command::Bring { paths: vec![folder.join(path)], to: Some((pass.clone(), Some(index))) });
+                out.ask(FileCommand::Bring { paths: vec![folder.join(path)], to: Some((pass.clone(), Some(index))) });
             }
             response.on_hover_text(shown);
         }
@@ -157,7 +157,7 @@ fn microphone(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     };
     ui.horizontal_wrapped(|ui| {
         if out.clicked("choose:use-microphone", &ui.button(text)) {
-            out.ask(Command::UseMicrophone(!view.is_on));
+            out.ask(SoundCommand::UseMicrophone(!view.is_on));
         }
         ui.colored_label(theme::of(ui).weak, note);
     });

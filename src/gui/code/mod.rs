@@ -21,7 +21,7 @@ use super::{
 };
 use crate::{
     project::{Origin, Tab},
-    session::{Command, Session, probe::ProbePlace},
+    session::{EditCommand, Session, ViewCommand, probe::ProbePlace},
 };
 use egui::{Frame, Id, Margin, Panel, Ui};
 use everywhere::ProjectMatches;
@@ -342,7 +342,7 @@ impl CodePanel {
         self.show_uses(ui, session, out);
         if self.told_front.as_ref() != Some(&self.current) {
             self.told_front = Some(self.current.clone());
-            out.ask(Command::BringToFront(self.current.clone()));
+            out.ask(EditCommand::BringToFront(self.current.clone()));
         }
         self.editor(ui, session, out);
         is_dragged
@@ -409,7 +409,7 @@ impl CodePanel {
         if word != self.pointed {
             self.pointed = word;
             let tab = self.current.clone();
-            out.ask(Command::Probe(word.map(|at| ProbePlace { tab, at, visit: 0 })));
+            out.ask(ViewCommand::Probe(word.map(|at| ProbePlace { tab, at, visit: 0 })));
         }
     }
 

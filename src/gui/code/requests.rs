@@ -12,7 +12,7 @@ use crate::{
         uses::Uses,
     },
     project::Tab,
-    session::{Command, Level, Session},
+    session::{Level, NoticeCommand, Session},
 };
 use egui::Ui;
 
@@ -46,7 +46,7 @@ impl CodePanel {
                     self.go_to_line = None;
                     self.find.close();
                 }
-                Err(text) => out.ask(Command::Notify { level: Level::Info, text, path: None }),
+                Err(text) => out.ask(NoticeCommand::Notify { level: Level::Info, text, path: None }),
             },
             (Ask::Paste, _) => out.shell_commands.push(ShellCommand::PasteCode),
             (Ask::GoTo(_) | Ask::ListUses(_), None) => {}

@@ -11,7 +11,7 @@ use crate::{
     },
     lab::difference::{PictureDifference, Times},
     playback::comparing::Comparison,
-    session::{Command, Count, Outcome, Session, Status},
+    session::{Command, Count, Outcome, Session, Status, ToolCommand},
 };
 use egui::{Label, ProgressBar, RichText, TextEdit, Ui, vec2};
 
@@ -73,7 +73,7 @@ fn reference(state: &mut Compare, ui: &mut Ui, out: &mut UiOutput) {
     accessible::name(&field, egui::Role::TextInput, name);
     out.place("compare:name", field.rect);
     if field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter)) {
-        out.commands.extend(state.against().map(|against| Command::Compare(Some(against))));
+        out.commands.extend(state.against().map(|against| Command::Tool(ToolCommand::Compare(Some(against)))));
     }
     if state.choice == Choice::Project {
         let browse = ui.button("Browse…").on_hover_text("Choose the folder of the other project");
@@ -87,7 +87,7 @@ fn reference(state: &mut Compare, ui: &mut Ui, out: &mut UiOutput) {
 fn begin(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     if let Some(Status::UnderWay(Count { done, of })) = session.comparison() {
         if out.clicked("compare:stop", &ui.button("Stop")) {
-            out.ask(Command::Compare(None));
+            out.ask(ToolCommand::Compare(None));
         }
         if of > 1 {
             let part = done as f32 / of as f32;
@@ -114,7 +114,7 @@ fn begin(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput
     let is_settled = !compile.compiling && matches!(compile.last, Some(Outcome::Ok { .. }));
     let is_due = state.follows && is_settled && session.is_comparison_old();
     if is_asked || is_due {
-        out.commands.extend(against.map(|against| Command::Compare(Some(against))));
+        out.commands.extend(against.map(|against| Command::Tool(ToolCommand::Compare(Some(against)))));
     }
 }
 

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     gui::{theme, ui_output::UiOutput},
-    session::{Command, Session, measures::Measure},
+    session::{Session, ViewCommand, measures::Measure},
 };
 use egui::{Button, Label, RichText, ScrollArea, Ui, vec2};
 
@@ -51,11 +51,11 @@ fn controls(state: &mut Measurements, ui: &mut Ui, measures: &[Measure], out: &m
         let save = ui.add_enabled(!is_empty, Button::new("Save as CSV"));
         let save = save.on_hover_text("One row per frame, one column per comment; saved next to the screenshots");
         if out.clicked("measures:save", &save) {
-            out.ask(Command::SaveMeasures);
+            out.ask(ViewCommand::SaveMeasures);
         }
         let clear = ui.add_enabled(!is_empty, Button::new("Clear")).on_hover_text("Clear all plots and start again");
         if out.clicked("measures:clear", &clear) {
-            out.ask(Command::ClearMeasures);
+            out.ask(ViewCommand::ClearMeasures);
         }
     });
 }

@@ -266,6 +266,7 @@ mod tests {
         dock::Panel,
         settings::Theme,
     };
+    use crate::session::TransportCommand;
 
     fn action(fit: &Fit<'_>) -> Option<Action> {
         match fit.choice {
@@ -337,7 +338,11 @@ mod tests {
 
     #[test]
     fn project_offers_follow_the_actions() {
-        let offer = |name: &str, title: &str| Offer { name: name.into(), title: title.into(), command: Command::Play };
+        let offer = |name: &str, title: &str| Offer {
+            name: name.into(),
+            title: title.into(),
+            command: Command::Transport(TransportCommand::Play),
+        };
         let offers = [offer("show:Image", "Show pass: Image"), offer("recent:/x/waves", "Open recent: waves (/x)")];
         let all = fits("", &[], &offers);
         assert_eq!(all.len(), ACTIONS.len() + 1);

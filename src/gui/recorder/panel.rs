@@ -3,7 +3,7 @@
 use super::{Recorder, fields};
 use crate::{
     gui::{accessible, theme, ui_output::UiOutput},
-    session::{CheckedForm, Command, FilmForm, FilmOrder, FilmPreset, FilmView, Session},
+    session::{CheckedForm, FilmCommand, FilmForm, FilmOrder, FilmPreset, FilmView, Session},
 };
 use egui::{Button, Label, ProgressBar, Response, RichText, Role, ScrollArea, Ui, vec2};
 
@@ -22,7 +22,7 @@ pub(crate) fn show(recorder: &mut Recorder, ui: &mut Ui, settings: &FilmForm, se
     recorder.follow(settings);
     let facts = session.film_facts();
     if facts.encoders.is_none() && !std::mem::replace(&mut recorder.has_asked, true) {
-        out.ask(Command::FindEncoders);
+        out.ask(FilmCommand::FindEncoders);
     }
     let film = session.film();
     let is_busy = film.as_ref().is_some_and(FilmView::is_busy);
@@ -68,7 +68,7 @@ fn presets(recorder: &mut Recorder, ui: &mut Ui, out: &mut UiOutput) {
 fn look_again(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let button = ui.add_enabled(!session.looks_for_encoders(), Button::new("Look for ffmpeg again"));
     if out.clicked("film:look-again", &button) {
-        out.ask(Command::FindEncoders);
+        out.ask(FilmCommand::FindEncoders);
     }
 }
 
@@ -88,7 +88,7 @@ fn buttons(recorder: &mut Recorder, ui: &mut Ui, checked: &CheckedForm, out: &mu
                 None => response,
             };
             if let (true, Some(order)) = (out.clicked(name, &response), order) {
-                out.ask(Command::MakeFilm(Box::new(order.clone())));
+                out.ask(FilmCommand::MakeFilm(Box::new(order.clone())));
                 return true;
             }
             let note = why.filter(|_| checked.errors.is_empty());
@@ -128,11 +128,11 @@ fn status(ui: &mut Ui, session: &Session, film: &FilmView<'_>, out: &mut UiOutpu
             if matches!(film, FilmView::Live(_)) {
                 let stop = ui.add(Button::new(RichText::new("Stop and save").color(p.strong)).fill(p.accent_fill));
                 if out.clicked("film:stop", &stop) {
-                    out.ask(Command::StopFilm);
+                    out.ask(FilmCommand::StopFilm);
                 }
             }
             if cancel(ui, out) {
-                out.ask(Command::CancelFilm);
+                out.ask(FilmCommand::CancelFilm);
             }
         });
     }

@@ -32,7 +32,10 @@ use super::{
 use crate::{
     gpu::Gpu,
     project::Origin,
-    session::{Command, Level, Session},
+    session::{
+        CanvasCommand, CaptureCommand, Command, ControlCommand, EditCommand, FileCommand, HaltCommand, Level,
+        NoticeCommand, Session, SoundCommand, ToolCommand, TransportCommand, ViewCommand,
+    },
 };
 use egui::{CentralPanel, Frame, Ui};
 use egui_wgpu::Renderer;
@@ -228,10 +231,10 @@ impl Shell {
             // Drop notices of fixed problems, and show repeated ones once.
             let is_over = |text: &str| self.keys.is_fixed(text) || self.settings.is_fixed(text);
             let over = session.notices().iter().filter(|n| is_over(&n.text) || mistakes.contains(&n.text));
-            over.for_each(|notice| out.ask(Command::DismissNotice(notice.id)));
+            over.for_each(|notice| out.ask(NoticeCommand::DismissNotice(notice.id)));
         }
         for text in mistakes {
-            out.ask(Command::Notify { level: Level::Error, text, path: None });
+            out.ask(NoticeCommand::Notify { level: Level::Error, text, path: None });
         }
         out.commands.extend(self.follow_settings(ui.ctx()));
         out.commands.extend(self.browser.take());
@@ -279,7 +282,7 @@ impl Shell {
         }
         match self.files.show(ui, &mut out) {
             Some(Picked::Path(pick, path)) => out.shell_commands.push(ShellCommand::Picked(pick, path)),
-            Some(Picked::Cancelled(Pick::SaveAs(_))) => out.ask(Command::SaveAsCancelled),
+            Some(Picked::Cancelled(Pick::SaveAs(_))) => out.ask(FileCommand::SaveAsCancelled),
             Some(Picked::Cancelled(_)) | None => {}
         }
         for wish in std::mem::take(&mut out.shell_commands) {
@@ -324,19 +327,19 @@ impl Shell {
         if before.as_ref().map(|before| &before.code_font) != Some(&settings.code_font)
             && let Err(text) = fonts::set(ctx, settings.code_font.as_deref())
         {
-            commands.push(Command::Notify { level: Level::Error, text, path: None });
+            commands.push(Command::Notice(NoticeCommand::Notify { level: Level::Error, text, path: None }));
         }
-        commands.push(Command::SetVolume(settings.volume));
-        commands.push(Command::SetMute(settings.mute));
-        commands.push(Command::SetAudioOutput(settings.audio_output.clone()));
-        commands.push(Command::SetAudioInput(settings.audio_input.clone()));
-        commands.push(Command::SetProjectInPictures(settings.project_in_images));
-        commands.push(Command::SetOsc(self.keeps_osc.or(settings.osc())));
-        commands.push(Command::SetMidi(settings.midi.clone()));
-        commands.push(Command::SetGamepads(settings.gamepads));
-        commands.push(Command::SetCompileOnSave(settings.compile_on_save));
+        commands.push(Command::Sound(SoundCommand::SetVolume(settings.volume)));
+        commands.push(Command::Sound(SoundCommand::SetMute(settings.mute)));
+        commands.push(Command::Sound(SoundCommand::SetAudioOutput(settings.audio_output.clone())));
+        commands.push(Command::Sound(SoundCommand::SetAudioInput(settings.audio_input.clone())));
+        commands.push(Command::Capture(CaptureCommand::SetProjectInPictures(settings.project_in_images)));
+        commands.push(Command::Control(ControlCommand::SetOsc(self.keeps_osc.or(settings.osc()))));
+        commands.push(Command::Control(ControlCommand::SetMidi(settings.midi.clone())));
+        commands.push(Command::Control(ControlCommand::SetGamepads(settings.gamepads)));
+        commands.push(Command::Edit(EditCommand::SetCompileOnSave(settings.compile_on_save)));
         if !self.keeps_frame_limit {
-            commands.push(Command::SetFrameLimit(settings.frame_timeout));
+            commands.push(Command::Halt(HaltCommand::SetFrameLimit(settings.frame_timeout)));
         }
         ctx.request_repaint();
         commands
@@ -345,7 +348,7 @@ impl Shell {
     /// Changes a setting and saves it.
     fn change(&mut self, change: Change, out: &mut UiOutput) {
         if let Err(text) = self.settings.change(change) {
-            out.ask(Command::Notify { level: Level::Warning, text, path: None });
+            out.ask(NoticeCommand::Notify { level: Level::Warning, text, path: None });
         }
     }
 
@@ -378,7 +381,7 @@ impl Shell {
             return;
         }
         if !self.viewport.stop_picking() && session.probe().is_some() {
-            out.ask(Command::Probe(None));
+            out.ask(ViewCommand::Probe(None));
         }
     }
 
@@ -448,24 +451,24 @@ impl Shell {
             ShellCommand::PasteCode => self.wants_code_paste = true,
             ShellCommand::Fix(fix) => {
                 if let Err(why) = self.code.apply_fix(&fix, out) {
-                    out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });
+                    out.ask(NoticeCommand::Notify { level: Level::Info, text: why.into(), path: None });
                 }
             }
             ShellCommand::CloseFile(tab) => self.code.close_file(&tab),
             ShellCommand::Set(change) => self.change(change, out),
             ShellCommand::StopOsc => {
                 self.keeps_osc = None;
-                out.ask(Command::SetOsc(None));
+                out.ask(ControlCommand::SetOsc(None));
                 self.change(Change::Osc(false), out);
             }
             ShellCommand::Breakpoint(tab, line) => {
                 if let Err(why) = self.kept.debugger.toggle(session, &tab, line) {
-                    out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });
+                    out.ask(NoticeCommand::Notify { level: Level::Info, text: why.into(), path: None });
                 }
             }
             ShellCommand::Trace(at) => {
                 self.dock.set_open(Panel::Trace, true);
-                out.ask(Command::Trace(Some(at)));
+                out.ask(ToolCommand::Trace(Some(at)));
             }
             ShellCommand::Pick(pick) => self.files.ask(pick, start_folder(session)),
             ShellCommand::Picked(pick, path) => self.picked(pick, path, out),
@@ -483,7 +486,7 @@ impl Shell {
                         self.code.focus();
                     }
                 } else if !self.shell_commands.contains(&ShellCommand::GoTo(tab.clone(), place))
-                    && out.commands.contains(&Command::AddTab(tab.clone()))
+                    && out.commands.contains(&Command::Edit(EditCommand::AddTab(tab.clone())))
                 {
                     // The tab is being created and exists in the next frame.
                     self.shell_commands.push(ShellCommand::GoTo(tab, place));
@@ -501,22 +504,22 @@ impl Shell {
     /// Closes the gallery without moving the keyboard focus.
     fn uncover(&mut self, out: &mut UiOutput) {
         if std::mem::take(&mut self.gallery) {
-            out.ask(Command::Cover(false));
+            out.ask(CanvasCommand::Cover(false));
         }
     }
 
     fn picked(&mut self, pick: Pick, path: PathBuf, out: &mut UiOutput) {
         match pick {
             Pick::OpenFolder | Pick::OpenFile => {
-                out.ask(Command::Open(path.display().to_string()));
+                out.ask(FileCommand::Open(path.display().to_string()));
             }
-            Pick::SaveAs(_) => out.ask(Command::SaveAs(path)),
+            Pick::SaveAs(_) => out.ask(FileCommand::SaveAs(path)),
             Pick::Recording => {
                 self.uncover(out);
-                out.ask(Command::PlayRecording(path));
+                out.ask(TransportCommand::PlayRecording(path));
             }
-            Pick::Json(_) => out.ask(Command::ExportJson(path)),
-            Pick::Page(_) => out.ask(Command::ExportPage(path)),
+            Pick::Json(_) => out.ask(FileCommand::ExportJson(path)),
+            Pick::Page(_) => out.ask(FileCommand::ExportPage(path)),
             Pick::LabFolder => self.lab.keep_in(path),
             Pick::LabReport => self.lab.save_report(path),
             Pick::Reference => self.kept.compare.choose(&path),

@@ -19,7 +19,7 @@ use crate::{
         viewport::{Viewport, ViewportMode},
     },
     project::Origin,
-    session::{Command, FilmForm, Session},
+    session::{FilmForm, Session, ToolCommand, ViewCommand},
 };
 use egui::{CentralPanel, Frame, Id, Margin, Order, Rect, Ui, vec2};
 
@@ -75,7 +75,7 @@ impl Shell {
         });
         // Closing the panel ends the trace of the pixel.
         if session.trace().traced.is_some() && !self.dock.is_open(Panel::Trace) {
-            out.ask(Command::Trace(None));
+            out.ask(ToolCommand::Trace(None));
         }
         let sees_costs = self.dock.is_seen(Panel::Costs)
             | self.kept.buffers.wants_costs()
@@ -86,7 +86,7 @@ impl Shell {
     /// Gathers costs only while they are visible.
     fn watch_costs(&mut self, is_seen: bool, out: &mut UiOutput) {
         if std::mem::replace(&mut self.sees_costs, is_seen) != is_seen {
-            out.ask(Command::WatchCosts(is_seen));
+            out.ask(ViewCommand::WatchCosts(is_seen));
         }
     }
 

@@ -10,7 +10,7 @@ use crate::{
         theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    session::{Command, Session, Status},
+    session::{Session, Status, ToolCommand},
 };
 use egui::{Id, Label, RichText, Ui};
 
@@ -65,7 +65,7 @@ fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut UiOutput) {
         } else if is_apart && traced.mesh().is_none() {
             let tip = "Compare each assignment on the CPU and the GPU until one differs";
             if parts::button(ui, "trace:part", "Find first difference", tip, out) {
-                out.ask(Command::FindDivergence);
+                out.ask(ToolCommand::FindDivergence);
             }
         }
     });

@@ -17,7 +17,7 @@ use crate::{
         theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    session::{Command, Session},
+    session::{Session, ToolCommand},
 };
 use egui::{Label, RichText, ScrollArea, TextEdit, Ui, vec2};
 
@@ -44,7 +44,7 @@ pub(crate) fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out:
             out.act(Action::TracePixel);
         }
         if debugger.is_on() && parts::button(ui, "trace:end-trace", "End", "Stop tracing", out) {
-            out.ask(Command::Trace(None));
+            out.ask(ToolCommand::Trace(None));
         }
         let view = session.trace();
         if view.is_under_way {

@@ -4,7 +4,7 @@ use super::parts::{child, components};
 use crate::{
     gui::{accessible, actions::Action, menus, theme, ui_output::UiOutput},
     project::{ControlTarget, CustomUniform},
-    session::{Command, PickupSide, Session},
+    session::{ControlCommand, PickupSide, Session},
 };
 use egui::{Button, Key, Label, Rect, Response, RichText, Role, Sense, Ui};
 
@@ -63,7 +63,7 @@ pub(super) fn label(
         false => text.to_owned(),
     };
     if response.on_hover_text(tip).clicked() || is_given_up {
-        out.ask(Command::LearnControl(None));
+        out.ask(ControlCommand::LearnControl(None));
     }
 }
 
@@ -77,7 +77,7 @@ pub(super) fn menu(row: &Response, session: &Session, uniform: &CustomUniform, o
             if session.is_learning(&target) {
                 let stop = ui.button(format!("Stop learning the control{of}"));
                 if out.clicked(&format!("uniform-menu:stop:{key}"), &stop) {
-                    out.ask(Command::LearnControl(None));
+                    out.ask(ControlCommand::LearnControl(None));
                     ui.close();
                 }
             } else {
@@ -87,14 +87,14 @@ pub(super) fn menu(row: &Response, session: &Session, uniform: &CustomUniform, o
                 };
                 let learn = ui.add_enabled(is_on, Button::new(title));
                 if out.clicked(&format!("uniform-menu:learn:{key}"), &learn) {
-                    out.ask(Command::LearnControl(Some(target.clone())));
+                    out.ask(ControlCommand::LearnControl(Some(target.clone())));
                     ui.close();
                 }
             }
             if let Some(control) = session.control_of(&target) {
                 let forget = ui.button(format!("Forget control{of} ({})", control.label()));
                 if out.clicked(&format!("uniform-menu:forget:{key}"), &forget) {
-                    out.ask(Command::ForgetControl(target));
+                    out.ask(ControlCommand::ForgetControl(target));
                     ui.close();
                 }
             }

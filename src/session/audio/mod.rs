@@ -13,6 +13,7 @@ use microphone::reads_it;
 pub use view::{MicrophoneView, OutputView};
 
 use crate::{
+    command::SoundCommand,
     open_project::OpenProject,
     view::{About, Level},
 };
@@ -71,6 +72,18 @@ pub(crate) struct Audio {
 }
 
 impl Audio {
+    pub(crate) fn apply(&mut self, open: &mut OpenProject, command: SoundCommand) {
+        match command {
+            SoundCommand::SetVolume(volume) => self.set_volume(volume),
+            SoundCommand::SetMute(on) => self.set_mute(on),
+            SoundCommand::OpenSoundAgain => self.open_sound_again(open),
+            SoundCommand::SetAudioOutput(device) => self.choose_output(device),
+            SoundCommand::SetAudioInput(device) => self.choose_input(device),
+            SoundCommand::ListAudioDevices => self.list_devices(&open.host.wake),
+            SoundCommand::UseMicrophone(on) => self.use_microphone(open, on),
+        }
+    }
+
     pub(crate) fn new(host: Option<Arc<dyn AudioHost>>, on_thread: bool, state_dir: Option<&Path>) -> Self {
         let marker = OutputMarker::new(state_dir.filter(|_| host.is_some()));
         let marked = |host| -> Arc<dyn AudioHost> { Arc::new(MarkedHost { host, marker: marker.clone() }) };

@@ -13,7 +13,7 @@ pub struct OutputView {
     pub has_sound: bool,
     pub device: DeviceState,
     /// The device stays closed because the previous run crashed while opening it. See
-    /// [`Command::OpenSoundAgain`](crate::Command::OpenSoundAgain).
+    /// [`SoundCommand::OpenSoundAgain`](crate::SoundCommand::OpenSoundAgain).
     pub ended_before: bool,
 }
 
@@ -63,7 +63,7 @@ impl Audio {
     }
 
     /// Returns the names of the output devices and of the input devices, once
-    /// [`Command::ListAudioDevices`](crate::Command::ListAudioDevices) was given and they are known.
+    /// [`SoundCommand::ListAudioDevices`](crate::SoundCommand::ListAudioDevices) was given and they are known.
     pub(crate) fn audio_devices(&self) -> (Option<Vec<String>>, Option<Vec<String>>) {
         let audio = &self;
         (audio.player.as_ref().and_then(|player| player.names()), audio.microphone.as_ref().and_then(|m| m.names()))

@@ -7,6 +7,7 @@ mod gamepads;
 
 use super::{
     SessionOptions,
+    command::ControlCommand,
     open_project::OpenProject,
     view::{About, Level},
 };
@@ -84,6 +85,17 @@ impl ControlsView {
 }
 
 impl Controls {
+    pub(crate) fn apply(&mut self, open: &mut OpenProject, command: ControlCommand) {
+        match command {
+            ControlCommand::SetOsc(address) => self.set_osc(open, address),
+            ControlCommand::SetMidi(choice) => self.set_midi(open, choice),
+            ControlCommand::SetGamepads(on) => self.set_gamepads(open, on),
+            ControlCommand::ListMidiDevices => self.list_midi_devices(),
+            ControlCommand::LearnControl(target) => self.learn_control(open, target),
+            ControlCommand::ForgetControl(target) => self.forget_control(open, &target),
+        }
+    }
+
     pub(crate) fn new(options: &SessionOptions, wake: Wake) -> Self {
         Self {
             host: options.midi.clone(),

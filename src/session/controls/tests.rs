@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::Session;
-use crate::{Command, SessionOptions};
+use crate::{ControlCommand, EditCommand, FileCommand, SessionOptions, TransportCommand};
 use eddy_control::{
     fake::{FakeMidi, FakePads},
     pads::PadEvent,
@@ -41,9 +41,9 @@ impl Fixture {
         let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
         let mut project = Project::of_image("p".into(), text.into());
         eddy_project::declare_channels(&mut project);
-        session.apply(Command::OpenProject { project: Box::new(project), size: None });
-        session.apply(Command::Pause);
-        session.apply(Command::SetMidi(MidiChoice::All));
+        session.apply(FileCommand::OpenProject { project: Box::new(project), size: None });
+        session.apply(TransportCommand::Pause);
+        session.apply(ControlCommand::SetMidi(MidiChoice::All));
         let mut room = Fixture { session, midi, pads, now: Instant::now() };
         room.until("a program", |session| session.open.engine.has_program());
         Some(room)
@@ -69,7 +69,7 @@ impl Fixture {
     }
 
     fn learn(&mut self, target: &ControlTarget, bytes: &[u8]) {
-        self.session.apply(Command::LearnControl(Some(target.clone())));
+        self.session.apply(ControlCommand::LearnControl(Some(target.clone())));
         assert!(self.session.is_learning(target));
         self.send(bytes);
         assert!(!self.session.is_learning(target));
@@ -107,11 +107,11 @@ fn control_can_be_learned_moved_and_forgotten() {
     let (moved, steps) = (room.value("center"), room.session.open.pass_history.undo.len());
     assert!(moved[1] > 0.5 && steps == 1, "{moved:?} in {steps} steps");
     assert_eq!(room.session.pass_undo().unwrap().title, "change center and speed");
-    room.session.apply(Command::UndoPassEdit);
+    room.session.apply(EditCommand::UndoPassEdit);
     assert_eq!((room.value("speed"), room.value("center")), (vec![1.0], vec![-1.0, -1.0]));
-    room.session.apply(Command::RedoPassEdit);
+    room.session.apply(EditCommand::RedoPassEdit);
     assert_eq!(room.value("center"), moved);
-    room.session.apply(Command::ForgetControl(speed.clone()));
+    room.session.apply(ControlCommand::ForgetControl(speed.clone()));
     let before = room.value("speed");
     room.send(&[0xb0, 70, 127]);
     assert_eq!((room.bound(&speed), room.value("speed")), (None, before));
@@ -124,7 +124,7 @@ fn fourteen_bit_control_is_learned_as_one_and_key_toggles() {
     // Both parts at once, and one after the other.
     room.learn(&speed, &[0xb0, 7, 64, 0xb0, 39, 1]);
     assert_eq!(room.bound(&speed).as_deref(), Some("midi 1 cc14 7"));
-    room.session.apply(Command::ForgetControl(speed.clone()));
+    room.session.apply(ControlCommand::ForgetControl(speed.clone()));
     room.learn(&speed, &[0xb1, 7, 64]);
     assert_eq!(room.bound(&speed).as_deref(), Some("midi 2 cc 7"));
     room.send(&[0xb1, 39, 1]);
@@ -150,7 +150,7 @@ fn knob_waits_for_pickup_at_the_value() {
     assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![4.0], None), "it was just learned");
     // A slider moves the value away from the knob.
     let value = eddy_project::CustomUniformValue::Float(1.0);
-    room.session.apply(Command::SetCustomUniform { name: "speed".into(), value: Some(value) });
+    room.session.apply(EditCommand::SetCustomUniform { name: "speed".into(), value: Some(value) });
     room.send(&[0xb0, 70, 120]);
     assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![1.0], Some(PickupSide::Above)));
     room.send(&[0xb0, 70, 40]);
@@ -160,12 +160,12 @@ fn knob_waits_for_pickup_at_the_value() {
     // The same for a project that has the control and another value.
     let mut project = room.session.project().clone();
     project.custom_uniform_values.insert("speed".into(), eddy_project::CustomUniformValue::Float(3.0));
-    room.session.apply(Command::OpenProject { project: Box::new(project), size: None });
-    room.session.apply(Command::Answer(crate::Answer::Discard));
+    room.session.apply(FileCommand::OpenProject { project: Box::new(project), size: None });
+    room.session.apply(FileCommand::Answer(crate::Answer::Discard));
     room.until("a program", |session| session.open.engine.has_program() && !session.custom_uniforms().is_empty());
     room.send(&[0xb0, 70, 21]);
     assert_eq!((room.value("speed"), room.session.control_waits(&speed)), (vec![3.0], Some(PickupSide::Below)));
-    room.session.apply(Command::ForgetControl(speed.clone()));
+    room.session.apply(ControlCommand::ForgetControl(speed.clone()));
     assert_eq!(room.session.control_waits(&speed), None);
     // A switch and a pitch bend have no value to reach first.
     room.learn(&ControlTarget::whole("on"), &[0xb0, 71, 127]);
@@ -181,7 +181,7 @@ fn parameter_number_is_learned_in_any_message_order() {
     assert_eq!(room.bound(&speed).as_deref(), Some("midi 1 nrpn 300"));
     room.send(&[0xb0, 99, 2, 98, 44, 6, 127]);
     assert_eq!(room.value("speed"), [4.0]);
-    room.session.apply(Command::ForgetControl(speed.clone()));
+    room.session.apply(ControlCommand::ForgetControl(speed.clone()));
     room.learn(&speed, &[0xb1, 99, 0]);
     room.send(&[0xb1, 98, 5]);
     room.send(&[0xb1, 6, 127]);
@@ -191,7 +191,7 @@ fn parameter_number_is_learned_in_any_message_order() {
 #[test]
 fn osc_moves_named_and_learned_uniforms() {
     let Some(mut room) = Fixture::open() else { return };
-    room.session.apply(Command::SetOsc(Some(SocketAddr::from(([127, 0, 0, 1], 0)))));
+    room.session.apply(ControlCommand::SetOsc(Some(SocketAddr::from(([127, 0, 0, 1], 0)))));
     room.until("listening", |session| matches!(session.controls_view().osc, Some(OscState::Listening(_))));
     let Some(OscState::Listening(to)) = room.session.controls_view().osc else { unreachable!() };
     let sender = UdpSocket::bind("127.0.0.1:0").unwrap();
@@ -213,7 +213,7 @@ fn osc_moves_named_and_learned_uniforms() {
     send(b"/eddy/center\0\0\0\0,ff\0\x3f\0\0\0\xbf\0\0\0");
     // The second number of a pad is bound to the second component; the touch message is not learned.
     let y = ControlTarget::of_component("center", "y").unwrap();
-    room.session.apply(Command::LearnControl(Some(y.clone())));
+    room.session.apply(ControlCommand::LearnControl(Some(y.clone())));
     send(b"/eddy/speed\0,f\0\0\x40\x20\0\0");
     send(b"/1/x*\0\0\0,ff\0\x3f\0\0\0\x3f\x80\0\0");
     send(b"/1/xy/z\0,f\0\0\x3f\x80\0\0");
@@ -221,7 +221,7 @@ fn osc_moves_named_and_learned_uniforms() {
     room.until("a control", |session| session.control_of(&y).is_some());
     assert_eq!((room.bound(&y).as_deref(), room.value("center")), (Some("/1/xy 2"), vec![0.5, 1.0]));
     assert!(!room.session.controls_view().is_osc_public);
-    room.session.apply(Command::SetOsc(None));
+    room.session.apply(ControlCommand::SetOsc(None));
     assert_eq!(room.session.controls_view().osc, None);
     assert_eq!(UdpSocket::bind(to).map(|_| ()).map_err(|e| e.kind()), Ok(()), "the port is free again");
 }
@@ -246,8 +246,8 @@ fn connected_and_removed_devices_are_reported_once() {
 fn recording_contains_values_set_by_controls() {
     let Some(mut room) = Fixture::open() else { return };
     room.learn(&ControlTarget::whole("speed"), &[0xb0, 70, 0]);
-    room.session.apply(Command::Record);
-    room.session.apply(Command::Play);
+    room.session.apply(TransportCommand::Record);
+    room.session.apply(TransportCommand::Play);
     for n in [0, 32, 64, 127] {
         room.send(&[0xb0, 70, n]);
         (0..3).for_each(|_| room.tick());
@@ -269,10 +269,10 @@ fn gamepad_moves_uniforms_and_is_recorded() {
     happens(&room, PadEvent::Connected { pad: 0, name: "Pad".into() });
     (0..5).for_each(|_| room.tick());
     assert_eq!(room.session.open.playback.gamepads, eddy_media::Gamepads::default(), "they are off");
-    room.session.apply(Command::SetGamepads(true));
+    room.session.apply(ControlCommand::SetGamepads(true));
     room.until("a pad", |session| session.notices().iter().any(|n| n.text == "gamepad 1 connected: Pad"));
     let speed = ControlTarget::whole("speed");
-    room.session.apply(Command::LearnControl(Some(speed.clone())));
+    room.session.apply(ControlCommand::LearnControl(Some(speed.clone())));
     happens(&room, moved(stick, 0.1));
     happens(&room, moved(PadPart::Axis(1), 1.0));
     room.until("a control", |session| session.control_of(&speed).is_some());
@@ -281,7 +281,7 @@ fn gamepad_moves_uniforms_and_is_recorded() {
     assert_eq!(room.value("speed"), [4.0]);
 
     // A button draws a frame while time is paused, and is pressed in that frame only.
-    room.session.apply(Command::Record);
+    room.session.apply(TransportCommand::Record);
     let frames = |session: &Session| session.open.playback.recorder.as_ref().unwrap().recording.frames.len();
     room.until("a frame", |session| frames(session) == 1);
     happens(&room, moved(south, 1.0));
@@ -295,6 +295,6 @@ fn gamepad_moves_uniforms_and_is_recorded() {
     };
     let rest = [0.1, 1.0, 1.0, 0.0, 0.0];
     assert_eq!([0, 1, 2].map(texels), [rest, [0.1, 1.0, 1.0, 1.0, 1.0], rest]);
-    room.session.apply(Command::SetGamepads(false));
+    room.session.apply(ControlCommand::SetGamepads(false));
     assert_eq!(room.session.open.playback.gamepads, eddy_media::Gamepads::default());
 }

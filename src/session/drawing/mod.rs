@@ -32,7 +32,7 @@ use std::{
 
 /// A job is waited for this long if the previous one was faster: a picture that is drawn quickly appears in the frame
 /// that requests it.
-const PATIENCE: Duration = Duration::from_millis(4);
+const FAST_JOB: Duration = Duration::from_millis(4);
 
 /// The engine, on this thread or another.
 pub(super) struct Drawing {
@@ -41,7 +41,7 @@ pub(super) struct Drawing {
     serial: u64,
     in_flight: Option<InFlight>,
     /// Threads that were abandoned and may still be running.
-    left: Vec<JoinHandle<()>>,
+    abandoned: Vec<JoinHandle<()>>,
 }
 
 struct InFlight {
@@ -96,7 +96,7 @@ impl Drawing {
     }
 
     fn new(backend: Backend) -> Self {
-        Self { backend, serial: 0, in_flight: None, left: Vec::new() }
+        Self { backend, serial: 0, in_flight: None, abandoned: Vec::new() }
     }
 
     /// Returns whether frames are drawn by the processor that also paints the window.
@@ -191,8 +191,8 @@ impl Drawing {
         let mut done = match &mut self.backend {
             Backend::Inline { done, .. } => done.take().map(|done| *done),
             Backend::RenderThread(remote) => {
-                let waits = was_just_submitted && remote.took < PATIENCE;
-                remote.thread.take(if waits { PATIENCE } else { Duration::ZERO })
+                let waits = was_just_submitted && remote.took < FAST_JOB;
+                remote.thread.take(if waits { FAST_JOB } else { Duration::ZERO })
             }
         }?;
         let job = self.in_flight.take()?;
@@ -231,15 +231,15 @@ impl Drawing {
         let ThreadBackend { open, wake, window, .. } = &**remote;
         let thread = RenderThread::start(open.clone(), device.clone(), size, window.rasteriser(), wake.clone())?;
         (remote.device, remote.gate, remote.took) = (device, Gate::default(), Duration::MAX);
-        self.left.extend(std::mem::replace(&mut remote.thread, thread).leave());
+        self.abandoned.extend(std::mem::replace(&mut remote.thread, thread).leave());
         self.in_flight = Some(InFlight::opening(now, self.serial));
         Ok(())
     }
 
     /// The number of abandoned threads that have not ended.
     pub(crate) fn lost_threads(&mut self) -> usize {
-        self.left.retain(|thread| !thread.is_finished());
-        self.left.len()
+        self.abandoned.retain(|thread| !thread.is_finished());
+        self.abandoned.len()
     }
 
     /// Waits for the end of the job, up to `patience`. Returns false if it is still running.

@@ -217,9 +217,9 @@ impl Session {
     /// Starts recording what is drawn, at the film's size and rate.
     fn record_film(&mut self, order: FilmOrder, target: Target) {
         self.open.end_replay("a film is recorded");
-        let before = (self.open.canvas.asked, self.open.playback.clock.fixed_rate());
-        if order.size != self.open.engine.size() || self.open.canvas.asked.fixed.is_none() {
-            self.open.request_size(CanvasSize { fixed: Some(order.size), ..self.open.canvas.asked });
+        let before = (self.open.canvas.requested, self.open.playback.clock.fixed_rate());
+        if order.size != self.open.engine.size() || self.open.canvas.requested.fixed.is_none() {
+            self.open.request_size(CanvasSize { fixed: Some(order.size), ..self.open.canvas.requested });
         }
         self.open.playback.clock.set_fixed_rate(Some(order.fps));
         self.services.films.ended = None;
@@ -260,7 +260,7 @@ impl Session {
         let live = self.services.films.live.take()?;
         let (size, rate) = live.before;
         // The user may have chosen others meanwhile.
-        if self.open.canvas.asked.fixed == Some(live.order.size) {
+        if self.open.canvas.requested.fixed == Some(live.order.size) {
             self.open.request_size(size);
         }
         if self.open.playback.clock.fixed_rate() == Some(live.order.fps) {

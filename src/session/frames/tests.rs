@@ -1,7 +1,7 @@
 //! Tests of a session whose workers fail.
 
 use super::super::{
-    Command, SessionOptions,
+    CanvasCommand, EditCommand, SessionOptions, TransportCommand,
     compile::{BRIEF, Job},
     drawing::Drawing,
     view::{FallbackPicture, Outcome},
@@ -38,7 +38,7 @@ fn compiler_panic_is_reported_and_loses_no_text() {
     let healthy = session.services.compiler.replace_worker(planted);
     let tab = Tab::image();
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
-    session.apply(Command::EditText { tab: tab.clone(), text: text.into() });
+    session.apply(EditCommand::EditText { tab: tab.clone(), text: text.into() });
     tick_until(&mut session, "the panic to be told of", |s| s.notices().iter().any(|n| n.text.contains("planted")));
     let notice = session.notices().last().unwrap();
     assert!(notice.text.starts_with("this is a bug in Eddy: the compiler failed"), "{}", notice.text);
@@ -48,7 +48,7 @@ fn compiler_panic_is_reported_and_loses_no_text() {
     assert_eq!(session.text(&tab), text);
 
     session.services.compiler.replace_worker(healthy);
-    session.apply(Command::CompileNow);
+    session.apply(EditCommand::CompileNow);
     tick_until(&mut session, "a program again", |s| matches!(s.compile_state().last, Some(Outcome::Ok { .. })));
     assert_eq!(session.text(&tab), text);
 }
@@ -61,12 +61,12 @@ fn fast_text_is_compiled_at_each_keystroke() {
     tick_until(&mut session, "the first program", |s| matches!(s.compile_state().last, Some(Outcome::Ok { .. })));
     let tab = Tab::image();
     let edit = |session: &mut Session, text: &str| {
-        session.apply(Command::EditText { tab: tab.clone(), text: text.into() });
+        session.apply(EditCommand::EditText { tab: tab.clone(), text: text.into() });
         session.tick(Instant::now());
     };
     // A text with an error needs no device; it is compiled at once, whatever the first compile took.
     edit(&mut session, "mistake");
-    session.apply(Command::CompileNow);
+    session.apply(EditCommand::CompileNow);
     tick_until(&mut session, "the mistake", |s| matches!(s.compile_state().last, Some(Outcome::Failed { .. })));
     let before = session.diagnostics().to_vec();
     session.open.compile.expect(Duration::from_millis(1));
@@ -100,7 +100,7 @@ fn open_apart(gpu: Gpu) -> Session {
         ..SessionOptions::default()
     };
     let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
-    session.apply(Command::SetFixedSize(Some((64, 36))));
+    session.apply(CanvasCommand::SetFixedSize(Some((64, 36))));
     tick_until(&mut session, "frames", |s| s.transport().frame > 2);
     session
 }
@@ -196,7 +196,7 @@ fn frame_waits_for_newest_text_and_is_abandoned_for_its_program() {
     // For a text with a valid program, the previous frame is abandoned as soon as the program is available.
     let tab = Tab::image();
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
-    session.apply(Command::EditText { tab, text: text.into() });
+    session.apply(EditCommand::EditText { tab, text: text.into() });
     let end = now + Duration::from_secs(120);
     while session.open.changes.program.is_none() {
         assert!(Instant::now() < end, "there is no program");
@@ -222,6 +222,6 @@ fn first_frame_and_paused_frames_do_not_wait() {
     session.open.changes.reset = true;
     assert!(!session.open.frame_may_be_dropped(), "a change goes with it");
     session.open.changes.reset = false;
-    session.apply(Command::Pause);
+    session.apply(TransportCommand::Pause);
     assert!(!session.open.frame_may_be_dropped(), "time stands");
 }

@@ -21,7 +21,7 @@ use std::borrow::Cow;
 
 impl OpenProject {
     /// Returns why nothing is measured for a comment. The reason for a pass that is not drawn is known while costs are
-    /// watched ([`Command::WatchCosts`](super::Command::WatchCosts)).
+    /// watched ([`ViewCommand::WatchCosts`](super::ViewCommand::WatchCosts)).
     pub(crate) fn unmeasured<'m>(&self, measure: &'m Measure) -> Option<Cow<'m, Unmeasured>> {
         let pass = match &measure.quantity {
             Err(unmeasured) => return Some(Cow::Borrowed(unmeasured)),
@@ -36,7 +36,7 @@ impl OpenProject {
     }
 
     /// Every measuring comment of the project, with its samples while it was watched
-    /// ([`Command::WatchMeasures`](super::Command::WatchMeasures)).
+    /// ([`ViewCommand::WatchMeasures`](super::ViewCommand::WatchMeasures)).
     pub(crate) fn measures(&self) -> &[Measure] {
         self.read_backs.measurements.measures()
     }

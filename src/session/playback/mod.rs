@@ -15,6 +15,7 @@ pub(crate) use replay::{Reading, Replay, ReplayedFrame, name};
 pub use seek::{Reach, TimeRange};
 pub(crate) use seek::{SeekTarget, Seeking};
 
+use crate::command::InputCommand;
 use clock::{Clock, FrameTime};
 use eddy_audio::Timeline;
 use eddy_engine::FrameInputs;
@@ -49,6 +50,22 @@ pub(crate) struct Playback {
 }
 
 impl Playback {
+    pub(crate) fn apply(&mut self, command: InputCommand) {
+        match command {
+            // While a recording plays, its mouse is drawn.
+            _ if self.is_replaying() => {}
+            InputCommand::MouseDown { x, y } => self.move_mouse(|mouse| mouse.press(x, y)),
+            InputCommand::MouseMove { x, y } if self.mouse.is_down() => self.move_mouse(|mouse| mouse.move_to(x, y)),
+            InputCommand::MouseMove { .. } => {}
+            InputCommand::MouseUp => self.move_mouse(Mouse::release),
+            InputCommand::KeyDown(code) if self.keyboard.is_held(code) => {}
+            InputCommand::KeyDown(code) => self.press_key(code, |keyboard| keyboard.press(code)),
+            InputCommand::KeyUp(code) => self.press_key(code, |keyboard| keyboard.release(code)),
+            // Changes more than the input.
+            InputCommand::Focus(_) => {}
+        }
+    }
+
     /// The playback of another project. Gamepads stay connected.
     pub(crate) fn successor(&self) -> Self {
         let seeking = Seeking { keeps_inputs: self.seeking.keeps_inputs, ..Seeking::default() };

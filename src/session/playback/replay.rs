@@ -1,11 +1,11 @@
 //! Plays a recording in the open project: every frame gets its recorded time, date, mouse, keys, canvas and
 //! values of uniforms, from frame 0 on, and is drawn as [`eddy_playback::offline`] draws it.
 //!
-//! Live input on the picture is ignored meanwhile. The user takes over by [`Command::StopReplay`]: the picture
+//! Live input on the picture is ignored meanwhile. The user takes over by [`TransportCommand::StopReplay`]: the picture
 //! continues live from the shown frame. The project is not changed: canvas and values are the recording's until the
 //! picture is reset, or another size is requested.
 //!
-//! [`Command::StopReplay`]: crate::Command::StopReplay
+//! [`TransportCommand::StopReplay`]: crate::TransportCommand::StopReplay
 
 use super::{
     Playback,

@@ -67,7 +67,7 @@ impl Session {
     }
 
     /// Returns a number that grows whenever a text was changed by something other than
-    /// [`Command::EditText`](super::Command::EditText) (opened, reloaded, taken from disk): an editor must then reload
+    /// [`EditCommand::EditText`](super::EditCommand::EditText) (opened, reloaded, taken from disk): an editor must then reload
     /// it.
     pub fn text_generation(&self) -> u64 {
         self.open.host.text_generation
@@ -84,7 +84,7 @@ impl Session {
         Some((self.services.last_pictures.file(project)?, self.services.last_pictures.written()))
     }
 
-    /// Counts the shaders created by [`Command::New`](super::Command::New).
+    /// Counts the shaders created by [`FileCommand::New`](super::FileCommand::New).
     pub fn new_shader_count(&self) -> u64 {
         self.open.host.new_shader_count
     }
@@ -100,7 +100,7 @@ impl Session {
     }
 
     /// Returns whether edits wait to be saved before they are compiled: see
-    /// [`Command::SetCompileOnSave`](super::Command::SetCompileOnSave).
+    /// [`EditCommand::SetCompileOnSave`](super::EditCommand::SetCompileOnSave).
     pub fn waits_for_save(&self) -> bool {
         self.open.compile.waits_for_save
     }
@@ -142,8 +142,8 @@ impl Session {
             gpu_millis: (is_drawn && !times.is_empty()).then(|| times.iter().map(|t| t.gpu_millis).sum()),
             cpu_micros: is_drawn.then_some(self.open.read_backs.cpu_micros),
             resolution: self.open.engine.size(),
-            scale: self.open.canvas.asked.scale,
-            fixed_size: self.open.canvas.asked.fixed,
+            scale: self.open.canvas.requested.scale,
+            fixed_size: self.open.canvas.requested.fixed,
             speed: self.open.playback.clock.speed(),
             fixed_rate: self.open.playback.clock.fixed_rate(),
             is_seeking: self.open.playback.is_seeking(),
@@ -156,19 +156,19 @@ impl Session {
     }
 
     /// Returns the cost of each pass of the running program, in drawing order, followed by passes that are not drawn.
-    /// Costs are gathered after [`Command::WatchCosts`](super::Command::WatchCosts); times are available once a frame
+    /// Costs are gathered after [`ViewCommand::WatchCosts`](super::ViewCommand::WatchCosts); times are available once a frame
     /// was drawn since.
     pub fn pass_costs(&self) -> PassCosts {
         self.open.read_backs.costs.of(self.open.engine.costs().to_vec(), self.open.engine.clock())
     }
 
     /// Returns a small picture of one of a pass's targets while it is watched
-    /// ([`Command::WatchTargets`](super::Command::WatchTargets)), and a number that grows with each new one.
+    /// ([`ViewCommand::WatchTargets`](super::ViewCommand::WatchTargets)), and a number that grows with each new one.
     pub fn miniature(&self, pass: &PassName, index: usize) -> Option<(&Miniature, u64)> {
         self.open.read_backs.miniatures.get(pass, index)
     }
 
-    /// Returns the target that is inspected ([`Command::WatchBuffers`](super::Command::WatchBuffers)), and a number
+    /// Returns the target that is inspected ([`ViewCommand::WatchBuffers`](super::ViewCommand::WatchBuffers)), and a number
     /// that grows with each new one.
     pub fn buffer(&self) -> Option<(&Arc<BufferRead>, u64)> {
         self.open.read_backs.buffers.shown()
@@ -180,7 +180,7 @@ impl Session {
     }
 
     /// Returns the value that is drawn instead of the picture, if requested: see
-    /// [`Command::Probe`](super::Command::Probe).
+    /// [`ViewCommand::Probe`](super::ViewCommand::Probe).
     pub fn probe(&self) -> Option<ProbeView<'_>> {
         self.open.read_backs.probe.view()
     }
@@ -213,7 +213,7 @@ impl Session {
         self.open.host.dialog.questions.front()
     }
 
-    /// The edit of passes or channels that [`Command::UndoPassEdit`](super::Command::UndoPassEdit) undoes.
+    /// The edit of passes or channels that [`EditCommand::UndoPassEdit`](super::EditCommand::UndoPassEdit) undoes.
     pub fn pass_undo(&self) -> Option<PassStep<'_>> {
         self.open.pass_undo()
     }

@@ -1,4 +1,4 @@
-//! What a [`Session`] reports of its devices, films and analyses of texts.
+//! The state of a [`Session`]'s devices, films and analyses of texts, for front ends.
 
 use crate::{ControlsView, FilmFacts, MicrophoneView, OutputView, Session, SoundView, TabAnalysis};
 use eddy_audio::{Sound, Track};
@@ -40,7 +40,7 @@ impl Session {
     }
 
     /// Returns the names of the output devices and of the input devices, once
-    /// [`Command::ListAudioDevices`](crate::Command::ListAudioDevices) was given and they are known.
+    /// [`SoundCommand::ListAudioDevices`](crate::SoundCommand::ListAudioDevices) was given and they are known.
     pub fn audio_devices(&self) -> (Option<Vec<String>>, Option<Vec<String>>) {
         self.services.audio.audio_devices()
     }

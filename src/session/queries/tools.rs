@@ -1,4 +1,4 @@
-//! What a [`Session`] reports of tracing, comparing, measuring and other tools.
+//! The results of tracing, comparing, measuring and other tools, for front ends.
 
 use crate::{AuditMap, CameraState, Session, TraceView, measures::Measure, pass_history::PassStep, view::TabFix};
 use eddy_background::{Count, Status};
@@ -9,23 +9,23 @@ use eddy_video::{CameraDevice, CameraFrame, CameraSource};
 use std::{borrow::Cow, sync::Arc};
 
 impl Session {
-    /// The trace of the chosen pixel ([`Command::Trace`](super::Command::Trace)).
+    /// The trace of the chosen pixel ([`ToolCommand::Trace`](super::ToolCommand::Trace)).
     pub fn trace(&self) -> TraceView<'_> {
         self.open.trace()
     }
 
     /// The search for the first difference from the device in the traced pixel
-    /// ([`Command::FindDivergence`](super::Command::FindDivergence)); `None` if it was not requested.
+    /// ([`ToolCommand::FindDivergence`](super::ToolCommand::FindDivergence)); `None` if it was not requested.
     pub fn divergence(&self) -> Option<Status<'_, (), DivergenceFound>> {
         self.open.divergence()
     }
 
-    /// The search for the first NaN ([`Command::FindNonfinite`](super::Command::FindNonfinite)), which counts frames.
+    /// The search for the first NaN ([`ToolCommand::FindNonfinite`](super::ToolCommand::FindNonfinite)), which counts frames.
     pub fn search(&self) -> Option<Status<'_, Count, SearchEnd>> {
         self.open.search()
     }
 
-    /// The comparison with another project ([`Command::Compare`](super::Command::Compare)), which counts frames.
+    /// The comparison with another project ([`ToolCommand::Compare`](super::ToolCommand::Compare)), which counts frames.
     pub fn comparison(&self) -> Option<Status<'_, Count, Arc<Comparison>>> {
         self.open.comparison()
     }
@@ -35,14 +35,14 @@ impl Session {
         self.open.is_comparison_old()
     }
 
-    /// Returns the errors of the audited pixels ([`Command::Audit`](super::Command::Audit)) while its findings are
+    /// Returns the errors of the audited pixels ([`ToolCommand::Audit`](super::ToolCommand::Audit)) while its findings are
     /// listed.
     pub fn audit_map(&self) -> Option<&AuditMap> {
         self.open.audit_map()
     }
 
     /// Every measuring comment of the project, with its samples while it was watched
-    /// ([`Command::WatchMeasures`](super::Command::WatchMeasures)).
+    /// ([`ViewCommand::WatchMeasures`](super::ViewCommand::WatchMeasures)).
     pub fn measures(&self) -> &[Measure] {
         self.open.measures()
     }
@@ -53,7 +53,7 @@ impl Session {
     }
 
     /// Returns why nothing is measured for a comment. The reason for a pass that is not drawn is known while costs are
-    /// watched ([`Command::WatchCosts`](super::Command::WatchCosts)).
+    /// watched ([`ViewCommand::WatchCosts`](super::ViewCommand::WatchCosts)).
     pub fn unmeasured<'m>(&self, measure: &'m Measure) -> Option<Cow<'m, Unmeasured>> {
         self.open.unmeasured(measure)
     }
@@ -77,7 +77,7 @@ impl Session {
         self.open.cameras()
     }
 
-    /// The edit that [`Command::RedoPassEdit`](super::Command::RedoPassEdit) redoes.
+    /// The edit that [`EditCommand::RedoPassEdit`](super::EditCommand::RedoPassEdit) redoes.
     pub fn pass_redo(&self) -> Option<PassStep<'_>> {
         self.open.pass_redo()
     }

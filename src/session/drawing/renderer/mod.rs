@@ -11,16 +11,16 @@ use std::time::{Duration, Instant};
 
 /// A tile's time is significant if it is at least this fraction of a frame's limit; shorter times are lost in the noise
 /// of other work.
-const TELLING: u32 = 20;
+const SIGNIFICANT: u32 = 20;
 /// The approximate duration of a band of a frame: input waits no longer than this for the previous frame.
 const BAND: Duration = Duration::from_millis(12);
 /// Frames are drawn again for this long before the picture is shown and another request is handled.
-const PATIENCE: Duration = Duration::from_millis(150);
+const SEEK_SLICE: Duration = Duration::from_millis(150);
 
 pub(crate) struct Renderer {
     engine: Engine,
     /// The display's picture is copied off the device.
-    hands_out: bool,
+    delivers_pictures: bool,
     history: History,
     /// `iFrame` and `iTime` of the targets' contents.
     shown: Option<(i32, f64)>,
@@ -31,12 +31,12 @@ pub(crate) struct Renderer {
 }
 
 impl Renderer {
-    /// `hands_out`: deliver each new picture of the display with the answers.
-    pub(crate) fn new(gpu: Gpu, (width, height): (u32, u32), hands_out: bool) -> Result<Self, EngineError> {
+    /// `delivers_pictures`: deliver each new picture of the display with the answers.
+    pub(crate) fn new(gpu: Gpu, (width, height): (u32, u32), delivers_pictures: bool) -> Result<Self, EngineError> {
         let mut engine = Engine::new(gpu, width, height)?;
         engine.set_timing(true);
         let history = History::default();
-        Ok(Self { engine, hands_out, history, shown: None, whole_took: Duration::ZERO, is_abandoned: false })
+        Ok(Self { engine, delivers_pictures, history, shown: None, whole_took: Duration::ZERO, is_abandoned: false })
     }
 
     pub(crate) fn engine(&self) -> &Engine {
@@ -77,7 +77,7 @@ impl Renderer {
             self.redraw(costs_of.is_some(), &mut done);
         }
         if let Some(goal) = travel {
-            let travelled = self.history.travel(&mut self.engine, goal, PATIENCE);
+            let travelled = self.history.travel(&mut self.engine, goal, SEEK_SLICE);
             done.is_display_new |= travelled.as_ref().is_some_and(|t| t.as_ref().is_ok_and(|t| t.is_display_new));
             if let Some(Ok(travelled)) = &travelled {
                 self.shown = Some((travelled.inputs.frame, travelled.inputs.time_secs));
@@ -103,7 +103,7 @@ impl Renderer {
         let is_other = matches!(done.resized, Some((_, Ok(())))) || matches!(done.program, Some(Ok(())));
         let is_between = !has_drawn && is_other && done.restarted.is_none() && self.engine.program().is_some();
         let is_whole = !self.is_abandoned;
-        if self.hands_out && (done.is_display_new || has_drawn) && is_whole && !is_between {
+        if self.delivers_pictures && (done.is_display_new || has_drawn) && is_whole && !is_between {
             done.picture = Some(self.engine.picture());
         }
         done.outputs = tasks.run(self);
@@ -153,7 +153,7 @@ impl Renderer {
     ) {
         let PendingChanges { restart, size, program, custom_uniforms, shown, look, reset, run, costs: _ } = changes;
         if restart {
-            let made = Renderer::new(self.engine.gpu().clone(), self.engine.size(), self.hands_out);
+            let made = Renderer::new(self.engine.gpu().clone(), self.engine.size(), self.delivers_pictures);
             done.restarted = Some(made.map(|renderer| *self = renderer));
             done.is_display_new = true;
         }
@@ -226,7 +226,7 @@ impl Renderer {
         done: &mut JobResult,
     ) -> Result<Program, EngineError> {
         let canvas = self.engine.size();
-        let telling = limit.frame / TELLING;
+        let significant = limit.frame / SIGNIFICANT;
         for tile in tiles(canvas) {
             let mut took = Duration::MAX;
             // The first run includes the driver's compilation, or is an outlier.
@@ -234,11 +234,11 @@ impl Renderer {
                 let began = Instant::now();
                 program = self.engine.try_out(program, tile, inputs)?;
                 took = took.min(began.elapsed());
-                if took < telling {
+                if took < significant {
                     break;
                 }
             }
-            if took >= telling {
+            if took >= significant {
                 let whole = took.mul_f64(self.engine.gpu().rasteriser().frame_per_tile(tile, canvas));
                 done.forecast = (whole > limit.frame).then_some(whole);
                 break;
@@ -287,7 +287,7 @@ impl Renderer {
         } else {
             self.engine.draw(inputs)?;
             cpu_micros = micros();
-            if self.hands_out {
+            if self.delivers_pictures {
                 self.engine.gpu().wait()?;
             }
             times = self.engine.pass_times();
