@@ -11,6 +11,7 @@ mod pages;
 mod paths;
 mod texts;
 mod threads;
+mod words;
 
 use paths::Named;
 use proc_macro2::{Delimiter, Spacing, TokenStream, TokenTree};
