@@ -1,14 +1,16 @@
 //! `eddy render`: draws frames of projects, one project after the other on one device, and writes them as pictures or
 //! films.
 
+mod drawing;
+
 use super::{
     args::{HostProgram, RenderArgs},
     checkpoints::Checkpoints,
     command::{CommandError, Run},
     failure::error_chain,
-    machine::{Machine, RunError, millis_since, pass_over},
-    measured::{self, Measured, Measures},
-    opening::{Opened, Opening, open_sound_of},
+    machine::{Machine, RunError},
+    measured::Measured,
+    opening::{Opening, open_sound_of},
     plan,
     progress::CallProgress,
     recorded_sound::recorded_sound,
@@ -22,21 +24,20 @@ use crate::{
     diag::{Diagnostic, Severity, SourceMap},
     engine::{FrameInputs, Pixels},
     film::{
-        self, Cancel, Destination, Encoding, Fade, FilmEncoding, FilmError, FilmSound, FilmTime, Mean, Output, Seam,
-        Shape, Still, Writer, shrunk,
+        self, Cancel, Destination, Encoding, Fade, FilmEncoding, FilmError, FilmSound, FilmTime, Output, Seam, Shape,
+        Still, Writer,
     },
     media::MediaSet,
     playback::{
-        frames::steps,
-        median,
-        offline::{Offline, OfflineError},
+        offline::Offline,
         scene::{RunSource, Scene},
         script::ScriptedInputs,
     },
-    project::{self, PassName, Project},
+    project::Project,
 };
+use drawing::{Drawing, WantedFrames};
 use serde::Serialize;
-use std::{io, path::PathBuf, time::Instant};
+use std::{io, path::PathBuf};
 
 /// The report, and the measurements.
 #[derive(Serialize)]
@@ -148,165 +149,14 @@ struct Job<'a> {
 
 impl Job<'_> {
     fn draw(&self, machine: &mut Machine, report: &mut Report, inputs: &ScriptedInputs) -> Result<Drawn, RunError> {
-        let Job { args, targets, .. } = self;
-        let is_there = |frame: &&u32| {
-            let path = targets.path(self.index, &report.sweep, **frame);
-            targets.keeps && path.is_some_and(|path| path.is_file())
-        };
-        let kept = self.part.iter().filter(is_there).count() as u32;
-        let missing: Vec<u32> = self.part.iter().filter(|frame| !is_there(frame)).copied().collect();
-        let measures_all = !args.probe.is_empty() || !args.assert.is_empty();
-        if missing.is_empty() && !measures_all {
-            return Ok(Drawn { kept, mentioned: true, ..Drawn::default() });
+        let frames = WantedFrames::new(self, &report.sweep);
+        if frames.are_done {
+            return Ok(Drawn { kept: frames.kept, mentioned: true, ..Drawn::default() });
         }
-        let wanted: Vec<u32> = if measures_all { self.part.to_vec() } else { missing.clone() };
-        let picture = &args.pass;
-        let beside = |project: &Project| {
-            let (declared, _) = measured::declared(project);
-            let asserted = args.assert.iter().map(|assertion| &assertion.quantity);
-            args.probe.iter().chain(asserted).chain(&declared).map(|quantity| quantity.pass.clone()).collect()
-        };
-        let spec = &args.project[self.index];
-        let drawn = args.drawn();
-        let opening = Opening::new(spec, &drawn, inputs).pass(&picture.pass).with_passes(&beside);
-        let Opened { project, mut offline, media } = opening.open(machine, report)?;
-        let (declared, unread) = measured::declared(&project);
-        report.diagnose(&unread, &project.sources(), Some(&project));
-        let mut measures = Measures::new(&project, args.probe.iter().cloned().chain(declared).collect(), &args.assert);
-        let last = wanted.last().map_or(0, |last| last + 1);
-        let frames = targets.drawn.unwrap_or_default().max(last);
-        let jumps = targets.drawn.is_none() && !offline.has_state()?;
-        if args.shutter.is_some() && offline.has_state()? {
-            return Err(blurred_state(&project));
+        match Drawing::open(self, machine, report, inputs, frames)?.draw(machine, report) {
+            Err(error) if is_closed(&error) => Ok(Drawn::default()),
+            drawn => drawn,
         }
-        if let Some(what) = &args.run.fps_note {
-            note(report, what.clone());
-        }
-        let mut mean = Mean::default();
-        let first = wanted.first().copied().unwrap_or_default();
-        let checkpoints = self.checkpoints(report, (&project, &media), &offline, inputs)?;
-        let mut begin = 0;
-        if let Some(checkpoints) = &checkpoints {
-            let remark;
-            (begin, remark) = checkpoints.resume(&mut offline, first)?;
-            remark.into_iter().for_each(|what| note(report, what));
-        }
-        if !jumps && args.shard.is_some() && args.resume.is_none() && first > 0 {
-            note_state(report, first);
-        }
-        let source = self.source(&project, &offline, inputs)?;
-        let mut seam = match args.looped {
-            Some(secs) if targets.writes() => Some(self.seam(machine, report, (secs, &project), &missing, inputs)?),
-            _ => None,
-        };
-        // Of a frame that is not shown, only what later frames read is drawn. With a number of frames, all of them are
-        // drawn.
-        let sees_none = !targets.writes() && measures.is_empty() && checkpoints.is_some();
-        let draws_all = targets.drawn.is_some() && !sees_none;
-        let mut writer = None;
-        let (mut millis, mut unseen_millis, mut written) = (Vec::new(), Vec::new(), Vec::new());
-        let draws = if jumps { wanted.len() as u32 } else { frames - begin };
-        let progress = self.progress.begin(&report.title(), self.part.len(), draws);
-        for step in steps(begin..frames, &wanted, jumps) {
-            let (frame, is_wanted) = (step.frame, step.is_wanted);
-            if step.is_skipped {
-                offline.skip()?;
-                continue;
-            }
-            let layer = args.face.unwrap_or(picture.target);
-            // The inputs of a frame whose parts are drawn for each strip of its picture.
-            let mut parts = None;
-            let is_whole = draws_all || is_wanted && !sees_none;
-            let took = match args.shutter.filter(|_| is_wanted && targets.writes()) {
-                None if is_whole => offline.draw()?.millis,
-                None => pass_over(&mut offline, &args.run)?.millis,
-                Some(shutter) => {
-                    let inputs = offline.next_inputs()?;
-                    let secs = shutter / args.run.fps();
-                    let drawn = offline.draw_parts_of(&inputs, args.samples, secs, |offline| {
-                        if offline.tiling().is_none() {
-                            mean.add(&offline.read(&picture.pass, layer)?);
-                        }
-                        Ok::<_, OfflineError>(())
-                    })?;
-                    parts = Some(inputs).filter(|_| offline.tiling().is_some());
-                    drawn.millis
-                }
-            };
-            if is_whole {
-                millis.push(took);
-            } else {
-                unseen_millis.push(took);
-            }
-            report.frames += 1;
-            progress.step();
-            if let Some(checkpoints) = &checkpoints {
-                written.extend(checkpoints.write(&offline, frame + 1)?);
-            }
-            if !is_wanted {
-                continue;
-            }
-            measures.take(&project, &mut offline, frame, report)?;
-            if missing.binary_search(&frame).is_err() || !targets.writes() {
-                if !targets.writes() && checkpoints.is_none() && offline.tiling().is_some() {
-                    let began = Instant::now();
-                    tiles::draw_all(&mut offline)?;
-                    add_to_last(&mut millis, began);
-                }
-                continue;
-            }
-            let began = Instant::now();
-            if let (Encoding::Still(still), Some(_)) = (&targets.encoding, offline.tiling()) {
-                let scene = source.as_ref().map(|source| source.scene(frame));
-                match self.write_strips(report, &mut offline, parts.as_ref(), (*still, frame, scene)) {
-                    Ok(path) => written.extend(path),
-                    Err(error) if is_closed(&error) => return Ok(Drawn::default()),
-                    Err(error) => return Err(error),
-                }
-                add_to_last(&mut millis, began);
-                continue;
-            }
-            let pixels = match args.shutter {
-                Some(_) if parts.is_none() => {
-                    let pixels = mean.take();
-                    if args.factor() == 1 { pixels } else { shrunk(&pixels, args.factor()) }
-                }
-                _ => tiles::whole(&mut offline, args, parts.as_ref())?,
-            };
-            if offline.tiling().is_some() {
-                add_to_last(&mut millis, began);
-            }
-            let pixels = match &mut seam {
-                Some(seam) => seam.join(pixels, |later| tiles::whole(later, args, None))?,
-                None => pixels,
-            };
-            let writer = match &mut writer {
-                Some(writer) => writer,
-                None => {
-                    let opened = (&project, &media);
-                    writer.insert(self.start(machine, report, opened, (&offline, &pixels), inputs, &missing)?)
-                }
-            };
-            match self.write(writer, report, (frame, source.as_ref()), pixels, &mut written) {
-                Err(error) if is_closed(&error) => return Ok(Drawn::default()),
-                other => other?,
-            }
-        }
-        let finished = writer.map_or(Ok(()), Writer::finish);
-        finished.or_else(|error| if matches!(error, FilmError::Closed) { Ok(()) } else { Err(failed(error)) })?;
-        if let Some((jumps, what)) = seam.and_then(Seam::verdict) {
-            let severity = if jumps { Severity::Warning } else { Severity::Note };
-            report.diagnose(&[Diagnostic::new(severity, None, what)], &SourceMap::default(), None);
-        }
-        if millis.is_empty() {
-            millis = unseen_millis;
-        }
-        // The first frame is not representative: drivers compile when a pipeline is first used.
-        if millis.len() > 1 {
-            millis.remove(0);
-        }
-        report.frame_ms = median(millis);
-        Ok(Drawn { written, kept, measures: measures.taken, mentioned: true })
     }
 
     /// Returns the checkpoints that are written or resumed from. A project without a state needs none.
@@ -492,38 +342,8 @@ fn is_closed(error: &RunError) -> bool {
     matches!(error, RunError::Other(error) if matches!(error.downcast_ref(), Some(FilmError::Closed)))
 }
 
-/// Adds the time since a moment to that of the newest frame.
-fn add_to_last(millis: &mut [f64], began: Instant) {
-    if let Some(last) = millis.last_mut() {
-        *last += millis_since(began);
-    }
-}
-
-/// Notes why frames before those of a shard are drawn.
-fn note_state(report: &mut Report, first: u32) {
-    let what = format!(
-        "the project has a state, so that its frames depend on those before: this shard draws frames 0 to {} first, and \
-         does not write them; --checkpoint-every and --resume save that",
-        first - 1
-    );
-    note(report, what);
-}
-
 pub(super) fn note(report: &mut Report, what: String) {
     report.diagnose(&[Diagnostic::new(Severity::Note, None, what)], &SourceMap::default(), None);
-}
-
-/// Returns the reason why frames of a project with a state have no motion blur.
-fn blurred_state(project: &Project) -> RunError {
-    let passes: Vec<String> = project.stateful_passes().iter().map(PassName::title).collect();
-    let which = match passes.is_empty() {
-        true => String::new(),
-        false => format!(" ({} read the last frame)", project::listed(&passes)),
-    };
-    anyhow::anyhow!(
-        "--shutter draws frames between the frames, which would change a project with a state{which}: leave it out"
-    )
-    .into()
 }
 
 fn failed(error: FilmError) -> RunError {
