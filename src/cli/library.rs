@@ -82,7 +82,7 @@ fn export_json(args: &ExportArgs) -> io::Result<u8> {
         check_directives(&project)?;
         // An editor may overwrite a JSON project in place; an export must not.
         if !args.force && args.out.symlink_metadata().is_ok() {
-            return Err(mend(ProjectError::WouldOverwrite { paths: vec![args.out.clone()] }.into()));
+            return Err(suggest_force(ProjectError::WouldOverwrite { paths: vec![args.out.clone()] }.into()));
         }
         save(&project, &args.out, args.force)?;
         let lost: String =
@@ -111,7 +111,9 @@ fn export_html(args: &ExportArgs) -> io::Result<u8> {
         };
         let size = kilobytes(page.html.len());
         let overwrite = if args.force { Overwrite::Allow } else { Overwrite::Refuse };
-        project::write_named(&args.out, page.html.into_bytes(), overwrite).map_err(RunError::from).map_err(mend)?;
+        project::write_named(&args.out, page.html.into_bytes(), overwrite)
+            .map_err(RunError::from)
+            .map_err(suggest_force)?;
         Ok(format!("{}: exported to {to} ({size} kB{media})", one_line(&args.project)))
     })
 }
@@ -129,7 +131,9 @@ fn export_isf(args: &ExportArgs) -> io::Result<u8> {
         };
         report.diagnose(&file.diagnostics, &project.sources(), Some(&project));
         let overwrite = if args.force { Overwrite::Allow } else { Overwrite::Refuse };
-        project::write_named(&args.out, file.text.into_bytes(), overwrite).map_err(RunError::from).map_err(mend)?;
+        project::write_named(&args.out, file.text.into_bytes(), overwrite)
+            .map_err(RunError::from)
+            .map_err(suggest_force)?;
         Ok(format!("{}: exported to {to}", one_line(&args.project)))
     })
 }
@@ -157,11 +161,11 @@ fn read(report: &mut Report, spec: &str) -> Result<Project, RunError> {
 
 fn save(project: &Project, to: &Path, force: bool) -> Result<(), RunError> {
     let overwrite = if force { Overwrite::Allow } else { Overwrite::Refuse };
-    project::save(project, to, overwrite).map(drop).map_err(RunError::from).map_err(mend)
+    project::save(project, to, overwrite).map(drop).map_err(RunError::from).map_err(suggest_force)
 }
 
 /// Adds the option that permits the rejected action.
-pub(super) fn mend(trouble: RunError) -> RunError {
+pub(super) fn suggest_force(trouble: RunError) -> RunError {
     match trouble {
         RunError::Other(error) if matches!(error.downcast_ref(), Some(ProjectError::WouldOverwrite { .. })) => {
             RunError::Other(anyhow::anyhow!("{error} with --force"))

@@ -3,7 +3,7 @@
 use super::{
     args::{Cli, CompletionsArgs, ManArgs},
     command::{CommandError, Run},
-    library::mend,
+    library::suggest_force,
     machine::{Machine, RunError},
     report::{Printer, Report},
     terminal::{self, shown_path},
@@ -40,7 +40,7 @@ fn man(args: &ManArgs) -> io::Result<u8> {
     let written = Machine::default().attempt(&mut report, |_, _| {
         let pages = pages().map_err(anyhow::Error::from)?;
         let files = pages.iter().map(|(name, bytes)| (name.as_str(), &bytes[..]));
-        write_all(&args.out, files, args.force).map_err(RunError::from).map_err(mend)?;
+        write_all(&args.out, files, args.force).map_err(RunError::from).map_err(suggest_force)?;
         Ok(pages.len())
     });
     let words = written.map(|n| format!("{n} pages written to {}", shown_path(&args.out)));

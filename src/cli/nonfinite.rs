@@ -115,9 +115,9 @@ fn born(
     }))
 }
 
-pub(super) fn words(spec: &str, frames: u32, begin: Option<&Begin>) -> String {
+pub(super) fn words(spec: &str, frames: u32, first: Option<&Begin>) -> String {
     let spec = one_line(spec);
-    let Some(Begin { pass, frame, texel: [x, y], texels, born, .. }) = begin else {
+    let Some(Begin { pass, frame, texel: [x, y], texels, born, .. }) = first else {
         return format!("{spec}: all texels of all passes are finite in {frames} frames");
     };
     let mut out = format!(

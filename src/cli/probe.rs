@@ -119,10 +119,10 @@ fn probed(
 fn summary(args: &ProbeArgs, pixels: &Pixels) -> Probed {
     let is_seen = |texel: &&[f32; 4]| !texel.iter().all(|x| x.is_nan());
     let seen = || pixels.texels.iter().filter(is_seen);
-    let component = |fold: fn(f32, f32) -> f32, begin: f32| {
+    let component = |fold: fn(f32, f32) -> f32, initial: f32| {
         std::array::from_fn(|i| {
             let numbers = seen().map(|texel| texel[i]).filter(|x| x.is_finite());
-            Number::Float(numbers.fold(begin, fold))
+            Number::Float(numbers.fold(initial, fold))
         })
     };
     let mean = std::array::from_fn(|i| {

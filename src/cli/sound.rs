@@ -174,7 +174,7 @@ pub(super) fn run(args: &RenderArgs, sounds: &Sounds, inputs: &ScriptedInputs) -
             let opened = Opening::new(spec, &args.run, inputs).sound_pass().open(machine, report)?;
             let mut offline = opened.offline;
             let (mut frames, mut millis) = (Vec::new(), Vec::new());
-            let progress = progress.begin(&report.title(), blocks as usize, blocks);
+            let progress = progress.start(&report.title(), blocks as usize, blocks);
             for block in 0..blocks {
                 let began = Instant::now();
                 frames.extend(offline.draw_sound(block)?);

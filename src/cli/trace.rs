@@ -135,10 +135,10 @@ fn run(args: &TraceArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
     for spec in &args.project {
         let mut report = Report::new(spec);
         if args.nonfinite {
-            let begin =
+            let first =
                 machine.attempt(&mut report, |machine, report| nonfinite::first(machine, report, args, spec, inputs));
-            let words = begin.as_ref().map(|begin| nonfinite::words(spec, report.frames, begin.as_ref()));
-            let line = NonfiniteReport { report: &report, nonfinite: begin.flatten() };
+            let words = first.as_ref().map(|first| nonfinite::words(spec, report.frames, first.as_ref()));
+            let line = NonfiniteReport { report: &report, nonfinite: first.flatten() };
             printer.print_as(&line, &report, words.unwrap_or_default().trim_end())?;
             continue;
         }

@@ -3,7 +3,7 @@
 use super::{
     args::TranslateArgs,
     command::{CommandError, Run},
-    library::mend,
+    library::suggest_force,
     machine::{Machine, RunError},
     report::{Printer, Report},
     terminal::{one_line, shown_path},
@@ -53,7 +53,7 @@ fn run(args: &TranslateArgs, language: Language) -> io::Result<u8> {
         };
         report.diagnose(&done.diagnostics, &project.sources(), Some(project));
         let files = done.files.iter().map(|file| (file.name.as_str(), &file.bytes[..]));
-        write_all(&folder, files, args.force).map_err(RunError::from).map_err(mend)?;
+        write_all(&folder, files, args.force).map_err(RunError::from).map_err(suggest_force)?;
         Ok(done.files.into_iter().map(|file| file.name).collect())
     });
     let files = written.unwrap_or_default();

@@ -29,7 +29,7 @@ pub use load::load;
 pub use music::{ChannelSound, sounds};
 pub use npy::{bytes as npy_bytes, header as npy_header};
 pub use original::original;
-pub use sound::begin_of_sound;
+pub use sound::sound_preview;
 
 use eddy_audio::Sound;
 use eddy_diag::Diagnostic;

@@ -16,7 +16,7 @@ use std::{
 const ENDINGS: [&str; 7] = ["wav", "mp3", "ogg", "flac", "m4a", "aac", "opus"];
 
 /// Loads at most this many seconds of a sound, for a preview.
-pub fn begin_of_sound(media: &Media, base: Option<&Path>, seconds: u32) -> Result<Sound, MediaError> {
+pub fn sound_preview(media: &Media, base: Option<&Path>, seconds: u32) -> Result<Sound, MediaError> {
     load(media, base, None, bytes_of(seconds))
 }
 

@@ -77,20 +77,20 @@ impl Tiling {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pace {
     rows: u32,
-    begun: Option<Instant>,
+    started_at: Option<Instant>,
 }
 
 impl Default for Pace {
     fn default() -> Self {
-        Self { rows: FIRST_ROWS, begun: None }
+        Self { rows: FIRST_ROWS, started_at: None }
     }
 }
 
 impl Pace {
     /// Ends a draw, if one was started.
     fn end(&mut self) {
-        if let Some(begun) = self.begun.take() {
-            self.took(begun.elapsed());
+        if let Some(started_at) = self.started_at.take() {
+            self.took(started_at.elapsed());
         }
     }
 
@@ -103,9 +103,9 @@ impl Pace {
     }
 
     /// Starts a draw, and returns its rows.
-    fn begin(&mut self) -> u32 {
+    fn start_band(&mut self) -> u32 {
         self.end();
-        self.begun = Some(Instant::now());
+        self.started_at = Some(Instant::now());
         self.rows
     }
 }
@@ -122,7 +122,7 @@ impl Offline {
             for x in (0..width).step_by(tile.0.max(1) as usize) {
                 let mut pace = self.pace;
                 let work = move |engine: &mut Engine| {
-                    let drawn = engine.draw_tile((x, y), &mut || pace.begin());
+                    let drawn = engine.draw_tile((x, y), &mut || pace.start_band());
                     pace.end();
                     Ok((drawn?, pace))
                 };

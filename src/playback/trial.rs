@@ -159,7 +159,7 @@ pub fn serve(mut request: impl Read) -> Result<(), Box<dyn std::error::Error>> {
     }
     let step = Arc::new(AtomicU64::new(0));
     let guard = Guard { step: step.clone(), limit: Duration::try_from_secs_f64(limit_secs)? };
-    guard.begin()?;
+    guard.start_watching()?;
     let mut project = project::read_snapshot(&snapshot)?;
     project.read_includes();
     let (media, _) = media::gather(&project, media.as_deref());
@@ -190,7 +190,7 @@ struct Guard {
 }
 
 impl Guard {
-    fn begin(self) -> std::io::Result<()> {
+    fn start_watching(self) -> std::io::Result<()> {
         #[cfg(unix)]
         {
             use rustix::process::{Resource, Rlimit, setrlimit};

@@ -98,7 +98,7 @@ impl Staged {
     pub fn new(path: &Path) -> io::Result<Staged> {
         let path = real_path(path.to_owned());
         sweep(folder_of(&path));
-        Ok(Staged { file: begin(&path)?, path })
+        Ok(Staged { file: create_temporary(&path)?, path })
     }
 
     /// Does the same for a file in a folder whose name the user did not choose, like [`write_into`](super::write_into):
@@ -107,7 +107,7 @@ impl Staged {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let path = place_within(folder_of(path), &name)?;
         sweep(folder_of(&path));
-        Ok(Staged { file: begin(&path)?, path })
+        Ok(Staged { file: create_temporary(&path)?, path })
     }
 
     /// The temporary file, open for writing.
@@ -148,14 +148,14 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 fn stage(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io::Result<NamedTempFile> {
-    let mut file = begin(path)?;
+    let mut file = create_temporary(path)?;
     // Bypass the wrapper, whose errors name the temporary file, which means nothing to users.
     write(file.as_file_mut())?;
     complete(file, path)
 }
 
 /// Creates an empty temporary file for a path.
-fn begin(path: &Path) -> io::Result<NamedTempFile> {
+fn create_temporary(path: &Path) -> io::Result<NamedTempFile> {
     let folder = folder_of(path);
     fs::create_dir_all(folder)?;
     let old = fs::metadata(path).ok();

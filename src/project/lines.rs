@@ -19,17 +19,17 @@ pub(super) fn hash_lines(text: &str) -> Vec<HashLine<'_>> {
     let mut in_comment = false;
     let mut start = 0;
     let mut hash = Mark::new(text, "#");
-    let mut comment_begin = Mark::new(text, "/*");
+    let mut comment_start = Mark::new(text, "/*");
     let mut comment_end = Mark::new(text, "*/");
     loop {
         // Texts may be long, and few lines matter: those with a `#`, and before the last of them those in which a
         // comment starts or ends.
         let next = match in_comment {
             true => comment_end.from(start),
-            false => hash.from(start).map(|hash| comment_begin.from(start).map_or(hash, |begin| begin.min(hash))),
+            false => hash.from(start).map(|hash| comment_start.from(start).map_or(hash, |begin| begin.min(hash))),
         };
         let Some(next) = next else { break };
-        start = line_begin(text, start, next);
+        start = line_start(text, start, next);
         let line = &text[start..start + line_len(&text[start..])];
         let content = line.trim_end_matches(['\n', '\r']);
         let mut first = None;
@@ -82,7 +82,7 @@ pub(super) fn trim_start(text: &str) -> &str {
 
 /// Returns the start of the line that contains `at`, including the lines joined to it. It is not before `least`, which
 /// is the start of a line.
-fn line_begin(text: &str, least: usize, at: usize) -> usize {
+fn line_start(text: &str, least: usize, at: usize) -> usize {
     let mut begin = at;
     loop {
         begin = text[least..begin].rfind('\n').map_or(least, |i| least + i + 1);

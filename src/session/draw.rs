@@ -96,7 +96,7 @@ impl Session {
         // Before a new frame the shown one is drawn again, with what was changed meanwhile.
         self.open.note_job(frame.as_ref(), again || (stays && frame.is_some()));
         if let Some(frame) = &frame {
-            self.open.read_backs.measurements.begin_frame(frame.frame);
+            self.open.read_backs.measurements.start_frame(frame.frame);
         } else if again {
             self.open.read_backs.measurements.redraw(self.open.playback.frame());
         }

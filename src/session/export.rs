@@ -102,8 +102,8 @@ fn is_of_directive(diagnostic: &Diagnostic, sources: &SourceMap) -> bool {
         ["define", "undef", "if", "ifdef", "ifndef", "elif", "else", "endif", "error", "line", "version", "extension"];
     let line = diagnostic.span.and_then(|span| {
         let text = &sources.get(span.source)?.text;
-        let begin = text.get(..span.start as usize)?.rfind('\n').map_or(0, |i| i + 1);
-        text[begin..].lines().next().map(str::trim_start)
+        let line_start = text.get(..span.start as usize)?.rfind('\n').map_or(0, |i| i + 1);
+        text[line_start..].lines().next().map(str::trim_start)
     });
     let word = line.and_then(|line| line.strip_prefix('#')).map(str::trim_start);
     // Text may precede an `#include`: a comment that ends in its line.

@@ -126,7 +126,7 @@ fn the_one_pass_fluid_is_unstable_without_viscosity_and_forward_backward_is_not(
 /// Returns relL2 of the velocity and nu_eff / nu of a Taylor-Green vortex whose velocity has halved.
 fn vortex(rig: &Rig, method: &str, n: u32, speed: f64) -> (f64, f64) {
     let (dt, nu, k) = (0.15, 0.55, TAU / f64::from(n));
-    let solver = fluid::solver(method, n, dt, fluid::Begin { speed, ..fluid::Begin::USUAL });
+    let solver = fluid::solver(method, n, dt, fluid::InitialFlow { speed, ..fluid::InitialFlow::DEFAULT });
     let (frames, time) = solver.frames(2f64.ln() / (2.0 * nu * k * k));
     let mut running = rig.open(&solver.setup).unwrap();
     let energy = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();

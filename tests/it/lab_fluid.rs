@@ -12,7 +12,7 @@ use eddy::lab::{
     studies::{
         self, cavity,
         flow::{Flow, STIFFNESS},
-        fluid::{self, Begin},
+        fluid::{self, InitialFlow},
         torus::{Torus, energy_kept},
         waves,
     },
@@ -248,9 +248,9 @@ fn a_checkerboard_in_the_pressure_decays() {
 #[test]
 fn the_accurate_fluid_keeps_the_vortex_and_its_viscosity() {
     let Some(rig) = rig() else { return };
-    let (n, nu, k) = (64, Begin::USUAL.viscosity, TAU / 64.0);
+    let (n, nu, k) = (64, InitialFlow::DEFAULT.viscosity, TAU / 64.0);
     let error_and_viscosity = |name: &str, dt: f64| {
-        let solver = fluid::solver(name, n, dt, Begin { speed: 1.0, ..Begin::USUAL });
+        let solver = fluid::solver(name, n, dt, InitialFlow { speed: 1.0, ..InitialFlow::DEFAULT });
         let (frames, time) = solver.frames(2f64.ln() / (2.0 * nu * k * k));
         let mut running = rig.open(&solver.setup).unwrap();
         let before = solver.velocity(&mut running).unwrap();
@@ -305,11 +305,11 @@ fn the_error_of_viscosity_is_within_that_of_the_step() {
 
 /// Returns the relative L2 error of the study's vortex, and by how much its velocity is too large.
 fn vortex_error(rig: &Rig, name: &str, n: u32, dt: f64, in_balance: bool) -> (f64, f64) {
-    let (Begin { speed, viscosity: nu, .. }, k) = (Begin::USUAL, TAU / f64::from(n));
+    let (InitialFlow { speed, viscosity: nu, .. }, k) = (InitialFlow::DEFAULT, TAU / f64::from(n));
     let pressure = if in_balance { 0.25 * speed * speed } else { 0.0 };
     let vortex = move |x: f64, y: f64| [speed * (k * x).sin() * (k * y).cos(), -speed * (k * x).cos() * (k * y).sin()];
-    let solver = fluid::solver(name, n, dt, Begin::USUAL)
-        .begin(vortex, move |x, y| pressure * ((2.0 * k * x).cos() + (2.0 * k * y).cos()));
+    let solver = fluid::solver(name, n, dt, InitialFlow::DEFAULT)
+        .start_from(vortex, move |x, y| pressure * ((2.0 * k * x).cos() + (2.0 * k * y).cos()));
     let (frames, time) = solver.frames(2f64.ln() / (2.0 * nu * k * k));
     let mut running = rig.open(&solver.setup).unwrap();
     running.frames(frames).unwrap();
@@ -323,9 +323,9 @@ fn vortex_error(rig: &Rig, name: &str, n: u32, dt: f64, in_balance: bool) -> (f6
 #[test]
 fn the_one_pass_fluid_has_its_published_errors_and_smaller_ones_in_balance() {
     let Some(rig) = rig() else { return };
-    let (n, dt, nu, k) = (64, 0.15, Begin::USUAL.viscosity, TAU / 64.0);
+    let (n, dt, nu, k) = (64, 0.15, InitialFlow::DEFAULT.viscosity, TAU / 64.0);
     let error = |name: &str, speed: f64| {
-        let solver = fluid::solver(name, n, dt, Begin { speed, ..Begin::USUAL });
+        let solver = fluid::solver(name, n, dt, InitialFlow { speed, ..InitialFlow::DEFAULT });
         let (frames, time) = solver.frames(2f64.ln() / (2.0 * nu * k * k));
         let mut running = rig.open(&solver.setup).unwrap();
         running.frames(frames).unwrap();

@@ -68,7 +68,7 @@ fn halved_vortex_error(rig: &Rig, name: &str, n: u32) -> f64 {
     let flow = Flow { n, dt: 1.6 / side, viscosity: 0.02 * side };
     let pressure = |x: f64, y: f64| 0.25 * ((2.0 * k * x).cos() + (2.0 * k * y).cos());
     let solver = Solver::new(name, flow);
-    let solver = solver.begin(|x, y| [(k * x).sin() * (k * y).cos(), -(k * x).cos() * (k * y).sin()], pressure);
+    let solver = solver.start_from(|x, y| [(k * x).sin() * (k * y).cos(), -(k * x).cos() * (k * y).sin()], pressure);
     let rate = 2.0 * flow.viscosity * k * k;
     let (frames, time) = solver.frames(LN_2 / rate);
     let mut running = rig.open(&solver.setup).unwrap();

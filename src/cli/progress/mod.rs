@@ -72,7 +72,7 @@ impl CallProgress {
 
     /// Starts drawing a project with this number of pictures and steps. A single step has no bar unless that was
     /// requested.
-    pub(super) fn begin(&self, title: &str, pictures: usize, steps: u32) -> Progress<'_> {
+    pub(super) fn start(&self, title: &str, pictures: usize, steps: u32) -> Progress<'_> {
         let target = match self.style {
             Style::Auto if steps > 1 => ProgressDrawTarget::stderr_with_hz(HERTZ),
             Style::Bar => bar::target(HERTZ),

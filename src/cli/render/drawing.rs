@@ -162,7 +162,7 @@ impl<'j> Drawing<'j> {
     pub(super) fn draw(mut self, machine: &mut Machine, report: &mut Report) -> Result<Drawn, RunError> {
         let (start, end) = self.range;
         let draws = if self.jumps { self.frames.wanted.len() as u32 } else { end - start };
-        let progress = self.job.progress.begin(&report.title(), self.job.part.len(), draws);
+        let progress = self.job.progress.start(&report.title(), self.job.part.len(), draws);
         let wanted = self.frames.wanted.clone();
         for step in steps(start..end, &wanted, self.jumps) {
             if step.is_skipped {

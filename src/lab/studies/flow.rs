@@ -174,7 +174,7 @@ impl Solver {
             }
             _ => Solver { setup: self.setup.define("CAVITY", 1), ..self }.uniform("lid", lid),
         };
-        solver.begin(|_, _| [0.0; 2], |_, _| 0.0)
+        solver.start_from(|_, _| [0.0; 2], |_, _| 0.0)
     }
 
     /// Sets Guay's stiffness of the pressure.
@@ -220,9 +220,9 @@ impl Solver {
     /// Starts with a velocity of texel coordinates, and the pressure of unit density that balances it; 0 if it is not
     /// known. A solver without a stored pressure ignores it.
     #[must_use]
-    pub fn begin(self, velocity: impl Fn(f64, f64) -> [f64; 2], pressure: impl Fn(f64, f64) -> f64) -> Solver {
+    pub fn start_from(self, velocity: impl Fn(f64, f64) -> [f64; 2], pressure: impl Fn(f64, f64) -> f64) -> Solver {
         let (both, pressures) = (self.sampled(velocity), self.at_centres(pressure));
-        self.begin_from(&both, &pressures)
+        self.start_from_values(&both, &pressures)
     }
 
     fn at_centres(&self, value: impl Fn(f64, f64) -> f64) -> Vec<f64> {
@@ -233,7 +233,7 @@ impl Solver {
     /// Starts at rest with values in the field that causes pressure, in its own units: the density minus 1, or the
     /// pressure that is kept from step to step.
     #[must_use]
-    pub fn begin_with_pressure(self, pressure: impl Fn(f64, f64) -> f64) -> Solver {
+    pub fn start_with_pressure(self, pressure: impl Fn(f64, f64) -> f64) -> Solver {
         let Flow { n, dt, .. } = self.flow;
         let texels = |p: Vec<f64>, of: &dyn Fn(f32) -> [f32; 4]| p.iter().map(|p| of(*p as f32)).collect::<Vec<_>>();
         let values = self.at_centres(&pressure);
@@ -242,7 +242,7 @@ impl Solver {
             Kind::Lattice => 1.0 / (3.0 * dt * dt),
             Kind::Centred { .. } | Kind::OnFaces => {
                 let pass = self.initial_passes.held.unwrap_or("pressure");
-                let mut solver = self.begin(|_, _| [0.0; 2], |_, _| 0.0);
+                let mut solver = self.start_from(|_, _| [0.0; 2], |_, _| 0.0);
                 solver.setup = solver.setup.state(pass, &texels(values, &|p| [p, 0.0, 0.0, 1.0]));
                 return solver;
             }
@@ -254,7 +254,7 @@ impl Solver {
             }
             Kind::Mips => 0.0,
         };
-        self.begin(|_, _| [0.0; 2], |x, y| scale * pressure(x, y))
+        self.start_from(|_, _| [0.0; 2], |x, y| scale * pressure(x, y))
     }
 
     /// Returns the density minus 1, or the pressure that is kept from step to step, in its own units. `None` if there
@@ -274,10 +274,10 @@ impl Solver {
         Ok(Some(field))
     }
 
-    /// Does the same as [`Solver::begin`], with values at the places of the solver: all of u, then all of v; the
+    /// Does the same as [`Solver::start_from`], with values at the places of the solver: all of u, then all of v; the
     /// pressure at the centres.
     #[must_use]
-    pub fn begin_from(mut self, velocity: &[f64], pressure: &[f64]) -> Solver {
+    pub fn start_from_values(mut self, velocity: &[f64], pressure: &[f64]) -> Solver {
         let Flow { n, dt, .. } = self.flow;
         let (u, v) = velocity.split_at(velocity.len() / 2);
         let size = (n, n);

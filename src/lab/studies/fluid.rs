@@ -71,16 +71,16 @@ const WAVE_TIME: f64 = 19.2;
 
 /// The initial state of the vortex.
 #[derive(Clone, Copy, Debug)]
-pub struct Begin {
+pub struct InitialFlow {
     pub speed: f64,
     /// The amplitude of noise in the velocity.
     pub noise: f64,
     pub viscosity: f64,
 }
 
-impl Begin {
+impl InitialFlow {
     /// The initial state for the study's plot.
-    pub const USUAL: Begin = Begin { speed: SPEED, noise: 0.0, viscosity: NU };
+    pub const DEFAULT: InitialFlow = InitialFlow { speed: SPEED, noise: 0.0, viscosity: NU };
 }
 
 /// Returns the project for a method that is a variant of another, and Guay's stiffness.
@@ -94,15 +94,15 @@ fn base(name: &str) -> (&str, f64) {
 }
 
 /// Returns a method at a step of `dt` with the vortex in it.
-pub fn solver(name: &str, n: u32, dt: f64, begin: Begin) -> Solver {
-    let flow = Flow { n, dt, viscosity: begin.viscosity };
+pub fn solver(name: &str, n: u32, dt: f64, initial: InitialFlow) -> Solver {
+    let flow = Flow { n, dt, viscosity: initial.viscosity };
     let (base, stiffness) = base(name);
     let solver = match Solver::new(base, flow) {
         solver if base != name => solver.uniform("balance", 1.0).stiffness(stiffness),
         solver => solver,
     };
     if is_preset(name) {
-        let (k, Begin { speed, noise, .. }) = (TAU / f64::from(n), begin);
+        let (k, InitialFlow { speed, noise, .. }) = (TAU / f64::from(n), initial);
         let random = |x: f64, y: f64, c: u64| {
             let seed = (x * 2.0) as u64 + ((y * 2.0) as u64) * 65_536 + (c << 40);
             noise * Random(seed).number()
@@ -111,9 +111,9 @@ pub fn solver(name: &str, n: u32, dt: f64, begin: Begin) -> Solver {
             let (cx, sx, cy, sy) = ((k * x).cos(), (k * x).sin(), (k * y).cos(), (k * y).sin());
             [speed * sx * cy + random(x, y, 0), -speed * cx * sy + random(x, y, 1)]
         };
-        return solver.begin(vortex, |_, _| 0.0);
+        return solver.start_from(vortex, |_, _| 0.0);
     }
-    solver.uniform("speed", begin.speed).uniform("noise", begin.noise)
+    solver.uniform("speed", initial.speed).uniform("noise", initial.noise)
 }
 
 fn is_preset(name: &str) -> bool {
@@ -138,7 +138,7 @@ fn exact(solver: &Solver, n: u32, decay: f64) -> Vec<f64> {
 
 /// Returns the largest velocity of noise of .001 in a fluid at rest without viscosity, after [`REST_TIME`].
 fn at_rest(rig: &Rig, name: &str, n: u32, dt: f64) -> Result<f64, LabError> {
-    let solver = solver(name, n, dt, Begin { speed: 0.0, noise: 0.001, viscosity: 0.0 });
+    let solver = solver(name, n, dt, InitialFlow { speed: 0.0, noise: 0.001, viscosity: 0.0 });
     let mut running = rig.open(&solver.setup)?;
     running.frames(solver.frames(REST_TIME).0)?;
     Ok(largest(&solver.velocity(&mut running)?))
@@ -146,7 +146,7 @@ fn at_rest(rig: &Rig, name: &str, n: u32, dt: f64) -> Result<f64, LabError> {
 
 /// Returns the largest velocity within [`FAST_TIME`] from four times the speed.
 fn fastest(rig: &Rig, name: &str, n: u32, dt: f64) -> Result<f64, LabError> {
-    let solver = solver(name, n, dt, Begin { speed: 4.0 * SPEED, ..Begin::USUAL });
+    let solver = solver(name, n, dt, InitialFlow { speed: 4.0 * SPEED, ..InitialFlow::DEFAULT });
     let mut running = rig.open(&solver.setup)?;
     let mut fastest = 0.0f64;
     for _ in 0..6 {
@@ -192,11 +192,11 @@ pub static STUDY: Study = Study {
         peers: &["guay", "guay-balanced", "guay-stiff", "guay-rgba16f"],
         peers_are: "one-pass settings",
     }),
-    ..Study::of(|point| solver(&point.method, point.grid, point.setting, Begin::USUAL).setup, measure)
+    ..Study::of(|point| solver(&point.method, point.grid, point.setting, InitialFlow::DEFAULT).setup, measure)
 };
 
 fn measure(rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-    let solver = solver(&point.method, point.grid, point.setting, Begin::USUAL);
+    let solver = solver(&point.method, point.grid, point.setting, InitialFlow::DEFAULT);
     let (frames, time) = frames(&solver, point.grid);
     let k = TAU / f64::from(point.grid);
     let mut running = rig.open(&solver.setup)?;

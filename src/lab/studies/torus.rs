@@ -126,7 +126,7 @@ impl Torus {
             }
         };
         let velocity = self.velocity(&solver, n);
-        solver.begin_from(&velocity, &pressure)
+        solver.start_from_values(&velocity, &pressure)
     }
 
     /// Returns the exact final velocity at the solver's places.

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 pub fn shear_wave(rig: &Rig, name: &str, flow: Flow, time: f64) -> Result<f64, LabError> {
     let Flow { n, dt, viscosity } = flow;
     let k = TAU / f64::from(n);
-    let solver = Solver::new(name, flow).begin(|_, y| [(k * y).sin(), 0.0], |_, _| 0.0);
+    let solver = Solver::new(name, flow).start_from(|_, y| [(k * y).sin(), 0.0], |_, _| 0.0);
     let (frames, time) = solver.frames(time);
     let mut running = rig.open(&solver.setup)?;
     running.frames(frames)?;
@@ -32,7 +32,7 @@ pub fn shear_wave(rig: &Rig, name: &str, flow: Flow, time: f64) -> Result<f64, L
 pub fn checkerboard_left(rig: &Rig, name: &str, flow: Flow, steps: u32) -> Result<Option<f64>, LabError> {
     let (solver, n) = (Solver::new(name, flow), flow.n as usize);
     let sign = |x: f64, y: f64| if (x.floor() + y.floor()) % 2.0 == 0.0 { 0.01 } else { -0.01 };
-    let solver = solver.begin_with_pressure(sign);
+    let solver = solver.start_with_pressure(sign);
     let mut running = rig.open(&solver.setup)?;
     let Some(before) = solver.pressure(&mut running)? else { return Ok(None) };
     running.frames(steps / solver.steps)?;
@@ -50,7 +50,7 @@ pub fn growth_of_sound(rig: &Rig, flow: Flow, stiffness: f64, steps: u32) -> Res
     let wave = move |x: f64, y: f64| 1e-4 * (quarter * (x + y)).sin();
     let Flow { dt, viscosity, .. } = flow;
     let solver = Solver::new("guay", flow).stiffness(stiffness);
-    let solver = solver.begin(|x, y| [wave(x, y); 2], |_, _| 0.0);
+    let solver = solver.start_from(|x, y| [wave(x, y); 2], |_, _| 0.0);
     let mut running = rig.open(&solver.setup)?;
     // Weighted so that the energy of a wave without viscosity grows uniformly, although its phase rotates.
     let mut amplitude = |frames| {

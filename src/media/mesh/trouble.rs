@@ -11,7 +11,7 @@ pub enum ModelError {
     Broken(String),
     /// An error in a line of a text, counted from 1, with a hint for fixing it.
     #[error(" is broken: line {line}: {reason}")]
-    Line { line: usize, reason: String, mend: String },
+    Line { line: usize, reason: String, hint: String },
     /// A limit is exceeded.
     #[error(" is too large: {0}")]
     TooLarge(String),
@@ -21,9 +21,9 @@ pub enum ModelError {
     /// A version of glTF that is not supported.
     #[error(": this is glTF {0}; Eddy reads 2.0")]
     Version(String),
-    /// The model needs an unsupported feature. `because` is the reason and may be empty; `mend` is the fix.
+    /// The model needs an unsupported feature. `because` is the reason and may be empty; `hint` is the fix.
     #[error(" needs {what}, which Eddy cannot read{}{because}", if because.is_empty() { "" } else { ": " })]
-    Needs { what: String, because: String, mend: String },
+    Needs { what: String, because: String, hint: String },
     /// The model has no triangles; the text lists what else it contains.
     #[error(" has no triangles{0}")]
     Empty(String),
@@ -35,7 +35,7 @@ impl ModelError {
         match self {
             ModelError::Named(error) => error.hint(),
             ModelError::TooLarge(_) => "simplify the model before it is exported".into(),
-            ModelError::Line { mend, .. } | ModelError::Needs { mend, .. } => mend.clone(),
+            ModelError::Line { hint, .. } | ModelError::Needs { hint, .. } => hint.clone(),
             ModelError::Broken(_) => "re-export the model".into(),
             ModelError::Version(version) if version.starts_with("1.") || version.starts_with("0.") => {
                 "re-export the model as glTF 2.0, or convert it: gltf-pipeline -i IN.gltf -o OUT.glb".into()

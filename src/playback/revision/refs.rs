@@ -47,9 +47,9 @@ impl<'a> Refs<'a> {
         // There are other files in the folder as well.
         let is_top = name.starts_with("refs/") || name.bytes().all(|b| b.is_ascii_uppercase() || b == b'_');
         let whole = is_top.then(|| name.to_owned());
-        let begun = ["refs/", "refs/tags/", "refs/heads/", "refs/remotes/"].map(|start| format!("{start}{name}"));
+        let qualified = ["refs/", "refs/tags/", "refs/heads/", "refs/remotes/"].map(|start| format!("{start}{name}"));
         let remote = format!("refs/remotes/{name}/HEAD");
-        for whole in whole.into_iter().chain(begun).chain([remote]) {
+        for whole in whole.into_iter().chain(qualified).chain([remote]) {
             if let Some(found) = self.follow(&whole)? {
                 return Ok(Some(found));
             }

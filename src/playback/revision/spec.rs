@@ -133,11 +133,11 @@ impl delegate::Revision for Walk<'_> {
     }
 
     fn disambiguate_prefix(&mut self, prefix: Prefix, hint: Option<PrefixHint<'_>>) -> gix_error::Result {
-        let begun = prefix.to_string();
+        let prefix_text = prefix.to_string();
         let is_whole = prefix.hex_len() == HASH.len_in_hex();
         // A branch may have a name of hexadecimal digits; git prefers it to objects with that prefix.
         if hint.is_none() && !is_whole {
-            match self.refs.find(&begun) {
+            match self.refs.find(&prefix_text) {
                 Ok(Some(found)) => return self.step(Ok(found.id)),
                 Ok(None) => {}
                 Err(e) => return self.step(Err(e)),
@@ -150,9 +150,9 @@ impl delegate::Revision for Walk<'_> {
             match self.objects.beginning(prefix) {
                 Ok(found) => match found[..] {
                     [one] => Ok(one),
-                    [] => Err(no_name(&begun)),
+                    [] => Err(no_name(&prefix_text)),
                     _ => {
-                        let said = format!("{} objects start with {begun}", found.len());
+                        let said = format!("{} objects start with {prefix_text}", found.len());
                         Err(RevisionError::no_such(said, "write more digits of the hash"))
                     }
                 },

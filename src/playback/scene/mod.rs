@@ -126,12 +126,12 @@ impl Scene {
     /// Returns a PNG file with the scene embedded. A file that is not a PNG is returned unchanged.
     pub fn embed(&self, png: Vec<u8>) -> io::Result<Vec<u8>> {
         // The header is the first chunk, and has 25 bytes.
-        let begin = SIGNATURE.len() + 25;
-        if !png.starts_with(SIGNATURE) || png.len() < begin {
+        let header_end = SIGNATURE.len() + 25;
+        if !png.starts_with(SIGNATURE) || png.len() < header_end {
             return Ok(png);
         }
         let data = self.png_text()?;
-        let mut out = png[..begin].to_vec();
+        let mut out = png[..header_end].to_vec();
         out.extend(u32::try_from(data.len()).map_err(io::Error::other)?.to_be_bytes());
         let mut crc = Crc::new();
         for part in [b"iTXt".as_slice(), &data] {
@@ -139,7 +139,7 @@ impl Scene {
             out.extend_from_slice(part);
         }
         out.extend(crc.sum().to_be_bytes());
-        out.extend_from_slice(&png[begin..]);
+        out.extend_from_slice(&png[header_end..]);
         Ok(out)
     }
 

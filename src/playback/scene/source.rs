@@ -24,9 +24,9 @@ impl RunSource {
             (Some(script), _) => SceneInputs::Script(script),
             (None, recording) => {
                 let end = frame as usize + 1;
-                let begin = if self.has_state && end <= LONGEST { 0 } else { end - 1 };
+                let first = if self.has_state && end <= LONGEST { 0 } else { end - 1 };
                 let project = self.project.name.clone();
-                let frames = recording.and_then(|recording| recording.frames.get(begin..end)).unwrap_or_default();
+                let frames = recording.and_then(|recording| recording.frames.get(first..end)).unwrap_or_default();
                 SceneInputs::Recording(Recording { project, frames: frames.to_vec() })
             }
         };

@@ -96,7 +96,7 @@ impl<'t> Parser<'t> {
             return Err(self.error(self.at..self.at, message, "write it simpler"));
         }
         self.skip_blanks();
-        let begin = self.at;
+        let start = self.at;
         let term = if self.takes("!") {
             Term::Not(Box::new(self.sign()?))
         } else if self.takes("-") {
@@ -104,7 +104,7 @@ impl<'t> Parser<'t> {
         } else if self.takes("(") {
             let inner = self.level(0)?;
             if !self.takes(")") {
-                let open = begin..begin + 1;
+                let open = start..start + 1;
                 return Err(self.error(open, "this parenthesis is not closed", "write ) where it ends"));
             }
             inner
@@ -117,10 +117,10 @@ impl<'t> Parser<'t> {
 
     fn value(&mut self) -> Result<Term, ConditionError> {
         self.skip_blanks();
-        let (begin, rest) = (self.at, self.rest());
+        let (start, rest) = (self.at, self.rest());
         let Some(first) = rest.chars().next() else {
             let hint = "write a number or the name of a uniform after it";
-            return Err(self.error(begin..begin, "the condition ends where a value must follow", hint));
+            return Err(self.error(start..start, "the condition ends where a value must follow", hint));
         };
         if first.is_ascii_digit() || first == '.' {
             return self.number();
@@ -134,14 +134,14 @@ impl<'t> Parser<'t> {
             "true" => Term::Number(1.0),
             "false" => Term::Number(0.0),
             name => {
-                self.names.push((name.to_owned(), begin..self.at));
+                self.names.push((name.to_owned(), start..self.at));
                 Term::Name(name.to_owned())
             }
         })
     }
 
     fn number(&mut self) -> Result<Term, ConditionError> {
-        let (begin, rest) = (self.at, self.rest());
+        let (start, rest) = (self.at, self.rest());
         let mut end = 0;
         for (at, c) in rest.char_indices() {
             let is_sign_of_exponent = matches!(c, '+' | '-') && rest[..at].ends_with(['e', 'E']);
@@ -157,16 +157,16 @@ impl<'t> Parser<'t> {
         let Some(number) = number.filter(|_| !digits.contains(|c: char| c.is_ascii_alphabetic() && !"eE".contains(c)))
         else {
             let message = format!("{written} is not a number");
-            return Err(self.error(begin..self.at, message, "write for example 3, 0.5 or 1e-4"));
+            return Err(self.error(start..self.at, message, "write for example 3, 0.5 or 1e-4"));
         };
         // An integer may be compared with an int, which single precision cannot represent exactly.
         Ok(Term::Number(if number.fract() == 0.0 { number } else { f64::from(number as f32) }))
     }
 
     fn unexpected(&self, c: char) -> ConditionError {
-        let (begin, rest) = (self.at, self.rest());
+        let (start, rest) = (self.at, self.rest());
         let word = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(rest.len());
-        let range = begin..begin + word.max(c.len_utf8());
+        let range = start..start + word.max(c.len_utf8());
         let hint = match &rest[..word.max(c.len_utf8())] {
             "=" => "write == to compare",
             "&" | "and" => "write && for and",

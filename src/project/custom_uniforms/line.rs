@@ -337,7 +337,7 @@ impl<'a> WordReader<'a> {
 
     /// Parses a value of a type; one number sets all components.
     fn value(&mut self, ty: CustomUniformType) -> Result<[f64; 4], Diagnostic> {
-        let begin = self.look().1.start;
+        let first = self.look().1.start;
         let mut all = match self.peek() {
             Word::Name(name) if name != "true" && name != "false" => {
                 self.next();
@@ -350,7 +350,7 @@ impl<'a> WordReader<'a> {
         };
         let n = ty.components();
         let end = self.last.end;
-        self.last = begin..end;
+        self.last = first..end;
         if all.len() == 1 {
             all = vec![all[0]; n];
         }
@@ -374,13 +374,13 @@ impl<'a> WordReader<'a> {
             return Err(self.error("a bool has no range"));
         }
         self.expect('{', "before the smallest value")?;
-        let begin = self.last.start;
+        let first = self.last.start;
         let min = self.value(ty)?;
         self.expect(',', "between the smallest and the largest value")?;
         let max = self.value(ty)?;
         self.expect('}', "after the largest value")?;
         if min.iter().zip(max).any(|(a, b)| *a > b) {
-            self.last.start = begin;
+            self.last.start = first;
             return Err(self.error("the range ends below its start"));
         }
         Ok(CustomUniformRange { min, max })

@@ -133,7 +133,7 @@ fn groups(text: &str) -> Vec<(usize, &str)> {
         }
         let code = if in_comment { line } else { line.split("//").next().unwrap_or_default() };
         in_comment = match (code.rfind("/*"), code.rfind("*/")) {
-            (Some(begin), Some(end)) => begin > end,
+            (Some(start), Some(end)) => start > end,
             (Some(_), None) => true,
             (None, Some(_)) => false,
             (None, None) => in_comment,

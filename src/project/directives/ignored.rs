@@ -50,11 +50,11 @@ pub fn ignored_channel_lines(project: &Project) -> Vec<Diagnostic> {
         }
         found.extend(lines_of(&source.text, id).map(|span| {
             let message = format!("this line is ignored in {}: a channel belongs to a pass", source.name);
-            let mend = match counts {
+            let hint = match counts {
                 true => "move the line to the code of the pass that reads the channel",
                 false => "remove the line",
             };
-            Diagnostic::new(severity, span, message).hint(mend)
+            Diagnostic::new(severity, span, message).hint(hint)
         }));
     }
     found

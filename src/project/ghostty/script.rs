@@ -155,20 +155,20 @@ pub struct Moment {
 pub fn at(secs: f64) -> Moment {
     let secs = secs.max(0.0);
     let round = (secs / PERIOD).floor();
-    let (begin, within) = (round * PERIOD, secs - round * PERIOD);
+    let (round_start, within) = (round * PERIOD, secs - round * PERIOD);
     let index = CURSORS.partition_point(|cursor| cursor.at <= within).saturating_sub(1);
     let cursor = CURSORS[index];
     // The last change, in this period or at the end of the previous one.
     let change = (1..=index).rev().find(|&i| CURSORS[i].differs(&CURSORS[i - 1]));
     let (previous, changed_at) = match change {
-        Some(i) => (Some(CURSORS[i - 1]), begin + CURSORS[i].at),
-        None if round > 0.0 => (CURSORS.last().copied(), begin),
+        Some(i) => (Some(CURSORS[i - 1]), round_start + CURSORS[i].at),
+        None if round > 0.0 => (CURSORS.last().copied(), round_start),
         None => (None, 0.0),
     };
     let (lost, found) = UNFOCUSED;
     let focused_at = match within >= found {
-        true => begin + found,
-        false if round > 0.0 => begin - PERIOD + found,
+        true => round_start + found,
+        false if round > 0.0 => round_start - PERIOD + found,
         false => 0.0,
     };
     Moment { cursor, previous, changed_at, is_focused: !(lost..found).contains(&within), focused_at }

@@ -268,9 +268,9 @@ impl Project {
                         last.1 += 1;
                     }
                     match way.iter().position(|(id, _)| *id == target) {
-                        Some(begin) => {
+                        Some(first) => {
                             let chain: Vec<&str> =
-                                way[begin..].iter().map(|(id, _)| name(*id)).chain([name(target)]).collect();
+                                way[first..].iter().map(|(id, _)| name(*id)).chain([name(target)]).collect();
                             let message = format!("this #include is circular: {}", chain.join(" -> "));
                             found.diagnostics.push(Diagnostic::error(span, message).hint("remove one of these lines"));
                             cut.insert((span.source.0, span.start));

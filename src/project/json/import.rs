@@ -66,16 +66,16 @@ fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Di
     let at =
         |offset: usize, length: usize| Span::new(eddy_diag::SourceId(0), skipped + offset..skipped + offset + length);
     // `part` is a slice of `body`.
-    let begin_of = |part: &str| part.as_ptr() as usize - body.as_ptr() as usize;
+    let offset_in_body = |part: &str| part.as_ptr() as usize - body.as_ptr() as usize;
     // The offset of the key if it is found, else the start of the part.
     let at_key = |part: &str, key: &str| {
-        let begin = begin_of(part);
-        part.find(&format!("\"{key}\"")).map_or(at(begin, 0), |i| at(begin + i, key.len() + 2))
+        let part_start = offset_in_body(part);
+        part.find(&format!("\"{key}\"")).map_or(at(part_start, 0), |i| at(part_start + i, key.len() + 2))
     };
     let failed = |part: &str, what: &str, e: &serde_json::Error| {
         let message = e.to_string();
         let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(m, _)| m);
-        let place = at(begin_of(part) + offset_of(part, e.line(), e.column()), 0);
+        let place = at(offset_in_body(part) + offset_of(part, e.line(), e.column()), 0);
         let hint = if body.trim_start().starts_with('<') {
             "this is a web page; save the export of Shadertoy or the answer of its API"
         } else {
@@ -116,18 +116,18 @@ fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Di
                 let keys: Vec<String> = keys.iter().map(|k| format!("\"{}\"", shown(k))).collect();
                 let has = if keys.is_empty() { "is empty".into() } else { format!("has {}", crate::listed(&keys)) };
                 let message = format!("{NO_SHADER}: the object {has}, and no \"renderpass\"");
-                return refuse(at(begin_of(part), 0), message, EXPECTED);
+                return refuse(at(offset_in_body(part), 0), message, EXPECTED);
             }
             RootContent::List(_) => {
-                return refuse(at(begin_of(part), 0), format!("{NO_SHADER}: a list within a list"), EXPECTED);
+                return refuse(at(offset_in_body(part), 0), format!("{NO_SHADER}: a list within a list"), EXPECTED);
             }
             RootContent::Bare => {
-                return refuse(at(begin_of(part), 0), format!("{NO_SHADER}: a bare value"), EXPECTED);
+                return refuse(at(offset_in_body(part), 0), format!("{NO_SHADER}: a bare value"), EXPECTED);
             }
         };
         part = match several::choose(&list, name, wanted, &mut warnings) {
             Ok(one) => one.get(),
-            Err((message, hint)) => return refuse(at(begin_of(part), 0), message, &hint),
+            Err((message, hint)) => return refuse(at(offset_in_body(part), 0), message, &hint),
         };
         is_chosen = true;
     };

@@ -33,10 +33,10 @@ pub(super) fn readable(text: &str) -> Cow<'_, str> {
         return Cow::Borrowed(text);
     }
     let (mut out, mut done) = (String::with_capacity(text.len()), 0);
-    for (begin, end, word) in changes {
-        out.push_str(&text[done..begin]);
+    for (start, end, word) in changes {
+        out.push_str(&text[done..start]);
         out.push_str(word);
-        out.extend(std::iter::repeat_n(' ', end - begin - word.len()));
+        out.extend(std::iter::repeat_n(' ', end - start - word.len()));
         done = end;
     }
     out.push_str(&text[done..]);

@@ -144,7 +144,7 @@ pub enum TransportCommand {
     StopReplay,
 }
 
-/// What to do with a picture that is too slow, or is not drawn yet.
+/// Choices for a picture that is too slow, or is not drawn yet.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HaltCommand {
     /// Draws nothing more of the open project before [`TransportCommand::Play`], [`TransportCommand::Step`] or [`HaltCommand::GoOn`]: right
@@ -266,7 +266,7 @@ pub enum FilmCommand {
     FindEncoders,
 }
 
-/// What the picture shows, and what panels watch.
+/// The content of the picture, and the read-backs that panels watch.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ViewCommand {
     /// Shows a pass; captures are of this pass too.

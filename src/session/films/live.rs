@@ -179,7 +179,7 @@ impl Live {
             let writer = match &mut self.writer {
                 Some(writer) => writer,
                 None => self.writer.insert(
-                    begin(&self.order, &self.target, &self.cancel, (self.texels, self.heard.is_some()))
+                    start_writing(&self.order, &self.target, &self.cancel, (self.texels, self.heard.is_some()))
                         .map_err(|error| error.to_string())?,
                 ),
             };
@@ -221,7 +221,7 @@ impl Live {
 /// The last frame number that picture names allow: six digits are five hours at 60 frames per second.
 pub(super) const LAST: u32 = 999_999;
 
-fn begin(
+fn start_writing(
     order: &FilmOrder,
     target: &Target,
     cancel: &Cancel,

@@ -166,13 +166,13 @@ impl HaltControl {
 
     /// Resets the statistics: frames of other code or another canvas take a different time.
     pub(crate) fn reset_pace(&mut self) {
-        self.pace.begin();
+        self.pace.reset();
     }
 
     /// Allows frames to take longer than the one for which the picture was halted.
     pub(crate) fn allow_more(&mut self, now: Instant) {
         let Some(taken) = self.frame_time(now) else { return };
-        self.pace.begin();
+        self.pace.reset();
         self.allowed = Some((self.limit() * ALLOWED_LIMITS).max(taken.saturating_mul(ALLOWED_TIMES)));
     }
 
@@ -265,7 +265,7 @@ impl HaltControl {
             self.marker.set(project);
         }
         self.is_new = true;
-        self.pace.begin();
+        self.pace.reset();
     }
 
     /// Records a drawn frame. `newest`: set if it is by the program of the newest text. `can_halt`: the session

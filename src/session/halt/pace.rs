@@ -15,7 +15,7 @@ pub(super) struct Pace {
 
 impl Pace {
     /// Resets for another program or canvas, whose frames take a different time.
-    pub(super) fn begin(&mut self) {
+    pub(super) fn reset(&mut self) {
         self.newest.clear();
     }
 
@@ -82,7 +82,7 @@ mod tests {
             assert_eq!(stops(&mut pace, &[25]), Some(0), "after {before}");
         }
         let mut pace = known();
-        pace.begin();
+        pace.reset();
         assert_eq!(stops(&mut pace, &[25]), Some(0));
     }
 

@@ -148,7 +148,7 @@ impl Measurements {
     }
 
     /// A new frame is about to be drawn. Samples of this frame and later ones belong to another run.
-    pub(crate) fn begin_frame(&mut self, frame: i32) {
+    pub(crate) fn start_frame(&mut self, frame: i32) {
         let is_next = self.frame.is_none_or(|before| frame == before.saturating_add(1));
         for measure in &mut self.measures {
             measure.record.keep_before(frame);

@@ -143,7 +143,7 @@ fn summaries(measuring: &Measurements) -> Vec<(u64, &str, usize, bool)> {
 
 /// Draws a frame, and measures what is due.
 fn draw(measuring: &mut Measurements, frame: i32, now: Instant, is_running: bool) -> Option<usize> {
-    measuring.begin_frame(frame);
+    measuring.start_frame(frame);
     let wanted = measuring.due(now, true, is_running).map(|wanted| wanted.0);
     if let Some(wanted) = &wanted {
         let values = wanted.iter().map(|(serial, _)| (*serial, Some(0.5))).collect();
@@ -227,7 +227,7 @@ fn reset_or_seek_back_truncates_the_record() {
     draw(&mut measuring, 4, now, false);
     assert_eq!(frames(&measuring), [0, 1, 2, 3, 4]);
     // A frame that is not measured truncates the record as well.
-    measuring.begin_frame(0);
+    measuring.start_frame(0);
     assert!(frames(&measuring).is_empty());
     measuring.receive(true);
     draw(&mut measuring, 1, now, false);

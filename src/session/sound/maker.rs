@@ -32,7 +32,7 @@ pub(super) fn work(
 ) -> impl FnMut(Order, &Control<()>) -> Result<(), String> + Send {
     let mut maker: Option<Maker> = None;
     move |order, control| {
-        let _at_work = shared.begin();
+        let _at_work = shared.start_step();
         let maker_of_order = match &mut maker {
             Some(maker) => maker,
             None => {

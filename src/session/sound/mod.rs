@@ -122,7 +122,7 @@ impl Shared {
         self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    fn begin(&self) -> BusyGuard<'_> {
+    fn start_step(&self) -> BusyGuard<'_> {
         self.goes_on();
         BusyGuard(self)
     }
@@ -421,12 +421,12 @@ mod tests {
         let open: Open = Arc::new(|| panic!("no device is asked for"));
         let mut sounding = SoundPass::new(open, Rasteriser::GPU, Arc::new(|| ()));
         let (go_on, waits) = channel::<()>();
-        let (begun, has_begun) = channel();
+        let (started, has_started) = channel();
         let shared = sounding.shared.clone();
         let work = move |order: Order, _: &Control<()>| {
-            let _at_work = shared.begin();
+            let _at_work = shared.start_step();
             shared.set_track(order.number, Arc::new(Track::new(4, 4)));
-            begun.send(()).unwrap();
+            started.send(()).unwrap();
             waits.recv().map_err(|error| error.to_string())
         };
         let mut thread = Background::new("sound", "the sound pass", sounding.wake.clone(), work).unwrap();
@@ -434,7 +434,7 @@ mod tests {
         sounding.shared.now().order = 1;
         thread.start(Order { number: 1, project, media: MediaSet::new(), date: [0.0; 4], opened: 1 });
         sounding.thread = Some(thread);
-        has_begun.recv().unwrap();
+        has_started.recv().unwrap();
         let now = Instant::now();
         assert_eq!(sounding.poll(now, 0.0), None);
         assert!(sounding.deadline().is_some_and(|at| at > now) && sounding.is_making());

@@ -75,7 +75,7 @@ pub(super) fn check(root: &Root<'_>) -> Result<(), ModelError> {
     Err(ModelError::Needs {
         what: listed(&shown),
         because: String::new(),
-        mend: format!("re-export the model without {which}"),
+        hint: format!("re-export the model without {which}"),
     })
 }
 
@@ -95,7 +95,7 @@ pub(super) fn draco() -> ModelError {
     ModelError::Needs {
         what: "KHR_draco_mesh_compression".into(),
         because: "its mesh is Draco compressed".into(),
-        mend: "re-export the model without compression, or unpack it: gltf-transform copy IN.glb OUT.glb".into(),
+        hint: "re-export the model without compression, or unpack it: gltf-transform copy IN.glb OUT.glb".into(),
     }
 }
 
@@ -104,7 +104,7 @@ pub(super) fn meshopt(extension: &str) -> ModelError {
     ModelError::Needs {
         what: extension.into(),
         because: "its mesh is meshopt compressed".into(),
-        mend: "re-export the model without compression (gltfpack without -c), or unpack it: gltf-transform copy \
+        hint: "re-export the model without compression (gltfpack without -c), or unpack it: gltf-transform copy \
                IN.glb OUT.glb"
             .into(),
     }

@@ -144,7 +144,7 @@ impl Elements {
     pub(super) fn no_places(&self) -> ModelError {
         let (line, word) = self.broken[Kind::Position as usize].clone().unwrap_or_default();
         let reason = format!("the position of a vertex is not a number ({word}), and every face has such a vertex");
-        ModelError::Line { line, reason, mend: "fix the model and re-export it".into() }
+        ModelError::Line { line, reason, hint: "fix the model and re-export it".into() }
     }
 }
 

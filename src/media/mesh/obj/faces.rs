@@ -158,7 +158,7 @@ impl<'f> Faces<'f> {
             return Ok(Some(place));
         }
         let names = format!("{} uses {} {}", quoted(word), KINDS[kind], quoted(text));
-        let (reason, mend) = match number {
+        let (reason, hint) = match number {
             0 => (names, "OBJ counts from 1: add 1 to every number of a face"),
             ..0 => (
                 format!("{names}, but only {passed} come before it"),
@@ -169,7 +169,7 @@ impl<'f> Faces<'f> {
                 "the file may be truncated or merged from several: re-export the model",
             ),
         };
-        Err(statement.error(word, reason, mend))
+        Err(statement.error(word, reason, hint))
     }
 }
 

@@ -59,8 +59,8 @@ fn not_a_number(statement: Statement<'_>, word: &[u8]) -> ModelError {
     let with_points: Vec<u8> = word.iter().map(|b| if *b == b',' { b'.' } else { *b }).collect();
     match commas {
         1 if number(&with_points).is_some() => {
-            let mend = format!("write decimals with a point: {} for {shown}", quoted(&with_points));
-            statement.error(word, format!("{reason}: it has a decimal comma"), mend)
+            let hint = format!("write decimals with a point: {} for {shown}", quoted(&with_points));
+            statement.error(word, format!("{reason}: it has a decimal comma"), hint)
         }
         0 => statement.error(word, reason, "write a number such as 0.25, or re-export the model"),
         _ => statement.error(word, reason, "separate the numbers by spaces, and write decimals with a point"),

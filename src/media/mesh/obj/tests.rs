@@ -29,7 +29,7 @@ fn quad() -> Vec<[f32; 3]> {
 /// Returns the line of an error, its message and its hint.
 fn error(text: impl AsRef<[u8]>) -> (usize, String, String) {
     match read(text) {
-        Err(ModelError::Line { line, reason, mend }) => (line, reason, mend),
+        Err(ModelError::Line { line, reason, fix }) => (line, reason, fix),
         other => panic!("{other:?}"),
     }
 }
@@ -104,7 +104,7 @@ fn attributes_need_all_corners_of_a_face() {
 
 #[test]
 fn errors_name_the_line_the_word_and_the_fix() {
-    for (line, text, reason, mend) in [
+    for (line, text, reason, fix) in [
         (1, "v 0,5 0 0", "0,5 is not a number: it has a decimal comma", "with a point: 0.5 for 0,5"),
         (2, "\nv 1,2,3", "1,2,3 is not a number", "separate the numbers"),
         (1, "v 0 zero 0", "zero is not a number", "0.25"),
@@ -127,7 +127,7 @@ fn errors_name_the_line_the_word_and_the_fix() {
     ] {
         let text = if text.contains('f') && !text.contains("v 0 zero") { format!("{QUAD}{text}") } else { text.into() };
         let (at, says, hint) = error(&text);
-        assert!(says.contains(reason) && hint.contains(mend) && at == line, "{text:?}: line {at}: {says} ({hint})");
+        assert!(says.contains(reason) && hint.contains(fix) && at == line, "{text:?}: line {at}: {says} ({hint})");
     }
     let long = error(format!("v {} 0 0", "x".repeat(1 << 20)));
     assert!(long.1.len() < 100, "{}", long.1.len());

@@ -102,14 +102,14 @@ impl<'t> Statement<'t> {
     }
 
     /// Returns an error at a word of the statement.
-    pub(super) fn error(self, word: &[u8], reason: impl Into<String>, mend: impl Into<String>) -> ModelError {
-        ModelError::Line { line: self.line_of(word), reason: reason.into(), mend: mend.into() }
+    pub(super) fn error(self, word: &[u8], reason: impl Into<String>, hint: impl Into<String>) -> ModelError {
+        ModelError::Line { line: self.line_of(word), reason: reason.into(), hint: hint.into() }
     }
 
     /// Returns an error of the whole statement.
-    pub(super) fn whole_error(self, reason: impl Into<String>, mend: impl Into<String>) -> ModelError {
+    pub(super) fn whole_error(self, reason: impl Into<String>, hint: impl Into<String>) -> ModelError {
         let first = self.words().next().unwrap_or(self.text);
-        self.error(first, reason, mend)
+        self.error(first, reason, hint)
     }
 }
 

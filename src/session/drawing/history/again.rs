@@ -118,7 +118,7 @@ impl History {
 
     /// Takes over a run that another process has drawn: its frames are ahead of the contents of the targets.
     pub(crate) fn load_run(&mut self, frames: Vec<Frame>) {
-        self.begin(true);
+        self.restart(true);
         self.frames = frames.into();
     }
 

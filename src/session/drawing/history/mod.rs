@@ -94,7 +94,7 @@ impl Default for History {
 
 impl History {
     /// Clears everything: later frames do not follow from earlier ones.
-    pub(crate) fn begin(&mut self, is_reset: bool) {
+    pub(crate) fn restart(&mut self, is_reset: bool) {
         (self.forgotten, self.drawn, self.floor) = (0, 0, 0);
         (self.is_whole, self.is_from_reset) = (is_reset, is_reset);
         self.frames.clear();
@@ -300,7 +300,7 @@ impl History {
             (self.drawn, self.is_from_reset) = (0, true);
             self.canvas.get_or_insert(engine.size());
         } else if !self.go_near(engine, number) {
-            self.begin(false);
+            self.restart(false);
             return None;
         }
         let began = Instant::now();

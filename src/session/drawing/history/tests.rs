@@ -64,7 +64,7 @@ fn first_frame_is_reachable_and_recent_frames_have_close_snapshots() {
     let Some(mut engine) = feedback(SIZE) else { return };
     let mut history = History::default();
     // The earlier frames were drawn by another program.
-    history.begin(false);
+    history.restart(false);
     history.budget = 16 * engine.checkpoint_bytes() + 1;
     let mut pictures = Vec::new();
     for frame in 0..200 {

@@ -92,7 +92,7 @@ impl Renderer {
             let drawn = is_ready.and_then(|()| self.draw(&inputs, costs_of.is_some(), gate.as_ref()));
             match &drawn {
                 Ok(drawn) => self.history.frame_drawn(inputs, self.engine.size(), drawn.took),
-                Err(_) => self.history.begin(false),
+                Err(_) => self.history.restart(false),
             }
             done.frame = Some(drawn);
         }
@@ -137,7 +137,7 @@ impl Renderer {
         done.is_display_new |= self.engine.size() != size;
         match &drawn {
             Ok(drawn) => self.history.frame_redrawn(drawn.took),
-            Err(_) => self.history.begin(false),
+            Err(_) => self.history.restart(false),
         }
         done.frame = Some(drawn);
     }
@@ -188,7 +188,7 @@ impl Renderer {
         }
         if reset {
             self.engine.reset();
-            self.history.begin(true);
+            self.history.restart(true);
             self.shown = None;
         }
         if let Some(frames) = run {
