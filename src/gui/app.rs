@@ -10,7 +10,7 @@ use super::{
     frame::{self, Frame},
     keys::{HeldKeys, KeyChange},
     report::Report,
-    settings::{SettingsFile, UsualSizes, WindowFile, WindowPlace, WindowState},
+    settings::{Overrides, RestoredSizes, SettingsFile, WindowFile, WindowPlace, WindowState},
     shell::Shell,
     surface::{Presented, Surface},
     system_theme, theme, window_identity,
@@ -121,7 +121,7 @@ struct Running {
     keeps_size: bool,
     /// Save which panels are open for the next start.
     keeps_panels: bool,
-    usual: UsualSizes,
+    usual: RestoredSizes,
 }
 
 impl ApplicationHandler<AppEvent> for App {
@@ -207,7 +207,7 @@ impl Running {
     ) -> Result<Running, GuiError> {
         let state_dir = dirs::state_dir().or_else(dirs::data_local_dir).map(|dir| dir.join("eddy"));
         let mut window_file = WindowFile::new(state_dir.clone());
-        let (remembered, mut mistakes) = window_file.read();
+        let (remembered, mut errors) = window_file.read();
         let attributes = attributes(event_loop, options, &remembered.place);
         let window = Arc::new(event_loop.create_window(attributes).map_err(no_display)?);
         let surface = Surface::new(&window, event_loop.owned_display_handle())?;
@@ -251,13 +251,14 @@ impl Running {
         let system_theme = system_theme::watch(wake.clone());
         let mut shell = Shell::new(surface.gpu().clone(), wake.clone(), options.project.is_none());
         let mut settings = SettingsFile::new();
-        mistakes.extend(settings.refresh());
-        shell.restore(settings, &remembered, options.frame_limit.is_some(), options.osc);
+        errors.extend(settings.refresh());
+        let overrides = Overrides { frame_limit: options.frame_limit.is_some(), osc: options.osc };
+        shell.restore(settings, &remembered, overrides);
         if options.follow {
             shell.show_picture_alone();
         }
         shell.follow_settings(&ctx).into_iter().for_each(|command| session.apply(command));
-        for text in mistakes {
+        for text in errors {
             session.apply(Command::Notify { level: Level::Error, text, path: None });
         }
         let report = Report::new(options.json);
@@ -298,7 +299,7 @@ impl Running {
             window_file,
             keeps_size: options.size.is_none(),
             keeps_panels: !options.follow,
-            usual: UsualSizes::default(),
+            usual: RestoredSizes::default(),
         })
     }
 

@@ -147,12 +147,7 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
         ui.horizontal(|ui| {
             ui.label("Theme");
             for theme in Theme::ALL {
-                let title = match theme {
-                    Theme::System => "System",
-                    Theme::Dark => "Dark",
-                    Theme::Light => "Light",
-                };
-                let choice = ui.add(Button::selectable(state.settings.theme == theme, title));
+                let choice = ui.add(Button::selectable(state.settings.theme == theme, theme.title()));
                 let choice = choice.on_hover_text(match theme {
                     Theme::System => "Follow the system theme",
                     Theme::Dark => "Use the dark theme",

@@ -6,7 +6,7 @@ use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, open_with, press, unt
 use crate::{
     gui::{
         dock::Panel,
-        settings::{SettingsFile, WindowState},
+        settings::{Overrides, SettingsFile, WindowState},
     },
     session::{Answer, Command, Level, Question, SessionOptions},
 };
@@ -167,7 +167,11 @@ fn every_dialog_has_enough_contrast_in_both_themes() {
             std::fs::write(&file, text).unwrap();
             let mut settings = SettingsFile::at(Some(file.clone()));
             settings.refresh();
-            stage.state_mut().shell.restore(settings, &WindowState::default(), true, None);
+            stage.state_mut().shell.restore(
+                settings,
+                &WindowState::default(),
+                Overrides { frame_limit: true, osc: None },
+            );
             stage.run_steps(2);
             press(&mut stage, CTRL, Key::Comma);
             // Up to here the theme is that of the settings.

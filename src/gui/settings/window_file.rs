@@ -25,12 +25,12 @@ pub(crate) struct WindowPlace {
 ///
 /// A window system reports the maximised state before or after the new size: the newest size may be the screen's.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct UsualSizes {
+pub(crate) struct RestoredSizes {
     newest: Option<WindowPlace>,
     before: Option<WindowPlace>,
 }
 
-impl UsualSizes {
+impl RestoredSizes {
     pub(crate) fn note(&mut self, place: WindowPlace) {
         if self.newest.is_none_or(|newest| newest.size != place.size) {
             self.before = self.newest;
@@ -78,10 +78,10 @@ impl WindowFile {
             Ok(None) => return Default::default(),
             Err(error) => return (WindowState::default(), vec![format!("{}: {error}", path.display())]),
         };
-        let (remembered, mistakes) = read(&text);
+        let (remembered, errors) = read(&text);
         self.known = remembered.clone();
         let with_place = |(line, what): (usize, String)| format!("{}:{line}: {what}", path.display());
-        (remembered, mistakes.into_iter().map(with_place).collect())
+        (remembered, errors.into_iter().map(with_place).collect())
     }
 
     pub(crate) fn known(&self) -> &WindowState {
@@ -128,7 +128,7 @@ fn text(remembered: &WindowState) -> String {
 
 fn read(text: &str) -> (WindowState, Vec<(usize, String)>) {
     let mut remembered = WindowState::default();
-    let mut mistakes = Vec::new();
+    let mut errors = Vec::new();
     let lines = LineIndex::new(text);
     let document = match toml_edit::Document::parse(text) {
         Ok(document) => document,
@@ -140,7 +140,7 @@ fn read(text: &str) -> (WindowState, Vec<(usize, String)>) {
     let table = document.as_table();
     let mut wrong = |name: &str, what: String| {
         let start = table.key(name).and_then(toml_edit::Key::span).map_or(0, |span| span.start);
-        mistakes.push((lines.line(start), what));
+        errors.push((lines.line(start), what));
     };
     for (name, _) in table.iter().filter(|(name, _)| !KEYS.contains(name)) {
         wrong(name, format!("unknown key \"{name}\"; the keys are {}", KEYS.join(", ")));
@@ -165,7 +165,7 @@ fn read(text: &str) -> (WindowState, Vec<(usize, String)>) {
         Some(Err(what)) => wrong("layout", format!("the default layout is used: {what}")),
         None => {}
     }
-    (remembered, mistakes)
+    (remembered, errors)
 }
 
 #[cfg(test)]
@@ -188,7 +188,7 @@ mod tests {
     fn a_maximised_window_restores_its_previous_size() {
         let place =
             |width: f64, x| WindowPlace { size: Some((width, 600.0)), corner: Some((x, 0)), is_maximized: false };
-        let mut sizes = UsualSizes::default();
+        let mut sizes = RestoredSizes::default();
         assert_eq!(sizes.other_than((1920.0, 600.0)), None);
         sizes.note(place(900.0, 5));
         sizes.note(place(940.0, 6));
@@ -215,15 +215,15 @@ mod tests {
     fn invalid_entries_are_reported_and_the_rest_is_read() {
         let text = "width = 900.0\nheight = 600\nwidht = 3\nopen = [\"code\", \"cdoe\"]\n\
                     layout = { row = [\"code\", \"code\"] }\nx = 1\n";
-        let (remembered, mistakes) = read(text);
+        let (remembered, errors) = read(text);
         assert_eq!(remembered.place, WindowPlace { size: Some((900.0, 600.0)), ..WindowPlace::default() });
         assert_eq!(remembered.open, Some(BTreeSet::from([Panel::Code])));
         assert_eq!(remembered.layout, None);
-        let lines: Vec<usize> = mistakes.iter().map(|(line, _)| *line).collect();
-        assert_eq!(lines, [3, 4, 5], "{mistakes:?}");
-        assert!(mistakes[2].1.ends_with("a panel is listed twice"), "{mistakes:?}");
-        let (remembered, mistakes) = read("x = \n");
-        assert_eq!((remembered, mistakes.len()), (WindowState::default(), 1));
+        let lines: Vec<usize> = errors.iter().map(|(line, _)| *line).collect();
+        assert_eq!(lines, [3, 4, 5], "{errors:?}");
+        assert!(errors[2].1.ends_with("a panel is listed twice"), "{errors:?}");
+        let (remembered, errors) = read("x = \n");
+        assert_eq!((remembered, errors.len()), (WindowState::default(), 1));
     }
 
     #[test]
@@ -232,8 +232,8 @@ mod tests {
             include_str!("../../../tests/saved/window/plain.toml"),
             include_str!("../../../tests/saved/window/layout.toml"),
         ] {
-            let (state, mistakes) = read(file);
-            assert_eq!(mistakes, []);
+            let (state, errors) = read(file);
+            assert_eq!(errors, []);
             assert_eq!(text(&state), file);
         }
     }

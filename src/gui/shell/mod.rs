@@ -22,8 +22,8 @@ use super::{
     palette::Palette,
     questions,
     recorder::Recorder,
-    settings::{Change, Settings, SettingsFile, Theme, WindowState},
-    settings_page::{Overridden, SettingsPage},
+    settings::{self, Change, Overrides, Setting, Settings, SettingsFile, Theme, WindowState},
+    settings_page::SettingsPage,
     thumbnails::Thumbnails,
     toasts,
     ui_output::{Pick, ShellCommand, UiOutput},
@@ -38,7 +38,6 @@ use egui::{CentralPanel, Frame, Ui};
 use egui_wgpu::Renderer;
 use of_project::OfProject;
 use std::{
-    net::SocketAddr,
     path::{Path, PathBuf},
     sync::Arc,
     time::Instant,
@@ -71,10 +70,7 @@ pub(super) struct Shell {
     settings: SettingsFile,
     /// The settings last applied.
     in_effect: Option<Settings>,
-    /// The command line set the frame limit, which overrides the setting.
-    keeps_frame_limit: bool,
-    /// The address on which the command line has OSC received.
-    keeps_osc: Option<SocketAddr>,
+    overrides: Overrides,
     palette: Palette,
     focus: Focus,
     /// The clipboard's contents were requested: they are handled as if they had been pasted.
@@ -126,8 +122,7 @@ impl Shell {
             keys: KeyFile::new(),
             settings: SettingsFile::new(),
             in_effect: None,
-            keeps_frame_limit: false,
-            keeps_osc: None,
+            overrides: Overrides::default(),
             palette: Palette::default(),
             focus: Focus::default(),
             wants_clipboard: false,
@@ -144,17 +139,10 @@ impl Shell {
         }
     }
 
-    /// Restores the state saved by the last run. `keeps_frame_limit`: the command line set one; `osc`: the address on
-    /// which it has OSC received.
-    pub(super) fn restore(
-        &mut self,
-        settings: SettingsFile,
-        remembered: &WindowState,
-        keeps_frame_limit: bool,
-        osc: Option<SocketAddr>,
-    ) {
+    /// Restores the state saved by the last run.
+    pub(super) fn restore(&mut self, settings: SettingsFile, remembered: &WindowState, overrides: Overrides) {
         self.settings = settings;
-        (self.keeps_frame_limit, self.keeps_osc) = (keeps_frame_limit, osc);
+        self.overrides = overrides;
         self.dock.restore(remembered.open.clone(), remembered.layout.as_ref());
     }
 
@@ -220,17 +208,17 @@ impl Shell {
     pub(super) fn show(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
         self.thumbnails.update(ui.ctx());
         self.lab.update();
-        let looks = self.page_of_settings.as_mut().is_some_and(|page| page.looks(ui, Instant::now()));
+        let looks = self.page_of_settings.as_mut().is_some_and(|page| page.is_check_due(ui, Instant::now()));
         let is_read = self.is_back(ui) | looks;
-        let mistakes = if is_read { self.refresh_files() } else { Vec::new() };
+        let errors = if is_read { self.refresh_files() } else { Vec::new() };
         let mut out = UiOutput::new(ActiveKeymap::new(self.keys.keymap().clone(), self.listening(ui)));
         if is_read {
             // Drop notices of fixed problems, and show repeated ones once.
             let is_over = |text: &str| self.keys.is_fixed(text) || self.settings.is_fixed(text);
-            let over = session.notices().iter().filter(|n| is_over(&n.text) || mistakes.contains(&n.text));
+            let over = session.notices().iter().filter(|n| is_over(&n.text) || errors.contains(&n.text));
             over.for_each(|notice| out.ask(Command::DismissNotice(notice.id)));
         }
-        for text in mistakes {
+        for text in errors {
             out.ask(Command::Notify { level: Level::Error, text, path: None });
         }
         out.commands.extend(self.follow_settings(ui.ctx()));
@@ -268,9 +256,8 @@ impl Shell {
         if self.help.as_mut().is_some_and(|help| !help.show(ui, &mut out)) {
             self.help = None;
         }
-        let overridden = Overridden { frame_limit: self.keeps_frame_limit, osc: self.keeps_osc.is_some() };
-        let Self { settings, page_of_settings, .. } = self;
-        if page_of_settings.as_mut().is_some_and(|page| !page.show(ui, session, settings, overridden, &mut out)) {
+        let Self { settings, page_of_settings, overrides, .. } = self;
+        if page_of_settings.as_mut().is_some_and(|page| !page.show(ui, session, settings, overrides, &mut out)) {
             self.page_of_settings = None;
         }
         let offers = if self.palette.is_open() { Self::offers(session) } else { Vec::new() };
@@ -301,9 +288,9 @@ impl Shell {
 
     /// Reads the files of keys and settings, and returns the errors in them.
     fn refresh_files(&mut self) -> Vec<String> {
-        let mut mistakes = self.keys.refresh();
-        mistakes.extend(self.settings.refresh());
-        mistakes
+        let mut errors = self.keys.refresh();
+        errors.extend(self.settings.refresh());
+        errors
     }
 
     /// Applies the settings that have changed, and returns the commands for the session.
@@ -326,18 +313,7 @@ impl Shell {
         {
             commands.push(Command::Notify { level: Level::Error, text, path: None });
         }
-        commands.push(Command::SetVolume(settings.volume));
-        commands.push(Command::SetMute(settings.mute));
-        commands.push(Command::SetAudioOutput(settings.audio_output.clone()));
-        commands.push(Command::SetAudioInput(settings.audio_input.clone()));
-        commands.push(Command::SetProjectInPictures(settings.project_in_images));
-        commands.push(Command::SetOsc(self.keeps_osc.or(settings.osc())));
-        commands.push(Command::SetMidi(settings.midi.clone()));
-        commands.push(Command::SetGamepads(settings.gamepads));
-        commands.push(Command::SetCompileOnSave(settings.compile_on_save));
-        if !self.keeps_frame_limit {
-            commands.push(Command::SetFrameLimit(settings.frame_timeout));
-        }
+        commands.extend(settings::commands(before.as_ref(), settings, &self.overrides));
         ctx.request_repaint();
         commands
     }
@@ -454,7 +430,7 @@ impl Shell {
             ShellCommand::CloseFile(tab) => self.code.close_file(&tab),
             ShellCommand::Set(change) => self.change(change, out),
             ShellCommand::StopOsc => {
-                self.keeps_osc = None;
+                self.overrides.osc = None;
                 out.ask(Command::SetOsc(None));
                 self.change(Change::Osc(false), out);
             }
@@ -521,8 +497,9 @@ impl Shell {
             Pick::LabReport => self.lab.save_report(path),
             Pick::Reference => self.kept.compare.choose(&path),
             Pick::CodeFont => {
-                let page = self.page_of_settings.as_mut();
-                if let Some(change) = page.and_then(|page| page.choose_font(&path.display().to_string())) {
+                let page = self.page_of_settings.as_mut().zip(Setting::named("code-font"));
+                let change = page.and_then(|(page, setting)| page.enter(setting, &path.display().to_string()));
+                if let Some(change) = change {
                     self.change(change, out);
                 }
             }
