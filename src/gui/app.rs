@@ -121,7 +121,7 @@ struct Running {
     keeps_size: bool,
     /// Save which panels are open for the next start.
     keeps_panels: bool,
-    usual: RestoredSizes,
+    restored_sizes: RestoredSizes,
 }
 
 impl ApplicationHandler<AppEvent> for App {
@@ -207,8 +207,8 @@ impl Running {
     ) -> Result<Running, GuiError> {
         let state_dir = dirs::state_dir().or_else(dirs::data_local_dir).map(|dir| dir.join("eddy"));
         let mut window_file = WindowFile::new(state_dir.clone());
-        let (remembered, mut errors) = window_file.read();
-        let attributes = attributes(event_loop, options, &remembered.place);
+        let (window_state, mut errors) = window_file.read();
+        let attributes = attributes(event_loop, options, &window_state.place);
         let window = Arc::new(event_loop.create_window(attributes).map_err(no_display)?);
         let surface = Surface::new(&window, event_loop.owned_display_handle())?;
         let wake: Arc<dyn Fn() + Send + Sync> = {
@@ -253,11 +253,11 @@ impl Running {
         let mut settings = SettingsFile::new();
         errors.extend(settings.refresh());
         let overrides = Overrides { frame_limit: options.frame_limit.is_some(), osc: options.osc };
-        shell.restore(settings, &remembered, overrides);
+        shell.restore(settings, &window_state, overrides);
         if options.follow {
             shell.show_picture_alone();
         }
-        shell.follow_settings(&ctx).into_iter().for_each(|command| session.apply(command));
+        shell.apply_settings(&ctx).into_iter().for_each(|command| session.apply(command));
         for text in errors {
             session.apply(Command::Notify { level: Level::Error, text, path: None });
         }
@@ -275,7 +275,7 @@ impl Running {
         report.say(json!({ "event": "started", "device": surface.gpu().describe(), "pid": std::process::id() }));
         window.set_visible(true);
         // On X11 the request goes to the window manager, which knows a window only once it is visible.
-        if options.size.is_none() && remembered.place.is_maximized {
+        if options.size.is_none() && window_state.place.is_maximized {
             window.set_maximized(true);
         }
         let now = Instant::now();
@@ -299,7 +299,7 @@ impl Running {
             window_file,
             keeps_size: options.size.is_none(),
             keeps_panels: !options.follow,
-            usual: RestoredSizes::default(),
+            restored_sizes: RestoredSizes::default(),
         })
     }
 
@@ -323,7 +323,7 @@ impl Running {
                 self.surface.resize(size.width, size.height);
                 self.hide(size.width == 0 || size.height == 0);
                 if !self.hidden && !self.window.is_maximized() && self.window.fullscreen().is_none() {
-                    self.usual.note(self.place(false));
+                    self.restored_sizes.note(self.place(false));
                 }
             }
             WindowEvent::Occluded(hidden) => self.hide(*hidden),
@@ -419,7 +419,7 @@ impl Running {
         let Frame { output, tick, wants_next } =
             frame::run(&self.ctx, &mut self.shell, &mut self.session, renderer, raw, began);
         self.input.handle_platform_output(&self.window, output.platform_output.clone());
-        if self.shell.take_clipboard_wish() {
+        if self.shell.take_clipboard_request() {
             let text = self.input.clipboard_text().unwrap_or_default();
             self.input.egui_input_mut().events.push(egui::Event::Paste(text));
             self.paint_soon();
@@ -459,9 +459,9 @@ impl Running {
         let gpu = self.surface.gpu().clone();
         let Running { window, ctx, surface, shell, wake, .. } = self;
         self.losses.watch(&gpu, &mut self.session, now, |session| {
-            surface.renew(window, ctx)?;
+            surface.reopen_device(window, ctx)?;
             session.show_on(surface.gpu().clone())?;
-            shell.renew(surface.gpu().clone(), wake.clone());
+            shell.on_new_device(surface.gpu().clone(), wake.clone());
             Ok(())
         })
     }
@@ -488,21 +488,21 @@ impl Running {
         let is_maximized = window.is_maximized();
         let known = self.window_file.known().place;
         // A maximised window restores the place that it had before.
-        let is_usual = !is_maximized && window.fullscreen().is_none() && !self.hidden;
+        let is_restored = !is_maximized && window.fullscreen().is_none() && !self.hidden;
         let now = self.place(is_maximized);
-        let place = match (self.keeps_size, is_usual) {
+        let place = match (self.keeps_size, is_restored) {
             (false, _) => known,
             (true, true) => now,
             (true, false) => {
-                let usual = now.size.and_then(|size| self.usual.other_than(size));
-                WindowPlace { is_maximized, ..usual.unwrap_or(known) }
+                let previous = now.size.and_then(|size| self.restored_sizes.other_than(size));
+                WindowPlace { is_maximized, ..previous.unwrap_or(known) }
             }
         };
         let (open, layout) = match self.keeps_panels {
             true => (Some(dock.open_panels().clone()), dock.arrangement()),
             false => (self.window_file.known().open.clone(), self.window_file.known().layout.clone()),
         };
-        self.window_file.keep(WindowState { place, open, layout });
+        self.window_file.save_if_changed(WindowState { place, open, layout });
     }
 
     fn place(&self, is_maximized: bool) -> WindowPlace {

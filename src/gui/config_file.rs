@@ -84,9 +84,9 @@ impl<T: Content> ConfigFile<T> {
     }
 
     /// Returns whether an error that was reported for the file is fixed.
-    pub(super) fn is_fixed(&self, said: &str) -> bool {
+    pub(super) fn is_fixed(&self, message: &str) -> bool {
         let path = self.path.as_ref().map(|path| path.display().to_string());
-        path.is_some_and(|path| said.starts_with(&format!("{path}:"))) && !self.errors.iter().any(|m| m == said)
+        path.is_some_and(|path| message.starts_with(&format!("{path}:"))) && !self.errors.iter().any(|m| m == message)
     }
 
     /// Changes the text of the file, or of the template if there is no file. Returns why it could not be changed, with

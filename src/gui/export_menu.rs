@@ -2,7 +2,7 @@
 //!
 //! An export is a row of [`ROWS`] and runs its action.
 
-use super::{actions::Action, dock::Panel, ui_output::UiOutput};
+use super::{actions::Action, panels::Panel, ui_output::UiOutput};
 use crate::session::Session;
 use egui::{Button, Ui};
 

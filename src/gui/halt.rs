@@ -109,8 +109,8 @@ mod tests {
 
     #[test]
     fn times_are_formatted_for_people() {
-        let said = |secs| time(Duration::from_secs_f64(secs));
-        assert_eq!([said(2.0), said(3.46), said(41.2)], ["2 s", "3.5 s", "41 s"]);
-        assert_eq!([said(600.0), said(86_400.0)], ["10 minutes", "24 hours"]);
+        let formatted = |secs| time(Duration::from_secs_f64(secs));
+        assert_eq!([formatted(2.0), formatted(3.46), formatted(41.2)], ["2 s", "3.5 s", "41 s"]);
+        assert_eq!([formatted(600.0), formatted(86_400.0)], ["10 minutes", "24 hours"]);
     }
 }

@@ -197,9 +197,9 @@ impl Row<'_> {
             }
         }
         if out.clicked(&self.name, &response)
-            && let Some(wish) = self.place.and_then(wish_of)
+            && let Some(command) = self.place.and_then(command_for)
         {
-            out.shell_commands.push(wish);
+            out.shell_commands.push(command);
         }
         response.on_hover_cursor(egui::CursorIcon::PointingHand).on_hover_ui(|ui| {
             ui.colored_label(color, &self.problem.message);
@@ -211,7 +211,7 @@ impl Row<'_> {
 }
 
 /// Returns the command that goes to a place; `None` if it is not in any tab.
-fn wish_of(place: &TextLocation) -> Option<ShellCommand> {
+fn command_for(place: &TextLocation) -> Option<ShellCommand> {
     Some(ShellCommand::GoTo(place.tab.clone()?, Some((place.line - 1, place.column - 1))))
 }
 

@@ -261,9 +261,9 @@ impl SettingsPage {
             (self.typed, self.error) = (Some((setting.key, text)), None);
         }
         // Escape closes the page without changing the setting.
-        let is_given_up = ui.input(|i| i.key_pressed(egui::Key::Escape));
+        let is_cancelled = ui.input(|i| i.key_pressed(egui::Key::Escape));
         let entered = self.typed.take_if(|(key, _)| *key == setting.key && field.lost_focus());
-        let entered = entered.map(|(_, text)| text.trim().to_owned()).filter(|text| !is_given_up && text != now);
+        let entered = entered.map(|(_, text)| text.trim().to_owned()).filter(|text| !is_cancelled && text != now);
         let change = entered.and_then(|text| self.enter(setting, &text));
         if is_font {
             let choose = ui.button("Choose…").on_hover_text("Choose a font file");

@@ -3,9 +3,10 @@
 use super::{
     accessible,
     actions::Action,
-    dock::Panel,
     icons::{self, Icon},
-    menus, passes, theme,
+    menus,
+    panels::Panel,
+    passes, theme,
     ui_output::{ShellCommand, UiOutput},
 };
 use crate::{

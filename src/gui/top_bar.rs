@@ -2,10 +2,10 @@
 
 use super::{
     actions::Action,
-    dock::Panel,
     export_menu,
     icons::{self, Icon},
     menus,
+    panels::Panel,
     settings::{Change, Settings, Theme},
     theme,
     ui_output::{Pick, ShellCommand, UiOutput},
@@ -139,7 +139,7 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
                 ui.close();
             }
         };
-        item(ui, "view:usual", "Reset layout", Action::UsualLayout);
+        item(ui, "view:usual", "Reset layout", Action::ResetLayout);
         ui.separator();
         item(ui, "view:present", "Code over picture", Action::Present);
         item(ui, "view:full-screen", "Full screen", Action::Fullscreen);

@@ -4,10 +4,11 @@ use super::{
     accessible,
     actions::Action,
     devices,
-    dock::Panel,
     geometry::Shape,
     icons::{self, Icon},
-    menus, replay, resolution, sound_bar, theme, timeline,
+    menus,
+    panels::Panel,
+    replay, resolution, sound_bar, theme, timeline,
     ui_output::{ShellCommand, UiOutput},
 };
 use crate::{
@@ -20,7 +21,7 @@ use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
 pub(super) const HEIGHT: f32 = 40.0 + timeline::HEIGHT;
 
 /// Widths in points: for the selected pass and the menu after it, and for the resolution.
-const BEHIND: f32 = 116.0;
+const RIGHT_WIDTH: f32 = 116.0;
 const SIZE: f32 = 108.0;
 /// The width of the recording mark.
 const RECORDING: f32 = 64.0;
@@ -47,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOut
         };
         button(ui, "button:reset", Icon::Reset, "Reset time and buffers", Action::Reset);
         // In a narrow bar they are hidden in favour of recording marks and device lights: they also have keys.
-        if ui.available_width() >= BEHIND + 3.0 * (icons::WIDTH + 4.0) + least_of_lights(session) {
+        if ui.available_width() >= RIGHT_WIDTH + 3.0 * (icons::WIDTH + 4.0) + least_of_lights(session) {
             button(ui, "button:step-back", Icon::StepBack, "Step one frame back", Action::StepBack);
             button(ui, "button:step", Icon::Step, "Step one frame forward", Action::Step);
             button(
@@ -62,19 +63,19 @@ pub(super) fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOut
         film(ui, session, out);
         // Later widgets keep room for themselves: for the lights, at least their dots.
         let sound = sound_bar::least(session);
-        devices::light(ui, session, ui.available_width() - BEHIND - devices::network_least(session) - sound, out);
-        devices::network_light(ui, session, ui.available_width() - BEHIND - sound, out);
-        sound_bar::show(ui, session, ui.available_width() - BEHIND, out);
+        devices::light(ui, session, ui.available_width() - RIGHT_WIDTH - devices::network_least(session) - sound, out);
+        devices::network_light(ui, session, ui.available_width() - RIGHT_WIDTH - sound, out);
+        sound_bar::show(ui, session, ui.available_width() - RIGHT_WIDTH, out);
         // What does not fit is in the menu at the right, or in the table of costs.
         let played = session.replay();
         // A recording fixes the resolution.
-        let roomy = played.is_none() && ui.available_width() >= BEHIND + SIZE + 64.0;
+        let roomy = played.is_none() && ui.available_width() >= RIGHT_WIDTH + SIZE + 64.0;
         let gap = 8.0;
         ui.spacing_mut().item_spacing.x = gap;
         if let Some(played) = &played {
-            replay::show(ui, played, transport.playing, BEHIND + gap, out);
+            replay::show(ui, played, transport.playing, RIGHT_WIDTH + gap, out);
         }
-        let mut room = ui.available_width() - if roomy { BEHIND + SIZE } else { BEHIND };
+        let mut room = ui.available_width() - if roomy { RIGHT_WIDTH + SIZE } else { RIGHT_WIDTH };
         let mut fits = |width: f32| {
             let fits = played.is_none() && room >= width + gap;
             room -= if fits { width + gap } else { 0.0 };

@@ -3,8 +3,8 @@
 
 use super::{
     actions::{Action, ActiveKeymap},
-    dock::Panel,
     geometry::Area,
+    panels::Panel,
     settings::Change,
 };
 use crate::{

@@ -87,7 +87,7 @@ impl Entry {
 mod tests {
     use crate::gui::{
         actions::{ACTIONS, Action},
-        dock::Panel,
+        panels::Panel,
     };
 
     #[test]

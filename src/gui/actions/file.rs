@@ -24,11 +24,11 @@ pub(super) fn read(text: &str) -> (Keymap, Vec<ConfigError>) {
         let at = line(table.key(name).and_then(toml_edit::Key::span).or_else(|| item.span()));
         let mut wrong = |line: usize, text: String| errors.push(ConfigError { line, text });
         let Some(entry) = ACTIONS.iter().find(|e| e.name == name) else {
-            let mend = match nearest(name, ACTIONS.iter().map(|e| e.name)) {
+            let fix = match nearest(name, ACTIONS.iter().map(|e| e.name)) {
                 Some(near) => format!("did you mean \"{near}\"?"),
                 None => "the file that Eddy creates lists all actions".to_owned(),
             };
-            wrong(at, format!("unknown action \"{name}\"; {mend}"));
+            wrong(at, format!("unknown action \"{name}\"; {fix}"));
             continue;
         };
         let Some(texts) = texts(item) else {
@@ -100,7 +100,7 @@ pub(super) fn template() -> String {
 mod tests {
     use super::*;
     use crate::gui::actions::Action;
-    use crate::gui::dock::Panel;
+    use crate::gui::panels::Panel;
 
     #[test]
     fn keys_of_the_file_replace_the_defaults() {

@@ -148,8 +148,8 @@ fn is_plus(key: Key) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gui::dock::Panel;
     use crate::gui::editor::{EditorAction as Code, Motion, Vertical};
+    use crate::gui::panels::Panel;
 
     fn press(key: Key, modifiers: Modifiers) -> Event {
         Event::Key { key, physical_key: Some(key), pressed: true, repeat: false, modifiers }
@@ -234,11 +234,11 @@ mod tests {
         );
         assert_eq!(hint(trace, Action::TogglePlay), "", "F5 continues, Alt+Up moves");
         for (entry, at) in ACTIONS.iter().flat_map(|entry| [code, elsewhere, trace].map(|at| (entry, at))) {
-            let Ok(said) = Chord::parse(&hint(at, entry.action)) else { continue };
-            let does = Keymap::default().pressed(&press(said.key, said.modifiers), at);
+            let Ok(hint_chord) = Chord::parse(&hint(at, entry.action)) else { continue };
+            let triggered = Keymap::default().pressed(&press(hint_chord.key, hint_chord.modifiers), at);
             // The code's own keys are active only while the code has the keyboard focus.
-            let is_heard = at.levels().any(|l| l == level(entry.group));
-            assert!(!is_heard || does.is_some_and(|e| e.name == entry.name), "{said} with {at:?}");
+            let is_active = at.levels().any(|l| l == level(entry.group));
+            assert!(!is_active || triggered.is_some_and(|e| e.name == entry.name), "{hint_chord} with {at:?}");
         }
     }
 }

@@ -13,6 +13,7 @@ mod requests;
 use super::{
     actions::{Action, KeyFocus, Keymap},
     editor::{Buffer, CodeEditor, Debug, EditorAction, Help, Look, Query},
+    panels::{Content, DefaultPlace, PanelRow},
     problems,
     tabs::{self, OpenFile},
     theme, toasts,
@@ -29,6 +30,16 @@ use find_bar::FindBar;
 use fixes::{Fixes, FixesAction};
 use rename_bar::RenameBar;
 use std::{collections::HashMap, ops::Range};
+
+pub(super) const PANEL: PanelRow = PanelRow::new(
+    "code",
+    "Code",
+    DefaultPlace::Own,
+    Content::WithRow(|ui, context| context.code.show(ui, context.session, context.out)),
+)
+.open_by_default()
+.action_name("code-panel")
+.action("Panel: Code", &[], "");
 
 #[derive(Default)]
 pub(super) struct CodePanel {
@@ -55,12 +66,12 @@ pub(super) struct CodePanel {
     /// The text takes the keyboard focus as soon as it is shown.
     takes_focus: bool,
     /// The number of shaders created so far; each new one takes the keyboard focus once.
-    begun: u64,
+    new_shaders: u64,
     /// The problem that was jumped to last.
     problem: Option<usize>,
     uses: Option<Uses>,
     /// The front tab that was last reported to the session.
-    told_front: Option<Tab>,
+    reported_front: Option<Tab>,
     /// The number of the session's pass renames that have been applied.
     followed: usize,
     /// The debugger's marks in the tab in front.
@@ -241,7 +252,7 @@ impl CodePanel {
     /// Takes over texts that were changed outside the editors.
     pub(super) fn prepare(&mut self, session: &Session) {
         let project = session.project();
-        if std::mem::replace(&mut self.begun, session.begun()) != session.begun() {
+        if std::mem::replace(&mut self.new_shaders, session.begun()) != session.begun() {
             self.takes_focus = true;
         }
         if self.project.0 != project.name || !same_place(&self.project.1, &project.origin) {
@@ -340,8 +351,8 @@ impl CodePanel {
             .show(ui, |ui| problems::show(ui, session, self.caret_line(), (room * 0.35).min(150.0), out));
         toasts::panel(ui, session, out);
         self.show_uses(ui, session, out);
-        if self.told_front.as_ref() != Some(&self.current) {
-            self.told_front = Some(self.current.clone());
+        if self.reported_front.as_ref() != Some(&self.current) {
+            self.reported_front = Some(self.current.clone());
             out.ask(Command::BringToFront(self.current.clone()));
         }
         self.editor(ui, session, out);
@@ -392,8 +403,8 @@ impl CodePanel {
         if let Some(response) = &shown.response {
             menu::show(response, session, has_fix, out);
         }
-        for ask in shown.asks {
-            self.answer(session, ask, out);
+        for request in shown.requests {
+            self.answer(session, request, out);
             ui.ctx().request_repaint();
         }
         let (here, has_keys) = (self.fixed_at(), self.has_keys(ui.ctx()));

@@ -2,11 +2,14 @@
 
 use super::{
     pictures,
+    report::report,
     state::{Choice, Compare, HoveredPixel, View},
 };
 use crate::{
     gui::{
-        accessible, theme,
+        accessible,
+        panels::{Content, DefaultPlace, MARGIN, PanelContext, PanelRow},
+        theme,
         ui_output::{Pick, ShellCommand, UiOutput},
     },
     lab::difference::{PictureDifference, Times},
@@ -15,15 +18,26 @@ use crate::{
 };
 use egui::{Label, ProgressBar, RichText, TextEdit, Ui, vec2};
 
+pub(crate) const PANEL: PanelRow =
+    PanelRow::new("compare", "Compare", DefaultPlace::BelowCodeLarge, Content::Within(MARGIN, show))
+        .report(|state, _, session| report(&state.compare, session))
+        .action(
+            "Panel: Compare (with the last save, a project or a revision)",
+            &["Ctrl+Shift+O"],
+            "diff difference git a/b",
+        );
+
 /// The height of the figures.
 const FOOT: f32 = 62.0;
 /// The factors by which a difference can be amplified.
 const GAINS: [u32; 4] = [1, 4, 16, 64];
 
-pub(crate) fn show(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let PanelContext { wake, session, out, .. } = context;
+    let state = &mut context.project_ui.compare;
     out.stop("compare", ui);
     ui.spacing_mut().item_spacing = vec2(5.0, 4.0);
-    state.update(ui.ctx(), session);
+    state.update(ui.ctx(), session, wake);
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
         reference(state, ui, out);

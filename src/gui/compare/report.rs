@@ -10,7 +10,7 @@ use crate::{
 };
 use serde_json::{Value, json};
 
-pub(crate) fn report(state: &Compare, session: &Session) -> Value {
+pub(super) fn report(state: &Compare, session: &Session) -> Value {
     let (name, why) = match session.comparison() {
         None => ("none", None),
         Some(Status::UnderWay(_)) => ("under way", None),

@@ -5,7 +5,7 @@
 use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, open_with, press, until};
 use crate::{
     gui::{
-        dock::Panel,
+        panels::Panel,
         settings::{Overrides, SettingsFile, WindowState},
     },
     session::{Answer, Command, Level, Question, SessionOptions},
@@ -13,7 +13,7 @@ use crate::{
 use egui::{Color32, Key, Modifiers, Pos2, Rect, Shape, Theme, epaint::ClippedShape};
 use std::collections::BTreeSet;
 
-const LEAST: f32 = 4.5;
+const MIN_CONTRAST: f32 = 4.5;
 
 /// A shape painted below a text.
 enum Backdrop {
@@ -91,7 +91,7 @@ fn weak_texts(shapes: &[ClippedShape]) -> (BTreeSet<String>, usize) {
                         let Some(ground) = behind(&grounds, at) else { continue };
                         measured += 1;
                         let ratio = contrast(color, ground);
-                        if ratio < LEAST {
+                        if ratio < MIN_CONTRAST {
                             let words = row.text();
                             weak.insert(format!("{ratio:.2}: {color:?} on {ground:?}: {:.60}", words));
                         }
@@ -109,7 +109,7 @@ fn check(stage: &mut Stage, what: &str, theme: Theme) {
     stage.run_steps(2);
     let (weak, measured) = weak_texts(&stage.output().shapes);
     let list: Vec<&str> = weak.iter().map(String::as_str).collect();
-    assert!(weak.is_empty(), "{what}, {theme:?}: {} texts below {LEAST}:\n{}", list.len(), list.join("\n"));
+    assert!(weak.is_empty(), "{what}, {theme:?}: {} texts below {MIN_CONTRAST}:\n{}", list.len(), list.join("\n"));
     assert!(measured > 20, "{what}, {theme:?}: only {measured} letters were measured");
 }
 

@@ -168,7 +168,7 @@ impl SearchTerms {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gui::dock::Panel;
+    use crate::gui::panels::Panel;
 
     #[test]
     fn search_matches_all_words_in_any_order_and_case() {
@@ -202,9 +202,9 @@ mod tests {
         let is_key = |word: &str| is_named(word) && !word.ends_with("click") && !word.ends_with("drag");
         let sections = text::sections();
         let texts = sections.iter().flat_map(|s| &s.paragraphs).map(Paragraph::text);
-        let said = texts.flat_map(|text| text.split([' ', ',', '.', ';', ':', '(', ')']));
-        let said: Vec<&str> = said.filter(|word| is_key(word)).collect();
-        assert!(said.contains(&"F6"), "{said:?}");
-        said.iter().for_each(|key| assert!(keys.contains(key), "{key} is no key of the table"));
+        let keys_in_text = texts.flat_map(|text| text.split([' ', ',', '.', ';', ':', '(', ')']));
+        let keys_in_text: Vec<&str> = keys_in_text.filter(|word| is_key(word)).collect();
+        assert!(keys_in_text.contains(&"F6"), "{keys_in_text:?}");
+        keys_in_text.iter().for_each(|key| assert!(keys.contains(key), "{key} is no key of the table"));
     }
 }

@@ -197,11 +197,11 @@ impl Lab {
     }
 
     fn try_keep_in(&mut self, folder: &Path) -> Result<(), String> {
-        let said = |e: LabError| e.to_string();
-        let there = Results::read(folder).map_err(said)?;
+        let message_of = |e: LabError| e.to_string();
+        let there = Results::read(folder).map_err(message_of)?;
         let Some(extent) = there.runs.first().map(|r| r.extent) else {
             let known = &self.known(self.extent).results;
-            return if known.runs.is_empty() { Ok(()) } else { known.write(folder).map_err(said) };
+            return if known.runs.is_empty() { Ok(()) } else { known.write(folder).map_err(message_of) };
         };
         let is_temporary = matches!(self.folder, Folder::Temporary(_));
         let known = self.known_mut(extent);
@@ -284,7 +284,7 @@ fn write_report(folder: &Path, studies: &[&'static Study], results: &Results, is
     if let (Some(name), false) = (taken, is_own) {
         return Err(format!("{} already holds {name}; choose another folder", folder.display()));
     }
-    let said = |e: LabError| e.to_string();
-    results.write(folder).map_err(said)?;
-    report::write(folder, studies, results).map(drop).map_err(said)
+    let message_of = |e: LabError| e.to_string();
+    results.write(folder).map_err(message_of)?;
+    report::write(folder, studies, results).map(drop).map_err(message_of)
 }

@@ -2,15 +2,29 @@
 
 use super::{
     card::{self, View},
+    report::report,
     state::{Axis, Measurements},
 };
 use crate::{
-    gui::{theme, ui_output::UiOutput},
+    gui::{
+        panels::{Content, DefaultPlace, MARGIN, PanelRow},
+        theme,
+        ui_output::UiOutput,
+    },
     session::{Command, Session, measures::Measure},
 };
 use egui::{Button, Label, RichText, ScrollArea, Ui, vec2};
 
-pub(crate) fn show(state: &mut Measurements, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(crate) const PANEL: PanelRow = PanelRow::new(
+    "measurements",
+    "Measurements",
+    DefaultPlace::BelowCode,
+    Content::Within(MARGIN, |ui, context| show(&mut context.project_ui.measurements, ui, context.session, context.out)),
+)
+.report(|state, _, session| report(&state.measurements, session))
+.action("Panel: Measurements (//@probe values over time)", &["Ctrl+Shift+J"], "plot chart metrics graph");
+
+fn show(state: &mut Measurements, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("measurements", ui);
     ui.spacing_mut().item_spacing = vec2(5.0, 5.0);
     let measures = session.measures();

@@ -2,10 +2,29 @@
 
 use super::{Recorder, fields};
 use crate::{
-    gui::{accessible, theme, ui_output::UiOutput},
+    gui::{
+        accessible,
+        panels::{Content, DefaultPlace, MARGIN, PanelRow},
+        theme,
+        ui_output::UiOutput,
+    },
     session::{CheckedForm, Command, FilmForm, FilmOrder, FilmPreset, FilmView, Session},
 };
 use egui::{Button, Label, ProgressBar, Response, RichText, Role, ScrollArea, Ui, vec2};
+
+pub(crate) const PANEL: PanelRow = PanelRow::new(
+    "recorder",
+    "Recorder",
+    DefaultPlace::BelowCodeLarge,
+    Content::Within(MARGIN, |ui, context| {
+        show(context.recorder, ui, &context.settings.recorder, context.session, context.out)
+    }),
+)
+.action(
+    "Panel: Recorder (films, GIFs and image sequences)",
+    &["Shift+Alt+R"],
+    "record video movie gif mp4 webm render export capture screen sequence",
+);
 
 /// The text below the first button.
 const LIVE: &str = "Every frame that the window draws while you play with mouse, keys and sliders. No frame is left out: \
@@ -16,7 +35,7 @@ const RANGE: &str = "The frames of the range, from frame 0 without input, as edd
                      meanwhile.";
 
 /// Shows the panel. `settings` are the last choices.
-pub(crate) fn show(recorder: &mut Recorder, ui: &mut Ui, settings: &FilmForm, session: &Session, out: &mut UiOutput) {
+fn show(recorder: &mut Recorder, ui: &mut Ui, settings: &FilmForm, session: &Session, out: &mut UiOutput) {
     out.stop("recorder", ui);
     ui.spacing_mut().item_spacing = vec2(6.0, 5.0);
     recorder.follow(settings);
@@ -99,7 +118,7 @@ fn buttons(recorder: &mut Recorder, ui: &mut Ui, checked: &CheckedForm, out: &mu
             false
         };
     let live = why(&checked.live, checked.not_live.as_deref());
-    let begins = entry(ui, "film:live", "Record what I do", LIVE, &checked.live, live)
+    let is_started = entry(ui, "film:live", "Record what I do", LIVE, &checked.live, live)
         | entry(
             ui,
             "film:range-exactly",
@@ -108,7 +127,7 @@ fn buttons(recorder: &mut Recorder, ui: &mut Ui, checked: &CheckedForm, out: &mu
             &checked.range,
             why(&checked.range, None),
         );
-    if begins {
+    if is_started {
         recorder.replaces = false;
     }
 }
@@ -142,8 +161,8 @@ fn status(ui: &mut Ui, session: &Session, film: &FilmView<'_>, out: &mut UiOutpu
         out.place("film:progress", bar.rect);
     }
     let words = film.words();
-    let said = ui.add(Label::new(RichText::new(&words).color(color)).wrap().selectable(true));
-    out.place("film:status", said.rect);
+    let label = ui.add(Label::new(RichText::new(&words).color(color)).wrap().selectable(true));
+    out.place("film:status", label.rect);
     if session.closes_after_film() {
         ui.label("Eddy closes when the film is complete.");
     }

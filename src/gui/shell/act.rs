@@ -4,9 +4,9 @@ use super::{Shell, start_folder};
 use crate::{
     gui::{
         actions::{Action, LayoutAction, PictureAction},
-        dock::Panel,
         help::Help,
         palette::Offer,
+        panels::Panel,
         passes, recent, resolution,
         settings::{Change, Settings},
         settings_page::SettingsPage,
@@ -45,9 +45,9 @@ impl Shell {
                 self.uncover(out);
                 self.code.focus();
             }
-            Action::Gallery if self.gallery => self.close_gallery(out),
+            Action::Gallery if self.modes.gallery => self.close_gallery(out),
             Action::Gallery => {
-                self.gallery = true;
+                self.modes.gallery = true;
                 out.ask(Command::Cover(true));
             }
             Action::TogglePlay => out.ask(Command::TogglePlay),
@@ -63,7 +63,7 @@ impl Shell {
                 out.ask(Command::OpenSoundAgain);
             }
             Action::Mute => {
-                let on = self.settings.settings().mute;
+                let on = self.config.settings().mute;
                 self.change(Change::Mute(!on), out);
             }
             Action::Microphone => match session.microphone_view() {
@@ -99,42 +99,42 @@ impl Shell {
             }
             Action::Audit => out.ask(Command::Audit),
             Action::Fullscreen => {
-                self.fullscreen = !self.fullscreen;
+                self.modes.fullscreen = !self.modes.fullscreen;
                 self.viewport.focus();
             }
             Action::NextPanel => self.focus.step(ui, out, true),
             Action::PreviousPanel => self.focus.step(ui, out, false),
             Action::Present => {
-                self.presents = self.gallery || !self.presents;
-                if self.gallery {
+                self.modes.code_over_picture = self.modes.gallery || !self.modes.code_over_picture;
+                if self.modes.gallery {
                     self.uncover(out);
                 }
                 self.code.focus();
             }
             Action::Panel(panel) => self.toggle(panel, out),
-            Action::UsualLayout => self.dock.reset(),
+            Action::ResetLayout => self.dock.reset(),
             Action::NextTheme => {
-                let theme = self.settings.settings().theme.next();
+                let theme = self.config.settings().theme.next();
                 self.change(Change::Theme(theme), out);
             }
             Action::Theme(theme) => self.change(Change::Theme(theme), out),
-            Action::Passes => self.kept.passes.toggle(None),
+            Action::Passes => self.project_ui.passes.toggle(None),
             Action::UndoPasses => out.ask(Command::UndoPassEdit),
             Action::RedoPasses => out.ask(Command::RedoPassEdit),
-            Action::Paste => self.wants_clipboard = true,
+            Action::Paste => self.clipboard.is_wanted = true,
             Action::ZoomIn => self.zoom(Some(0.1), out),
             Action::ZoomOut => self.zoom(Some(-0.1), out),
             Action::ZoomReset => self.zoom(None, out),
-            Action::Settings if self.page_of_settings.is_some() => self.page_of_settings = None,
-            Action::Settings => self.page_of_settings = Some(SettingsPage::new()),
+            Action::Settings if self.overlays.settings_page.is_some() => self.overlays.settings_page = None,
+            Action::Settings => self.overlays.settings_page = Some(SettingsPage::new()),
             Action::SettingsFile => {
-                let path = self.settings.write_if_missing();
+                let path = self.config.settings_file.write_if_missing();
                 out.ask(path_notice("The settings are", path));
             }
-            Action::Help => self.help = if self.help.is_some() { None } else { Some(Help::new()) },
-            Action::Palette if self.palette.is_open() => self.palette.close(ui),
-            Action::Palette => self.palette.open(ui),
-            Action::KeyFile => out.ask(path_notice("The keyboard shortcuts are", self.keys.write_if_missing())),
+            Action::Help => self.overlays.help = if self.overlays.help.is_some() { None } else { Some(Help::new()) },
+            Action::Palette if self.overlays.palette.is_open() => self.overlays.palette.close(ui),
+            Action::Palette => self.overlays.palette.open(ui),
+            Action::KeyFile => out.ask(path_notice("The keyboard shortcuts are", self.config.keys.write_if_missing())),
             Action::Find => self.code.open_find(false),
             Action::Replace => self.code.open_find(true),
             Action::FindEverywhere => self.code.open_find_everywhere(),
@@ -147,11 +147,11 @@ impl Shell {
             Action::NextProblem => self.code.go_to_problem(session, true),
             Action::PreviousProblem => self.code.go_to_problem(session, false),
             Action::WordWrap => {
-                let wraps = self.settings.settings().word_wrap;
+                let wraps = self.config.settings().word_wrap;
                 self.change(Change::WordWrap(!wraps), out);
             }
             Action::CompileOnSave => {
-                let on = self.settings.settings().compile_on_save;
+                let on = self.config.settings().compile_on_save;
                 self.change(Change::CompileOnSave(!on), out);
             }
             Action::Code(action) => self.code.act(action, out),
@@ -162,13 +162,13 @@ impl Shell {
             Action::TracePixel => self.viewport.pick(),
             Action::FindNonfinite => {
                 self.uncover(out);
-                self.presents = false;
+                self.modes.code_over_picture = false;
                 self.dock.set_open(Panel::Buffers, true);
                 out.ask(Command::FindNonfinite(true));
             }
             Action::Trace(action) => {
                 let caret = self.code.caret_place().map(|(tab, _, line)| (tab, line));
-                if let Err(why) = self.kept.debugger.act(session, action, caret) {
+                if let Err(why) = self.project_ui.debugger.act(session, action, caret) {
                     out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });
                 }
             }
@@ -194,7 +194,7 @@ impl Shell {
             PictureAction::Size(size) => out.ask(Command::SetFixedSize(Some(size))),
             PictureAction::TypeSize => {
                 self.uncover(out);
-                (self.presents, self.fullscreen) = (false, false);
+                (self.modes.code_over_picture, self.modes.fullscreen) = (false, false);
                 self.dock.set_open(Panel::Picture, true);
                 resolution::open(ui.ctx());
             }
@@ -214,7 +214,10 @@ impl Shell {
     fn act_on_panel(&mut self, ui: &Ui, action: LayoutAction) {
         let focused = ui.memory(|m| m.focused()).and_then(|id| ui.ctx().read_response(id));
         let at = focused.and_then(|widget| self.dock.panel_at(widget.rect.center()));
-        let Some(panel) = at.filter(|_| !self.gallery && !self.presents && !self.fullscreen) else { return };
+        let Some(panel) = at.filter(|_| !self.modes.gallery && !self.modes.code_over_picture && !self.modes.fullscreen)
+        else {
+            return;
+        };
         match action {
             LayoutAction::Resize(side) => self.dock.resize(panel, side),
             LayoutAction::Move(side) => self.dock.move_to_edge(panel, side),
@@ -259,23 +262,24 @@ impl Shell {
 
     /// Opens a panel or closes it. A panel hidden by another tab of its place comes to the front.
     fn toggle(&mut self, panel: Panel, out: &mut UiOutput) {
-        let is_hidden = self.gallery || self.presents || (self.fullscreen && panel != Panel::Picture);
+        let is_hidden =
+            self.modes.gallery || self.modes.code_over_picture || (self.modes.fullscreen && panel != Panel::Picture);
         self.dock.set_open(panel, is_hidden || !self.dock.is_seen(panel));
-        self.presents = false;
-        if self.gallery {
+        self.modes.code_over_picture = false;
+        if self.modes.gallery {
             self.close_gallery(out);
         }
     }
 
     fn zoom(&mut self, by: Option<f32>, out: &mut UiOutput) {
         let usual = Settings::default().zoom;
-        let zoom = by.map_or(usual, |by| ((self.settings.settings().zoom + by) * 10.0).round() / 10.0);
+        let zoom = by.map_or(usual, |by| ((self.config.settings().zoom + by) * 10.0).round() / 10.0);
         self.change(Change::Zoom(zoom), out);
     }
 
     fn scale_code(&mut self, by: Option<f32>, out: &mut UiOutput) {
         let usual = Settings::default().code_size;
-        self.change(Change::CodeSize(by.map_or(usual, |by| self.settings.settings().code_size + by)), out);
+        self.change(Change::CodeSize(by.map_or(usual, |by| self.config.settings().code_size + by)), out);
     }
 }
 

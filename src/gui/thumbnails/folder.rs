@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// The maximum number of folder entries that are visited, and of files that are listed: a folder of frames has
 /// thousands.
-const LOOKED_AT: usize = 4_000;
+const MAX_ENTRIES: usize = 4_000;
 const LISTED: usize = 60;
 
 /// A file that a channel can read.
@@ -18,7 +18,7 @@ pub(crate) struct FolderFile {
 
 /// Returns the image, video and sound files of a folder and of its subfolders, sorted by name.
 pub(super) fn files(folder: &Path) -> Vec<FolderFile> {
-    let mut left = LOOKED_AT;
+    let mut left = MAX_ENTRIES;
     let mut found = Vec::new();
     let folders = look(folder, Path::new(""), &mut left, &mut found);
     for inner in folders {

@@ -11,7 +11,7 @@ use egui::{Button, DragValue, Id, Key, Popup, PopupCloseBehavior, Role, TextEdit
 pub(super) const SPEEDS: [(f64, &str); 7] =
     [(0.125, "1/8"), (0.25, "1/4"), (0.5, "1/2"), (1.0, "1×"), (2.0, "2×"), (4.0, "4×"), (8.0, "8×")];
 /// The length of a loop without marks, in seconds.
-pub(super) const USUAL_RANGE: f64 = 2.0;
+pub(super) const DEFAULT_RANGE_SECS: f64 = 2.0;
 
 fn popup() -> Id {
     Id::unique("menu of time")
@@ -143,8 +143,8 @@ fn range(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let mut is_on = range.is_some();
     let switch = ui.checkbox(&mut is_on, "Loop").on_hover_text("Repeat a range from the same state");
     out.place("time:loop", switch.rect);
-    let usual = TimeRange { from: (time - USUAL_RANGE).max(0.0), to: time.max(USUAL_RANGE) };
-    let TimeRange { mut from, mut to } = range.unwrap_or(usual);
+    let default_range = TimeRange { from: (time - DEFAULT_RANGE_SECS).max(0.0), to: time.max(DEFAULT_RANGE_SECS) };
+    let TimeRange { mut from, mut to } = range.unwrap_or(default_range);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let number = |ui: &mut Ui, name: &str, secs: &mut f64| {

@@ -6,9 +6,9 @@ use crate::{
 };
 
 /// The maximum number of numbers shown of a value.
-const MOST_NUMBERS: usize = 16;
+const MAX_NUMBERS: usize = 16;
 /// The maximum number of rows of a loop.
-const MOST_TURNS: usize = 2000;
+const MAX_ITERATIONS: usize = 2000;
 /// The maximum number of variables in a loop's table.
 const COLUMNS: usize = 6;
 
@@ -81,13 +81,13 @@ impl MomentState {
         let conditions = conditions.collect();
         let stack = history.stack(at).into_iter().map(|(call, at)| (call.name.clone(), at)).collect();
         let turns = history.turns(at);
-        let is_cut = turns.len() > MOST_TURNS;
+        let is_cut = turns.len() > MAX_ITERATIONS;
         let current = turns.iter().position(|turn| (turn.first..=turn.end).contains(&at));
         let first = turns.first().map(|turn| turn.first);
         // Within a loop they stay the same.
         let rows = match known {
             Some(rows) if rows.first() == first => rows,
-            _ => table(turns.into_iter().take(MOST_TURNS).map(|turn| (turn, history.turn_values(&turn))).collect()),
+            _ => table(turns.into_iter().take(MAX_ITERATIONS).map(|turn| (turn, history.turn_values(&turn))).collect()),
         };
         MomentState {
             variables,
@@ -142,7 +142,7 @@ pub(super) fn words(value: &Value) -> String {
     let list = |numbers: &[Number]| numbers.iter().map(Number::to_string).collect::<Vec<_>>().join(", ");
     match &value.numbers[..] {
         [number] => number.to_string(),
-        numbers if numbers.len() <= MOST_NUMBERS => format!("({})", list(numbers)),
-        numbers => format!("({}, … {} numbers)", list(&numbers[..MOST_NUMBERS]), numbers.len()),
+        numbers if numbers.len() <= MAX_NUMBERS => format!("({})", list(numbers)),
+        numbers => format!("({}, … {} numbers)", list(&numbers[..MAX_NUMBERS]), numbers.len()),
     }
 }

@@ -14,6 +14,7 @@ use crate::{
         accessible,
         actions::{Action, TraceAction},
         icons::{self, Icon},
+        panels::{Content, DefaultPlace, MARGIN, PanelRow},
         theme,
         ui_output::{ShellCommand, UiOutput},
     },
@@ -21,14 +22,23 @@ use crate::{
 };
 use egui::{Label, RichText, ScrollArea, TextEdit, Ui, vec2};
 
+pub(crate) const PANEL: PanelRow = PanelRow::new(
+    "trace",
+    "Trace",
+    DefaultPlace::BelowCode,
+    Content::Within(MARGIN, |ui, context| show(&mut context.project_ui.debugger, ui, context.session, context.out)),
+)
+.report(|state, _, session| state.debugger.report(session))
+.action("Panel: Trace (debugger)", &["Ctrl+Shift+D"], "debug step inspect");
+
 /// The maximum number of values listed for a comment.
-const SHOWN: usize = 200;
+const MAX_VALUES: usize = 200;
 /// The minimum width for two columns.
 const WIDE: f32 = 560.0;
 /// The minimum height of what is above the foot.
-const LEAST: f32 = 110.0;
+const MIN_CONTENT_HEIGHT: f32 = 110.0;
 
-pub(crate) fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("trace", ui);
     ui.spacing_mut().item_spacing = vec2(6.0, 3.0);
     ui.horizontal_wrapped(|ui| {
@@ -66,7 +76,7 @@ pub(crate) fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out:
     whereabouts(debugger, &traced, ui, out);
     // The foot stays visible if there is room for it and for what is above; otherwise it scrolls.
     let room = ui.available_height() - divergence::height(ui);
-    let has_foot = room >= LEAST;
+    let has_foot = room >= MIN_CONTENT_HEIGHT;
     let height = if has_foot { room } else { ui.available_height() };
     ScrollArea::vertical().id_salt("trace").max_height(height).auto_shrink(false).show(ui, |ui| {
         // Rows of text are packed tightly.
@@ -97,7 +107,7 @@ pub(crate) fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out:
 
 /// Shows the pixel, the line, and the position in the trace.
 fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut UiOutput) {
-    let (at, said) = (debugger.at, debugger.said);
+    let (at, message) = (debugger.at, debugger.message);
     let p = theme::of(ui);
     let (x, y) = traced.pixel;
     let count = traced.history.moments.len();
@@ -120,8 +130,8 @@ fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut 
             let label = ui.colored_label(p.weak, words);
             out.place("trace:mesh", label.rect);
         }
-        if let Some(said) = said {
-            ui.colored_label(p.warning, said);
+        if let Some(message) = message {
+            ui.colored_label(p.warning, message);
         }
         if traced.is_endless || traced.history.is_cut {
             ui.colored_label(p.warning, "too long: only the first steps were kept");
@@ -228,7 +238,7 @@ fn printed(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
             .default_open(count <= 8);
         let shown = list.show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            for (at, value) in comment.values.iter().take(SHOWN) {
+            for (at, value) in comment.values.iter().take(MAX_VALUES) {
                 let (text, color) = match value {
                     Ok(value) => (words(value), theme::of(ui).text),
                     Err(why) => (why.clone(), theme::of(ui).error),

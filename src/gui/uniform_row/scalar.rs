@@ -10,7 +10,7 @@ use egui::{Align2, FontId, PointerButton, Role, Sense, Slider, Ui, vec2};
 /// The width of a number at the right end.
 const NUMBER: f32 = 66.0;
 /// The minimum width of a usable rail.
-const LEAST_RAIL: f32 = 40.0;
+const MIN_RAIL: f32 = 40.0;
 
 /// Shows the number; returns true for a double click on the rail.
 pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut UiOutput) -> bool {
@@ -19,7 +19,7 @@ pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64
     let rail = rail.shrink2(vec2(2.0, 0.0));
     let mut is_reset = false;
     let mut rect = ui.max_rect();
-    if let Some(range) = custom_uniform.range.filter(|_| rail.width() >= LEAST_RAIL) {
+    if let Some(range) = custom_uniform.range.filter(|_| rail.width() >= MIN_RAIL) {
         let before = all[0];
         let mut slider = Slider::new(&mut all[0], range.min[0]..=range.max[0]).show_value(false).trailing_fill(true);
         if let Some(step) = custom_uniform.step.map(|s| s[0]).or(is_whole.then_some(1.0)) {

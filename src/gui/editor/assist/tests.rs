@@ -129,8 +129,8 @@ fn signature_stays_open_inside_the_call() {
 #[test]
 fn requests_are_about_the_name_at_the_caret() {
     let (assist, _) = type_into("float g;\nvoid f() { g@; }", "<F12>");
-    assert_eq!(assist.asks, [Ask::GoTo(Span::new(ID, 6..7))]);
+    assert_eq!(assist.requests, [EditorRequest::GoTo(Span::new(ID, 6..7))]);
     assert_eq!(assist.uses(), [6..7, 20..21]);
     let (assist, _) = type_into("void f() { sin@(1.0); }", "<F12>");
-    assert_eq!(assist.asks, []);
+    assert_eq!(assist.requests, []);
 }
