@@ -60,9 +60,7 @@ fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let custom_uniforms = session.custom_uniforms();
     if custom_uniforms.iter().any(|k| session.custom_uniform_value(k) != k.default) {
         let reset = ui.add(Button::new("Reset all").small()).on_hover_text("Reset all uniforms to their defaults");
-        if out.clicked("uniforms:reset", &reset) {
-            out.ask(Command::ResetCustomUniforms);
-        }
+        out.on_click("uniforms:reset", &reset, Command::ResetCustomUniforms);
     }
 }
 

@@ -59,9 +59,7 @@ fn card(ui: &mut Ui, map: &AuditMap, out: &mut UiOutput) {
                 .size(12.5),
         );
         let close = icons::flat(ui, Icon::Close, "Hide the error map").on_hover_text("Hide the error map");
-        if out.clicked("audit:close", &close) {
-            out.ask(Command::HideAudit);
-        }
+        out.on_click("audit:close", &close, Command::HideAudit);
     });
     scale(ui, out);
     if map.worst.is_empty() {

@@ -59,8 +59,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, has_lab_results: bool, out: &
                 })
                 .inner;
             let entry = entry.on_hover_text(*tip).on_disabled_hover_text(why_not.unwrap_or_default());
-            if out.clicked(&format!("export:{}", name(*action)), &entry) {
-                out.act(*action);
+            if out.on_click(&format!("export:{}", name(*action)), &entry, *action) {
                 ui.close();
             }
         }

@@ -37,9 +37,7 @@ pub(super) fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
                         button = button.fill(theme::of(ui).accent_fill);
                     }
                     let response = ui.add_enabled(is_on, button).on_hover_text(tip);
-                    if out.clicked(name, &response) {
-                        out.ask(command);
-                    }
+                    out.on_click(name, &response, command);
                 };
                 offer(GO_ON, go_on, "Draw it without a time limit", true, true, Command::GoOn);
                 let tip = "Lower the resolution until a frame is below the limit";

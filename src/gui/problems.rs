@@ -83,9 +83,7 @@ fn whole(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, out: &mut
             for (n, fix) in problem.fixes.iter().enumerate() {
                 let tip = out.keys.tip("Fix it", Action::Code(EditorAction::QuickFix));
                 let button = ui.small_button(&fix.title).on_hover_text(tip);
-                if out.clicked(&format!("problem-at-caret:fix:{n}"), &button) {
-                    out.shell_commands.push(ShellCommand::Fix(fix.clone()));
-                }
+                out.on_click(&format!("problem-at-caret:fix:{n}"), &button, ShellCommand::Fix(fix.clone()));
             }
         });
     });
@@ -170,9 +168,7 @@ impl Row<'_> {
             text_end = place.left();
             let name = format!("{}:fix", self.name);
             let button = ui.place(place, egui::Button::new(RichText::new("Fix").size(12.0)).small());
-            if out.clicked(&name, &button.on_hover_text(&fix.title)) {
-                out.shell_commands.push(ShellCommand::Fix(fix.clone()));
-            }
+            out.on_click(&name, &button.on_hover_text(&fix.title), ShellCommand::Fix(fix.clone()));
         }
         let color_of_text = if self.is_label { theme::of(ui).weak } else { theme::of(ui).text };
         let text = self.message.replace('\n', " ");

@@ -267,9 +267,7 @@ impl SettingsPage {
         let change = entered.and_then(|text| self.enter(setting, &text));
         if is_font {
             let choose = ui.button("Choose…").on_hover_text("Choose a font file");
-            if out.clicked(&format!("setting:{}:choose", setting.key), &choose) {
-                out.shell_commands.push(ShellCommand::Pick(Pick::CodeFont));
-            }
+            out.on_click(&format!("setting:{}:choose", setting.key), &choose, ShellCommand::Pick(Pick::CodeFont));
         }
         change
     }
@@ -380,9 +378,7 @@ fn trouble(ui: &mut Ui, file: &SettingsFile, out: &mut UiOutput) {
 fn files(ui: &mut Ui, file: &SettingsFile, out: &mut UiOutput) {
     ui.horizontal_wrapped(|ui| {
         for (name, action) in [("settings:file", Action::SettingsFile), ("settings:keys", Action::KeyFile)] {
-            if out.clicked(name, &ui.button(action.title())) {
-                out.act(action);
-            }
+            out.on_click(name, &ui.button(action.title()), action);
         }
     });
     if let Some(path) = file.path() {

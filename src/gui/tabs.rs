@@ -199,9 +199,11 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
         }
         ui.separator();
         let close = ui.button("Close code");
-        if out.clicked("tab:close-code", &close.on_hover_text("Reopen it from the View menu")) {
-            out.shell_commands.push(ShellCommand::ClosePanel(Panel::Code));
-        }
+        out.on_click(
+            "tab:close-code",
+            &close.on_hover_text("Reopen it from the View menu"),
+            ShellCommand::ClosePanel(Panel::Code),
+        );
     });
     // While paused there are no current times.
     let times = if session.transport().playing { session.pass_times() } else { &[] };
@@ -233,8 +235,7 @@ fn add_menu(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         passes::add_menu(ui, session, false, out);
         ui.separator();
         let all = ui.button("All passes…");
-        if out.clicked("add:passes", &all) {
-            out.act(Action::Passes);
+        if out.on_click("add:passes", &all, Action::Passes) {
             ui.close();
         }
     });

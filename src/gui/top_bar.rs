@@ -40,9 +40,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut 
             |ui: &mut Ui, name: &str, label: &str, tip: &str, action: Action, selected: bool, out: &mut UiOutput| {
                 let response = ui.add(Button::new(label).selected(selected));
                 let response = response.on_hover_text(out.keys.tip(tip, action));
-                if out.clicked(name, &response) {
-                    out.act(action);
-                }
+                out.on_click(name, &response, action);
             };
         item(ui, "button:gallery", "Gallery", "Presets to start from", Action::Gallery, state.is_gallery, out);
         item(ui, "button:new", "New", "Create a shader with one Image pass", Action::New, false, out);
@@ -59,16 +57,14 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut 
             if !state.is_gallery {
                 let recording = Button::new("Recording…").shortcut_text(out.keys.hint(Action::PlayRecording));
                 let recording = ui.add(recording).on_hover_text("Play a .replay file in this project");
-                if out.clicked("open:recording", &recording) {
-                    out.act(Action::PlayRecording);
+                if out.on_click("open:recording", &recording, Action::PlayRecording) {
                     ui.close();
                 }
             }
             ui.separator();
             let page = ui.button("Get shaders from Shadertoy…");
             let page = page.on_hover_text("Open a page with a bookmarklet that saves a shader's JSON in your browser");
-            if out.clicked("open:bookmarklet", &page) {
-                out.act(Action::Bookmarklet);
+            if out.on_click("open:bookmarklet", &page, Action::Bookmarklet) {
                 ui.close();
             }
         });
@@ -88,14 +84,10 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut 
             if !state.is_gallery {
                 let full = icons::button(ui, Icon::Expand, "Full screen")
                     .on_hover_text(out.keys.tip("Full screen", Action::Fullscreen));
-                if out.clicked("button:fullscreen", &full) {
-                    out.act(Action::Fullscreen);
-                }
+                out.on_click("button:fullscreen", &full, Action::Fullscreen);
                 let present = icons::button(ui, Icon::Present, "Code over picture")
                     .on_hover_text(out.keys.tip("Code over picture", Action::Present));
-                if out.clicked("button:present", &present) {
-                    out.act(Action::Present);
-                }
+                out.on_click("button:present", &present, Action::Present);
             }
             view_menu(ui, state, out);
             if width > ROOMY {
@@ -127,15 +119,13 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
             let action = Action::Panel(panel);
             let is_open = state.open.contains(&panel) && !state.is_gallery;
             let entry = menus::switch(ui, is_open, panel.title(), out.keys.hint(action));
-            if out.clicked(&format!("view:{}", panel.name()), &entry) {
-                out.act(action);
+            if out.on_click(&format!("view:{}", panel.name()), &entry, action) {
                 ui.close();
             }
         }
         let mut item = |ui: &mut Ui, name: &str, label: &str, action: Action| {
             let entry = menus::entry(ui, label, out.keys.hint(action));
-            if out.clicked(name, &entry) {
-                out.act(action);
+            if out.on_click(name, &entry, action) {
                 ui.close();
             }
         };
@@ -153,9 +143,7 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
                     Theme::Dark => "Use the dark theme",
                     Theme::Light => "Use the light theme",
                 });
-                if out.clicked(&format!("theme:{}", theme.name()), &choice) {
-                    out.shell_commands.push(ShellCommand::Set(Change::Theme(theme)));
-                }
+                out.on_click(&format!("theme:{}", theme.name()), &choice, ShellCommand::Set(Change::Theme(theme)));
             }
         });
         ui.horizontal(|ui| {
@@ -167,20 +155,16 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
                 ("zoom:in", "+", Action::ZoomIn),
             ] {
                 let button = ui.button(label).on_hover_text(out.keys.tip(action.title(), action));
-                if out.clicked(name, &button) {
-                    out.act(action);
-                }
+                out.on_click(name, &button, action);
             }
         });
         ui.separator();
         let wraps = menus::switch(ui, state.settings.word_wrap, "Word wrap", out.keys.hint(Action::WordWrap));
-        if out.clicked("view:word-wrap", &wraps) {
-            out.act(Action::WordWrap);
+        if out.on_click("view:word-wrap", &wraps, Action::WordWrap) {
             ui.close();
         }
         let all = menus::entry(ui, "Settings…", out.keys.hint(Action::Settings));
-        if out.clicked("view:settings", &all) {
-            out.act(Action::Settings);
+        if out.on_click("view:settings", &all, Action::Settings) {
             ui.close();
         }
     });

@@ -37,14 +37,10 @@ pub(super) fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOut
     ui.horizontal_centered(|ui| {
         let (icon, tip) = if transport.playing { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
         let play = icons::first(ui, icon, tip).on_hover_text(out.keys.tip(tip, Action::TogglePlay));
-        if out.clicked("button:play", &play) {
-            out.act(Action::TogglePlay);
-        }
+        out.on_click("button:play", &play, Action::TogglePlay);
         let mut button = |ui: &mut Ui, name: &str, icon: Icon, tip: &str, action: Action| {
             let response = icons::button(ui, icon, tip).on_hover_text(out.keys.tip(tip, action));
-            if out.clicked(name, &response) {
-                out.act(action);
-            }
+            out.on_click(name, &response, action);
         };
         button(ui, "button:reset", Icon::Reset, "Reset time and buffers", Action::Reset);
         // In a narrow bar they are hidden in favour of recording marks and device lights: they also have keys.
@@ -134,9 +130,7 @@ fn recording(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let tip = format!("{frames} frames of input recorded; click to stop and save");
     let button = ui.add(Button::new(text).min_size(vec2(RECORDING, 24.0)));
     accessible::name(&button, egui::Role::Button, "Stop recording input");
-    if out.clicked("button:recording", &button.on_hover_text(out.keys.tip(&tip, Action::Record))) {
-        out.act(Action::Record);
-    }
+    out.on_click("button:recording", &button.on_hover_text(out.keys.tip(&tip, Action::Record)), Action::Record);
 }
 
 /// While a film is made, shows its progress on a button that stops a recording or opens the panel.
@@ -182,9 +176,7 @@ fn cost(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     };
     let (rect, response) = ui.allocate_exact_size(vec2(60.0, 24.0), egui::Sense::click());
     accessible::name(&response, egui::Role::Button, "Costs of each pass");
-    if out.clicked("button:costs", &response) {
-        out.act(Action::Panel(Panel::Costs));
-    }
+    out.on_click("button:costs", &response, Action::Panel(Panel::Costs));
     if response.hovered() {
         ui.painter().rect_filled(rect.expand2(vec2(4.0, 0.0)), 4.0, theme::of(ui).button);
     }
@@ -233,9 +225,7 @@ fn shown_pass(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
                     continue;
                 }
                 let entry = ui.selectable_label(id == *shown, id.title());
-                if out.clicked(&format!("pass:{}", id.title()), &entry) {
-                    out.ask(Command::ShowPass(id));
-                }
+                out.on_click(&format!("pass:{}", id.title()), &entry, Command::ShowPass(id));
             }
         })
         .response
@@ -255,9 +245,7 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut UiOut
         }
         let reset = session.reset_on_reload();
         let switch = menus::switch(ui, reset, "Reset when a file is reloaded", String::new());
-        if out.clicked("switch:reset-on-reload", &switch) {
-            out.ask(Command::SetResetOnReload(!reset));
-        }
+        out.on_click("switch:reset-on-reload", &switch, Command::SetResetOnReload(!reset));
         ui.separator();
         let all = [
             Action::Screenshot,
@@ -278,9 +266,11 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut UiOut
         }
         ui.separator();
         let close = menus::entry(ui, "Close picture", String::new());
-        if out.clicked("options:close-picture", &close.on_hover_text("Reopen it from the View menu")) {
-            out.shell_commands.push(ShellCommand::ClosePanel(Panel::Picture));
-        }
+        out.on_click(
+            "options:close-picture",
+            &close.on_hover_text("Reopen it from the View menu"),
+            ShellCommand::ClosePanel(Panel::Picture),
+        );
     });
     if let Some(shape) = shape {
         resolution::opened(&more, session, shape, out);

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     project::Tab,
-    session::{Command, TabFix},
+    session::{Command, Level, TabFix},
 };
 use egui::{Id, Rect, Response, Ui};
 use std::{collections::BTreeMap, path::PathBuf};
@@ -70,6 +70,30 @@ pub(super) enum ShellCommand {
     Breakpoint(Tab, usize),
     /// Trace the pixel at a point of the picture, from 0 to 1.
     Trace([f32; 2]),
+}
+
+/// A request of a widget.
+pub(super) enum Request {
+    Session(Command),
+    Shell(ShellCommand),
+}
+
+impl From<Command> for Request {
+    fn from(command: Command) -> Self {
+        Self::Session(command)
+    }
+}
+
+impl From<ShellCommand> for Request {
+    fn from(command: ShellCommand) -> Self {
+        Self::Shell(command)
+    }
+}
+
+impl From<Action> for Request {
+    fn from(action: Action) -> Self {
+        Self::Shell(ShellCommand::Act(action))
+    }
 }
 
 /// A part of the window that F6 goes to.
@@ -150,6 +174,21 @@ impl UiOutput {
     pub(super) fn clicked(&mut self, name: &str, response: &Response) -> bool {
         self.place(name, response.rect);
         response.clicked()
+    }
+
+    /// Records the place of a button, and makes a request if it was clicked. Returns whether it was.
+    pub(super) fn on_click(&mut self, name: &str, response: &Response, request: impl Into<Request>) -> bool {
+        let is_clicked = self.clicked(name, response);
+        match request.into() {
+            Request::Session(command) if is_clicked => self.commands.push(command),
+            Request::Shell(command) if is_clicked => self.shell_commands.push(command),
+            _ => {}
+        }
+        is_clicked
+    }
+
+    pub(super) fn notify(&mut self, level: Level, text: impl Into<String>) {
+        self.ask(Command::Notify { level, text: text.into(), path: None });
     }
 
     /// Returns the name of a place.

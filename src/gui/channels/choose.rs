@@ -61,12 +61,12 @@ pub(super) fn choose(
                 set(out, Some(Channel::new(input)));
             }
         }
-        if out.clicked("choose:file", &ui.button("Image or video file…")) {
-            out.shell_commands.push(ShellCommand::Pick(Pick::Picture { channel: index }));
-        }
-        if out.clicked("choose:sound", &ui.button("Music…")) {
-            out.shell_commands.push(ShellCommand::Pick(Pick::Sound { channel: index }));
-        }
+        out.on_click(
+            "choose:file",
+            &ui.button("Image or video file…"),
+            ShellCommand::Pick(Pick::Picture { channel: index }),
+        );
+        out.on_click("choose:sound", &ui.button("Music…"), ShellCommand::Pick(Pick::Sound { channel: index }));
     });
     if now.is_some_and(|input| input.kind() == InputKind::Webcam) {
         devices::choose(ui, session, out);
@@ -156,9 +156,7 @@ fn microphone(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         false => ("Use the microphone", "The microphone is off: the channel shows a made-up spectrum."),
     };
     ui.horizontal_wrapped(|ui| {
-        if out.clicked("choose:use-microphone", &ui.button(text)) {
-            out.ask(Command::UseMicrophone(!view.is_on));
-        }
+        out.on_click("choose:use-microphone", &ui.button(text), Command::UseMicrophone(!view.is_on));
         ui.colored_label(theme::of(ui).weak, note);
     });
 }

@@ -4,7 +4,7 @@ use super::CodePanel;
 use crate::{
     gui::{editor::Query, ui_output::UiOutput, uses::Uses},
     project::Tab,
-    session::{Command, Level, Session},
+    session::{Level, Session},
 };
 use std::ops::Range;
 
@@ -79,7 +79,7 @@ impl CodePanel {
         self.tell_changed(out);
         if count > 0 {
             let text = format!("Replaced {count} in {texts} texts. Undo takes it back, in each text by itself");
-            out.ask(Command::Notify { level: Level::Info, text, path: None });
+            out.notify(Level::Info, text);
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::{
         uses::Uses,
     },
     project::Tab,
-    session::{Command, Level, Session},
+    session::{Level, Session},
 };
 use egui::Ui;
 
@@ -46,7 +46,7 @@ impl CodePanel {
                     self.go_to_line = None;
                     self.find.close();
                 }
-                Err(text) => out.ask(Command::Notify { level: Level::Info, text, path: None }),
+                Err(text) => out.notify(Level::Info, text),
             },
             (EditorRequest::Paste, _) => out.shell_commands.push(ShellCommand::PasteCode),
             (EditorRequest::GoTo(_) | EditorRequest::ListUses(_), None) => {}

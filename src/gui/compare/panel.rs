@@ -91,18 +91,14 @@ fn reference(state: &mut Compare, ui: &mut Ui, out: &mut UiOutput) {
     }
     if state.choice == Choice::Project {
         let browse = ui.button("Browse…").on_hover_text("Choose the folder of the other project");
-        if out.clicked("compare:browse", &browse) {
-            out.shell_commands.push(ShellCommand::Pick(Pick::Reference));
-        }
+        out.on_click("compare:browse", &browse, ShellCommand::Pick(Pick::Reference));
     }
 }
 
 /// Shows the button that starts or stops, and the progress.
 fn begin(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     if let Some(Status::UnderWay(Count { done, of })) = session.comparison() {
-        if out.clicked("compare:stop", &ui.button("Stop")) {
-            out.ask(Command::Compare(None));
-        }
+        out.on_click("compare:stop", &ui.button("Stop"), Command::Compare(None));
         if of > 1 {
             let part = done as f32 / of as f32;
             let bar = ProgressBar::new(part).desired_width(130.0).text(format!("Frame {done} of {of}"));

@@ -93,9 +93,7 @@ impl Help {
             }
             if section.title == SHADERTOY {
                 let open = ui.button("Open bookmarklet page");
-                if out.clicked("help:bookmarklet", &open) {
-                    out.act(Action::Bookmarklet);
-                }
+                out.on_click("help:bookmarklet", &open, Action::Bookmarklet);
             }
         }
         for group in Group::ALL {

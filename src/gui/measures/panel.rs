@@ -64,13 +64,9 @@ fn controls(state: &mut Measurements, ui: &mut Ui, measures: &[Measure], out: &m
         let is_empty = measures.iter().all(|measure| measure.record.newest().is_none());
         let save = ui.add_enabled(!is_empty, Button::new("Save as CSV"));
         let save = save.on_hover_text("One row per frame, one column per comment; saved next to the screenshots");
-        if out.clicked("measures:save", &save) {
-            out.ask(Command::SaveMeasures);
-        }
+        out.on_click("measures:save", &save, Command::SaveMeasures);
         let clear = ui.add_enabled(!is_empty, Button::new("Clear")).on_hover_text("Clear all plots and start again");
-        if out.clicked("measures:clear", &clear) {
-            out.ask(Command::ClearMeasures);
-        }
+        out.on_click("measures:clear", &clear, Command::ClearMeasures);
     });
 }
 

@@ -165,8 +165,6 @@ fn tools(ui: &mut Ui, project: &Project, chosen: &Tab, out: &mut UiOutput) {
     }
     let can_go = *chosen != Tab::image() && project.source(chosen).is_some();
     let remove = ui.add_enabled(can_go, egui::Button::new("Remove"));
-    if out.clicked("passes:remove", &remove) {
-        out.ask(Command::EditPasses(PassEdit::Remove(chosen.clone())));
-    }
+    out.on_click("passes:remove", &remove, Command::EditPasses(PassEdit::Remove(chosen.clone())));
     remove.on_disabled_hover_text("Image cannot be removed").on_hover_text("Can be undone");
 }

@@ -86,9 +86,7 @@ fn presets(recorder: &mut Recorder, ui: &mut Ui, out: &mut UiOutput) {
 
 fn look_again(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let button = ui.add_enabled(!session.looks_for_encoders(), Button::new("Look for ffmpeg again"));
-    if out.clicked("film:look-again", &button) {
-        out.ask(Command::FindEncoders);
-    }
+    out.on_click("film:look-again", &button, Command::FindEncoders);
 }
 
 fn buttons(recorder: &mut Recorder, ui: &mut Ui, checked: &CheckedForm, out: &mut UiOutput) {
@@ -146,9 +144,7 @@ fn status(ui: &mut Ui, session: &Session, film: &FilmView<'_>, out: &mut UiOutpu
         ui.horizontal_wrapped(|ui| {
             if matches!(film, FilmView::Live(_)) {
                 let stop = ui.add(Button::new(RichText::new("Stop and save").color(p.strong)).fill(p.accent_fill));
-                if out.clicked("film:stop", &stop) {
-                    out.ask(Command::StopFilm);
-                }
+                out.on_click("film:stop", &stop, Command::StopFilm);
             }
             if cancel(ui, out) {
                 out.ask(Command::CancelFilm);

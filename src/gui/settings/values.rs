@@ -40,12 +40,6 @@ pub(crate) enum Plain {
     Text(String),
 }
 
-impl Plain {
-    pub(crate) fn text(&self) -> &str {
-        if let Plain::Text(text) = self { text } else { "" }
-    }
-}
-
 pub(crate) const MIDI_OFF: &str = "off";
 pub(crate) const MIDI_ALL: &str = "all";
 
@@ -56,122 +50,48 @@ pub(super) trait Stored: Sized {
     fn from_plain(plain: &Plain) -> Option<Self>;
 }
 
-impl Stored for bool {
-    fn to_plain(&self) -> Plain {
-        Plain::Switch(*self)
-    }
+macro_rules! stored {
+    ($($type:ty: $plain:ident($raw:ty), $to:expr, $from:expr;)*) => {
+        $(impl Stored for $type {
+            fn to_plain(&self) -> Plain {
+                let to: fn(&$type) -> $raw = $to;
+                Plain::$plain(to(self))
+            }
 
-    fn from_plain(plain: &Plain) -> Option<Self> {
-        if let Plain::Switch(is_on) = plain { Some(*is_on) } else { None }
+            fn from_plain(plain: &Plain) -> Option<Self> {
+                let from: fn($raw) -> Option<$type> = $from;
+                if let Plain::$plain(value) = plain { from(value.clone()) } else { None }
+            }
+        })*
+    };
+}
+
+stored! {
+    bool: Switch(bool), |on| *on, Some;
+    f32: Number(f64), |number| f64::from(*number), |number| Some(number as f32);
+    u16: Number(f64), |number| f64::from(*number), |number| Some(number as u16);
+    // In seconds.
+    Duration: Number(f64), Duration::as_secs_f64, |secs| Duration::try_from_secs_f64(secs).ok();
+    // The empty text is `None`.
+    Option<String>: Text(String), |text| text.clone().unwrap_or_default(), |text| Some(Some(text).filter(|text| !text.is_empty()));
+    Theme: Text(String), |theme| theme.name().to_owned(), |name| Theme::ALL.into_iter().find(|theme| theme.name() == name);
+    IpAddr: Text(String), IpAddr::to_string, |text| text.trim().parse().ok();
+    MidiChoice: Text(String), midi_name, midi_choice;
+    FilmForm: Text(String), FilmForm::options, |options| FilmForm::of_options(&options).ok();
+}
+
+fn midi_name(choice: &MidiChoice) -> String {
+    match choice {
+        MidiChoice::Off => MIDI_OFF.to_owned(),
+        MidiChoice::All => MIDI_ALL.to_owned(),
+        MidiChoice::Named(name) => name.clone(),
     }
 }
 
-impl Stored for f64 {
-    fn to_plain(&self) -> Plain {
-        Plain::Number(*self)
-    }
-
-    fn from_plain(plain: &Plain) -> Option<Self> {
-        if let Plain::Number(number) = plain { Some(*number) } else { None }
-    }
-}
-
-impl Stored for f32 {
-    fn to_plain(&self) -> Plain {
-        f64::from(*self).to_plain()
-    }
-
-    fn from_plain(plain: &Plain) -> Option<Self> {
-        f64::from_plain(plain).map(|number| number as f32)
-    }
-}
-
-impl Stored for u16 {
-    fn to_plain(&self) -> Plain {
-        f64::from(*self).to_plain()
-    }
-
-    fn from_plain(plain: &Plain) -> Option<Self> {
-        f64::from_plain(plain).map(|number| number as u16)
-    }
-}
-
-/// In seconds.
-impl Stored for Duration {
-    fn to_plain(&self) -> Plain {
-        self.as_secs_f64().to_plain()
-    }
-
-    fn from_plain(plain: &Plain) -> Option<Self> {
-        Duration::try_from_secs_f64(f64::from_plain(plain)?).ok()
-    }
-}
-
-impl Stored for String {
-    fn to_plain(&self) -> Plain {
-        Plain::Text(self.clone())
-    }
-
-    fn from_plain(plain: &Plain) -> Option<Self> {
-        if let Plain::Text(text) = plain { Some(text.clone()) } else { None }
-    }
-}
-
-/// The empty text is `None`.
-impl Stored for Option<String> {
-    fn to_plain(&self) -> Plain {
-        Plain::Text(self.clone().unwrap_or_default())
-    }
-
-    fn from_plain(plain: &Plain) -> Option<Self> {
-        String::from_plain(plain).map(|text| Some(text).filter(|text| !text.is_empty()))
-    }
-}
-
-impl Stored for Theme {
-    fn to_plain(&self) -> Plain {
-        Plain::Text(self.name().to_owned())
-    }
-
-    fn from_plain(plain: &Plain) -> Option<Self> {
-        Self::ALL.into_iter().find(|theme| theme.name() == plain.text())
-    }
-}
-
-impl Stored for IpAddr {
-    fn to_plain(&self) -> Plain {
-        Plain::Text(self.to_string())
-    }
-
-    fn from_plain(plain: &Plain) -> Option<Self> {
-        plain.text().trim().parse().ok()
-    }
-}
-
-impl Stored for MidiChoice {
-    fn to_plain(&self) -> Plain {
-        Plain::Text(match self {
-            MidiChoice::Off => MIDI_OFF.to_owned(),
-            MidiChoice::All => MIDI_ALL.to_owned(),
-            MidiChoice::Named(name) => name.clone(),
-        })
-    }
-
-    fn from_plain(plain: &Plain) -> Option<Self> {
-        match plain.text() {
-            MIDI_OFF => Some(MidiChoice::Off),
-            MIDI_ALL => Some(MidiChoice::All),
-            name => (!name.trim().is_empty()).then(|| MidiChoice::Named(name.to_owned())),
-        }
-    }
-}
-
-impl Stored for FilmForm {
-    fn to_plain(&self) -> Plain {
-        Plain::Text(self.options())
-    }
-
-    fn from_plain(plain: &Plain) -> Option<Self> {
-        FilmForm::of_options(plain.text()).ok()
+fn midi_choice(name: String) -> Option<MidiChoice> {
+    match name.as_str() {
+        MIDI_OFF => Some(MidiChoice::Off),
+        MIDI_ALL => Some(MidiChoice::All),
+        text => (!text.trim().is_empty()).then_some(MidiChoice::Named(name)),
     }
 }

@@ -68,11 +68,8 @@ impl Shell {
             }
             Action::Microphone => match session.microphone_view() {
                 Some(view) if view.is_on || view.is_read => out.ask(Command::UseMicrophone(!view.is_on)),
-                _ => out.ask(Command::Notify {
-                    level: Level::Info,
-                    text: "No channel reads the microphone: choose it as the input of a channel first.".into(),
-                    path: None,
-                }),
+                _ => out
+                    .notify(Level::Info, "No channel reads the microphone: choose it as the input of a channel first."),
             },
             Action::PlayRecording => self.files.ask(Pick::Recording, start_folder(session)),
             Action::StopReplay => out.ask(Command::StopReplay),
@@ -87,14 +84,12 @@ impl Shell {
                 self.files.ask(Pick::Page(name), start_folder(session));
             }
             Action::LabReport if self.lab.has_results() => self.files.ask(Pick::LabReport, start_folder(session)),
-            Action::LabReport => out.ask(Command::Notify {
-                level: Level::Info,
-                text: "There are no lab results yet: start a study in the Lab panel.".into(),
-                path: None,
-            }),
+            Action::LabReport => {
+                out.notify(Level::Info, "There are no lab results yet: start a study in the Lab panel.")
+            }
             Action::Bookmarklet => {
                 if let Err(text) = self.browser.open_bookmarklet(&self.wake) {
-                    out.ask(Command::Notify { level: Level::Error, text, path: None });
+                    out.notify(Level::Error, text);
                 }
             }
             Action::Audit => out.ask(Command::Audit),
@@ -169,7 +164,7 @@ impl Shell {
             Action::Trace(action) => {
                 let caret = self.code.caret_place().map(|(tab, _, line)| (tab, line));
                 if let Err(why) = self.project_ui.debugger.act(session, action, caret) {
-                    out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });
+                    out.notify(Level::Info, why);
                 }
             }
             Action::Time(action) => timeline::act(ui.ctx(), session, action, out),
@@ -202,11 +197,9 @@ impl Shell {
             PictureAction::GoOn if is_halted => out.ask(Command::GoOn),
             PictureAction::Smaller if is_halted => out.ask(Command::DrawSmaller),
             PictureAction::LastGood if is_halted => out.ask(Command::DrawLastGood),
-            PictureAction::GoOn | PictureAction::Smaller | PictureAction::LastGood => out.ask(Command::Notify {
-                level: Level::Info,
-                text: "No frame has exceeded the time limit.".into(),
-                path: None,
-            }),
+            PictureAction::GoOn | PictureAction::Smaller | PictureAction::LastGood => {
+                out.notify(Level::Info, "No frame has exceeded the time limit.")
+            }
         }
     }
 

@@ -194,7 +194,7 @@ impl Shell {
                 .for_each(|notice| out.ask(Command::DismissNotice(notice.id)));
         }
         for text in errors {
-            out.ask(Command::Notify { level: Level::Error, text, path: None });
+            out.notify(Level::Error, text);
         }
         out.commands.extend(self.apply_settings(ui.ctx()));
         out.commands.extend(self.browser.take());
@@ -263,7 +263,7 @@ impl Shell {
     /// Changes a setting and saves it.
     fn change(&mut self, change: Change, out: &mut UiOutput) {
         if let Err(text) = self.config.settings_file.change(change) {
-            out.ask(Command::Notify { level: Level::Warning, text, path: None });
+            out.notify(Level::Warning, text);
         }
     }
 
@@ -365,7 +365,7 @@ impl Shell {
             ShellCommand::PasteCode => self.clipboard.is_wanted_by_code = true,
             ShellCommand::Fix(fix) => {
                 if let Err(why) = self.code.apply_fix(&fix, out) {
-                    out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });
+                    out.notify(Level::Info, why);
                 }
             }
             ShellCommand::CloseFile(tab) => self.code.close_file(&tab),
@@ -377,7 +377,7 @@ impl Shell {
             }
             ShellCommand::Breakpoint(tab, line) => {
                 if let Err(why) = self.project_ui.debugger.toggle(session, &tab, line) {
-                    out.ask(Command::Notify { level: Level::Info, text: why.into(), path: None });
+                    out.notify(Level::Info, why);
                 }
             }
             ShellCommand::Trace(at) => {

@@ -119,9 +119,7 @@ fn leave_button(ui: &Ui, whole: Rect, out: &mut UiOutput) {
             Frame::NONE.fill(theme::of(ui).panel).corner_radius(6).inner_margin(Margin::same(4)).show(ui, |ui| {
                 let button = ui.button("Leave code over picture");
                 let tip = out.keys.tip("Show all panels again", Action::Present);
-                if out.clicked("button:leave-present", &button.on_hover_text(tip)) {
-                    out.act(Action::Present);
-                }
+                out.on_click("button:leave-present", &button.on_hover_text(tip), Action::Present);
             });
         });
 }

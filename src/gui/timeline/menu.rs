@@ -114,9 +114,7 @@ fn speed(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         ui.spacing_mut().button_padding.x = 4.0;
         for (speed, name) in SPEEDS {
             let is_on = (now - speed).abs() < 1e-6;
-            if out.clicked(&format!("time:speed:{name}"), &ui.selectable_label(is_on, name)) {
-                out.ask(Command::SetSpeed(speed));
-            }
+            out.on_click(&format!("time:speed:{name}"), &ui.selectable_label(is_on, name), Command::SetSpeed(speed));
         }
     });
 }

@@ -102,9 +102,7 @@ fn found(traced: &Traced, result: &DivergenceFound, ui: &mut Ui, out: &mut UiOut
         if let Some((tab, line, range)) = place {
             let text = traced.text(&tab).get(range).and_then(|text| text.lines().next()).unwrap_or_default();
             let link = ui.link(RichText::new(format!("{}:{} {text}", tab.title(), line + 1)).monospace().size(11.5));
-            if out.clicked("trace:parted", &link.on_hover_text(of)) {
-                out.shell_commands.push(ShellCommand::GoTo(tab, Some((line, 0))));
-            }
+            out.on_click("trace:parted", &link.on_hover_text(of), ShellCommand::GoTo(tab, Some((line, 0))));
         }
     });
     let text = RichText::new(&words).monospace().size(11.5).color(p.text);

@@ -282,9 +282,11 @@ fn breakpoints(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
             );
             is_edited |= switch.changed();
             let link = ui.link(name);
-            if out.clicked(&format!("trace:breakpoint:{index}"), &link) {
-                out.shell_commands.push(ShellCommand::GoTo(breakpoint.tab.clone(), Some((breakpoint.line, 0))));
-            }
+            out.on_click(
+                &format!("trace:breakpoint:{index}"),
+                &link,
+                ShellCommand::GoTo(breakpoint.tab.clone(), Some((breakpoint.line, 0))),
+            );
             let field = TextEdit::singleline(&mut breakpoint.condition)
                 .id_salt(("condition", index))
                 .font(egui::TextStyle::Monospace)

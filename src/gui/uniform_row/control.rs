@@ -76,8 +76,7 @@ pub(super) fn menu(row: &Response, session: &Session, uniform: &CustomUniform, o
             let key = target.to_string();
             if session.is_learning(&target) {
                 let stop = ui.button(format!("Stop learning the control{of}"));
-                if out.clicked(&format!("uniform-menu:stop:{key}"), &stop) {
-                    out.ask(Command::LearnControl(None));
+                if out.on_click(&format!("uniform-menu:stop:{key}"), &stop, Command::LearnControl(None)) {
                     ui.close();
                 }
             } else {
@@ -86,15 +85,17 @@ pub(super) fn menu(row: &Response, session: &Session, uniform: &CustomUniform, o
                     _ => format!("Learn MIDI or OSC control{of}"),
                 };
                 let learn = ui.add_enabled(is_on, Button::new(title));
-                if out.clicked(&format!("uniform-menu:learn:{key}"), &learn) {
-                    out.ask(Command::LearnControl(Some(target.clone())));
+                if out.on_click(
+                    &format!("uniform-menu:learn:{key}"),
+                    &learn,
+                    Command::LearnControl(Some(target.clone())),
+                ) {
                     ui.close();
                 }
             }
             if let Some(control) = session.control_of(&target) {
                 let forget = ui.button(format!("Forget control{of} ({})", control.label()));
-                if out.clicked(&format!("uniform-menu:forget:{key}"), &forget) {
-                    out.ask(Command::ForgetControl(target));
+                if out.on_click(&format!("uniform-menu:forget:{key}"), &forget, Command::ForgetControl(target)) {
                     ui.close();
                 }
             }
@@ -102,8 +103,7 @@ pub(super) fn menu(row: &Response, session: &Session, uniform: &CustomUniform, o
         if !is_on {
             ui.separator();
             let settings = ui.button("Switch on OSC or MIDI in Settings…");
-            if out.clicked("uniform-menu:settings", &settings) {
-                out.act(Action::Settings);
+            if out.on_click("uniform-menu:settings", &settings, Action::Settings) {
                 ui.close();
             }
         }
