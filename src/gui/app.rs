@@ -167,7 +167,7 @@ impl ApplicationHandler<AppEvent> for App {
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let Some(running) = &mut self.running else { return };
-        match device_recovery::caught(running, |running| running.on_event(event), |running| &running.session) {
+        match device_recovery::catch_panic(running, |running| running.on_event(event), |running| &running.session) {
             Ok(Next::Go) => {}
             Ok(Next::Exit) => event_loop.exit(),
             Err(e) => {
@@ -410,14 +410,14 @@ impl Running {
         if self.hidden {
             return Ok(Next::Go);
         }
-        let began = Instant::now();
+        let now = Instant::now();
         if let Some(theme) = self.system_theme.try_iter().last() {
             self.input.egui_input_mut().system_theme = Some(theme);
         }
         let raw = self.input.take_egui_input(&self.window);
         let renderer = self.surface.renderer();
         let Frame { output, tick, wants_next } =
-            frame::run(&self.ctx, &mut self.shell, &mut self.session, renderer, raw, began);
+            frame::run(&self.ctx, &mut self.shell, &mut self.session, renderer, raw, now);
         self.input.handle_platform_output(&self.window, output.platform_output.clone());
         if self.shell.take_clipboard_request() {
             let text = self.input.clipboard_text().unwrap_or_default();
@@ -431,26 +431,26 @@ impl Running {
         let presented = self.surface.paint(&self.window, output, &self.ctx);
         // Pending window events are handled before it.
         let _ = self.proxy.send_event(AppEvent::Painted);
-        self.shell.report(&self.session, &mut self.report, self.surface.size(), &self.ctx, began);
-        self.watch_device(began)?;
+        self.shell.report(&self.session, &mut self.report, self.surface.size(), &self.ctx, now);
+        self.watch_device(now)?;
         self.follow_shell();
         if let Next::Exit = self.take_requests() {
             return Ok(Next::Exit);
         }
         // Repaints that egui requests by itself can wait.
-        let mut next = began.checked_add(delay).map(|at| at.max(self.after_first_frame(began)));
+        let mut next = now.checked_add(delay).map(|at| at.max(self.after_first_frame(now)));
         if wants_next || presented == Presented::Again {
-            next = Some(began);
+            next = Some(now);
         }
         if let Some(at) = tick.wake_at {
-            let at = at.max(self.paced(began));
+            let at = at.max(self.paced(now));
             next = Some(next.map_or(at, |n| n.min(at)));
         }
         self.paint_at = match (self.paint_at, next) {
             (Some(a), Some(b)) => Some(a.min(b)),
             (a, b) => a.or(b),
         };
-        self.painted_at = began;
+        self.painted_at = now;
         Ok(Next::Go)
     }
 

@@ -125,8 +125,8 @@ fn texts_in(ui: &Ui, columns: &Columns, rect: Rect, texts: [&str; 6], name: Colo
     let number = |end: f32, text: &str| {
         painter.text(pos2(rect.right() - end, y), Align2::RIGHT_CENTER, text, FontId::monospace(SIZE), color);
     };
-    if let Some(begin) = columns.format {
-        let at = pos2(rect.right() - begin, y);
+    if let Some(left) = columns.format {
+        let at = pos2(rect.right() - left, y);
         painter.text(at, Align2::LEFT_CENTER, format, FontId::monospace(SIZE), color);
     }
     if let Some(end) = columns.size {

@@ -59,9 +59,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, has_lab_results: bool, out: &
                 })
                 .inner;
             let entry = entry.on_hover_text(*tip).on_disabled_hover_text(why_not.unwrap_or_default());
-            if out.on_click(&format!("export:{}", name(*action)), &entry, *action) {
-                ui.close();
-            }
+            out.on_menu_click(ui, &format!("export:{}", name(*action)), &entry, *action);
         }
     });
     out.place("button:export", menu.response.rect);

@@ -68,9 +68,10 @@ pub(super) struct PanelRow {
     name: &'static str,
     /// The name in the window.
     title: &'static str,
-    place: DefaultPlace,
+    pub place: DefaultPlace,
     content: Content,
-    is_open: bool,
+    /// Open by default.
+    pub is_open: bool,
     /// The name, the title and the keys of the action that opens and closes it, and more words by which it is found.
     action: (&'static str, &'static str, &'static [&'static str], &'static str),
     /// Shows controls at the right end of its row.
@@ -151,7 +152,7 @@ impl Panel {
         PANELS.iter().map(|(panel, _)| *panel)
     }
 
-    fn row(self) -> &'static PanelRow {
+    pub(super) fn row(self) -> &'static PanelRow {
         &PANELS[self as usize].1
     }
 
@@ -172,14 +173,6 @@ impl Panel {
     /// Returns the name in the window.
     pub(super) fn title(self) -> &'static str {
         self.row().title
-    }
-
-    pub(super) fn is_open_by_default(self) -> bool {
-        self.row().is_open
-    }
-
-    pub(super) fn default_place(self) -> DefaultPlace {
-        self.row().place
     }
 
     /// Returns whether the panel's contents have a row by which it can be dragged, so that it needs no title row.

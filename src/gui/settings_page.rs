@@ -63,7 +63,7 @@ impl SettingsPage {
         match checked {
             Ok(()) => {
                 (self.typed, self.error) = (None, None);
-                setting.change(&Plain::Text(text.to_owned()))
+                (setting.change)(&Plain::Text(text.to_owned()))
             }
             Err(why) => {
                 (self.typed, self.error) = (Some((setting.key, text.to_owned())), Some((setting.key, why)));
@@ -109,7 +109,7 @@ impl SettingsPage {
                 for setting in SETTINGS.iter().filter(|setting| setting.is_shown(session)) {
                     let note = match setting.overridden(overrides) {
                         Some(option) => Some(format!("This window was started with {option}, which overrides it")),
-                        None => setting.note(session),
+                        None => setting.row.note.and_then(|note| note(session)),
                     };
                     ui.add_enabled_ui(file.trouble().is_none(), |ui| {
                         self.row(ui, session, setting, file, note.as_deref(), out);
@@ -242,7 +242,7 @@ impl SettingsPage {
         out.place(format!("setting:{}:less", setting.key), less);
         out.place(format!("setting:{}", setting.key), response.rect);
         out.place(format!("setting:{}:more", setting.key), more);
-        setting.change(&Plain::Number(wanted?.clamp(least, most) / number.scale))
+        (setting.change)(&Plain::Number(wanted?.clamp(least, most) / number.scale))
     }
 
     /// Shows a text field. The setting changes when the field loses the keyboard focus.
@@ -278,7 +278,7 @@ fn switch(ui: &mut Ui, setting: &Setting, mut is_on: bool, out: &mut UiOutput) -
     let response = ui.checkbox(&mut is_on, if before { "On" } else { "Off" });
     accessible::choice(&response, Role::CheckBox, is_on, setting.row.title);
     let is_clicked = out.clicked(&format!("setting:{}", setting.key), &response);
-    is_clicked.then(|| setting.change(&Plain::Switch(is_on))).flatten()
+    is_clicked.then(|| (setting.change)(&Plain::Switch(is_on))).flatten()
 }
 
 /// Shows buttons for names, each with its title. The selected one takes the keyboard focus if `takes_focus`.
@@ -298,7 +298,7 @@ fn choice(
             response.request_focus();
         }
         if out.clicked(&format!("setting:{}:{name}", setting.key), &response) {
-            wanted = setting.change(&Plain::Text((*name).to_owned()));
+            wanted = (setting.change)(&Plain::Text((*name).to_owned()));
         }
     }
     wanted
@@ -340,7 +340,7 @@ fn combo(
         for (n, (value, title)) in all().enumerate() {
             let entry = ui.selectable_label(value == now, title);
             if out.clicked(&format!("setting:{}:{n}", setting.key), &entry) {
-                wanted = setting.change(&Plain::Text(value.clone()));
+                wanted = (setting.change)(&Plain::Text(value.clone()));
             }
         }
     });

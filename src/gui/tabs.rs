@@ -71,7 +71,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, current: &Tab, files: &[OpenF
                 let file = files.iter().find(|file| file.tab == *tab);
                 show_tab(ui, session, tab, file, tab == current, out);
             }
-            keep_in_sight(ui, &tabs, current, out);
+            keep_visible(ui, &tabs, current, out);
         });
     add_menu(&mut row, session, out);
     handle.drag_started()
@@ -87,7 +87,7 @@ fn scroll_by_wheel(ui: &Ui, row: Rect) {
 
 /// Scrolls the current tab into view when it comes to the front, moves or grows; otherwise the scroll position is the
 /// user's.
-fn keep_in_sight(ui: &Ui, tabs: &[Tab], current: &Tab, out: &UiOutput) {
+fn keep_visible(ui: &Ui, tabs: &[Tab], current: &Tab, out: &UiOutput) {
     let Some(rect) = out.places.get(&format!("tab:{}", current.title())) else { return };
     // A panel that opens may move the row to another `Ui`, where it is not scrolled yet.
     let id = ui.scope_id().with("current tab");
@@ -235,9 +235,7 @@ fn add_menu(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         passes::add_menu(ui, session, false, out);
         ui.separator();
         let all = ui.button("All passes…");
-        if out.on_click("add:passes", &all, Action::Passes) {
-            ui.close();
-        }
+        out.on_menu_click(ui, "add:passes", &all, Action::Passes);
     });
     out.place("button:add-tab", menu.rect);
     menu.on_hover_text("Add Common or a buffer");

@@ -45,28 +45,20 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut 
         item(ui, "button:gallery", "Gallery", "Presets to start from", Action::Gallery, state.is_gallery, out);
         item(ui, "button:new", "New", "Create a shader with one Image pass", Action::New, false, out);
         let menu = ui.menu_button("Open", |ui| {
-            if ui.button("Folder…").on_hover_text("Open a folder with eddy.toml or .glsl files").clicked() {
-                out.shell_commands.push(ShellCommand::Pick(Pick::OpenFolder));
-                ui.close();
-            }
+            let folder = ui.button("Folder…").on_hover_text("Open a folder with eddy.toml or .glsl files");
+            out.on_menu_click(ui, "open:folder", &folder, ShellCommand::Pick(Pick::OpenFolder));
             let file = Button::new("File…").shortcut_text(out.keys.hint(Action::Open));
-            if ui.add(file).on_hover_text("Open a .glsl file or a Shadertoy .json file").clicked() {
-                out.act(Action::Open);
-                ui.close();
-            }
+            let file = ui.add(file).on_hover_text("Open a .glsl file or a Shadertoy .json file");
+            out.on_menu_click(ui, "open:file", &file, Action::Open);
             if !state.is_gallery {
                 let recording = Button::new("Recording…").shortcut_text(out.keys.hint(Action::PlayRecording));
                 let recording = ui.add(recording).on_hover_text("Play a .replay file in this project");
-                if out.on_click("open:recording", &recording, Action::PlayRecording) {
-                    ui.close();
-                }
+                out.on_menu_click(ui, "open:recording", &recording, Action::PlayRecording);
             }
             ui.separator();
             let page = ui.button("Get shaders from Shadertoy…");
             let page = page.on_hover_text("Open a page with a bookmarklet that saves a shader's JSON in your browser");
-            if out.on_click("open:bookmarklet", &page, Action::Bookmarklet) {
-                ui.close();
-            }
+            out.on_menu_click(ui, "open:bookmarklet", &page, Action::Bookmarklet);
         });
         out.place("button:open", menu.response.rect);
         if !state.is_gallery {
@@ -119,15 +111,11 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
             let action = Action::Panel(panel);
             let is_open = state.open.contains(&panel) && !state.is_gallery;
             let entry = menus::switch(ui, is_open, panel.title(), out.keys.hint(action));
-            if out.on_click(&format!("view:{}", panel.name()), &entry, action) {
-                ui.close();
-            }
+            out.on_menu_click(ui, &format!("view:{}", panel.name()), &entry, action);
         }
         let mut item = |ui: &mut Ui, name: &str, label: &str, action: Action| {
             let entry = menus::entry(ui, label, out.keys.hint(action));
-            if out.on_click(name, &entry, action) {
-                ui.close();
-            }
+            out.on_menu_click(ui, name, &entry, action);
         };
         item(ui, "view:usual", "Reset layout", Action::ResetLayout);
         ui.separator();
@@ -138,11 +126,7 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
             ui.label("Theme");
             for theme in Theme::ALL {
                 let choice = ui.add(Button::selectable(state.settings.theme == theme, theme.title()));
-                let choice = choice.on_hover_text(match theme {
-                    Theme::System => "Follow the system theme",
-                    Theme::Dark => "Use the dark theme",
-                    Theme::Light => "Use the light theme",
-                });
+                let choice = choice.on_hover_text(Action::Theme(theme).title());
                 out.on_click(&format!("theme:{}", theme.name()), &choice, ShellCommand::Set(Change::Theme(theme)));
             }
         });
@@ -160,13 +144,9 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
         });
         ui.separator();
         let wraps = menus::switch(ui, state.settings.word_wrap, "Word wrap", out.keys.hint(Action::WordWrap));
-        if out.on_click("view:word-wrap", &wraps, Action::WordWrap) {
-            ui.close();
-        }
+        out.on_menu_click(ui, "view:word-wrap", &wraps, Action::WordWrap);
         let all = menus::entry(ui, "Settings…", out.keys.hint(Action::Settings));
-        if out.on_click("view:settings", &all, Action::Settings) {
-            ui.close();
-        }
+        out.on_menu_click(ui, "view:settings", &all, Action::Settings);
     });
     out.place("button:view", button.rect);
     button.on_hover_text("Panels, layout, theme, zoom and settings");

@@ -187,6 +187,13 @@ impl UiOutput {
         is_clicked
     }
 
+    /// The same for an entry of a menu, which is then closed.
+    pub(super) fn on_menu_click(&mut self, ui: &Ui, name: &str, response: &Response, request: impl Into<Request>) {
+        if self.on_click(name, response, request) {
+            ui.close();
+        }
+    }
+
     pub(super) fn notify(&mut self, level: Level, text: impl Into<String>) {
         self.ask(Command::Notify { level, text: text.into(), path: None });
     }
@@ -213,7 +220,7 @@ impl UiOutput {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use egui::{Align2, RawInput, pos2, vec2};
+    use egui::{Align2, Event, Modifiers, PointerButton, RawInput, pos2, vec2};
 
     /// The first pass of an area with a pivot is shown as if it were empty.
     #[test]
@@ -243,5 +250,32 @@ mod tests {
         assert_eq!(second.places.get("close"), Some(&visible));
         assert_eq!(second.places["card"].center(), pos2(300.0, 200.0));
         assert_eq!(second.stops.len(), 1);
+    }
+
+    #[test]
+    fn only_the_clicked_button_makes_its_request() {
+        let ctx = egui::Context::default();
+        let show = |events: Vec<Event>| {
+            let mut out = UiOutput::default();
+            let mut output = ctx.run_ui(RawInput { events, ..RawInput::default() }, |ui| {
+                out = UiOutput::default();
+                out.on_click("play", &ui.button("Play"), Action::TogglePlay);
+                out.on_click("step", &ui.button("Step"), Command::Step);
+            });
+            output.textures_delta.clear();
+            out
+        };
+        let button = |pos, pressed| {
+            let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+            vec![Event::PointerMoved(pos), Event::PointerButton { pos, button, pressed, modifiers }]
+        };
+        let requests = |name: &str| {
+            let at = show(vec![]).places[name].center();
+            assert_eq!(show(button(at, true)).commands, []);
+            let out = show(button(at, false));
+            (out.commands, out.shell_commands)
+        };
+        assert_eq!(requests("step"), (vec![Command::Step], vec![]));
+        assert_eq!(requests("play"), (vec![], vec![ShellCommand::Act(Action::TogglePlay)]));
     }
 }

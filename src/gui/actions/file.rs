@@ -56,7 +56,7 @@ pub(super) fn read(text: &str) -> (Keymap, Vec<ConfigError>) {
             }
         }
         if chords.len() == texts.iter().filter(|(text, _)| !text.is_empty()).count() {
-            keymap.give(entry, chords);
+            keymap.assign(entry, chords);
         }
     }
     (keymap, errors)

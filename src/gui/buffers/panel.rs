@@ -19,7 +19,7 @@ fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     let PanelContext { live, under_picture, session, out, .. } = context;
     let state = &mut context.project_ui.buffers;
     out.stop("buffers", ui);
-    state.begin();
+    state.start_frame();
     ui.spacing_mut().item_spacing = vec2(5.0, 4.0);
     let target = state.target(session.project());
     if let Some(target) = &target {

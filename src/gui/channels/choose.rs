@@ -1,20 +1,19 @@
 //! The popup of a channel's card, which chooses its input and sampler.
 
 use super::{
+    device_rows,
     names::{filter_name, input_name, wrap_name},
     swatch::{Swatches, folder},
 };
 use crate::{
     gui::{
-        accessible,
-        actions::Action,
-        devices, theme,
+        accessible, theme,
         thumbnails::FolderFile,
         ui_output::{Pick, ShellCommand, UiOutput},
     },
     media,
     project::{Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassName, Wrap},
-    session::{Command, Session},
+    session::Command,
 };
 use egui::{ComboBox, FontId, Rect, ScrollArea, Sense, Ui, pos2, vec2};
 use std::time::Instant;
@@ -68,17 +67,11 @@ pub(super) fn choose(
         );
         out.on_click("choose:sound", &ui.button("Music…"), ShellCommand::Pick(Pick::Sound { channel: index }));
     });
-    if now.is_some_and(|input| input.kind() == InputKind::Webcam) {
-        devices::choose(ui, session, out);
+    if let Some(row) = now.and_then(device_rows::of) {
+        (row.controls)(ui, session, out);
     }
     if let Some(channel) = channel {
         sampler(ui, channel, out, set);
-    }
-    if now.is_some_and(|input| input.kind() == InputKind::Microphone) {
-        microphone(ui, session, out);
-    }
-    if now.is_some_and(|input| input.kind() == InputKind::Gamepad) {
-        gamepads(ui, session, out);
     }
     ui.separator();
     ScrollArea::vertical().max_height(250.0).auto_shrink([false, true]).show(ui, |ui| {
@@ -145,36 +138,6 @@ fn files(
             }
             response.on_hover_text(shown);
         }
-    });
-}
-
-/// Shows the switch of the microphone, which no project can turn on.
-fn microphone(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
-    let Some(view) = session.microphone_view() else { return };
-    let (text, note) = match view.is_on {
-        true => ("Turn the microphone off", "The microphone is on."),
-        false => ("Use the microphone", "The microphone is off: the channel shows a made-up spectrum."),
-    };
-    ui.horizontal_wrapped(|ui| {
-        out.on_click("choose:use-microphone", &ui.button(text), Command::UseMicrophone(!view.is_on));
-        ui.colored_label(theme::of(ui).weak, note);
-    });
-}
-
-/// Explains how to read gamepads, which the settings switch on.
-fn gamepads(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
-    let view = session.controls_view();
-    let note = match view.gamepads {
-        _ if !view.has_gamepads => "This build of Eddy reads no gamepads: the channel is zero.".to_owned(),
-        None => "Gamepads are off: the channel is zero.".to_owned(),
-        Some(pads) if pads.connected.is_empty() => "No gamepad is connected.".to_owned(),
-        Some(pads) => pads.connected.into_values().collect::<Vec<_>>().join(", "),
-    };
-    ui.horizontal_wrapped(|ui| {
-        if view.has_gamepads && out.clicked("choose:gamepad-settings", &ui.button("Settings…")) {
-            out.act(Action::Settings);
-        }
-        ui.colored_label(theme::of(ui).weak, note);
     });
 }
 

@@ -1,6 +1,7 @@
 //! The panel of channels: the input and sampler of each channel of the selected pass.
 
 mod choose;
+mod device_rows;
 mod live;
 mod names;
 mod sound;

@@ -76,7 +76,7 @@ impl CodePanel {
                 editor.edit(|buffer| buffer.replace_all(&finder, &matches, self.find.with()));
             }
         }
-        self.tell_changed(out);
+        self.report_changed(out);
         if count > 0 {
             let text = format!("Replaced {count} in {texts} texts. Undo takes it back, in each text by itself");
             out.notify(Level::Info, text);

@@ -156,7 +156,7 @@ impl CodePanel {
         }
     }
 
-    pub(super) fn go_aside(&mut self, session: &Session, by: isize) {
+    pub(super) fn switch_tab(&mut self, session: &Session, by: isize) {
         let tabs = tabs::shown(session, &self.files);
         if let Some(at) = tabs.iter().position(|t| *t == self.current) {
             let to = (at as isize + by).rem_euclid(tabs.len() as isize) as usize;
@@ -207,7 +207,7 @@ impl CodePanel {
     }
 
     /// Goes to the next or the previous match, even while the bar is closed.
-    pub(super) fn find_on(&mut self, forward: bool) {
+    pub(super) fn find_next(&mut self, forward: bool) {
         if self.find.is_empty() {
             self.open_find(false);
         }
@@ -230,7 +230,7 @@ impl CodePanel {
         if let Some(editor) = self.editors.get_mut(&self.current) {
             self.find.replace_all(&self.current, editor);
         }
-        self.tell_changed(out);
+        self.report_changed(out);
     }
 
     /// Applies an action of a key or the palette to the text in front.
@@ -239,7 +239,7 @@ impl CodePanel {
             editor.act(action);
             editor.focus();
         }
-        self.tell_changed(out);
+        self.report_changed(out);
     }
 
     pub(super) fn open_go_to_line(&mut self) {
@@ -391,7 +391,7 @@ impl CodePanel {
         for (line, rect) in shown.marked {
             out.place(format!("mark:{}", line + 1), rect);
         }
-        self.tell_changed(out);
+        self.report_changed(out);
         if let Some(line) = shown.clicked_line {
             out.shell_commands.push(ShellCommand::Breakpoint(self.current.clone(), line));
         }

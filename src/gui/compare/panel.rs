@@ -42,7 +42,7 @@ fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
         ui.spacing_mut().item_spacing.x = 3.0;
         reference(state, ui, out);
         ui.add_space(6.0);
-        begin(state, ui, session, out);
+        start_button(state, ui, session, out);
     });
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
@@ -96,7 +96,7 @@ fn reference(state: &mut Compare, ui: &mut Ui, out: &mut UiOutput) {
 }
 
 /// Shows the button that starts or stops, and the progress.
-fn begin(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+fn start_button(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     if let Some(Status::UnderWay(Count { done, of })) = session.comparison() {
         out.on_click("compare:stop", &ui.button("Stop"), Command::Compare(None));
         if of > 1 {
@@ -159,7 +159,7 @@ fn figures(state: &Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) 
     let comparison = &seen.figures.comparison;
     ui.spacing_mut().item_spacing.y = 1.0;
     ui.add_space(3.0);
-    let mut first = whereabouts(comparison);
+    let mut first = location_text(comparison);
     if session.is_comparison_old() && !state.follows {
         first += " · the project has changed since";
     }
@@ -171,11 +171,11 @@ fn figures(state: &Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) 
     let label = ui.add(Label::new(RichText::new(second).color(p.text)).truncate());
     out.place("compare:figures", label.rect);
     if let Some(times) = seen.figures.times {
-        ui.add(Label::new(RichText::new(pace(&times)).color(p.text)).truncate());
+        ui.add(Label::new(RichText::new(speed_text(&times)).color(p.text)).truncate());
     }
 }
 
-fn whereabouts(comparison: &Comparison) -> String {
+fn location_text(comparison: &Comparison) -> String {
     let Comparison { pass, frame, ours, against, is_cut, is_camera_still, frames, .. } = comparison;
     let cut = if *is_cut { format!(" · last {frames} frames, from empty buffers") } else { String::new() };
     let camera = if *is_camera_still { " · all frames with the camera's last picture" } else { "" };
@@ -204,7 +204,7 @@ pub(super) fn distance(apart: &PictureDifference, comparison: &Comparison) -> St
     )
 }
 
-pub(super) fn pace(times: &Times) -> String {
+pub(super) fn speed_text(times: &Times) -> String {
     let Times { ours, theirs, ratio, ratio_low, ratio_high, turns } = times;
     format!(
         "{ours:.3} ms per frame against {theirs:.3}: ratio {ratio:.3} (quartiles {ratio_low:.3} to {ratio_high:.3}, \

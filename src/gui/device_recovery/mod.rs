@@ -59,7 +59,7 @@ impl DeviceLosses {
 
 /// Runs a part of the window's work. After a panic in it, unsaved work is saved, and the window closes with an error
 /// that says so: a bug in drawing must not lose a text.
-pub(super) fn caught<W, T>(
+pub(super) fn catch_panic<W, T>(
     window: &mut W,
     work: impl FnOnce(&mut W) -> Result<T, GuiError>,
     session: impl FnOnce(&W) -> &Session,

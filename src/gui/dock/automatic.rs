@@ -43,7 +43,7 @@ type Opened<'a> = (&'a BTreeSet<Panel>, &'a [Panel]);
 pub(super) fn arrange(size: Vec2, open: &BTreeSet<Panel>, fronts: &[Panel], heights: Heights) -> Node {
     let has_lab = open.contains(&Panel::Lab);
     let aside =
-        in_one_place(open.iter().copied().filter(|panel| panel.default_place() == DefaultPlace::BelowPicture), fronts);
+        in_one_place(open.iter().copied().filter(|panel| panel.row().place == DefaultPlace::BelowPicture), fronts);
     let is_tall = |size: Vec2| size.y > size.x * 1.1;
     let above: BTreeSet<Panel> = open.iter().copied().filter(|panel| *panel != Panel::Lab).collect();
     let has_right = code_and_below(&above, fronts).is_some();
@@ -82,10 +82,9 @@ fn two_columns(size: Vec2, (open, fronts): Opened<'_>, aside: Option<Node>, heig
 fn code_and_below(open: &BTreeSet<Panel>, fronts: &[Panel]) -> Option<Node> {
     let is_open = |panel: &Panel| open.contains(panel);
     let code = is_open(&Panel::Code).then_some(Node::Panel(Panel::Code));
-    let is_large =
-        open.iter().any(|panel| *panel == Panel::Lab || panel.default_place() == DefaultPlace::BelowCodeLarge);
+    let is_large = open.iter().any(|panel| *panel == Panel::Lab || panel.row().place == DefaultPlace::BelowCodeLarge);
     let is_below_code =
-        |panel: &Panel| matches!(panel.default_place(), DefaultPlace::BelowCode | DefaultPlace::BelowCodeLarge);
+        |panel: &Panel| matches!(panel.row().place, DefaultPlace::BelowCode | DefaultPlace::BelowCodeLarge);
     let part = if is_large { BELOW_CODE_LARGE } else { BELOW_CODE };
     let shared = Panel::all().filter(is_below_code).chain([Panel::Lab]);
     let below = in_one_place(shared.filter(is_open), fronts);

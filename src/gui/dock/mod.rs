@@ -46,7 +46,7 @@ pub(super) struct Dock {
 
 impl Dock {
     pub(super) fn new() -> Self {
-        let open = Panel::all().filter(|panel| panel.is_open_by_default()).collect();
+        let open = Panel::all().filter(|panel| panel.row().is_open).collect();
         Self { tree: Tree::empty(tree::id()), is_manual: false, open, fronts: Vec::new(), seen: BTreeSet::new() }
     }
 

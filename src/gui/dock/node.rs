@@ -20,7 +20,7 @@ pub(crate) enum Node {
 }
 
 fn is_below_picture(panel: Panel) -> bool {
-    panel.default_place() == DefaultPlace::BelowPicture
+    panel.row().place == DefaultPlace::BelowPicture
 }
 
 impl Node {

@@ -39,8 +39,8 @@ pub(super) fn nudge(tree: &mut Tree<Panel>, tile: TileId, dir: LinearDir, by: f3
     let Some((id, at)) = line_of(&tree.tiles, tile, dir) else { return false };
     let Some(Tile::Container(Container::Linear(linear))) = tree.tiles.get(id) else { return false };
     let seen = |child: &&TileId| tree.tiles.is_visible_in_layout(**child) && tree.tiles.rect(**child).is_some();
-    let behind = linear.children[at + 1..].iter().find(seen);
-    let Some(other) = behind.or_else(|| linear.children[..at].iter().rev().find(seen)).copied() else { return false };
+    let next = linear.children[at + 1..].iter().find(seen);
+    let Some(other) = next.or_else(|| linear.children[..at].iter().rev().find(seen)).copied() else { return false };
     let this = linear.children[at];
     let (Some(a), Some(b)) = (tree.tiles.rect(this), tree.tiles.rect(other)) else { return false };
     let (a, b) = (length(dir, a), length(dir, b));

@@ -75,7 +75,7 @@ impl History {
         self.undone.clear();
         self.size += edit.size();
         match self.done.back_mut() {
-            Some(step) if self.open == Some(kind) && joins(step.last(), &edit, kind) => step.push(edit),
+            Some(step) if self.open == Some(kind) && can_merge(step.last(), &edit, kind) => step.push(edit),
             _ => self.done.push_back(vec![edit]),
         }
         while self.size > MAX_BYTES && self.done.len() > 1 {
@@ -85,7 +85,7 @@ impl History {
     }
 
     /// Closes the newest step because the caret moved: the next edit starts a new one.
-    pub(super) fn seal(&mut self) {
+    pub(super) fn end_step(&mut self) {
         self.open = None;
     }
 
@@ -121,7 +121,7 @@ fn size(step: &[Edit]) -> usize {
 
 /// Returns whether an edit joins the previous one. A typed word or a run of deletions is one step; the first letter
 /// after a space starts the next.
-fn joins(previous: Option<&Edit>, edit: &Edit, kind: Kind) -> bool {
+fn can_merge(previous: Option<&Edit>, edit: &Edit, kind: Kind) -> bool {
     let Some(previous) = previous else { return false };
     match kind {
         Kind::Other => false,

@@ -319,7 +319,7 @@ impl CodeEditor {
                     }
                 }
                 if has_focus {
-                    self.tell_input_method(ui, id, text_rect, p.caret);
+                    self.update_input_method(ui, id, text_rect, p.caret);
                 }
                 let response = match ui.input(|i| i.modifiers.command) {
                     true => response,
@@ -453,7 +453,7 @@ impl CodeEditor {
         (phase as u64).is_multiple_of(2)
     }
 
-    fn tell_input_method(&self, ui: &Ui, id: Id, rect: Rect, caret: Rect) {
+    fn update_input_method(&self, ui: &Ui, id: Id, rect: Rect, caret: Rect) {
         if ui.memory(|m| m.owns_ime_events(id)) {
             ui.ctx().output_mut(|o| {
                 o.mutable_text_under_cursor = true;

@@ -43,7 +43,7 @@ fn over(top: Color32, below: Color32) -> Color32 {
 }
 
 /// Returns the background colour at a place; `None` over a picture.
-fn behind(grounds: &[Backdrop], at: Pos2) -> Option<Color32> {
+fn backdrop_at(grounds: &[Backdrop], at: Pos2) -> Option<Color32> {
     let mut color = Some(Color32::BLACK);
     for ground in grounds {
         match ground {
@@ -88,7 +88,7 @@ fn weak_texts(shapes: &[ClippedShape]) -> (BTreeSet<String>, usize) {
                         if text.opacity_factor < 1.0 || !color.is_opaque() {
                             continue;
                         }
-                        let Some(ground) = behind(&grounds, at) else { continue };
+                        let Some(ground) = backdrop_at(&grounds, at) else { continue };
                         measured += 1;
                         let ratio = contrast(color, ground);
                         if ratio < MIN_CONTRAST {

@@ -97,7 +97,7 @@ impl Help {
             }
         }
         for group in Group::ALL {
-            let keys = |entry: &Entry| out.keys.listed(entry);
+            let keys = |entry: &Entry| out.keys.key_list(entry);
             let all = wanted.is_in(group.title());
             let is_wanted = |e: &&Entry| {
                 let keys = keys(e);

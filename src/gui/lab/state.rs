@@ -128,18 +128,18 @@ impl Lab {
             }
         }
         if is_new && extent == self.extent {
-            self.draw_anew();
+            self.update_plot();
         }
     }
 
-    fn draw_anew(&mut self) {
+    fn update_plot(&mut self) {
         self.shown = self.known(self.extent).shown(self.study());
     }
 
     pub(super) fn choose(&mut self, study: usize, extent: Extent) {
         if (study, extent) != (self.study, self.extent) {
             (self.study, self.extent, self.hovered_method) = (study, extent, None);
-            self.draw_anew();
+            self.update_plot();
         }
     }
 
@@ -173,7 +173,7 @@ impl Lab {
             let known = self.known_mut(extent);
             known.results.forget(study.name);
             known.results.write(&out).map_err(|e| e.to_string())?;
-            self.draw_anew();
+            self.update_plot();
         }
         let adapter = self.adapter.clone();
         let open = move || Gpu::another(&adapter, &GpuOptions::default());
@@ -185,18 +185,18 @@ impl Lab {
     }
 
     /// Keeps results in this folder from now on: results in it are shown, and an empty one gets the known ones.
-    pub(crate) fn keep_in(&mut self, folder: PathBuf) {
-        match self.try_keep_in(&folder) {
+    pub(crate) fn set_results_folder(&mut self, folder: PathBuf) {
+        match self.try_set_results_folder(&folder) {
             Ok(()) => {
                 self.message = Some((format!("results are kept in {}", folder.display()), false));
                 self.folder = Folder::Chosen(folder);
-                self.draw_anew();
+                self.update_plot();
             }
             Err(why) => self.message = Some((why, true)),
         }
     }
 
-    fn try_keep_in(&mut self, folder: &Path) -> Result<(), String> {
+    fn try_set_results_folder(&mut self, folder: &Path) -> Result<(), String> {
         let message_of = |e: LabError| e.to_string();
         let there = Results::read(folder).map_err(message_of)?;
         let Some(extent) = there.runs.first().map(|r| r.extent) else {

@@ -19,8 +19,10 @@ pub(crate) struct Setting {
     /// The name in the file. One that is in use stays: people have it in their files.
     pub key: &'static str,
     pub row: Row,
-    current: fn(&Settings) -> Change,
-    change: fn(&Plain) -> Option<Change>,
+    /// Returns the change to the value that the setting has.
+    pub current: fn(&Settings) -> Change,
+    /// Returns the change to a value, if the setting has such a value.
+    pub change: fn(&Plain) -> Option<Change>,
 }
 
 /// How a setting is described, changed and put into effect.
@@ -37,7 +39,7 @@ pub(crate) struct Row {
     /// What it needs, and whether the window has that. Otherwise the setting is not shown.
     needs: Option<(&'static str, fn(&Session) -> bool)>,
     /// A note about its present effect.
-    note: Option<fn(&Session) -> Option<String>>,
+    pub note: Option<fn(&Session) -> Option<String>>,
 }
 
 const fn row(title: &'static str, kind: Kind, help: &'static str) -> Row {
@@ -146,12 +148,12 @@ settings! {
     AudioOutput(audio_output: Option<String> = None), "audio-output" =>
         row("Sound output", Kind::SoundOutput, "The device that plays")
             .sends(|settings| Command::SetAudioOutput(settings.audio_output.clone()))
-            .needs("sound", has_sound);
+            .needs("a build with the feature audio", has_sound);
     /// The name of the device that records; `None`: the system's default one.
     AudioInput(audio_input: Option<String> = None), "audio-input" =>
         row("Microphone", Kind::SoundInput, "The device that channels with the microphone read, once you switch it on")
             .sends(|settings| Command::SetAudioInput(settings.audio_input.clone()))
-            .needs("sound", has_sound);
+            .needs("a build with the feature audio", has_sound);
     /// OSC is received.
     Osc(osc: bool = false), "osc" =>
         row("OSC", Kind::Switch, "Let controllers that send OSC over UDP move uniforms")
@@ -194,8 +196,7 @@ settings! {
             .noted(|session| session.controls_view().gamepads?.trouble);
     /// The choices of the Recorder panel.
     Recorder(recorder: FilmForm = FilmForm::default()), "recorder" =>
-        row("Recorder", Kind::FilmOptions, "The choices of the Recorder panel")
-            .needs("the Recorder panel, which sets it", |_| false);
+        row("Recorder", Kind::FilmOptions, "The choices of the Recorder panel");
 }
 
 const FRAME_TIMEOUT: Number = Number { is_any_above_zero: true, ..Number::new(0.05, 86_400.0, 0.5, " s") };
@@ -237,7 +238,7 @@ pub(crate) fn commands(before: Option<&Settings>, now: &Settings, overrides: &Ov
         commands.push(Command::SetOsc(overrides.osc));
     }
     for setting in SETTINGS {
-        let is_changed = before.is_none_or(|before| setting.current(before) != setting.current(now));
+        let is_changed = before.is_none_or(|before| (setting.current)(before) != (setting.current)(now));
         let Some(command) = setting.row.command.filter(|_| is_changed && setting.overridden(overrides).is_none())
         else {
             continue;
@@ -260,7 +261,7 @@ impl Change {
     /// Returns the change to the nearest valid value.
     pub(super) fn fitted(self) -> Self {
         let setting = self.setting();
-        setting.change(&setting.row.kind.fit(self.plain().1)).unwrap_or(self)
+        (setting.change)(&setting.row.kind.fit(self.plain().1)).unwrap_or(self)
     }
 
     fn setting(&self) -> &'static Setting {
@@ -276,26 +277,16 @@ impl Setting {
     /// Reads a value of the file, or returns what is wrong with it, as the end of a sentence about the setting.
     pub(super) fn read(&self, value: &Value) -> Result<Change, String> {
         let plain = self.row.kind.read(value)?;
-        self.change(&plain).ok_or_else(|| format!("must be {}", self.row.kind.expected()))
-    }
-
-    /// Returns the change to a value, if the setting has such a value.
-    pub(crate) fn change(&self, plain: &Plain) -> Option<Change> {
-        (self.change)(plain)
-    }
-
-    /// Returns the change to the value that the setting has.
-    pub(super) fn current(&self, settings: &Settings) -> Change {
-        (self.current)(settings)
+        (self.change)(&plain).ok_or_else(|| format!("must be {}", self.row.kind.expected()))
     }
 
     pub(crate) fn plain(&self, settings: &Settings) -> Plain {
-        self.current(settings).plain().1
+        (self.current)(settings).plain().1
     }
 
     /// Returns the change to the default.
     pub(crate) fn default_change(&self) -> Change {
-        self.current(&Settings::default())
+        (self.current)(&Settings::default())
     }
 
     /// Returns the default as written in the file.
@@ -304,7 +295,7 @@ impl Setting {
     }
 
     pub(crate) fn is_default(&self, settings: &Settings) -> bool {
-        self.default_text() == self.current(settings).written().1.to_string()
+        self.default_text() == (self.current)(settings).written().1.to_string()
     }
 
     /// Returns the option of the command line that overrides the setting in this window.
@@ -314,12 +305,7 @@ impl Setting {
 
     /// Returns whether the page of settings shows it.
     pub(crate) fn is_shown(&self, session: &Session) -> bool {
-        self.row.needs.is_none_or(|(_, is_there)| is_there(session))
-    }
-
-    /// Returns a note about its present effect.
-    pub(crate) fn note(&self, session: &Session) -> Option<String> {
-        self.row.note.and_then(|note| note(session))
+        !matches!(self.row.kind, Kind::FilmOptions) && self.row.needs.is_none_or(|(_, is_there)| is_there(session))
     }
 
     /// Returns sentences about when the setting has no effect; empty for most.

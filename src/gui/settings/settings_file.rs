@@ -95,7 +95,7 @@ mod tests {
         assert_eq!(errors, []);
         for setting in SETTINGS {
             assert!(!setting.is_default(&settings), "{} is not in the file", setting.key);
-            assert_eq!(file::change(all, &setting.current(&settings)).unwrap(), all, "{}", setting.key);
+            assert_eq!(file::change(all, &(setting.current)(&settings)).unwrap(), all, "{}", setting.key);
         }
         let (settings, errors) = file::read(include_str!("../../../tests/saved/settings/few.toml"));
         assert_eq!(errors, []);

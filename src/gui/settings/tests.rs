@@ -5,7 +5,10 @@ use super::{
     kind::Number,
     values::{MIDI_ALL, MIDI_OFF},
 };
-use crate::session::Command;
+use crate::{
+    control::midi::MidiChoice,
+    session::{Command, FilmForm},
+};
 use std::{fmt::Write as _, path::Path, time::Duration};
 
 /// Returns values that the widget of a kind can set.
@@ -28,7 +31,7 @@ fn the_file_accepts_what_the_widgets_set() {
     for setting in SETTINGS {
         assert!(setting.is_default(&Settings::default()), "{}", setting.key);
         for plain in samples(&setting.row.kind) {
-            let change = setting.change(&plain).unwrap_or_else(|| panic!("{}: {plain:?}", setting.key));
+            let change = (setting.change)(&plain).unwrap_or_else(|| panic!("{}: {plain:?}", setting.key));
             let (key, value) = change.written();
             assert_eq!((key, &change), (setting.key, &change.clone().fitted()));
             let (read, errors) = file::read(&format!("{key} = {value}\n"));
@@ -117,4 +120,98 @@ fn the_docs_list_every_setting() {
     }
     let fix = "run EDDY_BLESS=1 cargo test settings::";
     assert!(std::env::var_os("EDDY_BLESS").is_some() || page == wanted, "docs/settings.md is old: {fix}");
+}
+
+#[test]
+fn settings_are_read_and_errors_have_their_line() {
+    let (settings, errors) = file::read(
+        "theme = \"light\"\nzoom = 2\ncode-size = 15.5\nword-wrap = true\nframe-timeout = 0.5\n\
+         code-font = \"/a/b.ttf\"\nproject-in-images = false\nvolume = 0.25\nmute = true\n\
+         audio-output = \"Speakers\"\naudio-input = \"\"\n\
+         osc = true\nosc-port = 8000\nosc-address = \"0.0.0.0\"\nmidi = \"Knobs\"\ngamepads = true\n\
+         recorder = \"--frames 0-9 --format gif\"\n",
+    );
+    assert_eq!(errors, []);
+    let wanted = Settings {
+        theme: Theme::Light,
+        zoom: 2.0,
+        code_size: 15.5,
+        code_font: Some("/a/b.ttf".into()),
+        word_wrap: true,
+        frame_timeout: Duration::from_millis(500),
+        project_in_images: false,
+        volume: 0.25,
+        mute: true,
+        audio_output: Some("Speakers".into()),
+        osc: true,
+        osc_port: 8000,
+        osc_address: "0.0.0.0".parse().unwrap(),
+        midi: MidiChoice::Named("Knobs".into()),
+        gamepads: true,
+        recorder: FilmForm::of_options("--frames 0-9 --format gif").unwrap(),
+        ..Settings::default()
+    };
+    assert_eq!(settings, wanted);
+    let text = "# mine\nthem = \"light\"\ntheme = \"blue\"\nzoom = 40\n[word-wrap]\non = true\n[editor]\nsize = 3\n";
+    let (settings, errors) = file::read(text);
+    assert_eq!(settings, Settings::default());
+    let found: Vec<_> = errors.iter().map(|m| (m.line, m.text.as_str())).collect();
+    let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout, project-in-images, \
+               volume, mute, audio-output, audio-input, osc, osc-port, osc-address, midi, gamepads, recorder";
+    let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
+    let wanted = [
+        (2, "unknown setting \"them\"; did you mean \"theme\"?"),
+        (3, "theme must be \"system\", \"dark\" or \"light\""),
+        (4, "zoom must be a number from 0.5 to 4"),
+        (5, "word-wrap takes one value: word-wrap = false"),
+        (7, nothing_near.as_str()),
+    ];
+    assert_eq!(found, wanted);
+    let (_, errors) = file::read("zoom = 1\ntheme = \n");
+    assert_eq!((errors.len(), errors[0].line), (1, 2), "{errors:?}");
+    assert_eq!(file::read("frame-timeout = -1").1.len(), 1);
+}
+
+#[test]
+fn a_change_leaves_comments_order_and_unknown_keys() {
+    let text = "# mine\nzoom = 1.5 # large\n\nthem = 3\n";
+    let text = file::change(text, &Change::Zoom(1.75)).unwrap();
+    assert_eq!(text, "# mine\nzoom = 1.75 # large\n\nthem = 3\n");
+    let text = file::change(&text, &Change::Theme(Theme::Light)).unwrap();
+    assert_eq!(file::read(&text).0, Settings { zoom: 1.75, theme: Theme::Light, ..Settings::default() });
+    assert!(text.starts_with("# mine\nzoom = 1.75 # large\n"), "{text}");
+    assert_eq!(file::change("zoom = 1\nzoom =", &Change::Zoom(2.0)).unwrap_err().line, 2);
+    let fresh = file::change(&file::template(), &Change::WordWrap(true)).unwrap();
+    // The new file has a line for it.
+    assert_eq!(fresh, file::template().replace("# word-wrap = false", "word-wrap = true"));
+    assert!(file::read(&fresh).0.word_wrap);
+}
+
+#[test]
+fn a_change_is_effective_and_keeps_the_users_text() {
+    let wrap = |text: &str| file::change(text, &Change::WordWrap(true));
+    let below = "zoom = 1.5\n[editor]\n# word-wrap = false\nsize = 3\n";
+    let text = wrap(below).unwrap();
+    assert!(file::read(&text).0.word_wrap && text.contains("[editor]\n# word-wrap = false\nsize = 3\n"), "{text}");
+    let table = "zoom = 1.5\n\n[word-wrap]\non = true # mine\n";
+    let why = wrap(table).unwrap_err();
+    assert_eq!(why.line, 3, "{why:?}");
+    let within = "code-font = \"\"\"\n# word-wrap = false\n\"\"\"\n";
+    let text = wrap(within).unwrap();
+    assert!(file::read(&text).0.word_wrap && text.contains(within), "{text}");
+    let dos = "# mine\r\n#word-wrap=false\r\nzoom = 1.5\r\n";
+    assert_eq!(wrap(dos).unwrap(), "# mine\r\nword-wrap = true\r\nzoom = 1.5\r\n");
+    let font = Change::CodeFont(Some("C:\\fonts\\a \"b\".ttf".into()));
+    let text = file::change("code-font = \"\" # plain\n", &font).unwrap();
+    assert!(text.ends_with("# plain\n"), "{text}");
+    assert_eq!(file::read(&text).0.code_font.as_deref(), Some("C:\\fonts\\a \"b\".ttf"));
+}
+
+/// The comments of a new file match the defaults.
+#[test]
+fn comments_of_a_new_file_match_the_defaults() {
+    assert_eq!(file::read(&file::template()), (Settings::default(), vec![]));
+    let rows = file::template().lines().filter(|l| l.contains(" = ")).map(|l| l[2..].to_owned()).collect::<Vec<_>>();
+    assert_eq!(rows.len(), SETTINGS.len());
+    assert_eq!(file::read(&rows.join("\n")), (Settings::default(), vec![]));
 }

@@ -42,7 +42,7 @@ impl Shell {
             }
             Action::New => {
                 out.ask(Command::New);
-                self.uncover(out);
+                self.leave_gallery(out);
                 self.code.focus();
             }
             Action::Gallery if self.modes.gallery => self.close_gallery(out),
@@ -54,8 +54,8 @@ impl Shell {
             Action::Reset => out.ask(Command::Reset),
             Action::Step => out.ask(Command::Step),
             Action::StepBack => out.ask(Command::StepBack(1)),
-            Action::TabLeft => self.code.go_aside(session, -1),
-            Action::TabRight => self.code.go_aside(session, 1),
+            Action::TabLeft => self.code.switch_tab(session, -1),
+            Action::TabRight => self.code.switch_tab(session, 1),
             Action::Screenshot => out.ask(Command::Screenshot),
             Action::SaveTexels => out.ask(Command::SaveTexels),
             Action::Record => out.ask(Command::Record),
@@ -102,7 +102,7 @@ impl Shell {
             Action::Present => {
                 self.modes.code_over_picture = self.modes.gallery || !self.modes.code_over_picture;
                 if self.modes.gallery {
-                    self.uncover(out);
+                    self.leave_gallery(out);
                 }
                 self.code.focus();
             }
@@ -133,8 +133,8 @@ impl Shell {
             Action::Find => self.code.open_find(false),
             Action::Replace => self.code.open_find(true),
             Action::FindEverywhere => self.code.open_find_everywhere(),
-            Action::FindNext => self.code.find_on(true),
-            Action::FindPrevious => self.code.find_on(false),
+            Action::FindNext => self.code.find_next(true),
+            Action::FindPrevious => self.code.find_next(false),
             Action::FindCase => self.code.switch_find(|query| query.match_case = !query.match_case),
             Action::FindRegex => self.code.switch_find(|query| query.is_regex = !query.is_regex),
             Action::ReplaceAll => self.code.replace_all(out),
@@ -156,7 +156,7 @@ impl Shell {
             Action::Probe => self.probe(session, out),
             Action::TracePixel => self.viewport.pick(),
             Action::FindNonfinite => {
-                self.uncover(out);
+                self.leave_gallery(out);
                 self.modes.code_over_picture = false;
                 self.dock.set_open(Panel::Buffers, true);
                 out.ask(Command::FindNonfinite(true));
@@ -188,7 +188,7 @@ impl Shell {
             }
             PictureAction::Size(size) => out.ask(Command::SetFixedSize(Some(size))),
             PictureAction::TypeSize => {
-                self.uncover(out);
+                self.leave_gallery(out);
                 (self.modes.code_over_picture, self.modes.fullscreen) = (false, false);
                 self.dock.set_open(Panel::Picture, true);
                 resolution::open(ui.ctx());
@@ -223,7 +223,7 @@ impl Shell {
         out.ask(Command::AddTab(tab.clone()));
         // The tab exists in the next frame.
         self.shell_commands.push(ShellCommand::GoTo(tab, None));
-        self.uncover(out);
+        self.leave_gallery(out);
     }
 
     /// Returns the actions that depend on the open project and this machine: passes to show, and recent projects.

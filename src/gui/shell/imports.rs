@@ -37,7 +37,7 @@ impl Shell {
         let (files, at) = ui.input(|i| (i.raw.dropped_files.clone(), i.pointer.latest_pos()));
         if !files.is_empty() {
             let channel = at.and_then(|at| self.channel_at(at));
-            self.bring(files.iter().map(|file| file.path().to_owned()).collect(), channel, out);
+            self.open_files(files.iter().map(|file| file.path().to_owned()).collect(), channel, out);
         }
         let types = ui.ctx().text_edit_focused() || self.code.has_keys(ui.ctx()) || self.overlays.palette.is_open();
         if types && !self.clipboard.takes_paste && !self.clipboard.pastes_into_code {
@@ -63,7 +63,7 @@ impl Shell {
     }
 
     /// Opens files: projects are opened, pictures and models go to the selected pass.
-    pub(super) fn bring(&self, paths: Vec<PathBuf>, channel: Option<usize>, out: &mut UiOutput) {
+    pub(super) fn open_files(&self, paths: Vec<PathBuf>, channel: Option<usize>, out: &mut UiOutput) {
         let pass = self.code.current().pass().cloned().unwrap_or_default();
         // No pass is selected while the gallery covers it.
         let to = (!self.modes.gallery).then_some((pass, channel));

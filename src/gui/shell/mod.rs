@@ -389,7 +389,7 @@ impl Shell {
             ShellCommand::CloseGallery => self.close_gallery(out),
             ShellCommand::ChoosePass(tab) => self.project_ui.passes.toggle(Some(tab)),
             ShellCommand::ShowRecovered => {
-                self.uncover(out);
+                self.leave_gallery(out);
                 self.code.focus();
             }
             ShellCommand::GoTo(tab, place) => {
@@ -411,12 +411,12 @@ impl Shell {
     }
 
     fn close_gallery(&mut self, out: &mut UiOutput) {
-        self.uncover(out);
+        self.leave_gallery(out);
         self.viewport.focus();
     }
 
     /// Closes the gallery without moving the keyboard focus.
-    fn uncover(&mut self, out: &mut UiOutput) {
+    fn leave_gallery(&mut self, out: &mut UiOutput) {
         if std::mem::take(&mut self.modes.gallery) {
             out.ask(Command::Cover(false));
         }
@@ -429,12 +429,12 @@ impl Shell {
             }
             Pick::SaveAs(_) => out.ask(Command::SaveAs(path)),
             Pick::Recording => {
-                self.uncover(out);
+                self.leave_gallery(out);
                 out.ask(Command::PlayRecording(path));
             }
             Pick::Json(_) => out.ask(Command::ExportJson(path)),
             Pick::Page(_) => out.ask(Command::ExportPage(path)),
-            Pick::LabFolder => self.lab.keep_in(path),
+            Pick::LabFolder => self.lab.set_results_folder(path),
             Pick::LabReport => self.lab.save_report(path),
             Pick::Reference => self.project_ui.compare.choose(&path),
             Pick::CodeFont => {
@@ -444,7 +444,7 @@ impl Shell {
                     self.change(change, out);
                 }
             }
-            Pick::Picture { channel } | Pick::Sound { channel } => self.bring(vec![path], Some(channel), out),
+            Pick::Picture { channel } | Pick::Sound { channel } => self.open_files(vec![path], Some(channel), out),
         }
     }
 }

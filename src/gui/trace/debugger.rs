@@ -66,7 +66,7 @@ impl Debugger {
     }
 
     /// Computes what is shown, unless it is cached.
-    pub(super) fn look(&mut self) -> Option<&MomentState> {
+    pub(super) fn moment_state(&mut self) -> Option<&MomentState> {
         let examiner = self.examiner.as_mut()?;
         if self.seen.is_none() {
             let of = (&self.watches[..], &self.breakpoints[..]);

@@ -64,9 +64,7 @@ fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut UiOutput) {
             ui.spinner();
         } else if is_apart && traced.mesh().is_none() {
             let tip = "Compare each assignment on the CPU and the GPU until one differs";
-            if parts::button(ui, "trace:part", "Find first difference", tip, out) {
-                out.ask(Command::FindDivergence);
-            }
+            parts::button(ui, "trace:part", ("Find first difference", tip), Command::FindDivergence, out);
         }
     });
     out.place("trace:values", first.response.rect);

@@ -44,17 +44,10 @@ fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut UiOut
     ui.horizontal_wrapped(|ui| {
         buttons::show(ui, debugger.is_on(), out);
         ui.add_space(6.0);
-        if parts::button(
-            ui,
-            "trace:pick",
-            "Pick pixel",
-            &out.keys.tip("Click a pixel in the picture to trace it", Action::TracePixel),
-            out,
-        ) {
-            out.act(Action::TracePixel);
-        }
-        if debugger.is_on() && parts::button(ui, "trace:end-trace", "End", "Stop tracing", out) {
-            out.ask(Command::Trace(None));
+        let tip = out.keys.tip("Click a pixel in the picture to trace it", Action::TracePixel);
+        parts::button(ui, "trace:pick", ("Pick pixel", &tip), Action::TracePixel, out);
+        if debugger.is_on() {
+            parts::button(ui, "trace:end-trace", ("End", "Stop tracing"), Command::Trace(None), out);
         }
         let view = session.trace();
         if view.is_under_way {
@@ -73,7 +66,7 @@ fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut UiOut
         breakpoints(debugger, ui, out);
         return;
     };
-    whereabouts(debugger, &traced, ui, out);
+    position(debugger, &traced, ui, out);
     // The foot stays visible if there is room for it and for what is above; otherwise it scrolls.
     let room = ui.available_height() - divergence::height(ui);
     let has_foot = room >= MIN_CONTENT_HEIGHT;
@@ -86,14 +79,14 @@ fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut UiOut
                 watches(debugger, &mut columns[0], out);
                 breakpoints(debugger, &mut columns[0], out);
                 variables(debugger, &mut columns[0], out);
-                turns(debugger, &mut columns[1], out);
+                iterations(debugger, &mut columns[1], out);
                 printed(debugger, &mut columns[1], out);
             });
         } else {
             watches(debugger, ui, out);
             breakpoints(debugger, ui, out);
             variables(debugger, ui, out);
-            turns(debugger, ui, out);
+            iterations(debugger, ui, out);
             printed(debugger, ui, out);
         }
         if !has_foot {
@@ -106,7 +99,7 @@ fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut UiOut
 }
 
 /// Shows the pixel, the line, and the position in the trace.
-fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut UiOutput) {
+fn position(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut UiOutput) {
     let (at, message) = (debugger.at, debugger.message);
     let p = theme::of(ui);
     let (x, y) = traced.pixel;
@@ -136,7 +129,7 @@ fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut 
         if traced.is_endless || traced.history.is_cut {
             ui.colored_label(p.warning, "too long: only the first steps were kept");
         }
-        let stack = debugger.look().map(|seen| seen.stack.clone()).unwrap_or_default();
+        let stack = debugger.moment_state().map(|seen| seen.stack.clone()).unwrap_or_default();
         for (index, (name, moment)) in stack.iter().enumerate() {
             let response = ui.selectable_label(index == 0, format!("{name}()")).on_hover_text("Go to the call");
             if out.clicked(&format!("trace:call:{index}"), &response) && index > 0 {
@@ -153,7 +146,7 @@ fn watches(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
     parts::title(ui, "Watches");
     let mut removed = None;
     let mut is_edited = false;
-    let seen: Vec<_> = debugger.look().map(|seen| seen.watches.clone()).unwrap_or_default();
+    let seen: Vec<_> = debugger.moment_state().map(|seen| seen.watches.clone()).unwrap_or_default();
     for (index, watch) in debugger.watches.iter_mut().enumerate() {
         ui.horizontal(|ui| {
             let close = icons::flat(ui, Icon::Close, "Remove watch");
@@ -199,7 +192,7 @@ fn watches(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
 }
 
 fn variables(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
-    let Some(seen) = debugger.look() else { return };
+    let Some(seen) = debugger.moment_state() else { return };
     if let Some(result) = &seen.result {
         parts::title(ui, "Return value");
         parts::value(ui, "return", result, false);
@@ -211,9 +204,9 @@ fn variables(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
     }
 }
 
-fn turns(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
+fn iterations(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
     let plotted = debugger.plotted.clone();
-    let Some(seen) = debugger.look().filter(|seen| !seen.rows.rows.is_empty()) else { return };
+    let Some(seen) = debugger.moment_state().filter(|seen| !seen.rows.rows.is_empty()) else { return };
     match rows::show(ui, &seen.rows, plotted.as_deref(), out) {
         Some(RowAction::GoTo(at)) => debugger.go_to(at),
         Some(RowAction::Plot(name)) => debugger.plotted = Some(name),
@@ -264,7 +257,7 @@ fn breakpoints(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
         ui.colored_label(theme::of(ui).weak, format!("Click next to a line number, or press {key} on the line."));
         return;
     }
-    let wrong = debugger.look().map(|seen| seen.conditions.clone()).unwrap_or_default();
+    let wrong = debugger.moment_state().map(|seen| seen.conditions.clone()).unwrap_or_default();
     let (mut removed, mut is_edited) = (None, false);
     for (index, breakpoint) in debugger.breakpoints.iter_mut().enumerate() {
         ui.horizontal(|ui| {

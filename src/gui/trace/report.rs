@@ -23,7 +23,7 @@ impl Debugger {
             json!({ "line": comment.line + 1, "expression": comment.expression, "values": values })
         };
         let printed: Vec<Value> = self.printed.iter().flatten().map(printed_json).collect();
-        let Some(seen) = self.look() else { return Value::Null };
+        let Some(seen) = self.moment_state() else { return Value::Null };
         let variables: Map<String, Value> =
             seen.variables.iter().map(|v| (v.shown.name.clone(), words(&v.shown.value).into())).collect();
         let changed: Vec<&str> =

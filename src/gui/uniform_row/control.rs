@@ -76,36 +76,29 @@ pub(super) fn menu(row: &Response, session: &Session, uniform: &CustomUniform, o
             let key = target.to_string();
             if session.is_learning(&target) {
                 let stop = ui.button(format!("Stop learning the control{of}"));
-                if out.on_click(&format!("uniform-menu:stop:{key}"), &stop, Command::LearnControl(None)) {
-                    ui.close();
-                }
+                out.on_menu_click(ui, &format!("uniform-menu:stop:{key}"), &stop, Command::LearnControl(None));
             } else {
                 let title = match name {
                     "" => "Learn MIDI or OSC control".to_owned(),
                     _ => format!("Learn MIDI or OSC control{of}"),
                 };
                 let learn = ui.add_enabled(is_on, Button::new(title));
-                if out.on_click(
+                out.on_menu_click(
+                    ui,
                     &format!("uniform-menu:learn:{key}"),
                     &learn,
                     Command::LearnControl(Some(target.clone())),
-                ) {
-                    ui.close();
-                }
+                );
             }
             if let Some(control) = session.control_of(&target) {
                 let forget = ui.button(format!("Forget control{of} ({})", control.label()));
-                if out.on_click(&format!("uniform-menu:forget:{key}"), &forget, Command::ForgetControl(target)) {
-                    ui.close();
-                }
+                out.on_menu_click(ui, &format!("uniform-menu:forget:{key}"), &forget, Command::ForgetControl(target));
             }
         }
         if !is_on {
             ui.separator();
             let settings = ui.button("Switch on OSC or MIDI in Settings…");
-            if out.on_click("uniform-menu:settings", &settings, Action::Settings) {
-                ui.close();
-            }
+            out.on_menu_click(ui, "uniform-menu:settings", &settings, Action::Settings);
         }
     });
 }

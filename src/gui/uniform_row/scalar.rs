@@ -1,6 +1,6 @@
 //! Values of one number: a rail filled up to its handle with the number at the right, or a switch.
 
-use super::{cells, parts::cut_right};
+use super::{cells, parts::split_right};
 use crate::{
     gui::{accessible, theme, ui_output::UiOutput},
     project::{CustomUniform, CustomUniformType},
@@ -15,7 +15,7 @@ const MIN_RAIL: f32 = 40.0;
 /// Shows the number; returns true for a double click on the rail.
 pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut UiOutput) -> bool {
     let is_whole = custom_uniform.ty == CustomUniformType::Int;
-    let (value, rail) = cut_right(ui.max_rect(), NUMBER);
+    let (value, rail) = split_right(ui.max_rect(), NUMBER);
     let rail = rail.shrink2(vec2(2.0, 0.0));
     let mut is_reset = false;
     let mut rect = ui.max_rect();
@@ -46,7 +46,7 @@ pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64
 
 /// Shows the switch; returns true for a double click on its word.
 pub(super) fn switch(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut UiOutput) -> bool {
-    let (word, place) = cut_right(ui.max_rect(), NUMBER);
+    let (word, place) = split_right(ui.max_rect(), NUMBER);
     let place = place.with_max_x((place.left() + 38.0).min(place.right()));
     let mut is_on = all[0] >= 0.5;
     let response = ui.interact(place.expand2(vec2(0.0, 2.0)), ui.scope_id().with("switch"), Sense::click());

@@ -44,7 +44,7 @@ impl Layers {
         let mut layers = vec![Vec::new(); count];
         layer_of.iter().enumerate().for_each(|(node, layer)| layers[*layer].push(node));
         let mut made = Self { layer_of, layers, paths };
-        made.untangle();
+        made.reduce_crossings();
         made
     }
 
@@ -58,7 +58,7 @@ impl Layers {
     }
 
     /// Orders the nodes of each layer by the positions of their neighbours in the previous layer, forth and back.
-    fn untangle(&mut self) {
+    fn reduce_crossings(&mut self) {
         let (mut best, mut least) = (self.layers.clone(), self.crossings());
         let steps = self.steps();
         for sweep in 0..SWEEPS {

@@ -146,8 +146,8 @@ impl Assist {
         let continues = text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
         if continues {
             self.go_on(buffer);
-            let begins = buffer.text()[word.clone()].starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
-            if self.popup.is_none() && word.len() >= 2 && begins && self.dismissed.is_none() {
+            let starts_word = buffer.text()[word.clone()].starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+            if self.popup.is_none() && word.len() >= 2 && starts_word && self.dismissed.is_none() {
                 self.wanted = Some(false);
             }
             return;
