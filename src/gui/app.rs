@@ -8,6 +8,7 @@ use super::{
     device_recovery::{self, DeviceLosses},
     fonts,
     frame::{self, Frame},
+    hosts,
     keys::{HeldKeys, KeyChange},
     report::Report,
     settings::{Overrides, RestoredSizes, SettingsFile, WindowFile, WindowPlace, WindowState},
@@ -16,8 +17,6 @@ use super::{
     system_theme, theme, window_identity,
 };
 use crate::{
-    audio::host::AudioHost,
-    control::{midi::host::MidiHost, pads::PadHost},
     gpu::Gpu,
     playback::trial::TrialSettings,
     session::{self, Command, Level, Request, Session, SessionOptions},
@@ -242,9 +241,9 @@ impl Running {
             recovery: session::recovery_folder(),
             trials: TrialSettings::of_this_program(options.compile_timeout),
             camera: options.webcam.clone().unwrap_or_else(|| defaults.camera.clone()),
-            audio: machine_audio(),
-            midi: machine_midi(),
-            gamepads: machine_gamepads(),
+            audio: hosts::audio(),
+            midi: hosts::midi(),
+            gamepads: hosts::gamepads(),
             ..defaults
         };
         let mut session = Session::with_options(surface.gpu().clone(), wake.clone(), session_options)?;
@@ -529,37 +528,6 @@ impl Running {
             self.window.set_fullscreen(self.shell.is_fullscreen().then_some(Fullscreen::Borderless(None)));
         }
     }
-}
-
-/// Returns this machine's audio host, if Eddy was built with sound.
-#[cfg(feature = "audio")]
-fn machine_audio() -> Option<Arc<dyn AudioHost>> {
-    Some(Arc::new(crate::audio::device::Machine))
-}
-
-#[cfg(not(feature = "audio"))]
-fn machine_audio() -> Option<Arc<dyn AudioHost>> {
-    None
-}
-
-#[cfg(feature = "midi")]
-fn machine_midi() -> Option<Arc<dyn MidiHost>> {
-    Some(Arc::new(crate::control::midi::machine::Machine))
-}
-
-#[cfg(not(feature = "midi"))]
-fn machine_midi() -> Option<Arc<dyn MidiHost>> {
-    None
-}
-
-#[cfg(feature = "gamepad")]
-fn machine_gamepads() -> Option<Arc<dyn PadHost>> {
-    Some(Arc::new(crate::control::pads::machine::Machine))
-}
-
-#[cfg(not(feature = "gamepad"))]
-fn machine_gamepads() -> Option<Arc<dyn PadHost>> {
-    None
 }
 
 /// Returns the place and size of the new window: from the command line, else as saved, else as suits the screen.

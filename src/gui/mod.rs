@@ -34,6 +34,7 @@ mod geometry;
 mod halt;
 mod help;
 mod histogram;
+mod hosts;
 mod icons;
 mod includes;
 mod input_steps;

@@ -65,21 +65,21 @@ panels! {
 /// All that the window knows of a panel.
 pub(super) struct PanelRow {
     /// The name in files.
-    name: &'static str,
+    pub name: &'static str,
     /// The name in the window.
-    title: &'static str,
+    pub title: &'static str,
     pub place: DefaultPlace,
-    content: Content,
+    pub content: Content,
     /// Open by default.
     pub is_open: bool,
     /// The name, the title and the keys of the action that opens and closes it, and more words by which it is found.
-    action: (&'static str, &'static str, &'static [&'static str], &'static str),
+    pub action: (&'static str, &'static str, &'static [&'static str], &'static str),
     /// Shows controls at the right end of its row.
-    tools: Option<fn(&mut Ui, &mut PanelContext<'_>)>,
+    pub tools: Option<fn(&mut Ui, &mut PanelContext<'_>)>,
     /// The title that is shown, if it says more than the name.
-    heading: Option<fn(&PanelContext<'_>) -> String>,
+    pub heading: Option<fn(&PanelContext<'_>) -> String>,
     /// The report for scripts, while it is open.
-    report: Option<fn(&mut ProjectUiState, &Lab, &Session) -> Value>,
+    pub report: Option<fn(&mut ProjectUiState, &Lab, &Session) -> Value>,
 }
 
 /// A panel's default place.
@@ -95,7 +95,7 @@ pub(super) enum DefaultPlace {
     BelowCodeLarge,
 }
 
-/// How a panel is shown.
+/// The contents of a panel, and whether the panel needs a title row.
 pub(super) enum Content {
     /// Within a margin that the panel fills.
     Within(Margin, fn(&mut Ui, &mut PanelContext<'_>)),
@@ -127,11 +127,6 @@ impl PanelRow {
         synonyms: &'static str,
     ) -> Self {
         Self { action: (self.action.0, title, keys, synonyms), ..self }
-    }
-
-    /// Sets the name of the action in the file of keys, where it is not the panel's.
-    pub(super) const fn action_name(self, name: &'static str) -> Self {
-        Self { action: (name, self.action.1, self.action.2, self.action.3), ..self }
     }
 
     pub(super) const fn tools(self, show: fn(&mut Ui, &mut PanelContext<'_>)) -> Self {
@@ -178,11 +173,6 @@ impl Panel {
     /// Returns whether the panel's contents have a row by which it can be dragged, so that it needs no title row.
     pub(super) fn has_own_row(self) -> bool {
         matches!(self.row().content, Content::WithRow(_))
-    }
-
-    /// Returns the report for scripts, if the panel has one.
-    pub(super) fn report(self, state: &mut ProjectUiState, lab: &Lab, session: &Session) -> Option<Value> {
-        self.row().report.map(|report| report(state, lab, session))
     }
 
     pub(super) const COUNT: usize = PANELS.len();

@@ -7,10 +7,11 @@ use super::{
 };
 use egui::{CentralPanel, Frame, Margin, Panel, Ui};
 
-pub(super) const PANEL: PanelRow = PanelRow::new("picture", "Picture", DefaultPlace::Own, Content::WithRow(show))
-    .open_by_default()
-    .action_name("picture-panel")
-    .action("Panel: Picture", &[], "");
+pub(super) const PANEL: PanelRow = PanelRow {
+    action: ("picture-panel", "Panel: Picture", &[], ""),
+    is_open: true,
+    ..PanelRow::new("picture", "Picture", DefaultPlace::Own, Content::WithRow(show))
+};
 
 /// Shows the picture and the bar. Returns true if a drag of the bar starts.
 fn show(ui: &mut Ui, context: &mut PanelContext<'_>) -> bool {

@@ -9,7 +9,7 @@ use super::{
     menus,
     panels::Panel,
     replay, resolution, sound_bar, theme, timeline,
-    ui_output::{ShellCommand, UiOutput},
+    ui_output::{Request, ShellCommand, UiOutput},
 };
 use crate::{
     project::Tab,
@@ -144,17 +144,12 @@ fn film(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     };
     let button = Button::new(RichText::new(text).monospace().size(12.0).color(color));
     let button = ui.add(button.min_size(vec2(RECORDING, 24.0)));
-    let (name, what) = match is_live {
-        true => ("Stop recording the film", "click to stop and save"),
-        false => ("Progress of the film", "click to open the Recorder panel"),
+    let (name, what, request) = match is_live {
+        true => ("Stop recording the film", "click to stop and save", Request::from(Command::StopFilm)),
+        false => ("Progress of the film", "click to open the Recorder panel", Action::Panel(Panel::Recorder).into()),
     };
     accessible::name(&button, egui::Role::Button, name);
-    if out.clicked("button:film", &button.on_hover_text(format!("{}; {what}", film.words()))) {
-        match is_live {
-            true => out.ask(Command::StopFilm),
-            false => out.act(Action::Panel(Panel::Recorder)),
-        }
-    }
+    out.on_click("button:film", &button.on_hover_text(format!("{}; {what}", film.words())), request);
 }
 
 /// Shows a number that keeps its position while it changes.

@@ -28,16 +28,12 @@ pub(super) fn choose(
     out: &mut UiOutput,
 ) {
     let session = swatches.session;
-    let set = |out: &mut UiOutput, channel: Option<Channel>| {
-        out.ask(Command::SetChannel { pass: pass.clone(), index, channel });
-    };
+    let set = |channel: Option<Channel>| Command::SetChannel { pass: pass.clone(), index, channel };
     let now = channel.map(|c| &c.input);
     ui.colored_label(theme::of(ui).weak, format!("iChannel{index} of {} reads", pass.title()));
     ui.horizontal_wrapped(|ui| {
         let none = ui.selectable_label(now.is_none(), "none");
-        if out.clicked("choose:none", &none) {
-            set(out, None);
-        }
+        out.on_click("choose:none", &none, set(None));
         for other in &session.project().passes {
             let Some(name) = other.id.buffer_name() else { continue };
             for target in 0..other.formats().len() {
@@ -48,7 +44,7 @@ pub(super) fn choose(
                 };
                 let item = ui.selectable_label(now == Some(&input), input_name(&input));
                 if out.clicked(&place, &item) && now != Some(&input) {
-                    set(out, Some(Channel::new(input)));
+                    out.ask(set(Some(Channel::new(input))));
                 }
             }
         }
@@ -56,9 +52,7 @@ pub(super) fn choose(
         for row in rows.filter(|row| row.source == InputSource::Device) {
             let input = Input::Device(row.kind);
             let item = ui.selectable_label(now == Some(&input), row.title);
-            if out.clicked(&format!("choose:{}", row.key), &item) {
-                set(out, Some(Channel::new(input)));
-            }
+            out.on_click(&format!("choose:{}", row.key), &item, set(Some(Channel::new(input))));
         }
         out.on_click(
             "choose:file",
@@ -89,7 +83,7 @@ pub(super) fn choose(
                         texture_card(ui, rect, name, &input, chosen || response.hovered(), swatches);
                     }
                     if out.clicked(&format!("choose:{}:{name}", kind.row().key), &response) && !chosen {
-                        set(out, Some(Channel::new(input)));
+                        out.ask(set(Some(Channel::new(input))));
                     }
                     response.on_hover_text(name);
                 }
@@ -161,7 +155,7 @@ fn texture_card(ui: &Ui, rect: Rect, name: &str, input: &Input, hot: bool, swatc
 }
 
 /// Shows filter, wrap and flip, as far as the input has them.
-fn sampler(ui: &mut Ui, channel: &Channel, out: &mut UiOutput, set: impl Fn(&mut UiOutput, Option<Channel>)) {
+fn sampler(ui: &mut Ui, channel: &Channel, out: &mut UiOutput, set: impl Fn(Option<Channel>) -> Command) {
     if channel.input.row().has_fixed_sampler {
         return;
     }
@@ -187,6 +181,6 @@ fn sampler(ui: &mut Ui, channel: &Channel, out: &mut UiOutput, set: impl Fn(&mut
         }
     });
     if sampler != channel.sampler {
-        set(out, Some(Channel { sampler, ..channel.clone() }));
+        out.ask(set(Some(Channel { sampler, ..channel.clone() })));
     }
 }

@@ -8,7 +8,7 @@ use crate::{
 };
 use egui::{Rect, TextureHandle, Ui};
 
-/// What the window shows of a device.
+/// The parts of the window for a device.
 pub(super) struct DeviceRow {
     kind: InputKind,
     /// Shows its controls in the popup of a channel that reads it.
@@ -16,7 +16,7 @@ pub(super) struct DeviceRow {
     pub thumbnail: DeviceThumbnail,
 }
 
-/// How a card shows what a device delivers.
+/// The picture of a device in a channel's card.
 pub(super) enum DeviceThumbnail {
     /// As a glyph.
     None,

@@ -13,7 +13,7 @@ mod requests;
 use super::{
     actions::{Action, KeyFocus, Keymap},
     editor::{Buffer, CodeEditor, Debug, EditorAction, Help, Look, Query},
-    panels::{Content, DefaultPlace, PanelRow},
+    panels::{Content, DefaultPlace, PanelContext, PanelRow},
     problems,
     tabs::{self, OpenFile},
     theme, toasts,
@@ -31,15 +31,15 @@ use fixes::{Fixes, FixesAction};
 use rename_bar::RenameBar;
 use std::{collections::HashMap, ops::Range};
 
-pub(super) const PANEL: PanelRow = PanelRow::new(
-    "code",
-    "Code",
-    DefaultPlace::Own,
-    Content::WithRow(|ui, context| context.code.show(ui, context.session, context.out)),
-)
-.open_by_default()
-.action_name("code-panel")
-.action("Panel: Code", &[], "");
+pub(super) const PANEL: PanelRow = PanelRow {
+    action: ("code-panel", "Panel: Code", &[], ""),
+    is_open: true,
+    ..PanelRow::new("code", "Code", DefaultPlace::Own, Content::WithRow(show))
+};
+
+fn show(ui: &mut Ui, context: &mut PanelContext<'_>) -> bool {
+    context.code.show(ui, context.session, context.out)
+}
 
 #[derive(Default)]
 pub(super) struct CodePanel {

@@ -4,7 +4,7 @@ use super::model::{ExtentResults, PlotData};
 use crate::{
     background::{Background, Control},
     gpu::{Gpu, GpuOptions},
-    gui::ui_output::{Pick, ShellCommand, UiOutput},
+    gui::ui_output::UiOutput,
     lab::{
         self, Extent, LabError, Point, Results, Shard, Study,
         background_run::{BackgroundRun, Event, Progress},
@@ -267,11 +267,6 @@ impl Lab {
             "estimates": dots.iter().filter(|d| d.is_estimate).count(),
             "told": self.message.as_ref().map(|(words, _)| words),
         })
-    }
-
-    /// Opens a folder dialog: to keep results in, or for a report.
-    pub(super) fn pick(out: &mut UiOutput, pick: Pick) {
-        out.shell_commands.push(ShellCommand::Pick(pick));
     }
 }
 

@@ -25,22 +25,25 @@ pub(crate) struct Setting {
     pub change: fn(&Plain) -> Option<Change>,
 }
 
-/// How a setting is described, changed and put into effect.
+/// The description of a setting, with its effect.
 pub(crate) struct Row {
     /// The title in the window.
     pub title: &'static str,
-    /// What it does, in the window and in the file's comments.
+    /// The help, in the window and in the file's comments.
     pub help: &'static str,
     pub kind: Kind,
     /// The command for the session by which it takes effect. Without one, the window reads the setting.
     command: Option<fn(&Settings) -> Command>,
     /// The option of the command line that overrides it.
     pub option: Option<&'static str>,
-    /// What it needs, and whether the window has that. Otherwise the setting is not shown.
-    needs: Option<(&'static str, fn(&Session) -> bool)>,
+    /// Without it the setting is not shown.
+    needs: Option<Requirement>,
     /// A note about its present effect.
     pub note: Option<fn(&Session) -> Option<String>>,
 }
+
+/// The name of a requirement, and whether the window meets it.
+type Requirement = (&'static str, fn(&Session) -> bool);
 
 const fn row(title: &'static str, kind: Kind, help: &'static str) -> Row {
     Row { title, help, kind, command: None, option: None, needs: None, note: None }

@@ -1,8 +1,8 @@
-//! What the window shows in place of its panels, and over them.
+//! Modes in which the window shows something else than its panels, and what is open over them.
 
 use crate::gui::{help::Help, palette::Palette, settings_page::SettingsPage};
 
-/// What the window shows in place of its panels.
+/// Modes in which the window shows something else than its panels.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Modes {
     /// The page of presets. It has priority over the others.
@@ -13,7 +13,7 @@ pub(super) struct Modes {
     pub fullscreen: bool,
 }
 
-/// What the window shows over its panels.
+/// Dialogs over the panels.
 #[derive(Default)]
 pub(super) struct Overlays {
     pub help: Option<Help>,

@@ -9,7 +9,7 @@ use crate::{
 use serde_json::{Value, json};
 use std::time::Instant;
 
-/// What is already in the report.
+/// The newest things that are already in the report.
 #[derive(Default)]
 pub(super) struct Reported {
     /// The newest notice.
@@ -84,8 +84,8 @@ impl Shell {
         let dirty: Vec<String> = session.tabs().iter().filter(|t| session.is_tab_dirty(t)).map(Tab::title).collect();
         report.say_if_new("dirty", json!({ "dirty": session.is_dirty(), "tabs": dirty }));
         for panel in Panel::all().filter(|panel| self.dock.is_open(*panel)) {
-            if let Some(members) = panel.report(&mut self.project_ui, &self.lab, session) {
-                report.say_if_new(panel.name(), members);
+            if let Some(members) = panel.row().report {
+                report.say_if_new(panel.name(), members(&mut self.project_ui, &self.lab, session));
             }
         }
         let under = session.probe().and(self.viewport.under());
