@@ -5,7 +5,7 @@
 
 use eddy::{
     gpu::{Gpu, GpuOptions},
-    session::{Command, Session},
+    session::{CanvasCommand, FileCommand, Session, TransportCommand},
 };
 use std::{
     sync::Arc,
@@ -22,9 +22,9 @@ fn main() {
     let Ok(gpu) = Gpu::new(&GpuOptions::default()) else { return eprintln!("there is no graphics device") };
     let described = gpu.describe();
     let mut session = Session::new(gpu, Arc::new(|| ())).expect("a session");
-    session.apply(Command::SetFixedSize(Some(SIZE)));
-    session.apply(Command::Open(preset.clone()));
-    session.apply(Command::Pause);
+    session.apply(CanvasCommand::SetFixedSize(Some(SIZE)));
+    session.apply(FileCommand::Open(preset.clone()));
+    session.apply(TransportCommand::Pause);
     while session.compile_state().compiling || session.compile_state().last.is_none() {
         session.tick(Instant::now());
         std::thread::sleep(Duration::from_millis(2));
@@ -39,7 +39,7 @@ fn main() {
         let back = BACK - 7 * n as u32;
         let wanted = session.transport().frame - back as i32;
         let began = Instant::now();
-        session.apply(Command::StepBack(back as usize));
+        session.apply(TransportCommand::StepBack(back as usize));
         session.tick(Instant::now());
         times.push(began.elapsed().as_secs_f64() * 1e3);
         assert_eq!(session.transport().frame, wanted, "{:?}", session.notices());
@@ -55,7 +55,7 @@ fn main() {
 
 fn steps(session: &mut Session, frames: u32) {
     for _ in 0..frames {
-        session.apply(Command::Step);
+        session.apply(TransportCommand::Step);
         session.tick(Instant::now());
     }
 }

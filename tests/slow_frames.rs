@@ -7,7 +7,10 @@ mod support;
 use eddy::{
     gpu::Gpu,
     project::{PassName, Tab},
-    session::{Command, FallbackPicture, Halt, Level, Outcome, Session, SessionOptions},
+    session::{
+        CanvasCommand, Command, EditCommand, FallbackPicture, FileCommand, Halt, HaltCommand, Level, Outcome, Session,
+        SessionOptions, TransportCommand,
+    },
 };
 use std::{
     env, fs, process,
@@ -72,16 +75,16 @@ fn options() -> SessionOptions {
 /// A stage that draws apart on a canvas of a few pixels; its project's picture is there.
 fn open(gpu: Gpu, code: &str) -> Stage {
     let mut stage = Stage::with_options(gpu, |_| options());
-    stage.session.apply(Command::SetFixedSize(Some((64, 36))));
+    stage.session.apply(CanvasCommand::SetFixedSize(Some((64, 36))));
     stage.write("image.glsl", code);
     let folder = stage.folder();
-    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
+    stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
     stage
 }
 
 fn edit(stage: &mut Stage, code: &str) {
     stage.edit(code);
-    stage.session.apply(Command::CompileNow);
+    stage.session.apply(EditCommand::CompileNow);
 }
 
 fn halted(session: &Session) -> bool {
@@ -101,7 +104,7 @@ fn is_ok(session: &Session) -> bool {
 
 /// Edits until a frame of a large canvas takes longer than the limit, whatever the device, but not by much.
 fn slow_down(stage: &mut Stage, red: f32) {
-    stage.session.apply(Command::SetFixedSize(Some((1000, 1000))));
+    stage.session.apply(CanvasCommand::SetFixedSize(Some((1000, 1000))));
     for exponent in 2..8 {
         edit(stage, &looping(red, 10_u32.pow(exponent), ""));
         stage.until("a compile or a halt", |s| is_ok(s) || halted(s));
@@ -124,7 +127,7 @@ fn goes_back_to_the_last_good_code(gpu: Gpu) {
     stage.until("frames", |s| s.transport().frame > 3);
     assert_eq!(stage.red(), 51);
     assert!(stage.session.transport().playing && stage.session.has_last_good());
-    stage.session.apply(Command::SetFixedSize(Some(LARGE)));
+    stage.session.apply(CanvasCommand::SetFixedSize(Some(LARGE)));
     edit(&mut stage, &slow(1.0));
     stage.until("the halt", halted);
     assert!(!stage.session.transport().playing);
@@ -143,7 +146,7 @@ fn goes_back_to_the_last_good_code(gpu: Gpu) {
 
     // An edit that was compiled meanwhile is being tried: it halts, too.
     stage.until("the halt of the newest edit", |s| !s.compile_state().compiling && halted(s));
-    stage.session.apply(Command::DrawLastGood);
+    stage.session.apply(HaltCommand::DrawLastGood);
     let frame = stage.session.transport().frame;
     stage.until("the last working version", |s| is_last_good(s) && s.transport().frame > frame + 1);
     assert_eq!(stage.red(), 51);
@@ -166,7 +169,7 @@ fn goes_on_or_draws_fewer_pixels(gpu: Gpu) {
     slow_down(&mut stage, 0.4);
     let frame = stage.session.transport().frame;
     for _ in 0..5 {
-        stage.session.apply(Command::GoOn);
+        stage.session.apply(HaltCommand::GoOn);
         stage.until("frames, or another halt", |s| s.transport().frame > frame + 3 || halted(s));
     }
     assert!(!halted(&stage.session), "{:?}", stage.session.halt());
@@ -177,7 +180,7 @@ fn goes_on_or_draws_fewer_pixels(gpu: Gpu) {
     stage.until("fast code", |s| is_ok(s) && s.transport().fps.is_some());
     slow_down(&mut stage, 0.6);
     for _ in 0..6 {
-        stage.session.apply(Command::DrawSmaller);
+        stage.session.apply(HaltCommand::DrawSmaller);
         let frame = stage.session.transport().frame;
         stage.until("frames or a halt", |s| s.transport().frame > frame + 20 || halted(s));
         if !halted(&stage.session) {
@@ -203,16 +206,16 @@ fn a_device_that_does_not_come_back_is_given_up_and_the_text_stays() {
 
 fn gives_a_device_up(gpu: Gpu) {
     let mut stage = Stage::with_options(gpu, |_| SessionOptions { frame_limit: Duration::from_secs(1), ..options() });
-    stage.session.apply(Command::SetFixedSize(Some((64, 36))));
+    stage.session.apply(CanvasCommand::SetFixedSize(Some((64, 36))));
     for (name, text) in [("eddy.toml", MANY), ("image.glsl", SHOWN), ("buffer_a.glsl", &plain(0.2))] {
         stage.write(name, text);
     }
     let folder = stage.folder();
-    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
+    stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
     let buffer = Tab::Pass(PassName::buffer("A"));
     let edit = |stage: &mut Stage, code: &str| {
-        stage.session.apply(Command::EditText { tab: buffer.clone(), text: code.into() });
-        stage.session.apply(Command::CompileNow);
+        stage.session.apply(EditCommand::EditText { tab: buffer.clone(), text: code.into() });
+        stage.session.apply(EditCommand::CompileNow);
     };
     // What it was before is read, as each of the steps would be the same otherwise.
     let endless = || endless().replace("p.x", "p.x + texelFetch(iChannel0, ivec2(p), 0).y");
@@ -249,14 +252,14 @@ fn opens_paused(gpu: Gpu) {
     let begin = || {
         let options = |_: &std::path::Path| SessionOptions { state_dir: Some(state.path().to_owned()), ..options() };
         let mut stage = Stage::with_options(gpu.clone(), options);
-        stage.session.apply(Command::SetFixedSize(Some((64, 36))));
+        stage.session.apply(CanvasCommand::SetFixedSize(Some((64, 36))));
         stage
     };
     let mut first = begin();
-    first.session.apply(Command::SetFixedSize(Some(LARGE)));
+    first.session.apply(CanvasCommand::SetFixedSize(Some(LARGE)));
     first.write("image.glsl", endless());
     let folder = first.folder();
-    first.session.apply(Command::Open(folder.to_str().unwrap().into()));
+    first.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
     first.until("the halt", halted);
     assert_eq!(marks(), 1);
     let Stage { session, dir: _dir, .. } = first;
@@ -264,23 +267,23 @@ fn opens_paused(gpu: Gpu) {
 
     fs::write(folder.join("image.glsl"), plain(0.4)).unwrap();
     let mut next = begin();
-    next.session.apply(Command::Open(folder.to_str().unwrap().into()));
+    next.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
     next.until("a compile", is_ok);
     next.for_a_while();
     assert_eq!(next.session.halt(), Some(&Halt::Opened { after_trouble: true }));
     assert_eq!((next.frames(), next.session.transport().playing), (0, false));
-    next.session.apply(Command::Play);
+    next.session.apply(TransportCommand::Play);
     next.until("frames", |s| s.transport().frame > 3);
     assert_eq!((next.red(), marks()), (102, 0));
     drop(next);
 
     let mut calm = begin();
-    calm.session.apply(Command::Open(folder.to_str().unwrap().into()));
+    calm.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
     assert!(calm.session.halt().is_none());
-    calm.session.apply(Command::Hold);
+    calm.session.apply(HaltCommand::Hold);
     calm.for_a_while();
     assert_eq!((calm.frames(), calm.session.halt()), (0, Some(&Halt::Opened { after_trouble: false })));
-    calm.session.apply(Command::GoOn);
+    calm.session.apply(HaltCommand::GoOn);
     calm.until("frames", |s| s.transport().frame > 3);
     assert!(calm.session.tabs().contains(&Tab::image()));
 }

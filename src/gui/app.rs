@@ -19,7 +19,10 @@ use super::{
 use crate::{
     gpu::Gpu,
     playback::trial::TrialSettings,
-    session::{self, Command, Level, Request, Session, SessionOptions},
+    session::{
+        self, CanvasCommand, EditCommand, FileCommand, HaltCommand, InputCommand, Level, NoticeCommand, Request,
+        Session, SessionOptions,
+    },
 };
 use egui_winit::accesskit_winit;
 use serde_json::json;
@@ -148,7 +151,7 @@ impl ApplicationHandler<AppEvent> for App {
             // The picture or something else is ready: paint at the screen's refresh rate.
             AppEvent::Wake => {
                 let now = Instant::now();
-                running.session.attend(now);
+                running.session.on_wake(now);
                 running.paint_by(running.paced(running.after_first_frame(now)));
             }
             // Handle user input before the next frame of the picture.
@@ -258,18 +261,18 @@ impl Running {
         }
         shell.apply_settings(&ctx).into_iter().for_each(|command| session.apply(command));
         for text in errors {
-            session.apply(Command::Notify { level: Level::Error, text, path: None });
+            session.apply(NoticeCommand::Notify { level: Level::Error, text, path: None });
         }
         let report = Report::new(options.json);
         if let Some(project) = &options.project {
-            session.apply(Command::Open(project.clone()));
+            session.apply(FileCommand::Open(project.clone()));
             if options.paused {
-                session.apply(Command::Hold);
+                session.apply(HaltCommand::Hold);
             }
-            options.set.iter().for_each(|s| session.apply(Command::AssignCustomUniform(s.clone())));
+            options.set.iter().for_each(|s| session.apply(EditCommand::AssignCustomUniform(s.clone())));
         } else {
             // The gallery covers the picture.
-            session.apply(Command::Cover(true));
+            session.apply(CanvasCommand::Cover(true));
         }
         report.say(json!({ "event": "started", "device": surface.gpu().describe(), "pid": std::process::id() }));
         window.set_visible(true);
@@ -309,7 +312,7 @@ impl Running {
         let response = self.input.on_window_event(&self.window, &event);
         match &event {
             WindowEvent::CloseRequested => {
-                self.session.apply(Command::Close);
+                self.session.apply(FileCommand::Close);
                 // A question needs a visible window.
                 if self.hidden && self.session.question().is_some() {
                     self.window.set_minimized(false);
@@ -331,7 +334,7 @@ impl Running {
                     self.held.clear();
                     self.remember();
                 }
-                self.session.apply(Command::Focus(*focused));
+                self.session.apply(InputCommand::Focus(*focused));
             }
             WindowEvent::KeyboardInput { event, is_synthetic, .. } => self.key(event, *is_synthetic),
             WindowEvent::Destroyed => return Ok(Next::Exit),
@@ -351,7 +354,7 @@ impl Running {
     /// The window is no longer visible, or visible again.
     fn hide(&mut self, is_hidden: bool) {
         if std::mem::replace(&mut self.hidden, is_hidden) != is_hidden {
-            self.session.apply(Command::Hide(is_hidden));
+            self.session.apply(CanvasCommand::Hide(is_hidden));
         }
     }
 
@@ -362,8 +365,8 @@ impl Running {
         let is_ours = press.is_some_and(|event| self.shell.is_action(&self.ctx, event));
         let to_shader = self.shell.picture_has_keys(&self.ctx) && !is_synthetic && !is_ours;
         match self.held.change(event, to_shader) {
-            Some(KeyChange::Down(code)) => self.session.apply(Command::KeyDown(code)),
-            Some(KeyChange::Up(code)) => self.session.apply(Command::KeyUp(code)),
+            Some(KeyChange::Down(code)) => self.session.apply(InputCommand::KeyDown(code)),
+            Some(KeyChange::Up(code)) => self.session.apply(InputCommand::KeyUp(code)),
             None => {}
         }
     }

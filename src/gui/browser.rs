@@ -6,7 +6,7 @@
 use crate::{
     background::{Background, Control},
     project::{make_private, write_into},
-    session::{Command, Level},
+    session::{Command, Level, NoticeCommand},
 };
 use std::{
     io::{self, Write},
@@ -65,7 +65,7 @@ fn opened(path: PathBuf, is_open: bool) -> Command {
     } else {
         (Level::Warning, format!("No browser could be started. Open this file in a browser: {}", path.display()))
     };
-    Command::Notify { level, text, path: Some(path) }
+    Command::Notice(NoticeCommand::Notify { level, text, path: Some(path) })
 }
 
 fn write(folder: &Path) -> io::Result<PathBuf> {

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     project::{CustomUniform, Dialect},
-    session::{Command, Session},
+    session::{Command, EditCommand, Session},
 };
 use egui::{Align, Button, Layout, Margin, RichText, ScrollArea, Ui, Vec2};
 
@@ -60,7 +60,7 @@ fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let custom_uniforms = session.custom_uniforms();
     if custom_uniforms.iter().any(|k| session.custom_uniform_value(k) != k.default) {
         let reset = ui.add(Button::new("Reset all").small()).on_hover_text("Reset all uniforms to their defaults");
-        out.on_click("uniforms:reset", &reset, Command::ResetCustomUniforms);
+        out.on_click("uniforms:reset", &reset, Command::Edit(EditCommand::ResetCustomUniforms));
     }
 }
 

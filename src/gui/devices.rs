@@ -7,7 +7,7 @@ use super::{
 use crate::{
     control::osc::OscState,
     project::InputKind,
-    session::{CameraState, Command, Session},
+    session::{CameraCommand, CameraState, Command, Session},
 };
 use egui::{Button, Color32, FontId, Response, RichText, Ui, vec2};
 
@@ -69,7 +69,11 @@ pub(super) fn light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutpu
         CameraState::Starting => "light:camera-starting",
         CameraState::On => "light:camera",
     };
-    out.on_click(place, &button.on_hover_text(tip), Command::UseDevice { kind, on: state == CameraState::Off });
+    out.on_click(
+        place,
+        &button.on_hover_text(tip),
+        Command::Camera(CameraCommand::UseDevice { kind, on: state == CameraState::Off }),
+    );
 }
 
 /// The same in the popup of a channel that reads the webcam, with a choice between several cameras.
@@ -78,13 +82,13 @@ pub(super) fn choose(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let is_off = session.device_state(kind) == CameraState::Off;
     ui.horizontal_wrapped(|ui| {
         let name = if is_off { "Use the camera" } else { "Turn the camera off" };
-        out.on_click("choose:camera", &ui.button(name), Command::UseDevice { kind, on: is_off });
+        out.on_click("choose:camera", &ui.button(name), Command::Camera(CameraCommand::UseDevice { kind, on: is_off }));
         let (cameras, now) = session.cameras();
         for camera in cameras.iter().filter(|_| cameras.len() > 1) {
             let is_on = now.is_some_and(|source| source.to_string() == camera.id);
             let item = ui.selectable_label(is_on, &camera.name).on_hover_text(&camera.id);
             if out.clicked(&format!("choose:camera:{}", camera.id), &item) && !is_on {
-                out.ask(Command::ChooseCamera(camera.id.clone()));
+                out.ask(CameraCommand::ChooseCamera(camera.id.clone()));
             }
         }
     });

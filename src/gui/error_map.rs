@@ -5,7 +5,7 @@ use super::{
     theme,
     ui_output::{ShellCommand, UiOutput},
 };
-use crate::session::{AuditMap, Command, Session, WorstPixel};
+use crate::session::{AuditMap, Command, Session, ToolCommand, WorstPixel};
 use egui::{Area, Color32, Frame, Id, Margin, Order, Pos2, Rect, RichText, Ui, vec2};
 use serde_json::{Value, json};
 
@@ -59,7 +59,7 @@ fn card(ui: &mut Ui, map: &AuditMap, out: &mut UiOutput) {
                 .size(12.5),
         );
         let close = icons::flat(ui, Icon::Close, "Hide the error map").on_hover_text("Hide the error map");
-        out.on_click("audit:close", &close, Command::HideAudit);
+        out.on_click("audit:close", &close, Command::Tool(ToolCommand::HideAudit));
     });
     scale(ui, out);
     if map.worst.is_empty() {

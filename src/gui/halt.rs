@@ -1,7 +1,7 @@
 //! The message over a picture that was halted automatically, and the ways to continue.
 
 use super::{theme, ui_output::UiOutput};
-use crate::session::{Command, Halt, Session};
+use crate::session::{Command, Halt, HaltCommand, Session};
 use egui::{Align, Area, Button, Frame, Id, Layout, Margin, Order, Rect, RichText, Stroke, Ui, vec2};
 use std::time::Duration;
 
@@ -39,13 +39,13 @@ pub(super) fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
                     let response = ui.add_enabled(is_on, button).on_hover_text(tip);
                     out.on_click(name, &response, command);
                 };
-                offer(GO_ON, go_on, "Draw it without a time limit", true, true, Command::GoOn);
+                offer(GO_ON, go_on, "Draw it without a time limit", true, true, Command::Halt(HaltCommand::GoOn));
                 let tip = "Lower the resolution until a frame is below the limit";
-                offer(SMALLER, "Lower resolution", tip, false, true, Command::DrawSmaller);
+                offer(SMALLER, "Lower resolution", tip, false, true, Command::Halt(HaltCommand::DrawSmaller));
                 if !matches!(halt, Halt::Opened { .. }) {
                     let tip = "Draw the last code that was fast enough. Your text stays as it is";
                     let is_on = session.has_last_good();
-                    offer(LAST_GOOD, "Last good code", tip, false, is_on, Command::DrawLastGood);
+                    offer(LAST_GOOD, "Last good code", tip, false, is_on, Command::Halt(HaltCommand::DrawLastGood));
                 }
             });
         });

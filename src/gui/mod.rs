@@ -95,7 +95,7 @@ pub struct Options {
     pub project: Option<String>,
     /// The size inside the window's frame in physical pixels; `None`: a size that suits the screen.
     pub size: Option<(u32, u32)>,
-    /// Values for the project's own uniforms, as [`crate::session::Command::AssignCustomUniform`] takes them.
+    /// Values for the project's own uniforms, as [`crate::session::EditCommand::AssignCustomUniform`] takes them.
     pub set: Vec<String>,
     /// Show only the picture and the uniforms. The layout of the panels is not saved.
     pub follow: bool,

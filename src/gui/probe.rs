@@ -11,7 +11,7 @@ use crate::{
     debugger::trace::Number,
     engine::{Paint, Pixels},
     session::{
-        Command, Session,
+        Command, Session, ViewCommand,
         probe::{ProbePlace, ProbeView, ProbedValue, Statistics},
     },
 };
@@ -52,7 +52,7 @@ fn bar(ui: &mut Ui, view: &ProbeView<'_>, under: Option<[f32; 2]>, out: &mut UiO
             }
         }
         let close = icons::flat(ui, Icon::Close, "Close probe").on_hover_text("Show the picture (Escape)");
-        out.on_click("probe:close", &close, Command::Probe(None));
+        out.on_click("probe:close", &close, Command::View(ViewCommand::Probe(None)));
     });
     let Some(Ok(value)) = view.value else { return };
     look(ui, view, value, out);
@@ -78,7 +78,7 @@ fn visit(ui: &mut Ui, place: &ProbePlace, out: &mut UiOutput) {
     let response = response.on_hover_text("Which evaluation to show: 0 is the first");
     out.place("probe:visit", response.rect);
     if visit != place.visit {
-        out.ask(Command::Probe(Some(ProbePlace { visit, ..place.clone() })));
+        out.ask(ViewCommand::Probe(Some(ProbePlace { visit, ..place.clone() })));
     }
 }
 
@@ -106,7 +106,7 @@ fn look(ui: &mut Ui, view: &ProbeView<'_>, value: &ProbedValue, out: &mut UiOutp
         value_range::show(ui, "probe", extent, extent, &mut look.range, out);
     });
     if look != view.look {
-        out.ask(Command::LookAtProbe(look));
+        out.ask(ViewCommand::LookAtProbe(look));
     }
 }
 

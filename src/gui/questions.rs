@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     project::{Origin, Tab},
-    session::{self, Answer, Command, DiffLine, PendingAction, Question, Recovered, Session},
+    session::{self, Answer, Command, DiffLine, FileCommand, PendingAction, Question, Recovered, Session},
 };
 use egui::{Color32, FontId, Frame, Id, Modal, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
 use std::path::{Path, PathBuf};
@@ -61,13 +61,13 @@ fn answers_with_default(ui: &mut Ui, list: &[(&str, Answer)], default_index: usi
             }
             // In a sizing pass a dialog is not visible yet.
             if !ui.is_sizing_pass() && out.clicked(&format!("answer:{}", name_of(answer)), &response) {
-                out.ask(Command::Answer(answer.clone()));
+                out.ask(FileCommand::Answer(answer.clone()));
             }
         }
     });
     let cancels = list.last().is_some_and(|(_, a)| *a == Answer::Cancel);
     if cancels && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
-        out.ask(Command::Answer(Answer::Cancel));
+        out.ask(FileCommand::Answer(Answer::Cancel));
     }
 }
 
@@ -248,7 +248,7 @@ fn recover(ui: &mut Ui, recovered: &Recovered, room: f32, out: &mut UiOutput) {
     }
     let list = [("Recover", Answer::Recover), ("Discard", Answer::Discard), ("Ask again later", Answer::Cancel)];
     answers(ui, &list, out);
-    if out.commands.contains(&Command::Answer(Answer::Recover)) {
+    if out.commands.contains(&Command::File(FileCommand::Answer(Answer::Recover))) {
         out.shell_commands.push(ShellCommand::ShowRecovered);
     }
 }

@@ -7,7 +7,7 @@ use super::{
     theme,
     ui_output::UiOutput,
 };
-use crate::session::{Command, Session};
+use crate::session::{CanvasCommand, Session};
 use egui::{
     Align2, Button, ComboBox, Id, Key, Margin, Popup, PopupCloseBehavior, Response, RichText, Role, ScrollArea,
     TextEdit, Ui, vec2,
@@ -162,7 +162,7 @@ fn size_field(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     match size {
         _ if is_empty => {}
         Ok(size) if is_entered => {
-            out.ask(Command::SetFixedSize(Some(size)));
+            out.ask(CanvasCommand::SetFixedSize(Some(size)));
             typed_now = Typed { shown: pass, ..Typed::default() };
             Popup::close_all(ui.ctx());
         }

@@ -9,7 +9,7 @@ use super::{
     theme,
     ui_output::{Pick, ShellCommand, UiOutput},
 };
-use crate::session::{Command, Session};
+use crate::session::{ControlCommand, Session, SoundCommand};
 use egui::{
     Align, Button, ComboBox, DragValue, Frame, Id, Layout, Margin, Modal, RichText, Role, ScrollArea, TextEdit, Ui,
     vec2,
@@ -82,10 +82,10 @@ impl SettingsPage {
         out: &mut UiOutput,
     ) -> bool {
         if self.is_new && session.controls_view().has_midi {
-            out.ask(Command::ListMidiDevices);
+            out.ask(ControlCommand::ListMidiDevices);
         }
         if self.is_new && session.output_view().is_some() {
-            out.ask(Command::ListAudioDevices);
+            out.ask(SoundCommand::ListAudioDevices);
         }
         let window = ui.ctx().content_rect();
         let mut is_open = true;

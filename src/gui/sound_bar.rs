@@ -9,7 +9,7 @@ use super::{
     theme,
     ui_output::{ShellCommand, UiOutput},
 };
-use crate::session::{Command, DeviceState, MicrophoneView, OutputView, Session};
+use crate::session::{DeviceState, MicrophoneView, OutputView, Session, SoundCommand};
 use egui::{Id, Slider, Ui};
 
 /// The width of the slider in points.
@@ -72,7 +72,7 @@ fn volume(ui: &mut Ui, sound: &OutputView, out: &mut UiOutput) {
     out.place("slider:volume", slider.rect);
     let dragged = Id::unique("volume that is dragged");
     if slider.changed() {
-        out.ask(Command::SetVolume(percent / 100.0));
+        out.ask(SoundCommand::SetVolume(percent / 100.0));
         ui.data_mut(|data| data.insert_temp(dragged, true));
     }
     let is_held = slider.dragged() || slider.is_pointer_button_down_on();

@@ -12,7 +12,7 @@ use super::{
 use crate::{
     diag::Severity,
     project::{PassEdit, Tab, listed},
-    session::{Command, Session},
+    session::{EditCommand, Session, ViewCommand},
 };
 use egui::{Align2, FontId, Rect, ScrollArea, Sense, Stroke, Ui, pos2, style::ScrollAnimation, vec2};
 
@@ -181,7 +181,7 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
         if let Tab::Pass(id) = tab
             && ui.button("Show this pass").clicked()
         {
-            out.ask(Command::ShowPass(id.clone()));
+            out.ask(ViewCommand::ShowPass(id.clone()));
         }
         if let Some(id) = tab.pass()
             && ui.button("Name, size, format, steps…").clicked()
@@ -195,7 +195,7 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
                 out.shell_commands.push(ShellCommand::CloseFile(tab.clone()));
             }
         } else if ui.add_enabled(can_go, egui::Button::new(format!("Remove {}", tab.title()))).clicked() {
-            out.ask(Command::EditPasses(PassEdit::Remove(tab.clone())));
+            out.ask(EditCommand::EditPasses(PassEdit::Remove(tab.clone())));
         }
         ui.separator();
         let close = ui.button("Close code");

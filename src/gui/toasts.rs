@@ -6,7 +6,7 @@ use super::{
     theme,
     ui_output::UiOutput,
 };
-use crate::session::{Command, Level, Notice, Session};
+use crate::session::{EditCommand, Level, Notice, NoticeCommand, Session};
 use egui::{
     Align, Align2, Area, Color32, Context, FontId, Frame, Id, Label, Layout, Margin, Order, Panel, Rect, ScrollArea,
     Sense, Stroke, TextFormat, Ui, pos2, text::LayoutJob, vec2,
@@ -52,7 +52,7 @@ impl Group<'_> {
     }
 
     fn dismiss(&self, out: &mut UiOutput) {
-        self.ids.iter().for_each(|id| out.ask(Command::DismissNotice(*id)));
+        self.ids.iter().for_each(|id| out.ask(NoticeCommand::DismissNotice(*id)));
     }
 }
 
@@ -185,7 +185,7 @@ fn row(ui: &mut Ui, session: &Session, group: &Group<'_>, out: &mut UiOutput) {
             if undoes {
                 let undo = ui.button("Undo");
                 if out.clicked(&format!("toast:{}:undo", notice.id), &undo) {
-                    out.ask(Command::UndoPassEdit);
+                    out.ask(EditCommand::UndoPassEdit);
                     group.dismiss(out);
                 }
             }

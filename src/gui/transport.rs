@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     project::Tab,
-    session::{Command, FilmView, Session},
+    session::{Command, EditCommand, FilmCommand, FilmView, Session, ViewCommand},
 };
 use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
 
@@ -145,7 +145,9 @@ fn film(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let button = Button::new(RichText::new(text).monospace().size(12.0).color(color));
     let button = ui.add(button.min_size(vec2(RECORDING, 24.0)));
     let (name, what, request) = match is_live {
-        true => ("Stop recording the film", "click to stop and save", Request::from(Command::StopFilm)),
+        true => {
+            ("Stop recording the film", "click to stop and save", Request::from(Command::Film(FilmCommand::StopFilm)))
+        }
         false => ("Progress of the film", "click to open the Recorder panel", Action::Panel(Panel::Recorder).into()),
     };
     accessible::name(&button, egui::Role::Button, name);
@@ -220,7 +222,7 @@ fn shown_pass(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
                     continue;
                 }
                 let entry = ui.selectable_label(id == *shown, id.title());
-                out.on_click(&format!("pass:{}", id.title()), &entry, Command::ShowPass(id));
+                out.on_click(&format!("pass:{}", id.title()), &entry, Command::View(ViewCommand::ShowPass(id)));
             }
         })
         .response
@@ -240,7 +242,7 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut UiOut
         }
         let reset = session.reset_on_reload();
         let switch = menus::switch(ui, reset, "Reset when a file is reloaded", String::new());
-        out.on_click("switch:reset-on-reload", &switch, Command::SetResetOnReload(!reset));
+        out.on_click("switch:reset-on-reload", &switch, Command::Edit(EditCommand::SetResetOnReload(!reset)));
         ui.separator();
         let all = [
             Action::Screenshot,

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     project::Tab,
-    session::{Command, Level, TabFix},
+    session::{Command, Level, NoticeCommand, TabFix, TransportCommand},
 };
 use egui::{Id, Rect, Response, Ui};
 use std::{collections::BTreeMap, path::PathBuf};
@@ -124,8 +124,8 @@ impl UiOutput {
         Self { keys, ..Self::default() }
     }
 
-    pub(super) fn ask(&mut self, command: Command) {
-        self.commands.push(command);
+    pub(super) fn ask(&mut self, command: impl Into<Command>) {
+        self.commands.push(command.into());
     }
 
     pub(super) fn act(&mut self, action: Action) {
@@ -195,7 +195,7 @@ impl UiOutput {
     }
 
     pub(super) fn notify(&mut self, level: Level, text: impl Into<String>) {
-        self.ask(Command::Notify { level, text: text.into(), path: None });
+        self.ask(NoticeCommand::Notify { level, text: text.into(), path: None });
     }
 
     /// Returns the name of a place.
@@ -260,7 +260,7 @@ mod tests {
             let mut output = ctx.run_ui(RawInput { events, ..RawInput::default() }, |ui| {
                 out = UiOutput::default();
                 out.on_click("play", &ui.button("Play"), Action::TogglePlay);
-                out.on_click("step", &ui.button("Step"), Command::Step);
+                out.on_click("step", &ui.button("Step"), Command::Transport(TransportCommand::Step));
             });
             output.textures_delta.clear();
             out
@@ -275,7 +275,7 @@ mod tests {
             let out = show(button(at, false));
             (out.commands, out.shell_commands)
         };
-        assert_eq!(requests("step"), (vec![Command::Step], vec![]));
+        assert_eq!(requests("step"), (vec![Command::Transport(TransportCommand::Step)], vec![]));
         assert_eq!(requests("play"), (vec![], vec![ShellCommand::Act(Action::TogglePlay)]));
     }
 }

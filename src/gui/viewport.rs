@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     project::Input,
-    session::{Command, FallbackPicture, Outcome, Session},
+    session::{CanvasCommand, FallbackPicture, InputCommand, Outcome, Session},
 };
 use egui::{Align2, Color32, EventFilter, FontId, Id, PointerButton, Pos2, Rect, Sense, TextureId, Ui, pos2, vec2};
 use egui_wgpu::Renderer;
@@ -133,7 +133,7 @@ impl Viewport {
         let size = shape.within(area.width as u32, area.height as u32);
         if size != self.asked_size && size.0 > 0 && size.1 > 0 {
             self.asked_size = size;
-            out.ask(Command::SetViewport { width: size.0, height: size.1 });
+            out.ask(CanvasCommand::SetViewport { width: size.0, height: size.1 });
         }
         let letterbox = Letterbox::new(area, session.transport().resolution);
         let p = letterbox.picture;
@@ -207,21 +207,21 @@ impl Viewport {
                         if letterbox.contains(x, y) {
                             self.mouse_is_down = true;
                             let (x, y) = letterbox.canvas_from_window(x, y);
-                            out.ask(Command::MouseDown { x, y });
+                            out.ask(InputCommand::MouseDown { x, y });
                         }
                     }
                 }
                 egui::Event::PointerMoved(pos) if self.mouse_is_down => {
                     let (x, y) = pixels(pos);
                     let (x, y) = letterbox.canvas_from_window(x, y);
-                    out.ask(Command::MouseMove { x, y });
+                    out.ask(InputCommand::MouseMove { x, y });
                 }
                 egui::Event::PointerButton { button: PointerButton::Primary, pressed: false, .. }
                 | egui::Event::WindowFocused(false)
                     if self.mouse_is_down =>
                 {
                     self.mouse_is_down = false;
-                    out.ask(Command::MouseUp);
+                    out.ask(InputCommand::MouseUp);
                 }
                 _ => {}
             }

@@ -130,7 +130,7 @@ fn sounds() -> Row {
     };
     let read = |path: &Path| {
         let (name, base) = (path.file_name().unwrap(), path.parent());
-        media::begin_of_sound(&Media::File(name.into()), base, 1_200).is_ok()
+        media::sound_preview(&Media::File(name.into()), base, 1_200).is_ok()
     };
     // 44.1 frames of 8 bytes per byte at 1,000 samples per second, and two copies while they are resampled; at most for
     // 20 minutes.

@@ -12,7 +12,7 @@ use eddy::{
     glsl::Probe,
     gpu::GpuOptions,
     project::{self, PassName},
-    session::{Command, Session},
+    session::{CanvasCommand, FileCommand, Session, TransportCommand},
 };
 use std::{
     sync::Arc,
@@ -57,16 +57,16 @@ fn a_marcher_is_traced_in_50_milliseconds() {
 fn three_hundred_frames_back_are_there_within_a_second() {
     let Some(gpu) = gpu_with(&GpuOptions::default()) else { return };
     let mut session = Session::new(gpu, Arc::new(|| ())).unwrap();
-    session.apply(Command::SetFixedSize(Some((480, 270))));
-    session.apply(Command::Open("fluid".into()));
-    session.apply(Command::Pause);
+    session.apply(CanvasCommand::SetFixedSize(Some((480, 270))));
+    session.apply(FileCommand::Open("fluid".into()));
+    session.apply(TransportCommand::Pause);
     while session.compile_state().compiling || session.compile_state().last.is_none() {
         session.tick(Instant::now());
         std::thread::sleep(Duration::from_millis(2));
     }
     let steps = |session: &mut Session, frames: usize| {
         for _ in 0..frames {
-            session.apply(Command::Step);
+            session.apply(TransportCommand::Step);
             session.tick(Instant::now());
         }
     };
@@ -77,7 +77,7 @@ fn three_hundred_frames_back_are_there_within_a_second() {
             let back = 300 - 7 * n;
             let wanted = session.transport().frame - back as i32;
             let began = Instant::now();
-            session.apply(Command::StepBack(back));
+            session.apply(TransportCommand::StepBack(back));
             session.tick(Instant::now());
             let millis = millis_since(began);
             assert_eq!(session.transport().frame, wanted, "{:?}", session.notices());

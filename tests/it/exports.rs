@@ -8,7 +8,7 @@ use eddy::{
     media,
     playback::{npy, offline::Offline, script::ScriptedInputs},
     project::{self, PassName},
-    session::{Answer, Command, Level, Question},
+    session::{Answer, FileCommand, Level, Question},
 };
 use std::{fs, path::Path};
 
@@ -60,7 +60,7 @@ fn an_export_names_what_is_lost_and_read_back_draws_the_same_picture() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = whole(gpu.clone());
     let file = stage.dir.path().join("out.json");
-    stage.session.apply(Command::ExportJson(file.clone()));
+    stage.session.apply(FileCommand::ExportJson(file.clone()));
     let (exists, said) = lost(&stage);
     assert!(!exists);
     assert_eq!(
@@ -70,16 +70,16 @@ fn an_export_names_what_is_lost_and_read_back_draws_the_same_picture() {
             "Included files are copied into the code: util.glsl."
         ]
     );
-    stage.session.apply(Command::Answer(Answer::Cancel));
+    stage.session.apply(FileCommand::Answer(Answer::Cancel));
     assert!(!file.exists() && stage.session.question().is_none());
     // What is typed is exported, saved or not, and the project stays where it is.
     stage.edit("void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) * 0.5; }");
     let origin = stage.session.project().origin.clone();
-    stage.session.apply(Command::ExportJson(file.clone()));
-    stage.session.apply(Command::Answer(Answer::Export));
+    stage.session.apply(FileCommand::ExportJson(file.clone()));
+    stage.session.apply(FileCommand::Answer(Answer::Export));
     assert_eq!(stage.count(&format!("exported {}", file.display())), 1, "{:?}", stage.session.notices());
     assert!(stage.session.is_dirty() && stage.session.project().origin == origin);
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     let (json, folder) = (picture(&gpu, &file), picture(&gpu, &stage.folder()));
     assert!(json == folder, "the pictures differ");
     // A control: the picture depends on what was said to be lost.
@@ -93,16 +93,16 @@ fn a_file_that_is_there_is_replaced_only_when_asked_for_and_kept() {
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.5))]);
     let file = stage.dir.path().join("out.json");
     // Nothing is lost, nothing is there: nothing is asked. The name gets its ending.
-    stage.session.apply(Command::ExportJson(stage.dir.path().join("out")));
+    stage.session.apply(FileCommand::ExportJson(stage.dir.path().join("out")));
     assert!(stage.session.question().is_none() && file.exists());
     fs::write(&file, "precious").unwrap();
-    stage.session.apply(Command::ExportJson(file.clone()));
+    stage.session.apply(FileCommand::ExportJson(file.clone()));
     assert_eq!(lost(&stage), (true, Vec::new()));
     assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
-    stage.session.apply(Command::Answer(Answer::Cancel));
+    stage.session.apply(FileCommand::Answer(Answer::Cancel));
     assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
-    stage.session.apply(Command::ExportJson(file.clone()));
-    stage.session.apply(Command::Answer(Answer::Export));
+    stage.session.apply(FileCommand::ExportJson(file.clone()));
+    stage.session.apply(FileCommand::Answer(Answer::Export));
     assert!(fs::read_to_string(&file).unwrap().contains("renderpass"));
     let kept = stage.dir.path().join("out.json.replaced-0001/out.json");
     assert_eq!(fs::read_to_string(kept).unwrap(), "precious");
@@ -113,7 +113,7 @@ fn what_cannot_be_exported_is_refused_before_anything_is_asked() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &format!("#include \"gone.glsl\"\n{}", plain(0.5)))]);
     let file = stage.dir.path().join("out.json");
-    stage.session.apply(Command::ExportJson(file.clone()));
+    stage.session.apply(FileCommand::ExportJson(file.clone()));
     let notices = stage.notices(Level::Error).join("\n");
     assert!(
         notices.contains("not exported: ") && notices.contains("gone.glsl") && notices.contains("image.glsl:1"),
@@ -122,7 +122,7 @@ fn what_cannot_be_exported_is_refused_before_anything_is_asked() {
     assert!(stage.session.question().is_none() && !file.exists());
     let folder = stage.dir.path().join("folder.json");
     fs::create_dir(&folder).unwrap();
-    stage.session.apply(Command::ExportJson(folder));
+    stage.session.apply(FileCommand::ExportJson(folder));
     assert!(stage.notices(Level::Error).join("\n").contains("is a folder"), "{:?}", stage.session.notices());
 }
 

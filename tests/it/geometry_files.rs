@@ -3,7 +3,7 @@
 use crate::support::{self, program::Bench, stage::Stage};
 use eddy::{
     project::{self, Input, MeshSource, Overwrite, PassName, Stage as Text, Tab, TexelFormat},
-    session::{Command, Level},
+    session::{Command, EditCommand, FileCommand, Level, TransportCommand},
 };
 use std::{fs, path::Path};
 
@@ -253,8 +253,8 @@ fn a_saved_stage_or_model_shows_at_once_and_a_broken_one_keeps_the_picture() {
     let mut stage = Stage::bare(gpu);
     write(&stage.folder(), &[]);
     let folder = stage.folder();
-    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    stage.compile(Command::Pause);
+    stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
+    stage.compile(Command::Transport(TransportCommand::Pause));
     assert!(stage.is_ok(), "{:?}", stage.session.diagnostics());
     assert_eq!(stage.red(), 51);
     stage.settle();
@@ -285,9 +285,9 @@ fn a_saved_stage_or_model_shows_at_once_and_a_broken_one_keeps_the_picture() {
 
     // Edited here, and saved.
     let tab = scene_tab("hull.vert.glsl");
-    stage.session.apply(Command::EditText { tab: tab.clone(), text: format!("// mine\n{HULL}") });
+    stage.session.apply(EditCommand::EditText { tab: tab.clone(), text: format!("// mine\n{HULL}") });
     assert!(stage.session.is_tab_dirty(&tab));
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert!(!stage.session.is_dirty());
     assert!(stage.read("hull.vert.glsl").starts_with("// mine\n"));
     assert!(stage.notices(Level::Error).is_empty(), "{:?}", stage.session.notices());

@@ -3,7 +3,7 @@
 use crate::support::{gpu, program::Bench, stage::*};
 use eddy::{
     project::{PassName, Tab},
-    session::{Answer, Command, Question},
+    session::{Answer, Command, EditCommand, FileCommand, Question, TransportCommand},
 };
 
 const USES: &str =
@@ -92,8 +92,8 @@ fn an_included_file_is_watched_and_its_errors_name_it() {
     stage.write("image.glsl", USES);
     stage.write("lib/tone.glsl", "float tone() { return 1.0; }");
     let folder = stage.folder();
-    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    stage.compile(Command::Pause);
+    stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
+    stage.compile(Command::Transport(TransportCommand::Pause));
     assert_eq!(stage.red(), 255);
     replace(&stage.path("lib/tone.glsl"), "float tone() { return 0.2; }");
     stage.until_red(51);
@@ -105,7 +105,7 @@ fn an_included_file_is_watched_and_its_errors_name_it() {
     });
     // A line typed now, of a file that comes later.
     stage.edit(&USES.replace("tone.glsl", "late.glsl"));
-    stage.session.apply(Command::CompileNow);
+    stage.session.apply(EditCommand::CompileNow);
     stage.until("the missing file", |s| {
         s.diagnostics().iter().any(|d| d.message.contains("there is no file lib/late.glsl"))
     });
@@ -121,7 +121,7 @@ fn tone() -> Tab {
 }
 
 fn type_into(stage: &mut Stage, text: &str) {
-    stage.session.apply(Command::EditText { tab: tone(), text: text.into() });
+    stage.session.apply(EditCommand::EditText { tab: tone(), text: text.into() });
 }
 
 fn with_tone(text: &str) -> Option<Stage> {
@@ -131,8 +131,8 @@ fn with_tone(text: &str) -> Option<Stage> {
     stage.write("buffer_a.glsl", USES);
     stage.write("lib/tone.glsl", text);
     let folder = stage.folder();
-    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    stage.compile(Command::Pause);
+    stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
+    stage.compile(Command::Transport(TransportCommand::Pause));
     stage.settle();
     Some(stage)
 }
@@ -155,24 +155,24 @@ fn an_included_file_is_edited_compiled_and_saved_like_a_pass() {
     assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 1.0; }", "nothing is written unasked");
     // An edit that has the files read anew leaves what was typed.
     stage.edit(&format!("#include \"lib/late.glsl\"\n{USES}"));
-    stage.session.apply(Command::CompileNow);
+    stage.session.apply(EditCommand::CompileNow);
     stage.until("the missing file", |s| s.diagnostics().iter().any(|d| d.message.contains("late.glsl")));
     stage.edit(USES);
-    stage.session.apply(Command::CompileNow);
+    stage.session.apply(EditCommand::CompileNow);
     stage.until("a good compile", |s| s.diagnostics().is_empty());
     assert_eq!(stage.session.text(&tone()), "float tone() { return 0.2; }");
     // So does a text that includes it no more.
     stage.edit(&plain(0.0));
-    stage.session.apply(Command::EditText { tab: Tab::Pass(PassName::buffer("A")), text: plain(0.0) });
-    stage.session.apply(Command::CompileNow);
+    stage.session.apply(EditCommand::EditText { tab: Tab::Pass(PassName::buffer("A")), text: plain(0.0) });
+    stage.session.apply(EditCommand::CompileNow);
     stage.until_red(0);
     assert!(stage.session.is_tab_dirty(&tone()));
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 0.2; }");
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
     // And back to what is on disk is no edit.
     stage.edit(USES);
-    stage.session.apply(Command::CompileNow);
+    stage.session.apply(EditCommand::CompileNow);
     stage.until_red(51);
     type_into(&mut stage, "float tone() { return 0.6; }");
     assert!(stage.session.is_tab_dirty(&tone()));
@@ -194,22 +194,22 @@ fn a_change_on_disk_of_an_edited_included_file_is_a_conflict() {
     let Some(Question::Conflict { tab, file, mine, disk, .. }) = stage.session.question().cloned() else { panic!() };
     assert_eq!((tab, file), (Some(tone()), stage.path("lib/tone.glsl")));
     assert_eq!((&*mine, &*disk), ("float tone() { return 0.6; }", "float tone() { return 0.4; }"));
-    stage.session.apply(Command::Answer(Answer::TakeDisk));
+    stage.session.apply(FileCommand::Answer(Answer::TakeDisk));
     assert_eq!(stage.session.text(&tone()), "float tone() { return 0.4; }");
     assert!(!stage.session.is_dirty());
     stage.until_red(102);
     // And the same where only an edited text includes it, with the answer of the other side.
     stage.write("lib/late.glsl", "float late() { return 0.0; }");
     stage.edit(&format!("#include \"lib/late.glsl\"\n{USES}"));
-    stage.session.apply(Command::CompileNow);
+    stage.session.apply(EditCommand::CompileNow);
     let late = || Tab::Included("lib/late.glsl".into());
     stage.until("the file", |s| s.tabs().contains(&late()) && !s.compile_state().compiling);
-    stage.session.apply(Command::EditText { tab: late(), text: "float late() { return 1.0; }".into() });
+    stage.session.apply(EditCommand::EditText { tab: late(), text: "float late() { return 1.0; }".into() });
     stage.write("lib/late.glsl", "float late() { return 2.0; }");
     stage.until("a question", |s| s.question().is_some());
-    stage.session.apply(Command::Answer(Answer::KeepMine));
+    stage.session.apply(FileCommand::Answer(Answer::KeepMine));
     assert_eq!(stage.session.text(&late()), "float late() { return 1.0; }");
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert_eq!(stage.read("lib/late.glsl"), "float late() { return 1.0; }");
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
 }
@@ -226,7 +226,7 @@ fn an_edited_included_file_goes_into_the_snapshot_and_into_another_folder() {
     let hostile = text.replace("\"lib/tone.glsl\"", "\"../tone.glsl\"");
     assert!(hostile != text && eddy::project::read_snapshot(&hostile).unwrap().includes.is_empty());
     let copy = stage.dir.path().join("copy");
-    stage.session.apply(Command::SaveAs(copy.clone()));
+    stage.session.apply(FileCommand::SaveAs(copy.clone()));
     assert_eq!(std::fs::read_to_string(copy.join("lib/tone.glsl")).unwrap(), "float tone() { return 0.2; }");
     assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 1.0; }");
     assert!(!stage.session.is_dirty());
@@ -240,10 +240,10 @@ fn a_file_that_lone_glsl_includes_is_saved_beside_it() {
     stage.write("lone.glsl", USES);
     stage.write("lib/tone.glsl", "float tone() { return 1.0; }");
     let file = stage.path("lone.glsl");
-    stage.session.apply(Command::Open(file.to_str().unwrap().into()));
-    stage.compile(Command::Pause);
+    stage.session.apply(FileCommand::Open(file.to_str().unwrap().into()));
+    stage.compile(Command::Transport(TransportCommand::Pause));
     type_into(&mut stage, "float tone() { return 0.2; }");
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert_eq!(stage.read("lib/tone.glsl"), "float tone() { return 0.2; }");
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
 }
@@ -257,8 +257,8 @@ fn a_keystroke_reads_no_file_and_a_new_include_is_read_by_the_compile() {
     stage.write("lib/late.glsl", "float tone() { return 0.6; }");
     stage.write("image.glsl", USES);
     let folder = stage.folder();
-    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    stage.compile(Command::Pause);
+    stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
+    stage.compile(Command::Transport(TransportCommand::Pause));
     assert_eq!(stage.red(), 255);
     stage.settle();
     let read = |stage: &Stage| -> Vec<(String, String)> {
@@ -270,12 +270,12 @@ fn a_keystroke_reads_no_file_and_a_new_include_is_read_by_the_compile() {
     stage.edit(&format!("{USES} // typed"));
     stage.edit(&USES.replace("tone.glsl", "late.glsl"));
     assert_eq!(read(&stage), before, "nothing is read where the keys come in");
-    stage.session.apply(Command::CompileNow);
+    stage.session.apply(EditCommand::CompileNow);
     stage.until("the new file", |s| s.project().includes[0].source.name == "lib/late.glsl");
     stage.until_red(153);
     // Back, within a text that is compiled anew: the file that has changed meanwhile is read.
     stage.edit(USES);
-    stage.session.apply(Command::CompileNow);
+    stage.session.apply(EditCommand::CompileNow);
     stage.until_red(51);
 }
 
@@ -287,6 +287,6 @@ fn a_file_that_is_included_just_before_a_save_is_saved_too() {
     stage.write("lib/tone.glsl", "float tone() { return 1.0; }");
     stage.edit(USES);
     let copy = stage.path("copy");
-    stage.session.apply(Command::SaveAs(copy.clone()));
+    stage.session.apply(FileCommand::SaveAs(copy.clone()));
     assert!(copy.join("lib/tone.glsl").is_file(), "{:?}", stage.session.notices());
 }

@@ -6,7 +6,9 @@ use eddy::{
     playback::comparing::Baseline,
     project::{PassName, Tab},
     session::{
-        Answer, Command, Level, Question, Session, SessionOptions, TimeRange, buffers::BufferWatch, probe::ProbePlace,
+        Answer, CanvasCommand, CaptureCommand, Command, EditCommand, FileCommand, InputCommand, Level, NoticeCommand,
+        Question, Session, SessionOptions, TimeRange, ToolCommand, TransportCommand, ViewCommand, buffers::BufferWatch,
+        probe::ProbePlace,
     },
 };
 use std::{
@@ -67,11 +69,11 @@ fn seen(session: &Session) -> String {
 
 /// Ticks until nothing is under way. Its time of now is no matter of the project.
 fn rest(stage: &mut Stage) {
-    stage.session.apply(Command::Pause);
+    stage.session.apply(TransportCommand::Pause);
     // What a panel looks at is the window's; there is none here.
-    stage.compile(Command::WatchTargets(Vec::new()));
+    stage.compile(Command::View(ViewCommand::WatchTargets(Vec::new())));
     stage.until("rest", |s| !s.transport().is_seeking);
-    stage.session.apply(Command::Reset);
+    stage.session.apply(TransportCommand::Reset);
     stage.for_a_while();
 }
 
@@ -85,11 +87,11 @@ fn nothing_of_a_project_is_left_when_another_is_opened() {
     let b = "#iUniform float gain = 0.5 in { 0.0, 1.0 }\n//@probe max(image.x)\n".to_owned() + KEEP;
     let b = write(&dir.path().join("b"), &[("eddy.toml", MANIFEST), ("buffer_a.glsl", &b), ("image.glsl", SHOW)]);
     let open = |stage: &mut Stage, path: &str| {
-        stage.session.apply(Command::SetViewport { width: 32, height: 18 });
-        stage.session.apply(Command::Open(path.into()));
+        stage.session.apply(CanvasCommand::SetViewport { width: 32, height: 18 });
+        stage.session.apply(FileCommand::Open(path.into()));
         if stage.session.question().is_some() {
             assert!(matches!(stage.session.question(), Some(Question::Unsaved { .. })));
-            stage.session.apply(Command::Answer(Answer::Discard));
+            stage.session.apply(FileCommand::Answer(Answer::Discard));
         }
     };
     let mut fresh = Stage::bare(gpu.clone());
@@ -99,42 +101,42 @@ fn nothing_of_a_project_is_left_when_another_is_opened() {
 
     let mut stage = Stage::bare(gpu);
     open(&mut stage, &a);
-    stage.compile(Command::Pause);
+    stage.compile(Command::Transport(TransportCommand::Pause));
     let buffer_a = PassName::buffer("A");
     for _ in 0..5 {
-        stage.session.apply(Command::Step);
+        stage.session.apply(TransportCommand::Step);
     }
     stage.tick();
     let everything = [
-        Command::SetScale(0.25),
-        Command::SetFixedSize(Some((6, 6))),
-        Command::SetFixedSize(None),
-        Command::SetScale(-1.0),
-        Command::SetSpeed(3.0),
-        Command::SetFixedRate(Some(30.0)),
-        Command::SetTimeRange(TimeRange::new(0.0, 0.5)),
-        Command::ShowPass(buffer_a.clone()),
-        Command::AssignCustomUniform("gain=0.75".into()),
-        Command::AssignCustomUniform("nothing=0.75".into()),
-        Command::AddTab(Tab::Common),
-        Command::UndoPassEdit,
-        Command::AddTab(Tab::Pass(PassName::buffer("C"))),
-        Command::MouseDown { x: 3.0, y: 2.0 },
-        Command::KeyDown(65),
-        Command::WatchBuffers(BufferWatch {
+        Command::Canvas(CanvasCommand::SetScale(0.25)),
+        Command::Canvas(CanvasCommand::SetFixedSize(Some((6, 6)))),
+        Command::Canvas(CanvasCommand::SetFixedSize(None)),
+        Command::Canvas(CanvasCommand::SetScale(-1.0)),
+        Command::Transport(TransportCommand::SetSpeed(3.0)),
+        Command::Transport(TransportCommand::SetFixedRate(Some(30.0))),
+        Command::Transport(TransportCommand::SetTimeRange(TimeRange::new(0.0, 0.5))),
+        Command::View(ViewCommand::ShowPass(buffer_a.clone())),
+        Command::Edit(EditCommand::AssignCustomUniform("gain=0.75".into())),
+        Command::Edit(EditCommand::AssignCustomUniform("nothing=0.75".into())),
+        Command::Edit(EditCommand::AddTab(Tab::Common)),
+        Command::Edit(EditCommand::UndoPassEdit),
+        Command::Edit(EditCommand::AddTab(Tab::Pass(PassName::buffer("C")))),
+        Command::Input(InputCommand::MouseDown { x: 3.0, y: 2.0 }),
+        Command::Input(InputCommand::KeyDown(65)),
+        Command::View(ViewCommand::WatchBuffers(BufferWatch {
             shown: Some(((buffer_a, 0), Default::default())),
             under: Some([0.5, 0.5]),
-        }),
-        Command::WatchTargets(vec![(PassName::image(), 0)]),
-        Command::WatchMeasures(vec![1]),
-        Command::Trace(Some([0.5, 0.5])),
-        Command::Audit,
-        Command::FindNonfinite(true),
-        Command::StepBack(5000),
-        Command::Screenshot,
-        Command::SaveTexels,
-        Command::Compare(Some(Baseline::LastSave)),
-        Command::Notify { level: Level::Info, text: "of the window".into(), path: None },
+        })),
+        Command::View(ViewCommand::WatchTargets(vec![(PassName::image(), 0)])),
+        Command::View(ViewCommand::WatchMeasures(vec![1])),
+        Command::Tool(ToolCommand::Trace(Some([0.5, 0.5]))),
+        Command::Tool(ToolCommand::Audit),
+        Command::Tool(ToolCommand::FindNonfinite(true)),
+        Command::Transport(TransportCommand::StepBack(5000)),
+        Command::Capture(CaptureCommand::Screenshot),
+        Command::Capture(CaptureCommand::SaveTexels),
+        Command::Tool(ToolCommand::Compare(Some(Baseline::LastSave))),
+        Command::Notice(NoticeCommand::Notify { level: Level::Info, text: "of the window".into(), path: None }),
     ];
     for command in everything {
         stage.session.apply(command);
@@ -144,21 +146,25 @@ fn nothing_of_a_project_is_left_when_another_is_opened() {
             std::thread::sleep(Duration::from_millis(2));
         }
     }
-    stage.session.apply(Command::FindDivergence);
+    stage.session.apply(ToolCommand::FindDivergence);
     stage.for_a_while();
-    stage.compile(Command::Probe(Some(ProbePlace { tab: image_tab(), at: SHOW.find("texel").unwrap(), visit: 0 })));
-    stage.session.apply(Command::Record);
+    stage.compile(Command::View(ViewCommand::Probe(Some(ProbePlace {
+        tab: image_tab(),
+        at: SHOW.find("texel").unwrap(),
+        visit: 0,
+    }))));
+    stage.session.apply(TransportCommand::Record);
     // Some of it is still under way when the other project comes.
-    stage.session.apply(Command::Audit);
-    stage.session.apply(Command::Trace(Some([0.2, 0.2])));
+    stage.session.apply(ToolCommand::Audit);
+    stage.session.apply(ToolCommand::Trace(Some([0.2, 0.2])));
     stage.edit("void mainImage(");
-    stage.act(Command::CompileNow);
+    stage.act(Command::Edit(EditCommand::CompileNow));
     assert_ne!(seen(&stage.session), expected);
     open(&mut stage, &b);
     let notices: Vec<_> = stage.session.notices().iter().map(|n| n.text.as_str()).collect();
     assert!(notices.contains(&"of the window") && !notices.iter().any(|text| text.contains("out of reach")));
     let ids: Vec<u64> = stage.session.notices().iter().map(|n| n.id).collect();
-    ids.into_iter().for_each(|id| stage.session.apply(Command::DismissNotice(id)));
+    ids.into_iter().for_each(|id| stage.session.apply(NoticeCommand::DismissNotice(id)));
     rest(&mut stage);
     let left = seen(&stage.session);
     let differing: Vec<_> = left.lines().zip(expected.lines()).filter(|(a, b)| a != b).collect();
@@ -174,11 +180,11 @@ fn a_compile_of_the_project_before_is_not_taken_for_the_next_ones() {
     let functions: String = (0..20_000).map(|n| format!("float f{n}(float x) {{ return x + {n}.0; }}\n")).collect();
     let (a, b) = (open("a", &format!("{functions}{}", plain(0.2))), open("b", &plain(0.6)));
     let mut stage = Stage::bare(gpu);
-    stage.session.apply(Command::Open(a));
-    stage.act(Command::CompileNow);
+    stage.session.apply(FileCommand::Open(a));
+    stage.act(Command::Edit(EditCommand::CompileNow));
     assert!(stage.session.compile_state().compiling);
     let before = stage.session.programs_drawn();
-    stage.session.apply(Command::Open(b));
+    stage.session.apply(FileCommand::Open(b));
     stage.until("a program", |session| session.programs_drawn() > before);
     assert_eq!(stage.red(), 153, "the first program that is drawn is the next project's");
     stage.for_a_while();
@@ -195,27 +201,30 @@ fn notices_end_with_what_they_are_about() {
         stage.tick();
         count(stage)
     };
-    let step = || vec![Command::Step];
-    assert_eq!([after(&mut stage, vec![Command::StepBack(99)]), after(&mut stage, step())], [1, 0]);
-    let assign = |text: &str| vec![Command::AssignCustomUniform(text.into())];
+    let step = || vec![Command::Transport(TransportCommand::Step)];
+    assert_eq!(
+        [after(&mut stage, vec![Command::Transport(TransportCommand::StepBack(99))]), after(&mut stage, step())],
+        [1, 0]
+    );
+    let assign = |text: &str| vec![Command::Edit(EditCommand::AssignCustomUniform(text.into()))];
     assert_eq!([after(&mut stage, assign("none=1")), after(&mut stage, assign("none=2"))], [1, 1]);
-    let size = |scale| vec![Command::SetScale(scale)];
+    let size = |scale| vec![Command::Canvas(CanvasCommand::SetScale(scale))];
     assert_eq!([after(&mut stage, size(-1.0)), after(&mut stage, size(-2.0)), after(&mut stage, size(1.0))], [2, 2, 1]);
-    let open = |text: &str| vec![Command::Open(text.into())];
+    let open = |text: &str| vec![Command::File(FileCommand::Open(text.into()))];
     assert_eq!([after(&mut stage, open("/none")), after(&mut stage, open("/none of these"))], [2, 2]);
     // Files that make no project, until they do.
     stage.write("eddy.toml", "eddy = ");
-    stage.session.apply(Command::Focus(true));
+    stage.session.apply(InputCommand::Focus(true));
     stage.until("a warning", |s| s.notices().iter().any(|n| n.text.contains("are unchanged")));
     stage.write("eddy.toml", MANIFEST);
-    stage.session.apply(Command::Focus(true));
+    stage.session.apply(InputCommand::Focus(true));
     stage.until("that it is over", |s| !s.notices().iter().any(|n| n.text.contains("are unchanged")));
     // A file that is gone, until it is back.
     fs::remove_file(stage.path("image.glsl")).unwrap();
-    stage.session.apply(Command::Focus(true));
+    stage.session.apply(InputCommand::Focus(true));
     stage.until("a warning", |s| s.notices().iter().any(|n| n.text.contains("was deleted")));
     stage.write("image.glsl", SHOW);
-    stage.session.apply(Command::Focus(true));
+    stage.session.apply(InputCommand::Focus(true));
     stage.until("that it is over", |s| !s.notices().iter().any(|n| n.text.contains("was deleted")));
 }
 
@@ -225,12 +234,12 @@ fn figures_are_told_of_what_is_drawn_and_of_nothing_else() {
     let dir = tempfile::tempdir().unwrap();
     let broken = write(&dir.path().join("broken"), &[("image.glsl", "void mainImage(")]);
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.5))]);
-    stage.session.apply(Command::Play);
+    stage.session.apply(TransportCommand::Play);
     for _ in 0..5 {
         stage.tick();
     }
     assert!(stage.session.transport().cpu_micros.is_some());
-    stage.session.apply(Command::Open(broken));
+    stage.session.apply(FileCommand::Open(broken));
     for _ in 0..2 {
         let transport = stage.session.transport();
         assert_eq!((transport.cpu_micros, transport.gpu_millis, transport.fps), (None, None, None));
@@ -244,17 +253,17 @@ fn the_map_of_errors_goes_when_another_picture_is_shown() {
     let sine = "void mainImage(out vec4 o, in vec2 p) { o = vec4(sin(p.x * 91.7 + iTime) * 0.5 + 0.5); }";
     let mut stage = Stage::open(gpu, &[("image.glsl", sine)]);
     let ways = [
-        Command::Step,
-        Command::StepBack(1),
-        Command::MouseDown { x: 2.0, y: 2.0 },
-        Command::SetFixedSize(Some((16, 9))),
-        Command::Play,
+        Command::Transport(TransportCommand::Step),
+        Command::Transport(TransportCommand::StepBack(1)),
+        Command::Input(InputCommand::MouseDown { x: 2.0, y: 2.0 }),
+        Command::Canvas(CanvasCommand::SetFixedSize(Some((16, 9)))),
+        Command::Transport(TransportCommand::Play),
     ];
     for way in ways {
         let what = format!("{way:?}");
         // While it plays too: the picture stands still as the map does.
-        stage.act(Command::Play);
-        stage.session.apply(Command::Audit);
+        stage.act(Command::Transport(TransportCommand::Play));
+        stage.session.apply(ToolCommand::Audit);
         assert!(!stage.session.transport().playing, "{what}");
         stage.until("the map", |s| s.audit_map().is_some());
         stage.act(way);
@@ -275,19 +284,19 @@ fn remembering(gpu: &Gpu, state: &Path) -> Stage {
 /// Opens a project and waits for what it shows.
 fn opened(gpu: &Gpu, state: &Path, project: &str) -> Stage {
     let mut stage = remembering(gpu, state);
-    stage.compile(Command::Open(project.into()));
+    stage.compile(Command::File(FileCommand::Open(project.into())));
     stage.until("the frame that was left", |s| !s.transport().is_seeking);
     stage.tick();
     stage
 }
 
 fn texels(stage: &mut Stage) -> Vec<u8> {
-    stage.act(Command::SaveTexels);
+    stage.act(Command::Capture(CaptureCommand::SaveTexels));
     fs::read(stage.session.notices().iter().rev().find_map(|n| n.path.clone()).unwrap()).unwrap()
 }
 
 fn close(mut stage: Stage) {
-    stage.session.apply(Command::Close);
+    stage.session.apply(FileCommand::Close);
     assert!(stage.session.take_request().is_some());
 }
 
@@ -302,11 +311,11 @@ fn a_project_with_a_state_comes_back_paused_at_its_frame_or_begins_at_0() {
     let (state, folder) = (dir.path().join("state"), dir.path().join("p"));
     let project = with_buffer(&folder);
     let mut stage = remembering(&gpu, &state);
-    stage.session.apply(Command::Open(project.clone()));
-    stage.compile(Command::Pause);
-    stage.session.apply(Command::Seek(1.5));
+    stage.session.apply(FileCommand::Open(project.clone()));
+    stage.compile(Command::Transport(TransportCommand::Pause));
+    stage.session.apply(TransportCommand::Seek(1.5));
     stage.until("the time", |s| !s.transport().is_seeking);
-    stage.act(Command::MouseDown { x: 3.0, y: 2.0 });
+    stage.act(Command::Input(InputCommand::MouseDown { x: 3.0, y: 2.0 }));
     let (left, picture) = (place(&stage), texels(&mut stage));
     assert_eq!(left, (1.5, 91, false));
     close(stage);
@@ -317,29 +326,29 @@ fn a_project_with_a_state_comes_back_paused_at_its_frame_or_begins_at_0() {
     assert!(texels(&mut again) == picture);
     assert!(again.notices(Level::Warning).is_empty(), "{:?}", again.notices(Level::Warning));
     // Back and forth as if it had never been closed.
-    again.act(Command::StepBack(40));
+    again.act(Command::Transport(TransportCommand::StepBack(40)));
     assert_eq!(place(&again).1, 51);
-    again.session.apply(Command::Seek(1.5));
+    again.session.apply(TransportCommand::Seek(1.5));
     again.until("the frame", |s| !s.transport().is_seeking);
     assert!(texels(&mut again) == picture);
     close(again);
     // In a window of another size.
     let mut other = remembering(&gpu, &state);
-    other.session.apply(Command::SetFixedSize(Some((12, 6))));
-    other.compile(Command::Open(project.clone()));
+    other.session.apply(CanvasCommand::SetFixedSize(Some((12, 6))));
+    other.compile(Command::File(FileCommand::Open(project.clone())));
     other.until("the frame that was left", |s| !s.transport().is_seeking);
     other.tick();
     assert_eq!((place(&other), other.session.transport().resolution), (left, (12, 6)));
     assert!(other.session.notices().is_empty(), "{:?}", other.session.notices());
-    other.act(Command::Screenshot);
+    other.act(Command::Capture(CaptureCommand::Screenshot));
     let shot = other.session.notices().last().and_then(|n| n.path.clone()).unwrap();
     assert_eq!(image::open(&shot).unwrap().to_rgb8().dimensions(), (12, 6));
     // Closed while it plays it begins at 0, with the buffers.
-    other.act(Command::Play);
+    other.act(Command::Transport(TransportCommand::Play));
     close(other);
     assert!(runs(&state).is_empty());
     let mut playing = remembering(&gpu, &state);
-    playing.session.apply(Command::Open(project.clone()));
+    playing.session.apply(FileCommand::Open(project.clone()));
     assert_eq!(place(&playing), (0.0, 0, true));
     playing.until_compiled();
     assert!(place(&playing).0 < 1.0);
@@ -347,8 +356,8 @@ fn a_project_with_a_state_comes_back_paused_at_its_frame_or_begins_at_0() {
     close(playing);
     // Where the run is not known any more, paused at 0.
     let mut paused = opened(&gpu, &state, &project);
-    paused.session.apply(Command::Pause);
-    paused.session.apply(Command::Seek(1.0));
+    paused.session.apply(TransportCommand::Pause);
+    paused.session.apply(TransportCommand::Seek(1.0));
     paused.until("the time", |s| !s.transport().is_seeking);
     close(paused);
     runs(&state).iter().for_each(|file| fs::write(file, "{\"eddy_recording\":1}\nno frame\n").unwrap());
@@ -364,17 +373,17 @@ fn a_project_without_a_state_goes_on_at_its_time_and_frame() {
     let project = write(&dir.path().join("p"), &[("image.glsl", text)]);
     for (is_paused, frames) in [(true, 7), (false, 3)] {
         let mut stage = opened(&gpu, &state, &project);
-        stage.session.apply(Command::Pause);
-        (0..frames).for_each(|_| stage.session.apply(Command::Step));
+        stage.session.apply(TransportCommand::Pause);
+        (0..frames).for_each(|_| stage.session.apply(TransportCommand::Step));
         stage.tick();
         let left = place(&stage);
         let red = stage.red();
         if !is_paused {
-            stage.session.apply(Command::Play);
+            stage.session.apply(TransportCommand::Play);
         }
         close(stage);
         let mut again = remembering(&gpu, &state);
-        again.session.apply(Command::Open(project.clone()));
+        again.session.apply(FileCommand::Open(project.clone()));
         if is_paused {
             again.until_compiled();
             assert_eq!((place(&again), again.red()), (left, red));
@@ -395,34 +404,34 @@ fn a_program_that_comes_late_is_gone_to_its_frame_and_who_plays_begins_at_0() {
     let (state, folder) = (dir.path().join("state"), dir.path().join("p"));
     let project = with_buffer(&folder);
     let mut stage = opened(&gpu, &state, &project);
-    stage.session.apply(Command::Pause);
-    stage.session.apply(Command::Seek(0.5));
+    stage.session.apply(TransportCommand::Pause);
+    stage.session.apply(TransportCommand::Seek(0.5));
     stage.until("the time", |s| !s.transport().is_seeking);
     let (left, picture) = (place(&stage), texels(&mut stage));
     close(stage);
     // It does not compile when it is opened.
     fs::write(folder.join("image.glsl"), "void mainImage(").unwrap();
     let mut broken = remembering(&gpu, &state);
-    broken.compile(Command::Open(project.clone()));
+    broken.compile(Command::File(FileCommand::Open(project.clone())));
     broken.for_a_while();
     assert_eq!(broken.frames(), 0);
-    broken.session.apply(Command::EditText { tab: image_tab(), text: SHOW.into() });
-    broken.session.apply(Command::CompileNow);
+    broken.session.apply(EditCommand::EditText { tab: image_tab(), text: SHOW.into() });
+    broken.session.apply(EditCommand::CompileNow);
     broken.until("a program", |s| s.programs_drawn() > 0 || s.transport().frame > 0);
     broken.until("the frame that was left", |s| !s.transport().is_seeking);
     broken.tick();
     assert_eq!(place(&broken), left);
     assert!(texels(&mut broken) == picture);
-    broken.session.apply(Command::Save);
+    broken.session.apply(FileCommand::Save);
     close(broken);
     // Closed before it was there: it is as it was.
     let mut early = remembering(&gpu, &state);
-    early.session.apply(Command::Open(project.clone()));
+    early.session.apply(FileCommand::Open(project.clone()));
     close(early);
     let mut played = remembering(&gpu, &state);
-    played.session.apply(Command::Open(project.clone()));
+    played.session.apply(FileCommand::Open(project.clone()));
     assert!(played.session.transport().is_seeking);
-    played.compile(Command::Play);
+    played.compile(Command::Transport(TransportCommand::Play));
     let (time, frame, playing) = place(&played);
     assert!(playing && time < 0.5 && frame < 20, "{time} {frame}");
 }
@@ -442,18 +451,18 @@ fn the_size_and_the_scale_of_a_picture_come_back_with_their_project() {
     };
     let (a, b) = (write(&stage, "a.glsl"), write(&stage, "b.glsl"));
     let open = |stage: &mut Stage, path: &str| {
-        stage.compile(Command::Open(path.into()));
+        stage.compile(Command::File(FileCommand::Open(path.into())));
         stage.session.transport().resolution
     };
     assert_eq!(open(&mut stage, &a), (8, 4));
-    stage.session.apply(Command::SetFixedSize(Some((27, 48))));
-    stage.act(Command::SetScale(0.25));
+    stage.session.apply(CanvasCommand::SetFixedSize(Some((27, 48))));
+    stage.act(Command::Canvas(CanvasCommand::SetScale(0.25)));
     assert_eq!(open(&mut stage, &b), (8, 4));
     assert_eq!(stage.session.transport().scale, 1.0);
     assert_eq!(open(&mut stage, &a), (27, 48));
     assert_eq!((stage.session.transport().scale, stage.session.transport().fixed_size), (0.25, Some((27, 48))));
     // A saved picture has it.
-    stage.session.apply(Command::Screenshot);
+    stage.session.apply(CaptureCommand::Screenshot);
     stage.until("a saved picture", |s| s.notices().iter().any(|n| n.path.is_some()));
     let saved = stage.session.notices().iter().find_map(|n| n.path.clone()).unwrap();
     assert_eq!(image::open(saved).unwrap().to_rgb8().dimensions(), (27, 48));
@@ -483,11 +492,15 @@ fn the_last_picture_of_a_project_is_kept_small_when_it_is_left() {
         };
         let (a, b) = (write(&stage, "a.glsl", &plain(0.8)), write(&stage, "b.glsl", &plain(0.4)));
         let bad = write(&stage, "bad.glsl", "no shader");
-        stage.session.apply(Command::SetFixedSize(Some((720, 1280))));
+        stage.session.apply(CanvasCommand::SetFixedSize(Some((720, 1280))));
         let open = |stage: &mut Stage, path: &Path| {
             let drawn = stage.session.programs_drawn();
-            stage.session.apply(Command::Open(path.to_str().unwrap().into()));
-            stage.compile(if is_paused { Command::Pause } else { Command::Play });
+            stage.session.apply(FileCommand::Open(path.to_str().unwrap().into()));
+            stage.compile(if is_paused {
+                Command::Transport(TransportCommand::Pause)
+            } else {
+                Command::Transport(TransportCommand::Play)
+            });
             if stage.is_ok() {
                 stage.until("a frame of the project", |session| session.programs_drawn() > drawn);
             }
@@ -509,10 +522,10 @@ fn the_last_picture_of_a_project_is_kept_small_when_it_is_left() {
         assert_eq!(red(&stage, &a), Some((size, 8)), "apart {draws_on_thread}");
         // It stays open, and something else is looked at.
         let (_, before) = stage.session.last_picture(&b).unwrap();
-        stage.session.apply(Command::Cover(true));
+        stage.session.apply(CanvasCommand::Cover(true));
         stage.until("a picture", |session| session.last_picture(&b).unwrap().1 > before);
         assert_eq!(red(&stage, &b), Some((size, 4)));
-        stage.session.apply(Command::Cover(false));
+        stage.session.apply(CanvasCommand::Cover(false));
         // What never drew has none, and is not given that of the one before.
         open(&mut stage, &bad);
         open(&mut stage, &a);

@@ -3,7 +3,7 @@
 use crate::support::{self, stage::*};
 use eddy::{
     project::{Input, MeshSource, PassEdit, PassName, Tab},
-    session::{Answer, Command, Level, Question},
+    session::{Answer, Command, EditCommand, FileCommand, Level, Question, ViewCommand},
 };
 
 const MANIFEST: &str = "\
@@ -30,7 +30,7 @@ fn open() -> Option<Stage> {
 }
 
 fn edit(stage: &mut Stage, edit: PassEdit) {
-    stage.session.apply(Command::EditPasses(edit));
+    stage.session.apply(EditCommand::EditPasses(edit));
 }
 
 fn rename(stage: &mut Stage, from: &str, to: &str) {
@@ -38,7 +38,7 @@ fn rename(stage: &mut Stage, from: &str, to: &str) {
 }
 
 fn type_in(stage: &mut Stage, tab: Tab, text: &str) {
-    stage.session.apply(Command::EditText { tab, text: text.into() });
+    stage.session.apply(EditCommand::EditText { tab, text: text.into() });
 }
 
 #[test]
@@ -53,11 +53,11 @@ fn a_pass_that_was_removed_comes_back_with_its_text() {
     stage.until_red(0);
     // What is typed elsewhere meanwhile stays.
     type_in(&mut stage, tab("B"), &plain(0.125));
-    stage.session.apply(Command::UndoPassEdit);
+    stage.session.apply(EditCommand::UndoPassEdit);
     assert_eq!(stage.session.text(&tab("A")), plain(0.75));
     assert_eq!(stage.session.text(&tab("B")), plain(0.125));
     stage.until_red(191);
-    stage.session.apply(Command::RedoPassEdit);
+    stage.session.apply(EditCommand::RedoPassEdit);
     assert!(!stage.session.tabs().contains(&tab("A")));
     assert_eq!(stage.session.text(&tab("B")), plain(0.125));
     edit(&mut stage, PassEdit::Remove(image_tab()));
@@ -68,20 +68,20 @@ fn a_pass_that_was_removed_comes_back_with_its_text() {
 #[test]
 fn a_new_name_is_saved_taken_back_and_saved_again() {
     let Some(mut stage) = open() else { return };
-    stage.session.apply(Command::ShowPass(buffer("A")));
+    stage.session.apply(ViewCommand::ShowPass(buffer("A")));
     rename(&mut stage, "A", "glow");
     assert_eq!(*stage.session.shown_pass(), buffer("glow"));
     assert!(stage.session.is_dirty() && !stage.session.is_tab_dirty(&tab("glow")), "its text is the disk's");
     type_in(&mut stage, tab("glow"), &plain(0.75));
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
     assert_eq!(stage.read("buffer_glow.glsl"), plain(0.75));
     assert!(!stage.path("buffer_a.glsl").exists() && stage.read("eddy.toml").contains("# the first"));
     // Back, with what was typed since, and the file follows.
-    stage.session.apply(Command::UndoPassEdit);
+    stage.session.apply(EditCommand::UndoPassEdit);
     assert_eq!(stage.session.text(&tab("A")), plain(0.75));
     assert_eq!(*stage.session.shown_pass(), buffer("A"));
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
     assert_eq!(stage.read("buffer_a.glsl"), plain(0.75));
     assert!(!stage.path("buffer_glow.glsl").exists());
@@ -106,9 +106,9 @@ fn a_disk_that_changes_under_a_new_name_loses_nothing() {
     stage.until("the question", |s| s.question().is_some());
     let Some(Question::Conflict { tab: asked, .. }) = stage.session.question() else { panic!("another question") };
     assert_eq!(asked.as_ref(), Some(&tab("glow")));
-    stage.session.apply(Command::Answer(Answer::TakeDisk));
+    stage.session.apply(FileCommand::Answer(Answer::TakeDisk));
     assert_eq!(stage.session.text(&tab("glow")), plain(1.0));
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
     assert_eq!(stage.read("buffer_glow.glsl"), plain(1.0));
 }
@@ -121,17 +121,17 @@ fn channels_and_dragged_numbers_are_taken_back_in_whole_steps() {
         edit(&mut stage, PassEdit::Steps(buffer("A"), steps));
     }
     assert_eq!(stage.session.pass_undo().map(|step| step.title), Some("steps of Buffer A"));
-    stage.session.apply(Command::SetChannel { pass: PassName::image(), index: 0, channel: None });
-    stage.session.apply(Command::UndoPassEdit);
+    stage.session.apply(EditCommand::SetChannel { pass: PassName::image(), index: 0, channel: None });
+    stage.session.apply(EditCommand::UndoPassEdit);
     let image = stage.session.project().image().unwrap();
     assert_eq!(image.bindings.get(0).unwrap().input, Input::buffer("A"));
-    stage.session.apply(Command::UndoPassEdit);
+    stage.session.apply(EditCommand::UndoPassEdit);
     assert_eq!(*stage.session.project(), before, "one drag is one step");
     assert!(stage.session.pass_undo().is_none());
     // Another project's steps are not this one's.
     edit(&mut stage, PassEdit::Steps(buffer("A"), 2));
-    stage.session.apply(Command::Save);
-    stage.session.apply(Command::New);
+    stage.session.apply(FileCommand::Save);
+    stage.session.apply(FileCommand::New);
     assert!(stage.session.pass_undo().is_none() && stage.session.pass_redo().is_none());
 }
 
@@ -142,17 +142,17 @@ fn a_model_from_elsewhere_is_saved_with_the_project() {
     let file = elsewhere.path().join("tri angle.obj");
     std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     let to = Some((PassName::image(), None));
-    stage.session.apply(Command::Bring { paths: vec![file.clone()], to });
+    stage.session.apply(FileCommand::Bring { paths: vec![file.clone()], to });
     let draws = |stage: &Stage| {
         let pass = stage.session.project().pass(&buffer("model")).unwrap().clone();
         pass.body.geometry().unwrap().draws[0].mesh.clone()
     };
     assert_eq!(draws(&stage), MeshSource::Picked(file));
-    stage.compile(Command::CompileNow);
+    stage.compile(Command::Edit(EditCommand::CompileNow));
     assert!(stage.is_ok(), "{:?}", stage.session.diagnostics());
     // Another file has the name that the copy would get.
     stage.write("tri angle.obj", "somebody else's");
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
     assert_eq!(draws(&stage), MeshSource::File("tri angle/tri angle.obj".into()));
     assert_eq!(stage.read("tri angle.obj"), "somebody else's");

@@ -4,7 +4,10 @@
 use crate::support::{self, stage::*};
 use eddy::{
     project::{Channel, Input, PassEdit, PassName, Tab},
-    session::{Command, Level, probe::ProbePlace},
+    session::{
+        CanvasCommand, CaptureCommand, Command, EditCommand, InputCommand, Level, ToolCommand, TransportCommand,
+        ViewCommand, probe::ProbePlace,
+    },
 };
 use std::{fs, time::Duration};
 
@@ -34,14 +37,14 @@ fn buffer_a() -> Tab {
 fn stage(gpu: eddy::gpu::Gpu) -> Stage {
     let mut stage = Stage::open(gpu, &[("eddy.toml", MANIFEST), ("buffer_a.glsl", SUM), ("image.glsl", SHOW)]);
     assert!(stage.is_ok(), "{:?}", stage.session.notices());
-    stage.session.apply(Command::ShowPass(PassName::buffer("A")));
+    stage.session.apply(ViewCommand::ShowPass(PassName::buffer("A")));
     for frame in 1..=100 {
         if frame == 40 {
-            stage.session.apply(Command::MouseDown { x: 3.5, y: 1.5 });
+            stage.session.apply(InputCommand::MouseDown { x: 3.5, y: 1.5 });
         }
-        stage.act(Command::Step);
+        stage.act(Command::Transport(TransportCommand::Step));
     }
-    stage.act(Command::MouseUp);
+    stage.act(Command::Input(InputCommand::MouseUp));
     assert_eq!(place(&stage).1, 101, "input draws a frame, as on the site");
     stage
 }
@@ -52,19 +55,19 @@ fn place(stage: &Stage) -> (f64, i32) {
 }
 
 fn texels(stage: &mut Stage) -> Vec<u8> {
-    stage.act(Command::SaveTexels);
+    stage.act(Command::Capture(CaptureCommand::SaveTexels));
     fs::read(stage.session.notices().iter().rev().find_map(|n| n.path.clone()).unwrap()).unwrap()
 }
 
 fn edit(stage: &mut Stage, tab: Tab, text: &str) {
-    stage.session.apply(Command::EditText { tab, text: text.into() });
-    stage.compile(Command::CompileNow);
+    stage.session.apply(EditCommand::EditText { tab, text: text.into() });
+    stage.compile(Command::Edit(EditCommand::CompileNow));
     stage.tick();
 }
 
 /// The texels of the frame after the one that is shown.
 fn next(stage: &mut Stage) -> Vec<u8> {
-    stage.act(Command::Step);
+    stage.act(Command::Transport(TransportCommand::Step));
     texels(stage)
 }
 
@@ -91,13 +94,13 @@ fn an_edit_while_paused_draws_the_same_frame_from_the_same_state() {
     edit(&mut edited, image_tab(), SHOW);
     let channel = Some(Channel::new(Input::KEYBOARD));
     for channel in [channel, None] {
-        edited.compile(Command::SetChannel { pass: PassName::image(), index: 2, channel });
+        edited.compile(Command::Edit(EditCommand::SetChannel { pass: PassName::image(), index: 2, channel }));
     }
-    edited.compile(Command::AddTab(Tab::Pass(PassName::buffer("B"))));
-    edited.compile(Command::EditPasses(PassEdit::Remove(Tab::Pass(PassName::buffer("B")))));
+    edited.compile(Command::Edit(EditCommand::AddTab(Tab::Pass(PassName::buffer("B")))));
+    edited.compile(Command::Edit(EditCommand::EditPasses(PassEdit::Remove(Tab::Pass(PassName::buffer("B"))))));
     // From disk as well.
     edited.write("buffer_a.glsl", &other);
-    edited.session.apply(Command::Focus(true));
+    edited.session.apply(InputCommand::Focus(true));
     edited.until("the text of the disk", |s| s.text(&buffer_a()).contains("1.5"));
     edited.until_compiled();
     assert!(texels(&mut edited) == others[0]);
@@ -117,32 +120,36 @@ fn looking_at_a_paused_picture_steps_nothing() {
     let (mut looked, mut control) = (stage(gpu.clone()), stage(gpu));
     let (shown, before) = (place(&looked), texels(&mut looked));
     let at = SUM.find("old * 1.25").unwrap();
-    let probe = |at: usize| Command::Probe(Some(ProbePlace { tab: buffer_a(), at, visit: 0 }));
+    let probe = |at: usize| Command::View(ViewCommand::Probe(Some(ProbePlace { tab: buffer_a(), at, visit: 0 })));
     let looks: Vec<Vec<Command>> = vec![
         vec![probe(at)],
         vec![probe(at + 6)],
-        vec![Command::Probe(None)],
-        vec![Command::Trace(Some([0.4, 0.6]))],
-        vec![Command::FindDivergence],
-        vec![Command::Trace(None)],
-        vec![Command::Audit],
-        vec![Command::HideAudit],
-        vec![Command::Screenshot],
-        vec![Command::ShowPass(PassName::image())],
-        vec![Command::ShowPass(PassName::buffer("A"))],
-        vec![Command::FindNonfinite(true)],
-        vec![Command::FindNonfinite(false)],
-        vec![Command::WatchCosts(true)],
-        vec![Command::Cover(true)],
-        vec![Command::Cover(false)],
-        vec![Command::Focus(false), Command::Focus(true)],
-        vec![Command::SetFixedSize(Some((6, 3)))],
-        vec![Command::SetFixedSize(Some((24, 12)))],
-        vec![Command::SetFixedSize(Some((3, 30)))],
-        vec![Command::SetFixedSize(Some((8, 4)))],
-        vec![Command::SetFixedSize(None), Command::SetViewport { width: 16, height: 8 }, Command::SetScale(0.25)],
-        vec![Command::SetViewport { width: 20, height: 20 }],
-        vec![Command::SetFixedSize(Some((8, 4)))],
+        vec![Command::View(ViewCommand::Probe(None))],
+        vec![Command::Tool(ToolCommand::Trace(Some([0.4, 0.6])))],
+        vec![Command::Tool(ToolCommand::FindDivergence)],
+        vec![Command::Tool(ToolCommand::Trace(None))],
+        vec![Command::Tool(ToolCommand::Audit)],
+        vec![Command::Tool(ToolCommand::HideAudit)],
+        vec![Command::Capture(CaptureCommand::Screenshot)],
+        vec![Command::View(ViewCommand::ShowPass(PassName::image()))],
+        vec![Command::View(ViewCommand::ShowPass(PassName::buffer("A")))],
+        vec![Command::Tool(ToolCommand::FindNonfinite(true))],
+        vec![Command::Tool(ToolCommand::FindNonfinite(false))],
+        vec![Command::View(ViewCommand::WatchCosts(true))],
+        vec![Command::Canvas(CanvasCommand::Cover(true))],
+        vec![Command::Canvas(CanvasCommand::Cover(false))],
+        vec![Command::Input(InputCommand::Focus(false)), Command::Input(InputCommand::Focus(true))],
+        vec![Command::Canvas(CanvasCommand::SetFixedSize(Some((6, 3))))],
+        vec![Command::Canvas(CanvasCommand::SetFixedSize(Some((24, 12))))],
+        vec![Command::Canvas(CanvasCommand::SetFixedSize(Some((3, 30))))],
+        vec![Command::Canvas(CanvasCommand::SetFixedSize(Some((8, 4))))],
+        vec![
+            Command::Canvas(CanvasCommand::SetFixedSize(None)),
+            Command::Canvas(CanvasCommand::SetViewport { width: 16, height: 8 }),
+            Command::Canvas(CanvasCommand::SetScale(0.25)),
+        ],
+        vec![Command::Canvas(CanvasCommand::SetViewport { width: 20, height: 20 })],
+        vec![Command::Canvas(CanvasCommand::SetFixedSize(Some((8, 4))))],
     ];
     for commands in looks {
         let what = format!("{commands:?}");
@@ -165,21 +172,21 @@ fn a_slider_that_is_turned_while_paused_draws_the_same_frame() {
     let (mut turned, mut control) = (stage(gpu.clone()), stage(gpu));
     let (shown, before) = (place(&turned), texels(&mut turned));
     for value in ["gain=0.5", "gain=0.75", "gain=0.25"] {
-        turned.act(Command::AssignCustomUniform(value.into()));
+        turned.act(Command::Edit(EditCommand::AssignCustomUniform(value.into())));
         assert_eq!(place(&turned), shown);
         assert_eq!(texels(&mut turned) == before, value == "gain=0.25", "{value}");
     }
     // On a smaller canvas too, from the texels of the large one.
-    turned.act(Command::SetFixedSize(Some((5, 3))));
-    turned.act(Command::AssignCustomUniform("gain=0.125".into()));
+    turned.act(Command::Canvas(CanvasCommand::SetFixedSize(Some((5, 3)))));
+    turned.act(Command::Edit(EditCommand::AssignCustomUniform("gain=0.125".into())));
     assert_eq!(turned.session.transport().resolution, (5, 3));
-    turned.session.apply(Command::SetFixedSize(Some((8, 4))));
-    turned.act(Command::AssignCustomUniform("gain=0.25".into()));
+    turned.session.apply(CanvasCommand::SetFixedSize(Some((8, 4))));
+    turned.act(Command::Edit(EditCommand::AssignCustomUniform("gain=0.25".into())));
     assert!(texels(&mut turned) == before);
     assert!(next(&mut turned) == next(&mut control));
     // To have changed it before a frame is to have drawn that frame with it.
-    control.session.apply(Command::AssignCustomUniform("gain=1.0".into()));
-    turned.act(Command::AssignCustomUniform("gain=1.0".into()));
+    control.session.apply(EditCommand::AssignCustomUniform("gain=1.0".into()));
+    turned.act(Command::Edit(EditCommand::AssignCustomUniform("gain=1.0".into())));
     assert!(next(&mut turned) == next(&mut control));
 }
 
@@ -188,19 +195,19 @@ fn what_begins_to_run_before_the_frame_is_drawn_again_misses_no_step() {
     let Some(gpu) = support::gpu() else { return };
     let (mut edited, mut control) = (stage(gpu.clone()), stage(gpu));
     for stage in [&mut edited, &mut control] {
-        stage.session.apply(Command::SetFixedRate(Some(60.0)));
+        stage.session.apply(TransportCommand::SetFixedRate(Some(60.0)));
     }
     let begin = |stage: &mut Stage| {
-        stage.session.apply(Command::Play);
+        stage.session.apply(TransportCommand::Play);
         while place(stage).1 < 110 {
             stage.tick();
         }
-        stage.session.apply(Command::Pause);
+        stage.session.apply(TransportCommand::Pause);
     };
-    edited.session.apply(Command::EditText { tab: buffer_a(), text: format!("{SUM}\n// the same") });
-    edited.session.apply(Command::SetFixedSize(Some((4, 2))));
-    edited.session.apply(Command::SetFixedSize(Some((8, 4))));
-    edited.session.apply(Command::CompileNow);
+    edited.session.apply(EditCommand::EditText { tab: buffer_a(), text: format!("{SUM}\n// the same") });
+    edited.session.apply(CanvasCommand::SetFixedSize(Some((4, 2))));
+    edited.session.apply(CanvasCommand::SetFixedSize(Some((8, 4))));
+    edited.session.apply(EditCommand::CompileNow);
     begin(&mut edited);
     edited.until_compiled();
     begin(&mut control);
@@ -224,7 +231,7 @@ fn frame_0_of_new_code_begins_as_that_code_begins() {
     assert_eq!((stage.red(), place(&stage).1), (153, 0), "0.4 · 0.5 + 0.4");
     edit(&mut stage, buffer_a(), &seeded("0.56"));
     assert_eq!((stage.red(), place(&stage).1), (214, 0), "0.56 · 0.5 + 0.56");
-    stage.act(Command::Step);
+    stage.act(Command::Transport(TransportCommand::Step));
     edit(&mut stage, buffer_a(), &seeded("0.2"));
     assert_eq!((stage.red(), place(&stage).1), (214, 1), "what was seeded stays");
 }

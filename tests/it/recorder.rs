@@ -10,7 +10,10 @@ use crate::support::{
 use eddy::{
     film::Format,
     gpu::Gpu,
-    session::{Answer, Command, FilmField, FilmForm, FilmOrder, FilmView, Level, Question, Request, Session},
+    session::{
+        Answer, CanvasCommand, Command, EditCommand, FileCommand, FilmCommand, FilmField, FilmForm, FilmOrder,
+        FilmView, InputCommand, Level, Question, Request, Session, TransportCommand,
+    },
 };
 use std::{
     collections::BTreeMap,
@@ -109,12 +112,12 @@ fn a_range_has_the_bytes_that_render_writes() {
             continue;
         }
         let order = range(&stage, &form);
-        stage.session.apply(Command::MakeFilm(order));
+        stage.session.apply(FilmCommand::MakeFilm(order));
         // What is done meanwhile is not in it.
-        stage.session.apply(Command::AssignCustomUniform("level=0.9".into()));
-        stage.act(Command::Step);
+        stage.session.apply(EditCommand::AssignCustomUniform("level=0.9".into()));
+        stage.act(Command::Transport(TransportCommand::Step));
         let path = made(&mut stage);
-        stage.session.apply(Command::ResetCustomUniforms);
+        stage.session.apply(EditCommand::ResetCustomUniforms);
         let name = if form.format.is_still() { "rendered".into() } else { format!("rendered.{}", form.format.name()) };
         let rendered = render(&stage, &name, &format!("{options} --size 64x36"));
         let (ours, theirs) = (files(&path), files(&rendered));
@@ -132,10 +135,10 @@ fn a_range_has_the_bytes_that_render_writes() {
 fn what_is_recorded_live_has_every_frame_and_a_fixed_step() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = stage(gpu);
-    stage.act(Command::SetFixedSize(Some((64, 36))));
+    stage.act(Command::Canvas(CanvasCommand::SetFixedSize(Some((64, 36)))));
     let order = live(&stage, &form("0-1", "30", Format::Png));
-    stage.session.apply(Command::Reset);
-    stage.session.apply(Command::MakeFilm(order));
+    stage.session.apply(TransportCommand::Reset);
+    stage.session.apply(FilmCommand::MakeFilm(order));
     let mut now = Instant::now();
     let frames = |session: &Session| match session.film() {
         Some(FilmView::Live(live)) => live.frames,
@@ -152,11 +155,11 @@ fn what_is_recorded_live_has_every_frame_and_a_fixed_step() {
         stage.session.tick(now);
         assert!(ticks < 100_000);
         if frames(&stage.session) == 5 {
-            stage.session.apply(Command::MouseDown { x: 20.0, y: 10.0 });
+            stage.session.apply(InputCommand::MouseDown { x: 20.0, y: 10.0 });
         }
     }
     assert!((180..=220).contains(&ticks), "{ticks} ticks of a tenth of a frame");
-    stage.act(Command::StopFilm);
+    stage.act(Command::Film(FilmCommand::StopFilm));
     let folder = made(&mut stage);
     let pictures: Vec<_> =
         names(&folder).iter().map(|name| image::open(folder.join(name)).unwrap().to_rgba8()).collect();
@@ -203,23 +206,23 @@ fn what_is_recorded_live_has_the_sound_of_the_times_that_it_shows() {
     for format in [Format::Mkv, Format::Mp4] {
         let mut stage = Stage::open(gpu.clone(), &files);
         assert!(stage.is_ok(), "{:?}", stage.session.diagnostics());
-        stage.act(Command::SetFixedSize(Some((64, 36))));
+        stage.act(Command::Canvas(CanvasCommand::SetFixedSize(Some((64, 36)))));
         let order = live(&stage, &form("0-1", "30", format));
-        stage.session.apply(Command::Reset);
-        stage.session.apply(Command::MakeFilm(order));
+        stage.session.apply(TransportCommand::Reset);
+        stage.session.apply(FilmCommand::MakeFilm(order));
         let mut now = Instant::now();
         record_until(&mut stage, &mut now, 45);
         // A pause, a jump in time, and another value of a slider.
-        stage.session.apply(Command::Pause);
-        stage.session.apply(Command::Seek(2.5));
-        stage.session.apply(Command::AssignCustomUniform("level=0.4".into()));
+        stage.session.apply(TransportCommand::Pause);
+        stage.session.apply(TransportCommand::Seek(2.5));
+        stage.session.apply(EditCommand::AssignCustomUniform("level=0.4".into()));
         for _ in 0..5 {
             now += Duration::from_secs(1);
             stage.session.tick(now);
         }
-        stage.session.apply(Command::Play);
+        stage.session.apply(TransportCommand::Play);
         record_until(&mut stage, &mut now, 80);
-        stage.act(Command::StopFilm);
+        stage.act(Command::Film(FilmCommand::StopFilm));
         let film = made(&mut stage);
         assert!(matches!(stage.session.film(), Some(FilmView::Done(done)) if done.note.is_none()));
         let pixels = decoded(&film);
@@ -267,12 +270,12 @@ fn a_film_that_is_cancelled_leaves_nothing() {
     for format in formats {
         let long = FilmForm { with_sound: false, ..form("0-49999", "30", format) };
         let order = range(&stage, &long);
-        stage.session.apply(Command::MakeFilm(order));
+        stage.session.apply(FilmCommand::MakeFilm(order));
         stage.until(
             "some frames",
             |session| matches!(session.film(), Some(FilmView::UnderWay(progress)) if progress.done > 3),
         );
-        stage.act(Command::CancelFilm);
+        stage.act(Command::Film(FilmCommand::CancelFilm));
         assert_eq!(stage.session.film(), Some(FilmView::Cancelled));
         let end = Instant::now() + Duration::from_secs(20);
         while names(&stage.folder()) != before {
@@ -280,15 +283,15 @@ fn a_film_that_is_cancelled_leaves_nothing() {
             stage.tick();
         }
         let order = live(&stage, &form("0-1", "30", format));
-        stage.session.apply(Command::MakeFilm(order));
+        stage.session.apply(FilmCommand::MakeFilm(order));
         stage.until("some frames", |session| matches!(session.film(), Some(FilmView::Live(live)) if live.frames > 3));
-        stage.act(Command::CancelFilm);
+        stage.act(Command::Film(FilmCommand::CancelFilm));
         let end = Instant::now() + Duration::from_secs(20);
         while names(&stage.folder()) != before {
             assert!(Instant::now() < end, "{format:?}: {:?}", names(&stage.folder()));
             stage.tick();
         }
-        stage.act(Command::Pause);
+        stage.act(Command::Transport(TransportCommand::Pause));
     }
 }
 
@@ -300,7 +303,7 @@ fn a_file_that_came_meanwhile_is_not_replaced_and_one_that_may_be_is() {
     let form = FilmForm { file: "a".into(), ..form("0-9", "30", Format::Y4m) };
     let order = range(&stage, &form);
     fs::write(&path, "mine").unwrap();
-    stage.session.apply(Command::MakeFilm(order));
+    stage.session.apply(FilmCommand::MakeFilm(order));
     stage.until("the end", |session| session.film().is_some_and(|film| !film.is_busy()));
     assert!(matches!(stage.session.film(), Some(FilmView::Failed(_))), "{:?}", stage.session.film());
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
@@ -308,7 +311,7 @@ fn a_file_that_came_meanwhile_is_not_replaced_and_one_that_may_be_is() {
     let checked = form.check(&stage.session.film_facts(), false);
     assert!(checked.error(FilmField::File).is_some() && checked.range.is_none());
     let order = form.check(&stage.session.film_facts(), true).range.unwrap();
-    stage.session.apply(Command::MakeFilm(Box::new(order)));
+    stage.session.apply(FilmCommand::MakeFilm(Box::new(order)));
     assert_eq!(made(&mut stage), path);
     assert!(fs::read(&path).unwrap().starts_with(b"YUV4MPEG2"));
 }
@@ -320,7 +323,7 @@ fn a_project_that_does_not_compile_is_no_film_and_says_where() {
     stage.edit("void mainImage(out vec4 o, in vec2 p) { o = missing; }");
     stage.until_compiled();
     let order = range(&stage, &form("0-9", "30", Format::Png));
-    stage.session.apply(Command::MakeFilm(order));
+    stage.session.apply(FilmCommand::MakeFilm(order));
     stage.until("the end", |session| session.film().is_some_and(|film| !film.is_busy()));
     let Some(FilmView::Failed(why)) = stage.session.film() else { panic!("{:?}", stage.session.film()) };
     assert!(why.contains("missing") && why.contains(":1:"), "{why}");
@@ -336,21 +339,21 @@ fn closing_asks_what_becomes_of_a_film() {
         other => panic!("{other:?}"),
     };
     let order = range(&stage, &form("0-49999", "30", Format::Y4m));
-    stage.act(Command::MakeFilm(order));
-    stage.act(Command::Close);
+    stage.act(Command::Film(FilmCommand::MakeFilm(order)));
+    stage.act(Command::File(FileCommand::Close));
     assert_eq!(asked(&stage), Some(false));
-    stage.act(Command::Answer(Answer::Cancel));
+    stage.act(Command::File(FileCommand::Answer(Answer::Cancel)));
     assert!(stage.session.film().is_some_and(|film| film.is_busy()) && stage.session.take_request().is_none());
-    stage.act(Command::Close);
-    stage.act(Command::Answer(Answer::Discard));
+    stage.act(Command::File(FileCommand::Close));
+    stage.act(Command::File(FileCommand::Answer(Answer::Discard)));
     assert_eq!(stage.session.take_request(), Some(Request::Exit));
     // One that is live is completed first.
     let order = live(&stage, &form("0-1", "30", Format::Y4m));
-    stage.session.apply(Command::MakeFilm(order));
+    stage.session.apply(FilmCommand::MakeFilm(order));
     stage.until("some frames", |session| matches!(session.film(), Some(FilmView::Live(live)) if live.frames > 3));
-    stage.session.apply(Command::Close);
+    stage.session.apply(FileCommand::Close);
     assert_eq!(asked(&stage), Some(true));
-    stage.session.apply(Command::Answer(Answer::Finish));
+    stage.session.apply(FileCommand::Answer(Answer::Finish));
     let path = made(&mut stage);
     assert_eq!(stage.session.take_request(), Some(Request::Exit));
     assert!(fs::read(path).unwrap().starts_with(b"YUV4MPEG2"));

@@ -4,7 +4,9 @@ use crate::support::{self, stage::*};
 use eddy::{
     gpu::Gpu,
     project::{Origin, Tab},
-    session::{Answer, Command, DiffLine, Question, Recovered, Request, Session, SessionOptions},
+    session::{
+        Answer, Command, DiffLine, EditCommand, FileCommand, Question, Recovered, Request, Session, SessionOptions,
+    },
 };
 use std::{
     env, fs,
@@ -27,7 +29,7 @@ fn session(gpu: &Gpu, state: &Path) -> Session {
 /// A session that has opened the project.
 fn session_of(gpu: &Gpu, state: &Path, project: &Path) -> Session {
     let mut session = session(gpu, state);
-    session.apply(Command::Open(project.display().to_string()));
+    session.apply(FileCommand::Open(project.display().to_string()));
     session
 }
 
@@ -57,7 +59,7 @@ fn offer(session: &mut Session) -> Recovered {
 }
 
 fn edit(session: &mut Session, text: &str) {
-    session.apply(Command::EditText { tab: image_tab(), text: text.into() });
+    session.apply(EditCommand::EditText { tab: image_tab(), text: text.into() });
 }
 
 fn write_project(dir: &Path) -> PathBuf {
@@ -79,11 +81,11 @@ fn a_crashed_session_is_offered_with_its_difference_and_taken_up() {
     let (state, folder) = (dir.path().join("state"), write_project(dir.path()));
     let mut first = session_of(&gpu, &state, &folder);
     edit(&mut first, &plain(0.4));
-    first.apply(Command::AddTab(Tab::Common));
+    first.apply(EditCommand::AddTab(Tab::Common));
     crash(first);
 
     let mut second = session(&gpu, &state);
-    second.apply(Command::Open(folder.display().to_string()));
+    second.apply(FileCommand::Open(folder.display().to_string()));
     let offered = offer(&mut second);
     assert_eq!(offered.origin, Origin::Folder { path: folder.clone(), has_manifest: false });
     let tab = offered.tabs.iter().find(|t| t.tab == image_tab()).unwrap();
@@ -92,7 +94,7 @@ fn a_crashed_session_is_offered_with_its_difference_and_taken_up() {
     assert_eq!(changed, [&DiffLine::Disk(line(0.2)), &DiffLine::Mine(line(0.4))]);
     assert!(offered.is_structure_changed, "Common is new");
     assert_eq!(second.text(&image_tab()), plain(0.2), "nothing is taken before the answer");
-    second.apply(Command::Answer(Answer::Recover));
+    second.apply(FileCommand::Answer(Answer::Recover));
     assert_eq!(second.text(&image_tab()), plain(0.4));
     assert!(second.is_dirty() && !second.transport().playing);
     assert!(second.tabs().contains(&Tab::Common));
@@ -101,8 +103,8 @@ fn a_crashed_session_is_offered_with_its_difference_and_taken_up() {
     crash(second);
     let mut third = session(&gpu, &state);
     offer(&mut third);
-    third.apply(Command::Answer(Answer::Recover));
-    third.apply(Command::Save);
+    third.apply(FileCommand::Answer(Answer::Recover));
+    third.apply(FileCommand::Save);
     assert_eq!(fs::read_to_string(folder.join("image.glsl")).unwrap(), plain(0.4));
     until(&mut third, "the file to go", |_| recovery_files(&state).is_empty().then_some(()));
 }
@@ -118,14 +120,14 @@ fn nothing_is_kept_after_a_save_a_discard_or_an_undo() {
         until(&mut session, "the file", |_| recovery_files(&state).pop());
         match end {
             "undo" => edit(&mut session, &plain(0.2)),
-            "save" => session.apply(Command::Save),
+            "save" => session.apply(FileCommand::Save),
             "new" => {
-                session.apply(Command::New);
-                session.apply(Command::Answer(Answer::Discard));
+                session.apply(FileCommand::New);
+                session.apply(FileCommand::Answer(Answer::Discard));
             }
             _ => {
-                session.apply(Command::Close);
-                session.apply(Command::Answer(Answer::Discard));
+                session.apply(FileCommand::Close);
+                session.apply(FileCommand::Answer(Answer::Discard));
                 assert_eq!(session.take_request(), Some(Request::Exit));
             }
         }
@@ -141,27 +143,27 @@ fn new_and_preset_work_is_offered_and_can_wait_or_go() {
     let mut new = session(&gpu, &state);
     edit(&mut new, &plain(0.4));
     let mut preset = session(&gpu, &state);
-    preset.apply(Command::Open("feedback".into()));
+    preset.apply(FileCommand::Open("feedback".into()));
     edit(&mut preset, &plain(0.6));
     crash(new);
     crash(preset);
     let mut next = session(&gpu, &state);
     // The one that was open last comes first; `new` was written first.
     let first = offer(&mut next);
-    next.apply(Command::Answer(Answer::Cancel));
+    next.apply(FileCommand::Answer(Answer::Cancel));
     let second = offer(&mut next);
     assert_ne!(first.origin, second.origin);
     for origin in [Origin::Unsaved, Origin::Preset("feedback".into())] {
         assert!([&first.origin, &second.origin].contains(&&origin), "{origin:?}");
     }
-    next.apply(Command::Answer(Answer::Discard));
+    next.apply(FileCommand::Answer(Answer::Discard));
     assert!(next.question().is_none());
     until(&mut next, "the discarded one to go", |_| (recovery_files(&state).len() == 1).then_some(()));
     crash(next);
     let mut later = session(&gpu, &state);
     let waited = offer(&mut later);
     assert_eq!(waited.origin, first.origin);
-    later.apply(Command::Answer(Answer::Recover));
+    later.apply(FileCommand::Answer(Answer::Recover));
     assert_eq!(later.project().origin, first.origin);
     assert!(later.is_dirty());
 }
@@ -178,10 +180,10 @@ fn recovered_work_does_not_push_unsaved_work_aside() {
     // Typed before the question was there.
     edit(&mut next, &plain(0.8));
     offer(&mut next);
-    next.apply(Command::Answer(Answer::Recover));
+    next.apply(FileCommand::Answer(Answer::Recover));
     assert!(matches!(next.question(), Some(Question::Unsaved { .. })), "{:?}", next.question());
     assert_eq!(next.text(&image_tab()), plain(0.8));
-    next.apply(Command::Answer(Answer::Discard));
+    next.apply(FileCommand::Answer(Answer::Discard));
     assert_eq!(next.text(&image_tab()), plain(0.4));
 }
 
@@ -207,7 +209,7 @@ fn a_session_that_types() {
     let (Some(state), Some(project)) = (env::var_os(STATE), env::var_os(PROJECT)) else { return };
     let gpu = support::gpu().unwrap();
     let mut session = session(&gpu, Path::new(&state));
-    session.apply(Command::Open(project.to_string_lossy().into_owned()));
+    session.apply(FileCommand::Open(project.to_string_lossy().into_owned()));
     for number in 0.. {
         // No tick between them: a frame may take long, and what is typed must not wait for it.
         edit(&mut session, &format!("// {number}\n{}", plain(0.4)));
@@ -267,7 +269,7 @@ fn killed_at_any_moment_it_loses_at_most_a_second() {
     for (kill, (last, safe)) in killed {
         let mut next = session(&gpu, &state(kill));
         offer(&mut next);
-        next.apply(Command::Answer(Answer::Recover));
+        next.apply(FileCommand::Answer(Answer::Recover));
         let text = next.text(&image_tab()).to_owned();
         let number: u64 = text.lines().next().unwrap()[3..].parse().unwrap();
         assert_eq!(text, format!("// {number}\n{}", plain(0.4)), "whole");

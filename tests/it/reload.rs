@@ -3,7 +3,7 @@
 use crate::support::{self, stage::*};
 use eddy::{
     project::{Channel, Input, Media, PassName, Sampler, Tab},
-    session::{Answer, Command, DiffLine, Level, Question},
+    session::{Answer, Command, DiffLine, EditCommand, FileCommand, Level, Question, TransportCommand},
 };
 use std::{
     fs,
@@ -86,7 +86,7 @@ fn an_edited_tab_asks_and_keeps_both_texts_whatever_the_answer() {
         assert_eq!(diff.iter().filter(|l| !matches!(l, DiffLine::Both(_))).count(), 2);
         assert_eq!(stage.session.text(&image_tab()), plain(0.4), "the edit stays until the answer");
         let elsewhere = stage.path("elsewhere.txt");
-        stage.session.apply(Command::Answer(match answer {
+        stage.session.apply(FileCommand::Answer(match answer {
             "mine" => Answer::KeepMine,
             "disk" => Answer::TakeDisk,
             _ => Answer::SaveMineAs(elsewhere.clone()),
@@ -97,7 +97,7 @@ fn an_edited_tab_asks_and_keeps_both_texts_whatever_the_answer() {
                 assert_eq!(stage.session.text(&image_tab()), plain(0.4));
                 assert!(stage.session.is_dirty());
                 assert_eq!(stage.read("image.glsl.disk-0001"), plain(0.6));
-                stage.session.apply(Command::Save);
+                stage.session.apply(FileCommand::Save);
                 assert_eq!(stage.read("image.glsl"), plain(0.4));
             }
             "disk" => {
@@ -129,12 +129,12 @@ fn the_other_text_is_kept_beside_a_file_that_was_opened_by_a_relative_path() {
         let mut stage = Stage::bare(gpu);
         let file = if name == "." { "image.glsl" } else { name };
         stage.write(file, plain(0.2));
-        stage.session.apply(Command::Open(relative(&stage.path(name)).display().to_string()));
+        stage.session.apply(FileCommand::Open(relative(&stage.path(name)).display().to_string()));
         assert_eq!(stage.session.text(&image_tab()), plain(0.2), "{:?}", stage.session.notices());
         stage.edit(&plain(0.4));
         stage.write(file, plain(0.6));
         stage.until("the question", |s| s.question().is_some());
-        stage.session.apply(Command::Answer(Answer::KeepMine));
+        stage.session.apply(FileCommand::Answer(Answer::KeepMine));
         assert_eq!(stage.read(&format!("{file}.disk-0001")), plain(0.6));
         assert_eq!(fs::read_dir(stage.folder()).unwrap().count(), 2);
     }
@@ -147,7 +147,7 @@ fn save_mine_as_never_overwrites() {
     stage.write("image.glsl", plain(0.6));
     stage.until("the question", |s| s.question().is_some());
     let notes = stage.path("notes.txt");
-    stage.session.apply(Command::Answer(Answer::SaveMineAs(notes)));
+    stage.session.apply(FileCommand::Answer(Answer::SaveMineAs(notes)));
     assert!(stage.session.question().is_some(), "the question stands on");
     assert_eq!(stage.read("notes.txt"), "notes");
     assert_eq!(stage.session.text(&image_tab()), plain(0.4));
@@ -158,7 +158,7 @@ fn saving_over_a_change_nobody_has_seen_yet_asks_first() {
     let Some(mut stage) = open(&[("image.glsl", &plain(0.2))]) else { return };
     stage.edit(&plain(0.4));
     stage.write("image.glsl", plain(0.6));
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert!(matches!(stage.session.question(), Some(Question::Conflict { .. })));
     assert_eq!(stage.read("image.glsl"), plain(0.6));
 }
@@ -167,7 +167,7 @@ fn saving_over_a_change_nobody_has_seen_yet_asks_first() {
 fn a_save_of_our_own_is_no_reload() {
     let Some(mut stage) = open(&[("image.glsl", &plain(0.2))]) else { return };
     stage.edit(&plain(0.4));
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert!(!stage.session.is_dirty());
     assert_eq!(stage.read("image.glsl"), plain(0.4));
     let generation = stage.session.text_generation();
@@ -188,14 +188,14 @@ fn a_deleted_file_keeps_its_text_and_saving_writes_it_again() {
     assert!(stage.session.is_tab_dirty(&tab));
     stage.write("image.glsl", plain(0.4));
     stage.until("other files still reload", |s| s.text(&image_tab()) == plain(0.4));
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert_eq!(stage.read("buffer_a.glsl"), a);
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
 
     fs::remove_file(stage.path("image.glsl")).unwrap();
     stage.until("the notice", |s| s.notices().iter().any(|n| n.text.starts_with("image.glsl was deleted")));
     assert!(stage.session.is_tab_dirty(&image_tab()));
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert_eq!(stage.read("image.glsl"), plain(0.4));
 }
 
@@ -204,7 +204,7 @@ fn eddy_toml_reloads_passes_and_channels_and_time_goes_on() {
     let toml = "eddy = 1\nname = \"One\"\n[passes.image]\n";
     let Some(mut stage) = open(&[("eddy.toml", toml), ("image.glsl", &plain(0.2))]) else { return };
     for _ in 0..3 {
-        stage.session.apply(Command::Step);
+        stage.session.apply(TransportCommand::Step);
     }
     stage.tick();
     stage.write("buffer_a.glsl", "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\n");
@@ -218,7 +218,7 @@ fn eddy_toml_reloads_passes_and_channels_and_time_goes_on() {
     stage.until_compiled();
     assert!(stage.session.transport().frame >= 3, "time goes on");
 
-    stage.session.apply(Command::SetResetOnReload(true));
+    stage.session.apply(EditCommand::SetResetOnReload(true));
     stage.write("image.glsl", plain(0.4));
     stage.until("the reload", |s| s.text(&image_tab()) == plain(0.4));
     stage.until_compiled();
@@ -235,12 +235,12 @@ fn channels_changed_here_and_on_disk_ask() {
     let toml = "eddy = 1\n[passes.image]\n";
     let Some(mut stage) = open(&[("eddy.toml", toml), ("image.glsl", &plain(0.2))]) else { return };
     let channel = eddy::project::Channel::new(eddy::project::Input::KEYBOARD);
-    stage.session.apply(Command::SetChannel { pass: PassName::image(), index: 0, channel: Some(channel) });
+    stage.session.apply(EditCommand::SetChannel { pass: PassName::image(), index: 0, channel: Some(channel) });
     stage.write("eddy.toml", "eddy = 1\n[passes.image]\nchannels.1 = { texture = \"noise-rgba-64\" }\n");
     stage.until("the question", |s| s.question().is_some());
     let Some(Question::Conflict { tab: None, mine, disk, .. }) = stage.session.question() else { panic!() };
     assert!(mine.contains("keyboard") && disk.contains("noise-rgba-64"), "{mine}\n--\n{disk}");
-    stage.session.apply(Command::Answer(Answer::TakeDisk));
+    stage.session.apply(FileCommand::Answer(Answer::TakeDisk));
     let channels = &stage.session.project().image().unwrap().bindings;
     assert!(channels.get(0).is_none() && channels.get(1).is_some());
     assert!(stage.read("eddy.toml.mine-0001").contains("keyboard"));
@@ -264,15 +264,15 @@ fn a_picture_changed_on_disk_is_read_again() {
     stage.write("pic.png", picture(50));
     stage.write("image.glsl", shader);
     stage.write("eddy.toml", toml);
-    stage.session.apply(Command::Open(stage.folder().to_str().unwrap().into()));
-    stage.compile(Command::Pause);
+    stage.session.apply(FileCommand::Open(stage.folder().to_str().unwrap().into()));
+    stage.compile(Command::Transport(TransportCommand::Pause));
     assert_eq!(stage.red(), 50);
     let mut file = fs::File::create(stage.path("pic.png")).unwrap();
     file.write_all(&picture(200)).unwrap();
     drop(file);
     stage.until_red(200);
     // Before its first compile has read anything.
-    stage.session.apply(Command::Open(stage.folder().to_str().unwrap().into()));
+    stage.session.apply(FileCommand::Open(stage.folder().to_str().unwrap().into()));
     stage.write("pic.png", picture(100));
     stage.until_compiled();
     stage.until_red(100);
@@ -302,7 +302,7 @@ fn a_picture_chosen_here_is_watched_wherever_it_lies() {
     fs::write(&path, picture(50)).unwrap();
     let input = Input::texture(Media::Picked(path.clone()));
     let channel = Channel { input, sampler: Sampler { filter: eddy::project::Filter::Nearest, ..Sampler::TEXTURE } };
-    stage.session.apply(Command::SetChannel { pass: PassName::image(), index: 0, channel: Some(channel) });
+    stage.session.apply(EditCommand::SetChannel { pass: PassName::image(), index: 0, channel: Some(channel) });
     stage.until_red(50);
     fs::write(&path, picture(200)).unwrap();
     stage.until_red(200);
@@ -319,7 +319,7 @@ fn a_picture_read_by_a_compile_that_was_overtaken_is_not_forgotten() {
     stage.write("pic.png", picture(50));
     stage.write("image.glsl", shader(0));
     stage.write("eddy.toml", toml);
-    stage.compile(Command::Open(stage.folder().to_str().unwrap().into()));
+    stage.compile(Command::File(FileCommand::Open(stage.folder().to_str().unwrap().into())));
     for n in 1..12 {
         let red = if n % 2 == 0 { 50 } else { 200 };
         stage.write("pic.png", picture(red));
@@ -329,7 +329,7 @@ fn a_picture_read_by_a_compile_that_was_overtaken_is_not_forgotten() {
         while Instant::now() < end {
             edits += 1;
             stage.edit(&shader(n * 100_000 + edits));
-            stage.act(Command::CompileNow);
+            stage.act(Command::Edit(EditCommand::CompileNow));
         }
         stage.until_red(red);
     }

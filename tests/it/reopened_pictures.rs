@@ -5,7 +5,7 @@ use crate::time_travel::{stage, steps, texels};
 use eddy::{
     playback::scene::Scene,
     project::PassName,
-    session::{Command, Level},
+    session::{CaptureCommand, Command, FileCommand, InputCommand, Level, TransportCommand},
 };
 use std::{fs, path::Path};
 
@@ -14,7 +14,7 @@ fn opened(picture: &Path) -> Stage {
     let mut stage = Stage::bare(support::gpu().unwrap());
     let name = stage.path("picture.png");
     fs::copy(picture, &name).unwrap();
-    stage.session.apply(Command::Bring { paths: vec![name], to: Some((PassName::image(), None)) });
+    stage.session.apply(FileCommand::Bring { paths: vec![name], to: Some((PassName::image(), None)) });
     stage.until_compiled();
     stage
 }
@@ -56,11 +56,11 @@ fn a_picture_without_a_state_has_its_time_and_its_mouse() {
     let text =
         "void mainImage(out vec4 o, in vec2 p) { o = fract(vec4(iTime, iMouse.x / 8.0, iMouse.w / 4.0, iDate.w)); }";
     let mut before = Stage::open(gpu, &[("image.glsl", text)]);
-    before.session.apply(Command::MouseDown { x: 3.0, y: 2.0 });
-    before.act(Command::Step);
-    before.session.apply(Command::MouseMove { x: 5.0, y: 3.0 });
+    before.session.apply(InputCommand::MouseDown { x: 3.0, y: 2.0 });
+    before.act(Command::Transport(TransportCommand::Step));
+    before.session.apply(InputCommand::MouseMove { x: 5.0, y: 3.0 });
     for _ in 0..20 {
-        before.act(Command::Step);
+        before.act(Command::Transport(TransportCommand::Step));
     }
     let (wanted, frame) = (texels(&mut before), before.session.transport().frame);
     let picture = before.screenshot();
@@ -77,7 +77,9 @@ fn on_a_channel_it_is_a_picture_and_without_the_project_too() {
     let picture = stage.screenshot();
     assert!(stage.notices(Level::Info).iter().any(|text| text.ends_with("with the project in it")));
     let bring = |stage: &mut Stage, channel| {
-        stage.session.apply(Command::Bring { paths: vec![picture.clone()], to: Some((PassName::image(), channel)) });
+        stage
+            .session
+            .apply(FileCommand::Bring { paths: vec![picture.clone()], to: Some((PassName::image(), channel)) });
     };
     bring(&mut stage, Some(2));
     let channels = |stage: &Stage| stage.session.project().passes[0].bindings.channels().count();
@@ -86,10 +88,10 @@ fn on_a_channel_it_is_a_picture_and_without_the_project_too() {
     bring(&mut stage, None);
     assert!(stage.session.question().is_some() && channels(&stage) == 1);
     let mut plain_stage = Stage::open(support::gpu().unwrap(), &[("image.glsl", &plain(0.5))]);
-    plain_stage.session.apply(Command::SetProjectInPictures(false));
+    plain_stage.session.apply(CaptureCommand::SetProjectInPictures(false));
     let picture = plain_stage.screenshot();
     assert!(!Scene::is_in(&fs::read(&picture).unwrap()));
-    plain_stage.session.apply(Command::Bring { paths: vec![picture], to: Some((PassName::image(), None)) });
+    plain_stage.session.apply(FileCommand::Bring { paths: vec![picture], to: Some((PassName::image(), None)) });
     assert_eq!(channels(&plain_stage), 1);
 }
 
@@ -103,7 +105,7 @@ fn a_damaged_picture_is_told_and_changes_nothing() {
     bytes[33 + 8 + 40] ^= 0x55;
     fs::write(&picture, bytes).unwrap();
     let before = stage.session.project().clone();
-    stage.session.apply(Command::Open(picture.to_str().unwrap().into()));
+    stage.session.apply(FileCommand::Open(picture.to_str().unwrap().into()));
     assert!(*stage.session.project() == before);
     let said = stage.notices(Level::Error);
     assert!(said.len() == 1 && said[0].contains("is damaged") && said[0].contains(".png"), "{said:?}");

@@ -9,7 +9,7 @@ use eddy::{
     engine::FrameInputs,
     playback::recording::{RecordedFrame, Recording},
     project::{self, CustomUniformValue, CustomUniformValues, Fingerprint, Overwrite, PadPart},
-    session::{Answer, Command, Question, Session, SessionOptions},
+    session::{Answer, EditCommand, FileCommand, Question, Session, SessionOptions},
 };
 use std::{
     collections::BTreeMap,
@@ -300,7 +300,7 @@ fn images_open_as_their_projects() {
                 bless(&file, || b.bytes(&format!("a.{format}")));
             }
             let mut session = session(&gpu, &b.path("state"));
-            session.apply(Command::Open(saved(&file).display().to_string()));
+            session.apply(FileCommand::Open(saved(&file).display().to_string()));
             let project = project::load(&spec).unwrap().project;
             let text = project.image().unwrap().source.text.clone();
             until(&mut session, "the project", |s| (s.text(&image_tab()) == &*text).then_some(()));
@@ -350,8 +350,8 @@ fn recovery_files_are_offered() {
         let recovery = root.join("recovery");
         if is_blessing() && !saved(&file).exists() {
             let mut first = session(&gpu, &root);
-            first.apply(Command::Open(project.display().to_string()));
-            first.apply(Command::EditText { tab: image_tab(), text: edited.into() });
+            first.apply(FileCommand::Open(project.display().to_string()));
+            first.apply(EditCommand::EditText { tab: image_tab(), text: edited.into() });
             drop(first);
             let (_, bytes) =
                 files(&recovery).into_iter().find(|(p, _)| p.extension() == Some("json".as_ref())).unwrap();
@@ -362,11 +362,11 @@ fn recovery_files_are_offered() {
         fs::write(recovery.join("left-1.json"), with_folder(&fs::read(saved(&file)).unwrap(), FOLDER, root_text))
             .unwrap();
         let mut second = session(&gpu, &root);
-        second.apply(Command::Open(project.display().to_string()));
+        second.apply(FileCommand::Open(project.display().to_string()));
         until(&mut second, "the question", |s| matches!(s.question(), Some(Question::Recover(_))).then_some(()));
-        second.apply(Command::Answer(Answer::Recover));
+        second.apply(FileCommand::Answer(Answer::Recover));
         assert_eq!(second.text(&image_tab()), edited, "{name}");
-        second.apply(Command::Save);
+        second.apply(FileCommand::Save);
         until(&mut second, "the save", |s| (!s.is_dirty()).then_some(()));
     }
 }

@@ -11,8 +11,9 @@ use eddy::{
     },
     project::{self, Channel, CustomUniformValue, Input, PassEdit, PassName, Tab},
     session::{
-        Answer, Command, FallbackPicture, Level, Outcome, PendingAction, Question, Request, Session, SessionOptions,
-        TabDiagnostic,
+        Answer, CanvasCommand, CaptureCommand, Command, EditCommand, FallbackPicture, FileCommand, InputCommand, Level,
+        Outcome, PendingAction, Question, Request, Session, SessionOptions, TabDiagnostic, TransportCommand,
+        ViewCommand,
     },
 };
 use std::{
@@ -38,9 +39,9 @@ fn a_screenshot_is_what_an_offline_run_draws() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu.clone(), &[("buffer_a.glsl", HISTORY), ("image.glsl", SHOW)]);
     assert_eq!(stage.frames(), 1, "paused: the new program's one frame");
-    stage.session.apply(Command::MouseDown { x: 3.5, y: 2.5 });
+    stage.session.apply(InputCommand::MouseDown { x: 3.5, y: 2.5 });
     for _ in 0..5 {
-        stage.session.apply(Command::Step);
+        stage.session.apply(TransportCommand::Step);
     }
     stage.tick();
     let transport = stage.session.transport();
@@ -62,8 +63,8 @@ fn a_screenshot_is_what_an_offline_run_draws() {
     let pixels = drawn(PassName::image());
     assert_eq!(image::open(&path).unwrap().to_rgba8().into_raw(), pixels.to_rgba8());
 
-    stage.session.apply(Command::ShowPass(PassName::buffer("A")));
-    stage.session.apply(Command::SaveTexels);
+    stage.session.apply(ViewCommand::ShowPass(PassName::buffer("A")));
+    stage.session.apply(CaptureCommand::SaveTexels);
     let npy = fs::read(stage.path("project-buffer_a-0001.npy")).unwrap();
     let mut want = Vec::new();
     capture::encode(&mut want, &drawn(PassName::buffer("A")), capture::Format::Npy).unwrap();
@@ -119,16 +120,24 @@ fn paused_it_draws_one_frame_for_each_change_and_none_without() {
         assert_eq!(number, drawn - 1 - again, "iFrame goes on with input alone: {what}");
     };
     expect(&mut stage, "nothing", vec![], 0);
-    expect(&mut stage, "a pointer passing by", vec![Command::MouseMove { x: 1.0, y: 1.0 }], 0);
-    expect(&mut stage, "a press", vec![Command::MouseDown { x: 1.0, y: 1.0 }], 1);
-    expect(&mut stage, "a drag", vec![Command::MouseMove { x: 2.0, y: 1.0 }, Command::MouseMove { x: 3.0, y: 1.0 }], 1);
-    expect(&mut stage, "a release", vec![Command::MouseUp], 1);
-    expect(&mut stage, "a key", vec![Command::KeyDown(32)], 1);
-    expect(&mut stage, "its repeat", vec![Command::KeyDown(32)], 0);
-    expect(&mut stage, "again: a size", vec![Command::SetFixedSize(Some((16, 4)))], 1);
-    expect(&mut stage, "the same size", vec![Command::SetFixedSize(Some((16, 4)))], 0);
+    expect(&mut stage, "a pointer passing by", vec![Command::Input(InputCommand::MouseMove { x: 1.0, y: 1.0 })], 0);
+    expect(&mut stage, "a press", vec![Command::Input(InputCommand::MouseDown { x: 1.0, y: 1.0 })], 1);
+    expect(
+        &mut stage,
+        "a drag",
+        vec![
+            Command::Input(InputCommand::MouseMove { x: 2.0, y: 1.0 }),
+            Command::Input(InputCommand::MouseMove { x: 3.0, y: 1.0 }),
+        ],
+        1,
+    );
+    expect(&mut stage, "a release", vec![Command::Input(InputCommand::MouseUp)], 1);
+    expect(&mut stage, "a key", vec![Command::Input(InputCommand::KeyDown(32))], 1);
+    expect(&mut stage, "its repeat", vec![Command::Input(InputCommand::KeyDown(32))], 0);
+    expect(&mut stage, "again: a size", vec![Command::Canvas(CanvasCommand::SetFixedSize(Some((16, 4))))], 1);
+    expect(&mut stage, "the same size", vec![Command::Canvas(CanvasCommand::SetFixedSize(Some((16, 4))))], 0);
     let channel = Some(Channel::new(Input::KEYBOARD));
-    stage.compile(Command::SetChannel { pass: PassName::image(), index: 1, channel });
+    stage.compile(Command::Edit(EditCommand::SetChannel { pass: PassName::image(), index: 1, channel }));
     expect(&mut stage, "again: a channel, once it is compiled", vec![], 1);
     assert!(stage.tick().wake_at.is_none(), "nothing to wait for");
 }
@@ -137,8 +146,8 @@ fn paused_it_draws_one_frame_for_each_change_and_none_without() {
 fn playing_draws_a_frame_a_tick_at_the_times_it_is_given() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.5))]);
-    stage.session.apply(Command::Reset);
-    stage.session.apply(Command::Play);
+    stage.session.apply(TransportCommand::Reset);
+    stage.session.apply(TransportCommand::Play);
     let start = Instant::now();
     for i in 0..4u64 {
         let now = start + Duration::from_millis(20 * i);
@@ -148,7 +157,7 @@ fn playing_draws_a_frame_a_tick_at_the_times_it_is_given() {
         assert_eq!(transport.frame, i as i32);
         assert!((transport.time_secs - 0.02 * i as f64).abs() < 1e-9);
     }
-    stage.session.apply(Command::Focus(true));
+    stage.session.apply(InputCommand::Focus(true));
     stage.session.tick(start + Duration::from_secs(60));
     assert!((stage.session.transport().time_secs - 0.06).abs() < 1e-9, "focus does not jump");
 }
@@ -173,17 +182,17 @@ fn an_edit_compiles_after_quiet_and_an_error_keeps_the_picture() {
     assert_eq!(stage.red(), 153);
 
     stage.edit("void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(1.0);\n    o.x = nowhere;\n}\n");
-    stage.compile(Command::CompileNow);
+    stage.compile(Command::Edit(EditCommand::CompileNow));
     let failed = |meanwhile| Some(Outcome::Failed { errors: 1, meanwhile });
     assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::LastGood));
     let error = &stage.session.diagnostics()[0];
     assert_eq!((error.tab(), line(error)), (Some(&image_tab()), Some(3)), "{error:?}");
     assert_eq!(stage.red(), 153, "the last working version");
-    stage.act(Command::Step);
+    stage.act(Command::Transport(TransportCommand::Step));
     assert_eq!(stage.red(), 153, "and it still draws");
 
     stage.edit(&plain(0.2));
-    stage.compile(Command::CompileNow);
+    stage.compile(Command::Edit(EditCommand::CompileNow));
     assert!(stage.is_ok() && stage.session.diagnostics().is_empty());
     assert_eq!(stage.red(), 51);
     assert!(!stage.session.is_dirty(), "back to what is on disk");
@@ -196,26 +205,26 @@ fn what_is_drawn_while_there_are_errors_is_told() {
     let failed = |meanwhile| Some(Outcome::Failed { errors: 1, meanwhile });
     let mut stage = Stage::open(gpu, &[("image.glsl", broken)]);
     assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::Nothing), "there never was a picture");
-    stage.session.apply(Command::Screenshot);
+    stage.session.apply(CaptureCommand::Screenshot);
     assert_eq!(stage.notices(Level::Warning), ["there is no picture to save yet"]);
 
     stage.edit(&plain(0.2));
-    stage.compile(Command::CompileNow);
+    stage.compile(Command::Edit(EditCommand::CompileNow));
     assert!(stage.is_ok());
     stage.edit(broken);
-    stage.compile(Command::CompileNow);
+    stage.compile(Command::Edit(EditCommand::CompileNow));
     assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::LastGood));
 
     // Another project that has none: the one before is gone, and its picture with it.
     stage.edit(&plain(0.2));
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     let other = folder_of(stage.dir.path().join("other"), &[("image.glsl", broken)]);
-    stage.compile(Command::Open(other.to_str().unwrap().into()));
+    stage.compile(Command::File(FileCommand::Open(other.to_str().unwrap().into())));
     assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::Nothing));
 
     // A channel that names nothing: an error, and the picture is the newest text's all the same.
     stage.edit(&format!("#iChannel0 \"nothing of this name\"\n{}", plain(0.4)));
-    stage.compile(Command::CompileNow);
+    stage.compile(Command::Edit(EditCommand::CompileNow));
     assert_eq!(stage.session.compile_state().last, failed(FallbackPicture::Newest));
     assert_eq!(stage.red(), 102);
 }
@@ -224,25 +233,25 @@ fn what_is_drawn_while_there_are_errors_is_told() {
 fn nothing_unsaved_is_left_without_a_question() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.2))]);
-    stage.session.apply(Command::Close);
+    stage.session.apply(FileCommand::Close);
     assert_eq!(stage.session.take_request(), Some(Request::Exit), "nothing to lose");
 
     stage.edit(&plain(0.4));
     for (command, then) in [
-        (Command::Close, PendingAction::Close),
-        (Command::New, PendingAction::New),
-        (Command::Open("no such thing".into()), PendingAction::Open("no such thing".into())),
+        (Command::File(FileCommand::Close), PendingAction::Close),
+        (Command::File(FileCommand::New), PendingAction::New),
+        (Command::File(FileCommand::Open("no such thing".into())), PendingAction::Open("no such thing".into())),
     ] {
         stage.session.apply(command);
         assert_eq!(stage.session.question(), Some(&Question::Unsaved { then, tabs: vec![image_tab()] }));
-        stage.session.apply(Command::Answer(Answer::TakeDisk));
+        stage.session.apply(FileCommand::Answer(Answer::TakeDisk));
         assert!(stage.session.question().is_some(), "an answer that does not fit changes nothing");
-        stage.session.apply(Command::Answer(Answer::Cancel));
+        stage.session.apply(FileCommand::Answer(Answer::Cancel));
         assert!(stage.session.question().is_none() && stage.session.take_request().is_none());
         assert_eq!(stage.session.text(&image_tab()), plain(0.4));
     }
-    stage.session.apply(Command::Close);
-    stage.session.apply(Command::Answer(Answer::Save));
+    stage.session.apply(FileCommand::Close);
+    stage.session.apply(FileCommand::Answer(Answer::Save));
     assert_eq!(stage.session.take_request(), Some(Request::Exit));
     assert_eq!(stage.read("image.glsl"), plain(0.4));
     assert!(!stage.session.is_dirty());
@@ -253,28 +262,28 @@ fn what_has_no_place_of_its_own_is_saved_where_the_user_says() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::bare(gpu);
     stage.edit(&plain(0.4));
-    stage.session.apply(Command::AddTab(Tab::Common));
+    stage.session.apply(EditCommand::AddTab(Tab::Common));
     let channel = Some(Channel::new(Input::KEYBOARD));
-    stage.session.apply(Command::SetChannel { pass: PassName::image(), index: 2, channel: channel.clone() });
-    stage.session.apply(Command::Close);
-    stage.session.apply(Command::Answer(Answer::Save));
+    stage.session.apply(EditCommand::SetChannel { pass: PassName::image(), index: 2, channel: channel.clone() });
+    stage.session.apply(FileCommand::Close);
+    stage.session.apply(FileCommand::Answer(Answer::Save));
     assert_eq!(stage.session.take_request(), Some(Request::SaveAs { suggested_name: "Untitled".into() }));
     assert!(stage.session.is_dirty(), "not saved yet");
     // The folder holds a foreign file in the way: a question, and it stays until the answer.
     stage.write("image.glsl", "somebody else's");
-    stage.session.apply(Command::SaveAs(stage.folder()));
+    stage.session.apply(FileCommand::SaveAs(stage.folder()));
     assert!(matches!(stage.session.question(), Some(Question::Overwrite { .. })), "{:?}", stage.session.question());
     let parts = stage.session.unsaved_parts();
     assert_eq!(parts[parts.len() - 2..], ["the list of passes", "channels of Image"], "{parts:?}");
     assert_eq!(stage.read("image.glsl"), "somebody else's");
-    stage.session.apply(Command::Answer(Answer::Cancel));
+    stage.session.apply(FileCommand::Answer(Answer::Cancel));
     assert!(stage.session.is_dirty() && stage.session.take_request().is_none());
 
     let folder = stage.dir.path().join("elsewhere");
-    stage.session.apply(Command::Close);
-    stage.session.apply(Command::Answer(Answer::Save));
+    stage.session.apply(FileCommand::Close);
+    stage.session.apply(FileCommand::Answer(Answer::Save));
     stage.session.take_request();
-    stage.session.apply(Command::SaveAs(folder.clone()));
+    stage.session.apply(FileCommand::SaveAs(folder.clone()));
     assert_eq!(stage.session.take_request(), Some(Request::Exit), "{:?}", stage.session.notices());
     let back = project::load(folder.to_str().unwrap()).unwrap().project;
     assert_eq!(&*back.source(&image_tab()).unwrap().text, plain(0.4));
@@ -286,9 +295,9 @@ fn what_has_no_place_of_its_own_is_saved_where_the_user_says() {
 fn a_save_as_takes_the_new_folders_name_and_a_save_keeps_its_own() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::bare(gpu);
-    stage.session.apply(Command::Open("feedback".into()));
+    stage.session.apply(FileCommand::Open("feedback".into()));
     let folder = stage.dir.path().join("My own");
-    stage.session.apply(Command::SaveAs(folder.clone()));
+    stage.session.apply(FileCommand::SaveAs(folder.clone()));
     assert_eq!(stage.session.project().name, "My own");
     let back = |folder: &std::path::Path| project::load(folder.to_str().unwrap()).unwrap().project;
     assert_eq!(back(&folder).name, "My own");
@@ -300,10 +309,10 @@ fn a_save_as_takes_the_new_folders_name_and_a_save_keeps_its_own() {
     fs::write(folder.join("eddy.toml"), named).unwrap();
     stage.until("the name", |s| s.project().name == "A name");
     stage.edit(&plain(0.4));
-    stage.session.apply(Command::SaveAs(folder.clone()));
+    stage.session.apply(FileCommand::SaveAs(folder.clone()));
     assert_eq!((stage.session.project().name.as_str(), back(&folder).name.as_str()), ("A name", "A name"));
     let json = stage.dir.path().join("exported.json");
-    stage.session.apply(Command::SaveAs(json.clone()));
+    stage.session.apply(FileCommand::SaveAs(json.clone()));
     assert_eq!(back(&json).name, "exported");
 }
 
@@ -311,13 +320,13 @@ fn a_save_as_takes_the_new_folders_name_and_a_save_keeps_its_own() {
 fn a_failing_save_and_a_failing_open_lose_nothing() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.2))]);
-    stage.session.apply(Command::Open(stage.dir.path().join("gone").to_str().unwrap().into()));
+    stage.session.apply(FileCommand::Open(stage.dir.path().join("gone").to_str().unwrap().into()));
     assert_eq!(stage.notices(Level::Error).len(), 1);
     assert_eq!(stage.session.text(&image_tab()), plain(0.2));
     stage.edit(&plain(0.4));
     fs::remove_dir_all(stage.folder()).unwrap();
     fs::write(stage.folder(), "a file where the folder was").unwrap();
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert_eq!(stage.notices(Level::Error).len(), 2, "{:?}", stage.session.notices());
     assert!(stage.session.is_dirty());
     assert_eq!(stage.session.text(&image_tab()), plain(0.4));
@@ -327,18 +336,18 @@ fn a_failing_save_and_a_failing_open_lose_nothing() {
 fn a_size_the_device_cannot_draw_is_told_once_and_the_old_one_stays() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.2))]);
-    stage.act(Command::SetFixedSize(Some((1 << 20, 4))));
+    stage.act(Command::Canvas(CanvasCommand::SetFixedSize(Some((1 << 20, 4)))));
     stage.tick();
     assert_eq!(stage.notices(Level::Error).len(), 1);
     assert_eq!(stage.session.transport().resolution, (8, 4));
-    stage.act(Command::SetFixedSize(Some((0, 0))));
+    stage.act(Command::Canvas(CanvasCommand::SetFixedSize(Some((0, 0)))));
     assert_eq!(stage.notices(Level::Error).len(), 2);
-    stage.session.apply(Command::SetFixedSize(None));
-    stage.session.apply(Command::SetViewport { width: 31, height: 17 });
-    stage.act(Command::SetScale(0.5));
+    stage.session.apply(CanvasCommand::SetFixedSize(None));
+    stage.session.apply(CanvasCommand::SetViewport { width: 31, height: 17 });
+    stage.act(Command::Canvas(CanvasCommand::SetScale(0.5)));
     assert_eq!(stage.session.transport().resolution, (15, 8));
-    stage.session.apply(Command::SetViewport { width: 0, height: 17 });
-    stage.act(Command::SetScale(0.001));
+    stage.session.apply(CanvasCommand::SetViewport { width: 0, height: 17 });
+    stage.act(Command::Canvas(CanvasCommand::SetScale(0.001)));
     assert_eq!(stage.session.transport().resolution, (1, 1), "at least one pixel");
 }
 
@@ -352,7 +361,7 @@ fn a_pass_that_vanishes_is_warned_of_and_the_picture_is_drawn_without_it() {
         let mut stage = Stage::open(gpu.clone(), &files);
         assert_eq!(stage.red(), 102);
         if by_hand {
-            stage.session.apply(Command::EditPasses(PassEdit::Remove(Tab::Pass(PassName::buffer("A")))));
+            stage.session.apply(EditCommand::EditPasses(PassEdit::Remove(Tab::Pass(PassName::buffer("A")))));
         } else {
             stage.write("eddy.toml", "[passes.image]\nchannels.0 = { buffer = \"A\" }\n");
         }
@@ -378,18 +387,18 @@ fn channel_lines_in_a_lone_file_count_as_they_are_typed() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::bare(gpu);
     stage.write("lone.glsl", plain(0.2));
-    stage.session.apply(Command::Open(stage.path("lone.glsl").to_str().unwrap().into()));
-    stage.session.apply(Command::Pause);
+    stage.session.apply(FileCommand::Open(stage.path("lone.glsl").to_str().unwrap().into()));
+    stage.session.apply(TransportCommand::Pause);
     let channels = |stage: &Stage| stage.session.project().image().unwrap().bindings.clone();
     stage.edit(&format!("#iChannel1 \"keyboard\"\n{}", plain(0.4)));
     assert!(matches!(channels(&stage).get(1), Some(c) if c.input == Input::KEYBOARD));
-    stage.compile(Command::CompileNow);
+    stage.compile(Command::Edit(EditCommand::CompileNow));
     assert!(stage.is_ok(), "{:?}", stage.session.diagnostics());
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
     assert!(stage.read("lone.glsl").starts_with("#iChannel1"));
     stage.edit(&format!("#iChannel1 \"keybord\"\n{}", plain(0.4)));
-    stage.compile(Command::CompileNow);
+    stage.compile(Command::Edit(EditCommand::CompileNow));
     let d = &stage.session.diagnostics()[0];
     assert_eq!((d.tab(), line(d)), (Some(&image_tab()), Some(1)), "{d:?}");
     stage.edit(&plain(0.4));
@@ -408,26 +417,26 @@ fn the_code_of_a_lone_file_is_saved_whatever_its_sliders_are() {
     for (name, text, tab) in [("lone.glsl", lone, image_tab()), ("lone.fs", isf, Tab::Included("lone.fs".into()))] {
         let mut stage = Stage::bare(gpu.clone());
         stage.write(name, text);
-        stage.session.apply(Command::Open(stage.path(name).to_str().unwrap().into()));
-        stage.session.apply(Command::Pause);
+        stage.session.apply(FileCommand::Open(stage.path(name).to_str().unwrap().into()));
+        stage.session.apply(TransportCommand::Pause);
         stage.until_compiled();
         let half = Some(CustomUniformValue::Float(0.5));
-        stage.session.apply(Command::SetCustomUniform { name: "level".into(), value: half });
+        stage.session.apply(EditCommand::SetCustomUniform { name: "level".into(), value: half });
         let edited = text.replace("vec4(level)", "vec4(level + 0.25)");
-        stage.session.apply(Command::EditText { tab: tab.clone(), text: edited.clone() });
-        stage.session.apply(Command::Save);
+        stage.session.apply(EditCommand::EditText { tab: tab.clone(), text: edited.clone() });
+        stage.session.apply(FileCommand::Save);
         assert_eq!(stage.read(name), edited);
         assert!(!stage.session.is_tab_dirty(&tab) && stage.session.is_dirty(), "{:?}", stage.session.notices());
         let said = stage.session.notices().last().unwrap().text.clone();
         assert!(said.contains("saved the code of") && said.contains("sliders"), "{said}");
         assert_eq!(stage.session.take_request(), None);
-        stage.session.apply(Command::Save);
+        stage.session.apply(FileCommand::Save);
         let suggested_name = "lone".to_owned();
         assert_eq!(stage.session.take_request(), Some(Request::SaveAs { suggested_name }));
         // Where the project is about to be left, all of it is to be kept.
-        stage.session.apply(Command::EditText { tab: tab.clone(), text: text.into() });
-        stage.session.apply(Command::Close);
-        stage.session.apply(Command::Answer(Answer::Save));
+        stage.session.apply(EditCommand::EditText { tab: tab.clone(), text: text.into() });
+        stage.session.apply(FileCommand::Close);
+        stage.session.apply(FileCommand::Answer(Answer::Save));
         assert!(matches!(stage.session.take_request(), Some(Request::SaveAs { .. })));
         assert_eq!(stage.read(name), edited);
     }
@@ -440,18 +449,18 @@ fn what_is_added_to_a_shader_of_ghostty_is_not_lost_by_saving() {
     let mut stage = Stage::bare(gpu);
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0); }\n";
     stage.write("glow.glsl", text);
-    stage.session.apply(Command::Open(format!("ghostty:{}", stage.path("glow.glsl").display())));
-    stage.session.apply(Command::Pause);
+    stage.session.apply(FileCommand::Open(format!("ghostty:{}", stage.path("glow.glsl").display())));
+    stage.session.apply(TransportCommand::Pause);
     stage.until_compiled();
     let tab = Tab::Pass(PassName::buffer("B"));
-    stage.session.apply(Command::AddTab(tab.clone()));
-    stage.session.apply(Command::EditText { tab: tab.clone(), text: text.replace("0.0", "0.5") });
-    stage.session.apply(Command::Save);
+    stage.session.apply(EditCommand::AddTab(tab.clone()));
+    stage.session.apply(EditCommand::EditText { tab: tab.clone(), text: text.replace("0.0", "0.5") });
+    stage.session.apply(FileCommand::Save);
     let suggested_name = "glow".to_owned();
     assert_eq!(stage.session.take_request(), Some(Request::SaveAs { suggested_name }));
     assert!(stage.session.is_tab_dirty(&tab) && stage.session.is_dirty(), "{:?}", stage.session.notices());
     assert_eq!(stage.read("glow.glsl"), text);
-    stage.session.apply(Command::SaveAs(stage.path("folder")));
+    stage.session.apply(FileCommand::SaveAs(stage.path("folder")));
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
     assert!(stage.read("folder/eddy.toml").contains("ghostty"));
     assert!(stage.read("folder/buffer_b.glsl").contains("0.5"));
@@ -498,10 +507,10 @@ fn a_save_into_another_projects_folder_names_every_file_and_keeps_what_it_replac
     let mut stage = Stage::with_options(gpu, options);
     let there = [("eddy.toml", "eddy = 1\nname = \"Theirs\"\n"), ("buffer_a.glsl", "theirs"), ("image.glsl", "theirs")];
     there.iter().for_each(|(name, text)| stage.write(name, text));
-    stage.session.apply(Command::AddTab(Tab::Pass(PassName::buffer("A"))));
+    stage.session.apply(EditCommand::AddTab(Tab::Pass(PassName::buffer("A"))));
     stage.edit(&plain(0.4));
     let asked = |stage: &mut Stage| {
-        stage.session.apply(Command::SaveAs(stage.folder()));
+        stage.session.apply(FileCommand::SaveAs(stage.folder()));
         let Some(Question::Overwrite { folder, files }) = stage.session.question() else { panic!("no question") };
         assert_eq!(*folder, stage.folder());
         files.clone()
@@ -509,18 +518,18 @@ fn a_save_into_another_projects_folder_names_every_file_and_keeps_what_it_replac
     let mut all: Vec<_> = there.iter().map(|(name, _)| stage.path(name)).collect();
     all.sort();
     assert_eq!(asked(&mut stage), all);
-    stage.session.apply(Command::Answer(Answer::Cancel));
+    stage.session.apply(FileCommand::Answer(Answer::Cancel));
     there.iter().for_each(|(name, text)| assert_eq!(stage.read(name), *text, "{name}"));
     // What has appeared since the question was not in it: it is asked about, too.
     assert_eq!(asked(&mut stage), all);
-    stage.session.apply(Command::Answer(Answer::Cancel));
+    stage.session.apply(FileCommand::Answer(Answer::Cancel));
     stage.write("image.glsl", plain(0.4));
     assert_eq!(asked(&mut stage).len(), 2);
     stage.write("image.glsl", "theirs");
-    stage.session.apply(Command::Answer(Answer::Overwrite));
+    stage.session.apply(FileCommand::Answer(Answer::Overwrite));
     assert!(matches!(stage.session.question(), Some(Question::Overwrite { files, .. }) if *files == all));
     assert_eq!(stage.read("buffer_a.glsl"), "theirs", "nothing was written");
-    stage.session.apply(Command::Answer(Answer::Overwrite));
+    stage.session.apply(FileCommand::Answer(Answer::Overwrite));
     assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
     assert_eq!(stage.read("image.glsl"), plain(0.4));
     let kept = stage.session.notices().iter().find_map(|n| n.path.clone()).expect("a notice says where they are");
@@ -531,6 +540,6 @@ fn a_save_into_another_projects_folder_names_every_file_and_keeps_what_it_replac
     // The file that a project of one file is saved to is in the way as well.
     let one = stage.dir.path().join("one.json");
     fs::write(&one, "{}").unwrap();
-    stage.session.apply(Command::SaveAs(one.clone()));
+    stage.session.apply(FileCommand::SaveAs(one.clone()));
     assert_eq!(stage.session.question(), Some(&Question::Overwrite { folder: one.clone(), files: vec![one] }));
 }

@@ -7,7 +7,10 @@ use eddy::{
         trial::TrialSettings,
     },
     project::PassName,
-    session::{Command, Session, Status},
+    session::{
+        CanvasCommand, CaptureCommand, Command, FileCommand, InputCommand, Session, Status, ToolCommand,
+        TransportCommand,
+    },
 };
 use std::{fs, sync::Arc};
 
@@ -29,7 +32,7 @@ fn ended(session: &Session) -> Option<Result<&Arc<Comparison>, &str>> {
 
 /// Compares, and waits for the end.
 fn compare(stage: &mut Stage, against: Baseline) -> Result<Arc<Comparison>, String> {
-    stage.session.apply(Command::Compare(Some(against)));
+    stage.session.apply(ToolCommand::Compare(Some(against)));
     assert!(matches!(stage.session.comparison(), Some(Status::UnderWay(_))));
     stage.until("the end of a comparison", |s| ended(s).is_some());
     ended(&stage.session).unwrap().cloned().map_err(str::to_owned)
@@ -43,15 +46,15 @@ fn bits(texels: &[[f32; 4]]) -> Vec<u32> {
 fn run(stage: &mut Stage) {
     for frame in 0..9u16 {
         if frame == 2 {
-            stage.session.apply(Command::MouseDown { x: 3.0, y: 2.0 });
+            stage.session.apply(InputCommand::MouseDown { x: 3.0, y: 2.0 });
         }
         if frame == 4 {
-            stage.session.apply(Command::MouseMove { x: 5.0, y: 1.0 });
+            stage.session.apply(InputCommand::MouseMove { x: 5.0, y: 1.0 });
         }
         if frame == 6 {
-            stage.session.apply(Command::SetFixedSize(Some((12, 6))));
+            stage.session.apply(CanvasCommand::SetFixedSize(Some((12, 6))));
         }
-        stage.act(Command::Step);
+        stage.act(Command::Transport(TransportCommand::Step));
     }
 }
 
@@ -59,7 +62,7 @@ fn run(stage: &mut Stage) {
 fn an_edit_and_its_last_save_draw_the_same_frames_from_the_same_inputs() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &FILES);
-    stage.session.apply(Command::Reset);
+    stage.session.apply(TransportCommand::Reset);
     run(&mut stage);
     let same = compare(&mut stage, Baseline::LastSave).unwrap();
     let frame = stage.session.transport().frame;
@@ -67,7 +70,7 @@ fn an_edit_and_its_last_save_draw_the_same_frames_from_the_same_inputs() {
     assert!(same.frames >= 9 && !same.turns.is_empty() && same.turns.iter().all(|(a, b)| *a > 0.0 && *b > 0.0));
     assert_eq!(bits(&same.ours.texels), bits(&same.theirs.texels));
     // What both drew is what the session draws.
-    stage.session.apply(Command::SaveTexels);
+    stage.session.apply(CaptureCommand::SaveTexels);
     let written = fs::read(stage.path("project-0001.npy")).unwrap();
     let drawn: Vec<u8> = bits(&same.ours.texels).iter().flat_map(|x| x.to_le_bytes()).collect();
     assert!(written.ends_with(&drawn), "the session's own picture");
@@ -86,8 +89,8 @@ fn an_edit_and_its_last_save_draw_the_same_frames_from_the_same_inputs() {
     assert!(!stage.session.is_comparison_old() && stage.session.is_dirty());
 
     // Another project has nothing to do with it.
-    stage.session.apply(Command::Save);
-    stage.session.apply(Command::Open("feedback".into()));
+    stage.session.apply(FileCommand::Save);
+    stage.session.apply(FileCommand::Open("feedback".into()));
     assert!(stage.session.comparison().is_none());
 }
 
@@ -97,7 +100,7 @@ fn without_a_state_only_the_newest_frame_is_drawn() {
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(iFrame, iTime, p.x, 1.0); }";
     let mut stage = Stage::open(gpu, &[("image.glsl", text)]);
     (0..20).for_each(|_| {
-        stage.act(Command::Step);
+        stage.act(Command::Transport(TransportCommand::Step));
     });
     let other = stage.dir.path().join("other.glsl");
     fs::write(&other, text.replace("p.x", "p.y")).unwrap();
@@ -119,7 +122,7 @@ fn a_revision_is_drawn_as_it_was_and_what_is_not_there_is_said() {
     support::git::commit_all(&folder);
     stage.edit(&plain(0.5));
     stage.until_compiled();
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     let found = compare(&mut stage, Baseline::Revision("HEAD".into())).unwrap();
     assert_eq!((found.ours.texels[0][0], found.theirs.texels[0][0]), (0.5, 0.25));
     let same = compare(&mut stage, Baseline::LastSave).unwrap();
@@ -134,8 +137,8 @@ fn a_revision_is_drawn_as_it_was_and_what_is_not_there_is_said() {
     let wrong = compare(&mut stage, Baseline::Project(broken.display().to_string())).unwrap_err();
     assert!(wrong.contains("broken.glsl") && wrong.contains("lenght") && wrong.contains('2'), "{wrong}");
     // One that is stopped leaves what was there before, and the next one begins.
-    stage.session.apply(Command::Compare(Some(Baseline::LastSave)));
-    stage.session.apply(Command::Compare(None));
+    stage.session.apply(ToolCommand::Compare(Some(Baseline::LastSave)));
+    stage.session.apply(ToolCommand::Compare(None));
     stage.for_a_while();
     assert!(ended(&stage.session).is_some_and(|end| end.is_err()));
     assert!(compare(&mut stage, Baseline::LastSave).is_ok());
@@ -159,7 +162,7 @@ fn a_large_project_to_compare_with_is_tried_first() {
     let large = format!("void mainImage(out vec4 o, in vec2 p) {{ float a = p.x; {large} o = vec4(a); }}");
     let other = stage.folder().with_file_name("other.glsl");
     fs::write(&other, large).unwrap();
-    stage.compile(Command::Open(stage.folder().to_str().unwrap().into()));
+    stage.compile(Command::File(FileCommand::Open(stage.folder().to_str().unwrap().into())));
     stage.until("a frame", |s| s.transport().frame > 0);
     let refused = compare(&mut stage, Baseline::Project(other.to_str().unwrap().into())).unwrap_err();
     assert!(refused.contains("other.glsl: error: the graphics driver cannot compile Image"), "{refused}");

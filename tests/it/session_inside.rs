@@ -5,7 +5,8 @@ use eddy::{
     engine::Paint,
     project::{PassName, Tab},
     session::{
-        Command, SessionOptions,
+        CanvasCommand, CaptureCommand, Command, EditCommand, FileCommand, SessionOptions, ToolCommand,
+        TransportCommand, ViewCommand,
         probe::{ProbeLook, ProbePlace},
     },
 };
@@ -28,7 +29,7 @@ fn buffer_a() -> PassName {
 }
 
 fn step(stage: &mut Stage, count: usize) {
-    (0..count).for_each(|_| stage.session.apply(Command::Step));
+    (0..count).for_each(|_| stage.session.apply(TransportCommand::Step));
     stage.tick();
 }
 
@@ -39,8 +40,8 @@ fn a_pixel_is_traced_from_what_is_there_and_nothing_is_drawn_for_it() {
     step(&mut stage, 5);
     let (frames, frame) = (stage.frames(), stage.session.transport().frame);
     for pass in [PassName::image(), buffer_a()] {
-        stage.session.apply(Command::ShowPass(pass.clone()));
-        stage.session.apply(Command::Trace(Some([0.4, 0.6])));
+        stage.session.apply(ViewCommand::ShowPass(pass.clone()));
+        stage.session.apply(ToolCommand::Trace(Some([0.4, 0.6])));
         stage.until("a trace", |s| s.trace().traced.is_some_and(|traced| traced.pass == pass));
         let traced = stage.session.trace().traced.unwrap().clone();
         assert_eq!((traced.pixel, traced.size, traced.frame), ((3, 2), (8, 4), frame));
@@ -52,7 +53,7 @@ fn a_pixel_is_traced_from_what_is_there_and_nothing_is_drawn_for_it() {
     stage.until("the next frame's", |s| s.trace().traced.is_some_and(|traced| traced.frame == frame + 1));
     let traced = stage.session.trace().traced.unwrap();
     assert_eq!(traced.value, Some(traced.device));
-    stage.session.apply(Command::Trace(None));
+    stage.session.apply(ToolCommand::Trace(None));
     assert!(stage.session.trace().traced.is_none());
 }
 
@@ -65,7 +66,11 @@ fn a_probe_has_the_numbers_and_the_buffers_go_on() {
         // Another program draws one frame while paused, whatever it draws.
         let at = SHOW.find("p.x * 2.0").unwrap() + 5;
         let place = ProbePlace { tab: Tab::image(), at, visit: 0 };
-        stage.compile(if probes { Command::Probe(Some(place)) } else { Command::CompileNow });
+        stage.compile(if probes {
+            Command::View(ViewCommand::Probe(Some(place)))
+        } else {
+            Command::Edit(EditCommand::CompileNow)
+        });
         step(&mut stage, 4);
         if probes {
             stage.until("numbers", |s| s.probe().is_some_and(|view| view.numbers.is_some()));
@@ -76,10 +81,14 @@ fn a_probe_has_the_numbers_and_the_buffers_go_on() {
             assert_eq!(numbers.pixels.texels[9], [3.0, 3.0, 3.0, 1.0]);
             assert_eq!(numbers.statistics.extremes[0], Some((1.0, 15.0)));
         }
-        stage.compile(if probes { Command::Probe(None) } else { Command::CompileNow });
+        stage.compile(if probes {
+            Command::View(ViewCommand::Probe(None))
+        } else {
+            Command::Edit(EditCommand::CompileNow)
+        });
         step(&mut stage, 2);
-        stage.session.apply(Command::ShowPass(buffer_a()));
-        stage.session.apply(Command::SaveTexels);
+        stage.session.apply(ViewCommand::ShowPass(buffer_a()));
+        stage.session.apply(CaptureCommand::SaveTexels);
         (stage.session.transport().frame, fs::read(stage.path("project-buffer_a-0001.npy")).unwrap())
     };
     let (with, without) = (run(true), run(false));
@@ -93,17 +102,17 @@ fn a_probe_that_is_shown_otherwise_is_painted_though_nothing_is_drawn() {
     let mut stage = Stage::with_options(gpu, |_| SessionOptions { draws_on_thread: true, ..SessionOptions::default() });
     FILES.iter().for_each(|(name, text)| stage.write(name, text));
     let folder = stage.folder();
-    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    stage.session.apply(Command::Pause);
+    stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
+    stage.session.apply(TransportCommand::Pause);
     // A picture that is drawn within a few milliseconds is waited for in the tick that asks for it.
-    stage.compile(Command::SetFixedSize(Some((2048, 1024))));
+    stage.compile(Command::Canvas(CanvasCommand::SetFixedSize(Some((2048, 1024)))));
     let at = SHOW.find("p.x * 2.0").unwrap() + 5;
     let place = ProbePlace { tab: Tab::image(), at, visit: 0 };
-    stage.session.apply(Command::Probe(Some(place)));
+    stage.session.apply(ViewCommand::Probe(Some(place)));
     stage.until("numbers", |s| s.probe().is_some_and(|view| view.numbers.is_some()));
     stage.for_a_while();
     let frames = stage.frames();
-    stage.session.apply(Command::LookAtProbe(ProbeLook { paint: Paint::FalseColour, ..ProbeLook::default() }));
+    stage.session.apply(ViewCommand::LookAtProbe(ProbeLook { paint: Paint::FalseColour, ..ProbeLook::default() }));
     // The tick that hears of the wish, then one that has the picture.
     assert!(stage.tick().changed);
     let end = std::time::Instant::now() + std::time::Duration::from_secs(30);
@@ -140,8 +149,8 @@ fn a_breakpoint_stands_where_a_statement_does() {
     stage.write("shade.glsl", "// Light.\nfloat shade() {\n    return 0.5;\n}\n");
     stage.write("common.glsl", "const float HALF = 0.5;\nfloat half_of(float x) {\n    return HALF * x;\n}\n");
     let folder = stage.folder();
-    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    stage.compile(Command::Pause);
+    stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
+    stage.compile(Command::Transport(TransportCommand::Pause));
     let at = |tab: &Tab, line: usize| stage.session.stop_line(tab, line);
     let found: Vec<Option<usize>> = (0..=18).map(|line| at(&image_tab(), line)).collect();
     let wanted = [4, 4, 4, 4, 4, 8, 8, 8, 8, 8, 13, 13, 13, 13, 14, 16, 16].map(Some);

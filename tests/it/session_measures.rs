@@ -3,7 +3,10 @@
 use crate::support::{self, stage::*};
 use eddy::{
     project::{PassName, Tab},
-    session::{Command, Level, Session, SessionOptions, measures::Measure},
+    session::{
+        CaptureCommand, Command, EditCommand, FileCommand, Level, Session, SessionOptions, TransportCommand,
+        ViewCommand, measures::Measure,
+    },
 };
 use std::fs;
 
@@ -27,7 +30,7 @@ fn files() -> [(&'static str, &'static str); 4] {
 }
 
 fn step(stage: &mut Stage, count: usize) {
-    (0..count).for_each(|_| stage.session.apply(Command::Step));
+    (0..count).for_each(|_| stage.session.apply(TransportCommand::Step));
     stage.tick();
 }
 
@@ -37,7 +40,7 @@ fn measure<'s>(session: &'s Session, text: &str) -> &'s Measure {
 
 fn watch_all(stage: &mut Stage) {
     let all = stage.session.measures().iter().map(|measure| measure.serial).collect();
-    stage.act(Command::WatchMeasures(all));
+    stage.act(Command::View(ViewCommand::WatchMeasures(all)));
 }
 
 /// Frames with their values.
@@ -51,7 +54,7 @@ fn numbers_are_measured_frame_by_frame_while_somebody_looks() {
     let mut stage = Stage::open(gpu.clone(), &files());
     step(&mut stage, 1);
     assert_eq!((stage.session.measures().len(), stage.session.measured_frames()), (4, 0));
-    stage.act(Command::Reset);
+    stage.act(Command::Transport(TransportCommand::Reset));
     watch_all(&mut stage);
     step(&mut stage, 7);
     assert_eq!(values(&stage, "max(buffer_a.x)"), (0..8).map(|n| (n, f64::from(n + 1))).collect::<Vec<_>>());
@@ -62,7 +65,7 @@ fn numbers_are_measured_frame_by_frame_while_somebody_looks() {
         let unmeasured = stage.session.unmeasured(measure(&stage.session, text)).map(|why| why.into_owned());
         unmeasured.map(|unmeasured| (unmeasured.why, unmeasured.mend))
     };
-    stage.act(Command::WatchCosts(true));
+    stage.act(Command::View(ViewCommand::WatchCosts(true)));
     let (undrawn, mend) = why(&stage, "sum(buffer_b)").unwrap();
     assert_eq!(undrawn, "Buffer B is not drawn: no channel reads it");
     assert!(mend.contains("show Buffer B"), "{mend}");
@@ -72,16 +75,16 @@ fn numbers_are_measured_frame_by_frame_while_somebody_looks() {
         ("there is no pass buffer_q", "the project's passes are buffer_a, buffer_b and image")
     );
     assert_eq!(why(&stage, "max(buffer_a.x)"), None);
-    stage.compile(Command::ShowPass(PassName::buffer("B")));
+    stage.compile(Command::View(ViewCommand::ShowPass(PassName::buffer("B"))));
     assert_eq!(why(&stage, "sum(buffer_b)"), None);
     stage.until("a sum of what is shown", |s| measure(s, "sum(buffer_b)").record.newest().is_some());
     assert_eq!(measure(&stage.session, "sum(buffer_b)").record.newest().unwrap().value, 8.0 * 4.0 * 4.0);
 
-    stage.compile(Command::ShowPass(PassName::image()));
+    stage.compile(Command::View(ViewCommand::ShowPass(PassName::image())));
     step(&mut stage, 1);
 
     // Nobody looks: nothing is measured, and frames go on.
-    stage.act(Command::WatchMeasures(vec![]));
+    stage.act(Command::View(ViewCommand::WatchMeasures(vec![])));
     let (count, frames) = (stage.session.measured_frames(), stage.frames());
     step(&mut stage, 5);
     assert!(stage.session.measured_frames() == count && stage.frames() > frames);
@@ -97,12 +100,12 @@ fn numbers_are_measured_frame_by_frame_while_somebody_looks() {
 fn records_follow_time_and_edits() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu.clone(), &files());
-    stage.act(Command::Reset);
+    stage.act(Command::Transport(TransportCommand::Reset));
     watch_all(&mut stage);
     step(&mut stage, 6);
     let frames = |stage: &Stage| values(stage, "max(buffer_a.x)").iter().map(|value| value.0).collect::<Vec<_>>();
     assert_eq!(frames(&stage), (0..7).collect::<Vec<_>>());
-    stage.session.apply(Command::StepBack(3));
+    stage.session.apply(TransportCommand::StepBack(3));
     stage.until("an earlier frame", |s| s.transport().frame == 3);
     assert_eq!(frames(&stage), (0..4).collect::<Vec<_>>());
     step(&mut stage, 2);
@@ -113,16 +116,17 @@ fn records_follow_time_and_edits() {
     // An edit elsewhere keeps it, one of the comment begins another.
     let serial = measure(&stage.session, "max(buffer_a.x)").serial;
     stage.edit(&format!("// more\n{SHOW}"));
-    stage.compile(Command::CompileNow);
+    stage.compile(Command::Edit(EditCommand::CompileNow));
     assert!(frames(&stage).starts_with(&[0, 1, 2, 3]) && measure(&stage.session, "max(buffer_a.x)").serial == serial);
     assert_eq!(measure(&stage.session, "sum(buffer_q)").place.line, 4);
     let tab = Tab::Pass(PassName::buffer("A"));
-    stage.act(Command::EditText { tab, text: GROWING.replace("max(buffer_a.x)", "min(buffer_a.x)") });
+    stage
+        .act(Command::Edit(EditCommand::EditText { tab, text: GROWING.replace("max(buffer_a.x)", "min(buffer_a.x)") }));
     assert!(measure(&stage.session, "min(buffer_a.x)").record.newest().is_none());
     assert!(stage.session.measures().iter().all(|measure| measure.text != "max(buffer_a.x)"));
 
-    stage.compile(Command::CompileNow);
-    stage.session.apply(Command::Reset);
+    stage.compile(Command::Edit(EditCommand::CompileNow));
+    stage.session.apply(TransportCommand::Reset);
     stage.until("frame 0", |s| s.transport().frame == 0);
     stage.tick();
     watch_all(&mut stage);
@@ -133,12 +137,12 @@ fn records_follow_time_and_edits() {
 fn what_was_measured_goes_into_new_files() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu.clone(), &files());
-    stage.session.apply(Command::SaveMeasures);
+    stage.session.apply(ViewCommand::SaveMeasures);
     assert_eq!(stage.notices(Level::Warning).len(), 1);
-    stage.act(Command::Reset);
+    stage.act(Command::Transport(TransportCommand::Reset));
     watch_all(&mut stage);
     step(&mut stage, 5);
-    stage.session.apply(Command::SaveMeasures);
+    stage.session.apply(ViewCommand::SaveMeasures);
     let table = stage.read("project-measured-0001.csv");
     let rows: Vec<&str> = table.lines().collect();
     assert_eq!(rows[0], "frame,time,max(buffer_a.x),max(buffer_a.y),sum(buffer_b)");
@@ -146,10 +150,10 @@ fn what_was_measured_goes_into_new_files() {
     assert!(rows[6].starts_with("5,") && rows[6].ends_with(",6.0,NaN,"), "{table}");
     // One that is there stays as it is.
     fs::write(stage.path("project-measured-0002.csv"), "mine").unwrap();
-    stage.session.apply(Command::SaveMeasures);
+    stage.session.apply(ViewCommand::SaveMeasures);
     assert_eq!(stage.read("project-measured-0002.csv"), "mine");
     assert_eq!(stage.read("project-measured-0003.csv"), table);
-    stage.session.apply(Command::ClearMeasures);
+    stage.session.apply(ViewCommand::ClearMeasures);
     assert!(stage.session.measures().iter().all(|measure| measure.record.newest().is_none()));
 }
 
@@ -161,16 +165,16 @@ fn a_session_that_draws_apart_measures_too_and_draws_the_same() {
             Stage::with_options(gpu.clone(), |_| SessionOptions { draws_on_thread: true, ..SessionOptions::default() });
         files().iter().for_each(|(name, text)| stage.write(name, text));
         let folder = stage.folder();
-        stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-        stage.compile(Command::Pause);
-        stage.session.apply(Command::Reset);
+        stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
+        stage.compile(Command::Transport(TransportCommand::Pause));
+        stage.session.apply(TransportCommand::Reset);
         if measures {
             watch_all(&mut stage);
         }
         // The buffer's red is the number of frames since the reset.
         // The first frame since the reset is drawn by itself.
         stage.for_a_while();
-        (0..9).for_each(|_| stage.session.apply(Command::Step));
+        (0..9).for_each(|_| stage.session.apply(TransportCommand::Step));
         stage.until("the frames", |s| s.transport().frame == 9);
         if measures {
             stage.until("the newest number", |s| {
@@ -179,7 +183,7 @@ fn a_session_that_draws_apart_measures_too_and_draws_the_same() {
             assert_eq!(values(&stage, "max(buffer_a.x)").last(), Some(&(9, 10.0)));
         }
         stage.for_a_while();
-        stage.session.apply(Command::SaveTexels);
+        stage.session.apply(CaptureCommand::SaveTexels);
         stage.until("the texels", |s| s.notices().iter().any(|n| n.text.starts_with("saved ")));
         fs::read(stage.path("project-0001.npy")).unwrap()
     };

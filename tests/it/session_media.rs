@@ -1,7 +1,7 @@
 //! Pictures and models of an open project: read beside the window, and never in its way.
 
 use crate::support::{self, stage::Stage};
-use eddy::session::{Command, FallbackPicture, Outcome};
+use eddy::session::{Command, FallbackPicture, FileCommand, Outcome, TransportCommand};
 use image::{ImageBuffer, Rgba};
 use std::time::{Duration, Instant};
 
@@ -15,8 +15,8 @@ const FRAGMENT: &str = "layout(location = 0) out vec4 color;\nvoid main() { colo
 /// Opens the project, with the time that takes the caller.
 fn open(stage: &mut Stage) -> Duration {
     let began = Instant::now();
-    stage.session.apply(Command::Open(stage.folder().to_str().unwrap().into()));
-    stage.act(Command::Pause);
+    stage.session.apply(FileCommand::Open(stage.folder().to_str().unwrap().into()));
+    stage.act(Command::Transport(TransportCommand::Pause));
     began.elapsed()
 }
 

@@ -7,7 +7,7 @@ use crate::support::{
 use eddy::{
     audio::Track,
     project::{CustomUniformValue, PassEdit, Tab},
-    session::{Command, Outcome, Session},
+    session::{CaptureCommand, EditCommand, Outcome, Session, TransportCommand},
 };
 use std::sync::Arc;
 
@@ -33,7 +33,7 @@ fn until_whole(stage: &mut Stage) -> Arc<Track> {
 }
 
 fn edit_sound(stage: &mut Stage, text: &str) {
-    stage.session.apply(Command::EditText { tab: Tab::sound(), text: text.into() });
+    stage.session.apply(EditCommand::EditText { tab: Tab::sound(), text: text.into() });
 }
 
 /// (0.5 + 0.5 v) 65,536 - 32,767.
@@ -53,7 +53,7 @@ fn a_track_is_made_once_and_again_only_where_it_sounds_different() {
     assert_eq!(track.frame(7_938_000), Some([0, 0]));
     assert!(stage.session.sound().is_some_and(|view| view.trouble.is_none()));
 
-    stage.session.apply(Command::SaveSound);
+    stage.session.apply(CaptureCommand::SaveSound);
     let saved = stage.session.notices().last().expect("a notice").path.clone().expect("a file");
     let file = std::fs::read(&saved).unwrap();
     assert_eq!(file.len(), 44 + 4 * 7_938_000, "{}", saved.display());
@@ -66,14 +66,14 @@ fn a_track_is_made_once_and_again_only_where_it_sounds_different() {
     stage.for_a_while();
     stage
         .session
-        .apply(Command::EditText { tab: Tab::Common, text: format!("{common}float other() {{ return 1.0; }}\n") });
+        .apply(EditCommand::EditText { tab: Tab::Common, text: format!("{common}float other() {{ return 1.0; }}\n") });
     stage.for_a_while();
     let (now, same) = stage.session.sound_track().unwrap();
     assert_eq!(now, revision);
     assert!(Arc::ptr_eq(&same, &track));
 
     // Common changes it, and so does the pass.
-    stage.session.apply(Command::EditText { tab: Tab::Common, text: common.replace("0.25", "0.5") });
+    stage.session.apply(EditCommand::EditText { tab: Tab::Common, text: common.replace("0.25", "0.5") });
     let second = until_left(&mut stage, HALF);
     assert!(second > revision);
     assert_eq!(track.frame(0), Some([QUARTER, -16_383]), "what may be playing does not change");
@@ -81,7 +81,7 @@ fn a_track_is_made_once_and_again_only_where_it_sounds_different() {
     assert!(until_left(&mut stage, QUARTER) > second);
 
     // Without the pass there is nothing to hear; another project begins anew.
-    stage.session.apply(Command::EditPasses(PassEdit::Remove(Tab::sound())));
+    stage.session.apply(EditCommand::EditPasses(PassEdit::Remove(Tab::sound())));
     stage.until("silence", |session| session.sound_track().is_none() && session.sound().is_none());
 }
 
@@ -94,7 +94,7 @@ fn a_slider_makes_another_track_if_the_sound_reads_it() {
     let revision = until_left(&mut stage, QUARTER);
     let turn = |stage: &mut Stage, name: &str| {
         let value = Some(CustomUniformValue::Float(0.5));
-        stage.session.apply(Command::SetCustomUniform { name: name.into(), value });
+        stage.session.apply(EditCommand::SetCustomUniform { name: name.into(), value });
     };
     turn(&mut stage, "tint");
     stage.for_a_while();
@@ -132,7 +132,7 @@ fn a_sound_that_takes_forever_holds_neither_the_picture_nor_the_end() {
     let mut stage = Stage::open(gpu, &[("sound.glsl", slow), ("image.glsl", &plain(0.2))]);
     stage.until("a track", |session| session.sound_track().is_some());
     let frames = stage.frames();
-    stage.session.apply(Command::Play);
+    stage.session.apply(TransportCommand::Play);
     stage.for_a_while();
     assert!(stage.frames() > frames + 5, "{} frames", stage.frames() - frames);
     assert_eq!(first(&stage.session), None);

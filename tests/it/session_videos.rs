@@ -5,7 +5,10 @@ use crate::support::{self, ffmpeg::has_ffmpeg, stage::*};
 use eddy::{
     playback::comparing::Baseline,
     project::InputKind,
-    session::{CameraState, Command, Level, SessionOptions, Status},
+    session::{
+        CameraCommand, CameraState, EditCommand, FileCommand, Level, SessionOptions, Status, ToolCommand,
+        TransportCommand,
+    },
     video::CameraSource,
 };
 use image::{
@@ -36,19 +39,19 @@ fn a_paused_picture_shows_the_frame_of_its_time() {
     stage.write("eddy.toml", "[passes.image]\nchannels.0 = { file = \"a.gif\", kind = \"video\" }\n");
     stage.write("image.glsl", SHOW);
     let folder = stage.folder();
-    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    stage.session.apply(Command::Pause);
+    stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
+    stage.session.apply(TransportCommand::Pause);
     stage.until_compiled();
     assert!(stage.is_ok(), "{:?}", stage.session.notices());
     for (seconds, wanted) in [(0.55, 5), (0.05, 0), (0.95, 9), (1.25, 2), (0.35, 3)] {
-        stage.session.apply(Command::Seek(seconds));
+        stage.session.apply(TransportCommand::Seek(seconds));
         // One that was late is drawn again while time stands.
         stage.settle();
         assert_eq!(stage.red(), wanted * 20, "at {seconds}");
     }
     // An edit goes on from the same frame.
     stage.edit(&SHOW.replace("ivec2(0), 0)", "ivec2(0), 0) * 0.5"));
-    stage.session.apply(Command::CompileNow);
+    stage.session.apply(EditCommand::CompileNow);
     stage.until_compiled();
     stage.settle();
     assert_eq!(stage.red(), 30);
@@ -62,7 +65,7 @@ fn what_is_dropped_and_moves_is_a_video() {
         let path = stage.dir.path().join(name);
         std::fs::write(&path, bytes).unwrap();
         let to = Some((eddy::project::PassName::image(), Some(0)));
-        stage.session.apply(Command::Bring { paths: vec![path], to });
+        stage.session.apply(FileCommand::Bring { paths: vec![path], to });
         let channel = stage.session.project().passes[0].bindings.get(0).cloned();
         assert_eq!(channel.unwrap().input.kind(), kind, "{name}");
     }
@@ -80,8 +83,8 @@ fn a_camera_is_on_only_while_a_person_wants_it_and_for_one_project() {
     let width = "void mainImage(out vec4 o, in vec2 p) { o = vec4(texelFetch(iChannel0, ivec2(1), 0).r * iChannelResolution[0].x / 255.); }";
     stage.write("image.glsl", width);
     let folder = stage.folder().to_str().unwrap().to_owned();
-    stage.session.apply(Command::Open(folder.clone()));
-    stage.session.apply(Command::Pause);
+    stage.session.apply(FileCommand::Open(folder.clone()));
+    stage.session.apply(TransportCommand::Pause);
     stage.until_compiled();
     let webcam = InputKind::Webcam;
     assert!(stage.session.reads_device(webcam) && !stage.session.reads_device(InputKind::Microphone));
@@ -91,20 +94,20 @@ fn a_camera_is_on_only_while_a_person_wants_it_and_for_one_project() {
         (CameraState::Off, 0),
         "a project alone turns nothing on"
     );
-    stage.session.apply(Command::UseDevice { kind: webcam, on: true });
+    stage.session.apply(CameraCommand::UseDevice { kind: webcam, on: true });
     stage.until("the camera is on", |s| s.device_state(webcam) == CameraState::On);
     stage.until_compiled();
     stage.settle();
     assert_eq!(stage.red(), 24);
-    stage.session.apply(Command::UseDevice { kind: webcam, on: false });
+    stage.session.apply(CameraCommand::UseDevice { kind: webcam, on: false });
     assert_eq!(stage.session.device_state(webcam), CameraState::Off);
     stage.until_compiled();
     stage.settle();
     assert_eq!(stage.red(), 0);
-    stage.session.apply(Command::UseDevice { kind: webcam, on: true });
+    stage.session.apply(CameraCommand::UseDevice { kind: webcam, on: true });
     stage.until("the camera is on", |s| s.device_state(webcam) == CameraState::On);
     // Another project asks again, even the same one.
-    stage.session.apply(Command::Open(folder));
+    stage.session.apply(FileCommand::Open(folder));
     stage.until("another project", |s| s.device_state(webcam) == CameraState::Off);
     stage.for_a_while();
     assert_eq!(stage.session.device_state(webcam), CameraState::Off);
@@ -123,26 +126,26 @@ fn a_trace_and_a_comparison_have_the_picture_of_the_camera_that_was_shown() {
     stage.write("eddy.toml", "[passes.image]\nchannels.0 = { webcam = true }\n");
     stage.write("image.glsl", SHOW);
     let folder = stage.folder().to_str().unwrap().to_owned();
-    stage.session.apply(Command::Open(folder));
-    stage.session.apply(Command::Pause);
+    stage.session.apply(FileCommand::Open(folder));
+    stage.session.apply(TransportCommand::Pause);
     stage.until_compiled();
-    stage.session.apply(Command::UseDevice { kind: InputKind::Webcam, on: true });
+    stage.session.apply(CameraCommand::UseDevice { kind: InputKind::Webcam, on: true });
     stage.until("the camera is on", |s| s.device_state(InputKind::Webcam) == CameraState::On);
     stage.until_compiled();
-    stage.session.apply(Command::Step);
+    stage.session.apply(TransportCommand::Step);
     stage.settle();
     let shown = stage.red();
     assert!(shown > 30, "{shown}");
     let near = |value: f32| (value * 255.0 - f32::from(shown)).abs() < 1.0;
-    stage.session.apply(Command::Trace(Some([0.5, 0.5])));
+    stage.session.apply(ToolCommand::Trace(Some([0.5, 0.5])));
     stage.until("a trace", |s| s.trace().traced.is_some());
     let traced = stage.session.trace().traced.unwrap();
     assert!(near(traced.device[0]) && traced.value == Some(traced.device), "{:?} {:?}", traced.value, traced.device);
-    stage.session.apply(Command::FindDivergence);
+    stage.session.apply(ToolCommand::FindDivergence);
     stage.until("the search", |s| matches!(s.divergence(), Some(Status::Ended(_))));
     let Some(Status::Ended(found)) = stage.session.divergence() else { unreachable!() };
     assert_eq!(found.unwrap().first, None);
-    stage.session.apply(Command::Compare(Some(Baseline::LastSave)));
+    stage.session.apply(ToolCommand::Compare(Some(Baseline::LastSave)));
     stage.until("a comparison", |s| matches!(s.comparison(), Some(Status::Ended(_))));
     let Some(Status::Ended(done)) = stage.session.comparison() else { unreachable!() };
     let done = done.unwrap();
@@ -158,18 +161,18 @@ fn a_trace_and_a_comparison_have_the_frame_of_a_video() {
     stage.write("eddy.toml", "[passes.image]\nchannels.0 = { file = \"a.gif\", kind = \"video\" }\n");
     stage.write("image.glsl", SHOW);
     let folder = stage.folder();
-    stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-    stage.session.apply(Command::Pause);
+    stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
+    stage.session.apply(TransportCommand::Pause);
     stage.until_compiled();
-    stage.session.apply(Command::Seek(0.75));
+    stage.session.apply(TransportCommand::Seek(0.75));
     stage.settle();
     assert_eq!(stage.red(), 140);
     let near = |value: f32| (value * 255.0 - 140.0).abs() < 0.5;
-    stage.session.apply(Command::Trace(Some([0.5, 0.5])));
+    stage.session.apply(ToolCommand::Trace(Some([0.5, 0.5])));
     stage.until("a trace", |s| s.trace().traced.is_some());
     let traced = stage.session.trace().traced.unwrap();
     assert!(near(traced.device[0]) && traced.value == Some(traced.device), "{:?} {:?}", traced.value, traced.device);
-    stage.session.apply(Command::Compare(Some(Baseline::LastSave)));
+    stage.session.apply(ToolCommand::Compare(Some(Baseline::LastSave)));
     stage.until("a comparison", |s| matches!(s.comparison(), Some(Status::Ended(_))));
     let Some(Status::Ended(done)) = stage.session.comparison() else { unreachable!() };
     assert!(near(done.unwrap().ours.texels[0][0]), "{:?}", done.unwrap().ours.texels[0]);
@@ -180,7 +183,7 @@ fn a_camera_that_is_not_there_is_told_of() {
     let Some(gpu) = support::gpu() else { return };
     let camera = CameraSource::of_text("/dev/video-of-nobody");
     let mut stage = Stage::with_options(gpu, |_| SessionOptions { camera, ..SessionOptions::default() });
-    stage.session.apply(Command::UseDevice { kind: InputKind::Webcam, on: true });
+    stage.session.apply(CameraCommand::UseDevice { kind: InputKind::Webcam, on: true });
     stage.until("it is off again", |s| s.device_state(InputKind::Webcam) == CameraState::Off);
     let said = stage.notices(Level::Warning);
     assert!(said.iter().any(|text| text.contains("camera")), "{said:?}");

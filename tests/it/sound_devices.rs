@@ -9,7 +9,10 @@ use eddy::{
     },
     playback::scene::{Scene, SceneInputs},
     project::{InputKind, Media, PassName},
-    session::{Command, DeviceState, Level, SessionOptions},
+    session::{
+        CanvasCommand, Command, DeviceState, EditCommand, FileCommand, Level, SessionOptions, SoundCommand,
+        TransportCommand,
+    },
 };
 use std::{
     f64::consts::TAU,
@@ -73,10 +76,10 @@ impl Room {
             stage.write("buffer_a.glsl", SHOW);
         }
         let folder = stage.folder();
-        stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-        stage.session.apply(Command::Pause);
+        stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
+        stage.session.apply(TransportCommand::Pause);
         stage.until_compiled();
-        stage.session.apply(Command::Reset);
+        stage.session.apply(TransportCommand::Reset);
         Some(Room { stage, host, now: Instant::now() + Duration::from_secs(1) })
     }
 
@@ -132,7 +135,7 @@ fn what_is_heard_is_the_file_at_the_pictures_time() {
     let Some(mut room) = Room::with_song(FakeHost::default()) else { return };
     room.run(0.2);
     assert!(!room.host.out.is_open(), "nothing is opened before something is heard");
-    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(TransportCommand::Play);
     room.run(1.0);
     assert!(room.host.out.is_open());
     assert!(room.time() > 0.9);
@@ -140,28 +143,28 @@ fn what_is_heard_is_the_file_at_the_pictures_time() {
     assert!(worst < 1.0, "{worst} samples off");
     // A seek, forwards and back.
     for secs in [7.3, 2.0] {
-        room.stage.session.apply(Command::Seek(secs));
+        room.stage.session.apply(TransportCommand::Seek(secs));
         room.run(0.5);
         assert!((room.time() - secs - 0.48).abs() < 0.03, "{}", room.time());
         let worst = room.worst(0.4, 1.0);
         assert!(worst < 1.0, "{worst} samples off after a seek to {secs}");
     }
     // Past the end it begins again.
-    room.stage.session.apply(Command::Seek(9.8));
+    room.stage.session.apply(TransportCommand::Seek(9.8));
     room.run(0.6);
     assert!(room.worst(0.25, 1.0) < 1.0);
-    room.stage.session.apply(Command::Reset);
+    room.stage.session.apply(TransportCommand::Reset);
     room.run(0.5);
     assert!(room.time() < 0.52 && room.worst(0.4, 1.0) < 1.0);
     // Speeds: the file at iTime, read faster or slower.
     for speed in [0.25, 0.5, 2.0, 4.0] {
-        room.stage.session.apply(Command::Seek(1.0));
-        room.stage.session.apply(Command::SetSpeed(speed));
+        room.stage.session.apply(TransportCommand::Seek(1.0));
+        room.stage.session.apply(TransportCommand::SetSpeed(speed));
         room.run(0.6);
         let worst = room.worst(0.4, speed);
         assert!(worst < 1.0 + speed, "{worst} samples off at {speed}");
     }
-    room.stage.session.apply(Command::SetSpeed(8.0));
+    room.stage.session.apply(TransportCommand::SetSpeed(8.0));
     room.run(0.2);
     room.heard();
     room.run(0.2);
@@ -173,11 +176,14 @@ fn what_is_heard_is_the_file_at_the_pictures_time() {
 fn a_pause_a_fixed_rate_and_a_hidden_window_are_silent_and_the_sound_goes_on_where_the_picture_does() {
     let Some(mut room) = Room::with_song(FakeHost::default()) else { return };
     let silence: [(Command, Command); 3] = [
-        (Command::Pause, Command::Play),
-        (Command::SetFixedRate(Some(60.0)), Command::SetFixedRate(None)),
-        (Command::Hide(true), Command::Hide(false)),
+        (Command::Transport(TransportCommand::Pause), Command::Transport(TransportCommand::Play)),
+        (
+            Command::Transport(TransportCommand::SetFixedRate(Some(60.0))),
+            Command::Transport(TransportCommand::SetFixedRate(None)),
+        ),
+        (Command::Canvas(CanvasCommand::Hide(true)), Command::Canvas(CanvasCommand::Hide(false))),
     ];
-    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(TransportCommand::Play);
     for (stop, go_on) in silence {
         room.run(0.5);
         room.stage.session.apply(stop.clone());
@@ -191,13 +197,13 @@ fn a_pause_a_fixed_rate_and_a_hidden_window_are_silent_and_the_sound_goes_on_whe
         assert!(worst < 1.0, "{worst} samples off after {stop:?}");
     }
     // Steps and scrubs while paused are not heard.
-    room.stage.session.apply(Command::Pause);
+    room.stage.session.apply(TransportCommand::Pause);
     room.run(0.1);
     room.heard();
     for _ in 0..5 {
-        room.stage.session.apply(Command::Step);
+        room.stage.session.apply(TransportCommand::Step);
         room.run(0.05);
-        room.stage.session.apply(Command::Seek(3.0));
+        room.stage.session.apply(TransportCommand::Seek(3.0));
         room.run(0.05);
     }
     assert!(room.heard().1.iter().all(|sample| *sample == 0.0));
@@ -208,7 +214,7 @@ fn volume_and_mute_are_heard_and_music_that_two_passes_read_plays_once() {
     let two = "channels.0 = { file = \"song.wav\", kind = \"music\" }\n[passes.buffer_a]\nchannels.0 = { file = \
                \"song.wav\", kind = \"music\" }";
     let Some(mut room) = Room::open(FakeHost::default(), two) else { return };
-    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(TransportCommand::Play);
     room.run(0.5);
     assert_eq!(room.stage.session.sources_heard(), 1);
     let loudest = |room: &Room| {
@@ -217,13 +223,13 @@ fn volume_and_mute_are_heard_and_music_that_two_passes_read_plays_once() {
     };
     let full = loudest(&room);
     assert!((full - 10_000.0 / 32_768.0).abs() < 0.01, "{full}");
-    room.stage.session.apply(Command::SetVolume(0.5));
+    room.stage.session.apply(SoundCommand::SetVolume(0.5));
     room.run(0.5);
     assert!((loudest(&room) - full / 4.0).abs() < 0.01, "half the way is a quarter");
-    room.stage.session.apply(Command::SetMute(true));
+    room.stage.session.apply(SoundCommand::SetMute(true));
     room.run(0.5);
     assert_eq!(loudest(&room), 0.0);
-    room.stage.session.apply(Command::SetMute(false));
+    room.stage.session.apply(SoundCommand::SetMute(false));
     room.run(0.5);
     assert!((loudest(&room) - full / 4.0).abs() < 0.01);
     let view = room.stage.session.output_view().unwrap();
@@ -232,7 +238,7 @@ fn volume_and_mute_are_heard_and_music_that_two_passes_read_plays_once() {
     for (revision, value) in [(1, 3000_i16), (2, -3000)] {
         let track = Track::new(441_000, 44_100);
         (0..10).for_each(|block| track.write(block, vec![[value; 2]; 44_100]));
-        room.stage.session.apply(Command::SetVolume(1.0));
+        room.stage.session.apply(SoundCommand::SetVolume(1.0));
         room.stage.session.play_track(Some((revision, Arc::new(track))));
         room.run(0.5);
         assert_eq!(room.stage.session.sources_heard(), 2);
@@ -243,7 +249,7 @@ fn volume_and_mute_are_heard_and_music_that_two_passes_read_plays_once() {
     }
     // Another project is silent.
     room.stage.session.play_track(None);
-    room.stage.session.apply(Command::New);
+    room.stage.session.apply(FileCommand::New);
     room.run(0.5);
     assert_eq!(room.stage.session.sources_heard(), 0);
 }
@@ -253,7 +259,7 @@ fn a_device_that_is_missing_or_vanishes_is_told_of_once_and_comes_back() {
     let host = FakeHost::default();
     host.out.set_names(&[]);
     let Some(mut room) = Room::with_song(host) else { return };
-    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(TransportCommand::Play);
     room.run(7.0);
     let told = |room: &Room| room.stage.count("no sound: ");
     assert_eq!(told(&room), 1);
@@ -272,12 +278,12 @@ fn a_device_that_is_missing_or_vanishes_is_told_of_once_and_comes_back() {
     room.run(3.5);
     assert!(room.host.out.is_open() && told(&room) == 0);
     // By name: one that is not there, and then the one that is.
-    room.stage.session.apply(Command::SetAudioOutput(Some("Kitchen".into())));
+    room.stage.session.apply(SoundCommand::SetAudioOutput(Some("Kitchen".into())));
     room.run(0.5);
     assert!(!room.host.out.is_open());
     assert_eq!(room.stage.notices(Level::Warning).len(), 1);
     assert!(room.stage.notices(Level::Warning)[0].contains("there is no device \"Kitchen\""));
-    room.stage.session.apply(Command::SetAudioOutput(None));
+    room.stage.session.apply(SoundCommand::SetAudioOutput(None));
     room.run(0.5);
     assert!(room.host.out.is_open());
 }
@@ -287,14 +293,14 @@ fn a_project_without_sound_opens_nothing_and_says_nothing() {
     let host = FakeHost::default();
     host.out.set_names(&[]);
     let Some(mut room) = Room::open(host, "channels.0 = { keyboard = true }") else { return };
-    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(TransportCommand::Play);
     room.run(5.0);
     assert_eq!((room.host.out.attempts(), room.stage.session.notices().len()), (0, 0));
     // Nor where there is no sound at all.
     let Some(gpu) = gpu() else { return };
     let mut bare = Stage::open(gpu, &[("image.glsl", SHOW)]);
-    bare.session.apply(Command::UseMicrophone(true));
-    bare.session.apply(Command::ListAudioDevices);
+    bare.session.apply(SoundCommand::UseMicrophone(true));
+    bare.session.apply(SoundCommand::ListAudioDevices);
     bare.for_a_while();
     assert!(bare.session.output_view().is_none() && bare.session.microphone_view().is_none());
 }
@@ -302,14 +308,14 @@ fn a_project_without_sound_opens_nothing_and_says_nothing() {
 #[test]
 fn a_device_is_closed_when_it_is_not_needed_for_long() {
     let Some(mut room) = Room::with_song(FakeHost::default()) else { return };
-    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(TransportCommand::Play);
     room.run(0.5);
-    room.stage.session.apply(Command::Pause);
+    room.stage.session.apply(TransportCommand::Pause);
     room.run(15.0);
     assert!(room.host.out.is_open());
     room.run(8.0);
     assert!(!room.host.out.is_open());
-    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(TransportCommand::Play);
     room.run(0.5);
     assert!(room.host.out.is_open() && room.worst(0.3, 1.0) < 1.0);
 }
@@ -318,7 +324,7 @@ fn a_device_is_closed_when_it_is_not_needed_for_long() {
 fn another_rate_of_the_device_changes_no_place() {
     let host = FakeHost { out: FakeOut::new(Format { rate: 48_000, channels: 2 }, 480), ..FakeHost::default() };
     let Some(mut room) = Room::with_song(host) else { return };
-    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(TransportCommand::Play);
     room.run(1.0);
     let (at, left) = room.heard();
     let (drawn, time) = (room.now - Duration::from_micros(16_667), room.time());
@@ -346,24 +352,24 @@ fn a_microphone_is_opened_by_a_person_alone_and_its_frames_are_recorded() {
     let Some(mut room) = Room::open(host, "channels.0 = { microphone = true }") else { return };
     // The wave at rest is 128; the made-up one never is for long.
     room.host.input.plug_in();
-    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(TransportCommand::Play);
     room.run(0.3);
     assert!(!room.host.input.is_open(), "no project opens it");
     let view = room.stage.session.microphone_view().unwrap();
     assert!(view.is_read && !view.is_on);
-    room.stage.session.apply(Command::UseMicrophone(true));
+    room.stage.session.apply(SoundCommand::UseMicrophone(true));
     room.run(0.1);
     assert!(room.host.input.is_open());
     let tone = |from: usize| -> Vec<f32> {
         (from..from + 735).map(|n| (0.2 * (TAU * 441.0 * n as f64 / RATE).sin()) as f32).collect()
     };
-    room.stage.session.apply(Command::Record);
+    room.stage.session.apply(TransportCommand::Record);
     for frame in 0..30 {
         room.host.input.hear(&tone(735 * frame));
         room.run(0.016);
     }
     assert!(room.stage.session.microphone_view().unwrap().level > 0.15);
-    room.stage.session.apply(Command::Pause);
+    room.stage.session.apply(TransportCommand::Pause);
     room.run(0.1);
     let shown = seen(&mut room);
     // An image holds its project, and nothing that was heard.
@@ -374,17 +380,17 @@ fn a_microphone_is_opened_by_a_person_alone_and_its_frames_are_recorded() {
     room.host.input.hear(&vec![0.9; 4410]);
     room.run(0.1);
     assert_eq!(seen(&mut room), shown);
-    room.stage.session.apply(Command::Record);
+    room.stage.session.apply(TransportCommand::Record);
     room.run(0.1);
     let notice = room.stage.session.notices().iter().rev().find(|n| n.text.contains("frames of input saved"));
     let file = notice.and_then(|notice| notice.path.clone()).expect("a recording");
     let text = std::fs::read_to_string(&file).unwrap();
     assert!(text.matches("\"mic\"").count() >= 29, "{} frames with it", text.matches("\"mic\"").count());
     // It is closed at once, and the recording has what it heard.
-    room.stage.session.apply(Command::UseMicrophone(false));
+    room.stage.session.apply(SoundCommand::UseMicrophone(false));
     room.run(0.05);
     assert!(!room.host.input.is_open());
-    room.stage.session.apply(Command::PlayRecording(file));
+    room.stage.session.apply(TransportCommand::PlayRecording(file));
     let end = Instant::now() + Duration::from_secs(20);
     while !room.stage.session.notices().iter().any(|n| n.text.contains(" ended: ")) {
         assert!(Instant::now() < end, "{:#?}", room.stage.session.notices());
@@ -400,8 +406,8 @@ fn a_microphone_is_closed_when_another_project_opens() {
     let reads = "channels.0 = { microphone = true }";
     let Some(mut room) = Room::open(FakeHost::default(), reads) else { return };
     room.host.input.plug_in();
-    room.stage.session.apply(Command::Play);
-    room.stage.session.apply(Command::UseMicrophone(true));
+    room.stage.session.apply(TransportCommand::Play);
+    room.stage.session.apply(SoundCommand::UseMicrophone(true));
     room.run(0.2);
     assert!(room.host.input.is_open());
     // The next one reads it as well, and nobody has switched it on for that one.
@@ -409,13 +415,13 @@ fn a_microphone_is_closed_when_another_project_opens() {
     room.stage.write("next/eddy.toml", format!("[passes.image]\n{reads}\n"));
     room.stage.write("next/image.glsl", SHOW);
     let next = room.stage.folder().join("next");
-    room.stage.session.apply(Command::Open(next.to_str().unwrap().into()));
+    room.stage.session.apply(FileCommand::Open(next.to_str().unwrap().into()));
     room.stage.until_compiled();
-    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(TransportCommand::Play);
     room.run(0.5);
     let view = room.stage.session.microphone_view().unwrap();
     assert!(view.is_read && !view.is_on && !room.host.input.is_open(), "{view:?}");
-    room.stage.session.apply(Command::UseMicrophone(true));
+    room.stage.session.apply(SoundCommand::UseMicrophone(true));
     room.run(0.2);
     assert!(room.host.input.is_open());
 }
@@ -437,7 +443,7 @@ fn a_sound_device_that_ended_the_program_is_not_opened_at_the_next_start() {
     let state = tempfile::tempdir().unwrap();
     let start = |state: &Path| Room::with_state(FakeHost::default(), SONG, Some(state.to_owned()));
     let Some(mut room) = start(state.path()) else { return };
-    room.stage.session.apply(Command::Play);
+    room.stage.session.apply(TransportCommand::Play);
     room.run(0.1);
     assert_eq!(room.host.out.attempts(), 1);
     let after_crash = crashed(state.path());
@@ -447,7 +453,7 @@ fn a_sound_device_that_ended_the_program_is_not_opened_at_the_next_start() {
     drop(room);
 
     let mut next = start(after_crash.path()).unwrap();
-    next.stage.session.apply(Command::Play);
+    next.stage.session.apply(TransportCommand::Play);
     next.run(1.0);
     assert_eq!(
         (next.host.out.attempts(), next.stage.count("Eddy ended while it opened the default sound device")),
@@ -457,17 +463,17 @@ fn a_sound_device_that_ended_the_program_is_not_opened_at_the_next_start() {
     drop(next);
     // Until somebody asks for it.
     let mut again = start(after_crash.path()).unwrap();
-    again.stage.session.apply(Command::Play);
+    again.stage.session.apply(TransportCommand::Play);
     again.run(0.5);
     assert_eq!(again.host.out.attempts(), 0, "nobody has asked yet");
-    again.stage.session.apply(Command::OpenSoundAgain);
+    again.stage.session.apply(SoundCommand::OpenSoundAgain);
     again.run(0.1);
     assert!(again.host.out.is_open() && again.stage.count("Eddy ended while") == 0);
     again.run(1.5);
     drop(again);
     for state in [well.path(), after_crash.path()] {
         let mut last = start(state).unwrap();
-        last.stage.session.apply(Command::Play);
+        last.stage.session.apply(TransportCommand::Play);
         last.run(0.1);
         assert_eq!(last.host.out.attempts(), 1);
     }
@@ -476,11 +482,11 @@ fn a_sound_device_that_ended_the_program_is_not_opened_at_the_next_start() {
     let other = crashed(state.path());
     std::fs::write(other.path().join("opening-sound.txt"), "headphones\n").unwrap();
     let mut last = start(other.path()).unwrap();
-    last.stage.session.apply(Command::SetAudioOutput(Some("headphones".into())));
-    last.stage.session.apply(Command::Play);
+    last.stage.session.apply(SoundCommand::SetAudioOutput(Some("headphones".into())));
+    last.stage.session.apply(TransportCommand::Play);
     last.run(0.2);
     assert_eq!(last.stage.count("Eddy ended while it opened the sound device headphones"), 1);
-    last.stage.session.apply(Command::SetAudioOutput(Some("speakers".into())));
+    last.stage.session.apply(SoundCommand::SetAudioOutput(Some("speakers".into())));
     last.run(0.2);
     assert!(last.host.out.is_open());
 }
@@ -488,15 +494,15 @@ fn a_sound_device_that_ended_the_program_is_not_opened_at_the_next_start() {
 #[test]
 fn a_microphone_that_is_not_there_is_told_of_and_one_that_no_channel_reads_stays_closed() {
     let Some(mut room) = Room::open(FakeHost::default(), "channels.0 = { microphone = true }") else { return };
-    room.stage.session.apply(Command::Play);
-    room.stage.session.apply(Command::UseMicrophone(true));
+    room.stage.session.apply(TransportCommand::Play);
+    room.stage.session.apply(SoundCommand::UseMicrophone(true));
     room.run(4.0);
     assert_eq!(room.stage.count("the microphone cannot be used: this machine has no input device"), 1);
     room.host.input.plug_in();
     room.run(3.5);
     assert!(room.host.input.is_open());
     assert_eq!(room.stage.count("the microphone cannot be used"), 0);
-    room.stage.session.apply(Command::SetChannel { pass: PassName::image(), index: 0, channel: None });
+    room.stage.session.apply(EditCommand::SetChannel { pass: PassName::image(), index: 0, channel: None });
     room.run(0.2);
     assert!(!room.host.input.is_open());
 }
@@ -506,15 +512,17 @@ fn a_song_that_is_dropped_is_music_of_a_free_channel() {
     let Some(mut room) = Room::open(FakeHost::default(), "channels.0 = { keyboard = true }") else { return };
     let elsewhere = room.stage.dir.path().join("tune.WAV");
     std::fs::write(&elsewhere, wav((0..44_100).map(saw))).unwrap();
-    room.stage.session.apply(Command::Play);
-    room.stage.session.apply(Command::Bring { paths: vec![elsewhere.clone()], to: Some((PassName::image(), None)) });
+    room.stage.session.apply(TransportCommand::Play);
+    room.stage
+        .session
+        .apply(FileCommand::Bring { paths: vec![elsewhere.clone()], to: Some((PassName::image(), None)) });
     room.stage.until("music", |session| session.output_view().is_some_and(|view| view.has_sound));
     let channel = room.stage.session.project().image().unwrap().bindings.get(1).cloned().unwrap();
     assert_eq!(channel.input.kind(), InputKind::Music);
     assert_eq!(channel.input.media(), Some(&Media::Picked(elsewhere)));
     assert_eq!(room.stage.count("iChannel1 of Image reads tune.WAV"), 1);
     // A copy comes into the project's folder when it is saved.
-    room.stage.session.apply(Command::Save);
+    room.stage.session.apply(FileCommand::Save);
     room.run(0.3);
     assert!(room.stage.path("tune.wav").is_file());
     assert!(room.stage.read("eddy.toml").contains("kind = \"music\""), "{}", room.stage.read("eddy.toml"));

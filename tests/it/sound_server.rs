@@ -6,7 +6,7 @@
 use crate::support::{gpu, skipped, stage::Stage};
 use eddy::{
     audio::device::Machine,
-    session::{Command as Ask, SessionOptions},
+    session::{CanvasCommand, Command as Ask, FileCommand, SessionOptions},
 };
 use std::{
     fs,
@@ -99,8 +99,8 @@ fn plays() {
         frame_limit: Duration::from_secs(60),
         ..SessionOptions::default()
     });
-    stage.session.apply(Ask::SetFixedSize(Some((256, 144))));
-    stage.session.apply(Ask::Open(folder.to_str().unwrap().into()));
+    stage.session.apply(CanvasCommand::SetFixedSize(Some((256, 144))));
+    stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
     stage.until_compiled();
     let end = Instant::now() + Duration::from_secs_f64(seconds);
     let (mut frames, mut newest) = (0, None);

@@ -6,7 +6,10 @@ use eddy::{
     media,
     playback::{npy, offline::Offline, recording::Recording, script::ScriptedInputs},
     project::{self, PassName, Tab},
-    session::{Command, Level, TimeRange},
+    session::{
+        CanvasCommand, CaptureCommand, Command, EditCommand, FileCommand, InputCommand, Level, TimeRange, ToolCommand,
+        TransportCommand, ViewCommand,
+    },
 };
 use std::{
     fs::{self, File},
@@ -31,13 +34,13 @@ const MANIFEST: &str =
 pub(super) fn stage(gpu: eddy::gpu::Gpu) -> Stage {
     let mut stage = Stage::open(gpu, &[("eddy.toml", MANIFEST), ("buffer_a.glsl", HISTORY), ("image.glsl", SHOW)]);
     assert!(stage.is_ok(), "{:?}", stage.session.notices());
-    stage.act(Command::ShowPass(PassName::buffer("A")));
+    stage.act(Command::View(ViewCommand::ShowPass(PassName::buffer("A"))));
     stage
 }
 
 /// The texels of the pass that is shown.
 pub(super) fn texels(stage: &mut Stage) -> Vec<u8> {
-    stage.act(Command::SaveTexels);
+    stage.act(Command::Capture(CaptureCommand::SaveTexels));
     let notice = stage.session.notices().iter().rev().find_map(|n| n.path.clone()).unwrap();
     fs::read(notice).unwrap()
 }
@@ -46,13 +49,13 @@ pub(super) fn texels(stage: &mut Stage) -> Vec<u8> {
 pub(super) fn steps(stage: &mut Stage, frames: std::ops::Range<i32>) {
     for frame in frames {
         match frame {
-            30 => stage.session.apply(Command::MouseDown { x: 1.5, y: 1.5 }),
-            31..90 => stage.session.apply(Command::MouseMove { x: (frame % 8) as f32, y: 2.5 }),
-            90 => stage.session.apply(Command::MouseUp),
-            110 => stage.session.apply(Command::AssignCustomUniform("level=0.125".into())),
+            30 => stage.session.apply(InputCommand::MouseDown { x: 1.5, y: 1.5 }),
+            31..90 => stage.session.apply(InputCommand::MouseMove { x: (frame % 8) as f32, y: 2.5 }),
+            90 => stage.session.apply(InputCommand::MouseUp),
+            110 => stage.session.apply(EditCommand::AssignCustomUniform("level=0.125".into())),
             _ => {}
         }
-        stage.act(Command::Step);
+        stage.act(Command::Transport(TransportCommand::Step));
     }
 }
 
@@ -70,14 +73,14 @@ fn one_goes_back_to_any_frame_with_the_buffers_as_they_were() {
     assert_eq!((first, newest), (0, 300));
     let mut at = 300;
     while let Some((frame, before)) = known.pop() {
-        stage.act(Command::StepBack((at - frame) as usize));
+        stage.act(Command::Transport(TransportCommand::StepBack((at - frame) as usize)));
         assert!(texels(&mut stage) == before, "frame {frame}");
         assert!(!stage.session.transport().playing);
         at = frame;
     }
     // On from there as ever.
     let frame = stage.session.transport().frame;
-    stage.act(Command::Step);
+    stage.act(Command::Transport(TransportCommand::Step));
     assert_eq!(stage.session.transport().frame, frame + 1);
     assert!(stage.notices(Level::Error).is_empty() && stage.notices(Level::Warning).is_empty());
 }
@@ -88,11 +91,11 @@ fn what_is_out_of_reach_is_told_and_changes_nothing() {
     let mut stage = stage(gpu);
     steps(&mut stage, 0..10);
     let before = texels(&mut stage);
-    stage.act(Command::StepBack(500));
+    stage.act(Command::Transport(TransportCommand::StepBack(500)));
     assert!(texels(&mut stage) == before);
     assert!(stage.notices(Level::Warning)[0].contains("you can go back"), "{:?}", stage.notices(Level::Warning));
-    stage.act(Command::Reset);
-    stage.act(Command::StepBack(1));
+    stage.act(Command::Transport(TransportCommand::Reset));
+    stage.act(Command::Transport(TransportCommand::StepBack(1)));
     let warnings = stage.notices(Level::Warning);
     assert!(warnings.len() == 1 && warnings[0].contains("restarts at frame 0"), "the one before is over: {warnings:?}");
 }
@@ -145,21 +148,21 @@ fn what_was_gone_back_from_is_gone_forward_to_until_something_else_is_drawn() {
     let mut stage = stage(gpu);
     steps(&mut stage, 0..150);
     let last = texels(&mut stage);
-    stage.act(Command::StepBack(100));
+    stage.act(Command::Transport(TransportCommand::StepBack(100)));
     assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (50, 100));
     // With the mouse and the slider that those frames had.
     for _ in 0..100 {
-        stage.session.apply(Command::Step);
+        stage.session.apply(TransportCommand::Step);
     }
     stage.tick();
     assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (150, 0));
     assert!(texels(&mut stage) == last);
     // A slider that is turned makes another run of it, from the frame that is shown on.
-    stage.act(Command::StepBack(20));
-    stage.act(Command::AssignCustomUniform("level=0.75".into()));
+    stage.act(Command::Transport(TransportCommand::StepBack(20)));
+    stage.act(Command::Edit(EditCommand::AssignCustomUniform("level=0.75".into())));
     assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (130, 0));
     for _ in 0..20 {
-        stage.act(Command::Step);
+        stage.act(Command::Transport(TransportCommand::Step));
     }
     assert_eq!(stage.session.transport().frame, 150);
     assert!(texels(&mut stage) != last);
@@ -172,18 +175,18 @@ fn a_picture_without_a_state_is_there_at_any_time_at_once() {
     let mut stage = Stage::open(gpu, &[("image.glsl", time)]);
     for (secs, frame) in [(12.5, 750), (0.25, 15), (0.0, 0), (3600.0, 216_000)] {
         let before = stage.frames();
-        stage.act(Command::Seek(secs));
+        stage.act(Command::Transport(TransportCommand::Seek(secs)));
         assert_eq!((place(&stage), stage.frames()), ((secs, frame), before + 1));
         let bytes = texels(&mut stage);
         let red = f32::from_le_bytes(bytes[bytes.len() - 16..][..4].try_into().unwrap());
         assert_eq!(red, secs as f32);
     }
-    stage.session.apply(Command::Seek(f64::NAN));
-    stage.act(Command::Seek(-3.0));
+    stage.session.apply(TransportCommand::Seek(f64::NAN));
+    stage.act(Command::Transport(TransportCommand::Seek(-3.0)));
     assert_eq!(place(&stage), (0.0, 0));
     // While it runs, it runs on from there.
-    stage.session.apply(Command::Play);
-    stage.session.apply(Command::Seek(7.0));
+    stage.session.apply(TransportCommand::Play);
+    stage.session.apply(TransportCommand::Seek(7.0));
     let now = Instant::now();
     stage.session.tick(now);
     stage.session.tick(now + Duration::from_millis(50));
@@ -197,24 +200,24 @@ fn a_state_is_drawn_again_for_an_earlier_time_and_on_for_a_later_one() {
     steps(&mut stage, 0..60);
     let one_second = texels(&mut stage);
     steps(&mut stage, 60..150);
-    stage.act(Command::Seek(1.004));
+    stage.act(Command::Transport(TransportCommand::Seek(1.004)));
     assert_eq!(place(&stage), (1.0, 60), "the last frame that is not later");
     assert!(texels(&mut stage) == one_second);
-    stage.act(Command::Seek(2.0));
+    stage.act(Command::Transport(TransportCommand::Seek(2.0)));
     assert_eq!((place(&stage), stage.session.reach().ahead), ((2.0, 120), 30));
     // Beyond what was drawn: the same as to go on step by step.
-    stage.act(Command::Seek(3.0));
+    stage.act(Command::Transport(TransportCommand::Seek(3.0)));
     assert_eq!((place(&stage), stage.session.transport().is_seeking), ((3.0, 180), false));
     let sought = texels(&mut stage);
-    stage.act(Command::Seek(2.5));
+    stage.act(Command::Transport(TransportCommand::Seek(2.5)));
     for _ in 0..30 {
-        stage.act(Command::Step);
+        stage.act(Command::Transport(TransportCommand::Step));
     }
     assert_eq!(place(&stage), (3.0, 180));
     assert!(texels(&mut stage) == sought);
     // On another canvas there is nothing to go back in: it begins at 0.
-    stage.act(Command::SetFixedSize(Some((10, 4))));
-    stage.act(Command::Seek(0.5));
+    stage.act(Command::Canvas(CanvasCommand::SetFixedSize(Some((10, 4)))));
+    stage.act(Command::Transport(TransportCommand::Seek(0.5)));
     assert_eq!(place(&stage), (0.5, 30));
     assert!(stage.notices(Level::Warning).is_empty(), "{:?}", stage.notices(Level::Warning));
 }
@@ -225,9 +228,9 @@ fn a_range_is_played_again_and_again_from_the_same_state() {
     let mut stage = stage(gpu);
     steps(&mut stage, 0..60);
     let begin = texels(&mut stage);
-    stage.session.apply(Command::SetTimeRange(TimeRange::new(1.0, 1.5)));
-    stage.session.apply(Command::SetFixedRate(Some(60.0)));
-    stage.session.apply(Command::Play);
+    stage.session.apply(TransportCommand::SetTimeRange(TimeRange::new(1.0, 1.5)));
+    stage.session.apply(TransportCommand::SetFixedRate(Some(60.0)));
+    stage.session.apply(TransportCommand::Play);
     let (mut now, mut turns, mut before) = (Instant::now(), 0, 1.0);
     for _ in 0..200 {
         now += Duration::from_millis(7);
@@ -243,7 +246,7 @@ fn a_range_is_played_again_and_again_from_the_same_state() {
     }
     assert!(turns >= 5, "{turns}");
     // In real time, of which a slow frame takes a tenth of a second.
-    stage.session.apply(Command::SetFixedRate(None));
+    stage.session.apply(TransportCommand::SetFixedRate(None));
     let (mut turns, mut latest) = (0, 0.0f64);
     for _ in 0..40 {
         now += Duration::from_millis(100);
@@ -255,7 +258,7 @@ fn a_range_is_played_again_and_again_from_the_same_state() {
         latest = latest.max(time);
     }
     assert!(turns >= 5 && latest > 1.35, "{turns}, up to {latest}");
-    stage.session.apply(Command::SetTimeRange(None));
+    stage.session.apply(TransportCommand::SetTimeRange(None));
     for _ in 0..60 {
         now += Duration::from_millis(7);
         stage.session.tick(now);
@@ -269,12 +272,12 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
     let other = HISTORY.replace("0.37", "0.41");
     let buffer_a = || Tab::Pass(PassName::buffer("A"));
     let edited = |stage: &mut Stage, text: &str| {
-        stage.session.apply(Command::EditText { tab: buffer_a(), text: text.into() });
-        stage.compile(Command::CompileNow);
+        stage.session.apply(EditCommand::EditText { tab: buffer_a(), text: text.into() });
+        stage.compile(Command::Edit(EditCommand::CompileNow));
     };
     let mut kept = stage(gpu.clone());
-    kept.session.apply(Command::Reset);
-    kept.session.apply(Command::SetKeepInputs(true));
+    kept.session.apply(TransportCommand::Reset);
+    kept.session.apply(TransportCommand::SetKeepInputs(true));
     steps(&mut kept, 0..120);
     let original = texels(&mut kept);
     let shown = place(&kept);
@@ -285,22 +288,22 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
     // As by the new code from the beginning.
     let mut fresh = stage(gpu);
     edited(&mut fresh, &other);
-    fresh.session.apply(Command::Reset);
+    fresh.session.apply(TransportCommand::Reset);
     steps(&mut fresh, 0..120);
     assert_eq!(place(&fresh), shown);
     assert!(texels(&mut fresh) == changed);
     // And back, from the middle of the run: what was ahead still is.
-    kept.act(Command::StepBack(40));
+    kept.act(Command::Transport(TransportCommand::StepBack(40)));
     edited(&mut kept, HISTORY);
     assert_eq!((place(&kept).1, kept.session.reach().ahead), (shown.1 - 40, 40));
-    kept.act(Command::Seek(shown.0));
+    kept.act(Command::Transport(TransportCommand::Seek(shown.0)));
     assert!(texels(&mut kept) == original);
     // A new size of the canvas is an input like others.
     let resized = |stage: &mut Stage| {
-        stage.session.apply(Command::SetFixedSize(Some((8, 4))));
-        stage.session.apply(Command::Reset);
+        stage.session.apply(CanvasCommand::SetFixedSize(Some((8, 4))));
+        stage.session.apply(TransportCommand::Reset);
         steps(stage, 0..60);
-        stage.session.apply(Command::SetFixedSize(Some((10, 4))));
+        stage.session.apply(CanvasCommand::SetFixedSize(Some((10, 4))));
         steps(stage, 60..120);
     };
     resized(&mut kept);
@@ -314,7 +317,7 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
     // Back goes as far as the canvas is the same: the frame that was shown was drawn again on it.
     assert_eq!(kept.session.reach().back, 60);
     // Without the switch only the frame that is shown is drawn by the new code.
-    kept.session.apply(Command::SetKeepInputs(false));
+    kept.session.apply(TransportCommand::SetKeepInputs(false));
     edited(&mut kept, HISTORY);
     assert_eq!(place(&kept), shown);
     let mixed = texels(&mut kept);
@@ -325,31 +328,31 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
 /// the pass holds at the end.
 pub(super) fn recorded(gpu: &eddy::gpu::Gpu, preset: &str, frames: u32) -> (PathBuf, Vec<u8>, tempfile::TempDir) {
     let mut stage = Stage::bare(gpu.clone());
-    stage.session.apply(Command::SetFixedSize(Some((64, 36))));
-    stage.compile(Command::Open(preset.into()));
-    stage.session.apply(Command::Record);
+    stage.session.apply(CanvasCommand::SetFixedSize(Some((64, 36))));
+    stage.compile(Command::File(FileCommand::Open(preset.into())));
+    stage.session.apply(TransportCommand::Record);
     let mut now = Instant::now();
     let mut drawn = 0;
     while drawn < frames {
         let third = frames / 3;
         match drawn {
-            n if n == third => stage.session.apply(Command::SetFixedSize(Some((80, 45)))),
-            n if n % 40 == 5 => stage.session.apply(Command::MouseDown { x: 10.0, y: 18.0 }),
+            n if n == third => stage.session.apply(CanvasCommand::SetFixedSize(Some((80, 45)))),
+            n if n % 40 == 5 => stage.session.apply(InputCommand::MouseDown { x: 10.0, y: 18.0 }),
             n if n % 40 < 30 => {
-                stage.session.apply(Command::MouseMove { x: (n * 7 % 64) as f32, y: (n * 5 % 36) as f32 })
+                stage.session.apply(InputCommand::MouseMove { x: (n * 7 % 64) as f32, y: (n * 5 % 36) as f32 })
             }
-            n if n % 40 == 30 => stage.session.apply(Command::MouseUp),
-            n if n % 40 == 33 => stage.session.apply(Command::KeyDown(39)),
-            n if n % 40 == 38 => stage.session.apply(Command::KeyUp(39)),
+            n if n % 40 == 30 => stage.session.apply(InputCommand::MouseUp),
+            n if n % 40 == 33 => stage.session.apply(InputCommand::KeyDown(39)),
+            n if n % 40 == 38 => stage.session.apply(InputCommand::KeyUp(39)),
             _ => {}
         }
         now += Duration::from_micros(9_000 + u64::from(drawn * 7919 % 17_000));
         drawn += u32::from(stage.session.tick(now).frame_drawn);
     }
     assert!(stage.session.recorded_frames().unwrap() as u32 >= frames - 1);
-    stage.session.apply(Command::Pause);
+    stage.session.apply(TransportCommand::Pause);
     let last = texels(&mut stage);
-    stage.session.apply(Command::Record);
+    stage.session.apply(TransportCommand::Record);
     let path = stage.session.notices().iter().rev().find_map(|n| n.path.clone()).unwrap();
     assert_eq!(path.extension().unwrap(), "replay");
     (path, last, stage.dir)
@@ -386,7 +389,7 @@ fn an_audit_is_told_in_the_list_of_problems_until_the_next_compile() {
                 o = vec4(c + 0.25, sqrt(p.x - 4.0), 0.0, 1.0);\n}\n";
     let mut stage = Stage::open(gpu, &[("image.glsl", code)]);
     assert!(stage.session.diagnostics().is_empty());
-    stage.session.apply(Command::Audit);
+    stage.session.apply(ToolCommand::Audit);
     stage.until("findings", |session| !session.diagnostics().is_empty());
     let told: Vec<_> =
         stage.session.diagnostics().iter().map(|d| (d.place.as_ref().unwrap().line, &*d.message)).collect();

@@ -6,7 +6,7 @@ use eddy::{
     engine::{BuildError, BuildOptions, Program},
     media::MediaSet,
     project::{CustomUniformType, CustomUniformValue, PassName, Source},
-    session::{Command, Level},
+    session::{Command, EditCommand, FileCommand, Level},
 };
 
 const ALL: &str = "
@@ -115,7 +115,7 @@ void mainImage(out vec4 o, in vec2 p) { o = vec4(red * float(n), 0.0, 0.0, 1.0);
 ";
 
 fn set(name: &str, value: CustomUniformValue) -> Command {
-    Command::SetCustomUniform { name: name.into(), value: Some(value) }
+    Command::Edit(EditCommand::SetCustomUniform { name: name.into(), value: Some(value) })
 }
 
 #[test]
@@ -134,20 +134,20 @@ fn turning_a_custom_uniform_while_paused_draws_one_frame_and_saving_writes_it_do
     stage.session.apply(set("n", CustomUniformValue::Int(0)));
     stage.act(set("nobody", CustomUniformValue::Int(0)));
     assert_eq!(stage.red(), 0);
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert!(!stage.session.is_dirty());
     assert_eq!(
         stage.read("eddy.toml"),
         "# mine\neddy = 1\n\n[uniforms] # turned\nred = 1.0 # warm\nn = 0\n\n[passes.image]\n"
     );
-    stage.act(Command::SetCustomUniform { name: "n".into(), value: None });
+    stage.act(Command::Edit(EditCommand::SetCustomUniform { name: "n".into(), value: None }));
     assert_eq!(stage.red(), 255);
-    stage.act(Command::ResetCustomUniforms);
+    stage.act(Command::Edit(EditCommand::ResetCustomUniforms));
     assert_eq!(stage.red(), 51);
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert_eq!(stage.read("eddy.toml"), "# mine\neddy = 1\n\n[passes.image]\n");
-    stage.session.apply(Command::AssignCustomUniform("red=0.5".into()));
-    stage.act(Command::AssignCustomUniform("rde=0.5".into()));
+    stage.session.apply(EditCommand::AssignCustomUniform("red=0.5".into()));
+    stage.act(Command::Edit(EditCommand::AssignCustomUniform("rde=0.5".into())));
     assert_eq!(stage.red(), 128);
     assert_eq!(stage.notices(Level::Error), ["not set: no #iUniform line declares `rde` (did you mean red?)"]);
 }
@@ -166,19 +166,19 @@ fn a_turned_uniform_is_undone_and_the_question_says_what_changed() {
     assert_eq!(stage.session.unsaved_parts(), ["uniform n and red"]);
     let title = |stage: &Stage| stage.session.pass_undo().map(|step| step.title.to_owned());
     assert_eq!(title(&stage).as_deref(), Some("change n"));
-    stage.act(Command::UndoPassEdit);
+    stage.act(Command::Edit(EditCommand::UndoPassEdit));
     assert_eq!((stage.red(), title(&stage).as_deref()), (204, Some("change red")));
-    stage.act(Command::UndoPassEdit);
+    stage.act(Command::Edit(EditCommand::UndoPassEdit));
     assert_eq!((stage.red(), stage.session.is_dirty(), title(&stage)), (51, false, None), "the whole drag is one step");
-    stage.act(Command::RedoPassEdit);
+    stage.act(Command::Edit(EditCommand::RedoPassEdit));
     assert_eq!(stage.red(), 204);
-    stage.session.apply(Command::ResetCustomUniforms);
-    stage.act(Command::UndoPassEdit);
+    stage.session.apply(EditCommand::ResetCustomUniforms);
+    stage.act(Command::Edit(EditCommand::UndoPassEdit));
     assert_eq!(stage.red(), 204, "resetting all is a step, too");
     // Steps of passes lie in the same history, and each brings back its own.
-    stage.session.apply(Command::AddTab(eddy::project::Tab::Common));
+    stage.session.apply(EditCommand::AddTab(eddy::project::Tab::Common));
     assert_eq!(stage.session.unsaved_parts(), ["Common", "the list of passes", "uniform red"]);
-    stage.act(Command::UndoPassEdit);
+    stage.act(Command::Edit(EditCommand::UndoPassEdit));
     assert_eq!((stage.red(), stage.session.unsaved_parts()), (204, vec!["uniform red".to_owned()]));
 }
 
@@ -188,13 +188,13 @@ fn custom_uniforms_follow_the_text_and_the_disk() {
     let mut stage = Stage::open(gpu, &[("image.glsl", SLIDER)]);
     stage.session.apply(set("red", CustomUniformValue::Float(0.8)));
     stage.edit(&SLIDER.replace("1.0 }", "0.5 }"));
-    stage.compile(Command::CompileNow);
+    stage.compile(Command::Edit(EditCommand::CompileNow));
     assert_eq!(stage.session.custom_uniforms()[0].ty, CustomUniformType::Float);
     assert_eq!(stage.red(), 128, "within the new range");
     stage.edit(SLIDER);
-    stage.compile(Command::CompileNow);
+    stage.compile(Command::Edit(EditCommand::CompileNow));
     assert_eq!(stage.red(), 204, "and back");
-    stage.session.apply(Command::Save);
+    stage.session.apply(FileCommand::Save);
     assert!(stage.read("eddy.toml").contains("[uniforms]\nred = 0.8\n"), "{}", stage.read("eddy.toml"));
     stage.write("eddy.toml", stage.read("eddy.toml").replace("0.8", "0.4"));
     stage.until("the value from disk", |s| {

@@ -6,7 +6,7 @@ use crate::support::{
     programs::{failure, has},
     stage::*,
 };
-use eddy::session::{Answer, Command, Level, Question};
+use eddy::session::{Answer, Command, FileCommand, Level, Question};
 use std::{fs, path::Path, process};
 
 #[test]
@@ -35,20 +35,20 @@ fn a_session_asks_before_it_replaces_a_page_and_keeps_the_old_one() {
     let Some(gpu) = support::gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.5))]);
     let file = stage.dir.path().join("out.html");
-    stage.session.apply(Command::ExportPage(stage.dir.path().join("out")));
+    stage.session.apply(FileCommand::ExportPage(stage.dir.path().join("out")));
     assert!(stage.session.question().is_none() && file.exists(), "{:?}", stage.session.notices());
     fs::write(&file, "precious").unwrap();
-    stage.session.apply(Command::ExportPage(file.clone()));
+    stage.session.apply(FileCommand::ExportPage(file.clone()));
     assert!(matches!(stage.session.question(), Some(Question::Export { exists: true, lost, .. }) if lost.is_empty()));
-    stage.session.apply(Command::Answer(Answer::Cancel));
+    stage.session.apply(FileCommand::Answer(Answer::Cancel));
     assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
-    stage.session.apply(Command::ExportPage(file.clone()));
-    stage.session.apply(Command::Answer(Answer::Export));
+    stage.session.apply(FileCommand::ExportPage(file.clone()));
+    stage.session.apply(FileCommand::Answer(Answer::Export));
     assert!(fs::read_to_string(&file).unwrap().contains("mainImage"));
     let kept = stage.dir.path().join("out.html.replaced-0001/out.html");
     assert_eq!(fs::read_to_string(kept).unwrap(), "precious");
     stage.edit("void mainImage(out vec4 o, in vec2 p) { o = oops; }");
-    stage.session.apply(Command::ExportPage(file));
+    stage.session.apply(FileCommand::ExportPage(file));
     assert!(stage.notices(Level::Error).join("\n").contains("oops"), "{:?}", stage.session.notices());
 }
 

@@ -5,7 +5,7 @@ use crate::{
     gpu::{Gpu, Readback, Texture, TextureDescriptor, TextureShape, testing},
     gui::{damage::Area, frame, shell::Shell, theme},
     project::TexelFormat,
-    session::{Command, Session, SessionOptions},
+    session::{FileCommand, Session, SessionOptions},
 };
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, ViewportId, pos2, vec2};
 use egui_wgpu::{Renderer, ScreenDescriptor};
@@ -132,7 +132,7 @@ fn paint_both((scale, size, seed): (f32, [u32; 2], u32)) {
     let moving = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p / iResolution.xy, sin(iTime), 1); }";
     std::fs::write(folder.path().join("image.glsl"), moving).unwrap();
     let mut session = Session::with_options(gpu.clone(), Arc::new(|| ()), SessionOptions::default()).unwrap();
-    session.apply(Command::Open(folder.path().display().to_string()));
+    session.apply(FileCommand::Open(folder.path().display().to_string()));
     let renderer = Renderer::new(&gpu.device, FORMAT, Default::default());
     let mut painter = Painter {
         gpu: gpu.clone(),

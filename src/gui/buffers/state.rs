@@ -9,7 +9,7 @@ use crate::{
     engine::TexelAt,
     project::{PassName, Project},
     session::{
-        Command, Session,
+        Command, Session, ViewCommand,
         buffers::{BufferLook, BufferRead, BufferWatch, Target},
     },
 };
@@ -173,7 +173,7 @@ impl Buffers {
             return None;
         }
         self.sent = watch.clone();
-        Some(Command::WatchBuffers(watch))
+        Some(Command::View(ViewCommand::WatchBuffers(watch)))
     }
 }
 

@@ -6,6 +6,7 @@ use super::{
     swatch::{Swatches, folder},
 };
 use crate::{
+    EditCommand, FileCommand,
     gui::{
         accessible, theme,
         thumbnails::FolderFile,
@@ -28,7 +29,7 @@ pub(super) fn choose(
     out: &mut UiOutput,
 ) {
     let session = swatches.session;
-    let set = |channel: Option<Channel>| Command::SetChannel { pass: pass.clone(), index, channel };
+    let set = |channel: Option<Channel>| Command::Edit(EditCommand::SetChannel { pass: pass.clone(), index, channel });
     let now = channel.map(|c| &c.input);
     ui.colored_label(theme::of(ui).weak, format!("iChannel{index} of {} reads", pass.title()));
     ui.horizontal_wrapped(|ui| {
@@ -128,7 +129,7 @@ fn files(
                 texture_card(ui, rect, &name, &input, chosen || response.hovered(), swatches);
             }
             if out.clicked(&format!("choose:file:{shown}"), &response) && !chosen {
-                out.ask(Command::Bring { paths: vec![folder.join(path)], to: Some((pass.clone(), Some(index))) });
+                out.ask(FileCommand::Bring { paths: vec![folder.join(path)], to: Some((pass.clone(), Some(index))) });
             }
             response.on_hover_text(shown);
         }

@@ -4,7 +4,7 @@ use super::{Live, sound};
 use crate::{
     gui::{actions::Action, devices, theme, ui_output::UiOutput},
     project::{Input, InputKind},
-    session::{Command, Session},
+    session::{Command, Session, SoundCommand},
 };
 use egui::{Rect, TextureHandle, Ui};
 
@@ -58,7 +58,11 @@ fn microphone(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         false => ("Use the microphone", "The microphone is off: the channel shows a made-up spectrum."),
     };
     ui.horizontal_wrapped(|ui| {
-        out.on_click("choose:use-microphone", &ui.button(text), Command::UseMicrophone(!view.is_on));
+        out.on_click(
+            "choose:use-microphone",
+            &ui.button(text),
+            Command::Sound(SoundCommand::UseMicrophone(!view.is_on)),
+        );
         ui.colored_label(theme::of(ui).weak, note);
     });
 }

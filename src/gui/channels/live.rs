@@ -2,7 +2,7 @@
 
 use crate::{
     project::PassName,
-    session::{Command, Session},
+    session::{Command, Session, ViewCommand},
     video::CameraFrame,
 };
 use egui::{ColorImage, TextureHandle, TextureOptions, Ui};
@@ -108,6 +108,6 @@ impl Live {
         }
         self.textures.retain(|target, _| wanted.contains(target));
         self.sent.clone_from(&wanted);
-        Some(Command::WatchTargets(wanted))
+        Some(Command::View(ViewCommand::WatchTargets(wanted)))
     }
 }

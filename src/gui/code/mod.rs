@@ -22,7 +22,7 @@ use super::{
 };
 use crate::{
     project::{Origin, Tab},
-    session::{Command, Session, probe::ProbePlace},
+    session::{EditCommand, Session, ViewCommand, probe::ProbePlace},
 };
 use egui::{Frame, Id, Margin, Panel, Ui};
 use everywhere::ProjectMatches;
@@ -252,7 +252,7 @@ impl CodePanel {
     /// Takes over texts that were changed outside the editors.
     pub(super) fn prepare(&mut self, session: &Session) {
         let project = session.project();
-        if std::mem::replace(&mut self.new_shaders, session.begun()) != session.begun() {
+        if std::mem::replace(&mut self.new_shaders, session.new_shader_count()) != session.new_shader_count() {
             self.takes_focus = true;
         }
         if self.project.0 != project.name || !same_place(&self.project.1, &project.origin) {
@@ -353,7 +353,7 @@ impl CodePanel {
         self.show_uses(ui, session, out);
         if self.reported_front.as_ref() != Some(&self.current) {
             self.reported_front = Some(self.current.clone());
-            out.ask(Command::BringToFront(self.current.clone()));
+            out.ask(EditCommand::BringToFront(self.current.clone()));
         }
         self.editor(ui, session, out);
         is_dragged
@@ -420,7 +420,7 @@ impl CodePanel {
         if word != self.pointed {
             self.pointed = word;
             let tab = self.current.clone();
-            out.ask(Command::Probe(word.map(|at| ProbePlace { tab, at, visit: 0 })));
+            out.ask(ViewCommand::Probe(word.map(|at| ProbePlace { tab, at, visit: 0 })));
         }
     }
 

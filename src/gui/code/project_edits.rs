@@ -5,7 +5,7 @@ use super::CodePanel;
 use crate::{
     gui::{editor::CodeEditor, ui_output::UiOutput},
     project::Tab,
-    session::{Command, TabEdit, TabFix},
+    session::{EditCommand, TabEdit, TabFix},
 };
 use std::{collections::BTreeMap, ops::Range};
 
@@ -45,7 +45,7 @@ impl CodePanel {
     pub(super) fn report_changed(&mut self, out: &mut UiOutput) {
         for (tab, editor) in &mut self.editors {
             if let Some(text) = CodeEditor::take_changed(editor) {
-                out.ask(Command::EditText { tab: tab.clone(), text: text.to_owned() });
+                out.ask(EditCommand::EditText { tab: tab.clone(), text: text.to_owned() });
                 self.problem = None;
                 // Its places refer to the old text.
                 self.uses = None;

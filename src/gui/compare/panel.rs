@@ -14,7 +14,7 @@ use crate::{
     },
     lab::difference::{PictureDifference, Times},
     playback::comparing::Comparison,
-    session::{Command, Count, Outcome, Session, Status},
+    session::{Command, Count, Outcome, Session, Status, ToolCommand},
 };
 use egui::{Label, ProgressBar, RichText, TextEdit, Ui, vec2};
 
@@ -87,7 +87,7 @@ fn reference(state: &mut Compare, ui: &mut Ui, out: &mut UiOutput) {
     accessible::name(&field, egui::Role::TextInput, name);
     out.place("compare:name", field.rect);
     if field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter)) {
-        out.commands.extend(state.against().map(|against| Command::Compare(Some(against))));
+        out.commands.extend(state.against().map(|against| Command::Tool(ToolCommand::Compare(Some(against)))));
     }
     if state.choice == Choice::Project {
         let browse = ui.button("Browse…").on_hover_text("Choose the folder of the other project");
@@ -98,7 +98,7 @@ fn reference(state: &mut Compare, ui: &mut Ui, out: &mut UiOutput) {
 /// Shows the button that starts or stops, and the progress.
 fn start_button(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     if let Some(Status::UnderWay(Count { done, of })) = session.comparison() {
-        out.on_click("compare:stop", &ui.button("Stop"), Command::Compare(None));
+        out.on_click("compare:stop", &ui.button("Stop"), Command::Tool(ToolCommand::Compare(None)));
         if of > 1 {
             let part = done as f32 / of as f32;
             let bar = ProgressBar::new(part).desired_width(130.0).text(format!("Frame {done} of {of}"));
@@ -124,7 +124,7 @@ fn start_button(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut U
     let is_settled = !compile.compiling && matches!(compile.last, Some(Outcome::Ok { .. }));
     let is_due = state.follows && is_settled && session.is_comparison_old();
     if is_asked || is_due {
-        out.commands.extend(against.map(|against| Command::Compare(Some(against))));
+        out.commands.extend(against.map(|against| Command::Tool(ToolCommand::Compare(Some(against)))));
     }
 }
 

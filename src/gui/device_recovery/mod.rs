@@ -7,7 +7,7 @@ use super::GuiError;
 use crate::{
     gpu::{Gpu, GpuError},
     project::{self, Origin, Overwrite, Project},
-    session::{Command, Level, Session},
+    session::{Level, NoticeCommand, Session},
 };
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
@@ -39,7 +39,7 @@ impl DeviceLosses {
             Ok(()) => return Ok(()),
             Err(reason @ GpuError::Lost(_)) => reason,
             Err(refused) => {
-                session.tell_of(&refused);
+                session.report_gpu_error(&refused);
                 return Ok(());
             }
         };
@@ -52,7 +52,7 @@ impl DeviceLosses {
             return Err(GuiError::Lost { reason, unsaved_work: save_unsaved(session) });
         }
         let text = format!("{reason}; the window has switched to a new one. Your texts are unchanged");
-        session.apply(Command::Notify { level: Level::Warning, text, path: None });
+        session.apply(NoticeCommand::Notify { level: Level::Warning, text, path: None });
         Ok(())
     }
 }

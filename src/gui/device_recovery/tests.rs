@@ -11,7 +11,7 @@ fn open(gpu: Gpu, folder: &Path) -> Session {
     std::fs::create_dir(&project).unwrap();
     std::fs::write(project.join("image.glsl"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }").unwrap();
     let mut session = Session::new(gpu, Arc::new(|| ())).unwrap();
-    session.apply(Command::Open(project.display().to_string()));
+    session.apply(FileCommand::Open(project.display().to_string()));
     session
 }
 
@@ -20,7 +20,7 @@ fn repeated_device_loss_saves_unsaved_work() {
     let Some(gpu) = testing::gpu() else { return };
     let folder = tempfile::tempdir().unwrap();
     let mut session = open(gpu.clone(), folder.path());
-    session.apply(Command::EditText { tab: Tab::image(), text: UNSAVED.into() });
+    session.apply(EditCommand::EditText { tab: Tab::image(), text: UNSAVED.into() });
     let (mut losses, start) = (DeviceLosses::default(), Instant::now());
     let mut watch = |seconds: u64, session: &mut Session| {
         let mut renewed = 0;
@@ -49,7 +49,7 @@ fn failing_to_reopen_a_device_saves_unsaved_work() {
     let Some(gpu) = testing::gpu() else { return };
     let folder = tempfile::tempdir().unwrap();
     let mut session = open(gpu.clone(), folder.path());
-    session.apply(Command::EditText { tab: Tab::image(), text: UNSAVED.into() });
+    session.apply(EditCommand::EditText { tab: Tab::image(), text: UNSAVED.into() });
     testing::lose(&gpu);
     let none = |_: &mut Session| Err(GuiError::Surface("planted".into()));
     let error = DeviceLosses::default().watch(&gpu, &mut session, Instant::now(), none).unwrap_err();
@@ -73,7 +73,7 @@ fn a_panic_saves_unsaved_work() {
         )
     };
     assert_eq!(ends(&mut session).unwrap_err().to_string(), "this is a bug in Eddy: planted 1");
-    session.apply(Command::EditText { tab, text: text.into() });
+    session.apply(EditCommand::EditText { tab, text: text.into() });
     let error = ends(&mut session).unwrap_err().to_string();
     let saved = folder.path().join("mine-recovered-0001");
     assert_eq!(error, format!("this is a bug in Eddy: planted 1. Your unsaved work is in {}", saved.display()));

@@ -8,7 +8,9 @@ use crate::{
         panels::Panel,
         settings::{Overrides, SettingsFile, WindowState},
     },
-    session::{Answer, Command, Level, Question, SessionOptions},
+    session::{
+        Answer, EditCommand, FileCommand, HaltCommand, Level, NoticeCommand, Question, SessionOptions, ToolCommand,
+    },
 };
 use egui::{Color32, Key, Modifiers, Pos2, Rect, Shape, Theme, epaint::ClippedShape};
 use std::collections::BTreeSet;
@@ -119,8 +121,16 @@ fn every_text_has_enough_contrast_in_both_themes() {
         let Some(mut stage) = open(false) else { return };
         stage.ctx.set_theme(theme);
         check(&mut stage, "the editor", theme);
-        stage.state_mut().session.apply(Command::Notify { level: Level::Error, text: "It failed.".into(), path: None });
-        stage.state_mut().session.apply(Command::Notify { level: Level::Warning, text: "Mind it.".into(), path: None });
+        stage.state_mut().session.apply(NoticeCommand::Notify {
+            level: Level::Error,
+            text: "It failed.".into(),
+            path: None,
+        });
+        stage.state_mut().session.apply(NoticeCommand::Notify {
+            level: Level::Warning,
+            text: "Mind it.".into(),
+            path: None,
+        });
         check(&mut stage, "notices", theme);
         for (what, modifiers, key) in [
             ("the palette", CTRL_SHIFT, Key::P),
@@ -138,7 +148,7 @@ fn every_text_has_enough_contrast_in_both_themes() {
             press(&mut stage, Modifiers::NONE, Key::Escape);
         }
         stage.state_mut().shell.set_open(Panel::Trace, true);
-        stage.state_mut().session.apply(Command::Trace(Some([0.5, 0.5])));
+        stage.state_mut().session.apply(ToolCommand::Trace(Some([0.5, 0.5])));
         until(&mut stage, "a traced pixel", |stage| stage.state().session.trace().traced.is_some());
         for panel in Panel::all() {
             stage.state_mut().shell.set_open(panel, true);
@@ -181,11 +191,11 @@ fn every_dialog_has_enough_contrast_in_both_themes() {
             press(&mut stage, Modifiers::NONE, Key::Escape);
             assert!(stage.state().shell.place("settings:page").is_none());
         }
-        stage.state_mut().session.apply(Command::Hold);
+        stage.state_mut().session.apply(HaltCommand::Hold);
         stage.run_steps(3);
         assert!(stage.state().session.halt().is_some());
         check(&mut stage, "a slow frame", theme);
-        stage.state_mut().session.apply(Command::GoOn);
+        stage.state_mut().session.apply(HaltCommand::GoOn);
         press(&mut stage, CTRL_SHIFT, Key::S);
         until(&mut stage, "the field for a path", |stage| stage.state().shell.place("field:path").is_some());
         check(&mut stage, "a path", theme);
@@ -194,21 +204,21 @@ fn every_dialog_has_enough_contrast_in_both_themes() {
         let other = folder.join("other");
         std::fs::create_dir(&other).unwrap();
         std::fs::write(other.join("image.glsl"), "// of another project\n").unwrap();
-        stage.state_mut().session.apply(Command::SaveAs(other));
+        stage.state_mut().session.apply(FileCommand::SaveAs(other));
         until(&mut stage, "a question", |stage| {
             matches!(stage.state().session.question(), Some(Question::Overwrite { .. }))
         });
         check(&mut stage, "overwriting", theme);
-        stage.state_mut().session.apply(Command::Answer(Answer::Cancel));
+        stage.state_mut().session.apply(FileCommand::Answer(Answer::Cancel));
 
         let tab = stage.state().session.tabs().into_iter().find(|tab| tab.title() == "Image").unwrap();
         let mine = format!("// mine\n{}", stage.state().session.text(&tab));
-        stage.state_mut().session.apply(Command::EditText { tab, text: mine });
-        stage.state_mut().session.apply(Command::New);
+        stage.state_mut().session.apply(EditCommand::EditText { tab, text: mine });
+        stage.state_mut().session.apply(FileCommand::New);
         stage.run_steps(3);
         assert!(matches!(stage.state().session.question(), Some(Question::Unsaved { .. })));
         check(&mut stage, "unsaved changes", theme);
-        stage.state_mut().session.apply(Command::Answer(Answer::Cancel));
+        stage.state_mut().session.apply(FileCommand::Answer(Answer::Cancel));
         stage.run_steps(2);
 
         std::fs::write(folder.join("image.glsl"), "// of another program\n").unwrap();
@@ -216,7 +226,7 @@ fn every_dialog_has_enough_contrast_in_both_themes() {
             matches!(stage.state().session.question(), Some(Question::Conflict { .. }))
         });
         check(&mut stage, "a conflict", theme);
-        stage.state_mut().session.apply(Command::Answer(Answer::KeepMine));
+        stage.state_mut().session.apply(FileCommand::Answer(Answer::KeepMine));
         let is_kept = |entry: std::fs::DirEntry| entry.path().extension().is_some_and(|e| e == "json");
         until(&mut stage, "unsaved work on disk", |_| std::fs::read_dir(kept.path()).unwrap().flatten().any(is_kept));
         // It ends without being closed.

@@ -8,7 +8,7 @@ use crate::{
     },
     gui::panels::Panel,
     project::ControlTarget,
-    session::{Command, SessionOptions},
+    session::{ControlCommand, SessionOptions},
 };
 use egui::{Key, Modifiers, PointerButton};
 use std::sync::Arc;
@@ -62,7 +62,7 @@ fn controls_are_learned_and_removed_by_the_context_menu() {
     super::harness::click(&mut stage, "uniform-menu:settings");
     assert!(is_there(&stage, "settings:page"));
     super::harness::click(&mut stage, "button:close-settings");
-    stage.state_mut().session.apply(Command::SetMidi(MidiChoice::All));
+    stage.state_mut().session.apply(ControlCommand::SetMidi(MidiChoice::All));
     stage.run_steps(3);
 
     right_click(&mut stage, "uniform:red");

@@ -3,6 +3,7 @@
 
 use super::harness::{CTRL, CTRL_SHIFT, Stage, choose, click, has, named, open, press, texts, until};
 use crate::{
+    EditCommand, FileCommand, TransportCommand,
     gui::panels::Panel,
     project::{CustomUniformValue, FillValue, PassEdit, PassName, Tab},
     session::Command,
@@ -29,7 +30,7 @@ fn write(stage: &mut Stage, new: &str) {
     press(stage, CTRL, Key::A);
     stage.event(Event::Paste(new.into()));
     stage.run_steps(2);
-    stage.state_mut().session.apply(Command::CompileNow);
+    stage.state_mut().session.apply(EditCommand::CompileNow);
     settle(stage);
 }
 
@@ -113,8 +114,8 @@ fn with_shared() -> Option<Stage> {
     for tab in ["image.glsl", "buffer_a.glsl"] {
         std::fs::write(folder.join(tab), USES).unwrap();
     }
-    stage.state_mut().session.apply(Command::Open(folder.display().to_string()));
-    stage.state_mut().session.apply(Command::Pause);
+    stage.state_mut().session.apply(FileCommand::Open(folder.display().to_string()));
+    stage.state_mut().session.apply(TransportCommand::Pause);
     until(&mut stage, "compiled", |stage| {
         let state = stage.state().session.compile_state();
         !state.compiling && state.last.is_some() && stage.state().session.tabs().len() == 3
@@ -202,20 +203,20 @@ fn renaming_a_uniform_keeps_its_value() {
     for file in ["image.glsl", "buffer_a.glsl"] {
         std::fs::write(folder.join(file), USES_SPEED).unwrap();
     }
-    stage.state_mut().session.apply(Command::Open(folder.display().to_string()));
-    stage.state_mut().session.apply(Command::Pause);
+    stage.state_mut().session.apply(FileCommand::Open(folder.display().to_string()));
+    stage.state_mut().session.apply(TransportCommand::Pause);
     settle(&mut stage);
     // Edits of the text do not reach `eddy.toml`.
     let fill = |text: &str| {
         let value = FillValue::Expression(format!("vec4({text})").into());
-        Command::EditPasses(PassEdit::Initial(PassName::buffer("A"), Some(value)))
+        Command::Edit(EditCommand::EditPasses(PassEdit::Initial(PassName::buffer("A"), Some(value))))
     };
     stage.state_mut().session.apply(fill("0.1 * speed"));
     let why = stage.state().session.rename(&Tab::Common, SPEED.find("speed").unwrap(), "pace").unwrap_err();
     assert_eq!(why, "`speed` is used in the initial state of Buffer A too: write `pace` there first, then rename it");
     stage.state_mut().session.apply(fill("0.1"));
     let value = CustomUniformValue::Float(1.5);
-    let turn = Command::SetCustomUniform { name: "speed".into(), value: Some(value.clone()) };
+    let turn = Command::Edit(EditCommand::SetCustomUniform { name: "speed".into(), value: Some(value.clone()) });
     stage.state_mut().session.apply(turn);
     focus_code(&mut stage);
     press(&mut stage, CTRL, Key::Home);
@@ -248,11 +249,11 @@ fn renaming_a_uniform_keeps_its_value() {
     let manifest = std::fs::read_to_string(folder.join("eddy.toml")).unwrap();
     assert!(manifest.contains("pace = 1.5") && !manifest.contains("speed"), "{manifest}");
     // The value follows the line when the rename is undone, and the passes' undo uses the new name.
-    stage.state_mut().session.apply(Command::EditText { tab: Tab::Common, text: SPEED.into() });
+    stage.state_mut().session.apply(EditCommand::EditText { tab: Tab::Common, text: SPEED.into() });
     assert_eq!((turned(&stage, "speed"), turned(&stage, "pace")), (Some(value), None));
-    stage.state_mut().session.apply(Command::UndoPassEdit);
+    stage.state_mut().session.apply(EditCommand::UndoPassEdit);
     assert_eq!((turned(&stage, "speed"), turned(&stage, "pace")), (None, None));
-    stage.state_mut().session.apply(Command::RedoPassEdit);
+    stage.state_mut().session.apply(EditCommand::RedoPassEdit);
     assert!(turned(&stage, "speed").is_some());
 }
 
@@ -271,7 +272,7 @@ fn declaring_sliders_is_explained_for_each_dialect() {
         (format!("ghostty:{}", path("plain.glsl")), "Ghostty gives a shader its own uniforms and no others."),
         (path("plain.fs"), "Add a line like this to INPUTS, and save, to get a slider:"),
     ] {
-        stage.state_mut().session.apply(Command::Open(spec.clone()));
+        stage.state_mut().session.apply(FileCommand::Open(spec.clone()));
         settle(&mut stage);
         assert!(texts(&stage).iter().any(|text| text == expected), "{spec}: {:?}", texts(&stage));
         assert_eq!(texts(&stage).iter().any(|text| text.starts_with("#iUniform")), expected.starts_with('#'), "{spec}");
@@ -287,7 +288,7 @@ fn sliders_appear_before_the_first_compile() {
         .unwrap();
     let hint = |stage: &Stage| texts(stage).iter().any(|text| text.starts_with("Add a line like this"));
     stage.state_mut().shell.set_open(Panel::Uniforms, true);
-    stage.state_mut().session.apply(Command::Open(folder.display().to_string()));
+    stage.state_mut().session.apply(FileCommand::Open(folder.display().to_string()));
     stage.step();
     assert!(!hint(&stage));
     assert!(stage.state().shell.place("uniform:speed").is_some(), "{:?}", texts(&stage));

@@ -4,7 +4,7 @@ use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, press, until};
 use crate::{
     gui::panels::Panel,
     playback::comparing::Baseline,
-    session::{Command, Status, probe::ProbePlace},
+    session::{Status, ToolCommand, ViewCommand, probe::ProbePlace},
 };
 use egui::{
     Event, Id, Key, Modifiers, Pos2, Rect,
@@ -145,10 +145,10 @@ fn clicking_a_button_keeps_the_focus_in_its_field() {
             }
         }
     };
-    stage.state_mut().session.apply(Command::Trace(Some([0.5, 0.5])));
+    stage.state_mut().session.apply(ToolCommand::Trace(Some([0.5, 0.5])));
     stage.state_mut().shell.set_open(Panel::Trace, true);
     until(&mut stage, "a traced pixel", |stage| stage.state().session.trace().traced.is_some());
-    stage.state_mut().session.apply(Command::Compare(Some(Baseline::LastSave)));
+    stage.state_mut().session.apply(ToolCommand::Compare(Some(Baseline::LastSave)));
     until(&mut stage, "a comparison", |stage| matches!(stage.state().session.comparison(), Some(Status::Ended(Ok(_)))));
     let mut tried = Vec::new();
     let mut all = |stage: &mut Stage, state: &str, set_up: &dyn Fn(&mut Stage)| {
@@ -160,7 +160,7 @@ fn clicking_a_button_keeps_the_focus_in_its_field() {
     };
     all(&mut stage, "trace", &|stage| {
         if stage.state().session.trace().traced.is_none() {
-            stage.state_mut().session.apply(Command::Trace(Some([0.5, 0.5])));
+            stage.state_mut().session.apply(ToolCommand::Trace(Some([0.5, 0.5])));
             until(stage, "a traced pixel", |stage| stage.state().session.trace().traced.is_some());
         }
         open_panel(Panel::Trace)(stage);
@@ -192,7 +192,7 @@ fn clicking_a_button_keeps_the_focus_in_its_field() {
         if stage.state().session.probe().is_none() {
             let tab = stage.state().session.tabs().into_iter().find(|tab| tab.title() == "Image").unwrap();
             let at = stage.state().session.text(&tab).find("red * at").unwrap();
-            stage.state_mut().session.apply(Command::Probe(Some(ProbePlace { tab, at, visit: 0 })));
+            stage.state_mut().session.apply(ViewCommand::Probe(Some(ProbePlace { tab, at, visit: 0 })));
         }
         until(stage, "a probe", |stage| stage.state().shell.place("probe:close").is_some());
     });

@@ -3,7 +3,7 @@
 use crate::{
     gpu::testing,
     gui::{shell::Shell, theme},
-    session::{Command, Session, SessionOptions},
+    session::{FileCommand, Session, SessionOptions, TransportCommand},
 };
 use egui::{
     Key, Modifiers,
@@ -48,10 +48,10 @@ pub(super) fn open_with(gallery: bool, options: SessionOptions) -> Option<Stage>
     std::fs::write(folder.path().join("buffer_a.glsl"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(1); }")
         .unwrap();
     let mut session = Session::with_options(gpu.clone(), Arc::new(|| ()), options).unwrap();
-    session.apply(Command::Pause);
+    session.apply(TransportCommand::Pause);
     if !gallery {
-        session.apply(Command::Open(folder.path().display().to_string()));
-        session.apply(Command::Pause);
+        session.apply(FileCommand::Open(folder.path().display().to_string()));
+        session.apply(TransportCommand::Pause);
     }
     let renderer = Renderer::new(&gpu.device, wgpu::TextureFormat::Rgba8Unorm, Default::default());
     let mut shell = Shell::new(gpu, Arc::new(|| ()), gallery);

@@ -6,7 +6,7 @@ use crate::{
     audio::fake::FakeHost,
     gui::theme::{DARK, LIGHT},
     project::Tab,
-    session::{Command, SessionOptions},
+    session::{EditCommand, SessionOptions, TransportCommand},
 };
 use egui::{Key, Modifiers, MouseWheelUnit, TouchPhase, vec2};
 use egui_kittest::kittest::NodeT as _;
@@ -60,7 +60,7 @@ fn device_lights_adapt_to_the_width_of_the_bar() {
     let Some(mut stage) = open_with(false, options) else { return };
     let text = "#iChannel0 \"webcam\"\n#iChannel1 \"microphone\"\n\
                 void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p) + texture(iChannel1, p); }";
-    stage.state_mut().session.apply(Command::EditText { tab: Tab::image(), text: text.into() });
+    stage.state_mut().session.apply(EditCommand::EditText { tab: Tab::image(), text: text.into() });
     until(&mut stage, "a camera that is asked for", |stage| stage.state().shell.place("button:camera").is_some());
     let names = |names: &[&str]| {
         let buttons = names.iter().map(|name| format!("button:{name}"));
@@ -87,7 +87,7 @@ fn device_lights_adapt_to_the_width_of_the_bar() {
         assert!(camera.width() >= 112.0 || width < 1000.0, "{width}: {camera}");
     }
     // With one more button, those that also have keys are hidden.
-    stage.state_mut().session.apply(Command::Record);
+    stage.state_mut().session.apply(TransportCommand::Record);
     stage.run_steps(4);
     are_apart(&stage, &names(&["play", "reset", "recording", "camera", "microphone"]));
     assert!(stage.state().shell.place("button:step").is_none());
@@ -158,7 +158,7 @@ fn tabs_follow_the_drawing_order_and_scroll() {
 #[test]
 fn adding_a_pass_does_not_cover_the_picture() {
     let Some(mut stage) = open(false) else { return };
-    stage.state_mut().session.apply(Command::Pause);
+    stage.state_mut().session.apply(TransportCommand::Pause);
     click(&mut stage, "button:add-tab");
     assert!(["add:Cube A", "add:Sound"].iter().all(|name| stage.state().shell.place(name).is_some()));
     click(&mut stage, "add:Buffer B");
@@ -175,7 +175,7 @@ fn is_shown(stage: &Stage, part: &str) -> bool {
 fn stale_pass_times_are_hidden_or_marked() {
     let Some(mut stage) = open(false) else { return };
     press(&mut stage, CTRL_SHIFT, Key::M);
-    stage.state_mut().session.apply(Command::Play);
+    stage.state_mut().session.apply(TransportCommand::Play);
     stage.run_steps(12);
     assert!(stage.state().shell.place("costs:paused").is_none());
     let has_timestamps = !stage.state().session.pass_times().is_empty();
@@ -184,7 +184,7 @@ fn stale_pass_times_are_hidden_or_marked() {
     stage.run_steps(8);
     assert_eq!(is_shown(&stage, "ms on the GPU"), has_timestamps, "{:?}", texts(&stage));
 
-    stage.state_mut().session.apply(Command::Pause);
+    stage.state_mut().session.apply(TransportCommand::Pause);
     stage.run_steps(8);
     assert!(is_shown(&stage, "image.glsl"), "the tab's tip is open: {:?}", texts(&stage));
     assert!(!is_shown(&stage, "ms on the GPU"), "{:?}", texts(&stage));
@@ -192,7 +192,7 @@ fn stale_pass_times_are_hidden_or_marked() {
     press(&mut stage, CTRL_SHIFT, Key::T);
     click(&mut stage, "buffers:page:graph");
     assert!(stage.state().shell.place("buffers:graph:paused").is_some());
-    stage.state_mut().session.apply(Command::Play);
+    stage.state_mut().session.apply(TransportCommand::Play);
     stage.run_steps(3);
     assert!(stage.state().shell.place("buffers:graph:paused").is_none());
     assert!(stage.state().shell.place("costs:paused").is_none() && !is_shown(&stage, "from before the pause"));

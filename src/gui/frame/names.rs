@@ -4,7 +4,10 @@ use super::harness::{CTRL, CTRL_SHIFT, click, has, named, open, open_with, press
 use crate::{
     gui::panels::Panel,
     playback::comparing::Baseline,
-    session::{Command, Level, Question, SessionOptions, Status, probe::ProbePlace},
+    session::{
+        Command, EditCommand, FileCommand, HaltCommand, Level, NoticeCommand, Question, SessionOptions, Status,
+        ToolCommand, ViewCommand, probe::ProbePlace,
+    },
 };
 use egui::{Key, Modifiers};
 use std::time::{Duration, Instant};
@@ -59,9 +62,9 @@ fn every_focusable_widget_has_a_name() {
     press(&mut stage, CTRL_SHIFT, Key::T);
     let tab = stage.state().session.tabs()[0].clone();
     let place = format!("error: {} line 1: ", tab.title());
-    stage.state_mut().session.apply(Command::EditText { tab, text: "no shader".into() });
+    stage.state_mut().session.apply(EditCommand::EditText { tab, text: "no shader".into() });
     stage.run_steps(3);
-    for command in [Command::New, Command::Open("feedback".into())] {
+    for command in [Command::File(FileCommand::New), Command::File(FileCommand::Open("feedback".into()))] {
         stage.state_mut().session.apply(command);
         stage.run_steps(3);
         assert!(stage.state().session.question().is_some());
@@ -92,9 +95,9 @@ fn every_panel_has_names() {
     let Some(mut stage) = open(false) else { return };
     stage.state_mut().shell.set_open(Panel::Trace, true);
     stage.run_steps(2);
-    stage.state_mut().session.apply(Command::Trace(Some([0.5, 0.5])));
+    stage.state_mut().session.apply(ToolCommand::Trace(Some([0.5, 0.5])));
     until(&mut stage, "a traced pixel", |stage| stage.state().session.trace().traced.is_some());
-    stage.state_mut().session.apply(Command::Compare(Some(Baseline::LastSave)));
+    stage.state_mut().session.apply(ToolCommand::Compare(Some(Baseline::LastSave)));
     until(&mut stage, "a comparison", |stage| matches!(stage.state().session.comparison(), Some(Status::Ended(Ok(_)))));
     for panel in Panel::all() {
         stage.state_mut().shell.set_open(panel, true);
@@ -125,7 +128,7 @@ fn popups_have_names() {
         has(&named(&stage, widget), &[wanted]);
         press(&mut stage, Modifiers::NONE, Key::Escape);
     }
-    stage.state_mut().session.apply(Command::Notify {
+    stage.state_mut().session.apply(NoticeCommand::Notify {
         level: Level::Warning,
         text: "Something is so.".into(),
         path: Some("/somewhere".into()),
@@ -153,10 +156,10 @@ fn popups_have_names() {
 
     let tab = stage.state().session.tabs().into_iter().find(|tab| tab.title() == "Image").unwrap();
     let at = stage.state().session.text(&tab).find("red * at").unwrap();
-    stage.state_mut().session.apply(Command::Probe(Some(ProbePlace { tab, at, visit: 0 })));
+    stage.state_mut().session.apply(ViewCommand::Probe(Some(ProbePlace { tab, at, visit: 0 })));
     until(&mut stage, "a probe", |stage| stage.state().shell.place("probe:number").is_some());
     has(&named(&stage, "a probe"), &["Evaluation to show"]);
-    stage.state_mut().session.apply(Command::Probe(None));
+    stage.state_mut().session.apply(ViewCommand::Probe(None));
 
     press(&mut stage, Modifiers::NONE, Key::F9);
     has(&named(&stage, "presenting"), &["Code of Image", "Picture of Image"]);
@@ -168,7 +171,7 @@ fn popups_have_names() {
     named(&stage, "the gallery with recent projects");
     press(&mut stage, CTRL_SHIFT, Key::G);
 
-    stage.state_mut().session.apply(Command::Hold);
+    stage.state_mut().session.apply(HaltCommand::Hold);
     stage.run_steps(3);
     has(&named(&stage, "a halt"), &["Play", "Lower resolution"]);
 }
@@ -183,7 +186,7 @@ fn every_question_has_names() {
     std::fs::create_dir(&other).unwrap();
     // A file with the same contents would be kept without a question.
     std::fs::write(other.join("image.glsl"), "// of another project\n").unwrap();
-    stage.state_mut().session.apply(Command::SaveAs(other));
+    stage.state_mut().session.apply(FileCommand::SaveAs(other));
     until(&mut stage, "a question", |stage| {
         matches!(stage.state().session.question(), Some(Question::Overwrite { .. }))
     });
@@ -195,7 +198,7 @@ fn every_question_has_names() {
 
     let tab = stage.state().session.tabs().into_iter().find(|tab| tab.title() == "Image").unwrap();
     let mine = format!("// mine\n{}", stage.state().session.text(&tab));
-    stage.state_mut().session.apply(Command::EditText { tab, text: mine });
+    stage.state_mut().session.apply(EditCommand::EditText { tab, text: mine });
     stage.run_steps(3);
     std::fs::write(folder.join("image.glsl"), "// of another program\n").unwrap();
     until(&mut stage, "a conflict", |stage| {

@@ -2,9 +2,10 @@
 
 use super::harness::{Stage, choose, named, open, press, until};
 use crate::{
+    HaltCommand, TransportCommand,
     gui::panels::Panel,
     project::{PassName, Tab},
-    session::Command,
+    session::EditCommand,
 };
 use egui::{Event, Key, Modifiers};
 
@@ -44,7 +45,7 @@ fn the_palette_reaches_the_picture_the_passes_and_recent_projects() {
     let before = stage.state().session.reset_on_reload();
     choose(&mut stage, "reset when");
     assert_eq!(stage.state().session.reset_on_reload(), !before);
-    stage.state_mut().session.apply(Command::AssignCustomUniform("red=0.25".into()));
+    stage.state_mut().session.apply(EditCommand::AssignCustomUniform("red=0.25".into()));
     let red = |stage: &Stage| {
         let session = &stage.state().session;
         let uniform = session.custom_uniforms().iter().find(|uniform| uniform.name == "red").unwrap();
@@ -62,7 +63,7 @@ fn the_palette_reaches_the_picture_the_passes_and_recent_projects() {
     stage.run_steps(2);
     assert_eq!(stage.state().shell.caret().0, b, "it is in front");
 
-    stage.state_mut().session.apply(Command::Hold);
+    stage.state_mut().session.apply(HaltCommand::Hold);
     stage.run_steps(2);
     assert!(stage.state().session.halt().is_some());
     choose(&mut stage, "slow frame: continue");
@@ -82,7 +83,7 @@ const ALL: Modifiers = Modifiers { ctrl: true, command: true, shift: true, alt: 
 #[test]
 fn the_focused_panel_is_resized_and_moved_by_keys() {
     let Some(mut stage) = open(false) else { return };
-    stage.state_mut().session.apply(Command::Pause);
+    stage.state_mut().session.apply(TransportCommand::Pause);
     press(&mut stage, Modifiers::NONE, Key::F6);
     let has_code = |stage: &Stage| stage.state().shell.has_keys(&stage.ctx);
     for _ in 0..12 {

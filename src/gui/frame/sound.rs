@@ -1,7 +1,7 @@
 //! The panel of the sound pass: its texts, and seeking by a click in the waveform.
 
 use super::harness::{Stage, click, open, texts, until};
-use crate::{gui::panels::Panel, project::Tab, session::Command};
+use crate::{gui::panels::Panel, project::Tab, session::EditCommand};
 
 fn says(stage: &Stage, words: &str) -> bool {
     texts(stage).iter().any(|text| text.contains(words))
@@ -29,6 +29,6 @@ fn a_sound_pass_is_added_shown_and_seeked() {
 
     let tab = Tab::sound();
     let text = "vec2 mainSound(float time) { return vec2(0.0); }".into();
-    stage.state_mut().session.apply(Command::EditText { tab, text });
+    stage.state_mut().session.apply(EditCommand::EditText { tab, text });
     until(&mut stage, "an error", |stage| says(stage, "this is the sound before"));
 }

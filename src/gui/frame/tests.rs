@@ -4,7 +4,7 @@ use super::*;
 use crate::{
     gpu::testing,
     project::{Input, Media, PassName, Tab},
-    session::{Command, SessionOptions},
+    session::{CanvasCommand, CaptureCommand, Command, EditCommand, FileCommand, SessionOptions, TransportCommand},
 };
 use egui::{Event, Modifiers, PointerButton, Pos2, Rect, pos2, vec2};
 use std::{
@@ -29,7 +29,7 @@ impl Stage {
         let folder = tempfile::tempdir().unwrap();
         files.iter().for_each(|(name, text)| std::fs::write(folder.path().join(name), text).unwrap());
         let mut session = Session::with_options(gpu.clone(), Arc::new(|| ()), SessionOptions::default()).unwrap();
-        session.apply(Command::Open(folder.path().display().to_string()));
+        session.apply(FileCommand::Open(folder.path().display().to_string()));
         let renderer = Renderer::new(&gpu.device, wgpu::TextureFormat::Rgba8Unorm, Default::default());
         let shell = Shell::new(gpu, Arc::new(|| ()), false);
         let mut stage = Stage { ctx: egui::Context::default(), shell, session, renderer, folder };
@@ -91,7 +91,7 @@ impl Stage {
 
     /// Returns the colour of the newest picture, whose pixels are all equal.
     fn colour(&mut self) -> [u8; 3] {
-        self.session.apply(Command::Screenshot);
+        self.session.apply(CaptureCommand::Screenshot);
         let path: PathBuf = self.session.notices().last().unwrap().path.clone().unwrap();
         assert!(path.starts_with(self.folder.path()), "{}", Path::display(&path));
         let picture = image::open(path).unwrap().to_rgb8();
@@ -128,7 +128,11 @@ fn the_picture_uses_the_input_of_its_own_frame() {
     assert_eq!(stage.colour(), [0, 0, 0]);
     let near = |a: u8, b: f32| (f32::from(a) - 255.0 * b).abs() < 3.0;
     for playing in [true, false] {
-        stage.session.apply(if playing { Command::Play } else { Command::Pause });
+        stage.session.apply(if playing {
+            Command::Transport(TransportCommand::Play)
+        } else {
+            Command::Transport(TransportCommand::Pause)
+        });
         let (left, right) = (stage.point(0.25, 0.5), stage.point(0.75, 0.5));
         let frame = stage.frame(vec![Event::PointerMoved(left), button(left, true)]);
         let [red, green, blue] = stage.colour();
@@ -146,7 +150,7 @@ fn the_picture_uses_the_input_of_its_own_frame() {
 #[test]
 fn a_paused_frame_is_shown_and_then_idles() {
     let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE)]) else { return };
-    stage.session.apply(Command::Pause);
+    stage.session.apply(TransportCommand::Pause);
     stage.frame(vec![]);
     let at = stage.point(0.5, 0.5);
     let frame = stage.frame(vec![Event::PointerMoved(at), button(at, true), button(at, false)]);
@@ -158,7 +162,7 @@ fn a_paused_frame_is_shown_and_then_idles() {
 #[test]
 fn a_resize_takes_effect_in_the_same_frame() {
     let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE)]) else { return };
-    stage.session.apply(Command::SetFixedSize(Some((64, 32))));
+    stage.session.apply(CanvasCommand::SetFixedSize(Some((64, 32))));
     stage.frame(vec![]);
     assert_eq!(stage.session.transport().resolution, (64, 32));
     let place = stage.shell.place("viewport").unwrap();
@@ -190,7 +194,7 @@ fn channel_previews_show_the_current_buffer() {
     let green = color("0.0, 1.0, 0.0");
     let files = [("buffer_a.glsl", green.as_str()), ("image.glsl", image), ("eddy.toml", manifest)];
     let Some(mut stage) = Stage::open(&files) else { return };
-    stage.session.apply(Command::Pause);
+    stage.session.apply(TransportCommand::Pause);
     let a = PassName::buffer("A");
     let texel = |stage: &Stage| {
         let (small, _) = stage.session.miniature(&a, 0)?;
@@ -204,8 +208,8 @@ fn channel_previews_show_the_current_buffer() {
     let rests = stage.frame(vec![]);
     assert!(!rests.wants_next && rests.tick.wake_at.is_none());
 
-    stage.session.apply(Command::EditText { tab: Tab::Pass(a.clone()), text: color("0.0, 0.0, 1.0") });
-    stage.session.apply(Command::CompileNow);
+    stage.session.apply(EditCommand::EditText { tab: Tab::Pass(a.clone()), text: color("0.0, 0.0, 1.0") });
+    stage.session.apply(EditCommand::CompileNow);
     let end = Instant::now() + Duration::from_secs(60);
     while texel(&stage) != Some(vec![0, 0, 255]) {
         stage.frame(vec![]);
@@ -367,8 +371,8 @@ fn only_visible_measurements_run() {
     let Some(mut stage) = Stage::open(&[("image.glsl", &text)]) else { return };
     let count = |stage: &Stage| stage.session.measured_frames();
     // Slow read-backs are repeated less often.
-    stage.session.apply(Command::SetFixedSize(Some((16, 9))));
-    stage.session.apply(Command::Play);
+    stage.session.apply(CanvasCommand::SetFixedSize(Some((16, 9))));
+    stage.session.apply(TransportCommand::Play);
     (0..5).for_each(|_| drop(stage.frame(vec![])));
     assert_eq!((stage.session.measures().len(), count(&stage)), (40, 0));
 

@@ -7,7 +7,7 @@ use crate::{
         ui_output::UiOutput,
     },
     project::presets,
-    session::Command,
+    session::FileCommand,
 };
 use egui::{Align2, Color32, FontId, Galley, Rect, Sense, Stroke, StrokeKind, Ui, pos2, text::LayoutJob, vec2};
 use std::sync::{Arc, LazyLock};
@@ -82,7 +82,7 @@ impl Card {
             out.place(format!("preset:{}", self.name), rect.intersect(ui.clip_rect()));
         }
         if response.clicked() {
-            out.ask(Command::Open(self.name.to_owned()));
+            out.ask(FileCommand::Open(self.name.to_owned()));
         }
         if !ui.is_rect_visible(rect) {
             return false;

@@ -12,7 +12,7 @@ use crate::{
         thumbnails::{Thumbnail, ThumbnailSource, Thumbnails},
         ui_output::{Pick, ShellCommand, UiOutput},
     },
-    session::{Command, RecentProject, Session},
+    session::{FileCommand, RecentProject, Session},
 };
 use egui::{
     Align2, FontId, Galley, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui, pos2, text::LayoutJob, vec2,
@@ -110,7 +110,7 @@ fn recent_card(
         response.scroll_to_me(None);
     }
     if response.clicked() {
-        out.ask(Command::Open(project.spec()));
+        out.ask(FileCommand::Open(project.spec()));
     }
     if !ui.is_rect_visible(rect) {
         return;

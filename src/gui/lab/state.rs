@@ -15,7 +15,7 @@ use crate::{
         studies,
     },
     project::Tab,
-    session::{Command, Session},
+    session::{FileCommand, Session},
 };
 use serde_json::{Value, json};
 use std::{
@@ -249,7 +249,7 @@ impl Lab {
         match lab::open::project(self.study(), &point) {
             Ok(Opened { project, size, pass }) => {
                 self.code = Some((project.name.clone(), Tab::Pass(pass)));
-                out.ask(Command::OpenProject { project: Box::new(project), size: Some(size) });
+                out.ask(FileCommand::OpenProject { project: Box::new(project), size: Some(size) });
                 self.opened = Some(point);
             }
             Err(error) => self.message = Some((error.to_string(), true)),

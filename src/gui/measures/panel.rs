@@ -11,7 +11,7 @@ use crate::{
         theme,
         ui_output::UiOutput,
     },
-    session::{Command, Session, measures::Measure},
+    session::{Command, Session, ViewCommand, measures::Measure},
 };
 use egui::{Button, Label, RichText, ScrollArea, Ui, vec2};
 
@@ -64,9 +64,9 @@ fn controls(state: &mut Measurements, ui: &mut Ui, measures: &[Measure], out: &m
         let is_empty = measures.iter().all(|measure| measure.record.newest().is_none());
         let save = ui.add_enabled(!is_empty, Button::new("Save as CSV"));
         let save = save.on_hover_text("One row per frame, one column per comment; saved next to the screenshots");
-        out.on_click("measures:save", &save, Command::SaveMeasures);
+        out.on_click("measures:save", &save, Command::View(ViewCommand::SaveMeasures));
         let clear = ui.add_enabled(!is_empty, Button::new("Clear")).on_hover_text("Clear all plots and start again");
-        out.on_click("measures:clear", &clear, Command::ClearMeasures);
+        out.on_click("measures:clear", &clear, Command::View(ViewCommand::ClearMeasures));
     });
 }
 

@@ -1,6 +1,6 @@
 //! The state that the panel keeps from frame to frame.
 
-use crate::session::{Command, measures::Sample};
+use crate::session::{Command, ViewCommand, measures::Sample};
 
 /// The horizontal axis of a plot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,6 +51,6 @@ impl Measurements {
             return None;
         }
         self.sent.clone_from(&seen);
-        Some(Command::WatchMeasures(seen))
+        Some(Command::View(ViewCommand::WatchMeasures(seen)))
     }
 }

@@ -8,7 +8,7 @@ use super::{
     theme,
     ui_output::UiOutput,
 };
-use crate::session::Command;
+use crate::session::{Command, TransportCommand};
 use egui::{
     Align2, Area, FontId, Frame, Id, Key, Margin, Modifiers, Order, Rect, Sense, TextEdit, Ui, pos2, text::LayoutJob,
     vec2,
@@ -337,7 +337,11 @@ mod tests {
 
     #[test]
     fn project_offers_follow_the_actions() {
-        let offer = |name: &str, title: &str| Offer { name: name.into(), title: title.into(), command: Command::Play };
+        let offer = |name: &str, title: &str| Offer {
+            name: name.into(),
+            title: title.into(),
+            command: Command::Transport(TransportCommand::Play),
+        };
         let offers = [offer("show:Image", "Show pass: Image"), offer("recent:/x/waves", "Open recent: waves (/x)")];
         let all = fits("", &[], &offers);
         assert_eq!(all.len(), ACTIONS.len() + 1);

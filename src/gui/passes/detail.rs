@@ -9,7 +9,7 @@ use crate::{
     project::{
         Condition, FillKind, Filter, Pass, PassEdit, PassName, PassSize, Project, Region, Tab, TexelFormat, Wrap,
     },
-    session::{Command, Session},
+    session::{EditCommand, Session, ViewCommand},
 };
 use egui::{ComboBox, DragValue, Grid, Key, Response, RichText, Role, TextEdit, Ui};
 
@@ -115,7 +115,7 @@ fn shows(ui: &mut Ui, tab: &Tab, pass: Option<&PassName>, out: &mut UiOutput) {
         if let Some(pass) = pass.filter(|id| id.is_picture())
             && out.clicked("passes:show", &ui.button("Show this pass"))
         {
-            out.ask(Command::ShowPass(pass.clone()));
+            out.ask(ViewCommand::ShowPass(pass.clone()));
         }
     });
 }
@@ -137,7 +137,7 @@ fn name(ui: &mut Ui, project: &Project, id: &PassName, naming: &mut Naming, out:
     if response.lost_focus() {
         match wanted.filter(|_| why.is_none() && !is_cancelled) {
             Some(other) if other != *id => {
-                out.ask(Command::EditPasses(PassEdit::Rename { pass: id.clone(), name: naming.text.clone() }));
+                out.ask(EditCommand::EditPasses(PassEdit::Rename { pass: id.clone(), name: naming.text.clone() }));
                 naming.of = None;
             }
             _ => naming.text = name_of(&Tab::Pass(id.clone())),
@@ -195,7 +195,7 @@ fn checked(project: &Project, id: &PassName, name: &str) -> (Option<PassName>, O
 }
 
 fn edit(out: &mut UiOutput, edit: PassEdit) {
-    out.ask(Command::EditPasses(edit));
+    out.ask(EditCommand::EditPasses(edit));
 }
 
 /// Records the place of a number, and sets its accessible name.

@@ -3,7 +3,7 @@
 use crate::{
     gui::{accessible, theme, ui_output::UiOutput},
     project::{FillKind, FillValue, Pass, PassEdit, PassName},
-    session::Command,
+    session::EditCommand,
 };
 use egui::{ComboBox, DragValue, Key, RichText, Role, TextEdit, Ui, vec2};
 use std::{path::Path, sync::Arc};
@@ -49,7 +49,7 @@ pub(super) fn show(ui: &mut Ui, pass: &Pass, kind: FillKind, filling: &mut Filli
     }
     let edit = |out: &mut UiOutput, value: Option<FillValue>, width: u32| {
         let pass = pass.id.clone();
-        out.ask(Command::EditPasses(match kind {
+        out.ask(EditCommand::EditPasses(match kind {
             FillKind::Initial => PassEdit::Initial(pass, value),
             FillKind::Boundary => PassEdit::Boundary(pass, value.map(|value| (width, value))),
         }));

@@ -8,7 +8,7 @@ use crate::{
         ui_output::UiOutput,
     },
     project::{Group, Pass, PassEdit, PassName, PassSize, Project, Tab},
-    session::{Command, Session},
+    session::{Command, EditCommand, Session},
 };
 use egui::{Align2, FontId, Id, Rect, Response, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -55,7 +55,7 @@ fn drop_at(ui: &Ui, places: &[Rect], from: usize, id: &PassName, response: &Resp
     let to = if below > from { below - 1 } else { below };
     if response.drag_stopped() {
         if to != from {
-            out.ask(Command::EditPasses(PassEdit::Move { pass: id.clone(), to }));
+            out.ask(EditCommand::EditPasses(PassEdit::Move { pass: id.clone(), to }));
         }
         return;
     }
@@ -159,12 +159,12 @@ fn tools(ui: &mut Ui, project: &Project, chosen: &Tab, out: &mut UiOutput) {
         if out.clicked(name, &button)
             && let (Some(to), Some(at)) = (to, at)
         {
-            out.ask(Command::EditPasses(PassEdit::Move { pass: buffers[at].clone(), to }));
+            out.ask(EditCommand::EditPasses(PassEdit::Move { pass: buffers[at].clone(), to }));
         }
         button.on_hover_text(tip);
     }
     let can_go = *chosen != Tab::image() && project.source(chosen).is_some();
     let remove = ui.add_enabled(can_go, egui::Button::new("Remove"));
-    out.on_click("passes:remove", &remove, Command::EditPasses(PassEdit::Remove(chosen.clone())));
+    out.on_click("passes:remove", &remove, Command::Edit(EditCommand::EditPasses(PassEdit::Remove(chosen.clone()))));
     remove.on_disabled_hover_text("Image cannot be removed").on_hover_text("Can be undone");
 }

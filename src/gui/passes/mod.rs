@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     project::{PassName, Role, Tab},
-    session::{Command, Session},
+    session::{EditCommand, Session},
 };
 use detail::Typed;
 use egui::{Frame, Id, Margin, Response, RichText, Ui, Window, WindowDrag, vec2};
@@ -159,7 +159,7 @@ pub(super) fn add_menu(ui: &mut Ui, session: &Session, chooses: bool, out: &mut 
     let id = Id::unique("name of a new buffer");
     ui.set_min_width(190.0);
     let add = |ui: &mut Ui, tab: Tab, out: &mut UiOutput| {
-        out.ask(Command::AddTab(tab.clone()));
+        out.ask(EditCommand::AddTab(tab.clone()));
         out.shell_commands.push(ShellCommand::GoTo(tab.clone(), None));
         if chooses {
             out.shell_commands.push(ShellCommand::ChoosePass(tab));

@@ -8,7 +8,7 @@ use crate::{
         theme,
         ui_output::UiOutput,
     },
-    session::{CheckedForm, Command, FilmForm, FilmOrder, FilmPreset, FilmView, Session},
+    session::{CheckedForm, Command, FilmCommand, FilmForm, FilmOrder, FilmPreset, FilmView, Session},
 };
 use egui::{Button, Label, ProgressBar, Response, RichText, Role, ScrollArea, Ui, vec2};
 
@@ -41,7 +41,7 @@ fn show(recorder: &mut Recorder, ui: &mut Ui, settings: &FilmForm, session: &Ses
     recorder.follow(settings);
     let facts = session.film_facts();
     if facts.encoders.is_none() && !std::mem::replace(&mut recorder.has_asked, true) {
-        out.ask(Command::FindEncoders);
+        out.ask(FilmCommand::FindEncoders);
     }
     let film = session.film();
     let is_busy = film.as_ref().is_some_and(FilmView::is_busy);
@@ -86,7 +86,7 @@ fn presets(recorder: &mut Recorder, ui: &mut Ui, out: &mut UiOutput) {
 
 fn look_again(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let button = ui.add_enabled(!session.looks_for_encoders(), Button::new("Look for ffmpeg again"));
-    out.on_click("film:look-again", &button, Command::FindEncoders);
+    out.on_click("film:look-again", &button, Command::Film(FilmCommand::FindEncoders));
 }
 
 fn buttons(recorder: &mut Recorder, ui: &mut Ui, checked: &CheckedForm, out: &mut UiOutput) {
@@ -105,7 +105,7 @@ fn buttons(recorder: &mut Recorder, ui: &mut Ui, checked: &CheckedForm, out: &mu
                 None => response,
             };
             if let (true, Some(order)) = (out.clicked(name, &response), order) {
-                out.ask(Command::MakeFilm(Box::new(order.clone())));
+                out.ask(FilmCommand::MakeFilm(Box::new(order.clone())));
                 return true;
             }
             let note = why.filter(|_| checked.errors.is_empty());
@@ -144,10 +144,10 @@ fn status(ui: &mut Ui, session: &Session, film: &FilmView<'_>, out: &mut UiOutpu
         ui.horizontal_wrapped(|ui| {
             if matches!(film, FilmView::Live(_)) {
                 let stop = ui.add(Button::new(RichText::new("Stop and save").color(p.strong)).fill(p.accent_fill));
-                out.on_click("film:stop", &stop, Command::StopFilm);
+                out.on_click("film:stop", &stop, Command::Film(FilmCommand::StopFilm));
             }
             if cancel(ui, out) {
-                out.ask(Command::CancelFilm);
+                out.ask(FilmCommand::CancelFilm);
             }
         });
     }

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     control::{midi::MidiChoice, osc::OscState},
-    session::{Command, FilmForm, Session},
+    session::{CaptureCommand, Command, ControlCommand, EditCommand, FilmForm, HaltCommand, Session, SoundCommand},
 };
 use std::{
     net::{IpAddr, Ipv4Addr, SocketAddr},
@@ -127,11 +127,11 @@ settings! {
     /// Edits are compiled when they are saved, not while typing.
     CompileOnSave(compile_on_save: bool = false), "compile-on-save" =>
         row("Compile on save only", Kind::Switch, "Compile edits when they are saved, not while you type")
-            .sends(|settings| Command::SetCompileOnSave(settings.compile_on_save));
+            .sends(|settings| Command::Edit(EditCommand::SetCompileOnSave(settings.compile_on_save)));
     /// A frame that takes longer pauses the picture.
     FrameTimeout(frame_timeout: Duration = Duration::from_secs(2)), "frame-timeout" =>
         row("Slow frame limit", Kind::Number(FRAME_TIMEOUT), "Pause the picture when a frame takes longer than this")
-            .sends(|settings| Command::SetFrameLimit(settings.frame_timeout))
+            .sends(|settings| Command::Halt(HaltCommand::SetFrameLimit(settings.frame_timeout)))
             .overridden_by(FRAME_TIMEOUT_OPTION);
     /// PNG images are saved with the project in them.
     ProjectInImages(project_in_images: bool = true), "project-in-images" =>
@@ -140,22 +140,22 @@ settings! {
             Kind::Switch,
             "Save the code and the inputs in PNG images, so that Eddy opens them as the frame they show",
         )
-        .sends(|settings| Command::SetProjectInPictures(settings.project_in_images));
+        .sends(|settings| Command::Capture(CaptureCommand::SetProjectInPictures(settings.project_in_images)));
     /// The volume, from 0 to 1.
     Volume(volume: f32 = 1.0), "volume" =>
         row("Volume", Kind::Number(Number::percent(0.0, 1.0)), "How loud music and the sound pass are")
-            .sends(|settings| Command::SetVolume(settings.volume));
+            .sends(|settings| Command::Sound(SoundCommand::SetVolume(settings.volume)));
     Mute(mute: bool = false), "mute" =>
-        row("Mute", Kind::Switch, "Play no sound").sends(|settings| Command::SetMute(settings.mute));
+        row("Mute", Kind::Switch, "Play no sound").sends(|settings| Command::Sound(SoundCommand::SetMute(settings.mute)));
     /// The name of the device that plays; `None`: the system's default one.
     AudioOutput(audio_output: Option<String> = None), "audio-output" =>
         row("Sound output", Kind::SoundOutput, "The device that plays")
-            .sends(|settings| Command::SetAudioOutput(settings.audio_output.clone()))
+            .sends(|settings| Command::Sound(SoundCommand::SetAudioOutput(settings.audio_output.clone())))
             .needs("a build with the feature audio", has_sound);
     /// The name of the device that records; `None`: the system's default one.
     AudioInput(audio_input: Option<String> = None), "audio-input" =>
         row("Microphone", Kind::SoundInput, "The device that channels with the microphone read, once you switch it on")
-            .sends(|settings| Command::SetAudioInput(settings.audio_input.clone()))
+            .sends(|settings| Command::Sound(SoundCommand::SetAudioInput(settings.audio_input.clone())))
             .needs("a build with the feature audio", has_sound);
     /// OSC is received.
     Osc(osc: bool = false), "osc" =>
@@ -186,7 +186,7 @@ settings! {
         });
     Midi(midi: MidiChoice = MidiChoice::Off), "midi" =>
         row("MIDI", Kind::MidiDevices, "Let MIDI controllers move uniforms")
-            .sends(|settings| Command::SetMidi(settings.midi.clone()))
+            .sends(|settings| Command::Control(ControlCommand::SetMidi(settings.midi.clone())))
             .needs("a build with the feature midi", |session| session.controls_view().has_midi)
             .noted(|session| {
                 let view = session.controls_view();
@@ -194,7 +194,7 @@ settings! {
             });
     Gamepads(gamepads: bool = false), "gamepads" =>
         row("Gamepads", Kind::Switch, "Let gamepads move uniforms, and channels read them")
-            .sends(|settings| Command::SetGamepads(settings.gamepads))
+            .sends(|settings| Command::Control(ControlCommand::SetGamepads(settings.gamepads)))
             .needs("a build with the feature gamepad", |session| session.controls_view().has_gamepads)
             .noted(|session| session.controls_view().gamepads?.trouble);
     /// The choices of the Recorder panel.
@@ -212,7 +212,9 @@ fn has_sound(session: &Session) -> bool {
 }
 
 fn set_osc(settings: &Settings) -> Command {
-    Command::SetOsc(settings.osc.then(|| SocketAddr::new(settings.osc_address, settings.osc_port)))
+    Command::Control(ControlCommand::SetOsc(
+        settings.osc.then(|| SocketAddr::new(settings.osc_address, settings.osc_port)),
+    ))
 }
 
 /// Options of the command line that override settings.
@@ -238,7 +240,7 @@ impl Overrides {
 pub(crate) fn commands(before: Option<&Settings>, now: &Settings, overrides: &Overrides) -> Vec<Command> {
     let mut commands = Vec::new();
     if before.is_none() && overrides.osc.is_some() {
-        commands.push(Command::SetOsc(overrides.osc));
+        commands.push(Command::Control(ControlCommand::SetOsc(overrides.osc)));
     }
     for setting in SETTINGS {
         let is_changed = before.is_none_or(|before| (setting.current)(before) != (setting.current)(now));

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     control::midi::MidiChoice,
-    session::{Command, FilmForm},
+    session::{Command, ControlCommand, FilmForm, HaltCommand, SoundCommand},
 };
 use std::{fmt::Write as _, path::Path, time::Duration};
 
@@ -82,17 +82,25 @@ fn changed_settings_take_effect_once_unless_the_command_line_overrides_them() {
     assert_eq!(commands(Some(&before), &before, &none), []);
     let now = Settings { theme: Theme::Dark, volume: 0.5, osc: true, osc_port: 8000, ..before.clone() };
     let osc = Some("127.0.0.1:8000".parse().unwrap());
-    let wanted = [Command::SetVolume(0.5), Command::SetOsc(osc)];
+    let wanted = [Command::Sound(SoundCommand::SetVolume(0.5)), Command::Control(ControlCommand::SetOsc(osc))];
     assert_eq!(commands(Some(&before), &now, &none), wanted, "OSC has two changed rows and one command");
     // When the window opens, all of them are sent.
     let all = commands(None, &before, &none);
-    let sent = [Command::SetMute(false), Command::SetOsc(None), Command::SetFrameLimit(Duration::from_secs(2))];
+    let sent = [
+        Command::Sound(SoundCommand::SetMute(false)),
+        Command::Control(ControlCommand::SetOsc(None)),
+        Command::Halt(HaltCommand::SetFrameLimit(Duration::from_secs(2))),
+    ];
     assert!(sent.iter().all(|command| all.contains(command)), "{all:?}");
     let overrides = Overrides { frame_limit: true, osc: Some("0.0.0.0:7000".parse().unwrap()) };
     let all = commands(None, &now, &overrides);
-    assert!(all.contains(&Command::SetOsc(overrides.osc)) && !all.contains(&Command::SetOsc(osc)), "{all:?}");
-    assert!(!all.iter().any(|command| matches!(command, Command::SetFrameLimit(_))), "{all:?}");
-    assert_eq!(commands(Some(&before), &now, &overrides), [Command::SetVolume(0.5)]);
+    assert!(
+        all.contains(&Command::Control(ControlCommand::SetOsc(overrides.osc)))
+            && !all.contains(&Command::Control(ControlCommand::SetOsc(osc))),
+        "{all:?}"
+    );
+    assert!(!all.iter().any(|command| matches!(command, Command::Halt(HaltCommand::SetFrameLimit(_)))), "{all:?}");
+    assert_eq!(commands(Some(&before), &now, &overrides), [Command::Sound(SoundCommand::SetVolume(0.5))]);
 }
 
 /// Returns the table of docs/settings.md.

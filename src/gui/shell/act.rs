@@ -15,7 +15,10 @@ use crate::{
     },
     playback::capture::file_stem,
     project::Tab,
-    session::{Command, Level, Session, probe::ProbePlace},
+    session::{
+        CanvasCommand, CaptureCommand, Command, EditCommand, FileCommand, HaltCommand, Level, NoticeCommand, Session,
+        SoundCommand, ToolCommand, TransportCommand, ViewCommand, probe::ProbePlace,
+    },
 };
 use egui::Ui;
 use std::path::Path;
@@ -26,14 +29,14 @@ const RECENT: usize = 30;
 impl Shell {
     pub(super) fn act(&mut self, ui: &Ui, session: &Session, action: Action, out: &mut UiOutput) {
         match action {
-            Action::Compile => out.ask(Command::CompileNow),
-            Action::Save => out.ask(Command::Save),
+            Action::Compile => out.ask(EditCommand::CompileNow),
+            Action::Save => out.ask(FileCommand::Save),
             Action::SaveAs => {
                 self.files.ask(Pick::SaveAs(session.project().name.clone()), start_folder(session));
             }
             Action::Open => self.files.ask(Pick::OpenFile, start_folder(session)),
             Action::OpenFolder => self.files.ask(Pick::OpenFolder, start_folder(session)),
-            Action::ResetOnReload => out.ask(Command::SetResetOnReload(!session.reset_on_reload())),
+            Action::ResetOnReload => out.ask(EditCommand::SetResetOnReload(!session.reset_on_reload())),
             Action::AddCommon => self.add_pass(Tab::Common, out),
             Action::AddBuffer => {
                 if let Some(tab) = passes::next_buffer(&session.tabs()) {
@@ -41,40 +44,40 @@ impl Shell {
                 }
             }
             Action::New => {
-                out.ask(Command::New);
+                out.ask(FileCommand::New);
                 self.leave_gallery(out);
                 self.code.focus();
             }
             Action::Gallery if self.modes.gallery => self.close_gallery(out),
             Action::Gallery => {
                 self.modes.gallery = true;
-                out.ask(Command::Cover(true));
+                out.ask(CanvasCommand::Cover(true));
             }
-            Action::TogglePlay => out.ask(Command::TogglePlay),
-            Action::Reset => out.ask(Command::Reset),
-            Action::Step => out.ask(Command::Step),
-            Action::StepBack => out.ask(Command::StepBack(1)),
+            Action::TogglePlay => out.ask(TransportCommand::TogglePlay),
+            Action::Reset => out.ask(TransportCommand::Reset),
+            Action::Step => out.ask(TransportCommand::Step),
+            Action::StepBack => out.ask(TransportCommand::StepBack(1)),
             Action::TabLeft => self.code.switch_tab(session, -1),
             Action::TabRight => self.code.switch_tab(session, 1),
-            Action::Screenshot => out.ask(Command::Screenshot),
-            Action::SaveTexels => out.ask(Command::SaveTexels),
-            Action::Record => out.ask(Command::Record),
+            Action::Screenshot => out.ask(CaptureCommand::Screenshot),
+            Action::SaveTexels => out.ask(CaptureCommand::SaveTexels),
+            Action::Record => out.ask(TransportCommand::Record),
             Action::Mute if session.output_view().is_some_and(|view| view.ended_before) => {
-                out.ask(Command::OpenSoundAgain);
+                out.ask(SoundCommand::OpenSoundAgain);
             }
             Action::Mute => {
                 let on = self.config.settings().mute;
                 self.change(Change::Mute(!on), out);
             }
             Action::Microphone => match session.microphone_view() {
-                Some(view) if view.is_on || view.is_read => out.ask(Command::UseMicrophone(!view.is_on)),
+                Some(view) if view.is_on || view.is_read => out.ask(SoundCommand::UseMicrophone(!view.is_on)),
                 _ => out
                     .notify(Level::Info, "No channel reads the microphone: choose it as the input of a channel first."),
             },
             Action::PlayRecording => self.files.ask(Pick::Recording, start_folder(session)),
-            Action::StopReplay => out.ask(Command::StopReplay),
-            Action::SaveMeasures => out.ask(Command::SaveMeasures),
-            Action::SaveSound => out.ask(Command::SaveSound),
+            Action::StopReplay => out.ask(TransportCommand::StopReplay),
+            Action::SaveMeasures => out.ask(ViewCommand::SaveMeasures),
+            Action::SaveSound => out.ask(CaptureCommand::SaveSound),
             Action::ExportJson => {
                 let name = format!("{}.json", file_stem(&session.project().name));
                 self.files.ask(Pick::Json(name), start_folder(session));
@@ -92,7 +95,7 @@ impl Shell {
                     out.notify(Level::Error, text);
                 }
             }
-            Action::Audit => out.ask(Command::Audit),
+            Action::Audit => out.ask(ToolCommand::Audit),
             Action::Fullscreen => {
                 self.modes.fullscreen = !self.modes.fullscreen;
                 self.viewport.focus();
@@ -114,8 +117,8 @@ impl Shell {
             }
             Action::Theme(theme) => self.change(Change::Theme(theme), out),
             Action::Passes => self.project_ui.passes.toggle(None),
-            Action::UndoPasses => out.ask(Command::UndoPassEdit),
-            Action::RedoPasses => out.ask(Command::RedoPassEdit),
+            Action::UndoPasses => out.ask(EditCommand::UndoPassEdit),
+            Action::RedoPasses => out.ask(EditCommand::RedoPassEdit),
             Action::Paste => self.clipboard.is_wanted = true,
             Action::ZoomIn => self.zoom(Some(0.1), out),
             Action::ZoomOut => self.zoom(Some(-0.1), out),
@@ -159,7 +162,7 @@ impl Shell {
                 self.leave_gallery(out);
                 self.modes.code_over_picture = false;
                 self.dock.set_open(Panel::Buffers, true);
-                out.ask(Command::FindNonfinite(true));
+                out.ask(ToolCommand::FindNonfinite(true));
             }
             Action::Trace(action) => {
                 let caret = self.code.caret_place().map(|(tab, _, line)| (tab, line));
@@ -170,7 +173,7 @@ impl Shell {
             Action::Time(action) => timeline::act(ui.ctx(), session, action, out),
             Action::Picture(action) => self.act_on_picture(ui, session, action, out),
             Action::Layout(action) => self.act_on_panel(ui, action),
-            Action::Quit => out.ask(Command::Close),
+            Action::Quit => out.ask(FileCommand::Close),
         }
         ui.ctx().request_repaint();
     }
@@ -179,24 +182,24 @@ impl Shell {
         let is_halted = session.halt().is_some();
         match action {
             PictureAction::Shape(shape) => {
-                out.ask(Command::SetFixedSize(None));
+                out.ask(CanvasCommand::SetFixedSize(None));
                 self.viewport.set_shape(shape);
             }
             PictureAction::Scale(scale) => {
-                out.ask(Command::SetFixedSize(None));
-                out.ask(Command::SetScale(scale.factor()));
+                out.ask(CanvasCommand::SetFixedSize(None));
+                out.ask(CanvasCommand::SetScale(scale.factor()));
             }
-            PictureAction::Size(size) => out.ask(Command::SetFixedSize(Some(size))),
+            PictureAction::Size(size) => out.ask(CanvasCommand::SetFixedSize(Some(size))),
             PictureAction::TypeSize => {
                 self.leave_gallery(out);
                 (self.modes.code_over_picture, self.modes.fullscreen) = (false, false);
                 self.dock.set_open(Panel::Picture, true);
                 resolution::open(ui.ctx());
             }
-            PictureAction::ResetUniforms => out.ask(Command::ResetCustomUniforms),
-            PictureAction::GoOn if is_halted => out.ask(Command::GoOn),
-            PictureAction::Smaller if is_halted => out.ask(Command::DrawSmaller),
-            PictureAction::LastGood if is_halted => out.ask(Command::DrawLastGood),
+            PictureAction::ResetUniforms => out.ask(EditCommand::ResetCustomUniforms),
+            PictureAction::GoOn if is_halted => out.ask(HaltCommand::GoOn),
+            PictureAction::Smaller if is_halted => out.ask(HaltCommand::DrawSmaller),
+            PictureAction::LastGood if is_halted => out.ask(HaltCommand::DrawLastGood),
             PictureAction::GoOn | PictureAction::Smaller | PictureAction::LastGood => {
                 out.notify(Level::Info, "No frame has exceeded the time limit.")
             }
@@ -220,7 +223,7 @@ impl Shell {
     }
 
     fn add_pass(&mut self, tab: Tab, out: &mut UiOutput) {
-        out.ask(Command::AddTab(tab.clone()));
+        out.ask(EditCommand::AddTab(tab.clone()));
         // The tab exists in the next frame.
         self.shell_commands.push(ShellCommand::GoTo(tab, None));
         self.leave_gallery(out);
@@ -235,12 +238,12 @@ impl Shell {
         let shows = passes.map(|id| Offer {
             name: format!("show:{}", id.title()),
             title: format!("Show pass: {}", id.title()),
-            command: Command::ShowPass(id),
+            command: Command::View(ViewCommand::ShowPass(id)),
         });
         let opens = session.recent().iter().take(RECENT).map(|project| Offer {
             name: format!("recent:{}", project.path.display()),
             title: format!("Open recent: {} ({})", recent::title(&project.path), recent::parent(&project.path)),
-            command: Command::Open(project.spec()),
+            command: Command::File(FileCommand::Open(project.spec())),
         });
         shows.chain(opens).collect()
     }
@@ -250,7 +253,7 @@ impl Shell {
         let Some((tab, at, _)) = self.code.caret_place() else { return };
         let is_drawn = session.probe().is_some_and(|view| view.place.tab == tab && view.place.at == at);
         let place = (!is_drawn).then_some(ProbePlace { tab, at, visit: 0 });
-        out.ask(Command::Probe(place));
+        out.ask(ViewCommand::Probe(place));
     }
 
     /// Opens a panel or closes it. A panel hidden by another tab of its place comes to the front.
@@ -279,11 +282,11 @@ impl Shell {
 /// Returns a notice with the path of a file that people edit, or with the reason why there is none.
 fn path_notice(what: &str, path: Result<&Path, String>) -> Command {
     match path {
-        Ok(path) => Command::Notify {
+        Ok(path) => Command::Notice(NoticeCommand::Notify {
             level: Level::Info,
             text: format!("{what} in {}. Eddy reads the file when you switch back to this window.", path.display()),
             path: Some(path.to_owned()),
-        },
-        Err(text) => Command::Notify { level: Level::Error, text, path: None },
+        }),
+        Err(text) => Command::Notice(NoticeCommand::Notify { level: Level::Error, text, path: None }),
     }
 }

@@ -7,7 +7,7 @@ use crate::{
         fonts,
         settings::{self, Overrides, Settings, SettingsFile, Theme},
     },
-    session::{Command, Level},
+    session::{Command, Level, NoticeCommand},
 };
 use egui::Ui;
 
@@ -72,7 +72,7 @@ impl Config {
         if before.as_ref().map(|before| &before.code_font) != Some(&settings.code_font)
             && let Err(text) = fonts::set(ctx, settings.code_font.as_deref())
         {
-            commands.push(Command::Notify { level: Level::Error, text, path: None });
+            commands.push(Command::Notice(NoticeCommand::Notify { level: Level::Error, text, path: None }));
         }
         ctx.request_repaint();
         commands

@@ -3,7 +3,7 @@
 use super::Shell;
 use crate::{
     gui::ui_output::UiOutput,
-    session::{Command, Session},
+    session::{FileCommand, Session},
 };
 use egui::Ui;
 use std::path::PathBuf;
@@ -58,7 +58,7 @@ impl Shell {
                 return self.code.paste(text);
             }
             self.clipboard.takes_paste = false;
-            out.ask(Command::Paste(text));
+            out.ask(FileCommand::Paste(text));
         }
     }
 
@@ -67,7 +67,7 @@ impl Shell {
         let pass = self.code.current().pass().cloned().unwrap_or_default();
         // No pass is selected while the gallery covers it.
         let to = (!self.modes.gallery).then_some((pass, channel));
-        out.ask(Command::Bring { paths, to });
+        out.ask(FileCommand::Bring { paths, to });
     }
 
     /// Returns the channel whose card is at a point.

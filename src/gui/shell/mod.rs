@@ -30,7 +30,10 @@ use super::{
 use crate::{
     gpu::Gpu,
     project::Origin,
-    session::{Command, Level, Session},
+    session::{
+        CanvasCommand, Command, ControlCommand, EditCommand, FileCommand, Level, NoticeCommand, Session, ToolCommand,
+        TransportCommand, ViewCommand,
+    },
 };
 use config::Config;
 use egui::{CentralPanel, Frame, Ui};
@@ -191,7 +194,7 @@ impl Shell {
                 .notices()
                 .iter()
                 .filter(|notice| is_over(&notice.text))
-                .for_each(|notice| out.ask(Command::DismissNotice(notice.id)));
+                .for_each(|notice| out.ask(NoticeCommand::DismissNotice(notice.id)));
         }
         for text in errors {
             out.notify(Level::Error, text);
@@ -242,7 +245,7 @@ impl Shell {
         }
         match self.files.show(ui, &mut out) {
             Some(Picked::Path(pick, path)) => out.shell_commands.push(ShellCommand::Picked(pick, path)),
-            Some(Picked::Cancelled(Pick::SaveAs(_))) => out.ask(Command::SaveAsCancelled),
+            Some(Picked::Cancelled(Pick::SaveAs(_))) => out.ask(FileCommand::SaveAsCancelled),
             Some(Picked::Cancelled(_)) | None => {}
         }
         for command in std::mem::take(&mut out.shell_commands) {
@@ -295,7 +298,7 @@ impl Shell {
             return;
         }
         if !self.viewport.stop_picking() && session.probe().is_some() {
-            out.ask(Command::Probe(None));
+            out.ask(ViewCommand::Probe(None));
         }
     }
 
@@ -372,7 +375,7 @@ impl Shell {
             ShellCommand::Set(change) => self.change(change, out),
             ShellCommand::StopOsc => {
                 self.config.overrides.osc = None;
-                out.ask(Command::SetOsc(None));
+                out.ask(ControlCommand::SetOsc(None));
                 self.change(Change::Osc(false), out);
             }
             ShellCommand::Breakpoint(tab, line) => {
@@ -382,7 +385,7 @@ impl Shell {
             }
             ShellCommand::Trace(at) => {
                 self.dock.set_open(Panel::Trace, true);
-                out.ask(Command::Trace(Some(at)));
+                out.ask(ToolCommand::Trace(Some(at)));
             }
             ShellCommand::Pick(pick) => self.files.ask(pick, start_folder(session)),
             ShellCommand::Picked(pick, path) => self.picked(pick, path, out),
@@ -400,7 +403,7 @@ impl Shell {
                         self.code.focus();
                     }
                 } else if !self.shell_commands.contains(&ShellCommand::GoTo(tab.clone(), place))
-                    && out.commands.contains(&Command::AddTab(tab.clone()))
+                    && out.commands.contains(&Command::Edit(EditCommand::AddTab(tab.clone())))
                 {
                     // The tab is being created and exists in the next frame.
                     self.shell_commands.push(ShellCommand::GoTo(tab, place));
@@ -418,22 +421,22 @@ impl Shell {
     /// Closes the gallery without moving the keyboard focus.
     fn leave_gallery(&mut self, out: &mut UiOutput) {
         if std::mem::take(&mut self.modes.gallery) {
-            out.ask(Command::Cover(false));
+            out.ask(CanvasCommand::Cover(false));
         }
     }
 
     fn picked(&mut self, pick: Pick, path: PathBuf, out: &mut UiOutput) {
         match pick {
             Pick::OpenFolder | Pick::OpenFile => {
-                out.ask(Command::Open(path.display().to_string()));
+                out.ask(FileCommand::Open(path.display().to_string()));
             }
-            Pick::SaveAs(_) => out.ask(Command::SaveAs(path)),
+            Pick::SaveAs(_) => out.ask(FileCommand::SaveAs(path)),
             Pick::Recording => {
                 self.leave_gallery(out);
-                out.ask(Command::PlayRecording(path));
+                out.ask(TransportCommand::PlayRecording(path));
             }
-            Pick::Json(_) => out.ask(Command::ExportJson(path)),
-            Pick::Page(_) => out.ask(Command::ExportPage(path)),
+            Pick::Json(_) => out.ask(FileCommand::ExportJson(path)),
+            Pick::Page(_) => out.ask(FileCommand::ExportPage(path)),
             Pick::LabFolder => self.lab.set_results_folder(path),
             Pick::LabReport => self.lab.save_report(path),
             Pick::Reference => self.project_ui.compare.choose(&path),

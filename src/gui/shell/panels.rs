@@ -10,7 +10,7 @@ use crate::{
         viewport::ViewportMode,
     },
     project::Origin,
-    session::{Command, Session},
+    session::{Session, ToolCommand, ViewCommand},
 };
 use egui::{CentralPanel, Frame, Id, Margin, Order, Rect, Ui, vec2};
 
@@ -65,7 +65,7 @@ impl Shell {
         });
         // Closing the panel ends the trace of the pixel.
         if session.trace().traced.is_some() && !self.dock.is_open(Panel::Trace) {
-            out.ask(Command::Trace(None));
+            out.ask(ToolCommand::Trace(None));
         }
         let sees_costs = self.dock.is_seen(Panel::Costs)
             | self.project_ui.buffers.wants_costs()
@@ -76,7 +76,7 @@ impl Shell {
     /// Gathers costs only while they are visible.
     fn watch_costs(&mut self, is_seen: bool, out: &mut UiOutput) {
         if std::mem::replace(&mut self.sees_costs, is_seen) != is_seen {
-            out.ask(Command::WatchCosts(is_seen));
+            out.ask(ViewCommand::WatchCosts(is_seen));
         }
     }
 

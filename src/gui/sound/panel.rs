@@ -15,7 +15,7 @@ use crate::{
         ui_output::{ShellCommand, UiOutput},
     },
     project::Tab,
-    session::{Command, Halt, Session, SoundView},
+    session::{EditCommand, Halt, Session, SoundView, TransportCommand},
 };
 use egui::{Align2, FontId, Key, Label, Rect, Response, RichText, Role, Sense, Ui, vec2};
 
@@ -42,7 +42,7 @@ fn show(state: &mut Sound, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         ui.add(Label::new(RichText::new(text).color(theme::of(ui).weak)).wrap());
         if out.clicked("sound:add", &ui.button("Add sound pass")) {
             let tab = Tab::sound();
-            out.ask(Command::AddTab(tab.clone()));
+            out.ask(EditCommand::AddTab(tab.clone()));
             out.shell_commands.push(ShellCommand::GoTo(tab, None));
         }
         return;
@@ -117,7 +117,7 @@ fn zoom(shown: &mut VisibleRange, ui: &Ui, response: &Response, rect: Rect) {
 fn seek(ui: &Ui, wave: &Wave<'_>, response: &Response, (time, whole): (f64, f64), out: &mut UiOutput) {
     let is_moved = response.clicked() || response.drag_started() || response.drag_delta() != egui::Vec2::ZERO;
     if let Some(at) = response.interact_pointer_pos().filter(|_| is_moved && !response.double_clicked()) {
-        out.ask(Command::Seek(wave.secs(at.x).clamp(0.0, whole)));
+        out.ask(TransportCommand::Seek(wave.secs(at.x).clamp(0.0, whole)));
     }
     if !response.has_focus() {
         return;
@@ -127,10 +127,10 @@ fn seek(ui: &Ui, wave: &Wave<'_>, response: &Response, (time, whole): (f64, f64)
     let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(egui::Modifiers::NONE, key)) as f64;
     let by = STRIDE * (pressed(Key::ArrowRight) - pressed(Key::ArrowLeft));
     if by != 0.0 {
-        out.ask(Command::Seek((time + by).clamp(0.0, whole)));
+        out.ask(TransportCommand::Seek((time + by).clamp(0.0, whole)));
     }
     if pressed(Key::Home) > 0.0 {
-        out.ask(Command::Seek(0.0));
+        out.ask(TransportCommand::Seek(0.0));
     }
 }
 

@@ -35,7 +35,7 @@ pub(super) fn make(subject: &ThumbnailSource) -> Result<ColorImage, String> {
             Ok(swatch(&texels))
         }
         ThumbnailSource::Sound(media, folder) => {
-            let sound = media::begin_of_sound(media, folder.as_deref(), WAVE_SECONDS).map_err(|e| e.to_string())?;
+            let sound = media::sound_preview(media, folder.as_deref(), WAVE_SECONDS).map_err(|e| e.to_string())?;
             Ok(wave(&sound.outline(WAVE.0)))
         }
     }

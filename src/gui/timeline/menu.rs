@@ -3,7 +3,7 @@
 use super::seconds;
 use crate::{
     gui::{accessible, theme, ui_output::UiOutput},
-    session::{Command, Session, TimeRange},
+    session::{Command, Session, TimeRange, TransportCommand},
 };
 use egui::{Button, DragValue, Id, Key, Popup, PopupCloseBehavior, Role, TextEdit, Ui, vec2};
 
@@ -78,7 +78,7 @@ fn menu(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     );
     out.place("time:keep-inputs", switch.rect);
     if switch.changed() {
-        out.ask(Command::SetKeepInputs(keeps));
+        out.ask(TransportCommand::SetKeepInputs(keeps));
     }
 }
 
@@ -100,7 +100,7 @@ fn go_to(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     }
     if response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
         if let Some(secs) = seconds::read(&text) {
-            out.ask(Command::Seek(secs));
+            out.ask(TransportCommand::Seek(secs));
             ui.data_mut(|data| data.insert_temp(typed(), String::new()));
         }
         response.request_focus();
@@ -114,7 +114,11 @@ fn speed(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         ui.spacing_mut().button_padding.x = 4.0;
         for (speed, name) in SPEEDS {
             let is_on = (now - speed).abs() < 1e-6;
-            out.on_click(&format!("time:speed:{name}"), &ui.selectable_label(is_on, name), Command::SetSpeed(speed));
+            out.on_click(
+                &format!("time:speed:{name}"),
+                &ui.selectable_label(is_on, name),
+                Command::Transport(TransportCommand::SetSpeed(speed)),
+            );
         }
     });
 }
@@ -131,7 +135,7 @@ fn fixed_rate(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let response = ui.add_enabled(is_fixed, field);
     accessible::name(&response, Role::SpinButton, "Frames per second of iTime");
     if switch.changed() || (is_fixed && response.changed()) {
-        out.ask(Command::SetFixedRate(is_fixed.then_some(value)));
+        out.ask(TransportCommand::SetFixedRate(is_fixed.then_some(value)));
     }
 }
 
@@ -165,11 +169,11 @@ fn range(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
             }
         }
         if switch.changed() && !is_on {
-            out.ask(Command::SetTimeRange(None));
+            out.ask(TransportCommand::SetTimeRange(None));
         } else if (switch.changed() || is_changed)
             && let Some(range) = TimeRange::new(from, to)
         {
-            out.ask(Command::SetTimeRange(Some(range)));
+            out.ask(TransportCommand::SetTimeRange(Some(range)));
         }
     });
 }

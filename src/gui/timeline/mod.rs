@@ -8,7 +8,7 @@ pub(super) use menu::button;
 pub(super) use seconds::written;
 
 use super::{accessible, actions::TimeAction, theme, ui_output::UiOutput};
-use crate::session::{Command, Session, TimeRange};
+use crate::session::{Command, Session, TimeRange, TransportCommand};
 use egui::{Key, Rect, Role, Sense, Stroke, Ui, Vec2, pos2, vec2};
 
 /// The height of the line.
@@ -71,16 +71,16 @@ pub(super) fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         ui.data_mut(|data| data.insert_temp(from, origin));
     } else if let Some(start_secs) = start_secs {
         if let Some(range) = TimeRange::new(start_secs, secs) {
-            out.ask(Command::SetTimeRange(Some(range)));
+            out.ask(TransportCommand::SetTimeRange(Some(range)));
         }
         if response.drag_stopped() {
             ui.data_mut(|data| data.remove::<f64>(from));
         }
     } else if response.clicked() && ui.input(|input| input.modifiers.shift) {
-        out.ask(Command::SetTimeRange(None));
+        out.ask(TransportCommand::SetTimeRange(None));
     } else if response.clicked() || response.drag_started() || response.drag_delta() != Vec2::ZERO {
         // A pointer at rest sends no commands.
-        out.ask(Command::Seek(secs));
+        out.ask(TransportCommand::Seek(secs));
     }
 }
 
@@ -91,20 +91,31 @@ pub(super) fn act(ctx: &egui::Context, session: &Session, action: TimeAction, ou
     let fastest = menu::SPEEDS.last().map_or(1.0, |(speed, _)| *speed);
     let ask = match action {
         TimeAction::GoTo => return menu::open(ctx),
-        TimeAction::Slower => Command::SetSpeed((transport.speed / 2.0).max(menu::SPEEDS[0].0)),
-        TimeAction::Faster => Command::SetSpeed((transport.speed * 2.0).min(fastest)),
-        TimeAction::ResetSpeed => Command::SetSpeed(1.0),
-        TimeAction::FixedStep => Command::SetFixedRate(if transport.fixed_rate.is_some() { None } else { Some(60.0) }),
+        TimeAction::Slower => {
+            Command::Transport(TransportCommand::SetSpeed((transport.speed / 2.0).max(menu::SPEEDS[0].0)))
+        }
+        TimeAction::Faster => Command::Transport(TransportCommand::SetSpeed((transport.speed * 2.0).min(fastest))),
+        TimeAction::ResetSpeed => Command::Transport(TransportCommand::SetSpeed(1.0)),
+        TimeAction::FixedStep => {
+            Command::Transport(TransportCommand::SetFixedRate(if transport.fixed_rate.is_some() {
+                None
+            } else {
+                Some(60.0)
+            }))
+        }
         TimeAction::LoopFrom => {
             let to = range.map(|range| range.to).filter(|to| *to > time).unwrap_or(time + menu::DEFAULT_RANGE_SECS);
-            Command::SetTimeRange(TimeRange::new(time, to))
+            Command::Transport(TransportCommand::SetTimeRange(TimeRange::new(time, to)))
         }
         TimeAction::LoopTo => {
             let from = range.map(|range| range.from).filter(|from| *from < time);
-            Command::SetTimeRange(TimeRange::new(from.unwrap_or((time - menu::DEFAULT_RANGE_SECS).max(0.0)), time))
+            Command::Transport(TransportCommand::SetTimeRange(TimeRange::new(
+                from.unwrap_or((time - menu::DEFAULT_RANGE_SECS).max(0.0)),
+                time,
+            )))
         }
-        TimeAction::LoopOff => Command::SetTimeRange(None),
-        TimeAction::KeepInputs => Command::SetKeepInputs(!session.keeps_inputs()),
+        TimeAction::LoopOff => Command::Transport(TransportCommand::SetTimeRange(None)),
+        TimeAction::KeepInputs => Command::Transport(TransportCommand::SetKeepInputs(!session.keeps_inputs())),
     };
     out.ask(ask);
 }
@@ -119,19 +130,19 @@ fn keys(ui: &Ui, session: &Session, response: &egui::Response, out: &mut UiOutpu
     let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(egui::Modifiers::NONE, key));
     let secs = session.transport().time_secs;
     for _ in 0..pressed(Key::ArrowRight) {
-        out.ask(Command::Step);
+        out.ask(TransportCommand::Step);
     }
     match pressed(Key::ArrowLeft) {
         0 => {}
-        frames => out.ask(Command::StepBack(frames)),
+        frames => out.ask(TransportCommand::StepBack(frames)),
     }
     if pressed(Key::PageUp) > 0 {
-        out.ask(Command::Seek(secs + STRIDE));
+        out.ask(TransportCommand::Seek(secs + STRIDE));
     }
     if pressed(Key::PageDown) > 0 {
-        out.ask(Command::Seek((secs - STRIDE).max(0.0)));
+        out.ask(TransportCommand::Seek((secs - STRIDE).max(0.0)));
     }
     if pressed(Key::Home) > 0 {
-        out.ask(Command::Seek(0.0));
+        out.ask(TransportCommand::Seek(0.0));
     }
 }

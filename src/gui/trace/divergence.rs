@@ -10,7 +10,7 @@ use crate::{
         theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    session::{Command, Session, Status},
+    session::{Command, Session, Status, ToolCommand},
 };
 use egui::{Id, Label, RichText, Ui};
 
@@ -64,7 +64,13 @@ fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut UiOutput) {
             ui.spinner();
         } else if is_apart && traced.mesh().is_none() {
             let tip = "Compare each assignment on the CPU and the GPU until one differs";
-            parts::button(ui, "trace:part", ("Find first difference", tip), Command::FindDivergence, out);
+            parts::button(
+                ui,
+                "trace:part",
+                ("Find first difference", tip),
+                Command::Tool(ToolCommand::FindDivergence),
+                out,
+            );
         }
     });
     out.place("trace:values", first.response.rect);

@@ -18,7 +18,7 @@ use crate::{
         theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    session::{Command, Session},
+    session::{Command, Session, ToolCommand},
 };
 use egui::{Label, RichText, ScrollArea, TextEdit, Ui, vec2};
 
@@ -47,7 +47,7 @@ fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut UiOut
         let tip = out.keys.tip("Click a pixel in the picture to trace it", Action::TracePixel);
         parts::button(ui, "trace:pick", ("Pick pixel", &tip), Action::TracePixel, out);
         if debugger.is_on() {
-            parts::button(ui, "trace:end-trace", ("End", "Stop tracing"), Command::Trace(None), out);
+            parts::button(ui, "trace:end-trace", ("End", "Stop tracing"), Command::Tool(ToolCommand::Trace(None)), out);
         }
         let view = session.trace();
         if view.is_under_way {

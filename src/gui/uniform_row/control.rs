@@ -4,7 +4,7 @@ use super::parts::{child, components};
 use crate::{
     gui::{accessible, actions::Action, menus, theme, ui_output::UiOutput},
     project::{ControlTarget, CustomUniform},
-    session::{Command, PickupSide, Session},
+    session::{Command, ControlCommand, PickupSide, Session},
 };
 use egui::{Button, Key, Label, Rect, Response, RichText, Role, Sense, Ui};
 
@@ -63,7 +63,7 @@ pub(super) fn label(
         false => text.to_owned(),
     };
     if response.on_hover_text(tip).clicked() || is_cancelled {
-        out.ask(Command::LearnControl(None));
+        out.ask(ControlCommand::LearnControl(None));
     }
 }
 
@@ -76,7 +76,12 @@ pub(super) fn menu(row: &Response, session: &Session, uniform: &CustomUniform, o
             let key = target.to_string();
             if session.is_learning(&target) {
                 let stop = ui.button(format!("Stop learning the control{of}"));
-                out.on_menu_click(ui, &format!("uniform-menu:stop:{key}"), &stop, Command::LearnControl(None));
+                out.on_menu_click(
+                    ui,
+                    &format!("uniform-menu:stop:{key}"),
+                    &stop,
+                    Command::Control(ControlCommand::LearnControl(None)),
+                );
             } else {
                 let title = match name {
                     "" => "Learn MIDI or OSC control".to_owned(),
@@ -87,12 +92,17 @@ pub(super) fn menu(row: &Response, session: &Session, uniform: &CustomUniform, o
                     ui,
                     &format!("uniform-menu:learn:{key}"),
                     &learn,
-                    Command::LearnControl(Some(target.clone())),
+                    Command::Control(ControlCommand::LearnControl(Some(target.clone()))),
                 );
             }
             if let Some(control) = session.control_of(&target) {
                 let forget = ui.button(format!("Forget control{of} ({})", control.label()));
-                out.on_menu_click(ui, &format!("uniform-menu:forget:{key}"), &forget, Command::ForgetControl(target));
+                out.on_menu_click(
+                    ui,
+                    &format!("uniform-menu:forget:{key}"),
+                    &forget,
+                    Command::Control(ControlCommand::ForgetControl(target)),
+                );
             }
         }
         if !is_on {

@@ -11,7 +11,7 @@ use crate::{
         ui_output::UiOutput,
     },
     project::{CustomUniform, CustomUniformType, CustomUniformValue},
-    session::{Command, Session},
+    session::{EditCommand, Session},
 };
 use egui::{Label, Rect, RichText, Sense, Ui, vec2};
 
@@ -50,7 +50,7 @@ pub(crate) fn show(ui: &mut Ui, session: &Session, custom_uniform: &CustomUnifor
     };
     let value = CustomUniformValue::new(custom_uniform.ty, &all);
     if before != all && value != now {
-        out.ask(Command::SetCustomUniform { name: custom_uniform.name.clone(), value: Some(value) });
+        out.ask(EditCommand::SetCustomUniform { name: custom_uniform.name.clone(), value: Some(value) });
     }
     if now != custom_uniform.default {
         let place = Rect::from_center_size(reset.center() + vec2(3.0, 0.0), vec2(24.0, 22.0));
@@ -64,7 +64,7 @@ pub(crate) fn show(ui: &mut Ui, session: &Session, custom_uniform: &CustomUnifor
     }
     if wants_default && now != custom_uniform.default {
         // After the changes of the clicks themselves.
-        out.ask(Command::SetCustomUniform { name: custom_uniform.name.clone(), value: None });
+        out.ask(EditCommand::SetCustomUniform { name: custom_uniform.name.clone(), value: None });
     }
     control::menu(&whole, session, custom_uniform, out);
 }

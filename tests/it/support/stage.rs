@@ -3,7 +3,10 @@
 use eddy::{
     gpu::Gpu,
     project::{PassName, Tab},
-    session::{Command, Level, Outcome, Session, SessionOptions, Tick},
+    session::{
+        CanvasCommand, CaptureCommand, Command, EditCommand, FileCommand, Level, Outcome, Session, SessionOptions,
+        Tick, TransportCommand,
+    },
 };
 use std::{
     fs,
@@ -35,8 +38,8 @@ impl Stage {
             stage.write(name, text);
         }
         let folder = stage.folder();
-        stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
-        stage.session.apply(Command::Pause);
+        stage.session.apply(FileCommand::Open(folder.to_str().unwrap().into()));
+        stage.session.apply(TransportCommand::Pause);
         stage.until_compiled();
         stage
     }
@@ -55,7 +58,7 @@ impl Stage {
             ..options(dir.path())
         };
         let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
-        session.apply(Command::SetFixedSize(Some((8, 4))));
+        session.apply(CanvasCommand::SetFixedSize(Some((8, 4))));
         Stage { session, dir, frames: 0 }
     }
 
@@ -137,7 +140,7 @@ impl Stage {
     }
 
     pub(crate) fn edit(&mut self, text: &str) {
-        self.session.apply(Command::EditText { tab: image_tab(), text: text.into() });
+        self.session.apply(EditCommand::EditText { tab: image_tab(), text: text.into() });
     }
 
     pub(crate) fn notices(&self, level: Level) -> Vec<&str> {
@@ -167,7 +170,7 @@ impl Stage {
 
     pub(crate) fn screenshot(&mut self) -> PathBuf {
         let before = self.session.notices().len();
-        self.session.apply(Command::Screenshot);
+        self.session.apply(CaptureCommand::Screenshot);
         // A session that draws apart has it when the frame under way is drawn.
         self.until("a notice of the picture", |s| s.notices().len() > before);
         let notice = self.session.notices().last().unwrap();
