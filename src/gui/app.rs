@@ -8,16 +8,15 @@ use super::{
     device_recovery::{self, DeviceLosses},
     fonts,
     frame::{self, Frame},
+    hosts,
     keys::{HeldKeys, KeyChange},
     report::Report,
-    settings::{SettingsFile, UsualSizes, WindowFile, WindowPlace, WindowState},
+    settings::{Overrides, RestoredSizes, SettingsFile, WindowFile, WindowPlace, WindowState},
     shell::Shell,
     surface::{Presented, Surface},
     system_theme, theme, window_identity,
 };
 use crate::{
-    audio::host::AudioHost,
-    control::{midi::host::MidiHost, pads::PadHost},
     gpu::Gpu,
     playback::trial::TrialSettings,
     session::{
@@ -124,7 +123,7 @@ struct Running {
     keeps_size: bool,
     /// Save which panels are open for the next start.
     keeps_panels: bool,
-    usual: UsualSizes,
+    restored_sizes: RestoredSizes,
 }
 
 impl ApplicationHandler<AppEvent> for App {
@@ -170,7 +169,7 @@ impl ApplicationHandler<AppEvent> for App {
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let Some(running) = &mut self.running else { return };
-        match device_recovery::caught(running, |running| running.on_event(event), |running| &running.session) {
+        match device_recovery::catch_panic(running, |running| running.on_event(event), |running| &running.session) {
             Ok(Next::Go) => {}
             Ok(Next::Exit) => event_loop.exit(),
             Err(e) => {
@@ -210,8 +209,8 @@ impl Running {
     ) -> Result<Running, GuiError> {
         let state_dir = dirs::state_dir().or_else(dirs::data_local_dir).map(|dir| dir.join("eddy"));
         let mut window_file = WindowFile::new(state_dir.clone());
-        let (remembered, mut mistakes) = window_file.read();
-        let attributes = attributes(event_loop, options, &remembered.place);
+        let (window_state, mut errors) = window_file.read();
+        let attributes = attributes(event_loop, options, &window_state.place);
         let window = Arc::new(event_loop.create_window(attributes).map_err(no_display)?);
         let surface = Surface::new(&window, event_loop.owned_display_handle())?;
         let wake: Arc<dyn Fn() + Send + Sync> = {
@@ -245,22 +244,23 @@ impl Running {
             recovery: session::recovery_folder(),
             trials: TrialSettings::of_this_program(options.compile_timeout),
             camera: options.webcam.clone().unwrap_or_else(|| defaults.camera.clone()),
-            audio: machine_audio(),
-            midi: machine_midi(),
-            gamepads: machine_gamepads(),
+            audio: hosts::audio(),
+            midi: hosts::midi(),
+            gamepads: hosts::gamepads(),
             ..defaults
         };
         let mut session = Session::with_options(surface.gpu().clone(), wake.clone(), session_options)?;
         let system_theme = system_theme::watch(wake.clone());
         let mut shell = Shell::new(surface.gpu().clone(), wake.clone(), options.project.is_none());
         let mut settings = SettingsFile::new();
-        mistakes.extend(settings.refresh());
-        shell.restore(settings, &remembered, options.frame_limit.is_some(), options.osc);
+        errors.extend(settings.refresh());
+        let overrides = Overrides { frame_limit: options.frame_limit.is_some(), osc: options.osc };
+        shell.restore(settings, &window_state, overrides);
         if options.follow {
             shell.show_picture_alone();
         }
-        shell.follow_settings(&ctx).into_iter().for_each(|command| session.apply(command));
-        for text in mistakes {
+        shell.apply_settings(&ctx).into_iter().for_each(|command| session.apply(command));
+        for text in errors {
             session.apply(NoticeCommand::Notify { level: Level::Error, text, path: None });
         }
         let report = Report::new(options.json);
@@ -277,7 +277,7 @@ impl Running {
         report.say(json!({ "event": "started", "device": surface.gpu().describe(), "pid": std::process::id() }));
         window.set_visible(true);
         // On X11 the request goes to the window manager, which knows a window only once it is visible.
-        if options.size.is_none() && remembered.place.is_maximized {
+        if options.size.is_none() && window_state.place.is_maximized {
             window.set_maximized(true);
         }
         let now = Instant::now();
@@ -301,7 +301,7 @@ impl Running {
             window_file,
             keeps_size: options.size.is_none(),
             keeps_panels: !options.follow,
-            usual: UsualSizes::default(),
+            restored_sizes: RestoredSizes::default(),
         })
     }
 
@@ -325,7 +325,7 @@ impl Running {
                 self.surface.resize(size.width, size.height);
                 self.hide(size.width == 0 || size.height == 0);
                 if !self.hidden && !self.window.is_maximized() && self.window.fullscreen().is_none() {
-                    self.usual.note(self.place(false));
+                    self.restored_sizes.note(self.place(false));
                 }
             }
             WindowEvent::Occluded(hidden) => self.hide(*hidden),
@@ -412,16 +412,16 @@ impl Running {
         if self.hidden {
             return Ok(Next::Go);
         }
-        let began = Instant::now();
+        let now = Instant::now();
         if let Some(theme) = self.system_theme.try_iter().last() {
             self.input.egui_input_mut().system_theme = Some(theme);
         }
         let raw = self.input.take_egui_input(&self.window);
         let renderer = self.surface.renderer();
         let Frame { output, tick, wants_next } =
-            frame::run(&self.ctx, &mut self.shell, &mut self.session, renderer, raw, began);
+            frame::run(&self.ctx, &mut self.shell, &mut self.session, renderer, raw, now);
         self.input.handle_platform_output(&self.window, output.platform_output.clone());
-        if self.shell.take_clipboard_wish() {
+        if self.shell.take_clipboard_request() {
             let text = self.input.clipboard_text().unwrap_or_default();
             self.input.egui_input_mut().events.push(egui::Event::Paste(text));
             self.paint_soon();
@@ -433,26 +433,26 @@ impl Running {
         let presented = self.surface.paint(&self.window, output, &self.ctx);
         // Pending window events are handled before it.
         let _ = self.proxy.send_event(AppEvent::Painted);
-        self.shell.report(&self.session, &mut self.report, self.surface.size(), &self.ctx, began);
-        self.watch_device(began)?;
+        self.shell.report(&self.session, &mut self.report, self.surface.size(), &self.ctx, now);
+        self.watch_device(now)?;
         self.follow_shell();
         if let Next::Exit = self.take_requests() {
             return Ok(Next::Exit);
         }
         // Repaints that egui requests by itself can wait.
-        let mut next = began.checked_add(delay).map(|at| at.max(self.after_first_frame(began)));
+        let mut next = now.checked_add(delay).map(|at| at.max(self.after_first_frame(now)));
         if wants_next || presented == Presented::Again {
-            next = Some(began);
+            next = Some(now);
         }
         if let Some(at) = tick.wake_at {
-            let at = at.max(self.paced(began));
+            let at = at.max(self.paced(now));
             next = Some(next.map_or(at, |n| n.min(at)));
         }
         self.paint_at = match (self.paint_at, next) {
             (Some(a), Some(b)) => Some(a.min(b)),
             (a, b) => a.or(b),
         };
-        self.painted_at = began;
+        self.painted_at = now;
         Ok(Next::Go)
     }
 
@@ -461,9 +461,9 @@ impl Running {
         let gpu = self.surface.gpu().clone();
         let Running { window, ctx, surface, shell, wake, .. } = self;
         self.losses.watch(&gpu, &mut self.session, now, |session| {
-            surface.renew(window, ctx)?;
+            surface.reopen_device(window, ctx)?;
             session.show_on(surface.gpu().clone())?;
-            shell.renew(surface.gpu().clone(), wake.clone());
+            shell.on_new_device(surface.gpu().clone(), wake.clone());
             Ok(())
         })
     }
@@ -490,21 +490,21 @@ impl Running {
         let is_maximized = window.is_maximized();
         let known = self.window_file.known().place;
         // A maximised window restores the place that it had before.
-        let is_usual = !is_maximized && window.fullscreen().is_none() && !self.hidden;
+        let is_restored = !is_maximized && window.fullscreen().is_none() && !self.hidden;
         let now = self.place(is_maximized);
-        let place = match (self.keeps_size, is_usual) {
+        let place = match (self.keeps_size, is_restored) {
             (false, _) => known,
             (true, true) => now,
             (true, false) => {
-                let usual = now.size.and_then(|size| self.usual.other_than(size));
-                WindowPlace { is_maximized, ..usual.unwrap_or(known) }
+                let previous = now.size.and_then(|size| self.restored_sizes.other_than(size));
+                WindowPlace { is_maximized, ..previous.unwrap_or(known) }
             }
         };
         let (open, layout) = match self.keeps_panels {
             true => (Some(dock.open_panels().clone()), dock.arrangement()),
             false => (self.window_file.known().open.clone(), self.window_file.known().layout.clone()),
         };
-        self.window_file.keep(WindowState { place, open, layout });
+        self.window_file.save_if_changed(WindowState { place, open, layout });
     }
 
     fn place(&self, is_maximized: bool) -> WindowPlace {
@@ -531,37 +531,6 @@ impl Running {
             self.window.set_fullscreen(self.shell.is_fullscreen().then_some(Fullscreen::Borderless(None)));
         }
     }
-}
-
-/// Returns this machine's audio host, if Eddy was built with sound.
-#[cfg(feature = "audio")]
-fn machine_audio() -> Option<Arc<dyn AudioHost>> {
-    Some(Arc::new(crate::audio::device::Machine))
-}
-
-#[cfg(not(feature = "audio"))]
-fn machine_audio() -> Option<Arc<dyn AudioHost>> {
-    None
-}
-
-#[cfg(feature = "midi")]
-fn machine_midi() -> Option<Arc<dyn MidiHost>> {
-    Some(Arc::new(crate::control::midi::machine::Machine))
-}
-
-#[cfg(not(feature = "midi"))]
-fn machine_midi() -> Option<Arc<dyn MidiHost>> {
-    None
-}
-
-#[cfg(feature = "gamepad")]
-fn machine_gamepads() -> Option<Arc<dyn PadHost>> {
-    Some(Arc::new(crate::control::pads::machine::Machine))
-}
-
-#[cfg(not(feature = "gamepad"))]
-fn machine_gamepads() -> Option<Arc<dyn PadHost>> {
-    None
 }
 
 /// Returns the place and size of the new window: from the command line, else as saved, else as suits the screen.

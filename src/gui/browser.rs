@@ -20,7 +20,7 @@ use std::{
 const BOOKMARKLET: &str = include_str!("../../docs/bookmarklet.html");
 const BOOKMARKLET_NAME: &str = "shadertoy-bookmarklet.html";
 /// A program that still runs after this time counts as having opened the page: some are the browser itself.
-const PATIENCE: Duration = Duration::from_secs(5);
+const START_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// Pages that are being opened.
 #[derive(Default)]
@@ -107,7 +107,7 @@ fn runs(program: &Path, page: &Path) -> bool {
             return false;
         }
     };
-    let end = Instant::now() + PATIENCE;
+    let end = Instant::now() + START_TIMEOUT;
     loop {
         match child.try_wait() {
             Ok(Some(status)) => return status.success(),

@@ -39,7 +39,7 @@ pub(super) struct ConfigFile<T> {
     text: Option<String>,
     content: T,
     /// The errors in it, one line each.
-    mistakes: Vec<String>,
+    errors: Vec<String>,
     /// It could not be read the last time.
     is_unreadable: bool,
 }
@@ -51,7 +51,7 @@ impl<T: Content> ConfigFile<T> {
     }
 
     pub(super) fn at(path: Option<PathBuf>) -> Self {
-        Self { path, text: None, content: T::default(), mistakes: Vec::new(), is_unreadable: false }
+        Self { path, text: None, content: T::default(), errors: Vec::new(), is_unreadable: false }
     }
 
     pub(super) fn content(&self) -> &T {
@@ -68,25 +68,25 @@ impl<T: Content> ConfigFile<T> {
         let text = match read(path) {
             Ok(text) => text,
             Err(error) => {
-                let mistakes = vec![format!("{}: {error}. {}", path.display(), T::STAYS)];
-                let is_known = std::mem::replace(&mut self.is_unreadable, true) && self.mistakes == mistakes;
-                self.mistakes = mistakes;
-                return if is_known { Vec::new() } else { self.mistakes.clone() };
+                let errors = vec![format!("{}: {error}. {}", path.display(), T::STAYS)];
+                let is_known = std::mem::replace(&mut self.is_unreadable, true) && self.errors == errors;
+                self.errors = errors;
+                return if is_known { Vec::new() } else { self.errors.clone() };
             }
         };
         if !std::mem::take(&mut self.is_unreadable) && text == self.text {
             return Vec::new();
         }
-        let (content, mistakes) = text.as_deref().map(T::read).unwrap_or_default();
+        let (content, errors) = text.as_deref().map(T::read).unwrap_or_default();
         (self.content, self.text) = (content, text);
-        self.mistakes = mistakes.iter().map(|mistake| with_place(path, mistake)).collect();
-        self.mistakes.clone()
+        self.errors = errors.iter().map(|error| with_place(path, error)).collect();
+        self.errors.clone()
     }
 
     /// Returns whether an error that was reported for the file is fixed.
-    pub(super) fn is_fixed(&self, said: &str) -> bool {
+    pub(super) fn is_fixed(&self, message: &str) -> bool {
         let path = self.path.as_ref().map(|path| path.display().to_string());
-        path.is_some_and(|path| said.starts_with(&format!("{path}:"))) && !self.mistakes.iter().any(|m| m == said)
+        path.is_some_and(|path| message.starts_with(&format!("{path}:"))) && !self.errors.iter().any(|m| m == message)
     }
 
     /// Changes the text of the file, or of the template if there is no file. Returns why it could not be changed, with
@@ -100,12 +100,12 @@ impl<T: Content> ConfigFile<T> {
         let failed = |error: io::Error| format!("{}: {error}. {otherwise}", path.display());
         let there = read(path).map_err(failed)?;
         let is_known = there == self.text;
-        let text = edit(&there.unwrap_or_else(T::template)).map_err(|mistake| with_place(path, &mistake))?;
+        let text = edit(&there.unwrap_or_else(T::template)).map_err(|error| with_place(path, &error))?;
         write(path, &text).map_err(failed)?;
         // Another program may have written the file meanwhile: then the whole file is read again, and its errors are
         // reported.
-        let (content, mistakes) = T::read(&text);
-        self.mistakes = mistakes.iter().map(|mistake| with_place(path, mistake)).collect();
+        let (content, errors) = T::read(&text);
+        self.errors = errors.iter().map(|error| with_place(path, error)).collect();
         (self.content, self.text) = (content, is_known.then_some(text));
         Ok(())
     }
@@ -120,8 +120,8 @@ impl<T: Content> ConfigFile<T> {
     }
 
     /// Returns the errors in it, one line each.
-    pub(super) fn mistakes(&self) -> &[String] {
-        &self.mistakes
+    pub(super) fn errors(&self) -> &[String] {
+        &self.errors
     }
 
     /// Returns whether it could not be read the last time.
@@ -144,8 +144,8 @@ fn read(path: &Path) -> io::Result<Option<String>> {
     confine::read_state_toml(path)
 }
 
-fn with_place(path: &Path, mistake: &ConfigError) -> String {
-    format!("{}:{}: {}", path.display(), mistake.line, mistake.text)
+fn with_place(path: &Path, error: &ConfigError) -> String {
+    format!("{}:{}: {}", path.display(), error.line, error.text)
 }
 
 /// Writes a file atomically.

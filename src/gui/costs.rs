@@ -1,11 +1,30 @@
 //! The table below the picture with the cost of each pass of the open project. Nothing is gathered while it is closed.
 
-use super::{theme, ui_output::UiOutput};
+use super::{
+    panels::{Content, DefaultPlace, MARGIN, PanelRow},
+    theme,
+    ui_output::UiOutput,
+};
 use crate::{
     engine::{CostClock, PassRole},
     session::{PassCosts, Session, TimedPass},
 };
-use egui::{Align2, Color32, FontId, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
+use egui::{Align2, Color32, FontId, Margin, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
+
+pub(super) const PANEL: PanelRow = PanelRow::new(
+    "costs",
+    "Costs",
+    DefaultPlace::BelowPicture,
+    Content::Within(Margin { top: 0, ..MARGIN }, |ui, context| show(ui, context.session, context.out)),
+)
+.tools(|ui, context| tools(ui, context.session, context.out))
+.heading(|_| "Costs of a frame".to_owned())
+.report(|_, _, session| report(session))
+.action(
+    "Panel: Costs (time and memory of each pass)",
+    &["Ctrl+Shift+M"],
+    "profiler profile performance timing gpu memory",
+);
 
 const ROW: f32 = 19.0;
 const SIZE: f32 = 12.0;
@@ -39,7 +58,7 @@ impl Columns {
     }
 }
 
-pub(super) fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("costs", ui);
     let costs = session.pass_costs();
     ui.spacing_mut().item_spacing.y = 0.0;
@@ -61,7 +80,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
 }
 
 /// Shows at the right end of the panel's row how the times were measured.
-pub(super) fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let (short, long) = match session.pass_costs().clock {
         CostClock::Timestamps => (
             "GPU timestamps",
@@ -106,8 +125,8 @@ fn texts_in(ui: &Ui, columns: &Columns, rect: Rect, texts: [&str; 6], name: Colo
     let number = |end: f32, text: &str| {
         painter.text(pos2(rect.right() - end, y), Align2::RIGHT_CENTER, text, FontId::monospace(SIZE), color);
     };
-    if let Some(begin) = columns.format {
-        let at = pos2(rect.right() - begin, y);
+    if let Some(left) = columns.format {
+        let at = pos2(rect.right() - left, y);
         painter.text(at, Align2::LEFT_CENTER, format, FontId::monospace(SIZE), color);
     }
     if let Some(end) = columns.size {
@@ -216,7 +235,7 @@ fn count(texels: u64) -> String {
 }
 
 /// Returns the table's contents, for scripts that drive the window.
-pub(super) fn report(session: &Session) -> serde_json::Value {
+fn report(session: &Session) -> serde_json::Value {
     let costs = session.pass_costs();
     let passes: Vec<serde_json::Value> = costs
         .passes
@@ -246,8 +265,8 @@ mod tests {
 
     #[test]
     fn bytes_are_formatted_with_units() {
-        let said = [0, 1023, 1536, 3_686_400, 5 << 30].map(bytes);
-        assert_eq!(said, ["0 B", "1023 B", "1.5 KiB", "3.5 MiB", "5.00 GiB"]);
+        let formatted = [0, 1023, 1536, 3_686_400, 5 << 30].map(bytes);
+        assert_eq!(formatted, ["0 B", "1023 B", "1.5 KiB", "3.5 MiB", "5.00 GiB"]);
         assert_eq!([96, 230_400, 8_294_400].map(count), ["96 texels", "230.4 thousand texels", "8.29 million texels"]);
     }
 

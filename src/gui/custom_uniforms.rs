@@ -1,11 +1,31 @@
 //! The author's own uniforms: sliders, numbers, colours, switches.
 
-use super::{dock::COLLAPSED, theme, ui_output::UiOutput, uniform_row};
+use super::{
+    dock::COLLAPSED,
+    panels::{Content, DefaultPlace, PanelRow},
+    theme,
+    ui_output::UiOutput,
+    uniform_row,
+};
 use crate::{
     project::{CustomUniform, Dialect},
-    session::{EditCommand, Session},
+    session::{Command, EditCommand, Session},
 };
-use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, Vec2};
+use egui::{Align, Button, Layout, Margin, RichText, ScrollArea, Ui, Vec2};
+
+pub(super) const PANEL: PanelRow = PanelRow::new(
+    "uniforms",
+    "Uniforms",
+    DefaultPlace::BelowPicture,
+    Content::Within(Margin::symmetric(10, 0), |ui, context| show(ui, context.session, context.out)),
+)
+.open_by_default()
+.tools(|ui, context| tools(ui, context.session, context.out))
+.heading(|context| match context.session.custom_uniforms().len() {
+    0 => "Uniforms".to_owned(),
+    n => format!("Uniforms ({n})"),
+})
+.action("Panel: Uniforms", &[], "sliders parameters tweak");
 
 const ROW: f32 = uniform_row::HEIGHT;
 /// The height of two lines of text.
@@ -36,13 +56,11 @@ fn groups(custom_uniforms: &[CustomUniform]) -> Vec<(&str, Vec<&CustomUniform>)>
 }
 
 /// Shows the controls for all uniforms at the right end of the panel's row.
-pub(super) fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let custom_uniforms = session.custom_uniforms();
     if custom_uniforms.iter().any(|k| session.custom_uniform_value(k) != k.default) {
         let reset = ui.add(Button::new("Reset all").small()).on_hover_text("Reset all uniforms to their defaults");
-        if out.clicked("uniforms:reset", &reset) {
-            out.ask(EditCommand::ResetCustomUniforms);
-        }
+        out.on_click("uniforms:reset", &reset, Command::Edit(EditCommand::ResetCustomUniforms));
     }
 }
 
@@ -58,7 +76,7 @@ fn how_to_declare(dialect: Dialect) -> (&'static str, &'static str) {
     }
 }
 
-pub(super) fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("uniforms", ui);
     let custom_uniforms = session.custom_uniforms();
     ui.spacing_mut().item_spacing.y = 3.0;

@@ -22,7 +22,7 @@ const TILE: u32 = 32;
 const AREAS: usize = 16;
 
 /// The maximum number of rectangles that are merged by distance, which takes cubic time.
-const MOST: usize = 64;
+const MAX_AREAS: usize = 64;
 
 /// A rectangle of the window to repaint, in physical pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -194,7 +194,7 @@ impl Tiles {
                 spans.push(span);
             }
         }
-        if spans.len() > MOST {
+        if spans.len() > MAX_AREAS {
             spans = spans.into_iter().reduce(Span::with).into_iter().collect();
         }
         while spans.len() > AREAS {

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     control::osc::OscState,
     project::InputKind,
-    session::{CameraCommand, CameraState, Session},
+    session::{CameraCommand, CameraState, Command, Session},
 };
 use egui::{Button, Color32, FontId, Response, RichText, Ui, vec2};
 
@@ -69,9 +69,11 @@ pub(super) fn light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutpu
         CameraState::Starting => "light:camera-starting",
         CameraState::On => "light:camera",
     };
-    if out.clicked(place, &button.on_hover_text(tip)) {
-        out.ask(CameraCommand::UseDevice { kind, on: state == CameraState::Off });
-    }
+    out.on_click(
+        place,
+        &button.on_hover_text(tip),
+        Command::Camera(CameraCommand::UseDevice { kind, on: state == CameraState::Off }),
+    );
 }
 
 /// The same in the popup of a channel that reads the webcam, with a choice between several cameras.
@@ -80,9 +82,7 @@ pub(super) fn choose(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let is_off = session.device_state(kind) == CameraState::Off;
     ui.horizontal_wrapped(|ui| {
         let name = if is_off { "Use the camera" } else { "Turn the camera off" };
-        if out.clicked("choose:camera", &ui.button(name)) {
-            out.ask(CameraCommand::UseDevice { kind, on: is_off });
-        }
+        out.on_click("choose:camera", &ui.button(name), Command::Camera(CameraCommand::UseDevice { kind, on: is_off }));
         let (cameras, now) = session.cameras();
         for camera in cameras.iter().filter(|_| cameras.len() > 1) {
             let is_on = now.is_some_and(|source| source.to_string() == camera.id);
@@ -108,7 +108,5 @@ pub(super) fn network_light(ui: &mut Ui, session: &Session, room: f32, out: &mut
     let button = indicator(ui, &["● OSC open", "● OSC", "●"], theme::of(ui).error, (WIDTH, room));
     accessible::name(&button, egui::Role::Button, "Turn OSC off");
     let tip = format!("OSC is heard from the network at {at}; click to turn it off");
-    if out.clicked("light:osc", &button.on_hover_text(tip)) {
-        out.shell_commands.push(ShellCommand::StopOsc);
-    }
+    out.on_click("light:osc", &button.on_hover_text(tip), ShellCommand::StopOsc);
 }

@@ -5,12 +5,12 @@ use super::{
     theme,
     ui_output::{ShellCommand, UiOutput},
 };
-use crate::session::{AuditMap, Session, ToolCommand, WorstPixel};
+use crate::session::{AuditMap, Command, Session, ToolCommand, WorstPixel};
 use egui::{Area, Color32, Frame, Id, Margin, Order, Pos2, Rect, RichText, Ui, vec2};
 use serde_json::{Value, json};
 
 /// The error that is drawn fully transparent; an error of 1 is opaque.
-const LEAST: f64 = 1e-8;
+const MIN_ERROR: f64 = 1e-8;
 /// The smallest step that an 8-bit screen shows.
 const VISIBLE: f64 = 1.0 / 255.0;
 
@@ -59,9 +59,7 @@ fn card(ui: &mut Ui, map: &AuditMap, out: &mut UiOutput) {
                 .size(12.5),
         );
         let close = icons::flat(ui, Icon::Close, "Hide the error map").on_hover_text("Hide the error map");
-        if out.clicked("audit:close", &close) {
-            out.ask(ToolCommand::HideAudit);
-        }
+        out.on_click("audit:close", &close, Command::Tool(ToolCommand::HideAudit));
     });
     scale(ui, out);
     if map.worst.is_empty() {
@@ -95,7 +93,7 @@ fn scale(ui: &mut Ui, out: &mut UiOutput) {
         for step in 0..STEPS {
             let left = rect.left() + rect.width() * step as f32 / STEPS as f32;
             let part = Rect::from_min_size(Pos2::new(left, rect.top()), vec2(rect.width() / STEPS as f32, 9.0));
-            let error = LEAST.powf(1.0 - f64::from(step + 1) / f64::from(STEPS));
+            let error = MIN_ERROR.powf(1.0 - f64::from(step + 1) / f64::from(STEPS));
             ui.painter().rect_filled(part, 0.0, color(error));
         }
         ui.colored_label(p.weak, "1");
@@ -107,7 +105,7 @@ fn scale(ui: &mut Ui, out: &mut UiOutput) {
 /// is exact.
 fn color(error: f64) -> Color32 {
     // A NaN on one side only counts as the largest error.
-    let part = if error.is_finite() { (1.0 - error.max(LEAST).ln() / LEAST.ln()).clamp(0.0, 1.0) } else { 1.0 };
+    let part = if error.is_finite() { (1.0 - error.max(MIN_ERROR).ln() / MIN_ERROR.ln()).clamp(0.0, 1.0) } else { 1.0 };
     if part <= 0.0 {
         return Color32::TRANSPARENT;
     }
@@ -135,7 +133,7 @@ mod tests {
     #[test]
     fn larger_errors_are_more_visible() {
         assert_eq!(color(0.0), Color32::TRANSPARENT);
-        assert_eq!(color(LEAST), Color32::TRANSPARENT);
+        assert_eq!(color(MIN_ERROR), Color32::TRANSPARENT);
         let seen = [1e-7, 1e-5, 1e-3, 1.0].map(|error| color(error).a());
         assert!(seen.is_sorted_by(|a, b| a < b), "{seen:?}");
         assert_eq!(color(f64::INFINITY), color(1.0));

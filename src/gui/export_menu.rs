@@ -2,7 +2,7 @@
 //!
 //! An export is a row of [`ROWS`] and runs its action.
 
-use super::{actions::Action, dock::Panel, ui_output::UiOutput};
+use super::{actions::Action, panels::Panel, ui_output::UiOutput};
 use crate::session::Session;
 use egui::{Button, Ui};
 
@@ -59,10 +59,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, has_lab_results: bool, out: &
                 })
                 .inner;
             let entry = entry.on_hover_text(*tip).on_disabled_hover_text(why_not.unwrap_or_default());
-            if out.clicked(&format!("export:{}", name(*action)), &entry) {
-                out.act(*action);
-                ui.close();
-            }
+            out.on_menu_click(ui, &format!("export:{}", name(*action)), &entry, *action);
         }
     });
     out.place("button:export", menu.response.rect);

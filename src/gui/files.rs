@@ -21,7 +21,7 @@ use std::{
 };
 
 /// The time that a dialog may take to appear before typing the path is offered.
-const PATIENCE: Duration = Duration::from_secs(1);
+const PORTAL_TIMEOUT: Duration = Duration::from_secs(1);
 /// The minimum size of a dialog's buttons.
 const BUTTON: Vec2 = vec2(84.0, 28.0);
 
@@ -194,7 +194,7 @@ impl Files {
 impl OpenDialog {
     /// Offers to type the path while a dialog of the desktop is open, in case it is hidden or hangs.
     fn wants_to_type(&self, ui: &Ui, out: &mut UiOutput) -> bool {
-        if let Some(wait) = PATIENCE.checked_sub(self.since.elapsed()) {
+        if let Some(wait) = PORTAL_TIMEOUT.checked_sub(self.since.elapsed()) {
             ui.ctx().request_repaint_after(wait);
             return false;
         }

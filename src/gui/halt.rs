@@ -37,9 +37,7 @@ pub(super) fn show(ui: &Ui, session: &Session, area: Rect, out: &mut UiOutput) {
                         button = button.fill(theme::of(ui).accent_fill);
                     }
                     let response = ui.add_enabled(is_on, button).on_hover_text(tip);
-                    if out.clicked(name, &response) {
-                        out.ask(command);
-                    }
+                    out.on_click(name, &response, command);
                 };
                 offer(GO_ON, go_on, "Draw it without a time limit", true, true, Command::Halt(HaltCommand::GoOn));
                 let tip = "Lower the resolution until a frame is below the limit";
@@ -109,8 +107,8 @@ mod tests {
 
     #[test]
     fn times_are_formatted_for_people() {
-        let said = |secs| time(Duration::from_secs_f64(secs));
-        assert_eq!([said(2.0), said(3.46), said(41.2)], ["2 s", "3.5 s", "41 s"]);
-        assert_eq!([said(600.0), said(86_400.0)], ["10 minutes", "24 hours"]);
+        let formatted = |secs| time(Duration::from_secs_f64(secs));
+        assert_eq!([formatted(2.0), formatted(3.46), formatted(41.2)], ["2 s", "3.5 s", "41 s"]);
+        assert_eq!([formatted(600.0), formatted(86_400.0)], ["10 minutes", "24 hours"]);
     }
 }

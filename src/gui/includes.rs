@@ -67,9 +67,7 @@ fn one(ui: &Ui, session: &Session, rect: Rect, part: &Part, out: &mut UiOutput) 
     };
     let link = ui.interact(rect, ui.scope_id().with(("include", &part.text)), Sense::click());
     paint_link(ui, &link, &part.text);
-    if out.clicked(&format!("includes:{}", part.text), &link) {
-        out.shell_commands.push(ShellCommand::GoTo(file, None));
-    }
+    out.on_click(&format!("includes:{}", part.text), &link, ShellCommand::GoTo(file, None));
     accessible::name(&link, egui::Role::Link, format!("Open {}", part.text));
     link.on_hover_cursor(CursorIcon::PointingHand).on_hover_text("Open this file");
 }
@@ -86,9 +84,7 @@ fn several(ui: &Ui, session: &Session, place: Rect, count: usize, out: &mut UiOu
     Popup::menu(&link).show(|ui| {
         for file in tabs(session) {
             let button = ui.button(file.title());
-            if out.clicked(&format!("includes:{}", file.title()), &button) {
-                out.shell_commands.push(ShellCommand::GoTo(file, None));
-            }
+            out.on_click(&format!("includes:{}", file.title()), &button, ShellCommand::GoTo(file, None));
         }
     });
     link.on_hover_cursor(CursorIcon::PointingHand).on_hover_text("Open an included file");

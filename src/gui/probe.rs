@@ -11,7 +11,7 @@ use crate::{
     debugger::trace::Number,
     engine::{Paint, Pixels},
     session::{
-        Session, ViewCommand,
+        Command, Session, ViewCommand,
         probe::{ProbePlace, ProbeView, ProbedValue, Statistics},
     },
 };
@@ -52,9 +52,7 @@ fn bar(ui: &mut Ui, view: &ProbeView<'_>, under: Option<[f32; 2]>, out: &mut UiO
             }
         }
         let close = icons::flat(ui, Icon::Close, "Close probe").on_hover_text("Show the picture (Escape)");
-        if out.clicked("probe:close", &close) {
-            out.ask(ViewCommand::Probe(None));
-        }
+        out.on_click("probe:close", &close, Command::View(ViewCommand::Probe(None)));
     });
     let Some(Ok(value)) = view.value else { return };
     look(ui, view, value, out);

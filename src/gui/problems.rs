@@ -83,9 +83,7 @@ fn whole(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, out: &mut
             for (n, fix) in problem.fixes.iter().enumerate() {
                 let tip = out.keys.tip("Fix it", Action::Code(EditorAction::QuickFix));
                 let button = ui.small_button(&fix.title).on_hover_text(tip);
-                if out.clicked(&format!("problem-at-caret:fix:{n}"), &button) {
-                    out.shell_commands.push(ShellCommand::Fix(fix.clone()));
-                }
+                out.on_click(&format!("problem-at-caret:fix:{n}"), &button, ShellCommand::Fix(fix.clone()));
             }
         });
     });
@@ -170,9 +168,7 @@ impl Row<'_> {
             text_end = place.left();
             let name = format!("{}:fix", self.name);
             let button = ui.place(place, egui::Button::new(RichText::new("Fix").size(12.0)).small());
-            if out.clicked(&name, &button.on_hover_text(&fix.title)) {
-                out.shell_commands.push(ShellCommand::Fix(fix.clone()));
-            }
+            out.on_click(&name, &button.on_hover_text(&fix.title), ShellCommand::Fix(fix.clone()));
         }
         let color_of_text = if self.is_label { theme::of(ui).weak } else { theme::of(ui).text };
         let text = self.message.replace('\n', " ");
@@ -197,9 +193,9 @@ impl Row<'_> {
             }
         }
         if out.clicked(&self.name, &response)
-            && let Some(wish) = self.place.and_then(wish_of)
+            && let Some(command) = self.place.and_then(command_for)
         {
-            out.shell_commands.push(wish);
+            out.shell_commands.push(command);
         }
         response.on_hover_cursor(egui::CursorIcon::PointingHand).on_hover_ui(|ui| {
             ui.colored_label(color, &self.problem.message);
@@ -211,7 +207,7 @@ impl Row<'_> {
 }
 
 /// Returns the command that goes to a place; `None` if it is not in any tab.
-fn wish_of(place: &TextLocation) -> Option<ShellCommand> {
+fn command_for(place: &TextLocation) -> Option<ShellCommand> {
     Some(ShellCommand::GoTo(place.tab.clone()?, Some((place.line - 1, place.column - 1))))
 }
 

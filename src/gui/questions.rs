@@ -38,25 +38,25 @@ pub(super) fn show(ui: &Ui, session: &Session, out: &mut UiOutput) {
 /// Shows a row of buttons: the first is highlighted and pressed by Enter, the last is the safe way out and pressed by
 /// Escape.
 fn answers(ui: &mut Ui, list: &[(&str, Answer)], out: &mut UiOutput) {
-    answers_with_usual(ui, list, 0, out);
+    answers_with_default(ui, list, 0, out);
 }
 
 /// The same with the highlight and Enter at the button of this index: a destructive one must never be pressed by a key
 /// that was meant for something else.
-fn answers_with_usual(ui: &mut Ui, list: &[(&str, Answer)], usual: usize, out: &mut UiOutput) {
+fn answers_with_default(ui: &mut Ui, list: &[(&str, Answer)], default_index: usize, out: &mut UiOutput) {
     let takes_keys = takes_keys(ui);
     ui.add_space(12.0);
     ui.horizontal_wrapped(|ui| {
         for (i, (label, answer)) in list.iter().enumerate() {
             let text = RichText::new(*label);
-            let button = if i == usual {
+            let button = if i == default_index {
                 egui::Button::new(text.color(theme::of(ui).strong)).fill(theme::of(ui).accent_fill)
             } else {
                 egui::Button::new(text)
             };
             let response = ui.add(button.min_size(vec2(84.0, 28.0)));
             // Enter presses the default button, unless another one has the focus.
-            if i == usual && takes_keys && ui.memory(|m| m.focused().is_none()) {
+            if i == default_index && takes_keys && ui.memory(|m| m.focused().is_none()) {
                 response.request_focus();
             }
             // In a sizing pass a dialog is not visible yet.
@@ -73,7 +73,7 @@ fn answers_with_usual(ui: &mut Ui, list: &[(&str, Answer)], usual: usize, out: &
 
 /// The time that a question is shown before a key answers it, in seconds: keys typed when it appears must not answer
 /// it.
-const DEAF_SECS: f64 = 0.7;
+const KEY_DELAY_SECS: f64 = 0.7;
 
 fn takes_keys(ui: &Ui) -> bool {
     let id = Id::unique("question since");
@@ -82,7 +82,7 @@ fn takes_keys(ui: &Ui) -> bool {
     // A question that was not shown in the last few passes is new.
     let since = if pass.saturating_sub(last) > 4 { now } else { since };
     ui.data_mut(|d| d.insert_temp(id, (since, pass)));
-    let left = since + DEAF_SECS - now;
+    let left = since + KEY_DELAY_SECS - now;
     if left > 0.0 {
         ui.ctx().request_repaint_after_secs(left as f32);
     }
@@ -142,7 +142,7 @@ fn overwrite(ui: &mut Ui, folder: &Path, files: &[PathBuf], out: &mut UiOutput) 
         }
     });
     ui.label(format!("What is replaced is kept for {} days.", session::KEPT_DAYS));
-    answers_with_usual(ui, &[("Replace", Answer::Overwrite), ("Cancel", Answer::Cancel)], 1, out);
+    answers_with_default(ui, &[("Replace", Answer::Overwrite), ("Cancel", Answer::Cancel)], 1, out);
 }
 
 fn export(ui: &mut Ui, file: &Path, exists: bool, lost: &[String], room: f32, out: &mut UiOutput) {
@@ -174,7 +174,7 @@ fn export(ui: &mut Ui, file: &Path, exists: bool, lost: &[String], room: f32, ou
     }
     if exists {
         ui.label(format!("The file is already there. What is replaced is kept for {} days.", session::KEPT_DAYS));
-        answers_with_usual(ui, &[("Replace", Answer::Export), ("Cancel", Answer::Cancel)], 1, out);
+        answers_with_default(ui, &[("Replace", Answer::Export), ("Cancel", Answer::Cancel)], 1, out);
     } else {
         answers(ui, &[("Export", Answer::Export), ("Cancel", Answer::Cancel)], out);
     }

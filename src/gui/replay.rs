@@ -11,9 +11,7 @@ pub(super) fn show(ui: &mut Ui, replay: &ReplayView, is_playing: bool, kept: f32
     let tip = "Stop playing the recording and continue live from this frame. Until then mouse, keys, resolution and \
                uniforms are the recorded ones";
     let stop = ui.add(Button::new("Stop").min_size(vec2(STOP, 24.0)));
-    if out.clicked("button:stop-replay", &stop.on_hover_text(out.keys.tip(tip, Action::StopReplay))) {
-        out.act(Action::StopReplay);
-    }
+    out.on_click("button:stop-replay", &stop.on_hover_text(out.keys.tip(tip, Action::StopReplay)), Action::StopReplay);
     let room = ui.available_width() - kept;
     let font = FontId::proportional(12.5);
     let color = theme::of(ui).accent;

@@ -18,7 +18,7 @@ const FRAME_EVERY: Duration = Duration::from_millis(100);
 pub(super) struct Report {
     enabled: bool,
     /// The last line of each event that is repeated only when it changes.
-    said: BTreeMap<&'static str, Value>,
+    last_events: BTreeMap<&'static str, Value>,
     frame_at: Option<Instant>,
 }
 
@@ -42,10 +42,10 @@ impl Report {
 
     /// Writes an event if its members differ from those of the last one of this name. Returns whether it did.
     pub(super) fn say_if_new(&mut self, name: &'static str, mut members: Value) -> bool {
-        if !self.enabled || self.said.get(name) == Some(&members) {
+        if !self.enabled || self.last_events.get(name) == Some(&members) {
             return false;
         }
-        self.said.insert(name, members.clone());
+        self.last_events.insert(name, members.clone());
         members["event"] = name.into();
         self.say(members);
         true
@@ -53,7 +53,7 @@ impl Report {
 
     /// Lets the next event of this name be written even if it equals the last one.
     pub(super) fn forget(&mut self, name: &str) {
-        self.said.remove(name);
+        self.last_events.remove(name);
     }
 
     /// Reports a frame that was drawn. While `running`, only some are reported.

@@ -1,25 +1,20 @@
-//! The page of settings: every row of the settings file with its widget. Changes are written to the file at once.
+//! The page of settings: the rows of the table of settings, each with its widget. Changes are written to the file at
+//! once.
 
 use super::{
     accessible,
     actions::Action,
     fonts,
-    settings::{ADDRESS, Change, Control, GAMEPADS, KEYS, Key, Number, SettingsFile, Theme},
+    settings::{Change, Kind, MIDI_ALL, MIDI_OFF, Number, Overrides, Plain, SETTINGS, Setting, SettingsFile},
     theme,
     ui_output::{Pick, ShellCommand, UiOutput},
 };
-use crate::{
-    control::{midi::MidiChoice, osc::OscState},
-    session::{ControlCommand, ControlsView, Session, SoundCommand},
-};
+use crate::session::{ControlCommand, Session, SoundCommand};
 use egui::{
     Align, Button, ComboBox, DragValue, Frame, Id, Layout, Margin, Modal, RichText, Role, ScrollArea, TextEdit, Ui,
     vec2,
 };
-use std::{
-    net::IpAddr,
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
 /// The width of a title and its widget.
 const WIDTH: f32 = 620.0;
@@ -32,23 +27,13 @@ const INTERVAL: Duration = Duration::from_millis(500);
 #[derive(Debug, Default)]
 pub(super) struct SettingsPage {
     is_new: bool,
-    looked_at: Option<Instant>,
-    /// The value of the number being dragged, and its setting.
+    checked_at: Option<Instant>,
+    /// The setting whose number is being dragged, and the number.
     dragged: Option<(&'static str, f64)>,
-    /// The font's path while it is typed.
-    typed: Option<String>,
-    /// The reason why the font that was last typed is not used.
-    font_trouble: Option<String>,
-    /// The address while it is typed, and whether it is invalid.
-    address: Option<String>,
-    is_no_address: bool,
-}
-
-/// Settings that the command line overrides.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Overridden {
-    pub frame_limit: bool,
-    pub osc: bool,
+    /// The setting whose text is being typed, and the text.
+    typed: Option<(&'static str, String)>,
+    /// The setting whose text is invalid, and why.
+    error: Option<(&'static str, String)>,
 }
 
 impl SettingsPage {
@@ -57,24 +42,31 @@ impl SettingsPage {
     }
 
     /// Returns whether the file is to be checked now.
-    pub(super) fn looks(&mut self, ui: &Ui, now: Instant) -> bool {
+    pub(super) fn is_check_due(&mut self, ui: &Ui, now: Instant) -> bool {
         ui.ctx().request_repaint_after(INTERVAL);
-        let is_due = self.looked_at.is_none_or(|at| now.saturating_duration_since(at) >= INTERVAL);
+        let is_due = self.checked_at.is_none_or(|at| now.saturating_duration_since(at) >= INTERVAL);
         if is_due {
-            self.looked_at = Some(now);
+            self.checked_at = Some(now);
         }
         is_due
     }
 
-    /// Applies the path of a chosen font. Returns `None` if it cannot be used, which the page then says.
-    pub(super) fn choose_font(&mut self, path: &str) -> Option<Change> {
-        match fonts::check(path) {
+    /// Returns the change to a text that was typed or chosen for a setting. Returns `None` if it is invalid, which the
+    /// page then shows.
+    pub(super) fn enter(&mut self, setting: &'static Setting, text: &str) -> Option<Change> {
+        let kind = &setting.row.kind;
+        let checked = kind.check(text).map_err(|why| format!("{} {why}", setting.row.title));
+        let checked = checked.and_then(|()| match kind {
+            Kind::FontFile if !text.is_empty() => fonts::check(text),
+            _ => Ok(()),
+        });
+        match checked {
             Ok(()) => {
-                (self.typed, self.font_trouble) = (None, None);
-                Some(Change::CodeFont(Some(path.to_owned())))
+                (self.typed, self.error) = (None, None);
+                (setting.change)(&Plain::Text(text.to_owned()))
             }
             Err(why) => {
-                (self.typed, self.font_trouble) = (Some(path.to_owned()), Some(why));
+                (self.typed, self.error) = (Some((setting.key, text.to_owned())), Some((setting.key, why)));
                 None
             }
         }
@@ -86,24 +78,15 @@ impl SettingsPage {
         ui: &Ui,
         session: &Session,
         file: &SettingsFile,
-        overridden: Overridden,
+        overrides: &Overrides,
         out: &mut UiOutput,
     ) -> bool {
-        let controls = session.controls_view();
-        if self.is_new && controls.has_midi {
+        if self.is_new && session.controls_view().has_midi {
             out.ask(ControlCommand::ListMidiDevices);
         }
         if self.is_new && session.output_view().is_some() {
             out.ask(SoundCommand::ListAudioDevices);
         }
-        // A machine without sound has no devices to choose from.
-        let is_shown = |key: &Key| match key.control {
-            Control::Device { .. } => session.output_view().is_some(),
-            Control::Midi => controls.has_midi,
-            Control::Recorder => false,
-            _ if key.name == GAMEPADS => controls.has_gamepads,
-            _ => true,
-        };
         let window = ui.ctx().content_rect();
         let mut is_open = true;
         let modal = Modal::new(Id::unique("settings")).frame(theme::dialog(ui.style())).show(ui.ctx(), |ui| {
@@ -123,10 +106,13 @@ impl SettingsPage {
             let shown = list.show(ui, |ui| {
                 ui.set_max_width(ui.available_width() - 12.0);
                 trouble(ui, file, out);
-                for key in KEYS.iter().filter(|key| is_shown(key)) {
-                    let note = self.note(key, &controls, overridden);
+                for setting in SETTINGS.iter().filter(|setting| setting.is_shown(session)) {
+                    let note = match setting.overridden(overrides) {
+                        Some(option) => Some(format!("This window was started with {option}, which overrides it")),
+                        None => setting.row.note.and_then(|note| note(session)),
+                    };
                     ui.add_enabled_ui(file.trouble().is_none(), |ui| {
-                        self.row(ui, session, key, file, note.as_deref(), out);
+                        self.row(ui, session, setting, file, note.as_deref(), out);
                     });
                 }
             });
@@ -138,48 +124,28 @@ impl SettingsPage {
         is_open && !modal.should_close()
     }
 
-    /// Returns a note about a setting in addition to its help.
-    fn note(&self, key: &Key, controls: &ControlsView, overridden: Overridden) -> Option<String> {
-        let started = |option: &str| format!("This window was started with {option}, which overrides it");
-        match key.name {
-            "frame-timeout" if overridden.frame_limit => Some(started("--frame-timeout")),
-            "osc" | "osc-port" | "osc-address" if overridden.osc => Some(started("--osc")),
-            "osc" => match controls.osc.as_ref()? {
-                OscState::Missing(why) => Some(format!("OSC cannot listen: {why}")),
-                OscState::Starting | OscState::Listening(_) => None,
-            },
-            "osc-address" if self.is_no_address => Some(format!("The address {ADDRESS}")),
-            "osc-address" if controls.is_osc_public => {
-                Some("Anybody on the network can move the uniforms of the open project".into())
-            }
-            "midi" => controls.midi.missing.clone().filter(|_| controls.choice != MidiChoice::Off),
-            GAMEPADS => controls.gamepads.as_ref()?.trouble.clone(),
-            _ => None,
-        }
-    }
-
     /// Shows a setting: its title and help, and its widget at the right.
     fn row(
         &mut self,
         ui: &mut Ui,
         session: &Session,
-        key: &'static Key,
+        setting: &'static Setting,
         file: &SettingsFile,
         note: Option<&str>,
         out: &mut UiOutput,
     ) {
         let p = theme::of(ui);
         ui.add_space(6.0);
-        let wide = ui.available_width() > CONTROL + 200.0;
+        let is_wide = ui.available_width() > CONTROL + 200.0;
         let words = |ui: &mut Ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
-            ui.label(RichText::new(key.title).color(p.strong));
-            ui.label(RichText::new(key.help).size(12.0).color(p.weak));
+            ui.label(RichText::new(setting.row.title).color(p.strong));
+            ui.label(RichText::new(setting.row.help).size(12.0).color(p.weak));
             if let Some(note) = note {
                 ui.label(RichText::new(note).size(12.0).color(p.warning));
             }
         };
-        if wide {
+        if is_wide {
             ui.horizontal_top(|ui| {
                 let width = ui.available_width() - CONTROL - 12.0;
                 ui.allocate_ui(vec2(width, 0.0), |ui| {
@@ -188,222 +154,204 @@ impl SettingsPage {
                         words(ui);
                     });
                 });
-                ui.vertical(|ui| self.control(ui, session, key, file, out));
+                ui.vertical(|ui| self.control(ui, session, setting, file, out));
             });
         } else {
             words(ui);
-            self.control(ui, session, key, file, out);
+            self.control(ui, session, setting, file, out);
         }
         ui.add_space(4.0);
     }
 
-    fn control(&mut self, ui: &mut Ui, session: &Session, key: &'static Key, file: &SettingsFile, out: &mut UiOutput) {
+    /// Shows the widget of a setting's kind, and a button that restores the default.
+    fn control(
+        &mut self,
+        ui: &mut Ui,
+        session: &Session,
+        setting: &'static Setting,
+        file: &SettingsFile,
+        out: &mut UiOutput,
+    ) {
         let settings = file.settings();
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
-            match &key.control {
-                Control::Theme => {
-                    for theme in Theme::ALL {
-                        let title = match theme {
-                            Theme::System => "System",
-                            Theme::Dark => "Dark",
-                            Theme::Light => "Light",
-                        };
-                        let is_on = settings.theme == theme;
-                        let choice = ui.add(Button::selectable(is_on, title));
-                        accessible::choice(&choice, Role::RadioButton, is_on, format!("{}: {title}", key.title));
-                        if self.is_new && is_on {
-                            choice.request_focus();
-                        }
-                        if out.clicked(&format!("setting:theme:{}", theme.name()), &choice) {
-                            out.shell_commands.push(ShellCommand::Set(Change::Theme(theme)));
-                        }
-                    }
-                }
-                Control::Switch { get, change } => {
-                    let mut is_on = get(settings);
-                    let title = if is_on { "On" } else { "Off" };
-                    let switch = ui.checkbox(&mut is_on, title);
-                    accessible::choice(&switch, Role::CheckBox, is_on, key.title);
-                    if out.clicked(&format!("setting:{}", key.name), &switch) {
-                        out.shell_commands.push(ShellCommand::Set(change(is_on)));
-                    }
-                }
-                Control::Number(number) => self.number(ui, key, number, (number.get)(settings), out),
-                Control::Device { is_input, get, change } => {
-                    let (outputs, inputs) = session.audio_devices();
-                    let known = if *is_input { inputs } else { outputs };
-                    device(ui, key, get(settings), known.as_deref().unwrap_or_default(), *change, out);
-                }
-                Control::Font => self.font(ui, key, settings.code_font.as_deref().unwrap_or_default(), out),
-                Control::Address => self.address(ui, key, settings.osc_address, out),
-                Control::Midi => midi(ui, key, &settings.midi, &session.controls_view(), out),
-                Control::Recorder => {}
-            }
-            if !key.is_usual(settings) {
-                let reset = ui.add(Button::new("Reset").frame(false)).on_hover_text(format!("Default: {}", key.usual));
-                accessible::name(&reset, Role::Button, format!("Reset {}", key.title.to_lowercase()));
-                if out.clicked(&format!("setting:{}:reset", key.name), &reset) {
-                    (self.typed, self.font_trouble) = (None, None);
-                    (self.address, self.is_no_address) = (None, false);
-                    out.shell_commands.push(ShellCommand::Set(key.usual_change()));
+            let plain = setting.plain(settings);
+            let wanted = match (&setting.row.kind, &plain) {
+                (Kind::Switch, Plain::Switch(is_on)) => switch(ui, setting, *is_on, out),
+                (Kind::Choice(choices), Plain::Text(name)) => choice(ui, setting, (choices, name), self.is_new, out),
+                (Kind::Number(number), Plain::Number(now)) => self.number(ui, setting, number, *now, out),
+                (Kind::FontFile | Kind::Address, Plain::Text(now)) => self.text(ui, setting, now, out),
+                (_, Plain::Text(now)) => combo(ui, setting, &devices(&setting.row.kind, session), now, out),
+                _ => None,
+            };
+            out.shell_commands.extend(wanted.map(ShellCommand::Set));
+            if !setting.is_default(settings) {
+                let tip = format!("Default: {}", setting.default_text());
+                let reset = ui.add(Button::new("Reset").frame(false)).on_hover_text(tip);
+                accessible::name(&reset, Role::Button, format!("Reset {}", setting.row.title.to_lowercase()));
+                if out.clicked(&format!("setting:{}:reset", setting.key), &reset) {
+                    (self.typed, self.error) = (None, None);
+                    out.shell_commands.push(ShellCommand::Set(setting.default_change()));
                 }
             }
         });
-        if let (Control::Font, Some(why)) = (&key.control, &self.font_trouble) {
-            let said = ui.label(RichText::new(why).size(12.0).color(theme::of(ui).error));
-            out.place("setting:code-font:error", said.rect);
+        if let Some((_, why)) = self.error.as_ref().filter(|(key, _)| *key == setting.key) {
+            let label = ui.label(RichText::new(why).size(12.0).color(theme::of(ui).error));
+            out.place(format!("setting:{}:error", setting.key), label.rect);
         }
     }
 
     /// Shows a number between two buttons. The setting does not change during a drag: the window would move below the
     /// pointer.
-    fn number(&mut self, ui: &mut Ui, key: &'static Key, number: &Number, now: f64, out: &mut UiOutput) {
-        let mut set = |value: f64| {
-            out.shell_commands.push(ShellCommand::Set((number.change)(value.clamp(number.least, number.most))));
-        };
+    fn number(
+        &mut self,
+        ui: &mut Ui,
+        setting: &'static Setting,
+        number: &Number,
+        now: f64,
+        out: &mut UiOutput,
+    ) -> Option<Change> {
+        let [now, least, most, step] = [now, number.least, number.most, number.step].map(|x| x * number.scale);
         let mut wanted = None;
-        let mut step = |ui: &mut Ui, sign: &str, name: &str, to: f64| {
-            let is_there = to >= number.least - 1e-6 && to <= number.most + 1e-6;
+        let mut button = |ui: &mut Ui, sign: &str, name: &str, to: f64| {
+            let is_there = to >= least - 1e-6 && to <= most + 1e-6;
             let button = ui.add_enabled(is_there, Button::new(sign).min_size(vec2(26.0, 24.0)));
-            accessible::name(&button, Role::Button, format!("{name} {}", key.title.to_lowercase()));
+            accessible::name(&button, Role::Button, format!("{name} {}", setting.row.title.to_lowercase()));
             if button.clicked() {
                 wanted = Some(to);
             }
             button.rect
         };
-        let less = step(ui, "−", "Decrease", now - number.step);
-        let mut value = self.dragged.filter(|(name, _)| *name == key.name).map_or(now, |(_, value)| value);
-        let field = DragValue::new(&mut value).range(number.least..=number.most).speed(number.step * 0.2);
-        // A number without a unit is an integer.
-        let field = field
-            .max_decimals(if number.unit.is_empty() { 0 } else { 2 })
+        let less = button(ui, "−", "Decrease", now - step);
+        let mut value = self.dragged.filter(|(key, _)| *key == setting.key).map_or(now, |(_, value)| value);
+        let field = DragValue::new(&mut value)
+            .range(least..=most)
+            .speed(step * 0.2)
+            .max_decimals(if number.is_whole { 0 } else { 2 })
             .suffix(number.unit)
             .update_while_editing(false);
         let response = ui.add_sized(vec2(76.0, 24.0), field);
-        accessible::name(&response, Role::SpinButton, key.title);
-        let more = step(ui, "+", "Increase", now + number.step);
+        accessible::name(&response, Role::SpinButton, setting.row.title);
+        let more = button(ui, "+", "Increase", now + step);
         if response.dragged() {
-            self.dragged = Some((key.name, value));
-        } else if response.drag_stopped() {
+            self.dragged = Some((setting.key, value));
+        } else if response.drag_stopped() || response.changed() {
             self.dragged = None;
-            set(value);
-        } else if response.changed() {
-            set(value);
+            wanted = wanted.or(Some(value));
         }
-        if let Some(to) = wanted {
-            set(to);
-        }
-        out.place(format!("setting:{}:less", key.name), less);
-        out.place(format!("setting:{}", key.name), response.rect);
-        out.place(format!("setting:{}:more", key.name), more);
+        out.place(format!("setting:{}:less", setting.key), less);
+        out.place(format!("setting:{}", setting.key), response.rect);
+        out.place(format!("setting:{}:more", setting.key), more);
+        (setting.change)(&Plain::Number(wanted?.clamp(least, most) / number.scale))
     }
 
-    fn address(&mut self, ui: &mut Ui, key: &Key, now: IpAddr, out: &mut UiOutput) {
-        let mut text = self.address.clone().unwrap_or_else(|| now.to_string());
-        let field = TextEdit::singleline(&mut text).desired_width(150.0).background_color(theme::of(ui).button);
-        let field = ui.add(field.margin(Margin::symmetric(6, 3)));
-        accessible::name(&field, Role::TextInput, key.title);
-        out.place(format!("setting:{}", key.name), field.rect);
-        if field.changed() {
-            (self.address, self.is_no_address) = (Some(text), false);
-        }
-        // Escape closes the page without changing the address.
-        let is_given_up = ui.input(|i| i.key_pressed(egui::Key::Escape));
-        let Some(typed) = (if field.lost_focus() { self.address.take() } else { None }) else { return };
-        match typed.trim().parse() {
-            _ if is_given_up => {}
-            Ok(address) if address != now => out.shell_commands.push(ShellCommand::Set(Change::OscAddress(address))),
-            Ok(_) => {}
-            Err(_) => (self.address, self.is_no_address) = (Some(typed), true),
-        }
-    }
-
-    fn font(&mut self, ui: &mut Ui, key: &Key, now: &str, out: &mut UiOutput) {
-        let mut text = self.typed.clone().unwrap_or_else(|| now.to_owned());
+    /// Shows a text field. The setting changes when the field loses the keyboard focus.
+    fn text(&mut self, ui: &mut Ui, setting: &'static Setting, now: &str, out: &mut UiOutput) -> Option<Change> {
+        let is_font = matches!(setting.row.kind, Kind::FontFile);
+        let typed = self.typed.as_ref().filter(|(key, _)| *key == setting.key);
+        let mut text = typed.map_or(now, |(_, text)| text).to_owned();
         let field = TextEdit::singleline(&mut text)
-            .hint_text("Built-in")
-            .desired_width(130.0)
+            .hint_text(if is_font { "Built-in" } else { "" })
+            .desired_width(if is_font { 130.0 } else { 150.0 })
             .background_color(theme::of(ui).button);
         let field = ui.add(field.margin(Margin::symmetric(6, 3)));
-        accessible::name(&field, Role::TextInput, key.title);
-        out.place("setting:code-font", field.rect);
+        accessible::name(&field, Role::TextInput, setting.row.title);
+        out.place(format!("setting:{}", setting.key), field.rect);
         if field.changed() {
-            (self.typed, self.font_trouble) = (Some(text.clone()), None);
+            (self.typed, self.error) = (Some((setting.key, text)), None);
         }
-        // Escape closes the page without changing the font.
-        let is_given_up = ui.input(|i| i.key_pressed(egui::Key::Escape));
-        let left = if field.lost_focus() { self.typed.take() } else { None };
-        if left.is_some_and(|typed| !is_given_up && typed.trim() != now) {
-            let change = match text.trim() {
-                "" => Some(Change::CodeFont(None)),
-                path => self.choose_font(path),
-            };
-            out.shell_commands.extend(change.map(ShellCommand::Set));
+        // Escape closes the page without changing the setting.
+        let is_cancelled = ui.input(|i| i.key_pressed(egui::Key::Escape));
+        let entered = self.typed.take_if(|(key, _)| *key == setting.key && field.lost_focus());
+        let entered = entered.map(|(_, text)| text.trim().to_owned()).filter(|text| !is_cancelled && text != now);
+        let change = entered.and_then(|text| self.enter(setting, &text));
+        if is_font {
+            let choose = ui.button("Choose…").on_hover_text("Choose a font file");
+            out.on_click(&format!("setting:{}:choose", setting.key), &choose, ShellCommand::Pick(Pick::CodeFont));
         }
-        let choose = ui.button("Choose…").on_hover_text("Choose a font file");
-        if out.clicked("setting:code-font:choose", &choose) {
-            out.shell_commands.push(ShellCommand::Pick(Pick::CodeFont));
-        }
+        change
     }
 }
 
-/// Shows a choice of the available devices. A chosen device that is not available stays chosen: it may come back.
-fn device(
-    ui: &mut Ui,
-    key: &Key,
-    now: Option<&str>,
-    known: &[String],
-    change: fn(Option<String>) -> Change,
-    out: &mut UiOutput,
-) {
-    const DEFAULT: &str = "System default";
-    let shown = ComboBox::from_id_salt(key.name).width(200.0).selected_text(now.unwrap_or(DEFAULT)).truncate().show_ui(
-        ui,
-        |ui| {
-            let is_gone = |name: &&str| known.iter().all(|known| known != name);
-            let gone = now.filter(is_gone).map(str::to_owned);
-            let names = known.iter().cloned().chain(gone).map(Some);
-            for (n, name) in std::iter::once(None).chain(names).enumerate() {
-                let entry = ui.selectable_label(name.as_deref() == now, name.as_deref().unwrap_or(DEFAULT));
-                if out.clicked(&format!("setting:{}:{n}", key.name), &entry) {
-                    out.shell_commands.push(ShellCommand::Set(change(name)));
-                }
-            }
-        },
-    );
-    accessible::name(&shown.response, Role::ComboBox, key.title);
-    out.place(format!("setting:{}", key.name), shown.response.rect);
+fn switch(ui: &mut Ui, setting: &Setting, mut is_on: bool, out: &mut UiOutput) -> Option<Change> {
+    let before = is_on;
+    let response = ui.checkbox(&mut is_on, if before { "On" } else { "Off" });
+    accessible::choice(&response, Role::CheckBox, is_on, setting.row.title);
+    let is_clicked = out.clicked(&format!("setting:{}", setting.key), &response);
+    is_clicked.then(|| (setting.change)(&Plain::Switch(is_on))).flatten()
 }
 
-/// Shows a choice of the MIDI devices: none, all, or one. A chosen device that is not available stays chosen.
-fn midi(ui: &mut Ui, key: &Key, now: &MidiChoice, controls: &ControlsView, out: &mut UiOutput) {
-    let title = |choice: &MidiChoice| match choice {
-        MidiChoice::Off => "Off".to_owned(),
-        MidiChoice::All => "All devices".to_owned(),
-        MidiChoice::Named(name) => name.clone(),
-    };
-    let combo = ComboBox::from_id_salt(key.name).width(200.0).selected_text(title(now)).truncate();
-    let shown = combo.show_ui(ui, |ui| {
-        let mut choices = vec![MidiChoice::Off, MidiChoice::All];
-        choices.extend(controls.midi.names.iter().flatten().cloned().map(MidiChoice::Named));
-        if !choices.contains(now) {
-            choices.push(now.clone());
+/// Shows buttons for names, each with its title. The selected one takes the keyboard focus if `takes_focus`.
+fn choice(
+    ui: &mut Ui,
+    setting: &Setting,
+    (choices, now): (&[(&str, &str)], &str),
+    takes_focus: bool,
+    out: &mut UiOutput,
+) -> Option<Change> {
+    let mut wanted = None;
+    for (name, title) in choices {
+        let is_on = *name == now;
+        let response = ui.add(Button::selectable(is_on, *title));
+        accessible::choice(&response, Role::RadioButton, is_on, format!("{}: {title}", setting.row.title));
+        if takes_focus && is_on {
+            response.request_focus();
         }
-        for (n, choice) in choices.into_iter().enumerate() {
-            let entry = ui.selectable_label(choice == *now, title(&choice));
-            if out.clicked(&format!("setting:{}:{n}", key.name), &entry) {
-                out.shell_commands.push(ShellCommand::Set(Change::Midi(choice)));
+        if out.clicked(&format!("setting:{}:{name}", setting.key), &response) {
+            wanted = (setting.change)(&Plain::Text((*name).to_owned()));
+        }
+    }
+    wanted
+}
+
+/// Returns the devices of this machine that a setting may name, each with its title.
+fn devices(kind: &Kind, session: &Session) -> Vec<(String, String)> {
+    let named = |name: &str, title: &str| (name.to_owned(), title.to_owned());
+    let (mut choices, names) = match kind {
+        Kind::MidiDevices => {
+            let choices = vec![named(MIDI_OFF, "Off"), named(MIDI_ALL, "All devices")];
+            (choices, session.controls_view().midi.names)
+        }
+        _ => {
+            let (outputs, inputs) = session.audio_devices();
+            let names = if matches!(kind, Kind::SoundInput) { inputs } else { outputs };
+            (vec![named("", "System default")], names)
+        }
+    };
+    choices.extend(names.iter().flatten().map(|name| named(name, name)));
+    choices
+}
+
+/// Shows a list of values, each with its title. A device that is not available stays chosen: it may come back.
+fn combo(
+    ui: &mut Ui,
+    setting: &Setting,
+    choices: &[(String, String)],
+    now: &str,
+    out: &mut UiOutput,
+) -> Option<Change> {
+    let missing = (now.to_owned(), now.to_owned());
+    let is_missing = choices.iter().all(|(value, _)| value != now);
+    let all = || choices.iter().chain(is_missing.then_some(&missing));
+    let title = all().find(|(value, _)| value == now).map_or(now, |(_, title)| title);
+    let combo = ComboBox::from_id_salt(setting.key).width(200.0).selected_text(title).truncate();
+    let mut wanted = None;
+    let shown = combo.show_ui(ui, |ui| {
+        for (n, (value, title)) in all().enumerate() {
+            let entry = ui.selectable_label(value == now, title);
+            if out.clicked(&format!("setting:{}:{n}", setting.key), &entry) {
+                wanted = (setting.change)(&Plain::Text(value.clone()));
             }
         }
     });
-    accessible::name(&shown.response, Role::ComboBox, key.title);
-    out.place(format!("setting:{}", key.name), shown.response.rect);
+    accessible::name(&shown.response, Role::ComboBox, setting.row.title);
+    out.place(format!("setting:{}", setting.key), shown.response.rect);
+    wanted
 }
 
 /// Shows what is wrong in the file, and what happens to changes.
 fn trouble(ui: &mut Ui, file: &SettingsFile, out: &mut UiOutput) {
-    if file.mistakes().is_empty() {
+    if file.errors().is_empty() {
         return;
     }
     let p = theme::of(ui);
@@ -414,8 +362,8 @@ fn trouble(ui: &mut Ui, file: &SettingsFile, out: &mut UiOutput) {
         .inner_margin(Margin::symmetric(10, 8));
     let shown = frame.show(ui, |ui| {
         ui.set_width(ui.available_width());
-        for mistake in file.mistakes() {
-            ui.colored_label(p.error, mistake);
+        for error in file.errors() {
+            ui.colored_label(p.error, error);
         }
         let what = match file.trouble() {
             Some(_) => "Fix the file to change settings here. Eddy reads it again as soon as it is saved.",
@@ -430,9 +378,7 @@ fn trouble(ui: &mut Ui, file: &SettingsFile, out: &mut UiOutput) {
 fn files(ui: &mut Ui, file: &SettingsFile, out: &mut UiOutput) {
     ui.horizontal_wrapped(|ui| {
         for (name, action) in [("settings:file", Action::SettingsFile), ("settings:keys", Action::KeyFile)] {
-            if out.clicked(name, &ui.button(action.title())) {
-                out.act(action);
-            }
+            out.on_click(name, &ui.button(action.title()), action);
         }
     });
     if let Some(path) = file.path() {

@@ -59,9 +59,7 @@ fn mute(ui: &mut Ui, sound: &OutputView, out: &mut UiOutput) {
     };
     let button = icons::button(ui, icon, label);
     let tip = out.keys.tip(&format!("{label}{where_heard}"), Action::Mute);
-    if out.clicked("button:mute", &button.on_hover_text(tip)) {
-        out.act(Action::Mute);
-    }
+    out.on_click("button:mute", &button.on_hover_text(tip), Action::Mute);
 }
 
 /// Shows the volume, which follows the pointer during a drag; the setting is written on release.
@@ -99,7 +97,5 @@ fn light(ui: &mut Ui, view: &MicrophoneView, room: f32, out: &mut UiOutput) {
     let button = devices::indicator(ui, texts, color, (MICROPHONE, room));
     let name = if view.is_on { "Turn the microphone off" } else { "Use the microphone" };
     accessible::name(&button, egui::Role::Button, name);
-    if out.clicked("button:microphone", &button.on_hover_text(out.keys.tip(tip, Action::Microphone))) {
-        out.act(Action::Microphone);
-    }
+    out.on_click("button:microphone", &button.on_hover_text(out.keys.tip(tip, Action::Microphone)), Action::Microphone);
 }

@@ -119,7 +119,7 @@ impl Surface {
 
     /// Replaces the lost device and surface with new ones. egui's fonts are kept; all other textures were on the lost
     /// device, and must be recreated by their owners.
-    pub(super) fn renew(&mut self, window: &Arc<Window>, ctx: &egui::Context) -> Result<(), GuiError> {
+    pub(super) fn reopen_device(&mut self, window: &Arc<Window>, ctx: &egui::Context) -> Result<(), GuiError> {
         let (instance, surface, adapter) = open(window, &self.display)?;
         let gpu = loss::reopen(loss::RESET, || Gpu::from_adapter(&adapter, &GpuOptions::default()))?;
         self.config = config(&surface, &adapter, window.inner_size())?;

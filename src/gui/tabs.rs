@@ -3,9 +3,10 @@
 use super::{
     accessible,
     actions::Action,
-    dock::Panel,
     icons::{self, Icon},
-    menus, passes, theme,
+    menus,
+    panels::Panel,
+    passes, theme,
     ui_output::{ShellCommand, UiOutput},
 };
 use crate::{
@@ -70,7 +71,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, current: &Tab, files: &[OpenF
                 let file = files.iter().find(|file| file.tab == *tab);
                 show_tab(ui, session, tab, file, tab == current, out);
             }
-            keep_in_sight(ui, &tabs, current, out);
+            keep_visible(ui, &tabs, current, out);
         });
     add_menu(&mut row, session, out);
     handle.drag_started()
@@ -86,7 +87,7 @@ fn scroll_by_wheel(ui: &Ui, row: Rect) {
 
 /// Scrolls the current tab into view when it comes to the front, moves or grows; otherwise the scroll position is the
 /// user's.
-fn keep_in_sight(ui: &Ui, tabs: &[Tab], current: &Tab, out: &UiOutput) {
+fn keep_visible(ui: &Ui, tabs: &[Tab], current: &Tab, out: &UiOutput) {
     let Some(rect) = out.places.get(&format!("tab:{}", current.title())) else { return };
     // A panel that opens may move the row to another `Ui`, where it is not scrolled yet.
     let id = ui.scope_id().with("current tab");
@@ -198,9 +199,11 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, file: Option<&OpenFile>, 
         }
         ui.separator();
         let close = ui.button("Close code");
-        if out.clicked("tab:close-code", &close.on_hover_text("Reopen it from the View menu")) {
-            out.shell_commands.push(ShellCommand::ClosePanel(Panel::Code));
-        }
+        out.on_click(
+            "tab:close-code",
+            &close.on_hover_text("Reopen it from the View menu"),
+            ShellCommand::ClosePanel(Panel::Code),
+        );
     });
     // While paused there are no current times.
     let times = if session.transport().playing { session.pass_times() } else { &[] };
@@ -232,10 +235,7 @@ fn add_menu(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         passes::add_menu(ui, session, false, out);
         ui.separator();
         let all = ui.button("All passes…");
-        if out.clicked("add:passes", &all) {
-            out.act(Action::Passes);
-            ui.close();
-        }
+        out.on_menu_click(ui, "add:passes", &all, Action::Passes);
     });
     out.place("button:add-tab", menu.rect);
     menu.on_hover_text("Add Common or a buffer");

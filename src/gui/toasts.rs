@@ -234,9 +234,9 @@ mod tests {
             notice(5, "c", Level::Info),
         ];
         let groups = groups(&all);
-        let said: Vec<_> = groups.iter().map(|one| (one.text(), one.ids.clone())).collect();
+        let formatted: Vec<_> = groups.iter().map(|one| (one.text(), one.ids.clone())).collect();
         let wanted: [(&str, &[u64]); 4] = [("c", &[5]), ("a", &[4]), ("a (×2)", &[1, 3]), ("b", &[2])];
-        assert_eq!(said, wanted.map(|(text, ids)| (text.to_owned(), ids.to_vec())));
+        assert_eq!(formatted, wanted.map(|(text, ids)| (text.to_owned(), ids.to_vec())));
         let mut out = UiOutput::default();
         groups[2].dismiss(&mut out);
         assert_eq!(out.commands.len(), 2, "closing one closes all that say the same");

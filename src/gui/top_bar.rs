@@ -2,10 +2,10 @@
 
 use super::{
     actions::Action,
-    dock::Panel,
     export_menu,
     icons::{self, Icon},
     menus,
+    panels::Panel,
     settings::{Change, Settings, Theme},
     theme,
     ui_output::{Pick, ShellCommand, UiOutput},
@@ -40,37 +40,25 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut 
             |ui: &mut Ui, name: &str, label: &str, tip: &str, action: Action, selected: bool, out: &mut UiOutput| {
                 let response = ui.add(Button::new(label).selected(selected));
                 let response = response.on_hover_text(out.keys.tip(tip, action));
-                if out.clicked(name, &response) {
-                    out.act(action);
-                }
+                out.on_click(name, &response, action);
             };
         item(ui, "button:gallery", "Gallery", "Presets to start from", Action::Gallery, state.is_gallery, out);
         item(ui, "button:new", "New", "Create a shader with one Image pass", Action::New, false, out);
         let menu = ui.menu_button("Open", |ui| {
-            if ui.button("Folder…").on_hover_text("Open a folder with eddy.toml or .glsl files").clicked() {
-                out.shell_commands.push(ShellCommand::Pick(Pick::OpenFolder));
-                ui.close();
-            }
+            let folder = ui.button("Folder…").on_hover_text("Open a folder with eddy.toml or .glsl files");
+            out.on_menu_click(ui, "open:folder", &folder, ShellCommand::Pick(Pick::OpenFolder));
             let file = Button::new("File…").shortcut_text(out.keys.hint(Action::Open));
-            if ui.add(file).on_hover_text("Open a .glsl file or a Shadertoy .json file").clicked() {
-                out.act(Action::Open);
-                ui.close();
-            }
+            let file = ui.add(file).on_hover_text("Open a .glsl file or a Shadertoy .json file");
+            out.on_menu_click(ui, "open:file", &file, Action::Open);
             if !state.is_gallery {
                 let recording = Button::new("Recording…").shortcut_text(out.keys.hint(Action::PlayRecording));
                 let recording = ui.add(recording).on_hover_text("Play a .replay file in this project");
-                if out.clicked("open:recording", &recording) {
-                    out.act(Action::PlayRecording);
-                    ui.close();
-                }
+                out.on_menu_click(ui, "open:recording", &recording, Action::PlayRecording);
             }
             ui.separator();
             let page = ui.button("Get shaders from Shadertoy…");
             let page = page.on_hover_text("Open a page with a bookmarklet that saves a shader's JSON in your browser");
-            if out.clicked("open:bookmarklet", &page) {
-                out.act(Action::Bookmarklet);
-                ui.close();
-            }
+            out.on_menu_click(ui, "open:bookmarklet", &page, Action::Bookmarklet);
         });
         out.place("button:open", menu.response.rect);
         if !state.is_gallery {
@@ -88,14 +76,10 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut 
             if !state.is_gallery {
                 let full = icons::button(ui, Icon::Expand, "Full screen")
                     .on_hover_text(out.keys.tip("Full screen", Action::Fullscreen));
-                if out.clicked("button:fullscreen", &full) {
-                    out.act(Action::Fullscreen);
-                }
+                out.on_click("button:fullscreen", &full, Action::Fullscreen);
                 let present = icons::button(ui, Icon::Present, "Code over picture")
                     .on_hover_text(out.keys.tip("Code over picture", Action::Present));
-                if out.clicked("button:present", &present) {
-                    out.act(Action::Present);
-                }
+                out.on_click("button:present", &present, Action::Present);
             }
             view_menu(ui, state, out);
             if width > ROOMY {
@@ -127,19 +111,13 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
             let action = Action::Panel(panel);
             let is_open = state.open.contains(&panel) && !state.is_gallery;
             let entry = menus::switch(ui, is_open, panel.title(), out.keys.hint(action));
-            if out.clicked(&format!("view:{}", panel.name()), &entry) {
-                out.act(action);
-                ui.close();
-            }
+            out.on_menu_click(ui, &format!("view:{}", panel.name()), &entry, action);
         }
         let mut item = |ui: &mut Ui, name: &str, label: &str, action: Action| {
             let entry = menus::entry(ui, label, out.keys.hint(action));
-            if out.clicked(name, &entry) {
-                out.act(action);
-                ui.close();
-            }
+            out.on_menu_click(ui, name, &entry, action);
         };
-        item(ui, "view:usual", "Reset layout", Action::UsualLayout);
+        item(ui, "view:usual", "Reset layout", Action::ResetLayout);
         ui.separator();
         item(ui, "view:present", "Code over picture", Action::Present);
         item(ui, "view:full-screen", "Full screen", Action::Fullscreen);
@@ -147,20 +125,9 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
         ui.horizontal(|ui| {
             ui.label("Theme");
             for theme in Theme::ALL {
-                let title = match theme {
-                    Theme::System => "System",
-                    Theme::Dark => "Dark",
-                    Theme::Light => "Light",
-                };
-                let choice = ui.add(Button::selectable(state.settings.theme == theme, title));
-                let choice = choice.on_hover_text(match theme {
-                    Theme::System => "Follow the system theme",
-                    Theme::Dark => "Use the dark theme",
-                    Theme::Light => "Use the light theme",
-                });
-                if out.clicked(&format!("theme:{}", theme.name()), &choice) {
-                    out.shell_commands.push(ShellCommand::Set(Change::Theme(theme)));
-                }
+                let choice = ui.add(Button::selectable(state.settings.theme == theme, theme.title()));
+                let choice = choice.on_hover_text(Action::Theme(theme).title());
+                out.on_click(&format!("theme:{}", theme.name()), &choice, ShellCommand::Set(Change::Theme(theme)));
             }
         });
         ui.horizontal(|ui| {
@@ -172,22 +139,14 @@ fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut UiOutput) {
                 ("zoom:in", "+", Action::ZoomIn),
             ] {
                 let button = ui.button(label).on_hover_text(out.keys.tip(action.title(), action));
-                if out.clicked(name, &button) {
-                    out.act(action);
-                }
+                out.on_click(name, &button, action);
             }
         });
         ui.separator();
         let wraps = menus::switch(ui, state.settings.word_wrap, "Word wrap", out.keys.hint(Action::WordWrap));
-        if out.clicked("view:word-wrap", &wraps) {
-            out.act(Action::WordWrap);
-            ui.close();
-        }
+        out.on_menu_click(ui, "view:word-wrap", &wraps, Action::WordWrap);
         let all = menus::entry(ui, "Settings…", out.keys.hint(Action::Settings));
-        if out.clicked("view:settings", &all) {
-            out.act(Action::Settings);
-            ui.close();
-        }
+        out.on_menu_click(ui, "view:settings", &all, Action::Settings);
     });
     out.place("button:view", button.rect);
     button.on_hover_text("Panels, layout, theme, zoom and settings");

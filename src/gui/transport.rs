@@ -4,15 +4,16 @@ use super::{
     accessible,
     actions::Action,
     devices,
-    dock::Panel,
     geometry::Shape,
     icons::{self, Icon},
-    menus, replay, resolution, sound_bar, theme, timeline,
-    ui_output::{ShellCommand, UiOutput},
+    menus,
+    panels::Panel,
+    replay, resolution, sound_bar, theme, timeline,
+    ui_output::{Request, ShellCommand, UiOutput},
 };
 use crate::{
     project::Tab,
-    session::{EditCommand, FilmCommand, FilmView, Session, ViewCommand},
+    session::{Command, EditCommand, FilmCommand, FilmView, Session, ViewCommand},
 };
 use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
 
@@ -20,7 +21,7 @@ use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
 pub(super) const HEIGHT: f32 = 40.0 + timeline::HEIGHT;
 
 /// Widths in points: for the selected pass and the menu after it, and for the resolution.
-const BEHIND: f32 = 116.0;
+const RIGHT_WIDTH: f32 = 116.0;
 const SIZE: f32 = 108.0;
 /// The width of the recording mark.
 const RECORDING: f32 = 64.0;
@@ -36,18 +37,14 @@ pub(super) fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOut
     ui.horizontal_centered(|ui| {
         let (icon, tip) = if transport.playing { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
         let play = icons::first(ui, icon, tip).on_hover_text(out.keys.tip(tip, Action::TogglePlay));
-        if out.clicked("button:play", &play) {
-            out.act(Action::TogglePlay);
-        }
+        out.on_click("button:play", &play, Action::TogglePlay);
         let mut button = |ui: &mut Ui, name: &str, icon: Icon, tip: &str, action: Action| {
             let response = icons::button(ui, icon, tip).on_hover_text(out.keys.tip(tip, action));
-            if out.clicked(name, &response) {
-                out.act(action);
-            }
+            out.on_click(name, &response, action);
         };
         button(ui, "button:reset", Icon::Reset, "Reset time and buffers", Action::Reset);
         // In a narrow bar they are hidden in favour of recording marks and device lights: they also have keys.
-        if ui.available_width() >= BEHIND + 3.0 * (icons::WIDTH + 4.0) + least_of_lights(session) {
+        if ui.available_width() >= RIGHT_WIDTH + 3.0 * (icons::WIDTH + 4.0) + least_of_lights(session) {
             button(ui, "button:step-back", Icon::StepBack, "Step one frame back", Action::StepBack);
             button(ui, "button:step", Icon::Step, "Step one frame forward", Action::Step);
             button(
@@ -62,19 +59,19 @@ pub(super) fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOut
         film(ui, session, out);
         // Later widgets keep room for themselves: for the lights, at least their dots.
         let sound = sound_bar::least(session);
-        devices::light(ui, session, ui.available_width() - BEHIND - devices::network_least(session) - sound, out);
-        devices::network_light(ui, session, ui.available_width() - BEHIND - sound, out);
-        sound_bar::show(ui, session, ui.available_width() - BEHIND, out);
+        devices::light(ui, session, ui.available_width() - RIGHT_WIDTH - devices::network_least(session) - sound, out);
+        devices::network_light(ui, session, ui.available_width() - RIGHT_WIDTH - sound, out);
+        sound_bar::show(ui, session, ui.available_width() - RIGHT_WIDTH, out);
         // What does not fit is in the menu at the right, or in the table of costs.
         let played = session.replay();
         // A recording fixes the resolution.
-        let roomy = played.is_none() && ui.available_width() >= BEHIND + SIZE + 64.0;
+        let roomy = played.is_none() && ui.available_width() >= RIGHT_WIDTH + SIZE + 64.0;
         let gap = 8.0;
         ui.spacing_mut().item_spacing.x = gap;
         if let Some(played) = &played {
-            replay::show(ui, played, transport.playing, BEHIND + gap, out);
+            replay::show(ui, played, transport.playing, RIGHT_WIDTH + gap, out);
         }
-        let mut room = ui.available_width() - if roomy { BEHIND + SIZE } else { BEHIND };
+        let mut room = ui.available_width() - if roomy { RIGHT_WIDTH + SIZE } else { RIGHT_WIDTH };
         let mut fits = |width: f32| {
             let fits = played.is_none() && room >= width + gap;
             room -= if fits { width + gap } else { 0.0 };
@@ -133,9 +130,7 @@ fn recording(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let tip = format!("{frames} frames of input recorded; click to stop and save");
     let button = ui.add(Button::new(text).min_size(vec2(RECORDING, 24.0)));
     accessible::name(&button, egui::Role::Button, "Stop recording input");
-    if out.clicked("button:recording", &button.on_hover_text(out.keys.tip(&tip, Action::Record))) {
-        out.act(Action::Record);
-    }
+    out.on_click("button:recording", &button.on_hover_text(out.keys.tip(&tip, Action::Record)), Action::Record);
 }
 
 /// While a film is made, shows its progress on a button that stops a recording or opens the panel.
@@ -149,17 +144,14 @@ fn film(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     };
     let button = Button::new(RichText::new(text).monospace().size(12.0).color(color));
     let button = ui.add(button.min_size(vec2(RECORDING, 24.0)));
-    let (name, what) = match is_live {
-        true => ("Stop recording the film", "click to stop and save"),
-        false => ("Progress of the film", "click to open the Recorder panel"),
+    let (name, what, request) = match is_live {
+        true => {
+            ("Stop recording the film", "click to stop and save", Request::from(Command::Film(FilmCommand::StopFilm)))
+        }
+        false => ("Progress of the film", "click to open the Recorder panel", Action::Panel(Panel::Recorder).into()),
     };
     accessible::name(&button, egui::Role::Button, name);
-    if out.clicked("button:film", &button.on_hover_text(format!("{}; {what}", film.words()))) {
-        match is_live {
-            true => out.ask(FilmCommand::StopFilm),
-            false => out.act(Action::Panel(Panel::Recorder)),
-        }
-    }
+    out.on_click("button:film", &button.on_hover_text(format!("{}; {what}", film.words())), request);
 }
 
 /// Shows a number that keeps its position while it changes.
@@ -181,9 +173,7 @@ fn cost(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     };
     let (rect, response) = ui.allocate_exact_size(vec2(60.0, 24.0), egui::Sense::click());
     accessible::name(&response, egui::Role::Button, "Costs of each pass");
-    if out.clicked("button:costs", &response) {
-        out.act(Action::Panel(Panel::Costs));
-    }
+    out.on_click("button:costs", &response, Action::Panel(Panel::Costs));
     if response.hovered() {
         ui.painter().rect_filled(rect.expand2(vec2(4.0, 0.0)), 4.0, theme::of(ui).button);
     }
@@ -232,9 +222,7 @@ fn shown_pass(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
                     continue;
                 }
                 let entry = ui.selectable_label(id == *shown, id.title());
-                if out.clicked(&format!("pass:{}", id.title()), &entry) {
-                    out.ask(ViewCommand::ShowPass(id));
-                }
+                out.on_click(&format!("pass:{}", id.title()), &entry, Command::View(ViewCommand::ShowPass(id)));
             }
         })
         .response
@@ -254,9 +242,7 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut UiOut
         }
         let reset = session.reset_on_reload();
         let switch = menus::switch(ui, reset, "Reset when a file is reloaded", String::new());
-        if out.clicked("switch:reset-on-reload", &switch) {
-            out.ask(EditCommand::SetResetOnReload(!reset));
-        }
+        out.on_click("switch:reset-on-reload", &switch, Command::Edit(EditCommand::SetResetOnReload(!reset)));
         ui.separator();
         let all = [
             Action::Screenshot,
@@ -277,9 +263,11 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut UiOut
         }
         ui.separator();
         let close = menus::entry(ui, "Close picture", String::new());
-        if out.clicked("options:close-picture", &close.on_hover_text("Reopen it from the View menu")) {
-            out.shell_commands.push(ShellCommand::ClosePanel(Panel::Picture));
-        }
+        out.on_click(
+            "options:close-picture",
+            &close.on_hover_text("Reopen it from the View menu"),
+            ShellCommand::ClosePanel(Panel::Picture),
+        );
     });
     if let Some(shape) = shape {
         resolution::opened(&more, session, shape, out);

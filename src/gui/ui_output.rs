@@ -3,13 +3,13 @@
 
 use super::{
     actions::{Action, ActiveKeymap},
-    dock::Panel,
     geometry::Area,
+    panels::Panel,
     settings::Change,
 };
 use crate::{
     project::Tab,
-    session::{Command, TabFix},
+    session::{Command, Level, NoticeCommand, TabFix},
 };
 use egui::{Id, Rect, Response, Ui};
 use std::{collections::BTreeMap, path::PathBuf};
@@ -70,6 +70,30 @@ pub(super) enum ShellCommand {
     Breakpoint(Tab, usize),
     /// Trace the pixel at a point of the picture, from 0 to 1.
     Trace([f32; 2]),
+}
+
+/// A request of a widget.
+pub(super) enum Request {
+    Session(Command),
+    Shell(ShellCommand),
+}
+
+impl From<Command> for Request {
+    fn from(command: Command) -> Self {
+        Self::Session(command)
+    }
+}
+
+impl From<ShellCommand> for Request {
+    fn from(command: ShellCommand) -> Self {
+        Self::Shell(command)
+    }
+}
+
+impl From<Action> for Request {
+    fn from(action: Action) -> Self {
+        Self::Shell(ShellCommand::Act(action))
+    }
 }
 
 /// A part of the window that F6 goes to.
@@ -152,6 +176,28 @@ impl UiOutput {
         response.clicked()
     }
 
+    /// Records the place of a button, and makes a request if it was clicked. Returns whether it was.
+    pub(super) fn on_click(&mut self, name: &str, response: &Response, request: impl Into<Request>) -> bool {
+        let is_clicked = self.clicked(name, response);
+        match request.into() {
+            Request::Session(command) if is_clicked => self.commands.push(command),
+            Request::Shell(command) if is_clicked => self.shell_commands.push(command),
+            _ => {}
+        }
+        is_clicked
+    }
+
+    /// The same for an entry of a menu, which is then closed.
+    pub(super) fn on_menu_click(&mut self, ui: &Ui, name: &str, response: &Response, request: impl Into<Request>) {
+        if self.on_click(name, response, request) {
+            ui.close();
+        }
+    }
+
+    pub(super) fn notify(&mut self, level: Level, text: impl Into<String>) {
+        self.ask(NoticeCommand::Notify { level, text: text.into(), path: None });
+    }
+
     /// Returns the name of a place.
     pub(super) fn named(&self, rect: Rect) -> Option<&str> {
         let differs = |other: Rect| (other.min - rect.min).length() + (other.max - rect.max).length();
@@ -174,7 +220,8 @@ impl UiOutput {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use egui::{Align2, RawInput, pos2, vec2};
+    use crate::session::TransportCommand;
+    use egui::{Align2, Event, Modifiers, PointerButton, RawInput, pos2, vec2};
 
     /// The first pass of an area with a pivot is shown as if it were empty.
     #[test]
@@ -204,5 +251,32 @@ mod tests {
         assert_eq!(second.places.get("close"), Some(&visible));
         assert_eq!(second.places["card"].center(), pos2(300.0, 200.0));
         assert_eq!(second.stops.len(), 1);
+    }
+
+    #[test]
+    fn only_the_clicked_button_makes_its_request() {
+        let ctx = egui::Context::default();
+        let show = |events: Vec<Event>| {
+            let mut out = UiOutput::default();
+            let mut output = ctx.run_ui(RawInput { events, ..RawInput::default() }, |ui| {
+                out = UiOutput::default();
+                out.on_click("play", &ui.button("Play"), Action::TogglePlay);
+                out.on_click("step", &ui.button("Step"), Command::Transport(TransportCommand::Step));
+            });
+            output.textures_delta.clear();
+            out
+        };
+        let button = |pos, pressed| {
+            let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+            vec![Event::PointerMoved(pos), Event::PointerButton { pos, button, pressed, modifiers }]
+        };
+        let requests = |name: &str| {
+            let at = show(vec![]).places[name].center();
+            assert_eq!(show(button(at, true)).commands, []);
+            let out = show(button(at, false));
+            (out.commands, out.shell_commands)
+        };
+        assert_eq!(requests("step"), (vec![Command::Transport(TransportCommand::Step)], vec![]));
+        assert_eq!(requests("play"), (vec![], vec![ShellCommand::Act(Action::TogglePlay)]));
     }
 }

@@ -128,14 +128,14 @@ impl Uses {
 
 /// The number of bytes of a line that are shown before a name, and after it.
 const BEFORE: usize = 120;
-const BEHIND: usize = 240;
+const MAX_AFTER: usize = 240;
 
 /// `known`: a place at or before this one, and its line.
 fn place(text: &str, tab: Tab, range: Range<usize>, known: (usize, usize)) -> Option<Use> {
     text.get(range.clone())?;
     let head = &text[text.ceil_char_boundary(range.start.saturating_sub(BEFORE))..range.start];
     let start = range.start - head.len() + head.rfind('\n').map_or(0, |i| i + 1);
-    let tail = &text[range.end..text.floor_char_boundary(range.end + BEHIND)];
+    let tail = &text[range.end..text.floor_char_boundary(range.end + MAX_AFTER)];
     let end = range.end + tail.find(['\n', '\r']).unwrap_or(tail.len());
     let line = &text[start..end];
     let indent = line.len() - line.trim_start().len();

@@ -4,12 +4,7 @@
 
 use crate::{
     debugger::trace::travel::{Direction, Stride},
-    gui::{
-        dock::{Panel, Side},
-        editor::EditorAction,
-        geometry::Shape,
-        settings::Theme,
-    },
+    gui::{dock::Side, editor::EditorAction, geometry::Shape, panels::Panel, settings::Theme},
 };
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,7 +53,7 @@ pub(crate) enum Action {
     /// Opens or closes a panel.
     Panel(Panel),
     /// Restores the default layout of the panels.
-    UsualLayout,
+    ResetLayout,
     NextTheme,
     Theme(Theme),
     ZoomIn,
@@ -125,7 +120,7 @@ pub(crate) enum TimeAction {
     GoTo,
     Slower,
     Faster,
-    UsualSpeed,
+    ResetSpeed,
     /// Toggles a fixed time step.
     FixedStep,
     /// Sets the start of the loop to the current time.

@@ -8,7 +8,7 @@ use toml_edit::{Document, Item, Value};
 /// Returns the key bindings in a file's text and all errors in it. An action with an error keeps its default keys.
 pub(super) fn read(text: &str) -> (Keymap, Vec<ConfigError>) {
     let mut keymap = Keymap::default();
-    let mut mistakes = Vec::new();
+    let mut errors = Vec::new();
     let lines = LineIndex::new(text);
     let line = |span: Option<Range<usize>>| lines.line(span.map_or(0, |span| span.start));
     let document = match Document::parse(text) {
@@ -22,13 +22,13 @@ pub(super) fn read(text: &str) -> (Keymap, Vec<ConfigError>) {
     let mut given: Vec<(&Entry, Chord, usize)> = Vec::new();
     for (name, item) in table.iter() {
         let at = line(table.key(name).and_then(toml_edit::Key::span).or_else(|| item.span()));
-        let mut wrong = |line: usize, text: String| mistakes.push(ConfigError { line, text });
+        let mut wrong = |line: usize, text: String| errors.push(ConfigError { line, text });
         let Some(entry) = ACTIONS.iter().find(|e| e.name == name) else {
-            let mend = match nearest(name, ACTIONS.iter().map(|e| e.name)) {
+            let fix = match nearest(name, ACTIONS.iter().map(|e| e.name)) {
                 Some(near) => format!("did you mean \"{near}\"?"),
                 None => "the file that Eddy creates lists all actions".to_owned(),
             };
-            wrong(at, format!("unknown action \"{name}\"; {mend}"));
+            wrong(at, format!("unknown action \"{name}\"; {fix}"));
             continue;
         };
         let Some(texts) = texts(item) else {
@@ -56,10 +56,10 @@ pub(super) fn read(text: &str) -> (Keymap, Vec<ConfigError>) {
             }
         }
         if chords.len() == texts.iter().filter(|(text, _)| !text.is_empty()).count() {
-            keymap.give(entry, chords);
+            keymap.assign(entry, chords);
         }
     }
-    (keymap, mistakes)
+    (keymap, errors)
 }
 
 /// A text and its place in the file.
@@ -100,12 +100,12 @@ pub(super) fn template() -> String {
 mod tests {
     use super::*;
     use crate::gui::actions::Action;
-    use crate::gui::dock::Panel;
+    use crate::gui::panels::Panel;
 
     #[test]
     fn keys_of_the_file_replace_the_defaults() {
-        let (keymap, mistakes) = read("palette = \"F9\"\nsave = [\"Ctrl+S\", \"F2\"]\nlab = \"\"\nquit = \"Ctrl+F\"\n");
-        assert_eq!(mistakes, []);
+        let (keymap, errors) = read("palette = \"F9\"\nsave = [\"Ctrl+S\", \"F2\"]\nlab = \"\"\nquit = \"Ctrl+F\"\n");
+        assert_eq!(errors, []);
         let hints = [Action::Palette, Action::Save, Action::Panel(Panel::Lab), Action::Quit, Action::Find]
             .map(|a| keymap.hint(a));
         assert_eq!(hints, ["F9", "Ctrl+S", "", "Ctrl+F", ""]);
@@ -114,8 +114,8 @@ mod tests {
     #[test]
     fn errors_have_their_line_and_keep_the_default_keys() {
         let text = "# mine\npalete = \"F9\"\nsave = 3\nlab = [\"F9\",\n  \"Ctrl+Fo\"]\nquit = \"F7\"\nnew = \"f7\"\n";
-        let (keymap, mistakes) = read(text);
-        let found: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
+        let (keymap, errors) = read(text);
+        let found: Vec<_> = errors.iter().map(|m| (m.line, m.text.as_str())).collect();
         let wanted = [
             (2, "unknown action \"palete\"; did you mean \"palette\"?"),
             (3, "the keys of save must be a string or a list: save = [\"Ctrl+K\", \"F4\"]"),
@@ -126,10 +126,10 @@ mod tests {
         let hints = [Action::Palette, Action::Save, Action::Panel(Panel::Lab), Action::Quit, Action::New]
             .map(|a| keymap.hint(a));
         assert_eq!(hints, ["Ctrl+Shift+P", "Ctrl+S", "Ctrl+Shift+Y", "F7", "Ctrl+N"]);
-        let (_, mistakes) = read("save = \"F2\"\nopen = \n");
-        assert_eq!(mistakes.len(), 1);
-        assert_eq!(mistakes[0].line, 2);
-        assert!(mistakes[0].text.ends_with("write lines like: palette = \"Ctrl+Shift+P\""), "{mistakes:?}");
+        let (_, errors) = read("save = \"F2\"\nopen = \n");
+        assert_eq!(errors.len(), 1);
+        assert_eq!(errors[0].line, 2);
+        assert!(errors[0].text.ends_with("write lines like: palette = \"Ctrl+Shift+P\""), "{errors:?}");
     }
 
     /// The comments of a new file match the defaults.
@@ -137,8 +137,8 @@ mod tests {
     fn comments_of_a_new_file_match_the_defaults() {
         let is_row = |line: &&str| line.contains(" = ") && !line.starts_with("# name");
         let text = template().lines().filter(is_row).map(|line| &line[2..]).collect::<Vec<_>>().join("\n");
-        let (keymap, mistakes) = read(&text);
-        assert_eq!(mistakes, []);
+        let (keymap, errors) = read(&text);
+        assert_eq!(errors, []);
         for entry in ACTIONS {
             assert_eq!(keymap.chords(entry.action), Keymap::default().chords(entry.action), "{}", entry.name);
         }

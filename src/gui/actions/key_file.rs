@@ -12,8 +12,8 @@ impl Content for Arc<Keymap> {
     const STAYS: &str = "The keyboard shortcuts stay as they are.";
 
     fn read(text: &str) -> (Self, Vec<ConfigError>) {
-        let (keymap, mistakes) = file::read(text);
-        (Arc::new(keymap), mistakes)
+        let (keymap, errors) = file::read(text);
+        (Arc::new(keymap), errors)
     }
 
     fn template() -> String {

@@ -72,7 +72,7 @@ impl Default for Keymap {
 
 impl Keymap {
     /// Assigns other keys to an action, and removes them from every other action that is active at the same time.
-    pub(crate) fn give(&mut self, entry: &Entry, chords: Vec<Chord>) {
+    pub(crate) fn assign(&mut self, entry: &Entry, chords: Vec<Chord>) {
         for (other, keys) in ACTIONS.iter().zip(&mut self.chords) {
             if level(other.group) == level(entry.group) {
                 keys.retain(|k| !chords.contains(k));
@@ -104,7 +104,7 @@ impl Keymap {
     }
 
     /// Returns all keys of an action; those that do not work while typing are marked.
-    pub(crate) fn listed(&self, entry: &Entry) -> String {
+    pub(crate) fn key_list(&self, entry: &Entry) -> String {
         let name = |chord: &Chord| {
             let is_taken = level(entry.group) > 0 && self.holder(0, chord.key, chord.modifiers).is_some();
             if is_taken { format!("{chord} (not while typing)") } else { chord.to_string() }
@@ -148,8 +148,8 @@ fn is_plus(key: Key) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gui::dock::Panel;
     use crate::gui::editor::{EditorAction as Code, Motion, Vertical};
+    use crate::gui::panels::Panel;
 
     fn press(key: Key, modifiers: Modifiers) -> Event {
         Event::Key { key, physical_key: Some(key), pressed: true, repeat: false, modifiers }
@@ -213,13 +213,13 @@ mod tests {
     fn reassigning_a_key_removes_it_from_its_old_action() {
         let mut keymap = Keymap::default();
         let entry = ACTIONS.iter().find(|e| e.name == "lab").unwrap();
-        keymap.give(entry, vec![Chord::parse("Ctrl+P").unwrap()]);
+        keymap.assign(entry, vec![Chord::parse("Ctrl+P").unwrap()]);
         assert_eq!(keymap.hint(Action::Panel(Panel::Lab)), "Ctrl+P");
         assert_eq!(keymap.hint(Action::Screenshot), "F12");
         let play = ACTIONS.iter().find(|e| e.name == "play").unwrap();
-        assert_eq!(keymap.listed(play), "Alt+Up (not while typing), F5");
-        keymap.give(play, vec![]);
-        assert_eq!((keymap.listed(play).as_str(), keymap.hint(Action::TogglePlay).as_str()), ("", ""));
+        assert_eq!(keymap.key_list(play), "Alt+Up (not while typing), F5");
+        keymap.assign(play, vec![]);
+        assert_eq!((keymap.key_list(play).as_str(), keymap.hint(Action::TogglePlay).as_str()), ("", ""));
     }
 
     /// In the code Alt+Down moves a line, and Reset has another key that works there.
@@ -234,11 +234,11 @@ mod tests {
         );
         assert_eq!(hint(trace, Action::TogglePlay), "", "F5 continues, Alt+Up moves");
         for (entry, at) in ACTIONS.iter().flat_map(|entry| [code, elsewhere, trace].map(|at| (entry, at))) {
-            let Ok(said) = Chord::parse(&hint(at, entry.action)) else { continue };
-            let does = Keymap::default().pressed(&press(said.key, said.modifiers), at);
+            let Ok(hint_chord) = Chord::parse(&hint(at, entry.action)) else { continue };
+            let triggered = Keymap::default().pressed(&press(hint_chord.key, hint_chord.modifiers), at);
             // The code's own keys are active only while the code has the keyboard focus.
-            let is_heard = at.levels().any(|l| l == level(entry.group));
-            assert!(!is_heard || does.is_some_and(|e| e.name == entry.name), "{said} with {at:?}");
+            let is_active = at.levels().any(|l| l == level(entry.group));
+            assert!(!is_active || triggered.is_some_and(|e| e.name == entry.name), "{hint_chord} with {at:?}");
         }
     }
 }

@@ -10,9 +10,10 @@ use crate::{
         Stride,
     },
     gui::{
-        dock::{Panel, Side},
+        dock::Side,
         editor::{EditorAction as Code, Motion, Vertical},
         geometry::Shape,
+        panels::Panel,
         settings::Theme,
     },
 };
@@ -84,7 +85,27 @@ const fn or_mac(keys: &'static [&'static str], mac: &'static [&'static str]) -> 
 
 /// Keys are Shadertoy's if it has one, else those of VS Code. In the code, VS Code's take precedence: there Alt+Up
 /// moves a line, while F5 plays and pauses everywhere.
-pub(crate) const ACTIONS: &[Entry] = &[
+pub(crate) const ACTIONS: &[Entry] = &with_panels();
+
+/// Adds the actions that open and close panels, before those of the layout.
+const fn with_panels() -> [Entry; OWN.len() + Panel::COUNT] {
+    let mut all = [OWN[0]; OWN.len() + Panel::COUNT];
+    let (mut own, mut panel) = (0, 0);
+    while own + panel < all.len() {
+        let is_next = own == OWN.len() || matches!(OWN[own].action, Action::ResetLayout);
+        if is_next && panel < Panel::COUNT {
+            all[own + panel] = Panel::action(panel);
+            panel += 1;
+        } else {
+            all[own + panel] = OWN[own];
+            own += 1;
+        }
+    }
+    all
+}
+
+/// All other actions.
+const OWN: &[Entry] = &[
     row(Action::Save, "save", "Save", &["Ctrl+S"], Group::Project).found_by("write store"),
     row(Action::SaveAs, "save-as", "Save as", &["Ctrl+Shift+S"], Group::Project).found_by("export copy duplicate"),
     row(Action::ExportJson, "export-json", "Export to Shadertoy JSON", &[], Group::Project)
@@ -114,7 +135,7 @@ pub(crate) const ACTIONS: &[Entry] = &[
     time(TimeAction::GoTo, "go-to-time", "Go to time", &["Alt+G"]).found_by("seek jump"),
     time(TimeAction::Slower, "slower", "Halve playback speed", &[]).found_by("slow motion speed"),
     time(TimeAction::Faster, "faster", "Double playback speed", &[]).found_by("fast speed"),
-    time(TimeAction::UsualSpeed, "usual-speed", "Reset playback speed", &[]).found_by("normal 1x"),
+    time(TimeAction::ResetSpeed, "usual-speed", "Reset playback speed", &[]).found_by("normal 1x"),
     time(TimeAction::FixedStep, "fixed-step", "Toggle fixed time step", &[]).found_by("deterministic fps"),
     time(TimeAction::LoopFrom, "loop-from", "Set loop start", &["Alt+["]).found_by("repeat range in"),
     time(TimeAction::LoopTo, "loop-to", "Set loop end", &["Alt+]"]).found_by("repeat range out"),
@@ -202,14 +223,6 @@ pub(crate) const ACTIONS: &[Entry] = &[
     row(Action::TabRight, "tab-right", "Go to the tab on the right", &["Alt+Right", "Ctrl+PageDown"], Group::Window),
     row(Action::NextPanel, "next-panel", "Focus next panel", &["F6"], Group::Window).found_by("switch window"),
     row(Action::PreviousPanel, "previous-panel", "Focus previous panel", &["Shift+F6"], Group::Window),
-    row(
-        Action::Panel(Panel::Lab),
-        "lab",
-        "Panel: Lab (speed against error)",
-        &["Ctrl+Shift+Y", "Ctrl+Shift+L"],
-        Group::Window,
-    )
-    .found_by("benchmark study measure"),
     row(Action::LabReport, "lab-report", "Save lab report", &[], Group::Window).found_by("export html plots tables"),
     row(
         Action::Passes,
@@ -228,57 +241,7 @@ pub(crate) const ACTIONS: &[Entry] = &[
         &["Ctrl+Shift+Z", "Ctrl+Y"],
         Group::Window,
     ),
-    row(
-        Action::Panel(Panel::Costs),
-        "costs",
-        "Panel: Costs (time and memory of each pass)",
-        &["Ctrl+Shift+M"],
-        Group::Window,
-    )
-    .found_by("profiler profile performance timing gpu memory"),
-    row(Action::Panel(Panel::Picture), "picture-panel", "Panel: Picture", &[], Group::Window),
-    row(Action::Panel(Panel::Code), "code-panel", "Panel: Code", &[], Group::Window),
-    row(Action::Panel(Panel::Uniforms), "uniforms", "Panel: Uniforms", &[], Group::Window)
-        .found_by("sliders parameters tweak"),
-    row(Action::Panel(Panel::Channels), "channels", "Panel: Channels", &[], Group::Window)
-        .found_by("inputs textures samplers"),
-    row(Action::Panel(Panel::Trace), "trace", "Panel: Trace (debugger)", &["Ctrl+Shift+D"], Group::Window)
-        .found_by("debug step inspect"),
-    row(
-        Action::Panel(Panel::Buffers),
-        "buffers",
-        "Panel: Buffers (texels and render graph)",
-        &["Ctrl+Shift+T"],
-        Group::Window,
-    )
-    .found_by("textures graph inspect nan"),
-    row(
-        Action::Panel(Panel::Compare),
-        "compare",
-        "Panel: Compare (with the last save, a project or a revision)",
-        &["Ctrl+Shift+O"],
-        Group::Window,
-    )
-    .found_by("diff difference git a/b"),
-    row(
-        Action::Panel(Panel::Measurements),
-        "measurements",
-        "Panel: Measurements (//@probe values over time)",
-        &["Ctrl+Shift+J"],
-        Group::Window,
-    )
-    .found_by("plot chart metrics graph"),
-    row(Action::Panel(Panel::Sound), "sound", "Panel: Sound (waveform and spectrum)", &[], Group::Window)
-        .found_by("audio music waveform spectrum samples"),
-    row(
-        Action::Panel(Panel::Recorder),
-        "recorder",
-        "Panel: Recorder (films, GIFs and image sequences)",
-        &["Shift+Alt+R"],
-        Group::Window,
-    )
-    .found_by("record video movie gif mp4 webm render export capture screen sequence"),
-    row(Action::UsualLayout, "usual-layout", "Reset layout", &[], Group::Window)
+    row(Action::ResetLayout, "usual-layout", "Reset layout", &[], Group::Window)
         .found_by("default windows workspace panels"),
     layout(LayoutAction::Resize(Side::Left), "panel-narrower", "Make panel narrower", &["Ctrl+Shift+Alt+Left"]),
     layout(LayoutAction::Resize(Side::Right), "panel-wider", "Make panel wider", &["Ctrl+Shift+Alt+Right"]),

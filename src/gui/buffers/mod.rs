@@ -15,6 +15,5 @@ mod search;
 mod state;
 mod zoom;
 
-pub(super) use panel::{Context, show};
-pub(super) use report::report;
+pub(super) use panel::PANEL;
 pub(super) use state::Buffers;

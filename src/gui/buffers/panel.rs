@@ -1,26 +1,25 @@
 //! The panel: its pages, and the parts of each.
 
-use super::{
-    canvas, controls, figures, graph, list, search,
-    state::{Buffers, Page},
-};
+use super::{canvas, controls, figures, graph, list, report::report, search, state::Page};
 use crate::{
-    gui::{channels::Live, theme, ui_output::UiOutput},
-    session::{Session, buffers::reason},
+    gui::{
+        panels::{Content, DefaultPlace, MARGIN, PanelContext, PanelRow},
+        theme,
+    },
+    session::buffers::reason,
 };
 use egui::{Align2, FontId, Rect, Ui, UiBuilder, pos2, vec2};
 
-/// The parts of the window that the panel needs.
-pub(crate) struct Context<'a> {
-    /// Thumbnails of passes.
-    pub live: &'a mut Live,
-    /// The point of the window's picture below the pointer, from 0 to 1.
-    pub under_picture: Option<[f32; 2]>,
-}
+pub(crate) const PANEL: PanelRow =
+    PanelRow::new("buffers", "Buffers", DefaultPlace::BelowCodeLarge, Content::Within(MARGIN, show))
+        .report(|state, _, session| report(&state.buffers, session))
+        .action("Panel: Buffers (texels and render graph)", &["Ctrl+Shift+T"], "textures graph inspect nan");
 
-pub(crate) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, context: Context<'_>, out: &mut UiOutput) {
+fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let PanelContext { live, under_picture, session, out, .. } = context;
+    let state = &mut context.project_ui.buffers;
     out.stop("buffers", ui);
-    state.begin();
+    state.start_frame();
     ui.spacing_mut().item_spacing = vec2(5.0, 4.0);
     let target = state.target(session.project());
     if let Some(target) = &target {
@@ -45,7 +44,7 @@ pub(crate) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, context:
     let (left, right) = upper.split_left_right_at_x(upper.left() + beside);
     let canvas = right.with_min_x(right.left() + 6.0);
     let canvas = if foot > 0.0 { canvas.with_max_y(canvas.bottom() - 4.0) } else { canvas };
-    canvas::show(state, ui, session, (canvas, context.under_picture), out);
+    canvas::show(state, ui, session, (canvas, *under_picture), out);
     if state.seen.is_none() {
         state.wants_costs = true;
         let costs = session.pass_costs();
@@ -53,7 +52,7 @@ pub(crate) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, context:
         let why = reason(&target.0, &all).unwrap_or_else(|| "Reading…".to_owned());
         note(ui, canvas, &format!("{} {why}", target.0.title()));
     }
-    within(ui, left, "list", |ui| list::show(state, ui, session, context.live, out));
+    within(ui, left, "list", |ui| list::show(state, ui, session, live, out));
     if foot > 0.0 {
         within(ui, lower, "figures", |ui| figures::show(state, ui, out));
     }

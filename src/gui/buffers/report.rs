@@ -14,7 +14,7 @@ use crate::{
 };
 use serde_json::{Value, json};
 
-pub(crate) fn report(state: &Buffers, session: &Session) -> Value {
+pub(super) fn report(state: &Buffers, session: &Session) -> Value {
     let project = session.project();
     let under: serde_json::Map<String, Value> = session
         .texels_under()

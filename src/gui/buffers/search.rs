@@ -7,7 +7,7 @@ use crate::{
         theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    session::{Count, Session, Status, ToolCommand},
+    session::{Command, Count, Session, Status, ToolCommand},
 };
 use egui::{Label, RichText, Ui};
 
@@ -21,9 +21,7 @@ pub(super) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mu
     ui.horizontal_wrapped(|ui| match search {
         Some(Status::UnderWay(Count { done, of })) => {
             // Before the words, which get wider: a button must not move away from the pointer.
-            if out.clicked("buffers:stop", &ui.button("Stop")) {
-                out.ask(ToolCommand::FindNonfinite(false));
-            }
+            out.on_click("buffers:stop", &ui.button("Stop"), Command::Tool(ToolCommand::FindNonfinite(false)));
             ui.spinner();
             ui.label(format!("Searching for the first NaN: frame {done} of {of}"));
         }
@@ -56,9 +54,7 @@ pub(super) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mu
             }
             find(ui, "Search again", out);
             let close = ui.button("Close").on_hover_text("Dismiss");
-            if out.clicked("buffers:close-search", &close) {
-                out.ask(ToolCommand::FindNonfinite(false));
-            }
+            out.on_click("buffers:close-search", &close, Command::Tool(ToolCommand::FindNonfinite(false)));
         }
     });
 }
@@ -66,9 +62,7 @@ pub(super) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mu
 fn find(ui: &mut Ui, name: &str, out: &mut UiOutput) {
     let tip = "Replays the kept frames in the background and reports the first NaN: pass, frame, texel and line";
     let response = ui.button(name).on_hover_text(tip);
-    if out.clicked("buffers:find", &response) {
-        out.ask(ToolCommand::FindNonfinite(true));
-    }
+    out.on_click("buffers:find", &response, Command::Tool(ToolCommand::FindNonfinite(true)));
 }
 
 fn first(state: &mut Buffers, ui: &mut Ui, found: &FirstNonfinite, out: &mut UiOutput) {

@@ -115,7 +115,7 @@ impl Buffers {
     }
 
     /// Starts a frame of the panel.
-    pub(super) fn begin(&mut self) {
+    pub(super) fn start_frame(&mut self) {
         (self.is_shown, self.wants_costs) = (true, false);
         (self.under, self.texel, self.scale) = (None, None, None);
         self.written.clear();

@@ -1,20 +1,19 @@
 //! The popup of a channel's card, which chooses its input and sampler.
 
 use super::{
+    device_rows,
     names::{filter_name, input_name, wrap_name},
     swatch::{Swatches, folder},
 };
 use crate::{
     gui::{
-        accessible,
-        actions::Action,
-        devices, theme,
+        accessible, theme,
         thumbnails::FolderFile,
         ui_output::{Pick, ShellCommand, UiOutput},
     },
     media,
     project::{Channel, FileKind, Filter, Input, InputKind, InputSource, Media, PassName, Wrap},
-    session::{EditCommand, FileCommand, Session, SoundCommand},
+    session::{Command, EditCommand, FileCommand},
 };
 use egui::{ComboBox, FontId, Rect, ScrollArea, Sense, Ui, pos2, vec2};
 use std::time::Instant;
@@ -29,16 +28,12 @@ pub(super) fn choose(
     out: &mut UiOutput,
 ) {
     let session = swatches.session;
-    let set = |out: &mut UiOutput, channel: Option<Channel>| {
-        out.ask(EditCommand::SetChannel { pass: pass.clone(), index, channel });
-    };
+    let set = |channel: Option<Channel>| Command::Edit(EditCommand::SetChannel { pass: pass.clone(), index, channel });
     let now = channel.map(|c| &c.input);
     ui.colored_label(theme::of(ui).weak, format!("iChannel{index} of {} reads", pass.title()));
     ui.horizontal_wrapped(|ui| {
         let none = ui.selectable_label(now.is_none(), "none");
-        if out.clicked("choose:none", &none) {
-            set(out, None);
-        }
+        out.on_click("choose:none", &none, set(None));
         for other in &session.project().passes {
             let Some(name) = other.id.buffer_name() else { continue };
             for target in 0..other.formats().len() {
@@ -49,7 +44,7 @@ pub(super) fn choose(
                 };
                 let item = ui.selectable_label(now == Some(&input), input_name(&input));
                 if out.clicked(&place, &item) && now != Some(&input) {
-                    set(out, Some(Channel::new(input)));
+                    out.ask(set(Some(Channel::new(input))));
                 }
             }
         }
@@ -57,28 +52,20 @@ pub(super) fn choose(
         for row in rows.filter(|row| row.source == InputSource::Device) {
             let input = Input::Device(row.kind);
             let item = ui.selectable_label(now == Some(&input), row.title);
-            if out.clicked(&format!("choose:{}", row.key), &item) {
-                set(out, Some(Channel::new(input)));
-            }
+            out.on_click(&format!("choose:{}", row.key), &item, set(Some(Channel::new(input))));
         }
-        if out.clicked("choose:file", &ui.button("Image or video file…")) {
-            out.shell_commands.push(ShellCommand::Pick(Pick::Picture { channel: index }));
-        }
-        if out.clicked("choose:sound", &ui.button("Music…")) {
-            out.shell_commands.push(ShellCommand::Pick(Pick::Sound { channel: index }));
-        }
+        out.on_click(
+            "choose:file",
+            &ui.button("Image or video file…"),
+            ShellCommand::Pick(Pick::Picture { channel: index }),
+        );
+        out.on_click("choose:sound", &ui.button("Music…"), ShellCommand::Pick(Pick::Sound { channel: index }));
     });
-    if now.is_some_and(|input| input.kind() == InputKind::Webcam) {
-        devices::choose(ui, session, out);
+    if let Some(row) = now.and_then(device_rows::of) {
+        (row.controls)(ui, session, out);
     }
     if let Some(channel) = channel {
         sampler(ui, channel, out, set);
-    }
-    if now.is_some_and(|input| input.kind() == InputKind::Microphone) {
-        microphone(ui, session, out);
-    }
-    if now.is_some_and(|input| input.kind() == InputKind::Gamepad) {
-        gamepads(ui, session, out);
     }
     ui.separator();
     ScrollArea::vertical().max_height(250.0).auto_shrink([false, true]).show(ui, |ui| {
@@ -96,7 +83,7 @@ pub(super) fn choose(
                         texture_card(ui, rect, name, &input, chosen || response.hovered(), swatches);
                     }
                     if out.clicked(&format!("choose:{}:{name}", kind.row().key), &response) && !chosen {
-                        set(out, Some(Channel::new(input)));
+                        out.ask(set(Some(Channel::new(input))));
                     }
                     response.on_hover_text(name);
                 }
@@ -148,38 +135,6 @@ fn files(
     });
 }
 
-/// Shows the switch of the microphone, which no project can turn on.
-fn microphone(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
-    let Some(view) = session.microphone_view() else { return };
-    let (text, note) = match view.is_on {
-        true => ("Turn the microphone off", "The microphone is on."),
-        false => ("Use the microphone", "The microphone is off: the channel shows a made-up spectrum."),
-    };
-    ui.horizontal_wrapped(|ui| {
-        if out.clicked("choose:use-microphone", &ui.button(text)) {
-            out.ask(SoundCommand::UseMicrophone(!view.is_on));
-        }
-        ui.colored_label(theme::of(ui).weak, note);
-    });
-}
-
-/// Explains how to read gamepads, which the settings switch on.
-fn gamepads(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
-    let view = session.controls_view();
-    let note = match view.gamepads {
-        _ if !view.has_gamepads => "This build of Eddy reads no gamepads: the channel is zero.".to_owned(),
-        None => "Gamepads are off: the channel is zero.".to_owned(),
-        Some(pads) if pads.connected.is_empty() => "No gamepad is connected.".to_owned(),
-        Some(pads) => pads.connected.into_values().collect::<Vec<_>>().join(", "),
-    };
-    ui.horizontal_wrapped(|ui| {
-        if view.has_gamepads && out.clicked("choose:gamepad-settings", &ui.button("Settings…")) {
-            out.act(Action::Settings);
-        }
-        ui.colored_label(theme::of(ui).weak, note);
-    });
-}
-
 /// The kinds of input that have built-in files.
 const BUILT_IN: [(InputKind, &str); 3] = [
     (InputKind::Texture, "Textures that come with Eddy"),
@@ -200,7 +155,7 @@ fn texture_card(ui: &Ui, rect: Rect, name: &str, input: &Input, hot: bool, swatc
 }
 
 /// Shows filter, wrap and flip, as far as the input has them.
-fn sampler(ui: &mut Ui, channel: &Channel, out: &mut UiOutput, set: impl Fn(&mut UiOutput, Option<Channel>)) {
+fn sampler(ui: &mut Ui, channel: &Channel, out: &mut UiOutput, set: impl Fn(Option<Channel>) -> Command) {
     if channel.input.row().has_fixed_sampler {
         return;
     }
@@ -226,6 +181,6 @@ fn sampler(ui: &mut Ui, channel: &Channel, out: &mut UiOutput, set: impl Fn(&mut
         }
     });
     if sampler != channel.sampler {
-        set(out, Some(Channel { sampler, ..channel.clone() }));
+        out.ask(set(Some(Channel { sampler, ..channel.clone() })));
     }
 }

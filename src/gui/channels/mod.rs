@@ -1,6 +1,7 @@
 //! The panel of channels: the input and sampler of each channel of the selected pass.
 
 mod choose;
+mod device_rows;
 mod live;
 mod names;
 mod sound;
@@ -8,27 +9,37 @@ mod swatch;
 
 pub(super) use live::Live;
 
-use super::{theme, thumbnails::Thumbnails, ui_output::UiOutput};
+use super::{
+    panels::{Content, DefaultPlace, PanelContext, PanelRow},
+    theme,
+};
 use crate::{
     project::{self, Channel, Pass, SLOTS, Tab},
     session::Session,
 };
 use egui::{
-    Align2, Color32, FontId, Popup, PopupCloseBehavior, Rect, Response, Sense, Stroke, StrokeKind, Ui, pos2, vec2,
+    Align2, Color32, FontId, Margin, Popup, PopupCloseBehavior, Rect, Response, Sense, Stroke, StrokeKind, Ui, pos2,
+    vec2,
 };
 use names::{input_name, sampler_name};
 use swatch::Swatches;
 
+pub(super) const PANEL: PanelRow =
+    PanelRow::new("channels", "Channels", DefaultPlace::Own, Content::Within(Margin::ZERO, show))
+        .open_by_default()
+        .heading(|context| title(context.session, context.code.current()))
+        .action("Panel: Channels", &[], "inputs textures samplers");
+
 /// The preferred height of the cards, with their margins.
 pub(super) const HEIGHT: f32 = 92.0;
 /// The maximum height of the cards.
-const MOST: f32 = 128.0;
+const MAX_HEIGHT: f32 = 128.0;
 /// The width of a channel that reads nothing.
-const EMPTY: f32 = 46.0;
+const EMPTY_WIDTH: f32 = 46.0;
 const GAP: f32 = 6.0;
 
 /// Returns the panel's title, which names the pass.
-pub(super) fn title(session: &Session, tab: &Tab) -> String {
+fn title(session: &Session, tab: &Tab) -> String {
     match pass(session, tab) {
         Some(pass) => format!("Channels of {}", pass.id.title()),
         None => "Channels".to_owned(),
@@ -44,14 +55,9 @@ fn pass<'s>(session: &'s Session, tab: &Tab) -> Option<&'s Pass> {
     }
 }
 
-pub(super) fn show(
-    ui: &mut Ui,
-    session: &Session,
-    tab: &Tab,
-    thumbnails: &mut Thumbnails,
-    live: &mut Live,
-    out: &mut UiOutput,
-) {
+fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let PanelContext { session, code, thumbnails, live, out, .. } = context;
+    let tab = code.current();
     out.stop("channels", ui);
     let rect = ui.available_rect_before_wrap();
     let mut swatches = Swatches { session, thumbnails, live };
@@ -66,7 +72,7 @@ pub(super) fn show(
         return;
     };
     let inner = rect.shrink2(vec2(8.0, 0.0)).with_max_y(rect.bottom() - 8.0);
-    let height = inner.height().clamp(24.0, MOST);
+    let height = inner.height().clamp(24.0, MAX_HEIGHT);
     let widths = widths(inner.width(), &std::array::from_fn(|slot| pass.bindings.get(slot).is_some()));
     let mut left = inner.left();
     for (index, width) in widths.into_iter().enumerate() {
@@ -90,7 +96,7 @@ pub(super) fn show(
 fn widths(width: f32, is_read: &[bool; SLOTS]) -> [f32; SLOTS] {
     let empty = is_read.iter().filter(|read| !**read).count() as f32;
     let room = width - 3.0 * GAP;
-    let least = EMPTY.min(room / 4.0);
+    let least = EMPTY_WIDTH.min(room / 4.0);
     let of_read = (room - empty * least) / (4.0 - empty).max(1.0);
     is_read.map(|read| if read { of_read.clamp(0.0, 260.0) } else { least })
 }
@@ -142,12 +148,12 @@ fn show_card(ui: &Ui, card: Rect, index: usize, channel: &Channel, swatches: &mu
         }
         text = if is_upright { text.with_min_y(place.bottom() + 2.0) } else { text.with_min_x(place.right() + 8.0) };
     }
-    let has_room = |text_: &str, size: f32| {
-        let galley = painter.layout_no_wrap(text_.to_owned(), FontId::proportional(size), p.weak);
+    let has_room = |line_text: &str, size: f32| {
+        let galley = painter.layout_no_wrap(line_text.to_owned(), FontId::proportional(size), p.weak);
         galley.size().x <= card.right() - text.left() - 5.0
     };
-    let line = |y: f32, text_: &str, size: f32, color: Color32| {
-        let mut job = egui::text::LayoutJob::simple_singleline(text_.to_owned(), FontId::proportional(size), color);
+    let line = |y: f32, line_text: &str, size: f32, color: Color32| {
+        let mut job = egui::text::LayoutJob::simple_singleline(line_text.to_owned(), FontId::proportional(size), color);
         job.wrap = egui::text::TextWrapping::truncate_at_width((card.right() - text.left() - 5.0).max(8.0));
         let galley = painter.layout_job(job);
         painter.galley(pos2(text.left(), y - galley.size().y / 2.0), galley, color);
@@ -188,9 +194,9 @@ mod tests {
         let all = widths(600.0, &[true; 4]);
         assert!((sum(all) - 600.0).abs() < 0.1 && all[0] == all[3]);
         let one = widths(600.0, &[false, true, false, false]);
-        assert_eq!((one[0], one[1]), (EMPTY, 260.0));
+        assert_eq!((one[0], one[1]), (EMPTY_WIDTH, 260.0));
         let none = widths(600.0, &[false; 4]);
-        assert_eq!(none, [EMPTY; 4]);
+        assert_eq!(none, [EMPTY_WIDTH; 4]);
         assert!(sum(widths(120.0, &[true, false, true, false])) <= 120.1);
     }
 }

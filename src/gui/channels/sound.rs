@@ -21,27 +21,23 @@ const FLOOR: f32 = -48.0;
 /// The peaks of a sound's stretches, each from 0 to 1.
 type Outline = Arc<[f32]>;
 
-/// Shows music or the microphone. Returns false if the input is neither, or not loaded.
+/// Shows music. Returns false if the input is something else, or not loaded.
 pub(super) fn show(ui: &Ui, session: &Session, place: Rect, input: &Input) -> bool {
-    match input {
-        Input::Media { kind: InputKind::Music, media } => {
-            let Some(sound) = session.music(media) else { return false };
-            let outline = outline(ui, sound);
-            let transport = session.transport();
-            let (strip, bar) = split(place);
-            wave(ui, strip, &outline, transport.time_secs.rem_euclid(sound.seconds().max(1e-6)) / sound.seconds());
-            meter(ui, bar, if transport.playing { level_at(sound, transport.time_secs) } else { 0.0 });
-            true
-        }
-        Input::Device(InputKind::Microphone) => {
-            let Some(view) = session.microphone_view().filter(|view| view.is_on) else { return false };
-            ui.painter().rect_filled(place, 3.0, theme::of(ui).surround);
-            let bar = Rect::from_center_size(place.center(), vec2(place.width() - 12.0, BAR + 3.0));
-            across(ui, bar, view.level);
-            true
-        }
-        _ => false,
-    }
+    let Input::Media { kind: InputKind::Music, media } = input else { return false };
+    let Some(sound) = session.music(media) else { return false };
+    let outline = outline(ui, sound);
+    let transport = session.transport();
+    let (strip, bar) = split(place);
+    wave(ui, strip, &outline, transport.time_secs.rem_euclid(sound.seconds().max(1e-6)) / sound.seconds());
+    meter(ui, bar, if transport.playing { level_at(sound, transport.time_secs) } else { 0.0 });
+    true
+}
+
+/// Shows the level of a sound that has no picture.
+pub(super) fn show_level(ui: &Ui, place: Rect, level: f32) {
+    ui.painter().rect_filled(place, 3.0, theme::of(ui).surround);
+    let bar = Rect::from_center_size(place.center(), vec2(place.width() - 12.0, BAR + 3.0));
+    across(ui, bar, level);
 }
 
 fn split(place: Rect) -> (Rect, Rect) {

@@ -1,6 +1,10 @@
 //! The thumbnail of an input.
 
-use super::{Live, sound};
+use super::{
+    Live,
+    device_rows::{self, DeviceThumbnail},
+    sound,
+};
 use crate::{
     gui::{
         theme,
@@ -27,21 +31,22 @@ pub(super) struct Swatches<'a> {
 impl Swatches<'_> {
     /// Shows an input in a place: a texture as it is, a pass by its live thumbnail.
     pub(super) fn show(&mut self, ui: &Ui, place: Rect, input: &Input) {
-        if let Some((pass, index)) = input.target()
-            && let Some((texture, aspect)) = self.live.get(ui, self.session, pass, index)
-        {
+        let device = device_rows::of(input).map_or(&DeviceThumbnail::None, |row| &row.thumbnail);
+        let texture = match (input.target(), device) {
+            (Some((pass, index)), _) => self.live.get(ui, self.session, pass, index),
+            (None, DeviceThumbnail::Texture(texture)) => texture(self.live, ui, self.session),
+            (None, _) => None,
+        };
+        if let Some((texture, aspect)) = texture {
             let shown = fitting(place, aspect);
             ui.painter().rect_filled(place, 3.0, theme::of(ui).surround);
             return egui::Image::new((texture.id(), shown.size())).corner_radius(3.0).paint_at(ui, shown);
         }
-        if *input == Input::Device(InputKind::Webcam)
-            && let Some((texture, aspect)) = self.live.camera(ui, self.session)
-        {
-            let shown = fitting(place, aspect);
-            ui.painter().rect_filled(place, 3.0, theme::of(ui).surround);
-            return egui::Image::new((texture.id(), shown.size())).corner_radius(3.0).paint_at(ui, shown);
-        }
-        if !sound::show(ui, self.session, place, input) {
+        let is_painted = match device {
+            DeviceThumbnail::Painted(paint) => paint(ui, self.session, place),
+            _ => sound::show(ui, self.session, place, input),
+        };
+        if !is_painted {
             swatch(ui, self.session, place, input, self.thumbnails);
         }
     }

@@ -17,13 +17,13 @@ impl CodePanel {
         // During typing, Escape first reduces several carets to one.
         let is_for_code = self.has_keys(ui.ctx()) && self.buffer().is_some_and(|b| b.carets().list().len() > 1);
         match asked {
-            FindBarAction::Step(forward) => self.find_on(forward),
+            FindBarAction::Step(forward) => self.find_next(forward),
             FindBarAction::Replace => {
                 if let Some(editor) = self.editors.get_mut(&self.current) {
                     self.find.replace_one(&self.current, editor);
                 }
-                self.tell_changed(out);
-                self.find_on(true);
+                self.report_changed(out);
+                self.find_next(true);
             }
             FindBarAction::ReplaceAll => self.replace_all(out),
             FindBarAction::Nothing | FindBarAction::Close => {}

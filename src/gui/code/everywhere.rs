@@ -4,7 +4,7 @@ use super::CodePanel;
 use crate::{
     gui::{editor::Query, ui_output::UiOutput, uses::Uses},
     project::Tab,
-    session::{Level, NoticeCommand, Session},
+    session::{Level, Session},
 };
 use std::ops::Range;
 
@@ -76,10 +76,10 @@ impl CodePanel {
                 editor.edit(|buffer| buffer.replace_all(&finder, &matches, self.find.with()));
             }
         }
-        self.tell_changed(out);
+        self.report_changed(out);
         if count > 0 {
             let text = format!("Replaced {count} in {texts} texts. Undo takes it back, in each text by itself");
-            out.ask(NoticeCommand::Notify { level: Level::Info, text, path: None });
+            out.notify(Level::Info, text);
         }
     }
 }

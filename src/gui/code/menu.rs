@@ -18,10 +18,7 @@ pub(super) fn show(response: &Response, session: &Session, has_fix: bool, out: &
         let mut item = |ui: &mut Ui, name: &str, title: &str, action: Action, keys: &str, is_on: bool| {
             let keys = if keys.is_empty() { out.keys.hint(action) } else { keys.to_owned() };
             let button = ui.add_enabled(is_on, Button::new(title).shortcut_text(keys));
-            if out.clicked(&format!("code-menu:{name}"), &button) {
-                out.act(action);
-                ui.close();
-            }
+            out.on_menu_click(ui, &format!("code-menu:{name}"), &button, action);
         };
         let ctrl = |key: &str| format!("{}{key}", if cfg!(target_os = "macos") { "Cmd+" } else { "Ctrl+" });
         item(ui, "cut", "Cut", Action::Code(Code::Cut), &ctrl("X"), true);

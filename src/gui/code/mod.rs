@@ -13,6 +13,7 @@ mod requests;
 use super::{
     actions::{Action, KeyFocus, Keymap},
     editor::{Buffer, CodeEditor, Debug, EditorAction, Help, Look, Query},
+    panels::{Content, DefaultPlace, PanelContext, PanelRow},
     problems,
     tabs::{self, OpenFile},
     theme, toasts,
@@ -29,6 +30,16 @@ use find_bar::FindBar;
 use fixes::{Fixes, FixesAction};
 use rename_bar::RenameBar;
 use std::{collections::HashMap, ops::Range};
+
+pub(super) const PANEL: PanelRow = PanelRow {
+    action: ("code-panel", "Panel: Code", &[], ""),
+    is_open: true,
+    ..PanelRow::new("code", "Code", DefaultPlace::Own, Content::WithRow(show))
+};
+
+fn show(ui: &mut Ui, context: &mut PanelContext<'_>) -> bool {
+    context.code.show(ui, context.session, context.out)
+}
 
 #[derive(Default)]
 pub(super) struct CodePanel {
@@ -55,12 +66,12 @@ pub(super) struct CodePanel {
     /// The text takes the keyboard focus as soon as it is shown.
     takes_focus: bool,
     /// The number of shaders created so far; each new one takes the keyboard focus once.
-    begun: u64,
+    new_shaders: u64,
     /// The problem that was jumped to last.
     problem: Option<usize>,
     uses: Option<Uses>,
     /// The front tab that was last reported to the session.
-    told_front: Option<Tab>,
+    reported_front: Option<Tab>,
     /// The number of the session's pass renames that have been applied.
     followed: usize,
     /// The debugger's marks in the tab in front.
@@ -145,7 +156,7 @@ impl CodePanel {
         }
     }
 
-    pub(super) fn go_aside(&mut self, session: &Session, by: isize) {
+    pub(super) fn switch_tab(&mut self, session: &Session, by: isize) {
         let tabs = tabs::shown(session, &self.files);
         if let Some(at) = tabs.iter().position(|t| *t == self.current) {
             let to = (at as isize + by).rem_euclid(tabs.len() as isize) as usize;
@@ -196,7 +207,7 @@ impl CodePanel {
     }
 
     /// Goes to the next or the previous match, even while the bar is closed.
-    pub(super) fn find_on(&mut self, forward: bool) {
+    pub(super) fn find_next(&mut self, forward: bool) {
         if self.find.is_empty() {
             self.open_find(false);
         }
@@ -219,7 +230,7 @@ impl CodePanel {
         if let Some(editor) = self.editors.get_mut(&self.current) {
             self.find.replace_all(&self.current, editor);
         }
-        self.tell_changed(out);
+        self.report_changed(out);
     }
 
     /// Applies an action of a key or the palette to the text in front.
@@ -228,7 +239,7 @@ impl CodePanel {
             editor.act(action);
             editor.focus();
         }
-        self.tell_changed(out);
+        self.report_changed(out);
     }
 
     pub(super) fn open_go_to_line(&mut self) {
@@ -241,7 +252,7 @@ impl CodePanel {
     /// Takes over texts that were changed outside the editors.
     pub(super) fn prepare(&mut self, session: &Session) {
         let project = session.project();
-        if std::mem::replace(&mut self.begun, session.new_shader_count()) != session.new_shader_count() {
+        if std::mem::replace(&mut self.new_shaders, session.new_shader_count()) != session.new_shader_count() {
             self.takes_focus = true;
         }
         if self.project.0 != project.name || !same_place(&self.project.1, &project.origin) {
@@ -340,8 +351,8 @@ impl CodePanel {
             .show(ui, |ui| problems::show(ui, session, self.caret_line(), (room * 0.35).min(150.0), out));
         toasts::panel(ui, session, out);
         self.show_uses(ui, session, out);
-        if self.told_front.as_ref() != Some(&self.current) {
-            self.told_front = Some(self.current.clone());
+        if self.reported_front.as_ref() != Some(&self.current) {
+            self.reported_front = Some(self.current.clone());
             out.ask(EditCommand::BringToFront(self.current.clone()));
         }
         self.editor(ui, session, out);
@@ -380,7 +391,7 @@ impl CodePanel {
         for (line, rect) in shown.marked {
             out.place(format!("mark:{}", line + 1), rect);
         }
-        self.tell_changed(out);
+        self.report_changed(out);
         if let Some(line) = shown.clicked_line {
             out.shell_commands.push(ShellCommand::Breakpoint(self.current.clone(), line));
         }
@@ -392,8 +403,8 @@ impl CodePanel {
         if let Some(response) = &shown.response {
             menu::show(response, session, has_fix, out);
         }
-        for ask in shown.asks {
-            self.answer(session, ask, out);
+        for request in shown.requests {
+            self.answer(session, request, out);
             ui.ctx().request_repaint();
         }
         let (here, has_keys) = (self.fixed_at(), self.has_keys(ui.ctx()));

@@ -30,7 +30,7 @@ impl CodePanel {
             self.bring(tab);
             self.focus();
         }
-        self.tell_changed(out);
+        self.report_changed(out);
         Ok(())
     }
 
@@ -42,7 +42,7 @@ impl CodePanel {
     }
 
     /// Reports the texts that have changed to the session.
-    pub(super) fn tell_changed(&mut self, out: &mut UiOutput) {
+    pub(super) fn report_changed(&mut self, out: &mut UiOutput) {
         for (tab, editor) in &mut self.editors {
             if let Some(text) = CodeEditor::take_changed(editor) {
                 out.ask(EditCommand::EditText { tab: tab.clone(), text: text.to_owned() });

@@ -7,49 +7,49 @@ use super::{
 };
 use crate::{
     gui::{
-        editor::Ask,
+        editor::EditorRequest,
         ui_output::{ShellCommand, UiOutput},
         uses::Uses,
     },
     project::Tab,
-    session::{Level, NoticeCommand, Session},
+    session::{Level, Session},
 };
 use egui::Ui;
 
 impl CodePanel {
     /// Handles a request of the editor that concerns other texts.
-    pub(super) fn answer(&mut self, session: &Session, ask: Ask, out: &mut UiOutput) {
+    pub(super) fn answer(&mut self, session: &Session, request: EditorRequest, out: &mut UiOutput) {
         let tab = self.current.clone();
         let of_tab = session.analysis().filter(|a| a.front == tab).and_then(|a| Some((a, a.source_of(&tab)?)));
-        match (ask, of_tab) {
-            (Ask::OpenIncluded(at), _) => {
+        match (request, of_tab) {
+            (EditorRequest::OpenIncluded(at), _) => {
                 if let Some(tab) = session.project().included_at(&tab, at) {
                     self.bring(tab);
                     self.focus();
                 }
             }
-            (Ask::GoTo(span), Some((analysis, _))) => {
+            (EditorRequest::GoTo(span), Some((analysis, _))) => {
                 if let Some(tab) = analysis.tab_of(span.source) {
                     self.show_range(tab, span.range());
                 }
             }
-            (Ask::ListUses(at), Some((analysis, source))) => {
+            (EditorRequest::ListUses(at), Some((analysis, source))) => {
                 self.uses = Uses::new(session, session.uses(analysis, source, at));
             }
-            (Ask::Fix(at), _) => {
+            (EditorRequest::Fix(at), _) => {
                 let line = self.buffer().map_or(0, |buffer| buffer.line_of(at));
                 self.fixes = self.fixed_at().map(|now| Fixes::new(session, now, line));
             }
-            (Ask::Rename(at), _) => match RenameBar::new(session, tab, at) {
+            (EditorRequest::Rename(at), _) => match RenameBar::new(session, tab, at) {
                 Ok(bar) => {
                     self.rename = Some(bar);
                     self.go_to_line = None;
                     self.find.close();
                 }
-                Err(text) => out.ask(NoticeCommand::Notify { level: Level::Info, text, path: None }),
+                Err(text) => out.notify(Level::Info, text),
             },
-            (Ask::Paste, _) => out.shell_commands.push(ShellCommand::PasteCode),
-            (Ask::GoTo(_) | Ask::ListUses(_), None) => {}
+            (EditorRequest::Paste, _) => out.shell_commands.push(ShellCommand::PasteCode),
+            (EditorRequest::GoTo(_) | EditorRequest::ListUses(_), None) => {}
         }
     }
 

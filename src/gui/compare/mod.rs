@@ -9,6 +9,5 @@ mod pictures;
 mod report;
 mod state;
 
-pub(super) use panel::show;
-pub(super) use report::report;
+pub(super) use panel::PANEL;
 pub(super) use state::Compare;

@@ -2,11 +2,14 @@
 
 use super::{
     pictures,
+    report::report,
     state::{Choice, Compare, HoveredPixel, View},
 };
 use crate::{
     gui::{
-        accessible, theme,
+        accessible,
+        panels::{Content, DefaultPlace, MARGIN, PanelContext, PanelRow},
+        theme,
         ui_output::{Pick, ShellCommand, UiOutput},
     },
     lab::difference::{PictureDifference, Times},
@@ -15,20 +18,31 @@ use crate::{
 };
 use egui::{Label, ProgressBar, RichText, TextEdit, Ui, vec2};
 
+pub(crate) const PANEL: PanelRow =
+    PanelRow::new("compare", "Compare", DefaultPlace::BelowCodeLarge, Content::Within(MARGIN, show))
+        .report(|state, _, session| report(&state.compare, session))
+        .action(
+            "Panel: Compare (with the last save, a project or a revision)",
+            &["Ctrl+Shift+O"],
+            "diff difference git a/b",
+        );
+
 /// The height of the figures.
 const FOOT: f32 = 62.0;
 /// The factors by which a difference can be amplified.
 const GAINS: [u32; 4] = [1, 4, 16, 64];
 
-pub(crate) fn show(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let PanelContext { wake, session, out, .. } = context;
+    let state = &mut context.project_ui.compare;
     out.stop("compare", ui);
     ui.spacing_mut().item_spacing = vec2(5.0, 4.0);
-    state.update(ui.ctx(), session);
+    state.update(ui.ctx(), session, wake);
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
         reference(state, ui, out);
         ui.add_space(6.0);
-        begin(state, ui, session, out);
+        start_button(state, ui, session, out);
     });
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
@@ -77,18 +91,14 @@ fn reference(state: &mut Compare, ui: &mut Ui, out: &mut UiOutput) {
     }
     if state.choice == Choice::Project {
         let browse = ui.button("Browse…").on_hover_text("Choose the folder of the other project");
-        if out.clicked("compare:browse", &browse) {
-            out.shell_commands.push(ShellCommand::Pick(Pick::Reference));
-        }
+        out.on_click("compare:browse", &browse, ShellCommand::Pick(Pick::Reference));
     }
 }
 
 /// Shows the button that starts or stops, and the progress.
-fn begin(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+fn start_button(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     if let Some(Status::UnderWay(Count { done, of })) = session.comparison() {
-        if out.clicked("compare:stop", &ui.button("Stop")) {
-            out.ask(ToolCommand::Compare(None));
-        }
+        out.on_click("compare:stop", &ui.button("Stop"), Command::Tool(ToolCommand::Compare(None)));
         if of > 1 {
             let part = done as f32 / of as f32;
             let bar = ProgressBar::new(part).desired_width(130.0).text(format!("Frame {done} of {of}"));
@@ -149,7 +159,7 @@ fn figures(state: &Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) 
     let comparison = &seen.figures.comparison;
     ui.spacing_mut().item_spacing.y = 1.0;
     ui.add_space(3.0);
-    let mut first = whereabouts(comparison);
+    let mut first = location_text(comparison);
     if session.is_comparison_old() && !state.follows {
         first += " · the project has changed since";
     }
@@ -161,11 +171,11 @@ fn figures(state: &Compare, ui: &mut Ui, session: &Session, out: &mut UiOutput) 
     let label = ui.add(Label::new(RichText::new(second).color(p.text)).truncate());
     out.place("compare:figures", label.rect);
     if let Some(times) = seen.figures.times {
-        ui.add(Label::new(RichText::new(pace(&times)).color(p.text)).truncate());
+        ui.add(Label::new(RichText::new(speed_text(&times)).color(p.text)).truncate());
     }
 }
 
-fn whereabouts(comparison: &Comparison) -> String {
+fn location_text(comparison: &Comparison) -> String {
     let Comparison { pass, frame, ours, against, is_cut, is_camera_still, frames, .. } = comparison;
     let cut = if *is_cut { format!(" · last {frames} frames, from empty buffers") } else { String::new() };
     let camera = if *is_camera_still { " · all frames with the camera's last picture" } else { "" };
@@ -194,7 +204,7 @@ pub(super) fn distance(apart: &PictureDifference, comparison: &Comparison) -> St
     )
 }
 
-pub(super) fn pace(times: &Times) -> String {
+pub(super) fn speed_text(times: &Times) -> String {
     let Times { ours, theirs, ratio, ratio_low, ratio_high, turns } = times;
     format!(
         "{ours:.3} ms per frame against {theirs:.3}: ratio {ratio:.3} (quartiles {ratio_low:.3} to {ratio_high:.3}, \

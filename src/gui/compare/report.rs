@@ -1,7 +1,7 @@
 //! The report for scripts.
 
 use super::{
-    panel::{distance, pace},
+    panel::{distance, speed_text},
     state::{Compare, HoveredPixel, View},
 };
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
 };
 use serde_json::{Value, json};
 
-pub(crate) fn report(state: &Compare, session: &Session) -> Value {
+pub(super) fn report(state: &Compare, session: &Session) -> Value {
     let (name, why) = match session.comparison() {
         None => ("none", None),
         Some(Status::UnderWay(_)) => ("under way", None),
@@ -32,7 +32,7 @@ pub(crate) fn report(state: &Compare, session: &Session) -> Value {
             "ssim": apart.ssim,
             "flip": apart.mean_flip(),
             "ratio": seen.figures.times.map(|times| [times.ratio_low, times.ratio, times.ratio_high]),
-            "words": [distance(apart, comparison), seen.figures.times.as_ref().map(pace).unwrap_or_default()],
+            "words": [distance(apart, comparison), seen.figures.times.as_ref().map(speed_text).unwrap_or_default()],
         })
     });
     json!({

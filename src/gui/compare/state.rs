@@ -47,7 +47,6 @@ pub(super) struct HoveredPixel {
 
 /// The state of the panel.
 pub(crate) struct Compare {
-    wake: Arc<dyn Fn() + Send + Sync>,
     pub(super) choice: Choice,
     /// A folder, a file, or a preset's name.
     pub(super) project: String,
@@ -65,10 +64,9 @@ pub(crate) struct Compare {
     pub(super) under: Option<HoveredPixel>,
 }
 
-impl Compare {
-    pub(crate) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+impl Default for Compare {
+    fn default() -> Self {
         Self {
-            wake,
             choice: Choice::LastSave,
             project: String::new(),
             revision: "HEAD".to_owned(),
@@ -82,7 +80,9 @@ impl Compare {
             under: None,
         }
     }
+}
 
+impl Compare {
     /// Forgets the textures, whose device is lost. They are created again.
     pub(crate) fn forget_textures(&mut self) {
         (self.seen, self.coming, self.of) = (None, None, None);
@@ -104,14 +104,14 @@ impl Compare {
         }
     }
 
-    /// Takes over the session's newest results.
-    pub(super) fn update(&mut self, ctx: &egui::Context, session: &Session) {
+    /// Takes over the session's newest results. `wake` is called when their figures are computed.
+    pub(super) fn update(&mut self, ctx: &egui::Context, session: &Session, wake: &Arc<dyn Fn() + Send + Sync>) {
         self.under = None;
         match session.comparison() {
             None => (self.seen, self.coming, self.of) = (None, None, None),
             Some(Status::Ended(Ok(done))) if self.of.as_ref().is_none_or(|of| !Arc::ptr_eq(of, done)) => {
                 self.of = Some(done.clone());
-                self.coming = figures::start(done.clone(), self.wake.clone());
+                self.coming = figures::start(done.clone(), wake.clone());
             }
             Some(_) => {}
         }

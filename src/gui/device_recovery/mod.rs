@@ -25,7 +25,7 @@ pub(super) struct DeviceLosses {
 }
 
 impl DeviceLosses {
-    /// Checks whether the window's device is lost. If so, `renew` opens another one; if that fails or was done shortly
+    /// Checks whether the window's device is lost. If so, `reopen_device` opens another one; if that fails or was done shortly
     /// before, unsaved work is saved and the window closes. Other errors of the device are reported, and the window
     /// continues.
     pub(super) fn watch(
@@ -33,7 +33,7 @@ impl DeviceLosses {
         gpu: &Gpu,
         session: &mut Session,
         now: Instant,
-        renew: impl FnOnce(&mut Session) -> Result<(), GuiError>,
+        reopen_device: impl FnOnce(&mut Session) -> Result<(), GuiError>,
     ) -> Result<(), GuiError> {
         let reason = match gpu.take_trouble("the window") {
             Ok(()) => return Ok(()),
@@ -47,7 +47,7 @@ impl DeviceLosses {
         if is_again {
             return Err(GuiError::Lost { reason, unsaved_work: save_unsaved(session) });
         }
-        if let Err(e) = renew(session) {
+        if let Err(e) = reopen_device(session) {
             log::error!("no other GPU is available: {e}");
             return Err(GuiError::Lost { reason, unsaved_work: save_unsaved(session) });
         }
@@ -59,7 +59,7 @@ impl DeviceLosses {
 
 /// Runs a part of the window's work. After a panic in it, unsaved work is saved, and the window closes with an error
 /// that says so: a bug in drawing must not lose a text.
-pub(super) fn caught<W, T>(
+pub(super) fn catch_panic<W, T>(
     window: &mut W,
     work: impl FnOnce(&mut W) -> Result<T, GuiError>,
     session: impl FnOnce(&W) -> &Session,
@@ -68,8 +68,9 @@ pub(super) fn caught<W, T>(
         Ok(done) => return done,
         Err(panic) => panic,
     };
-    let said = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
-    let reason = said.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no reason given".into());
+    let message = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+    let reason =
+        message.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no reason given".into());
     // The state may be inconsistent after the panic, so this may panic too.
     let unsaved_work = catch_unwind(AssertUnwindSafe(|| save_unsaved(session(window))));
     let unsaved_work = unsaved_work.unwrap_or_else(|_| ". Your unsaved work could not be saved".into());

@@ -67,7 +67,7 @@ fn a_panic_saves_unsaved_work() {
     let mut session = open(gpu, folder.path());
     let (text, tab) = (UNSAVED, Tab::image());
     let ends = |session: &mut Session| {
-        caught(
+        catch_panic(
             session,
             |session| -> Result<(), GuiError> {
                 session.tick(Instant::now());
@@ -82,7 +82,7 @@ fn a_panic_saves_unsaved_work() {
     let saved = folder.path().join("mine-recovered-0001");
     assert_eq!(error, format!("this is a bug in Eddy: planted 1. Your unsaved work is in {}", saved.display()));
     assert_eq!(std::fs::read_to_string(saved.join("image.glsl")).unwrap(), text);
-    assert_eq!(caught(&mut session, |_| Ok(3), |session| session).unwrap(), 3);
+    assert_eq!(catch_panic(&mut session, |_| Ok(3), |session| session).unwrap(), 3);
 }
 
 #[test]

@@ -15,7 +15,7 @@ pub(super) fn show(dialog: &Dialog) -> Outcome {
 fn show_with(program: &Path, dialog: &Dialog) -> Outcome {
     let mut command = Command::new(program);
     command.arg("--file-selection").arg(format!("--title={}", dialog.title)).stdin(Stdio::null()).stderr(Stdio::null());
-    let mut begin = dialog.start.clone().unwrap_or_default();
+    let mut start = dialog.start.clone().unwrap_or_default();
     match &dialog.kind {
         Kind::OpenFolder => {
             command.arg("--directory");
@@ -26,12 +26,12 @@ fn show_with(program: &Path, dialog: &Dialog) -> Outcome {
         }
         Kind::Save(name) => {
             command.arg("--save");
-            begin.push(name);
+            start.push(name);
         }
     }
-    if !begin.as_os_str().is_empty() {
+    if !start.as_os_str().is_empty() {
         let mut argument = OsString::from("--filename=");
-        argument.push(&begin);
+        argument.push(&start);
         if !matches!(dialog.kind, Kind::Save(_)) {
             // A start folder ends with a slash; a suggested file does not.
             argument.push("/");

@@ -1,6 +1,7 @@
 //! The default layout, computed from the window's aspect ratio and the contents of the panels.
 
 use super::{BAR, Node, Panel};
+use crate::gui::panels::DefaultPlace;
 use egui::Vec2;
 use std::collections::BTreeSet;
 
@@ -18,9 +19,9 @@ const CODE_WIDTH: f32 = 700.0;
 /// The height of the panels below the picture, if it can be chosen.
 const BELOW: f32 = 250.0;
 /// The height to which channels shrink if others need the room.
-const LEAST_CHANNELS: f32 = 44.0;
+const MIN_CHANNELS_HEIGHT: f32 = 44.0;
 /// The height to which channels grow if nothing else needs the room.
-const MOST_CHANNELS: f32 = 150.0;
+const MAX_CHANNELS_HEIGHT: f32 = 150.0;
 /// The maximum height of a uniforms panel that only shows a hint and no uniforms.
 pub(crate) const COLLAPSED: f32 = 44.0;
 /// The height of the table of costs.
@@ -41,7 +42,8 @@ type Opened<'a> = (&'a BTreeSet<Panel>, &'a [Panel]);
 /// Returns the layout of the open panels.
 pub(super) fn arrange(size: Vec2, open: &BTreeSet<Panel>, fronts: &[Panel], heights: Heights) -> Node {
     let has_lab = open.contains(&Panel::Lab);
-    let aside = in_one_place(open.iter().copied().filter(|panel| panel.is_below_picture()), fronts);
+    let aside =
+        in_one_place(open.iter().copied().filter(|panel| panel.row().place == DefaultPlace::BelowPicture), fronts);
     let is_tall = |size: Vec2| size.y > size.x * 1.1;
     let above: BTreeSet<Panel> = open.iter().copied().filter(|panel| *panel != Panel::Lab).collect();
     let has_right = code_and_below(&above, fronts).is_some();
@@ -80,9 +82,11 @@ fn two_columns(size: Vec2, (open, fronts): Opened<'_>, aside: Option<Node>, heig
 fn code_and_below(open: &BTreeSet<Panel>, fronts: &[Panel]) -> Option<Node> {
     let is_open = |panel: &Panel| open.contains(panel);
     let code = is_open(&Panel::Code).then_some(Node::Panel(Panel::Code));
-    let is_large = [Panel::Buffers, Panel::Compare, Panel::Lab, Panel::Recorder].iter().any(is_open);
+    let is_large = open.iter().any(|panel| *panel == Panel::Lab || panel.row().place == DefaultPlace::BelowCodeLarge);
+    let is_below_code =
+        |panel: &Panel| matches!(panel.row().place, DefaultPlace::BelowCode | DefaultPlace::BelowCodeLarge);
     let part = if is_large { BELOW_CODE_LARGE } else { BELOW_CODE };
-    let shared = Panel::all().filter(|panel| panel.is_below_code()).chain([Panel::Lab]);
+    let shared = Panel::all().filter(is_below_code).chain([Panel::Lab]);
     let below = in_one_place(shared.filter(is_open), fronts);
     match (code, below) {
         (Some(code), Some(below)) => Some(Node::Column(vec![(code, 1.0 - part), (below, part)])),
@@ -125,7 +129,7 @@ fn below_each_other(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, hei
     let below = size.y - picture;
     // Without uniforms the picture gets their room.
     let is_collapsed = heights.uniforms <= COLLAPSED && !open.contains(&Panel::Costs);
-    let given = below - wants_aside - wants_channels.max(BAR + MOST_CHANNELS);
+    let given = below - wants_aside - wants_channels.max(BAR + MAX_CHANNELS_HEIGHT);
     let given = if has_picture && wants_aside * wants_channels > 0.0 && is_collapsed { given.max(0.0) } else { 0.0 };
     let (picture, below) = (picture + given, below - given);
     let (channels, aside_height) = if wants_aside == 0.0 {
@@ -135,10 +139,10 @@ fn below_each_other(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, hei
     } else {
         let spare = below - wants_channels - wants_aside;
         let channels = if spare >= 0.0 {
-            (wants_channels + spare).min(BAR + MOST_CHANNELS)
+            (wants_channels + spare).min(BAR + MAX_CHANNELS_HEIGHT)
         } else {
             // Cards of one line are sufficient; the panel above must not need scrolling.
-            (wants_channels + spare).max(BAR + LEAST_CHANNELS)
+            (wants_channels + spare).max(BAR + MIN_CHANNELS_HEIGHT)
         };
         let most = if is_collapsed { below - wants_aside.min(below * 0.4) } else { below * 0.6 };
         (channels.min(most), below - channels.min(most))

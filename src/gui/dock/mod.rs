@@ -7,19 +7,30 @@ mod automatic;
 mod bars;
 mod by_keys;
 mod node;
-mod panel;
 mod separators;
 mod tree;
 
 pub(super) use automatic::{COLLAPSED, Heights};
 pub(super) use bars::Contents;
 pub(super) use node::Node;
-pub(super) use panel::{BAR, Panel, Side};
 
+use super::panels::Panel;
 use bars::Bars;
 use egui::Ui;
 use egui_tiles::{Container, Tile, Tree};
 use std::collections::BTreeSet;
+
+/// The height of a panel's title row.
+const BAR: f32 = 27.0;
+
+/// A direction in the window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    Left,
+    Right,
+    Up,
+    Down,
+}
 
 /// The arrangement of panels.
 pub(super) struct Dock {
@@ -35,7 +46,7 @@ pub(super) struct Dock {
 
 impl Dock {
     pub(super) fn new() -> Self {
-        let open = Panel::all().filter(|panel| panel.is_open_by_default()).collect();
+        let open = Panel::all().filter(|panel| panel.row().is_open).collect();
         Self { tree: Tree::empty(tree::id()), is_manual: false, open, fronts: Vec::new(), seen: BTreeSet::new() }
     }
 

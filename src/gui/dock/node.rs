@@ -4,6 +4,7 @@
 //! below the other; panels of `{ tabs = ["uniforms", "costs"], front = 0 }` share a place.
 
 use super::Panel;
+use crate::gui::panels::DefaultPlace;
 use std::collections::BTreeSet;
 use toml_edit::{Array, InlineTable, Value};
 
@@ -18,6 +19,10 @@ pub(crate) enum Node {
     Tabs(Vec<Node>, usize),
 }
 
+fn is_below_picture(panel: Panel) -> bool {
+    panel.row().place == DefaultPlace::BelowPicture
+}
+
 impl Node {
     pub(crate) fn panels(&self) -> BTreeSet<Panel> {
         match self {
@@ -30,7 +35,7 @@ impl Node {
     /// Adds a panel to an arrangement: next to those that share its place by default, else below everything.
     pub(super) fn with(node: Option<Node>, panel: Panel) -> Node {
         let Some(mut node) = node else { return Node::Panel(panel) };
-        if panel.is_below_picture() && node.join(panel) {
+        if is_below_picture(panel) && node.join(panel) {
             return node;
         }
         Node::Column(vec![(node, 0.65), (Node::Panel(panel), 0.35)])
@@ -38,13 +43,13 @@ impl Node {
 
     fn join(&mut self, panel: Panel) -> bool {
         match self {
-            Node::Panel(there) if there.is_below_picture() => {
+            Node::Panel(there) if is_below_picture(*there) => {
                 *self = Node::Tabs(vec![Node::Panel(*there), Node::Panel(panel)], 1);
                 true
             }
             Node::Panel(_) => false,
             Node::Tabs(nodes, front) => {
-                let fits = nodes.iter().any(|node| matches!(node, Node::Panel(there) if there.is_below_picture()));
+                let fits = nodes.iter().any(|node| matches!(node, Node::Panel(there) if is_below_picture(*there)));
                 if fits {
                     *front = nodes.len();
                     nodes.push(Node::Panel(panel));

@@ -8,8 +8,8 @@ use egui::{CursorIcon, Id, Rect, Sense, Stroke, Ui};
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tree};
 
 /// The minimum size of a panel, below which its contents are unusable.
-const LEAST_WIDTH: f32 = 140.0;
-const LEAST_HEIGHT: f32 = 60.0;
+const MIN_WIDTH: f32 = 140.0;
+const MIN_HEIGHT: f32 = 60.0;
 /// The distance from a separator within which it can be grabbed.
 const REACH: f32 = 4.0;
 
@@ -39,8 +39,8 @@ pub(super) fn nudge(tree: &mut Tree<Panel>, tile: TileId, dir: LinearDir, by: f3
     let Some((id, at)) = line_of(&tree.tiles, tile, dir) else { return false };
     let Some(Tile::Container(Container::Linear(linear))) = tree.tiles.get(id) else { return false };
     let seen = |child: &&TileId| tree.tiles.is_visible_in_layout(**child) && tree.tiles.rect(**child).is_some();
-    let behind = linear.children[at + 1..].iter().find(seen);
-    let Some(other) = behind.or_else(|| linear.children[..at].iter().rev().find(seen)).copied() else { return false };
+    let next = linear.children[at + 1..].iter().find(seen);
+    let Some(other) = next.or_else(|| linear.children[..at].iter().rev().find(seen)).copied() else { return false };
     let this = linear.children[at];
     let (Some(a), Some(b)) = (tree.tiles.rect(this), tree.tiles.rect(other)) else { return false };
     let (a, b) = (length(dir, a), length(dir, b));
@@ -53,7 +53,7 @@ pub(super) fn nudge(tree: &mut Tree<Panel>, tile: TileId, dir: LinearDir, by: f3
 
 /// Limits the length of the first of two panels so that both stay large enough, given the length of both.
 fn within(dir: LinearDir, wanted: f32, both: f32) -> f32 {
-    let least = if dir == LinearDir::Horizontal { LEAST_WIDTH } else { LEAST_HEIGHT }.min(both / 2.0);
+    let least = if dir == LinearDir::Horizontal { MIN_WIDTH } else { MIN_HEIGHT }.min(both / 2.0);
     wanted.clamp(least, both - least)
 }
 

@@ -263,8 +263,3 @@ fn the_lab_is_below_the_code_if_that_is_wide_enough() {
     stage.frame(vec![]);
     assert!(stage.place("lab").height() > 650.0);
 }
-
-#[test]
-fn panel_rows_match_the_enum_order() {
-    Panel::all().enumerate().for_each(|(n, panel)| assert_eq!(panel as usize, n, "{}", panel.title()));
-}

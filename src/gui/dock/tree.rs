@@ -4,6 +4,12 @@ use super::{Node, Panel};
 use egui::Id;
 use egui_tiles::{Container, Linear, LinearDir, Tabs, Tile, TileId, Tiles, Tree};
 
+impl Panel {
+    pub(super) fn tile(self) -> TileId {
+        TileId::from_u64(self as u64 + 1)
+    }
+}
+
 pub(super) fn id() -> Id {
     Id::unique("dock")
 }

@@ -79,8 +79,8 @@ impl Buffer {
             return None;
         }
         let before = usize::from(inner.starts_with(' '));
-        let behind = usize::from(inner[before..].ends_with(' '));
-        Some((open..open + 2 + before, close - behind..close + 2))
+        let after = usize::from(inner[before..].ends_with(' '));
+        Some((open..open + 2 + before, close - after..close + 2))
     }
 }
 

@@ -101,7 +101,7 @@ impl Buffer {
     pub(crate) fn set_carets(&mut self, carets: Carets) {
         self.carets = carets.map(|s| Selection { anchor: self.snap(s.anchor), head: self.snap(s.head), ..s });
         self.selects_words = false;
-        self.history.seal();
+        self.history.end_step();
         self.settle_closers();
     }
 
@@ -379,10 +379,10 @@ impl Buffer {
 /// Maps a position in the text before some changes to the text after them. An insertion at the position goes before
 /// it; a position in removed text goes to the end of its replacement.
 pub(super) fn moved(changes: &[Change], at: usize) -> usize {
-    let behind = changes.partition_point(|c| c.at <= at);
-    let shift: isize = changes[..behind].iter().map(|c| c.inserted.len() as isize - c.removed.len() as isize).sum();
+    let count = changes.partition_point(|c| c.at <= at);
+    let shift: isize = changes[..count].iter().map(|c| c.inserted.len() as isize - c.removed.len() as isize).sum();
     // Only the last of them can extend past the position.
-    let over = changes[..behind].last().map_or(0, |c| c.range().end.saturating_sub(at));
+    let over = changes[..count].last().map_or(0, |c| c.range().end.saturating_sub(at));
     (at + over).saturating_add_signed(shift)
 }
 

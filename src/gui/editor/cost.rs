@@ -29,12 +29,12 @@ fn frame_with(
     let look = Look { name: "Code", font_size: 13.0, wraps, marks, matches: &[], shared: "", help, debug: &NO_DEBUG };
     let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(700.0, 700.0)));
     let input = RawInput { screen_rect, events, focused: true, ..Default::default() };
-    let began = Instant::now();
+    let start = Instant::now();
     let mut output = ctx.run_ui(input, |ui| {
         editor.show(ui, Id::unique("editor"), look, &|_| None);
     });
     let triangles = ctx.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
-    let millis = began.elapsed().as_secs_f64() * 1000.0;
+    let millis = start.elapsed().as_secs_f64() * 1000.0;
     assert!(!triangles.is_empty());
     output.textures_delta.set.clear();
     output.textures_delta.free.clear();
@@ -70,7 +70,7 @@ fn a_frame_idle_and_typing() {
     ];
     for (name, text, wraps) in texts.iter().flat_map(|(name, text)| [(name, text, false), (name, text, true)]) {
         let ctx = egui::Context::default();
-        let began = Instant::now();
+        let start = Instant::now();
         let mut editor = CodeEditor::new(text);
         let count = editor.buffer.line_count();
         editor.go_to(count / 2, if count < 3 { text.len() / 2 } else { 4 });
@@ -78,7 +78,7 @@ fn a_frame_idle_and_typing() {
             (0..n).map(|_| frame(&ctx, editor, wraps, events.to_vec())).collect()
         };
         frames(&mut editor, 1, &[]);
-        let opened = began.elapsed().as_secs_f64() * 1000.0;
+        let opened = start.elapsed().as_secs_f64() * 1000.0;
         frames(&mut editor, 8, &[]);
         let idle = median(frames(&mut editor, 20, &[]));
         let typing = median(frames(&mut editor, 20, &[Event::Text("x".into())]));
@@ -100,9 +100,9 @@ fn a_frame_typing_in_a_text_that_is_known() {
         )
     );
     let id = SourceId(0);
-    let began = Instant::now();
+    let start = Instant::now();
     let analysis = Analysis::new(&PassSource::new(PassKind::Image, Text { id, text: &text }));
-    let analysed = began.elapsed().as_secs_f64() * 1000.0;
+    let analysed = start.elapsed().as_secs_f64() * 1000.0;
     let classes = analysis.classes(id);
     let mark = |line: usize| Mark {
         line,

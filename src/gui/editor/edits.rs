@@ -96,13 +96,13 @@ impl Buffer {
         let is_run = self.carets().list().iter().all(|s| s.is_empty());
         let kind = if is_run { Kind::Deleting } else { Kind::Other };
         self.replace_at_carets(kind, |buffer, s| {
-            let range = if s.is_empty() { buffer.passed_over(motion, s.head) } else { s.range() };
+            let range = if s.is_empty() { buffer.range_of_motion(motion, s.head) } else { s.range() };
             Replacement::new(range, "")
         });
     }
 
     /// Returns the range that Backspace or Delete deletes at a caret.
-    fn passed_over(&self, motion: Motion, at: usize) -> Range<usize> {
+    fn range_of_motion(&self, motion: Motion, at: usize) -> Range<usize> {
         let to = self.target(motion, at);
         let mut range = at.min(to)..at.max(to);
         if motion == Motion::Left {

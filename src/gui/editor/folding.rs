@@ -33,7 +33,7 @@ impl CodeEditor {
 
     fn go_rows(&mut self, by: isize, selecting: bool) {
         let Self { buffer, highlight, rows, .. } = self;
-        buffer.go_to(selecting, |buffer, s| rows.rows_away(buffer, highlight, s, by));
+        buffer.go_to(selecting, |buffer, s| rows.moved_by_rows(buffer, highlight, s, by));
     }
 
     /// Folds or unfolds the block that a line opens.

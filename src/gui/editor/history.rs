@@ -4,7 +4,7 @@ use super::selection::{Carets, Selection};
 use std::{collections::VecDeque, ops::Range};
 
 /// The limit on stored bytes; the oldest steps are dropped first. Hours of typing use a thousandth of it.
-const MOST: usize = 64 << 20;
+const MAX_BYTES: usize = 64 << 20;
 
 /// A replacement in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -75,17 +75,17 @@ impl History {
         self.undone.clear();
         self.size += edit.size();
         match self.done.back_mut() {
-            Some(step) if self.open == Some(kind) && joins(step.last(), &edit, kind) => step.push(edit),
+            Some(step) if self.open == Some(kind) && can_merge(step.last(), &edit, kind) => step.push(edit),
             _ => self.done.push_back(vec![edit]),
         }
-        while self.size > MOST && self.done.len() > 1 {
+        while self.size > MAX_BYTES && self.done.len() > 1 {
             self.size -= self.done.pop_front().map_or(0, |step| size(&step));
         }
         self.open = (kind != Kind::Other).then_some(kind);
     }
 
     /// Closes the newest step because the caret moved: the next edit starts a new one.
-    pub(super) fn seal(&mut self) {
+    pub(super) fn end_step(&mut self) {
         self.open = None;
     }
 
@@ -121,7 +121,7 @@ fn size(step: &[Edit]) -> usize {
 
 /// Returns whether an edit joins the previous one. A typed word or a run of deletions is one step; the first letter
 /// after a space starts the next.
-fn joins(previous: Option<&Edit>, edit: &Edit, kind: Kind) -> bool {
+fn can_merge(previous: Option<&Edit>, edit: &Edit, kind: Kind) -> bool {
     let Some(previous) = previous else { return false };
     match kind {
         Kind::Other => false,
@@ -153,18 +153,18 @@ mod tests {
     #[test]
     fn history_is_bounded_and_the_newest_step_can_be_undone() {
         let mut history = History::default();
-        let large = "x".repeat(MOST / 8);
+        let large = "x".repeat(MAX_BYTES / 8);
         for _ in 0..40 {
             history.push(pasted(&large), Kind::Other);
         }
-        assert!(history.size <= MOST && history.done.len() == 7, "{} in {}", history.size, history.done.len());
+        assert!(history.size <= MAX_BYTES && history.done.len() == 7, "{} in {}", history.size, history.done.len());
         history.push(pasted("y"), Kind::Other);
         assert_eq!(history.undo().unwrap()[0].changes[0].inserted, "y");
         let steps = std::iter::from_fn(|| history.undo()).count();
         assert_eq!((steps, history.size), (7, 0));
         assert_eq!(std::iter::from_fn(|| history.redo()).count(), 8);
         // A step of any size can be undone.
-        history.push(pasted(&"z".repeat(2 * MOST)), Kind::Other);
+        history.push(pasted(&"z".repeat(2 * MAX_BYTES)), Kind::Other);
         assert!(history.undo().is_some() && history.undo().is_none());
     }
 }

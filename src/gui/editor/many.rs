@@ -23,7 +23,7 @@ impl Buffer {
             let s = list[i];
             let by = if way == Vertical::Up { -1 } else { 1 };
             if self.line_of(s.head).checked_add_signed(by).is_some_and(|line| line < self.line_count()) {
-                let away = self.lines_away(s, by);
+                let away = self.moved_by_lines(s, by);
                 list[i].column = away.column;
                 list.push(away);
             }
@@ -46,8 +46,8 @@ impl Buffer {
         let main = self.selection().range();
         let places = self.occurrences();
         let is_taken = |r: &Range<usize>| list.iter().any(|s| s.range() == *r);
-        let behind = places.iter().find(|r| r.start >= main.end && !is_taken(r));
-        if let Some(next) = behind.or_else(|| places.iter().find(|r| !is_taken(r))) {
+        let next = places.iter().find(|r| r.start >= main.end && !is_taken(r));
+        if let Some(next) = next.or_else(|| places.iter().find(|r| !is_taken(r))) {
             let words = self.selects_words;
             let list: Vec<_> = list.into_iter().chain([Selection::new(next.start, next.end)]).collect();
             let main = list.len() - 1;

@@ -41,7 +41,7 @@ mod view;
 mod wrap;
 
 pub(super) use action::EditorAction;
-pub(super) use assist::Ask;
+pub(super) use assist::EditorRequest;
 pub(super) use buffer::Buffer;
 pub(super) use find::{Finder, Query};
 pub(super) use look::{Debug, Help, Look, Mark};

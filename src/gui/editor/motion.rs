@@ -30,7 +30,7 @@ impl Buffer {
     /// Moves every caret; `selecting` keeps the anchors.
     pub(crate) fn go(&mut self, motion: Motion, selecting: bool) {
         if let Motion::Lines(by) | Motion::Pages(by) = motion {
-            return self.go_to(selecting, |buffer, s| buffer.lines_away(s, by));
+            return self.go_to(selecting, |buffer, s| buffer.moved_by_lines(s, by));
         }
         self.go_to(selecting, |buffer, s| {
             let range = s.range();
@@ -53,7 +53,7 @@ impl Buffer {
     }
 
     /// Returns the caret this number of lines away, at the column that the caret keeps.
-    pub(super) fn lines_away(&self, from: Selection, by: isize) -> Selection {
+    pub(super) fn moved_by_lines(&self, from: Selection, by: isize) -> Selection {
         let (line, column) = self.line_column(from.head);
         let column = from.column.unwrap_or(column);
         let head = match line.checked_add_signed(by) {

@@ -101,7 +101,7 @@ pub(super) fn text(
         }
         let fills = &theme::of(ui).code;
         let selection = if has_focus { fills.selection } else { fills.selection_idle };
-        for s in in_sight_of(buffer.carets().list(), &part.bytes) {
+        for s in touching_selections(buffer.carets().list(), &part.bytes) {
             fill_range(ui, lines, buffer, row, &s.range(), selection);
         }
         for at in brackets.into_iter().flatten() {
@@ -134,7 +134,7 @@ pub(super) fn text(
     if is_lit {
         let first = lines.rows.first().map_or(0, |row| row.part.bytes.start);
         let last = lines.rows.last().map_or(0, |row| row.part.bytes.end);
-        for s in in_sight_of(buffer.carets().list(), &(first..last)) {
+        for s in touching_selections(buffer.carets().list(), &(first..last)) {
             let caret = lines.rect_of(buffer, s.head);
             let x = caret.left().round_to_pixels(ui.pixels_per_point());
             let place = Rect::from_min_size(pos2(x - 0.5, caret.top()), vec2(2.0, caret.height()));
@@ -145,10 +145,10 @@ pub(super) fn text(
 }
 
 /// Returns the selections that touch a range of bytes.
-fn in_sight_of<'s>(list: &'s [Selection], bytes: &Range<usize>) -> &'s [Selection] {
+fn touching_selections<'s>(list: &'s [Selection], bytes: &Range<usize>) -> &'s [Selection] {
     let first = list.partition_point(|s| s.range().end < bytes.start);
-    let behind = list[first..].partition_point(|s| s.range().start <= bytes.end);
-    &list[first..first + behind]
+    let count = list[first..].partition_point(|s| s.range().start <= bytes.end);
+    &list[first..first + count]
 }
 
 /// Paints a sign for folded lines, and returns where it ends.

@@ -76,9 +76,9 @@ impl Buffer {
 
     /// Returns whether a caret is between a bracket and the closing one that was inserted with it.
     pub(super) fn is_empty_pair(&self, at: usize) -> bool {
-        let (before, behind) = self.text().split_at(at);
+        let (before, after) = self.text().split_at(at);
         self.closers.contains(&at)
-            && PAIRS.iter().any(|(open, close)| before.ends_with(open) && behind.starts_with(close))
+            && PAIRS.iter().any(|(open, close)| before.ends_with(open) && after.starts_with(close))
     }
 
     /// Forgets automatic closing brackets that have no caret before them in their line: typing one there inserts it.

@@ -48,7 +48,7 @@ impl CodeEditor {
         };
         if let Some(granularity) = grown {
             let others = self.drag.take().map(|d| d.others).unwrap_or_default();
-            self.drag = Some(Drag { from: self.grain(at, granularity), granularity, others });
+            self.drag = Some(Drag { from: self.unit_range(at, granularity), granularity, others });
             self.drag_to(at);
         } else if response.dragged_by(egui::PointerButton::Primary) && response.drag_delta() != egui::Vec2::ZERO {
             self.drag_to(at);
@@ -82,7 +82,7 @@ impl CodeEditor {
     /// Selects from the start of the drag to a place.
     fn drag_to(&mut self, at: usize) {
         let Some(Drag { from, granularity, others }) = &self.drag else { return };
-        let to = self.grain(at, *granularity);
+        let to = self.unit_range(at, *granularity);
         let selection = match to.start < from.start {
             true => Selection::new(from.end, to.start),
             false => Selection::new(from.start, to.end),
@@ -92,7 +92,7 @@ impl CodeEditor {
         self.buffer.set_carets(Carets::new(list, main));
     }
 
-    fn grain(&self, at: usize, granularity: Granularity) -> Range<usize> {
+    fn unit_range(&self, at: usize, granularity: Granularity) -> Range<usize> {
         match granularity {
             Granularity::Letter => at..at,
             Granularity::Word => self.buffer.word_at(at),

@@ -139,7 +139,7 @@ impl Rows {
     }
 
     /// Returns the caret this number of rows away, at the column that the caret keeps.
-    pub(super) fn rows_away(&self, buffer: &Buffer, index: &Highlight, from: Selection, by: isize) -> Selection {
+    pub(super) fn moved_by_rows(&self, buffer: &Buffer, index: &Highlight, from: Selection, by: isize) -> Selection {
         let row = self.of(buffer, index, from.head);
         let letters = |range: Range<usize>| buffer.text()[range].chars().count();
         let column = from.column.unwrap_or_else(|| {
@@ -308,7 +308,7 @@ mod tests {
             for row in (0..rows).step_by(7) {
                 let part = t.rows.part(&t.buffer, &t.index, row);
                 assert_eq!(t.rows.of(&t.buffer, &t.index, part.bytes.start), row);
-                let down = t.rows.rows_away(&t.buffer, &t.index, Selection::caret(part.bytes.start), 1);
+                let down = t.rows.moved_by_rows(&t.buffer, &t.index, Selection::caret(part.bytes.start), 1);
                 let wanted = (row + 1).min(rows - 1);
                 assert_eq!(t.rows.of(&t.buffer, &t.index, down.head), wanted, "down from {row} of {rows}");
             }

@@ -169,9 +169,9 @@ fn edits_at_many_carets_match_a_naive_model() {
 
             let carets = random.carets(&buffer);
             buffer.set_carets(carets.map(|s| Selection::caret(s.head)));
-            let behind =
+            let after =
                 |text: &str, s: Selection| s.head..s.head + text[s.head..].chars().next().map_or(0, char::len_utf8);
-            let wanted = by_hand(&buffer, "", behind);
+            let wanted = by_hand(&buffer, "", after);
             buffer.delete(Motion::Right);
             assert_eq!(buffer.text(), wanted, "seed {seed}");
         }

@@ -3,7 +3,7 @@
 use super::{
     accessible,
     action::EditorAction,
-    assist::{Ask, Assist},
+    assist::{Assist, EditorRequest},
     brackets,
     buffer::Buffer,
     gutter::{self, Clicked, Gutter},
@@ -36,7 +36,7 @@ pub(crate) struct EditorOutput {
     /// Visible lines with a mark, counted from 0, and their places.
     pub marked: Vec<(usize, Rect)>,
     /// Requests that concern other texts.
-    pub asks: Vec<Ask>,
+    pub requests: Vec<EditorRequest>,
     /// Open popups and tooltips, and their places.
     pub placed: Vec<(String, Rect)>,
     /// The line, from 0, whose number was clicked.
@@ -143,9 +143,9 @@ impl CodeEditor {
             EditorAction::Signature => self.assist.show_signature(),
             EditorAction::Definition => self.assist.go_to_definition(),
             EditorAction::Uses => self.assist.list_uses(),
-            EditorAction::QuickFix => self.assist.asks.push(Ask::Fix(self.buffer.selection().head)),
-            EditorAction::Rename => self.assist.asks.push(Ask::Rename(self.buffer.selection().head)),
-            EditorAction::Paste => self.assist.asks.push(Ask::Paste),
+            EditorAction::QuickFix => self.assist.requests.push(EditorRequest::Fix(self.buffer.selection().head)),
+            EditorAction::Rename => self.assist.requests.push(EditorRequest::Rename(self.buffer.selection().head)),
+            EditorAction::Paste => self.assist.requests.push(EditorRequest::Paste),
             EditorAction::Copy => self.copied = Some(self.buffer.copied_text()),
             EditorAction::Cut => {
                 self.copied = Some(self.buffer.copied_text());
@@ -319,7 +319,7 @@ impl CodeEditor {
                     }
                 }
                 if has_focus {
-                    self.tell_input_method(ui, id, text_rect, p.caret);
+                    self.update_input_method(ui, id, text_rect, p.caret);
                 }
                 let response = match ui.input(|i| i.modifiers.command) {
                     true => response,
@@ -360,7 +360,7 @@ impl CodeEditor {
             text_rect,
             focus_rect: painted.whole,
             marked: painted.marked,
-            asks: std::mem::take(&mut self.assist.asks),
+            requests: std::mem::take(&mut self.assist.requests),
             placed: std::mem::take(&mut self.assist.placed),
             clicked_line,
             pointed,
@@ -453,7 +453,7 @@ impl CodeEditor {
         (phase as u64).is_multiple_of(2)
     }
 
-    fn tell_input_method(&self, ui: &Ui, id: Id, rect: Rect, caret: Rect) {
+    fn update_input_method(&self, ui: &Ui, id: Id, rect: Rect, caret: Rect) {
         if ui.memory(|m| m.owns_ime_events(id)) {
             ui.ctx().output_mut(|o| {
                 o.mutable_text_under_cursor = true;

@@ -55,7 +55,7 @@ impl Focus {
     /// Takes the keys that move the focus within a panel, before any widget sees them.
     pub(super) fn take_keys(&mut self, ui: &Ui) {
         if let Some(id) = self.brings_into_sight.take() {
-            bring_into_sight(ui, id);
+            scroll_into_view(ui, id);
         }
         let mut pressed = None;
         ui.input(|i| {
@@ -173,14 +173,14 @@ impl Focus {
         if let (Some(field), Some(gone)) = (field, self.had.filter(|id| layer_of(ui, *id).is_none()))
             && field != gone
         {
-            return self.give(ui, field);
+            return self.set_focus(ui, field);
         }
         match (is_popup_open, self.popup_of) {
             (true, None) => self.popup_of = Some(field.or(had)),
             (false, Some(opener)) => {
                 self.popup_of = None;
                 if let (None, Some(opener)) = (self.had, opener) {
-                    self.give(ui, opener);
+                    self.set_focus(ui, opener);
                 }
             }
             _ => {}
@@ -188,12 +188,12 @@ impl Focus {
         let Some(id) = self.had else {
             let is_of_popup = |id: &Id| !is_popup_open || layer_of(ui, *id) == open_popup(ui.ctx());
             if let Some(field) = field.filter(is_of_popup) {
-                return self.give(ui, field);
+                return self.set_focus(ui, field);
             }
             let home = self.home.filter(|id| self.stops.iter().any(|p| p.home == Some(*id)));
             let home = home.or_else(|| self.stops.iter().find_map(|p| p.home));
             if let (Some(home), false) = (home, is_covered || is_popup_open || is_held) {
-                self.give(ui, home);
+                self.set_focus(ui, home);
             }
             return;
         };
@@ -227,7 +227,7 @@ impl Focus {
         self.place
     }
 
-    fn give(&mut self, ui: &Ui, id: Id) {
+    fn set_focus(&mut self, ui: &Ui, id: Id) {
         if ui.ctx().viewport(|v| v.this_pass.widgets.contains(id)) {
             ui.memory_mut(|m| m.request_focus(id));
             self.had = Some(id);
@@ -320,7 +320,7 @@ fn is_tab(event: &Event, with: Modifiers) -> bool {
 }
 
 /// Scrolls a widget into view, as a screen reader does.
-fn bring_into_sight(ui: &Ui, id: Id) {
+fn scroll_into_view(ui: &Ui, id: Id) {
     let request = accesskit::ActionRequest {
         action: accesskit::Action::ScrollIntoView,
         target_tree: accesskit::TreeId::ROOT,

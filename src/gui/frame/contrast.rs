@@ -5,8 +5,8 @@
 use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, open_with, press, until};
 use crate::{
     gui::{
-        dock::Panel,
-        settings::{SettingsFile, WindowState},
+        panels::Panel,
+        settings::{Overrides, SettingsFile, WindowState},
     },
     session::{
         Answer, EditCommand, FileCommand, HaltCommand, Level, NoticeCommand, Question, SessionOptions, ToolCommand,
@@ -15,7 +15,7 @@ use crate::{
 use egui::{Color32, Key, Modifiers, Pos2, Rect, Shape, Theme, epaint::ClippedShape};
 use std::collections::BTreeSet;
 
-const LEAST: f32 = 4.5;
+const MIN_CONTRAST: f32 = 4.5;
 
 /// A shape painted below a text.
 enum Backdrop {
@@ -45,7 +45,7 @@ fn over(top: Color32, below: Color32) -> Color32 {
 }
 
 /// Returns the background colour at a place; `None` over a picture.
-fn behind(grounds: &[Backdrop], at: Pos2) -> Option<Color32> {
+fn backdrop_at(grounds: &[Backdrop], at: Pos2) -> Option<Color32> {
     let mut color = Some(Color32::BLACK);
     for ground in grounds {
         match ground {
@@ -90,10 +90,10 @@ fn weak_texts(shapes: &[ClippedShape]) -> (BTreeSet<String>, usize) {
                         if text.opacity_factor < 1.0 || !color.is_opaque() {
                             continue;
                         }
-                        let Some(ground) = behind(&grounds, at) else { continue };
+                        let Some(ground) = backdrop_at(&grounds, at) else { continue };
                         measured += 1;
                         let ratio = contrast(color, ground);
-                        if ratio < LEAST {
+                        if ratio < MIN_CONTRAST {
                             let words = row.text();
                             weak.insert(format!("{ratio:.2}: {color:?} on {ground:?}: {:.60}", words));
                         }
@@ -111,7 +111,7 @@ fn check(stage: &mut Stage, what: &str, theme: Theme) {
     stage.run_steps(2);
     let (weak, measured) = weak_texts(&stage.output().shapes);
     let list: Vec<&str> = weak.iter().map(String::as_str).collect();
-    assert!(weak.is_empty(), "{what}, {theme:?}: {} texts below {LEAST}:\n{}", list.len(), list.join("\n"));
+    assert!(weak.is_empty(), "{what}, {theme:?}: {} texts below {MIN_CONTRAST}:\n{}", list.len(), list.join("\n"));
     assert!(measured > 20, "{what}, {theme:?}: only {measured} letters were measured");
 }
 
@@ -177,7 +177,11 @@ fn every_dialog_has_enough_contrast_in_both_themes() {
             std::fs::write(&file, text).unwrap();
             let mut settings = SettingsFile::at(Some(file.clone()));
             settings.refresh();
-            stage.state_mut().shell.restore(settings, &WindowState::default(), true, None);
+            stage.state_mut().shell.restore(
+                settings,
+                &WindowState::default(),
+                Overrides { frame_limit: true, osc: None },
+            );
             stage.run_steps(2);
             press(&mut stage, CTRL, Key::Comma);
             // Up to here the theme is that of the settings.

@@ -6,7 +6,7 @@ use crate::{
         fake::FakeMidi,
         midi::{MidiChoice, host::MidiHost},
     },
-    gui::dock::Panel,
+    gui::panels::Panel,
     project::ControlTarget,
     session::{ControlCommand, SessionOptions},
 };

@@ -3,7 +3,7 @@
 
 use super::harness::{CTRL, CTRL_SHIFT, Stage, choose, click, has, named, open, press, texts, until};
 use crate::{
-    gui::dock::Panel,
+    gui::panels::Panel,
     project::{CustomUniformValue, FillValue, PassEdit, PassName, Tab},
     session::{Command, EditCommand, FileCommand, TransportCommand},
 };

@@ -2,7 +2,7 @@
 
 use super::harness::{CTRL, CTRL_SHIFT, Stage, click, open, press, until};
 use crate::{
-    gui::dock::Panel,
+    gui::panels::Panel,
     playback::comparing::Baseline,
     session::{Status, ToolCommand, ViewCommand, probe::ProbePlace},
 };

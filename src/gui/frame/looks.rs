@@ -207,8 +207,8 @@ fn lab_texts_stay_within_the_window() {
         stage.run_steps(3);
         let nodes = stage.root().children_recursive();
         let texts = nodes.map(|node| node.accesskit_node()).filter_map(|node| {
-            let said = node.value().or_else(|| node.label())?;
-            said.starts_with("A Gaussian of standard deviation").then(|| node.raw_bounds())
+            let text = node.value().or_else(|| node.label())?;
+            text.starts_with("A Gaussian of standard deviation").then(|| node.raw_bounds())
         });
         let rights: Vec<f64> = texts.flatten().map(|bounds| bounds.x1).collect();
         assert!(!rights.is_empty(), "{width} wide: the study is not told of");

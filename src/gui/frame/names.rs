@@ -2,7 +2,7 @@
 
 use super::harness::{CTRL, CTRL_SHIFT, click, has, named, open, open_with, press, until};
 use crate::{
-    gui::dock::Panel,
+    gui::panels::Panel,
     playback::comparing::Baseline,
     session::{
         Command, EditCommand, FileCommand, HaltCommand, Level, NoticeCommand, Question, SessionOptions, Status,

@@ -2,7 +2,7 @@
 
 use super::harness::{Stage, choose, named, open, press, until};
 use crate::{
-    gui::dock::Panel,
+    gui::panels::Panel,
     project::{PassName, Tab},
     session::{EditCommand, HaltCommand, TransportCommand},
 };

@@ -1,7 +1,7 @@
 //! The panel of the sound pass: its texts, and seeking by a click in the waveform.
 
 use super::harness::{Stage, click, open, texts, until};
-use crate::{gui::dock::Panel, project::Tab, session::EditCommand};
+use crate::{gui::panels::Panel, project::Tab, session::EditCommand};
 
 fn says(stage: &Stage, words: &str) -> bool {
     texts(stage).iter().any(|text| text.contains(words))

@@ -53,9 +53,7 @@ impl Gallery {
                 ui.set_width(ui.available_width() - 12.0);
                 if can_close {
                     let back = ui.button(format!("Back to {}", short(session)));
-                    if out.clicked("button:close-gallery", &back) {
-                        out.shell_commands.push(ShellCommand::CloseGallery);
-                    }
+                    out.on_click("button:close-gallery", &back, ShellCommand::CloseGallery);
                     ui.add_space(4.0);
                 }
                 start::show(ui, session, thumbnails, &mut self.shows_all_recent, out);

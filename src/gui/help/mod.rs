@@ -93,13 +93,11 @@ impl Help {
             }
             if section.title == SHADERTOY {
                 let open = ui.button("Open bookmarklet page");
-                if out.clicked("help:bookmarklet", &open) {
-                    out.act(Action::Bookmarklet);
-                }
+                out.on_click("help:bookmarklet", &open, Action::Bookmarklet);
             }
         }
         for group in Group::ALL {
-            let keys = |entry: &Entry| out.keys.listed(entry);
+            let keys = |entry: &Entry| out.keys.key_list(entry);
             let all = wanted.is_in(group.title());
             let is_wanted = |e: &&Entry| {
                 let keys = keys(e);
@@ -168,7 +166,7 @@ impl SearchTerms {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gui::dock::Panel;
+    use crate::gui::panels::Panel;
 
     #[test]
     fn search_matches_all_words_in_any_order_and_case() {
@@ -202,9 +200,9 @@ mod tests {
         let is_key = |word: &str| is_named(word) && !word.ends_with("click") && !word.ends_with("drag");
         let sections = text::sections();
         let texts = sections.iter().flat_map(|s| &s.paragraphs).map(Paragraph::text);
-        let said = texts.flat_map(|text| text.split([' ', ',', '.', ';', ':', '(', ')']));
-        let said: Vec<&str> = said.filter(|word| is_key(word)).collect();
-        assert!(said.contains(&"F6"), "{said:?}");
-        said.iter().for_each(|key| assert!(keys.contains(key), "{key} is no key of the table"));
+        let keys_in_text = texts.flat_map(|text| text.split([' ', ',', '.', ';', ':', '(', ')']));
+        let keys_in_text: Vec<&str> = keys_in_text.filter(|word| is_key(word)).collect();
+        assert!(keys_in_text.contains(&"F6"), "{keys_in_text:?}");
+        keys_in_text.iter().for_each(|key| assert!(keys.contains(key), "{key} is no key of the table"));
     }
 }

@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn numbers_have_three_significant_digits() {
-        let said = [0.0, 1.0, 0.0123456, 4e-5, 12.345, 123.9, 0.5, f64::INFINITY].map(short);
-        assert_eq!(said, ["0", "1", "0.0123", "4.00e-5", "12.3", "124", "0.5", "diverged"]);
+        let formatted = [0.0, 1.0, 0.0123456, 4e-5, 12.345, 123.9, 0.5, f64::INFINITY].map(short);
+        assert_eq!(formatted, ["0", "1", "0.0123", "4.00e-5", "12.3", "124", "0.5", "diverged"]);
     }
 }

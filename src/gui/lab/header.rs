@@ -8,7 +8,7 @@ use crate::{
     gui::{
         icons::{self, Icon},
         theme,
-        ui_output::{Pick, UiOutput},
+        ui_output::{Pick, ShellCommand, UiOutput},
     },
     lab::Extent,
 };
@@ -25,9 +25,7 @@ pub(super) fn show(ui: &mut Ui, lab: &mut Lab, out: &mut UiOutput) {
             more(ui, lab, out);
             let save = ui.add_enabled(lab.has_results(), Button::new("Save report…"));
             let save = save.on_hover_text("Write tables, plots and an HTML page of all results, like `eddy lab --out`");
-            if out.clicked("lab:save-report", &save) {
-                Lab::pick(out, Pick::LabReport);
-            }
+            out.on_click("lab:save-report", &save, ShellCommand::Pick(Pick::LabReport));
             progress(ui, lab);
         });
     });
@@ -124,9 +122,6 @@ fn more(ui: &mut Ui, lab: &mut Lab, out: &mut UiOutput) {
         let choose = ui.add_enabled(lab.run.is_none(), Button::new("Keep results in a folder…"));
         let choose =
             choose.on_hover_text("A run resumes from the folder's results; `eddy lab merge` joins several folders");
-        if out.clicked("lab:choose-folder", &choose) {
-            Lab::pick(out, Pick::LabFolder);
-            ui.close();
-        }
+        out.on_menu_click(ui, "lab:choose-folder", &choose, ShellCommand::Pick(Pick::LabFolder));
     });
 }

@@ -12,4 +12,5 @@ mod panel;
 mod plot;
 mod state;
 
+pub(super) use panel::PANEL;
 pub(super) use state::Lab;

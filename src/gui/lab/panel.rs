@@ -1,14 +1,27 @@
 //! The layout of the panel: the row at the top, the plot, the legend.
 
 use super::{header, legend, plot, state::Lab};
-use crate::gui::{theme, ui_output::UiOutput};
-use egui::{Align, Layout, RichText, Ui, vec2};
+use crate::gui::{
+    panels::{Content, DefaultPlace, PanelRow},
+    theme,
+    ui_output::UiOutput,
+};
+use egui::{Align, Layout, Margin, RichText, Ui, vec2};
+
+pub(crate) const PANEL: PanelRow = PanelRow::new(
+    "lab",
+    "Lab",
+    DefaultPlace::Own,
+    Content::Within(Margin { left: 10, right: 8, top: 2, bottom: 6 }, |ui, context| context.lab.show(ui, context.out)),
+)
+.report(|_, lab, _| lab.report())
+.action("Panel: Lab (speed against error)", &["Ctrl+Shift+Y", "Ctrl+Shift+L"], "benchmark study measure");
 
 /// The minimum width of the panel for the legend.
 const ROOM_FOR_LEGEND: f32 = 640.0;
 
 impl Lab {
-    pub(crate) fn show(&mut self, ui: &mut Ui, out: &mut UiOutput) {
+    fn show(&mut self, ui: &mut Ui, out: &mut UiOutput) {
         out.stop("lab", ui);
         ui.spacing_mut().item_spacing = vec2(6.0, 4.0);
         header::show(ui, self, out);

@@ -4,7 +4,7 @@ use super::model::{ExtentResults, PlotData};
 use crate::{
     background::{Background, Control},
     gpu::{Gpu, GpuOptions},
-    gui::ui_output::{Pick, ShellCommand, UiOutput},
+    gui::ui_output::UiOutput,
     lab::{
         self, Extent, LabError, Point, Results, Shard, Study,
         background_run::{BackgroundRun, Event, Progress},
@@ -128,18 +128,18 @@ impl Lab {
             }
         }
         if is_new && extent == self.extent {
-            self.draw_anew();
+            self.update_plot();
         }
     }
 
-    fn draw_anew(&mut self) {
+    fn update_plot(&mut self) {
         self.shown = self.known(self.extent).shown(self.study());
     }
 
     pub(super) fn choose(&mut self, study: usize, extent: Extent) {
         if (study, extent) != (self.study, self.extent) {
             (self.study, self.extent, self.hovered_method) = (study, extent, None);
-            self.draw_anew();
+            self.update_plot();
         }
     }
 
@@ -173,7 +173,7 @@ impl Lab {
             let known = self.known_mut(extent);
             known.results.forget(study.name);
             known.results.write(&out).map_err(|e| e.to_string())?;
-            self.draw_anew();
+            self.update_plot();
         }
         let adapter = self.adapter.clone();
         let open = move || Gpu::another(&adapter, &GpuOptions::default());
@@ -185,23 +185,23 @@ impl Lab {
     }
 
     /// Keeps results in this folder from now on: results in it are shown, and an empty one gets the known ones.
-    pub(crate) fn keep_in(&mut self, folder: PathBuf) {
-        match self.try_keep_in(&folder) {
+    pub(crate) fn set_results_folder(&mut self, folder: PathBuf) {
+        match self.try_set_results_folder(&folder) {
             Ok(()) => {
                 self.message = Some((format!("results are kept in {}", folder.display()), false));
                 self.folder = Folder::Chosen(folder);
-                self.draw_anew();
+                self.update_plot();
             }
             Err(why) => self.message = Some((why, true)),
         }
     }
 
-    fn try_keep_in(&mut self, folder: &Path) -> Result<(), String> {
-        let said = |e: LabError| e.to_string();
-        let there = Results::read(folder).map_err(said)?;
+    fn try_set_results_folder(&mut self, folder: &Path) -> Result<(), String> {
+        let message_of = |e: LabError| e.to_string();
+        let there = Results::read(folder).map_err(message_of)?;
         let Some(extent) = there.runs.first().map(|r| r.extent) else {
             let known = &self.known(self.extent).results;
-            return if known.runs.is_empty() { Ok(()) } else { known.write(folder).map_err(said) };
+            return if known.runs.is_empty() { Ok(()) } else { known.write(folder).map_err(message_of) };
         };
         let is_temporary = matches!(self.folder, Folder::Temporary(_));
         let known = self.known_mut(extent);
@@ -268,11 +268,6 @@ impl Lab {
             "told": self.message.as_ref().map(|(words, _)| words),
         })
     }
-
-    /// Opens a folder dialog: to keep results in, or for a report.
-    pub(super) fn pick(out: &mut UiOutput, pick: Pick) {
-        out.shell_commands.push(ShellCommand::Pick(pick));
-    }
 }
 
 pub(super) fn name_of(extent: Extent) -> &'static str {
@@ -284,7 +279,7 @@ fn write_report(folder: &Path, studies: &[&'static Study], results: &Results, is
     if let (Some(name), false) = (taken, is_own) {
         return Err(format!("{} already holds {name}; choose another folder", folder.display()));
     }
-    let said = |e: LabError| e.to_string();
-    results.write(folder).map_err(said)?;
-    report::write(folder, studies, results).map(drop).map_err(said)
+    let message_of = |e: LabError| e.to_string();
+    results.write(folder).map_err(message_of)?;
+    report::write(folder, studies, results).map(drop).map_err(message_of)
 }

@@ -10,6 +10,5 @@ mod plot;
 mod report;
 mod state;
 
-pub(super) use panel::show;
-pub(super) use report::report;
+pub(super) use panel::PANEL;
 pub(super) use state::Measurements;

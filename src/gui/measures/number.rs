@@ -38,8 +38,8 @@ mod tests {
 
     #[test]
     fn numbers_have_as_many_digits_as_needed() {
-        let said = [0.0, -0.0, 3.0, 16777225.0, 0.1, -1234.5678, 2e-7, 1.5e12, 123456.75].map(words);
-        assert_eq!(said, ["0", "-0", "3", "16777225", "0.1", "-1234.568", "2.00000e-7", "1.50000e12", "123456.8"]);
+        let formatted = [0.0, -0.0, 3.0, 16777225.0, 0.1, -1234.5678, 2e-7, 1.5e12, 123456.75].map(words);
+        assert_eq!(formatted, ["0", "-0", "3", "16777225", "0.1", "-1234.568", "2.00000e-7", "1.50000e12", "123456.8"]);
         assert_eq!([f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(words), ["NaN", "+Inf", "-Inf"]);
         assert_eq!([tick(0.5, 0.1), tick(20.0, 10.0), tick(2e8, 1e8), tick(1e-17, 0.1)], ["0.5", "20", "2.0e8", "0"]);
     }

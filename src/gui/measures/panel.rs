@@ -2,15 +2,29 @@
 
 use super::{
     card::{self, View},
+    report::report,
     state::{Axis, Measurements},
 };
 use crate::{
-    gui::{theme, ui_output::UiOutput},
-    session::{Session, ViewCommand, measures::Measure},
+    gui::{
+        panels::{Content, DefaultPlace, MARGIN, PanelRow},
+        theme,
+        ui_output::UiOutput,
+    },
+    session::{Command, Session, ViewCommand, measures::Measure},
 };
 use egui::{Button, Label, RichText, ScrollArea, Ui, vec2};
 
-pub(crate) fn show(state: &mut Measurements, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+pub(crate) const PANEL: PanelRow = PanelRow::new(
+    "measurements",
+    "Measurements",
+    DefaultPlace::BelowCode,
+    Content::Within(MARGIN, |ui, context| show(&mut context.project_ui.measurements, ui, context.session, context.out)),
+)
+.report(|state, _, session| report(&state.measurements, session))
+.action("Panel: Measurements (//@probe values over time)", &["Ctrl+Shift+J"], "plot chart metrics graph");
+
+fn show(state: &mut Measurements, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("measurements", ui);
     ui.spacing_mut().item_spacing = vec2(5.0, 5.0);
     let measures = session.measures();
@@ -50,13 +64,9 @@ fn controls(state: &mut Measurements, ui: &mut Ui, measures: &[Measure], out: &m
         let is_empty = measures.iter().all(|measure| measure.record.newest().is_none());
         let save = ui.add_enabled(!is_empty, Button::new("Save as CSV"));
         let save = save.on_hover_text("One row per frame, one column per comment; saved next to the screenshots");
-        if out.clicked("measures:save", &save) {
-            out.ask(ViewCommand::SaveMeasures);
-        }
+        out.on_click("measures:save", &save, Command::View(ViewCommand::SaveMeasures));
         let clear = ui.add_enabled(!is_empty, Button::new("Clear")).on_hover_text("Clear all plots and start again");
-        if out.clicked("measures:clear", &clear) {
-            out.ask(ViewCommand::ClearMeasures);
-        }
+        out.on_click("measures:clear", &clear, Command::View(ViewCommand::ClearMeasures));
     });
 }
 

@@ -4,7 +4,7 @@ use super::state::Measurements;
 use crate::{debugger::trace::Number, session::Session};
 use serde_json::{Value, json};
 
-pub(crate) fn report(state: &Measurements, session: &Session) -> Value {
+pub(super) fn report(state: &Measurements, session: &Session) -> Value {
     let cards = session.measures().iter().map(|measure| {
         let (record, trouble) = (&measure.record, session.unmeasured(measure));
         let newest = record.newest();

@@ -40,7 +40,7 @@ pub(crate) struct Measurements {
 
 impl Measurements {
     /// Returns whether costs of passes were visible in the newest frame. Called once for each frame.
-    pub(crate) fn take_costs_wish(&mut self) -> bool {
+    pub(crate) fn take_costs_request(&mut self) -> bool {
         std::mem::take(&mut self.wants_costs)
     }
 

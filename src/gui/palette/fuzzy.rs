@@ -2,7 +2,7 @@
 
 /// Costs of a letter of a title: it continues the previous one, starts a word, or is anywhere.
 const GOES_ON: u32 = 0;
-const BEGINS_WORD: u32 = 1;
+const WORD_START: u32 = 1;
 const ANYWHERE: u32 = 6;
 
 /// Returns a cost, which is smaller for a better match, and the bytes of the matched letters of `title`; `None` if it
@@ -37,7 +37,7 @@ pub(super) fn fit_with<'a>(typed: &str, title: &str, synonyms: &'a str) -> Optio
         match synonyms.split(' ').find(|synonym| word.len() > 1 && synonym.starts_with(word)) {
             Some(synonym) => {
                 // A word of the title itself has priority.
-                cost += 1 + BEGINS_WORD + u32::from(synonym.len() > word.len());
+                cost += 1 + WORD_START + u32::from(synonym.len() > word.len());
                 found = found.or(Some(synonym));
             }
             None => rest.push(word),
@@ -55,20 +55,20 @@ fn word_fit(word: &str, title: &str, from: usize) -> Option<(u32, Vec<usize>)> {
     let places: Vec<(usize, char, bool)> = {
         let mut before = ' ';
         let place = |(i, c): (usize, char)| {
-            let begins = !before.is_alphanumeric() && c.is_alphanumeric();
+            let is_word_start = !before.is_alphanumeric() && c.is_alphanumeric();
             before = c;
-            (i, lower(c), begins)
+            (i, lower(c), is_word_start)
         };
         title.char_indices().map(place).filter(|(i, ..)| *i >= from).collect()
     };
     // For each place: the cheapest match that ends there, and its previous place.
-    let mut ways: Vec<Vec<Option<(u32, usize)>>> = Vec::new();
+    let mut costs: Vec<Vec<Option<(u32, usize)>>> = Vec::new();
     for (n, letter) in word.chars().map(lower).enumerate() {
         let mut cheapest: Option<(u32, usize)> = None;
         let mut row = Vec::with_capacity(places.len());
-        for (p, (_, c, begins)) in places.iter().enumerate() {
-            let step = if *begins { BEGINS_WORD } else { ANYWHERE };
-            let reached = match n.checked_sub(1).map(|before| &ways[before]) {
+        for (p, (_, c, is_word_start)) in places.iter().enumerate() {
+            let step = if *is_word_start { WORD_START } else { ANYWHERE };
+            let reached = match n.checked_sub(1).map(|before| &costs[before]) {
                 None => Some((step, p)),
                 Some(before) => {
                     let next = p.checked_sub(1).and_then(|q| before[q].map(|(cost, _)| (cost + GOES_ON, q)));
@@ -83,14 +83,14 @@ fn word_fit(word: &str, title: &str, from: usize) -> Option<(u32, Vec<usize>)> {
             };
             row.push(reached.filter(|_| *c == letter));
         }
-        ways.push(row);
+        costs.push(row);
     }
     let (mut at, cost) = {
-        let ends = ways.last()?.iter().enumerate().filter_map(|(p, way)| Some((p, (*way)?.0)));
+        let ends = costs.last()?.iter().enumerate().filter_map(|(p, cost_and_origin)| Some((p, (*cost_and_origin)?.0)));
         ends.min_by_key(|(_, cost)| *cost)?
     };
     let mut found = Vec::new();
-    for row in ways.iter().rev() {
+    for row in costs.iter().rev() {
         found.push(places[at].0);
         at = row[at]?.1;
     }

@@ -263,7 +263,7 @@ mod tests {
     use super::*;
     use crate::gui::{
         actions::{PictureAction, SIZES},
-        dock::Panel,
+        panels::Panel,
         settings::Theme,
     };
     use crate::session::TransportCommand;

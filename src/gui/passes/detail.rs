@@ -111,9 +111,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed,
 fn shows(ui: &mut Ui, tab: &Tab, pass: Option<&PassName>, out: &mut UiOutput) {
     ui.add_space(8.0);
     ui.horizontal(|ui| {
-        if out.clicked("passes:text", &ui.button("Edit code")) {
-            out.shell_commands.push(ShellCommand::GoTo(tab.clone(), None));
-        }
+        out.on_click("passes:text", &ui.button("Edit code"), ShellCommand::GoTo(tab.clone(), None));
         if let Some(pass) = pass.filter(|id| id.is_picture())
             && out.clicked("passes:show", &ui.button("Show this pass"))
         {

@@ -8,7 +8,7 @@ use crate::{
         ui_output::UiOutput,
     },
     project::{Group, Pass, PassEdit, PassName, PassSize, Project, Tab},
-    session::{EditCommand, Session},
+    session::{Command, EditCommand, Session},
 };
 use egui::{Align2, FontId, Id, Rect, Response, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -165,8 +165,6 @@ fn tools(ui: &mut Ui, project: &Project, chosen: &Tab, out: &mut UiOutput) {
     }
     let can_go = *chosen != Tab::image() && project.source(chosen).is_some();
     let remove = ui.add_enabled(can_go, egui::Button::new("Remove"));
-    if out.clicked("passes:remove", &remove) {
-        out.ask(EditCommand::EditPasses(PassEdit::Remove(chosen.clone())));
-    }
+    out.on_click("passes:remove", &remove, Command::Edit(EditCommand::EditPasses(PassEdit::Remove(chosen.clone()))));
     remove.on_disabled_hover_text("Image cannot be removed").on_hover_text("Can be undone");
 }

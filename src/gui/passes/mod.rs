@@ -138,9 +138,7 @@ fn tools(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
                 [("passes:redo", "Redo", redo, Action::RedoPasses), ("passes:undo", "Undo", undo, Action::UndoPasses)]
             {
                 let button = ui.add_enabled(title.is_some(), egui::Button::new(label));
-                if out.clicked(name, &button) {
-                    out.act(action);
-                }
+                out.on_click(name, &button, action);
                 let tip = format!("{label}: {}", title.as_deref().unwrap_or("nothing"));
                 button.on_hover_text(out.keys.tip(&tip, action)).on_disabled_hover_text(format!("Nothing to {label}"));
             }

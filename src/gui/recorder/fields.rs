@@ -46,8 +46,8 @@ pub(super) fn error(ui: &mut Ui, name: &str, why: &str, out: &mut UiOutput) {
         if let Some(first) = text.get(..1).map(str::to_uppercase) {
             text.replace_range(..1, &first);
         }
-        let said = ui.add(Label::new(RichText::new(text).size(12.0).color(theme::of(ui).error)).wrap());
-        out.place(format!("film:error:{name}"), said.rect);
+        let response = ui.add(Label::new(RichText::new(text).size(12.0).color(theme::of(ui).error)).wrap());
+        out.place(format!("film:error:{name}"), response.rect);
     });
 }
 

@@ -6,7 +6,7 @@ mod fields;
 mod panel;
 mod report;
 
-pub(super) use panel::show;
+pub(super) use panel::PANEL;
 pub(super) use report::report;
 
 use super::{settings::Change, ui_output::ShellCommand};
@@ -17,7 +17,7 @@ use crate::session::FilmForm;
 pub(super) struct Recorder {
     form: FilmForm,
     /// The choices in the settings.
-    kept: Option<FilmForm>,
+    saved: Option<FilmForm>,
     /// The existing file of the typed name may be replaced.
     replaces: bool,
     /// The encoders of ffmpeg were requested.
@@ -27,20 +27,20 @@ pub(super) struct Recorder {
 impl Recorder {
     /// Takes over the choices of the settings if they have changed.
     fn follow(&mut self, settings: &FilmForm) {
-        if self.kept.as_ref() != Some(settings) {
+        if self.saved.as_ref() != Some(settings) {
             let file = std::mem::take(&mut self.form.file);
             self.form = FilmForm { file, ..settings.clone() };
-            self.kept = Some(settings.clone());
+            self.saved = Some(settings.clone());
         }
     }
 
     /// Returns the change of the settings, if the choices have changed and nothing is being typed.
     fn change(&mut self, is_typing: bool, has_errors: bool) -> Option<ShellCommand> {
         let now = FilmForm { file: String::new(), ..self.form.clone() };
-        if is_typing || has_errors || self.kept.as_ref() == Some(&now) {
+        if is_typing || has_errors || self.saved.as_ref() == Some(&now) {
             return None;
         }
-        self.kept = Some(now.clone());
+        self.saved = Some(now.clone());
         Some(ShellCommand::Set(Change::Recorder(now)))
     }
 

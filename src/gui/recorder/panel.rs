@@ -2,10 +2,29 @@
 
 use super::{Recorder, fields};
 use crate::{
-    gui::{accessible, theme, ui_output::UiOutput},
-    session::{CheckedForm, FilmCommand, FilmForm, FilmOrder, FilmPreset, FilmView, Session},
+    gui::{
+        accessible,
+        panels::{Content, DefaultPlace, MARGIN, PanelRow},
+        theme,
+        ui_output::UiOutput,
+    },
+    session::{CheckedForm, Command, FilmCommand, FilmForm, FilmOrder, FilmPreset, FilmView, Session},
 };
 use egui::{Button, Label, ProgressBar, Response, RichText, Role, ScrollArea, Ui, vec2};
+
+pub(crate) const PANEL: PanelRow = PanelRow::new(
+    "recorder",
+    "Recorder",
+    DefaultPlace::BelowCodeLarge,
+    Content::Within(MARGIN, |ui, context| {
+        show(context.recorder, ui, &context.settings.recorder, context.session, context.out)
+    }),
+)
+.action(
+    "Panel: Recorder (films, GIFs and image sequences)",
+    &["Shift+Alt+R"],
+    "record video movie gif mp4 webm render export capture screen sequence",
+);
 
 /// The text below the first button.
 const LIVE: &str = "Every frame that the window draws while you play with mouse, keys and sliders. No frame is left out: \
@@ -16,7 +35,7 @@ const RANGE: &str = "The frames of the range, from frame 0 without input, as edd
                      meanwhile.";
 
 /// Shows the panel. `settings` are the last choices.
-pub(crate) fn show(recorder: &mut Recorder, ui: &mut Ui, settings: &FilmForm, session: &Session, out: &mut UiOutput) {
+fn show(recorder: &mut Recorder, ui: &mut Ui, settings: &FilmForm, session: &Session, out: &mut UiOutput) {
     out.stop("recorder", ui);
     ui.spacing_mut().item_spacing = vec2(6.0, 5.0);
     recorder.follow(settings);
@@ -67,9 +86,7 @@ fn presets(recorder: &mut Recorder, ui: &mut Ui, out: &mut UiOutput) {
 
 fn look_again(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let button = ui.add_enabled(!session.looks_for_encoders(), Button::new("Look for ffmpeg again"));
-    if out.clicked("film:look-again", &button) {
-        out.ask(FilmCommand::FindEncoders);
-    }
+    out.on_click("film:look-again", &button, Command::Film(FilmCommand::FindEncoders));
 }
 
 fn buttons(recorder: &mut Recorder, ui: &mut Ui, checked: &CheckedForm, out: &mut UiOutput) {
@@ -99,7 +116,7 @@ fn buttons(recorder: &mut Recorder, ui: &mut Ui, checked: &CheckedForm, out: &mu
             false
         };
     let live = why(&checked.live, checked.not_live.as_deref());
-    let begins = entry(ui, "film:live", "Record what I do", LIVE, &checked.live, live)
+    let is_started = entry(ui, "film:live", "Record what I do", LIVE, &checked.live, live)
         | entry(
             ui,
             "film:range-exactly",
@@ -108,7 +125,7 @@ fn buttons(recorder: &mut Recorder, ui: &mut Ui, checked: &CheckedForm, out: &mu
             &checked.range,
             why(&checked.range, None),
         );
-    if begins {
+    if is_started {
         recorder.replaces = false;
     }
 }
@@ -127,9 +144,7 @@ fn status(ui: &mut Ui, session: &Session, film: &FilmView<'_>, out: &mut UiOutpu
         ui.horizontal_wrapped(|ui| {
             if matches!(film, FilmView::Live(_)) {
                 let stop = ui.add(Button::new(RichText::new("Stop and save").color(p.strong)).fill(p.accent_fill));
-                if out.clicked("film:stop", &stop) {
-                    out.ask(FilmCommand::StopFilm);
-                }
+                out.on_click("film:stop", &stop, Command::Film(FilmCommand::StopFilm));
             }
             if cancel(ui, out) {
                 out.ask(FilmCommand::CancelFilm);
@@ -142,8 +157,8 @@ fn status(ui: &mut Ui, session: &Session, film: &FilmView<'_>, out: &mut UiOutpu
         out.place("film:progress", bar.rect);
     }
     let words = film.words();
-    let said = ui.add(Label::new(RichText::new(&words).color(color)).wrap().selectable(true));
-    out.place("film:status", said.rect);
+    let label = ui.add(Label::new(RichText::new(&words).color(color)).wrap().selectable(true));
+    out.place("film:status", label.rect);
     if session.closes_after_film() {
         ui.label("Eddy closes when the film is complete.");
     }

@@ -1,6 +1,6 @@
 //! Reads `settings.toml`, makes a new one, and changes one line of it.
 
-use super::keys::{Change, KEYS, Settings};
+use super::rows::{Change, SETTINGS, Setting, Settings};
 use crate::{diag::LineIndex, gui::config_file::ConfigError, project::nearest};
 use std::{fmt::Write as _, ops::Range};
 use toml_edit::{Document, DocumentMut, Item};
@@ -8,7 +8,7 @@ use toml_edit::{Document, DocumentMut, Item};
 /// Returns the settings in a file's text and all errors in it. A setting with an error keeps its default.
 pub(super) fn read(text: &str) -> (Settings, Vec<ConfigError>) {
     let mut settings = Settings::default();
-    let mut mistakes = Vec::new();
+    let mut errors = Vec::new();
     let lines = LineIndex::new(text);
     let line = |span: Option<Range<usize>>| lines.line(span.map_or(0, |span| span.start));
     let document = match Document::parse(text) {
@@ -21,25 +21,28 @@ pub(super) fn read(text: &str) -> (Settings, Vec<ConfigError>) {
     let table = document.as_table();
     for (name, item) in table.iter() {
         let at = line(table.key(name).and_then(toml_edit::Key::span).or_else(|| item.span()));
-        let mut wrong = |text: String| mistakes.push(ConfigError { line: at, text });
-        let Some(key) = KEYS.iter().find(|key| key.name == name) else {
-            let mend = match nearest(name, KEYS.iter().map(|key| key.name)) {
+        let mut wrong = |text: String| errors.push(ConfigError { line: at, text });
+        let Some(setting) = Setting::named(name) else {
+            let fix = match nearest(name, SETTINGS.iter().map(|setting| setting.key)) {
                 Some(near) => format!("did you mean \"{near}\"?"),
-                None => format!("the settings are {}", KEYS.iter().map(|key| key.name).collect::<Vec<_>>().join(", ")),
+                None => {
+                    let all: Vec<&str> = SETTINGS.iter().map(|setting| setting.key).collect();
+                    format!("the settings are {}", all.join(", "))
+                }
             };
-            wrong(format!("unknown setting \"{name}\"; {mend}"));
+            wrong(format!("unknown setting \"{name}\"; {fix}"));
             continue;
         };
         let Some(value) = item.as_value() else {
-            wrong(format!("{name} takes one value: {name} = {}", key.usual));
+            wrong(format!("{name} takes one value: {name} = {}", setting.default_text()));
             continue;
         };
-        match (key.read)(value) {
+        match setting.read(value) {
             Ok(change) => change.apply(&mut settings),
-            Err(what) => wrong(format!("{name} {what}")),
+            Err(why) => wrong(format!("{name} {why}")),
         }
     }
-    (settings, mistakes)
+    (settings, errors)
 }
 
 /// Returns the text with one setting changed and everything else unchanged. Returns an error if the text cannot be
@@ -103,111 +106,16 @@ pub(super) fn template() -> String {
         "# Settings of Eddy. Remove the # from a line to change it; the others keep their defaults.\n\
          # Eddy reads this file when you switch back to its window. Keyboard shortcuts are in keybindings.toml next to it.\n",
     );
-    for key in KEYS {
+    for setting in SETTINGS {
+        let row = &setting.row;
+        let (help, expected, conditions) = (row.help, row.kind.expected(), setting.conditions());
         // Writing to a string does not fail.
-        let _ = write!(text, "\n# {}.\n# {} = {}\n", key.about, key.name, key.usual);
+        let _ = write!(
+            text,
+            "\n# {help}.\n# Must be {expected}.{conditions}\n# {} = {}\n",
+            setting.key,
+            setting.default_text()
+        );
     }
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{control::midi::MidiChoice, gui::settings::Theme, session::FilmForm};
-    use std::time::Duration;
-
-    #[test]
-    fn settings_are_read_and_errors_have_their_line() {
-        let (settings, mistakes) = read(
-            "theme = \"light\"\nzoom = 2\ncode-size = 15.5\nword-wrap = true\nframe-timeout = 0.5\n\
-             code-font = \"/a/b.ttf\"\nproject-in-images = false\nvolume = 0.25\nmute = true\n\
-             audio-output = \"Speakers\"\naudio-input = \"\"\n\
-             osc = true\nosc-port = 8000\nosc-address = \"0.0.0.0\"\nmidi = \"Knobs\"\ngamepads = true\n\
-             recorder = \"--frames 0-9 --format gif\"\n",
-        );
-        assert_eq!(mistakes, []);
-        let wanted = Settings {
-            theme: Theme::Light,
-            zoom: 2.0,
-            code_size: 15.5,
-            code_font: Some("/a/b.ttf".into()),
-            word_wrap: true,
-            frame_timeout: Duration::from_millis(500),
-            project_in_images: false,
-            volume: 0.25,
-            mute: true,
-            audio_output: Some("Speakers".into()),
-            osc: true,
-            osc_port: 8000,
-            osc_address: "0.0.0.0".parse().unwrap(),
-            midi: MidiChoice::Named("Knobs".into()),
-            gamepads: true,
-            recorder: FilmForm::of_options("--frames 0-9 --format gif").unwrap(),
-            ..Settings::default()
-        };
-        assert_eq!(settings, wanted);
-        let text =
-            "# mine\nthem = \"light\"\ntheme = \"blue\"\nzoom = 40\n[word-wrap]\non = true\n[editor]\nsize = 3\n";
-        let (settings, mistakes) = read(text);
-        assert_eq!(settings, Settings::default());
-        let found: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
-        let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout, project-in-images, \
-                   volume, mute, audio-output, audio-input, osc, osc-port, osc-address, midi, gamepads, recorder";
-        let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
-        let wanted = [
-            (2, "unknown setting \"them\"; did you mean \"theme\"?"),
-            (3, "theme must be \"system\", \"dark\" or \"light\""),
-            (4, "zoom must be a number from 0.5 to 4"),
-            (5, "word-wrap takes one value: word-wrap = false"),
-            (7, nothing_near.as_str()),
-        ];
-        assert_eq!(found, wanted);
-        let (_, mistakes) = read("zoom = 1\ntheme = \n");
-        assert_eq!((mistakes.len(), mistakes[0].line), (1, 2), "{mistakes:?}");
-        assert_eq!(read("frame-timeout = -1").1.len(), 1);
-    }
-
-    #[test]
-    fn a_change_leaves_comments_order_and_unknown_keys() {
-        let text = "# mine\nzoom = 1.5 # large\n\nthem = 3\n";
-        let text = change(text, &Change::Zoom(1.75)).unwrap();
-        assert_eq!(text, "# mine\nzoom = 1.75 # large\n\nthem = 3\n");
-        let text = change(&text, &Change::Theme(Theme::Light)).unwrap();
-        assert_eq!(read(&text).0, Settings { zoom: 1.75, theme: Theme::Light, ..Settings::default() });
-        assert!(text.starts_with("# mine\nzoom = 1.75 # large\n"), "{text}");
-        assert_eq!(change("zoom = 1\nzoom =", &Change::Zoom(2.0)).unwrap_err().line, 2);
-        let fresh = change(&template(), &Change::WordWrap(true)).unwrap();
-        // The new file has a line for it.
-        assert_eq!(fresh, template().replace("# word-wrap = false", "word-wrap = true"));
-        assert!(read(&fresh).0.word_wrap);
-    }
-
-    #[test]
-    fn a_change_is_effective_and_keeps_the_users_text() {
-        let wrap = |text: &str| change(text, &Change::WordWrap(true));
-        let below = "zoom = 1.5\n[editor]\n# word-wrap = false\nsize = 3\n";
-        let text = wrap(below).unwrap();
-        assert!(read(&text).0.word_wrap && text.contains("[editor]\n# word-wrap = false\nsize = 3\n"), "{text}");
-        let table = "zoom = 1.5\n\n[word-wrap]\non = true # mine\n";
-        let why = wrap(table).unwrap_err();
-        assert_eq!(why.line, 3, "{why:?}");
-        let within = "code-font = \"\"\"\n# word-wrap = false\n\"\"\"\n";
-        let text = wrap(within).unwrap();
-        assert!(read(&text).0.word_wrap && text.contains(within), "{text}");
-        let dos = "# mine\r\n#word-wrap=false\r\nzoom = 1.5\r\n";
-        assert_eq!(wrap(dos).unwrap(), "# mine\r\nword-wrap = true\r\nzoom = 1.5\r\n");
-        let font = Change::CodeFont(Some("C:\\fonts\\a \"b\".ttf".into()));
-        let text = change("code-font = \"\" # plain\n", &font).unwrap();
-        assert!(text.ends_with("# plain\n"), "{text}");
-        assert_eq!(read(&text).0.code_font.as_deref(), Some("C:\\fonts\\a \"b\".ttf"));
-    }
-
-    /// The comments of a new file match the defaults.
-    #[test]
-    fn comments_of_a_new_file_match_the_defaults() {
-        assert_eq!(read(&template()), (Settings::default(), vec![]));
-        let rows = template().lines().filter(|l| l.contains(" = ")).map(|l| l[2..].to_owned()).collect::<Vec<_>>();
-        assert_eq!(rows.len(), KEYS.len());
-        assert_eq!(read(&rows.join("\n")), (Settings::default(), vec![]));
-    }
 }

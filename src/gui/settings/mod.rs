@@ -5,10 +5,17 @@
 //! window's place and its layout.
 
 mod file;
-mod keys;
+mod kind;
+mod rows;
 mod settings_file;
+mod values;
 mod window_file;
 
-pub(super) use keys::{ADDRESS, Change, Control, GAMEPADS, KEYS, Key, Number, Settings, Theme};
+pub(super) use kind::{Kind, Number};
+pub(super) use rows::{Change, Overrides, SETTINGS, Setting, Settings, commands};
 pub(super) use settings_file::SettingsFile;
-pub(super) use window_file::{UsualSizes, WindowFile, WindowPlace, WindowState};
+pub(super) use values::{MIDI_ALL, MIDI_OFF, Plain, Theme};
+pub(super) use window_file::{RestoredSizes, WindowFile, WindowPlace, WindowState};
+
+#[cfg(test)]
+mod tests;

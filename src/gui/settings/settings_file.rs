@@ -2,7 +2,7 @@
 
 use super::{
     file,
-    keys::{Change, Settings},
+    rows::{Change, Settings},
 };
 use crate::gui::config_file::{ConfigError, ConfigFile, Content};
 
@@ -30,6 +30,7 @@ impl SettingsFile {
     /// Changes a setting here and in the file. Returns why it could not be saved; it then applies until the window
     /// closes.
     pub(crate) fn change(&mut self, change: Change) -> Result<(), String> {
+        let change = change.fitted();
         change.apply(self.content_mut());
         self.edit(|text| file::change(text, &change), "The setting applies until the window closes.")
     }
@@ -37,7 +38,7 @@ impl SettingsFile {
     /// Returns why no setting can be written: the file cannot be read or parsed.
     pub(crate) fn trouble(&self) -> Option<&str> {
         let is_broken = self.text().is_some_and(|text| toml_edit::Document::parse(text).is_err());
-        let why = self.mistakes().first().filter(|_| is_broken || self.is_unreadable());
+        let why = self.errors().first().filter(|_| is_broken || self.is_unreadable());
         why.map(String::as_str)
     }
 }
@@ -47,7 +48,7 @@ mod tests {
     use super::*;
     use crate::{
         control::midi::MidiChoice,
-        gui::settings::{Theme, keys::KEYS},
+        gui::settings::{Theme, rows::SETTINGS},
     };
     use std::fs;
 
@@ -69,14 +70,14 @@ mod tests {
         );
         assert_eq!((file.settings().zoom, file.settings().theme), (2.0, Theme::System));
         assert_eq!(file.refresh(), [""; 0], "told once");
-        assert_eq!((file.trouble(), file.mistakes().len()), (None, 1));
+        assert_eq!((file.trouble(), file.errors().len()), (None, 1));
         // A change that another program wrote takes effect and is not overwritten by a change here.
         fs::write(&path, "zoom = 3.0 # theirs\ncode-size = 20.0\n").unwrap();
         file.change(Change::WordWrap(true)).unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), "zoom = 3.0 # theirs\ncode-size = 20.0\nword-wrap = true\n");
         let now = file.settings();
         assert_eq!((now.zoom, now.code_size, now.word_wrap), (3.0, 20.0, true));
-        assert!(file.mistakes().is_empty());
+        assert!(file.errors().is_empty());
         file.change(Change::WordWrap(false)).unwrap();
         fs::write(&path, "zoom = = 2\n").unwrap();
         let why = file.change(Change::WordWrap(true)).unwrap_err();
@@ -90,14 +91,14 @@ mod tests {
     #[test]
     fn settings_of_earlier_versions_are_read_and_written_the_same() {
         let all = include_str!("../../../tests/saved/settings/all.toml");
-        let (settings, mistakes) = file::read(all);
-        assert_eq!(mistakes, []);
-        for key in KEYS {
-            assert!(!key.is_usual(&settings), "{} is not in the file", key.name);
-            assert_eq!(file::change(all, &key.as_it_is(&settings)).unwrap(), all, "{}", key.name);
+        let (settings, errors) = file::read(all);
+        assert_eq!(errors, []);
+        for setting in SETTINGS {
+            assert!(!setting.is_default(&settings), "{} is not in the file", setting.key);
+            assert_eq!(file::change(all, &(setting.current)(&settings)).unwrap(), all, "{}", setting.key);
         }
-        let (settings, mistakes) = file::read(include_str!("../../../tests/saved/settings/few.toml"));
-        assert_eq!(mistakes, []);
+        let (settings, errors) = file::read(include_str!("../../../tests/saved/settings/few.toml"));
+        assert_eq!(errors, []);
         assert_eq!((settings.theme, settings.midi), (Theme::Light, MidiChoice::All));
     }
 }

@@ -1,9 +1,6 @@
 //! `window.toml`: the window's place and layout, saved between runs.
 
-use crate::gui::{
-    config_file::write,
-    dock::{Node, Panel},
-};
+use crate::gui::{config_file::write, dock::Node, panels::Panel};
 use crate::{diag::LineIndex, project::confine};
 use std::{collections::BTreeSet, path::PathBuf};
 use toml_edit::{Array, DocumentMut, Item, Value};
@@ -25,12 +22,12 @@ pub(crate) struct WindowPlace {
 ///
 /// A window system reports the maximised state before or after the new size: the newest size may be the screen's.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct UsualSizes {
+pub(crate) struct RestoredSizes {
     newest: Option<WindowPlace>,
     before: Option<WindowPlace>,
 }
 
-impl UsualSizes {
+impl RestoredSizes {
     pub(crate) fn note(&mut self, place: WindowPlace) {
         if self.newest.is_none_or(|newest| newest.size != place.size) {
             self.before = self.newest;
@@ -78,10 +75,10 @@ impl WindowFile {
             Ok(None) => return Default::default(),
             Err(error) => return (WindowState::default(), vec![format!("{}: {error}", path.display())]),
         };
-        let (remembered, mistakes) = read(&text);
-        self.known = remembered.clone();
+        let (state, errors) = read(&text);
+        self.known = state.clone();
         let with_place = |(line, what): (usize, String)| format!("{}:{line}: {what}", path.display());
-        (remembered, mistakes.into_iter().map(with_place).collect())
+        (state, errors.into_iter().map(with_place).collect())
     }
 
     pub(crate) fn known(&self) -> &WindowState {
@@ -89,21 +86,21 @@ impl WindowFile {
     }
 
     /// Writes the file if the state has changed.
-    pub(crate) fn keep(&mut self, remembered: WindowState) {
+    pub(crate) fn save_if_changed(&mut self, state: WindowState) {
         let Some(path) = &self.path else { return };
-        if remembered == self.known {
+        if state == self.known {
             return;
         }
-        match write(path, &text(&remembered)) {
-            Ok(()) => self.known = remembered,
+        match write(path, &text(&state)) {
+            Ok(()) => self.known = state,
             // A failure is harmless now: only the next start lacks the state.
             Err(error) => log::warn!("{}: {error}", path.display()),
         }
     }
 }
 
-fn text(remembered: &WindowState) -> String {
-    let WindowState { place, open, layout } = remembered;
+fn text(state: &WindowState) -> String {
+    let WindowState { place, open, layout } = state;
     let mut document = DocumentMut::new();
     let mut set = |name: &str, value: Value| drop(document.insert(name, Item::Value(value)));
     if let Some((width, height)) = place.size {
@@ -127,20 +124,20 @@ fn text(remembered: &WindowState) -> String {
 }
 
 fn read(text: &str) -> (WindowState, Vec<(usize, String)>) {
-    let mut remembered = WindowState::default();
-    let mut mistakes = Vec::new();
+    let mut state = WindowState::default();
+    let mut errors = Vec::new();
     let lines = LineIndex::new(text);
     let document = match toml_edit::Document::parse(text) {
         Ok(document) => document,
         Err(error) => {
             let line = lines.line(error.span().map_or(0, |span| span.start));
-            return (remembered, vec![(line, error.message().trim_end().to_owned())]);
+            return (state, vec![(line, error.message().trim_end().to_owned())]);
         }
     };
     let table = document.as_table();
     let mut wrong = |name: &str, what: String| {
         let start = table.key(name).and_then(toml_edit::Key::span).map_or(0, |span| span.start);
-        mistakes.push((lines.line(start), what));
+        errors.push((lines.line(start), what));
     };
     for (name, _) in table.iter().filter(|(name, _)| !KEYS.contains(name)) {
         wrong(name, format!("unknown key \"{name}\"; the keys are {}", KEYS.join(", ")));
@@ -148,24 +145,24 @@ fn read(text: &str) -> (WindowState, Vec<(usize, String)>) {
     let value = |name: &str| table.get(name).and_then(Item::as_value);
     let number = |name: &str| value(name).and_then(|v| v.as_float().or_else(|| v.as_integer().map(|n| n as f64)));
     let is_size = |n: &f64| (100.0..=100_000.0).contains(n);
-    remembered.place.size = number("width").filter(is_size).zip(number("height").filter(is_size));
+    state.place.size = number("width").filter(is_size).zip(number("height").filter(is_size));
     let whole = |name: &str| value(name)?.as_integer().and_then(|n| i32::try_from(n).ok());
-    remembered.place.corner = whole("x").zip(whole("y"));
-    remembered.place.is_maximized = value("maximized").and_then(Value::as_bool).unwrap_or(false);
+    state.place.corner = whole("x").zip(whole("y"));
+    state.place.is_maximized = value("maximized").and_then(Value::as_bool).unwrap_or(false);
     if let Some(list) = value("open") {
         let names = list.as_array().map(|list| list.iter().filter_map(Value::as_str).collect::<Vec<_>>());
         for name in names.iter().flatten().filter(|name| Panel::named(name).is_none()) {
             let all = Panel::names();
             wrong("open", format!("unknown panel \"{name}\"; the panels are {all}"));
         }
-        remembered.open = names.map(|names| names.into_iter().filter_map(Panel::named).collect());
+        state.open = names.map(|names| names.into_iter().filter_map(Panel::named).collect());
     }
     match value("layout").map(Node::from_value) {
-        Some(Ok(node)) => remembered.layout = Some(node),
+        Some(Ok(node)) => state.layout = Some(node),
         Some(Err(what)) => wrong("layout", format!("the default layout is used: {what}")),
         None => {}
     }
-    (remembered, mistakes)
+    (state, errors)
 }
 
 #[cfg(test)]
@@ -188,7 +185,7 @@ mod tests {
     fn a_maximised_window_restores_its_previous_size() {
         let place =
             |width: f64, x| WindowPlace { size: Some((width, 600.0)), corner: Some((x, 0)), is_maximized: false };
-        let mut sizes = UsualSizes::default();
+        let mut sizes = RestoredSizes::default();
         assert_eq!(sizes.other_than((1920.0, 600.0)), None);
         sizes.note(place(900.0, 5));
         sizes.note(place(940.0, 6));
@@ -204,7 +201,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut file = WindowFile::new(Some(folder.path().join("eddy")));
         assert_eq!(file.read(), (WindowState::default(), vec![]));
-        file.keep(example());
+        file.save_if_changed(example());
         let text = std::fs::read_to_string(folder.path().join("eddy").join(NAME)).unwrap();
         assert!(text.contains("layout = { row = [{ column = [\"picture\", { tabs = "), "{text}");
         let mut next = WindowFile::new(Some(folder.path().join("eddy")));
@@ -215,15 +212,15 @@ mod tests {
     fn invalid_entries_are_reported_and_the_rest_is_read() {
         let text = "width = 900.0\nheight = 600\nwidht = 3\nopen = [\"code\", \"cdoe\"]\n\
                     layout = { row = [\"code\", \"code\"] }\nx = 1\n";
-        let (remembered, mistakes) = read(text);
-        assert_eq!(remembered.place, WindowPlace { size: Some((900.0, 600.0)), ..WindowPlace::default() });
-        assert_eq!(remembered.open, Some(BTreeSet::from([Panel::Code])));
-        assert_eq!(remembered.layout, None);
-        let lines: Vec<usize> = mistakes.iter().map(|(line, _)| *line).collect();
-        assert_eq!(lines, [3, 4, 5], "{mistakes:?}");
-        assert!(mistakes[2].1.ends_with("a panel is listed twice"), "{mistakes:?}");
-        let (remembered, mistakes) = read("x = \n");
-        assert_eq!((remembered, mistakes.len()), (WindowState::default(), 1));
+        let (state, errors) = read(text);
+        assert_eq!(state.place, WindowPlace { size: Some((900.0, 600.0)), ..WindowPlace::default() });
+        assert_eq!(state.open, Some(BTreeSet::from([Panel::Code])));
+        assert_eq!(state.layout, None);
+        let lines: Vec<usize> = errors.iter().map(|(line, _)| *line).collect();
+        assert_eq!(lines, [3, 4, 5], "{errors:?}");
+        assert!(errors[2].1.ends_with("a panel is listed twice"), "{errors:?}");
+        let (state, errors) = read("x = \n");
+        assert_eq!((state, errors.len()), (WindowState::default(), 1));
     }
 
     #[test]
@@ -232,8 +229,8 @@ mod tests {
             include_str!("../../../tests/saved/window/plain.toml"),
             include_str!("../../../tests/saved/window/layout.toml"),
         ] {
-            let (state, mistakes) = read(file);
-            assert_eq!(mistakes, []);
+            let (state, errors) = read(file);
+            assert_eq!(errors, []);
             assert_eq!(text(&state), file);
         }
     }

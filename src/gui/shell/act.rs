@@ -4,9 +4,9 @@ use super::{Shell, start_folder};
 use crate::{
     gui::{
         actions::{Action, LayoutAction, PictureAction},
-        dock::Panel,
         help::Help,
         palette::Offer,
+        panels::Panel,
         passes, recent, resolution,
         settings::{Change, Settings},
         settings_page::SettingsPage,
@@ -45,20 +45,20 @@ impl Shell {
             }
             Action::New => {
                 out.ask(FileCommand::New);
-                self.uncover(out);
+                self.leave_gallery(out);
                 self.code.focus();
             }
-            Action::Gallery if self.gallery => self.close_gallery(out),
+            Action::Gallery if self.modes.gallery => self.close_gallery(out),
             Action::Gallery => {
-                self.gallery = true;
+                self.modes.gallery = true;
                 out.ask(CanvasCommand::Cover(true));
             }
             Action::TogglePlay => out.ask(TransportCommand::TogglePlay),
             Action::Reset => out.ask(TransportCommand::Reset),
             Action::Step => out.ask(TransportCommand::Step),
             Action::StepBack => out.ask(TransportCommand::StepBack(1)),
-            Action::TabLeft => self.code.go_aside(session, -1),
-            Action::TabRight => self.code.go_aside(session, 1),
+            Action::TabLeft => self.code.switch_tab(session, -1),
+            Action::TabRight => self.code.switch_tab(session, 1),
             Action::Screenshot => out.ask(CaptureCommand::Screenshot),
             Action::SaveTexels => out.ask(CaptureCommand::SaveTexels),
             Action::Record => out.ask(TransportCommand::Record),
@@ -66,16 +66,13 @@ impl Shell {
                 out.ask(SoundCommand::OpenSoundAgain);
             }
             Action::Mute => {
-                let on = self.settings.settings().mute;
+                let on = self.config.settings().mute;
                 self.change(Change::Mute(!on), out);
             }
             Action::Microphone => match session.microphone_view() {
                 Some(view) if view.is_on || view.is_read => out.ask(SoundCommand::UseMicrophone(!view.is_on)),
-                _ => out.ask(NoticeCommand::Notify {
-                    level: Level::Info,
-                    text: "No channel reads the microphone: choose it as the input of a channel first.".into(),
-                    path: None,
-                }),
+                _ => out
+                    .notify(Level::Info, "No channel reads the microphone: choose it as the input of a channel first."),
             },
             Action::PlayRecording => self.files.ask(Pick::Recording, start_folder(session)),
             Action::StopReplay => out.ask(TransportCommand::StopReplay),
@@ -90,59 +87,57 @@ impl Shell {
                 self.files.ask(Pick::Page(name), start_folder(session));
             }
             Action::LabReport if self.lab.has_results() => self.files.ask(Pick::LabReport, start_folder(session)),
-            Action::LabReport => out.ask(NoticeCommand::Notify {
-                level: Level::Info,
-                text: "There are no lab results yet: start a study in the Lab panel.".into(),
-                path: None,
-            }),
+            Action::LabReport => {
+                out.notify(Level::Info, "There are no lab results yet: start a study in the Lab panel.")
+            }
             Action::Bookmarklet => {
                 if let Err(text) = self.browser.open_bookmarklet(&self.wake) {
-                    out.ask(NoticeCommand::Notify { level: Level::Error, text, path: None });
+                    out.notify(Level::Error, text);
                 }
             }
             Action::Audit => out.ask(ToolCommand::Audit),
             Action::Fullscreen => {
-                self.fullscreen = !self.fullscreen;
+                self.modes.fullscreen = !self.modes.fullscreen;
                 self.viewport.focus();
             }
             Action::NextPanel => self.focus.step(ui, out, true),
             Action::PreviousPanel => self.focus.step(ui, out, false),
             Action::Present => {
-                self.presents = self.gallery || !self.presents;
-                if self.gallery {
-                    self.uncover(out);
+                self.modes.code_over_picture = self.modes.gallery || !self.modes.code_over_picture;
+                if self.modes.gallery {
+                    self.leave_gallery(out);
                 }
                 self.code.focus();
             }
             Action::Panel(panel) => self.toggle(panel, out),
-            Action::UsualLayout => self.dock.reset(),
+            Action::ResetLayout => self.dock.reset(),
             Action::NextTheme => {
-                let theme = self.settings.settings().theme.next();
+                let theme = self.config.settings().theme.next();
                 self.change(Change::Theme(theme), out);
             }
             Action::Theme(theme) => self.change(Change::Theme(theme), out),
-            Action::Passes => self.kept.passes.toggle(None),
+            Action::Passes => self.project_ui.passes.toggle(None),
             Action::UndoPasses => out.ask(EditCommand::UndoPassEdit),
             Action::RedoPasses => out.ask(EditCommand::RedoPassEdit),
-            Action::Paste => self.wants_clipboard = true,
+            Action::Paste => self.clipboard.is_wanted = true,
             Action::ZoomIn => self.zoom(Some(0.1), out),
             Action::ZoomOut => self.zoom(Some(-0.1), out),
             Action::ZoomReset => self.zoom(None, out),
-            Action::Settings if self.page_of_settings.is_some() => self.page_of_settings = None,
-            Action::Settings => self.page_of_settings = Some(SettingsPage::new()),
+            Action::Settings if self.overlays.settings_page.is_some() => self.overlays.settings_page = None,
+            Action::Settings => self.overlays.settings_page = Some(SettingsPage::new()),
             Action::SettingsFile => {
-                let path = self.settings.write_if_missing();
+                let path = self.config.settings_file.write_if_missing();
                 out.ask(path_notice("The settings are", path));
             }
-            Action::Help => self.help = if self.help.is_some() { None } else { Some(Help::new()) },
-            Action::Palette if self.palette.is_open() => self.palette.close(ui),
-            Action::Palette => self.palette.open(ui),
-            Action::KeyFile => out.ask(path_notice("The keyboard shortcuts are", self.keys.write_if_missing())),
+            Action::Help => self.overlays.help = if self.overlays.help.is_some() { None } else { Some(Help::new()) },
+            Action::Palette if self.overlays.palette.is_open() => self.overlays.palette.close(ui),
+            Action::Palette => self.overlays.palette.open(ui),
+            Action::KeyFile => out.ask(path_notice("The keyboard shortcuts are", self.config.keys.write_if_missing())),
             Action::Find => self.code.open_find(false),
             Action::Replace => self.code.open_find(true),
             Action::FindEverywhere => self.code.open_find_everywhere(),
-            Action::FindNext => self.code.find_on(true),
-            Action::FindPrevious => self.code.find_on(false),
+            Action::FindNext => self.code.find_next(true),
+            Action::FindPrevious => self.code.find_next(false),
             Action::FindCase => self.code.switch_find(|query| query.match_case = !query.match_case),
             Action::FindRegex => self.code.switch_find(|query| query.is_regex = !query.is_regex),
             Action::ReplaceAll => self.code.replace_all(out),
@@ -150,11 +145,11 @@ impl Shell {
             Action::NextProblem => self.code.go_to_problem(session, true),
             Action::PreviousProblem => self.code.go_to_problem(session, false),
             Action::WordWrap => {
-                let wraps = self.settings.settings().word_wrap;
+                let wraps = self.config.settings().word_wrap;
                 self.change(Change::WordWrap(!wraps), out);
             }
             Action::CompileOnSave => {
-                let on = self.settings.settings().compile_on_save;
+                let on = self.config.settings().compile_on_save;
                 self.change(Change::CompileOnSave(!on), out);
             }
             Action::Code(action) => self.code.act(action, out),
@@ -164,15 +159,15 @@ impl Shell {
             Action::Probe => self.probe(session, out),
             Action::TracePixel => self.viewport.pick(),
             Action::FindNonfinite => {
-                self.uncover(out);
-                self.presents = false;
+                self.leave_gallery(out);
+                self.modes.code_over_picture = false;
                 self.dock.set_open(Panel::Buffers, true);
                 out.ask(ToolCommand::FindNonfinite(true));
             }
             Action::Trace(action) => {
                 let caret = self.code.caret_place().map(|(tab, _, line)| (tab, line));
-                if let Err(why) = self.kept.debugger.act(session, action, caret) {
-                    out.ask(NoticeCommand::Notify { level: Level::Info, text: why.into(), path: None });
+                if let Err(why) = self.project_ui.debugger.act(session, action, caret) {
+                    out.notify(Level::Info, why);
                 }
             }
             Action::Time(action) => timeline::act(ui.ctx(), session, action, out),
@@ -196,8 +191,8 @@ impl Shell {
             }
             PictureAction::Size(size) => out.ask(CanvasCommand::SetFixedSize(Some(size))),
             PictureAction::TypeSize => {
-                self.uncover(out);
-                (self.presents, self.fullscreen) = (false, false);
+                self.leave_gallery(out);
+                (self.modes.code_over_picture, self.modes.fullscreen) = (false, false);
                 self.dock.set_open(Panel::Picture, true);
                 resolution::open(ui.ctx());
             }
@@ -205,11 +200,9 @@ impl Shell {
             PictureAction::GoOn if is_halted => out.ask(HaltCommand::GoOn),
             PictureAction::Smaller if is_halted => out.ask(HaltCommand::DrawSmaller),
             PictureAction::LastGood if is_halted => out.ask(HaltCommand::DrawLastGood),
-            PictureAction::GoOn | PictureAction::Smaller | PictureAction::LastGood => out.ask(NoticeCommand::Notify {
-                level: Level::Info,
-                text: "No frame has exceeded the time limit.".into(),
-                path: None,
-            }),
+            PictureAction::GoOn | PictureAction::Smaller | PictureAction::LastGood => {
+                out.notify(Level::Info, "No frame has exceeded the time limit.")
+            }
         }
     }
 
@@ -217,7 +210,10 @@ impl Shell {
     fn act_on_panel(&mut self, ui: &Ui, action: LayoutAction) {
         let focused = ui.memory(|m| m.focused()).and_then(|id| ui.ctx().read_response(id));
         let at = focused.and_then(|widget| self.dock.panel_at(widget.rect.center()));
-        let Some(panel) = at.filter(|_| !self.gallery && !self.presents && !self.fullscreen) else { return };
+        let Some(panel) = at.filter(|_| !self.modes.gallery && !self.modes.code_over_picture && !self.modes.fullscreen)
+        else {
+            return;
+        };
         match action {
             LayoutAction::Resize(side) => self.dock.resize(panel, side),
             LayoutAction::Move(side) => self.dock.move_to_edge(panel, side),
@@ -230,7 +226,7 @@ impl Shell {
         out.ask(EditCommand::AddTab(tab.clone()));
         // The tab exists in the next frame.
         self.shell_commands.push(ShellCommand::GoTo(tab, None));
-        self.uncover(out);
+        self.leave_gallery(out);
     }
 
     /// Returns the actions that depend on the open project and this machine: passes to show, and recent projects.
@@ -262,23 +258,24 @@ impl Shell {
 
     /// Opens a panel or closes it. A panel hidden by another tab of its place comes to the front.
     fn toggle(&mut self, panel: Panel, out: &mut UiOutput) {
-        let is_hidden = self.gallery || self.presents || (self.fullscreen && panel != Panel::Picture);
+        let is_hidden =
+            self.modes.gallery || self.modes.code_over_picture || (self.modes.fullscreen && panel != Panel::Picture);
         self.dock.set_open(panel, is_hidden || !self.dock.is_seen(panel));
-        self.presents = false;
-        if self.gallery {
+        self.modes.code_over_picture = false;
+        if self.modes.gallery {
             self.close_gallery(out);
         }
     }
 
     fn zoom(&mut self, by: Option<f32>, out: &mut UiOutput) {
         let usual = Settings::default().zoom;
-        let zoom = by.map_or(usual, |by| ((self.settings.settings().zoom + by) * 10.0).round() / 10.0);
+        let zoom = by.map_or(usual, |by| ((self.config.settings().zoom + by) * 10.0).round() / 10.0);
         self.change(Change::Zoom(zoom), out);
     }
 
     fn scale_code(&mut self, by: Option<f32>, out: &mut UiOutput) {
         let usual = Settings::default().code_size;
-        self.change(Change::CodeSize(by.map_or(usual, |by| self.settings.settings().code_size + by)), out);
+        self.change(Change::CodeSize(by.map_or(usual, |by| self.config.settings().code_size + by)), out);
     }
 }
 

@@ -8,28 +8,39 @@ use crate::{
 use egui::Ui;
 use std::path::PathBuf;
 
+/// Requests for the clipboard's contents, which arrive as a paste event.
+#[derive(Default)]
+pub(super) struct ClipboardRequests {
+    /// They were requested and are handled as if they had been pasted into the window.
+    pub is_wanted: bool,
+    takes_paste: bool,
+    /// The code editor requested them.
+    pub is_wanted_by_code: bool,
+    pastes_into_code: bool,
+}
+
 impl Shell {
     /// Returns true once after a request for the clipboard's contents, which then arrive as a paste event.
-    pub(crate) fn take_clipboard_wish(&mut self) -> bool {
-        let wants = std::mem::take(&mut self.wants_clipboard);
-        self.takes_paste |= wants;
-        let pastes = std::mem::take(&mut self.wants_code_paste);
-        self.pastes_into_code |= pastes;
+    pub(crate) fn take_clipboard_request(&mut self) -> bool {
+        let wants = std::mem::take(&mut self.clipboard.is_wanted);
+        self.clipboard.takes_paste |= wants;
+        let pastes = std::mem::take(&mut self.clipboard.is_wanted_by_code);
+        self.clipboard.pastes_into_code |= pastes;
         wants || pastes
     }
 
     /// Takes dropped files, and text that is pasted while no text field has the focus.
     pub(super) fn take_imports(&mut self, ui: &Ui, session: &Session, out: &mut UiOutput) {
-        if std::mem::replace(&mut self.opened, session.opened()) != session.opened() && self.gallery {
+        if std::mem::replace(&mut self.opened, session.opened()) != session.opened() && self.modes.gallery {
             self.close_gallery(out);
         }
         let (files, at) = ui.input(|i| (i.raw.dropped_files.clone(), i.pointer.latest_pos()));
         if !files.is_empty() {
             let channel = at.and_then(|at| self.channel_at(at));
-            self.bring(files.iter().map(|file| file.path().to_owned()).collect(), channel, out);
+            self.open_files(files.iter().map(|file| file.path().to_owned()).collect(), channel, out);
         }
-        let types = ui.ctx().text_edit_focused() || self.code.has_keys(ui.ctx()) || self.palette.is_open();
-        if types && !self.takes_paste && !self.pastes_into_code {
+        let types = ui.ctx().text_edit_focused() || self.code.has_keys(ui.ctx()) || self.overlays.palette.is_open();
+        if types && !self.clipboard.takes_paste && !self.clipboard.pastes_into_code {
             return;
         }
         let mut pasted = None;
@@ -43,19 +54,19 @@ impl Shell {
             });
         });
         if let Some(text) = pasted {
-            if std::mem::take(&mut self.pastes_into_code) && !self.takes_paste {
+            if std::mem::take(&mut self.clipboard.pastes_into_code) && !self.clipboard.takes_paste {
                 return self.code.paste(text);
             }
-            self.takes_paste = false;
+            self.clipboard.takes_paste = false;
             out.ask(FileCommand::Paste(text));
         }
     }
 
     /// Opens files: projects are opened, pictures and models go to the selected pass.
-    pub(super) fn bring(&self, paths: Vec<PathBuf>, channel: Option<usize>, out: &mut UiOutput) {
+    pub(super) fn open_files(&self, paths: Vec<PathBuf>, channel: Option<usize>, out: &mut UiOutput) {
         let pass = self.code.current().pass().cloned().unwrap_or_default();
         // No pass is selected while the gallery covers it.
-        let to = (!self.gallery).then_some((pass, channel));
+        let to = (!self.modes.gallery).then_some((pass, channel));
         out.ask(FileCommand::Bring { paths, to });
     }
 

@@ -1,29 +1,27 @@
 //! The window's contents: its panels, their layout, and the handling of their requests.
 
 mod act;
+mod config;
 mod imports;
 mod keys;
-mod of_project;
+mod modes;
 mod panels;
 mod report;
 
 use super::{
-    actions::{Action, ActiveKeymap, KeyFile, KeyFocus},
+    actions::{Action, ActiveKeymap, KeyFocus},
     browser::Browser,
     channels::Live,
     code::CodePanel,
-    dock::{Dock, Panel},
+    dock::Dock,
     files::{Files, Picked},
     focus::Focus,
-    fonts,
     gallery::Gallery,
-    help::Help,
     lab::Lab,
-    palette::Palette,
+    panels::{Panel, ProjectUiState},
     questions,
     recorder::Recorder,
-    settings::{Change, Settings, SettingsFile, Theme, WindowState},
-    settings_page::{Overridden, SettingsPage},
+    settings::{Change, Overrides, Setting, SettingsFile, WindowState},
     thumbnails::Thumbnails,
     toasts,
     ui_output::{Pick, ShellCommand, UiOutput},
@@ -33,15 +31,17 @@ use crate::{
     gpu::Gpu,
     project::Origin,
     session::{
-        CanvasCommand, CaptureCommand, Command, ControlCommand, EditCommand, FileCommand, HaltCommand, Level,
-        NoticeCommand, Session, SoundCommand, ToolCommand, TransportCommand, ViewCommand,
+        CanvasCommand, Command, ControlCommand, EditCommand, FileCommand, Level, NoticeCommand, Session, ToolCommand,
+        TransportCommand, ViewCommand,
     },
 };
+use config::Config;
 use egui::{CentralPanel, Frame, Ui};
 use egui_wgpu::Renderer;
-use of_project::OfProject;
+use imports::ClipboardRequests;
+use modes::{Modes, Overlays};
+use report::Reported;
 use std::{
-    net::SocketAddr,
     path::{Path, PathBuf},
     sync::Arc,
     time::Instant,
@@ -54,56 +54,35 @@ pub(super) struct Shell {
     browser: Browser,
     lab: Lab,
     recorder: Recorder,
-    kept: OfProject,
-    /// The session's count of opened projects when `kept` was made.
-    kept_of: u64,
+    project_ui: ProjectUiState,
+    /// The session's count of opened projects when `project_ui` was made.
+    project_serial: u64,
     dock: Dock,
     sees_costs: bool,
     /// Thumbnails of buffers.
     live: Live,
     thumbnails: Thumbnails,
     wake: Arc<dyn Fn() + Send + Sync>,
-    gallery: bool,
-    help: Option<Help>,
-    page_of_settings: Option<SettingsPage>,
-    page: Gallery,
-    fullscreen: bool,
-    /// The code is drawn over a picture that fills the window.
-    presents: bool,
-    keys: KeyFile,
-    settings: SettingsFile,
-    /// The settings last applied.
-    in_effect: Option<Settings>,
-    /// The command line set the frame limit, which overrides the setting.
-    keeps_frame_limit: bool,
-    /// The address on which the command line has OSC received.
-    keeps_osc: Option<SocketAddr>,
-    palette: Palette,
+    gallery: Gallery,
+    modes: Modes,
+    overlays: Overlays,
+    config: Config,
     focus: Focus,
-    /// The clipboard's contents were requested: they are handled as if they had been pasted.
-    wants_clipboard: bool,
-    takes_paste: bool,
-    /// The code editor requested the clipboard's contents.
-    wants_code_paste: bool,
-    pastes_into_code: bool,
+    clipboard: ClipboardRequests,
     /// The number of projects that the session has opened so far.
     opened: u64,
-    /// The window had the keyboard focus in the previous frame.
-    was_focused: bool,
     pressed: keys::Keys,
     /// Requested by the previous frame: run after the session has applied that frame's commands.
     shell_commands: Vec<ShellCommand>,
     places: UiOutput,
-    /// Notices and texts that are already in the report.
-    reported_notice: Option<u64>,
-    reported_generation: Option<u64>,
+    reported: Reported,
 }
 
 impl Shell {
-    /// `gallery`: start on the page of presets.
-    pub(super) fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>, gallery: bool) -> Self {
+    /// `starts_in_gallery`: start on the page of presets.
+    pub(super) fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>, starts_in_gallery: bool) -> Self {
         let mut viewport = Viewport::new();
-        if !gallery {
+        if !starts_in_gallery {
             viewport.focus();
         }
         Self {
@@ -113,52 +92,32 @@ impl Shell {
             browser: Browser::default(),
             lab: Lab::new(&gpu, wake.clone()),
             recorder: Recorder::default(),
-            kept: OfProject::new(wake.clone()),
-            kept_of: 0,
+            project_ui: ProjectUiState::default(),
+            project_serial: 0,
             dock: Dock::new(),
             sees_costs: false,
             live: Live::default(),
             thumbnails: Thumbnails::new(gpu, wake.clone()),
             wake,
-            gallery,
-            page: Gallery::default(),
-            help: None,
-            page_of_settings: None,
-            fullscreen: false,
-            presents: false,
-            keys: KeyFile::new(),
-            settings: SettingsFile::new(),
-            in_effect: None,
-            keeps_frame_limit: false,
-            keeps_osc: None,
-            palette: Palette::default(),
+            gallery: Gallery::default(),
+            modes: Modes { gallery: starts_in_gallery, ..Modes::default() },
+            overlays: Overlays::default(),
+            config: Config::new(),
             focus: Focus::default(),
-            wants_clipboard: false,
-            takes_paste: false,
-            wants_code_paste: false,
-            pastes_into_code: false,
+            clipboard: ClipboardRequests::default(),
             opened: 0,
-            was_focused: false,
             pressed: keys::Keys::default(),
             shell_commands: Vec::new(),
             places: UiOutput::default(),
-            reported_notice: None,
-            reported_generation: None,
+            reported: Reported::default(),
         }
     }
 
-    /// Restores the state saved by the last run. `keeps_frame_limit`: the command line set one; `osc`: the address on
-    /// which it has OSC received.
-    pub(super) fn restore(
-        &mut self,
-        settings: SettingsFile,
-        remembered: &WindowState,
-        keeps_frame_limit: bool,
-        osc: Option<SocketAddr>,
-    ) {
-        self.settings = settings;
-        (self.keeps_frame_limit, self.keeps_osc) = (keeps_frame_limit, osc);
-        self.dock.restore(remembered.open.clone(), remembered.layout.as_ref());
+    /// Restores the state saved by the last run.
+    pub(super) fn restore(&mut self, settings: SettingsFile, window_state: &WindowState, overrides: Overrides) {
+        self.config.settings_file = settings;
+        self.config.overrides = overrides;
+        self.dock.restore(window_state.open.clone(), window_state.layout.as_ref());
     }
 
     /// Closes every panel except the picture and the uniforms, wherever they were.
@@ -168,11 +127,11 @@ impl Shell {
     }
 
     /// Drops all textures because the window has a new device. `wake` is called as before.
-    pub(super) fn renew(&mut self, gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) {
+    pub(super) fn on_new_device(&mut self, gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) {
         self.viewport.forget_texture();
         self.live = Live::default();
-        self.kept.buffers.forget_texture();
-        self.kept.compare.forget_textures();
+        self.project_ui.buffers.forget_texture();
+        self.project_ui.compare.forget_textures();
         self.thumbnails = Thumbnails::new(gpu, wake);
     }
 
@@ -182,17 +141,17 @@ impl Shell {
     }
 
     pub(super) fn is_fullscreen(&self) -> bool {
-        self.fullscreen
+        self.modes.fullscreen
     }
 
     /// Returns whether the picture has the keyboard focus, so that keys go to the shader.
     pub(super) fn picture_has_keys(&self, ctx: &egui::Context) -> bool {
-        !self.gallery && ctx.memory(|m| m.has_focus(Viewport::id()))
+        !self.modes.gallery && ctx.memory(|m| m.has_focus(Viewport::id()))
     }
 
     /// Returns whether a key press currently triggers an action of the window, so that it does not go to the shader.
     pub(super) fn is_action(&self, ctx: &egui::Context, event: &egui::Event) -> bool {
-        self.keys.keymap().pressed(event, self.listening(ctx)).is_some()
+        self.config.keys.keymap().pressed(event, self.listening(ctx)).is_some()
     }
 
     pub(super) fn ask_save_as(&mut self, name: &str) {
@@ -201,17 +160,17 @@ impl Shell {
 
     /// Takes over the session's newest results before the window is shown or painted.
     pub(super) fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
-        if std::mem::replace(&mut self.kept_of, session.projects_opened()) != session.projects_opened() {
-            self.kept = OfProject::new(self.wake.clone());
+        if std::mem::replace(&mut self.project_serial, session.projects_opened()) != session.projects_opened() {
+            self.project_ui = ProjectUiState::default();
             self.viewport.stop_picking();
         }
         self.code.prepare(session);
         self.viewport.prepare(session, renderer);
-        self.kept.debugger.prepare(session);
-        if let Some((tab, line)) = self.kept.debugger.take_reveal(session) {
+        self.project_ui.debugger.prepare(session);
+        if let Some((tab, line)) = self.project_ui.debugger.take_reveal(session) {
             self.code.reveal_line(tab, line);
         }
-        self.code.set_debug(self.kept.debugger.marks(session, self.code.current()));
+        self.code.set_debug(self.project_ui.debugger.marks(session, self.code.current()));
     }
 
     /// Returns the picture's texture if painting it now would differ from the last painting.
@@ -223,61 +182,65 @@ impl Shell {
     pub(super) fn show(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
         self.thumbnails.update(ui.ctx());
         self.lab.update();
-        let looks = self.page_of_settings.as_mut().is_some_and(|page| page.looks(ui, Instant::now()));
-        let is_read = self.is_back(ui) | looks;
-        let mistakes = if is_read { self.refresh_files() } else { Vec::new() };
-        let mut out = UiOutput::new(ActiveKeymap::new(self.keys.keymap().clone(), self.listening(ui)));
+        let is_check_due =
+            self.overlays.settings_page.as_mut().is_some_and(|page| page.is_check_due(ui, Instant::now()));
+        let is_read = self.config.is_back(ui) | is_check_due;
+        let errors = if is_read { self.config.refresh() } else { Vec::new() };
+        let mut out = UiOutput::new(ActiveKeymap::new(self.config.keys.keymap().clone(), self.listening(ui)));
         if is_read {
             // Drop notices of fixed problems, and show repeated ones once.
-            let is_over = |text: &str| self.keys.is_fixed(text) || self.settings.is_fixed(text);
-            let over = session.notices().iter().filter(|n| is_over(&n.text) || mistakes.contains(&n.text));
-            over.for_each(|notice| out.ask(NoticeCommand::DismissNotice(notice.id)));
+            let is_over = |text: &String| self.config.is_fixed(text) || errors.contains(text);
+            session
+                .notices()
+                .iter()
+                .filter(|notice| is_over(&notice.text))
+                .for_each(|notice| out.ask(NoticeCommand::DismissNotice(notice.id)));
         }
-        for text in mistakes {
-            out.ask(NoticeCommand::Notify { level: Level::Error, text, path: None });
+        for text in errors {
+            out.notify(Level::Error, text);
         }
-        out.commands.extend(self.follow_settings(ui.ctx()));
+        out.commands.extend(self.apply_settings(ui.ctx()));
         out.commands.extend(self.browser.take());
         out.shell_commands.append(&mut self.shell_commands);
         let asking = session.question().is_some();
-        if asking && self.palette.is_open() {
-            self.palette.close(ui);
+        if asking && self.overlays.palette.is_open() {
+            self.overlays.palette.close(ui);
         }
         self.focus.take_keys(ui);
         if !asking {
             self.keys(ui, &mut out);
             self.end_probe(ui, session, &mut out);
-            self.palette.take_keys(ui);
+            self.overlays.palette.take_keys(ui);
             self.take_imports(ui, session, &mut out);
         }
-        if self.presents && !self.gallery {
-            self.present(ui, session, &mut out);
-        } else if self.fullscreen && !self.gallery {
+        if self.modes.code_over_picture && !self.modes.gallery {
+            self.show_code_over_picture(ui, session, &mut out);
+        } else if self.modes.fullscreen && !self.modes.gallery {
             let picture = |ui: &mut Ui| self.viewport.show(ui, session, ViewportMode::Window, &mut out);
             CentralPanel::default().frame(Frame::NONE).show(ui, picture);
         } else {
             self.panels(ui, session, &mut out);
         }
         out.commands.extend(self.live.end_frame());
-        out.commands.extend(self.kept.buffers.end_frame(session));
-        out.commands.extend(self.kept.measurements.end_frame());
+        out.commands.extend(self.project_ui.buffers.end_frame(session));
+        out.commands.extend(self.project_ui.measurements.end_frame());
         toasts::expire(ui.ctx(), session, Instant::now(), &mut out);
         toasts::over(ui, session, Instant::now(), &mut out);
-        if !self.gallery {
+        if !self.modes.gallery {
             self.thumbnails.animate(None);
-            self.kept.passes.show(ui, session, &self.code.current().clone(), &mut out);
+            self.project_ui.passes.show(ui, session, &self.code.current().clone(), &mut out);
         }
         questions::show(ui, session, &mut out);
-        if self.help.as_mut().is_some_and(|help| !help.show(ui, &mut out)) {
-            self.help = None;
+        if self.overlays.help.as_mut().is_some_and(|help| !help.show(ui, &mut out)) {
+            self.overlays.help = None;
         }
-        let overridden = Overridden { frame_limit: self.keeps_frame_limit, osc: self.keeps_osc.is_some() };
-        let Self { settings, page_of_settings, .. } = self;
-        if page_of_settings.as_mut().is_some_and(|page| !page.show(ui, session, settings, overridden, &mut out)) {
-            self.page_of_settings = None;
+        let Config { settings_file, overrides, .. } = &self.config;
+        let page = self.overlays.settings_page.as_mut();
+        if page.is_some_and(|page| !page.show(ui, session, settings_file, overrides, &mut out)) {
+            self.overlays.settings_page = None;
         }
-        let offers = if self.palette.is_open() { Self::offers(session) } else { Vec::new() };
-        if let Some(action) = self.palette.show(ui, &offers, &mut out) {
+        let offers = if self.overlays.palette.is_open() { Self::offers(session) } else { Vec::new() };
+        if let Some(action) = self.overlays.palette.show(ui, &offers, &mut out) {
             out.act(action);
         }
         match self.files.show(ui, &mut out) {
@@ -285,70 +248,25 @@ impl Shell {
             Some(Picked::Cancelled(Pick::SaveAs(_))) => out.ask(FileCommand::SaveAsCancelled),
             Some(Picked::Cancelled(_)) | None => {}
         }
-        for wish in std::mem::take(&mut out.shell_commands) {
-            self.grant(ui, session, wish, &mut out);
+        for command in std::mem::take(&mut out.shell_commands) {
+            self.run_command(ui, session, command, &mut out);
         }
-        let is_over = self.help.is_some() || self.page_of_settings.is_some() || self.palette.is_open();
-        let is_covered = self.gallery || asking || is_over || self.files.is_asking();
+        let is_covered = self.modes.gallery || asking || self.overlays.is_any_open() || self.files.is_asking();
         self.focus.settle(ui, &out, is_covered);
         let commands = std::mem::take(&mut out.commands);
         self.places = out;
         commands
     }
 
-    /// Returns whether the window has just received the keyboard focus.
-    fn is_back(&mut self, ui: &Ui) -> bool {
-        let is_focused = ui.input(|i| i.focused);
-        !std::mem::replace(&mut self.was_focused, is_focused) && is_focused
-    }
-
-    /// Reads the files of keys and settings, and returns the errors in them.
-    fn refresh_files(&mut self) -> Vec<String> {
-        let mut mistakes = self.keys.refresh();
-        mistakes.extend(self.settings.refresh());
-        mistakes
-    }
-
     /// Applies the settings that have changed, and returns the commands for the session.
-    pub(super) fn follow_settings(&mut self, ctx: &egui::Context) -> Vec<Command> {
-        let settings = self.settings.settings();
-        let before = self.in_effect.replace(settings.clone());
-        if before.as_ref() == Some(settings) {
-            return Vec::new();
-        }
-        let mut commands = Vec::new();
-        ctx.set_theme(match settings.theme {
-            Theme::System => egui::ThemePreference::System,
-            Theme::Dark => egui::ThemePreference::Dark,
-            Theme::Light => egui::ThemePreference::Light,
-        });
-        ctx.set_zoom_factor(settings.zoom);
-        self.code.set_look(settings.code_size, settings.word_wrap);
-        if before.as_ref().map(|before| &before.code_font) != Some(&settings.code_font)
-            && let Err(text) = fonts::set(ctx, settings.code_font.as_deref())
-        {
-            commands.push(Command::Notice(NoticeCommand::Notify { level: Level::Error, text, path: None }));
-        }
-        commands.push(Command::Sound(SoundCommand::SetVolume(settings.volume)));
-        commands.push(Command::Sound(SoundCommand::SetMute(settings.mute)));
-        commands.push(Command::Sound(SoundCommand::SetAudioOutput(settings.audio_output.clone())));
-        commands.push(Command::Sound(SoundCommand::SetAudioInput(settings.audio_input.clone())));
-        commands.push(Command::Capture(CaptureCommand::SetProjectInPictures(settings.project_in_images)));
-        commands.push(Command::Control(ControlCommand::SetOsc(self.keeps_osc.or(settings.osc()))));
-        commands.push(Command::Control(ControlCommand::SetMidi(settings.midi.clone())));
-        commands.push(Command::Control(ControlCommand::SetGamepads(settings.gamepads)));
-        commands.push(Command::Edit(EditCommand::SetCompileOnSave(settings.compile_on_save)));
-        if !self.keeps_frame_limit {
-            commands.push(Command::Halt(HaltCommand::SetFrameLimit(settings.frame_timeout)));
-        }
-        ctx.request_repaint();
-        commands
+    pub(super) fn apply_settings(&mut self, ctx: &egui::Context) -> Vec<Command> {
+        self.config.apply(ctx, &mut self.code)
     }
 
     /// Changes a setting and saves it.
     fn change(&mut self, change: Change, out: &mut UiOutput) {
-        if let Err(text) = self.settings.change(change) {
-            out.ask(NoticeCommand::Notify { level: Level::Warning, text, path: None });
+        if let Err(text) = self.config.settings_file.change(change) {
+            out.notify(Level::Warning, text);
         }
     }
 
@@ -357,7 +275,7 @@ impl Shell {
         KeyFocus {
             code: self.code.has_keys(ctx),
             find_bar: self.code.is_finding(),
-            trace: !self.gallery && self.dock.is_seen(Panel::Trace),
+            trace: !self.modes.gallery && self.dock.is_seen(Panel::Trace),
         }
     }
 
@@ -365,18 +283,17 @@ impl Shell {
     /// with typed text.
     fn keys(&mut self, ui: &Ui, out: &mut UiOutput) {
         let keyboard = keys::Keyboard { listening: self.listening(ui.ctx()), field: ui.ctx().text_edit_focused() };
-        let keymap = self.keys.keymap().clone();
+        let keymap = self.config.keys.keymap().clone();
         let actions = ui.input_mut(|i| self.pressed.take(&mut i.events, &keymap, keyboard));
         out.shell_commands.extend(actions.into_iter().map(ShellCommand::Act));
-        if self.fullscreen && !self.palette.is_open() && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
+        if self.modes.fullscreen && !self.overlays.palette.is_open() && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
             out.act(Action::Fullscreen);
         }
     }
 
     /// Escape returns from a probe to the picture, unless something else is open that Escape closes first.
     fn end_probe(&mut self, ui: &Ui, session: &Session, out: &mut UiOutput) {
-        let is_over = self.palette.is_open() || self.help.is_some() || self.page_of_settings.is_some();
-        let is_other = is_over || self.code.is_finding() || self.fullscreen;
+        let is_other = self.overlays.is_any_open() || self.code.is_finding() || self.modes.fullscreen;
         if is_other || !ui.input(|i| i.key_pressed(egui::Key::Escape)) {
             return;
         }
@@ -407,7 +324,7 @@ impl Shell {
     /// Returns the breakpoints as tabs and lines, counted from 0.
     #[cfg(test)]
     pub(super) fn breakpoints(&self) -> Vec<(crate::project::Tab, usize)> {
-        self.kept.debugger.lines()
+        self.project_ui.debugger.lines()
     }
 
     #[cfg(test)]
@@ -444,26 +361,26 @@ impl Shell {
         self.code.caret()
     }
 
-    fn grant(&mut self, ui: &Ui, session: &Session, wish: ShellCommand, out: &mut UiOutput) {
-        match wish {
+    fn run_command(&mut self, ui: &Ui, session: &Session, command: ShellCommand, out: &mut UiOutput) {
+        match command {
             ShellCommand::Act(action) => self.act(ui, session, action, out),
             ShellCommand::ClosePanel(panel) => self.dock.set_open(panel, false),
-            ShellCommand::PasteCode => self.wants_code_paste = true,
+            ShellCommand::PasteCode => self.clipboard.is_wanted_by_code = true,
             ShellCommand::Fix(fix) => {
                 if let Err(why) = self.code.apply_fix(&fix, out) {
-                    out.ask(NoticeCommand::Notify { level: Level::Info, text: why.into(), path: None });
+                    out.notify(Level::Info, why);
                 }
             }
             ShellCommand::CloseFile(tab) => self.code.close_file(&tab),
             ShellCommand::Set(change) => self.change(change, out),
             ShellCommand::StopOsc => {
-                self.keeps_osc = None;
+                self.config.overrides.osc = None;
                 out.ask(ControlCommand::SetOsc(None));
                 self.change(Change::Osc(false), out);
             }
             ShellCommand::Breakpoint(tab, line) => {
-                if let Err(why) = self.kept.debugger.toggle(session, &tab, line) {
-                    out.ask(NoticeCommand::Notify { level: Level::Info, text: why.into(), path: None });
+                if let Err(why) = self.project_ui.debugger.toggle(session, &tab, line) {
+                    out.notify(Level::Info, why);
                 }
             }
             ShellCommand::Trace(at) => {
@@ -473,9 +390,9 @@ impl Shell {
             ShellCommand::Pick(pick) => self.files.ask(pick, start_folder(session)),
             ShellCommand::Picked(pick, path) => self.picked(pick, path, out),
             ShellCommand::CloseGallery => self.close_gallery(out),
-            ShellCommand::ChoosePass(tab) => self.kept.passes.toggle(Some(tab)),
+            ShellCommand::ChoosePass(tab) => self.project_ui.passes.toggle(Some(tab)),
             ShellCommand::ShowRecovered => {
-                self.uncover(out);
+                self.leave_gallery(out);
                 self.code.focus();
             }
             ShellCommand::GoTo(tab, place) => {
@@ -497,13 +414,13 @@ impl Shell {
     }
 
     fn close_gallery(&mut self, out: &mut UiOutput) {
-        self.uncover(out);
+        self.leave_gallery(out);
         self.viewport.focus();
     }
 
     /// Closes the gallery without moving the keyboard focus.
-    fn uncover(&mut self, out: &mut UiOutput) {
-        if std::mem::take(&mut self.gallery) {
+    fn leave_gallery(&mut self, out: &mut UiOutput) {
+        if std::mem::take(&mut self.modes.gallery) {
             out.ask(CanvasCommand::Cover(false));
         }
     }
@@ -515,21 +432,22 @@ impl Shell {
             }
             Pick::SaveAs(_) => out.ask(FileCommand::SaveAs(path)),
             Pick::Recording => {
-                self.uncover(out);
+                self.leave_gallery(out);
                 out.ask(TransportCommand::PlayRecording(path));
             }
             Pick::Json(_) => out.ask(FileCommand::ExportJson(path)),
             Pick::Page(_) => out.ask(FileCommand::ExportPage(path)),
-            Pick::LabFolder => self.lab.keep_in(path),
+            Pick::LabFolder => self.lab.set_results_folder(path),
             Pick::LabReport => self.lab.save_report(path),
-            Pick::Reference => self.kept.compare.choose(&path),
+            Pick::Reference => self.project_ui.compare.choose(&path),
             Pick::CodeFont => {
-                let page = self.page_of_settings.as_mut();
-                if let Some(change) = page.and_then(|page| page.choose_font(&path.display().to_string())) {
+                let page = self.overlays.settings_page.as_mut().zip(Setting::named("code-font"));
+                let change = page.and_then(|(page, setting)| page.enter(setting, &path.display().to_string()));
+                if let Some(change) = change {
                     self.change(change, out);
                 }
             }
-            Pick::Picture { channel } | Pick::Sound { channel } => self.bring(vec![path], Some(channel), out),
+            Pick::Picture { channel } | Pick::Sound { channel } => self.open_files(vec![path], Some(channel), out),
         }
     }
 }

@@ -2,15 +2,21 @@
 
 use super::Shell;
 use crate::{
-    gui::{
-        buffers, compare, costs, dock::Panel, error_map, halt, measures, probe, problems, recorder, report::Report,
-        theme,
-    },
+    gui::{error_map, halt, panels::Panel, probe, problems, recorder, report::Report, theme},
     project::{Origin, Tab},
     session::{Outcome, Session},
 };
 use serde_json::{Value, json};
 use std::time::Instant;
+
+/// The newest things that are already in the report.
+#[derive(Default)]
+pub(super) struct Reported {
+    /// The newest notice.
+    notice: Option<u64>,
+    /// The generation of the session's texts.
+    generation: Option<u64>,
+}
 
 impl Shell {
     /// Reports changes to scripts.
@@ -29,7 +35,7 @@ impl Shell {
         let generation = session.text_generation();
         let project = session.project();
         let opened = report.say_if_new("opened", json!({ "name": project.name, "origin": origin(&project.origin) }));
-        if self.reported_generation.replace(generation).is_some_and(|g| g != generation) && !opened {
+        if self.reported.generation.replace(generation).is_some_and(|g| g != generation) && !opened {
             report.say(json!({ "event": "reloaded", "name": project.name }));
         }
         if opened {
@@ -47,8 +53,8 @@ impl Shell {
         report.say_if_new("uniforms", json!({ "values": values }));
         report.say_if_new("shown", json!({ "pass": session.shown_pass().title() }));
         for notice in session.notices() {
-            if self.reported_notice.is_none_or(|id| notice.id > id) {
-                self.reported_notice = Some(notice.id);
+            if self.reported.notice.is_none_or(|id| notice.id > id) {
+                self.reported.notice = Some(notice.id);
                 let level = format!("{:?}", notice.level).to_lowercase();
                 report.say(json!({ "event": "notice", "level": level, "text": notice.text, "path": notice.path }));
             }
@@ -77,27 +83,14 @@ impl Shell {
         report.say_if_new("question", json!({ "kind": question }));
         let dirty: Vec<String> = session.tabs().iter().filter(|t| session.is_tab_dirty(t)).map(Tab::title).collect();
         report.say_if_new("dirty", json!({ "dirty": session.is_dirty(), "tabs": dirty }));
-        if self.dock.is_open(Panel::Lab) {
-            report.say_if_new("lab", self.lab.report());
-        }
-        if self.dock.is_open(Panel::Costs) {
-            report.say_if_new("costs", costs::report(session));
-        }
-        if self.dock.is_open(Panel::Buffers) {
-            report.say_if_new("buffers", buffers::report(&self.kept.buffers, session));
-        }
-        if self.dock.is_open(Panel::Compare) {
-            report.say_if_new("compare", compare::report(&self.kept.compare, session));
-        }
-        if self.dock.is_open(Panel::Measurements) {
-            report.say_if_new("measurements", measures::report(&self.kept.measurements, session));
+        for panel in Panel::all().filter(|panel| self.dock.is_open(*panel)) {
+            if let Some(members) = panel.row().report {
+                report.say_if_new(panel.name(), members(&mut self.project_ui, &self.lab, session));
+            }
         }
         let under = session.probe().and(self.viewport.under());
         report.say_if_new("probe", probe::report(session, under));
         report.say_if_new("audit", error_map::report(session));
-        if self.dock.is_open(Panel::Trace) {
-            report.say_if_new("trace", self.kept.debugger.report(session));
-        }
         let theme = if ctx.theme() == egui::Theme::Dark { "dark" } else { "light" };
         report.say_if_new("theme", json!({ "shown": theme }));
         // A widget that is not visible yet is scrolled into view in the next frames, and only then has a place to

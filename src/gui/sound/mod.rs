@@ -6,7 +6,7 @@ mod panel;
 mod range;
 mod wave;
 
-pub(super) use panel::show;
+pub(super) use panel::PANEL;
 
 use crate::{
     audio::{Peaks, TrackSpectrum},

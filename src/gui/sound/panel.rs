@@ -8,7 +8,9 @@ use super::{
 use crate::{
     audio::SAMPLE_RATE,
     gui::{
-        accessible, theme,
+        accessible,
+        panels::{Content, DefaultPlace, MARGIN, PanelRow},
+        theme,
         timeline::written,
         ui_output::{ShellCommand, UiOutput},
     },
@@ -17,6 +19,14 @@ use crate::{
 };
 use egui::{Align2, FontId, Key, Label, Rect, Response, RichText, Role, Sense, Ui, vec2};
 
+pub(crate) const PANEL: PanelRow = PanelRow::new(
+    "sound",
+    "Sound",
+    DefaultPlace::BelowCode,
+    Content::Within(MARGIN, |ui, context| show(&mut context.project_ui.sound, ui, context.session, context.out)),
+)
+.action("Panel: Sound (waveform and spectrum)", &[], "audio music waveform spectrum samples");
+
 /// The height of the spectrum.
 const SPECTRUM: f32 = 46.0;
 /// The number of seconds that a key seeks.
@@ -24,7 +34,7 @@ const STRIDE: f64 = 1.0;
 /// The analyser runs in steps of a frame, so that it need not process the whole sound again.
 const STEP: i64 = SAMPLE_RATE as i64 / 60;
 
-pub(crate) fn show(state: &mut Sound, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+fn show(state: &mut Sound, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("sound", ui);
     ui.spacing_mut().item_spacing = vec2(6.0, 4.0);
     let Some(view) = session.sound() else {

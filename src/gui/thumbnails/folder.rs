@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// The maximum number of folder entries that are visited, and of files that are listed: a folder of frames has
 /// thousands.
-const LOOKED_AT: usize = 4_000;
+const MAX_ENTRIES: usize = 4_000;
 const LISTED: usize = 60;
 
 /// A file that a channel can read.
@@ -18,11 +18,11 @@ pub(crate) struct FolderFile {
 
 /// Returns the image, video and sound files of a folder and of its subfolders, sorted by name.
 pub(super) fn files(folder: &Path) -> Vec<FolderFile> {
-    let mut left = LOOKED_AT;
+    let mut left = MAX_ENTRIES;
     let mut found = Vec::new();
-    let folders = look(folder, Path::new(""), &mut left, &mut found);
+    let folders = list_folder(folder, Path::new(""), &mut left, &mut found);
     for inner in folders {
-        look(&folder.join(&inner), &inner, &mut left, &mut found);
+        list_folder(&folder.join(&inner), &inner, &mut left, &mut found);
     }
     found.sort_by(|a, b| a.path.cmp(&b.path));
     found.truncate(LISTED);
@@ -31,7 +31,7 @@ pub(super) fn files(folder: &Path) -> Vec<FolderFile> {
 
 /// Adds the files of one folder, and returns its subfolders. Symbolic links are skipped: their targets may be
 /// anywhere.
-fn look(folder: &Path, from: &Path, left: &mut usize, found: &mut Vec<FolderFile>) -> Vec<PathBuf> {
+fn list_folder(folder: &Path, from: &Path, left: &mut usize, found: &mut Vec<FolderFile>) -> Vec<PathBuf> {
     let mut folders = Vec::new();
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         let Some(rest) = left.checked_sub(1) else { break };

@@ -144,7 +144,7 @@ impl LiveRequests {
     }
 
     /// Waits until `end`, or until something else is requested.
-    fn rest(&self, name: &str, end: Instant) {
+    fn wait_until(&self, name: &str, end: Instant) {
         let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let waits = |state: &mut State| state.name.as_deref() == Some(name) && !state.is_over;
         let left = end.saturating_duration_since(Instant::now());
@@ -175,7 +175,7 @@ fn draw(
     engine.set_program(built.program).map_err(|e| e.to_string())?;
     let mut number = 0;
     while wanted.is(name) {
-        let began = Instant::now();
+        let start = Instant::now();
         for _ in 0..2 {
             let mut inputs = FrameInputs::at_fixed_step(number, 60.0);
             inputs.mouse = stroke(number);
@@ -196,7 +196,7 @@ fn draw(
         }
         // A slow device rests for as long as it draws.
         let now = Instant::now();
-        wanted.rest(name, (began + INTERVAL).max(now + (now - began)));
+        wanted.wait_until(name, (start + INTERVAL).max(now + (now - start)));
     }
     Ok(())
 }

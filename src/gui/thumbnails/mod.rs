@@ -149,7 +149,7 @@ impl Thumbnails {
                 ThumbnailResult::Files(..) => {}
             }
         }
-        self.forget_the_oldest();
+        self.evict_oldest();
         self.live.update(ctx);
     }
 
@@ -197,7 +197,7 @@ impl Thumbnails {
     }
 
     /// Drops the least recently shown thumbnails if there are more than are kept.
-    fn forget_the_oldest(&mut self) {
+    fn evict_oldest(&mut self) {
         let is_counted = |(subject, known): &(&ThumbnailSource, &CachedThumbnail)| {
             !matches!(subject, ThumbnailSource::Preset(_)) && !matches!(known.thumbnail, Thumbnail::Waiting)
         };

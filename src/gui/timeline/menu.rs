@@ -3,7 +3,7 @@
 use super::seconds;
 use crate::{
     gui::{accessible, theme, ui_output::UiOutput},
-    session::{Session, TimeRange, TransportCommand},
+    session::{Command, Session, TimeRange, TransportCommand},
 };
 use egui::{Button, DragValue, Id, Key, Popup, PopupCloseBehavior, Role, TextEdit, Ui, vec2};
 
@@ -11,7 +11,7 @@ use egui::{Button, DragValue, Id, Key, Popup, PopupCloseBehavior, Role, TextEdit
 pub(super) const SPEEDS: [(f64, &str); 7] =
     [(0.125, "1/8"), (0.25, "1/4"), (0.5, "1/2"), (1.0, "1×"), (2.0, "2×"), (4.0, "4×"), (8.0, "8×")];
 /// The length of a loop without marks, in seconds.
-pub(super) const USUAL_RANGE: f64 = 2.0;
+pub(super) const DEFAULT_RANGE_SECS: f64 = 2.0;
 
 fn popup() -> Id {
     Id::unique("menu of time")
@@ -114,9 +114,11 @@ fn speed(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         ui.spacing_mut().button_padding.x = 4.0;
         for (speed, name) in SPEEDS {
             let is_on = (now - speed).abs() < 1e-6;
-            if out.clicked(&format!("time:speed:{name}"), &ui.selectable_label(is_on, name)) {
-                out.ask(TransportCommand::SetSpeed(speed));
-            }
+            out.on_click(
+                &format!("time:speed:{name}"),
+                &ui.selectable_label(is_on, name),
+                Command::Transport(TransportCommand::SetSpeed(speed)),
+            );
         }
     });
 }
@@ -143,8 +145,8 @@ fn range(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let mut is_on = range.is_some();
     let switch = ui.checkbox(&mut is_on, "Loop").on_hover_text("Repeat a range from the same state");
     out.place("time:loop", switch.rect);
-    let usual = TimeRange { from: (time - USUAL_RANGE).max(0.0), to: time.max(USUAL_RANGE) };
-    let TimeRange { mut from, mut to } = range.unwrap_or(usual);
+    let default_range = TimeRange { from: (time - DEFAULT_RANGE_SECS).max(0.0), to: time.max(DEFAULT_RANGE_SECS) };
+    let TimeRange { mut from, mut to } = range.unwrap_or(default_range);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let number = |ui: &mut Ui, name: &str, secs: &mut f64| {

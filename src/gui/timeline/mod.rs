@@ -65,12 +65,12 @@ pub(super) fn show(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
         keys(ui, session, &response, out);
         return;
     };
-    let begun: Option<f64> = ui.data(|data| data.get_temp(from));
+    let start_secs: Option<f64> = ui.data(|data| data.get_temp(from));
     if response.drag_started() && ui.input(|input| input.modifiers.shift) {
         let origin = ui.input(|input| input.pointer.press_origin()).map_or(secs, |at| secs_at(at.x));
         ui.data_mut(|data| data.insert_temp(from, origin));
-    } else if let Some(begun) = begun {
-        if let Some(range) = TimeRange::new(begun, secs) {
+    } else if let Some(start_secs) = start_secs {
+        if let Some(range) = TimeRange::new(start_secs, secs) {
             out.ask(TransportCommand::SetTimeRange(Some(range)));
         }
         if response.drag_stopped() {
@@ -95,7 +95,7 @@ pub(super) fn act(ctx: &egui::Context, session: &Session, action: TimeAction, ou
             Command::Transport(TransportCommand::SetSpeed((transport.speed / 2.0).max(menu::SPEEDS[0].0)))
         }
         TimeAction::Faster => Command::Transport(TransportCommand::SetSpeed((transport.speed * 2.0).min(fastest))),
-        TimeAction::UsualSpeed => Command::Transport(TransportCommand::SetSpeed(1.0)),
+        TimeAction::ResetSpeed => Command::Transport(TransportCommand::SetSpeed(1.0)),
         TimeAction::FixedStep => {
             Command::Transport(TransportCommand::SetFixedRate(if transport.fixed_rate.is_some() {
                 None
@@ -104,13 +104,13 @@ pub(super) fn act(ctx: &egui::Context, session: &Session, action: TimeAction, ou
             }))
         }
         TimeAction::LoopFrom => {
-            let to = range.map(|range| range.to).filter(|to| *to > time).unwrap_or(time + menu::USUAL_RANGE);
+            let to = range.map(|range| range.to).filter(|to| *to > time).unwrap_or(time + menu::DEFAULT_RANGE_SECS);
             Command::Transport(TransportCommand::SetTimeRange(TimeRange::new(time, to)))
         }
         TimeAction::LoopTo => {
             let from = range.map(|range| range.from).filter(|from| *from < time);
             Command::Transport(TransportCommand::SetTimeRange(TimeRange::new(
-                from.unwrap_or((time - menu::USUAL_RANGE).max(0.0)),
+                from.unwrap_or((time - menu::DEFAULT_RANGE_SECS).max(0.0)),
                 time,
             )))
         }

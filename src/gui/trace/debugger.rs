@@ -33,7 +33,7 @@ pub(crate) struct Debugger {
     rows: Option<Rows>,
     pub(super) printed: Option<Vec<Printed>>,
     /// The message about the newest step.
-    pub(super) said: Option<&'static str>,
+    pub(super) message: Option<&'static str>,
     /// The editor is to show the line.
     reveals: bool,
 }
@@ -57,7 +57,7 @@ impl Debugger {
         // Editing while a pixel is traced must not scroll away from the caret.
         self.reveals = traced.zip(known).is_none_or(|(new, known)| !is_of_pixel(new, known));
         self.examiner = traced.map(|traced| Examiner::new(traced.clone()));
-        (self.seen, self.rows, self.printed, self.said) = (None, None, None, None);
+        (self.seen, self.rows, self.printed, self.message) = (None, None, None, None);
         let Some(traced) = traced else { return };
         let first = travel::end(&traced.history, Direction::Back).unwrap_or(0);
         if !stays || self.at >= traced.history.moments.len() {
@@ -66,7 +66,7 @@ impl Debugger {
     }
 
     /// Computes what is shown, unless it is cached.
-    pub(super) fn look(&mut self) -> Option<&MomentState> {
+    pub(super) fn moment_state(&mut self) -> Option<&MomentState> {
         let examiner = self.examiner.as_mut()?;
         if self.seen.is_none() {
             let of = (&self.watches[..], &self.breakpoints[..]);
@@ -156,7 +156,7 @@ impl Debugger {
             TraceAction::End(direction) => end(direction),
             TraceAction::Breakpoint => None,
         };
-        self.said = match (found, action) {
+        self.message = match (found, action) {
             (Some(at), _) if at != self.at => None,
             (_, TraceAction::ToCursor(Direction::Forward)) => Some("the line is not reached again"),
             (_, TraceAction::ToCursor(Direction::Back)) => Some("the line was not reached before"),

@@ -10,7 +10,7 @@ use crate::{
         theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    session::{Session, Status, ToolCommand},
+    session::{Command, Session, Status, ToolCommand},
 };
 use egui::{Id, Label, RichText, Ui};
 
@@ -64,9 +64,13 @@ fn foot(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut UiOutput) {
             ui.spinner();
         } else if is_apart && traced.mesh().is_none() {
             let tip = "Compare each assignment on the CPU and the GPU until one differs";
-            if parts::button(ui, "trace:part", "Find first difference", tip, out) {
-                out.ask(ToolCommand::FindDivergence);
-            }
+            parts::button(
+                ui,
+                "trace:part",
+                ("Find first difference", tip),
+                Command::Tool(ToolCommand::FindDivergence),
+                out,
+            );
         }
     });
     out.place("trace:values", first.response.rect);
@@ -102,9 +106,7 @@ fn found(traced: &Traced, result: &DivergenceFound, ui: &mut Ui, out: &mut UiOut
         if let Some((tab, line, range)) = place {
             let text = traced.text(&tab).get(range).and_then(|text| text.lines().next()).unwrap_or_default();
             let link = ui.link(RichText::new(format!("{}:{} {text}", tab.title(), line + 1)).monospace().size(11.5));
-            if out.clicked("trace:parted", &link.on_hover_text(of)) {
-                out.shell_commands.push(ShellCommand::GoTo(tab, Some((line, 0))));
-            }
+            out.on_click("trace:parted", &link.on_hover_text(of), ShellCommand::GoTo(tab, Some((line, 0))));
         }
     });
     let text = RichText::new(&words).monospace().size(11.5).color(p.text);

@@ -13,4 +13,4 @@ mod report;
 mod rows;
 
 pub(super) use debugger::Debugger;
-pub(super) use panel::show;
+pub(super) use panel::PANEL;

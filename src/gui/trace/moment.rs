@@ -6,9 +6,9 @@ use crate::{
 };
 
 /// The maximum number of numbers shown of a value.
-const MOST_NUMBERS: usize = 16;
+const MAX_NUMBERS: usize = 16;
 /// The maximum number of rows of a loop.
-const MOST_TURNS: usize = 2000;
+const MAX_ITERATIONS: usize = 2000;
 /// The maximum number of variables in a loop's table.
 const COLUMNS: usize = 6;
 
@@ -80,14 +80,16 @@ impl MomentState {
         });
         let conditions = conditions.collect();
         let stack = history.stack(at).into_iter().map(|(call, at)| (call.name.clone(), at)).collect();
-        let turns = history.turns(at);
-        let is_cut = turns.len() > MOST_TURNS;
-        let current = turns.iter().position(|turn| (turn.first..=turn.end).contains(&at));
-        let first = turns.first().map(|turn| turn.first);
+        let iterations = history.turns(at);
+        let is_cut = iterations.len() > MAX_ITERATIONS;
+        let current = iterations.iter().position(|turn| (turn.first..=turn.end).contains(&at));
+        let first = iterations.first().map(|turn| turn.first);
         // Within a loop they stay the same.
         let rows = match known {
             Some(rows) if rows.first() == first => rows,
-            _ => table(turns.into_iter().take(MOST_TURNS).map(|turn| (turn, history.turn_values(&turn))).collect()),
+            _ => table(
+                iterations.into_iter().take(MAX_ITERATIONS).map(|turn| (turn, history.turn_values(&turn))).collect(),
+            ),
         };
         MomentState {
             variables,
@@ -108,17 +110,18 @@ fn is_same(a: &Value, b: &Value) -> bool {
 }
 
 /// Returns the variables that change between iterations, as many as fit: numbers before vectors.
-fn table(turns: Vec<(Iteration, Vec<NamedValue>)>) -> Rows {
+fn table(iterations: Vec<(Iteration, Vec<NamedValue>)>) -> Rows {
     let mut names: Vec<(usize, String)> = Vec::new();
-    for (_, values) in &turns {
+    for (_, values) in &iterations {
         for shown in values {
             let count = shown.value.numbers.len();
             if count > 4 || names.iter().any(|(_, name)| *name == shown.name) {
                 continue;
             }
             let find = |values: &[NamedValue]| values.iter().find(|other| other.name == shown.name).cloned();
-            let changes = turns.iter().any(|(_, other)| find(other).is_none_or(|o| !is_same(&o.value, &shown.value)));
-            if changes || turns.len() == 1 {
+            let changes =
+                iterations.iter().any(|(_, other)| find(other).is_none_or(|o| !is_same(&o.value, &shown.value)));
+            if changes || iterations.len() == 1 {
                 names.push((count, shown.name.clone()));
             }
         }
@@ -130,7 +133,7 @@ fn table(turns: Vec<(Iteration, Vec<NamedValue>)>) -> Rows {
     names.sort_by_key(|(count, _)| *count > 1);
     names.truncate(COLUMNS);
     let names: Vec<String> = names.into_iter().map(|(_, name)| name).collect();
-    let rows = turns.into_iter().map(|(turn, values)| {
+    let rows = iterations.into_iter().map(|(turn, values)| {
         let find = |name: &String| values.iter().find(|shown| shown.name == *name).map(|shown| shown.value.clone());
         Row { turn, values: names.iter().map(find).collect() }
     });
@@ -142,7 +145,7 @@ pub(super) fn words(value: &Value) -> String {
     let list = |numbers: &[Number]| numbers.iter().map(Number::to_string).collect::<Vec<_>>().join(", ");
     match &value.numbers[..] {
         [number] => number.to_string(),
-        numbers if numbers.len() <= MOST_NUMBERS => format!("({})", list(numbers)),
-        numbers => format!("({}, … {} numbers)", list(&numbers[..MOST_NUMBERS]), numbers.len()),
+        numbers if numbers.len() <= MAX_NUMBERS => format!("({})", list(numbers)),
+        numbers => format!("({}, … {} numbers)", list(&numbers[..MAX_NUMBERS]), numbers.len()),
     }
 }

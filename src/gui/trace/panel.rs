@@ -14,37 +14,40 @@ use crate::{
         accessible,
         actions::{Action, TraceAction},
         icons::{self, Icon},
+        panels::{Content, DefaultPlace, MARGIN, PanelRow},
         theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    session::{Session, ToolCommand},
+    session::{Command, Session, ToolCommand},
 };
 use egui::{Label, RichText, ScrollArea, TextEdit, Ui, vec2};
 
+pub(crate) const PANEL: PanelRow = PanelRow::new(
+    "trace",
+    "Trace",
+    DefaultPlace::BelowCode,
+    Content::Within(MARGIN, |ui, context| show(&mut context.project_ui.debugger, ui, context.session, context.out)),
+)
+.report(|state, _, session| state.debugger.report(session))
+.action("Panel: Trace (debugger)", &["Ctrl+Shift+D"], "debug step inspect");
+
 /// The maximum number of values listed for a comment.
-const SHOWN: usize = 200;
+const MAX_VALUES: usize = 200;
 /// The minimum width for two columns.
 const WIDE: f32 = 560.0;
 /// The minimum height of what is above the foot.
-const LEAST: f32 = 110.0;
+const MIN_CONTENT_HEIGHT: f32 = 110.0;
 
-pub(crate) fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     out.stop("trace", ui);
     ui.spacing_mut().item_spacing = vec2(6.0, 3.0);
     ui.horizontal_wrapped(|ui| {
         buttons::show(ui, debugger.is_on(), out);
         ui.add_space(6.0);
-        if parts::button(
-            ui,
-            "trace:pick",
-            "Pick pixel",
-            &out.keys.tip("Click a pixel in the picture to trace it", Action::TracePixel),
-            out,
-        ) {
-            out.act(Action::TracePixel);
-        }
-        if debugger.is_on() && parts::button(ui, "trace:end-trace", "End", "Stop tracing", out) {
-            out.ask(ToolCommand::Trace(None));
+        let tip = out.keys.tip("Click a pixel in the picture to trace it", Action::TracePixel);
+        parts::button(ui, "trace:pick", ("Pick pixel", &tip), Action::TracePixel, out);
+        if debugger.is_on() {
+            parts::button(ui, "trace:end-trace", ("End", "Stop tracing"), Command::Tool(ToolCommand::Trace(None)), out);
         }
         let view = session.trace();
         if view.is_under_way {
@@ -63,10 +66,10 @@ pub(crate) fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out:
         breakpoints(debugger, ui, out);
         return;
     };
-    whereabouts(debugger, &traced, ui, out);
+    position(debugger, &traced, ui, out);
     // The foot stays visible if there is room for it and for what is above; otherwise it scrolls.
     let room = ui.available_height() - divergence::height(ui);
-    let has_foot = room >= LEAST;
+    let has_foot = room >= MIN_CONTENT_HEIGHT;
     let height = if has_foot { room } else { ui.available_height() };
     ScrollArea::vertical().id_salt("trace").max_height(height).auto_shrink(false).show(ui, |ui| {
         // Rows of text are packed tightly.
@@ -76,14 +79,14 @@ pub(crate) fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out:
                 watches(debugger, &mut columns[0], out);
                 breakpoints(debugger, &mut columns[0], out);
                 variables(debugger, &mut columns[0], out);
-                turns(debugger, &mut columns[1], out);
+                iterations(debugger, &mut columns[1], out);
                 printed(debugger, &mut columns[1], out);
             });
         } else {
             watches(debugger, ui, out);
             breakpoints(debugger, ui, out);
             variables(debugger, ui, out);
-            turns(debugger, ui, out);
+            iterations(debugger, ui, out);
             printed(debugger, ui, out);
         }
         if !has_foot {
@@ -96,8 +99,8 @@ pub(crate) fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out:
 }
 
 /// Shows the pixel, the line, and the position in the trace.
-fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut UiOutput) {
-    let (at, said) = (debugger.at, debugger.said);
+fn position(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut UiOutput) {
+    let (at, message) = (debugger.at, debugger.message);
     let p = theme::of(ui);
     let (x, y) = traced.pixel;
     let count = traced.history.moments.len();
@@ -120,13 +123,13 @@ fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut 
             let label = ui.colored_label(p.weak, words);
             out.place("trace:mesh", label.rect);
         }
-        if let Some(said) = said {
-            ui.colored_label(p.warning, said);
+        if let Some(message) = message {
+            ui.colored_label(p.warning, message);
         }
         if traced.is_endless || traced.history.is_cut {
             ui.colored_label(p.warning, "too long: only the first steps were kept");
         }
-        let stack = debugger.look().map(|seen| seen.stack.clone()).unwrap_or_default();
+        let stack = debugger.moment_state().map(|seen| seen.stack.clone()).unwrap_or_default();
         for (index, (name, moment)) in stack.iter().enumerate() {
             let response = ui.selectable_label(index == 0, format!("{name}()")).on_hover_text("Go to the call");
             if out.clicked(&format!("trace:call:{index}"), &response) && index > 0 {
@@ -143,7 +146,7 @@ fn watches(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
     parts::title(ui, "Watches");
     let mut removed = None;
     let mut is_edited = false;
-    let seen: Vec<_> = debugger.look().map(|seen| seen.watches.clone()).unwrap_or_default();
+    let seen: Vec<_> = debugger.moment_state().map(|seen| seen.watches.clone()).unwrap_or_default();
     for (index, watch) in debugger.watches.iter_mut().enumerate() {
         ui.horizontal(|ui| {
             let close = icons::flat(ui, Icon::Close, "Remove watch");
@@ -189,7 +192,7 @@ fn watches(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
 }
 
 fn variables(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
-    let Some(seen) = debugger.look() else { return };
+    let Some(seen) = debugger.moment_state() else { return };
     if let Some(result) = &seen.result {
         parts::title(ui, "Return value");
         parts::value(ui, "return", result, false);
@@ -201,9 +204,9 @@ fn variables(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
     }
 }
 
-fn turns(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
+fn iterations(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
     let plotted = debugger.plotted.clone();
-    let Some(seen) = debugger.look().filter(|seen| !seen.rows.rows.is_empty()) else { return };
+    let Some(seen) = debugger.moment_state().filter(|seen| !seen.rows.rows.is_empty()) else { return };
     match rows::show(ui, &seen.rows, plotted.as_deref(), out) {
         Some(RowAction::GoTo(at)) => debugger.go_to(at),
         Some(RowAction::Plot(name)) => debugger.plotted = Some(name),
@@ -228,7 +231,7 @@ fn printed(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
             .default_open(count <= 8);
         let shown = list.show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            for (at, value) in comment.values.iter().take(SHOWN) {
+            for (at, value) in comment.values.iter().take(MAX_VALUES) {
                 let (text, color) = match value {
                     Ok(value) => (words(value), theme::of(ui).text),
                     Err(why) => (why.clone(), theme::of(ui).error),
@@ -254,7 +257,7 @@ fn breakpoints(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
         ui.colored_label(theme::of(ui).weak, format!("Click next to a line number, or press {key} on the line."));
         return;
     }
-    let wrong = debugger.look().map(|seen| seen.conditions.clone()).unwrap_or_default();
+    let wrong = debugger.moment_state().map(|seen| seen.conditions.clone()).unwrap_or_default();
     let (mut removed, mut is_edited) = (None, false);
     for (index, breakpoint) in debugger.breakpoints.iter_mut().enumerate() {
         ui.horizontal(|ui| {
@@ -272,9 +275,11 @@ fn breakpoints(debugger: &mut Debugger, ui: &mut Ui, out: &mut UiOutput) {
             );
             is_edited |= switch.changed();
             let link = ui.link(name);
-            if out.clicked(&format!("trace:breakpoint:{index}"), &link) {
-                out.shell_commands.push(ShellCommand::GoTo(breakpoint.tab.clone(), Some((breakpoint.line, 0))));
-            }
+            out.on_click(
+                &format!("trace:breakpoint:{index}"),
+                &link,
+                ShellCommand::GoTo(breakpoint.tab.clone(), Some((breakpoint.line, 0))),
+            );
             let field = TextEdit::singleline(&mut breakpoint.condition)
                 .id_salt(("condition", index))
                 .font(egui::TextStyle::Monospace)

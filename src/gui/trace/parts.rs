@@ -3,9 +3,12 @@
 use super::moment::words;
 use crate::{
     debugger::trace::Value,
-    gui::{theme, ui_output::UiOutput},
+    gui::{
+        theme,
+        ui_output::{Request, UiOutput},
+    },
 };
-use egui::{Color32, Label, Rect, Response, RichText, Sense, StrokeKind, Ui, vec2};
+use egui::{Color32, Label, Rect, RichText, Sense, StrokeKind, Ui, vec2};
 
 /// Shows a title over a part.
 pub(super) fn title(ui: &mut Ui, text: &str) {
@@ -39,8 +42,14 @@ pub(super) fn swatch(ui: &mut Ui, value: &Value) {
     ui.painter().rect(rect, 2.0, Color32::from_rgb(r, g, b), (1.0, theme::of(ui).line), StrokeKind::Inside);
 }
 
-/// Shows a small button with a text.
-pub(super) fn button(ui: &mut Ui, place: &str, text: &str, tip: &str, out: &mut UiOutput) -> bool {
-    let response: Response = ui.small_button(text).on_hover_text(tip);
-    out.clicked(place, &response)
+/// Shows a small button with a text, which makes a request.
+pub(super) fn button(
+    ui: &mut Ui,
+    place: &str,
+    (text, tip): (&str, &str),
+    request: impl Into<Request>,
+    out: &mut UiOutput,
+) {
+    let response = ui.small_button(text).on_hover_text(tip);
+    out.on_click(place, &response, request);
 }

@@ -14,16 +14,16 @@ impl Debugger {
             .iter()
             .map(|b| json!({ "tab": b.tab.title(), "line": b.line + 1, "condition": b.condition, "on": b.is_on }))
             .collect();
-        let (at, watched, said) = (self.at, self.watches.clone(), self.said);
+        let (at, watched, message) = (self.at, self.watches.clone(), self.message);
         let Some(traced) = self.examiner.as_ref().map(|examiner| examiner.traced.clone()) else {
             return json!({ "pixel": null, "trouble": session.trace().trouble, "breakpoints": breakpoints });
         };
-        let told_of = |comment: &Printed| {
+        let printed_json = |comment: &Printed| {
             let values: Vec<String> = comment.values.iter().map(|(_, value)| watched_text(value)).collect();
             json!({ "line": comment.line + 1, "expression": comment.expression, "values": values })
         };
-        let printed: Vec<Value> = self.printed.iter().flatten().map(told_of).collect();
-        let Some(seen) = self.look() else { return Value::Null };
+        let printed: Vec<Value> = self.printed.iter().flatten().map(printed_json).collect();
+        let Some(seen) = self.moment_state() else { return Value::Null };
         let variables: Map<String, Value> =
             seen.variables.iter().map(|v| (v.shown.name.clone(), words(&v.shown.value).into())).collect();
         let changed: Vec<&str> =
@@ -43,7 +43,7 @@ impl Debugger {
             "tab": seen.place.as_ref().map(|(tab, _)| tab.title()),
             "line": seen.place.as_ref().map(|(_, line)| line + 1),
             "depth": traced.history.depth(at),
-            "said": said,
+            "said": message,
             "variables": variables,
             "changed": changed,
             "watches": watches,

@@ -2,7 +2,7 @@
 
 use super::{
     cells, hex,
-    parts::{child, cut_right},
+    parts::{child, split_right},
     picker,
 };
 use crate::{
@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64],
         out.place(format!("picker:{}", custom_uniform.name), opened.response.rect);
     }
     let rest = whole.with_min_x(place.right() + 6.0);
-    let (hex, cells) = cut_right(rest, HEX);
+    let (hex, cells) = split_right(rest, HEX);
     if cells.width() >= CELLS {
         cells::show(&mut child(ui, cells), custom_uniform, all, out);
     }

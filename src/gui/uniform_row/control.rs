@@ -4,7 +4,7 @@ use super::parts::{child, components};
 use crate::{
     gui::{accessible, actions::Action, menus, theme, ui_output::UiOutput},
     project::{ControlTarget, CustomUniform},
-    session::{ControlCommand, PickupSide, Session},
+    session::{Command, ControlCommand, PickupSide, Session},
 };
 use egui::{Button, Key, Label, Rect, Response, RichText, Role, Sense, Ui};
 
@@ -23,7 +23,7 @@ fn targets(uniform: &CustomUniform) -> Vec<(ControlTarget, &'static str)> {
 
 /// Returns the text of the label; `None` if no control is assigned and none is being learned.
 pub(super) fn text(session: &Session, uniform: &CustomUniform) -> Option<String> {
-    let said = targets(uniform).into_iter().filter_map(|(target, name)| {
+    let names = targets(uniform).into_iter().filter_map(|(target, name)| {
         let control = match session.control_of(&target) {
             _ if session.is_learning(&target) => "touch a control…".to_owned(),
             control => match (control?.label(), session.control_waits(&target)) {
@@ -34,8 +34,8 @@ pub(super) fn text(session: &Session, uniform: &CustomUniform) -> Option<String>
         };
         Some(if name.is_empty() { control } else { format!("{name} {control}") })
     });
-    let said: Vec<String> = said.collect();
-    (!said.is_empty()).then(|| said.join(", "))
+    let names: Vec<String> = names.collect();
+    (!names.is_empty()).then(|| names.join(", "))
 }
 
 /// Shows the label. A click on it stops learning, as does Escape.
@@ -56,13 +56,13 @@ pub(super) fn label(
     let response = child(ui, place).add(label);
     accessible::name(&response, Role::Label, format!("{}, {text}", uniform.name));
     out.place(format!("uniform:control:{}", uniform.name), place);
-    let is_given_up = is_learning && ui.input(|i| i.key_pressed(Key::Escape));
+    let is_cancelled = is_learning && ui.input(|i| i.key_pressed(Key::Escape));
     let tip = match is_learning {
         true => "Move a knob, a fader or a key; Escape stops".to_owned(),
         false if waits => format!("{text}: the control takes over when it passes the slider's value"),
         false => text.to_owned(),
     };
-    if response.on_hover_text(tip).clicked() || is_given_up {
+    if response.on_hover_text(tip).clicked() || is_cancelled {
         out.ask(ControlCommand::LearnControl(None));
     }
 }
@@ -76,36 +76,39 @@ pub(super) fn menu(row: &Response, session: &Session, uniform: &CustomUniform, o
             let key = target.to_string();
             if session.is_learning(&target) {
                 let stop = ui.button(format!("Stop learning the control{of}"));
-                if out.clicked(&format!("uniform-menu:stop:{key}"), &stop) {
-                    out.ask(ControlCommand::LearnControl(None));
-                    ui.close();
-                }
+                out.on_menu_click(
+                    ui,
+                    &format!("uniform-menu:stop:{key}"),
+                    &stop,
+                    Command::Control(ControlCommand::LearnControl(None)),
+                );
             } else {
                 let title = match name {
                     "" => "Learn MIDI or OSC control".to_owned(),
                     _ => format!("Learn MIDI or OSC control{of}"),
                 };
                 let learn = ui.add_enabled(is_on, Button::new(title));
-                if out.clicked(&format!("uniform-menu:learn:{key}"), &learn) {
-                    out.ask(ControlCommand::LearnControl(Some(target.clone())));
-                    ui.close();
-                }
+                out.on_menu_click(
+                    ui,
+                    &format!("uniform-menu:learn:{key}"),
+                    &learn,
+                    Command::Control(ControlCommand::LearnControl(Some(target.clone()))),
+                );
             }
             if let Some(control) = session.control_of(&target) {
                 let forget = ui.button(format!("Forget control{of} ({})", control.label()));
-                if out.clicked(&format!("uniform-menu:forget:{key}"), &forget) {
-                    out.ask(ControlCommand::ForgetControl(target));
-                    ui.close();
-                }
+                out.on_menu_click(
+                    ui,
+                    &format!("uniform-menu:forget:{key}"),
+                    &forget,
+                    Command::Control(ControlCommand::ForgetControl(target)),
+                );
             }
         }
         if !is_on {
             ui.separator();
             let settings = ui.button("Switch on OSC or MIDI in Settings…");
-            if out.clicked("uniform-menu:settings", &settings) {
-                out.act(Action::Settings);
-                ui.close();
-            }
+            out.on_menu_click(ui, "uniform-menu:settings", &settings, Action::Settings);
         }
     });
 }

@@ -17,7 +17,7 @@ pub(super) fn child(ui: &mut Ui, place: Rect) -> Ui {
 }
 
 /// Cuts a width from the right end of a rectangle; returns that part and the rest.
-pub(super) fn cut_right(place: Rect, width: f32) -> (Rect, Rect) {
+pub(super) fn split_right(place: Rect, width: f32) -> (Rect, Rect) {
     let at = (place.right() - width).max(place.left());
     let rest = Rect::from_min_max(place.min, pos2((at - GAP).max(place.left()), place.bottom()));
     (Rect::from_min_max(pos2(at, place.top()), place.max), rest)

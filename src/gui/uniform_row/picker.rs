@@ -12,7 +12,7 @@ const RAIL: f32 = 16.0;
 
 /// The hue and the saturation, which are kept while the colour is grey or black and has none.
 #[derive(Clone, Copy, PartialEq)]
-struct Kept {
+struct SavedColor {
     rgb: [f32; 3],
     hsv: [f32; 3],
 }
@@ -25,7 +25,7 @@ pub(super) fn show(ui: &mut Ui, all: &mut [f64]) {
     ui.set_width(width);
     let rgb = [all[0], all[1], all[2]].map(|c| c.clamp(0.0, 1.0) as f32);
     let id = ui.scope_id().with("kept");
-    let kept: Option<Kept> = ui.data(|d| d.get_temp(id));
+    let kept: Option<SavedColor> = ui.data(|d| d.get_temp(id));
     let [h, s, v] = kept.filter(|k| k.rgb == rgb).map_or_else(|| hsv_from_rgb(rgb).into(), |k| k.hsv);
     let mut hsv = [h, s, v];
 
@@ -53,7 +53,7 @@ pub(super) fn show(ui: &mut Ui, all: &mut [f64]) {
     if hsv != [h, s, v] {
         let rgb = rgb_from_hsv((hsv[0], hsv[1], hsv[2])).map(|c| short(f64::from(c)));
         all[..3].copy_from_slice(&rgb);
-        ui.data_mut(|d| d.insert_temp(id, Kept { rgb: rgb.map(|c| c as f32), hsv }));
+        ui.data_mut(|d| d.insert_temp(id, SavedColor { rgb: rgb.map(|c| c as f32), hsv }));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     cells, color, control,
-    parts::{HEIGHT, child, cut_right},
+    parts::{HEIGHT, child, split_right},
     scalar,
 };
 use crate::{
@@ -29,7 +29,7 @@ pub(crate) fn show(ui: &mut Ui, session: &Session, custom_uniform: &CustomUnifor
     let mut control = control.with_min_x(control.left() + GAP);
     // In a narrow panel only the menu shows it.
     if let Some(text) = control::text(session, custom_uniform).filter(|_| control.width() > 2.5 * control::WIDTH) {
-        let (place, rest) = cut_right(control, control::WIDTH);
+        let (place, rest) = split_right(control, control::WIDTH);
         control::label(ui, session, custom_uniform, &text, place, out);
         control = rest;
     }

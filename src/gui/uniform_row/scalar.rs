@@ -1,6 +1,6 @@
 //! Values of one number: a rail filled up to its handle with the number at the right, or a switch.
 
-use super::{cells, parts::cut_right};
+use super::{cells, parts::split_right};
 use crate::{
     gui::{accessible, theme, ui_output::UiOutput},
     project::{CustomUniform, CustomUniformType},
@@ -10,16 +10,16 @@ use egui::{Align2, FontId, PointerButton, Role, Sense, Slider, Ui, vec2};
 /// The width of a number at the right end.
 const NUMBER: f32 = 66.0;
 /// The minimum width of a usable rail.
-const LEAST_RAIL: f32 = 40.0;
+const MIN_RAIL: f32 = 40.0;
 
 /// Shows the number; returns true for a double click on the rail.
 pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut UiOutput) -> bool {
     let is_whole = custom_uniform.ty == CustomUniformType::Int;
-    let (value, rail) = cut_right(ui.max_rect(), NUMBER);
+    let (value, rail) = split_right(ui.max_rect(), NUMBER);
     let rail = rail.shrink2(vec2(2.0, 0.0));
     let mut is_reset = false;
     let mut rect = ui.max_rect();
-    if let Some(range) = custom_uniform.range.filter(|_| rail.width() >= LEAST_RAIL) {
+    if let Some(range) = custom_uniform.range.filter(|_| rail.width() >= MIN_RAIL) {
         let before = all[0];
         let mut slider = Slider::new(&mut all[0], range.min[0]..=range.max[0]).show_value(false).trailing_fill(true);
         if let Some(step) = custom_uniform.step.map(|s| s[0]).or(is_whole.then_some(1.0)) {
@@ -46,7 +46,7 @@ pub(super) fn number(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64
 
 /// Shows the switch; returns true for a double click on its word.
 pub(super) fn switch(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut UiOutput) -> bool {
-    let (word, place) = cut_right(ui.max_rect(), NUMBER);
+    let (word, place) = split_right(ui.max_rect(), NUMBER);
     let place = place.with_max_x((place.left() + 38.0).min(place.right()));
     let mut is_on = all[0] >= 0.5;
     let response = ui.interact(place.expand2(vec2(0.0, 2.0)), ui.scope_id().with("switch"), Sense::click());

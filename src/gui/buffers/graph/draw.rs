@@ -19,7 +19,7 @@ use egui::{
 
 /// The height of the foot with the legend.
 const LEGEND: f32 = 20.0;
-const BEGIN: f32 = 0.75;
+const INITIAL_ZOOM: f32 = 0.75;
 
 /// A read, from the pass that is read to its reader.
 struct Arrow<'a> {
@@ -40,12 +40,12 @@ pub(crate) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mu
     let is_drawn = |node: usize| matches!(passes[node].cost.role, PassRole::Drawn { .. });
     arrows.retain(|arrow| arrow.read.is_used || !is_drawn(arrow.from) || !is_drawn(arrow.to));
     // Passes read in the same frame were drawn before: these edges are acyclic.
-    let (forth, back): (Vec<&Arrow<'_>>, Vec<&Arrow<'_>>) =
+    let (forward_arrows, back_arrows): (Vec<&Arrow<'_>>, Vec<&Arrow<'_>>) =
         arrows.iter().partition(|arrow| arrow.read.when == ReadTiming::ThisFrame && arrow.from != arrow.to);
     let ends = |arrows: &[&Arrow<'_>]| arrows.iter().map(|arrow| (arrow.from, arrow.to)).collect::<Vec<_>>();
     let room = ui.available_rect_before_wrap();
     let area = room.with_max_y(room.bottom() - LEGEND);
-    let layout = Layout::new(passes.len(), &ends(&forth), &ends(&back), area.size());
+    let layout = Layout::new(passes.len(), &ends(&forward_arrows), &ends(&back_arrows), area.size());
     let shown = state.target(session.project()).map(|(pass, _)| pass);
     let middle =
         passes.iter().position(|p| shown.as_ref() == Some(&p.cost.pass)).map(|node| layout.nodes[node].center());
@@ -60,9 +60,11 @@ pub(crate) fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mu
     let painter = ui.painter().with_clip_rect(area.intersect(ui.clip_rect()));
     let p = theme::of(ui);
     let lit = responses.iter().position(|response| response.hovered() || response.has_focus());
-    for (arrow, way) in forth.iter().zip(&layout.forth).chain(back.iter().zip(&layout.back)) {
+    for (arrow, path) in
+        forward_arrows.iter().zip(&layout.forward_paths).chain(back_arrows.iter().zip(&layout.back_paths))
+    {
         let is_lit = lit.is_some_and(|node| arrow.from == node || arrow.to == node);
-        edge(&painter, &sheet, arrow.read, way, (is_lit, lit.is_some()), p);
+        edge(&painter, &sheet, arrow.read, path, (is_lit, lit.is_some()), p);
     }
     let costs: Vec<_> = passes.iter().map(|pass| pass.cost.clone()).collect();
     let mut chosen = None;
@@ -109,9 +111,9 @@ fn placed(
         // Of a large graph first show a part that is legible.
         if let Some(at) = middle.filter(|_| state.sheet.place(area, size).scale < LEGIBLE) {
             // The graph starts at the left edge of the sheet, with nothing beyond it.
-            let half = area.width() / 2.0 / BEGIN;
+            let half = area.width() / 2.0 / INITIAL_ZOOM;
             let x = at.x.clamp(half.min(layout.size.x / 2.0), (layout.size.x - half).max(layout.size.x / 2.0));
-            state.sheet.show((x as u32, (layout.size.y - at.y) as u32), BEGIN);
+            state.sheet.show((x as u32, (layout.size.y - at.y) as u32), INITIAL_ZOOM);
         }
     }
     let placed = state.sheet.place(area, size);
@@ -254,7 +256,7 @@ fn edge(
     painter: &Painter,
     sheet: &Sheet,
     read: &PassRead,
-    way: &[Pos2],
+    path: &[Pos2],
     (is_lit, is_any_lit): (bool, bool),
     p: &Palette,
 ) {
@@ -267,7 +269,7 @@ fn edge(
         color = color.gamma_multiply(0.35);
     }
     let stroke = Stroke::new(if is_lit { 2.0 } else { 1.3 }, color);
-    let corners: Vec<Pos2> = way.iter().map(|at| sheet.point(*at)).collect();
+    let corners: Vec<Pos2> = path.iter().map(|at| sheet.point(*at)).collect();
     let points = rounded(&corners, 9.0 * sheet.scale());
     if is_this {
         painter.add(Shape::line(points, stroke));
@@ -291,8 +293,8 @@ fn rounded(corners: &[Pos2], radius: f32) -> Vec<Pos2> {
             continue;
         };
         let toward = |other: Pos2| {
-            let way: Vec2 = other - corner;
-            corner + way.normalized() * radius.min(way.length() / 2.0)
+            let step: Vec2 = other - corner;
+            corner + step.normalized() * radius.min(step.length() / 2.0)
         };
         let (a, b) = (toward(before), toward(after));
         // A parabola from one end to the other.

@@ -18,58 +18,58 @@ pub(super) struct Layers {
     /// The nodes of each layer from the top.
     pub layers: Vec<Vec<usize>>,
     /// The path of each given edge, with one node per layer.
-    pub ways: Vec<Vec<usize>>,
+    pub paths: Vec<Vec<usize>>,
 }
 
 impl Layers {
     /// Takes nodes and acyclic edges; an edge that would form a cycle is ignored in the layering.
     pub(super) fn new(nodes: usize, edges: &[Edge]) -> Self {
         let mut layer_of = longest_paths(nodes, edges);
-        let mut ways = Vec::with_capacity(edges.len());
+        let mut paths = Vec::with_capacity(edges.len());
         // Edges from one node share a path as far as possible, and branch off to each reader.
         let mut passing: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         for &(from, to) in edges {
-            let mut way = vec![from];
+            let mut path = vec![from];
             for layer in layer_of[from] + 1..layer_of[to] {
                 let node = *passing.entry((from, layer)).or_insert(layer_of.len());
                 if node == layer_of.len() {
                     layer_of.push(layer);
                 }
-                way.push(node);
+                path.push(node);
             }
-            way.push(to);
-            ways.push(way);
+            path.push(to);
+            paths.push(path);
         }
         let count = layer_of.iter().max().map_or(0, |most| most + 1);
         let mut layers = vec![Vec::new(); count];
         layer_of.iter().enumerate().for_each(|(node, layer)| layers[*layer].push(node));
-        let mut made = Self { layer_of, layers, ways };
-        made.untangle();
+        let mut made = Self { layer_of, layers, paths };
+        made.reduce_crossings();
         made
     }
 
     /// Returns the edges between neighbouring layers, each once.
     pub(super) fn steps(&self) -> Vec<Edge> {
         let mut steps: Vec<Edge> =
-            self.ways.iter().flat_map(|way| way.windows(2).map(|step| (step[0], step[1]))).collect();
+            self.paths.iter().flat_map(|path| path.windows(2).map(|step| (step[0], step[1]))).collect();
         steps.sort_unstable();
         steps.dedup();
         steps
     }
 
     /// Orders the nodes of each layer by the positions of their neighbours in the previous layer, forth and back.
-    fn untangle(&mut self) {
+    fn reduce_crossings(&mut self) {
         let (mut best, mut least) = (self.layers.clone(), self.crossings());
         let steps = self.steps();
         for sweep in 0..SWEEPS {
-            let forth = sweep % 2 == 0;
+            let is_forward = sweep % 2 == 0;
             let count = self.layers.len();
             for step in 1..count {
-                let layer = if forth { step } else { count - 1 - step };
+                let layer = if is_forward { step } else { count - 1 - step };
                 let place = self.places();
                 let mut keyed: Vec<(f32, usize)> = Vec::new();
                 for &node in &self.layers[layer] {
-                    let other = |&(from, to): &Edge| match forth {
+                    let other = |&(from, to): &Edge| match is_forward {
                         true if to == node && from != node => Some(from),
                         false if from == node && to != node => Some(to),
                         _ => None,
@@ -139,7 +139,7 @@ mod tests {
     fn nodes_follow_what_they_read_and_long_edges_pass_each_layer() {
         let layers = Layers::new(4, &[(0, 1), (1, 2), (0, 2), (3, 2)]);
         assert_eq!(&layers.layer_of[..4], [0, 1, 2, 0]);
-        assert_eq!(layers.ways[2].len(), 3, "from 0 to 2 past 1");
+        assert_eq!(layers.paths[2].len(), 3, "from 0 to 2 past 1");
         assert!(layers.steps().into_iter().all(|(from, to)| layers.layer_of[to] > layers.layer_of[from]));
         assert_eq!(layers.layers.iter().map(Vec::len).sum::<usize>(), layers.layer_of.len());
     }
@@ -152,7 +152,7 @@ mod tests {
         assert_eq!(layers.crossings(), 0, "{:?}", layers.layers);
         // Two distant readers share the common part of the path.
         let shared = Layers::new(5, &[(0, 1), (1, 2), (2, 3), (3, 4), (0, 3), (0, 4)]);
-        assert_eq!(shared.layer_of.len(), 5 + 3, "{:?}", shared.ways);
+        assert_eq!(shared.layer_of.len(), 5 + 3, "{:?}", shared.paths);
         // Two edges of K(2,2) always cross.
         assert_eq!(Layers::new(4, &[(0, 2), (0, 3), (1, 2), (1, 3)]).crossings(), 1);
     }

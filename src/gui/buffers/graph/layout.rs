@@ -21,19 +21,19 @@ const MARGIN: f32 = 12.0;
 pub(super) struct Layout {
     pub nodes: Vec<Rect>,
     /// The corners of the path of each forward edge.
-    pub forth: Vec<Vec<Pos2>>,
+    pub forward_paths: Vec<Vec<Pos2>>,
     /// The corners of the path of each other edge.
-    pub back: Vec<Vec<Pos2>>,
+    pub back_paths: Vec<Vec<Pos2>>,
     pub size: Vec2,
 }
 
 impl Layout {
-    /// `forth`: acyclic edges; `back`: all others. A long chain is broken into rows, like text, if it would be
+    /// `forward_edges`: acyclic edges; `back_edges`: all others. A long chain is broken into rows, like text, if it would be
     /// illegible when it is fitted into `area`.
-    pub(super) fn new(nodes: usize, forth: &[Edge], back: &[Edge], area: Vec2) -> Self {
-        let layers = Layers::new(nodes, forth);
+    pub(super) fn new(nodes: usize, forward_edges: &[Edge], back_edges: &[Edge], area: Vec2) -> Self {
+        let layers = Layers::new(nodes, forward_edges);
         let middles = middles(&layers, nodes);
-        let rows = Rows::new(&layers, &middles, (nodes, forth, back), area);
+        let rows = Rows::new(&layers, &middles, (nodes, forward_edges, back_edges), area);
         let at = |node: usize| rows.place(layers.layer_of[node], middles[node]);
         let row_of = |node: usize| rows.row(layers.layer_of[node]);
         // Paths between rows, and back edges, have lanes of their own below the row that they come from.
@@ -43,42 +43,42 @@ impl Layout {
             rows.bottom(row) + 16.0 + LANE * lanes[row] as f32
         };
         let rects: Vec<Rect> = (0..nodes).map(|node| Rect::from_center_size(at(node), NODE)).collect();
-        let ports = ports(nodes, forth, back, &middles);
+        let ports = ports(nodes, forward_edges, back_edges, &middles);
         let round = |n: usize, start: Pos2, end: Pos2, low: f32| {
             let aside = 10.0 + 4.0 * (n % 6) as f32;
             let (right, left) = (start.x + aside, end.x - aside);
             vec![start, pos2(right, start.y), pos2(right, low), pos2(left, low), pos2(left, end.y), end]
         };
-        let mut forth_ways = Vec::new();
-        for (n, (edge, way)) in forth.iter().zip(&layers.ways).enumerate() {
+        let mut forward_paths = Vec::new();
+        for (n, (edge, path)) in forward_edges.iter().zip(&layers.paths).enumerate() {
             let end = pos2(rects[edge.1].left(), rects[edge.1].top() + ports[n]);
             let start = rects[edge.0].right_center();
             if row_of(edge.0) != row_of(edge.1) {
-                forth_ways.push(round(n, start, end, lane(row_of(edge.0))));
+                forward_paths.push(round(n, start, end, lane(row_of(edge.0))));
                 continue;
             }
             let mut points = vec![start];
-            for node in &way[1..way.len() - 1] {
+            for node in &path[1..path.len() - 1] {
                 let half = vec2(NODE.x / 2.0, 0.0);
                 points.extend([at(*node) - half, at(*node) + half]);
             }
             points.push(end);
-            forth_ways.push(points);
+            forward_paths.push(points);
         }
-        let mut back_ways = Vec::new();
-        for (n, &(from, to)) in back.iter().enumerate() {
+        let mut back_paths = Vec::new();
+        for (n, &(from, to)) in back_edges.iter().enumerate() {
             let (source, reader) = (rects[from], rects[to]);
             let start = pos2(source.right(), source.bottom() - 11.0);
-            let end = pos2(reader.left(), reader.top() + ports[forth.len() + n]);
+            let end = pos2(reader.left(), reader.top() + ports[forward_edges.len() + n]);
             // A self-edge goes round its own node, the others go below the whole row.
             let low = if from == to { source.bottom() + 9.0 } else { lane(row_of(from)) };
-            back_ways.push(round(n, start, end, low));
+            back_paths.push(round(n, start, end, low));
         }
         let width = left_of(rows.length) - BETWEEN_LAYERS + 34.0 + MARGIN;
         let last = rows.tops.len().saturating_sub(1);
         let most = lanes.get(last).copied().unwrap_or_default();
         let size = vec2(width, rows.bottom(last) + 24.0 + LANE * most as f32 + MARGIN);
-        Self { nodes: rects, forth: forth_ways, back: back_ways, size }
+        Self { nodes: rects, forward_paths, back_paths, size }
     }
 }
 
@@ -87,7 +87,7 @@ pub(super) const LEGIBLE: f32 = 0.6;
 /// The space below a row, in addition to its lanes.
 const BELOW: f32 = 18.0;
 
-/// The number of nodes, and the edges forth and back.
+/// The number of nodes, and the forward and back edges.
 type Graph<'a> = (usize, &'a [Edge], &'a [Edge]);
 
 /// The rows that the layers are broken into: each has the same number of layers, and is below the previous one.
@@ -114,16 +114,22 @@ impl Rows {
         broken.fold(one, |best, rows| if rows.scale(area) > best.scale(area) * 1.001 { rows } else { best })
     }
 
-    fn of_length(layers: &Layers, middles: &[f32], (nodes, forth, back): Graph<'_>, length: usize) -> Rows {
+    fn of_length(
+        layers: &Layers,
+        middles: &[f32],
+        (nodes, forward_edges, back_edges): Graph<'_>,
+        length: usize,
+    ) -> Rows {
         let length = length.max(1);
         let row_of = |node: usize| layers.layer_of[node] / length;
         let lanes = |row: usize| {
-            let forth = forth.iter().filter(|(from, to)| row_of(*from) == row && row_of(*to) != row);
-            forth.count() + back.iter().filter(|(from, to)| from != to && row_of(*from) == row).count()
+            let forward_edges = forward_edges.iter().filter(|(from, to)| row_of(*from) == row && row_of(*to) != row);
+            forward_edges.count() + back_edges.iter().filter(|(from, to)| from != to && row_of(*from) == row).count()
         };
         // An edge between rows uses a lane, and needs no room between the nodes that it would pass.
-        let ways = forth.iter().zip(&layers.ways).filter(|(edge, _)| row_of(edge.0) != row_of(edge.1));
-        let round: FxHashSet<usize> = ways.flat_map(|(_, way)| way[1..way.len() - 1].iter().copied()).collect();
+        let between_rows = forward_edges.iter().zip(&layers.paths).filter(|(edge, _)| row_of(edge.0) != row_of(edge.1));
+        let round: FxHashSet<usize> =
+            between_rows.flat_map(|(_, path)| path[1..path.len() - 1].iter().copied()).collect();
         let (mut tops, mut spans, mut top) = (Vec::new(), Vec::new(), MARGIN);
         for (n, row) in layers.layers.chunks(length).enumerate() {
             let height = |node: usize| if node < nodes { NODE.y } else { PASSING };
@@ -167,19 +173,19 @@ fn left_of(layer: usize) -> f32 {
 }
 
 /// Returns the end of each edge below the top of its reader: ordered from the top by the place of its start.
-fn ports(nodes: usize, forth: &[Edge], back: &[Edge], middles: &[f32]) -> Vec<f32> {
-    let mut ports = vec![0.0; forth.len() + back.len()];
+fn ports(nodes: usize, forward_edges: &[Edge], back_edges: &[Edge], middles: &[f32]) -> Vec<f32> {
+    let mut ports = vec![0.0; forward_edges.len() + back_edges.len()];
     for node in 0..nodes {
         let coming = |edges: &[Edge], first: usize| -> Vec<(f32, usize)> {
             let into = edges.iter().enumerate().filter(|(_, edge)| edge.1 == node);
             into.map(|(n, edge)| (middles[edge.0], first + n)).collect()
         };
-        let mut ways = coming(forth, 0);
-        ways.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut incoming = coming(forward_edges, 0);
+        incoming.sort_by(|a, b| a.0.total_cmp(&b.0));
         // Edges from below end lowest.
-        ways.extend(coming(back, forth.len()));
-        let count = ways.len() as f32;
-        for (n, (_, edge)) in ways.into_iter().enumerate() {
+        incoming.extend(coming(back_edges, forward_edges.len()));
+        let count = incoming.len() as f32;
+        for (n, (_, edge)) in incoming.into_iter().enumerate() {
             ports[edge] = NODE.y * (n as f32 + 1.0) / (count + 1.0);
         }
     }
@@ -227,8 +233,8 @@ fn middles(layers: &Layers, nodes: usize) -> Vec<f32> {
             let mut up = wanted;
             for place in 1..layer.len() {
                 down[place] = down[place].max(down[place - 1] + apart(layer[place - 1], layer[place]));
-                let back = layer.len() - 1 - place;
-                up[back] = up[back].min(up[back + 1] - apart(layer[back], layer[back + 1]));
+                let index = layer.len() - 1 - place;
+                up[index] = up[index].min(up[index + 1] - apart(layer[index], layer[index + 1]));
             }
             for (place, &node) in layer.iter().enumerate() {
                 middles[node] = (down[place] + up[place]) / 2.0;
@@ -246,51 +252,51 @@ mod tests {
 
     fn fluid() -> (usize, Vec<Edge>, Vec<Edge>) {
         // Four passes in a chain, two next to it, the picture that reads all; three read the previous frame.
-        let forth = vec![(0, 1), (1, 2), (2, 3), (0, 3), (4, 6), (5, 6), (3, 6), (0, 6)];
-        (7, forth, vec![(3, 0), (4, 4), (5, 5)])
+        let forward_edges = vec![(0, 1), (1, 2), (2, 3), (0, 3), (4, 6), (5, 6), (3, 6), (0, 6)];
+        (7, forward_edges, vec![(3, 0), (4, 4), (5, 5)])
     }
 
     #[test]
     fn nodes_do_not_overlap_and_edges_lead_to_the_right() {
-        let (nodes, forth, back) = fluid();
-        let layout = Layout::new(nodes, &forth, &back, vec2(4000.0, 3000.0));
+        let (nodes, forward_edges, back_edges) = fluid();
+        let layout = Layout::new(nodes, &forward_edges, &back_edges, vec2(4000.0, 3000.0));
         let sheet = Rect::from_min_size(Pos2::ZERO, layout.size);
         for (i, a) in layout.nodes.iter().enumerate() {
             assert!(sheet.contains_rect(*a), "{a:?} of {sheet:?}");
             assert!(layout.nodes[i + 1..].iter().all(|b| !a.expand(8.0).intersects(*b)), "{:?}", layout.nodes);
         }
-        for (edge, way) in forth.iter().zip(&layout.forth) {
-            assert!(way.windows(2).all(|step| step[1].x >= step[0].x), "{way:?}");
-            assert!(layout.nodes[edge.1].distance_to_pos(*way.last().unwrap()) < 0.1);
+        for (edge, path) in forward_edges.iter().zip(&layout.forward_paths) {
+            assert!(path.windows(2).all(|step| step[1].x >= step[0].x), "{path:?}");
+            assert!(layout.nodes[edge.1].distance_to_pos(*path.last().unwrap()) < 0.1);
         }
     }
 
     #[test]
     fn twenty_passes_fit_legibly() {
         let area = vec2(640.0, 340.0);
-        let forth: Vec<Edge> = (1..20).map(|n| (n - 1, n)).chain([(2, 19)]).collect();
-        let back = [(19, 0), (5, 5)];
-        let layout = Layout::new(20, &forth, &back, area);
+        let forward_edges: Vec<Edge> = (1..20).map(|n| (n - 1, n)).chain([(2, 19)]).collect();
+        let back_edges = [(19, 0), (5, 5)];
+        let layout = Layout::new(20, &forward_edges, &back_edges, area);
         let scale = (area.x / layout.size.x).min(area.y / layout.size.y);
         assert!(scale >= LEGIBLE, "{scale} of {:?}", layout.size);
         crosses_no_node(&layout);
         let sheet = Rect::from_min_size(Pos2::ZERO, layout.size);
         assert!(layout.nodes.iter().all(|node| sheet.contains_rect(*node)));
-        let chain = Layout::new(4, &forth[..3], &[], area);
+        let chain = Layout::new(4, &forward_edges[..3], &[], area);
         assert!(chain.nodes.windows(2).all(|pair| pair[0].top() == pair[1].top()), "what can be read is one row");
     }
 
     #[test]
     fn back_edges_cross_no_node() {
-        let (nodes, forth, back) = fluid();
-        crosses_no_node(&Layout::new(nodes, &forth, &back, vec2(4000.0, 3000.0)));
+        let (nodes, forward_edges, back_edges) = fluid();
+        crosses_no_node(&Layout::new(nodes, &forward_edges, &back_edges, vec2(4000.0, 3000.0)));
         // In rows, too.
-        crosses_no_node(&Layout::new(nodes, &forth, &back, vec2(500.0, 600.0)));
+        crosses_no_node(&Layout::new(nodes, &forward_edges, &back_edges, vec2(500.0, 600.0)));
     }
 
     fn crosses_no_node(layout: &Layout) {
-        for way in layout.back.iter().chain(&layout.forth) {
-            for step in way.windows(2) {
+        for path in layout.back_paths.iter().chain(&layout.forward_paths) {
+            for step in path.windows(2) {
                 let segment = Rect::from_two_pos(step[0], step[1]).expand(-0.5).expand(0.4);
                 let is_straight = step[0].x == step[1].x || step[0].y == step[1].y;
                 let hit = layout.nodes.iter().find(|node| is_straight && node.shrink(1.0).intersects(segment));
@@ -298,6 +304,6 @@ mod tests {
             }
         }
         let sheet = Rect::from_min_size(Pos2::ZERO, layout.size);
-        assert!(layout.back.iter().flatten().all(|point| sheet.contains(*point)));
+        assert!(layout.back_paths.iter().flatten().all(|point| sheet.contains(*point)));
     }
 }

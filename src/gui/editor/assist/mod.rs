@@ -16,7 +16,7 @@ use std::ops::Range;
 
 /// A request of the editor that concerns other tabs.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Ask {
+pub(crate) enum EditorRequest {
     /// Go to a place in any text of the analysis.
     GoTo(Span),
     /// Open the file that the `#include` line at this byte names.
@@ -54,7 +54,7 @@ pub(super) struct Assist {
     is_chosen: bool,
     /// The request about the name at the caret that waits for the analysis.
     question: Option<Question>,
-    pub asks: Vec<Ask>,
+    pub requests: Vec<EditorRequest>,
     /// The names and areas of open popups.
     pub placed: Vec<(String, Rect)>,
 }
@@ -146,8 +146,8 @@ impl Assist {
         let continues = text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
         if continues {
             self.go_on(buffer);
-            let begins = buffer.text()[word.clone()].starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
-            if self.popup.is_none() && word.len() >= 2 && begins && self.dismissed.is_none() {
+            let starts_word = buffer.text()[word.clone()].starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+            if self.popup.is_none() && word.len() >= 2 && starts_word && self.dismissed.is_none() {
                 self.wanted = Some(false);
             }
             return;
@@ -206,11 +206,11 @@ impl Assist {
         let caret = buffer.selection().head;
         match self.question.take() {
             Some(Question::Definition) => {
-                let declared = help.analysis.definition(help.source, caret).map(Ask::GoTo);
-                let included = buffer.names_file(caret).then_some(Ask::OpenIncluded(caret));
-                self.asks.extend(declared.or(included));
+                let declared = help.analysis.definition(help.source, caret).map(EditorRequest::GoTo);
+                let included = buffer.names_file(caret).then_some(EditorRequest::OpenIncluded(caret));
+                self.requests.extend(declared.or(included));
             }
-            Some(Question::Uses) => self.asks.push(Ask::ListUses(caret)),
+            Some(Question::Uses) => self.requests.push(EditorRequest::ListUses(caret)),
             None => {}
         }
         if let Some(asked_for) = self.wanted.take() {

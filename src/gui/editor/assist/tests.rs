@@ -22,18 +22,18 @@ fn type_into(text: &str, input: &str) -> (Assist, String) {
     let mut rest = input;
     while let Some(first) = rest.chars().next() {
         let named = rest.strip_prefix('<').and_then(|r| r.split_once('>'));
-        let (event, behind) = match named {
-            Some((name, behind)) => {
+        let (event, after) = match named {
+            Some((name, after)) => {
                 let ctrl = Modifiers { ctrl: true, command: true, ..Modifiers::NONE };
                 let (key, modifiers) = match name {
                     "Ctrl+Space" => (Key::Space, ctrl),
                     name => (Key::from_name(name).unwrap(), Modifiers::NONE),
                 };
-                (Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }, behind)
+                (Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }, after)
             }
             None => (Event::Text(first.to_string()), &rest[first.len_utf8()..]),
         };
-        rest = behind;
+        rest = after;
         if !assist.take(&event, &mut buffer) {
             let entry = Keymap::default().pressed(&event, KeyFocus { code: true, ..KeyFocus::default() });
             match entry.map(|e| e.action) {
@@ -129,8 +129,8 @@ fn signature_stays_open_inside_the_call() {
 #[test]
 fn requests_are_about_the_name_at_the_caret() {
     let (assist, _) = type_into("float g;\nvoid f() { g@; }", "<F12>");
-    assert_eq!(assist.asks, [Ask::GoTo(Span::new(ID, 6..7))]);
+    assert_eq!(assist.requests, [EditorRequest::GoTo(Span::new(ID, 6..7))]);
     assert_eq!(assist.uses(), [6..7, 20..21]);
     let (assist, _) = type_into("void f() { sin@(1.0); }", "<F12>");
-    assert_eq!(assist.asks, []);
+    assert_eq!(assist.requests, []);
 }

@@ -68,7 +68,7 @@ impl Highlight {
         let kept = if touched.is_empty() || self.lines.is_empty() {
             self.replace_changed(buffer, unchanged, width, &mut scanned)
         } else {
-            self.renew(buffer, &touched, width, &mut scanned)
+            self.relex(buffer, &touched, width, &mut scanned)
         };
         let first = self.replaced.map_or(0, |r| r.first);
         let mut last = buffer.line_count() - kept;
@@ -142,7 +142,7 @@ impl Highlight {
 
     /// Re-lexes edited lines whose count is unchanged, and following lines until the lexer state matches. Returns the
     /// number of the line after them.
-    fn renew(
+    fn relex(
         &mut self,
         buffer: &Buffer,
         touched: &[usize],

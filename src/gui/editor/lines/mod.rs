@@ -316,8 +316,8 @@ impl Lines<'_> {
 /// Returns those of an ordered list of ranges that touch a range.
 pub(super) fn touching<'r>(list: &'r [Range<usize>], range: &Range<usize>) -> &'r [Range<usize>] {
     let first = list.partition_point(|r| r.end < range.start);
-    let behind = list[first..].partition_point(|r| r.start <= range.end);
-    &list[first..first + behind]
+    let count = list[first..].partition_point(|r| r.start <= range.end);
+    &list[first..first + count]
 }
 
 #[cfg(test)]

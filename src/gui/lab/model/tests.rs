@@ -8,7 +8,7 @@ use crate::lab::{
 use egui::pos2;
 
 /// The first study, its points on the main grid, and a run that has just started.
-fn begun() -> (&'static Study, Vec<Point>, ExtentResults) {
+fn started_study() -> (&'static Study, Vec<Point>, ExtentResults) {
     let study = studies::all()[0];
     let main = study.main_grid(Extent::Quick);
     let points = study.points(Extent::Quick).into_iter().filter(|p| p.grid == main).collect();
@@ -53,7 +53,7 @@ fn costed(point: &Point, millis: f64) -> Event {
 
 #[test]
 fn points_move_from_their_estimated_to_their_measured_cost() {
-    let (study, points, mut known) = begun();
+    let (study, points, mut known) = started_study();
     assert!(known.shown(study).is_none());
     known.take(&measured(&points[0], 0.01, true));
     // Without a cost it has no place.
@@ -72,7 +72,7 @@ fn points_move_from_their_estimated_to_their_measured_cost() {
 
 #[test]
 fn dots_match_the_report() {
-    let (study, points, mut known) = begun();
+    let (study, points, mut known) = started_study();
     let looks = [(0.1, 1.0, true), (0.01, 2.0, true), (0.2, 3.0, true), (0.001, 0.5, false)];
     for ((error, millis, passes), point) in looks.into_iter().zip(&points) {
         known.take(&measured(point, error, passes));
@@ -89,7 +89,7 @@ fn dots_match_the_report() {
 
 #[test]
 fn diverged_points_are_listed_without_a_dot() {
-    let (study, points, mut known) = begun();
+    let (study, points, mut known) = started_study();
     known.take(&measured(&points[0], f64::INFINITY, true));
     known.take(&costed(&points[0], 1.0));
     let shown = known.shown(study).unwrap();

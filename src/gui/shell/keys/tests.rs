@@ -42,7 +42,7 @@ fn a_key_either_acts_or_types() {
     for of in [None, Some(lab), Some(delete)] {
         let mut keymap = Keymap::default();
         if let Some(of) = of {
-            keymap.give(of, given.clone());
+            keymap.assign(of, given.clone());
         }
         for chord in own.iter().chain(&given).copied() {
             for (place, keyboard) in places() {

@@ -29,7 +29,7 @@ fn quad() -> Vec<[f32; 3]> {
 /// Returns the line of an error, its message and its hint.
 fn error(text: impl AsRef<[u8]>) -> (usize, String, String) {
     match read(text) {
-        Err(ModelError::Line { line, reason, fix }) => (line, reason, fix),
+        Err(ModelError::Line { line, reason, hint: fix }) => (line, reason, fix),
         other => panic!("{other:?}"),
     }
 }
