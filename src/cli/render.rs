@@ -172,7 +172,7 @@ impl Job<'_> {
         let Opened { project, mut offline, media } = opening.open(machine, report)?;
         let (declared, unread) = measured::declared(&project);
         report.diagnose(&unread, &project.sources(), Some(&project));
-        let mut measures = Measures::new(&project, args.probe.iter().cloned().chain(declared).collect(), &args.assert);
+        let mut measures = Measures::new(&project, args.probe.iter().cloned().chain(declared).collect(), &args.assert)?;
         let last = wanted.last().map_or(0, |last| last + 1);
         let frames = targets.drawn.unwrap_or_default().max(last);
         let jumps = targets.drawn.is_none() && !offline.has_state()?;

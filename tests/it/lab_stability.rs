@@ -6,7 +6,7 @@ use eddy::{
     lab::{
         Extent, LabError, Results, Shard,
         stability::{
-            BoundArgument, CheckedProject, Kind, Outcome, Recovery, StabilityRecord, Violation, presets,
+            CheckedProject, Kind, Outcome, Recovery, StabilityRecord, Violation, parse_bound, presets,
             run::{self, Options},
             table, write,
         },
@@ -103,7 +103,7 @@ fn first_above_one(rate: f32, (width, height): (usize, usize), frames: u32) -> O
 }
 
 fn bounded(mut subject: CheckedProject, bound: &str) -> CheckedProject {
-    subject.bound(&[BoundArgument::parse(bound).unwrap()]);
+    subject.bound(&[parse_bound(bound).unwrap()]);
     subject
 }
 
@@ -116,7 +116,7 @@ fn left(record: &StabilityRecord) -> &Violation {
 
 #[test]
 fn an_explicit_viscosity_that_is_too_large_is_found_with_its_first_frame_and_texel() {
-    let subject = bounded(CheckedProject::of("heat", heat(), MediaSet::new()), "buffer_a=-1..1");
+    let subject = bounded(CheckedProject::of("heat", heat(), MediaSet::new()).unwrap(), "buffer_a=-1..1");
     let Some(cases) = measured(&subject, Some("rate=")) else { return };
     assert_eq!(cases.len(), 2);
     // A rate of 0.3 multiplies what alternates by -1.4 a frame. Stable at 0.05.
@@ -138,7 +138,7 @@ fn changed(name: &str, id: PassName, before: &str, after: &str) -> CheckedProjec
     assert!(pass.source.text.contains(before), "{name} has no {before}");
     pass.source.text = pass.source.text.replace(before, after).into();
     let media = eddy::media::gather(&project, None).0;
-    CheckedProject::of(name, project, media)
+    CheckedProject::of(name, project, media).unwrap()
 }
 
 #[test]
@@ -165,7 +165,7 @@ fn the_lit_fluid_with_its_tension_at_the_texel_diverges_and_is_found() {
 
 #[test]
 fn a_number_that_is_none_spreads_where_nothing_stops_it_and_is_gone_where_something_does() {
-    let subject = bounded(CheckedProject::of("heat", heat(), MediaSet::new()), "buffer_a=-1..1");
+    let subject = bounded(CheckedProject::of("heat", heat(), MediaSet::new()).unwrap(), "buffer_a=-1..1");
     let Some(cases) = measured(&subject, Some("NaN")) else { return };
     let found = left(&cases[0]);
     assert_eq!((found.frame, found.texel.is_some(), found.value.0.is_nan()), (6, true, true), "{}", found.describe());
@@ -187,13 +187,13 @@ fn changed_heat(body: &str) -> CheckedProject {
     project.passes[0].source.text = text
         .replace("texelFetch(iChannel0, p,", "texelFetch(iChannel0, clamp(p, ivec2(0), ivec2(iResolution.xy) - 1),")
         .into();
-    bounded(CheckedProject::of("healed", project, MediaSet::new()), "buffer_a=-1..1")
+    bounded(CheckedProject::of("healed", project, MediaSet::new()).unwrap(), "buffer_a=-1..1")
 }
 
 #[test]
 fn a_run_goes_on_and_shards_together_are_the_whole() {
     let Some(gpu) = gpu() else { return };
-    let subject = CheckedProject::of("heat", heat(), MediaSet::new());
+    let subject = CheckedProject::of("heat", heat(), MediaSet::new()).unwrap();
     let dirs: Vec<_> = (0..3).map(|_| tempfile::tempdir().unwrap()).collect();
     let drawn = |out: &Path, shard: &str| -> Result<(usize, Results), LabError> {
         let shard = Shard::parse(shard, |_| None)?;
