@@ -54,8 +54,8 @@ pub struct Offline {
     newest: (i32, Option<Instant>),
     /// The maximum bytes of textures in system memory.
     memory: Option<u64>,
-    /// Of the frames so far: the uniforms that the recording has set, the longest `iTimeDelta` in seconds, and whether
-    /// the mouse was pressed.
+    /// The inputs of the frames so far: the uniforms that the recording has set, the longest `iTimeDelta` in seconds, and
+    /// whether the mouse was pressed.
     seen: (Option<CustomUniformValues>, f64, bool),
 }
 

@@ -93,7 +93,7 @@ fn claims_may_be_about_texels_and_depend_on_uniforms_and_inputs() {
     ] {
         render(claim, &[]).expect(0);
     }
-    let drag = ["--mouse", "1:down 1,1; 2:up 1,1"];
+    let drag = ["--mouse", "1:down 1,1; 2:up"];
     render("image.z in longest_step..1 unless dragged == 0 because \"nothing moves\"", &drag).expect(1);
     render("image.x from row 1 in 2..2 * level", &["--set", "level=2"]).expect(0);
     let run = render("image.x <= 2 * level because \"a lamp\"", &[]).expect(1);

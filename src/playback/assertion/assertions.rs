@@ -22,7 +22,7 @@ pub struct Assertion {
     reason: Option<Arc<str>>,
     /// The conditions under which it may fail, each with the reason.
     excuses: Vec<(Expression, Arc<str>)>,
-    /// What its expressions may name.
+    /// The numbers that its expressions may name.
     numbers: Arc<Numbers>,
     /// The source text of the quantity and the claim.
     text: String,
@@ -31,7 +31,7 @@ pub struct Assertion {
 /// An assertion that failed.
 #[derive(Clone, Debug, thiserror::Error)]
 pub struct Failure {
-    pub assertion: Assertion,
+    pub assertion: Box<Assertion>,
     pub frame: u32,
     pub worst: Worst,
     /// The value in the first frame.
@@ -196,7 +196,7 @@ impl Assertion {
     ) -> Result<(), Failure> {
         let (found, range) = self.find(pixels, stored, conditions, first);
         match found.worst.filter(|worst| !range.excuses(worst.value)) {
-            Some(worst) => Err(Failure { assertion: self.clone(), frame, worst, first }),
+            Some(worst) => Err(Failure { assertion: Box::new(self.clone()), frame, worst, first }),
             None => Ok(()),
         }
     }

@@ -1,4 +1,4 @@
-//! What an assertion says about a quantity.
+//! The part of an assertion that says which values a quantity may have.
 
 use super::reader::Reader;
 use eddy_project::Expression;

@@ -54,7 +54,7 @@ pub struct Quantity {
     pub target: usize,
     /// The indices of the components, 0 to 3 in ascending order; none for all that the pass stores.
     pub components: Vec<usize>,
-    /// Whether the number of a texel is the length of the vector of the components, and not each of them.
+    /// The number of a texel is the length of the vector of the components, and not each of them.
     pub is_length: bool,
     pub region: Region,
 }

@@ -67,7 +67,7 @@ static OPERATORS: [&[Operator]; 6] = [
 #[derive(Debug)]
 pub struct Function {
     pub name: &'static str,
-    /// How many arguments it takes.
+    /// The numbers of arguments that it takes.
     arguments: RangeInclusive<usize>,
     value: fn(&[f64]) -> f64,
 }

@@ -4,8 +4,8 @@
 //! statements of another file, in which this pass has a name of its own. `courant SLIDER = EXPRESSION
 //! gives EXPRESSION [because REASON]` says how the cells per step are set and measured: see [`Courant`].
 
-use super::Courant;
-use eddy_playback::assertion::{Assertion, StatementError, Statements};
+use super::{Courant, Declared, cases};
+use eddy_playback::assertion::{StatementError, Statements};
 use eddy_project::PassName;
 use include_dir::{Dir, include_dir};
 
@@ -19,8 +19,8 @@ pub struct BoundsError {
     error: StatementError,
 }
 
-/// Reads the checks of a preset; `None` if there is no file for it.
-pub(super) fn read(preset: &str) -> Result<Option<(Vec<Assertion>, Option<Courant>)>, BoundsError> {
+/// Reads the bounds of a preset; `None` if there is no file for it.
+pub(super) fn read(preset: &str) -> Result<Option<Declared>, BoundsError> {
     text_of(preset).map(|text| read_text(preset, text)).transpose()
 }
 
@@ -28,10 +28,10 @@ fn text_of(file: &str) -> Option<&'static str> {
     FILES.get_file(format!("{file}.txt"))?.contents_utf8()
 }
 
-fn read_text(file: &str, text: &str) -> Result<(Vec<Assertion>, Option<Courant>), BoundsError> {
+fn read_text(file: &str, text: &str) -> Result<Declared, BoundsError> {
     let (mut statements, mut courant) = (Statements::default(), None);
     add(file, text, &mut statements, &mut courant)?;
-    Ok((statements.into_assertions(), courant))
+    Ok(Declared { checks: statements.into_assertions(), courant, extras: cases::of(file) })
 }
 
 /// Adds the statements of a file.
@@ -85,7 +85,8 @@ mod tests {
 
     #[test]
     fn files_may_use_others_and_name_their_passes() {
-        let (checks, courant) = read_text("p", "use compressible with flow = buffer_q; image.x in 0..1").unwrap();
+        let text = "use compressible with flow = buffer_q; image.x in 0..1";
+        let Declared { checks, courant, .. } = read_text("p", text).unwrap();
         assert_eq!(checks.len(), 7);
         assert!(checks[..6].iter().all(|check| check.quantity.pass == PassName::buffer("Q")));
         assert_eq!(courant.unwrap().slider, "dt");

@@ -1,4 +1,4 @@
-//! How a project is made to move by a given number of cells per step.
+//! The cells per step by which a project moves: how they are set, and measured.
 
 use eddy_playback::assertion::{Conditions, Reader, Statements};
 use eddy_project::Expression;
