@@ -103,7 +103,7 @@ fn claims_may_be_about_texels_and_depend_on_uniforms_and_inputs() {
         "frame 3: image.x <= 2 * level does not hold: it is 7 at texel 0,0, the worst of 4 values (a lamp)"
     );
     for (claim, says) in [
-        ("image < levl", "--assert \"image < levl\": no #iUniform line declares `levl`: did you mean level?"),
+        ("image < levl", "no #iUniform line declares `levl`: did you mean level?"),
         ("let level = 1; image < level", "the project has a uniform of this name"),
         ("image < 1; image > 0", "several assertions"),
     ] {

@@ -76,7 +76,8 @@ const fn function(name: &'static str, arguments: RangeInclusive<usize>, value: f
     Function { name, arguments, value }
 }
 
-/// Names and meanings are GLSL's. `min` and `max` take several numbers, and ignore NaN as Rust's do.
+/// Names and meanings are GLSL's, except that `mod` is never below 0. `min` and `max` take several numbers, and ignore NaN
+/// as Rust's do.
 static FUNCTIONS: [Function; 13] = [
     function("abs", 1..=1, |x| x[0].abs()),
     function("floor", 1..=1, |x| x[0].floor()),

@@ -4,7 +4,7 @@ use crate::{Expression, PassSize, Syntax};
 
 /// Evaluates an expression of numbers and `$NAME`, which `value` looks up. Returns an error for invalid syntax.
 pub(super) fn evaluate(text: &str, value: &dyn Fn(&str) -> Option<f64>) -> Result<f64, String> {
-    // Names without the sign are those of functions alone, which are followed by a parenthesis.
+    // The sign distinguishes names from functions. Here the parenthesis after a function does.
     let expression = Expression::parse(&text.replace('$', " "), Syntax::Size).map_err(|error| error.to_string())?;
     match expression.names().iter().find(|(name, _)| value(name).is_none()) {
         Some((name, _)) => Err(format!("there is no number ${name}")),
