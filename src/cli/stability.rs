@@ -32,8 +32,9 @@ pub(super) fn run(args: &StabilityArgs) -> io::Result<u8> {
         Ok(subjects) => subjects,
         Err(error) => return Ok(trouble(error)),
     };
-    if let Some(bound) = args.bound.iter().find(|b| subjects.iter().all(|s| s.project.pass(&b.pass).is_none())) {
-        return Ok(trouble(format_args!("--bound: no project of this call has a pass {}", bound.pass.key())));
+    if let Some(bound) = args.bound.iter().find(|b| subjects.iter().all(|s| s.project.pass(&b.quantity.pass).is_none()))
+    {
+        return Ok(trouble(format_args!("--bound: no project of this call has a pass {}", bound.quantity.pass.key())));
     }
     let (shard, gpu) = match shard_and_device(&args.shard) {
         Ok(both) => both,

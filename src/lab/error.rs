@@ -1,5 +1,6 @@
 //! The errors of measuring and reporting.
 
+use crate::stability::presets::BoundsError;
 use eddy_diag::render_all;
 use eddy_engine::{BuildError, EngineError};
 use eddy_gpu::GpuError;
@@ -16,6 +17,9 @@ pub enum LabError {
     Engine(#[from] EngineError),
     #[error(transparent)]
     Project(#[from] ProjectError),
+    /// A malformed file of bounds: a bug of ours.
+    #[error(transparent)]
+    Bounds(#[from] BoundsError),
     /// A method that does not compile: a bug of ours.
     #[error("the method {method} does not compile\n{said}")]
     Method { method: String, said: String },

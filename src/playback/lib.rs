@@ -1,11 +1,12 @@
 //! Runs of frames: scripted or recorded input, drawn again, measured, compared and written to files.
 //!
 //! Owns input scripts ([`script`]) and recordings ([`recording`]), the offline run ([`offline`]) that `eddy render`,
-//! `eddy bench` and the tests use, reductions of a picture to a number ([`reduction`]), comparison with another version
+//! `eddy bench` and the tests use, assertions about the texels of passes ([`assertion`]), comparison with another version
 //! of a project ([`comparing`], [`revision`]), pictures on disk ([`capture`], [`npy`]) and those that embed their
 //! project ([`scene`]), states of runs on disk ([`checkpoint`]), and which frames of a run a machine draws ([`frames`],
 //! [`shard`]). Needs no session; time is an argument.
 
+pub mod assertion;
 pub mod capture;
 pub mod checkpoint;
 pub mod comparing;
@@ -15,7 +16,6 @@ pub mod mouse;
 pub mod npy;
 pub mod offline;
 pub mod recording;
-pub mod reduction;
 pub mod revision;
 pub mod run;
 pub mod scene;

@@ -4,6 +4,7 @@
 //! more draw the same.
 
 use crate::{
+    assertion::Conditions,
     recording::Change,
     script::ScriptedInputs,
     tiles::{Pace, Tiling},
@@ -15,7 +16,7 @@ use eddy_engine::{
 };
 use eddy_gpu::{Gpu, GpuError};
 use eddy_media::MediaSet;
-use eddy_project::{CustomUniformValues, PassName, Project};
+use eddy_project::{CustomUniformValues, CustomUniforms, PassName, Project};
 use std::{
     sync::mpsc::{RecvTimeoutError, SendError, channel},
     time::{Duration, Instant},
@@ -53,6 +54,9 @@ pub struct Offline {
     newest: (i32, Option<Instant>),
     /// The maximum bytes of textures in system memory.
     memory: Option<u64>,
+    /// The inputs of the frames so far: the uniforms that the recording has set, the longest `iTimeDelta` in seconds, and
+    /// whether the mouse was pressed.
+    seen: (Option<CustomUniformValues>, f64, bool),
 }
 
 /// A frame that the device has finished.
@@ -96,6 +100,7 @@ impl Offline {
             pace: Pace::default(),
             newest: (0, None),
             memory: None,
+            seen: (None, 0.0, false),
         }
     }
 
@@ -151,8 +156,19 @@ impl Offline {
     pub fn next_inputs(&mut self) -> Result<FrameInputs, EngineError> {
         if let Some(change_of_frame) = self.inputs.next_change() {
             change(self.engine.as_mut().ok_or_else(gone)?, &change_of_frame)?;
+            self.seen.0 = change_of_frame.values.or(self.seen.0.take());
         }
-        Ok(self.inputs.next_frame())
+        let inputs = self.inputs.next_frame();
+        self.seen.1 = self.seen.1.max(inputs.time_delta_secs.into());
+        self.seen.2 |= inputs.mouse[2] > 0.0;
+        Ok(inputs)
+    }
+
+    /// Returns the conditions of the frames so far, on which assertions may depend. `uniforms` are the project's.
+    pub fn conditions(&self, project: &Project, uniforms: &CustomUniforms) -> Result<Conditions, EngineError> {
+        let (values, longest_step, is_dragged) = &self.seen;
+        let values = values.as_ref().unwrap_or(&project.custom_uniform_values);
+        Ok(Conditions::new(uniforms, values, self.engine()?.size(), *longest_step, *is_dragged))
     }
 
     /// Restarts a recording once all its frames have been drawn; without one, does nothing.
@@ -164,6 +180,7 @@ impl Offline {
     /// Restarts at frame 0, with every buffer as before it.
     pub fn rewind(&mut self) -> Result<(), EngineError> {
         self.inputs.rewind();
+        self.seen = (None, 0.0, false);
         self.engine.as_mut().ok_or_else(gone)?.reset();
         Ok(())
     }

@@ -60,7 +60,7 @@ impl Project {
         let name = name.trim();
         let custom_uniforms = self.custom_uniforms();
         let Some(custom_uniform) = custom_uniforms.get(name) else {
-            let (message, hint) = custom_uniforms.unknown(name);
+            let (message, hint) = custom_uniforms.unknown(name, &[], "the uniforms are");
             return Err(format!("{message} ({hint})"));
         };
         let value = custom_uniforms::value(written).ok_or_else(shape)?;

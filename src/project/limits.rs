@@ -49,7 +49,7 @@ pub const JSON_INFO: Limit = Limit { bytes: 1 << 20, of: "the \"info\" of a Shad
 /// The JSON header of an ISF file.
 pub const ISF_HEADER: Limit = Limit { bytes: 1 << 20, of: "the header of an ISF file" };
 /// Parentheses and functions inside one another in the size of a pass of ISF.
-pub const ISF_DEPTH: u32 = 64;
+pub const ISF_DEPTH: usize = 64;
 /// A picture, a model, or a file that a model names.
 pub const MEDIA_FILE: Limit = Limit { bytes: 512 << 20, of: "an image, a sound or a model" };
 /// A model file together with the buffers that it names.
@@ -154,8 +154,11 @@ pub const LSP_ITEMS: usize = 10_000;
 pub const DRAWS: u64 = 20_000;
 /// Letters of the condition of a pass (`when`).
 pub const CONDITION: usize = 1_000;
-/// Parentheses and signs in one another in such a condition.
+/// Parentheses and signs in one another in such a condition, and choices in an expression of an assertion.
 pub const CONDITION_DEPTH: usize = 32;
+/// Letters of an assertion, or of a quantity that a `//@probe` comment or `--probe` names. Its expressions nest as those
+/// of conditions do.
+pub const ASSERTION: usize = 4_000;
 /// Values in `[uniforms]`.
 pub const UNIFORMS: usize = 1_000;
 /// Entries in `[controls]`.

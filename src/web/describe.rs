@@ -194,13 +194,20 @@ impl Description<'_> {
     }
 }
 
+/// Returns a term as JSON: an operation is a list of its symbol or name and its terms.
 fn term(term: &Term) -> Value {
+    let operation = |name: &str, parts: &[Term]| {
+        Value::from([Value::from(name)].into_iter().chain(parts.iter().map(self::term)).collect::<Vec<_>>())
+    };
     match term {
         Term::Number(number) => Value::from(*number),
         Term::Name(name) => Value::from(name.as_str()),
         Term::Not(of) => Value::from(vec!["!".into(), self::term(of)]),
         Term::Negative(of) => Value::from(vec!["-".into(), self::term(of)]),
-        Term::Pair(operator, a, b) => Value::from(vec![operator.symbol().into(), self::term(a), self::term(b)]),
+        Term::Pair(operator, a, b) => Value::from(vec![operator.symbol.into(), self::term(a), self::term(b)]),
+        // A condition has neither, and the player knows neither.
+        Term::Choice(parts) => operation("?", parts.as_ref()),
+        Term::Call(function, arguments) => operation(function.name, arguments),
     }
 }
 

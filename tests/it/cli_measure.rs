@@ -73,6 +73,47 @@ fn a_false_assertion_exits_with_1() {
 }
 
 #[test]
+fn claims_may_be_about_texels_and_depend_on_uniforms_and_inputs() {
+    let Some(b) = Bench::with_gpu() else { return };
+    let code = "#iUniform float level = 0.5 in { 0.0, 9.0 }\nvoid mainImage(out vec4 o, in vec2 p) \
+                { o = vec4(p.y > 1. ? level : 7., p.x, 0., 1.); }";
+    b.write("p.glsl", code);
+    let render = |claim: &str, more: &[&str]| {
+        let mut arguments = vec!["render", "p.glsl", "--size", "4x2", "--at", "3", "--json", "--assert", claim];
+        arguments.extend(more);
+        b.eddy(&arguments)
+    };
+    for claim in [
+        "image.x from row 1 in level..level",
+        "image.x at 3,0 == 7",
+        "max(length(image.xy)) <= 7 + width",
+        "mean(image.x) from row 1 within 1e-6 of first",
+        "let top = 8; image.y in 0..top unless dragged because \"no\"",
+        "image.z in longest_step..1 unless dragged == 0 because \"nothing moves\"",
+        "max(image.x) < longest_step * 60 * 7.01",
+    ] {
+        render(claim, &[]).expect(0);
+    }
+    let drag = ["--mouse", "1:down 1,1; 2:up"];
+    render("image.z in longest_step..1 unless dragged == 0 because \"nothing moves\"", &drag).expect(1);
+    render("image.x from row 1 in 2..2 * level", &["--set", "level=2"]).expect(0);
+    let run = render("image.x <= 2 * level because \"a lamp\"", &[]).expect(1);
+    let said = run.json()[0]["diagnostics"][0]["message"].as_str().unwrap().to_owned();
+    assert_eq!(
+        said,
+        "frame 3: image.x <= 2 * level does not hold: it is 7 at texel 0,0, the worst of 4 values (a lamp)"
+    );
+    for (claim, says) in [
+        ("image < levl", "no #iUniform line declares `levl`: did you mean level?"),
+        ("let level = 1; image < level", "the project has a uniform of this name"),
+        ("image < 1; image > 0", "several assertions"),
+    ] {
+        let wrong = render(claim, &[]).expect(2);
+        assert!(format!("{}{}", wrong.err, wrong.out).contains(says), "{claim}: {} {}", wrong.err, wrong.out);
+    }
+}
+
+#[test]
 fn two_pictures_are_compared_by_bits_and_by_perception() {
     let Some(b) = Bench::with_gpu() else { return };
     b.image("a.glsl", "fragColor = vec4(fragCoord / iResolution.xy, 0.5, 1.0);");

@@ -6,7 +6,7 @@ use eddy::{
     lab::{
         Extent, LabError, Results, Shard,
         stability::{
-            BoundArgument, CheckedProject, Kind, Outcome, Recovery, StabilityRecord, Violation, presets,
+            CheckedProject, Kind, Outcome, Recovery, StabilityRecord, Violation, parse_bound, presets,
             run::{self, Options},
             table, write,
         },
@@ -104,7 +104,7 @@ fn first_above_one(rate: f32, (width, height): (usize, usize), frames: u32) -> O
 }
 
 fn with_bound(mut subject: CheckedProject, bound: &str) -> CheckedProject {
-    subject.bound(&[BoundArgument::parse(bound).unwrap()]);
+    subject.bound(&[parse_bound(bound).unwrap()]);
     subject
 }
 
@@ -117,7 +117,7 @@ fn violation(record: &StabilityRecord) -> &Violation {
 
 #[test]
 fn instability_is_reported_with_its_first_frame_and_texel() {
-    let subject = with_bound(CheckedProject::of("heat", heat(), MediaSet::new()), "buffer_a=-1..1");
+    let subject = with_bound(CheckedProject::of("heat", heat(), MediaSet::new()).unwrap(), "buffer_a=-1..1");
     let Some(cases) = measure_only(&subject, Some("rate=")) else { return };
     assert_eq!(cases.len(), 2);
     // A rate of 0.3 multiplies alternating values by -1.4 per frame; 0.05 is stable.
@@ -139,7 +139,7 @@ fn preset_with_replacement(name: &str, id: PassName, before: &str, after: &str) 
     assert!(pass.source.text.contains(before), "{name} has no {before}");
     pass.source.text = pass.source.text.replace(before, after).into();
     let media = eddy::media::gather(&project, None).0;
-    CheckedProject::of(name, project, media)
+    CheckedProject::of(name, project, media).unwrap()
 }
 
 #[test]
@@ -166,7 +166,7 @@ fn the_divergence_of_the_lit_fluid_with_tension_at_the_texel_is_found() {
 
 #[test]
 fn a_nan_spreads_without_a_guard_and_disappears_with_one() {
-    let subject = with_bound(CheckedProject::of("heat", heat(), MediaSet::new()), "buffer_a=-1..1");
+    let subject = with_bound(CheckedProject::of("heat", heat(), MediaSet::new()).unwrap(), "buffer_a=-1..1");
     let Some(cases) = measure_only(&subject, Some("NaN")) else { return };
     let found = violation(&cases[0]);
     assert_eq!((found.frame, found.texel.is_some(), found.value.0.is_nan()), (6, true, true), "{}", found.describe());
@@ -188,13 +188,13 @@ fn heat_with_read(body: &str) -> CheckedProject {
     project.passes[0].source.text = text
         .replace("texelFetch(iChannel0, p,", "texelFetch(iChannel0, clamp(p, ivec2(0), ivec2(iResolution.xy) - 1),")
         .into();
-    with_bound(CheckedProject::of("healed", project, MediaSet::new()), "buffer_a=-1..1")
+    with_bound(CheckedProject::of("healed", project, MediaSet::new()).unwrap(), "buffer_a=-1..1")
 }
 
 #[test]
 fn a_run_can_be_resumed_and_shards_together_equal_the_whole() {
     let Some(gpu) = gpu() else { return };
-    let subject = CheckedProject::of("heat", heat(), MediaSet::new());
+    let subject = CheckedProject::of("heat", heat(), MediaSet::new()).unwrap();
     let dirs: Vec<_> = (0..3).map(|_| tempfile::tempdir().unwrap()).collect();
     let run_shard = |out: &Path, shard: &str| -> Result<(usize, Results), LabError> {
         let shard = Shard::parse(shard, |_| None)?;

@@ -4,7 +4,7 @@ use super::{
     run::RunArgs,
     values::{PROJECT, Picture, picture, size, values_file},
 };
-use crate::{debugger::trace::STEPS, lab::stability::BoundArgument};
+use crate::{debugger::trace::STEPS, lab::stability::parse_bound, playback::assertion::Assertion};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -108,8 +108,8 @@ pub(crate) struct StabilityArgs {
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<(u32, u32)>,
     /// Allowed range of all components of a pass, instead of the declared one or -1e4..1e4
-    #[arg(long, value_name = "PASS=LOW..HIGH", value_parser = BoundArgument::parse, allow_hyphen_values = true)]
-    pub bound: Vec<BoundArgument>,
+    #[arg(long, value_name = "PASS=LOW..HIGH", value_parser = parse_bound, allow_hyphen_values = true)]
+    pub bound: Vec<Assertion>,
     /// Run only cases with this text in their name or kind, as in drag, strength=50 or odd sizes
     #[arg(long, value_name = "TEXT")]
     pub only: Option<String>,

@@ -10,8 +10,8 @@ use crate::{
     cli::{progress, sweep::Sweep, tiles::Tiles},
     film::{Chroma, Codec, ColorRange, Format, Quality, Style},
     playback::{
+        assertion::{Assertion, Quantity},
         frames::{FrameList, Frames},
-        reduction::{Assertion, Quantity},
         script::ScriptedInputs,
         shard::Shard,
     },
@@ -82,12 +82,13 @@ pub(crate) struct RenderArgs {
     /// combinations
     #[arg(long, value_name = "NAME=VALUES", value_parser = Sweep::parse)]
     pub sweep: Vec<Sweep>,
-    /// Measure a pass in each frame of --at: sum, min, max, mean, rms or nonfinite of one component or all, as in
-    /// sum(buffer_a.x) or max(image). May be repeated; `//@probe sum(buffer_a.x)` comments in the project do the same
+    /// Measure a pass in each frame of --at: sum, min, max, mean, rms, nonfinite, energy or roughness, as in
+    /// sum(buffer_a.x), max(image) or max(length(buffer_a.xy)) from row 1. May be repeated; `//@probe sum(buffer_a.x)`
+    /// comments in the project do the same
     #[arg(long, value_name = "QUANTITY", value_parser = Quantity::parse)]
     pub probe: Vec<Quantity>,
     /// Fail if this claim does not hold in one of these frames: "sum(buffer_a.x) within 1e-4 of 1", "mean(buffer_b.y)
-    /// within 1% of first", "max(image) <= 1", "nonfinite(buffer_a) == 0". May be repeated
+    /// within 1% of first", "max(image) <= 1", "buffer_a.rgb in 0..2 * brightness". May be repeated
     #[arg(long, value_name = "CLAIM", value_parser = Assertion::parse)]
     pub assert: Vec<Assertion>,
     /// Save the state of the run every N frames, so that later frames can be drawn without those before. Without --out

@@ -107,7 +107,7 @@ impl<'j> Drawing<'j> {
         let Opened { project, mut offline, media } = opening.open(machine, report)?;
         let (declared, unread) = measured::declared(&project);
         report.diagnose(&unread, &project.sources(), Some(&project));
-        let measures = Measures::new(&project, args.probe.iter().cloned().chain(declared).collect(), &args.assert);
+        let measures = Measures::new(&project, args.probe.iter().cloned().chain(declared).collect(), &args.assert)?;
         let last = frames.wanted.last().map_or(0, |last| last + 1);
         let end = targets.drawn.unwrap_or_default().max(last);
         let jumps = targets.drawn.is_none() && !offline.has_state()?;

@@ -6,7 +6,7 @@ use crate::{
         theme,
         ui_output::{ShellCommand, UiOutput},
     },
-    playback::reduction::Unmeasured,
+    playback::assertion::Unmeasured,
     session::measures::{Measure, Record},
 };
 use egui::{Align, Frame, Label, Layout, Link, Margin, Rect, RichText, Ui};

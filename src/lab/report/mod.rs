@@ -9,7 +9,9 @@ mod table;
 
 use super::{LabError, Results, Study, error::make_folder};
 pub use axis::{decades, tick};
+pub(crate) use csv::quoted;
 use eddy_project as project;
+pub(crate) use html::escaped;
 use std::{io::Write, path::Path};
 pub use table::{Best, COLOURS, Look, Row, TARGET, Table, sign};
 

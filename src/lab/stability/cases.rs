@@ -205,11 +205,11 @@ pub fn coverage(subject: &CheckedProject, drawn: &[Case]) -> (usize, usize) {
 }
 
 fn courant(subject: &CheckedProject, sliders: &[CustomUniform], m: &Measure, cases: &mut Vec<Case>) {
-    let Some(courant) = subject.courant else { return };
+    let Some(courant) = &subject.courant else { return };
     let Some(slider) = sliders.iter().find(|k| k.name == courant.slider) else { return };
     for &cells in m.courant {
         let range = slider.range.map_or((f64::MIN, f64::MAX), |r| (r.min[0], r.max[0]));
-        let value = (courant.value)(cells, m.base).clamp(range.0, range.1);
+        let value = courant.value(cells, m.base).clamp(range.0, range.1);
         let values = CustomUniformValues::from([(slider.name.clone(), CustomUniformValue::Float(value))]);
         cases
             .push(Case { values, ..Case::new(Kind::Courant, format!("{cells} cells a step"), m.base, m.end, m.every) });

@@ -1,21 +1,16 @@
 //! Runs a case on the device: it is drawn from its first frame and checked every few frames; after a violation it is
 //! drawn again to find the first frame of that.
 
-use super::{
-    Case, CheckedProject,
-    cases::Broken,
-    check::{self, Allowed, Area, CaseConditions, Check, Found, HARD_LIMIT},
-    inputs::Inputs,
-    judge,
-};
+use super::{Case, CheckedProject, cases::Broken, inputs::Inputs, judge, quantity_name, record_name};
 use crate::{
     LabError, Number,
     stability_record::{Outcome, Recovery, StabilityRecord, Violation},
 };
 use eddy_engine::{BuildOptions, DrawFor, Engine, Pixels, Program};
 use eddy_gpu::Gpu;
+use eddy_playback::assertion::{self, Conditions, Found, Range, Region, Worst};
 use eddy_project::PassName;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, btree_map::Entry};
 
 /// The maximum number of frames in flight.
 const FRAMES_IN_FLIGHT: u32 = 8;
@@ -44,7 +39,7 @@ impl<'s> Driver<'s> {
     /// Compiles the project. Fails with the author's diagnostics.
     pub fn new(gpu: &Gpu, subject: &'s CheckedProject, size: (u32, u32)) -> Result<Driver<'s>, LabError> {
         let mut wanted: Vec<PassName> = vec![PassName::image()];
-        wanted.extend(subject.checks.iter().map(|c| c.pass.clone()));
+        wanted.extend(subject.checks.iter().map(|c| c.quantity.pass.clone()));
         wanted.extend(subject.stateful());
         wanted.sort();
         wanted.dedup();
@@ -78,7 +73,7 @@ impl<'s> Driver<'s> {
         record
     }
 
-    fn fill(&mut self, case: &Case, conditions: &CaseConditions, record: &mut StabilityRecord) -> Result<(), LabError> {
+    fn fill(&mut self, case: &Case, conditions: &Conditions, record: &mut StabilityRecord) -> Result<(), LabError> {
         let calm = match case.disturbed {
             Some(_) => self.calm(case)?,
             None => Vec::new(),
@@ -101,8 +96,7 @@ impl<'s> Driver<'s> {
             (None, None) => Outcome::Held,
         });
         for (check, (low, high)) in subject.checks.iter().zip(&seen.extremes) {
-            let name = check.name();
-            let entry = record.extremes.entry(name).or_insert((Number(*low), Number(*high)));
+            let entry = record.extremes.entry(record_name(&check.quantity)).or_insert((Number(*low), Number(*high)));
             *entry = (Number(entry.0.0.min(*low)), Number(entry.1.0.max(*high)));
         }
         if let Some((_, end)) = case.disturbed {
@@ -112,10 +106,8 @@ impl<'s> Driver<'s> {
                 Some(_) => Recovery::Frames(seen.calm_since.map_or(0, |f| (f + 1).saturating_sub(end))),
             });
         }
-        if let Some(courant) = subject.courant
-            && let Some((_, high)) = seen.extremes.get(courant.speed)
-        {
-            record.courant = Some(Number((courant.cells)(*high, conditions)));
+        if let (Some(courant), Some((_, high))) = (&subject.courant, seen.extremes.first()) {
+            record.courant = Some(Number(courant.cells(*high, conditions)));
         }
         Ok(())
     }
@@ -125,7 +117,7 @@ impl<'s> Driver<'s> {
     fn first(
         &mut self,
         case: &Case,
-        conditions: &CaseConditions,
+        conditions: &Conditions,
         at: (u32, u32),
         counts: impl Fn(&FrameCheck) -> bool,
     ) -> Result<Violation, LabError> {
@@ -139,15 +131,15 @@ impl<'s> Driver<'s> {
             let all = run.look(conditions)?;
             let found = all.iter().enumerate().find(|(_, l)| l.offence.is_some() && counts(l));
             if let Some((n, looked)) = found {
-                let check = &run.driver.subject.checks[n];
+                let quantity = &run.driver.subject.checks[n].quantity;
                 last = looked.offence.map(|worst| Violation {
                     frame,
-                    pass: check.pass.key().to_owned(),
-                    quantity: check.quantity.name(),
+                    pass: quantity.pass.key().to_owned(),
+                    quantity: quantity_name(quantity),
                     texel: worst.texel,
                     value: Number(worst.value),
-                    low: Number(looked.allowed.low),
-                    high: Number(looked.allowed.high),
+                    low: Number(looked.range.low),
+                    high: Number(looked.range.high),
                     count: worst.count,
                 });
                 break;
@@ -191,9 +183,9 @@ impl<'s> Driver<'s> {
 /// A check after a frame.
 struct FrameCheck {
     found: Found,
-    allowed: Allowed,
+    range: Range,
     /// The value outside of the range, or, if that may be left, of the hard limit.
-    offence: Option<check::WorstTexel>,
+    offence: Option<Worst>,
     /// The range should have been kept.
     is_left: bool,
 }
@@ -210,8 +202,8 @@ impl Run<'_, '_, '_> {
         if let Some((_, broken)) = self.case.poison.filter(|(at, _)| *at == frame) {
             for id in &self.driver.state {
                 let size = engine.pass_size(id).unwrap_or((1, 1));
-                let check = self.driver.subject.checks.iter().find(|c| c.pass == *id);
-                let place = check.map_or(Area::All, |c| c.area).middle(size);
+                let check = self.driver.subject.checks.iter().find(|c| c.quantity.pass == *id);
+                let place = check.map_or(Region::All, |c| c.quantity.region).middle(size);
                 match broken {
                     Broken::NotANumber => engine.poison(id, place)?,
                     Broken::Infinite => engine.make_infinite(id, place)?,
@@ -228,27 +220,25 @@ impl Run<'_, '_, '_> {
     }
 
     /// Runs every check on the newest texels.
-    fn look(&mut self, conditions: &CaseConditions) -> Result<Vec<FrameCheck>, LabError> {
+    fn look(&mut self, conditions: &Conditions) -> Result<Vec<FrameCheck>, LabError> {
         let engine = &mut self.driver.engine;
-        let conditions = CaseConditions { size: engine.size(), ..conditions.clone() };
-        let mut read: BTreeMap<&PassName, Pixels> = BTreeMap::new();
+        let conditions = Conditions { size: engine.size(), ..conditions.clone() };
+        let subject = self.driver.subject;
+        let mut read: BTreeMap<(&PassName, usize), Pixels> = BTreeMap::new();
         let mut all = Vec::new();
-        for check in &self.driver.subject.checks {
-            if !read.contains_key(&check.pass) {
-                read.insert(&check.pass, engine.read(&check.pass)?);
-            }
-            all.push(look(check, &read[&check.pass], &conditions));
+        for check in &subject.checks {
+            let (pass, target) = (&check.quantity.pass, check.quantity.target);
+            let pixels = match read.entry((pass, target)) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(place) => place.insert(engine.read_target(pass, target)?),
+            };
+            let stored = assertion::stored(&subject.project, pass, target);
+            let (found, range) = check.find(pixels, stored, &conditions, f64::NAN);
+            let is_left = found.worst.is_some_and(|worst| !range.excuses(worst.value));
+            all.push(FrameCheck { found, range, offence: found.worst, is_left });
         }
         Ok(all)
     }
-}
-
-fn look(check: &Check, pixels: &Pixels, conditions: &CaseConditions) -> FrameCheck {
-    let allowed = check.allowed(conditions);
-    let found = check::find(check.quantity, check.area, pixels, allowed.low, allowed.high);
-    let is_excused = allowed.excuse.is_some();
-    let is_wild = found.worst.is_some_and(|w| !w.value.is_finite() || w.value.abs() > HARD_LIMIT.max(allowed.high));
-    FrameCheck { found, allowed, offence: found.worst, is_left: found.worst.is_some() && (!is_excused || is_wild) }
 }
 
 /// The results of the checked frames of a run.

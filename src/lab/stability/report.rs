@@ -1,10 +1,11 @@
 //! Reports of the results: a table for the terminal, a CSV, a page.
 
-use super::{CheckedProject, check::Rule};
+use super::{CheckedProject, record_name};
 use crate::{
     Extent, LabError, Results,
     error::make_folder,
     page_style::PAGE,
+    report::{escaped, quoted},
     stability_record::{Kind, Outcome, Recovery, StabilityRecord, short},
 };
 use eddy_project as project;
@@ -156,10 +157,6 @@ fn csv(records: &[StabilityRecord]) -> String {
     out
 }
 
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
-}
-
 const STYLE: &str = "
 th, td { padding: .25rem .55rem; text-align: left; border-bottom: 1px solid var(--rule); vertical-align: top; min-width: 3rem }
 th { font-weight: 600; background: var(--head) } td.n, th.n { text-align: right; white-space: nowrap }
@@ -263,23 +260,19 @@ fn bounds(out: &mut String, subject: &CheckedProject) {
     let usual = subject.conditions(&Default::default(), (640, 360), 1.0 / 60.0, true);
     out.push_str("<details><summary>Bounds</summary><div class=\"wide\"><table><thead><tr><th>quantity</th><th class=\"n\">from</th><th class=\"n\">to</th><th>reason</th></tr></thead><tbody>\n");
     for check in &subject.checks {
-        let allowed = check.allowed(&usual);
-        let varies = if matches!(check.allowed, Rule::Of(_)) { " (at the defaults, 640x360)" } else { "" };
+        let range = check.range(&usual);
+        let varies = if check.varies() { " (at the defaults, 640x360)" } else { "" };
         let _ = writeln!(
             out,
             "<tr><td>{}{varies}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td></tr>",
-            escaped(&check.name()),
-            short(allowed.low),
-            short(allowed.high),
-            escaped(&check.reason)
+            escaped(&record_name(&check.quantity)),
+            short(range.low),
+            short(range.high),
+            escaped(check.reason())
         );
     }
     out.push_str("</tbody></table></div></details>\n");
-    if let Some(limit) = subject.courant.and_then(|c| c.limit) {
+    if let Some(limit) = subject.courant.as_ref().and_then(|c| c.limit.as_ref()) {
         let _ = writeln!(out, "<p class=\"quiet\">Cells a step: {}.</p>", escaped(limit));
     }
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

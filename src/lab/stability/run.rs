@@ -128,7 +128,7 @@ mod tests {
     use super::*;
     use crate::{
         Number,
-        stability::{BoundArgument, Outcome, presets},
+        stability::{Outcome, parse_bound, presets, record_name},
     };
     use std::path::Path;
 
@@ -161,7 +161,7 @@ mod tests {
     fn records_are_judged_by_the_current_ranges() {
         let mut subject = CheckedProject::load("feedback", &[]).unwrap();
         let case = cases::list(&subject, Extent::Quick, (160, 90)).remove(0);
-        let extremes = subject.checks.iter().map(|c| (c.name(), (Number(0.1), Number(1.5)))).collect();
+        let extremes = subject.checks.iter().map(|c| (record_name(&c.quantity), (Number(0.1), Number(1.5)))).collect();
         let mut record = StabilityRecord {
             project: "feedback".into(),
             texts: subject.fingerprint(),
@@ -176,7 +176,7 @@ mod tests {
         };
         assert!(judge::still_holds(&subject, &case, &record));
         // A picture of 1.5 where 1 is the maximum: it is drawn again, and reported.
-        let bound = |text: &str| BoundArgument::parse(text).unwrap();
+        let bound = |text: &str| parse_bound(text).unwrap();
         subject.bound(&[bound("image=0..1")]);
         assert!(!judge::still_holds(&subject, &case, &record));
         subject.bound(&[bound("image=0..2")]);

@@ -1,11 +1,12 @@
 //! A project whose stability is tested, with its bounds.
 
 use super::{
-    check::{Allowed, Area, CaseConditions, Check, Quantity, Rule},
-    presets,
+    presets::{self, Declared},
+    record_name,
 };
 use crate::LabError;
 use eddy_media::{self as media, MediaSet};
+use eddy_playback::assertion::{Assertion, Conditions, Quantity};
 use eddy_project::{self as project, CustomUniform, CustomUniformValues, Origin, PassName, Project};
 use std::collections::BTreeSet;
 
@@ -13,28 +14,14 @@ use std::collections::BTreeSet;
 /// picture needs.
 pub const ANY_BOUND: f64 = 1e4;
 
-/// A range for all components of a pass, as in `--bound buffer_a=-2..2`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BoundArgument {
-    pub pass: PassName,
-    pub low: f64,
-    pub high: f64,
-}
-
-impl BoundArgument {
-    /// Parses `PASS=LOW..HIGH`. The error is a single line.
-    pub fn parse(text: &str) -> Result<BoundArgument, String> {
-        let form = || format!("{text}: a bound is written PASS=LOW..HIGH, as in buffer_a=-2..2");
-        let (pass, range) = text.split_once('=').ok_or_else(form)?;
-        let (low, high) = range.split_once("..").ok_or_else(form)?;
-        let number = |t: &str| t.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(form);
-        let pass = PassName::parse(pass.trim()).ok_or_else(form)?;
-        let (low, high) = (number(low)?, number(high)?);
-        if low > high {
-            return Err(format!("{text}: the lower bound is above the upper one"));
-        }
-        Ok(BoundArgument { pass, low, high })
-    }
+/// Parses a range for all components of a pass, as in `--bound buffer_a=-2..2`. The error is a single line.
+pub fn parse_bound(text: &str) -> Result<Assertion, String> {
+    let form = || format!("{text}: a bound is written PASS=LOW..HIGH, as in buffer_a=-2..2");
+    let (pass, range) = text.split_once('=').ok_or_else(form)?;
+    let pass = PassName::parse(pass.trim()).ok_or_else(form)?;
+    let bound =
+        Assertion::parse(&format!("{}.xyzw in {range}", pass.key())).map_err(|why| format!("{}; {why}", form()))?;
+    if bound.varies() { Err(form()) } else { Ok(bound) }
 }
 
 /// A project with its checks.
@@ -44,7 +31,7 @@ pub struct CheckedProject {
     pub name: String,
     pub project: Project,
     pub media: MediaSet,
-    pub checks: Vec<Check>,
+    pub checks: Vec<Assertion>,
     /// The way in which its Courant number is set and measured, if it has one.
     pub courant: Option<presets::Courant>,
     /// Additional cases.
@@ -53,10 +40,10 @@ pub struct CheckedProject {
 
 impl CheckedProject {
     /// Loads a preset by its name, otherwise a project from disk. `bounds` override the declaration of their passes.
-    pub fn load(spec: &str, bounds: &[BoundArgument]) -> Result<CheckedProject, LabError> {
+    pub fn load(spec: &str, bounds: &[Assertion]) -> Result<CheckedProject, LabError> {
         let loaded = project::load(spec)?;
         let (media, _) = media::gather(&loaded.project, None);
-        let mut subject = CheckedProject::of(spec, loaded.project, media);
+        let mut subject = CheckedProject::of(spec, loaded.project, media)?;
         subject.bound(bounds);
         Ok(subject)
     }
@@ -65,41 +52,36 @@ impl CheckedProject {
     pub fn preset(name: &str) -> Result<CheckedProject, LabError> {
         let loaded = project::presets::load(name)?;
         let (media, _) = media::gather(&loaded.project, None);
-        Ok(CheckedProject::of(name, loaded.project, media))
+        CheckedProject::of(name, loaded.project, media)
     }
 
     /// Creates the subject for a project. A preset has its checks, and so has a copy of it on disk that still has its
     /// name and its passes.
-    pub fn of(name: &str, project: Project, media: MediaSet) -> CheckedProject {
+    pub fn of(name: &str, project: Project, media: MediaSet) -> Result<CheckedProject, LabError> {
         let declared = match &project.origin {
-            Origin::Preset(preset) => presets::declared(preset),
-            _ => presets::declared_for_copy(&project),
+            Origin::Preset(preset) => presets::declared(preset)?,
+            _ => presets::declared_for_copy(&project)?,
         };
-        let (checks, courant, extras) =
-            declared.map_or((Vec::new(), None, Vec::new()), |d| (d.checks, d.courant, d.extras));
+        let Declared { checks, courant, extras } = declared.unwrap_or_default();
         let mut subject = CheckedProject { name: name.into(), project, media, checks, courant, extras };
         for id in subject.stateful() {
-            if !subject.checks.iter().any(|c| c.pass == id) {
-                subject.checks.push(any(
-                    id,
-                    -ANY_BOUND,
-                    ANY_BOUND,
-                    "no range is declared: finite, and no larger than 1e4",
-                ));
+            if !subject.checks.iter().any(|c| c.quantity.pass == id) {
+                let reason = "no range is declared: finite, and no larger than 1e4";
+                subject.checks.push(any(id, -ANY_BOUND, ANY_BOUND, reason));
             }
         }
-        if !subject.checks.iter().any(|c| c.pass.is_image()) {
+        if !subject.checks.iter().any(|c| c.quantity.pass.is_image()) {
             subject.checks.push(any(PassName::image(), -ANY_BOUND, ANY_BOUND, "a colour"));
         }
-        subject
+        Ok(subject)
     }
 
     /// Replaces the declared ranges of these passes. Passes that the project does not have are ignored: one call may
     /// name several projects, not all of which have them.
-    pub fn bound(&mut self, bounds: &[BoundArgument]) {
-        for bound in bounds.iter().filter(|b| self.project.pass(&b.pass).is_some()) {
-            self.checks.retain(|c| c.pass != bound.pass);
-            self.checks.push(any(bound.pass.clone(), bound.low, bound.high, "--bound"));
+    pub fn bound(&mut self, bounds: &[Assertion]) {
+        for bound in bounds.iter().filter(|b| self.project.pass(&b.quantity.pass).is_some()) {
+            self.checks.retain(|c| c.quantity.pass != bound.quantity.pass);
+            self.checks.push(bound.clone());
             // The check of the speed may have been removed or moved.
             self.courant = None;
         }
@@ -128,12 +110,10 @@ impl CheckedProject {
         size: (u32, u32),
         longest_step: f64,
         is_dragged: bool,
-    ) -> CaseConditions {
-        let custom_uniforms = self.project.custom_uniforms();
+    ) -> Conditions {
         let mut all = self.project.custom_uniform_values.clone();
         all.extend(values.clone());
-        let sliders = custom_uniforms.list.iter().map(|k| (k.name.clone(), k.value(&all).components())).collect();
-        CaseConditions { size, longest_step, is_dragged, sliders }
+        Conditions::new(&self.project.custom_uniforms(), &all, size, longest_step, is_dragged)
     }
 
     /// Returns a fingerprint of all the texts, the checked quantities, and the ranges of states at the defaults:
@@ -143,31 +123,31 @@ impl CheckedProject {
         let mut print = project::Fingerprint::of(&self.project);
         let usual = self.conditions(&CustomUniformValues::new(), (640, 360), 1.0 / 60.0, true);
         for check in &self.checks {
-            let is_any = check.pass.is_image();
-            let allowed = if is_any { Allowed::new(-ANY_BOUND, ANY_BOUND) } else { check.allowed(&usual) };
-            print.eat(format!("{} {allowed:?}", check.name()).as_bytes());
+            let range = check.range(&usual);
+            let (low, high, excuse) = match check.quantity.pass.is_image() {
+                true => (-ANY_BOUND, ANY_BOUND, None),
+                false => (range.low, range.high, range.excuse),
+            };
+            // The spelling is that of the first records.
+            let name = record_name(&check.quantity);
+            let text = format!("{name} Allowed {{ low: {low:?}, high: {high:?}, excuse: {excuse:?} }}");
+            print.eat(text.as_bytes());
         }
         print.text()
     }
 
     /// Returns why theory allows a bound to be left in a situation; empty if it does not.
-    pub fn excuses(&self, conditions: &CaseConditions) -> Vec<String> {
+    pub fn excuses(&self, conditions: &Conditions) -> Vec<String> {
         let mut excuses: Vec<String> =
-            self.checks.iter().filter_map(|c| c.allowed(conditions).excuse).map(str::to_owned).collect();
+            self.checks.iter().filter_map(|c| c.range(conditions).excuse).map(|excuse| excuse.to_string()).collect();
         excuses.sort();
         excuses.dedup();
         excuses
     }
 }
 
-fn any(pass: PassName, low: f64, high: f64, reason: &str) -> Check {
-    Check {
-        pass,
-        quantity: Quantity::Any,
-        area: Area::All,
-        allowed: Rule::Always(Allowed::new(low, high)),
-        reason: reason.into(),
-    }
+fn any(pass: PassName, low: f64, high: f64, reason: &str) -> Assertion {
+    Assertion::in_range(Quantity::each(pass), low, high, reason)
 }
 
 #[cfg(test)]
@@ -177,17 +157,18 @@ mod tests {
 
     #[test]
     fn bounds_are_parsed_or_rejected_with_a_hint() {
-        let bound = BoundArgument::parse("buffer_a=-2..2.5").unwrap();
-        assert_eq!((bound.pass, bound.low, bound.high), (PassName::buffer("A"), -2.0, 2.5));
+        let bound = parse_bound("Buffer A = -2..2.5").unwrap();
+        assert_eq!(bound.to_string(), "buffer_a.xyzw in  -2..2.5");
         for (text, hint) in [
             ("buffer_a", "PASS=LOW..HIGH"),
             ("buffer_a=1", "PASS=LOW..HIGH"),
             ("buffer_a=x..2", "PASS=LOW..HIGH"),
             ("buffer_a=nan..2", "PASS=LOW..HIGH"),
             ("=1..2", "PASS=LOW..HIGH"),
-            ("a=3..2", "above the upper"),
+            ("a=0..rate", "PASS=LOW..HIGH"),
+            ("a=3..2", "is above the high end 2"),
         ] {
-            let said = BoundArgument::parse(text).unwrap_err();
+            let said = parse_bound(text).unwrap_err();
             assert!(said.contains(hint), "{text}: {said}");
         }
     }
@@ -197,15 +178,16 @@ mod tests {
         for name in library::names() {
             let subject = CheckedProject::load(name, &[]).unwrap();
             for id in subject.stateful() {
-                let its: Vec<&Check> = subject.checks.iter().filter(|c| c.pass == id).collect();
+                let its: Vec<&Assertion> = subject.checks.iter().filter(|c| c.quantity.pass == id).collect();
                 assert!(
-                    !its.is_empty() && its.iter().all(|c| !c.reason.contains("no range is declared")),
+                    !its.is_empty() && its.iter().all(|c| !c.reason().contains("no range is declared")),
                     "{name}: {}",
                     id.title()
                 );
             }
             for check in &subject.checks {
-                assert!(subject.project.pass(&check.pass).is_some(), "{name} has no {}", check.pass.title());
+                let pass = &check.quantity.pass;
+                assert!(subject.project.pass(pass).is_some(), "{name} has no {}", pass.title());
             }
         }
     }

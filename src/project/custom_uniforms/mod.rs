@@ -107,14 +107,15 @@ impl CustomUniforms {
         self.list.iter().find(|k| k.name == name)
     }
 
-    /// Returns the error for a `name` that is not a custom uniform of this project, with a suggested name.
-    pub(super) fn unknown(&self, name: &str) -> (String, String) {
+    /// Returns the error for a `name` that is neither a custom uniform of this project nor one of `others`, with a
+    /// suggested name. `known` introduces the list of names: "the uniforms are".
+    pub fn unknown(&self, name: &str, others: &[&str], known: &str) -> (String, String) {
         let message = format!("no #iUniform line declares `{name}`");
-        let names: Vec<&str> = self.list.iter().map(|k| k.name.as_str()).collect();
+        let names: Vec<&str> = self.list.iter().map(|k| k.name.as_str()).chain(others.iter().copied()).collect();
         let hint = match nearest(name, names.iter().copied()) {
             Some(near) => format!("did you mean {near}?"),
             None if names.is_empty() => "the project declares none".to_owned(),
-            None => format!("the uniforms are {}", super::listed(&names)),
+            None => format!("{known} {}", super::listed(&names)),
         };
         (message, hint)
     }

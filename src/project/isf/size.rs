@@ -1,118 +1,14 @@
 //! Widths and heights of passes: expressions of `$WIDTH`, `$HEIGHT` and inputs.
 
-use crate::{PassSize, limits};
+use crate::{Expression, PassSize, Syntax};
 
-/// Evaluates an expression with + - * / %, parentheses, the functions floor, ceil, round, abs, sqrt, min, max, pow and
-/// mod, and `$NAME`, which `value` looks up. Returns an error for invalid syntax.
+/// Evaluates an expression of numbers and `$NAME`, which `value` looks up. Returns an error for invalid syntax.
 pub(super) fn evaluate(text: &str, value: &dyn Fn(&str) -> Option<f64>) -> Result<f64, String> {
-    let mut reader = Reader { rest: text.trim(), value, depth: 0 };
-    let result = reader.sum()?;
-    match reader.rest.trim_start() {
-        "" => Ok(result),
-        rest => Err(format!("\"{rest}\" is not understood")),
-    }
-}
-
-struct Reader<'t> {
-    rest: &'t str,
-    value: &'t dyn Fn(&str) -> Option<f64>,
-    depth: u32,
-}
-
-impl<'t> Reader<'t> {
-    fn eat(&mut self, sign: char) -> bool {
-        self.rest = self.rest.trim_start();
-        let rest = self.rest.strip_prefix(sign);
-        self.rest = rest.unwrap_or(self.rest);
-        rest.is_some()
-    }
-
-    fn take(&mut self, is_part: impl Fn(char) -> bool) -> &'t str {
-        let end = self.rest.find(|c| !is_part(c)).unwrap_or(self.rest.len());
-        let (part, rest) = self.rest.split_at(end);
-        self.rest = rest;
-        part
-    }
-
-    fn sum(&mut self) -> Result<f64, String> {
-        let mut left = self.product()?;
-        loop {
-            if self.eat('+') {
-                left += self.product()?;
-            } else if self.eat('-') {
-                left -= self.product()?;
-            } else {
-                return Ok(left);
-            }
-        }
-    }
-
-    fn product(&mut self) -> Result<f64, String> {
-        let mut left = self.factor()?;
-        loop {
-            if self.eat('*') {
-                left *= self.factor()?;
-            } else if self.eat('/') {
-                left /= self.factor()?;
-            } else if self.eat('%') {
-                left %= self.factor()?;
-            } else {
-                return Ok(left);
-            }
-        }
-    }
-
-    fn factor(&mut self) -> Result<f64, String> {
-        self.depth += 1;
-        if self.depth > limits::ISF_DEPTH {
-            return Err("it nests too deep".to_owned());
-        }
-        let result = self.operand();
-        self.depth -= 1;
-        result
-    }
-
-    fn operand(&mut self) -> Result<f64, String> {
-        if self.eat('-') {
-            return Ok(-self.factor()?);
-        }
-        if self.eat('(') {
-            let inner = self.sum()?;
-            return if self.eat(')') { Ok(inner) } else { Err("a `)` is missing".to_owned()) };
-        }
-        if self.eat('$') {
-            let name = self.take(|c| c.is_ascii_alphanumeric() || c == '_');
-            return (self.value)(name).ok_or_else(|| format!("there is no number ${name}"));
-        }
-        if self.rest.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
-            let number = self.take(|c| c.is_ascii_digit() || c == '.');
-            return number.parse().map_err(|_| format!("\"{number}\" is not a number"));
-        }
-        let name = self.take(|c| c.is_ascii_alphanumeric() || c == '_');
-        if name.is_empty() || !self.eat('(') {
-            return Err(if name.is_empty() {
-                "a number is missing".to_owned()
-            } else {
-                format!("\"{name}\" is not understood")
-            });
-        }
-        let first = self.sum()?;
-        let second = if self.eat(',') { Some(self.sum()?) } else { None };
-        if !self.eat(')') {
-            return Err("a `)` is missing".to_owned());
-        }
-        Ok(match (name, second) {
-            ("floor", None) => first.floor(),
-            ("ceil", None) => first.ceil(),
-            ("round", None) => first.round(),
-            ("abs", None) => first.abs(),
-            ("sqrt", None) => first.sqrt(),
-            ("min", Some(second)) => first.min(second),
-            ("max", Some(second)) => first.max(second),
-            ("pow", Some(second)) => first.powf(second),
-            ("mod", Some(second)) => first.rem_euclid(second),
-            _ => return Err(format!("there is no function {name} of this number of arguments")),
-        })
+    // The sign distinguishes names from functions. Here the parenthesis after a function does.
+    let expression = Expression::parse(&text.replace('$', " "), Syntax::Size).map_err(|error| error.to_string())?;
+    match expression.names().iter().find(|(name, _)| value(name).is_none()) {
+        Some((name, _)) => Err(format!("there is no number ${name}")),
+        None => Ok(expression.value(&|name| value(name).unwrap_or(f64::NAN))),
     }
 }
 

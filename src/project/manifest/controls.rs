@@ -62,7 +62,7 @@ impl Reader<'_> {
             let at = table.key(name).and_then(toml_edit::Key::span).or_else(|| table.get(name).and_then(Item::span));
             let (message, hint) = match custom_uniforms.get(name) {
                 None if declared.contains(name) => continue,
-                None => custom_uniforms.unknown(name),
+                None => custom_uniforms.unknown(name, &[], "the uniforms are"),
                 Some(uniform) => {
                     let n = uniform.ty.components();
                     match (target.component, n) {

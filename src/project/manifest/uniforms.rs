@@ -38,7 +38,7 @@ impl Reader<'_> {
             let (message, hint) = match custom_uniforms.get(name).map(|custom_uniform| custom_uniform.fit(value)) {
                 Some(Ok(_)) => continue,
                 Some(Err(why)) => (format!("{name} {why}"), "it stays in the file, but is not used".to_owned()),
-                None => custom_uniforms.unknown(name),
+                None => custom_uniforms.unknown(name, &[], "the uniforms are"),
             };
             let at = table.key(name).and_then(toml_edit::Key::span).or_else(|| table.get(name).and_then(Item::span));
             let span = self.span(at);

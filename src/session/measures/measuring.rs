@@ -6,7 +6,7 @@ use crate::{
     read_back::{Moment, ReadBack},
 };
 use eddy_engine::Pixels;
-use eddy_playback::reduction::{self, Quantity, Unmeasured};
+use eddy_playback::assertion::{self, Quantity, Unmeasured};
 use eddy_project::{PassName, Project, TextLocation};
 use std::{
     collections::HashMap,
@@ -105,7 +105,7 @@ impl Measurements {
         }
         let sources = project.texts();
         let mut before = std::mem::take(&mut self.measures);
-        for comment in reduction::declared(project) {
+        for comment in assertion::declared(project) {
             let Some(place) = TextLocation::new(comment.span, &sources, project) else { continue };
             let same = before.iter().position(|old| old.text == comment.text && old.place.text == place.text);
             let measure = match same.map(|at| before.remove(at)) {

@@ -1,7 +1,7 @@
 //! Numbers of passes over time, which `//@probe` comments request.
 //!
 //! Owns the comments, which of them are measured and how often, and the record of each. Reading texels is the engine's,
-//! and the definition of a quantity is `reduction`'s. Nothing is measured while no view shows it.
+//! and the definition of a quantity is `assertion`'s. Nothing is measured while no view shows it.
 
 mod csv;
 mod measuring;
@@ -16,7 +16,7 @@ use super::{
     open_project::OpenProject,
     view::{About, Level},
 };
-use eddy_playback::{capture, reduction::Unmeasured};
+use eddy_playback::{assertion::Unmeasured, capture};
 use std::borrow::Cow;
 
 impl OpenProject {

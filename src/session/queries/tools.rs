@@ -3,7 +3,7 @@
 use crate::{AuditMap, CameraState, Session, TraceView, measures::Measure, pass_history::PassStep, view::TabFix};
 use eddy_background::{Count, Status};
 use eddy_debugger::{divergence::DivergenceFound, nonfinite::SearchEnd};
-use eddy_playback::{comparing::Comparison, reduction::Unmeasured};
+use eddy_playback::{assertion::Unmeasured, comparing::Comparison};
 use eddy_project::{CustomUniform, CustomUniformValue, InputKind, PassName, Tab};
 use eddy_video::{CameraDevice, CameraFrame, CameraSource};
 use std::{borrow::Cow, sync::Arc};

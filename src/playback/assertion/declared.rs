@@ -42,7 +42,8 @@ pub fn declared(project: &Project) -> Vec<Declared> {
 fn quantity(project: &Project, text: &str) -> Result<Quantity, Unmeasured> {
     let quantity = Quantity::parse(text).map_err(|why| Unmeasured {
         why,
-        mend: "the form is //@probe sum(buffer_a.x), with sum, min, max, mean, rms or nonfinite".into(),
+        mend: "the form is //@probe sum(buffer_a.x), with sum, min, max, mean, rms, nonfinite, energy or roughness"
+            .into(),
     })?;
     let key = quantity.pass.key();
     let Some(pass) = project.pass(&quantity.pass) else {
@@ -59,7 +60,7 @@ fn quantity(project: &Project, text: &str) -> Result<Quantity, Unmeasured> {
         };
         return Err(Unmeasured { why, mend });
     };
-    match quantity.component.filter(|component| *component >= format.components()) {
+    match quantity.components.iter().copied().find(|component| *component >= format.components()) {
         Some(component) => Err(Unmeasured {
             why: format!("{key} does not store {}", ["x", "y", "z", "w"][component]),
             mend: format!("its format {} has {} of the four components", format.name(), format.components()),
