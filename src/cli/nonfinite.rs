@@ -104,7 +104,7 @@ fn born(
         offline.draw()?;
     }
     let read = offline.draw_inspected(pass)?;
-    let born = match nonfinite::born(&project, pass, &read, texel, args.max_statements) {
+    let born = match nonfinite::find_origin(&project, pass, &read, texel, args.max_statements) {
         Err(TraceError::Diagnostics(found)) => return Err(RunError::Diagnostics(found, project.sources())),
         other => other.map_err(anyhow::Error::from)?,
     };

@@ -324,7 +324,7 @@ fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
         small_arrays: gpu.scatters_arrays,
         opaque_limits: gpu.misjudges_limits,
         opaque_counters: gpu.unrolls_whole_arrays,
-        most_rounds: gpu.most_rounds,
+        max_loop_iterations: gpu.max_loop_iterations,
         without: PassSet::default(),
     }
 }

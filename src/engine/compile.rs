@@ -97,13 +97,13 @@ impl Sources<'_> {
 
     /// Returns the name of the function with most of the code of `project.passes[index]`; for a pass of meshes, of its
     /// first fragment stage.
-    pub(super) fn bulk(&self, index: usize) -> Option<Span> {
+    pub(super) fn largest_function(&self, index: usize) -> Option<Span> {
         let pass = &self.project.passes[index];
         let (stage, kind) = match &pass.body {
             Body::Screen => (Stage::Own, sources::pass_kind(&pass.id)),
             Body::Meshes(geometry) => (geometry.draws.first()?.fragment, PassKind::Fragment),
         };
-        self.with_source(index, self.stage_id(index, stage), kind, glsl::bulk)
+        self.with_source(index, self.stage_id(index, stage), kind, glsl::largest_function)
     }
 
     /// Does the same as [`Self::compile_fill`], reusing the stages of earlier builds.

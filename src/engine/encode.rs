@@ -60,18 +60,18 @@ impl Running {
                 pass.set_scissor_rect(part.x, part.y, part.width, part.height);
             }
             pass.set_bind_group(CHANNEL_GROUP, channels, &[]);
-            let begin = |pass: &mut wgpu::RenderPass<'_>, program: &StagePipeline, n: usize| {
+            let set_state = |pass: &mut wgpu::RenderPass<'_>, program: &StagePipeline, n: usize| {
                 pass.set_pipeline(&program.pipeline.raw);
                 pass.set_bind_group(UNIFORM_GROUP, &uniforms[n], &[]);
             };
             match &compiled.body {
                 DrawBody::Screen(program) => {
-                    begin(pass, program, layer as usize);
+                    set_state(pass, program, layer as usize);
                     pass.draw(0..3, 0..1);
                 }
                 DrawBody::Meshes(meshes) => {
                     for (n, (program, mesh)) in meshes.programs.iter().enumerate() {
-                        begin(pass, program, n);
+                        set_state(pass, program, n);
                         pass.set_vertex_buffer(0, mesh.buffers.vertices.slice(..));
                         pass.set_index_buffer(mesh.buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
                         pass.draw_indexed(0..mesh.buffers.count, 0, 0..1);

@@ -46,7 +46,7 @@ impl Trial {
         };
         (self.0)(order).map_err(|error| {
             let of = order.project.passes.iter().position(|pass| pass.id.title() == largest.label);
-            let of = of.and_then(|index| texts.bulk(index));
+            let of = of.and_then(|index| texts.largest_function(index));
             let what = format!("the graphics driver cannot compile {}: {error}", largest.label);
             Diagnostic::error(of, what).hint(error.hint(size(largest)))
         })

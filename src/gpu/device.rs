@@ -62,7 +62,7 @@ pub enum GpuError {
 
 /// An arbitrary limit: 1,000 times the iterations of a long ray march, and few enough to end. The cost of counting them
 /// is not measured.
-const MOST_ROUNDS: u32 = 1 << 22;
+const MAX_LOOP_ITERATIONS: u32 = 1 << 22;
 
 /// A device and its queue. Cheap to clone; every clone is the same device.
 #[derive(Clone)]
@@ -104,7 +104,7 @@ pub struct Gpu {
     pub compiles_here: bool,
     /// The number of iterations after which a shader leaves loops that may be endless: they would block the device for
     /// all programs until a reset or longer. `None` on a CPU, which can be shared.
-    pub most_rounds: Option<u32>,
+    pub max_loop_iterations: Option<u32>,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
@@ -230,7 +230,7 @@ impl Gpu {
             unrolls_whole_arrays: info.driver_info.contains("Mesa"),
             keeps_loops_open: info.name.starts_with("llvmpipe"),
             nan_angle: info.backend == wgpu::Backend::Dx12,
-            most_rounds: (info.device_type != wgpu::DeviceType::Cpu).then_some(MOST_ROUNDS),
+            max_loop_iterations: (info.device_type != wgpu::DeviceType::Cpu).then_some(MAX_LOOP_ITERATIONS),
             runtime_checks: options.runtime_checks,
             fences: is_lavapipe.then(|| super::fences::FenceKeeper::new(&device)),
             has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),

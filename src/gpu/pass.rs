@@ -21,10 +21,10 @@ impl Gpu {
             return;
         };
         let is_cleared = |a: &wgpu::RenderPassColorAttachment<'_>| matches!(a.ops.load, wgpu::LoadOp::Clear(_));
-        let begins_cleared = descriptor.color_attachments.iter().flatten().any(is_cleared);
+        let is_cleared_first = descriptor.color_attachments.iter().flatten().any(is_cleared);
         let descriptor = wgpu::RenderPassDescriptor { occlusion_query_set: Some(&keeper.queries), ..descriptor };
         let mut pass = encoder.begin_render_pass(&descriptor);
-        if begins_cleared {
+        if is_cleared_first {
             keeper.hold(&mut pass);
         }
         draw(&mut pass);

@@ -366,7 +366,7 @@ fn limits_are_hidden_only_where_something_counts_down_to_them() {
 fn loops_that_never_end_are_left() {
     // Rounds of all such loops of a pixel count together; another loop has all of its own.
     let Some(mut gpu) = gpu() else { return };
-    gpu.most_rounds = Some(1_000);
+    gpu.max_loop_iterations = Some(1_000);
     let all = 1_000.0;
     check_on(
         &gpu,

@@ -291,7 +291,7 @@ fn any_text_gets_an_answer() {
                     opaque_counters,
                     discard_exits,
                     small_arrays,
-                    most_rounds: bounded_loops.then_some(1 << 22),
+                    max_loop_iterations: bounded_loops.then_some(1 << 22),
                     ..Driver::default()
                 },
                 ..PassSource::image(&text)

@@ -239,8 +239,8 @@ fn walk_pixel<'p>(
         double: drawn.map(|x| x.double),
         error: error_of(&drawn),
     };
-    let born = blame::find(&drawn, &watch, |observer| walk(&at, observer))?;
-    let (findings, shown) = watch.end(pixel, born);
+    let blame = blame::find(&drawn, &watch, |observer| walk(&at, observer))?;
+    let (findings, shown) = watch.end(pixel, blame);
     let shown = shown.into_iter().map(|shown| (at.walkable, shown)).collect();
     Ok(Some(WalkedPixel { audited, findings, shown }))
 }

@@ -66,10 +66,10 @@ impl<'w> Watch<'w> {
     }
 
     /// Returns the findings, and the unwritten values that the output depends on.
-    pub(super) fn end(self, pixel: (u32, u32), born: Option<Blame>) -> (Vec<Finding>, Vec<Shown>) {
+    pub(super) fn end(self, pixel: (u32, u32), blame: Option<Blame>) -> (Vec<Finding>, Vec<Shown>) {
         let finding = |(kind, span, numbers)| Finding { kind, span, pixels: 1, pixel, numbers, error: None };
         let mut all: Vec<Finding> = self.found.into_iter().map(finding).collect();
-        if let Some(Blame { cause, error, left }) = born {
+        if let Some(Blame { cause, error, left }) = blame {
             let (kind, span, numbers) = (Kind::Rounding(cause.what), cause.span, cause.numbers);
             all.push(Finding { kind, span, pixels: 1, pixel, numbers, error: Some((error, left)) });
         }
@@ -116,7 +116,7 @@ impl Observer<Shadowed> for Watch<'_> {
         self.flow.loop_start(stmt);
     }
 
-    fn turn(&mut self, _: &View<'_, '_, Shadowed>) {
+    fn iteration(&mut self, _: &View<'_, '_, Shadowed>) {
         self.flow.turn();
     }
 

@@ -84,9 +84,9 @@ fn divergence(assignment: &Assignment, device: Option<[f32; 4]>) -> Option<Diver
 }
 
 /// The limit of the device's values: each is a program to compile.
-pub const MOST: usize = 48;
+pub const MAX_PROBES: usize = 48;
 /// The limit of steps of the walk: about what fits into half a minute.
-pub const STEPS_KEPT: usize = 200_000;
+pub const MAX_STEPS: usize = 200_000;
 
 /// A traced pixel, and the frames that lead to it.
 pub struct DivergenceJob {
@@ -125,11 +125,11 @@ pub fn find(job: DivergenceJob, control: &Control<()>) -> Result<DivergenceFound
         engine.set_custom_uniforms(values);
         engine.draw(inputs).map_err(|e| e.to_string())?;
     }
-    let trace = traced.trace(Extent { statements: STEPS, steps: STEPS_KEPT }).map_err(|e| e.to_string())?;
+    let trace = traced.trace(Extent { statements: STEPS, steps: MAX_STEPS }).map_err(|e| e.to_string())?;
     let assignments = assignments(&Sources::new(project), traced.index(), &trace);
     let before = engine.snapshot().map_err(|e| e.to_string())?;
     let mut probes = Probes::new((engine, before), (project, &media), options, pass.clone(), (inputs, values));
-    search(assignments, MOST, |assignment| probes.value(assignment, traced.pixel)).map_err(|e| e.to_string())
+    search(assignments, MAX_PROBES, |assignment| probes.value(assignment, traced.pixel)).map_err(|e| e.to_string())
 }
 
 #[cfg(test)]

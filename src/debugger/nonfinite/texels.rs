@@ -41,7 +41,7 @@ pub fn stored(project: &Project, pass: &PassName) -> usize {
 
 /// Walks a pass for a texel of its first target. Returns `None` if no operation produces the value: it is too large for
 /// the pass's format, or was read from a texture, or comes from a vertex stage.
-pub fn born(
+pub fn find_origin(
     project: &Project,
     pass: &PassName,
     read: &PassInputs,

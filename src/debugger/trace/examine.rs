@@ -264,7 +264,7 @@ impl Examiner {
             for comment in inspect_comments(traced.text(&tab)).iter().filter(|comment| comment.kind == "print") {
                 let mut values = Vec::new();
                 let mut is_cut = false;
-                for at in traced.history.turns_of_comment(source, traced.text(&tab), comment.at as u32) {
+                for at in traced.history.moments_of_comment(source, traced.text(&tab), comment.at as u32) {
                     is_cut = values.len() == MAX_PRINTED;
                     if is_cut {
                         break;

@@ -134,18 +134,18 @@ fn loop_iterations_are_listed_as_rows() {
     let traced = traced(CODE);
     let history = &traced.history;
     let inside = history.moments.iter().position(|m| m.kind == MomentKind::Iteration(2)).unwrap();
-    let turns = history.turns(inside);
-    let of = |turn: &Iteration, name: &str| {
-        let values = history.turn_values(turn);
+    let iterations = history.iterations(inside);
+    let of = |iteration: &Iteration, name: &str| {
+        let values = history.iteration_values(iteration);
         values.iter().find(|shown| shown.name == name).unwrap().value.numbers[0].as_f64()
     };
-    let rows: Vec<(f64, f64)> = turns.iter().map(|turn| (of(turn, "i"), of(turn, "d"))).collect();
+    let rows: Vec<(f64, f64)> = iterations.iter().map(|iteration| (of(iteration, "i"), of(iteration, "d"))).collect();
     assert_eq!(rows[..3], [(0.0, 4.5), (1.0, 2.25), (2.0, 1.125)]);
     // 4.5 / 2^13 < 0.001.
     assert_eq!((rows.len(), rows.last().unwrap().0), (14, 13.0));
-    assert!(turns[1].first <= inside && inside <= turns[1].end);
-    assert_eq!(history.turns(0), []);
-    assert_eq!(history.turns(history.moments.len() - 1), []);
+    assert!(iterations[1].first <= inside && inside <= iterations[1].end);
+    assert_eq!(history.iterations(0), []);
+    assert_eq!(history.iterations(history.moments.len() - 1), []);
 }
 
 #[test]

@@ -64,7 +64,7 @@ pub fn run(
 ) -> Option<usize> {
     ahead(history, at, direction).find(|&other| {
         let moment = &history.moments[other];
-        let is_begun = !matches!(moment.kind, MomentKind::Return | MomentKind::Step);
-        is_begun && statement(moment.statement) && history.is_stop(other) && accepts(other)
+        let is_started = !matches!(moment.kind, MomentKind::Return | MomentKind::Step);
+        is_started && statement(moment.statement) && history.is_stop(other) && accepts(other)
     })
 }

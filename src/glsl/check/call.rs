@@ -45,7 +45,7 @@ impl Checker<'_> {
     #[cold]
     fn foreign_constructor(&mut self, name: Symbol, ty: BasicType, args: List<ast::ExprId>, loc: Loc) -> ExprId {
         let text = self.name(name);
-        if self.say_once(name) {
+        if self.is_first_report(name) {
             self.error(loc.first, format!("GLSL has no type `{text}`"));
             self.hint(format!("write `{}`", ty.name()));
         }
@@ -198,9 +198,9 @@ impl Checker<'_> {
         for (i, want) in meant.into_iter().flatten().enumerate() {
             let written = ast[args][i];
             if want != given[i]
-                && let Some(mend) = self.mend(self.done(written), written, want)
+                && let Some(fix) = self.conversion_fix(self.done(written), written, want)
             {
-                self.mend_with(&mend, written);
+                self.suggest_conversion(&fix, written);
             }
         }
         for id in candidates.into_iter().take(6) {
@@ -353,7 +353,7 @@ impl Checker<'_> {
         let (mut is_nan, mut is_infinite) = (false, false);
         if types.scalar(result) == Some(Scalar::Float) && !builtin.reads_bits() {
             let floats = args.iter().filter(|arg| arg.scalar == Scalar::Float);
-            (is_nan, is_infinite) = fault::born(floats.map(|arg| arg.words), words.as_slice());
+            (is_nan, is_infinite) = fault::introduces_nan_or_infinity(floats.map(|arg| arg.words), words.as_slice());
         }
         let id = self.constant(result, words.as_slice(), loc);
         match gap {

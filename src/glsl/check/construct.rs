@@ -18,7 +18,7 @@ impl Checker<'_> {
         let Some((size, at)) = self.sizes(written.dims, List::EMPTY) else {
             return self.construct_type(base, args, loc);
         };
-        if base == TypeId::ERROR || size == Size::Bad {
+        if base == TypeId::ERROR || size == Size::Invalid {
             return self.error_expr(loc);
         }
         if base == TypeId::VOID || self.facts(base).opaque {

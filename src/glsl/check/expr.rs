@@ -61,7 +61,7 @@ impl<'a> Checker<'a> {
     #[cold]
     fn too_deep(&mut self, root: ast::ExprId) -> ExprId {
         let loc = self.ast[root].loc;
-        if !std::mem::replace(&mut self.too_deep_told, true) {
+        if !std::mem::replace(&mut self.reported_too_deep, true) {
             self.error(loc, format!("this is nested more than {MAX_NESTING} levels deep"));
             self.hint("move a part of it to a variable or a function");
         }
@@ -187,8 +187,8 @@ impl<'a> Checker<'a> {
                 let ty = super::env::custom_uniform_type(self.settings.custom_uniforms[usize::from(i)].kind);
                 self.push(ExprKind::CustomUniform(i), ty, ExprFlags::default(), loc)
             }
-            Binding::OldTime => {
-                if self.say_once(symbol) {
+            Binding::DeprecatedTime => {
+                if self.is_first_report(symbol) {
                     self.warning(loc, "`iGlobalTime` is the old name of `iTime`");
                     self.hint("write `iTime`");
                 }
@@ -424,7 +424,9 @@ impl<'a> Checker<'a> {
         let text = self.name(name);
         let binding = self.scopes.get(name);
         let what = match binding {
-            Binding::Uniform(_) | Binding::CustomUniform(_) | Binding::OldTime | Binding::DepthRange => "a uniform",
+            Binding::Uniform(_) | Binding::CustomUniform(_) | Binding::DeprecatedTime | Binding::DepthRange => {
+                "a uniform"
+            }
             Binding::Channel(_) => "a sampler",
             Binding::BuiltinVar(_) => "an input",
             Binding::Local(id) if self.is_sampler(self.module[id].ty) => "a sampler",

@@ -200,7 +200,7 @@ impl Checker<'_> {
             let mut ty = match self.sizes(spec.dims, param.dims) {
                 None => base,
                 Some((Size::Known(len), at)) if base != TypeId::VOID => self.array_type(base, len, at),
-                Some((Size::Open, at)) => {
+                Some((Size::Unsized, at)) => {
                     self.error(at, "an array parameter needs a size between the brackets");
                     TypeId::ERROR
                 }

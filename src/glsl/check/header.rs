@@ -25,11 +25,11 @@ impl Checker<'_> {
             .chain([("gl_DepthRange", Binding::DepthRange)])
             .filter_map(|(name, binding)| Some((self.names.find(name)?, binding)));
         for (symbol, binding) in builtins.chain(named).filter(|(symbol, _)| *symbol >= from) {
-            self.scopes.give(symbol, binding, scope::LANGUAGE);
+            self.scopes.define(symbol, binding, scope::LANGUAGE);
         }
         let everywhere = if self.env.is_plain() { &[][..] } else { &env::EVERYWHERE[..] };
         for &uniform in everywhere.iter().filter(|uniform| uniform.symbol() >= from) {
-            self.scopes.give(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
+            self.scopes.define(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
         }
     }
 
@@ -41,16 +41,16 @@ impl Checker<'_> {
         let is_image = self.env == Env::Pass(PassKind::Image) && dialect.has_extras();
         if is_image {
             for builtin in Builtin::all().filter(|builtin| builtin.is_of_image) {
-                self.scopes.give(builtin.symbol(), Binding::Builtin(builtin), scope::LANGUAGE);
+                self.scopes.define(builtin.symbol(), Binding::Builtin(builtin), scope::LANGUAGE);
             }
         }
         for &uniform in Uniform::ALL {
             if self.env.has(uniform) {
-                self.scopes.give(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
+                self.scopes.define(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
             }
         }
         if self.env.has(Uniform::Time) && dialect.has_extras() {
-            self.give("iGlobalTime", Binding::OldTime, scope::LANGUAGE);
+            self.give("iGlobalTime", Binding::DeprecatedTime, scope::LANGUAGE);
         }
         if !self.env.is_plain() {
             for (i, name) in CHANNELS.into_iter().enumerate().take(dialect.channels()) {
@@ -84,7 +84,7 @@ impl Checker<'_> {
 
     fn give(&mut self, name: &str, binding: Binding, depth: u32) {
         if let Some(symbol) = self.names.find(name) {
-            self.scopes.give(symbol, binding, depth);
+            self.scopes.define(symbol, binding, depth);
         }
     }
 

@@ -101,12 +101,12 @@ impl Checker<'_> {
         let (lt, rt) = (self.ty(l), self.ty(r));
         if lt == TypeId::ERROR || rt == TypeId::ERROR {
             // Comparisons return a bool whatever is wrong with their sides.
-            let ty = if gives_bool(op) { TypeId::BOOL } else { TypeId::ERROR };
+            let ty = if yields_bool(op) { TypeId::BOOL } else { TypeId::ERROR };
             return self.error_expr_of(ty, loc);
         }
         let Some((ty, shape)) = self.operator_type(op, lt, rt) else {
             self.bad_binary(op, (l, lhs), (r, rhs), loc);
-            return self.error_expr_of(if gives_bool(op) { TypeId::BOOL } else { TypeId::ERROR }, loc);
+            return self.error_expr_of(if yields_bool(op) { TypeId::BOOL } else { TypeId::ERROR }, loc);
         };
         let constant = self.is_constant(l) && self.is_constant(r);
         let logical = match op {
@@ -229,8 +229,11 @@ impl Checker<'_> {
             }
         };
         let is_float = self.module.types.scalar(ty) == Some(Scalar::Float);
-        let (is_nan, is_infinite) =
-            if is_float { fault::born([a, b].into_iter(), folded.as_slice()) } else { (false, false) };
+        let (is_nan, is_infinite) = if is_float {
+            fault::introduces_nan_or_infinity([a, b].into_iter(), folded.as_slice())
+        } else {
+            (false, false)
+        };
         let id = self.constant(ty, folded.as_slice(), loc);
         match trouble {
             Some(FoldWarning::DivisionByZero) => {
@@ -402,7 +405,7 @@ impl Checker<'_> {
     }
 }
 
-fn gives_bool(op: Op) -> bool {
+fn yields_bool(op: Op) -> bool {
     matches!(
         op,
         Op::Less

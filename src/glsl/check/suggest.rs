@@ -152,24 +152,27 @@ const VARIABLES: &[(&str, &str)] = &[
 ];
 
 /// Returns how to use Shadertoy's input instead of another host's variable of this name.
-pub(super) fn input_of_the_site(name: &str) -> Option<&'static str> {
+pub(super) fn shadertoy_input(name: &str) -> Option<&'static str> {
     find(VARIABLES, name).filter(|hint| hint.starts_with("use `i"))
 }
 
 impl Checker<'_> {
     /// Returns whether an unknown name has not been reported in this function yet, and marks it as reported.
-    pub(super) fn say_once(&mut self, symbol: Symbol) -> bool {
-        if self.unknown_said.is_empty() {
-            self.unknown_said = vec![u32::MAX; self.names.len()];
+    pub(super) fn is_first_report(&mut self, symbol: Symbol) -> bool {
+        if self.reported_unknown.is_empty() {
+            self.reported_unknown = vec![u32::MAX; self.names.len()];
         }
         let here = self.func.map_or(0, |func| func.index() as u32 + 1);
-        std::mem::replace(&mut self.unknown_said[symbol.0 as usize], here) != here
+        std::mem::replace(&mut self.reported_unknown[symbol.0 as usize], here) != here
     }
 
     #[cold]
     pub(super) fn unknown_name(&mut self, symbol: Symbol, token: TokenId) {
         let name = self.name(symbol);
-        if self.is_explained(symbol) || (name == "gl_FragColor" && self.wants_entry(token)) || !self.say_once(symbol) {
+        if self.is_explained(symbol)
+            || (name == "gl_FragColor" && self.wants_entry(token))
+            || !self.is_first_report(symbol)
+        {
             return;
         }
         self.error(token, format!("`{name}` is not declared"));
@@ -202,7 +205,7 @@ impl Checker<'_> {
             return true;
         }
         let uniforms = crate::hir::Uniform::ALL.iter().map(|uniform| uniform.name());
-        let is_input = uniforms.chain(env::CHANNELS).any(|known| known == name) || input_of_the_site(name).is_some();
+        let is_input = uniforms.chain(env::CHANNELS).any(|known| known == name) || shadertoy_input(name).is_some();
         if is_input {
             self.hint(format!("a plain shader declares its inputs: `uniform float {name};`, with the type it has"));
         }
@@ -270,7 +273,7 @@ impl Checker<'_> {
             self.refuse_in_common(loc, name);
             return;
         }
-        if self.is_explained(symbol) || !self.say_once(symbol) {
+        if self.is_explained(symbol) || !self.is_first_report(symbol) {
             return;
         }
         self.error(loc.first, format!("there is no function `{name}`"));
@@ -304,7 +307,7 @@ impl Checker<'_> {
 
     #[cold]
     pub(super) fn unknown_type(&mut self, symbol: Symbol, token: TokenId) {
-        if self.is_explained(symbol) || !self.say_once(symbol) {
+        if self.is_explained(symbol) || !self.is_first_report(symbol) {
             return;
         }
         let name = self.name(symbol);

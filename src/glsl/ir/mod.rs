@@ -445,11 +445,11 @@ impl Module {
     }
 
     /// Returns whether a type contains a float.
-    pub fn holds_floats(&self, ty: TypeId) -> bool {
+    pub fn contains_floats(&self, ty: TypeId) -> bool {
         use super::types::Type;
         match self.types.get(ty) {
-            Type::Array { element, .. } => self.holds_floats(element),
-            Type::Struct(id) => self.structs[id.index()].iter().any(|&member| self.holds_floats(member)),
+            Type::Array { element, .. } => self.contains_floats(element),
+            Type::Struct(id) => self.structs[id.index()].iter().any(|&member| self.contains_floats(member)),
             _ => self.types.scalar(ty) == Some(Scalar::Float),
         }
     }

@@ -62,7 +62,7 @@ impl Builder<'_, '_> {
     fn declaration(&mut self, local: LocalId, init: Option<ExprId>) {
         let hir = self.cx.hir;
         // A table that is only read here needs no copy.
-        if let (Some(init), true, false) = (init, self.needs_memory(local), self.cx.arguments.handed_on[local.index()])
+        if let (Some(init), true, false) = (init, self.needs_memory(local), self.cx.arguments.forwarded[local.index()])
             && let (ExprKind::Const(id), false) = (hir[init].kind, hir[local].flags.contains(VarFlags::WRITTEN))
             && !self.is_vector_or_scalar(hir[local].ty)
         {
@@ -96,7 +96,7 @@ impl Builder<'_, '_> {
             Some(_) => return false,
         };
         let pointer = self.address_of(local);
-        self.begin_with(pointer, value);
+        self.set_initializer(pointer, value);
         true
     }
 

@@ -176,7 +176,7 @@ impl Rule for Ranges {
         };
     }
 
-    fn begin_body(&mut self, _: &mut Rewriter<'_>, _: &Block) {
+    fn start_body(&mut self, _: &mut Rewriter<'_>, _: &Block) {
         self.loops.push(self.entered_loops);
         self.tested = Some(self.entered_loops);
         // Nothing is known about it in later iterations before their test.

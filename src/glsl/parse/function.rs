@@ -31,7 +31,7 @@ impl Parser<'_> {
                 self.bump();
                 None
             }
-            _ if self.starts_line(self.at) && self.plainly_begins() && at_file => {
+            _ if self.starts_line(self.at) && self.is_certain_start() && at_file => {
                 self.missing("`;` or a body", None, None);
                 None
             }

@@ -46,7 +46,7 @@ pub(super) struct Parser<'p> {
     /// The opening brace and the name of the function that is being parsed.
     pub body: Option<(usize, Ident)>,
     /// A surplus closing brace left the parser outside of functions; reported once.
-    pub adrift: bool,
+    pub is_outside_functions: bool,
     pub reported_too_deep: bool,
 }
 
@@ -179,7 +179,7 @@ impl Parser<'_> {
         if here > 0 && self.kind_at(here - 1) == Kind::Wrong {
             return Ok(());
         }
-        if self.starts_line(here) && self.begins_anew(here) || matches!(self.kind(), Kind::RBrace | Kind::Eof) {
+        if self.starts_line(here) && self.starts_statement(here) || matches!(self.kind(), Kind::RBrace | Kind::Eof) {
             self.missing("`;`", None, None);
             return Ok(());
         }
@@ -187,7 +187,7 @@ impl Parser<'_> {
     }
 
     /// Returns whether a token can start a statement or declaration.
-    pub(super) fn begins_anew(&self, i: usize) -> bool {
+    pub(super) fn starts_statement(&self, i: usize) -> bool {
         !matches!(
             self.kind_at(i),
             Kind::RParen

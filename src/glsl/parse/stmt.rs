@@ -24,7 +24,7 @@ impl Parser<'_> {
                     self.report_unclosed(open);
                     break;
                 }
-                _ if self.begins_function() && self.body.is_some_and(|(brace, _)| self.partner(brace).is_none()) => {
+                _ if self.starts_function() && self.body.is_some_and(|(brace, _)| self.partner(brace).is_none()) => {
                     // A brace is missing above: the function is parsed at file scope.
                     self.report_nested_function();
                     break;
@@ -60,13 +60,13 @@ impl Parser<'_> {
             _ => (open, "opened here".to_owned()),
         };
         let here = self.at;
-        let diagnostic = Diagnostic::error(self.behind(here - 1), "missing `}` at the end of the text")
+        let diagnostic = Diagnostic::error(self.span_after(here - 1), "missing `}` at the end of the text")
             .label(self.origins.token_span(Self::token(brace)), label);
         self.report_at(here, diagnostic);
     }
 
     /// Returns whether `type name(..) {` follows, which is only allowed at file scope.
-    fn begins_function(&self) -> bool {
+    fn starts_function(&self) -> bool {
         let name = self.at + 1;
         matches!(self.kind(), Kind::Type | Kind::Ident)
             && self.kind_at(name) == Kind::Ident
@@ -166,9 +166,9 @@ impl Parser<'_> {
                 self.bump();
                 StmtKind::Error
             }
-            _ if self.begins_declaration() => {
+            _ if self.starts_declaration() => {
                 self.check_keyword_slip()?;
-                if self.begins_function() {
+                if self.starts_function() {
                     let hint = "move it out of this function";
                     self.error(first + 1, "a function cannot be defined inside of another", Some(hint.into()));
                 }
@@ -199,7 +199,7 @@ impl Parser<'_> {
     fn returns_nothing(&self) -> bool {
         match self.kind() {
             Kind::Semicolon | Kind::RBrace => true,
-            _ => self.starts_line(self.at) && self.plainly_begins(),
+            _ => self.starts_line(self.at) && self.is_certain_start(),
         }
     }
 
@@ -309,7 +309,7 @@ impl Parser<'_> {
 
     /// Parses an expression, or a declaration with a value: `bool b = f()`.
     fn condition(&mut self) -> Parse<Condition> {
-        if !self.begins_declaration() {
+        if !self.starts_declaration() {
             return self.full_expression().map(Condition::Expr);
         }
         let first = self.at;
@@ -377,7 +377,7 @@ impl Parser<'_> {
         let first = self.at;
         let kind = if self.kind() == Kind::Semicolon {
             StmtKind::Empty
-        } else if self.begins_declaration() {
+        } else if self.starts_declaration() {
             StmtKind::Decl(self.declaration_without_end()?)
         } else {
             StmtKind::Expr(self.full_expression()?)

@@ -78,12 +78,12 @@ impl<'a> Case<'a> {
     /// Compares the editor's answers for each position.
     #[track_caller]
     fn compare_analyses(&self, preamble: Option<&Preamble>) {
-        let (own, behind) = (Analysis::new(&self.source()), Analysis::behind(&self.source(), preamble));
+        let (own, reused) = (Analysis::new(&self.source()), Analysis::with_preamble(&self.source(), preamble));
         for (id, text) in [(COMMON, self.common), (CODE, self.code)] {
-            assert_eq!(own.classes(id), behind.classes(id));
+            assert_eq!(own.classes(id), reused.classes(id));
             for offset in 0..text.len() {
-                assert_eq!(own.uses(id, offset), behind.uses(id, offset), "at {offset}");
-                assert_eq!(own.definition(id, offset), behind.definition(id, offset), "at {offset}");
+                assert_eq!(own.uses(id, offset), reused.uses(id, offset), "at {offset}");
+                assert_eq!(own.definition(id, offset), reused.definition(id, offset), "at {offset}");
             }
         }
     }

@@ -28,7 +28,7 @@ impl Preprocessor<'_, '_> {
     /// Processes the directive that starts with `hash`, to the end of its line.
     pub(super) fn directive(&mut self, hash: Token) {
         self.cancel.check();
-        self.lexer.begin_directive();
+        self.lexer.start_directive();
         let name = self.raw();
         match name.kind {
             // `#` by itself does nothing.
@@ -198,7 +198,7 @@ impl Preprocessor<'_, '_> {
                 }
                 return;
             }
-            self.lexer.begin_directive();
+            self.lexer.start_directive();
             let name = self.raw();
             let word = if name.kind == Kind::Ident { self.names.get(Symbol(name.value)) } else { "" };
             match word {

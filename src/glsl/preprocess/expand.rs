@@ -81,11 +81,11 @@ impl Preprocessor<'_, '_> {
     fn expand(&mut self, token: Token, id: MacroId) -> Option<Token> {
         let def = self.origins[id];
         match self.table.macros[id.index()].origin {
-            MacroOrigin::ByAuthor => {}
+            MacroOrigin::Author => {}
             origin => {
                 self.record_use(&token, id);
                 let value = match origin {
-                    MacroOrigin::ByLanguage(value) | MacroOrigin::BySite(value) => value,
+                    MacroOrigin::Language(value) | MacroOrigin::Shadertoy(value) => value,
                     MacroOrigin::LineNumber => self.line_number(self.place(&token)) as u32,
                     _ => self.line.file as u32,
                 };

@@ -173,7 +173,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             | Kind::HashHash
             | Kind::Newline
             | Kind::OpenComment
-            | Kind::Param => match self.mend(&token) {
+            | Kind::Param => match self.report_invalid_token(&token) {
                 Some(mended) => mended,
                 None => return,
             },

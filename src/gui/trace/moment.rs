@@ -80,14 +80,16 @@ impl MomentState {
         });
         let conditions = conditions.collect();
         let stack = history.stack(at).into_iter().map(|(call, at)| (call.name.clone(), at)).collect();
-        let turns = history.turns(at);
+        let turns = history.iterations(at);
         let is_cut = turns.len() > MOST_TURNS;
         let current = turns.iter().position(|turn| (turn.first..=turn.end).contains(&at));
         let first = turns.first().map(|turn| turn.first);
         // Within a loop they stay the same.
         let rows = match known {
             Some(rows) if rows.first() == first => rows,
-            _ => table(turns.into_iter().take(MOST_TURNS).map(|turn| (turn, history.turn_values(&turn))).collect()),
+            _ => {
+                table(turns.into_iter().take(MOST_TURNS).map(|turn| (turn, history.iteration_values(&turn))).collect())
+            }
         };
         MomentState {
             variables,

@@ -281,7 +281,7 @@ impl<'w> Flow<'w> {
     }
 
     pub(super) fn turn(&mut self) {
-        self.control.end_turn(&mut self.sets);
+        self.control.end_iteration(&mut self.sets);
     }
 
     /// Called for a deciding value; the test after an iteration of a loop is only reported here.
@@ -304,7 +304,7 @@ impl<'w> Flow<'w> {
             self.control.add(set, is_left, &mut self.sets);
         }
         if jumps.continues {
-            self.control.add_turn(set, &mut self.sets);
+            self.control.add_to_iteration(set, &mut self.sets);
         }
         if jumps.returns {
             self.control.add(set, |kind| kind == Kind::Function, &mut self.sets);

@@ -125,7 +125,7 @@ struct Exits {
 }
 
 impl Rule for Exits {
-    fn begin_body(&mut self, r: &mut Rewriter<'_>, _: &Block) {
+    fn start_body(&mut self, r: &mut Rewriter<'_>, _: &Block) {
         if self.loops.next() == Some(true) {
             let place = r.f.append(Op::Global(self.flag), TypeId::BOOL, Loc::default());
             let condition = r.add(Op::Load { place });

@@ -65,7 +65,7 @@ mod tests {
                 "int g; void f() {{ g--; }} void mainImage(out vec4 o, in vec2 p) {{ o = vec4(0); int m = int(p.x), n = 4; \
                  float t = 0.0; if (p.y > 9.0) n = 5; g = m; {body} }}"
             );
-            let driver = Driver { most_rounds: bounded.then_some(1 << 22), ..Driver::default() };
+            let driver = Driver { max_loop_iterations: bounded.then_some(1 << 22), ..Driver::default() };
             let compiled = crate::compile(&PassSource { driver, ..PassSource::image(&code) });
             format!("{:?}", compiled.unwrap_or_else(|errors| panic!("{code}: {errors:?}")).module)
         };

@@ -23,7 +23,7 @@ pub(crate) fn apply(program: &mut Module, source: &PassSource<'_>) {
     if driver.small_arrays {
         small_arrays::run(program);
     }
-    if let Some(most) = driver.most_rounds {
+    if let Some(most) = driver.max_loop_iterations {
         endless_loops::run(program, most);
     }
     loop_steps::run(program);

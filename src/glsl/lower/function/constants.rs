@@ -111,7 +111,7 @@ impl Builder<'_, '_> {
         let constant = &self.cx.out[const_id(id)];
         let ty = constant.ty;
         let is_number = |bits: &u32| f32::from_bits(*bits).is_finite();
-        (constant.words.iter().all(is_number) || !self.cx.out.holds_floats(ty)) && !self.cx.is_long(ty)
+        (constant.words.iter().all(is_number) || !self.cx.out.contains_floats(ty)) && !self.cx.is_long(ty)
     }
 
     pub(crate) fn compose(&mut self, ty: TypeId, parts: Vec<Value>) -> Value {
