@@ -154,7 +154,7 @@ impl Machine {
         }
         // Late errors of the device belong to this project, not to the next.
         if let Some(gpu) = &self.gpu
-            && let Err(GpuError::Lost(_)) = gpu.take_trouble("a failed project")
+            && let Err(GpuError::Lost(_)) = gpu.take_error("a failed project")
         {
             self.drop_device();
         }

@@ -178,7 +178,7 @@ fn build(
     let options = BuildOptions {
         wanted,
         skip: !run.no_skip,
-        without: run.without_pass.set(),
+        disabled_optimisations: run.without_pass.set(),
         probe,
         trial,
         tile: offline.tile(),

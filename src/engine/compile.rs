@@ -16,7 +16,7 @@ type Result<T> = std::result::Result<T, Vec<Diagnostic>>;
 /// The settings of a pass that its texts do not contain.
 #[derive(Clone, Copy, Default)]
 pub(super) struct PassOptions {
-    pub bilinear_by_hand: [bool; SLOTS],
+    pub bilinear_in_shader: [bool; SLOTS],
     pub driver: Driver,
     /// A value that the pass draws too.
     pub probe: Option<Probe>,
@@ -31,7 +31,7 @@ impl Sources<'_> {
     /// # Panics
     /// If there is no such pass.
     pub fn compile_pass(&self, index: usize, bilinear_by_hand: [bool; SLOTS], driver: Driver) -> Result<CompiledPass> {
-        let options = PassOptions { bilinear_by_hand, driver, ..PassOptions::default() };
+        let options = PassOptions { bilinear_in_shader: bilinear_by_hand, driver, ..PassOptions::default() };
         self.compile_pass_with(&mut StageCache::default(), index, options)
     }
 
@@ -45,7 +45,7 @@ impl Sources<'_> {
         driver: Driver,
     ) -> Option<Result<CompiledPass>> {
         let bilinear_by_hand = [bilinear_by_hand, false, false, false];
-        let options = PassOptions { bilinear_by_hand, driver, ..PassOptions::default() };
+        let options = PassOptions { bilinear_in_shader: bilinear_by_hand, driver, ..PassOptions::default() };
         self.compile_fill_with(&mut StageCache::default(), index, kind, options)
     }
 
@@ -167,8 +167,8 @@ impl Sources<'_> {
         link: &Link<'_>,
         options: PassOptions,
     ) -> (Option<Arc<Compiled>>, Vec<Diagnostic>) {
-        let PassOptions { bilinear_by_hand, driver, probe, tiled } = options;
-        let source = PassSource { bilinear_by_hand, driver, probe, tiled, ..*source };
+        let PassOptions { bilinear_in_shader: bilinear_by_hand, driver, probe, tiled } = options;
+        let source = PassSource { bilinear_in_shader: bilinear_by_hand, driver, probe, tiled, ..*source };
         match cache.find(&source, link, |text| self.shared(text)) {
             Ok(found) => found,
             Err(missing) => cache.add(missing, stage_cache::compile(&source, link, self.preamble())),

@@ -28,10 +28,10 @@ impl Running {
             }
         }
         let attach = |index: usize| {
-            let load = match draw.beside {
+            let load = match draw.extra_target {
                 // Discarded pixels, and those outside the region, have no value.
                 Some(beside) if beside == index && draw.keeps_content => wgpu::LoadOp::Clear(NO_VALUE),
-                Some(beside) if beside == index => shared.gpu.load_what_is_overwritten(),
+                Some(beside) if beside == index => shared.gpu.load_op_dont_care(),
                 _ if part.is_some() => wgpu::LoadOp::Load,
                 _ => load_op(&shared.gpu, draw),
             };
@@ -96,6 +96,6 @@ fn load_op(gpu: &Gpu, draw: &Draw) -> wgpu::LoadOp<wgpu::Color> {
         wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)
     } else {
         // The triangle covers every texel, and none is discarded.
-        gpu.load_what_is_overwritten()
+        gpu.load_op_dont_care()
     }
 }

@@ -171,7 +171,7 @@ impl Engine {
                 (drawn.stats, drawn.is_whole) = running.draw(shared, display, inputs, Purpose::Bands, &mut caller)?;
             }
         }
-        self.shared.gpu.take_trouble("a frame")?;
+        self.shared.gpu.take_error("a frame")?;
         Ok(drawn)
     }
 
@@ -234,7 +234,7 @@ impl Engine {
 
     fn take_snapshot(&self, extent: Extent) -> Result<Snapshot, EngineError> {
         let snapshot = Snapshot::take(&self.shared.gpu, self.running.as_ref(), extent)?;
-        self.shared.gpu.take_trouble("a snapshot")?;
+        self.shared.gpu.take_error("a snapshot")?;
         Ok(snapshot)
     }
 

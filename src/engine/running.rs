@@ -92,7 +92,7 @@ impl Running {
             &shared.gpu,
             custom_uniforms::block(&running.program.custom_uniforms, &running.program.custom_uniform_values),
         );
-        running.take(shared, new);
+        running.install_textures(shared, new);
         Ok(running)
     }
 
@@ -103,13 +103,13 @@ impl Running {
         self.canvas = canvas;
         self.drop_unfinished();
         self.changes.invalidate();
-        self.take(shared, new);
+        self.install_textures(shared, new);
         Ok(())
     }
 
     /// Installs new textures. They take over the contents of the present ones, and else start with those
     /// before frame 0.
-    fn take(&mut self, shared: &Shared, new: NewTextures) {
+    fn install_textures(&mut self, shared: &Shared, new: NewTextures) {
         self.depths = new.depths;
         self.is_blank.clear();
         let (old, is_new) = new.targets.replace(&self.program.plan, &mut self.targets);
@@ -176,7 +176,7 @@ impl Running {
             }
             let target = &targets[draw.targets.start];
             for texture in &target.textures {
-                let load = shared.gpu.load_what_is_overwritten();
+                let load = shared.gpu.load_op_dont_care();
                 let descriptor = wgpu::RenderPassDescriptor {
                     label: Some("initial"),
                     color_attachments: &[Some(texture.attachment(load))],

@@ -15,7 +15,7 @@ use std::{
 /// Stages by their texts and settings. Passes with equal texts and settings share a stage.
 #[derive(Default)]
 pub(super) struct StageCache {
-    stages: Cache<StageKey, Kept>,
+    stages: Cache<StageKey, CachedStage>,
     /// True if passes whose texts compile to the same code share a stage, too.
     joins: bool,
     /// The number of stages that the current build has compiled.
@@ -24,9 +24,9 @@ pub(super) struct StageCache {
 
 /// Stages of passes that are not drawn, for callers that repeatedly compile a project to report diagnostics.
 #[derive(Default)]
-pub struct KeptStages(StageCache);
+pub struct DiagnosticsCache(StageCache);
 
-impl KeptStages {
+impl DiagnosticsCache {
     /// Compiles `project.passes[index]` like [`Sources::compile_pass`]. Stages that have not changed since the last
     /// call are not compiled again.
     ///
@@ -69,7 +69,7 @@ pub(super) fn compile(source: &PassSource<'_>, link: &Link<'_>, preamble: Option
 }
 
 /// The result of compiling a stage. Its spans refer to the texts that it was compiled with.
-struct Kept {
+struct CachedStage {
     /// `None` if there are errors.
     stage: Option<Arc<Compiled>>,
     /// The whole stage as text; created when first needed.
@@ -78,11 +78,11 @@ struct Kept {
     ids: Vec<SourceId>,
 }
 
-impl Kept {
+impl CachedStage {
     /// Returns true if both compiled to the same code. naga's types cannot be compared, but their debug output contains
     /// everything.
-    fn is_same(&self, other: &Kept) -> bool {
-        let content = |outcome: &Kept| format!("{:?}", outcome.stage);
+    fn is_same(&self, other: &CachedStage) -> bool {
+        let content = |outcome: &CachedStage| format!("{:?}", outcome.stage);
         self.outline().is_some_and(|outline| other.outline() == Some(outline))
             && self.content.get_or_init(|| content(self)) == other.content.get_or_init(|| content(other))
     }
@@ -117,7 +117,7 @@ struct StageKey {
     channels: [ChannelKind; SLOTS],
     custom_uniforms: Vec<(String, CustomUniformKind, u16)>,
     values: Vec<(String, Vec<u64>)>,
-    bilinear_by_hand: [bool; SLOTS],
+    bilinear_in_shader: [bool; SLOTS],
     driver: Driver,
     tiled: bool,
     plain: PlainOptions,
@@ -157,7 +157,7 @@ impl StageKey {
             channels,
             custom_uniforms,
             values,
-            bilinear_by_hand,
+            bilinear_in_shader: bilinear_by_hand,
             driver,
             tiled,
             plain,
@@ -182,7 +182,7 @@ impl StageKey {
             channels,
             custom_uniforms: custom_uniforms.iter().map(|k| (k.name.to_owned(), k.kind, k.slot)).collect(),
             values: values.iter().map(|v| (v.name.clone(), words(&v.value))).collect(),
-            bilinear_by_hand,
+            bilinear_in_shader: bilinear_by_hand,
             driver,
             tiled,
             plain,
@@ -247,7 +247,7 @@ impl StageCache {
             Err(errors) => (None, errors),
         };
         let CacheMiss { key, ids } = *missing;
-        let mut kept = Kept { stage, content: OnceCell::new(), diagnostics, ids };
+        let mut kept = CachedStage { stage, content: OnceCell::new(), diagnostics, ids };
         // A comment, or a function of Common that the pass does not call, changes the text but not the stage.
         if self.joins
             && let Some(same) = self.stages.values().find(|other| other.is_same(&kept))

@@ -11,7 +11,7 @@ use std::{fmt, sync::Arc, time::Duration};
 
 /// The number of statements of a program, with all calls inlined, that are compiled without a trial. Mesa's CPU drivers
 /// take up to half a second for this number.
-const UNTRIED: u64 = 1 << 12;
+const MAX_UNTRIED_SIZE: u64 = 1 << 12;
 
 /// A build to try.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +41,9 @@ impl Trial {
         missing: &[&PipelineOrder],
     ) -> Result<(), Diagnostic> {
         let size = |order: &PipelineOrder| order.program.stages().map(|stage| stage.inlined_size).sum::<u64>();
-        let Some(largest) = missing.iter().max_by_key(|order| size(order)).filter(|order| size(order) > UNTRIED) else {
+        let Some(largest) =
+            missing.iter().max_by_key(|order| size(order)).filter(|order| size(order) > MAX_UNTRIED_SIZE)
+        else {
             return Ok(());
         };
         (self.0)(order).map_err(|error| {

@@ -104,7 +104,7 @@ pub(super) fn compile_seen(
     };
     let lower::Lowered { mut program, mut reflection, .. } =
         lower::lower(&checked, source, options, interface, probed, lower::Marks::default());
-    opt::optimise(&mut program, source.driver.without, &mut seen);
+    opt::optimise(&mut program, source.driver.disabled_optimisations, &mut seen);
     emit::work_arounds::apply(&mut program, source);
     ir::verify::assert_kept(&program, "work-arounds");
     seen("work-arounds", &program);

@@ -42,5 +42,5 @@ pub struct Driver {
     /// can draw if the driver cannot stop it.
     pub max_loop_iterations: Option<u32>,
     /// Passes of the optimiser that are skipped: for developers of the compiler.
-    pub without: PassSet,
+    pub disabled_optimisations: PassSet,
 }

@@ -292,11 +292,11 @@ impl Gpu {
     /// Waits until the device has finished all submitted work.
     pub fn wait(&self) -> Result<(), GpuError> {
         loss::poll(&self.device, wgpu::PollType::wait_indefinitely()).map_err(GpuError::Lost)?;
-        self.take_trouble("a frame")
+        self.take_error("a frame")
     }
 
     /// Returns the uncaptured error since the last call, if there was one.
-    pub fn take_trouble(&self, what: &str) -> Result<(), GpuError> {
+    pub fn take_error(&self, what: &str) -> Result<(), GpuError> {
         if self.is_lost() {
             return Err(GpuError::Lost("the driver gave up, often because a shader ran too long".into()));
         }
@@ -309,7 +309,7 @@ impl Gpu {
 
 /// Lowers the priority of the calling thread. On Linux the priority is per thread, and threads that a driver starts for
 /// it inherit it.
-pub fn step_back(steps: i32) {
+pub fn lower_thread_priority(steps: i32) {
     #[cfg(target_os = "linux")]
     if let Err(error) = rustix::process::nice(steps) {
         log::debug!("a thread keeps its priority: {error}");

@@ -29,7 +29,7 @@ mod values;
 pub use bindings::Binding;
 pub use buffer::constant_buffer;
 pub use convert::FloatConverter;
-pub use device::step_back;
+pub use device::lower_thread_priority;
 pub use device::{Gpu, GpuError, GpuOptions};
 pub use eddy_texture::TextureShape;
 pub use mesh::{MeshBuffers, MeshPipelineDescriptor, check_targets, depth_buffer};

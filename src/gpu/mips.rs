@@ -69,7 +69,7 @@ impl MipMaker {
                 view: level,
                 depth_slice: None,
                 resolve_target: None,
-                ops: wgpu::Operations { load: gpu.load_what_is_overwritten(), store: wgpu::StoreOp::Store },
+                ops: wgpu::Operations { load: gpu.load_op_dont_care(), store: wgpu::StoreOp::Store },
             };
             self.shader.draw(gpu, encoder, &self.pipelines[&chain.format], finer, target);
         }

@@ -5,7 +5,7 @@ use super::Gpu;
 impl Gpu {
     /// Returns the load operation for a colour target that a pass overwrites completely. It is cleared, which is free
     /// on devices that draw tile by tile; on lavapipe, where a clear is a separate draw, it is loaded.
-    pub fn load_what_is_overwritten(&self) -> wgpu::LoadOp<wgpu::Color> {
+    pub fn load_op_dont_care(&self) -> wgpu::LoadOp<wgpu::Color> {
         if self.fences.is_some() { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) }
     }
 

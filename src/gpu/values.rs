@@ -130,7 +130,7 @@ impl ValuePainter {
 
     /// Draws the values into `display`, which must have the same size.
     pub fn present(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, values: &wgpu::BindGroup, display: &Texture) {
-        let target = display.attachment(gpu.load_what_is_overwritten());
+        let target = display.attachment(gpu.load_op_dont_care());
         self.0.draw(gpu, encoder, target, |pass| {
             pass.set_bind_group(0, values, &[]);
             pass.draw(0..3, 0..1);

@@ -83,7 +83,7 @@ pub struct Draw {
     /// Indices into [`FramePlan::targets`]; several only if meshes are drawn.
     pub targets: Range<usize>,
     /// The index of an additional target, after these, for [`FramePlan::draw_beside`].
-    pub beside: Option<usize>,
+    pub extra_target: Option<usize>,
     /// `None` if the compiled pass does not read the channel.
     pub reads: [Option<Read>; SLOTS],
     /// It rasterizes meshes into targets that are cleared first.
@@ -110,7 +110,7 @@ impl Draw {
     /// Returns the indices into [`FramePlan::targets`] of all targets it draws into, in the order of fragment
     /// locations.
     pub fn all_targets(&self) -> impl Iterator<Item = usize> + use<> {
-        self.targets.clone().chain(self.beside)
+        self.targets.clone().chain(self.extra_target)
     }
 
     /// Returns the draw for a fill of the pass. It reads none of the pass's inputs, only its own picture if the fill is
@@ -153,9 +153,9 @@ impl FramePlan {
 
     /// Adds a target of 32-bit floats, with a name of its own, for a value that the pass of a draw outputs in addition
     /// to its picture. No pass reads it, and the pass's other reads and outputs do not change.
-    pub fn draw_beside(&mut self, pass: usize, id: PassName) {
+    pub fn add_extra_target(&mut self, pass: usize, id: PassName) {
         let Some(draw) = self.draws.iter_mut().find(|draw| draw.pass == pass) else { return };
-        draw.beside = Some(self.targets.len());
+        draw.extra_target = Some(self.targets.len());
         let own = &self.targets[draw.targets.start];
         let (dimension, size) = (own.dimension, own.size);
         let format = TexelFormat::Rgba32f;
@@ -204,7 +204,7 @@ impl FramePlan {
             plan.draws.push(Draw {
                 pass,
                 targets,
-                beside: None,
+                extra_target: None,
                 reads,
                 draws_meshes: is_cleared,
                 keeps_content: !is_cleared && (facts[pass].discards || region.is_some() || !skip),

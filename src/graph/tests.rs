@@ -370,7 +370,7 @@ fn an_additional_output_changes_no_other_target() {
     let plain = plan(&project);
     let mut plan = plan(&project);
     let value = PassName::buffer("a value");
-    plan.draw_beside(0, value.clone());
+    plan.add_extra_target(0, value.clone());
     assert_eq!(plan.targets[..plain.targets.len()], plain.targets);
     let [more] = &plan.targets[plain.targets.len()..] else { panic!("one more target") };
     assert_eq!((&more.id, more.index, more.format, more.doubled), (&value, 0, TexelFormat::Rgba32f, false));
@@ -460,7 +460,7 @@ fn the_last_draw_may_be_split_if_the_result_is_the_same() {
         "a `discard` shows what was there"
     );
     let mut probed = plan(&project, &facts, &[]);
-    probed.draw_beside(2, id("probe"));
+    probed.add_extra_target(2, id("probe"));
     assert_eq!(probed.divisible_draw(), None, "a probe is read back");
     project.groups = vec![Group { name: "g".into(), passes: vec![PassName::image()], steps: 2 }];
     assert_eq!(divisible(&project, &facts), None, "it is drawn twice");

@@ -73,7 +73,7 @@ impl FramePlan {
         if !project.passes[pass].body.is_screen() {
             return Err(Undivided::Meshes);
         }
-        if draw.targets.len() != 1 || draw.beside.is_some() {
+        if draw.targets.len() != 1 || draw.extra_target.is_some() {
             return Err(Undivided::Targets);
         }
         let place = draw.targets.start;

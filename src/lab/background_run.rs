@@ -59,7 +59,7 @@ impl BackgroundRun {
         wake: Wake,
     ) -> std::io::Result<BackgroundRun> {
         let work = Background::once("lab", "the measurement", wake, move |told: &Told<Vec<Event>>| {
-            gpu::step_back(STEPS_BACK);
+            gpu::lower_thread_priority(STEPS_BACK);
             let control = Control { stop: Stop::of(told.cancel_flag()), estimates: true, beside_window: true };
             measure(open, &studies, &options, &control, &|event| told.update(|events| events.push(event)))
         })?;

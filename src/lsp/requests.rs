@@ -10,7 +10,7 @@ use super::{
     program::Program,
     published::Places,
     symbols, tokens,
-    workspace::{PATIENCE, Unfound, Workspace},
+    workspace::{READ_TIMEOUT, Unavailable, Workspace},
 };
 use eddy_diag::SourceId;
 use gen_lsp_types::{
@@ -33,13 +33,13 @@ pub(crate) struct ClientCapabilities {
 /// Request parameters, limited to the members that Eddy needs: an editor may send others.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct OfDocument {
+struct DocumentParams {
     text_document: TextDocumentIdentifier,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct OfRange {
+struct RangeParams {
     text_document: TextDocumentIdentifier,
     range: lsp::Range,
     context: Option<CodeActionContext>,
@@ -47,7 +47,7 @@ struct OfRange {
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct OfReferences {
+struct ReferenceParams {
     context: ReferenceContext,
     #[serde(flatten)]
     place: TextDocumentPositionParams,
@@ -55,14 +55,14 @@ struct OfReferences {
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct OfRename {
+struct RenameParams {
     new_name: String,
     #[serde(flatten)]
     place: TextDocumentPositionParams,
 }
 
 #[derive(Deserialize)]
-struct OfQuery {
+struct QueryParams {
     query: String,
 }
 
@@ -98,8 +98,8 @@ fn ask(
     let path = path_of(&document.uri.0);
     match workspace.find(&path) {
         Ok(_) => {}
-        Err(Unfound::Unknown) => return Ok(Value::Null),
-        Err(Unfound::Reading) => return Err(still_reading()),
+        Err(Unavailable::Unknown) => return Ok(Value::Null),
+        Err(Unavailable::Reading) => return Err(still_reading()),
     }
     // Looked up again, because the result borrows the documents too.
     let owner = workspace.owner(&path).map(|index| &workspace.programs[index]);
@@ -131,7 +131,7 @@ pub(crate) fn request(
         };
     let about_document =
         |params: Value, workspace: &mut Workspace, work: &dyn Fn(QueriedText<'_>) -> Answer| -> Answer {
-            let OfDocument { text_document } = read(params)?;
+            let DocumentParams { text_document } = read(params)?;
             ask(workspace, encoding, &text_document, work)
         };
     Some(match method {
@@ -194,8 +194,8 @@ pub(crate) fn request(
             let bytes = asked.lines().bytes(range);
             answer(actions::actions(asked.program, &mut asked.places, asked.id, bytes))
         }),
-        "workspace/symbol" => read(params).and_then(|OfQuery { query }| {
-            if !workspace.settle_within(PATIENCE) {
+        "workspace/symbol" => read(params).and_then(|QueryParams { query }| {
+            if !workspace.settle_within(READ_TIMEOUT) {
                 return Err(still_reading());
             }
             let mut found = Vec::new();
@@ -217,12 +217,12 @@ fn about_range(
     params: Value,
     work: impl FnOnce(QueriedText<'_>, lsp::Range, Option<CodeActionContext>) -> Answer,
 ) -> Answer {
-    let OfRange { text_document, range, context } = read(params)?;
+    let RangeParams { text_document, range, context } = read(params)?;
     ask(workspace, encoding, &text_document, |asked| work(asked, range, context))
 }
 
 fn references(workspace: &mut Workspace, encoding: Encoding, params: Value) -> Answer {
-    let OfReferences { context, place } = read(params)?;
+    let ReferenceParams { context, place } = read(params)?;
     ask(workspace, encoding, &place.text_document, |mut asked| {
         let at = asked.offset(place.position);
         let all = context.include_declaration;
@@ -231,7 +231,7 @@ fn references(workspace: &mut Workspace, encoding: Encoding, params: Value) -> A
 }
 
 fn rename(workspace: &mut Workspace, encoding: Encoding, params: Value) -> Answer {
-    let OfRename { new_name, place } = read(params)?;
+    let RenameParams { new_name, place } = read(params)?;
     ask(workspace, encoding, &place.text_document, |mut asked| {
         let at = asked.offset(place.position);
         let fix = asked.program.rename((asked.id, at), &new_name).map_err(failed)?;

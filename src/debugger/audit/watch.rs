@@ -1,7 +1,7 @@
 //! Observes a walk in both precisions.
 
 use super::{
-    distance::apart,
+    distance::difference,
     finding::{Finding, Kind},
     flow::{Flow, Shown},
     undefined,
@@ -249,7 +249,7 @@ fn relative_error(cells: &[Cell<Shadowed>]) -> f64 {
     let one = |cell: &Cell<Shadowed>| match *cell {
         Cell::Float(x) => {
             let size = x.double.abs().max(f64::from(x.single).abs());
-            match apart(x) {
+            match difference(x) {
                 0.0 => 0.0,
                 error if size.is_finite() => error / size.max(f64::from(f32::MIN_POSITIVE)),
                 _ => f64::INFINITY,

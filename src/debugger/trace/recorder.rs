@@ -16,7 +16,7 @@ pub(super) struct Recorder<'w> {
     /// The names of each function's values and variables, by [`Value::index`].
     names: Vec<Vec<Option<&'w str>>>,
     steps: Vec<Step>,
-    most: usize,
+    max_steps: usize,
     /// Remaining bytes for steps, including their contents.
     room: usize,
     left_out: u64,
@@ -37,7 +37,7 @@ impl<'w> Recorder<'w> {
             walkable,
             names,
             steps: Vec::new(),
-            most,
+            max_steps: most,
             room: limits::TRACE_BYTES,
             left_out: 0,
             depth: 0,
@@ -54,7 +54,7 @@ impl<'w> Recorder<'w> {
     /// After the first that is not kept, none is.
     fn has_room(&mut self, bytes: usize) -> bool {
         let room = self.room.checked_sub(size_of::<Step>() + bytes);
-        let is_kept = self.left_out == 0 && self.steps.len() < self.most && room.is_some();
+        let is_kept = self.left_out == 0 && self.steps.len() < self.max_steps && room.is_some();
         match room.filter(|_| is_kept) {
             Some(room) => self.room = room,
             None => self.left_out += 1,

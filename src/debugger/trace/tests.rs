@@ -180,20 +180,20 @@ fn conditional_breakpoints_stop_in_both_directions() {
         [Breakpoint { tab: image.clone(), line: line - 1, condition: condition.into(), is_on: true }]
     };
     let first = first_moment(&traced);
-    let stop = examiner.go_on(first, &at_line(14, "i == 7 && d < 1.0"), Forward).unwrap();
+    let stop = examiner.continue_to_breakpoint(first, &at_line(14, "i == 7 && d < 1.0"), Forward).unwrap();
     assert_eq!((line(&traced, stop), number(&traced, stop, "i")), (14, 7.0));
-    let before = examiner.go_on(stop, &at_line(14, ""), Back).unwrap();
+    let before = examiner.continue_to_breakpoint(stop, &at_line(14, ""), Back).unwrap();
     assert_eq!(number(&traced, before, "i"), 6.0);
-    assert_eq!(examiner.go_on(stop, &at_line(14, "i == 7"), Forward), None);
-    assert_eq!(examiner.go_on(stop, &at_line(14, "i == 99"), Back), None);
+    assert_eq!(examiner.continue_to_breakpoint(stop, &at_line(14, "i == 7"), Forward), None);
+    assert_eq!(examiner.continue_to_breakpoint(stop, &at_line(14, "i == 99"), Back), None);
     // A line of Image without a statement is mapped to the next statement.
-    let slid = examiner.go_on(first, &at_line(2, ""), Forward).unwrap();
+    let slid = examiner.continue_to_breakpoint(first, &at_line(2, ""), Forward).unwrap();
     assert_eq!(line(&traced, slid), 4);
     // An invalid condition stops, and has an error.
-    assert!(examiner.go_on(first, &at_line(14, "i =="), Forward).is_some());
-    assert!(examiner.holds(stop, "p").is_err() && examiner.holds(stop, "d").unwrap());
+    assert!(examiner.continue_to_breakpoint(first, &at_line(14, "i =="), Forward).is_some());
+    assert!(examiner.is_true_at(stop, "p").is_err() && examiner.is_true_at(stop, "d").unwrap());
     let off = Breakpoint { is_on: false, ..at_line(14, "")[0].clone() };
-    assert_eq!(examiner.go_on(first, &[off], Forward), None);
+    assert_eq!(examiner.continue_to_breakpoint(first, &[off], Forward), None);
     let to = examiner.run_to(first, (&image, 17), Forward).unwrap();
     assert_eq!((line(&traced, to), examiner.run_to(to, (&image, 17), Forward)), (18, None));
 }

@@ -28,7 +28,7 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         self.loc = hir[stmt].loc;
         if !matches!(hir[stmt].kind, StmtKind::Block(_)) {
-            self.mark(StatementEvent::Begin, stmt);
+            self.mark(StatementEvent::Start, stmt);
         }
         match hir[stmt].kind {
             StmtKind::Block(list) => self.statements(list),

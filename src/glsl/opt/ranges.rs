@@ -137,7 +137,7 @@ impl Rule for Ranges {
         match *op {
             Op::Math { fun: fun @ (Math::Min | Math::Max), arg: a, arg1: Some(b), .. } => {
                 if let (Some(left), Some(right)) = (self.of(r, a), self.of(r, b)) {
-                    let (is_below, is_above) = (left.most <= right.least, left.least >= right.most);
+                    let (is_below, is_above) = (left.max <= right.min, left.min >= right.max);
                     match fun {
                         Math::Min if is_below => return Some(a),
                         Math::Min if is_above => return Some(b),
@@ -223,14 +223,14 @@ impl Ranges {
                 let bound = self.of(r, r.value(bound)).unwrap_or(limits);
                 match test {
                     Binary::Less | Binary::LessEqual if by >= 0.0 => {
-                        let last = bound.most - f64::from(u8::from(test == Binary::Less));
-                        let end = (last + by <= limits.most).then_some(last + by)?;
-                        (start.least, last, Interval::between(start.least, start.most.max(end)))
+                        let last = bound.max - f64::from(u8::from(test == Binary::Less));
+                        let end = (last + by <= limits.max).then_some(last + by)?;
+                        (start.min, last, Interval::between(start.min, start.max.max(end)))
                     }
                     Binary::Greater | Binary::GreaterEqual if by <= 0.0 => {
-                        let least = bound.least + f64::from(u8::from(test == Binary::Greater));
-                        let end = (least + by >= limits.least).then_some(least + by)?;
-                        (least, start.most, Interval::between(start.least.min(end), start.most))
+                        let least = bound.min + f64::from(u8::from(test == Binary::Greater));
+                        let end = (least + by >= limits.min).then_some(least + by)?;
+                        (least, start.max, Interval::between(start.min.min(end), start.max))
                     }
                     _ => return None,
                 }

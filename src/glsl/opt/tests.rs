@@ -53,7 +53,10 @@ fn every_pass_can_be_left_out() {
         o = vec4(v + 1.0, 1); }";
     for pass in PASSES {
         let without = PassSet::of(pass.name).expect("a pass of the list");
-        let source = PassSource { driver: Driver { without, ..Driver::default() }, ..PassSource::image(code) };
+        let source = PassSource {
+            driver: Driver { disabled_optimisations: without, ..Driver::default() },
+            ..PassSource::image(code)
+        };
         let text = dump_ir(&source, &Link::default(), None, None).expect("a program without errors");
         assert!(!text.contains(&format!("; after {}\n", pass.name)), "{}", pass.name);
         crate::compile(&source).expect("it compiles all the same");

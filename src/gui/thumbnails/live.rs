@@ -83,7 +83,7 @@ impl Live {
         let (gpu, wake, wanted) = (self.gpu.clone(), self.wake.clone(), self.wanted.clone());
         let work = move || {
             if gpu.is_cpu() {
-                gpu::step_back(STEPS_BACK);
+                gpu::lower_thread_priority(STEPS_BACK);
             }
             let mut device = None;
             while let Some(name) = wanted.next() {

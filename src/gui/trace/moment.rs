@@ -76,7 +76,7 @@ impl MomentState {
         let conditions = breakpoints.iter().map(|breakpoint| {
             let here = place.as_ref().is_some_and(|(tab, line)| *tab == breakpoint.tab && *line == breakpoint.line);
             let condition = breakpoint.condition.trim();
-            (here && !condition.is_empty()).then(|| examiner.holds(at, condition).err()).flatten()
+            (here && !condition.is_empty()).then(|| examiner.is_true_at(at, condition).err()).flatten()
         });
         let conditions = conditions.collect();
         let stack = history.stack(at).into_iter().map(|(call, at)| (call.name.clone(), at)).collect();

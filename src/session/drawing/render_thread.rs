@@ -62,7 +62,7 @@ impl RenderThread {
         };
         let work = move || {
             if is_cpu {
-                gpu::step_back(STEPS_BACK);
+                gpu::lower_thread_priority(STEPS_BACK);
             }
             let opened = caught(|| open().map_err(|e| e.to_string())).and_then(|opened| opened);
             device.set(opened.clone());

@@ -101,7 +101,7 @@ pub(super) fn work() -> impl FnMut(Work, &Control<FilmProgress>) -> Result<FilmD
     move |work, control| match work {
         Work::Range(job) => {
             if job.gpu.is_cpu() && !std::mem::replace(&mut is_back, true) {
-                gpu::step_back(STEPS_BACK);
+                gpu::lower_thread_priority(STEPS_BACK);
             }
             draw(*job, control)
         }

@@ -39,7 +39,7 @@ pub(super) fn work(
             Some(maker) => maker,
             None => {
                 if is_cpu {
-                    gpu::step_back(STEPS_BACK);
+                    gpu::lower_thread_priority(STEPS_BACK);
                 }
                 let made = open().map_err(EngineError::from).and_then(Maker::new);
                 maker.insert(made.map_err(|error| error.to_string())?)

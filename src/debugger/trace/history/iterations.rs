@@ -63,7 +63,7 @@ impl History {
         let mut found: Vec<NamedValue> = Vec::new();
         for (variable, slot) in self.locals_when(moment, StatementPoint::After).into_iter().rev() {
             if found.iter().all(|shown| shown.name != variable.name) {
-                let words = self.held(iteration.end, variable, slots + slot.unwrap_or_default());
+                let words = self.words_at(iteration.end, variable, slots + slot.unwrap_or_default());
                 found.push(NamedValue { name: variable.name.clone(), value: self.of(variable.ty, words) });
             }
         }

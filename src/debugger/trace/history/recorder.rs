@@ -52,7 +52,7 @@ pub(crate) struct HistoryRecorder<'w> {
     functions: Vec<Function>,
     ids: Vec<GlobalId>,
     active: Vec<Active>,
-    has_begun: bool,
+    has_started: bool,
     walkable: &'w Walkable,
 }
 
@@ -72,7 +72,7 @@ impl<'w> HistoryRecorder<'w> {
             functions: Vec::new(),
             ids,
             active: Vec::new(),
-            has_begun: false,
+            has_started: false,
             walkable,
         };
         (0..program.functions.len()).for_each(|index| recorder.add_function(FuncId::new(index)));
@@ -198,7 +198,7 @@ impl<'w> HistoryRecorder<'w> {
     fn event(&mut self, event: StatementEvent) {
         let Some(active) = self.active.last_mut() else { return };
         let (kind, statement) = match event {
-            StatementEvent::Begin(statement) => {
+            StatementEvent::Start(statement) => {
                 active.loops.retain(|(of, _)| *of != statement);
                 (MomentKind::Statement, statement)
             }
@@ -270,7 +270,7 @@ impl Recorded {
 
 impl<R: Float> Observer<R> for HistoryRecorder<'_> {
     fn enter(&mut self, view: &View<'_, '_, R>) {
-        if !std::mem::replace(&mut self.has_begun, true) {
+        if !std::mem::replace(&mut self.has_started, true) {
             for slot in 0..self.ids.len() {
                 self.write(slot, 0, view.global(self.ids[slot]));
             }

@@ -17,13 +17,13 @@ use crate::{
 
 /// Expands every filtered read of these channels. Only reads of 2D textures are filtered.
 pub(super) fn run(program: &mut Module, channels: [bool; SLOTS]) {
-    rewrite::each_function(program, || ByHand(channels));
+    rewrite::each_function(program, || BilinearInShader(channels));
 }
 
 /// The channels that are filtered manually.
-struct ByHand([bool; SLOTS]);
+struct BilinearInShader([bool; SLOTS]);
 
-impl Rule for ByHand {
+impl Rule for BilinearInShader {
     fn operation(&mut self, r: &mut Rewriter<'_>, _: Value, op: &Op) -> Option<Value> {
         let Op::Sample { channel, coordinate, level, offset } = *op else { return None };
         if !self.0.get(usize::from(channel)).is_some_and(|by_hand| *by_hand) || r.f.ty(coordinate) != TypeId::VEC2 {

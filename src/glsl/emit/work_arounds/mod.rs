@@ -19,7 +19,7 @@ use crate::{PassKind, PassSource, ir::Module};
 
 /// Applies the work-arounds that a device and its driver need.
 pub(crate) fn apply(program: &mut Module, source: &PassSource<'_>) {
-    let &PassSource { kind, driver, bilinear_by_hand, .. } = source;
+    let &PassSource { kind, driver, bilinear_in_shader: bilinear_by_hand, .. } = source;
     if driver.small_arrays {
         small_arrays::run(program);
     }
