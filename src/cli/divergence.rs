@@ -51,8 +51,12 @@ pub(super) fn find(
     media.set_camera_picture(engine.camera_picture());
     let pass = args.pass.pass.clone();
     let (skip, without) = (!args.run.no_skip, args.run.without_pass.set());
-    let options =
-        BuildOptions { wanted: vec![pass.clone()], skip, disabled_optimisations: without, ..BuildOptions::default() };
+    let options = BuildOptions {
+        requested: vec![pass.clone()],
+        skip,
+        disabled_optimisations: without,
+        ..BuildOptions::default()
+    };
     let mut values = project.custom_uniform_values.clone();
     let mut next = || {
         if let Some(of_frame) = inputs.next_change().and_then(|change| change.values) {

@@ -40,7 +40,7 @@ mod tests {
         assert_eq!(follow("abc def", "abc  def", 5), Some(6));
         assert_eq!(follow("abc def", "abc def, g", 5), Some(5));
         assert_eq!(follow("abc def ghi", "abc X ghi", 8), Some(6));
-        assert_eq!(follow("abc def ghi", "abc X ghi", 6), Some(5), "another stands there");
+        assert_eq!(follow("abc def ghi", "abc X ghi", 6), Some(5), "another is there");
         assert_eq!(follow("abc def ghi", "abc ghi", 6), None, "what it was in is gone");
         assert_eq!(follow("aa", "a", 2), Some(1));
         assert_eq!(follow("xé", "xö", 2), Some(1), "never within a letter");

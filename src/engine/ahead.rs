@@ -89,9 +89,9 @@ impl Sources<'_> {
     /// Calls `work` with the compiler input for `project.passes[index]`, which draws the whole target.
     fn with_screen<T>(&self, index: usize, options: PassOptions, work: impl FnOnce(&PassSource<'_>) -> T) -> T {
         let kind = sources::pass_kind(&self.project.passes[index].id);
-        let PassOptions { bilinear_in_shader: bilinear_by_hand, driver, probe, tiled } = options;
+        let PassOptions { bilinear_in_shader, driver, probe, tiled } = options;
         self.with_source(index, self.stage_id(index, Stage::Own), kind, |source| {
-            work(&PassSource { bilinear_in_shader: bilinear_by_hand, driver, probe, tiled, ..*source })
+            work(&PassSource { bilinear_in_shader, driver, probe, tiled, ..*source })
         })
     }
 }

@@ -26,7 +26,7 @@ use eddy_texture::TexelFormat;
 pub struct BuildOptions {
     /// The passes whose pictures are requested; passes that they do not depend on are not in the frame. Empty: Image.
     /// For sound only, see [`BuildOptions::sound`].
-    pub wanted: Vec<PassName>,
+    pub requested: Vec<PassName>,
     /// True to omit passes that are not read. If false (`--no-skip`), everything is drawn, with the same bytes in every
     /// picture.
     pub skip: bool,
@@ -47,11 +47,11 @@ impl BuildOptions {
     /// that their errors do not silence it; and no other build includes the sound pass, so that its errors affect no
     /// picture.
     pub fn sound() -> Self {
-        Self { wanted: vec![PassName::sound()], ..Self::default() }
+        Self { requested: vec![PassName::sound()], ..Self::default() }
     }
 
     fn is_sound(&self) -> bool {
-        matches!(&self.wanted[..], [pass] if pass.is_sound())
+        matches!(&self.requested[..], [pass] if pass.is_sound())
     }
 
     /// Returns whether a pass is compiled.
@@ -71,12 +71,12 @@ impl BuildOptions {
     #[must_use]
     pub fn probing(self, pass: PassName, source: SourceId, at: u32) -> Self {
         let probe = Some((pass, Probe { source, at, visit: 0 }));
-        Self { wanted: vec![BuildOptions::probed()], probe, ..self }
+        Self { requested: vec![BuildOptions::probed()], probe, ..self }
     }
 
     /// The pass that is drawn in tiles.
     fn tiled(&self) -> Option<PassName> {
-        self.tile.map(|_| self.wanted.first().cloned().unwrap_or_default())
+        self.tile.map(|_| self.requested.first().cloned().unwrap_or_default())
     }
 
     /// The buffer that draws a probed value together with its picture.
@@ -88,7 +88,7 @@ impl BuildOptions {
 impl Default for BuildOptions {
     fn default() -> Self {
         Self {
-            wanted: Vec::new(),
+            requested: Vec::new(),
             skip: true,
             disabled_optimisations: PassSet::default(),
             probe: None,
@@ -172,7 +172,7 @@ impl Builder {
         };
         let beside = options.probed_buffer().map(|(pass, _)| pass);
         let drawn_by = |id: &PassName| beside.filter(|_| *id == BuildOptions::probed()).unwrap_or(id).clone();
-        let wanted: Vec<PassName> = options.wanted.iter().map(drawn_by).collect();
+        let wanted: Vec<PassName> = options.requested.iter().map(drawn_by).collect();
         for id in &wanted {
             if drawable.pass(id).is_none() {
                 return Err(EngineError::NoSuchPass(id.title()).into());
@@ -188,7 +188,7 @@ impl Builder {
         if let (Some(tile), Some(id)) = (options.tile, options.tiled())
             && let Some(pass) = drawable.passes.iter().position(|pass| pass.id == id)
         {
-            let undivided = |why| EngineError::Undivided { pass: id.title(), why };
+            let undivided = |why| EngineError::Tiling { pass: id.title(), why };
             plan.tile(&drawable, pass, tile).map_err(undivided)?;
         }
         let mut passes: Vec<Option<CompiledParts>> = passes.into_iter().map(Some).collect();
@@ -202,7 +202,7 @@ impl Builder {
         let externals = binder.externals;
         let orders: Vec<_> = drafts.iter_mut().flat_map(DrawDraft::take_orders).collect();
         if let Some(trial) = options.trial.as_ref().filter(|_| self.gpu.compiles_here && options.probe.is_none()) {
-            let order = TrialOrder { project, wanted: &options.wanted, skip: options.skip };
+            let order = TrialOrder { project, requested: &options.requested, skip: options.skip };
             let tried = trial.of(order, &texts, &self.pipelines.missing(&orders));
             if let Err(error) = tried {
                 let diagnostics = diagnostics.into_iter().chain([error]).collect();
@@ -262,9 +262,8 @@ impl Builder {
             let fills = FillKind::ALL.map(|kind| {
                 let texels = pass.fill(kind).and_then(|fill| media.fill(fill.value.path()?));
                 let by_hand = texels.is_some_and(|t| filter_mode_of_fill(&self.gpu, t) == FilterMode::Shader);
-                let bilinear_by_hand = [by_hand, false, false, false];
-                let options =
-                    PassOptions { bilinear_in_shader: bilinear_by_hand, probe: None, tiled: false, ..options };
+                let bilinear_in_shader = [by_hand, false, false, false];
+                let options = PassOptions { bilinear_in_shader, probe: None, tiled: false, ..options };
                 match texts.compile_fill_with(&mut self.stages, index, kind, options)? {
                     Ok(mut fill) => {
                         said.append(&mut fill.diagnostics);

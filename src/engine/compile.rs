@@ -30,8 +30,13 @@ impl Sources<'_> {
     ///
     /// # Panics
     /// If there is no such pass.
-    pub fn compile_pass(&self, index: usize, bilinear_by_hand: [bool; SLOTS], driver: Driver) -> Result<CompiledPass> {
-        let options = PassOptions { bilinear_in_shader: bilinear_by_hand, driver, ..PassOptions::default() };
+    pub fn compile_pass(
+        &self,
+        index: usize,
+        bilinear_in_shader: [bool; SLOTS],
+        driver: Driver,
+    ) -> Result<CompiledPass> {
+        let options = PassOptions { bilinear_in_shader, driver, ..PassOptions::default() };
         self.compile_pass_with(&mut StageCache::default(), index, options)
     }
 
@@ -41,11 +46,11 @@ impl Sources<'_> {
         &self,
         index: usize,
         kind: FillKind,
-        bilinear_by_hand: bool,
+        bilinear_in_shader: bool,
         driver: Driver,
     ) -> Option<Result<CompiledPass>> {
-        let bilinear_by_hand = [bilinear_by_hand, false, false, false];
-        let options = PassOptions { bilinear_in_shader: bilinear_by_hand, driver, ..PassOptions::default() };
+        let bilinear_in_shader = [bilinear_in_shader, false, false, false];
+        let options = PassOptions { bilinear_in_shader, driver, ..PassOptions::default() };
         self.compile_fill_with(&mut StageCache::default(), index, kind, options)
     }
 
@@ -167,8 +172,8 @@ impl Sources<'_> {
         link: &Link<'_>,
         options: PassOptions,
     ) -> (Option<Arc<Compiled>>, Vec<Diagnostic>) {
-        let PassOptions { bilinear_in_shader: bilinear_by_hand, driver, probe, tiled } = options;
-        let source = PassSource { bilinear_in_shader: bilinear_by_hand, driver, probe, tiled, ..*source };
+        let PassOptions { bilinear_in_shader, driver, probe, tiled } = options;
+        let source = PassSource { bilinear_in_shader, driver, probe, tiled, ..*source };
         match cache.find(&source, link, |text| self.shared(text)) {
             Ok(found) => found,
             Err(missing) => cache.add(missing, stage_cache::compile(&source, link, self.preamble())),

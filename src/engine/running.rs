@@ -193,7 +193,7 @@ impl Running {
 
     /// Turns measuring on or off. Allocates queries for every draw of a frame.
     pub(crate) fn set_timing(&mut self, shared: &Shared, on: bool) {
-        let draws = u32::try_from(self.program.plan.draws_a_frame().max(1)).unwrap_or(u32::MAX);
+        let draws = u32::try_from(self.program.plan.draws_per_frame().max(1)).unwrap_or(u32::MAX);
         self.timer = if on { PassTimer::new(&shared.gpu, draws) } else { None };
     }
 

@@ -17,7 +17,7 @@ use std::{
 pub(super) struct StageCache {
     stages: Cache<StageKey, CachedStage>,
     /// True if passes whose texts compile to the same code share a stage, too.
-    joins: bool,
+    joins_equal_code: bool,
     /// The number of stages that the current build has compiled.
     compiled: usize,
 }
@@ -181,7 +181,7 @@ impl StageKey {
                 .collect(),
             channels,
             custom_uniforms: custom_uniforms.iter().map(|k| (k.name.to_owned(), k.kind, k.slot)).collect(),
-            values: values.iter().map(|v| (v.name.clone(), words(&v.value))).collect(),
+            values: values.iter().map(|v| (v.name.clone(), bit_words(&v.value))).collect(),
             bilinear_in_shader: bilinear_by_hand,
             driver,
             tiled,
@@ -207,18 +207,18 @@ fn ids_of(source: &PassSource<'_>) -> Vec<SourceId> {
 }
 
 /// Returns a value as words: equal words mean bitwise equal values.
-fn words(value: &UntypedValue) -> Vec<u64> {
+fn bit_words(value: &UntypedValue) -> Vec<u64> {
     match value {
         UntypedValue::Bool(on) => vec![0, u64::from(*on)],
         UntypedValue::Number(x) => vec![1, x.to_bits()],
-        UntypedValue::List(all) => [2, all.len() as u64].into_iter().chain(all.iter().flat_map(words)).collect(),
+        UntypedValue::List(all) => [2, all.len() as u64].into_iter().chain(all.iter().flat_map(bit_words)).collect(),
     }
 }
 
 impl StageCache {
     /// A cache for stages of pipelines: comparing stages is cheaper than creating another pipeline.
     pub(crate) fn of_pipelines() -> Self {
-        Self { joins: true, ..Self::default() }
+        Self { joins_equal_code: true, ..Self::default() }
     }
 
     /// Returns a stage if an equal one is cached. `shared` returns a text of `source` in the form that the cache
@@ -231,7 +231,7 @@ impl StageCache {
     ) -> Result<Found, Box<CacheMiss>> {
         let wanted = CacheMiss::new(source, link, shared);
         match self.stages.get(&wanted.key) {
-            Some(kept) => Ok((kept.stage.clone(), moved(&kept.diagnostics, &kept.ids, &wanted.ids))),
+            Some(kept) => Ok((kept.stage.clone(), with_new_sources(&kept.diagnostics, &kept.ids, &wanted.ids))),
             None => Err(Box::new(wanted)),
         }
     }
@@ -249,7 +249,7 @@ impl StageCache {
         let CacheMiss { key, ids } = *missing;
         let mut kept = CachedStage { stage, content: OnceCell::new(), diagnostics, ids };
         // A comment, or a function of Common that the pass does not call, changes the text but not the stage.
-        if self.joins
+        if self.joins_equal_code
             && let Some(same) = self.stages.values().find(|other| other.is_same(&kept))
         {
             kept.stage = same.stage.clone();
@@ -267,7 +267,7 @@ impl StageCache {
 }
 
 /// Translates diagnostics of a stage with texts `from` to an equal one with texts `to`.
-fn moved(diagnostics: &[Diagnostic], from: &[SourceId], to: &[SourceId]) -> Vec<Diagnostic> {
+fn with_new_sources(diagnostics: &[Diagnostic], from: &[SourceId], to: &[SourceId]) -> Vec<Diagnostic> {
     let mut diagnostics = diagnostics.to_vec();
     let turn = |span: &mut Span| {
         if let Some(id) = to.get(place(from, span.source)) {

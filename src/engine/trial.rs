@@ -18,7 +18,7 @@ const MAX_UNTRIED_SIZE: u64 = 1 << 12;
 pub struct TrialOrder<'a> {
     pub project: &'a Project,
     /// The same as in [`super::BuildOptions`].
-    pub wanted: &'a [PassName],
+    pub requested: &'a [PassName],
     pub skip: bool,
 }
 

@@ -140,7 +140,7 @@ impl Gpu {
     /// Opens another device on the adapter of `info`, from a separate instance, so that neither waits in the other's
     /// queue. Threads that a driver starts for it inherit from the calling thread. If the adapter is not found again,
     /// one is chosen as by [`Gpu::new`].
-    pub fn another(info: &wgpu::AdapterInfo, options: &GpuOptions) -> Result<Gpu, GpuError> {
+    pub fn on_adapter(info: &wgpu::AdapterInfo, options: &GpuOptions) -> Result<Gpu, GpuError> {
         let is_same = |other: &wgpu::AdapterInfo| {
             (&other.name, other.backend, other.vendor, other.device, &other.device_pci_bus_id)
                 == (&info.name, info.backend, info.vendor, info.device, &info.device_pci_bus_id)

@@ -228,7 +228,7 @@ fn rigs(first: &Rig, points: usize, control: &Control) -> Vec<Rig> {
     let gpu = first.gpu();
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
     let count = if gpu.is_cpu() && !control.beside_window { cores.min(points).min(MOST_RIGS) } else { 1 };
-    let others = (1..count).map_while(|_| Gpu::another(&gpu.info, &GpuOptions::default()).ok());
+    let others = (1..count).map_while(|_| Gpu::on_adapter(&gpu.info, &GpuOptions::default()).ok());
     std::iter::once(gpu.clone()).chain(others).map(|gpu| Rig::stoppable(gpu, control.stop.clone())).collect()
 }
 

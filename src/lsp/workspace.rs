@@ -3,7 +3,7 @@
 use super::{
     documents::Documents,
     program::{Program, Root, root_of},
-    reading::{Progress, Reading},
+    reading::{Reading, ReadingState},
 };
 use eddy_diag::SourceId;
 use eddy_project::is_manifest;
@@ -66,7 +66,7 @@ impl Workspace {
             program.is_stale = true;
         }
         if let Some(reading) = self.reading.as_ref().filter(|_| is_outdated) {
-            reading.give_up();
+            reading.cancel();
         }
     }
 
@@ -77,7 +77,7 @@ impl Workspace {
             program.forget_media();
         }
         if let Some(reading) = &self.reading {
-            reading.give_up();
+            reading.cancel();
         }
     }
 
@@ -89,7 +89,7 @@ impl Workspace {
     /// Cancels the current reading.
     pub(crate) fn drop_reading(&mut self) {
         if let Some(reading) = self.reading.take() {
-            reading.give_up();
+            reading.cancel();
         }
     }
 
@@ -103,15 +103,15 @@ impl Workspace {
         loop {
             if let Some(reading) = self.reading.take() {
                 match reading.wait(patience) {
-                    Progress::Reading => {
+                    ReadingState::Reading => {
                         self.reading = Some(reading);
                         return false;
                     }
-                    Progress::Read(read) => self.take_read(*read),
-                    Progress::Ended { has_failed: true } => {
+                    ReadingState::Read(read) => self.take_read(*read),
+                    ReadingState::Ended { has_failed: true } => {
                         log::error!("{} cannot be read: this is a bug in Eddy", reading.root.path().display());
                     }
-                    Progress::Ended { has_failed: false } => {}
+                    ReadingState::Ended { has_failed: false } => {}
                 }
             }
             if let Some(program) = self.programs.iter_mut().find(|program| program.is_stale) {

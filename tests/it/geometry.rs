@@ -239,7 +239,7 @@ fn a_scene_rests_until_what_it_reads_has_changed() {
             &gpu,
             &project,
             &MediaSet::new(),
-            &BuildOptions { wanted: Vec::new(), skip, ..BuildOptions::default() },
+            &BuildOptions { requested: Vec::new(), skip, ..BuildOptions::default() },
             (32, 24),
         )
     };
@@ -313,7 +313,7 @@ fn meshes_in_small_floats_leave_arithmetic_alone() {
                 float t = uintBitsToFloat(0x00800000u + uint(p.x)) * (0.25 + 0.25 * step(p.x, 9.5));\n\
                 o = vec4(floatBitsToUint(t), iFrame, 0, 1); }";
     let probe = pass(buffer("A"), code, Default::default());
-    let options = BuildOptions { wanted: [buffer("A")].into(), ..Default::default() };
+    let options = BuildOptions { requested: [buffer("A")].into(), ..Default::default() };
     let probe =
         project(vec![probe, image("void mainImage(out vec4 o, in vec2 p) { o = vec4(1); }", Default::default())]);
     let mut probe = engine_with(&gpu, &probe, &MediaSet::new(), &options, (256, 256));

@@ -88,7 +88,7 @@ fn a_violent_hand_on_a_large_canvas_keeps_the_density_in_the_corners() {
     let Some(gpu) = gpu() else { return };
     let size = (640, 360);
     for (name, state) in [("fluid", "C"), ("fluid-dye", "A"), ("fluid-lit", "A")] {
-        let options = BuildOptions { wanted: vec![buffer(state)], ..Default::default() };
+        let options = BuildOptions { requested: vec![buffer(state)], ..Default::default() };
         let mut engine = engine_with(&gpu, &preset(name), &MediaSet::new(), &options, size);
         let (mut least, mut most) = (f32::MAX, f32::MIN);
         for part in 0..4 {

@@ -189,7 +189,7 @@ fn audit_pixels(
         // A repeated pixel counts once.
         let Some(WalkedPixel { audited, findings, shown }) = found.remove(pixel) else { continue };
         for (walkable, shown) in shown {
-            match by_pixels.iter_mut().find(|known| known.shown.origin.is_like(&shown.origin)) {
+            match by_pixels.iter_mut().find(|known| known.shown.origin.is_same_declaration(&shown.origin)) {
                 Some(known) => {
                     known.shown.cells.extend(shown.cells);
                     known.pixels += 1;

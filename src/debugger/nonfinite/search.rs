@@ -67,7 +67,7 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
     let (mut media, _) = media::gather(&project, media_dir.as_deref());
     media.set_camera_picture(camera);
     let wanted = project.image_and(&shown);
-    let options = BuildOptions { wanted, ..BuildOptions::default() };
+    let options = BuildOptions { requested: wanted, ..BuildOptions::default() };
     let built = Program::build(&gpu, &project, &media, &options).map_err(|e| e.to_string())?;
     let mut engine = Engine::new(gpu, size.0, size.1).map_err(|e| e.to_string())?;
     engine.set_program(built.program).map_err(|e| e.to_string())?;
@@ -93,7 +93,7 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
                 text: finding.span.map_or_else(String::new, |span| first_line(&project, span)),
                 numbers: finding.numbers,
             });
-            return Ok(SearchEnd::Found(Box::new(FirstNonfinite { origin: origin, ..found })));
+            return Ok(SearchEnd::Found(Box::new(FirstNonfinite { origin, ..found })));
         }
     }
     let last = frames.last().map_or(0, |(inputs, _)| inputs.frame);

@@ -26,7 +26,7 @@ pub(super) struct Recorder<'w> {
 }
 
 impl<'w> Recorder<'w> {
-    pub(super) fn new(walkable: &'w Walkable, most: usize) -> Self {
+    pub(super) fn new(walkable: &'w Walkable, max_steps: usize) -> Self {
         let names = walkable.program.functions.iter().enumerate().map(|(index, function)| {
             let mut names = vec![None; function.len()];
             walkable.locals(FuncId::new(index)).for_each(|(name, value)| names[value.index()] = Some(name));
@@ -37,7 +37,7 @@ impl<'w> Recorder<'w> {
             walkable,
             names,
             steps: Vec::new(),
-            max_steps: most,
+            max_steps,
             room: limits::TRACE_BYTES,
             left_out: 0,
             depth: 0,

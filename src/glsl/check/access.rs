@@ -48,7 +48,7 @@ impl Checker<'_> {
             return self.error_expr(loc);
         };
         let ty = self.module[members][at].ty;
-        self.uses(loc.last, DeclRef::Member(id, at as u32));
+        self.record_use(loc.last, DeclRef::Member(id, at as u32));
         if self.is_constant(base) {
             return self.part(base, ty, before, loc);
         }
@@ -99,7 +99,7 @@ impl Checker<'_> {
             None => self.hint(format!("its members are {}", quoted(&members))),
         }
         if let Some(declared) = self.module[id].name {
-            self.also(declared, "the struct");
+            self.label(declared, "the struct");
         }
     }
 

@@ -221,7 +221,7 @@ impl<'a> Checker<'a> {
 
     /// Adds a second location to the diagnostic reported last.
     #[cold]
-    pub(super) fn also(&mut self, loc: impl Into<Loc>, message: impl Into<String>) {
+    pub(super) fn label(&mut self, loc: impl Into<Loc>, message: impl Into<String>) {
         let span = self.origins.span(loc.into());
         if let Some(last) = self.diagnostics.last_mut() {
             last.labels.push(eddy_diag::Label { span, message: eddy_diag::shortened(message) });
@@ -245,7 +245,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the span that the author wrote, unless a macro produced it: an edit of a macro affects all its uses.
-    pub(super) fn written_at(&self, loc: impl Into<Loc>) -> Option<Span> {
+    pub(super) fn source_span(&self, loc: impl Into<Loc>) -> Option<Span> {
         let loc = loc.into();
         let (first, last) = (self.origins.tokens[loc.first.0 as usize], self.origins.tokens[loc.last.0 as usize]);
         let is_plain = first.expansion.is_none() && last.expansion.is_none();
@@ -254,15 +254,15 @@ impl<'a> Checker<'a> {
     }
 
     /// Adds the fix that replaces what is written with another text.
-    pub(super) fn fix_with(&mut self, loc: impl Into<Loc>, text: &str) {
-        let span = self.written_at(loc);
+    pub(super) fn replace_fix(&mut self, loc: impl Into<Loc>, text: &str) {
+        let span = self.source_span(loc);
         self.fix(span.map(|span| Fix::replace(span, text)));
     }
 
     /// Suggests a name as the correct spelling of another.
     pub(super) fn did_you_mean(&mut self, loc: impl Into<Loc>, near: &str) {
         self.hint(format!("did you mean `{near}`?"));
-        self.fix_with(loc, near);
+        self.replace_fix(loc, near);
     }
 
     /// Returns whether a location is in Common, which a vertex stage includes although parts of it may be for
@@ -273,7 +273,7 @@ impl<'a> Checker<'a> {
 
     /// Records the target of a name in the text, for editors.
     #[inline]
-    pub(super) fn uses(&mut self, token: ast::TokenId, target: hir::DeclRef) {
+    pub(super) fn record_use(&mut self, token: ast::TokenId, target: hir::DeclRef) {
         self.module.uses.push(hir::Use { token, target });
     }
 

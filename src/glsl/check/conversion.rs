@@ -13,7 +13,7 @@ impl Checker<'_> {
     /// Converts the value of an expression of the tree where the language converts implicitly (GLSL 4.30, section
     /// 4.1.10), and returns the converted value. Any other value is returned unchanged.
     pub(super) fn implicit(&mut self, written: ast::ExprId, want: TypeId) -> ExprId {
-        let value = self.done(written);
+        let value = self.lowered_expr(written);
         if self.ty(value) == want || !self.converts_to(self.ty(value), want) {
             return value;
         }
@@ -40,7 +40,7 @@ impl Checker<'_> {
             return;
         }
         let types = &self.module.types;
-        let (l, r) = (self.ty(self.done(left)), self.ty(self.done(right)));
+        let (l, r) = (self.ty(self.lowered_expr(left)), self.ty(self.lowered_expr(right)));
         let (Some(a), Some(b)) = (types.scalar(l), types.scalar(r)) else { return };
         let of = |ty, scalar| self.vector_shape(ty).map(|(_, n)| TypeId::vector(scalar, n));
         let (on_left, on_right) = (of(l, b), of(r, a));
@@ -91,7 +91,7 @@ impl Checker<'_> {
 
     /// Returns the edits of a fix; none if a macro produced the value.
     fn edits(&self, fix: &ConversionFix, written: ast::ExprId) -> Vec<Edit> {
-        let Some(span) = self.written_at(self.ast[written].loc) else { return Vec::new() };
+        let Some(span) = self.source_span(self.ast[written].loc) else { return Vec::new() };
         let before = |text: &str| Edit { span: Span { end: span.start, ..span }, text: text.to_owned() };
         let after = |text: &str| Edit { span: Span { start: span.end, ..span }, text: text.to_owned() };
         match fix.text.split_once("..") {
@@ -112,9 +112,9 @@ impl Checker<'_> {
         let mut fixes: Vec<ConversionFix> = self.conversion_fix(first, written, want).into_iter().collect();
         let mut edits = fixes.first().map(|fix| self.edits(fix, written)).unwrap_or_default();
         for &(value, written, want) in &wrong[1..] {
-            let message = format!("this must be {} too", self.a(want));
+            let message = format!("this must be {} too", self.with_article(want));
             if wrong.len() <= 4 {
-                self.also(self.loc(value), message);
+                self.label(self.loc(value), message);
             }
             let Some(fix) = self.conversion_fix(value, written, want) else { continue };
             edits.extend(self.edits(&fix, written));

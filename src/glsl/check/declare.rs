@@ -308,7 +308,7 @@ impl Checker<'_> {
     fn is_of_other_stage(&self, name: Ident, ty: TypeId, init: Option<ExprId>) -> bool {
         self.settings.dialect.joins_stages()
             && init.is_none()
-            && matches!(self.scopes.here(name.symbol), Some(Binding::Global(id)) if self.module[id].ty == ty)
+            && matches!(self.scopes.get_innermost(name.symbol), Some(Binding::Global(id)) if self.module[id].ty == ty)
     }
 
     /// Returns the number in a `layout(location = n)`.

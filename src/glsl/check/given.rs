@@ -39,7 +39,7 @@ impl Checker<'_> {
             self.error(at, format!("`{text}` is an interface variable and cannot have an initialiser"));
             return true;
         }
-        self.uses(name.token, target);
+        self.record_use(name.token, target);
         self.check_redeclaration(name, ty, given);
         true
     }
@@ -51,7 +51,7 @@ impl Checker<'_> {
             self.warning(name, format!("`{text}` is already declared: Shadertoy rejects a second declaration"));
             self.hint("remove the declaration, which changes nothing here");
         } else if ty != TypeId::ERROR {
-            let (wrong, right) = (self.a(ty), self.a(given));
+            let (wrong, right) = (self.with_article(ty), self.with_article(given));
             let is_channel = matches!(self.scopes.get(name.symbol), Binding::Channel(_));
             let here = if is_channel { ", because of the input of the channel" } else { "" };
             self.error(name, format!("`{text}` is {right}{here}, but this declares {wrong}"));
@@ -65,14 +65,14 @@ impl Checker<'_> {
     /// As [`Checker::uniform_again`], for a member of an unnamed block, which is a uniform of its own.
     pub(super) fn redeclared_member(&mut self, name: Ident, ty: TypeId) -> bool {
         let Some((given, target)) = self.predefined(name) else { return false };
-        self.uses(name.token, target);
+        self.record_use(name.token, target);
         self.check_redeclaration(name, ty, given);
         true
     }
 
     /// Reports an interface variable whose name is taken, before other checks. Returns whether it is taken.
     pub(super) fn is_taken(&mut self, name: Ident) -> bool {
-        let is_taken = self.scopes.here(name.symbol).is_some_and(|previous| previous != Binding::Poison);
+        let is_taken = self.scopes.get_innermost(name.symbol).is_some_and(|previous| previous != Binding::Poison);
         if is_taken {
             self.declare(name, Binding::Poison);
         }

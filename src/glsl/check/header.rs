@@ -50,16 +50,16 @@ impl Checker<'_> {
             }
         }
         if self.env.has(Uniform::Time) && dialect.has_extras() {
-            self.give("iGlobalTime", Binding::DeprecatedTime, scope::LANGUAGE);
+            self.define_name("iGlobalTime", Binding::DeprecatedTime, scope::LANGUAGE);
         }
         if !self.env.is_plain() {
             for (i, name) in CHANNELS.into_iter().enumerate().take(dialect.channels()) {
-                self.give(name, Binding::Channel(i as u8), scope::FILE);
+                self.define_name(name, Binding::Channel(i as u8), scope::FILE);
             }
         }
         if is_image {
             for (i, name) in CHANNEL_STRUCTS.into_iter().enumerate() {
-                self.give(name, Binding::ChannelStruct(i as u8), scope::FILE);
+                self.define_name(name, Binding::ChannelStruct(i as u8), scope::FILE);
             }
         }
         if let Env::Pass(kind) = self.env {
@@ -78,11 +78,11 @@ impl Checker<'_> {
         }
         // A custom uniform hides names of the language, as a global would.
         for (i, custom_uniform) in self.settings.custom_uniforms.iter().enumerate() {
-            self.give(custom_uniform.name, Binding::CustomUniform(i as u16), scope::FILE);
+            self.define_name(custom_uniform.name, Binding::CustomUniform(i as u16), scope::FILE);
         }
     }
 
-    fn give(&mut self, name: &str, binding: Binding, depth: u32) {
+    fn define_name(&mut self, name: &str, binding: Binding, depth: u32) {
         if let Some(symbol) = self.names.find(name) {
             self.scopes.define(symbol, binding, depth);
         }

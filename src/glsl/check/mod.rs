@@ -82,12 +82,7 @@ pub(crate) fn check(
     let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), settings, checkpoint);
     on_deep_stack(|| checker.unit());
     let largest_function = checker.largest_function.map(|name| origins.span(name));
-    Checked {
-        module: checker.module,
-        diagnostics: checker.diagnostics,
-        faults: checker.faults,
-        largest_function: largest_function,
-    }
+    Checked { module: checker.module, diagnostics: checker.diagnostics, faults: checker.faults, largest_function }
 }
 
 /// Returns what Shadertoy would reject in Common because it compiles it alone, where only `iDate` and `iSampleRate`

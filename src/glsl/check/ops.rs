@@ -14,7 +14,7 @@ use crate::{
 
 impl Checker<'_> {
     pub(super) fn unary(&mut self, op: ast::UnaryOp, operand: ast::ExprId, loc: Loc) -> ExprId {
-        let value = self.done(operand);
+        let value = self.lowered_expr(operand);
         let ty = self.ty(value);
         if ty == TypeId::ERROR {
             return self.error_expr(loc);
@@ -97,7 +97,7 @@ impl Checker<'_> {
         if !matches!(op, Op::Shl | Op::Shr) {
             self.promote(lhs, rhs, false);
         }
-        let (l, r) = (self.done(lhs), self.done(rhs));
+        let (l, r) = (self.lowered_expr(lhs), self.lowered_expr(rhs));
         let (lt, rt) = (self.ty(l), self.ty(r));
         if lt == TypeId::ERROR || rt == TypeId::ERROR {
             // Comparisons return a bool whatever is wrong with their sides.
@@ -284,13 +284,13 @@ impl Checker<'_> {
     pub(super) fn assign(&mut self, op: Option<Op>, place: ast::ExprId, value: ast::ExprId, loc: Loc) -> ExprId {
         match op {
             None => {
-                let want = self.ty(self.done(place));
+                let want = self.ty(self.lowered_expr(place));
                 self.implicit(value, want);
             }
             Some(Op::Shl | Op::Shr) => {}
             Some(_) => self.promote(place, value, true),
         }
-        let (p, v) = (self.done(place), self.done(value));
+        let (p, v) = (self.lowered_expr(place), self.lowered_expr(value));
         let (pt, vt) = (self.ty(p), self.ty(v));
         if pt == TypeId::ERROR {
             return self.error_expr(loc);

@@ -67,7 +67,7 @@ impl Scopes {
 
     /// Returns the meaning of `symbol` in the innermost scope itself, if it was declared there.
     #[inline]
-    pub(super) fn here(&self, symbol: Symbol) -> Option<Binding> {
+    pub(super) fn get_innermost(&self, symbol: Symbol) -> Option<Binding> {
         let (binding, depth) = self.table[symbol.0 as usize];
         (depth == self.depth() && binding != Binding::None).then_some(binding)
     }

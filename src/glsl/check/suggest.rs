@@ -180,14 +180,14 @@ impl Checker<'_> {
         } else if let Some(hint) = find(VARIABLES, name) {
             self.hint(hint);
             match find(RENAMED, name) {
-                Some(here) => self.fix_with(token, here),
+                Some(here) => self.replace_fix(token, here),
                 None => self.fix_old_output(name, token),
             }
         } else if self.env_explains(name) {
-        } else if let Some((near, at)) = self.near(name, |binding| !is_function(binding)) {
+        } else if let Some((near, at)) = self.nearest_binding(name, |binding| !is_function(binding)) {
             self.did_you_mean(token, &near);
             if let Some(at) = at {
-                self.also(at, format!("`{near}` is declared here"));
+                self.label(at, format!("`{near}` is declared here"));
             }
         } else if foreign_type(name).is_some() || BasicType::ALL.iter().any(|b| b.name() == name) {
             self.hint("a type must be called: `vec3(..)`");
@@ -221,7 +221,7 @@ impl Checker<'_> {
     /// error then also fixes the name.
     fn wants_entry(&mut self, token: TokenId) -> bool {
         let Some((main, at)) = self.foreign_main.filter(|(main, _)| self.func == Some(*main)) else { return false };
-        let edit = self.written_at(token).map(|span| Edit { span, text: env::OUTPUT.into() });
+        let edit = self.source_span(token).map(|span| Edit { span, text: env::OUTPUT.into() });
         if let Some(fix) = self.diagnostics.get_mut(at).and_then(|d| d.fixes.first_mut()) {
             fix.edits.extend(edit);
         }
@@ -235,7 +235,7 @@ impl Checker<'_> {
         let output = self.module.params(entry).iter().find(|p| p.kind == LocalKind::Out).and_then(|p| p.name);
         if let Some(output) = output {
             let text = self.name(output.symbol).to_owned();
-            self.fix_with(token, &text);
+            self.replace_fix(token, &text);
         }
     }
 
@@ -284,19 +284,19 @@ impl Checker<'_> {
         if let Some(hint) = find(FUNCTIONS, name) {
             self.hint(hint);
             if let Some(here) = find(RENAMED, name) {
-                self.fix_with(loc.first, here);
+                self.replace_fix(loc.first, here);
             }
         } else if let Some(later) = later
             && later.name.token > loc.first
         {
-            self.also(later.name, "it is declared here");
+            self.label(later.name, "it is declared here");
             self.hint(
                 "a function must be declared before its first use: move it up, or write a prototype before this line",
             );
-        } else if let Some((near, at)) = self.near(name, is_function) {
+        } else if let Some((near, at)) = self.nearest_binding(name, is_function) {
             self.did_you_mean(loc.first, &near);
             if let Some(at) = at {
-                self.also(at, format!("`{near}` is declared here"));
+                self.label(at, format!("`{near}` is declared here"));
             }
         } else if args.len() == 1
             && let Some(near) = near::nearest_identifier(name, BasicType::ALL.iter().map(|b| b.name()))
@@ -329,13 +329,13 @@ impl Checker<'_> {
             self.did_you_mean(token, near);
         } else if let Some(def) = self.ast.structs.iter().find(|s| s.name.is_some_and(|n| n.symbol == symbol)) {
             let at = def.name.expect("just seen");
-            self.also(at, "it is defined here");
+            self.label(at, "it is defined here");
             self.hint("a struct must be defined before its first use: move it up");
         }
     }
 
     /// Returns the visible name of a matching kind with the most similar spelling.
-    fn near(&mut self, name: &str, fits: impl Fn(Binding) -> bool) -> Option<(String, Option<Loc>)> {
+    fn nearest_binding(&mut self, name: &str, fits: impl Fn(Binding) -> bool) -> Option<(String, Option<Loc>)> {
         if self.is_full() {
             return None;
         }

@@ -67,7 +67,7 @@ impl<'a> Checker<'a> {
             TypeSpecKind::Basic(basic) => TypeId::basic(basic),
             TypeSpecKind::Named(symbol) => match self.scopes.get(symbol) {
                 Binding::Struct(id) => {
-                    self.uses(spec.loc.first, DeclRef::Struct(id));
+                    self.record_use(spec.loc.first, DeclRef::Struct(id));
                     self.module[id].ty
                 }
                 Binding::Poison => TypeId::ERROR,
@@ -193,7 +193,7 @@ impl<'a> Checker<'a> {
                 if let Some(first) = first {
                     let first = members[first].name;
                     self.error(declarator.name, format!("this struct already has a member `{name}`"));
-                    self.also(first, "the first one");
+                    self.label(first, "the first one");
                     continue;
                 }
                 if self.facts(ty).nesting == MAX_NESTING {
@@ -255,7 +255,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Formats a type with its article: `an `int``.
-    pub(super) fn a(&self, ty: TypeId) -> String {
+    pub(super) fn with_article(&self, ty: TypeId) -> String {
         let name = self.type_name(ty);
         let article = if name.starts_with(['a', 'e', 'i', 'o', 'A', 'E', 'I', 'O']) { "an" } else { "a" };
         format!("{article} `{name}`")
@@ -267,7 +267,7 @@ impl<'a> Checker<'a> {
             matches!(previous, Binding::Uniform(_) | Binding::Channel(_) | Binding::ChannelStruct(_))
         };
         let is_free = |previous: &Binding| self.settings.dialect.frees_uniforms() && is_given(previous);
-        if let Some(previous) = self.scopes.here(name.symbol).filter(|previous| !is_free(previous)) {
+        if let Some(previous) = self.scopes.get_innermost(name.symbol).filter(|previous| !is_free(previous)) {
             if previous != Binding::Poison {
                 self.redeclared(name, previous);
             }
@@ -311,7 +311,7 @@ impl<'a> Checker<'a> {
             self.error(name, format!("`{text}` is already declared in this scope"));
         }
         if let Some(at) = at {
-            self.also(at, "the first declaration");
+            self.label(at, "the first declaration");
         }
         self.hint("choose another name, or remove the type to assign to the first one");
     }

@@ -215,7 +215,7 @@ impl Ranges {
     /// loop and after it.
     fn counted(&self, r: &Rewriter<'_>, var: usize, ty: TypeId, by: Step) -> Option<(Interval, Interval)> {
         let (test, bound) = self.counters.test(var)?;
-        let (least, most, all) = match by {
+        let (min, max, all) = match by {
             Step::Int(by) => {
                 let (limits, start) = (Interval::of_type(ty)?, self.first_stored[var]?);
                 let by = by as f64;
@@ -228,22 +228,22 @@ impl Ranges {
                         (start.min, last, Interval::between(start.min, start.max.max(end)))
                     }
                     Binary::Greater | Binary::GreaterEqual if by <= 0.0 => {
-                        let least = bound.min + f64::from(u8::from(test == Binary::Greater));
-                        let end = (least + by >= limits.min).then_some(least + by)?;
-                        (least, start.max, Interval::between(start.min.min(end), start.max))
+                        let min = bound.min + f64::from(u8::from(test == Binary::Greater));
+                        let end = (min + by >= limits.min).then_some(min + by)?;
+                        (min, start.max, Interval::between(start.min.min(end), start.max))
                     }
                     _ => return None,
                 }
             }
             Step::Float { start, by } => {
                 let Op::Literal(Scalar::Float, bits) = r.f[bound] else { return None };
-                let (least, most) = counted_in_floats(test, start, by, f32::from_bits(bits))?;
+                let (min, max) = counted_in_floats(test, start, by, f32::from_bits(bits))?;
                 // They are not used after the loop.
-                (least, most, Interval::ANY)
+                (min, max, Interval::ANY)
             }
         };
         // A loop without iterations has a counter without values: nothing follows for the code in its body.
-        (least <= most).then(|| (Interval::between(least, most), all))
+        (min <= max).then(|| (Interval::between(min, max), all))
     }
 }
 

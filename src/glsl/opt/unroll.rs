@@ -54,7 +54,7 @@ struct Plan {
     counter: VarId,
     start: i32,
     by: i32,
-    rounds: usize,
+    iterations: usize,
     /// The index of its test in the body.
     test: usize,
 }
@@ -118,7 +118,7 @@ impl Unroller<'_> {
         let (counter, bound) = (self.loads(left)?, self.number(right)?);
         let start = *known.get(&counter)?;
         let rest = &body[test + 1..];
-        if rest.iter().any(leaves_round) || !self.bounds_inner_loop(rest, counter) {
+        if rest.iter().any(leaves_iteration) || !self.bounds_inner_loop(rest, counter) {
             return None;
         }
         let by = self.step(counter, rest, continuing)?;
@@ -131,7 +131,7 @@ impl Unroller<'_> {
             }
         }
         let statements = size(body) + size(continuing);
-        (statements * rounds <= MAX_STATEMENTS).then_some(Plan { counter, start, by, rounds, test })
+        (statements * rounds <= MAX_STATEMENTS).then_some(Plan { counter, start, by, iterations: rounds, test })
     }
 
     /// Returns the increment of a counter per iteration, if nothing else is written to it.
@@ -188,7 +188,7 @@ impl Unroller<'_> {
     fn write_out(&mut self, plan: &Plan, body: &Block, continuing: &Block, out: &mut Block) {
         let mut count = self.literal(plan.start);
         let mut next = plan.start;
-        for _ in 0..plan.rounds {
+        for _ in 0..plan.iterations {
             let mut copy = Copy { counter: plan.counter, count, map: FxHashMap::default() };
             let statements = body.iter().enumerate().filter(|(at, _)| *at != plan.test).map(|(_, stmt)| stmt);
             for stmt in statements.chain(continuing) {
@@ -280,8 +280,8 @@ fn compare(op: Binary, left: i32, right: i32) -> Option<bool> {
 }
 
 /// Returns whether a statement may end an iteration of the enclosing loop.
-fn leaves_round(stmt: &Stmt) -> bool {
-    let any = |block: &Block| block.iter().any(leaves_round);
+fn leaves_iteration(stmt: &Stmt) -> bool {
+    let any = |block: &Block| block.iter().any(leaves_iteration);
     match stmt {
         Stmt::Break | Stmt::Continue => true,
         Stmt::If { accept, reject, .. } => any(accept) || any(reject),

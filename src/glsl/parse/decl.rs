@@ -31,7 +31,7 @@ impl Parser<'_> {
                     self.bump();
                     continue;
                 }
-                _ if self.starts_declaration() => self.attempt(|p| p.declaration(true)),
+                _ if self.starts_declaration() => self.with_rollback(|p| p.declaration(true)),
                 _ => Err(self.report_outside()),
             };
             let item = match item {

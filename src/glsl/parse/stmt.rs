@@ -32,7 +32,7 @@ impl Parser<'_> {
                 _ => {}
             }
             let first = self.at;
-            let stmt = match self.attempt(Self::statement) {
+            let stmt = match self.with_rollback(Self::statement) {
                 Ok(stmt) => stmt,
                 Err(Failed) => {
                     self.recover();
@@ -273,7 +273,7 @@ impl Parser<'_> {
             let hint = format!("write `{} (..)`", self.text(keyword));
             let message = format!("the condition of `{}` must be in parentheses", self.text(keyword));
             self.error(open, message, Some(hint));
-            let read = self.attempt(part);
+            let read = self.with_rollback(part);
             return match (read, self.kind()) {
                 (Ok(condition), _) => Ok(condition),
                 (Err(Failed), Kind::LBrace) => Ok(Condition::Expr(self.error_expr(open))),
@@ -281,7 +281,7 @@ impl Parser<'_> {
             };
         }
         self.bump();
-        let read = self.attempt(|p| {
+        let read = self.with_rollback(|p| {
             if p.kind() == Kind::RParen {
                 return Err(p.fail(p.at, "a condition is missing between `(` and `)`", None));
             }
@@ -339,7 +339,7 @@ impl Parser<'_> {
             return Err(self.unexpected("`(`"));
         }
         let start = self.at;
-        let init = self.attempt(Self::for_init);
+        let init = self.with_rollback(Self::for_init);
         let mut whole = init.is_ok();
         let init = init.unwrap_or_else(|Failed| {
             let loc = self.loc(start);
@@ -348,7 +348,7 @@ impl Parser<'_> {
         let (mut cond, mut step) = (None, None);
         whole = whole && self.for_separator();
         if whole && self.kind() != Kind::Semicolon {
-            match self.attempt(Self::condition) {
+            match self.with_rollback(Self::condition) {
                 Ok(read) => cond = Some(read),
                 Err(Failed) => {
                     self.skip_in_for(open);
@@ -358,7 +358,7 @@ impl Parser<'_> {
         }
         whole = whole && self.for_separator();
         if whole && self.kind() != Kind::RParen {
-            match self.attempt(Self::full_expression) {
+            match self.with_rollback(Self::full_expression) {
                 Ok(read) => step = Some(read),
                 Err(Failed) => whole = false,
             }

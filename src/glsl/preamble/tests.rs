@@ -282,7 +282,7 @@ fn custom_uniforms_are_checked_with_each_pass_that_has_them() {
     case.values = &values;
     case.assert_kept(Kept::Checked, &[]);
     let other = [UniformValue { name: "gain".into(), value: UntypedValue::Number(4.0) }];
-    let preamble = Preamble::new(case.source().common.unwrap(), &[], &other).expect("it stands alone");
+    let preamble = Preamble::new(case.source().common.unwrap(), &[], &other).expect("it is self-contained");
     assert!(preamble.checked(&case.source()).is_none(), "it was read for another value");
 }
 

@@ -103,7 +103,7 @@ impl Preprocessor<'_, '_> {
             span = Span::new(span.source, line_start..end);
         } else {
             for _ in 1..ticks {
-                self.raw();
+                self.next_raw();
             }
         }
         let edit = Edit { span, text: String::new() };

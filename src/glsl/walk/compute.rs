@@ -154,7 +154,7 @@ impl<R: Float> State<'_, R> {
                         let largest = |a: Cell<R>, b: Cell<R>| Cell::Float(a.float().binary(Math::Max, b.float()));
                         zip(cells, lanes, out, (first, slot(other)), largest);
                     }
-                    (_, None) if scalar == Scalar::Float && fun.is_by_component() => {
+                    (_, None) if scalar == Scalar::Float && fun.is_componentwise() => {
                         map(cells, lanes, out, first, |cell| Cell::Float(cell.float().unary(fun)));
                     }
                     _ => {
@@ -291,7 +291,7 @@ impl<R: Float> State<'_, R> {
             };
             let difference = |axis| {
                 let mut at = [0.0; 3];
-                let of = if self.world.has_one_level_a_quad(channel) { 0 } else { lane };
+                let of = if self.world.has_one_level_per_quad(channel) { 0 } else { lane };
                 let changes = self.difference(frame, axis, coordinate, of);
                 at.iter_mut().zip(changes).for_each(|(at, change)| *at = number(change));
                 at

@@ -110,7 +110,7 @@ pub(super) fn work(
         }
         let mut found = media.update(&job, named);
         let trial = trial.clone();
-        let mut options = BuildOptions { wanted: wanted(&job), skip: true, trial, ..BuildOptions::default() };
+        let mut options = BuildOptions { requested: wanted(&job), skip: true, trial, ..BuildOptions::default() };
         let asked = job.probe.as_ref().map(|order| probe::options(&job.project, &job.shown, order));
         let probe = asked.map(|asked| asked.map(|(probing, value)| (options = probing, value).1));
         if job.project.has_channels_in_texts() {

@@ -20,7 +20,7 @@ pub(super) struct Loads(Vec<(Value, Value)>);
 
 impl Loads {
     /// Adds the loads among expressions that are computed now.
-    pub(super) fn note(&mut self, range: Range<Expression>, function: &Function) {
+    pub(super) fn record(&mut self, range: Range<Expression>, function: &Function) {
         self.0.extend(range.filter_map(|value| match function.expressions[value] {
             Expression::Load { pointer } => Some((value, root(function, pointer))),
             _ => None,
@@ -28,12 +28,12 @@ impl Loads {
     }
 
     /// Removes the loads of memory that is stored to by this pointer.
-    pub(super) fn forget(&mut self, pointer: Value, function: &Function) {
+    pub(super) fn invalidate(&mut self, pointer: Value, function: &Function) {
         let written = root(function, pointer);
-        self.0.retain(|&(_, read)| are_apart(function, written, read));
+        self.0.retain(|&(_, read)| are_disjoint(function, written, read));
     }
 
-    pub(super) fn forget_all(&mut self) {
+    pub(super) fn invalidate_all(&mut self) {
         self.0.clear();
     }
 }
@@ -47,7 +47,7 @@ fn root(function: &Function, mut pointer: Value) -> Value {
 }
 
 /// Returns whether two roots are certainly different memory. A pointer argument may point to any variable.
-fn are_apart(function: &Function, a: Value, b: Value) -> bool {
+fn are_disjoint(function: &Function, a: Value, b: Value) -> bool {
     use Expression::{GlobalVariable, LocalVariable};
     match (&function.expressions[a], &function.expressions[b]) {
         (LocalVariable(a), LocalVariable(b)) => a != b,
@@ -108,7 +108,7 @@ impl Writer<'_> {
         match &self.function.expressions[value] {
             Expression::Load { pointer } => {
                 let is_long = self.pointee(*pointer).is_some_and(|ty| self.sizes.longest(ty) >= MIN_COPY);
-                is_long && !are_apart(self.function, root(self.function, *pointer), target)
+                is_long && !are_disjoint(self.function, root(self.function, *pointer), target)
             }
             Expression::Compose { components, .. } => components.iter().any(|&part| self.reads(part, target)),
             _ => false,

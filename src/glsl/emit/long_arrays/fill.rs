@@ -60,11 +60,11 @@ impl Writer<'_> {
         let mut loads = Loads::default();
         for (mut statement, span) in block.span_into_iter() {
             match &mut statement {
-                Statement::Emit(range) => loads.note(range.clone(), self.function),
+                Statement::Emit(range) => loads.record(range.clone(), self.function),
                 Statement::Store { pointer, value } => {
                     let (pointer, value) = (*pointer, *value);
                     let stored = self.store_long(pointer, value, &loads, &mut out);
-                    loads.forget(pointer, self.function);
+                    loads.invalidate(pointer, self.function);
                     if stored {
                         continue;
                     }
@@ -82,7 +82,7 @@ impl Writer<'_> {
                 _ => {}
             }
             if !matches!(statement, Statement::Emit(_) | Statement::Store { .. }) {
-                loads.forget_all();
+                loads.invalidate_all();
             }
             out.push(statement, span);
         }

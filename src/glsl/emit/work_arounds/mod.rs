@@ -23,8 +23,8 @@ pub(crate) fn apply(program: &mut Module, source: &PassSource<'_>) {
     if driver.small_arrays {
         small_arrays::run(program);
     }
-    if let Some(most) = driver.max_loop_iterations {
-        endless_loops::run(program, most);
+    if let Some(limit) = driver.max_loop_iterations {
+        endless_loops::run(program, limit);
     }
     loop_steps::run(program);
     zero_divisors::run(program);

@@ -96,7 +96,7 @@ impl Iterations<'_> {
         let Some(var) = self.loaded_from(counter).or_else(|| self.stored_to(counter)) else { return false };
         let Some(by) = self.step(var) else { return false };
         // Numbers wrap: if no number is beyond the limit, or the counter can step over it, the loop may never end.
-        let (least, most) = match self.f.ty(counter) {
+        let (min, max) = match self.f.ty(counter) {
             TypeId::INT => (i64::from(i32::MIN), i64::from(i32::MAX)),
             _ => (0, i64::from(u32::MAX)),
         };
@@ -107,7 +107,7 @@ impl Iterations<'_> {
                 Op::Zero(_) => 0,
                 _ => return false,
             };
-            (least..=most).contains(&(limit + beyond))
+            (min..=max).contains(&(limit + beyond))
         };
         let counts = match op {
             Binary::Less => by == 1 || (by > 0 && has_room(by - 1)),

@@ -73,7 +73,7 @@ impl Builder<'_, '_> {
     /// Adds a variable to this function.
     pub(crate) fn temporary(&mut self, ty: TypeId) -> Value {
         let variable = self.f.add_var(ty);
-        self.free(Op::Var(variable))
+        self.add_before(Op::Var(variable))
     }
 
     pub(crate) fn is_vector_or_scalar(&self, ty: TypeId) -> bool {
