@@ -84,7 +84,7 @@ impl CompiledPass {
 /// Merges the reads of one stage into those of the pass.
 fn join(all: &mut Reflection, one: &Reflection) {
     all.uniforms.insert(one.uniforms);
-    one.custom_uniforms.iter().for_each(|slot| all.custom_uniforms.insert(slot));
+    all.custom_uniforms.extend(&one.custom_uniforms);
     for (all, one) in all.channels.iter_mut().zip(one.channels) {
         all.texture |= one.texture;
         all.sampler |= one.sampler;

@@ -74,7 +74,7 @@ impl Engine {
 
 /// The values that a draw reads, out of all slots.
 fn read_of(draw: &CompiledDraw, slots: &[[u32; 4]]) -> Vec<[u32; 4]> {
-    draw.custom_uniforms.iter().filter_map(|slot| slots.get(usize::from(slot)).copied()).collect()
+    draw.custom_uniforms.iter().filter_map(|slot| slots.get(usize::from(*slot)).copied()).collect()
 }
 
 /// Sets the uniforms of sound passes: block `iFrame` starts at `iTime`.

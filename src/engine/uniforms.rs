@@ -168,7 +168,7 @@ impl Uniforms {
         for range in places(draw.uniforms) {
             read.extend_from_slice(&block[range]);
         }
-        for slot in draw.custom_uniforms.iter() {
+        for &slot in &draw.custom_uniforms {
             read.extend_from_slice(bytemuck::cast_slice(&self.custom_uniform_slots[usize::from(slot)]));
         }
         if let Some(boundary) = &draw.boundary {
