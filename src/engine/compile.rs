@@ -94,10 +94,7 @@ impl Sources<'_> {
         let (id, kind) = (self.stage_id(index, Stage::Own), sources::pass_kind(id));
         let link = Link::default();
         let (fragment, said) = self.with_source(index, id, kind, |source| self.compile(cache, source, &link, options));
-        match fragment {
-            Some(fragment) => Ok(CompiledPass::screen(fragment, said)),
-            None => Err(said),
-        }
+        CompiledPass::screen(fragment, said)
     }
 
     /// Returns the name of the function with most of the code of `project.passes[index]`; for a pass of meshes, of its
@@ -123,11 +120,7 @@ impl Sources<'_> {
         let text = fill_text::FillSource::new(value, self.fill_text(index, kind)?);
         let (fragment, said) =
             self.with_fill(text.code(), text.value(), |source| self.compile(cache, source, &Link::default(), options));
-        let said = text.relocated(said);
-        Some(match fragment {
-            Some(fragment) => Ok(CompiledPass::screen(fragment, said)),
-            None => Err(said),
-        })
+        Some(CompiledPass::screen(fragment, text.relocated(said)))
     }
 
     /// Compiles the program of every draw; each text once per partner stage.

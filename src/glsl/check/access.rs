@@ -107,7 +107,7 @@ impl Checker<'_> {
     fn part_flags(&self, base: ExprId) -> ExprFlags {
         let flags = self.module[base].flags;
         let place = flags.contains(ExprFlags::PLACE);
-        if place { flags.inherited().with(ExprFlags::PLACE) } else { flags.inherited() }
+        if place { flags.inherited() | ExprFlags::PLACE } else { flags.inherited() }
     }
 
     /// Returns the words from `from` of a folded value, as many as `ty` has.
@@ -221,7 +221,7 @@ impl Checker<'_> {
             return self.sampler_of_uniform(base, element, loc);
         }
         let index_flags = self.module[index].flags.inherited();
-        let flags = self.part_flags(base).with(index_flags);
+        let flags = self.part_flags(base) | index_flags;
         self.push(ExprKind::Index { base, index }, element, flags, loc)
     }
 

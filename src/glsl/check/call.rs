@@ -131,7 +131,7 @@ impl Checker<'_> {
         self.note_call(func, loc);
         let result = self.module[func].result;
         let id = if legal {
-            let flags = self.inherited(&self.expr_stack[base..]).with(ExprFlags::EFFECTS);
+            let flags = self.inherited(&self.expr_stack[base..]) | ExprFlags::EFFECTS;
             let args = self.module.list(&self.expr_stack[base..]);
             self.push(ExprKind::Call { func, args }, result, flags, loc)
         } else {
@@ -316,7 +316,7 @@ impl Checker<'_> {
         }
         let mut flags = self.inherited(&self.expr_stack[base..]);
         if builtin.has_effect() {
-            flags = flags.with(ExprFlags::EFFECTS);
+            flags = flags | ExprFlags::EFFECTS;
         }
         if let Some(at) = builtin.writes
             && !self.place(self.expr_stack[base + at], "passed as `out`")

@@ -82,7 +82,7 @@ impl Checker<'_> {
         if !self.place(place, "changed") {
             return self.error_expr_of(ty, loc);
         }
-        let flags = self.inherited(&[place]).with(ExprFlags::EFFECTS);
+        let flags = self.inherited(&[place]) | ExprFlags::EFFECTS;
         self.push(ExprKind::IncDec { op, place }, ty, flags, loc)
     }
 
@@ -298,7 +298,7 @@ impl Checker<'_> {
         if !self.place(p, "assigned to") || vt == TypeId::ERROR {
             return self.error_expr_of(pt, loc);
         }
-        let flags = self.inherited(&[p, v]).with(ExprFlags::EFFECTS);
+        let flags = self.inherited(&[p, v]) | ExprFlags::EFFECTS;
         let Some(op) = op else {
             if self.is_void(v) {
                 return self.error_expr_of(pt, loc);

@@ -225,7 +225,7 @@ impl Checker<'_> {
             });
         }
         let local = self.add_local(name, TypeId::BOOL, hir::LocalKind::Var, None, None);
-        let flags = self.inherited(&[value]).with(ExprFlags::EFFECTS);
+        let flags = self.inherited(&[value]) | ExprFlags::EFFECTS;
         self.module[local].flags.insert(hir::VarFlags::WRITTEN);
         self.add_stmt(StmtKind::Declare { local, init: None }, ast[decl].loc);
         let place = self.push(ExprKind::Local(local), TypeId::BOOL, ExprFlags::PLACE, name.into());

@@ -297,7 +297,7 @@ impl Array {
         let value = module.constant(ty, &self.words);
         let global = &mut module[self.global];
         global.value = Some(value);
-        global.flags.0 &= !VarFlags::WRITTEN.0;
+        global.flags.remove(VarFlags::WRITTEN);
         for stmt in self.stores {
             let Stmt { kind, .. } = &mut module[stmt];
             *kind = StmtKind::Block(List::EMPTY);

@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 
 use crate::{
     ast::Loc,
-    ir::{Binary, Block, Case, Function, Module, Op, Stmt, Unary, Value, VarId, analysis::stores},
+    ir::{Binary, Block, Function, Module, Op, Stmt, Unary, Value, VarId, analysis::stores},
     types::{Scalar, Type, TypeId},
 };
 
@@ -171,17 +171,14 @@ impl Unroller<'_> {
                     return true;
                 }
             }
-            let mut found = false;
-            stmt.blocks(|block| found |= self.bounds_inner_loop(block, counter));
-            found
+            stmt.any_block(|block| self.bounds_inner_loop(block, counter))
         })
     }
 
     fn has_element(&self, block: &[Stmt]) -> bool {
-        block.iter().any(|stmt| {
-            let mut found = matches!(stmt, Stmt::Let(value) if self.elements.binary_search(value).is_ok());
-            stmt.blocks(|block| found |= self.has_element(block));
-            found
+        block.iter().any(|stmt| match stmt {
+            Stmt::Let(value) => self.elements.binary_search(value).is_ok(),
+            other => other.any_block(|block| self.has_element(block)),
         })
     }
 
@@ -215,40 +212,24 @@ impl Unroller<'_> {
 
     /// Returns a copy of a statement with new values. A load of the counter needs no statement.
     fn copy(&mut self, copy: &mut Copy, stmt: &Stmt) -> Option<Stmt> {
-        Some(match stmt {
-            &Stmt::Let(value) => {
-                if self.loads(value) == Some(copy.counter) {
-                    copy.map.insert(value, copy.count);
-                    return None;
-                }
-                let mut op = self.f[value].clone();
-                op.operands_mut(|operand| *operand = copy.value(*operand));
-                let new = self.f.append(op, self.f.ty(value), self.f.origin(value));
-                if self.elements.binary_search(&value).is_ok() {
-                    self.elements.push(new);
-                }
-                copy.map.insert(value, new);
-                Stmt::Let(new)
+        if let Stmt::Let(value) = *stmt {
+            if self.loads(value) == Some(copy.counter) {
+                copy.map.insert(value, copy.count);
+                return None;
             }
-            Stmt::If { condition, accept, reject } => {
-                let condition = copy.value(*condition);
-                Stmt::If { condition, accept: self.copies(copy, accept), reject: self.copies(copy, reject) }
+            let mut op = self.f[value].clone();
+            op.operands_mut(|operand| *operand = copy.value(*operand));
+            let new = self.f.append(op, self.f.ty(value), self.f.origin(value));
+            if self.elements.binary_search(&value).is_ok() {
+                self.elements.push(new);
             }
-            Stmt::Loop { body, continuing, break_if } => {
-                let (body, continuing) = (self.copies(copy, body), self.copies(copy, continuing));
-                Stmt::Loop { body, continuing, break_if: break_if.map(|value| copy.value(value)) }
-            }
-            Stmt::Switch { selector, cases } => {
-                let selector = copy.value(*selector);
-                let cases = cases.iter().map(|case| Case { body: self.copies(copy, &case.body), ..*case }).collect();
-                Stmt::Switch { selector, cases }
-            }
-            other => {
-                let mut stmt = other.clone();
-                stmt.operands_mut(|operand| *operand = copy.value(*operand));
-                stmt
-            }
-        })
+            copy.map.insert(value, new);
+            return Some(Stmt::Let(new));
+        }
+        // The exit condition of a loop is computed inside it.
+        let mut stmt = stmt.with_blocks(|block| self.copies(copy, block));
+        stmt.operands_mut(|operand| *operand = copy.value(*operand));
+        Some(stmt)
     }
 }
 
@@ -281,13 +262,11 @@ fn compare(op: Binary, left: i32, right: i32) -> Option<bool> {
 
 /// Returns whether a statement may end an iteration of the enclosing loop.
 fn leaves_iteration(stmt: &Stmt) -> bool {
-    let any = |block: &Block| block.iter().any(leaves_iteration);
     match stmt {
         Stmt::Break | Stmt::Continue => true,
-        Stmt::If { accept, reject, .. } => any(accept) || any(reject),
-        // A `Break` leaves only the switch; none of these loops contains one.
-        Stmt::Switch { cases, .. } => cases.iter().any(|case| any(&case.body)),
-        _ => false,
+        Stmt::Loop { .. } => false,
+        // A `Break` in a switch leaves only that; none of these loops contains one.
+        other => other.any_block(|block| block.iter().any(leaves_iteration)),
     }
 }
 

@@ -3,6 +3,7 @@
 use rustc_hash::FxHashSet;
 
 use super::{
+    continues,
     counters::{holding, mirrored},
     leaves, stores,
 };
@@ -52,17 +53,6 @@ fn all_holding(f: &Function, condition: Value, truth: bool, out: &mut Vec<(Binar
 /// Returns whether every path through a block leaves the enclosing loop.
 fn leaves_loop(block: &Block) -> bool {
     leaves(block) && !matches!(block.last(), Some(Stmt::Continue))
-}
-
-/// Returns whether a statement may end an iteration of the enclosing loop.
-fn continues(stmt: &Stmt) -> bool {
-    let any = |block: &Block| block.iter().any(continues);
-    match stmt {
-        Stmt::Continue => true,
-        Stmt::If { accept, reject, .. } => any(accept) || any(reject),
-        Stmt::Switch { cases, .. } => cases.iter().any(|case| any(&case.body)),
-        _ => false,
-    }
 }
 
 /// The iterations of a loop.
