@@ -1,6 +1,6 @@
 //! The search for the first NaN among the recent frames, which are drawn again in the background.
 
-use super::texels::{NonfiniteTexels, drawn, find_origin, stored};
+use super::texels::{NonfiniteTexels, drawn_passes, find_origin, stored_components};
 use crate::trace::STEPS;
 use eddy_background::{Control, Count};
 use eddy_diag::Span;
@@ -74,7 +74,7 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
     if !engine.restore(&snapshot) {
         return Err("the kept frames belong to another program: reset and search again".into());
     }
-    let passes = drawn(&project);
+    let passes = drawn_passes(&project);
     let first = frames.first().map_or(0, |(inputs, _)| inputs.frame);
     if let Some(found) = first_nonfinite(&mut engine, &project, &passes, first - 1) {
         return Ok(SearchEnd::Found(Box::new(FirstNonfinite { is_older: true, ..found })));
@@ -105,7 +105,7 @@ fn first_nonfinite(engine: &mut Engine, project: &Project, passes: &[PassName], 
     passes.iter().find_map(|pass| {
         // A pass that no picture needs is not drawn, and has no texels.
         let pixels = engine.read(pass).ok()?;
-        let NonfiniteTexels { first, count } = NonfiniteTexels::find(&pixels, stored(project, pass))?;
+        let NonfiniteTexels { first, count } = NonfiniteTexels::find(&pixels, stored_components(project, pass))?;
         let value = pixels.texels[(first.1 * pixels.width + first.0) as usize];
         let pass = pass.clone();
         Some(FirstNonfinite { pass, frame, texel: first, value, texels: count, is_older: false, origin: None })

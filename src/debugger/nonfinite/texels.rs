@@ -26,7 +26,7 @@ impl NonfiniteTexels {
 }
 
 /// Returns the passes that draw pictures, in drawing order.
-pub fn drawn(project: &Project) -> Vec<PassName> {
+pub fn drawn_passes(project: &Project) -> Vec<PassName> {
     let mut passes: Vec<PassName> = project.passes.iter().map(|pass| pass.id.clone()).collect();
     passes.retain(PassName::is_picture);
     // All buffers are equal there: they keep the order of the project.
@@ -35,7 +35,7 @@ pub fn drawn(project: &Project) -> Vec<PassName> {
 }
 
 /// Returns the number of components that a pass stores.
-pub fn stored(project: &Project, pass: &PassName) -> usize {
+pub fn stored_components(project: &Project, pass: &PassName) -> usize {
     project.pass(pass).and_then(|p| p.formats().first().copied()).unwrap_or_default().components()
 }
 

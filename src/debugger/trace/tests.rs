@@ -1,6 +1,6 @@
 use super::{
     Breakpoint, Event, Examiner, Extent, Iteration, MomentKind, Number, Step, Traced, Tracer,
-    travel::{self, Direction, Stride},
+    travel::{self, Direction, StepKind},
     ulps,
 };
 use eddy_engine::{PassInputs, Pixels, Sources, TextureCopy};
@@ -51,7 +51,7 @@ fn line(traced: &Traced, at: usize) -> usize {
     traced.place(traced.history.span(at).unwrap()).unwrap().1 + 1
 }
 
-fn lines(traced: &Traced, mut at: usize, stride: Stride, direction: Direction, count: usize) -> Vec<usize> {
+fn lines(traced: &Traced, mut at: usize, stride: StepKind, direction: Direction, count: usize) -> Vec<usize> {
     let mut found = Vec::new();
     while let Some(next) = travel::step(&traced.history, at, stride, direction).filter(|_| found.len() < count) {
         found.push(line(traced, next));
@@ -70,7 +70,7 @@ fn number(traced: &Traced, at: usize, name: &str) -> f64 {
 
 #[test]
 fn stepping_into_over_and_out_works_in_both_directions() {
-    use {Direction::*, Stride::*};
+    use {Direction::*, StepKind::*};
     let traced = traced(CODE);
     let first = first_moment(&traced);
     assert_eq!(line(&traced, first), 8);

@@ -2,7 +2,8 @@
 
 use super::{LevelBy, MeshInputs, PassInputs, TextureCopy, texture::Level};
 use crate::{
-    EngineError, external::External, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared,
+    EngineError, external::External, mesh_instance::MeshInstance, program::CompiledDraw, running::Running,
+    shared::Shared,
 };
 use eddy_glsl::SLOTS;
 use eddy_gpu::{FloatConverter, Gpu, Readback, Texture};
@@ -40,7 +41,7 @@ impl<'a> Capture<'a> {
         }
         let meshes = compiled.body.geometry().map_or_else(Vec::new, |meshes| {
             let each = meshes.programs.iter().enumerate();
-            let of = |(n, (_, placed)): (usize, &(_, PlacedMesh))| MeshInputs {
+            let of = |(n, (_, placed)): (usize, &(_, MeshInstance))| MeshInputs {
                 mesh: placed.mesh.clone(),
                 geometry: running.uniforms.mesh_block(meshes.first + n),
             };

@@ -60,7 +60,7 @@ impl Emitter<'_> {
             TablePlace::Uniform(self.append_to_uniform(id, ty, size))
         } else if scalars >= MIN_STORAGE_TABLE
             && !self.source.driver.tables_in_memory
-            && !self.holds_booleans(constant.ty)
+            && !self.contains_booleans(constant.ty)
         {
             TablePlace::Storage(self.storage_index(id))
         } else {
@@ -158,11 +158,11 @@ impl Emitter<'_> {
         }
     }
 
-    pub(super) fn holds_booleans(&self, ty: TypeId) -> bool {
+    pub(super) fn contains_booleans(&self, ty: TypeId) -> bool {
         match self.ir.types.get(ty) {
             Type::Scalar(scalar) | Type::Vector { scalar, .. } => scalar == Scalar::Bool,
-            Type::Array { element, .. } => self.holds_booleans(element),
-            Type::Struct(id) => self.ir.structs[id.index()].iter().any(|&member| self.holds_booleans(member)),
+            Type::Array { element, .. } => self.contains_booleans(element),
+            Type::Struct(id) => self.ir.structs[id.index()].iter().any(|&member| self.contains_booleans(member)),
             _ => false,
         }
     }

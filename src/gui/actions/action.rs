@@ -3,7 +3,7 @@
 //! Actions of one part of the window have an enum of their own.
 
 use crate::{
-    debugger::trace::travel::{Direction, Stride},
+    debugger::trace::travel::{Direction, StepKind},
     gui::{
         dock::{Panel, Side},
         editor::EditorAction,
@@ -139,7 +139,7 @@ pub(crate) enum TimeAction {
 /// Actions of the debugger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TraceAction {
-    Go(Stride, Direction),
+    Go(StepKind, Direction),
     /// Continues to the next breakpoint.
     Continue(Direction),
     /// Runs to the line of the caret.
