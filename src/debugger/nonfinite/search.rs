@@ -66,8 +66,8 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
     let SearchJob { gpu, project, shown, size, media_dir, snapshot, camera, frames } = job;
     let (mut media, _) = media::gather(&project, media_dir.as_deref());
     media.set_camera_picture(camera);
-    let wanted = project.image_and(&shown);
-    let options = BuildOptions { requested: wanted, ..BuildOptions::default() };
+    let requested = project.image_and(&shown);
+    let options = BuildOptions { requested, ..BuildOptions::default() };
     let built = Program::build(&gpu, &project, &media, &options).map_err(|e| e.to_string())?;
     let mut engine = Engine::new(gpu, size.0, size.1).map_err(|e| e.to_string())?;
     engine.set_program(built.program).map_err(|e| e.to_string())?;

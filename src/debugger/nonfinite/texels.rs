@@ -18,9 +18,9 @@ pub struct NonfiniteTexels {
 impl NonfiniteTexels {
     /// Returns `None` if every texel is finite.
     pub fn find(pixels: &Pixels, stored: usize) -> Option<Self> {
-        let is_bad = |texel: &&[f32; 4]| texel[..stored.min(4)].iter().any(|x| !x.is_finite());
-        let at = pixels.texels.iter().position(|texel| is_bad(&texel))? as u32;
-        let count = pixels.texels[at as usize..].iter().filter(is_bad).count();
+        let is_nonfinite = |texel: &&[f32; 4]| texel[..stored.min(4)].iter().any(|x| !x.is_finite());
+        let at = pixels.texels.iter().position(|texel| is_nonfinite(&texel))? as u32;
+        let count = pixels.texels[at as usize..].iter().filter(is_nonfinite).count();
         Some(Self { first: (at % pixels.width, at / pixels.width), count })
     }
 }

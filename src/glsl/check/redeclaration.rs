@@ -62,7 +62,7 @@ impl Checker<'_> {
         }
     }
 
-    /// As [`Checker::uniform_again`], for a member of an unnamed block, which is a uniform of its own.
+    /// As [`Checker::redeclared_uniform`], for a member of an unnamed block, which is a uniform of its own.
     pub(super) fn redeclared_member(&mut self, name: Ident, ty: TypeId) -> bool {
         let Some((given, target)) = self.predefined(name) else { return false };
         self.record_use(name.token, target);

@@ -173,7 +173,7 @@ pub(super) fn last_effect(module: &Module, args: &[ExprId]) -> Option<usize> {
     args.iter().rposition(|&arg| module[arg].flags.contains(ExprFlags::EFFECTS))
 }
 
-/// See [`Arguments::handed_on`].
+/// See [`Arguments::forwarded`].
 fn forwarded_locals(module: &Module) -> Vec<bool> {
     let mut found = vec![false; module.locals.len()];
     let mut order = vec![usize::MAX; module.functions.len()];

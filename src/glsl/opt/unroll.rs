@@ -122,16 +122,16 @@ impl Unroller<'_> {
             return None;
         }
         let by = self.step(counter, rest, continuing)?;
-        let (mut rounds, mut count) = (0, start);
+        let (mut iterations, mut count) = (0, start);
         while compare(op, count, bound)? == goes_on_if {
-            rounds += 1;
+            iterations += 1;
             count = count.checked_add(by)?;
-            if rounds > MAX_ITERATIONS {
+            if iterations > MAX_ITERATIONS {
                 return None;
             }
         }
         let statements = size(body) + size(continuing);
-        (statements * rounds <= MAX_STATEMENTS).then_some(Plan { counter, start, by, iterations: rounds, test })
+        (statements * iterations <= MAX_STATEMENTS).then_some(Plan { counter, start, by, iterations, test })
     }
 
     /// Returns the increment of a counter per iteration, if nothing else is written to it.

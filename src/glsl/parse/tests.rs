@@ -359,8 +359,8 @@ fn long_chains_are_legal_and_deep_ones_are_not() {
         format!("void f() {{ x = {}a; }}", "a + (".repeat(100_000)),
     ] {
         let found = messages(&deep);
-        let is_told = |m: &String| m.contains("300 levels deep") || m.contains("10000 levels deep");
-        assert!(found.first().is_some_and(is_told), "{}: {found:?}", &deep[..40]);
+        let is_reported = |m: &String| m.contains("300 levels deep") || m.contains("10000 levels deep");
+        assert!(found.first().is_some_and(is_reported), "{}: {found:?}", &deep[..40]);
         assert!(found.len() <= 2, "{}: {found:?}", &deep[..40]);
     }
     // As deep as ANGLE's parser, which keeps 10,000 symbols.

@@ -1,10 +1,10 @@
-//! Manual filtering, for channels whose texture the device cannot filter ([`PassSource::bilinear_by_hand`]).
+//! Manual filtering, for channels whose texture the device cannot filter ([`PassSource::bilinear_in_shader`]).
 //!
 //! Four reads at texel centres with the channel's own (nearest) sampler, which applies its wrap mode, and a mix with
 //! the weights of section 8.13 (equation 3.25 there) of the OpenGL ES 3.0 specification. Between two mip levels, the
 //! same is done in both.
 //!
-//! [`PassSource::bilinear_by_hand`]: crate::PassSource::bilinear_by_hand
+//! [`PassSource::bilinear_in_shader`]: crate::PassSource::bilinear_in_shader
 
 use crate::{
     ir::{
