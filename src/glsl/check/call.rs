@@ -316,7 +316,7 @@ impl Checker<'_> {
         }
         let mut flags = self.inherited(&self.expr_stack[base..]);
         if builtin.has_effect() {
-            flags = flags | ExprFlags::EFFECTS;
+            flags |= ExprFlags::EFFECTS;
         }
         if let Some(at) = builtin.writes
             && !self.place(self.expr_stack[base + at], "passed as `out`")
