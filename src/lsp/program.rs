@@ -95,7 +95,7 @@ impl Program {
     }
 
     /// Returns the same program, unread, with the data kept for the next reading moved to it.
-    pub(crate) fn to_read_again(&mut self) -> Self {
+    pub(crate) fn take_unread(&mut self) -> Self {
         Self { kept: std::mem::take(&mut self.kept), ..Self::new(self.root.clone()) }
     }
 

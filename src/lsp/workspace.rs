@@ -116,7 +116,7 @@ impl Workspace {
             }
             if let Some(program) = self.programs.iter_mut().find(|program| program.is_stale) {
                 program.is_stale = false;
-                match Reading::start(program.to_read_again(), self.documents.clone()) {
+                match Reading::start(program.take_unread(), self.documents.clone()) {
                     Ok(reading) => self.reading = Some(reading),
                     // If the thread cannot be started, the program is read here.
                     Err(_) => program.read(&self.documents, &Arc::default()),
