@@ -60,7 +60,7 @@ fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String)
         report.compile_ms = Some(millis_since(began));
         return Ok(());
     }
-    let driver = Driver { without: args.without_pass.set(), ..Driver::default() };
+    let driver = Driver { disabled_optimisations: args.without_pass.set(), ..Driver::default() };
     let (mut found, compiled) = compile(project, driver);
     report.compile_ms = Some(millis_since(began));
     // The validation that a device would perform.

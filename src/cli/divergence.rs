@@ -3,7 +3,7 @@
 use super::{args::TraceArgs, machine::RunError, source_excerpt::SourceExcerpt};
 use crate::{
     debugger::{
-        divergence::{self, Probes, STEPS_KEPT, assignments},
+        divergence::{self, MAX_STEPS, Probes, assignments},
         trace::{self, Extent, Number, TraceError},
     },
     engine::{BuildOptions, Engine, PassInputs, Snapshot, Sources},
@@ -51,7 +51,12 @@ pub(super) fn find(
     media.set_camera_picture(engine.camera_picture());
     let pass = args.pass.pass.clone();
     let (skip, without) = (!args.run.no_skip, args.run.without_pass.set());
-    let options = BuildOptions { wanted: vec![pass.clone()], skip, without, ..BuildOptions::default() };
+    let options = BuildOptions {
+        requested: vec![pass.clone()],
+        skip,
+        disabled_optimisations: without,
+        ..BuildOptions::default()
+    };
     let mut values = project.custom_uniform_values.clone();
     let mut next = || {
         if let Some(of_frame) = inputs.next_change().and_then(|change| change.values) {
@@ -65,7 +70,7 @@ pub(super) fn find(
     let frame = (next(), values);
     let pixel = args.pixel.unwrap_or_default();
     let sources = Sources::new(project);
-    let extent = Extent { statements: args.max_statements, steps: STEPS_KEPT };
+    let extent = Extent { statements: args.max_statements, steps: MAX_STEPS };
     let trace = match trace::trace(&sources, index, read, pixel, extent) {
         Err(TraceError::Diagnostics(found)) => return Err(RunError::Diagnostics(found, project.sources())),
         other => other.map_err(anyhow::Error::from)?,

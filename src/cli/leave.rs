@@ -4,12 +4,12 @@
 /// would wait for that thread, or free memory that it uses. Returns if there is no such thread.
 #[cfg(target_os = "linux")]
 pub(super) fn end_process(code: u8) {
-    use crate::{gpu::loss::OPENER, playback::offline::DRAWER};
+    use crate::{gpu::loss::OPEN_THREAD_NAME, playback::offline::DRAWER};
     use std::{fs, io::Write};
 
     let names = fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
     let mut names = names.filter_map(|thread| fs::read_to_string(thread.path().join("comm")).ok());
-    if !names.any(|name| [OPENER, DRAWER].contains(&name.trim_end())) {
+    if !names.any(|name| [OPEN_THREAD_NAME, DRAWER].contains(&name.trim_end())) {
         return;
     }
     let _ = std::io::stdout().flush();

@@ -100,8 +100,8 @@ impl Machine {
         if let Some(refusal) = &self.refusal {
             anyhow::bail!("{refusal}");
         }
-        let patience = if self.loss == DeviceLoss::New { loss::RESET } else { Duration::ZERO };
-        match loss::reopen(patience, || loss::open_in_time(|| Gpu::new(&GpuOptions::default()))) {
+        let patience = if self.loss == DeviceLoss::New { loss::RESET_TIMEOUT } else { Duration::ZERO };
+        match loss::reopen(patience, || loss::open_with_timeout(|| Gpu::new(&GpuOptions::default()))) {
             Ok(gpu) => {
                 self.loss = DeviceLoss::None;
                 Ok(self.gpu.insert(gpu).clone())
@@ -154,7 +154,7 @@ impl Machine {
         }
         // Late errors of the device belong to this project, not to the next.
         if let Some(gpu) = &self.gpu
-            && let Err(GpuError::Lost(_)) = gpu.take_trouble("a failed project")
+            && let Err(GpuError::Lost(_)) = gpu.take_error("a failed project")
         {
             self.drop_device();
         }

@@ -51,7 +51,7 @@ pub(super) fn first(
     inputs: &ScriptedInputs,
 ) -> Result<Option<Begin>, RunError> {
     let (project, mut offline) = start(machine, report, args, spec, inputs)?;
-    let passes = nonfinite::drawn(&project);
+    let passes = nonfinite::drawn_passes(&project);
     let mut found = None;
     while report.frames <= args.frame && found.is_none() {
         let frame = report.frames;
@@ -60,7 +60,7 @@ pub(super) fn first(
         for pass in &passes {
             // Passes that no picture depends on are not drawn, and have no texels.
             let Ok(pixels) = offline.read(pass, 0) else { continue };
-            if let Some(bad) = NonfiniteTexels::find(&pixels, nonfinite::stored(&project, pass)) {
+            if let Some(bad) = NonfiniteTexels::find(&pixels, nonfinite::stored_components(&project, pass)) {
                 found = Some((pass.clone(), frame, bad.first, bad.count, pixels));
                 break;
             }
@@ -86,7 +86,7 @@ fn start(
     spec: &str,
     inputs: &ScriptedInputs,
 ) -> Result<(Project, Offline), RunError> {
-    let opening = Opening::new(spec, &args.run, inputs).with_passes(&nonfinite::drawn);
+    let opening = Opening::new(spec, &args.run, inputs).with_passes(&nonfinite::drawn_passes);
     let Opened { project, offline, .. } = opening.open(machine, report)?;
     Ok((project, offline))
 }
@@ -104,7 +104,7 @@ fn born(
         offline.draw()?;
     }
     let read = offline.draw_inspected(pass)?;
-    let born = match nonfinite::born(&project, pass, &read, texel, args.max_statements) {
+    let born = match nonfinite::find_origin(&project, pass, &read, texel, args.max_statements) {
         Err(TraceError::Diagnostics(found)) => return Err(RunError::Diagnostics(found, project.sources())),
         other => other.map_err(anyhow::Error::from)?,
     };

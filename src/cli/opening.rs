@@ -143,14 +143,14 @@ impl RunError {
 
     /// Returns whether the error is that a pass cannot be drawn in tiles.
     fn is_undivided(&self) -> bool {
-        matches!(self.engine_error(), Some(EngineError::Undivided { .. }))
+        matches!(self.engine_error(), Some(EngineError::Tiling { .. }))
     }
 
     /// Returns the error of a picture of `pass` that needs tiles, or of another one that does not support them.
     fn in_tiles(self, pass: &str, policy: TilePolicy, gpu: &Gpu) -> RunError {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         let error = match self.engine_error() {
-            Some(error @ EngineError::Undivided { .. }) => {
+            Some(error @ EngineError::Tiling { .. }) => {
                 anyhow::anyhow!("{error} (this device draws at most {limit}x{limit} pixels in one piece)")
             }
             Some(error @ EngineError::Gpu(GpuError::TooLarge { .. })) if policy != TilePolicy::Never => {
@@ -176,9 +176,9 @@ fn build(
     let trials = TrialSettings::of_this_program(run.compile_timeout);
     let trial = trials.map(|trials| trials.trial(run.media.clone(), Arc::default()));
     let options = BuildOptions {
-        wanted,
+        requested: wanted,
         skip: !run.no_skip,
-        without: run.without_pass.set(),
+        disabled_optimisations: run.without_pass.set(),
         probe,
         trial,
         tile: offline.tile(),

@@ -92,10 +92,10 @@ fn shown(text: &str) -> String {
 /// Returns the line that contains a place, or the part of a long line around it, and the place within that.
 fn line_around(text: &str, place: usize) -> (&str, usize) {
     let place = text.floor_char_boundary(place);
-    let least = text.ceil_char_boundary(place.saturating_sub(MAX_BYTES));
-    let most = text.floor_char_boundary(place.saturating_add(MAX_BYTES));
-    let start = text[least..place].rfind('\n').map_or(least, |at| least + at + 1);
-    let end = text[place..most].find('\n').map_or(most, |at| place + at);
+    let first = text.ceil_char_boundary(place.saturating_sub(MAX_BYTES));
+    let to = text.floor_char_boundary(place.saturating_add(MAX_BYTES));
+    let start = text[first..place].rfind('\n').map_or(first, |at| first + at + 1);
+    let end = text[place..to].find('\n').map_or(to, |at| place + at);
     (text[start..end].trim_end_matches('\r'), (place - start).min(text[start..end].trim_end_matches('\r').len()))
 }
 

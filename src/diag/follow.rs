@@ -4,17 +4,17 @@
 /// last one moves with it, and a position in between is moved to the edit's end at most. `None` if the text was deleted
 /// without a replacement.
 pub fn follow(old: &str, new: &str, at: usize) -> Option<usize> {
-    let before = old.bytes().zip(new.bytes()).take_while(|(a, b)| a == b).count();
-    let most = old.len().min(new.len()) - before;
-    let behind = old.bytes().rev().zip(new.bytes().rev()).take(most).take_while(|(a, b)| a == b).count();
-    let mut found = if at <= before {
+    let prefix = old.bytes().zip(new.bytes()).take_while(|(a, b)| a == b).count();
+    let max = old.len().min(new.len()) - prefix;
+    let suffix = old.bytes().rev().zip(new.bytes().rev()).take(max).take_while(|(a, b)| a == b).count();
+    let mut found = if at <= prefix {
         at
-    } else if at >= old.len() - behind {
+    } else if at >= old.len() - suffix {
         at + new.len() - old.len()
-    } else if new.len() - behind <= before {
+    } else if new.len() - suffix <= prefix {
         return None;
     } else {
-        at.min(new.len() - behind)
+        at.min(new.len() - suffix)
     };
     while !new.is_char_boundary(found) {
         found -= 1;
@@ -40,7 +40,7 @@ mod tests {
         assert_eq!(follow("abc def", "abc  def", 5), Some(6));
         assert_eq!(follow("abc def", "abc def, g", 5), Some(5));
         assert_eq!(follow("abc def ghi", "abc X ghi", 8), Some(6));
-        assert_eq!(follow("abc def ghi", "abc X ghi", 6), Some(5), "another stands there");
+        assert_eq!(follow("abc def ghi", "abc X ghi", 6), Some(5), "another is there");
         assert_eq!(follow("abc def ghi", "abc ghi", 6), None, "what it was in is gone");
         assert_eq!(follow("aa", "a", 2), Some(1));
         assert_eq!(follow("xé", "xö", 2), Some(1), "never within a letter");

@@ -17,7 +17,7 @@ use std::{
 };
 
 /// The bytes of GLSL that justify another thread: they compile in a third of a millisecond.
-const TEXT_OF_A_THREAD: usize = 8 << 10;
+const MIN_BYTES_PER_THREAD: usize = 8 << 10;
 
 /// A stage to compile: of `project.passes[index]`, for the cache.
 struct Job {
@@ -49,7 +49,7 @@ impl Sources<'_> {
         }
         let cores = || thread::available_parallelism().map_or(1, NonZero::get);
         let text: usize = jobs.iter().map(|job| job.text).sum();
-        let threads = jobs.len().min(text / TEXT_OF_A_THREAD);
+        let threads = jobs.len().min(text / MIN_BYTES_PER_THREAD);
         // Longest first, so that no thread starts the longest job when the others are nearly done.
         jobs.sort_by_key(|job| Reverse(job.text));
         if threads > 1 && cores() > 1 {
@@ -89,9 +89,9 @@ impl Sources<'_> {
     /// Calls `work` with the compiler input for `project.passes[index]`, which draws the whole target.
     fn with_screen<T>(&self, index: usize, options: PassOptions, work: impl FnOnce(&PassSource<'_>) -> T) -> T {
         let kind = sources::pass_kind(&self.project.passes[index].id);
-        let PassOptions { bilinear_by_hand, driver, probe, tiled } = options;
+        let PassOptions { bilinear_in_shader, driver, probe, tiled } = options;
         self.with_source(index, self.stage_id(index, Stage::Own), kind, |source| {
-            work(&PassSource { bilinear_by_hand, driver, probe, tiled, ..*source })
+            work(&PassSource { bilinear_in_shader, driver, probe, tiled, ..*source })
         })
     }
 }

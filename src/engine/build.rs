@@ -6,7 +6,7 @@ use super::{
     compile::PassOptions,
     draft::{CompiledParts, DrawDraft},
     pipelines::PipelineCache,
-    preamble::KeptPreamble,
+    preamble::PreambleCache,
     program::{FilterMode, Program},
     sources::declared_dimensions,
     stage_cache::StageCache,
@@ -26,12 +26,12 @@ use eddy_texture::TexelFormat;
 pub struct BuildOptions {
     /// The passes whose pictures are requested; passes that they do not depend on are not in the frame. Empty: Image.
     /// For sound only, see [`BuildOptions::sound`].
-    pub wanted: Vec<PassName>,
+    pub requested: Vec<PassName>,
     /// True to omit passes that are not read. If false (`--no-skip`), everything is drawn, with the same bytes in every
     /// picture.
     pub skip: bool,
     /// Disabled passes of the shader compiler's optimiser: for debugging the compiler.
-    pub without: PassSet,
+    pub disabled_optimisations: PassSet,
     /// A value of a pass that is drawn into [`BuildOptions::probed`].
     pub probe: Option<(PassName, Probe)>,
     /// Compiles large programs in another process first, if the driver compiles on the CPU. Programs whose value is
@@ -47,11 +47,11 @@ impl BuildOptions {
     /// that their errors do not silence it; and no other build includes the sound pass, so that its errors affect no
     /// picture.
     pub fn sound() -> Self {
-        Self { wanted: vec![PassName::sound()], ..Self::default() }
+        Self { requested: vec![PassName::sound()], ..Self::default() }
     }
 
     fn is_sound(&self) -> bool {
-        matches!(&self.wanted[..], [pass] if pass.is_sound())
+        matches!(&self.requested[..], [pass] if pass.is_sound())
     }
 
     /// Returns whether a pass is compiled.
@@ -71,12 +71,12 @@ impl BuildOptions {
     #[must_use]
     pub fn probing(self, pass: PassName, source: SourceId, at: u32) -> Self {
         let probe = Some((pass, Probe { source, at, visit: 0 }));
-        Self { wanted: vec![BuildOptions::probed()], probe, ..self }
+        Self { requested: vec![BuildOptions::probed()], probe, ..self }
     }
 
     /// The pass that is drawn in tiles.
     fn tiled(&self) -> Option<PassName> {
-        self.tile.map(|_| self.wanted.first().cloned().unwrap_or_default())
+        self.tile.map(|_| self.requested.first().cloned().unwrap_or_default())
     }
 
     /// The buffer that draws a probed value together with its picture.
@@ -87,7 +87,14 @@ impl BuildOptions {
 
 impl Default for BuildOptions {
     fn default() -> Self {
-        Self { wanted: Vec::new(), skip: true, without: PassSet::default(), probe: None, trial: None, tile: None }
+        Self {
+            requested: Vec::new(),
+            skip: true,
+            disabled_optimisations: PassSet::default(),
+            probe: None,
+            trial: None,
+            tile: None,
+        }
     }
 }
 
@@ -114,7 +121,7 @@ pub struct BuildWork {
 pub struct Builder {
     gpu: Gpu,
     stages: StageCache,
-    preamble: KeptPreamble,
+    preamble: PreambleCache,
     pipelines: PipelineCache,
     uploads: Uploads,
 }
@@ -132,7 +139,7 @@ impl Builder {
         Self {
             gpu,
             stages: StageCache::of_pipelines(),
-            preamble: KeptPreamble::default(),
+            preamble: PreambleCache::default(),
             pipelines: PipelineCache::default(),
             uploads,
         }
@@ -156,16 +163,16 @@ impl Builder {
     ) -> Result<Built, BuildError> {
         let sources = project.sources();
         let texts = Sources::new(project);
-        self.preamble.lend(&texts);
+        self.preamble.provide_to(&texts);
         let compiled = self.compile(project, &texts, media, options);
-        self.preamble.keep(&texts);
+        self.preamble.update_from(&texts);
         let Compilation { drawable, passes, diagnostics } = match compiled {
             Ok(done) => done,
             Err(diagnostics) => return Err(BuildError::Diagnostics { diagnostics, sources }),
         };
         let beside = options.probed_buffer().map(|(pass, _)| pass);
         let drawn_by = |id: &PassName| beside.filter(|_| *id == BuildOptions::probed()).unwrap_or(id).clone();
-        let wanted: Vec<PassName> = options.wanted.iter().map(drawn_by).collect();
+        let wanted: Vec<PassName> = options.requested.iter().map(drawn_by).collect();
         for id in &wanted {
             if drawable.pass(id).is_none() {
                 return Err(EngineError::NoSuchPass(id.title()).into());
@@ -176,12 +183,12 @@ impl Builder {
         let last = BuildOptions::probed();
         let mut plan = FramePlan::ending_with(&drawable, &facts, &wanted, options.skip, Some(&last));
         if let Some(pass) = drawable.passes.iter().position(|pass| Some(&pass.id) == beside) {
-            plan.draw_beside(pass, BuildOptions::probed());
+            plan.add_extra_target(pass, BuildOptions::probed());
         }
         if let (Some(tile), Some(id)) = (options.tile, options.tiled())
             && let Some(pass) = drawable.passes.iter().position(|pass| pass.id == id)
         {
-            let undivided = |why| EngineError::Undivided { pass: id.title(), why };
+            let undivided = |why| EngineError::Tiling { pass: id.title(), why };
             plan.tile(&drawable, pass, tile).map_err(undivided)?;
         }
         let mut passes: Vec<Option<CompiledParts>> = passes.into_iter().map(Some).collect();
@@ -195,7 +202,7 @@ impl Builder {
         let externals = binder.externals;
         let orders: Vec<_> = drafts.iter_mut().flat_map(DrawDraft::take_orders).collect();
         if let Some(trial) = options.trial.as_ref().filter(|_| self.gpu.compiles_here && options.probe.is_none()) {
-            let order = TrialOrder { project, wanted: &options.wanted, skip: options.skip };
+            let order = TrialOrder { project, requested: &options.requested, skip: options.skip };
             let tried = trial.of(order, &texts, &self.pipelines.missing(&orders));
             if let Err(error) = tried {
                 let diagnostics = diagnostics.into_iter().chain([error]).collect();
@@ -219,10 +226,13 @@ impl Builder {
     /// Returns the compiler's options for `project.passes[index]`.
     fn options(&self, project: &Project, media: &MediaSet, index: usize, build: &BuildOptions) -> PassOptions {
         let filter_mode = filter_mode(&self.gpu, project, media, index);
-        let driver = Driver { without: build.without, ..driver(&self.gpu, &project.passes[index]) };
+        let driver = Driver {
+            disabled_optimisations: build.disabled_optimisations,
+            ..driver(&self.gpu, &project.passes[index])
+        };
         let probe = build.probed_buffer().filter(|(id, _)| **id == project.passes[index].id).map(|(_, probe)| probe);
         let tiled = build.tiled().as_ref() == Some(&project.passes[index].id);
-        PassOptions { bilinear_by_hand: filter_mode.map(|m| m == FilterMode::Shader), driver, probe, tiled }
+        PassOptions { bilinear_in_shader: filter_mode.map(|m| m == FilterMode::Shader), driver, probe, tiled }
     }
 
     /// Compiles every pass that can be drawn, and its fills.
@@ -252,8 +262,8 @@ impl Builder {
             let fills = FillKind::ALL.map(|kind| {
                 let texels = pass.fill(kind).and_then(|fill| media.fill(fill.value.path()?));
                 let by_hand = texels.is_some_and(|t| filter_mode_of_fill(&self.gpu, t) == FilterMode::Shader);
-                let bilinear_by_hand = [by_hand, false, false, false];
-                let options = PassOptions { bilinear_by_hand, probe: None, tiled: false, ..options };
+                let bilinear_in_shader = [by_hand, false, false, false];
+                let options = PassOptions { bilinear_in_shader, probe: None, tiled: false, ..options };
                 match texts.compile_fill_with(&mut self.stages, index, kind, options)? {
                     Ok(mut fill) => {
                         said.append(&mut fill.diagnostics);
@@ -282,7 +292,7 @@ impl Builder {
             match texts.compile_pass_with(&mut self.stages, index, options) {
                 Ok(mut compiled) => {
                     said.append(&mut compiled.diagnostics);
-                    drawable.passes.push(if build.is_sound() { heard(pass) } else { pass.clone() });
+                    drawable.passes.push(if build.is_sound() { with_audible_channels(pass) } else { pass.clone() });
                     let filter_mode = filter_mode(&self.gpu, project, media, index);
                     let dimensions = declared_dimensions(pass);
                     passes.push(CompiledParts { compiled, fills, filter_mode, dimensions });
@@ -324,13 +334,13 @@ fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
         small_arrays: gpu.scatters_arrays,
         opaque_limits: gpu.misjudges_limits,
         opaque_counters: gpu.unrolls_whole_arrays,
-        most_rounds: gpu.most_rounds,
-        without: PassSet::default(),
+        max_loop_iterations: gpu.max_loop_iterations,
+        disabled_optimisations: PassSet::default(),
     }
 }
 
 /// The sound pass with the channels that it can read: other passes have not drawn a frame yet.
-fn heard(pass: &Pass) -> Pass {
+fn with_audible_channels(pass: &Pass) -> Pass {
     let mut pass = pass.clone();
     pass.bindings.retain(|channel| channel.input.kind().is_in_sound());
     pass

@@ -18,7 +18,7 @@ struct Entry<V> {
     /// The newest build that used it.
     used_by: u64,
     /// True if the newest complete build used it.
-    is_of_whole: bool,
+    used_by_complete: bool,
 }
 
 impl<K, V> Default for Cache<K, V> {
@@ -36,13 +36,13 @@ impl<K: Eq + Hash, V> Cache<K, V> {
     }
 
     /// Returns whether a value exists, without marking it as used.
-    pub(crate) fn holds(&self, key: &K) -> bool {
+    pub(crate) fn contains(&self, key: &K) -> bool {
         self.entries.contains_key(key)
     }
 
     /// Adds a value that this build uses.
     pub(crate) fn insert(&mut self, key: K, value: V) {
-        self.entries.insert(key, Entry { value, used_by: self.build, is_of_whole: false });
+        self.entries.insert(key, Entry { value, used_by: self.build, used_by_complete: false });
     }
 
     /// Returns every value.
@@ -53,9 +53,9 @@ impl<K: Eq + Hash, V> Cache<K, V> {
     /// Ends a build. Drops values that neither it nor the newest complete build before it used.
     pub(crate) fn end_build(&mut self, is_whole: bool) {
         let build = self.build;
-        self.entries.retain(|_, entry| entry.used_by == build || entry.is_of_whole);
+        self.entries.retain(|_, entry| entry.used_by == build || entry.used_by_complete);
         if is_whole {
-            self.entries.values_mut().for_each(|entry| entry.is_of_whole = entry.used_by == build);
+            self.entries.values_mut().for_each(|entry| entry.used_by_complete = entry.used_by == build);
         }
         self.build += 1;
     }

@@ -16,7 +16,7 @@ type Result<T> = std::result::Result<T, Vec<Diagnostic>>;
 /// The settings of a pass that its texts do not contain.
 #[derive(Clone, Copy, Default)]
 pub(super) struct PassOptions {
-    pub bilinear_by_hand: [bool; SLOTS],
+    pub bilinear_in_shader: [bool; SLOTS],
     pub driver: Driver,
     /// A value that the pass draws too.
     pub probe: Option<Probe>,
@@ -30,8 +30,13 @@ impl Sources<'_> {
     ///
     /// # Panics
     /// If there is no such pass.
-    pub fn compile_pass(&self, index: usize, bilinear_by_hand: [bool; SLOTS], driver: Driver) -> Result<CompiledPass> {
-        let options = PassOptions { bilinear_by_hand, driver, ..PassOptions::default() };
+    pub fn compile_pass(
+        &self,
+        index: usize,
+        bilinear_in_shader: [bool; SLOTS],
+        driver: Driver,
+    ) -> Result<CompiledPass> {
+        let options = PassOptions { bilinear_in_shader, driver, ..PassOptions::default() };
         self.compile_pass_with(&mut StageCache::default(), index, options)
     }
 
@@ -41,11 +46,11 @@ impl Sources<'_> {
         &self,
         index: usize,
         kind: FillKind,
-        bilinear_by_hand: bool,
+        bilinear_in_shader: bool,
         driver: Driver,
     ) -> Option<Result<CompiledPass>> {
-        let bilinear_by_hand = [bilinear_by_hand, false, false, false];
-        let options = PassOptions { bilinear_by_hand, driver, ..PassOptions::default() };
+        let bilinear_in_shader = [bilinear_in_shader, false, false, false];
+        let options = PassOptions { bilinear_in_shader, driver, ..PassOptions::default() };
         self.compile_fill_with(&mut StageCache::default(), index, kind, options)
     }
 
@@ -89,21 +94,18 @@ impl Sources<'_> {
         let (id, kind) = (self.stage_id(index, Stage::Own), sources::pass_kind(id));
         let link = Link::default();
         let (fragment, said) = self.with_source(index, id, kind, |source| self.compile(cache, source, &link, options));
-        match fragment {
-            Some(fragment) => Ok(CompiledPass::screen(fragment, said)),
-            None => Err(said),
-        }
+        CompiledPass::screen(fragment, said)
     }
 
     /// Returns the name of the function with most of the code of `project.passes[index]`; for a pass of meshes, of its
     /// first fragment stage.
-    pub(super) fn bulk(&self, index: usize) -> Option<Span> {
+    pub(super) fn largest_function(&self, index: usize) -> Option<Span> {
         let pass = &self.project.passes[index];
         let (stage, kind) = match &pass.body {
             Body::Screen => (Stage::Own, sources::pass_kind(&pass.id)),
             Body::Meshes(geometry) => (geometry.draws.first()?.fragment, PassKind::Fragment),
         };
-        self.with_source(index, self.stage_id(index, stage), kind, glsl::bulk)
+        self.with_source(index, self.stage_id(index, stage), kind, glsl::largest_function)
     }
 
     /// Does the same as [`Self::compile_fill`], reusing the stages of earlier builds.
@@ -118,11 +120,7 @@ impl Sources<'_> {
         let text = fill_text::FillSource::new(value, self.fill_text(index, kind)?);
         let (fragment, said) =
             self.with_fill(text.code(), text.value(), |source| self.compile(cache, source, &Link::default(), options));
-        let said = text.relocated(said);
-        Some(match fragment {
-            Some(fragment) => Ok(CompiledPass::screen(fragment, said)),
-            None => Err(said),
-        })
+        Some(CompiledPass::screen(fragment, text.relocated(said)))
     }
 
     /// Compiles the program of every draw; each text once per partner stage.
@@ -167,8 +165,8 @@ impl Sources<'_> {
         link: &Link<'_>,
         options: PassOptions,
     ) -> (Option<Arc<Compiled>>, Vec<Diagnostic>) {
-        let PassOptions { bilinear_by_hand, driver, probe, tiled } = options;
-        let source = PassSource { bilinear_by_hand, driver, probe, tiled, ..*source };
+        let PassOptions { bilinear_in_shader, driver, probe, tiled } = options;
+        let source = PassSource { bilinear_in_shader, driver, probe, tiled, ..*source };
         match cache.find(&source, link, |text| self.shared(text)) {
             Ok(found) => found,
             Err(missing) => cache.add(missing, stage_cache::compile(&source, link, self.preamble())),

@@ -59,10 +59,14 @@ impl CompiledPass {
         }
     }
 
-    /// A pass over the whole target.
-    pub(super) fn screen(fragment: Arc<Compiled>, diagnostics: Vec<Diagnostic>) -> Self {
+    /// Returns a pass over the whole target, or the diagnostics if its stage was not compiled.
+    pub(super) fn screen(
+        fragment: Option<Arc<Compiled>>,
+        diagnostics: Vec<Diagnostic>,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let Some(fragment) = fragment else { return Err(diagnostics) };
         let reflection = fragment.reflection.clone();
-        Self { programs: vec![CompiledProgram { vertex: None, fragment }], reflection, diagnostics }
+        Ok(Self { programs: vec![CompiledProgram { vertex: None, fragment }], reflection, diagnostics })
     }
 
     /// Asks naga whether the modules are valid, as wgpu does where a device gets them: see [`Compiled::validate`].
@@ -84,7 +88,7 @@ impl CompiledPass {
 /// Merges the reads of one stage into those of the pass.
 fn join(all: &mut Reflection, one: &Reflection) {
     all.uniforms.insert(one.uniforms);
-    one.custom_uniforms.iter().for_each(|slot| all.custom_uniforms.insert(slot));
+    all.custom_uniforms.extend(&one.custom_uniforms);
     for (all, one) in all.channels.iter_mut().zip(one.channels) {
         all.texture |= one.texture;
         all.sampler |= one.sampler;

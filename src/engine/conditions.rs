@@ -50,7 +50,7 @@ impl Running {
             for target in draw.targets.clone() {
                 self.targets[target].clear(gpu, &mut encoder, &shared.mips);
             }
-            if let Some(beside) = draw.beside {
+            if let Some(beside) = draw.extra_target {
                 self.targets[beside].textures.iter().for_each(|texture| texture.clear(gpu, &mut encoder, NO_VALUE));
             }
             self.changes.blanked(index, draw);

@@ -4,8 +4,8 @@ use super::{
     EngineError,
     channels::{ChannelBinder, channel_bindings},
     compiled::{CompiledPass, CompiledProgram},
+    mesh_instance::MeshInstance,
     pipelines::{MeshState, PipelineOrder, StagePipeline},
-    placed::PlacedMesh,
     program::{BoundChannel, CompiledDraw, DrawBody, FillProgram, FilterMode, Meshes},
 };
 use eddy_glsl::{Reflection, SLOTS, interface};
@@ -97,7 +97,7 @@ impl DrawDraft {
 /// The triangle or the meshes that a program draws.
 enum BodyDraft {
     Screen,
-    Meshes { camera: Camera, states: Vec<MeshState>, placed: Vec<PlacedMesh> },
+    Meshes { camera: Camera, states: Vec<MeshState>, placed: Vec<MeshInstance> },
 }
 
 /// The programs of a pass or of one of its fills.

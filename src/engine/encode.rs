@@ -28,10 +28,10 @@ impl Running {
             }
         }
         let attach = |index: usize| {
-            let load = match draw.beside {
+            let load = match draw.extra_target {
                 // Discarded pixels, and those outside the region, have no value.
                 Some(beside) if beside == index && draw.keeps_content => wgpu::LoadOp::Clear(NO_VALUE),
-                Some(beside) if beside == index => shared.gpu.load_what_is_overwritten(),
+                Some(beside) if beside == index => shared.gpu.load_op_dont_care(),
                 _ if part.is_some() => wgpu::LoadOp::Load,
                 _ => load_op(&shared.gpu, draw),
             };
@@ -60,18 +60,18 @@ impl Running {
                 pass.set_scissor_rect(part.x, part.y, part.width, part.height);
             }
             pass.set_bind_group(CHANNEL_GROUP, channels, &[]);
-            let begin = |pass: &mut wgpu::RenderPass<'_>, program: &StagePipeline, n: usize| {
+            let set_state = |pass: &mut wgpu::RenderPass<'_>, program: &StagePipeline, n: usize| {
                 pass.set_pipeline(&program.pipeline.raw);
                 pass.set_bind_group(UNIFORM_GROUP, &uniforms[n], &[]);
             };
             match &compiled.body {
                 DrawBody::Screen(program) => {
-                    begin(pass, program, layer as usize);
+                    set_state(pass, program, layer as usize);
                     pass.draw(0..3, 0..1);
                 }
                 DrawBody::Meshes(meshes) => {
                     for (n, (program, mesh)) in meshes.programs.iter().enumerate() {
-                        begin(pass, program, n);
+                        set_state(pass, program, n);
                         pass.set_vertex_buffer(0, mesh.buffers.vertices.slice(..));
                         pass.set_index_buffer(mesh.buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
                         pass.draw_indexed(0..mesh.buffers.count, 0, 0..1);
@@ -96,6 +96,6 @@ fn load_op(gpu: &Gpu, draw: &Draw) -> wgpu::LoadOp<wgpu::Color> {
         wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)
     } else {
         // The triangle covers every texel, and none is discarded.
-        gpu.load_what_is_overwritten()
+        gpu.load_op_dont_care()
     }
 }

@@ -2,7 +2,7 @@
 
 use eddy_diag::{Diagnostic, SourceMap};
 use eddy_gpu::GpuError;
-use eddy_graph::Undivided;
+use eddy_graph::TilingError;
 use eddy_media::mesh::MeshError;
 
 /// An error when drawing or reading a frame.
@@ -19,7 +19,7 @@ pub enum EngineError {
     #[error("{pass} is not drawn in this frame: its condition, {when}, is false")]
     Off { pass: String, when: String },
     #[error("{pass} cannot be drawn in tiles: {why}")]
-    Undivided { pass: String, why: Undivided },
+    Tiling { pass: String, why: TilingError },
     #[error(
         "the textures that the passes draw into take {:.1} GiB, and {:.1} GiB of memory are available: choose a smaller \
          resolution, or give the buffers a fixed size in eddy.toml",

@@ -117,7 +117,7 @@ impl Running {
         let mut encoder = new_encoder(gpu);
         while let Some(&op) = unfinished.ops.as_slice().first() {
             match op {
-                FrameOp::StartTimestamps => self.timer.iter_mut().for_each(eddy_gpu::PassTimer::begin),
+                FrameOp::StartTimestamps => self.timer.iter_mut().for_each(eddy_gpu::PassTimer::start),
                 FrameOp::Encode { draw, layer } => self.encode(shared, &mut encoder, (draw, layer), None),
                 FrameOp::EncodeRows { draw, area, align } => {
                     let Some(rows) = (caller.rows)() else {

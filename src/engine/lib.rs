@@ -5,6 +5,7 @@
 //! same bytes. Does not depend on a window.
 
 mod ahead;
+mod analysis_cache;
 mod bind;
 mod build;
 mod cache;
@@ -24,10 +25,9 @@ mod frame;
 mod host;
 mod inputs;
 mod inspect;
-mod kept_analyses;
+mod mesh_instance;
 mod moving;
 mod pipelines;
-mod placed;
 mod preamble;
 mod program;
 mod results;
@@ -45,6 +45,7 @@ mod uniforms;
 mod uploads;
 mod viewer;
 
+pub use analysis_cache::{AnalysisCache, StageAnalysis};
 pub use build::{BuildOptions, BuildWork, Builder, Built};
 pub use compiled::{CompiledPass, CompiledProgram};
 pub use costs::{CostClock, PassCost, PassRead, PassRole};
@@ -56,14 +57,13 @@ pub use frame::{DrawFor, Drawn, Rows};
 pub use inputs::FrameInputs;
 pub use inspect::DrawInputs;
 pub use inspect::{Level, LevelBy, MeshInputs, PassInputs, TextureCopy};
-pub use kept_analyses::{KeptAnalyses, StageAnalysis};
-pub use preamble::KeptPreamble;
+pub use preamble::PreambleCache;
 pub use program::Program;
 pub use results::{FrameStats, Miniature, PassTime, Picture, Pixels, TexelAt};
 pub use run::Engine;
 pub use snapshot::Snapshot;
 pub use sound::{BLOCK_FRAMES, BLOCK_SECS, SOUND_BLOCKS, SOUND_FRAMES};
 pub use sources::{Sources, channel_kinds, pass_kind};
-pub use stage_cache::KeptStages;
+pub use stage_cache::DiagnosticsCache;
 pub use state::{State, StateError, TargetForm, TargetState};
 pub use trial::{Trial, TrialError, TrialOrder};

@@ -104,7 +104,7 @@ impl PipelineCache {
 
     /// Returns the orders whose pipelines are missing.
     pub(crate) fn missing<'a>(&self, orders: &'a [PipelineOrder]) -> Vec<&'a PipelineOrder> {
-        orders.iter().filter(|order| !self.made.holds(&order.key())).collect()
+        orders.iter().filter(|order| !self.made.contains(&order.key())).collect()
     }
 
     /// Ends a build; see [`Cache::end_build`]. Returns the number of pipelines that it created.

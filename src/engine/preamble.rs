@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// Keeps the Common that [`Sources`] have compiled, for later ones with the same Common.
 #[derive(Default)]
-pub struct KeptPreamble {
+pub struct PreambleCache {
     last: Option<(Key, Option<Arc<Preamble>>)>,
 }
 
@@ -23,9 +23,9 @@ pub(super) struct Key {
 /// A line and the text that replaces it, or the diagnostic if there is none.
 type IncludeKey = (Span, Result<(SourceId, Arc<str>), Diagnostic>);
 
-impl KeptPreamble {
+impl PreambleCache {
     /// Provides these texts with the compiled Common, if it is the same.
-    pub fn lend(&self, texts: &Sources<'_>) {
+    pub fn provide_to(&self, texts: &Sources<'_>) {
         if let Some((key, preamble)) = &self.last
             && texts.preamble_key().as_ref() == Some(key)
         {
@@ -35,7 +35,7 @@ impl KeptPreamble {
     }
 
     /// Stores the compiled Common of these texts, if they needed it.
-    pub fn keep(&mut self, texts: &Sources<'_>) {
+    pub fn update_from(&mut self, texts: &Sources<'_>) {
         if let (Some(key), Some(preamble)) = (texts.preamble_key(), texts.preamble.get()) {
             self.last = Some((key, preamble.clone()));
         }
@@ -78,14 +78,14 @@ mod tests {
     use eddy_project as project;
 
     /// Compiles a preset after an edit of its texts, and returns whether Common was compiled again.
-    fn reads(kept: &mut KeptPreamble, edit: impl FnOnce(&mut project::Project)) -> bool {
+    fn reads(kept: &mut PreambleCache, edit: impl FnOnce(&mut project::Project)) -> bool {
         let mut project = project::presets::load("fluid").expect("a preset").project;
         edit(&mut project);
         let texts = Sources::new(&project);
-        kept.lend(&texts);
+        kept.provide_to(&texts);
         let is_lent = texts.preamble.get().is_some();
         texts.compile_pass(0, [false; 4], Driver::default()).map(drop).expect("a program without errors");
-        kept.keep(&texts);
+        kept.update_from(&texts);
         !is_lent
     }
 
@@ -95,7 +95,7 @@ mod tests {
 
     #[test]
     fn editing_a_pass_does_not_recompile_common() {
-        let mut kept = KeptPreamble::default();
+        let mut kept = PreambleCache::default();
         assert!(reads(&mut kept, |_| {}), "nothing was read yet");
         assert!(!reads(&mut kept, |_| {}));
         assert!(!reads(&mut kept, |project| add_line(&mut project.passes[0].source)));

@@ -2,8 +2,8 @@
 
 use super::{
     external::{ChannelClock, External},
+    mesh_instance::MeshInstance,
     pipelines::StagePipeline,
-    placed::PlacedMesh,
 };
 use eddy_glsl::{CustomUniformSet, SLOTS, UniformSet};
 use eddy_gpu::Texture;
@@ -56,7 +56,7 @@ pub(super) struct Meshes {
     pub camera: Camera,
     /// The index of its first mesh among those of all draws.
     pub first: usize,
-    pub programs: Vec<(Arc<StagePipeline>, PlacedMesh)>,
+    pub programs: Vec<(Arc<StagePipeline>, MeshInstance)>,
 }
 
 impl DrawBody {

@@ -171,7 +171,7 @@ impl Engine {
                 (drawn.stats, drawn.is_whole) = running.draw(shared, display, inputs, Purpose::Bands, &mut caller)?;
             }
         }
-        self.shared.gpu.take_trouble("a frame")?;
+        self.shared.gpu.take_error("a frame")?;
         Ok(drawn)
     }
 
@@ -203,7 +203,7 @@ impl Engine {
         let (picture, tile) = self.tiles().ok_or_else(none)?;
         let gpu = &self.shared.gpu;
         let running = self.running.as_mut().ok_or_else(none)?;
-        let part = |at: u32, all: u32, most: u32| all.saturating_sub(at).min(most);
+        let part = |at: u32, all: u32, max_size: u32| all.saturating_sub(at).min(max_size);
         let (width, height) = (part(x, picture.0, tile.0), part(y, picture.1, tile.1));
         let mut rows = || Some(rows());
         let mut caller = Caller { rows: &mut rows, watch: None, capture: None };
@@ -234,7 +234,7 @@ impl Engine {
 
     fn take_snapshot(&self, extent: Extent) -> Result<Snapshot, EngineError> {
         let snapshot = Snapshot::take(&self.shared.gpu, self.running.as_ref(), extent)?;
-        self.shared.gpu.take_trouble("a snapshot")?;
+        self.shared.gpu.take_error("a snapshot")?;
         Ok(snapshot)
     }
 
@@ -256,7 +256,7 @@ impl Engine {
         running.check_is_on(pass)?;
         let converter = self.converter.get_or_insert_with(|| FloatConverter::new(&self.shared.gpu));
         let index = running.program.draws.iter().position(|draw| draw.id == *pass).ok_or_else(none)?;
-        let mut capture = Capture::of_the_past(pass, converter);
+        let mut capture = Capture::after_frame(pass, converter);
         capture.take(running, &self.shared, index)?;
         capture.taken.ok_or_else(none)
     }

@@ -92,7 +92,7 @@ impl Running {
             &shared.gpu,
             custom_uniforms::block(&running.program.custom_uniforms, &running.program.custom_uniform_values),
         );
-        running.take(shared, new);
+        running.install_textures(shared, new);
         Ok(running)
     }
 
@@ -103,13 +103,13 @@ impl Running {
         self.canvas = canvas;
         self.drop_unfinished();
         self.changes.invalidate();
-        self.take(shared, new);
+        self.install_textures(shared, new);
         Ok(())
     }
 
     /// Installs new textures. They take over the contents of the present ones, and else start with those
     /// before frame 0.
-    fn take(&mut self, shared: &Shared, new: NewTextures) {
+    fn install_textures(&mut self, shared: &Shared, new: NewTextures) {
         self.depths = new.depths;
         self.is_blank.clear();
         let (old, is_new) = new.targets.replace(&self.program.plan, &mut self.targets);
@@ -176,7 +176,7 @@ impl Running {
             }
             let target = &targets[draw.targets.start];
             for texture in &target.textures {
-                let load = shared.gpu.load_what_is_overwritten();
+                let load = shared.gpu.load_op_dont_care();
                 let descriptor = wgpu::RenderPassDescriptor {
                     label: Some("initial"),
                     color_attachments: &[Some(texture.attachment(load))],
@@ -193,7 +193,7 @@ impl Running {
 
     /// Turns measuring on or off. Allocates queries for every draw of a frame.
     pub(crate) fn set_timing(&mut self, shared: &Shared, on: bool) {
-        let draws = u32::try_from(self.program.plan.draws_a_frame().max(1)).unwrap_or(u32::MAX);
+        let draws = u32::try_from(self.program.plan.draws_per_frame().max(1)).unwrap_or(u32::MAX);
         self.timer = if on { PassTimer::new(&shared.gpu, draws) } else { None };
     }
 

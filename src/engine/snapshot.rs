@@ -9,11 +9,11 @@ use eddy_texture::TextureShape;
 /// The contents of a program's targets between two frames. It is only valid for the program and the canvas that it was
 /// taken of.
 pub struct Snapshot {
-    targets: Vec<KeptTarget>,
+    targets: Vec<TargetCopy>,
     bytes: u64,
 }
 
-struct KeptTarget {
+struct TargetCopy {
     id: PassName,
     index: usize,
     /// The shapes of all its textures, and copies of the first levels of the requested ones.
@@ -69,7 +69,7 @@ impl Snapshot {
                 texture.copy_overlap(&mut encoder, &copy);
                 Ok((shape, Some(copy)))
             };
-            kept.push(KeptTarget {
+            kept.push(TargetCopy {
                 id: target.id.clone(),
                 index: target.index,
                 textures: target.textures.iter().enumerate().map(&mut copy).collect::<Result<_, GpuError>>()?,
@@ -87,7 +87,7 @@ impl Snapshot {
 
     /// Returns whether it was taken of targets like these, and contains what later frames read of them.
     fn is_of(&self, running: &Running) -> bool {
-        let fits = |(index, (kept, target)): (usize, (&KeptTarget, &Target))| {
+        let fits = |(index, (kept, target)): (usize, (&TargetCopy, &Target))| {
             let is_same = || kept.textures.iter().map(|(shape, _)| *shape).eq(target.textures.iter().map(copied_shape));
             let is_there = |texture: usize| match running.program.plan.carried(index) {
                 Carried::Nothing => true,

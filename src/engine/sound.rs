@@ -55,7 +55,7 @@ impl Engine {
             running.drop_unfinished();
             return Ok(None);
         }
-        self.shared.gpu.take_trouble("a block of sound")?;
+        self.shared.gpu.take_error("a block of sound")?;
         let bytes = self.readback.rgba8(&self.shared.gpu, running.target(&PassName::sound(), 0)?.newest())?;
         Ok(Some(bytes.chunks_exact(4).map(|texel| [sample(texel[0], texel[1]), sample(texel[2], texel[3])]).collect()))
     }
@@ -74,7 +74,7 @@ impl Engine {
 
 /// The values that a draw reads, out of all slots.
 fn read_of(draw: &CompiledDraw, slots: &[[u32; 4]]) -> Vec<[u32; 4]> {
-    draw.custom_uniforms.iter().filter_map(|slot| slots.get(usize::from(slot)).copied()).collect()
+    draw.custom_uniforms.iter().filter_map(|slot| slots.get(usize::from(*slot)).copied()).collect()
 }
 
 /// Sets the uniforms of sound passes: block `iFrame` starts at `iTime`.

@@ -306,7 +306,7 @@ impl<'p> Sources<'p> {
     /// # Panics
     /// If there is no such pass or stage.
     pub fn analyse_stage(&self, index: usize, stage: Stage) -> Analysis {
-        self.with_stage(index, stage, |source| Analysis::behind(source, self.preamble()))
+        self.with_stage(index, stage, |source| Analysis::with_preamble(source, self.preamble()))
     }
 
     /// Calls `work` with the compiler input for a stage of `project.passes[index]`.
@@ -366,14 +366,14 @@ fn compile_text(source: &Source) -> Arc<str> {
 /// Returns the text of a stage of GLSL ES 3.00, without its optional version line, which is implied here.
 fn stage_text(source: &Source) -> Arc<str> {
     let text = compile_text(source);
-    let begin = text.len() - text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}').len();
-    let line = text[begin..].lines().next().unwrap_or_default();
+    let start = text.len() - text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}').len();
+    let line = text[start..].lines().next().unwrap_or_default();
     let is_version = line.split_whitespace().eq(["#version", "300", "es"]);
     if !is_version {
         return text;
     }
     let blank = " ".repeat(line.len());
-    format!("{}{blank}{}", &text[..begin], &text[begin + line.len()..]).into()
+    format!("{}{blank}{}", &text[..start], &text[start + line.len()..]).into()
 }
 
 /// Returns the compiler's kind of a text of a pass: for meshes a vertex stage if some draw uses it as one.

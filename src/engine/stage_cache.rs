@@ -15,18 +15,18 @@ use std::{
 /// Stages by their texts and settings. Passes with equal texts and settings share a stage.
 #[derive(Default)]
 pub(super) struct StageCache {
-    stages: Cache<StageKey, Kept>,
+    stages: Cache<StageKey, CachedStage>,
     /// True if passes whose texts compile to the same code share a stage, too.
-    joins: bool,
+    joins_equal_code: bool,
     /// The number of stages that the current build has compiled.
     compiled: usize,
 }
 
 /// Stages of passes that are not drawn, for callers that repeatedly compile a project to report diagnostics.
 #[derive(Default)]
-pub struct KeptStages(StageCache);
+pub struct DiagnosticsCache(StageCache);
 
-impl KeptStages {
+impl DiagnosticsCache {
     /// Compiles `project.passes[index]` like [`Sources::compile_pass`]. Stages that have not changed since the last
     /// call are not compiled again.
     ///
@@ -69,7 +69,7 @@ pub(super) fn compile(source: &PassSource<'_>, link: &Link<'_>, preamble: Option
 }
 
 /// The result of compiling a stage. Its spans refer to the texts that it was compiled with.
-struct Kept {
+struct CachedStage {
     /// `None` if there are errors.
     stage: Option<Arc<Compiled>>,
     /// The whole stage as text; created when first needed.
@@ -78,11 +78,11 @@ struct Kept {
     ids: Vec<SourceId>,
 }
 
-impl Kept {
+impl CachedStage {
     /// Returns true if both compiled to the same code. naga's types cannot be compared, but their debug output contains
     /// everything.
-    fn is_same(&self, other: &Kept) -> bool {
-        let content = |outcome: &Kept| format!("{:?}", outcome.stage);
+    fn is_same(&self, other: &CachedStage) -> bool {
+        let content = |outcome: &CachedStage| format!("{:?}", outcome.stage);
         self.outline().is_some_and(|outline| other.outline() == Some(outline))
             && self.content.get_or_init(|| content(self)) == other.content.get_or_init(|| content(other))
     }
@@ -117,7 +117,7 @@ struct StageKey {
     channels: [ChannelKind; SLOTS],
     custom_uniforms: Vec<(String, CustomUniformKind, u16)>,
     values: Vec<(String, Vec<u64>)>,
-    bilinear_by_hand: [bool; SLOTS],
+    bilinear_in_shader: [bool; SLOTS],
     driver: Driver,
     tiled: bool,
     plain: PlainOptions,
@@ -157,7 +157,7 @@ impl StageKey {
             channels,
             custom_uniforms,
             values,
-            bilinear_by_hand,
+            bilinear_in_shader,
             driver,
             tiled,
             plain,
@@ -181,8 +181,8 @@ impl StageKey {
                 .collect(),
             channels,
             custom_uniforms: custom_uniforms.iter().map(|k| (k.name.to_owned(), k.kind, k.slot)).collect(),
-            values: values.iter().map(|v| (v.name.clone(), words(&v.value))).collect(),
-            bilinear_by_hand,
+            values: values.iter().map(|v| (v.name.clone(), bit_words(&v.value))).collect(),
+            bilinear_in_shader,
             driver,
             tiled,
             plain,
@@ -207,18 +207,18 @@ fn ids_of(source: &PassSource<'_>) -> Vec<SourceId> {
 }
 
 /// Returns a value as words: equal words mean bitwise equal values.
-fn words(value: &UntypedValue) -> Vec<u64> {
+fn bit_words(value: &UntypedValue) -> Vec<u64> {
     match value {
         UntypedValue::Bool(on) => vec![0, u64::from(*on)],
         UntypedValue::Number(x) => vec![1, x.to_bits()],
-        UntypedValue::List(all) => [2, all.len() as u64].into_iter().chain(all.iter().flat_map(words)).collect(),
+        UntypedValue::List(all) => [2, all.len() as u64].into_iter().chain(all.iter().flat_map(bit_words)).collect(),
     }
 }
 
 impl StageCache {
     /// A cache for stages of pipelines: comparing stages is cheaper than creating another pipeline.
     pub(crate) fn of_pipelines() -> Self {
-        Self { joins: true, ..Self::default() }
+        Self { joins_equal_code: true, ..Self::default() }
     }
 
     /// Returns a stage if an equal one is cached. `shared` returns a text of `source` in the form that the cache
@@ -231,7 +231,7 @@ impl StageCache {
     ) -> Result<Found, Box<CacheMiss>> {
         let wanted = CacheMiss::new(source, link, shared);
         match self.stages.get(&wanted.key) {
-            Some(kept) => Ok((kept.stage.clone(), moved(&kept.diagnostics, &kept.ids, &wanted.ids))),
+            Some(kept) => Ok((kept.stage.clone(), with_new_sources(&kept.diagnostics, &kept.ids, &wanted.ids))),
             None => Err(Box::new(wanted)),
         }
     }
@@ -247,9 +247,9 @@ impl StageCache {
             Err(errors) => (None, errors),
         };
         let CacheMiss { key, ids } = *missing;
-        let mut kept = Kept { stage, content: OnceCell::new(), diagnostics, ids };
+        let mut kept = CachedStage { stage, content: OnceCell::new(), diagnostics, ids };
         // A comment, or a function of Common that the pass does not call, changes the text but not the stage.
-        if self.joins
+        if self.joins_equal_code
             && let Some(same) = self.stages.values().find(|other| other.is_same(&kept))
         {
             kept.stage = same.stage.clone();
@@ -267,7 +267,7 @@ impl StageCache {
 }
 
 /// Translates diagnostics of a stage with texts `from` to an equal one with texts `to`.
-fn moved(diagnostics: &[Diagnostic], from: &[SourceId], to: &[SourceId]) -> Vec<Diagnostic> {
+fn with_new_sources(diagnostics: &[Diagnostic], from: &[SourceId], to: &[SourceId]) -> Vec<Diagnostic> {
     let mut diagnostics = diagnostics.to_vec();
     let turn = |span: &mut Span| {
         if let Some(id) = to.get(place(from, span.source)) {

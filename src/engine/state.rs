@@ -127,7 +127,7 @@ impl Running {
             let shape = target.textures[0].shape.without_mips();
             let is_whole = kept.textures.iter().all(|bytes| bytes.len() as u64 == shape.bytes());
             if kept.shape != shape || !is_whole {
-                let (was, is) = (in_words(kept.shape), in_words(shape));
+                let (was, is) = (shape_text(kept.shape), shape_text(shape));
                 return Err(StateError::Shape { pass: title, was, is });
             }
             found.push((place, count, kept));
@@ -146,10 +146,10 @@ impl Running {
         }
         self.changes.invalidate();
         self.is_blank.clear();
-        gpu.take_trouble("a state").map_err(Into::into)
+        gpu.take_error("a state").map_err(Into::into)
     }
 }
 
-fn in_words(shape: TextureShape) -> String {
+fn shape_text(shape: TextureShape) -> String {
     format!("{}x{} {}", shape.width, shape.height, shape.format.name())
 }

@@ -11,14 +11,14 @@ use std::{fmt, sync::Arc, time::Duration};
 
 /// The number of statements of a program, with all calls inlined, that are compiled without a trial. Mesa's CPU drivers
 /// take up to half a second for this number.
-const UNTRIED: u64 = 1 << 12;
+const MAX_UNTRIED_SIZE: u64 = 1 << 12;
 
 /// A build to try.
 #[derive(Clone, Copy, Debug)]
 pub struct TrialOrder<'a> {
     pub project: &'a Project,
     /// The same as in [`super::BuildOptions`].
-    pub wanted: &'a [PassName],
+    pub requested: &'a [PassName],
     pub skip: bool,
 }
 
@@ -41,12 +41,14 @@ impl Trial {
         missing: &[&PipelineOrder],
     ) -> Result<(), Diagnostic> {
         let size = |order: &PipelineOrder| order.program.stages().map(|stage| stage.inlined_size).sum::<u64>();
-        let Some(largest) = missing.iter().max_by_key(|order| size(order)).filter(|order| size(order) > UNTRIED) else {
+        let Some(largest) =
+            missing.iter().max_by_key(|order| size(order)).filter(|order| size(order) > MAX_UNTRIED_SIZE)
+        else {
             return Ok(());
         };
         (self.0)(order).map_err(|error| {
             let of = order.project.passes.iter().position(|pass| pass.id.title() == largest.label);
-            let of = of.and_then(|index| texts.bulk(index));
+            let of = of.and_then(|index| texts.largest_function(index));
             let what = format!("the graphics driver cannot compile {}: {error}", largest.label);
             Diagnostic::error(of, what).hint(error.hint(size(largest)))
         })

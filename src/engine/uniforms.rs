@@ -168,7 +168,7 @@ impl Uniforms {
         for range in places(draw.uniforms) {
             read.extend_from_slice(&block[range]);
         }
-        for slot in draw.custom_uniforms.iter() {
+        for &slot in &draw.custom_uniforms {
             read.extend_from_slice(bytemuck::cast_slice(&self.custom_uniform_slots[usize::from(slot)]));
         }
         if let Some(boundary) = &draw.boundary {
@@ -234,7 +234,7 @@ fn places(read: UniformSet) -> impl Iterator<Item = Range<usize>> {
         SAMPLE_OFFSET sample_offset;
         CHANNEL_LOADED channel_loaded;
     };
-    all.into_iter().filter(move |(name, ..)| read.contains(*name)).map(|(_, begin, size)| begin..begin + size)
+    all.into_iter().filter(move |(name, ..)| read.contains(*name)).map(|(_, start, size)| start..start + size)
 }
 
 fn size_of_field<T>(_: fn(&UniformBlock) -> &T) -> usize {

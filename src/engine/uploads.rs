@@ -3,7 +3,7 @@
 use super::{
     EngineError,
     cache::{ByAddress, Cache},
-    placed::PlacedMesh,
+    mesh_instance::MeshInstance,
 };
 use eddy_gpu::{Gpu, GpuError, MeshBuffers, MipMaker, Texture, TextureDescriptor};
 use eddy_media::{
@@ -57,11 +57,11 @@ impl Uploads {
         gpu: &Gpu,
         media: &MediaSet,
         geometry: &Geometry,
-    ) -> Result<Vec<PlacedMesh>, EngineError> {
+    ) -> Result<Vec<MeshInstance>, EngineError> {
         let placed = |draw: &eddy_project::MeshDraw| {
             let mesh = media.mesh(draw).map_err(|error: MeshError| EngineError::from(error))?;
             let buffers = self.mesh(gpu, &draw.mesh.name(), &mesh)?;
-            Ok(PlacedMesh::new(mesh, buffers, draw))
+            Ok(MeshInstance::new(mesh, buffers, draw))
         };
         geometry.draws.iter().map(placed).collect()
     }

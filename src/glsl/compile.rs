@@ -22,8 +22,8 @@ pub fn diagnose(source: &PassSource<'_>) -> Vec<Diagnostic> {
 }
 
 /// Returns the name of the function that makes up the largest part of an error-free pass, with all calls inlined.
-pub fn bulk(source: &PassSource<'_>) -> Option<Span> {
-    check_pass(source, &Link::default(), None).0.bulk
+pub fn largest_function(source: &PassSource<'_>) -> Option<Span> {
+    check_pass(source, &Link::default(), None).0.largest_function
 }
 
 /// The expression that is probed, and the visit.
@@ -97,14 +97,14 @@ pub(super) fn compile_seen(
         return Err(pass.diagnostics);
     }
     let FrontEnd { module: mut checked, interface, diagnostics, .. } = pass;
-    lower::arrays_to_constants(&mut checked, emit::LEAST_STORAGE_TABLE);
+    lower::arrays_to_constants(&mut checked, emit::MIN_STORAGE_TABLE);
     let options = lower::Options {
-        by_reference: source.driver.array_loops.then_some(emit::LEAST_COPY),
-        table: emit::LEAST_UNIFORM_TABLE as usize,
+        by_reference: source.driver.array_loops.then_some(emit::MIN_COPY),
+        table: emit::MIN_UNIFORM_TABLE as usize,
     };
     let lower::Lowered { mut program, mut reflection, .. } =
         lower::lower(&checked, source, options, interface, probed, lower::Marks::default());
-    opt::optimise(&mut program, source.driver.without, &mut seen);
+    opt::optimise(&mut program, source.driver.disabled_optimisations, &mut seen);
     emit::work_arounds::apply(&mut program, source);
     ir::verify::assert_kept(&program, "work-arounds");
     seen("work-arounds", &program);

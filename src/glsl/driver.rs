@@ -3,7 +3,7 @@
 use super::opt::PassSet;
 
 /// The requirements of the driver that runs a pass on its code. None of this changes a picture, unless a loop is cut
-/// short ([`Driver::most_rounds`]).
+/// short ([`Driver::max_loop_iterations`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Driver {
     /// The device cannot read storage buffers in a fragment shader: large constant tables are then in the memory of
@@ -40,7 +40,7 @@ pub struct Driver {
     pub opaque_counters: bool,
     /// Loops that may be endless are left after this many iterations of an invocation: while one runs, no other program
     /// can draw if the driver cannot stop it.
-    pub most_rounds: Option<u32>,
+    pub max_loop_iterations: Option<u32>,
     /// Passes of the optimiser that are skipped: for developers of the compiler.
-    pub without: PassSet,
+    pub disabled_optimisations: PassSet,
 }

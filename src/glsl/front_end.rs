@@ -20,7 +20,7 @@ pub(super) struct FrontEnd {
     pub diagnostics: Vec<Diagnostic>,
     pub faults: Vec<check::Fault>,
     /// See [`check::Checked::bulk`].
-    pub bulk: Option<Span>,
+    pub largest_function: Option<Span>,
 }
 
 impl FrontEnd {
@@ -47,7 +47,7 @@ impl FrontEnd {
             names: parsed.names,
             diagnostics: all.diagnostics,
             faults: checked.faults,
-            bulk: checked.bulk,
+            largest_function: checked.largest_function,
         }
     }
 

@@ -148,7 +148,7 @@ pub use check::taken;
 pub use compile::Compiled;
 #[doc(hidden)]
 pub use compile::dump_ir;
-pub use compile::{bulk, check_common, compile, compile_linked, diagnose};
+pub use compile::{check_common, compile, compile_linked, diagnose, largest_function};
 pub use diagnostics::Diagnostics;
 pub use driver::Driver;
 pub use plain::{

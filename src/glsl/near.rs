@@ -106,26 +106,26 @@ fn letter_mask(word: &str) -> u64 {
 /// Returns the optimal string alignment distance (Boytsov 2011, "Indexing methods for approximate dictionary
 /// searching", section 2.1) of two words, or `None` where it is larger than `most`. Only the cells within `most` of the
 /// diagonal are computed, as Ukkonen (1985, "Algorithms for approximate string matching") does.
-fn distance(a: &[char], b: &[char], most: usize) -> Option<usize> {
+fn distance(a: &[char], b: &[char], max: usize) -> Option<usize> {
     /// Cells of a row: `most` is at most 3.
     const BAND: usize = 7;
-    debug_assert!(2 * most < BAND);
-    if a.len().abs_diff(b.len()) > most {
+    debug_assert!(2 * max < BAND);
+    if a.len().abs_diff(b.len()) > max {
         return None;
     }
-    let far = most + 1;
+    let far = max + 1;
     // Cell `k` of row `i` is the distance between the first `i` characters of `a` and the first `i + k - most` of `b`.
     let (mut before, mut last, mut row) = ([far; BAND], [far; BAND], [far; BAND]);
     for i in 0..=a.len() {
-        for k in 0..=2 * most {
+        for k in 0..=2 * max {
             row[k] = far;
-            let Some(j) = (i + k).checked_sub(most).filter(|j| *j <= b.len()) else { continue };
+            let Some(j) = (i + k).checked_sub(max).filter(|j| *j <= b.len()) else { continue };
             if i == 0 || j == 0 {
                 row[k] = (i + j).min(far);
                 continue;
             }
             // In the previous row the same position in `b` is one cell to the right.
-            let above = if k < 2 * most { last[k + 1] } else { far };
+            let above = if k < 2 * max { last[k + 1] } else { far };
             let left = if k > 0 { row[k - 1] } else { far };
             let mut cell = (last[k] + usize::from(a[i - 1] != b[j - 1])).min(above + 1).min(left + 1);
             if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
@@ -133,12 +133,12 @@ fn distance(a: &[char], b: &[char], most: usize) -> Option<usize> {
             }
             row[k] = cell.min(far);
         }
-        if row[..=2 * most].iter().all(|cell| *cell == far) {
+        if row[..=2 * max].iter().all(|cell| *cell == far) {
             return None;
         }
         (before, last) = (last, row);
     }
-    Some(last[most + b.len() - a.len()]).filter(|distance| *distance <= most)
+    Some(last[max + b.len() - a.len()]).filter(|distance| *distance <= max)
 }
 
 #[cfg(test)]
@@ -174,8 +174,8 @@ mod tests {
             let (a, b) = (word(), word());
             let full = strsim::osa_distance(&a, &b);
             let chars = |word: &str| word.chars().collect::<Vec<_>>();
-            for most in 1..=3 {
-                assert_eq!(distance(&chars(&a), &chars(&b), most), (full <= most).then_some(full), "{a} {b} {most}");
+            for max in 1..=3 {
+                assert_eq!(distance(&chars(&a), &chars(&b), max), (full <= max).then_some(full), "{a} {b} {max}");
             }
         }
     }

@@ -13,7 +13,7 @@ pub(super) struct Piece<'a> {
     pub text: Text<'a>,
     pub range: Range<usize>,
     /// The piece is the start of a text of the pass, not of an include: Shadertoy puts a line break before it.
-    pub begins_text: bool,
+    pub starts_text: bool,
     /// The reason why the `#include` line before the piece has no text.
     pub missing: Option<&'a Diagnostic>,
 }
@@ -26,7 +26,7 @@ pub(super) fn of<'a>(texts: &[Text<'a>], includes: &[Include<'a>]) -> Vec<Piece<
     for text in texts {
         let first = pieces.len();
         add(*text, &lines, &mut pieces);
-        pieces[first].begins_text = true;
+        pieces[first].starts_text = true;
     }
     pieces
 }
@@ -35,7 +35,7 @@ fn add<'a>(text: Text<'a>, lines: &[&Include<'a>], pieces: &mut Vec<Piece<'a>>) 
     let start = lines.partition_point(|i| i.line.source < text.id);
     let (mut done, mut missing) = (0, None);
     for include in lines[start..].iter().take_while(|i| i.line.source == text.id) {
-        pieces.push(Piece { text, range: done..include.line.range().start, begins_text: false, missing });
+        pieces.push(Piece { text, range: done..include.line.range().start, starts_text: false, missing });
         missing = include.text.err();
         if let Ok(included) = include.text {
             // Includes may be nested as deep as there are files.
@@ -43,5 +43,5 @@ fn add<'a>(text: Text<'a>, lines: &[&Include<'a>], pieces: &mut Vec<Piece<'a>>) 
         }
         done = include.line.range().end;
     }
-    pieces.push(Piece { text, range: done..text.text.len(), begins_text: false, missing });
+    pieces.push(Piece { text, range: done..text.text.len(), starts_text: false, missing });
 }

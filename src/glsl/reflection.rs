@@ -23,27 +23,7 @@ bitflags::bitflags! {
 }
 
 /// The custom uniforms as a set of their slots.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
-pub struct CustomUniformSet(std::collections::BTreeSet<u16>);
-
-impl CustomUniformSet {
-    pub fn insert(&mut self, slot: u16) {
-        self.0.insert(slot);
-    }
-
-    pub fn contains(&self, slot: u16) -> bool {
-        self.0.contains(&slot)
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// Returns the slots in ascending order.
-    pub fn iter(&self) -> impl Iterator<Item = u16> {
-        self.0.iter().copied()
-    }
-}
+pub type CustomUniformSet = std::collections::BTreeSet<u16>;
 
 /// The ways in which a pass reads a channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -225,7 +225,7 @@ pub struct PassSource<'a> {
     pub values: &'a [UniformValue],
     /// Channels whose texture this device cannot filter although the project requests it: every filtered read of them
     /// is written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification defines the weights).
-    pub bilinear_by_hand: [bool; SLOTS],
+    pub bilinear_in_shader: [bool; SLOTS],
     pub driver: Driver,
     /// The pass is drawn in tiles, each into its own target: a pixel's position is that in the whole picture, offset by
     /// the uniform block's `tile_origin`. Only in Image and buffers.
@@ -251,7 +251,7 @@ impl<'a> PassSource<'a> {
             channels: [ChannelKind::Sampler2D; SLOTS],
             custom_uniforms: &[],
             values: &[],
-            bilinear_by_hand: [false; 4],
+            bilinear_in_shader: [false; 4],
             driver: Driver::default(),
             tiled: false,
             plain: PlainOptions::of(kind),

@@ -213,7 +213,7 @@ impl Linker<'_> {
     }
 
     /// Assigns to attributes of any name their explicit locations, and to the others the first free ones.
-    fn located(&mut self, all: &[GlobalId], most: u32) {
+    fn located(&mut self, all: &[GlobalId], count: u32) {
         let mut taken: Vec<(std::ops::Range<u32>, GlobalId)> = Vec::new();
         let (said, free): (Vec<_>, Vec<_>) = all.iter().partition(|id| self.module[**id].location.is_some());
         for &id in said.into_iter().chain(free) {
@@ -238,8 +238,8 @@ impl Linker<'_> {
                 self.error(&global, message, "give each its own location; a matrix takes one for each column");
                 continue;
             }
-            if location.saturating_add(size) > most {
-                let message = format!("there is no room for `{name}`: the locations are 0 to {}", most - 1);
+            if location.saturating_add(size) > count {
+                let message = format!("there is no room for `{name}`: the locations are 0 to {}", count - 1);
                 self.error(&global, message, "choose a lower location, or declare fewer inputs");
                 continue;
             }

@@ -75,7 +75,7 @@ impl Walkable {
         let FrontEnd { module, interface, faults, origins, names: interner, .. } = pass;
         let varyings = interface.varyings.clone();
         let marks = lower::Marks { undefined: true, statements: is_marked };
-        let options = lower::Options { by_reference: None, table: emit::LEAST_UNIFORM_TABLE as usize };
+        let options = lower::Options { by_reference: None, table: emit::MIN_UNIFORM_TABLE as usize };
         let lower::Lowered { program, names, .. } = lower::lower(&module, source, options, interface, None, marks);
         ir::verify::assert_kept(&program, "lower");
         let (mut statements, mut type_texts) = Default::default();

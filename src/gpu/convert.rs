@@ -38,15 +38,7 @@ impl FloatConverter {
         let descriptor =
             TextureDescriptor { label: "as floats", shape: TextureShape::flat(width, height, FORMAT), is_target: true };
         let floats = Texture::new(gpu, &descriptor)?;
-        let view = picture.raw.create_view(&wgpu::TextureViewDescriptor {
-            label: Some("as floats"),
-            dimension: Some(wgpu::TextureViewDimension::D2),
-            base_mip_level: level,
-            mip_level_count: Some(1),
-            base_array_layer: layer,
-            array_layer_count: Some(1),
-            ..Default::default()
-        });
+        let view = picture.level("as floats", layer, level);
         let read = self.shader.bind(gpu, &view);
         let mut encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("as floats") });

@@ -62,7 +62,7 @@ pub enum GpuError {
 
 /// An arbitrary limit: 1,000 times the iterations of a long ray march, and few enough to end. The cost of counting them
 /// is not measured.
-const MOST_ROUNDS: u32 = 1 << 22;
+const MAX_LOOP_ITERATIONS: u32 = 1 << 22;
 
 /// A device and its queue. Cheap to clone; every clone is the same device.
 #[derive(Clone)]
@@ -104,7 +104,7 @@ pub struct Gpu {
     pub compiles_here: bool,
     /// The number of iterations after which a shader leaves loops that may be endless: they would block the device for
     /// all programs until a reset or longer. `None` on a CPU, which can be shared.
-    pub most_rounds: Option<u32>,
+    pub max_loop_iterations: Option<u32>,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
@@ -140,7 +140,7 @@ impl Gpu {
     /// Opens another device on the adapter of `info`, from a separate instance, so that neither waits in the other's
     /// queue. Threads that a driver starts for it inherit from the calling thread. If the adapter is not found again,
     /// one is chosen as by [`Gpu::new`].
-    pub fn another(info: &wgpu::AdapterInfo, options: &GpuOptions) -> Result<Gpu, GpuError> {
+    pub fn on_adapter(info: &wgpu::AdapterInfo, options: &GpuOptions) -> Result<Gpu, GpuError> {
         let is_same = |other: &wgpu::AdapterInfo| {
             (&other.name, other.backend, other.vendor, other.device, &other.device_pci_bus_id)
                 == (&info.name, info.backend, info.vendor, info.device, &info.device_pci_bus_id)
@@ -230,7 +230,7 @@ impl Gpu {
             unrolls_whole_arrays: info.driver_info.contains("Mesa"),
             keeps_loops_open: info.name.starts_with("llvmpipe"),
             nan_angle: info.backend == wgpu::Backend::Dx12,
-            most_rounds: (info.device_type != wgpu::DeviceType::Cpu).then_some(MOST_ROUNDS),
+            max_loop_iterations: (info.device_type != wgpu::DeviceType::Cpu).then_some(MAX_LOOP_ITERATIONS),
             runtime_checks: options.runtime_checks,
             fences: is_lavapipe.then(|| super::fences::FenceKeeper::new(&device)),
             has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
@@ -287,11 +287,11 @@ impl Gpu {
     /// Waits until the device has finished all submitted work.
     pub fn wait(&self) -> Result<(), GpuError> {
         loss::poll(&self.device, wgpu::PollType::wait_indefinitely()).map_err(GpuError::Lost)?;
-        self.take_trouble("a frame")
+        self.take_error("a frame")
     }
 
     /// Returns the uncaptured error since the last call, if there was one.
-    pub fn take_trouble(&self, what: &str) -> Result<(), GpuError> {
+    pub fn take_error(&self, what: &str) -> Result<(), GpuError> {
         if self.is_lost() {
             return Err(GpuError::Lost("the driver gave up, often because a shader ran too long".into()));
         }

@@ -56,103 +56,44 @@ pub(super) fn pipeline(
     })
 }
 
-/// A fragment shader of Eddy's own that reads values of any format at group 0, binding 0, and a uniform of 32 bytes at
-/// binding 1.
-pub(super) struct ValuesShader {
+/// A fragment shader of Eddy's own that reads one picture of any format at group 0, binding 0, and in some cases a
+/// uniform of 32 bytes at binding 1.
+pub(super) struct PictureShader {
     label: &'static str,
+    fragment: wgpu::ShaderModule,
     layout: wgpu::BindGroupLayout,
-    pipeline: wgpu::RenderPipeline,
-    uniform: wgpu::Buffer,
+    pipeline_layout: wgpu::PipelineLayout,
+    uniform: Option<wgpu::Buffer>,
 }
 
-impl ValuesShader {
-    /// Compiles WGSL with an entry point `fragment` that draws into targets of a format.
-    pub(crate) fn new(gpu: &Gpu, label: &'static str, wgsl: &str, target: wgpu::TextureFormat) -> Self {
-        let fragment = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(label),
-            source: wgpu::ShaderSource::Wgsl(wgsl.into()),
-        });
-        let values = Binding::Texture { dimension: wgpu::TextureViewDimension::D2, filterable: false };
-        let groups = [vec![(0, values), (1, Binding::Uniform { bytes: 32 })]];
-        let layout = bindings::layouts(gpu, label, &groups, wgpu::ShaderStages::FRAGMENT).remove(0);
-        let pipeline_layout = pipeline_layout(gpu, label, std::slice::from_ref(&layout));
-        let pipeline = pipeline(gpu, label, &pipeline_layout, (&fragment, "fragment"), &[(target, true)]);
+impl PictureShader {
+    /// Compiles WGSL with an entry point `fragment` that reads a `texture_2d<f32>`.
+    pub(crate) fn new(gpu: &Gpu, label: &'static str, wgsl: &str) -> Self {
+        Self::with_optional_uniform(gpu, label, wgsl, None)
+    }
+
+    /// Compiles WGSL that reads the uniform as well.
+    pub(crate) fn with_uniform(gpu: &Gpu, label: &'static str, wgsl: &str) -> Self {
         let uniform = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size: 32,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        Self { label, layout, pipeline, uniform }
+        Self::with_optional_uniform(gpu, label, wgsl, Some(uniform))
     }
 
-    /// Sets the uniform for all following draws.
-    pub(crate) fn set<T: bytemuck::NoUninit>(&self, gpu: &Gpu, words: [T; 8]) {
-        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::cast_slice(&words));
-    }
-
-    /// Binds the values to read.
-    pub(crate) fn bind(&self, gpu: &Gpu, values: &wgpu::TextureView) -> wgpu::BindGroup {
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(self.label),
-            layout: &self.layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(values) },
-                wgpu::BindGroupEntry { binding: 1, resource: self.uniform.as_entire_binding() },
-            ],
-        })
-    }
-
-    /// Draws into a target; `draw` selects values and parts of the target.
-    pub(crate) fn draw(
-        &self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: wgpu::RenderPassColorAttachment<'_>,
-        draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
-    ) {
-        let descriptor = wgpu::RenderPassDescriptor {
-            label: Some(self.label),
-            color_attachments: &[Some(target)],
-            ..Default::default()
-        };
-        gpu.pass(encoder, descriptor, |pass| {
-            pass.set_pipeline(&self.pipeline);
-            draw(pass);
-        });
-    }
-}
-
-/// A fragment shader of Eddy's own that reads one picture.
-pub(super) struct PictureShader {
-    label: &'static str,
-    fragment: wgpu::ShaderModule,
-    layout: wgpu::BindGroupLayout,
-    pipeline_layout: wgpu::PipelineLayout,
-}
-
-impl PictureShader {
-    /// Compiles WGSL with an entry point `fragment` that reads a `texture_2d<f32>` at group 0, binding 0.
-    pub(crate) fn new(gpu: &Gpu, label: &'static str, wgsl: &str) -> Self {
+    fn with_optional_uniform(gpu: &Gpu, label: &'static str, wgsl: &str, uniform: Option<wgpu::Buffer>) -> Self {
         let fragment = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(label),
             source: wgpu::ShaderSource::Wgsl(wgsl.into()),
         });
-        let entry = wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty: wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
-            },
-            count: None,
-        };
-        let layout = gpu
-            .device
-            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &[entry] });
+        let picture = Binding::Texture { dimension: wgpu::TextureViewDimension::D2, filterable: false };
+        let mut group = vec![(0, picture)];
+        group.extend(uniform.is_some().then_some((1, Binding::Uniform { bytes: 32 })));
+        let layout = bindings::layouts(gpu, label, &[group], wgpu::ShaderStages::FRAGMENT).remove(0);
         let pipeline_layout = pipeline_layout(gpu, label, std::slice::from_ref(&layout));
-        Self { label, fragment, layout, pipeline_layout }
+        Self { label, fragment, layout, pipeline_layout, uniform }
     }
 
     /// Creates the pipeline for targets of a format.
@@ -160,13 +101,21 @@ impl PictureShader {
         pipeline(gpu, self.label, &self.pipeline_layout, (&self.fragment, "fragment"), &[(target, true)])
     }
 
+    /// Sets the uniform for all following draws.
+    pub(crate) fn set<T: bytemuck::NoUninit>(&self, gpu: &Gpu, words: [T; 8]) {
+        if let Some(uniform) = &self.uniform {
+            gpu.queue.write_buffer(uniform, 0, bytemuck::cast_slice(&words));
+        }
+    }
+
     /// Binds the picture to read.
     pub(crate) fn bind(&self, gpu: &Gpu, picture: &wgpu::TextureView) -> wgpu::BindGroup {
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(self.label),
-            layout: &self.layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(picture) }],
-        })
+        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+        let mut entries = vec![entry(0, wgpu::BindingResource::TextureView(picture))];
+        entries.extend(self.uniform.as_ref().map(|uniform| entry(1, uniform.as_entire_binding())));
+        let layout = &self.layout;
+        let descriptor = wgpu::BindGroupDescriptor { label: Some(self.label), layout, entries: &entries };
+        gpu.device.create_bind_group(&descriptor)
     }
 
     /// Draws into every texel of a target.
@@ -178,6 +127,21 @@ impl PictureShader {
         picture: &wgpu::BindGroup,
         target: wgpu::RenderPassColorAttachment<'_>,
     ) {
+        self.draw_parts(gpu, encoder, pipeline, target, |pass| {
+            pass.set_bind_group(0, picture, &[]);
+            pass.draw(0..3, 0..1);
+        });
+    }
+
+    /// Draws into a target; `draw` selects pictures and parts of the target.
+    pub(crate) fn draw_parts(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::RenderPipeline,
+        target: wgpu::RenderPassColorAttachment<'_>,
+        draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
+    ) {
         let descriptor = wgpu::RenderPassDescriptor {
             label: Some(self.label),
             color_attachments: &[Some(target)],
@@ -185,8 +149,7 @@ impl PictureShader {
         };
         gpu.pass(encoder, descriptor, |pass| {
             pass.set_pipeline(pipeline);
-            pass.set_bind_group(0, picture, &[]);
-            pass.draw(0..3, 0..1);
+            draw(pass);
         });
     }
 }

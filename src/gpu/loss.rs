@@ -9,23 +9,23 @@ use std::{
 
 /// Time for which opening a device is retried while the driver resets the lost one. An H100 (driver 580.159) returned
 /// `DEVICE_LOST` after a hang; the duration of a reset was not measured.
-pub const RESET: Duration = Duration::from_secs(5);
+pub const RESET_TIMEOUT: Duration = Duration::from_secs(5);
 /// The time between two attempts.
-const PAUSE: Duration = Duration::from_millis(250);
+const RETRY_DELAY: Duration = Duration::from_millis(250);
 
 /// The time after which a driver that opens a device is considered hung. The first start of a driver compiles shaders
 /// of its own.
-const OPENS: Duration = Duration::from_secs(60);
+const OPEN_TIMEOUT: Duration = Duration::from_secs(60);
 
 /// The name of the thread that opens a device.
-pub const OPENER: &str = "open device";
+pub const OPEN_THREAD_NAME: &str = "open device";
 
 /// Opens a device on a thread that is abandoned if the driver hangs, as that of an H200 (580.159) did while a shader of
 /// another process ran endlessly.
-pub fn open_in_time<T: Send + 'static>(
+pub fn open_with_timeout<T: Send + 'static>(
     open: impl FnOnce() -> Result<T, GpuError> + Send + 'static,
 ) -> Result<T, GpuError> {
-    open_within(OPENS, open)
+    open_within(OPEN_TIMEOUT, open)
 }
 
 fn open_within<T: Send + 'static>(
@@ -33,7 +33,7 @@ fn open_within<T: Send + 'static>(
     open: impl FnOnce() -> Result<T, GpuError> + Send + 'static,
 ) -> Result<T, GpuError> {
     let (sender, receiver) = channel();
-    let thread = std::thread::Builder::new().name(OPENER.into()).spawn(move || drop(sender.send(open())));
+    let thread = std::thread::Builder::new().name(OPEN_THREAD_NAME.into()).spawn(move || drop(sender.send(open())));
     let thread = thread.map_err(|error| GpuError::NoAdapter(format!("no thread could be started: {error}")))?;
     match receiver.recv_timeout(limit) {
         Ok(opened) => opened,
@@ -67,10 +67,10 @@ fn caught(poll: impl FnOnce() -> Result<(), String>) -> Result<(), String> {
 /// Reopens a device after a loss, with retries until it succeeds or `patience` has elapsed; the attempts themselves may
 /// exceed that. A driver that does not answer is not retried.
 pub fn reopen<T>(patience: Duration, mut open: impl FnMut() -> Result<T, GpuError>) -> Result<T, GpuError> {
-    for _ in 0..patience.as_millis() / PAUSE.as_millis() {
+    for _ in 0..patience.as_millis() / RETRY_DELAY.as_millis() {
         match open() {
             Err(GpuError::NoAnswer { secs }) => return Err(GpuError::NoAnswer { secs }),
-            Err(_) => std::thread::sleep(PAUSE),
+            Err(_) => std::thread::sleep(RETRY_DELAY),
             opened => return opened,
         }
     }
@@ -97,7 +97,7 @@ mod tests {
     #[test]
     fn opening_a_device_is_retried_during_a_driver_reset() {
         let mut tries = 0;
-        let opened = reopen(RESET, || {
+        let opened = reopen(RESET_TIMEOUT, || {
             tries += 1;
             if tries < 3 { Err(GpuError::Lost(String::new())) } else { Ok(tries) }
         });
@@ -111,7 +111,7 @@ mod tests {
             (refused.unwrap_err().to_string(), tries)
         };
         assert_eq!(refused(Duration::ZERO, || GpuError::Lost(String::new())).1, 1);
-        let (hangs, tries) = refused(RESET, || GpuError::NoAnswer { secs: 60 });
+        let (hangs, tries) = refused(RESET_TIMEOUT, || GpuError::NoAnswer { secs: 60 });
         assert!(hangs.contains("60 s") && tries == 1, "{hangs}: {tries}");
     }
 
@@ -123,7 +123,7 @@ mod tests {
             Ok(())
         });
         assert!(matches!(opened, Err(GpuError::NoAnswer { .. })));
-        assert!(matches!(open_within(OPENS, || Ok(7)), Ok(7)));
-        assert!(catch_unwind(|| open_within(OPENS, || -> Result<(), GpuError> { panic!("driver") })).is_err());
+        assert!(matches!(open_within(OPEN_TIMEOUT, || Ok(7)), Ok(7)));
+        assert!(catch_unwind(|| open_within(OPEN_TIMEOUT, || -> Result<(), GpuError> { panic!("driver") })).is_err());
     }
 }

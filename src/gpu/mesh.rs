@@ -147,7 +147,7 @@ pub fn depth_buffer(gpu: &Gpu, label: &str, width: u32, height: u32) -> Result<w
 /// "calculating color attachment bytes per sample".
 pub fn check_targets(gpu: &Gpu, what: &str, formats: &[wgpu::TextureFormat]) -> Result<(), GpuError> {
     let limits = gpu.device.limits();
-    let bytes = bytes_a_sample(formats);
+    let bytes = bytes_per_sample(formats);
     if bytes > limits.max_color_attachment_bytes_per_sample {
         let limit = limits.max_color_attachment_bytes_per_sample;
         return Err(GpuError::TargetsTooLarge { what: what.into(), bytes, limit });
@@ -159,7 +159,7 @@ pub fn check_targets(gpu: &Gpu, what: &str, formats: &[wgpu::TextureFormat]) -> 
     Ok(())
 }
 
-fn bytes_a_sample(formats: &[wgpu::TextureFormat]) -> u32 {
+fn bytes_per_sample(formats: &[wgpu::TextureFormat]) -> u32 {
     formats.iter().fold(0u32, |sum, format| {
         let align = format.target_component_alignment().unwrap_or(1);
         sum.next_multiple_of(align) + format.target_pixel_byte_cost().unwrap_or(0)
@@ -173,10 +173,10 @@ mod tests {
     #[test]
     fn bytes_of_targets_are_counted_by_the_rules_of_webgpu() {
         use wgpu::TextureFormat as F;
-        assert_eq!(bytes_a_sample(&[F::Rgba32Float; 4]), 64);
+        assert_eq!(bytes_per_sample(&[F::Rgba32Float; 4]), 64);
         // Eight bits per component count twice.
-        assert_eq!(bytes_a_sample(&[F::Rgba8Unorm; 4]), 32);
+        assert_eq!(bytes_per_sample(&[F::Rgba8Unorm; 4]), 32);
         // The byte is rounded up for the alignment of the next format.
-        assert_eq!(bytes_a_sample(&[F::R8Unorm, F::R32Float]), 8);
+        assert_eq!(bytes_per_sample(&[F::R8Unorm, F::R32Float]), 8);
     }
 }

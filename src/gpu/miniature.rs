@@ -71,7 +71,7 @@ impl Miniatures {
         let bound = self.shader.bind(gpu, picture);
         let mut encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("miniature") });
-        let target = self.texture.attachment(gpu.load_what_is_overwritten());
+        let target = self.texture.attachment(gpu.load_op_dont_care());
         self.shader.draw(gpu, &mut encoder, &self.pipeline, &bound, target);
         gpu.queue.submit([encoder.finish()]);
         &self.texture

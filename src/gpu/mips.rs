@@ -44,17 +44,7 @@ impl MipMaker {
     pub fn chain(&mut self, gpu: &Gpu, texture: &Texture) -> MipChain {
         let format = texture.raw.format();
         self.pipelines.entry(format).or_insert_with(|| self.shader.pipeline(gpu, format));
-        let view = |layer, level| {
-            texture.raw.create_view(&wgpu::TextureViewDescriptor {
-                label: Some("mip level"),
-                dimension: Some(wgpu::TextureViewDimension::D2),
-                base_mip_level: level,
-                mip_level_count: Some(1),
-                base_array_layer: layer,
-                array_layer_count: Some(1),
-                ..Default::default()
-            })
-        };
+        let view = |layer, level| texture.level("mip level", layer, level);
         let steps = (0..texture.shape.layers())
             .flat_map(|layer| (1..texture.shape.levels).map(move |level| (layer, level)))
             .map(|(layer, level)| (view(layer, level), self.shader.bind(gpu, &view(layer, level - 1))))
@@ -69,7 +59,7 @@ impl MipMaker {
                 view: level,
                 depth_slice: None,
                 resolve_target: None,
-                ops: wgpu::Operations { load: gpu.load_what_is_overwritten(), store: wgpu::StoreOp::Store },
+                ops: wgpu::Operations { load: gpu.load_op_dont_care(), store: wgpu::StoreOp::Store },
             };
             self.shader.draw(gpu, encoder, &self.pipelines[&chain.format], finer, target);
         }

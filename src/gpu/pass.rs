@@ -5,7 +5,7 @@ use super::Gpu;
 impl Gpu {
     /// Returns the load operation for a colour target that a pass overwrites completely. It is cleared, which is free
     /// on devices that draw tile by tile; on lavapipe, where a clear is a separate draw, it is loaded.
-    pub fn load_what_is_overwritten(&self) -> wgpu::LoadOp<wgpu::Color> {
+    pub fn load_op_dont_care(&self) -> wgpu::LoadOp<wgpu::Color> {
         if self.fences.is_some() { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) }
     }
 
@@ -21,10 +21,10 @@ impl Gpu {
             return;
         };
         let is_cleared = |a: &wgpu::RenderPassColorAttachment<'_>| matches!(a.ops.load, wgpu::LoadOp::Clear(_));
-        let begins_cleared = descriptor.color_attachments.iter().flatten().any(is_cleared);
+        let is_cleared_first = descriptor.color_attachments.iter().flatten().any(is_cleared);
         let descriptor = wgpu::RenderPassDescriptor { occlusion_query_set: Some(&keeper.queries), ..descriptor };
         let mut pass = encoder.begin_render_pass(&descriptor);
-        if begins_cleared {
+        if is_cleared_first {
             keeper.hold(&mut pass);
         }
         draw(&mut pass);

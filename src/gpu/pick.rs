@@ -1,6 +1,6 @@
 //! Reads the texels of many textures at one place together.
 
-use super::{Gpu, GpuError, Readback, Texture, TextureDescriptor, full_screen::ValuesShader, texture_format};
+use super::{Gpu, GpuError, Readback, Texture, TextureDescriptor, full_screen::PictureShader, texture_format};
 use eddy_texture::{TexelFormat, TextureShape};
 
 const FORMAT: TexelFormat = TexelFormat::Rgba32f;
@@ -21,13 +21,15 @@ const SHADER: &str = "
 
 /// Reads one texel from each of several textures, of any formats and sizes.
 pub struct TexelPicker {
-    shader: ValuesShader,
+    shader: PictureShader,
+    pipeline: wgpu::RenderPipeline,
     readback: Readback,
 }
 
 impl TexelPicker {
     pub fn new(gpu: &Gpu) -> Self {
-        Self { shader: ValuesShader::new(gpu, LABEL, SHADER, texture_format(FORMAT)), readback: Readback::default() }
+        let shader = PictureShader::with_uniform(gpu, LABEL, SHADER);
+        Self { pipeline: shader.pipeline(gpu, texture_format(FORMAT)), shader, readback: Readback::default() }
     }
 
     /// Returns the texel of each picture at a place, from 0 to 1 across and up: missing components as 0, alpha as 1.
@@ -49,7 +51,7 @@ impl TexelPicker {
         let descriptor = wgpu::CommandEncoderDescriptor { label: Some(LABEL) };
         let mut encoder = gpu.device.create_command_encoder(&descriptor);
         let target = row.attachment(wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));
-        self.shader.draw(gpu, &mut encoder, target, |pass| {
+        self.shader.draw_parts(gpu, &mut encoder, &self.pipeline, target, |pass| {
             for (index, bound) in bound.iter().enumerate() {
                 pass.set_bind_group(0, bound, &[]);
                 // The triangle covers the whole target: the scissor rectangle restricts it to this texel.

@@ -47,7 +47,7 @@ impl Presenter {
 
     /// Draws the picture into `display`, which must have the same size.
     pub fn present(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, picture: &wgpu::BindGroup, display: &Texture) {
-        let target = display.attachment(gpu.load_what_is_overwritten());
+        let target = display.attachment(gpu.load_op_dont_care());
         self.shader.draw(gpu, encoder, &self.pipeline, picture, target);
     }
 }

@@ -56,7 +56,7 @@ impl AdapterReport {
     /// Lists the adapters of the machine without opening a device. Those of OpenGL are listed if there are no others,
     /// like in [`Gpu::new`].
     pub fn all() -> Result<Vec<Self>, GpuError> {
-        loss::open_in_time(|| Ok(Self::found()))
+        loss::open_with_timeout(|| Ok(Self::found()))
     }
 
     fn found() -> Vec<Self> {
@@ -79,7 +79,7 @@ fn names(features: wgpu::Features) -> Vec<String> {
 impl DeviceReport {
     /// Describes the device that Eddy draws with on this machine. Returns an error if there is none.
     pub fn of_default() -> Result<Self, GpuError> {
-        loss::open_in_time(|| Gpu::new(&GpuOptions::default())).map(|gpu| Self::of(&gpu))
+        loss::open_with_timeout(|| Gpu::new(&GpuOptions::default())).map(|gpu| Self::of(&gpu))
     }
 
     pub fn of(gpu: &Gpu) -> Self {

@@ -56,6 +56,24 @@ fn extent(shape: TextureShape) -> wgpu::Extent3d {
     wgpu::Extent3d { width, height, depth_or_array_layers: depth * shape.layers() }
 }
 
+/// Creates a view of one level of one layer.
+fn level_view(
+    texture: &wgpu::Texture,
+    label: &str,
+    dimension: Option<wgpu::TextureViewDimension>,
+    (layer, level): (u32, u32),
+) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        label: Some(label),
+        dimension,
+        base_mip_level: level,
+        mip_level_count: Some(1),
+        base_array_layer: layer,
+        array_layer_count: Some(1),
+        ..Default::default()
+    })
+}
+
 impl Texture {
     /// Creates a texture. Returns an error for a size that no target can have, and if memory is exhausted.
     pub fn new(gpu: &Gpu, descriptor: &TextureDescriptor<'_>) -> Result<Texture, GpuError> {
@@ -79,16 +97,8 @@ impl Texture {
                 view_formats: &[],
             })
         })?;
-        let level_0 = |layer| {
-            raw.create_view(&wgpu::TextureViewDescriptor {
-                label: Some(label),
-                dimension: (!is_volume).then_some(wgpu::TextureViewDimension::D2),
-                mip_level_count: Some(1),
-                base_array_layer: layer,
-                array_layer_count: Some(1),
-                ..Default::default()
-            })
-        };
+        let dimension = (!is_volume).then_some(wgpu::TextureViewDimension::D2);
+        let level_0 = |layer| level_view(&raw, label, dimension, (layer, 0));
         let all_levels = raw.create_view(&wgpu::TextureViewDescriptor {
             label: Some(label),
             dimension: Some(view_dimension(shape.dimension)),
@@ -96,6 +106,11 @@ impl Texture {
         });
         let other_faces = (1..shape.layers()).map(level_0).collect();
         Ok(Texture { level_0: level_0(0), other_faces, all_levels, shape, raw })
+    }
+
+    /// Creates a view of a level of a layer, as a flat picture.
+    pub(super) fn level(&self, label: &str, layer: u32, level: u32) -> wgpu::TextureView {
+        level_view(&self.raw, label, Some(wgpu::TextureViewDimension::D2), (layer, level))
     }
 
     /// Returns level 0 of a layer.

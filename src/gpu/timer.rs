@@ -78,7 +78,7 @@ impl PassTimer {
     }
 
     /// Starts a frame.
-    pub fn begin(&mut self) {
+    pub fn start(&mut self) {
         self.recording = self.slots.iter().position(|s| matches!(s.state, State::Free));
         if let Some(i) = self.recording {
             self.newest += 1;

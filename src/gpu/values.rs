@@ -1,6 +1,6 @@
 //! Conversion of float values to 8 bits for a window, for any range of values.
 
-use super::{Gpu, Texture, full_screen::ValuesShader};
+use super::{Gpu, Texture, full_screen::PictureShader};
 
 /// The mapping of numbers to colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -95,11 +95,15 @@ fn false_colour(x: f32) -> vec3<f32> {
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// Draws values into a display texture (rgba8unorm).
-pub struct ValuePainter(ValuesShader);
+pub struct ValuePainter {
+    shader: PictureShader,
+    pipeline: wgpu::RenderPipeline,
+}
 
 impl ValuePainter {
     pub fn new(gpu: &Gpu) -> Self {
-        Self(ValuesShader::new(gpu, "values", SHADER, FORMAT))
+        let shader = PictureShader::with_uniform(gpu, "values", SHADER);
+        Self { pipeline: shader.pipeline(gpu, FORMAT), shader }
     }
 
     /// Sets the displayed part and its mapping for all following draws.
@@ -110,30 +114,18 @@ impl ValuePainter {
             Paint::FalseColour => 2,
         };
         let channel = look.channel.map_or(4, u32::from);
-        let words = [
-            look.low.to_bits(),
-            look.high.to_bits(),
-            paint,
-            channel,
-            look.components.into(),
-            look.has_gaps.into(),
-            0,
-            0,
-        ];
-        self.0.set(gpu, words);
+        let (low, high) = (look.low.to_bits(), look.high.to_bits());
+        self.shader.set(gpu, [low, high, paint, channel, look.components.into(), look.has_gaps.into(), 0, 0]);
     }
 
     /// Creates the bind group with which [`ValuePainter::present`] shows one picture repeatedly.
     pub fn bind(&self, gpu: &Gpu, values: &wgpu::TextureView) -> wgpu::BindGroup {
-        self.0.bind(gpu, values)
+        self.shader.bind(gpu, values)
     }
 
     /// Draws the values into `display`, which must have the same size.
     pub fn present(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, values: &wgpu::BindGroup, display: &Texture) {
-        let target = display.attachment(gpu.load_what_is_overwritten());
-        self.0.draw(gpu, encoder, target, |pass| {
-            pass.set_bind_group(0, values, &[]);
-            pass.draw(0..3, 0..1);
-        });
+        let target = display.attachment(gpu.load_op_dont_care());
+        self.shader.draw(gpu, encoder, &self.pipeline, values, target);
     }
 }

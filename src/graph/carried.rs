@@ -59,7 +59,7 @@ impl FramePlan {
         let last = self.runs.last().filter(|run| run.steps == 1)?;
         let index = last.draws.clone().last()?;
         let draw = &self.draws[index];
-        let is_plain = draw.beside.is_none() && draw.boundary.is_none() && !draw.draws_meshes;
+        let is_plain = draw.extra_target.is_none() && draw.boundary.is_none() && !draw.draws_meshes;
         let mut targets = draw.targets.clone();
         let is_target_plain = targets.len() == 1
             && targets.all(|target| {

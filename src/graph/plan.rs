@@ -82,8 +82,8 @@ pub struct Draw {
     pub pass: usize,
     /// Indices into [`FramePlan::targets`]; several only if meshes are drawn.
     pub targets: Range<usize>,
-    /// The index of an additional target, after these, for [`FramePlan::draw_beside`].
-    pub beside: Option<usize>,
+    /// The index of an additional target, after these, for [`FramePlan::add_extra_target`].
+    pub extra_target: Option<usize>,
     /// `None` if the compiled pass does not read the channel.
     pub reads: [Option<Read>; SLOTS],
     /// It rasterizes meshes into targets that are cleared first.
@@ -110,7 +110,7 @@ impl Draw {
     /// Returns the indices into [`FramePlan::targets`] of all targets it draws into, in the order of fragment
     /// locations.
     pub fn all_targets(&self) -> impl Iterator<Item = usize> + use<> {
-        self.targets.clone().chain(self.beside)
+        self.targets.clone().chain(self.extra_target)
     }
 
     /// Returns the draw for a fill of the pass. It reads none of the pass's inputs, only its own picture if the fill is
@@ -153,9 +153,9 @@ impl FramePlan {
 
     /// Adds a target of 32-bit floats, with a name of its own, for a value that the pass of a draw outputs in addition
     /// to its picture. No pass reads it, and the pass's other reads and outputs do not change.
-    pub fn draw_beside(&mut self, pass: usize, id: PassName) {
+    pub fn add_extra_target(&mut self, pass: usize, id: PassName) {
         let Some(draw) = self.draws.iter_mut().find(|draw| draw.pass == pass) else { return };
-        draw.beside = Some(self.targets.len());
+        draw.extra_target = Some(self.targets.len());
         let own = &self.targets[draw.targets.start];
         let (dimension, size) = (own.dimension, own.size);
         let format = TexelFormat::Rgba32f;
@@ -168,22 +168,22 @@ impl FramePlan {
     ///
     /// # Panics
     /// If `facts` and the project's passes differ in length.
-    pub fn new(project: &Project, facts: &[PassFacts], wanted: &[PassName], skip: bool) -> FramePlan {
-        Self::ending_with(project, facts, wanted, skip, None)
+    pub fn new(project: &Project, facts: &[PassFacts], requested: &[PassName], skip: bool) -> FramePlan {
+        Self::ending_with(project, facts, requested, skip, None)
     }
 
     /// Does the same as [`FramePlan::new`], with the buffer `last` drawn after all other passes.
     pub fn ending_with(
         project: &Project,
         facts: &[PassFacts],
-        wanted: &[PassName],
+        requested: &[PassName],
         skip: bool,
         last: Option<&PassName>,
     ) -> FramePlan {
         assert_eq!(facts.len(), project.passes.len(), "one PassFacts for each pass");
-        let mut order = drawing_order(project, wanted);
+        let mut order = drawing_order(project, requested);
         order.sort_by_key(|&pass| Some(&project.passes[pass].id) == last);
-        let reached = if skip { reached_from(project, facts, wanted) } else { order.iter().copied().collect() };
+        let reached = if skip { reached_from(project, facts, requested) } else { order.iter().copied().collect() };
         let mut plan = FramePlan {
             skipped: order.iter().copied().filter(|i| !reached.contains(i)).collect(),
             ..Default::default()
@@ -204,7 +204,7 @@ impl FramePlan {
             plan.draws.push(Draw {
                 pass,
                 targets,
-                beside: None,
+                extra_target: None,
                 reads,
                 draws_meshes: is_cleared,
                 keeps_content: !is_cleared && (facts[pass].discards || region.is_some() || !skip),
@@ -261,7 +261,7 @@ impl FramePlan {
 
     /// Returns the number of draws of a frame in which everything has changed, counting each step and each face of a
     /// cube.
-    pub fn draws_a_frame(&self) -> u64 {
+    pub fn draws_per_frame(&self) -> u64 {
         let draws = |run: &Run| run.draws.clone().map(|draw| u64::from(self.layers(draw))).sum::<u64>();
         self.runs.iter().map(|run| draws(run) * u64::from(run.steps)).sum()
     }
@@ -356,20 +356,20 @@ impl FramePlan {
 
 /// Buffers in the project's order, then the cubemap, then Image. Sound has no picture, and is drawn only if a block of
 /// its samples is requested.
-fn drawing_order(project: &Project, wanted: &[PassName]) -> Vec<usize> {
+fn drawing_order(project: &Project, requested: &[PassName]) -> Vec<usize> {
     let id = |i: usize| &project.passes[i].id;
-    let is_drawn = |i: &usize| id(*i).is_picture() || wanted.contains(id(*i));
+    let is_drawn = |i: &usize| id(*i).is_picture() || requested.contains(id(*i));
     let mut order: Vec<usize> = (0..project.passes.len()).filter(is_drawn).collect();
     order.sort_by(|&a, &b| id(a).drawing_order(id(b)));
     order
 }
 
 /// Returns the passes that some requested picture needs, now or in a later frame.
-fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassName]) -> BTreeSet<usize> {
+fn reached_from(project: &Project, facts: &[PassFacts], requested: &[PassName]) -> BTreeSet<usize> {
     let index_of = |id: &PassName| project.passes.iter().position(|p| p.id == *id);
     let image = [PassName::image()];
     let mut todo: Vec<usize> =
-        if wanted.is_empty() { &image[..] } else { wanted }.iter().filter_map(index_of).collect();
+        if requested.is_empty() { &image[..] } else { requested }.iter().filter_map(index_of).collect();
     let mut reached = BTreeSet::new();
     while let Some(pass) = todo.pop() {
         if !reached.insert(pass) {

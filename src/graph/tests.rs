@@ -1,7 +1,8 @@
 //! Tests of the planner's rules, without a device.
 
 use super::{
-    Carried, Changes, ChannelFacts, FramePlan, PassFacts, ReadTiming, Target, TexelSource, Undivided, effective_sampler,
+    Carried, Changes, ChannelFacts, FramePlan, PassFacts, ReadTiming, Target, TexelSource, TilingError,
+    effective_sampler,
 };
 use eddy_project::{
     Body, Channel, Filter, Group, Input, Origin, Pass, PassName, PassSize, Project, Region, SLOTS, Sampler,
@@ -205,12 +206,12 @@ fn a_group_is_one_run_of_many_steps_and_every_other_draw_a_run_of_one() {
     let runs = |plan: &FramePlan| plan.runs.iter().map(|r| (r.draws.clone(), r.steps)).collect::<Vec<_>>();
     let whole = plan(&project);
     assert_eq!(runs(&whole), [(0..1, 1), (1..3, 20), (3..4, 1), (4..5, 1)]);
-    assert_eq!(whole.draws_a_frame(), 43);
+    assert_eq!(whole.draws_per_frame(), 43);
     let mut facts = vec![reads_all(); 5];
     facts[4].channels[0].is_read = false;
     let less = FramePlan::new(&project, &facts, &[], true);
     assert_eq!(
-        (runs(&less), less.draws_a_frame()),
+        (runs(&less), less.draws_per_frame()),
         (vec![(0..1, 1), (1..2, 1)], 2),
         "what nobody reaches has no steps"
     );
@@ -329,7 +330,7 @@ fn readers_of_any_target_follow_a_scene_that_was_drawn() {
     };
     assert_eq!(due(b"here"), [true; 3]);
     assert_eq!(due(b"here"), [false; 3]);
-    assert_eq!(due(b"there"), [true; 3], "A reads the second target and is drawn anew");
+    assert_eq!(due(b"there"), [true; 3], "A reads the second target and is drawn again");
 }
 
 #[test]
@@ -370,13 +371,13 @@ fn an_additional_output_changes_no_other_target() {
     let plain = plan(&project);
     let mut plan = plan(&project);
     let value = PassName::buffer("a value");
-    plan.draw_beside(0, value.clone());
+    plan.add_extra_target(0, value.clone());
     assert_eq!(plan.targets[..plain.targets.len()], plain.targets);
     let [more] = &plan.targets[plain.targets.len()..] else { panic!("one more target") };
     assert_eq!((&more.id, more.index, more.format, more.doubled), (&value, 0, TexelFormat::Rgba32f, false));
     assert!(plan.is_drawn(plain.targets.len()));
     let drawn: Vec<Vec<usize>> = plan.draws.iter().map(|draw| draw.all_targets().collect()).collect();
-    assert_eq!((drawn, plan.draws_a_frame()), (vec![vec![0, 2], vec![1]], 2));
+    assert_eq!((drawn, plan.draws_per_frame()), (vec![vec![0, 2], vec![1]], 2));
     assert_eq!(plan.draws[0].reads, plain.draws[0].reads);
 }
 
@@ -460,7 +461,7 @@ fn the_last_draw_may_be_split_if_the_result_is_the_same() {
         "a `discard` shows what was there"
     );
     let mut probed = plan(&project, &facts, &[]);
-    probed.draw_beside(2, id("probe"));
+    probed.add_extra_target(2, id("probe"));
     assert_eq!(probed.divisible_draw(), None, "a probe is read back");
     project.groups = vec![Group { name: "g".into(), passes: vec![PassName::image()], steps: 2 }];
     assert_eq!(divisible(&project, &facts), None, "it is drawn twice");
@@ -487,7 +488,7 @@ fn a_pass_is_drawn_in_tiles_if_its_picture_is_the_same() {
     assert_eq!(FramePlan { tiled: None, targets: whole.targets.clone(), ..tiled }, whole);
     // Buffer A is read by Image.
     let mut refused = whole.clone();
-    assert_eq!(refused.tile(&project, 0, (64, 32)), Err(Undivided::Read("Image".into())));
+    assert_eq!(refused.tile(&project, 0, (64, 32)), Err(TilingError::Read("Image".into())));
     assert_eq!(refused, whole);
 }
 
@@ -503,8 +504,8 @@ fn a_pass_whose_picture_would_differ_is_not_drawn_in_tiles() {
     let a = || pass(PassName::buffer("A"), [buffer("A"), None, None, None]);
     let region = Some(Region { x: 0, y: 0, width: 1, height: 1 });
     let settings = |region| eddy_project::PassSettings { region, ..Default::default() };
-    assert_eq!(why(vec![image()], PassFacts { discards: true, ..reads_all() }, 0), Undivided::Discards);
-    assert_eq!(why(vec![a(), image()], reads_all(), 0), Undivided::Itself);
-    assert_eq!(why(vec![Pass { settings: settings(region), ..image() }], reads_all(), 0), Undivided::Region);
-    assert_eq!(why(vec![pass(PassName::cube(), Default::default()), image()], reads_all(), 0), Undivided::Cube);
+    assert_eq!(why(vec![image()], PassFacts { discards: true, ..reads_all() }, 0), TilingError::Discards);
+    assert_eq!(why(vec![a(), image()], reads_all(), 0), TilingError::Itself);
+    assert_eq!(why(vec![Pass { settings: settings(region), ..image() }], reads_all(), 0), TilingError::Region);
+    assert_eq!(why(vec![pass(PassName::cube(), Default::default()), image()], reads_all(), 0), TilingError::Cube);
 }

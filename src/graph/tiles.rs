@@ -17,7 +17,7 @@ pub struct TiledDraw {
 
 /// The reason why a pass cannot be drawn in tiles. Its text includes the fix.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Undivided {
+pub enum TilingError {
     Meshes,
     Cube,
     Targets,
@@ -32,30 +32,30 @@ pub enum Undivided {
     Steps,
 }
 
-impl fmt::Display for Undivided {
+impl fmt::Display for TilingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Undivided::Meshes => "it draws meshes, which are rasterized over the whole picture; choose a smaller resolution",
-            Undivided::Cube => "the faces of a cubemap have one size; leave --tile out",
-            Undivided::Targets => "it has several targets; choose a smaller resolution",
-            Undivided::Read(reader) => {
+            TilingError::Meshes => "it draws meshes, which are rasterized over the whole picture; choose a smaller resolution",
+            TilingError::Cube => "the faces of a cubemap have one size; leave --tile out",
+            TilingError::Targets => "it has several targets; choose a smaller resolution",
+            TilingError::Read(reader) => {
                 return write!(
                     f,
                     "{reader} reads all of its picture; give it a fixed size in eddy.toml, or choose a smaller resolution"
                 );
             }
-            Undivided::Itself => {
+            TilingError::Itself => {
                 "it reads its own last picture; give it a fixed size in eddy.toml, or choose a smaller resolution"
             }
-            Undivided::Discards => {
+            TilingError::Discards => {
                 "it discards pixels, which then show what they showed before; give these pixels a colour instead, or \
                  choose a smaller resolution"
             }
-            Undivided::Region => "only a region of it is drawn; remove the region in eddy.toml",
-            Undivided::Boundary => "it has a boundary; remove the boundary in eddy.toml",
-            Undivided::Initial => "it has initial texels; remove them in eddy.toml",
-            Undivided::Condition => "it is drawn under a condition; remove `when` in eddy.toml",
-            Undivided::Steps => "it is drawn in several steps a frame; choose a smaller resolution",
+            TilingError::Region => "only a region of it is drawn; remove the region in eddy.toml",
+            TilingError::Boundary => "it has a boundary; remove the boundary in eddy.toml",
+            TilingError::Initial => "it has initial texels; remove them in eddy.toml",
+            TilingError::Condition => "it is drawn under a condition; remove `when` in eddy.toml",
+            TilingError::Steps => "it is drawn in several steps a frame; choose a smaller resolution",
         })
     }
 }
@@ -67,43 +67,43 @@ impl FramePlan {
     ///
     /// # Panics
     /// If no draw is of this pass.
-    pub fn tile(&mut self, project: &Project, pass: usize, tile: (u32, u32)) -> Result<(), Undivided> {
+    pub fn tile(&mut self, project: &Project, pass: usize, tile: (u32, u32)) -> Result<(), TilingError> {
         let index = self.draws.iter().position(|draw| draw.pass == pass).expect("the pass is drawn");
         let draw = &self.draws[index];
         if !project.passes[pass].body.is_screen() {
-            return Err(Undivided::Meshes);
+            return Err(TilingError::Meshes);
         }
-        if draw.targets.len() != 1 || draw.beside.is_some() {
-            return Err(Undivided::Targets);
+        if draw.targets.len() != 1 || draw.extra_target.is_some() {
+            return Err(TilingError::Targets);
         }
         let place = draw.targets.start;
         if self.targets[place].dimension != Dimension::D2 {
-            return Err(Undivided::Cube);
+            return Err(TilingError::Cube);
         }
         let reads = |draw: &&Draw| {
             draw.reads.iter().flatten().any(|r| matches!(r.source, TexelSource::Target { index, .. } if index == place))
         };
         if let Some(reader) = self.draws.iter().find(reads) {
             let title = project.passes[reader.pass].id.title();
-            return Err(if reader.pass == pass { Undivided::Itself } else { Undivided::Read(title) });
+            return Err(if reader.pass == pass { TilingError::Itself } else { TilingError::Read(title) });
         }
         if draw.region.is_some() {
-            return Err(Undivided::Region);
+            return Err(TilingError::Region);
         }
         if draw.keeps_content {
-            return Err(Undivided::Discards);
+            return Err(TilingError::Discards);
         }
         if draw.boundary.is_some() {
-            return Err(Undivided::Boundary);
+            return Err(TilingError::Boundary);
         }
         if draw.has_initial {
-            return Err(Undivided::Initial);
+            return Err(TilingError::Initial);
         }
         if draw.when.is_some() {
-            return Err(Undivided::Condition);
+            return Err(TilingError::Condition);
         }
         if self.steps_of(index) != 1 {
-            return Err(Undivided::Steps);
+            return Err(TilingError::Steps);
         }
         let target = &mut self.targets[place];
         self.tiled = Some(TiledDraw { draw: index, size: target.size });

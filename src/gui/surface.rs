@@ -121,7 +121,7 @@ impl Surface {
     /// device, and must be recreated by their owners.
     pub(super) fn reopen_device(&mut self, window: &Arc<Window>, ctx: &egui::Context) -> Result<(), GuiError> {
         let (instance, surface, adapter) = open(window, &self.display)?;
-        let gpu = loss::reopen(loss::RESET, || Gpu::from_adapter(&adapter, &GpuOptions::default()))?;
+        let gpu = loss::reopen(loss::RESET_TIMEOUT, || Gpu::from_adapter(&adapter, &GpuOptions::default()))?;
         self.config = config(&surface, &adapter, window.inner_size())?;
         // A window has one swapchain: the old surface must be dropped before a new one is created.
         self.surface = surface;

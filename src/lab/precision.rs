@@ -176,7 +176,7 @@ pub fn cuts_off(rig: &Rig) -> Result<bool, LabError> {
 
 fn open(gpu: &Gpu, project: &Project, media: &MediaSet, size: (u32, u32)) -> Result<Engine, PrecisionError> {
     let mut engine = Engine::new(gpu.clone(), size.0, size.1)?;
-    let options = BuildOptions { wanted: vec![PassName::image()], skip: true, ..BuildOptions::default() };
+    let options = BuildOptions { requested: vec![PassName::image()], skip: true, ..BuildOptions::default() };
     let built = Program::build(gpu, project, media, &options).map_err(PrecisionError::Build)?;
     engine.set_program(built.program)?;
     Ok(engine)

@@ -44,7 +44,7 @@ impl Rig {
         let (width, height) = setup.size();
         let mut engine = Engine::new(self.gpu.clone(), width, height)?;
         let mut options =
-            BuildOptions { wanted: setup.wanted().to_vec(), skip: setup.skips(), ..BuildOptions::default() };
+            BuildOptions { requested: setup.wanted().to_vec(), skip: setup.skips(), ..BuildOptions::default() };
         if let Some((pass, source, at)) = setup.value_at(&project)? {
             options = options.probing(pass, source, at);
         }

@@ -223,7 +223,7 @@ impl<T: FnMut(Step<'_>)> Work<T> {
 fn rigs(first: &Rig, points: usize, control: &Control) -> Vec<Rig> {
     let gpu = first.gpu();
     let count = if control.beside_window { 1 } else { gpu.rasteriser().parallel_devices().min(points) };
-    let others = (1..count).map_while(|_| Gpu::another(&gpu.info, &GpuOptions::default()).ok());
+    let others = (1..count).map_while(|_| Gpu::on_adapter(&gpu.info, &GpuOptions::default()).ok());
     std::iter::once(gpu.clone()).chain(others).map(|gpu| Rig::stoppable(gpu, control.stop.clone())).collect()
 }
 

@@ -138,7 +138,7 @@ mod tests {
             assert_eq!(lines.position(10), Position { line: 1, character: 0 });
             assert_eq!(lines.position(17), Position { line: 2, character: 0 });
             assert_eq!(lines.position(999), Position { line: 3, character: 0 });
-            assert_eq!(lines.offset(Position { line: 0, character: 99 }), 8, "behind a line");
+            assert_eq!(lines.offset(Position { line: 0, character: 99 }), 8, "after a line");
             assert_eq!(lines.offset(Position { line: 99, character: 0 }), text.len());
         }
         let lines = Lines::new(text, Encoding::Utf16);

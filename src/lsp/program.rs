@@ -2,7 +2,7 @@
 
 use super::documents::Documents;
 use eddy_diag::{self as diag, Diagnostic, Fix, SourceId, SourceMap, Span};
-use eddy_engine::{KeptAnalyses, Sources, StageAnalysis};
+use eddy_engine::{AnalysisCache, Sources, StageAnalysis};
 use eddy_glsl::{
     PassKind, PassSource, Text,
     cancel::Cancel,
@@ -48,7 +48,7 @@ pub(crate) struct Program {
     /// A text of it has changed since it was read.
     pub is_stale: bool,
     /// Its diagnostics have changed since they were published.
-    pub is_untold: bool,
+    pub is_unpublished: bool,
     /// `None` for one plain stage, or for files that do not form a project.
     pub project: Option<Project>,
     /// The texts of the project, followed by further files that diagnostics refer to.
@@ -65,7 +65,7 @@ pub(crate) struct Program {
     media: Media,
     /// Documents for which diagnostics have been published.
     pub published: BTreeSet<String>,
-    kept: KeptAnalyses,
+    kept: AnalysisCache,
 }
 
 /// The diagnostics of pictures and models, which are read again when a project names different ones.
@@ -80,7 +80,7 @@ impl Program {
         Self {
             root,
             is_stale: true,
-            is_untold: true,
+            is_unpublished: true,
             project: None,
             texts: SourceMap::default(),
             paths: Vec::new(),
@@ -90,17 +90,17 @@ impl Program {
             reported: Vec::new(),
             media: Media::default(),
             published: BTreeSet::new(),
-            kept: KeptAnalyses::default(),
+            kept: AnalysisCache::default(),
         }
     }
 
     /// Returns the same program, unread, with the data kept for the next reading moved to it.
-    pub(crate) fn unread(&mut self) -> Self {
+    pub(crate) fn take_unread(&mut self) -> Self {
         Self { kept: std::mem::take(&mut self.kept), ..Self::new(self.root.clone()) }
     }
 
     /// Replaces an earlier reading of the same program.
-    pub(crate) fn follows(&mut self, earlier: &mut Self) {
+    pub(crate) fn replace(&mut self, earlier: &mut Self) {
         self.published = std::mem::take(&mut earlier.published);
         self.media = std::mem::take(&mut earlier.media);
         if self.project.is_none() {
@@ -109,13 +109,13 @@ impl Program {
     }
 
     /// Takes over the data that another reading of the program kept.
-    pub(crate) fn keep_of(&mut self, other: Self) {
+    pub(crate) fn take_cache_of(&mut self, other: Self) {
         self.kept = other.kept;
     }
 
     /// Reads the program again, unless it is cancelled.
     pub(crate) fn read(&mut self, documents: &Documents, cancel: &Arc<AtomicBool>) {
-        (self.is_stale, self.is_untold) = (false, true);
+        (self.is_stale, self.is_unpublished) = (false, true);
         let text = documents.get(self.root.path()).map(|document| document.text.clone());
         if let (Root::File(path), Some(text)) = (&self.root, text)
             && let Some(kind) = plain_kind(path, &text)
@@ -243,7 +243,7 @@ impl Program {
             .map(|pass| (pass.bindings.clone(), pass.settings.clone(), pass.body.clone()))
             .collect();
         let reported = media::diagnose(project);
-        self.is_untold |= reported != self.media.reported;
+        self.is_unpublished |= reported != self.media.reported;
         self.media = Media { of: Some(of), reported };
     }
 
@@ -315,7 +315,7 @@ impl Program {
                 Some(project) => {
                     let renamed = project.with_edits(fix);
                     let texts = Sources::new(&renamed);
-                    let stages = KeptAnalyses::default().analyse(&renamed, &texts);
+                    let stages = AnalysisCache::default().analyse(&renamed, &texts);
                     let analyses: Vec<&Analysis> = stages.iter().map(|stage| &*stage.analysis).collect();
                     let uniforms = renamed.custom_uniform_names();
                     check(&Programs { analyses: &analyses, uniforms: &uniforms, texts: &renamed.texts() });

@@ -79,7 +79,7 @@ pub(crate) fn publish(
     encoding: Encoding,
     is_others: impl Fn(&std::path::Path) -> bool,
 ) -> Vec<PublishDiagnosticsParams> {
-    program.is_untold = false;
+    program.is_unpublished = false;
     let said = program.diagnostics();
     let mut places = Places::new(program, documents, encoding);
     let mut lists: BTreeMap<String, Vec<lsp::Diagnostic>> = BTreeMap::new();

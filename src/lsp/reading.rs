@@ -27,7 +27,7 @@ pub(crate) struct Reading {
 }
 
 /// The state of a reading.
-pub(crate) enum Progress {
+pub(crate) enum ReadingState {
     Reading,
     Read(Box<Program>),
     /// It was cancelled, or has panicked.
@@ -54,17 +54,17 @@ impl Reading {
     }
 
     /// Cancels the reading at the next statement, because a text of the program has changed.
-    pub(crate) fn give_up(&self) {
+    pub(crate) fn cancel(&self) {
         self.is_outdated.store(true, Ordering::Relaxed);
     }
 
     /// Waits for the result, at most for `patience`.
-    pub(crate) fn wait(&self, patience: Duration) -> Progress {
+    pub(crate) fn wait(&self, patience: Duration) -> ReadingState {
         match self.result.recv_timeout(patience) {
-            Ok(Some(program)) => Progress::Read(program),
-            Ok(None) => Progress::Ended { has_failed: false },
-            Err(RecvTimeoutError::Timeout) => Progress::Reading,
-            Err(RecvTimeoutError::Disconnected) => Progress::Ended { has_failed: true },
+            Ok(Some(program)) => ReadingState::Read(program),
+            Ok(None) => ReadingState::Ended { has_failed: false },
+            Err(RecvTimeoutError::Timeout) => ReadingState::Reading,
+            Err(RecvTimeoutError::Disconnected) => ReadingState::Ended { has_failed: true },
         }
     }
 }

@@ -10,7 +10,7 @@ use super::{
     program::Program,
     published::Places,
     symbols, tokens,
-    workspace::{PATIENCE, Unfound, Workspace},
+    workspace::{READ_TIMEOUT, Unavailable, Workspace},
 };
 use eddy_diag::SourceId;
 use gen_lsp_types::{
@@ -33,13 +33,13 @@ pub(crate) struct ClientCapabilities {
 /// Request parameters, limited to the members that Eddy needs: an editor may send others.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct OfDocument {
+struct DocumentParams {
     text_document: TextDocumentIdentifier,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct OfRange {
+struct RangeParams {
     text_document: TextDocumentIdentifier,
     range: lsp::Range,
     context: Option<CodeActionContext>,
@@ -47,7 +47,7 @@ struct OfRange {
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct OfReferences {
+struct ReferenceParams {
     context: ReferenceContext,
     #[serde(flatten)]
     place: TextDocumentPositionParams,
@@ -55,14 +55,14 @@ struct OfReferences {
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct OfRename {
+struct RenameParams {
     new_name: String,
     #[serde(flatten)]
     place: TextDocumentPositionParams,
 }
 
 #[derive(Deserialize)]
-struct OfQuery {
+struct QueryParams {
     query: String,
 }
 
@@ -89,7 +89,7 @@ impl<'a> QueriedText<'a> {
 }
 
 /// Queries a document. One that is not open, or whose program is unknown, gets the empty answer.
-fn ask(
+fn query_document(
     workspace: &mut Workspace,
     encoding: Encoding,
     document: &TextDocumentIdentifier,
@@ -98,8 +98,8 @@ fn ask(
     let path = path_of(&document.uri.0);
     match workspace.find(&path) {
         Ok(_) => {}
-        Err(Unfound::Unknown) => return Ok(Value::Null),
-        Err(Unfound::Reading) => return Err(still_reading()),
+        Err(Unavailable::Unknown) => return Ok(Value::Null),
+        Err(Unavailable::Reading) => return Err(reading_error()),
     }
     // Looked up again, because the result borrows the documents too.
     let owner = workspace.owner(&path).map(|index| &workspace.programs[index]);
@@ -110,7 +110,7 @@ fn ask(
 }
 
 /// The answer to a request about a program that is being read: editors repeat it, or ask again after the next change.
-fn still_reading() -> lsp_server::ResponseError {
+fn reading_error() -> lsp_server::ResponseError {
     error(ErrorCode::ContentModified, "the text is still being analysed: ask again")
 }
 
@@ -124,15 +124,15 @@ pub(crate) fn request(
     let about_place =
         |params: Value, workspace: &mut Workspace, work: &dyn Fn(QueriedText<'_>, usize) -> Answer| -> Answer {
             let TextDocumentPositionParams { text_document, position } = read(params)?;
-            ask(workspace, encoding, &text_document, |mut asked| {
+            query_document(workspace, encoding, &text_document, |mut asked| {
                 let at = asked.offset(position);
                 work(asked, at)
             })
         };
     let about_document =
         |params: Value, workspace: &mut Workspace, work: &dyn Fn(QueriedText<'_>) -> Answer| -> Answer {
-            let OfDocument { text_document } = read(params)?;
-            ask(workspace, encoding, &text_document, work)
+            let DocumentParams { text_document } = read(params)?;
+            query_document(workspace, encoding, &text_document, work)
         };
     Some(match method {
         "textDocument/hover" => about_place(params, workspace, &|mut asked, at| {
@@ -175,16 +175,16 @@ pub(crate) fn request(
             let lines = asked.lines();
             answer(tokens::tokens(asked.program, asked.id, &lines, 0..u32::MAX))
         }),
-        "textDocument/semanticTokens/range" => about_range(workspace, encoding, params, |mut asked, range, _| {
+        "textDocument/semanticTokens/range" => query_range(workspace, encoding, params, |mut asked, range, _| {
             let lines = asked.lines();
             let rows = range.start.line..range.end.line.saturating_add(1);
             answer(tokens::tokens(asked.program, asked.id, &lines, rows))
         }),
-        "textDocument/inlayHint" => about_range(workspace, encoding, params, |mut asked, range, _| {
+        "textDocument/inlayHint" => query_range(workspace, encoding, params, |mut asked, range, _| {
             let lines = asked.lines();
             answer(hints::hints(asked.program, asked.id, &lines, lines.bytes(range)))
         }),
-        "textDocument/codeAction" => about_range(workspace, encoding, params, |mut asked, range, context| {
+        "textDocument/codeAction" => query_range(workspace, encoding, params, |mut asked, range, context| {
             // An editor that requests only refactorings gets no fixes.
             let only = context.and_then(|context| context.only);
             let is_wanted = |kind: &CodeActionKind| matches!(kind, CodeActionKind::QuickFix | CodeActionKind::Empty);
@@ -194,9 +194,9 @@ pub(crate) fn request(
             let bytes = asked.lines().bytes(range);
             answer(actions::actions(asked.program, &mut asked.places, asked.id, bytes))
         }),
-        "workspace/symbol" => read(params).and_then(|OfQuery { query }| {
-            if !workspace.settle_within(PATIENCE) {
-                return Err(still_reading());
+        "workspace/symbol" => read(params).and_then(|QueryParams { query }| {
+            if !workspace.settle_within(READ_TIMEOUT) {
+                return Err(reading_error());
             }
             let mut found = Vec::new();
             for program in &workspace.programs {
@@ -211,19 +211,19 @@ pub(crate) fn request(
     })
 }
 
-fn about_range(
+fn query_range(
     workspace: &mut Workspace,
     encoding: Encoding,
     params: Value,
     work: impl FnOnce(QueriedText<'_>, lsp::Range, Option<CodeActionContext>) -> Answer,
 ) -> Answer {
-    let OfRange { text_document, range, context } = read(params)?;
-    ask(workspace, encoding, &text_document, |asked| work(asked, range, context))
+    let RangeParams { text_document, range, context } = read(params)?;
+    query_document(workspace, encoding, &text_document, |asked| work(asked, range, context))
 }
 
 fn references(workspace: &mut Workspace, encoding: Encoding, params: Value) -> Answer {
-    let OfReferences { context, place } = read(params)?;
-    ask(workspace, encoding, &place.text_document, |mut asked| {
+    let ReferenceParams { context, place } = read(params)?;
+    query_document(workspace, encoding, &place.text_document, |mut asked| {
         let at = asked.offset(place.position);
         let all = context.include_declaration;
         answer(navigation::references(asked.program, &mut asked.places, asked.id, at, all))
@@ -231,8 +231,8 @@ fn references(workspace: &mut Workspace, encoding: Encoding, params: Value) -> A
 }
 
 fn rename(workspace: &mut Workspace, encoding: Encoding, params: Value) -> Answer {
-    let OfRename { new_name, place } = read(params)?;
-    ask(workspace, encoding, &place.text_document, |mut asked| {
+    let RenameParams { new_name, place } = read(params)?;
+    query_document(workspace, encoding, &place.text_document, |mut asked| {
         let at = asked.offset(place.position);
         let fix = asked.program.rename((asked.id, at), &new_name).map_err(failed)?;
         answer(actions::edit(asked.program, &mut asked.places, &fix))

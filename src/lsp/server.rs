@@ -42,7 +42,7 @@ enum ServerState {
 pub struct Server {
     state: ServerState,
     encoding: Encoding,
-    abilities: ClientCapabilities,
+    client: ClientCapabilities,
     /// The editor reports files that change on disk, if requested.
     watches_files: bool,
     workspace: Workspace,
@@ -107,10 +107,11 @@ impl Server {
                 let id = RequestId::from(format!("eddy-{method}"));
                 Message::Request(Request { id, method: method.into(), params: Value::Null })
             };
-            out.extend(self.abilities.refreshed.iter().flatten().map(|method| refresh(method)));
+            out.extend(self.client.refreshed.iter().flatten().map(|method| refresh(method)));
         }
         let folders = &self.folders;
-        let left = self.workspace.take_left(|root| matches!(root, Root::Folder(path) if folders.contains(path)));
+        let left =
+            self.workspace.take_closed_programs(|root| matches!(root, Root::Folder(path) if folders.contains(path)));
         for program in left {
             // The program that has these documents now publishes their diagnostics.
             for uri in program.published {
@@ -119,7 +120,7 @@ impl Server {
                 }
             }
         }
-        if let Some(index) = self.workspace.programs.iter().position(|program| program.is_untold) {
+        if let Some(index) = self.workspace.programs.iter().position(|program| program.is_unpublished) {
             self.publish(index, out);
             return true;
         }
@@ -158,7 +159,7 @@ impl Server {
             self.workspace.programs.clear();
             let paths: Vec<PathBuf> = self.workspace.documents.iter().map(|d| d.path.clone()).collect();
             for path in paths {
-                self.workspace.begin(Root::File(path));
+                self.workspace.start_reading(Root::File(path));
             }
         }
         done.is_ok()
@@ -180,7 +181,7 @@ impl Server {
                 Ok(Value::Null)
             }
             (ServerState::Running, _) => {
-                let setting = (self.encoding, self.abilities);
+                let setting = (self.encoding, self.client);
                 let mut answer = None;
                 let is_done = self.catch_panic(|server| {
                     answer = requests::request(&mut server.workspace, setting, &method, params);
@@ -207,11 +208,11 @@ impl Server {
         self.encoding = Encoding::choose(&encodings);
         let signature = "/capabilities/textDocument/signatureHelp/signatureInformation/parameterInformation";
         let is_on = |path: &str| at(path).and_then(Value::as_bool).unwrap_or_default();
-        self.abilities.label_offsets = is_on(&format!("{signature}/labelOffsetSupport"));
+        self.client.label_offsets = is_on(&format!("{signature}/labelOffsetSupport"));
         let refreshes = |what: &'static str, method: &'static str| {
             is_on(&format!("/capabilities/workspace/{what}/refreshSupport")).then_some(method)
         };
-        self.abilities.refreshed = [
+        self.client.refreshed = [
             refreshes("semanticTokens", "workspace/semanticTokens/refresh"),
             refreshes("inlayHint", "workspace/inlayHint/refresh"),
         ];
@@ -222,7 +223,7 @@ impl Server {
         let is_project = |path: &PathBuf| project::folder_around(&path.join("image.glsl")).as_ref() == Some(path);
         for path in folders.chain(root).filter_map(uris::path).filter(is_project) {
             if !self.folders.contains(&path) {
-                self.workspace.begin(Root::Folder(path.clone()));
+                self.workspace.start_reading(Root::Folder(path.clone()));
                 self.folders.push(path);
             }
         }

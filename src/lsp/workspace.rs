@@ -3,7 +3,7 @@
 use super::{
     documents::Documents,
     program::{Program, Root, root_of},
-    reading::{Progress, Reading},
+    reading::{Reading, ReadingState},
 };
 use eddy_diag::SourceId;
 use eddy_project::is_manifest;
@@ -11,7 +11,7 @@ use std::{mem, path::Path, sync::Arc, time::Duration};
 
 /// The reason why a document cannot be queried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Unfound {
+pub(crate) enum Unavailable {
     /// It is closed, or not a file that Eddy handles.
     Unknown,
     /// Its program is still being read.
@@ -19,7 +19,7 @@ pub(crate) enum Unfound {
 }
 
 /// The limit for waiting for a program that is being read.
-pub(crate) const PATIENCE: Duration = Duration::from_millis(50);
+pub(crate) const READ_TIMEOUT: Duration = Duration::from_millis(50);
 
 #[derive(Default)]
 pub(crate) struct Workspace {
@@ -37,12 +37,12 @@ impl Workspace {
     pub(crate) fn opened(&mut self, path: &Path) {
         self.changed(path);
         if !self.programs.iter().any(|program| program.contains(path)) {
-            self.begin(root_of(path, self.documents.texts()));
+            self.start_reading(root_of(path, self.documents.texts()));
         }
     }
 
     /// Adds the program of a root, unless it exists.
-    pub(crate) fn begin(&mut self, root: Root) {
+    pub(crate) fn start_reading(&mut self, root: Root) {
         if !self.programs.iter().any(|program| program.root == root) {
             self.programs.push(Program::new(root));
         }
@@ -66,7 +66,7 @@ impl Workspace {
             program.is_stale = true;
         }
         if let Some(reading) = self.reading.as_ref().filter(|_| is_outdated) {
-            reading.give_up();
+            reading.cancel();
         }
     }
 
@@ -77,7 +77,7 @@ impl Workspace {
             program.forget_media();
         }
         if let Some(reading) = &self.reading {
-            reading.give_up();
+            reading.cancel();
         }
     }
 
@@ -89,7 +89,7 @@ impl Workspace {
     /// Cancels the current reading.
     pub(crate) fn drop_reading(&mut self) {
         if let Some(reading) = self.reading.take() {
-            reading.give_up();
+            reading.cancel();
         }
     }
 
@@ -103,20 +103,20 @@ impl Workspace {
         loop {
             if let Some(reading) = self.reading.take() {
                 match reading.wait(patience) {
-                    Progress::Reading => {
+                    ReadingState::Reading => {
                         self.reading = Some(reading);
                         return false;
                     }
-                    Progress::Read(read) => self.take_read(*read),
-                    Progress::Ended { has_failed: true } => {
+                    ReadingState::Read(read) => self.take_read(*read),
+                    ReadingState::Ended { has_failed: true } => {
                         log::error!("{} cannot be read: this is a bug in Eddy", reading.root.path().display());
                     }
-                    Progress::Ended { has_failed: false } => {}
+                    ReadingState::Ended { has_failed: false } => {}
                 }
             }
             if let Some(program) = self.programs.iter_mut().find(|program| program.is_stale) {
                 program.is_stale = false;
-                match Reading::start(program.unread(), self.documents.clone()) {
+                match Reading::start(program.take_unread(), self.documents.clone()) {
                     Ok(reading) => self.reading = Some(reading),
                     // If the thread cannot be started, the program is read here.
                     Err(_) => program.read(&self.documents, &Arc::default()),
@@ -131,10 +131,10 @@ impl Workspace {
         let Some(program) = self.programs.iter_mut().find(|program| program.root == read.root) else { return };
         if program.is_stale {
             // A text has changed since.
-            program.keep_of(read);
+            program.take_cache_of(read);
             return;
         }
-        read.follows(program);
+        read.replace(program);
         *program = read;
     }
 
@@ -165,7 +165,7 @@ impl Workspace {
             // It cannot be read at all; its program reports the error.
             return false;
         }
-        self.begin(root);
+        self.start_reading(root);
         true
     }
 
@@ -184,7 +184,7 @@ impl Workspace {
     }
 
     /// Removes and returns the programs without documents.
-    pub(crate) fn take_left(&mut self, keep: impl Fn(&Root) -> bool) -> Vec<Program> {
+    pub(crate) fn take_closed_programs(&mut self, keep: impl Fn(&Root) -> bool) -> Vec<Program> {
         let owners: Vec<usize> = self.documents.iter().filter_map(|document| self.owner(&document.path)).collect();
         let mut index = 0;
         let (kept, left): (Vec<Program>, Vec<Program>) = mem::take(&mut self.programs).into_iter().partition(|p| {
@@ -196,21 +196,21 @@ impl Workspace {
     }
 
     /// Returns the program of a document, read, and the id of the document's text in it.
-    pub(crate) fn find(&mut self, path: &Path) -> Result<(&Program, SourceId), Unfound> {
+    pub(crate) fn find(&mut self, path: &Path) -> Result<(&Program, SourceId), Unavailable> {
         if self.documents.get(path).is_none() {
-            return Err(Unfound::Unknown);
+            return Err(Unavailable::Unknown);
         }
         let read = self.reading.as_ref().map(|reading| &reading.root);
         // Does not wait for the reading of other programs.
         let is_read = |program: &Program| !program.is_stale && Some(&program.root) != read;
         let is_known = self.owner(path).is_some_and(|owner| is_read(&self.programs[owner]));
-        if !is_known && !self.settle_within(PATIENCE) {
+        if !is_known && !self.settle_within(READ_TIMEOUT) {
             self.has_refused = true;
-            return Err(Unfound::Reading);
+            return Err(Unavailable::Reading);
         }
-        let owner = self.owner(path).ok_or(Unfound::Unknown)?;
+        let owner = self.owner(path).ok_or(Unavailable::Unknown)?;
         let program = &self.programs[owner];
-        let id = program.id_of(path).ok_or(Unfound::Unknown)?;
+        let id = program.id_of(path).ok_or(Unavailable::Unknown)?;
         Ok((program, id))
     }
 }

@@ -108,7 +108,7 @@ pub fn compare(job: CompareJob, control: &Control<Count>) -> Result<Comparison, 
     }
     let is_cut = !is_whole && !is_stateless;
     // A project that has never been drawn may lose its device: use a separate one from the picture's, if possible.
-    let gpu = Gpu::another(&gpu.info, &GpuOptions::default()).unwrap_or(gpu);
+    let gpu = Gpu::on_adapter(&gpu.info, &GpuOptions::default()).unwrap_or(gpu);
     let side = |project: &Project, name: &str| {
         let media = || media::gather(project, media_dir.as_deref()).0;
         let made = ComparedEngine::new(&gpu, project, &pass, (media(), camera.clone()), frames[0].size, trial.clone());
@@ -161,7 +161,7 @@ impl ComparedEngine {
         media.set_camera_picture(camera);
         let wanted = project.image_and(pass);
         // Passes that do not change are not skipped: they are timed as well.
-        let options = BuildOptions { wanted, skip: false, trial, ..BuildOptions::default() };
+        let options = BuildOptions { requested: wanted, skip: false, trial, ..BuildOptions::default() };
         let built = Program::build(gpu, project, &media, &options).map_err(|error| first_error(&error))?;
         let mut engine = Engine::new(gpu.clone(), width, height).map_err(|e| e.to_string())?;
         engine.set_program(built.program).map_err(|e| e.to_string())?;

@@ -66,7 +66,7 @@ impl TrialSettings {
     /// A project that cannot be passed on, or a machine that cannot start a process, does not reject a program.
     fn run(
         &self,
-        TrialOrder { project, wanted, skip }: TrialOrder<'_>,
+        TrialOrder { project, requested: wanted, skip }: TrialOrder<'_>,
         media: Option<PathBuf>,
         jobs: &AtomicU64,
     ) -> Result<(), TrialError> {
@@ -166,7 +166,7 @@ pub fn serve(mut request: impl Read) -> Result<(), Box<dyn std::error::Error>> {
     // One pixel: the driver compiles whatever the size.
     let mut offline = Offline::new(&gpu, (1, 1), ScriptedInputs::new(FPS))?;
     let is_sound = wanted == [PassName::sound()];
-    let options = BuildOptions { wanted, skip, ..BuildOptions::default() };
+    let options = BuildOptions { requested: wanted, skip, ..BuildOptions::default() };
     offline.build(&project, &media, &options)?;
     if is_sound {
         // One row of a block, which has a size of its own.
@@ -271,7 +271,7 @@ mod tests {
         std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o700)).expect("it may run");
         let settings = TrialSettings { program, limit: Duration::from_secs(60) };
         let project = Project::of_image("Untitled".into(), IMAGE.into());
-        settings.run(TrialOrder { project: &project, wanted: &[], skip: true }, None, jobs)
+        settings.run(TrialOrder { project: &project, requested: &[], skip: true }, None, jobs)
     }
 
     #[test]
@@ -289,7 +289,7 @@ mod tests {
         assert_eq!(tried("exit 1", &AtomicU64::new(0)), Ok(()));
         let settings = TrialSettings { program: "/nonexistent/eddy".into(), limit: Duration::from_secs(60) };
         let project = Project::of_image("Untitled".into(), IMAGE.into());
-        let order = TrialOrder { project: &project, wanted: &[], skip: true };
+        let order = TrialOrder { project: &project, requested: &[], skip: true };
         assert_eq!(settings.run(order, None, &AtomicU64::new(0)), Ok(()));
     }
 

@@ -4,7 +4,7 @@
 use super::{open_project::OpenProject, rename};
 use eddy_background::Background;
 use eddy_diag::SourceId;
-use eddy_engine::{self as engine, KeptPreamble, Sources};
+use eddy_engine::{self as engine, PreambleCache, Sources};
 use eddy_glsl::services::{Analysis, ClassSpan};
 use eddy_project::{Pass, PassName, Project, Stage, Tab};
 use std::{collections::BTreeSet, ops::Range, sync::Arc};
@@ -60,11 +60,11 @@ impl Texts {
     }
 
     /// Analyses the texts, reusing the last analysis of Common if Common is the same.
-    fn analyse(&self, preamble: &mut KeptPreamble) -> Analysis {
+    fn analyse(&self, preamble: &mut PreambleCache) -> Analysis {
         let sources = Sources::new(&self.project);
-        preamble.lend(&sources);
+        preamble.provide_to(&sources);
         let analysis = sources.analyse_stage(self.index, self.stage);
-        preamble.keep(&sources);
+        preamble.update_from(&sources);
         analysis
     }
 }
@@ -117,7 +117,7 @@ pub(super) struct Analyst {
 
 impl Analyst {
     pub(crate) fn new(wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
-        let mut preamble = KeptPreamble::default();
+        let mut preamble = PreambleCache::default();
         let work = move |(texts, front): (Texts, Tab), _: &_| {
             let analysis = texts.analyse(&mut preamble);
             let own = match &front {

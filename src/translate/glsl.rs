@@ -24,7 +24,7 @@ pub(crate) fn selects_integers(module: &Module, info: &ModuleInfo) -> bool {
 }
 
 /// Returns the text with a function for each type that `mix` is called with.
-pub(crate) fn with_own_mix(text: &str) -> String {
+pub(crate) fn with_integer_mix(text: &str) -> String {
     let is_header = |line: &str| line.starts_with('#') || line.starts_with("precision ") || line.trim().is_empty();
     let header: usize = text.split_inclusive('\n').take_while(|line| is_header(line)).map(str::len).sum();
     let (header, body) = text.split_at(header);
@@ -64,7 +64,7 @@ mod tests {
 
     #[test]
     fn only_whole_names_of_calls_are_renamed() {
-        let out = with_own_mix("#version 300 es\n\nprecision highp int;\n\nint a = mix(mix(b, c), remix(d));\n");
+        let out = with_integer_mix("#version 300 es\n\nprecision highp int;\n\nint a = mix(mix(b, c), remix(d));\n");
         assert!(out.starts_with("#version 300 es\n\nprecision highp int;\n\nfloat eddy_mix(float a"), "{out}");
         assert!(out.ends_with("int a = eddy_mix(eddy_mix(b, c), remix(d));\n"), "{out}");
         assert!(

@@ -12,7 +12,7 @@ use naga::{
 
 use crate::{
     Language, bindings,
-    glsl::{selects_integers, with_own_mix},
+    glsl::{selects_integers, with_integer_mix},
     hlsl::with_sampler_registers,
     names,
     wgsl::for_browsers,
@@ -49,7 +49,7 @@ fn write_here(module: &Module, next: Option<&Module>, language: Language) -> Res
     let mut module = module.clone();
     names::add(&mut module);
     if matches!(language, Language::Glsl(_)) {
-        let_any_vertex_provoke(&mut module);
+        allow_any_provoking_vertex(&mut module);
     }
     let info = validated(&module)?;
     let entry = module.entry_points.first().ok_or("there is no entry point")?;
@@ -89,7 +89,7 @@ fn write_here(module: &Module, next: Option<&Module>, language: Language) -> Res
                 glsl_names.extend(module.global_variables[handle].binding.map(|binding| (binding, name)));
             }
             if !version.has_integer_mix() && selects_integers(&module, &info) {
-                text = with_own_mix(&text);
+                text = with_integer_mix(&text);
             }
             text.into_bytes()
         }
@@ -178,7 +178,7 @@ fn spirv_words(module: &Module, info: &ModuleInfo, stage: ShaderStage, entry: St
 }
 
 /// GLSL cannot specify the provoking vertex of a flat value: its writer requires that it is left open.
-fn let_any_vertex_provoke(module: &mut Module) {
+fn allow_any_provoking_vertex(module: &mut Module) {
     let open = |binding: &mut Option<Binding>| {
         if let Some(Binding::Location { sampling: sampling @ Some(Sampling::First), .. }) = binding {
             *sampling = Some(Sampling::Either);

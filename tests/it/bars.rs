@@ -148,8 +148,8 @@ fn probe_ratio(
     let wanted = [BuildOptions::probed()].into_iter().chain(buffers()).collect();
     let with = |options: &BuildOptions| engine_with(gpu, project, &media, options, size);
     let (mut plain, mut probed) = (
-        with(&BuildOptions { wanted: plain, ..BuildOptions::default() }),
-        with(&BuildOptions { wanted, probe: Some((pass, probe)), ..BuildOptions::default() }),
+        with(&BuildOptions { requested: plain, ..BuildOptions::default() }),
+        with(&BuildOptions { requested: wanted, probe: Some((pass, probe)), ..BuildOptions::default() }),
     );
     let (mut plain_times, mut probed_times) = (Vec::new(), Vec::new());
     for frame in 0..33 {

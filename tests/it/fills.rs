@@ -73,7 +73,7 @@ fn a_boundary_is_evaluated_after_each_draw() {
         a.settings.boundary =
             Some(Boundary { width: 2, value: Fill::expression("vec4(float(iFrame), fragCoord, 1.0)") });
         let project = project(vec![a, image(SHOW, [nearest("A"), None, None, None])]);
-        let options = BuildOptions { wanted: Vec::new(), skip, ..BuildOptions::default() };
+        let options = BuildOptions { requested: Vec::new(), skip, ..BuildOptions::default() };
         let mut engine = engine_with(&gpu, &project, &MediaSet::new(), &options, (6, 5));
         run(&mut engine, 0, 3);
         let read = engine.read_image().unwrap();

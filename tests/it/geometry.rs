@@ -244,7 +244,7 @@ fn a_scene_is_drawn_again_only_when_its_inputs_change() {
             &gpu,
             &project,
             &MediaSet::new(),
-            &BuildOptions { wanted: Vec::new(), skip, ..BuildOptions::default() },
+            &BuildOptions { requested: Vec::new(), skip, ..BuildOptions::default() },
             (32, 24),
         )
     };
@@ -322,7 +322,7 @@ fn meshes_in_16_bit_floats_do_not_change_denormal_arithmetic() {
                 float t = uintBitsToFloat(0x00800000u + uint(p.x)) * (0.25 + 0.25 * step(p.x, 9.5));\n\
                 o = vec4(floatBitsToUint(t), iFrame, 0, 1); }";
     let probe = pass(buffer("A"), code, Default::default());
-    let options = BuildOptions { wanted: [buffer("A")].into(), ..Default::default() };
+    let options = BuildOptions { requested: [buffer("A")].into(), ..Default::default() };
     let probe =
         project(vec![probe, image("void mainImage(out vec4 o, in vec2 p) { o = vec4(1); }", Default::default())]);
     let mut probe = engine_with(&gpu, &probe, &MediaSet::new(), &options, (256, 256));

@@ -367,7 +367,7 @@ fn limits_are_hidden_only_if_a_value_counts_down_to_them() {
 fn infinite_loops_are_ended() {
     // The iterations of all infinite loops of a pixel are counted together; other loops are not limited.
     let Some(mut gpu) = gpu() else { return };
-    gpu.most_rounds = Some(1_000);
+    gpu.max_loop_iterations = Some(1_000);
     let limit = 1_000.0;
     check_on(
         &gpu,

@@ -292,7 +292,7 @@ fn any_text_is_compiled_or_rejected() {
                     opaque_counters,
                     discard_exits,
                     small_arrays,
-                    most_rounds: bounded_loops.then_some(1 << 22),
+                    max_loop_iterations: bounded_loops.then_some(1 << 22),
                     ..Driver::default()
                 },
                 ..PassSource::image(&text)

@@ -26,7 +26,7 @@ const FRAMES: i32 = 2;
 fn draw(engines: &mut Engines, project: &Project, size: (u32, u32), pass: &PassName) -> Vec<[f32; 4]> {
     let (media, warnings) = media::gather(project, None);
     assert!(warnings.is_empty(), "{warnings:?}");
-    let options = BuildOptions { wanted: vec![pass.clone()], skip: true, ..BuildOptions::default() };
+    let options = BuildOptions { requested: vec![pass.clone()], skip: true, ..BuildOptions::default() };
     let mut engine = engines.with(project, &media, &options, size);
     for frame in 0..FRAMES {
         engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).unwrap();

@@ -15,7 +15,7 @@ fn no_skip(gpu: &Gpu, project: &Project, size: (u32, u32)) -> Engine {
         gpu,
         project,
         &MediaSet::new(),
-        &BuildOptions { wanted: Vec::new(), skip: false, ..BuildOptions::default() },
+        &BuildOptions { requested: Vec::new(), skip: false, ..BuildOptions::default() },
         size,
     )
 }

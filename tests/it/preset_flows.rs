@@ -108,7 +108,7 @@ fn accurate(custom_uniforms: &[&str], initial: &str) -> Project {
 
 /// Returns an engine of `cells` by `cells` whose velocity can be read.
 fn square(gpu: &eddy::gpu::Gpu, project: &Project, cells: u32) -> Engine {
-    let options = BuildOptions { wanted: vec![buffer("velocity")], ..Default::default() };
+    let options = BuildOptions { requested: vec![buffer("velocity")], ..Default::default() };
     engine_with(gpu, project, &MediaSet::new(), &options, (2 * cells, 2 * cells))
 }
 
@@ -391,7 +391,7 @@ fn every_viscosity_is_stable_at_any_height() {
         [["viscosity=0.0001", "speed=1"], ["viscosity=0.0005", "speed=1"], ["viscosity=0.01", "speed=10"]]
     {
         let project = preset_with("fluid-accurate", &custom_uniforms);
-        let options = BuildOptions { wanted: vec![buffer("velocity")], ..Default::default() };
+        let options = BuildOptions { requested: vec![buffer("velocity")], ..Default::default() };
         let mut engine = engine_with(&gpu, &project, &MediaSet::new(), &options, (64, 1080));
         draw(&mut engine, 0..24, untouched);
         let found = velocity(&mut engine);

@@ -196,7 +196,7 @@ fn compressibility(engine: &mut Engine, name: &str) -> (f32, f64, [f32; 2], f64)
 fn the_fluids_stay_subsonic_and_keep_their_mass() {
     let Some(gpu) = gpu() else { return };
     for (name, state) in [("fluid", "C"), ("fluid-dye", "A"), ("fluid-lit", "A")] {
-        let options = BuildOptions { wanted: vec![buffer(state)], ..Default::default() };
+        let options = BuildOptions { requested: vec![buffer(state)], ..Default::default() };
         let mut engine = engine_with(&gpu, &preset(name), &MediaSet::new(), &options, (240, 135));
         draw(&mut engine, 0..120, untouched);
         let (mach, fast, density, mass) = compressibility(&mut engine, state);
@@ -219,7 +219,7 @@ fn the_fluids_stay_subsonic_and_keep_their_mass() {
 fn an_undisturbed_fluid_stays_below_its_speed_limit() {
     let Some(gpu) = gpu() else { return };
     // At the size of a window, where jets have room to meet.
-    let options = BuildOptions { wanted: vec![buffer("C")], ..Default::default() };
+    let options = BuildOptions { requested: vec![buffer("C")], ..Default::default() };
     let mut engine = engine_with(&gpu, &preset("fluid"), &MediaSet::new(), &options, (640, 360));
     for part in 1..4 {
         draw(&mut engine, 133 * (part - 1)..133 * part, untouched);
@@ -311,7 +311,7 @@ fn surface_heights_stay_within_their_bounds() {
     for (custom_uniforms, limit) in
         [(&[][..], 1.3), (&["dent=4", "settle_seconds=20", "tension=0"], 8.0), (&["tension=1"], 1.3)]
     {
-        let options = BuildOptions { wanted: vec![buffer("height")], ..Default::default() };
+        let options = BuildOptions { requested: vec![buffer("height")], ..Default::default() };
         let mut engine =
             engine_with(&gpu, &preset_with("fluid-lit", custom_uniforms), &MediaSet::new(), &options, (240, 135));
         draw(&mut engine, 0..150, untouched);

@@ -87,7 +87,7 @@ fn violent_drags_on_a_large_picture_keep_the_density_bounded() {
     let Some(gpu) = gpu() else { return };
     let size = (640, 360);
     for (name, state) in [("fluid", "C"), ("fluid-dye", "A"), ("fluid-lit", "A")] {
-        let options = BuildOptions { wanted: vec![buffer(state)], ..Default::default() };
+        let options = BuildOptions { requested: vec![buffer(state)], ..Default::default() };
         let mut engine = engine_with(&gpu, &preset(name), &MediaSet::new(), &options, size);
         let (mut lowest, mut highest) = (f32::MAX, f32::MIN);
         for part in 0..4 {

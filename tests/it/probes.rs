@@ -49,7 +49,7 @@ fn a_probe_changes_no_buffer_and_shows_this_frame() {
         } else {
             vec![image(), buffer("a"), buffer("b")]
         };
-        let options = BuildOptions { wanted, probe, ..BuildOptions::default() };
+        let options = BuildOptions { requested: wanted, probe, ..BuildOptions::default() };
         let mut engine = engine_with(&gpu, &project, &Default::default(), &options, (8, 4));
         (0..5).for_each(|frame| assert!(engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).is_ok()));
         let read = |engine: &mut Engine, id| engine.read(&id).unwrap().texels;
@@ -91,9 +91,9 @@ fn a_probe_of_any_buffer_of_the_presets_changes_no_texel() {
         let mut drawn = |probe: Option<(PassName, Probe)>| {
             let probed = probe.iter().map(|_| BuildOptions::probed());
             let wanted = all.iter().cloned().chain(probed).collect();
-            let options = BuildOptions { wanted, probe, ..BuildOptions::default() };
+            let options = BuildOptions { requested: wanted, probe, ..BuildOptions::default() };
             let built = builder.build(&project, &media, &options).unwrap_or_else(|e| panic!("{name}: {e}"));
-            let passes = built.program.plan().draws_a_frame();
+            let passes = built.program.plan().draws_per_frame();
             let mut engine = Engine::new(gpu.clone(), 64, 36).unwrap();
             engine.set_program(built.program).unwrap();
             (0..3).for_each(|frame| assert!(engine.draw(&inputs(frame)).is_ok()));
@@ -145,7 +145,7 @@ fn undrawn_texels_have_no_probe_value() {
         let project = project(vec![a, image(SHOW, [nearest("A"), None, None, None])]);
         let drawn = |probe: Option<(PassName, Probe)>| {
             let probed = if probe.is_none() { PassName::image() } else { BuildOptions::probed() };
-            let options = BuildOptions { wanted: vec![buffer("A"), probed.clone()], probe, ..Default::default() };
+            let options = BuildOptions { requested: vec![buffer("A"), probed.clone()], probe, ..Default::default() };
             let mut engine = engine_with(&gpu, &project, &Default::default(), &options, (6, 4));
             run(&mut engine, 0, 3);
             (bits(&engine.read(&buffer("A")).unwrap()), engine.read(&probed).unwrap())
@@ -167,7 +167,7 @@ fn a_geometry_pass_cannot_be_probed() {
     let project = all_presets::load("ssao").unwrap().project;
     let pass = project.passes.iter().find(|p| !p.body.is_screen()).unwrap().id.clone();
     let probe = Some((pass, Probe { source: Project::COMMON_ID, at: 0, visit: 0 }));
-    let options = BuildOptions { wanted: vec![BuildOptions::probed()], probe, ..Default::default() };
+    let options = BuildOptions { requested: vec![BuildOptions::probed()], probe, ..Default::default() };
     let (media, _) = media::gather(&project, None);
     let Err(BuildError::Diagnostics { diagnostics, .. }) = Program::build(&gpu, &project, &media, &options) else {
         panic!("the pass is probed");

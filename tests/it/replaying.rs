@@ -49,7 +49,7 @@ fn rendered(gpu: &Gpu, spec: &str, file: &Path, pass: &PassName) -> Vec<u8> {
     let (media, _) = media::gather(&loaded, None);
     let inputs = ScriptedInputs::new(60.0).with_replay(Some(Arc::new(recording)));
     let mut offline = Offline::new(gpu, size, inputs).unwrap();
-    offline.build(&loaded, &media, &BuildOptions { wanted: vec![pass.clone()], ..BuildOptions::default() }).unwrap();
+    offline.build(&loaded, &media, &BuildOptions { requested: vec![pass.clone()], ..BuildOptions::default() }).unwrap();
     for _ in 0..frames {
         offline.draw().unwrap();
     }

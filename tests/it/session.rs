@@ -54,7 +54,7 @@ fn a_screenshot_equals_an_offline_run() {
     let drawn = |pass: PassName| {
         let inputs = ScriptedInputs::new(60.0).with_mouse(parse_mouse("1:down 3,2").unwrap());
         let mut offline = Offline::new(&gpu, (8, 4), inputs).unwrap();
-        let options = BuildOptions { wanted: vec![pass.clone()], skip: true, ..BuildOptions::default() };
+        let options = BuildOptions { requested: vec![pass.clone()], skip: true, ..BuildOptions::default() };
         offline.build(&loaded, &media, &options).unwrap();
         let frames: Vec<i32> = (0..6).map(|_| offline.draw().unwrap().number).collect();
         assert_eq!(frames, [0, 1, 2, 3, 4, 5]);

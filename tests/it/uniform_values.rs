@@ -68,7 +68,7 @@ void mainImage(out vec4 o, in vec2 p) {
 fn every_type_gets_its_values_from_the_file() {
     let Some(gpu) = gpu() else { return };
     let project = open("types", TOML, IMAGE);
-    let options = BuildOptions { wanted: vec![buffer("A")], skip: true, ..BuildOptions::default() };
+    let options = BuildOptions { requested: vec![buffer("A")], skip: true, ..BuildOptions::default() };
     let mut engine = engine_with(&gpu, &project, &MediaSet::new(), &options, (6, 1));
     run(&mut engine, 0, 1);
     assert_walked(&mut engine, &project, &buffer("A"));

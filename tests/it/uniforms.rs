@@ -35,7 +35,7 @@ fn every_type_reaches_the_shader_and_changes_compile_nothing() {
     let a = pass(buffer("A"), ALL, Default::default());
     let mut project =
         project(vec![a, image("void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0); }", Default::default())]);
-    let options = BuildOptions { wanted: vec![buffer("A")], skip: true, ..BuildOptions::default() };
+    let options = BuildOptions { requested: vec![buffer("A")], skip: true, ..BuildOptions::default() };
     let mut engine = engine_with(&gpu, &project, &MediaSet::new(), &options, (4, 1));
     run(&mut engine, 0, 1);
     assert_walked(&mut engine, &project, &buffer("A"));

@@ -260,8 +260,10 @@ fn inputs_of_a_pass_are_unchanged_after_the_frame() {
         project.passes.iter_mut().for_each(|pass| pass.settings.when = None);
         let (media, _) = media::gather(&project, None);
         let pictures: Vec<_> = project.passes.iter().filter(|pass| pass.id.is_picture()).collect();
-        let options =
-            BuildOptions { wanted: pictures.iter().map(|pass| pass.id.clone()).collect(), ..BuildOptions::default() };
+        let options = BuildOptions {
+            requested: pictures.iter().map(|pass| pass.id.clone()).collect(),
+            ..BuildOptions::default()
+        };
         let mut engine = engine_with(&gpu, &project, &media, &options, SIZE);
         (0..3).for_each(|frame| assert!(engine.draw(&inputs(frame)).is_ok()));
         for (frame, pass) in (3..).zip(pictures) {
@@ -319,7 +321,7 @@ fn cost_of_a_probe_and_a_traced_pixel() {
         let engine = |probe: Option<(PassName, eddy::glsl::Probe)>| {
             let own = if probe.is_some() { BuildOptions::probed() } else { PassName::image() };
             let wanted = [own].into_iter().chain(buffers.clone()).collect();
-            let options = BuildOptions { wanted, probe, ..BuildOptions::default() };
+            let options = BuildOptions { requested: wanted, probe, ..BuildOptions::default() };
             engine_with(&gpu, &project, &media, &options, (640, 360))
         };
         let millis = |engine: &mut Engine, frame| {

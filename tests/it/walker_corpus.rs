@@ -69,7 +69,7 @@ fn compare(path: &Path) -> Result<(), String> {
     let wanted: Vec<PassName> =
         project.passes.iter().map(|pass| &pass.id).filter(|id| id.is_picture()).cloned().collect();
     let (media, _) = media::gather(&project, None);
-    let options = BuildOptions { wanted: wanted.clone(), skip: false, ..BuildOptions::default() };
+    let options = BuildOptions { requested: wanted.clone(), skip: false, ..BuildOptions::default() };
     let built = Program::build(&gpu, &project, &media, &options).map_err(|e| format!("not built: {e}"))?;
     let mut engine = Engine::new(gpu, SIZE.0, SIZE.1).map_err(|e| e.to_string())?;
     engine.set_program(built.program).map_err(|e| e.to_string())?;

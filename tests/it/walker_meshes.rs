@@ -24,7 +24,7 @@ const SIZE: (u32, u32) = (48, 32);
 /// Returns the inputs and the picture of a pass in a frame of a run.
 fn drawn(gpu: &Gpu, project: &Project, pass: &PassName, size: (u32, u32), frame: i32) -> (PassInputs, Pixels) {
     let (media, _) = media::gather(project, None);
-    let options = BuildOptions { wanted: vec![pass.clone()], skip: false, ..BuildOptions::default() };
+    let options = BuildOptions { requested: vec![pass.clone()], skip: false, ..BuildOptions::default() };
     let mut engine = engine_with(gpu, project, &media, &options, size);
     let inputs = |frame: i32| {
         let drag = [3.0 * frame as f32, 1.0 * frame as f32];

@@ -191,7 +191,7 @@ fn walk_preset(gpu: &Gpu, name: &str) -> Vec<(PassName, Found)> {
     let sources = Sources::new(&project);
     let wanted: Vec<PassName> =
         project.passes.iter().map(|pass| pass.id.clone()).filter(PassName::is_picture).collect();
-    let options = BuildOptions { wanted: wanted.clone(), skip: false, ..BuildOptions::default() };
+    let options = BuildOptions { requested: wanted.clone(), skip: false, ..BuildOptions::default() };
     let mut engine = engine_with(gpu, &project, &media, &options, SIZE);
     let mut found: Vec<(PassName, Found)> = wanted.into_iter().map(|id| (id, Found::default())).collect();
     // Without state a frame does not depend on earlier ones.

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     cli::text_place::TextPlace,
-    debugger::{divergence::MOST, trace::STEPS},
+    debugger::{divergence::MAX_PROBES, trace::STEPS},
     playback::capture::Format,
     project::{self, PassName, Tab},
 };
@@ -122,7 +122,7 @@ pub(crate) struct TraceArgs {
     pub max_statements: u64,
     /// If the CPU and GPU values differ, search for the first assignment that differs, with at most this number of
     /// probes, each of which compiles a program; 0 disables the search
-    #[arg(long, value_name = "N", default_value_t = MOST)]
+    #[arg(long, value_name = "N", default_value_t = MAX_PROBES)]
     pub probes: usize,
     /// Print at most this number of steps [default: as many as 256 MiB hold]
     #[arg(long, value_name = "N")]

@@ -3,7 +3,7 @@
 use eddy_glsl::walk::Shadowed;
 
 /// Returns the difference for one number; infinite if only one of the two is a number.
-pub(super) fn apart(x: Shadowed) -> f64 {
+pub(super) fn difference(x: Shadowed) -> f64 {
     let single = f64::from(x.single);
     match (single.is_nan(), x.double.is_nan()) {
         (true, true) => 0.0,
@@ -17,5 +17,5 @@ pub(super) fn apart(x: Shadowed) -> f64 {
 
 /// Returns the largest difference of a pixel's components.
 pub(super) fn error_of(drawn: &[Shadowed; 4]) -> f64 {
-    drawn.iter().map(|&x| apart(x)).fold(0.0, f64::max)
+    drawn.iter().map(|&x| difference(x)).fold(0.0, f64::max)
 }

@@ -78,7 +78,7 @@ impl Finding {
         self.numbers == CONSTANT
     }
 
-    pub(super) fn is_like(&self, other: &Finding) -> bool {
+    pub(super) fn is_same_as(&self, other: &Finding) -> bool {
         self.kind == other.kind && self.span == other.span
     }
 

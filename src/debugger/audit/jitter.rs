@@ -53,7 +53,7 @@ impl Observer<Shadowed> for Jitter<'_> {
 
 /// Walks `project.passes[index]` for a pixel with the last bits of all rounded results perturbed at random, seeded by
 /// `seed`.
-pub fn jittered(
+pub fn add_jitter(
     sources: &Sources<'_>,
     index: usize,
     inputs: &PassInputs,

@@ -16,7 +16,7 @@ mod undefined;
 mod watch;
 
 pub use finding::{Class, Finding, Kind};
-pub use jitter::jittered;
+pub use jitter::add_jitter;
 pub use run::{Audit, AuditedPixel, audit, audit_pixel, cells, grid, spread};
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::{
     blame,
-    distance::{apart, error_of},
+    distance::{difference, error_of},
     finding::{CONSTANT, Finding, Kind},
     flow::Shown,
     parts,
@@ -38,7 +38,7 @@ impl AuditedPixel {
     /// Returns the difference of each component of a device's texel from double precision; 0 for those that are not
     /// stored.
     pub fn apart(&self, device: [f32; 4], stored: usize) -> [f64; 4] {
-        let one = |i: usize| apart(Shadowed { single: device[i], double: self.double[i] });
+        let one = |i: usize| difference(Shadowed { single: device[i], double: self.double[i] });
         std::array::from_fn(|i| if i < stored { one(i) } else { 0.0 })
     }
 }
@@ -100,7 +100,7 @@ pub fn audit(
         let kind = if is_undefined { Kind::Undefined(what) } else { Kind::Nonfinite(what) };
         let (span, pixels) = ((span.source != SourceId::NONE).then_some(span), audit.pixels.len());
         let finding = Finding { kind, span, pixels, pixel: first, numbers: CONSTANT.into(), error: None };
-        if !audit.findings.iter().any(|known| known.is_like(&finding)) {
+        if !audit.findings.iter().any(|known| known.is_same_as(&finding)) {
             audit.findings.push(finding);
         }
     }
@@ -189,7 +189,7 @@ fn audit_pixels(
         // A repeated pixel counts once.
         let Some(WalkedPixel { audited, findings, shown }) = found.remove(pixel) else { continue };
         for (walkable, shown) in shown {
-            match by_pixels.iter_mut().find(|known| known.shown.origin.is_like(&shown.origin)) {
+            match by_pixels.iter_mut().find(|known| known.shown.origin.is_same_declaration(&shown.origin)) {
                 Some(known) => {
                     known.shown.cells.extend(shown.cells);
                     known.pixels += 1;
@@ -199,7 +199,7 @@ fn audit_pixels(
         }
         audit.pixels.push(audited);
         for finding in findings {
-            match all.iter_mut().find(|known| known.is_like(&finding)) {
+            match all.iter_mut().find(|known| known.is_same_as(&finding)) {
                 Some(known) => known.add(&finding),
                 None => all.push(finding),
             }
@@ -239,8 +239,8 @@ fn walk_pixel<'p>(
         double: drawn.map(|x| x.double),
         error: error_of(&drawn),
     };
-    let born = blame::find(&drawn, &watch, |observer| walk(&at, observer))?;
-    let (findings, shown) = watch.end(pixel, born);
+    let blame = blame::find(&drawn, &watch, |observer| walk(&at, observer))?;
+    let (findings, shown) = watch.end(pixel, blame);
     let shown = shown.into_iter().map(|shown| (at.walkable, shown)).collect();
     Ok(Some(WalkedPixel { audited, findings, shown }))
 }

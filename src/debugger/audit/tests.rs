@@ -60,7 +60,7 @@ fn jitter_moves_only_inexact_results() {
         let project = Project::of_image("Untitled".into(), image(body));
         let (sources, inputs) = (Sources::new(&project), inputs());
         let values: Vec<[f32; 4]> =
-            (0..8).map(|seed| jittered(&sources, 0, &inputs, (5, 2), (STEPS, seed)).unwrap()).collect();
+            (0..8).map(|seed| add_jitter(&sources, 0, &inputs, (5, 2), (STEPS, seed)).unwrap()).collect();
         values.iter().map(|value| (value[0] - values[0][0]).abs()).fold(0.0, f32::max)
     };
     assert_eq!(moved("float s = 0.; for (int i = 0; i < 9; i++) s += p.x * float(i); o = vec4(s);"), 0.0);

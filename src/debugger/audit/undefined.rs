@@ -20,7 +20,7 @@ pub(super) fn of_operation(
     size: &dyn Fn(u8, i32) -> [i32; 3],
 ) -> Option<Reason> {
     // The operations of an expanded function are undefined where the function is.
-    if view.function().origin(value).builtin.is_some_and(|builtin| !builtin.gaps.is_empty()) {
+    if view.function().origin(value).builtin.is_some_and(|builtin| !builtin.undefined_for.is_empty()) {
         return None;
     }
     match *view.op(value) {

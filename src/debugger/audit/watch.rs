@@ -1,7 +1,7 @@
 //! Observes a walk in both precisions.
 
 use super::{
-    distance::apart,
+    distance::difference,
     finding::{Finding, Kind},
     flow::{Flow, Shown},
     undefined,
@@ -66,10 +66,10 @@ impl<'w> Watch<'w> {
     }
 
     /// Returns the findings, and the unwritten values that the output depends on.
-    pub(super) fn end(self, pixel: (u32, u32), born: Option<Blame>) -> (Vec<Finding>, Vec<Shown>) {
+    pub(super) fn end(self, pixel: (u32, u32), blame: Option<Blame>) -> (Vec<Finding>, Vec<Shown>) {
         let finding = |(kind, span, numbers)| Finding { kind, span, pixels: 1, pixel, numbers, error: None };
         let mut all: Vec<Finding> = self.found.into_iter().map(finding).collect();
-        if let Some(Blame { cause, error, left }) = born {
+        if let Some(Blame { cause, error, left }) = blame {
             let (kind, span, numbers) = (Kind::Rounding(cause.what), cause.span, cause.numbers);
             all.push(Finding { kind, span, pixels: 1, pixel, numbers, error: Some((error, left)) });
         }
@@ -116,7 +116,7 @@ impl Observer<Shadowed> for Watch<'_> {
         self.flow.loop_start(stmt);
     }
 
-    fn turn(&mut self, _: &View<'_, '_, Shadowed>) {
+    fn iteration(&mut self, _: &View<'_, '_, Shadowed>) {
         self.flow.turn();
     }
 
@@ -249,7 +249,7 @@ fn relative_error(cells: &[Cell<Shadowed>]) -> f64 {
     let one = |cell: &Cell<Shadowed>| match *cell {
         Cell::Float(x) => {
             let size = x.double.abs().max(f64::from(x.single).abs());
-            match apart(x) {
+            match difference(x) {
                 0.0 => 0.0,
                 error if size.is_finite() => error / size.max(f64::from(f32::MIN_POSITIVE)),
                 _ => f64::INFINITY,

@@ -12,4 +12,4 @@ mod search;
 
 pub use assignment::{Assignment, assignments};
 pub use probes::{ProbeError, Probes};
-pub use search::{Divergence, DivergenceFound, DivergenceJob, MOST, STEPS_KEPT, find, search};
+pub use search::{Divergence, DivergenceFound, DivergenceJob, MAX_PROBES, MAX_STEPS, find, search};

@@ -54,7 +54,7 @@ impl<'p> Probes<'p> {
             return Err(ProbeError::Snapshot);
         }
         let mut options = BuildOptions { probe: Some((self.pass.clone(), of.probe)), ..self.options.clone() };
-        options.wanted.push(BuildOptions::probed());
+        options.requested.push(BuildOptions::probed());
         let probed = self.builder.build(self.project, self.media, &options)?;
         self.engine.set_program(probed.program)?;
         self.engine.set_custom_uniforms(&self.values);

@@ -39,7 +39,7 @@ pub struct DivergenceFound {
 /// The remainder of `most` is used for the earliest ones.
 pub fn search<E>(
     assignments: Vec<Assignment>,
-    most: usize,
+    max_probes: usize,
     mut draw: impl FnMut(&Assignment) -> Result<Option<[f32; 4]>, E>,
 ) -> Result<DivergenceFound, E> {
     let of = assignments.len();
@@ -53,15 +53,15 @@ pub fn search<E>(
         Ok(compared[at].as_ref().is_some_and(Option::is_some))
     };
     let mut end = of;
-    if of > most {
+    if of > max_probes {
         let mut start = 0;
-        while start < end && count < most {
+        while start < end && count < max_probes {
             let middle = start + (end - start) / 2;
             if parts(middle, &mut count, &mut compared)? { end = middle } else { start = middle + 1 }
         }
     }
     for at in 0..end {
-        if count >= most || parts(at, &mut count, &mut compared)? {
+        if count >= max_probes || parts(at, &mut count, &mut compared)? {
             break;
         }
     }
@@ -84,9 +84,9 @@ fn divergence(assignment: &Assignment, device: Option<[f32; 4]>) -> Option<Diver
 }
 
 /// The limit of the device's values: each is a program to compile.
-pub const MOST: usize = 48;
+pub const MAX_PROBES: usize = 48;
 /// The limit of steps of the walk: about what fits into half a minute.
-pub const STEPS_KEPT: usize = 200_000;
+pub const MAX_STEPS: usize = 200_000;
 
 /// A traced pixel, and the frames that lead to it.
 pub struct DivergenceJob {
@@ -112,8 +112,8 @@ pub fn find(job: DivergenceJob, control: &Control<()>) -> Result<DivergenceFound
     };
     let (mut media, _) = media::gather(project, media_dir.as_deref());
     media.set_camera_picture(camera);
-    let wanted = project.image_and(&shown);
-    let options = BuildOptions { wanted, ..BuildOptions::default() };
+    let requested = project.image_and(&shown);
+    let options = BuildOptions { requested, ..BuildOptions::default() };
     let built = Program::build(&gpu, project, &media, &options).map_err(|e| e.to_string())?;
     let mut engine = Engine::new(gpu, size.0, size.1).map_err(|e| e.to_string())?;
     engine.set_program(built.program).map_err(|e| e.to_string())?;
@@ -125,11 +125,11 @@ pub fn find(job: DivergenceJob, control: &Control<()>) -> Result<DivergenceFound
         engine.set_custom_uniforms(values);
         engine.draw(inputs).map_err(|e| e.to_string())?;
     }
-    let trace = traced.trace(Extent { statements: STEPS, steps: STEPS_KEPT }).map_err(|e| e.to_string())?;
+    let trace = traced.trace(Extent { statements: STEPS, steps: MAX_STEPS }).map_err(|e| e.to_string())?;
     let assignments = assignments(&Sources::new(project), traced.index(), &trace);
     let before = engine.snapshot().map_err(|e| e.to_string())?;
     let mut probes = Probes::new((engine, before), (project, &media), options, pass.clone(), (inputs, values));
-    search(assignments, MOST, |assignment| probes.value(assignment, traced.pixel)).map_err(|e| e.to_string())
+    search(assignments, MAX_PROBES, |assignment| probes.value(assignment, traced.pixel)).map_err(|e| e.to_string())
 }
 
 #[cfg(test)]
@@ -150,13 +150,13 @@ mod tests {
     }
 
     /// Returns the visit that is reported, and how many were compared, where those with `is_off` differ.
-    fn reported(count: usize, most: usize, is_off: impl Fn(u32) -> bool) -> (Option<u32>, usize) {
+    fn reported(count: usize, max_probes: usize, is_off: impl Fn(u32) -> bool) -> (Option<u32>, usize) {
         let draw = |assignment: &Assignment| {
             let visit = assignment.probe.visit;
             Ok::<_, Infallible>(Some([visit as f32 + if is_off(visit) { 0.5 } else { 0.0 }, 0.0, 0.0, 1.0]))
         };
-        let Ok(found) = search(all(count), most, draw);
-        assert!(found.compared <= most && found.of == count);
+        let Ok(found) = search(all(count), max_probes, draw);
+        assert!(found.compared <= max_probes && found.of == count);
         (found.first.map(|first| first.assignment.probe.visit), found.compared)
     }
 

@@ -3,7 +3,7 @@
 use eddy_engine::DrawInputs;
 use eddy_glsl::{
     ir::Output,
-    walk::{Drawn, EntryInputs, Machine, Real},
+    walk::{Drawn, EntryInputs, Float, Machine},
     walkable::Walkable,
 };
 use eddy_project::Region;
@@ -30,12 +30,12 @@ pub(crate) struct Fragment<'p> {
 
 impl Fragment<'_> {
     /// Returns the machine that walks the pixel.
-    pub(crate) fn machine<R: Real>(&self) -> Machine<'_, R> {
+    pub(crate) fn machine<R: Float>(&self) -> Machine<'_, R> {
         Machine::new(&self.walkable.program, &self.world, self.inputs.clone(), self.limit)
     }
 
     /// Returns the pixel's output for the first target; `None` if it draws nothing.
-    pub(crate) fn value<R: Real>(&self, drawn: &Drawn<R>) -> Option<[R; 4]> {
+    pub(crate) fn value<R: Float>(&self, drawn: &Drawn<R>) -> Option<[R; 4]> {
         let cells = drawn.output(Output::Target(0), self.lane)?;
         (cells.len() == 4).then(|| std::array::from_fn(|i| cells[i].float()))
     }

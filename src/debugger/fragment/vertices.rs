@@ -4,7 +4,7 @@ use eddy_engine::{DrawInputs, MeshInputs};
 use eddy_glsl::{
     Attribute,
     ir::{Input, Op, Output},
-    walk::{Cell, Drawn, EntryInputs, LANES, Machine, NoObserver, Real, Shadowed, SlotCells, Stop},
+    walk::{Cell, Drawn, EntryInputs, Float, LANES, Machine, NoObserver, Shadowed, SlotCells, Stop},
     walkable::Walkable,
 };
 use eddy_media::mesh::Vertex;
@@ -43,8 +43,8 @@ impl<'p> VertexStage<'p> {
             thread::available_parallelism().map_or(1, |n| n.get()).min(count.div_ceil(MIN_VERTICES_PER_THREAD)).max(1);
         let a_thread = count.div_ceil(threads).next_multiple_of(LANES).max(LANES);
         let parts: Result<Vec<Vec<[f32; 4]>>, Stop> = thread::scope(|scope| {
-            let begins = (0..count).step_by(a_thread);
-            let spawned = begins.map(|first| scope.spawn(move || self.part(first..count.min(first + a_thread))));
+            let starts = (0..count).step_by(a_thread);
+            let spawned = starts.map(|first| scope.spawn(move || self.part(first..count.min(first + a_thread))));
             let spawned: Vec<_> = spawned.collect();
             spawned.into_iter().map(|t| t.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
         });
@@ -58,7 +58,7 @@ impl<'p> VertexStage<'p> {
             let count = LANES.min(range.end - first);
             machine.set_inputs(self.inputs(std::array::from_fn(|lane| (first + lane.min(count - 1)) as u32)));
             let drawn = machine.run(0, &mut NoObserver)?;
-            positions.extend((0..count).map(|lane| position(&drawn, lane).map(Real::to_f32)));
+            positions.extend((0..count).map(|lane| position(&drawn, lane).map(Float::to_f32)));
         }
         Ok(positions)
     }
@@ -84,7 +84,7 @@ impl<'p> VertexStage<'p> {
         }))
     }
 
-    fn machine<R: Real>(&self) -> Machine<'_, R> {
+    fn machine<R: Float>(&self) -> Machine<'_, R> {
         Machine::new(&self.walkable.program, &self.world, self.inputs([0; LANES]), self.limit)
     }
 
@@ -115,7 +115,7 @@ fn components(vertex: &Vertex, attribute: Attribute) -> [Cell<Shadowed>; 4] {
     std::array::from_fn(|at| Cell::Float(Shadowed::exact(number(at).into())))
 }
 
-fn position<R: Real>(drawn: &Drawn<R>, lane: usize) -> [R; 4] {
+fn position<R: Float>(drawn: &Drawn<R>, lane: usize) -> [R; 4] {
     let cells = drawn.output(Output::Position, lane);
     std::array::from_fn(|i| cells.map_or(R::from_f64(f64::NAN), |cells| cells[i].float()))
 }

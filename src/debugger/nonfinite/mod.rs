@@ -4,4 +4,4 @@ mod search;
 mod texels;
 
 pub use search::{FirstNonfinite, NonfiniteOperation, SearchEnd, SearchJob, search};
-pub use texels::{NonfiniteTexels, born, drawn, stored};
+pub use texels::{NonfiniteTexels, drawn_passes, find_origin, stored_components};

@@ -1,6 +1,6 @@
 //! The search for the first NaN among the recent frames, which are drawn again in the background.
 
-use super::texels::{NonfiniteTexels, born, drawn, stored};
+use super::texels::{NonfiniteTexels, drawn_passes, find_origin, stored_components};
 use crate::trace::STEPS;
 use eddy_background::{Control, Count};
 use eddy_diag::Span;
@@ -23,7 +23,7 @@ pub struct FirstNonfinite {
     /// They are older than the kept frames, of which this is the oldest.
     pub is_older: bool,
     /// The operation; `None` if the value can only come from the pass's format or from a texel that it reads.
-    pub born: Option<NonfiniteOperation>,
+    pub origin: Option<NonfiniteOperation>,
 }
 
 /// An operation whose result is not finite.
@@ -66,15 +66,15 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
     let SearchJob { gpu, project, shown, size, media_dir, snapshot, camera, frames } = job;
     let (mut media, _) = media::gather(&project, media_dir.as_deref());
     media.set_camera_picture(camera);
-    let wanted = project.image_and(&shown);
-    let options = BuildOptions { wanted, ..BuildOptions::default() };
+    let requested = project.image_and(&shown);
+    let options = BuildOptions { requested, ..BuildOptions::default() };
     let built = Program::build(&gpu, &project, &media, &options).map_err(|e| e.to_string())?;
     let mut engine = Engine::new(gpu, size.0, size.1).map_err(|e| e.to_string())?;
     engine.set_program(built.program).map_err(|e| e.to_string())?;
     if !engine.restore(&snapshot) {
         return Err("the kept frames belong to another program: reset and search again".into());
     }
-    let passes = drawn(&project);
+    let passes = drawn_passes(&project);
     let first = frames.first().map_or(0, |(inputs, _)| inputs.frame);
     if let Some(found) = first_nonfinite(&mut engine, &project, &passes, first - 1) {
         return Ok(SearchEnd::Found(Box::new(FirstNonfinite { is_older: true, ..found })));
@@ -86,14 +86,14 @@ pub fn search(job: SearchJob, control: &Control<Count>) -> Result<SearchEnd, Str
         engine.draw(inputs).map_err(|e| e.to_string())?;
         if let Some(found) = first_nonfinite(&mut engine, &project, &passes, inputs.frame) {
             let read = engine.inspect(&found.pass).map_err(|e| e.to_string())?;
-            let born = born(&project, &found.pass, &read, found.texel, STEPS).map_err(|e| e.to_string())?;
-            let born = born.map(|finding| NonfiniteOperation {
+            let origin = find_origin(&project, &found.pass, &read, found.texel, STEPS).map_err(|e| e.to_string())?;
+            let origin = origin.map(|finding| NonfiniteOperation {
                 message: finding.kind.message(),
                 place: finding.span.and_then(|span| TextLocation::new(span, &project.sources(), &project)),
                 text: finding.span.map_or_else(String::new, |span| first_line(&project, span)),
                 numbers: finding.numbers,
             });
-            return Ok(SearchEnd::Found(Box::new(FirstNonfinite { born, ..found })));
+            return Ok(SearchEnd::Found(Box::new(FirstNonfinite { origin, ..found })));
         }
     }
     let last = frames.last().map_or(0, |(inputs, _)| inputs.frame);
@@ -105,10 +105,10 @@ fn first_nonfinite(engine: &mut Engine, project: &Project, passes: &[PassName], 
     passes.iter().find_map(|pass| {
         // A pass that no picture needs is not drawn, and has no texels.
         let pixels = engine.read(pass).ok()?;
-        let NonfiniteTexels { first, count } = NonfiniteTexels::find(&pixels, stored(project, pass))?;
+        let NonfiniteTexels { first, count } = NonfiniteTexels::find(&pixels, stored_components(project, pass))?;
         let value = pixels.texels[(first.1 * pixels.width + first.0) as usize];
         let pass = pass.clone();
-        Some(FirstNonfinite { pass, frame, texel: first, value, texels: count, is_older: false, born: None })
+        Some(FirstNonfinite { pass, frame, texel: first, value, texels: count, is_older: false, origin: None })
     })
 }
 

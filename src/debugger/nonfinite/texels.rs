@@ -18,15 +18,15 @@ pub struct NonfiniteTexels {
 impl NonfiniteTexels {
     /// Returns `None` if every texel is finite.
     pub fn find(pixels: &Pixels, stored: usize) -> Option<Self> {
-        let is_bad = |texel: &&[f32; 4]| texel[..stored.min(4)].iter().any(|x| !x.is_finite());
-        let at = pixels.texels.iter().position(|texel| is_bad(&texel))? as u32;
-        let count = pixels.texels[at as usize..].iter().filter(is_bad).count();
+        let is_nonfinite = |texel: &&[f32; 4]| texel[..stored.min(4)].iter().any(|x| !x.is_finite());
+        let at = pixels.texels.iter().position(|texel| is_nonfinite(&texel))? as u32;
+        let count = pixels.texels[at as usize..].iter().filter(is_nonfinite).count();
         Some(Self { first: (at % pixels.width, at / pixels.width), count })
     }
 }
 
 /// Returns the passes that draw pictures, in drawing order.
-pub fn drawn(project: &Project) -> Vec<PassName> {
+pub fn drawn_passes(project: &Project) -> Vec<PassName> {
     let mut passes: Vec<PassName> = project.passes.iter().map(|pass| pass.id.clone()).collect();
     passes.retain(PassName::is_picture);
     // All buffers are equal there: they keep the order of the project.
@@ -35,13 +35,13 @@ pub fn drawn(project: &Project) -> Vec<PassName> {
 }
 
 /// Returns the number of components that a pass stores.
-pub fn stored(project: &Project, pass: &PassName) -> usize {
+pub fn stored_components(project: &Project, pass: &PassName) -> usize {
     project.pass(pass).and_then(|p| p.formats().first().copied()).unwrap_or_default().components()
 }
 
 /// Walks a pass for a texel of its first target. Returns `None` if no operation produces the value: it is too large for
 /// the pass's format, or was read from a texture, or comes from a vertex stage.
-pub fn born(
+pub fn find_origin(
     project: &Project,
     pass: &PassName,
     read: &PassInputs,

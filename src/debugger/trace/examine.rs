@@ -226,7 +226,12 @@ impl Examiner {
 
     /// Returns the nearest moment in a direction at which a breakpoint stops. A condition that is not a truth value or
     /// number, or does not compile, also stops; its error is shown at the breakpoint.
-    pub fn go_on(&mut self, at: usize, breakpoints: &[Breakpoint], direction: Direction) -> Option<usize> {
+    pub fn continue_to_breakpoint(
+        &mut self,
+        at: usize,
+        breakpoints: &[Breakpoint],
+        direction: Direction,
+    ) -> Option<usize> {
         let traced = self.traced.clone();
         let on = breakpoints.iter().filter(|breakpoint| breakpoint.is_on);
         let stops: Vec<(u32, &str)> =
@@ -235,13 +240,13 @@ impl Examiner {
         let accepts = |other: usize| {
             let statement = traced.history.statement_of(other);
             let mut here = stops.iter().filter(|(at, _)| Some(*at) == statement);
-            here.any(|(_, condition)| condition.is_empty() || self.holds(other, condition).unwrap_or(true))
+            here.any(|(_, condition)| condition.is_empty() || self.is_true_at(other, condition).unwrap_or(true))
         };
         travel::run(&traced.history, at, is_there, accepts, direction)
     }
 
     /// Returns whether a condition is true at a moment.
-    pub fn holds(&mut self, at: usize, condition: &str) -> Result<bool, String> {
+    pub fn is_true_at(&mut self, at: usize, condition: &str) -> Result<bool, String> {
         match &self.watch(at, condition)?.numbers[..] {
             [number] => Ok(number.as_f64() != 0.0),
             _ => Err("a condition is a bool or a number".into()),
@@ -264,7 +269,7 @@ impl Examiner {
             for comment in inspect_comments(traced.text(&tab)).iter().filter(|comment| comment.kind == "print") {
                 let mut values = Vec::new();
                 let mut is_cut = false;
-                for at in traced.history.turns_of_comment(source, traced.text(&tab), comment.at as u32) {
+                for at in traced.history.moments_of_comment(source, traced.text(&tab), comment.at as u32) {
                     is_cut = values.len() == MAX_PRINTED;
                     if is_cut {
                         break;

@@ -6,7 +6,7 @@ use eddy_glsl::{
     ast::Loc,
     ir::{FuncId, GlobalKind, Op, Value},
     types::{Scalar, Type, TypeId},
-    walk::{Cell, Observer, Real, View},
+    walk::{Cell, Float, Observer, View},
     walkable::Walkable,
 };
 use eddy_project::limits;
@@ -16,17 +16,17 @@ pub(super) struct Recorder<'w> {
     /// The names of each function's values and variables, by [`Value::index`].
     names: Vec<Vec<Option<&'w str>>>,
     steps: Vec<Step>,
-    most: usize,
+    max_steps: usize,
     /// Remaining bytes for steps, including their contents.
     room: usize,
     left_out: u64,
     depth: u32,
     /// The number of loop iterations so far, for each active call.
-    turns: Vec<u64>,
+    iterations: Vec<u64>,
 }
 
 impl<'w> Recorder<'w> {
-    pub(super) fn new(walkable: &'w Walkable, most: usize) -> Self {
+    pub(super) fn new(walkable: &'w Walkable, max_steps: usize) -> Self {
         let names = walkable.program.functions.iter().enumerate().map(|(index, function)| {
             let mut names = vec![None; function.len()];
             walkable.locals(FuncId::new(index)).for_each(|(name, value)| names[value.index()] = Some(name));
@@ -37,11 +37,11 @@ impl<'w> Recorder<'w> {
             walkable,
             names,
             steps: Vec::new(),
-            most,
+            max_steps,
             room: limits::TRACE_BYTES,
             left_out: 0,
             depth: 0,
-            turns: Vec::new(),
+            iterations: Vec::new(),
         }
     }
 
@@ -54,7 +54,7 @@ impl<'w> Recorder<'w> {
     /// After the first that is not kept, none is.
     fn has_room(&mut self, bytes: usize) -> bool {
         let room = self.room.checked_sub(size_of::<Step>() + bytes);
-        let is_kept = self.left_out == 0 && self.steps.len() < self.most && room.is_some();
+        let is_kept = self.left_out == 0 && self.steps.len() < self.max_steps && room.is_some();
         match room.filter(|_| is_kept) {
             Some(room) => self.room = room,
             None => self.left_out += 1,
@@ -74,7 +74,7 @@ impl<'w> Recorder<'w> {
         self.names[function.index()][value.index()]
     }
 
-    fn set<R: Real>(&mut self, view: &View<'_, '_, R>, name: String, (ty, cells): (TypeId, &[Cell<R>]), loc: Loc) {
+    fn set<R: Float>(&mut self, view: &View<'_, '_, R>, name: String, (ty, cells): (TypeId, &[Cell<R>]), loc: Loc) {
         if !self.has_room(name.len() + cells.len() * size_of::<Number>()) {
             return;
         }
@@ -85,7 +85,7 @@ impl<'w> Recorder<'w> {
     }
 
     /// Returns a place in GLSL syntax, if it is one of the author's variables or a part of one.
-    fn place<R: Real>(&self, view: &View<'_, '_, R>, place: Value) -> Option<String> {
+    fn place<R: Float>(&self, view: &View<'_, '_, R>, place: Value) -> Option<String> {
         if let Some(name) = self.name(view.function_id(), place) {
             return Some(name.to_owned());
         }
@@ -105,7 +105,7 @@ impl<'w> Recorder<'w> {
         }
     }
 
-    fn part<R: Real>(&self, view: &View<'_, '_, R>, ty: TypeId, index: u32) -> String {
+    fn part<R: Float>(&self, view: &View<'_, '_, R>, ty: TypeId, index: u32) -> String {
         match view.module().types.get(ty) {
             Type::Vector { .. } => format!(".{}", ["x", "y", "z", "w"][index.min(3) as usize]),
             Type::Struct(id) => format!(".{}", self.walkable.member_name(id, index)),
@@ -115,7 +115,7 @@ impl<'w> Recorder<'w> {
 }
 
 /// Returns the scalars of a value.
-fn numbers<R: Real>(
+fn numbers<R: Float>(
     view: &View<'_, '_, R>,
     ty: TypeId,
     cells: &mut std::slice::Iter<'_, Cell<R>>,
@@ -136,9 +136,9 @@ fn numbers<R: Real>(
     }
 }
 
-impl<R: Real> Observer<R> for Recorder<'_> {
+impl<R: Float> Observer<R> for Recorder<'_> {
     fn enter(&mut self, view: &View<'_, '_, R>) {
-        self.turns.push(0);
+        self.iterations.push(0);
         let Some(name) = self.walkable.function_name(view.function_id()) else { return };
         if self.has_room(name.len()) {
             self.push(Event::Enter(name.to_owned()), None);
@@ -156,7 +156,7 @@ impl<R: Real> Observer<R> for Recorder<'_> {
     }
 
     fn leave(&mut self, view: &View<'_, '_, R>) {
-        self.turns.pop();
+        self.iterations.pop();
         if self.walkable.function_name(view.function_id()).is_some() {
             self.depth -= 1;
             if self.has_room(0) {
@@ -165,12 +165,12 @@ impl<R: Real> Observer<R> for Recorder<'_> {
         }
     }
 
-    fn turn(&mut self, _: &View<'_, '_, R>) {
-        let Some(turns) = self.turns.last_mut() else { return };
-        *turns += 1;
-        let turn = *turns;
+    fn iteration(&mut self, _: &View<'_, '_, R>) {
+        let Some(iterations) = self.iterations.last_mut() else { return };
+        *iterations += 1;
+        let iteration = *iterations;
         if self.has_room(0) {
-            self.push(Event::Iteration(turn), None);
+            self.push(Event::Iteration(iteration), None);
         }
     }
 

@@ -1,6 +1,6 @@
 use super::{
     Breakpoint, Event, Examiner, Extent, Iteration, MomentKind, Number, Step, Traced, Tracer,
-    travel::{self, Direction, Stride},
+    travel::{self, Direction, StepKind},
     ulps,
 };
 use eddy_engine::{PassInputs, Pixels, Sources, TextureCopy};
@@ -51,7 +51,7 @@ fn line(traced: &Traced, at: usize) -> usize {
     traced.place(traced.history.span(at).unwrap()).unwrap().1 + 1
 }
 
-fn lines(traced: &Traced, mut at: usize, stride: Stride, direction: Direction, count: usize) -> Vec<usize> {
+fn lines(traced: &Traced, mut at: usize, stride: StepKind, direction: Direction, count: usize) -> Vec<usize> {
     let mut found = Vec::new();
     while let Some(next) = travel::step(&traced.history, at, stride, direction).filter(|_| found.len() < count) {
         found.push(line(traced, next));
@@ -70,7 +70,7 @@ fn number(traced: &Traced, at: usize, name: &str) -> f64 {
 
 #[test]
 fn stepping_into_over_and_out_works_in_both_directions() {
-    use {Direction::*, Stride::*};
+    use {Direction::*, StepKind::*};
     let traced = traced(CODE);
     let first = first_moment(&traced);
     assert_eq!(line(&traced, first), 8);
@@ -134,18 +134,18 @@ fn loop_iterations_are_listed_as_rows() {
     let traced = traced(CODE);
     let history = &traced.history;
     let inside = history.moments.iter().position(|m| m.kind == MomentKind::Iteration(2)).unwrap();
-    let turns = history.turns(inside);
-    let of = |turn: &Iteration, name: &str| {
-        let values = history.turn_values(turn);
+    let iterations = history.iterations(inside);
+    let of = |iteration: &Iteration, name: &str| {
+        let values = history.iteration_values(iteration);
         values.iter().find(|shown| shown.name == name).unwrap().value.numbers[0].as_f64()
     };
-    let rows: Vec<(f64, f64)> = turns.iter().map(|turn| (of(turn, "i"), of(turn, "d"))).collect();
+    let rows: Vec<(f64, f64)> = iterations.iter().map(|iteration| (of(iteration, "i"), of(iteration, "d"))).collect();
     assert_eq!(rows[..3], [(0.0, 4.5), (1.0, 2.25), (2.0, 1.125)]);
     // 4.5 / 2^13 < 0.001.
     assert_eq!((rows.len(), rows.last().unwrap().0), (14, 13.0));
-    assert!(turns[1].first <= inside && inside <= turns[1].end);
-    assert_eq!(history.turns(0), []);
-    assert_eq!(history.turns(history.moments.len() - 1), []);
+    assert!(iterations[1].first <= inside && inside <= iterations[1].end);
+    assert_eq!(history.iterations(0), []);
+    assert_eq!(history.iterations(history.moments.len() - 1), []);
 }
 
 #[test]
@@ -180,20 +180,20 @@ fn conditional_breakpoints_stop_in_both_directions() {
         [Breakpoint { tab: image.clone(), line: line - 1, condition: condition.into(), is_on: true }]
     };
     let first = first_moment(&traced);
-    let stop = examiner.go_on(first, &at_line(14, "i == 7 && d < 1.0"), Forward).unwrap();
+    let stop = examiner.continue_to_breakpoint(first, &at_line(14, "i == 7 && d < 1.0"), Forward).unwrap();
     assert_eq!((line(&traced, stop), number(&traced, stop, "i")), (14, 7.0));
-    let before = examiner.go_on(stop, &at_line(14, ""), Back).unwrap();
+    let before = examiner.continue_to_breakpoint(stop, &at_line(14, ""), Back).unwrap();
     assert_eq!(number(&traced, before, "i"), 6.0);
-    assert_eq!(examiner.go_on(stop, &at_line(14, "i == 7"), Forward), None);
-    assert_eq!(examiner.go_on(stop, &at_line(14, "i == 99"), Back), None);
+    assert_eq!(examiner.continue_to_breakpoint(stop, &at_line(14, "i == 7"), Forward), None);
+    assert_eq!(examiner.continue_to_breakpoint(stop, &at_line(14, "i == 99"), Back), None);
     // A line of Image without a statement is mapped to the next statement.
-    let slid = examiner.go_on(first, &at_line(2, ""), Forward).unwrap();
+    let slid = examiner.continue_to_breakpoint(first, &at_line(2, ""), Forward).unwrap();
     assert_eq!(line(&traced, slid), 4);
     // An invalid condition stops, and has an error.
-    assert!(examiner.go_on(first, &at_line(14, "i =="), Forward).is_some());
-    assert!(examiner.holds(stop, "p").is_err() && examiner.holds(stop, "d").unwrap());
+    assert!(examiner.continue_to_breakpoint(first, &at_line(14, "i =="), Forward).is_some());
+    assert!(examiner.is_true_at(stop, "p").is_err() && examiner.is_true_at(stop, "d").unwrap());
     let off = Breakpoint { is_on: false, ..at_line(14, "")[0].clone() };
-    assert_eq!(examiner.go_on(first, &[off], Forward), None);
+    assert_eq!(examiner.continue_to_breakpoint(first, &[off], Forward), None);
     let to = examiner.run_to(first, (&image, 17), Forward).unwrap();
     assert_eq!((line(&traced, to), examiner.run_to(to, (&image, 17), Forward)), (18, None));
 }

@@ -4,7 +4,7 @@ use super::history::{History, MomentKind};
 
 /// A step of the debugger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stride {
+pub enum StepKind {
     /// To the next line that runs, wherever it is.
     Into,
     /// To the next line of this call, or of one that it was made in.
@@ -21,19 +21,19 @@ pub enum Direction {
 }
 
 /// Returns the moment that a step leads to; `None` if there is none in that direction.
-pub fn step(history: &History, at: usize, stride: Stride, direction: Direction) -> Option<usize> {
+pub fn step(history: &History, at: usize, stride: StepKind, direction: Direction) -> Option<usize> {
     let depth = history.depth(at);
     let fits = |other: &usize| {
         history.is_stop(*other)
             && match stride {
-                Stride::Into => true,
-                Stride::Over => history.depth(*other) <= depth,
-                Stride::Out => history.depth(*other) < depth,
+                StepKind::Into => true,
+                StepKind::Over => history.depth(*other) <= depth,
+                StepKind::Out => history.depth(*other) < depth,
             }
     };
     let found = ahead(history, at, direction).find(fits);
     // Stepping out of the outermost call leads to the start or end of the history.
-    found.or_else(|| (stride == Stride::Out && depth == 0).then(|| end(history, direction)).flatten())
+    found.or_else(|| (stride == StepKind::Out && depth == 0).then(|| end(history, direction)).flatten())
 }
 
 /// Returns the moments in a direction, the nearest first.
@@ -64,7 +64,7 @@ pub fn run(
 ) -> Option<usize> {
     ahead(history, at, direction).find(|&other| {
         let moment = &history.moments[other];
-        let is_begun = !matches!(moment.kind, MomentKind::Return | MomentKind::Step);
-        is_begun && statement(moment.statement) && history.is_stop(other) && accepts(other)
+        let is_started = !matches!(moment.kind, MomentKind::Return | MomentKind::Step);
+        is_started && statement(moment.statement) && history.is_stop(other) && accepts(other)
     })
 }

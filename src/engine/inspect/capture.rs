@@ -2,7 +2,8 @@
 
 use super::{LevelBy, MeshInputs, PassInputs, TextureCopy, texture::Level};
 use crate::{
-    EngineError, external::External, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared,
+    EngineError, external::External, mesh_instance::MeshInstance, program::CompiledDraw, running::Running,
+    shared::Shared,
 };
 use eddy_glsl::SLOTS;
 use eddy_gpu::{FloatConverter, Gpu, Readback, Texture};
@@ -17,18 +18,18 @@ pub(crate) struct Capture<'a> {
     pass: &'a PassName,
     converter: &'a FloatConverter,
     /// True if the pass has been drawn already.
-    is_past: bool,
+    is_after_frame: bool,
     pub taken: Option<PassInputs>,
 }
 
 impl<'a> Capture<'a> {
     pub(crate) fn new(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
-        Self { pass, converter, is_past: false, taken: None }
+        Self { pass, converter, is_after_frame: false, taken: None }
     }
 
     /// Captures the inputs of a pass after the frame: they exist until something new is drawn.
-    pub(crate) fn of_the_past(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
-        Self { pass, converter, is_past: true, taken: None }
+    pub(crate) fn after_frame(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
+        Self { pass, converter, is_after_frame: true, taken: None }
     }
 
     /// Reads all inputs of a draw. Previously encoded commands have been submitted.
@@ -40,7 +41,7 @@ impl<'a> Capture<'a> {
         }
         let meshes = compiled.body.geometry().map_or_else(Vec::new, |meshes| {
             let each = meshes.programs.iter().enumerate();
-            let of = |(n, (_, placed)): (usize, &(_, PlacedMesh))| MeshInputs {
+            let of = |(n, (_, placed)): (usize, &(_, MeshInstance))| MeshInputs {
                 mesh: placed.mesh.clone(),
                 geometry: running.uniforms.mesh_block(meshes.first + n),
             };
@@ -68,7 +69,7 @@ impl<'a> Capture<'a> {
         let read = running.program.plan.draws[index].reads[channel].as_ref();
         let texture = match read.map(|read| &read.source) {
             _ if !bound.texture => None,
-            Some(TexelSource::Target { index: target, when: ReadTiming::LastFrame }) if self.is_past => {
+            Some(TexelSource::Target { index: target, when: ReadTiming::LastFrame }) if self.is_after_frame => {
                 Some(self.before(running, index, *target)?)
             }
             Some(TexelSource::Target { index, .. }) => Some(running.targets[*index].newest()),

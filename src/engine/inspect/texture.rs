@@ -262,8 +262,8 @@ mod tests {
         let levels = |by: LevelBy| [1.0, 2.0, 8.0, 0.5, 2.0f64.sqrt()].map(|texels| by.level(texels));
         assert!(levels(LevelBy::Quad).iter().zip(levels(LevelBy::Pixel)).all(|(a, b)| (a - b).abs() < 1e-12));
         let apart = |texels: f64| LevelBy::Pixel.level(texels) - LevelBy::Quad.level(texels);
-        let most = (0..1000).map(|i| apart(2.0 + f64::from(i) / 100.0)).fold(0.0, f64::max);
-        assert!((most - 0.043).abs() < 1e-4, "{most}");
+        let max_error = (0..1000).map(|i| apart(2.0 + f64::from(i) / 100.0)).fold(0.0, f64::max);
+        assert!((max_error - 0.043).abs() < 1e-4, "{max_error}");
         // The finest for a constant coordinate.
         let mipmap = TextureCopy { level_by: LevelBy::Quad, ..texture(Filter::Mipmap, Wrap::Clamp) };
         let still = Lod::Derivatives { x: [0.0; 3], y: [0.0; 3], bias: 0.0 };

@@ -88,7 +88,7 @@ impl World for DrawInputs<'_> {
         self.pass.channels[usize::from(channel)].fetch(at, level)
     }
 
-    fn has_one_level_a_quad(&self, channel: u8) -> bool {
+    fn has_one_level_per_quad(&self, channel: u8) -> bool {
         self.pass.channels[usize::from(channel)].level_by == LevelBy::Quad
     }
 

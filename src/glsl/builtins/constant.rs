@@ -68,7 +68,7 @@ impl Row {
     pub fn fold(&self, args: &[Arg<'_>], out: &mut [u32]) -> bool {
         let mut each = |f: &dyn Fn(usize) -> f32| {
             for (i, word) in out.iter_mut().enumerate() {
-                let is_in_gap = self.gaps.iter().any(|gap| gap.holds(args, i));
+                let is_in_gap = self.undefined_for.iter().any(|gap| gap.holds(args, i));
                 *word = if is_in_gap { 0 } else { f(i).to_bits() };
             }
         };

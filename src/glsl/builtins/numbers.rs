@@ -9,14 +9,14 @@ use super::{
         extreme, test,
     },
     overloads::{patterns::*, sig},
-    row::{Operation::*, ROW, Row, Test::Component, UndefinedCase, gap},
+    row::{Operation::*, ROW, Row, Test::Component, UndefinedDomain, gap},
 };
 use crate::{
     ir::{Binary, Math},
     types::Scalar,
 };
 
-const LOGARITHM: &[UndefinedCase] =
+const LOGARITHM: &[UndefinedDomain] =
     &[gap("the logarithm of 0 and below is undefined (8.2)", 0..1, Component(|[x, ..]| x <= 0.0))];
 
 #[rustfmt::skip]
@@ -39,16 +39,16 @@ pub(super) const ROWS: &[Row] = &[
         text: "Tangent of an angle in radians. Grows without bound near odd multiples of π/2.", ..ROW },
     Row { name: "asin", params: "x", overloads: FLOAT, operation: Function(Math::Asin),
         constant: Each(|x| constant::arc_sine(x, 0.086_566_724, -0.031_029_55)),
-        gaps: &[gap("asin is undefined outside -1 to 1 (8.1)", 0..1, Component(|[x, ..]| x.abs() > 1.0))],
+        undefined_for: &[gap("asin is undefined outside -1 to 1 (8.1)", 0..1, Component(|[x, ..]| x.abs() > 1.0))],
         text: "Angle in radians whose sine is x, -π/2 to π/2. Undefined where |x| > 1.", ..ROW },
     Row { name: "acos", params: "x", overloads: FLOAT, operation: Function(Math::Acos),
         constant: Each(|x| FRAC_PI_2 - constant::arc_sine(x, 0.081_324_63, -0.023_633_18)),
-        gaps: &[gap("acos is undefined outside -1 to 1 (8.1)", 0..1, Component(|[x, ..]| x.abs() > 1.0))],
+        undefined_for: &[gap("acos is undefined outside -1 to 1 (8.1)", 0..1, Component(|[x, ..]| x.abs() > 1.0))],
         text: "Angle in radians whose cosine is x, 0 to π. Undefined where |x| > 1: clamp what rounding may push \
                past 1.", ..ROW },
     Row { name: "atan", params: "y, x", overloads: &[sig(F, &[F, F]), sig(F, &[F])], operation: Atan,
         constant: Whole(constant::angle),
-        gaps: &[gap("the angle of (0, 0) is undefined (8.1)", 0..2, Component(|[y, x, _]| y == 0.0 && x == 0.0))],
+        undefined_for: &[gap("the angle of (0, 0) is undefined (8.1)", 0..2, Component(|[y, x, _]| y == 0.0 && x == 0.0))],
         text: "Angle in radians. `atan(y, x)`: of the point (x, y), -π to π, in the right quadrant; undefined where \
                both are 0. `atan(y_over_x)`: -π/2 to π/2.", ..ROW },
     Row { name: "sinh", params: "x", overloads: FLOAT, operation: Function(Math::Sinh),
@@ -64,15 +64,15 @@ pub(super) const ROWS: &[Row] = &[
         constant: Each(|x| f64::from(x).asinh() as f32), text: "Inverse of `sinh`.", ..ROW },
     Row { name: "acosh", params: "x", overloads: FLOAT, operation: Function(Math::Acosh),
         constant: Each(|x| f64::from(x).acosh() as f32),
-        gaps: &[gap("acosh is undefined below 1 (8.1)", 0..1, Component(|[x, ..]| x < 1.0))],
+        undefined_for: &[gap("acosh is undefined below 1 (8.1)", 0..1, Component(|[x, ..]| x < 1.0))],
         text: "Inverse of `cosh`, the branch that is not negative. Undefined where x < 1.", ..ROW },
     Row { name: "atanh", params: "x", overloads: FLOAT, operation: Function(Math::Atanh),
         constant: Each(|x| f64::from(x).atanh() as f32),
-        gaps: &[gap("atanh is undefined at and beyond -1 and 1 (8.1)", 0..1, Component(|[x, ..]| x.abs() >= 1.0))],
+        undefined_for: &[gap("atanh is undefined at and beyond -1 and 1 (8.1)", 0..1, Component(|[x, ..]| x.abs() >= 1.0))],
         text: "Inverse of `tanh`. Undefined where |x| ≥ 1.", ..ROW },
     // 8.2 Exponential.
     Row { name: "pow", params: "x, y", overloads: FLOATS, operation: Function(Math::Pow), constant: Each2(f32::powf),
-        gaps: &[
+        undefined_for: &[
             gap("pow of a negative base is undefined (8.2)", 0..2, Component(|[x, ..]| x < 0.0)),
             gap("pow of 0 is undefined unless the exponent is above 0 (8.2)", 0..2,
                 Component(|[x, y, _]| x == 0.0 && y <= 0.0)),
@@ -82,17 +82,17 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: "exp", params: "x", overloads: FLOAT, operation: Function(Math::Exp), constant: Each(f32::exp),
         text: "e to the power of x.", ..ROW },
     Row { name: "log", params: "x", overloads: FLOAT, operation: Function(Math::Log), constant: Each(f32::ln),
-        gaps: LOGARITHM, text: "Natural logarithm. Undefined where x ≤ 0.", ..ROW },
+        undefined_for: LOGARITHM, text: "Natural logarithm. Undefined where x ≤ 0.", ..ROW },
     Row { name: "exp2", params: "x", overloads: FLOAT, operation: Function(Math::Exp2), constant: Each(f32::exp2),
         text: "2 to the power of x.", ..ROW },
     Row { name: "log2", params: "x", overloads: FLOAT, operation: Function(Math::Log2), constant: Each(f32::log2),
-        gaps: LOGARITHM, text: "Logarithm to base 2. Undefined where x ≤ 0.", ..ROW },
+        undefined_for: LOGARITHM, text: "Logarithm to base 2. Undefined where x ≤ 0.", ..ROW },
     Row { name: "sqrt", params: "x", overloads: FLOAT, operation: Function(Math::Sqrt), constant: Each(f32::sqrt),
-        gaps: &[gap("the square root of a negative number is undefined (8.2)", 0..1, Component(|[x, ..]| x < 0.0))],
+        undefined_for: &[gap("the square root of a negative number is undefined (8.2)", 0..1, Component(|[x, ..]| x < 0.0))],
         text: "Square root. Undefined where x < 0.", ..ROW },
     Row { name: "inversesqrt", params: "x", overloads: FLOAT, operation: Function(Math::InverseSqrt),
         constant: Each(|x| 1.0 / x.sqrt()),
-        gaps: &[gap("inversesqrt is undefined for 0 and below (8.2)", 0..1, Component(|[x, ..]| x <= 0.0))],
+        undefined_for: &[gap("inversesqrt is undefined for 0 and below (8.2)", 0..1, Component(|[x, ..]| x <= 0.0))],
         text: "1 / sqrt(x). Undefined where x ≤ 0.", ..ROW },
     // 8.3 Common. Second and third arguments may be scalars where the first is a vector (see the overloads).
     Row { name: "abs", params: "x", overloads: &[sig(F, &[F]), sig(I, &[I])], operation: Function(Math::Abs),
@@ -138,7 +138,7 @@ pub(super) const ROWS: &[Row] = &[
             sig(U, &[U, U1, U1]),
         ],
         operation: Function(Math::Clamp), constant: Whole(constant::clamped),
-        gaps: &[
+        undefined_for: &[
             gap("clamp is undefined where minVal is above maxVal (8.3)", 1..3, Component(|[_, low, high]| low > high)),
         ],
         text: "min(max(x, minVal), maxVal): x clamped to the range. Undefined where minVal > maxVal.", ..ROW },
@@ -150,7 +150,7 @@ pub(super) const ROWS: &[Row] = &[
         constant: Each2(|edge, x| if x < edge { 0.0 } else { 1.0 }), text: "0 where x < edge, else 1.", ..ROW },
     Row { name: "smoothstep", params: "edge0, edge1, x", overloads: &[sig(F, &[F, F, F]), sig(F, &[F1, F1, F])],
         operation: Smoothstep, constant: Each3(constant::smooth_step),
-        gaps: &[
+        undefined_for: &[
             gap("smoothstep is undefined unless its first edge is below the second (8.3)", 0..2,
                 Component(|[low, high, _]| low >= high)),
         ],

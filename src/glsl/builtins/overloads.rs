@@ -101,7 +101,7 @@ impl Overload {
     }
 
     /// Returns whether these can be the first arguments.
-    pub fn begins_with(&self, args: &[TypeId], types: &TypeTable) -> bool {
+    pub fn accepts_first(&self, args: &[TypeId], types: &TypeTable) -> bool {
         let mut bound = Bound { size: 0, matrix: TypeId::ERROR, texel: Scalar::Float };
         args.len() <= self.params.len()
             && self.params.iter().zip(args).all(|(&pattern, &arg)| bind(pattern, arg, &mut bound, types))

@@ -20,7 +20,7 @@ pub struct Row {
     pub operation: Operation,
     pub constant: Constant,
     /// The arguments for which the result is undefined.
-    pub gaps: &'static [UndefinedCase],
+    pub undefined_for: &'static [UndefinedDomain],
     /// The argument that is an `out` place.
     pub writes: Option<usize>,
     /// Section 6.1 forbids redeclaring a built-in, but ANGLE, and therefore Shadertoy, accepts overloads of these.
@@ -39,7 +39,7 @@ pub(super) const ROW: Row = Row {
     overloads: &[],
     operation: Operation::Assert,
     constant: Constant::None,
-    gaps: &[],
+    undefined_for: &[],
     writes: None,
     may_be_overloaded: false,
     is_of_image: false,
@@ -107,7 +107,7 @@ pub enum Lod {
 
 /// Arguments for which a function's result is undefined.
 #[derive(Debug)]
-pub struct UndefinedCase {
+pub struct UndefinedDomain {
     /// The reason for users, with the section of the specification.
     pub what: &'static str,
     /// The arguments that are tested.
@@ -124,8 +124,8 @@ pub(super) enum Test {
     Vector(fn(&[f32]) -> bool),
 }
 
-pub(super) const fn gap(what: &'static str, decides: Range<usize>, test: Test) -> UndefinedCase {
-    UndefinedCase { what, decides, test }
+pub(super) const fn gap(what: &'static str, decides: Range<usize>, test: Test) -> UndefinedDomain {
+    UndefinedDomain { what, decides, test }
 }
 
 impl Row {
@@ -162,16 +162,16 @@ impl Row {
     }
 
     /// Returns the gap that the arguments are in, and the component that is; no component for a whole vector or matrix.
-    pub fn gap(&self, args: &[Arg<'_>]) -> Option<(&'static UndefinedCase, Option<usize>)> {
+    pub fn gap(&self, args: &[Arg<'_>]) -> Option<(&'static UndefinedDomain, Option<usize>)> {
         let components = args.iter().map(|arg| arg.words.len()).max().unwrap_or(0);
         (0..components).find_map(|index| {
-            let gap = self.gaps.iter().find(|gap| gap.holds(args, index))?;
+            let gap = self.undefined_for.iter().find(|gap| gap.holds(args, index))?;
             Some((gap, matches!(gap.test, Test::Component(_)).then_some(index)))
         })
     }
 }
 
-impl UndefinedCase {
+impl UndefinedDomain {
     /// Returns whether one component of the arguments is in the gap.
     pub(super) fn holds(&self, args: &[Arg<'_>], component: usize) -> bool {
         match self.test {

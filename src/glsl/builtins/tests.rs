@@ -41,7 +41,7 @@ fn shader(builtin: Builtin, overload: &Overload, is_constant: bool) -> String {
 #[test]
 fn every_row_has_a_description() {
     let names: BTreeSet<&str> = Builtin::all().map(|builtin| builtin.row().name).collect();
-    assert_eq!(names.len(), Builtin::COUNT, "a name stands twice");
+    assert_eq!(names.len(), Builtin::COUNT, "a name occurs twice");
     for builtin in Builtin::all() {
         let name = builtin.name;
         assert!(builtin.text.ends_with('.') && builtin.text.len() > 12, "{name}: {:?}", builtin.text);
@@ -51,9 +51,9 @@ fn every_row_has_a_description() {
             assert_eq!(names.len(), count, "{name}: {names:?}");
             assert!(!names.contains(""), "{name} takes {count}, named are {}", builtin.params);
         }
-        let most = builtin.overloads.iter().map(|o| o.params.len()).max();
-        assert_eq!(Some(builtin.params.split(", ").count()), most, "{name} has a name too many");
-        for gap in builtin.gaps {
+        let max_params = builtin.overloads.iter().map(|o| o.params.len()).max();
+        assert_eq!(Some(builtin.params.split(", ").count()), max_params, "{name} has a name too many");
+        for gap in builtin.undefined_for {
             assert!(gap.what.contains("(8.") && gap.decides.end <= builtin.params.split(", ").count(), "{gap:?}");
         }
     }

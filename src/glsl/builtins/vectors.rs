@@ -49,7 +49,7 @@ pub(super) const ROWS: &[Row] = &[
         text: "A vector perpendicular to both (right-hand rule); its length is the area of the parallelogram they \
                span.", ..ROW },
     Row { name: "normalize", params: "x", overloads: FLOAT, operation: Normalize, constant: Whole(constant::normalized),
-        gaps: &[gap("normalize of a zero vector is undefined (8.5)", 0..1, Vector(|v| length(v) == 0.0))],
+        undefined_for: &[gap("normalize of a zero vector is undefined (8.5)", 0..1, Vector(|v| length(v) == 0.0))],
         text: "The vector of length 1 in the direction of x. Undefined for a vector of length 0.", ..ROW },
     Row { name: "faceforward", params: "N, I, Nref", overloads: &[sig(F, &[F, F, F])], operation: FaceForward,
         constant: Whole(constant::face_forward),
@@ -80,7 +80,7 @@ pub(super) const ROWS: &[Row] = &[
         ..ROW },
     Row { name: "inverse", params: "m", overloads: &[sig(SQUARE, &[SQUARE])], operation: Inverse,
         constant: Whole(constant::inverted),
-        gaps: &[gap("the inverse of a singular matrix is undefined (8.6)", 0..1, Vector(|m| determinant(m) == 0.0))],
+        undefined_for: &[gap("the inverse of a singular matrix is undefined (8.6)", 0..1, Vector(|m| determinant(m) == 0.0))],
         text: "Inverse of a square matrix. Undefined where the determinant is 0 or nearly so.", ..ROW },
     // 8.7 Vector relations, component by component.
     Row { name: "lessThan", params: "x, y", overloads: &[sig(VB, &[VF, VF]), sig(VB, &[VI, VI]), sig(VB, &[VU, VU])],

@@ -48,7 +48,7 @@ impl Checker<'_> {
             return self.error_expr(loc);
         };
         let ty = self.module[members][at].ty;
-        self.uses(loc.last, DeclRef::Member(id, at as u32));
+        self.record_use(loc.last, DeclRef::Member(id, at as u32));
         if self.is_constant(base) {
             return self.part(base, ty, before, loc);
         }
@@ -99,7 +99,7 @@ impl Checker<'_> {
             None => self.hint(format!("its members are {}", quoted(&members))),
         }
         if let Some(declared) = self.module[id].name {
-            self.also(declared, "the struct");
+            self.label(declared, "the struct");
         }
     }
 
@@ -107,7 +107,7 @@ impl Checker<'_> {
     fn part_flags(&self, base: ExprId) -> ExprFlags {
         let flags = self.module[base].flags;
         let place = flags.contains(ExprFlags::PLACE);
-        if place { flags.inherited().with(ExprFlags::PLACE) } else { flags.inherited() }
+        if place { flags.inherited() | ExprFlags::PLACE } else { flags.inherited() }
     }
 
     /// Returns the words from `from` of a folded value, as many as `ty` has.
@@ -221,7 +221,7 @@ impl Checker<'_> {
             return self.sampler_of_uniform(base, element, loc);
         }
         let index_flags = self.module[index].flags.inherited();
-        let flags = self.part_flags(base).with(index_flags);
+        let flags = self.part_flags(base) | index_flags;
         self.push(ExprKind::Index { base, index }, element, flags, loc)
     }
 

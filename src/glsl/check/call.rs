@@ -17,7 +17,7 @@ impl Checker<'_> {
             Binding::Builtin(builtin) => self.builtin_call(builtin, args, loc),
             Binding::Function(first) => self.user_call(first, args, loc),
             Binding::Struct(id) => {
-                self.uses(loc.first, DeclRef::Struct(id));
+                self.record_use(loc.first, DeclRef::Struct(id));
                 self.construct_struct(id, args, loc)
             }
             Binding::Poison => self.error_expr(loc),
@@ -33,7 +33,7 @@ impl Checker<'_> {
                 let what = self.describe_binding(hidden);
                 self.error(loc.first, format!("`{text}` is {what} here and cannot be called"));
                 if let Some(at) = self.declared_at(hidden) {
-                    self.also(at, "this declaration hides any function of the name");
+                    self.label(at, "this declaration hides any function of the name");
                 }
                 self.hint("give one of the two another name");
                 self.error_expr(loc)
@@ -45,7 +45,7 @@ impl Checker<'_> {
     #[cold]
     fn foreign_constructor(&mut self, name: Symbol, ty: BasicType, args: List<ast::ExprId>, loc: Loc) -> ExprId {
         let text = self.name(name);
-        if self.say_once(name) {
+        if self.is_first_report(name) {
             self.error(loc.first, format!("GLSL has no type `{text}`"));
             self.hint(format!("write `{}`", ty.name()));
         }
@@ -67,7 +67,7 @@ impl Checker<'_> {
         // conversions.
         let builtin = Builtin::from_symbol(self.module[first].name.symbol).filter(|builtin| !builtin.is_of_image);
         let is_exact = builtin.is_some_and(|builtin| {
-            let given: Vec<TypeId> = ast[args].iter().map(|&arg| self.ty(self.done(arg))).collect();
+            let given: Vec<TypeId> = ast[args].iter().map(|&arg| self.ty(self.lowered_expr(arg))).collect();
             self.builtin_result(builtin, &given).is_some()
         });
         if !is_exact && let Some(id) = self.converting_overload(first, args) {
@@ -81,7 +81,7 @@ impl Checker<'_> {
         if let Some(builtin) = builtin {
             return self.builtin_call(builtin, args, loc);
         }
-        let broken = ast[args].iter().any(|&arg| self.ty(self.done(arg)) == TypeId::ERROR);
+        let broken = ast[args].iter().any(|&arg| self.ty(self.lowered_expr(arg)) == TypeId::ERROR);
         if !broken && !self.is_full() {
             self.no_user_overload(first, args, loc);
         }
@@ -89,7 +89,7 @@ impl Checker<'_> {
         if self.funcs[first.index()].next.is_some() {
             return self.error_expr(loc);
         }
-        self.uses(loc.first, DeclRef::Func(first));
+        self.record_use(loc.first, DeclRef::Func(first));
         self.error_expr_of(self.module[first].result, loc)
     }
 
@@ -99,7 +99,7 @@ impl Checker<'_> {
         if !self.settings.dialect.converts() {
             return None;
         }
-        let given: Vec<TypeId> = self.ast[args].iter().map(|&arg| self.ty(self.done(arg))).collect();
+        let given: Vec<TypeId> = self.ast[args].iter().map(|&arg| self.ty(self.lowered_expr(arg))).collect();
         let conversions = |id: FuncId| {
             let params = self.module.params(id);
             let fits = |(param, &ty): (&hir::Local, &TypeId)| match param.kind.copies_out() {
@@ -114,13 +114,13 @@ impl Checker<'_> {
     }
 
     fn resolved_call(&mut self, func: FuncId, args: List<ast::ExprId>, loc: Loc) -> ExprId {
-        self.uses(loc.first, DeclRef::Func(func));
+        self.record_use(loc.first, DeclRef::Func(func));
         let ast = self.ast;
         let base = self.expr_stack.len();
         let first_param = self.module[func].locals.start as usize;
         let mut legal = true;
         for (i, &arg) in ast[args].iter().enumerate() {
-            let id = self.done(arg);
+            let id = self.lowered_expr(arg);
             let kind = self.module.locals[first_param + i].kind;
             if kind.copies_out() {
                 let doing = if kind == LocalKind::Out { "passed as `out`" } else { "passed as `inout`" };
@@ -131,7 +131,7 @@ impl Checker<'_> {
         self.note_call(func, loc);
         let result = self.module[func].result;
         let id = if legal {
-            let flags = self.inherited(&self.expr_stack[base..]).with(ExprFlags::EFFECTS);
+            let flags = self.inherited(&self.expr_stack[base..]) | ExprFlags::EFFECTS;
             let args = self.module.list(&self.expr_stack[base..]);
             self.push(ExprKind::Call { func, args }, result, flags, loc)
         } else {
@@ -161,8 +161,8 @@ impl Checker<'_> {
     fn no_user_overload(&mut self, first: FuncId, args: List<ast::ExprId>, loc: Loc) {
         let ast = self.ast;
         let name = self.name(self.module[first].name.symbol);
-        let given: Vec<TypeId> = ast[args].iter().map(|&arg| self.ty(self.done(arg))).collect();
-        if ast[args].iter().any(|&arg| self.is_void(self.done(arg))) {
+        let given: Vec<TypeId> = ast[args].iter().map(|&arg| self.ty(self.lowered_expr(arg))).collect();
+        if ast[args].iter().any(|&arg| self.is_void(self.lowered_expr(arg))) {
             return;
         }
         if self.funcs[first.index()].next.is_none() {
@@ -175,13 +175,13 @@ impl Checker<'_> {
                 );
                 self.hint(format!("it is declared as `{}`", self.signature(first)));
                 if let Some(at) = self.function_at(first) {
-                    self.also(at, "declared here");
+                    self.label(at, "declared here");
                 }
                 return;
             }
             self.wrong_arguments(name, args, &params);
             if let Some(at) = self.function_at(first) {
-                self.also(at, format!("declared as `{}`", self.signature(first)));
+                self.label(at, format!("declared as `{}`", self.signature(first)));
             }
             return;
         }
@@ -198,9 +198,9 @@ impl Checker<'_> {
         for (i, want) in meant.into_iter().flatten().enumerate() {
             let written = ast[args][i];
             if want != given[i]
-                && let Some(mend) = self.mend(self.done(written), written, want)
+                && let Some(fix) = self.conversion_fix(self.lowered_expr(written), written, want)
             {
-                self.mend_with(&mend, written);
+                self.suggest_conversion(&fix, written);
             }
         }
         for id in candidates.into_iter().take(6) {
@@ -211,12 +211,12 @@ impl Checker<'_> {
     /// Reports all arguments of wrong types in one message.
     fn wrong_arguments(&mut self, name: &str, args: List<ast::ExprId>, want: &[TypeId]) {
         let ast = self.ast;
-        let pairs = ast[args].iter().zip(want).map(|(&written, &want)| (self.done(written), written, want));
+        let pairs = ast[args].iter().zip(want).map(|(&written, &want)| (self.lowered_expr(written), written, want));
         let wrong: Vec<_> =
             pairs.clone().filter(|&(value, _, want)| self.ty(value) != want && want != TypeId::ERROR).collect();
         let Some(&(first, _, ty)) = wrong.first() else { return };
         let at = pairs.clone().position(|(value, ..)| value == first).map_or(0, |i| i + 1);
-        let message = format!("argument {at} of `{name}` must be {}, not {{}}", self.a(ty));
+        let message = format!("argument {at} of `{name}` must be {}, not {{}}", self.with_article(ty));
         self.wrong_types(&wrong, &message);
     }
 
@@ -247,7 +247,7 @@ impl Checker<'_> {
     // ------------------------------------------------------------------------------------------------------ built-ins
 
     fn builtin_call(&mut self, builtin: Builtin, args: List<ast::ExprId>, loc: Loc) -> ExprId {
-        self.uses(loc.first, DeclRef::Builtin(builtin));
+        self.record_use(loc.first, DeclRef::Builtin(builtin));
         let is_derivative = matches!(builtin.operation, Operation::Derivative(_));
         if is_derivative && self.env.is_vertex() && !self.is_shared(loc) {
             self.error(
@@ -261,7 +261,7 @@ impl Checker<'_> {
         let mut types = [TypeId::ERROR; MAX_ARGS];
         let mut known = true;
         for (i, &arg) in ast[args].iter().enumerate() {
-            let id = self.done(arg);
+            let id = self.lowered_expr(arg);
             let ty = self.ty(id);
             known &= ty != TypeId::ERROR;
             if let Some(slot) = types.get_mut(i) {
@@ -316,7 +316,7 @@ impl Checker<'_> {
         }
         let mut flags = self.inherited(&self.expr_stack[base..]);
         if builtin.has_effect() {
-            flags = flags.with(ExprFlags::EFFECTS);
+            flags |= ExprFlags::EFFECTS;
         }
         if let Some(at) = builtin.writes
             && !self.place(self.expr_stack[base + at], "passed as `out`")
@@ -353,7 +353,7 @@ impl Checker<'_> {
         let (mut is_nan, mut is_infinite) = (false, false);
         if types.scalar(result) == Some(Scalar::Float) && !builtin.reads_bits() {
             let floats = args.iter().filter(|arg| arg.scalar == Scalar::Float);
-            (is_nan, is_infinite) = fault::born(floats.map(|arg| arg.words), words.as_slice());
+            (is_nan, is_infinite) = fault::introduces_nan_or_infinity(floats.map(|arg| arg.words), words.as_slice());
         }
         let id = self.constant(result, words.as_slice(), loc);
         match gap {
@@ -377,9 +377,9 @@ impl Checker<'_> {
             self.hint("to move by a varying amount, add it to the coordinate");
             return false;
         };
-        let (least, most) = (env::MIN_OFFSET, env::MAX_OFFSET);
-        if let Some(&bad) = words.iter().find(|&&bits| !(least..=most).contains(&(bits as i32))) {
-            self.error(loc, format!("the offset {} is out of range: {least} to {most} texels", bad as i32));
+        let (min, max) = (env::MIN_OFFSET, env::MAX_OFFSET);
+        if let Some(&bad) = words.iter().find(|&&bits| !(min..=max).contains(&(bits as i32))) {
+            self.error(loc, format!("the offset {} is out of range: {min} to {max} texels", bad as i32));
             return false;
         }
         true
@@ -389,14 +389,14 @@ impl Checker<'_> {
     fn no_builtin_overload(&mut self, builtin: Builtin, given: &[TypeId], args: List<ast::ExprId>, loc: Loc) -> ExprId {
         let ast = self.ast;
         let name = builtin.name;
-        if ast[args].iter().any(|&arg| self.is_void(self.done(arg))) {
+        if ast[args].iter().any(|&arg| self.is_void(self.lowered_expr(arg))) {
             return self.error_expr(loc);
         }
         let all = builtin.overloads;
         let counts: Vec<usize> = all.iter().map(|o| o.params.len()).collect();
         if !counts.contains(&args.len()) {
-            let (least, most) = (counts.iter().min().copied().unwrap_or(0), counts.iter().max().copied().unwrap_or(0));
-            let needed = if least == most { count(least, "argument") } else { format!("{least} to {most} arguments") };
+            let (min, max) = (counts.iter().min().copied().unwrap_or(0), counts.iter().max().copied().unwrap_or(0));
+            let needed = if min == max { count(min, "argument") } else { format!("{min} to {max} arguments") };
             self.error(loc, format!("`{name}` takes {needed}, {}", count_given(args.len())));
             self.candidates(builtin, given);
             return self.error_expr(loc);

@@ -80,7 +80,7 @@ pub(super) struct Checker<'a> {
     /// The functions that initialisers of globals call.
     pub global_calls: Vec<FuncId>,
     /// The name of the function that makes up the largest part of an error-free program.
-    pub bulk: Option<Loc>,
+    pub largest_function: Option<Loc>,
     /// Scratch stacks: lists nest, and each uses the part above the length at which it started.
     pub expr_stack: Vec<hir::ExprId>,
     pub stmt_stack: Vec<hir::StmtId>,
@@ -88,11 +88,11 @@ pub(super) struct Checker<'a> {
     /// `iCh0` and the like whose `.member` has not been checked yet.
     pub pending_channels: Vec<(hir::ExprId, u8)>,
     /// By symbol: 1 + index of the function in which it was reported as unknown, so that it is reported once.
-    pub unknown_said: Vec<u32>,
+    pub reported_unknown: Vec<u32>,
     /// The budget that is left for suggesting names.
     pub suggestions: Budget,
     /// An expression was rejected because its tree is too deep.
-    pub too_deep_told: bool,
+    pub reported_too_deep: bool,
     /// Outputs at file scope of a pass that is not a stage.
     pub outputs: Vec<hir::GlobalId>,
     /// The struct of `gl_DepthRange`, once it was named.
@@ -107,7 +107,7 @@ pub(super) struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    /// Creates a checker that continues from the checkpoint `begun`, or starts at the first text if there is none.
+    /// Creates a checker that continues from the `checkpoint`, or starts at the first text if there is none.
     pub(super) fn new(
         ast: &'a Ast,
         origins: &'a Origins,
@@ -152,15 +152,15 @@ impl<'a> Checker<'a> {
             loops: 0,
             switches: Vec::new(),
             global_calls: checkpoint.global_calls,
-            bulk: None,
+            largest_function: None,
             expr_stack: Vec::new(),
             stmt_stack: Vec::new(),
             word_stack: Vec::new(),
             pending_channels: Vec::new(),
-            unknown_said: Vec::new(),
+            reported_unknown: Vec::new(),
             suggestions: Budget::default(),
             outputs: Vec::new(),
-            too_deep_told: false,
+            reported_too_deep: false,
             depth_range: checkpoint.depth_range,
             entry_symbol: None,
             header_entry: None,
@@ -221,7 +221,7 @@ impl<'a> Checker<'a> {
 
     /// Adds a second location to the diagnostic reported last.
     #[cold]
-    pub(super) fn also(&mut self, loc: impl Into<Loc>, message: impl Into<String>) {
+    pub(super) fn label(&mut self, loc: impl Into<Loc>, message: impl Into<String>) {
         let span = self.origins.span(loc.into());
         if let Some(last) = self.diagnostics.last_mut() {
             last.labels.push(eddy_diag::Label { span, message: eddy_diag::shortened(message) });
@@ -245,7 +245,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the span that the author wrote, unless a macro produced it: an edit of a macro affects all its uses.
-    pub(super) fn written_at(&self, loc: impl Into<Loc>) -> Option<Span> {
+    pub(super) fn source_span(&self, loc: impl Into<Loc>) -> Option<Span> {
         let loc = loc.into();
         let (first, last) = (self.origins.tokens[loc.first.0 as usize], self.origins.tokens[loc.last.0 as usize]);
         let is_plain = first.expansion.is_none() && last.expansion.is_none();
@@ -254,15 +254,15 @@ impl<'a> Checker<'a> {
     }
 
     /// Adds the fix that replaces what is written with another text.
-    pub(super) fn fix_with(&mut self, loc: impl Into<Loc>, text: &str) {
-        let span = self.written_at(loc);
+    pub(super) fn replace_fix(&mut self, loc: impl Into<Loc>, text: &str) {
+        let span = self.source_span(loc);
         self.fix(span.map(|span| Fix::replace(span, text)));
     }
 
     /// Suggests a name as the correct spelling of another.
     pub(super) fn did_you_mean(&mut self, loc: impl Into<Loc>, near: &str) {
         self.hint(format!("did you mean `{near}`?"));
-        self.fix_with(loc, near);
+        self.replace_fix(loc, near);
     }
 
     /// Returns whether a location is in Common, which a vertex stage includes although parts of it may be for
@@ -273,7 +273,7 @@ impl<'a> Checker<'a> {
 
     /// Records the target of a name in the text, for editors.
     #[inline]
-    pub(super) fn uses(&mut self, token: ast::TokenId, target: hir::DeclRef) {
+    pub(super) fn record_use(&mut self, token: ast::TokenId, target: hir::DeclRef) {
         self.module.uses.push(hir::Use { token, target });
     }
 
@@ -294,7 +294,7 @@ impl<'a> Checker<'a> {
 
 impl Checker<'_> {
     /// Returns the checkpoint after the checked declarations; `None` if one of them has an error.
-    pub(super) fn into_begun(self) -> Option<Checkpoint> {
+    pub(super) fn into_checkpoint(self) -> Option<Checkpoint> {
         // Whether an output is an error is only known at the end of the pass.
         (self.errors == 0 && !self.broken_tree && self.outputs.is_empty()).then_some(Checkpoint {
             items: self.items,

@@ -18,7 +18,7 @@ impl Checker<'_> {
         let Some((size, at)) = self.sizes(written.dims, List::EMPTY) else {
             return self.construct_type(base, args, loc);
         };
-        if base == TypeId::ERROR || size == Size::Bad {
+        if base == TypeId::ERROR || size == Size::Invalid {
             return self.error_expr(loc);
         }
         if base == TypeId::VOID || self.facts(base).opaque {
@@ -68,7 +68,7 @@ impl Checker<'_> {
         let base = self.expr_stack.len();
         let mut known = true;
         for &arg in &ast[args] {
-            let id = self.done(arg);
+            let id = self.lowered_expr(arg);
             known &= self.is_component_argument(id, ty);
             self.expr_stack.push(id);
         }
@@ -350,11 +350,11 @@ impl Checker<'_> {
         let name = self.type_name(hir.ty);
         let members = hir.members;
         if members.len() != args.len() {
-            if args.is_empty() || self.ast[args].iter().all(|&arg| self.ty(self.done(arg)) != TypeId::ERROR) {
+            if args.is_empty() || self.ast[args].iter().all(|&arg| self.ty(self.lowered_expr(arg)) != TypeId::ERROR) {
                 let (needed, given) = (call::count(members.len(), "argument"), call::count_given(args.len()));
                 self.error(loc, format!("`{name}(..)` needs {needed}, one per member; {given}"));
                 if let Some(declared) = hir.name {
-                    self.also(declared, "the struct");
+                    self.label(declared, "the struct");
                 }
             }
             return self.error_expr_of(hir.ty, loc);
@@ -368,7 +368,7 @@ impl Checker<'_> {
             |checker, i| checker.module[members][i].ty,
             |checker, i| {
                 let member = checker.module[members][i];
-                let (of, ty) = (checker.name(member.name.symbol), checker.a(member.ty));
+                let (of, ty) = (checker.name(member.name.symbol), checker.with_article(member.ty));
                 format!("the member `{of}` of `{name}` is {ty}, not {{}}")
             },
         );
@@ -418,7 +418,7 @@ impl Checker<'_> {
         let ast = self.ast;
         let base = self.expr_stack.len();
         for &arg in &ast[args] {
-            let id = self.done(arg);
+            let id = self.lowered_expr(arg);
             self.expr_stack.push(id);
         }
         let id = if self.expr_stack[base..].iter().all(|&id| self.is_constant(id)) {

@@ -13,7 +13,7 @@ impl Checker<'_> {
     /// Converts the value of an expression of the tree where the language converts implicitly (GLSL 4.30, section
     /// 4.1.10), and returns the converted value. Any other value is returned unchanged.
     pub(super) fn implicit(&mut self, written: ast::ExprId, want: TypeId) -> ExprId {
-        let value = self.done(written);
+        let value = self.lowered_expr(written);
         if self.ty(value) == want || !self.converts_to(self.ty(value), want) {
             return value;
         }
@@ -40,7 +40,7 @@ impl Checker<'_> {
             return;
         }
         let types = &self.module.types;
-        let (l, r) = (self.ty(self.done(left)), self.ty(self.done(right)));
+        let (l, r) = (self.ty(self.lowered_expr(left)), self.ty(self.lowered_expr(right)));
         let (Some(a), Some(b)) = (types.scalar(l), types.scalar(r)) else { return };
         let of = |ty, scalar| self.vector_shape(ty).map(|(_, n)| TypeId::vector(scalar, n));
         let (on_left, on_right) = (of(l, b), of(r, a));
@@ -77,26 +77,26 @@ impl Checker<'_> {
         let loc = self.loc(value);
         let message = message.replace("{}", &format!("`{}`", self.type_name(found)));
         self.error(loc, message);
-        if let Some(mend) = self.mend(value, written, want) {
-            self.mend_with(&mend, written);
+        if let Some(fix) = self.conversion_fix(value, written, want) {
+            self.suggest_conversion(&fix, written);
         }
     }
 
     /// Adds a fix to the diagnostic reported last.
-    pub(super) fn mend_with(&mut self, mend: &Mend, written: ast::ExprId) {
-        self.hint(mend.hint());
-        let edits = self.edits(mend, written);
-        self.fix((!edits.is_empty()).then(|| Fix::new(mend.title(), edits)));
+    pub(super) fn suggest_conversion(&mut self, fix: &ConversionFix, written: ast::ExprId) {
+        self.hint(fix.hint());
+        let edits = self.edits(fix, written);
+        self.fix((!edits.is_empty()).then(|| Fix::new(fix.title(), edits)));
     }
 
     /// Returns the edits of a fix; none if a macro produced the value.
-    fn edits(&self, mend: &Mend, written: ast::ExprId) -> Vec<Edit> {
-        let Some(span) = self.written_at(self.ast[written].loc) else { return Vec::new() };
+    fn edits(&self, fix: &ConversionFix, written: ast::ExprId) -> Vec<Edit> {
+        let Some(span) = self.source_span(self.ast[written].loc) else { return Vec::new() };
         let before = |text: &str| Edit { span: Span { end: span.start, ..span }, text: text.to_owned() };
         let after = |text: &str| Edit { span: Span { start: span.end, ..span }, text: text.to_owned() };
-        match mend.text.split_once("..") {
-            None if mend.text.is_empty() => vec![after("u")],
-            None => vec![Edit { span, text: mend.text.clone() }],
+        match fix.text.split_once("..") {
+            None if fix.text.is_empty() => vec![after("u")],
+            None => vec![Edit { span, text: fix.text.clone() }],
             // A component of a whole expression is selected after parentheses around it.
             Some(("", part)) => vec![before("("), after(&format!("){part}"))],
             Some((head, tail)) => vec![before(head), after(tail)],
@@ -109,26 +109,26 @@ impl Checker<'_> {
         let Some(&(first, written, want)) = wrong.first() else { return };
         let message = message.replace("{}", &format!("`{}`", self.type_name(self.ty(first))));
         self.error(self.loc(first), message);
-        let mut mends: Vec<Mend> = self.mend(first, written, want).into_iter().collect();
-        let mut edits = mends.first().map(|mend| self.edits(mend, written)).unwrap_or_default();
+        let mut fixes: Vec<ConversionFix> = self.conversion_fix(first, written, want).into_iter().collect();
+        let mut edits = fixes.first().map(|fix| self.edits(fix, written)).unwrap_or_default();
         for &(value, written, want) in &wrong[1..] {
-            let message = format!("this must be {} too", self.a(want));
+            let message = format!("this must be {} too", self.with_article(want));
             if wrong.len() <= 4 {
-                self.also(self.loc(value), message);
+                self.label(self.loc(value), message);
             }
-            let Some(mend) = self.mend(value, written, want) else { continue };
-            edits.extend(self.edits(&mend, written));
-            match mends.iter_mut().find(|m| m.converts == mend.converts && m.is_plain() && mend.is_plain()) {
+            let Some(fix) = self.conversion_fix(value, written, want) else { continue };
+            edits.extend(self.edits(&fix, written));
+            match fixes.iter_mut().find(|m| m.converts == fix.converts && m.is_plain() && fix.is_plain()) {
                 Some(known) => {
                     known.text.push_str("`, `");
-                    known.text.push_str(&mend.text);
+                    known.text.push_str(&fix.text);
                 }
-                None => mends.push(mend),
+                None => fixes.push(fix),
             }
         }
-        mends.iter().for_each(|mend| self.hint(mend.hint()));
-        if let Some(mend) = mends.first().filter(|_| !edits.is_empty()) {
-            self.fix(Some(Fix::new(mend.title(), edits)));
+        fixes.iter().for_each(|fix| self.hint(fix.hint()));
+        if let Some(fix) = fixes.first().filter(|_| !edits.is_empty()) {
+            self.fix(Some(Fix::new(fix.title(), edits)));
         }
     }
 
@@ -156,7 +156,7 @@ impl Checker<'_> {
     }
 
     /// Returns the fix that turns this value into one of type `want`.
-    pub(super) fn mend(&self, value: ExprId, written: ast::ExprId, want: TypeId) -> Option<Mend> {
+    pub(super) fn conversion_fix(&self, value: ExprId, written: ast::ExprId, want: TypeId) -> Option<ConversionFix> {
         let found = self.ty(value);
         let (Some((from, n)), Some((to, m))) = (self.vector_shape(found), self.vector_shape(want)) else { return None };
         let target = self.type_name(want);
@@ -170,26 +170,26 @@ impl Checker<'_> {
                 && value > 9999
             {
                 // It was most likely written in hexadecimal, so it cannot be shown as the author wrote it.
-                return Some(Mend::new(converts, String::new()));
+                return Some(ConversionFix::new(converts, String::new()));
             }
             let text = self.as_scalar(written, to);
             let text = text.or_else(|| named.map(|name| format!("{target}({name})")));
-            return Some(Mend::new(converts, text.unwrap_or_else(|| format!("{target}(..)"))));
+            return Some(ConversionFix::new(converts, text.unwrap_or_else(|| format!("{target}(..)"))));
         }
         if n > m {
             if from != to {
                 return None;
             }
             let kept = &"xyzw"[..usize::from(m)];
-            return Some(Mend::new(None, format!("{}.{kept}", named.unwrap_or(".."))));
+            return Some(ConversionFix::new(None, format!("{}.{kept}", named.unwrap_or(".."))));
         }
         if n > 1 {
             let missing = if m == 4 && n == 3 { "1.0".to_owned() } else { vec!["0.0"; usize::from(m - n)].join(", ") };
             return (from == Scalar::Float && to == from)
-                .then(|| Mend::new(None, format!("{target}({}, {missing})", named.unwrap_or(".."))));
+                .then(|| ConversionFix::new(None, format!("{target}({}, {missing})", named.unwrap_or(".."))));
         }
         let text = self.as_scalar(written, to).or_else(|| named.map(str::to_owned));
-        Some(Mend::new(None, format!("{target}({})", text.as_deref().unwrap_or(".."))))
+        Some(ConversionFix::new(None, format!("{target}({})", text.as_deref().unwrap_or(".."))))
     }
 
     /// Returns a literal (or its negative) as the author would write it in another scalar type.
@@ -236,9 +236,9 @@ impl Checker<'_> {
         };
         let ((value, written), to) = if left_changes { (left, b) } else { (right, a) };
         if let Some((_, n)) = self.vector_shape(self.ty(value))
-            && let Some(mend) = self.mend(value, written, TypeId::vector(to, n))
+            && let Some(fix) = self.conversion_fix(value, written, TypeId::vector(to, n))
         {
-            self.mend_with(&mend, written);
+            self.suggest_conversion(&fix, written);
         }
     }
 
@@ -261,14 +261,14 @@ impl Checker<'_> {
 }
 
 /// A replacement for a value.
-pub(super) struct Mend {
+pub(super) struct ConversionFix {
     /// The conversion that GLSL ES does not make implicitly, if that is the problem.
     converts: Option<(Scalar, Scalar)>,
     /// The new text, with `..` in place of the old one; empty for a literal that only needs a `u`.
     text: String,
 }
 
-impl Mend {
+impl ConversionFix {
     fn new(converts: Option<(Scalar, Scalar)>, text: String) -> Self {
         Self { converts, text }
     }

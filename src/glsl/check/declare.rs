@@ -8,7 +8,7 @@ use super::{
     facts::MAX_WORDS,
     qualifiers::{DeclContext, LayoutOf, Qualifiers},
     scope::Binding,
-    suggest::input_of_the_site,
+    suggest::shadertoy_input,
     types::Size,
 };
 use crate::{
@@ -96,8 +96,8 @@ impl Checker<'_> {
         let ty = match sizes {
             None => base,
             Some((Size::Known(len), at)) => self.array_type(base, len, at),
-            Some((Size::Bad, _)) => TypeId::ERROR,
-            Some((Size::Open, at)) => match init.map(|init| self.module.types.get(self.ty(init))) {
+            Some((Size::Invalid, _)) => TypeId::ERROR,
+            Some((Size::Unsized, at)) => match init.map(|init| self.module.types.get(self.ty(init))) {
                 Some(Type::Array { len, .. }) => self.array_type(base, len, at),
                 Some(Type::Error) => TypeId::ERROR,
                 _ => {
@@ -215,7 +215,7 @@ impl Checker<'_> {
     ) {
         let name = declarator.name;
         let text = self.name(name.symbol);
-        if self.uniform_again(quals, base, spec, declarator) || quals.storage.is_some() && self.is_taken(name) {
+        if self.redeclared_uniform(quals, base, spec, declarator) || quals.storage.is_some() && self.is_taken(name) {
             return;
         }
         let (ty, init) = self.variable_type(base, spec, declarator);
@@ -258,7 +258,7 @@ impl Checker<'_> {
         let is_set = outer.is_some() || self.env.is_plain() || storage == GlobalStorage::In && self.env.is_stage();
         if matches!(storage, GlobalStorage::Uniform | GlobalStorage::In) && !is_set {
             self.warning(name, format!("`{text}` has no value (0)"));
-            self.hint(input_of_the_site(text).unwrap_or(
+            self.hint(shadertoy_input(text).unwrap_or(
                 "Shadertoy's inputs are iTime, iResolution, iMouse and so on; for other values use a `const` or a \
                  #define",
             ));
@@ -308,7 +308,7 @@ impl Checker<'_> {
     fn is_of_other_stage(&self, name: Ident, ty: TypeId, init: Option<ExprId>) -> bool {
         self.settings.dialect.joins_stages()
             && init.is_none()
-            && matches!(self.scopes.here(name.symbol), Some(Binding::Global(id)) if self.module[id].ty == ty)
+            && matches!(self.scopes.get_innermost(name.symbol), Some(Binding::Global(id)) if self.module[id].ty == ty)
     }
 
     /// Returns the number in a `layout(location = n)`.
@@ -459,7 +459,7 @@ impl Checker<'_> {
         }
         if instance.is_none() {
             let count = members.len();
-            members.retain(|member| !self.member_again(member.name, member.ty));
+            members.retain(|member| !self.redeclared_member(member.name, member.ty));
             if members.is_empty() && count > 0 {
                 return;
             }

@@ -61,7 +61,7 @@ impl<'a> Checker<'a> {
     #[cold]
     fn too_deep(&mut self, root: ast::ExprId) -> ExprId {
         let loc = self.ast[root].loc;
-        if !std::mem::replace(&mut self.too_deep_told, true) {
+        if !std::mem::replace(&mut self.reported_too_deep, true) {
             self.error(loc, format!("this is nested more than {MAX_NESTING} levels deep"));
             self.hint("move a part of it to a variable or a function");
         }
@@ -106,7 +106,7 @@ impl<'a> Checker<'a> {
 
     /// Returns the HIR of a child that has been checked.
     #[inline]
-    pub(super) fn done(&self, id: ast::ExprId) -> ExprId {
+    pub(super) fn lowered_expr(&self, id: ast::ExprId) -> ExprId {
         self.lowered[id.index()].expect("children come first")
     }
 
@@ -124,21 +124,21 @@ impl<'a> Checker<'a> {
             A::Name(symbol) => self.named(symbol, loc),
             A::Call { name, args } => self.call(name, args, loc),
             A::Construct { ty, args } => self.construct(ty, args, loc),
-            A::Method { base, name } => self.method(self.done(base), name, loc),
-            A::Member { base, name } => self.member(self.done(base), name, loc),
-            A::Index { base, index } => self.index(self.done(base), self.done(index), loc),
+            A::Method { base, name } => self.method(self.lowered_expr(base), name, loc),
+            A::Member { base, name } => self.member(self.lowered_expr(base), name, loc),
+            A::Index { base, index } => self.index(self.lowered_expr(base), self.lowered_expr(index), loc),
             A::Unary { op, operand } => self.unary(op, operand, loc),
             A::Postfix { op, operand } => {
                 let op = match op {
                     ast::PostfixOp::Increment => IncDec::PostIncrement,
                     ast::PostfixOp::Decrement => IncDec::PostDecrement,
                 };
-                self.inc_dec(op, self.done(operand), loc)
+                self.inc_dec(op, self.lowered_expr(operand), loc)
             }
             A::Binary { op, lhs, rhs } => self.binary(op, lhs, rhs, loc),
             A::Assign { op, place, value } => self.assign(op, place, value, loc),
             A::Ternary { cond, then, otherwise } => self.ternary(cond, then, otherwise, loc),
-            A::Comma { lhs, rhs } => self.comma(self.done(lhs), self.done(rhs), loc),
+            A::Comma { lhs, rhs } => self.comma(self.lowered_expr(lhs), self.lowered_expr(rhs), loc),
         };
         self.lowered[index] = Some(id);
     }
@@ -150,7 +150,7 @@ impl<'a> Checker<'a> {
         let token = loc.first;
         match self.scopes.get(symbol) {
             Binding::Local(id) => {
-                self.uses(token, DeclRef::Local(id));
+                self.record_use(token, DeclRef::Local(id));
                 let local = &mut self.module[id];
                 local.flags.insert(VarFlags::USED);
                 let (ty, kind, value) = (local.ty, local.kind, local.value);
@@ -162,7 +162,7 @@ impl<'a> Checker<'a> {
                 }
             }
             Binding::Global(id) => {
-                self.uses(token, DeclRef::Global(id));
+                self.record_use(token, DeclRef::Global(id));
                 let global = &mut self.module[id];
                 global.flags.insert(VarFlags::USED);
                 let (ty, storage, value) = (global.ty, global.storage, global.value);
@@ -183,37 +183,37 @@ impl<'a> Checker<'a> {
             }
             Binding::Uniform(uniform) => self.uniform(uniform, token, loc),
             Binding::CustomUniform(i) => {
-                self.uses(token, DeclRef::CustomUniform(i));
+                self.record_use(token, DeclRef::CustomUniform(i));
                 let ty = super::env::custom_uniform_type(self.settings.custom_uniforms[usize::from(i)].kind);
                 self.push(ExprKind::CustomUniform(i), ty, ExprFlags::default(), loc)
             }
-            Binding::OldTime => {
-                if self.say_once(symbol) {
+            Binding::DeprecatedTime => {
+                if self.is_first_report(symbol) {
                     self.warning(loc, "`iGlobalTime` is the old name of `iTime`");
                     self.hint("write `iTime`");
                 }
                 self.uniform(hir::Uniform::Time, token, loc)
             }
             Binding::Channel(i) => {
-                self.uses(token, DeclRef::Channel(i));
+                self.record_use(token, DeclRef::Channel(i));
                 self.note_in_common(token, DeclRef::Channel(i));
                 let ty = self.channel_type(i);
                 self.push(ExprKind::Channel(i), ty, ExprFlags::default(), loc)
             }
             Binding::ChannelStruct(i) => {
-                self.uses(token, DeclRef::ChannelStruct(i));
+                self.record_use(token, DeclRef::ChannelStruct(i));
                 let id = self.error_expr(loc);
                 self.pending_channels.push((id, i));
                 id
             }
             Binding::BuiltinVar(var) => {
-                self.uses(token, DeclRef::BuiltinVar(var));
+                self.record_use(token, DeclRef::BuiltinVar(var));
                 self.plain_variable(var, symbol, loc);
                 let flags = if var.is_place() { ExprFlags::PLACE } else { ExprFlags::default() };
                 self.push(ExprKind::BuiltinVar(var), var.ty(), flags, loc)
             }
             Binding::BuiltinConst(value) => {
-                self.uses(token, DeclRef::BuiltinConst(symbol));
+                self.record_use(token, DeclRef::BuiltinConst(symbol));
                 self.literal(value as u32, TypeId::INT, loc)
             }
             Binding::DepthRange => self.depth_range(symbol, loc),
@@ -247,7 +247,7 @@ impl<'a> Checker<'a> {
 
     pub(super) fn uniform(&mut self, uniform: hir::Uniform, token: TokenId, loc: Loc) -> ExprId {
         if uniform != hir::Uniform::ChannelLoaded {
-            self.uses(token, DeclRef::Uniform(uniform));
+            self.record_use(token, DeclRef::Uniform(uniform));
             self.note_in_common(token, DeclRef::Uniform(uniform));
         }
         let ty = self.uniform_type(uniform, loc);
@@ -293,7 +293,7 @@ impl<'a> Checker<'a> {
 
     fn ternary(&mut self, cond: ast::ExprId, then: ast::ExprId, otherwise: ast::ExprId, loc: Loc) -> ExprId {
         self.promote(then, otherwise, false);
-        let (c, t, o) = (self.done(cond), self.done(then), self.done(otherwise));
+        let (c, t, o) = (self.lowered_expr(cond), self.lowered_expr(then), self.lowered_expr(otherwise));
         let (tt, ot) = (self.ty(t), self.ty(o));
         if !self.expect_bool(c, cond, "the condition of `?:`") || tt == TypeId::ERROR || ot == TypeId::ERROR {
             // The type may still be known, so that the surrounding expression can be checked.
@@ -424,7 +424,9 @@ impl<'a> Checker<'a> {
         let text = self.name(name);
         let binding = self.scopes.get(name);
         let what = match binding {
-            Binding::Uniform(_) | Binding::CustomUniform(_) | Binding::OldTime | Binding::DepthRange => "a uniform",
+            Binding::Uniform(_) | Binding::CustomUniform(_) | Binding::DeprecatedTime | Binding::DepthRange => {
+                "a uniform"
+            }
             Binding::Channel(_) => "a sampler",
             Binding::BuiltinVar(_) => "an input",
             Binding::Local(id) if self.is_sampler(self.module[id].ty) => "a sampler",
@@ -438,7 +440,7 @@ impl<'a> Checker<'a> {
         };
         self.error(loc, format!("`{text}` is {what} and cannot be {doing}"));
         if let Some(declared) = self.declared_at(binding) {
-            self.also(declared, "declared here");
+            self.label(declared, "declared here");
         }
         if matches!(what, "a uniform" | "an input") {
             self.hint("copy it to a variable and change that");

@@ -19,7 +19,10 @@ pub(crate) struct Fault {
 
 /// Returns whether a NaN was computed from numbers that are not NaN, and whether an infinity was computed from finite
 /// ones.
-pub(super) fn born<'w>(given: impl Iterator<Item = &'w [u32]> + Clone, result: &[u32]) -> (bool, bool) {
+pub(super) fn introduces_nan_or_infinity<'w>(
+    given: impl Iterator<Item = &'w [u32]> + Clone,
+    result: &[u32],
+) -> (bool, bool) {
     let float = |bits: &u32| f32::from_bits(*bits);
     let has = |is: fn(f32) -> bool| given.clone().flatten().any(|bits| is(float(bits)));
     let is_nan = result.iter().any(|bits| float(bits).is_nan()) && !has(f32::is_nan);

@@ -117,11 +117,11 @@ impl Checker<'_> {
     /// Returns the fix that replaces a float hash with an integer hash of its angle: the call, and the helper function
     /// before the calling function, unless it already exists.
     fn integer_hash(&self, func: FuncId, at: ExprId, hash: &Hash) -> Option<Fix> {
-        let whole = self.written_at(self.module[at].loc).filter(|_| hash.is_alone)?;
+        let whole = self.source_span(self.module[at].loc).filter(|_| hash.is_alone)?;
         let input = self.input(func, hash.angle)?;
         let (from, to) = (self.float_components(input.ty)?, self.float_components(self.module[at].ty)?);
         let name = format!("pcgHash{to}{from}");
-        let before = self.written_at(self.module[func].loc)?;
+        let before = self.source_span(self.module[func].loc)?;
         let mut edits = Vec::new();
         match self.names.find(&name) {
             None if before.source == whole.source => {
@@ -229,7 +229,7 @@ impl Checker<'_> {
                 return Some(Input { ty: expr.ty, text: Err(symbol), seed: seed & 0xffff });
             }
         }
-        let written = self.written_at(expr.loc).filter(|_| by_name.is_none())?;
+        let written = self.source_span(expr.loc).filter(|_| by_name.is_none())?;
         Some(Input { ty: expr.ty, text: Ok(written), seed: seed & 0xffff })
     }
 

@@ -28,7 +28,7 @@ impl Checker<'_> {
     /// Adds a function; binds its name, or appends it to the overloads of that name.
     pub(super) fn add_function(&mut self, sign: FunctionSign<'_>, header: Loc, loc: Loc) -> FuncId {
         let id = self.add_unnamed_function(&sign, header, loc);
-        match self.scopes.here(sign.symbol) {
+        match self.scopes.get_innermost(sign.symbol) {
             Some(Binding::Function(first)) => {
                 let last = std::mem::replace(&mut self.funcs[first.index()].last, id);
                 if last == first {
@@ -131,7 +131,7 @@ impl Checker<'_> {
                 self.add_unnamed_function(&sign, decl.header, loc)
             }
         } else {
-            match self.scopes.here(name.symbol) {
+            match self.scopes.get_innermost(name.symbol) {
                 None | Some(Binding::Poison) => self.add_function(sign, decl.header, loc),
                 Some(Binding::Function(first)) => match self.same_params(first, &params) {
                     Some(known) => self.declared_again(known, &sign, decl, loc),
@@ -162,7 +162,7 @@ impl Checker<'_> {
     fn fix_main(&mut self, decl: &ast::FunctionDecl) {
         let Env::Pass(kind) = self.env else { return };
         let header = env::entry(kind).usage.trim_end_matches(" { .. }");
-        let fix = self.written_at(decl.header).map(|span| {
+        let fix = self.source_span(decl.header).map(|span| {
             let edit = Edit { span, text: header.to_owned() };
             Fix::new(format!("Make it `{}`", env::entry(kind).name), vec![edit])
         });
@@ -200,7 +200,7 @@ impl Checker<'_> {
             let mut ty = match self.sizes(spec.dims, param.dims) {
                 None => base,
                 Some((Size::Known(len), at)) if base != TypeId::VOID => self.array_type(base, len, at),
-                Some((Size::Open, at)) => {
+                Some((Size::Unsized, at)) => {
                     self.error(at, "an array parameter needs a size between the brackets");
                     TypeId::ERROR
                 }
@@ -250,7 +250,7 @@ impl Checker<'_> {
                     None => self.hint("overloads must differ in their parameters, not only in what they return"),
                 }
                 if let Some(first) = first {
-                    self.also(first, "declared here");
+                    self.label(first, "declared here");
                 }
             }
             return self.add_unnamed_function(sign, decl.header, loc);
@@ -264,13 +264,13 @@ impl Checker<'_> {
                 None => self.hint("prototype and definition must agree"),
             }
             if let Some(first) = first {
-                self.also(first, "declared here");
+                self.label(first, "declared here");
             }
             return self.add_unnamed_function(sign, decl.header, loc);
         }
         if decl.body.is_some() && self.module[known].body.is_some() {
             self.error(decl.name, format!("`{name}` with these parameters already has a body"));
-            self.also(self.module[known].name, "the first definition");
+            self.label(self.module[known].name, "the first definition");
             self.hint("remove one of the two, or rename it");
             return self.add_unnamed_function(sign, decl.header, loc);
         }

@@ -85,7 +85,7 @@ impl Checker<'_> {
                 let name = self.name(self.module[id].name.symbol);
                 self.error(call, format!("`{name}` is called but never defined: it has only a prototype"));
                 if let Some(at) = self.function_at(id) {
-                    self.also(at, "the prototype");
+                    self.label(at, "the prototype");
                 }
                 self.hint(format!("add a body: `{} {{ .. }}`", self.signature(id)));
             }
@@ -159,7 +159,7 @@ impl Checker<'_> {
         let at = self.module[cycle[0]].name;
         self.error(at, message);
         if let Some(call) = self.funcs[cycle[0].index()].first_call {
-            self.also(call, format!("a call of `{head}`"));
+            self.label(call, format!("a call of `{head}`"));
         }
         self.hint("write a loop, with a stack in an array if needed");
     }

@@ -25,11 +25,11 @@ impl Checker<'_> {
             .chain([("gl_DepthRange", Binding::DepthRange)])
             .filter_map(|(name, binding)| Some((self.names.find(name)?, binding)));
         for (symbol, binding) in builtins.chain(named).filter(|(symbol, _)| *symbol >= from) {
-            self.scopes.give(symbol, binding, scope::LANGUAGE);
+            self.scopes.define(symbol, binding, scope::LANGUAGE);
         }
         let everywhere = if self.env.is_plain() { &[][..] } else { &env::EVERYWHERE[..] };
         for &uniform in everywhere.iter().filter(|uniform| uniform.symbol() >= from) {
-            self.scopes.give(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
+            self.scopes.define(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
         }
     }
 
@@ -41,25 +41,25 @@ impl Checker<'_> {
         let is_image = self.env == Env::Pass(PassKind::Image) && dialect.has_extras();
         if is_image {
             for builtin in Builtin::all().filter(|builtin| builtin.is_of_image) {
-                self.scopes.give(builtin.symbol(), Binding::Builtin(builtin), scope::LANGUAGE);
+                self.scopes.define(builtin.symbol(), Binding::Builtin(builtin), scope::LANGUAGE);
             }
         }
         for &uniform in Uniform::ALL {
             if self.env.has(uniform) {
-                self.scopes.give(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
+                self.scopes.define(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
             }
         }
         if self.env.has(Uniform::Time) && dialect.has_extras() {
-            self.give("iGlobalTime", Binding::OldTime, scope::LANGUAGE);
+            self.define_name("iGlobalTime", Binding::DeprecatedTime, scope::LANGUAGE);
         }
         if !self.env.is_plain() {
             for (i, name) in CHANNELS.into_iter().enumerate().take(dialect.channels()) {
-                self.give(name, Binding::Channel(i as u8), scope::FILE);
+                self.define_name(name, Binding::Channel(i as u8), scope::FILE);
             }
         }
         if is_image {
             for (i, name) in CHANNEL_STRUCTS.into_iter().enumerate() {
-                self.give(name, Binding::ChannelStruct(i as u8), scope::FILE);
+                self.define_name(name, Binding::ChannelStruct(i as u8), scope::FILE);
             }
         }
         if let Env::Pass(kind) = self.env {
@@ -78,13 +78,13 @@ impl Checker<'_> {
         }
         // A custom uniform hides names of the language, as a global would.
         for (i, custom_uniform) in self.settings.custom_uniforms.iter().enumerate() {
-            self.give(custom_uniform.name, Binding::CustomUniform(i as u16), scope::FILE);
+            self.define_name(custom_uniform.name, Binding::CustomUniform(i as u16), scope::FILE);
         }
     }
 
-    fn give(&mut self, name: &str, binding: Binding, depth: u32) {
+    fn define_name(&mut self, name: &str, binding: Binding, depth: u32) {
         if let Some(symbol) = self.names.find(name) {
-            self.scopes.give(symbol, binding, depth);
+            self.scopes.define(symbol, binding, depth);
         }
     }
 

@@ -25,12 +25,12 @@ mod fault;
 mod float_hash;
 mod fold;
 mod function;
-mod given;
 mod graph;
 mod header;
 mod ops;
 mod plain;
 mod qualifiers;
+mod redeclaration;
 mod scope;
 mod size;
 mod statement;
@@ -66,10 +66,10 @@ pub(crate) struct Checked {
     /// Operations on constants whose results are undefined or not finite numbers.
     pub faults: Vec<Fault>,
     /// The name of the function that makes up the largest part of an error-free program.
-    pub bulk: Option<Span>,
+    pub largest_function: Option<Span>,
 }
 
-/// Checks one pass with the syntax tree `ast`; the first of its texts may already be checked in `begun`.
+/// Checks one pass with the syntax tree `ast`; the first of its texts may already be checked in `checkpoint`.
 pub(crate) fn check(
     ast: &Ast,
     origins: &Origins,
@@ -81,8 +81,8 @@ pub(crate) fn check(
     let settings = Settings { dialect, channels, custom_uniforms, values, common: common.map(|text| text.id), cancel };
     let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), settings, checkpoint);
     on_deep_stack(|| checker.unit());
-    let bulk = checker.bulk.map(|name| origins.span(name));
-    Checked { module: checker.module, diagnostics: checker.diagnostics, faults: checker.faults, bulk }
+    let largest_function = checker.largest_function.map(|name| origins.span(name));
+    Checked { module: checker.module, diagnostics: checker.diagnostics, faults: checker.faults, largest_function }
 }
 
 /// Returns what Shadertoy would reject in Common because it compiles it alone, where only `iDate` and `iSampleRate`
@@ -101,7 +101,7 @@ pub(crate) fn check_common(
 
 /// Checks Common once for every pass that is not a stage. `mentions` returns whether a name occurs in it: it must not
 /// use any name of [`env::differ`], nor any custom uniform. Returns `None` if each pass has to check it.
-pub(crate) fn begin(
+pub(crate) fn check_common_prefix(
     ast: &Ast,
     origins: &Origins,
     names: &Interner,
@@ -114,5 +114,5 @@ pub(crate) fn begin(
     let settings = Settings { values, ..Settings::default() };
     let mut checker = Checker::new(ast, origins, names, Env::Common, settings, None);
     on_deep_stack(|| checker.declarations());
-    checker.into_begun()
+    checker.into_checkpoint()
 }

@@ -14,7 +14,7 @@ use crate::{
 
 impl Checker<'_> {
     pub(super) fn unary(&mut self, op: ast::UnaryOp, operand: ast::ExprId, loc: Loc) -> ExprId {
-        let value = self.done(operand);
+        let value = self.lowered_expr(operand);
         let ty = self.ty(value);
         if ty == TypeId::ERROR {
             return self.error_expr(loc);
@@ -82,7 +82,7 @@ impl Checker<'_> {
         if !self.place(place, "changed") {
             return self.error_expr_of(ty, loc);
         }
-        let flags = self.inherited(&[place]).with(ExprFlags::EFFECTS);
+        let flags = self.inherited(&[place]) | ExprFlags::EFFECTS;
         self.push(ExprKind::IncDec { op, place }, ty, flags, loc)
     }
 
@@ -97,16 +97,16 @@ impl Checker<'_> {
         if !matches!(op, Op::Shl | Op::Shr) {
             self.promote(lhs, rhs, false);
         }
-        let (l, r) = (self.done(lhs), self.done(rhs));
+        let (l, r) = (self.lowered_expr(lhs), self.lowered_expr(rhs));
         let (lt, rt) = (self.ty(l), self.ty(r));
         if lt == TypeId::ERROR || rt == TypeId::ERROR {
             // Comparisons return a bool whatever is wrong with their sides.
-            let ty = if gives_bool(op) { TypeId::BOOL } else { TypeId::ERROR };
+            let ty = if yields_bool(op) { TypeId::BOOL } else { TypeId::ERROR };
             return self.error_expr_of(ty, loc);
         }
         let Some((ty, shape)) = self.operator_type(op, lt, rt) else {
             self.bad_binary(op, (l, lhs), (r, rhs), loc);
-            return self.error_expr_of(if gives_bool(op) { TypeId::BOOL } else { TypeId::ERROR }, loc);
+            return self.error_expr_of(if yields_bool(op) { TypeId::BOOL } else { TypeId::ERROR }, loc);
         };
         let constant = self.is_constant(l) && self.is_constant(r);
         let logical = match op {
@@ -229,8 +229,11 @@ impl Checker<'_> {
             }
         };
         let is_float = self.module.types.scalar(ty) == Some(Scalar::Float);
-        let (is_nan, is_infinite) =
-            if is_float { fault::born([a, b].into_iter(), folded.as_slice()) } else { (false, false) };
+        let (is_nan, is_infinite) = if is_float {
+            fault::introduces_nan_or_infinity([a, b].into_iter(), folded.as_slice())
+        } else {
+            (false, false)
+        };
         let id = self.constant(ty, folded.as_slice(), loc);
         match trouble {
             Some(FoldWarning::DivisionByZero) => {
@@ -281,13 +284,13 @@ impl Checker<'_> {
     pub(super) fn assign(&mut self, op: Option<Op>, place: ast::ExprId, value: ast::ExprId, loc: Loc) -> ExprId {
         match op {
             None => {
-                let want = self.ty(self.done(place));
+                let want = self.ty(self.lowered_expr(place));
                 self.implicit(value, want);
             }
             Some(Op::Shl | Op::Shr) => {}
             Some(_) => self.promote(place, value, true),
         }
-        let (p, v) = (self.done(place), self.done(value));
+        let (p, v) = (self.lowered_expr(place), self.lowered_expr(value));
         let (pt, vt) = (self.ty(p), self.ty(v));
         if pt == TypeId::ERROR {
             return self.error_expr(loc);
@@ -295,7 +298,7 @@ impl Checker<'_> {
         if !self.place(p, "assigned to") || vt == TypeId::ERROR {
             return self.error_expr_of(pt, loc);
         }
-        let flags = self.inherited(&[p, v]).with(ExprFlags::EFFECTS);
+        let flags = self.inherited(&[p, v]) | ExprFlags::EFFECTS;
         let Some(op) = op else {
             if self.is_void(v) {
                 return self.error_expr_of(pt, loc);
@@ -402,7 +405,7 @@ impl Checker<'_> {
     }
 }
 
-fn gives_bool(op: Op) -> bool {
+fn yields_bool(op: Op) -> bool {
     matches!(
         op,
         Op::Less

@@ -71,7 +71,7 @@ impl Checker<'_> {
                 self.error(loc, "there is no `gl_PointCoord` in WebGPU, whose points are one pixel large");
                 self.hint("draw a quad for each point, and pass the place in it from the vertex shader");
             }
-            BuiltinVar::PointSize if self.say_once(symbol) => {
+            BuiltinVar::PointSize if self.is_first_report(symbol) => {
                 self.warning(loc, "`gl_PointSize` has no effect: points of WebGPU are one pixel large");
             }
             _ => {}

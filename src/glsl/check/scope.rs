@@ -22,7 +22,7 @@ pub(super) enum Binding {
     /// A custom uniform, by its index among the pass's.
     CustomUniform(u16),
     /// `iGlobalTime`, which was renamed to `iTime`.
-    OldTime,
+    DeprecatedTime,
     Channel(u8),
     ChannelStruct(u8),
     /// The first overload of a user's function.
@@ -67,7 +67,7 @@ impl Scopes {
 
     /// Returns the meaning of `symbol` in the innermost scope itself, if it was declared there.
     #[inline]
-    pub(super) fn here(&self, symbol: Symbol) -> Option<Binding> {
+    pub(super) fn get_innermost(&self, symbol: Symbol) -> Option<Binding> {
         let (binding, depth) = self.table[symbol.0 as usize];
         (depth == self.depth() && binding != Binding::None).then_some(binding)
     }
@@ -103,7 +103,7 @@ impl Scopes {
     }
 
     /// Declares a name of the language or the header.
-    pub(super) fn give(&mut self, symbol: Symbol, binding: Binding, depth: u32) {
+    pub(super) fn define(&mut self, symbol: Symbol, binding: Binding, depth: u32) {
         self.table[symbol.0 as usize] = (binding, depth);
     }
 

@@ -19,7 +19,7 @@ impl Checker<'_> {
     pub(super) fn finish_size(&mut self) {
         let quick = quick_sizes(&self.module);
         let Some(func) = too_large(&self.module, &self.global_calls, &quick) else {
-            self.bulk = bulk(&self.module, &quick);
+            self.largest_function = largest_function(&self.module, &quick);
             return;
         };
         let name = self.module[func].name;
@@ -48,7 +48,7 @@ fn too_large(module: &Module, of_globals: &[FuncId], quick: &[u64]) -> Option<Fu
 }
 
 /// Returns the name of the innermost function that, including its callees, makes up more than half of a program.
-fn bulk(module: &Module, sizes: &[u64]) -> Option<Loc> {
+fn largest_function(module: &Module, sizes: &[u64]) -> Option<Loc> {
     let mut found = module.entry?;
     let half = sizes[found.index()] / 2;
     while let Some(callee) = calls(module, found).find(|callee| sizes[callee.index()] > half) {

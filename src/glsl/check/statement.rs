@@ -225,7 +225,7 @@ impl Checker<'_> {
             });
         }
         let local = self.add_local(name, TypeId::BOOL, hir::LocalKind::Var, None, None);
-        let flags = self.inherited(&[value]).with(ExprFlags::EFFECTS);
+        let flags = self.inherited(&[value]) | ExprFlags::EFFECTS;
         self.module[local].flags.insert(hir::VarFlags::WRITTEN);
         self.add_stmt(StmtKind::Declare { local, init: None }, ast[decl].loc);
         let place = self.push(ExprKind::Local(local), TypeId::BOOL, ExprFlags::PLACE, name.into());
@@ -324,7 +324,7 @@ impl Checker<'_> {
             }
             follows = false;
             let value = match stmt.kind {
-                S::Case(label) => self.label(label),
+                S::Case(label) => self.case_label(label),
                 _ => {
                     self.default_label(stmt.loc);
                     None
@@ -353,7 +353,7 @@ impl Checker<'_> {
     }
 
     /// Returns the bits of a `case` label; reports errors in it.
-    fn label(&mut self, label: ast::ExprId) -> Option<u32> {
+    fn case_label(&mut self, label: ast::ExprId) -> Option<u32> {
         let value = self.expr(label);
         let (found, loc) = (self.ty(value), self.loc(value));
         let want = self.switches.last()?.ty;
@@ -383,7 +383,7 @@ impl Checker<'_> {
         if let Some(&first) = switch.values.get(&bits) {
             let shown = if found == TypeId::INT { i64::from(bits as i32) } else { i64::from(bits) };
             self.error(loc, format!("this switch already has a `case {shown}`"));
-            self.also(first, "the first one");
+            self.label(first, "the first one");
             return None;
         }
         switch.values.insert(bits, loc);
@@ -394,7 +394,7 @@ impl Checker<'_> {
         let Some(switch) = self.switches.last_mut() else { return };
         if let Some(first) = switch.default {
             self.error(loc, "this switch already has a `default:`");
-            self.also(first, "the first one");
+            self.label(first, "the first one");
             return;
         }
         switch.default = Some(loc);

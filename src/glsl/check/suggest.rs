@@ -152,24 +152,27 @@ const VARIABLES: &[(&str, &str)] = &[
 ];
 
 /// Returns how to use Shadertoy's input instead of another host's variable of this name.
-pub(super) fn input_of_the_site(name: &str) -> Option<&'static str> {
+pub(super) fn shadertoy_input(name: &str) -> Option<&'static str> {
     find(VARIABLES, name).filter(|hint| hint.starts_with("use `i"))
 }
 
 impl Checker<'_> {
     /// Returns whether an unknown name has not been reported in this function yet, and marks it as reported.
-    pub(super) fn say_once(&mut self, symbol: Symbol) -> bool {
-        if self.unknown_said.is_empty() {
-            self.unknown_said = vec![u32::MAX; self.names.len()];
+    pub(super) fn is_first_report(&mut self, symbol: Symbol) -> bool {
+        if self.reported_unknown.is_empty() {
+            self.reported_unknown = vec![u32::MAX; self.names.len()];
         }
         let here = self.func.map_or(0, |func| func.index() as u32 + 1);
-        std::mem::replace(&mut self.unknown_said[symbol.0 as usize], here) != here
+        std::mem::replace(&mut self.reported_unknown[symbol.0 as usize], here) != here
     }
 
     #[cold]
     pub(super) fn unknown_name(&mut self, symbol: Symbol, token: TokenId) {
         let name = self.name(symbol);
-        if self.is_explained(symbol) || (name == "gl_FragColor" && self.wants_entry(token)) || !self.say_once(symbol) {
+        if self.is_explained(symbol)
+            || (name == "gl_FragColor" && self.wants_entry(token))
+            || !self.is_first_report(symbol)
+        {
             return;
         }
         self.error(token, format!("`{name}` is not declared"));
@@ -177,14 +180,14 @@ impl Checker<'_> {
         } else if let Some(hint) = find(VARIABLES, name) {
             self.hint(hint);
             match find(RENAMED, name) {
-                Some(here) => self.fix_with(token, here),
+                Some(here) => self.replace_fix(token, here),
                 None => self.fix_old_output(name, token),
             }
         } else if self.env_explains(name) {
-        } else if let Some((near, at)) = self.near(name, |binding| !is_function(binding)) {
+        } else if let Some((near, at)) = self.nearest_binding(name, |binding| !is_function(binding)) {
             self.did_you_mean(token, &near);
             if let Some(at) = at {
-                self.also(at, format!("`{near}` is declared here"));
+                self.label(at, format!("`{near}` is declared here"));
             }
         } else if foreign_type(name).is_some() || BasicType::ALL.iter().any(|b| b.name() == name) {
             self.hint("a type must be called: `vec3(..)`");
@@ -202,7 +205,7 @@ impl Checker<'_> {
             return true;
         }
         let uniforms = crate::hir::Uniform::ALL.iter().map(|uniform| uniform.name());
-        let is_input = uniforms.chain(env::CHANNELS).any(|known| known == name) || input_of_the_site(name).is_some();
+        let is_input = uniforms.chain(env::CHANNELS).any(|known| known == name) || shadertoy_input(name).is_some();
         if is_input {
             self.hint(format!("a plain shader declares its inputs: `uniform float {name};`, with the type it has"));
         }
@@ -218,7 +221,7 @@ impl Checker<'_> {
     /// error then also fixes the name.
     fn wants_entry(&mut self, token: TokenId) -> bool {
         let Some((main, at)) = self.foreign_main.filter(|(main, _)| self.func == Some(*main)) else { return false };
-        let edit = self.written_at(token).map(|span| Edit { span, text: env::OUTPUT.into() });
+        let edit = self.source_span(token).map(|span| Edit { span, text: env::OUTPUT.into() });
         if let Some(fix) = self.diagnostics.get_mut(at).and_then(|d| d.fixes.first_mut()) {
             fix.edits.extend(edit);
         }
@@ -232,7 +235,7 @@ impl Checker<'_> {
         let output = self.module.params(entry).iter().find(|p| p.kind == LocalKind::Out).and_then(|p| p.name);
         if let Some(output) = output {
             let text = self.name(output.symbol).to_owned();
-            self.fix_with(token, &text);
+            self.replace_fix(token, &text);
         }
     }
 
@@ -270,7 +273,7 @@ impl Checker<'_> {
             self.refuse_in_common(loc, name);
             return;
         }
-        if self.is_explained(symbol) || !self.say_once(symbol) {
+        if self.is_explained(symbol) || !self.is_first_report(symbol) {
             return;
         }
         self.error(loc.first, format!("there is no function `{name}`"));
@@ -281,19 +284,19 @@ impl Checker<'_> {
         if let Some(hint) = find(FUNCTIONS, name) {
             self.hint(hint);
             if let Some(here) = find(RENAMED, name) {
-                self.fix_with(loc.first, here);
+                self.replace_fix(loc.first, here);
             }
         } else if let Some(later) = later
             && later.name.token > loc.first
         {
-            self.also(later.name, "it is declared here");
+            self.label(later.name, "it is declared here");
             self.hint(
                 "a function must be declared before its first use: move it up, or write a prototype before this line",
             );
-        } else if let Some((near, at)) = self.near(name, is_function) {
+        } else if let Some((near, at)) = self.nearest_binding(name, is_function) {
             self.did_you_mean(loc.first, &near);
             if let Some(at) = at {
-                self.also(at, format!("`{near}` is declared here"));
+                self.label(at, format!("`{near}` is declared here"));
             }
         } else if args.len() == 1
             && let Some(near) = near::nearest_identifier(name, BasicType::ALL.iter().map(|b| b.name()))
@@ -304,7 +307,7 @@ impl Checker<'_> {
 
     #[cold]
     pub(super) fn unknown_type(&mut self, symbol: Symbol, token: TokenId) {
-        if self.is_explained(symbol) || !self.say_once(symbol) {
+        if self.is_explained(symbol) || !self.is_first_report(symbol) {
             return;
         }
         let name = self.name(symbol);
@@ -326,13 +329,13 @@ impl Checker<'_> {
             self.did_you_mean(token, near);
         } else if let Some(def) = self.ast.structs.iter().find(|s| s.name.is_some_and(|n| n.symbol == symbol)) {
             let at = def.name.expect("just seen");
-            self.also(at, "it is defined here");
+            self.label(at, "it is defined here");
             self.hint("a struct must be defined before its first use: move it up");
         }
     }
 
     /// Returns the visible name of a matching kind with the most similar spelling.
-    fn near(&mut self, name: &str, fits: impl Fn(Binding) -> bool) -> Option<(String, Option<Loc>)> {
+    fn nearest_binding(&mut self, name: &str, fits: impl Fn(Binding) -> bool) -> Option<(String, Option<Loc>)> {
         if self.is_full() {
             return None;
         }

@@ -23,10 +23,10 @@ const MAX_NESTING: u8 = 4;
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Size {
     /// `[]`: determined by the initialiser or the constructor's arguments.
-    Open,
+    Unsized,
     Known(u32),
     /// Invalid, and reported.
-    Bad,
+    Invalid,
 }
 
 impl<'a> Checker<'a> {
@@ -67,7 +67,7 @@ impl<'a> Checker<'a> {
             TypeSpecKind::Basic(basic) => TypeId::basic(basic),
             TypeSpecKind::Named(symbol) => match self.scopes.get(symbol) {
                 Binding::Struct(id) => {
-                    self.uses(spec.loc.first, DeclRef::Struct(id));
+                    self.record_use(spec.loc.first, DeclRef::Struct(id));
                     self.module[id].ty
                 }
                 Binding::Poison => TypeId::ERROR,
@@ -88,12 +88,12 @@ impl<'a> Checker<'a> {
 
     /// Returns the size in one pair of brackets.
     pub(super) fn size(&mut self, dim: Dim) -> Size {
-        let Some(expr) = dim.size else { return Size::Open };
+        let Some(expr) = dim.size else { return Size::Unsized };
         let id = self.expr(expr);
         let ty = self.ty(id);
         let loc = self.loc(id);
         if ty == TypeId::ERROR {
-            return Size::Bad;
+            return Size::Invalid;
         }
         if ty != TypeId::INT && ty != TypeId::UINT {
             let found = self.type_name(ty);
@@ -101,19 +101,19 @@ impl<'a> Checker<'a> {
             if let ast::ExprKind::Float(value) = self.ast[expr].kind {
                 self.hint(format!("write {}", value.trunc()));
             }
-            return Size::Bad;
+            return Size::Invalid;
         }
         let Some(&[bits]) = self.words(id) else {
             if self.is_broken() {
-                return Size::Bad;
+                return Size::Invalid;
             }
             self.error(loc, "an array's size must be a constant expression");
             self.hint("use a literal, a `const int` or a #define");
-            return Size::Bad;
+            return Size::Invalid;
         };
         if bits == 0 || (ty == TypeId::INT && (bits as i32) < 0) {
             self.error(loc, "an array's size must be greater than zero");
-            return Size::Bad;
+            return Size::Invalid;
         }
         Size::Known(bits)
     }
@@ -127,11 +127,11 @@ impl<'a> Checker<'a> {
             match &mut found {
                 None => found = Some((size, dim.loc)),
                 Some((first, _)) => {
-                    if *first != Size::Bad {
+                    if *first != Size::Invalid {
                         self.error(dim.loc, "GLSL ES 3.00 has no arrays of arrays");
                         self.hint("use one array and compute the index, `a[y * WIDTH + x]`, or an array of structs");
                     }
-                    *first = Size::Bad;
+                    *first = Size::Invalid;
                 }
             }
         }
@@ -143,8 +143,8 @@ impl<'a> Checker<'a> {
         match self.sizes(of_type, of_name) {
             None => base,
             Some((Size::Known(len), loc)) => self.element_checked(base, len, loc),
-            Some((Size::Bad, _)) => TypeId::ERROR,
-            Some((Size::Open, loc)) => {
+            Some((Size::Invalid, _)) => TypeId::ERROR,
+            Some((Size::Unsized, loc)) => {
                 self.error(loc, format!("{what} needs a size between the brackets"));
                 TypeId::ERROR
             }
@@ -193,7 +193,7 @@ impl<'a> Checker<'a> {
                 if let Some(first) = first {
                     let first = members[first].name;
                     self.error(declarator.name, format!("this struct already has a member `{name}`"));
-                    self.also(first, "the first one");
+                    self.label(first, "the first one");
                     continue;
                 }
                 if self.facts(ty).nesting == MAX_NESTING {
@@ -255,7 +255,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Formats a type with its article: `an `int``.
-    pub(super) fn a(&self, ty: TypeId) -> String {
+    pub(super) fn with_article(&self, ty: TypeId) -> String {
         let name = self.type_name(ty);
         let article = if name.starts_with(['a', 'e', 'i', 'o', 'A', 'E', 'I', 'O']) { "an" } else { "a" };
         format!("{article} `{name}`")
@@ -267,7 +267,7 @@ impl<'a> Checker<'a> {
             matches!(previous, Binding::Uniform(_) | Binding::Channel(_) | Binding::ChannelStruct(_))
         };
         let is_free = |previous: &Binding| self.settings.dialect.frees_uniforms() && is_given(previous);
-        if let Some(previous) = self.scopes.here(name.symbol).filter(|previous| !is_free(previous)) {
+        if let Some(previous) = self.scopes.get_innermost(name.symbol).filter(|previous| !is_free(previous)) {
             if previous != Binding::Poison {
                 self.redeclared(name, previous);
             }
@@ -311,7 +311,7 @@ impl<'a> Checker<'a> {
             self.error(name, format!("`{text}` is already declared in this scope"));
         }
         if let Some(at) = at {
-            self.also(at, "the first declaration");
+            self.label(at, "the first declaration");
         }
         self.hint("choose another name, or remove the type to assign to the first one");
     }
@@ -339,7 +339,7 @@ impl<'a> Checker<'a> {
             Binding::Channel(_) => "a channel's sampler",
             Binding::Uniform(_)
             | Binding::CustomUniform(_)
-            | Binding::OldTime
+            | Binding::DeprecatedTime
             | Binding::ChannelStruct(_)
             | Binding::DepthRange => "a uniform",
             Binding::BuiltinConst(_) => "a constant",

@@ -107,13 +107,13 @@ impl Checker<'_> {
 
     /// Returns the inherited flags of several children.
     pub(super) fn inherited(&self, children: &[ExprId]) -> ExprFlags {
-        children.iter().fold(ExprFlags::default(), |sum, &child| sum.with(self.module[child].flags.inherited()))
+        children.iter().fold(ExprFlags::default(), |sum, &child| sum | self.module[child].flags.inherited())
     }
 
     /// Returns an expression as a value, no longer a place: for constructors and operators without a node of their own.
     pub(super) fn as_value(&mut self, expr: ExprId) -> ExprId {
         let flags = &mut self.module[expr].flags;
-        flags.0 &= !ExprFlags::PLACE.0;
+        flags.remove(ExprFlags::PLACE);
         expr
     }
 }

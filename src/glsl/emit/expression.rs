@@ -128,10 +128,10 @@ impl Builder<'_, '_> {
     /// also works for levels that a texture does not have: their size is undefined (GLSL ES 3.00, 8.8), and OpenGL
     /// drivers return this one, while Vulkan drivers return zeros.
     fn size_of_level(&mut self, size: Handle<Expression>, level: Handle<Expression>, count: u8) -> Handle<Expression> {
-        let (most, one) = (self.literal(Scalar::Uint, 31), self.literal(Scalar::Uint, 1));
+        let (max_level, one) = (self.literal(Scalar::Uint, 31), self.literal(Scalar::Uint, 1));
         let level = self.add(Expression::As { expr: level, kind: ScalarKind::Uint, convert: None });
         let math = |fun, arg, arg1| Expression::Math { fun, arg, arg1: Some(arg1), arg2: None, arg3: None };
-        let level = self.add(math(naga::MathFunction::Min, level, most));
+        let level = self.add(math(naga::MathFunction::Min, level, max_level));
         let [level, one] =
             [level, one].map(|value| self.add(Expression::Splat { size: types::vector_size(count.into()), value }));
         let size = self.add(Expression::Binary { op: naga::BinaryOperator::ShiftRight, left: size, right: level });

@@ -184,7 +184,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         if self.cx.is_long(constant.ty)
             && !self.cx.source.driver.tables_in_memory
             && !self.cx.source.kind.is_plain()
-            && !self.cx.holds_booleans(constant.ty)
+            && !self.cx.contains_booleans(constant.ty)
         {
             // Copied from the storage buffer by a loop.
             let index = self.cx.storage_index(id);

@@ -27,8 +27,8 @@ use rustc_hash::FxHashSet;
 use self::context::{Constants, Emitter, Resources, Tables};
 pub(crate) use self::tables::TableBytes;
 pub(crate) use self::{
-    long_arrays::LEAST_COPY,
-    tables::{LEAST_STORAGE_TABLE, LEAST_UNIFORM_TABLE},
+    long_arrays::MIN_COPY,
+    tables::{MIN_STORAGE_TABLE, MIN_UNIFORM_TABLE},
 };
 use super::{
     PassSource, Reflection,

@@ -12,7 +12,7 @@ use naga::{AddressSpace, ArraySize, GlobalVariable, Handle, ResourceBinding, Sto
 
 use super::{
     context::{Buffer, Emitter, TablePlace},
-    long_arrays::LEAST_COPY,
+    long_arrays::MIN_COPY,
 };
 use crate::{
     PassKind, interface,
@@ -23,12 +23,12 @@ use crate::{
 /// The number of scalars from which on an indexed constant is put in a storage buffer. Its load is slow if neighbouring
 /// invocations read different places (five times the frame time for a loop over 14 triangles on llvmpipe), and a driver
 /// that unrolls such a loop constant-folds reads of memory.
-pub(crate) const LEAST_STORAGE_TABLE: usize = 256;
+pub(crate) const MIN_STORAGE_TABLE: usize = 256;
 
 /// The number of elements from which on an indexed constant array is put in the uniform buffer. Filling memory takes
 /// llvmpipe one store per pixel and component at every start of the program; but Mesa unrolls loops of up to 32
 /// iterations (`max_unroll_iterations` in `lp_screen.c`), and then constant-folds their reads of memory.
-pub(crate) const LEAST_UNIFORM_TABLE: u32 = 33;
+pub(crate) const MIN_UNIFORM_TABLE: u32 = 33;
 
 /// The size of a slot in bytes: the minimum stride of an array in a uniform buffer.
 const SLOT: u32 = 16;
@@ -42,7 +42,7 @@ pub(crate) struct TableBytes {
 impl Emitter<'_> {
     /// Returns whether values of a type are copied by loops, because the driver needs it ([`super::long_arrays`]).
     pub(super) fn is_long(&mut self, ty: TypeId) -> bool {
-        self.source.driver.array_loops && self.layouts.is_aggregate_of(self.ir, ty, LEAST_COPY)
+        self.source.driver.array_loops && self.layouts.is_aggregate_of(self.ir, ty, MIN_COPY)
     }
 
     pub(super) fn table_place(&mut self, id: ConstId) -> TablePlace {
@@ -58,9 +58,9 @@ impl Emitter<'_> {
             && self.tables.uniform.bytes.len() + size as usize <= interface::UNIFORM_TABLE_BYTES
         {
             TablePlace::Uniform(self.append_to_uniform(id, ty, size))
-        } else if scalars >= LEAST_STORAGE_TABLE
+        } else if scalars >= MIN_STORAGE_TABLE
             && !self.source.driver.tables_in_memory
-            && !self.holds_booleans(constant.ty)
+            && !self.contains_booleans(constant.ty)
         {
             TablePlace::Storage(self.storage_index(id))
         } else {
@@ -74,7 +74,7 @@ impl Emitter<'_> {
     /// of 16 bytes, in the first components of vectors of three or four. `None` if it is not an array of these, or too
     /// short to be worth it.
     fn in_slots(&mut self, ty: TypeId) -> Option<(Handle<naga::Type>, u32)> {
-        let Type::Array { element, len: len @ LEAST_UNIFORM_TABLE.. } = self.ir.types.get(ty) else { return None };
+        let Type::Array { element, len: len @ MIN_UNIFORM_TABLE.. } = self.ir.types.get(ty) else { return None };
         let base = match self.ir.types.get(element) {
             Type::Scalar(Scalar::Bool) | Type::Vector { scalar: Scalar::Bool, .. } => return None,
             Type::Vector { size: 3.., .. } => self.ty(element),
@@ -158,11 +158,11 @@ impl Emitter<'_> {
         }
     }
 
-    pub(super) fn holds_booleans(&self, ty: TypeId) -> bool {
+    pub(super) fn contains_booleans(&self, ty: TypeId) -> bool {
         match self.ir.types.get(ty) {
             Type::Scalar(scalar) | Type::Vector { scalar, .. } => scalar == Scalar::Bool,
-            Type::Array { element, .. } => self.holds_booleans(element),
-            Type::Struct(id) => self.ir.structs[id.index()].iter().any(|&member| self.holds_booleans(member)),
+            Type::Array { element, .. } => self.contains_booleans(element),
+            Type::Struct(id) => self.ir.structs[id.index()].iter().any(|&member| self.contains_booleans(member)),
             _ => false,
         }
     }

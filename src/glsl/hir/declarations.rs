@@ -45,25 +45,17 @@ pub enum GlobalStorage {
     Out,
 }
 
-/// The ways in which a variable is used anywhere in the text, reachable or not.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct VarFlags(pub u8);
-
-impl VarFlags {
-    /// Read or written by some expression.
-    pub const USED: VarFlags = VarFlags(1);
-    /// Assigned, changed or passed as `out` or `inout`, in whole or in part. Without it the variable keeps the value of
-    /// its declaration (or argument), and lowering needs no memory for it.
-    pub const WRITTEN: VarFlags = VarFlags(2);
-    /// Some `Index` with a non-literal index has this variable at its root.
-    pub const INDEXED: VarFlags = VarFlags(4);
-
-    pub fn contains(self, other: VarFlags) -> bool {
-        self.0 & other.0 == other.0
-    }
-
-    pub fn insert(&mut self, other: VarFlags) {
-        self.0 |= other.0;
+bitflags::bitflags! {
+    /// The ways in which a variable is used anywhere in the text, reachable or not.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct VarFlags: u8 {
+        /// Read or written by some expression.
+        const USED = 1;
+        /// Assigned, changed or passed as `out` or `inout`, in whole or in part. Without it the variable keeps the
+        /// value of its declaration (or argument), and lowering needs no memory for it.
+        const WRITTEN = 2;
+        /// Some `Index` with a non-literal index has this variable at its root.
+        const INDEXED = 4;
     }
 }
 

@@ -230,32 +230,26 @@ pub struct Expr {
     pub loc: Loc,
 }
 
-/// Properties of an expression and its operands.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct ExprFlags(pub u8);
+bitflags::bitflags! {
+    /// Properties of an expression and its operands.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct ExprFlags: u8 {
+        /// May be assigned to. Set for variables that are not constants, inputs or uniforms, and for `Member`, `Index`
+        /// and non-repeating `Swizzle` of such. A place is also a value: it is read when used as one.
+        const PLACE = 1;
+        /// Evaluation may have side effects: an assignment, `++`, a user call, a built-in with `out` argument,
+        /// `st_assert`.
+        const EFFECTS = 2;
+        /// A constant expression (section 4.3.3): always a `Literal` or `Const`.
+        const CONSTANT = 8;
+    }
+}
 
 impl ExprFlags {
-    /// May be assigned to. Set for variables that are not constants, inputs or uniforms, and for `Member`, `Index` and
-    /// non-repeating `Swizzle` of such. A place is also a value: it is read when used as one.
-    pub const PLACE: ExprFlags = ExprFlags(1);
-    /// Evaluation may have side effects: an assignment, `++`, a user call, a built-in with `out` argument, `st_assert`.
-    pub const EFFECTS: ExprFlags = ExprFlags(2);
-    /// A constant expression (section 4.3.3): always a `Literal` or `Const`.
-    pub const CONSTANT: ExprFlags = ExprFlags(8);
-
-    pub fn contains(self, other: ExprFlags) -> bool {
-        self.0 & other.0 == other.0
-    }
-
-    #[must_use]
-    pub fn with(self, other: ExprFlags) -> Self {
-        Self(self.0 | other.0)
-    }
-
     /// Returns the flags that a parent inherits from a child: effects.
     #[must_use]
     pub fn inherited(self) -> Self {
-        Self(self.0 & Self::EFFECTS.0)
+        self & Self::EFFECTS
     }
 }
 

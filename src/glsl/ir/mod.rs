@@ -243,6 +243,30 @@ impl Stmt {
         }
     }
 
+    /// Returns whether a condition is true for some nested block.
+    pub fn any_block(&self, mut condition: impl FnMut(&Block) -> bool) -> bool {
+        let mut found = false;
+        self.blocks(|block| found = found || condition(block));
+        found
+    }
+
+    /// Returns a copy with other nested blocks.
+    pub fn with_blocks(&self, mut copy: impl FnMut(&Block) -> Block) -> Stmt {
+        match self {
+            &Stmt::If { condition, ref accept, ref reject } => {
+                Stmt::If { condition, accept: copy(accept), reject: copy(reject) }
+            }
+            &Stmt::Loop { ref body, ref continuing, break_if } => {
+                Stmt::Loop { body: copy(body), continuing: copy(continuing), break_if }
+            }
+            Stmt::Switch { selector, cases } => {
+                let cases = cases.iter().map(|case| Case { body: copy(&case.body), ..*case }).collect();
+                Stmt::Switch { selector: *selector, cases }
+            }
+            other => other.clone(),
+        }
+    }
+
     /// Visits the nested blocks, in order; each may be changed.
     pub fn blocks_mut(&mut self, mut visit: impl FnMut(&mut Block)) {
         match self {
@@ -445,11 +469,11 @@ impl Module {
     }
 
     /// Returns whether a type contains a float.
-    pub fn holds_floats(&self, ty: TypeId) -> bool {
+    pub fn contains_floats(&self, ty: TypeId) -> bool {
         use super::types::Type;
         match self.types.get(ty) {
-            Type::Array { element, .. } => self.holds_floats(element),
-            Type::Struct(id) => self.structs[id.index()].iter().any(|&member| self.holds_floats(member)),
+            Type::Array { element, .. } => self.contains_floats(element),
+            Type::Struct(id) => self.structs[id.index()].iter().any(|&member| self.contains_floats(member)),
             _ => self.types.scalar(ty) == Some(Scalar::Float),
         }
     }

@@ -189,7 +189,7 @@ pub enum Math {
 
 impl Math {
     /// Returns whether each component of the result depends only on the same component of the operands.
-    pub fn is_by_component(self) -> bool {
+    pub fn is_componentwise(self) -> bool {
         use Math::*;
         !matches!(
             self,

@@ -17,13 +17,13 @@ pub trait Rule {
     }
 
     /// Called at the start of the function.
-    fn begin(&mut self, _: &mut Rewriter<'_>) {}
+    fn start(&mut self, _: &mut Rewriter<'_>) {}
 
     /// Called before a store.
     fn store(&mut self, _: &Rewriter<'_>, _place: Value, _value: Value) {}
 
     /// Called at the start of a loop's body: statements that it adds come before the body.
-    fn begin_body(&mut self, _: &mut Rewriter<'_>, _body: &Block) {}
+    fn start_body(&mut self, _: &mut Rewriter<'_>, _body: &Block) {}
 
     /// Called at the end of a loop's body; its `continuing` block comes next.
     fn end_body(&mut self) {}
@@ -69,7 +69,7 @@ impl<'m> Rewriter<'m> {
 
     fn run(mut self, rule: &mut impl Rule) -> Function {
         let body = std::mem::take(&mut self.f.body);
-        rule.begin(&mut self);
+        rule.start(&mut self);
         self.block(body, rule);
         for var in 0..self.f.vars.len() {
             self.f.vars[var].init = self.f.vars[var].init.map(|init| self.map[init.index()]);
@@ -118,7 +118,7 @@ impl<'m> Rewriter<'m> {
     }
 
     /// Adds a jump that is never taken, which no later compiler can know.
-    pub fn seem_to(&mut self, jump: Stmt) {
+    pub fn push_untaken_jump(&mut self, jump: Stmt) {
         let number = self.add(Op::OpaqueZero);
         let zero = self.literal(Scalar::Int, 0);
         let condition = self.add(Op::Binary { op: Binary::NotEqual, left: number, right: zero });
@@ -185,7 +185,7 @@ impl<'m> Rewriter<'m> {
                 Stmt::Loop { body, continuing, break_if } => {
                     let old = std::mem::take(body);
                     let outer = std::mem::take(&mut self.out);
-                    rule.begin_body(self, &old);
+                    rule.start_body(self, &old);
                     self.block(old, rule);
                     *body = std::mem::replace(&mut self.out, outer);
                     rule.end_body();

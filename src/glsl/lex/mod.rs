@@ -55,7 +55,7 @@ impl<'a> Lexer<'a> {
     }
 
     /// Makes the lexer return the end of this line as a token, once.
-    pub(crate) fn begin_directive(&mut self) {
+    pub(crate) fn start_directive(&mut self) {
         self.in_directive = true;
     }
 

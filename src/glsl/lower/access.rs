@@ -346,7 +346,7 @@ impl Builder<'_, '_> {
             let positive = self.math2(Math::Max, value, zero);
             self.math2(Math::Min, positive, last)
         };
-        self.note(clamped, || Precondition::Index(value, len));
+        self.record_precondition(clamped, || Precondition::Index(value, len));
         clamped
     }
 

@@ -44,7 +44,7 @@ pub(super) struct Arguments {
     /// Locals that some call passes as a whole for a parameter that is indexed, in the callee or in functions it calls
     /// in turn; by [`LocalId::index`]. They are in memory, as if they were indexed themselves: the call then reads them
     /// in place.
-    pub handed_on: Vec<bool>,
+    pub forwarded: Vec<bool>,
     /// Globals that a function or its callees write, by [`FuncId::index`]; `None` if there are too many, so any may be
     /// written.
     written: Vec<Option<FxHashSet<GlobalId>>>,
@@ -80,7 +80,7 @@ impl Arguments {
             }
         }
         let specializable = vec![Vec::new(); module.functions.len()];
-        let mut made = Self { handed_on: handed_on(module), written, specializable, named, table };
+        let mut made = Self { forwarded: forwarded_locals(module), written, specializable, named, table };
         for &func in &module.call_order {
             let first = module[func].locals.start as usize;
             let params = (first..first + module.params(func).len()).map(LocalId::new);
@@ -110,7 +110,7 @@ impl Arguments {
 
     /// Returns whether a local is indexed, in its function or in a callee that it is passed to as a whole.
     pub(super) fn is_indexed(&self, module: &Module, local: LocalId) -> bool {
-        module[local].flags.contains(VarFlags::INDEXED) || self.handed_on[local.index()]
+        module[local].flags.contains(VarFlags::INDEXED) || self.forwarded[local.index()]
     }
 
     /// Returns whether a parameter is only read, but indexed in a way that values cannot be: it is then a pointer to
@@ -173,8 +173,8 @@ pub(super) fn last_effect(module: &Module, args: &[ExprId]) -> Option<usize> {
     args.iter().rposition(|&arg| module[arg].flags.contains(ExprFlags::EFFECTS))
 }
 
-/// See [`Arguments::handed_on`].
-fn handed_on(module: &Module) -> Vec<bool> {
+/// See [`Arguments::forwarded`].
+fn forwarded_locals(module: &Module) -> Vec<bool> {
     let mut found = vec![false; module.locals.len()];
     let mut order = vec![usize::MAX; module.functions.len()];
     for (i, func) in module.call_order.iter().enumerate() {

@@ -41,8 +41,8 @@ impl Builder<'_, '_> {
         self.builtin = Some(builtin);
         let value = self.operation(builtin.operation, ty, values);
         self.builtin = None;
-        if !builtin.gaps.is_empty() {
-            self.note(value, || Precondition::Call(builtin, values.iter().map(|arg| arg.1).collect()));
+        if !builtin.undefined_for.is_empty() {
+            self.record_precondition(value, || Precondition::Call(builtin, values.iter().map(|arg| arg.1).collect()));
         }
         Some(value)
     }
@@ -125,7 +125,7 @@ impl Builder<'_, '_> {
     fn function(&mut self, fun: Math, ty: TypeId, args: &[Typed]) -> Value {
         let mut values = [None; 3];
         for (value, &(arg_ty, arg)) in values.iter_mut().zip(args) {
-            *value = Some(if fun.is_by_component() { self.splat_to(arg, arg_ty, ty) } else { arg });
+            *value = Some(if fun.is_componentwise() { self.splat_to(arg, arg_ty, ty) } else { arg });
         }
         let [arg, arg1, arg2] = values;
         let arg = arg.expect("every built-in has an argument");

@@ -28,9 +28,9 @@ const MAX_CALL_DEPTH: u32 = 16;
 
 /// Turns arrays of at least `least` scalars that are filled with constants before anything else into constants, and
 /// removes the statements that fill them.
-pub(crate) fn arrays_to_constants(module: &mut Module, least: usize) {
+pub(crate) fn arrays_to_constants(module: &mut Module, min_len: usize) {
     let Some(entry) = module.entry else { return };
-    let mut arrays = candidates(module, least);
+    let mut arrays = candidates(module, min_len);
     if arrays.is_empty() {
         return;
     }
@@ -57,7 +57,7 @@ struct Array {
     is_open: bool,
 }
 
-fn candidates(module: &Module, least: usize) -> Vec<Array> {
+fn candidates(module: &Module, min_len: usize) -> Vec<Array> {
     let mut found = Vec::new();
     for (i, global) in module.globals.iter().enumerate() {
         let is_array = matches!(module.types.get(global.ty), Type::Array { .. });
@@ -72,7 +72,7 @@ fn candidates(module: &Module, least: usize) -> Vec<Array> {
             continue;
         }
         let size = words(module, global.ty);
-        if size < least || members(module, global.ty) > MAX_MEMBERS {
+        if size < min_len || members(module, global.ty) > MAX_MEMBERS {
             continue;
         }
         let first = global.value.map_or_else(|| vec![0; size], |value| module[module[value].words].to_vec());
@@ -297,7 +297,7 @@ impl Array {
         let value = module.constant(ty, &self.words);
         let global = &mut module[self.global];
         global.value = Some(value);
-        global.flags.0 &= !VarFlags::WRITTEN.0;
+        global.flags.remove(VarFlags::WRITTEN);
         for stmt in self.stores {
             let Stmt { kind, .. } = &mut module[stmt];
             *kind = StmtKind::Block(List::EMPTY);

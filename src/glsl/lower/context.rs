@@ -34,8 +34,8 @@ pub(super) struct Lowering<'a> {
 impl Lowering<'_> {
     /// Returns whether values of a type are passed by reference although a copy would be possible.
     pub(super) fn is_long(&mut self, ty: hir::TypeId) -> bool {
-        let least = self.options.by_reference;
-        least.is_some_and(|scalars| self.layouts.is_aggregate_of(&self.out, ty, scalars))
+        let min_scalars = self.options.by_reference;
+        min_scalars.is_some_and(|scalars| self.layouts.is_aggregate_of(&self.out, ty, scalars))
     }
 }
 

@@ -58,7 +58,7 @@ impl Builder<'_, '_> {
             }
         };
         if zero {
-            self.note(safe, || Precondition::Divisor(divisor));
+            self.record_precondition(safe, || Precondition::Divisor(divisor));
         }
         match op {
             BinaryOp::Rem => self.op(Binary::Modulo, dividend, safe),

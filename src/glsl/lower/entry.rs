@@ -15,7 +15,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Functio
     let mut b = Builder::new(cx, 0, 0);
     // Lowered before the code that precedes them: they may reach globals that no function does.
     let (initialisers, _) = b.nested(|b| b.initialise_globals(reachable));
-    let position = b.free(Op::Input(Input::Position));
+    let position = b.add_before(Op::Input(Input::Position));
     let position = if b.cx.source.tiled { b.in_whole_picture(position) } else { position };
     b.set_frag_coord(position);
     b.splice(initialisers);

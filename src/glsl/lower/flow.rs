@@ -28,7 +28,7 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         self.loc = hir[stmt].loc;
         if !matches!(hir[stmt].kind, StmtKind::Block(_)) {
-            self.mark(StatementEvent::Begin, stmt);
+            self.mark_statement(StatementEvent::Start, stmt);
         }
         match hir[stmt].kind {
             StmtKind::Block(list) => self.statements(list),
@@ -62,7 +62,7 @@ impl Builder<'_, '_> {
     fn declaration(&mut self, local: LocalId, init: Option<ExprId>) {
         let hir = self.cx.hir;
         // A table that is only read here needs no copy.
-        if let (Some(init), true, false) = (init, self.needs_memory(local), self.cx.arguments.handed_on[local.index()])
+        if let (Some(init), true, false) = (init, self.needs_memory(local), self.cx.arguments.forwarded[local.index()])
             && let (ExprKind::Const(id), false) = (hir[init].kind, hir[local].flags.contains(VarFlags::WRITTEN))
             && !self.is_vector_or_scalar(hir[local].ty)
         {
@@ -96,7 +96,7 @@ impl Builder<'_, '_> {
             Some(_) => return false,
         };
         let pointer = self.address_of(local);
-        self.begin_with(pointer, value);
+        self.set_initializer(pointer, value);
         true
     }
 
@@ -126,7 +126,7 @@ impl Builder<'_, '_> {
         }
         self.loops += 1;
         let (body, _) = self.nested(|b| {
-            b.mark(StatementEvent::Iteration, stmt);
+            b.mark_statement(StatementEvent::Iteration, stmt);
             if let (None, Some(test)) = (known, test) {
                 let condition = b.value(test);
                 b.push(Stmt::If { condition, accept: Block::new(), reject: vec![Stmt::Break] });
@@ -134,7 +134,7 @@ impl Builder<'_, '_> {
             b.statements(body);
         });
         let (continuing, _) = self.nested(|b| {
-            b.mark(StatementEvent::Step, stmt);
+            b.mark_statement(StatementEvent::Step, stmt);
             step.into_iter().for_each(|step| b.effect(step));
         });
         self.loops -= 1;
@@ -145,12 +145,12 @@ impl Builder<'_, '_> {
         let known = known_bool(self.cx.hir, test);
         self.loops += 1;
         let (body, _) = self.nested(|b| {
-            b.mark(StatementEvent::Iteration, stmt);
+            b.mark_statement(StatementEvent::Iteration, stmt);
             b.statements(body);
         });
         let mut break_if = None;
         let (continuing, _) = self.nested(|b| {
-            b.mark(StatementEvent::Test, stmt);
+            b.mark_statement(StatementEvent::Test, stmt);
             if known != Some(true) {
                 let again = b.value(test);
                 break_if = Some(b.not(again));

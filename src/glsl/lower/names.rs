@@ -79,7 +79,7 @@ pub enum Precondition {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StatementEvent {
     /// The statement starts.
-    Begin(u32),
+    Start(u32),
     /// A loop starts an iteration: with its test, if that comes before its body.
     Iteration(u32),
     /// A loop reaches the test after its body.

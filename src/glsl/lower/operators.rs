@@ -143,7 +143,7 @@ impl Builder<'_, '_> {
             let size = self.extent(right.0) as u8;
             let mask = self.int_of(TypeId::vector(Scalar::Uint, size), 31);
             let low = self.op(Binary::And, by, mask);
-            self.note(low, || Precondition::Distance(by));
+            self.record_precondition(low, || Precondition::Distance(by));
             by = low;
         }
         if self.extent(right.0) == 1 {

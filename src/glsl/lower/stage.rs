@@ -80,7 +80,7 @@ impl Builder<'_, '_> {
         let flat = self.cx.hir[id].flat;
         for (n, (pointer, ty)) in self.slots_of(id).into_iter().enumerate() {
             let location = location + n as u32;
-            let value = self.free(Op::Input(match is_vertex {
+            let value = self.add_before(Op::Input(match is_vertex {
                 true => Input::Attribute { location, ty },
                 false => Input::Varying { location, ty, flat },
             }));
@@ -94,7 +94,7 @@ impl Builder<'_, '_> {
             [(BuiltinVar::VertexId, Input::VertexIndex), (BuiltinVar::InstanceId, Input::InstanceIndex)]
         {
             let Some(&memory) = self.cx.resources.stage.get(&variable) else { continue };
-            let number = self.free(Op::Input(input));
+            let number = self.add_before(Op::Input(input));
             let number = self.add(Op::Convert { value: number, to: Scalar::Int });
             let pointer = self.global(memory);
             self.store(pointer, number);
@@ -104,7 +104,7 @@ impl Builder<'_, '_> {
     fn fragment_inputs(&mut self) {
         let (coord, depth) = (self.cx.resources.frag_coord, self.cx.resources.frag_depth);
         if coord.is_some() || depth.is_some() {
-            let position = self.free(Op::Input(Input::Position));
+            let position = self.add_before(Op::Input(Input::Position));
             if let Some(coord) = coord {
                 let pointer = self.global(coord);
                 self.store(pointer, position);
@@ -117,7 +117,7 @@ impl Builder<'_, '_> {
             }
         }
         if let Some(&facing) = self.cx.resources.stage.get(&BuiltinVar::FrontFacing) {
-            let is_front = self.free(Op::Input(Input::FrontFacing));
+            let is_front = self.add_before(Op::Input(Input::FrontFacing));
             let pointer = self.global(facing);
             self.store(pointer, is_front);
         }

@@ -74,13 +74,13 @@ impl PassSet {
     }
 }
 
-/// Runs all passes except those in `without`. `seen` is called with the lowered program under the name `lower`, and
+/// Runs all passes except those in `disabled`. `seen` is called with the lowered program under the name `lower`, and
 /// after each pass with its name.
-pub(super) fn optimise(program: &mut Module, without: PassSet, mut seen: impl FnMut(&str, &Module)) {
+pub(super) fn optimise(program: &mut Module, disabled: PassSet, mut seen: impl FnMut(&str, &Module)) {
     ir::verify::assert_kept(program, "lower");
     seen("lower", program);
     for (index, pass) in PASSES.iter().enumerate() {
-        if without.contains(index) {
+        if disabled.contains(index) {
             continue;
         }
         (pass.run)(program);

@@ -137,7 +137,7 @@ impl Rule for Ranges {
         match *op {
             Op::Math { fun: fun @ (Math::Min | Math::Max), arg: a, arg1: Some(b), .. } => {
                 if let (Some(left), Some(right)) = (self.of(r, a), self.of(r, b)) {
-                    let (is_below, is_above) = (left.most <= right.least, left.least >= right.most);
+                    let (is_below, is_above) = (left.max <= right.min, left.min >= right.max);
                     match fun {
                         Math::Min if is_below => return Some(a),
                         Math::Min if is_above => return Some(b),
@@ -176,7 +176,7 @@ impl Rule for Ranges {
         };
     }
 
-    fn begin_body(&mut self, _: &mut Rewriter<'_>, _: &Block) {
+    fn start_body(&mut self, _: &mut Rewriter<'_>, _: &Block) {
         self.loops.push(self.entered_loops);
         self.tested = Some(self.entered_loops);
         // Nothing is known about it in later iterations before their test.
@@ -215,7 +215,7 @@ impl Ranges {
     /// loop and after it.
     fn counted(&self, r: &Rewriter<'_>, var: usize, ty: TypeId, by: Step) -> Option<(Interval, Interval)> {
         let (test, bound) = self.counters.test(var)?;
-        let (least, most, all) = match by {
+        let (min, max, all) = match by {
             Step::Int(by) => {
                 let (limits, start) = (Interval::of_type(ty)?, self.first_stored[var]?);
                 let by = by as f64;
@@ -223,27 +223,27 @@ impl Ranges {
                 let bound = self.of(r, r.value(bound)).unwrap_or(limits);
                 match test {
                     Binary::Less | Binary::LessEqual if by >= 0.0 => {
-                        let last = bound.most - f64::from(u8::from(test == Binary::Less));
-                        let end = (last + by <= limits.most).then_some(last + by)?;
-                        (start.least, last, Interval::between(start.least, start.most.max(end)))
+                        let last = bound.max - f64::from(u8::from(test == Binary::Less));
+                        let end = (last + by <= limits.max).then_some(last + by)?;
+                        (start.min, last, Interval::between(start.min, start.max.max(end)))
                     }
                     Binary::Greater | Binary::GreaterEqual if by <= 0.0 => {
-                        let least = bound.least + f64::from(u8::from(test == Binary::Greater));
-                        let end = (least + by >= limits.least).then_some(least + by)?;
-                        (least, start.most, Interval::between(start.least.min(end), start.most))
+                        let min = bound.min + f64::from(u8::from(test == Binary::Greater));
+                        let end = (min + by >= limits.min).then_some(min + by)?;
+                        (min, start.max, Interval::between(start.min.min(end), start.max))
                     }
                     _ => return None,
                 }
             }
             Step::Float { start, by } => {
                 let Op::Literal(Scalar::Float, bits) = r.f[bound] else { return None };
-                let (least, most) = counted_in_floats(test, start, by, f32::from_bits(bits))?;
+                let (min, max) = counted_in_floats(test, start, by, f32::from_bits(bits))?;
                 // They are not used after the loop.
-                (least, most, Interval::ANY)
+                (min, max, Interval::ANY)
             }
         };
         // A loop without iterations has a counter without values: nothing follows for the code in its body.
-        (least <= most).then(|| (Interval::between(least, most), all))
+        (min <= max).then(|| (Interval::between(min, max), all))
     }
 }
 

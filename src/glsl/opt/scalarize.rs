@@ -28,7 +28,7 @@ impl Rule for Scalarize {
             Op::Binary { op, .. } => {
                 matches!(op, Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide)
             }
-            Op::Math { fun, .. } => fun.is_by_component() && !is_hyperbolic(fun),
+            Op::Math { fun, .. } => fun.is_componentwise() && !is_hyperbolic(fun),
             _ => false,
         };
         if !by_component {

@@ -52,8 +52,9 @@ fn every_pass_can_be_left_out() {
     let code = "void mainImage(out vec4 o, vec2 p) { vec3 v = p.xyx; for (int i = 0; i < 9; i++) v = v.zxy * 1.5;
         o = vec4(v + 1.0, 1); }";
     for pass in PASSES {
-        let without = PassSet::of(pass.name).expect("a pass of the list");
-        let source = PassSource { driver: Driver { without, ..Driver::default() }, ..PassSource::image(code) };
+        let disabled_optimisations = PassSet::of(pass.name).expect("a pass of the list");
+        let source =
+            PassSource { driver: Driver { disabled_optimisations, ..Driver::default() }, ..PassSource::image(code) };
         let text = dump_ir(&source, &Link::default(), None, None).expect("a program without errors");
         assert!(!text.contains(&format!("; after {}\n", pass.name)), "{}", pass.name);
         crate::compile(&source).expect("it compiles all the same");

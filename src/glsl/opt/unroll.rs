@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 
 use crate::{
     ast::Loc,
-    ir::{Binary, Block, Case, Function, Module, Op, Stmt, Unary, Value, VarId, analysis::stores},
+    ir::{Binary, Block, Function, Module, Op, Stmt, Unary, Value, VarId, analysis::stores},
     types::{Scalar, Type, TypeId},
 };
 
@@ -54,7 +54,7 @@ struct Plan {
     counter: VarId,
     start: i32,
     by: i32,
-    rounds: usize,
+    iterations: usize,
     /// The index of its test in the body.
     test: usize,
 }
@@ -118,20 +118,20 @@ impl Unroller<'_> {
         let (counter, bound) = (self.loads(left)?, self.number(right)?);
         let start = *known.get(&counter)?;
         let rest = &body[test + 1..];
-        if rest.iter().any(leaves_round) || !self.bounds_inner_loop(rest, counter) {
+        if rest.iter().any(leaves_iteration) || !self.bounds_inner_loop(rest, counter) {
             return None;
         }
         let by = self.step(counter, rest, continuing)?;
-        let (mut rounds, mut count) = (0, start);
+        let (mut iterations, mut count) = (0, start);
         while compare(op, count, bound)? == goes_on_if {
-            rounds += 1;
+            iterations += 1;
             count = count.checked_add(by)?;
-            if rounds > MAX_ITERATIONS {
+            if iterations > MAX_ITERATIONS {
                 return None;
             }
         }
         let statements = size(body) + size(continuing);
-        (statements * rounds <= MAX_STATEMENTS).then_some(Plan { counter, start, by, rounds, test })
+        (statements * iterations <= MAX_STATEMENTS).then_some(Plan { counter, start, by, iterations, test })
     }
 
     /// Returns the increment of a counter per iteration, if nothing else is written to it.
@@ -171,24 +171,21 @@ impl Unroller<'_> {
                     return true;
                 }
             }
-            let mut found = false;
-            stmt.blocks(|block| found |= self.bounds_inner_loop(block, counter));
-            found
+            stmt.any_block(|block| self.bounds_inner_loop(block, counter))
         })
     }
 
     fn has_element(&self, block: &[Stmt]) -> bool {
-        block.iter().any(|stmt| {
-            let mut found = matches!(stmt, Stmt::Let(value) if self.elements.binary_search(value).is_ok());
-            stmt.blocks(|block| found |= self.has_element(block));
-            found
+        block.iter().any(|stmt| match stmt {
+            Stmt::Let(value) => self.elements.binary_search(value).is_ok(),
+            other => other.any_block(|block| self.has_element(block)),
         })
     }
 
     fn write_out(&mut self, plan: &Plan, body: &Block, continuing: &Block, out: &mut Block) {
         let mut count = self.literal(plan.start);
         let mut next = plan.start;
-        for _ in 0..plan.rounds {
+        for _ in 0..plan.iterations {
             let mut copy = Copy { counter: plan.counter, count, map: FxHashMap::default() };
             let statements = body.iter().enumerate().filter(|(at, _)| *at != plan.test).map(|(_, stmt)| stmt);
             for stmt in statements.chain(continuing) {
@@ -215,40 +212,24 @@ impl Unroller<'_> {
 
     /// Returns a copy of a statement with new values. A load of the counter needs no statement.
     fn copy(&mut self, copy: &mut Copy, stmt: &Stmt) -> Option<Stmt> {
-        Some(match stmt {
-            &Stmt::Let(value) => {
-                if self.loads(value) == Some(copy.counter) {
-                    copy.map.insert(value, copy.count);
-                    return None;
-                }
-                let mut op = self.f[value].clone();
-                op.operands_mut(|operand| *operand = copy.value(*operand));
-                let new = self.f.append(op, self.f.ty(value), self.f.origin(value));
-                if self.elements.binary_search(&value).is_ok() {
-                    self.elements.push(new);
-                }
-                copy.map.insert(value, new);
-                Stmt::Let(new)
+        if let Stmt::Let(value) = *stmt {
+            if self.loads(value) == Some(copy.counter) {
+                copy.map.insert(value, copy.count);
+                return None;
             }
-            Stmt::If { condition, accept, reject } => {
-                let condition = copy.value(*condition);
-                Stmt::If { condition, accept: self.copies(copy, accept), reject: self.copies(copy, reject) }
+            let mut op = self.f[value].clone();
+            op.operands_mut(|operand| *operand = copy.value(*operand));
+            let new = self.f.append(op, self.f.ty(value), self.f.origin(value));
+            if self.elements.binary_search(&value).is_ok() {
+                self.elements.push(new);
             }
-            Stmt::Loop { body, continuing, break_if } => {
-                let (body, continuing) = (self.copies(copy, body), self.copies(copy, continuing));
-                Stmt::Loop { body, continuing, break_if: break_if.map(|value| copy.value(value)) }
-            }
-            Stmt::Switch { selector, cases } => {
-                let selector = copy.value(*selector);
-                let cases = cases.iter().map(|case| Case { body: self.copies(copy, &case.body), ..*case }).collect();
-                Stmt::Switch { selector, cases }
-            }
-            other => {
-                let mut stmt = other.clone();
-                stmt.operands_mut(|operand| *operand = copy.value(*operand));
-                stmt
-            }
-        })
+            copy.map.insert(value, new);
+            return Some(Stmt::Let(new));
+        }
+        // The exit condition of a loop is computed inside it.
+        let mut stmt = stmt.with_blocks(|block| self.copies(copy, block));
+        stmt.operands_mut(|operand| *operand = copy.value(*operand));
+        Some(stmt)
     }
 }
 
@@ -280,14 +261,12 @@ fn compare(op: Binary, left: i32, right: i32) -> Option<bool> {
 }
 
 /// Returns whether a statement may end an iteration of the enclosing loop.
-fn leaves_round(stmt: &Stmt) -> bool {
-    let any = |block: &Block| block.iter().any(leaves_round);
+fn leaves_iteration(stmt: &Stmt) -> bool {
     match stmt {
         Stmt::Break | Stmt::Continue => true,
-        Stmt::If { accept, reject, .. } => any(accept) || any(reject),
-        // A `Break` leaves only the switch; none of these loops contains one.
-        Stmt::Switch { cases, .. } => cases.iter().any(|case| any(&case.body)),
-        _ => false,
+        Stmt::Loop { .. } => false,
+        // A `Break` in a switch leaves only that; none of these loops contains one.
+        other => other.any_block(|block| block.iter().any(leaves_iteration)),
     }
 }
 

@@ -24,20 +24,20 @@ impl Parser<'_> {
                     Ok(self.ast.decl(DeclKind::Empty, Self::token(first).into()))
                 }
                 Kind::RBrace => {
-                    if !std::mem::replace(&mut self.adrift, true) {
+                    if !std::mem::replace(&mut self.is_outside_functions, true) {
                         let hint = "there is one `}` too many here or above";
                         self.error(first, "`}` closes nothing", Some(hint.into()));
                     }
                     self.bump();
                     continue;
                 }
-                _ if self.begins_declaration() => self.attempt(|p| p.declaration(true)),
+                _ if self.starts_declaration() => self.with_rollback(|p| p.declaration(true)),
                 _ => Err(self.report_outside()),
             };
             let item = match item {
                 Ok(item) => {
                     if matches!(self.ast[item].kind, DeclKind::Function(_)) {
-                        self.adrift = false;
+                        self.is_outside_functions = false;
                     }
                     item
                 }
@@ -60,34 +60,34 @@ impl Parser<'_> {
     /// Reports text at file scope that is not a declaration.
     fn report_outside(&mut self) -> Failed {
         let i = self.at;
-        if std::mem::replace(&mut self.adrift, true) {
+        if std::mem::replace(&mut self.is_outside_functions, true) {
             return Failed;
         }
         if self.kind() == Kind::Wrong {
-            self.adrift = false;
+            self.is_outside_functions = false;
             self.bump();
             return Failed;
         }
         let message = match self.kind() {
             Kind::Ident | Kind::PlusPlus | Kind::MinusMinus => {
-                self.adrift = false;
+                self.is_outside_functions = false;
                 format!("expected a declaration, found {}: statements belong inside functions", self.shown(i))
             }
             kind if kind.is_keyword() => format!("{} is outside any function", self.shown(i)),
             _ => {
-                self.adrift = false;
+                self.is_outside_functions = false;
                 format!("expected a declaration, found {}", self.shown(i))
             }
         };
         let after_function = i > 0 && self.kind_at(i - 1) == Kind::RBrace;
         let hint = after_function.then(|| "is there a `}` too many above?".to_owned());
-        self.adrift |= after_function;
+        self.is_outside_functions |= after_function;
         self.fail(i, message, hint)
     }
 
     /// Returns whether a declaration follows rather than an expression or another statement.
     #[inline]
-    pub(super) fn begins_declaration(&self) -> bool {
+    pub(super) fn starts_declaration(&self) -> bool {
         match self.kind() {
             Kind::Type => match self.second() {
                 Kind::LParen => false,
@@ -104,7 +104,7 @@ impl Parser<'_> {
             Kind::Reserved => {
                 matches!(self.second(), Kind::Ident | Kind::Type | Kind::Reserved)
                     || self.second().is_qualifier()
-                    || hint::begins_foreign_declaration(self.text(self.at))
+                    || hint::starts_foreign_declaration(self.text(self.at))
             }
             kind => kind.is_qualifier() || matches!(kind, Kind::Precision | Kind::Struct),
         }
@@ -126,7 +126,7 @@ impl Parser<'_> {
             let loc = self.loc(first);
             return Ok(self.ast.decl(DeclKind::Precision { precision, ty }, loc));
         }
-        if self.kind() == Kind::Reserved && hint::begins_foreign_declaration(self.text(first)) {
+        if self.kind() == Kind::Reserved && hint::starts_foreign_declaration(self.text(first)) {
             self.reserved(first);
             return Err(Failed);
         }
@@ -137,7 +137,8 @@ impl Parser<'_> {
             return Ok(decl);
         }
         let ty = self.qualified_type(&mut qualifiers)?;
-        if matches!(self.ast[ty].kind, TypeSpecKind::Struct(_)) && self.starts_line(self.at) && self.plainly_begins() {
+        if matches!(self.ast[ty].kind, TypeSpecKind::Struct(_)) && self.starts_line(self.at) && self.is_certain_start()
+        {
             self.missing("`;`", None, None);
             let loc = self.loc(first);
             return Ok(self.ast.decl(DeclKind::Vars { qualifiers, ty, declarators: List::EMPTY }, loc));
@@ -403,7 +404,7 @@ impl Parser<'_> {
                     }
                     None => self.bump(),
                 },
-                _ if self.at > start && self.plainly_begins() && self.starts_line(self.at) => return,
+                _ if self.at > start && self.is_certain_start() && self.starts_line(self.at) => return,
                 _ => self.bump(),
             }
         }

@@ -79,7 +79,7 @@ impl Parser<'_> {
 
     fn full(&mut self, part: fn(&mut Self) -> Parse<ExprId>) -> Parse<ExprId> {
         let within = std::mem::take(&mut self.levels);
-        let read = self.attempt(part);
+        let read = self.with_rollback(part);
         self.levels = within;
         read
     }
@@ -131,11 +131,11 @@ impl Parser<'_> {
         }
     }
 
-    fn binary(&mut self, least: u8) -> Parse<ExprId> {
+    fn binary(&mut self, min_level: u8) -> Parse<ExprId> {
         let first = self.at;
         let mut lhs = self.unary()?;
         while let Some((op, level)) = binary_op(self.kind()) {
-            if level < least {
+            if level < min_level {
                 break;
             }
             self.bump();

@@ -23,7 +23,7 @@ impl Parser<'_> {
         let body = match self.kind() {
             Kind::LBrace => {
                 let around = self.body.replace((self.at, name));
-                let body = self.attempt(Self::block);
+                let body = self.with_rollback(Self::block);
                 self.body = around;
                 Some(body?)
             }
@@ -31,7 +31,7 @@ impl Parser<'_> {
                 self.bump();
                 None
             }
-            _ if self.starts_line(self.at) && self.plainly_begins() && at_file => {
+            _ if self.starts_line(self.at) && self.is_certain_start() && at_file => {
                 self.missing("`;` or a body", None, None);
                 None
             }
@@ -54,7 +54,7 @@ impl Parser<'_> {
         let mut found = Vec::new();
         loop {
             let start = self.at;
-            match self.attempt(Self::parameter) {
+            match self.with_rollback(Self::parameter) {
                 Ok(param) => found.push(param),
                 Err(Failed) => {
                     self.skip_to_comma();

@@ -38,7 +38,7 @@ pub(super) fn is_qualifier(word: &str) -> bool {
 }
 
 /// Returns whether a reserved word starts a declaration of something GLSL does not have.
-pub(super) fn begins_foreign_declaration(word: &str) -> bool {
+pub(super) fn starts_foreign_declaration(word: &str) -> bool {
     matches!(word, "class" | "enum" | "typedef" | "template" | "using" | "namespace" | "union" | "interface")
 }
 

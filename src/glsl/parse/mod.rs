@@ -13,9 +13,9 @@ mod decl;
 mod expr;
 mod function;
 mod hint;
+mod mistakes;
 mod parser;
 mod recover;
-mod slips;
 mod stmt;
 mod tests;
 mod types;
@@ -84,7 +84,7 @@ impl Parsed {
 
     /// Returns whether the meaning of these texts is independent of what follows and of the unit: they end between two
     /// declarations, with all conditionals and comments closed, and do not use line numbers.
-    pub(crate) fn stands_alone(&self) -> bool {
+    pub(crate) fn is_self_contained(&self) -> bool {
         !self.report.has_errors() && !self.reader.has_line_numbers
     }
 
@@ -147,7 +147,7 @@ fn read_here(pieces: &[Piece<'_>], (unit, dialect, cancel): (Unit, Dialect, Canc
         reported_reserved: Vec::new(),
         structs,
         body: None,
-        adrift: false,
+        is_outside_functions: false,
         reported_too_deep: false,
     };
     parser.ast.exprs.reserve((end - start) / 2);

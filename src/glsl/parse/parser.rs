@@ -46,7 +46,7 @@ pub(super) struct Parser<'p> {
     /// The opening brace and the name of the function that is being parsed.
     pub body: Option<(usize, Ident)>,
     /// A surplus closing brace left the parser outside of functions; reported once.
-    pub adrift: bool,
+    pub is_outside_functions: bool,
     pub reported_too_deep: bool,
 }
 
@@ -126,9 +126,9 @@ impl Parser<'_> {
     }
 
     #[cold]
-    pub(super) fn too_deep(&mut self, i: usize, most: u32) -> Failed {
+    pub(super) fn too_deep(&mut self, i: usize, limit: u32) -> Failed {
         if !std::mem::replace(&mut self.reported_too_deep, true) {
-            let message = format!("this is nested more than {most} levels deep");
+            let message = format!("this is nested more than {limit} levels deep");
             self.error(i, message, Some("move a part of it to a variable or a function".into()));
         }
         self.last_error = Some(i);
@@ -136,7 +136,7 @@ impl Parser<'_> {
     }
 
     /// Runs a part that may fail. If it does, its expressions are discarded, so that no incomplete tree is left.
-    pub(super) fn attempt<T>(&mut self, part: impl FnOnce(&mut Self) -> Parse<T>) -> Parse<T> {
+    pub(super) fn with_rollback<T>(&mut self, part: impl FnOnce(&mut Self) -> Parse<T>) -> Parse<T> {
         let (depth, levels, exprs) = (self.depth, self.levels, self.ast.exprs.len());
         let (expr_stack, stmt_stack) = (self.expr_stack.len(), self.stmt_stack.len());
         let result = part(self);
@@ -179,7 +179,7 @@ impl Parser<'_> {
         if here > 0 && self.kind_at(here - 1) == Kind::Wrong {
             return Ok(());
         }
-        if self.starts_line(here) && self.begins_anew(here) || matches!(self.kind(), Kind::RBrace | Kind::Eof) {
+        if self.starts_line(here) && self.starts_statement(here) || matches!(self.kind(), Kind::RBrace | Kind::Eof) {
             self.missing("`;`", None, None);
             return Ok(());
         }
@@ -187,7 +187,7 @@ impl Parser<'_> {
     }
 
     /// Returns whether a token can start a statement or declaration.
-    pub(super) fn begins_anew(&self, i: usize) -> bool {
+    pub(super) fn starts_statement(&self, i: usize) -> bool {
         !matches!(
             self.kind_at(i),
             Kind::RParen

@@ -47,7 +47,7 @@ impl Parser<'_> {
     }
 
     /// Returns whether a token needs no further message: it was reported, or the previous message was about it.
-    pub(super) fn is_told(&self, i: usize) -> bool {
+    pub(super) fn is_reported(&self, i: usize) -> bool {
         self.last_error == Some(i) || self.kind_at(i) == Kind::Wrong || (i > 0 && self.kind_at(i - 1) == Kind::Wrong)
     }
 
@@ -58,7 +58,7 @@ impl Parser<'_> {
     }
 
     pub(super) fn report_at(&mut self, i: usize, diagnostic: Diagnostic) {
-        if self.is_told(i) {
+        if self.is_reported(i) {
             return;
         }
         self.last_error = Some(i);
@@ -74,7 +74,7 @@ impl Parser<'_> {
     }
 
     /// Returns the place directly after a token, where something is missing.
-    pub(super) fn behind(&self, i: usize) -> Span {
+    pub(super) fn span_after(&self, i: usize) -> Span {
         let span = self.origins.token_span(Self::token(i));
         Span { start: span.end, ..span }
     }
@@ -84,7 +84,7 @@ impl Parser<'_> {
         let here = self.at;
         let before = here.saturating_sub(1);
         let mut diagnostic =
-            Diagnostic::error(self.behind(before), format!("missing {what} after {}", self.shown(before)));
+            Diagnostic::error(self.span_after(before), format!("missing {what} after {}", self.shown(before)));
         if let Some((token, text)) = label {
             diagnostic = diagnostic.label(self.origins.token_span(Self::token(token)), text);
         }
@@ -116,14 +116,14 @@ impl Parser<'_> {
                     self.at = self.partner(self.at).unwrap_or(self.at);
                     self.bump();
                 }
-                _ if self.at > start && self.plainly_begins() && self.starts_line(self.at) => return,
+                _ if self.at > start && self.is_certain_start() && self.starts_line(self.at) => return,
                 _ => self.bump(),
             }
         }
     }
 
     /// Returns whether the next tokens can only be the start of a statement or declaration.
-    pub(super) fn plainly_begins(&self) -> bool {
+    pub(super) fn is_certain_start(&self) -> bool {
         match self.kind() {
             Kind::Type | Kind::Ident => self.second() == Kind::Ident,
             Kind::Const

@@ -24,7 +24,7 @@ impl Parser<'_> {
                     self.report_unclosed(open);
                     break;
                 }
-                _ if self.begins_function() && self.body.is_some_and(|(brace, _)| self.partner(brace).is_none()) => {
+                _ if self.starts_function() && self.body.is_some_and(|(brace, _)| self.partner(brace).is_none()) => {
                     // A brace is missing above: the function is parsed at file scope.
                     self.report_nested_function();
                     break;
@@ -32,7 +32,7 @@ impl Parser<'_> {
                 _ => {}
             }
             let first = self.at;
-            let stmt = match self.attempt(Self::statement) {
+            let stmt = match self.with_rollback(Self::statement) {
                 Ok(stmt) => stmt,
                 Err(Failed) => {
                     self.recover();
@@ -60,13 +60,13 @@ impl Parser<'_> {
             _ => (open, "opened here".to_owned()),
         };
         let here = self.at;
-        let diagnostic = Diagnostic::error(self.behind(here - 1), "missing `}` at the end of the text")
+        let diagnostic = Diagnostic::error(self.span_after(here - 1), "missing `}` at the end of the text")
             .label(self.origins.token_span(Self::token(brace)), label);
         self.report_at(here, diagnostic);
     }
 
     /// Returns whether `type name(..) {` follows, which is only allowed at file scope.
-    fn begins_function(&self) -> bool {
+    fn starts_function(&self) -> bool {
         let name = self.at + 1;
         matches!(self.kind(), Kind::Type | Kind::Ident)
             && self.kind_at(name) == Kind::Ident
@@ -166,9 +166,9 @@ impl Parser<'_> {
                 self.bump();
                 StmtKind::Error
             }
-            _ if self.begins_declaration() => {
+            _ if self.starts_declaration() => {
                 self.check_keyword_slip()?;
-                if self.begins_function() {
+                if self.starts_function() {
                     let hint = "move it out of this function";
                     self.error(first + 1, "a function cannot be defined inside of another", Some(hint.into()));
                 }
@@ -199,7 +199,7 @@ impl Parser<'_> {
     fn returns_nothing(&self) -> bool {
         match self.kind() {
             Kind::Semicolon | Kind::RBrace => true,
-            _ => self.starts_line(self.at) && self.plainly_begins(),
+            _ => self.starts_line(self.at) && self.is_certain_start(),
         }
     }
 
@@ -273,7 +273,7 @@ impl Parser<'_> {
             let hint = format!("write `{} (..)`", self.text(keyword));
             let message = format!("the condition of `{}` must be in parentheses", self.text(keyword));
             self.error(open, message, Some(hint));
-            let read = self.attempt(part);
+            let read = self.with_rollback(part);
             return match (read, self.kind()) {
                 (Ok(condition), _) => Ok(condition),
                 (Err(Failed), Kind::LBrace) => Ok(Condition::Expr(self.error_expr(open))),
@@ -281,7 +281,7 @@ impl Parser<'_> {
             };
         }
         self.bump();
-        let read = self.attempt(|p| {
+        let read = self.with_rollback(|p| {
             if p.kind() == Kind::RParen {
                 return Err(p.fail(p.at, "a condition is missing between `(` and `)`", None));
             }
@@ -309,7 +309,7 @@ impl Parser<'_> {
 
     /// Parses an expression, or a declaration with a value: `bool b = f()`.
     fn condition(&mut self) -> Parse<Condition> {
-        if !self.begins_declaration() {
+        if !self.starts_declaration() {
             return self.full_expression().map(Condition::Expr);
         }
         let first = self.at;
@@ -339,7 +339,7 @@ impl Parser<'_> {
             return Err(self.unexpected("`(`"));
         }
         let start = self.at;
-        let init = self.attempt(Self::for_init);
+        let init = self.with_rollback(Self::for_init);
         let mut whole = init.is_ok();
         let init = init.unwrap_or_else(|Failed| {
             let loc = self.loc(start);
@@ -348,7 +348,7 @@ impl Parser<'_> {
         let (mut cond, mut step) = (None, None);
         whole = whole && self.for_separator();
         if whole && self.kind() != Kind::Semicolon {
-            match self.attempt(Self::condition) {
+            match self.with_rollback(Self::condition) {
                 Ok(read) => cond = Some(read),
                 Err(Failed) => {
                     self.skip_in_for(open);
@@ -358,7 +358,7 @@ impl Parser<'_> {
         }
         whole = whole && self.for_separator();
         if whole && self.kind() != Kind::RParen {
-            match self.attempt(Self::full_expression) {
+            match self.with_rollback(Self::full_expression) {
                 Ok(read) => step = Some(read),
                 Err(Failed) => whole = false,
             }
@@ -377,7 +377,7 @@ impl Parser<'_> {
         let first = self.at;
         let kind = if self.kind() == Kind::Semicolon {
             StmtKind::Empty
-        } else if self.begins_declaration() {
+        } else if self.starts_declaration() {
             StmtKind::Decl(self.declaration_without_end()?)
         } else {
             StmtKind::Expr(self.full_expression()?)

@@ -359,8 +359,8 @@ fn long_chains_are_legal_and_deep_ones_are_not() {
         format!("void f() {{ x = {}a; }}", "a + (".repeat(100_000)),
     ] {
         let found = messages(&deep);
-        let is_told = |m: &String| m.contains("300 levels deep") || m.contains("10000 levels deep");
-        assert!(found.first().is_some_and(is_told), "{}: {found:?}", &deep[..40]);
+        let is_reported = |m: &String| m.contains("300 levels deep") || m.contains("10000 levels deep");
+        assert!(found.first().is_some_and(is_reported), "{}: {found:?}", &deep[..40]);
         assert!(found.len() <= 2, "{}: {found:?}", &deep[..40]);
     }
     // As deep as ANGLE's parser, which keeps 10,000 symbols.
@@ -494,7 +494,7 @@ fn declarators_before_an_error_stay_declared() {
 
 #[test]
 fn qualifiers_after_a_type_are_reported_once_and_accepted() {
-    for (text, mend) in [
+    for (text, hint) in [
         ("vec3 const k = vec3(1.0);", "write `const vec3 k`"),
         ("float highp x;", "write `highp float x`"),
         ("vec3 uniform u;", "write `uniform vec3 u`"),
@@ -514,7 +514,7 @@ fn qualifiers_after_a_type_are_reported_once_and_accepted() {
         let found: Vec<_> =
             parsed.report.diagnostics.iter().filter(|d| d.message.contains("before the type")).collect();
         assert_eq!(found.len(), parsed.report.diagnostics.len(), "{text}: {:?}", parsed.report.diagnostics);
-        assert!(!found.is_empty() && found[0].hints == [mend], "{text}: {found:?}");
+        assert!(!found.is_empty() && found[0].hints == [hint], "{text}: {found:?}");
     }
     // The declaration is valid: a size that is `const` is accepted.
     assert_eq!(messages("int const n = 2;\nfloat a[n];\nS\nconst int m = 1;").len(), 2);

@@ -85,7 +85,7 @@ impl Parser<'_> {
         let mut fields = Vec::new();
         while !matches!(self.kind(), Kind::RBrace | Kind::Eof) {
             let first = self.at;
-            match self.attempt(Self::field) {
+            match self.with_rollback(Self::field) {
                 Ok(Some(field)) => fields.push(field),
                 Ok(None) => {}
                 Err(Failed) => {

@@ -35,12 +35,12 @@ impl Preamble {
     /// Parses Common for passes with these `values`. `None` if it must be parsed with each pass.
     pub fn new(common: Text<'_>, includes: &[Include<'_>], values: &[UniformValue]) -> Option<Self> {
         let parsed = parse::parse_common(&pieces::of(&[common], includes));
-        if !parsed.stands_alone() {
+        if !parsed.is_self_contained() {
             return None;
         }
         let mentioned = parsed.mentioned();
         let mentions = |name: &str| is_mentioned(&parsed.names, &mentioned, name);
-        let checked = check::begin(&parsed.ast, &parsed.origins, &parsed.names, values, mentions);
+        let checked = check::check_common_prefix(&parsed.ast, &parsed.origins, &parsed.names, values, mentions);
         Some(Self { checked, mentioned, values: values.to_vec(), parsed })
     }
 

@@ -78,12 +78,12 @@ impl<'a> Case<'a> {
     /// Compares the editor's answers for each position.
     #[track_caller]
     fn compare_analyses(&self, preamble: Option<&Preamble>) {
-        let (own, behind) = (Analysis::new(&self.source()), Analysis::behind(&self.source(), preamble));
+        let (own, reused) = (Analysis::new(&self.source()), Analysis::with_preamble(&self.source(), preamble));
         for (id, text) in [(COMMON, self.common), (CODE, self.code)] {
-            assert_eq!(own.classes(id), behind.classes(id));
+            assert_eq!(own.classes(id), reused.classes(id));
             for offset in 0..text.len() {
-                assert_eq!(own.uses(id, offset), behind.uses(id, offset), "at {offset}");
-                assert_eq!(own.definition(id, offset), behind.definition(id, offset), "at {offset}");
+                assert_eq!(own.uses(id, offset), reused.uses(id, offset), "at {offset}");
+                assert_eq!(own.definition(id, offset), reused.definition(id, offset), "at {offset}");
             }
         }
     }
@@ -282,7 +282,7 @@ fn custom_uniforms_are_checked_with_each_pass_that_has_them() {
     case.values = &values;
     case.assert_kept(Kept::Checked, &[]);
     let other = [UniformValue { name: "gain".into(), value: UntypedValue::Number(4.0) }];
-    let preamble = Preamble::new(case.source().common.unwrap(), &[], &other).expect("it stands alone");
+    let preamble = Preamble::new(case.source().common.unwrap(), &[], &other).expect("it is self-contained");
     assert!(preamble.checked(&case.source()).is_none(), "it was read for another value");
 }
 

@@ -33,7 +33,7 @@ const LOOKALIKES: &[(&str, &str, Kind)] = &[
 impl Preprocessor<'_, '_> {
     /// Reports a token that is not GLSL. Returns what the parser continues with; `None` leaves it out.
     #[cold]
-    pub(super) fn mend(&mut self, token: &Token) -> Option<(Kind, u32)> {
+    pub(super) fn report_invalid_token(&mut self, token: &Token) -> Option<(Kind, u32)> {
         if self.report.is_full() {
             // Probably not a text file at all: further messages would not be read.
             return match token.kind {

@@ -115,7 +115,7 @@ impl Evaluation<'_, '_, '_, '_> {
         if !matches!(token.kind, Kind::BadChar | Kind::BadName | Kind::Text | Kind::Hash | Kind::HashHash) {
             self.all.error(token, format!("`{text}` is not expected here"), hint);
         } else {
-            self.all.mend(token);
+            self.all.report_invalid_token(token);
         }
     }
 
@@ -225,7 +225,7 @@ impl Evaluation<'_, '_, '_, '_> {
             }
             Kind::Wrong => return None,
             Kind::BadNumber => {
-                self.all.mend(&token);
+                self.all.report_invalid_token(&token);
                 return None;
             }
             _ => {

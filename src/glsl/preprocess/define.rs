@@ -40,7 +40,7 @@ impl Preprocessor<'_, '_> {
         };
         if name.kind != Kind::Ident {
             if name.kind == Kind::BadName {
-                self.mend(&name);
+                self.report_invalid_token(&name);
                 return Some(Token { kind: Kind::Ident, ..name });
             }
             let text = self.text(name.span).to_owned();
@@ -56,7 +56,7 @@ impl Preprocessor<'_, '_> {
         }
         if let Some(id) = self.defined(name.value) {
             let origin = self.table.macros[id.index()].origin;
-            if !matches!(origin, MacroOrigin::ByAuthor | MacroOrigin::BySite(_)) {
+            if !matches!(origin, MacroOrigin::Author | MacroOrigin::Shadertoy(_)) {
                 let what = if verb == "undef" { "undefined" } else { "defined again" };
                 self.error(&name, format!("`{text}` is part of the language and cannot be {what}"), None);
                 return None;
@@ -138,7 +138,7 @@ impl Preprocessor<'_, '_> {
             defined_at: Some(name.span.to(last)),
             function_like,
         };
-        self.add_macro(def, params, body, MacroOrigin::ByAuthor);
+        self.add_macro(def, params, body, MacroOrigin::Author);
     }
 
     /// Parses `(a, b)` after a macro's name; returns the position after it.
@@ -207,7 +207,7 @@ impl Preprocessor<'_, '_> {
         let list = |range: (u32, u32)| &self.table.bodies[range.0 as usize..range.1 as usize];
         let names = |range: (u32, u32)| &self.table.params[range.0 as usize..range.1 as usize];
         let same = match before.origin {
-            MacroOrigin::BySite(value) => {
+            MacroOrigin::Shadertoy(value) => {
                 matches!(list(body), [t] if t.kind == Kind::Int && t.value == value) && !function_like
             }
             _ => {
@@ -229,7 +229,7 @@ impl Preprocessor<'_, '_> {
         if let Some(at) = def.name_at {
             diagnostic = diagnostic.label(at, "first defined here");
         }
-        let hint = if matches!(before.origin, MacroOrigin::BySite(_)) {
+        let hint = if matches!(before.origin, MacroOrigin::Shadertoy(_)) {
             format!("Shadertoy defines `{text}` itself; write `#undef {text}` before, or `#ifndef {text}` around it")
         } else {
             format!("write `#undef {text}` before, or choose another name")

@@ -28,8 +28,8 @@ impl Preprocessor<'_, '_> {
     /// Processes the directive that starts with `hash`, to the end of its line.
     pub(super) fn directive(&mut self, hash: Token) {
         self.cancel.check();
-        self.lexer.begin_directive();
-        let name = self.raw();
+        self.lexer.start_directive();
+        let name = self.next_raw();
         match name.kind {
             // `#` by itself does nothing.
             Kind::Newline | Kind::Eof => return,
@@ -137,7 +137,7 @@ impl Preprocessor<'_, '_> {
     pub(super) fn line_tokens(&mut self) -> Vec<Token> {
         let mut line = self.spare.pop().unwrap_or_default();
         loop {
-            let token = self.raw();
+            let token = self.next_raw();
             match token.kind {
                 Kind::Newline | Kind::Eof => return line,
                 Kind::OpenComment => {
@@ -198,8 +198,8 @@ impl Preprocessor<'_, '_> {
                 }
                 return;
             }
-            self.lexer.begin_directive();
-            let name = self.raw();
+            self.lexer.start_directive();
+            let name = self.next_raw();
             let word = if name.kind == Kind::Ident { self.names.get(Symbol(name.value)) } else { "" };
             match word {
                 "if" | "ifdef" | "ifndef" => depth += 1,

@@ -19,14 +19,14 @@ impl Preprocessor<'_, '_> {
     pub(super) fn read(&mut self) -> Token {
         loop {
             match self.contexts.last_mut() {
-                None => return self.running(),
+                None => return self.next_in_piece(),
                 Some(context) if context.next < context.end => {
                     let token = self.pool[context.next as usize];
                     context.next += 1;
                     return token;
                 }
                 Some(Context { source: None, .. }) => return END,
-                Some(_) => self.pop(),
+                Some(_) => self.pop_context(),
             }
         }
     }
@@ -40,7 +40,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    fn pop(&mut self) {
+    fn pop_context(&mut self) {
         let Some(context) = self.contexts.pop() else { return };
         self.pool.truncate(context.start as usize);
         if let Some(id) = context.source {
@@ -81,11 +81,11 @@ impl Preprocessor<'_, '_> {
     fn expand(&mut self, token: Token, id: MacroId) -> Option<Token> {
         let def = self.origins[id];
         match self.table.macros[id.index()].origin {
-            MacroOrigin::ByAuthor => {}
+            MacroOrigin::Author => {}
             origin => {
                 self.record_use(&token, id);
                 let value = match origin {
-                    MacroOrigin::ByLanguage(value) | MacroOrigin::BySite(value) => value,
+                    MacroOrigin::Language(value) | MacroOrigin::Shadertoy(value) => value,
                     MacroOrigin::LineNumber => self.line_number(self.place(&token)) as u32,
                     _ => self.line.file as u32,
                 };
@@ -95,7 +95,7 @@ impl Preprocessor<'_, '_> {
         if !def.function_like {
             self.record_use(&token, id);
             let expansion = self.new_expansion(&token, token.span, id);
-            self.open(id, &token, expansion, None);
+            self.push_expansion(id, &token, expansion, None);
             return None;
         }
         let open = self.read();
@@ -105,10 +105,10 @@ impl Preprocessor<'_, '_> {
         }
         self.record_use(&token, id);
         let mut args = Arguments { tokens: self.spare.pop().unwrap_or_default(), bounds: Vec::new() };
-        let result = match self.collect(&token, id, &mut args) {
+        let result = match self.collect_arguments(&token, id, &mut args) {
             Ok(close) => {
                 let expansion = self.new_expansion(&token, close, id);
-                self.open(id, &token, expansion, Some(&args));
+                self.push_expansion(id, &token, expansion, Some(&args));
                 None
             }
             // The parser accepts it as an operand, so that it reports no second error.
@@ -135,12 +135,12 @@ impl Preprocessor<'_, '_> {
         self.origins.expansions.push(Expansion { used_at, macro_id, parent: name.expansion });
         let id = ExpansionId::new(self.origins.expansions.len() - 1);
         self.table.macros[macro_id.index()].first_use.get_or_insert(id);
-        self.count(name, 1);
+        self.count_work(name, 1);
         id
     }
 
     /// Makes the replacement list the next text to be read.
-    fn open(&mut self, id: MacroId, name: &Token, expansion: ExpansionId, args: Option<&Arguments>) {
+    fn push_expansion(&mut self, id: MacroId, name: &Token, expansion: ExpansionId, args: Option<&Arguments>) {
         let (from, to) = self.table.macros[id.index()].body;
         // The expansion of arguments uses the pool, so it comes first.
         let mut expanded = self.spare.pop().unwrap_or_default();
@@ -183,7 +183,7 @@ impl Preprocessor<'_, '_> {
         expanded.clear();
         self.spare.push(expanded);
         let end = self.pool.len();
-        self.count(name, (end - start) as u32);
+        self.count_work(name, (end - start) as u32);
         self.table.macros[id.index()].busy = true;
         self.contexts.push(Context { start: start as u32, next: start as u32, end: end as u32, source: Some(id) });
     }
@@ -220,12 +220,12 @@ impl Preprocessor<'_, '_> {
         }
         self.collecting = collecting;
         while self.contexts.len() > depth {
-            self.pop();
+            self.pop_context();
         }
     }
 
     /// Collects a call's arguments up to its closing parenthesis, whose place it returns.
-    fn collect(&mut self, name: &Token, id: MacroId, args: &mut Arguments) -> Result<Span, Reported> {
+    fn collect_arguments(&mut self, name: &Token, id: MacroId, args: &mut Arguments) -> Result<Span, Reported> {
         self.collecting += 1;
         self.table.macros[id.index()].calls += 1;
         let free_from = self.waiting.len();
@@ -262,7 +262,7 @@ impl Preprocessor<'_, '_> {
         for id in self.waiting.drain(free_from..) {
             self.table.macros[id.index()].busy = false;
         }
-        self.count(name, args.tokens.len() as u32);
+        self.count_work(name, args.tokens.len() as u32);
         let label = self.text(name.span).to_owned();
         let Some(close) = close else {
             if !self.stopped {
@@ -294,7 +294,7 @@ impl Preprocessor<'_, '_> {
     }
 
     /// Counts tokens that macros produced.
-    fn count(&mut self, at: &Token, tokens: u32) {
+    fn count_work(&mut self, at: &Token, tokens: u32) {
         self.table.work = self.table.work.saturating_add(tokens);
         if self.table.work > MAX_MACRO_TOKENS {
             let message = format!("the macros expand to more than {MAX_MACRO_TOKENS} tokens");

@@ -30,10 +30,10 @@ impl Preprocessor<'_, '_> {
     /// Records the line ends of the next piece that was not counted yet.
     fn count_piece(&mut self) {
         let piece = self.line.ends.len();
-        let Piece { text, range, begins_text, .. } = &self.pieces[piece];
+        let Piece { text, range, starts_text, .. } = &self.pieces[piece];
         let before = match self.line.ends.last() {
             // Shadertoy appends a line end to Common.
-            Some((before, ends)) => before + ends.len() as i32 + i32::from(*begins_text),
+            Some((before, ends)) => before + ends.len() as i32 + i32::from(*starts_text),
             None => 0,
         };
         let bytes = text.text.as_bytes()[range.clone()].iter();

@@ -34,11 +34,11 @@ pub(super) struct Macro {
 /// The origin of a macro.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum MacroOrigin {
-    ByAuthor,
+    Author,
     /// `HW_PERFORMANCE`, defined by Shadertoy's header like any macro.
-    BySite(u32),
+    Shadertoy(u32),
     /// Part of the language: it cannot be defined or undefined.
-    ByLanguage(u32),
+    Language(u32),
     LineNumber,
     FileNumber,
 }
@@ -46,19 +46,19 @@ pub(super) enum MacroOrigin {
 impl MacroOrigin {
     /// Returns the macros that are defined before the first line.
     pub(super) fn all(dialect: Dialect) -> Vec<(&'static str, MacroOrigin)> {
-        use MacroOrigin::{ByLanguage, BySite, FileNumber, LineNumber};
+        use MacroOrigin::{FileNumber, Language, LineNumber, Shadertoy};
         let mut all = vec![("__LINE__", LineNumber), ("__FILE__", FileNumber)];
         all.extend(match dialect {
             Dialect::Shadertoy => vec![
-                ("__VERSION__", ByLanguage(300)),
-                ("GL_ES", ByLanguage(1)),
-                ("GL_FRAGMENT_PRECISION_HIGH", ByLanguage(1)),
-                ("HW_PERFORMANCE", BySite(1)),
+                ("__VERSION__", Language(300)),
+                ("GL_ES", Language(1)),
+                ("GL_FRAGMENT_PRECISION_HIGH", Language(1)),
+                ("HW_PERFORMANCE", Shadertoy(1)),
             ],
             Dialect::Ghostty => {
-                vec![("__VERSION__", ByLanguage(430)), ("GL_core_profile", ByLanguage(1)), ("VULKAN", ByLanguage(100))]
+                vec![("__VERSION__", Language(430)), ("GL_core_profile", Language(1)), ("VULKAN", Language(100))]
             }
-            Dialect::Isf => vec![("__VERSION__", ByLanguage(120))],
+            Dialect::Isf => vec![("__VERSION__", Language(120))],
         });
         all
     }

@@ -72,7 +72,7 @@ impl Preprocessor<'_, '_> {
 
     /// Consumes the rest of a line without processing it.
     fn skip_line(&mut self, name: &str) {
-        self.lexer.begin_directive();
+        self.lexer.start_directive();
         let line = self.line_tokens();
         let names = line.iter().filter(|t| t.kind == Kind::Ident).map(|t| Symbol(t.value));
         self.origins.unread.extend(names);
@@ -94,16 +94,16 @@ impl Preprocessor<'_, '_> {
         let mut span = Span { end: token.span.start + ticks as u32, ..token.span };
         let marks = span;
         if is_alone {
-            self.lexer.begin_directive();
+            self.lexer.start_directive();
             self.lexer.rest_of_line();
             self.line_tokens();
             // Including its line end.
-            let begin = text[..start].rfind('\n').map_or(0, |at| at + 1);
+            let line_start = text[..start].rfind('\n').map_or(0, |at| at + 1);
             let end = rest.find('\n').map_or(text.len(), |at| start + at + 1);
-            span = Span::new(span.source, begin..end);
+            span = Span::new(span.source, line_start..end);
         } else {
             for _ in 1..ticks {
-                self.raw();
+                self.next_raw();
             }
         }
         let edit = Edit { span, text: String::new() };

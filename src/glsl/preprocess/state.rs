@@ -173,7 +173,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             | Kind::HashHash
             | Kind::Newline
             | Kind::OpenComment
-            | Kind::Param => match self.mend(&token) {
+            | Kind::Param => match self.report_invalid_token(&token) {
                 Some(mended) => mended,
                 None => return,
             },
@@ -185,18 +185,18 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
 
     /// Returns the next token of the current text, unprocessed.
     #[inline]
-    pub(super) fn raw(&mut self) -> Token {
+    pub(super) fn next_raw(&mut self) -> Token {
         self.lexer.next(self.names)
     }
 
     /// Returns the next token of the running text; directives before it are processed.
     #[inline]
-    pub(super) fn running(&mut self) -> Token {
+    pub(super) fn next_in_piece(&mut self) -> Token {
         if let Some(token) = self.peeked.take() {
             return token;
         }
         loop {
-            let token = self.raw();
+            let token = self.next_raw();
             match token.kind {
                 Kind::Hash if token.has(LINE_START) => self.directive(token),
                 Kind::Eof if self.next_piece() => {

@@ -45,11 +45,11 @@ impl std::fmt::Debug for Analysis {
 
 impl Analysis {
     pub fn new(source: &PassSource<'_>) -> Self {
-        Self::behind(source, None)
+        Self::with_preamble(source, None)
     }
 
     /// As [`Analysis::new`] with a precompiled Common: the `preamble` is that of the pass.
-    pub fn behind(source: &PassSource<'_>, preamble: Option<&Preamble>) -> Self {
+    pub fn with_preamble(source: &PassSource<'_>, preamble: Option<&Preamble>) -> Self {
         let FrontEnd { mut module, origins, mut names, diagnostics, .. } =
             FrontEnd::run(source, &Link::default(), preamble);
         let uniform_types = Uniform::ALL.iter().map(|uniform| uniform.ty(&mut module.types)).collect();

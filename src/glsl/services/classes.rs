@@ -119,7 +119,7 @@ impl Analysis {
 
     fn class_of_target(&self, target: Target) -> Class {
         let Target::Decl(decl) = target else {
-            return if target == Target::OldTime { Class::Uniform } else { Class::Macro };
+            return if target == Target::DeprecatedTime { Class::Uniform } else { Class::Macro };
         };
         match decl {
             DeclRef::Local(id) => match self.module[id].kind {

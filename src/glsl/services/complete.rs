@@ -123,13 +123,13 @@ impl Analysis {
         if before.is_some_and(|i| self.declares_name(text, i, at)) {
             return none;
         }
-        let begins = before.is_none_or(|i| matches!(text.kind(i), Token::Semicolon | Token::RBrace | Token::LBrace));
+        let is_start = before.is_none_or(|i| matches!(text.kind(i), Token::Semicolon | Token::RBrace | Token::LBrace));
         let in_function = before.is_some_and(|i| {
             let brace = if text.kind(i) == Token::LBrace { Some(i) } else { text.around(i) };
             brace.is_some()
         });
         let mut items = self.everything_at(at);
-        if begins && !in_function {
+        if is_start && !in_function {
             items.retain(|item| {
                 use CompletionKind as K;
                 matches!(item.kind, K::Type | K::Struct | K::Keyword | K::Macro)

@@ -185,7 +185,7 @@ mod tests {
             .chain(["HW_PERFORMANCE", "GL_ES", "__VERSION__", "__LINE__", "__FILE__"])
             .collect();
         let documented: BTreeSet<&str> = VARIABLES.iter().map(|v| v.0).collect();
-        assert_eq!(documented.len(), VARIABLES.len(), "a name stands twice");
+        assert_eq!(documented.len(), VARIABLES.len(), "a name occurs twice");
         assert_eq!(documented, given);
         for (name, text) in VARIABLES.iter().chain(KEYWORDS).chain(DIRECTIVES) {
             assert!(text.ends_with('.') && text.len() > 12, "{name}: {text}");

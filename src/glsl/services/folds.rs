@@ -80,7 +80,7 @@ fn conditionals(text: &Source) -> Vec<Fold> {
         }
         let word = text.tokens.get(i + 1).filter(|t| t.directive == Directive::Head);
         let word = word.and_then(|t| text.text.get(t.range())).unwrap_or_default();
-        let begins = matches!(word, "if" | "ifdef" | "ifndef");
+        let opens = matches!(word, "if" | "ifdef" | "ifndef");
         let goes_on = matches!(word, "else" | "elif");
         if (goes_on || word == "endif")
             && let Some(start) = open.pop()
@@ -88,7 +88,7 @@ fn conditionals(text: &Source) -> Vec<Fold> {
             let end = text.text[..token.start as usize].rfind('\n').unwrap_or(start).max(start);
             folds.push(Fold { range: start..end, kind: FoldKind::Conditional });
         }
-        if begins || goes_on {
+        if opens || goes_on {
             let line = token.start as usize;
             open.push(text.text[line..].find('\n').map_or(text.text.len(), |at| line + at));
         }

@@ -107,7 +107,7 @@ impl Analysis {
 
     fn kind_name(&self, target: Target) -> &'static str {
         let Target::Decl(decl) = target else {
-            return if target == Target::OldTime { "uniform" } else { "macro" };
+            return if target == Target::DeprecatedTime { "uniform" } else { "macro" };
         };
         match decl {
             DeclRef::Local(id) => match self.module[id].kind {

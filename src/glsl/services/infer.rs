@@ -287,7 +287,7 @@ impl Analysis {
     /// Returns the type of a variable or field.
     pub(super) fn type_of(&self, target: Target) -> Option<TypeId> {
         let Target::Decl(target) = target else {
-            return matches!(target, Target::OldTime).then_some(TypeId::FLOAT);
+            return matches!(target, Target::DeprecatedTime).then_some(TypeId::FLOAT);
         };
         Some(match target {
             DeclRef::Local(id) => self.module[id].ty,

@@ -17,7 +17,7 @@ impl Analysis {
         let module = &self.module;
         for used in &module.uses {
             let target = match used.target {
-                DeclRef::Uniform(_) if self.word(used.token) == "iGlobalTime" => Target::OldTime,
+                DeclRef::Uniform(_) if self.word(used.token) == "iGlobalTime" => Target::DeprecatedTime,
                 // The wrapper of an entry point that is a macro has names that are not in the text.
                 DeclRef::Local(id) if !self.is_written(module[id].name) => continue,
                 target => Target::Decl(target),

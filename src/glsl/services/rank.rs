@@ -7,14 +7,14 @@ pub(super) fn misfit(typed: &str, name: &str) -> Option<u32> {
         return Some(0);
     }
     let same = |a: char, b: char| a.eq_ignore_ascii_case(&b);
-    let begins = |name: &str| {
+    let has_prefix = |name: &str| {
         let mut letters = name.chars();
         typed.chars().all(|t| letters.next().is_some_and(|n| same(t, n)))
     };
-    if begins(name) {
+    if has_prefix(name) {
         return Some(1);
     }
-    let inner = name.char_indices().skip(1).find(|&(i, _)| begins(&name[i..]));
+    let inner = name.char_indices().skip(1).find(|&(i, _)| has_prefix(&name[i..]));
     let first = typed.chars().next()?;
     if let Some((at, _)) = inner {
         return Some(if starts_word(name, at) { 2 } else { 4 });

@@ -197,8 +197,8 @@ fn end_of_declarator(text: &Source, name: usize) -> u32 {
     for i in name + 1..text.tokens.len() {
         let token = &text.tokens[i];
         let ends = matches!(token.kind, Kind::Comma | Kind::Semicolon) && text.around(i) == level;
-        let begins = token.starts_line && (token.kind.is_keyword() || token.kind == Kind::RBrace);
-        if ends || begins {
+        let starts_statement = token.starts_line && (token.kind.is_keyword() || token.kind == Kind::RBrace);
+        if ends || starts_statement {
             return token.start;
         }
     }

@@ -32,7 +32,7 @@ impl Analysis {
         let one = |line: String| vec![line];
         match target {
             Target::Macro(id) => one(self.macro_text(id)),
-            Target::OldTime => one("uniform float iGlobalTime".into()),
+            Target::DeprecatedTime => one("uniform float iGlobalTime".into()),
             Target::Decl(decl) => match decl {
                 DeclRef::Local(id) => one(self.local_text(id)),
                 DeclRef::Global(id) => {

@@ -12,7 +12,7 @@ pub(super) enum Target {
     Decl(DeclRef),
     Macro(MacroId),
     /// The old name of `iTime`, which has the same meaning but another spelling.
-    OldTime,
+    DeprecatedTime,
 }
 
 /// A name in a text, in place or in a macro's replacement list.

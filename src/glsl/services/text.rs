@@ -166,7 +166,7 @@ impl Source {
                 _ => {}
             }
             if token.kind == Kind::Hash && token.has(LINE_START) {
-                lexer.begin_directive();
+                lexer.start_directive();
                 directive = Directive::Head;
             }
             while self.inactive.get(inactive).is_some_and(|r| r.end <= start) {

@@ -3,7 +3,7 @@
 use super::{
     layout::{Slot, SlotKind},
     math,
-    number::{Cell, Real},
+    number::{Cell, Float},
     state::{Frame, Lanes, State, of},
     world::Lod,
 };
@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// Maps each component of one operand to the cells of the result.
-fn map<R: Real>(cells: &mut [Cell<R>], lanes: Lanes, out: Slot, arg: Slot, f: impl Fn(Cell<R>) -> Cell<R>) {
+fn map<R: Float>(cells: &mut [Cell<R>], lanes: Lanes, out: Slot, arg: Slot, f: impl Fn(Cell<R>) -> Cell<R>) {
     for lane in of(lanes) {
         let (to, from) = (out.first(lane), arg.first(lane));
         for i in 0..out.size as usize {
@@ -23,7 +23,7 @@ fn map<R: Real>(cells: &mut [Cell<R>], lanes: Lanes, out: Slot, arg: Slot, f: im
 }
 
 /// As [`map`], with two operands. A scalar is combined with each component of the other side.
-fn zip<R: Real>(
+fn zip<R: Float>(
     cells: &mut [Cell<R>],
     lanes: Lanes,
     out: Slot,
@@ -40,7 +40,7 @@ fn zip<R: Real>(
 }
 
 /// Copies a few cells; one by one is faster.
-fn copy<R: Real>(cells: &mut [Cell<R>], to: usize, from: usize, count: u32) {
+fn copy<R: Float>(cells: &mut [Cell<R>], to: usize, from: usize, count: u32) {
     for i in 0..count as usize {
         cells[to + i] = cells[from + i];
     }
@@ -48,7 +48,7 @@ fn copy<R: Real>(cells: &mut [Cell<R>], to: usize, from: usize, count: u32) {
 
 /// A product with a factor that is known statically. Drivers drop a product with a known zero, even one with infinity
 /// (`nir_opt_algebraic.py`): `mod(x, 0.0)` is x.
-fn product<R: Real>(left: (Cell<R>, bool), right: (Cell<R>, bool)) -> Cell<R> {
+fn product<R: Float>(left: (Cell<R>, bool), right: (Cell<R>, bool)) -> Cell<R> {
     let zero = R::from_f64(0.0);
     let is_dropped = |(factor, is_known): (Cell<R>, bool)| is_known && factor.float() == zero;
     if is_dropped(left) || is_dropped(right) {
@@ -57,7 +57,7 @@ fn product<R: Real>(left: (Cell<R>, bool), right: (Cell<R>, bool)) -> Cell<R> {
     Cell::Float(left.0.float() * right.0.float())
 }
 
-impl<R: Real> State<'_, R> {
+impl<R: Float> State<'_, R> {
     /// Computes the address of a part of a place in some lanes.
     pub(super) fn part_of_place(&self, frame: &mut Frame<R>, value: Value, lanes: Lanes) {
         let layout = self.layout(frame);
@@ -154,7 +154,7 @@ impl<R: Real> State<'_, R> {
                         let largest = |a: Cell<R>, b: Cell<R>| Cell::Float(a.float().binary(Math::Max, b.float()));
                         zip(cells, lanes, out, (first, slot(other)), largest);
                     }
-                    (_, None) if scalar == Scalar::Float && fun.is_by_component() => {
+                    (_, None) if scalar == Scalar::Float && fun.is_componentwise() => {
                         map(cells, lanes, out, first, |cell| Cell::Float(cell.float().unary(fun)));
                     }
                     _ => {
@@ -291,7 +291,7 @@ impl<R: Real> State<'_, R> {
             };
             let difference = |axis| {
                 let mut at = [0.0; 3];
-                let of = if self.world.has_one_level_a_quad(channel) { 0 } else { lane };
+                let of = if self.world.has_one_level_per_quad(channel) { 0 } else { lane };
                 let changes = self.difference(frame, axis, coordinate, of);
                 at.iter_mut().zip(changes).for_each(|(at, change)| *at = number(change));
                 at

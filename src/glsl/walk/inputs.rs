@@ -1,7 +1,7 @@
 //! Values that the device passes to an entry point, lane by lane.
 
 use super::{
-    number::{Cell, Real, Shadowed},
+    number::{Cell, Float, Shadowed},
     state::LANES,
 };
 
@@ -34,7 +34,7 @@ impl EntryInputs {
     }
 
     /// Fills `out` with the first components at a location; zeros if the location is unused.
-    pub(super) fn slot<R: Real>(&self, location: u32, lane: usize, out: &mut [Cell<R>]) {
+    pub(super) fn slot<R: Float>(&self, location: u32, lane: usize, out: &mut [Cell<R>]) {
         let Some((_, cells)) = self.slots.iter().find(|(there, _)| *there == location) else {
             return out.fill(Cell::Bits(0));
         };

@@ -1,6 +1,6 @@
 //! The layout of a function's values while it runs: cells, one per scalar, without gaps.
 
-use super::number::{Cell, Real};
+use super::number::{Cell, Float};
 use crate::{
     ir::{Function, GlobalId, Module, Op, Value},
     types::{Scalar, Type, TypeId},
@@ -25,7 +25,7 @@ pub(super) fn offset(module: &Module, ty: TypeId, index: u32) -> usize {
 }
 
 /// Appends a constant, whose words are in memory order.
-pub(super) fn constant<R: Real>(
+pub(super) fn constant<R: Float>(
     module: &Module,
     ty: TypeId,
     words: &mut impl Iterator<Item = u32>,
@@ -106,7 +106,7 @@ pub(super) struct Layout<R> {
     pub result: usize,
 }
 
-impl<R: Real> Layout<R> {
+impl<R: Float> Layout<R> {
     pub(super) fn new(module: &Module, function: &Function) -> Self {
         let mut layout = Self {
             slots: Vec::with_capacity(function.len()),

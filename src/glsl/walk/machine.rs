@@ -3,7 +3,7 @@
 use super::{
     inputs::EntryInputs,
     layout::{self, Root, SlotKind},
-    number::{Cell, Real},
+    number::{Cell, Float},
     observer::{Observer, View},
     state::{ALL, Frame, LANES, Lanes, State, of},
     world::{World, uniform_words},
@@ -65,7 +65,7 @@ impl<R> Drawn<R> {
     }
 }
 
-impl<'a, R: Real> Machine<'a, R> {
+impl<'a, R: Float> Machine<'a, R> {
     /// Returns a machine for the lanes of `inputs`: four fragments of a quad, or four vertices. It stops a run after
     /// `limit` statements.
     pub fn new(module: &'a Module, world: &'a dyn World, inputs: EntryInputs, limit: u64) -> Self {
@@ -276,7 +276,7 @@ impl<'a, R: Real> Machine<'a, R> {
                     if is_seen {
                         observer.loop_start(&View::new(&self.state, frame, lane), stmt);
                     }
-                    active = self.turns(frame, (body, continuing, *break_if), active, lane, observer)?;
+                    active = self.iterations(frame, (body, continuing, *break_if), active, lane, observer)?;
                     if is_seen {
                         observer.loop_end(&View::new(&self.state, frame, lane));
                     }
@@ -348,7 +348,7 @@ impl<'a, R: Real> Machine<'a, R> {
         of(active).filter(|&lane| self.state.value(frame, condition, lane)[0].is_true()).map(|lane| 1 << lane).sum()
     }
 
-    fn turns<O: Observer<R> + ?Sized>(
+    fn iterations<O: Observer<R> + ?Sized>(
         &mut self,
         frame: &mut Frame<R>,
         (body, continuing, break_if): (&'a Block, &'a Block, Option<Value>),
@@ -363,7 +363,7 @@ impl<'a, R: Real> Machine<'a, R> {
                 return Err(Stop::Steps(self.limit));
             }
             if active & (1 << lane) != 0 {
-                observer.turn(&View::new(&self.state, frame, lane));
+                observer.iteration(&View::new(&self.state, frame, lane));
             }
             let mut jumps = Jumps::default();
             let end = self.block(frame, body, active, &mut jumps, lane, observer)?;
@@ -405,8 +405,8 @@ impl<'a, R: Real> Machine<'a, R> {
         let mut end: Lanes = of(active).filter(|&lane| chosen[lane].is_none()).map(|lane| 1 << lane).sum();
         let mut falling = 0;
         for (index, case) in cases.iter().enumerate() {
-            let begins: Lanes = of(active).filter(|&l| chosen[l] == Some(index)).map(|l| 1 << l).sum();
-            let reached = self.block(frame, &case.body, begins | falling, jumps, lane, observer)?;
+            let entering: Lanes = of(active).filter(|&l| chosen[l] == Some(index)).map(|l| 1 << l).sum();
+            let reached = self.block(frame, &case.body, entering | falling, jumps, lane, observer)?;
             falling = if case.falls_through { reached } else { 0 };
             end |= if case.falls_through { 0 } else { reached };
         }

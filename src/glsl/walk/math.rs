@@ -2,14 +2,14 @@
 
 use std::cmp::Ordering;
 
-use super::number::{Cell, Real};
+use super::number::{Cell, Float};
 use crate::{
     ir::{Binary, Math, Unary},
     types::{Scalar, Type},
 };
 
 /// Computes a unary operator on each component.
-pub(super) fn unary<R: Real>(op: Unary, operand: Cell<R>) -> Cell<R> {
+pub(super) fn unary<R: Float>(op: Unary, operand: Cell<R>) -> Cell<R> {
     match (op, operand) {
         (Unary::Negate, Cell::Float(value)) => Cell::Float(-value),
         (Unary::Negate, Cell::Bits(bits)) => Cell::Bits(bits.wrapping_neg()),
@@ -19,7 +19,7 @@ pub(super) fn unary<R: Real>(op: Unary, operand: Cell<R>) -> Cell<R> {
 }
 
 /// Computes a binary operator on two scalars of one type; shift amounts are uints.
-pub(super) fn binary<R: Real>(op: Binary, scalar: Scalar, left: Cell<R>, right: Cell<R>) -> Cell<R> {
+pub(super) fn binary<R: Float>(op: Binary, scalar: Scalar, left: Cell<R>, right: Cell<R>) -> Cell<R> {
     match scalar {
         Scalar::Float => float(op, left.float(), right.float()),
         Scalar::Int => int(op, left.bits() as i32, right.bits()),
@@ -27,7 +27,7 @@ pub(super) fn binary<R: Real>(op: Binary, scalar: Scalar, left: Cell<R>, right: 
     }
 }
 
-fn float<R: Real>(op: Binary, left: R, right: R) -> Cell<R> {
+fn float<R: Float>(op: Binary, left: R, right: R) -> Cell<R> {
     Cell::Float(match op {
         Binary::Add => left + right,
         Binary::Subtract => left - right,
@@ -92,7 +92,7 @@ const UINTS: (f64, f64) = (0.0, 4_294_967_040.0);
 
 /// Converts a scalar to another type. Floats beyond an int's range convert to the nearest number that both types have,
 /// and NaN converts to zero.
-pub(super) fn convert<R: Real>(value: Cell<R>, from: Scalar, to: Scalar) -> Cell<R> {
+pub(super) fn convert<R: Float>(value: Cell<R>, from: Scalar, to: Scalar) -> Cell<R> {
     match (from, to) {
         (Scalar::Float, Scalar::Float) => value,
         (Scalar::Float, Scalar::Bool) => (value.float() != R::from_f64(0.0)).into(),
@@ -106,7 +106,7 @@ pub(super) fn convert<R: Real>(value: Cell<R>, from: Scalar, to: Scalar) -> Cell
 }
 
 /// Reinterprets the bits as another type.
-pub(super) fn bitcast<R: Real>(value: Cell<R>, to: Scalar) -> Cell<R> {
+pub(super) fn bitcast<R: Float>(value: Cell<R>, to: Scalar) -> Cell<R> {
     match to {
         Scalar::Float => Cell::Float(value.float()),
         _ => Cell::Bits(value.bits()),
@@ -114,7 +114,7 @@ pub(super) fn bitcast<R: Real>(value: Cell<R>, to: Scalar) -> Cell<R> {
 }
 
 /// Computes a function of chapter 8; `ty` and `scalar` are those of the first argument.
-pub(super) fn function<R: Real>(fun: Math, ty: Type, scalar: Scalar, args: &[&[Cell<R>]], out: &mut Vec<Cell<R>>) {
+pub(super) fn function<R: Float>(fun: Math, ty: Type, scalar: Scalar, args: &[&[Cell<R>]], out: &mut Vec<Cell<R>>) {
     let number = |arg: usize, i: usize| args[arg][i].float();
     let size = args[0].len();
     match fun {
@@ -183,13 +183,13 @@ pub(super) fn function<R: Real>(fun: Math, ty: Type, scalar: Scalar, args: &[&[C
     }
 }
 
-fn dot<R: Real>(a: &[Cell<R>], b: &[Cell<R>]) -> R {
+fn dot<R: Float>(a: &[Cell<R>], b: &[Cell<R>]) -> R {
     let products = a.iter().zip(b).map(|(a, b)| a.float() * b.float());
     products.reduce(|sum, product| sum + product).expect("a vector has components")
 }
 
 /// By the first column's minors.
-fn determinant<R: Real>(matrix: &[Cell<R>]) -> R {
+fn determinant<R: Float>(matrix: &[Cell<R>]) -> R {
     let size = matrix.len().isqrt();
     if size == 1 {
         return matrix[0].float();

@@ -21,7 +21,7 @@ mod world;
 pub use inputs::{EntryInputs, SlotCells, quad};
 pub use layout::cells;
 pub use machine::{Drawn, Machine, Stop};
-pub use number::{Cell, Real, Shadowed};
+pub use number::{Cell, Float, Shadowed};
 pub use observer::{NoObserver, Observer, View};
 pub use state::LANES;
 pub use world::{Lod, World};

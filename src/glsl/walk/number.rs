@@ -9,7 +9,7 @@ use std::{
 use crate::ir::Math;
 
 /// The float type of a walk.
-pub trait Real:
+pub trait Float:
     Copy
     + Debug
     + PartialOrd
@@ -40,7 +40,7 @@ pub trait Real:
 
 macro_rules! real {
     ($float:ident) => {
-        impl Real for $float {
+        impl Float for $float {
             fn from_bits(bits: u32) -> Self {
                 f32::from_bits(bits).into()
             }
@@ -172,7 +172,7 @@ impl Neg for Shadowed {
     }
 }
 
-impl Real for Shadowed {
+impl Float for Shadowed {
     const IS_SHADOWED: bool = true;
 
     fn from_bits(bits: u32) -> Self {
@@ -216,7 +216,7 @@ pub enum Cell<R> {
     Bits(u32),
 }
 
-impl<R: Real> Cell<R> {
+impl<R: Float> Cell<R> {
     pub fn float(self) -> R {
         match self {
             Cell::Float(value) => value,

@@ -2,7 +2,7 @@
 
 use super::{
     layout,
-    number::{Cell, Real},
+    number::{Cell, Float},
     state::{Frame, LANES, State},
 };
 use crate::ir::{FuncId, Function, GlobalId, Module, Op, Output, Stmt, Value};
@@ -15,7 +15,7 @@ pub struct View<'v, 'a, R> {
     lane: usize,
 }
 
-impl<'v, 'a, R: Real> View<'v, 'a, R> {
+impl<'v, 'a, R: Float> View<'v, 'a, R> {
     pub(super) fn new(state: &'v State<'a, R>, frame: &'v Frame<R>, lane: usize) -> Self {
         Self { state, frame, lane }
     }
@@ -141,7 +141,7 @@ pub trait Observer<R> {
     fn loop_start(&mut self, _: &View<'_, '_, R>, _: &Stmt) {}
 
     /// Called at the start of an iteration.
-    fn turn(&mut self, _: &View<'_, '_, R>) {}
+    fn iteration(&mut self, _: &View<'_, '_, R>) {}
 
     /// Called when an iteration reaches its `continuing` part.
     fn continuing(&mut self, _: &View<'_, '_, R>) {}

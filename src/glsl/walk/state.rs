@@ -2,7 +2,7 @@
 
 use super::{
     layout::{self, Layout, SlotKind},
-    number::{Cell, Real},
+    number::{Cell, Float},
     world::World,
 };
 use crate::ir::{FuncId, GlobalId, Module, Value};
@@ -29,7 +29,7 @@ pub(super) struct Frame<R> {
     pub result: Vec<Cell<R>>,
 }
 
-impl<R: Real> Frame<R> {
+impl<R: Float> Frame<R> {
     pub(super) fn new(function: FuncId, layout: &Layout<R>) -> Self {
         let mut cells = layout.constants.clone();
         cells.resize(layout.constants.len() + layout.registers * LANES, Cell::Bits(0));
@@ -56,7 +56,7 @@ pub(super) struct State<'a, R> {
     pub globals: Vec<usize>,
 }
 
-impl<'a, R: Real> State<'a, R> {
+impl<'a, R: Float> State<'a, R> {
     pub(super) fn new(module: &'a Module, world: &'a dyn World) -> Self {
         let layouts = module.functions.iter().map(|function| Layout::new(module, function)).collect();
         Self { module, world, layouts, memory: Default::default(), globals: Vec::new() }

@@ -1,4 +1,4 @@
-use super::{number::Real, *};
+use super::{number::Float, *};
 use crate::{
     Link, PassKind, PassSource, Text,
     interface::{GeometryBlock, UniformBlock},
@@ -63,7 +63,7 @@ fn walkable(code: &str) -> Walkable {
     Walkable::new(&source, &Link::default(), None, Detail::Values).unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 
-fn draw<R: Real>(code: &str, pixel: (u32, u32)) -> Result<[f64; 4], Stop> {
+fn draw<R: Float>(code: &str, pixel: (u32, u32)) -> Result<[f64; 4], Stop> {
     let (walkable, world) = (walkable(code), Bare::default());
     let lane = Machine::<R>::lane_of(pixel);
     let drawn =
@@ -236,7 +236,7 @@ fn observer_sees_the_steps_of_one_pixel() {
         fn leave(&mut self, _: &View<'_, '_, f32>) {
             self.0.push("leave".into());
         }
-        fn turn(&mut self, _: &View<'_, '_, f32>) {
+        fn iteration(&mut self, _: &View<'_, '_, f32>) {
             self.0.push("turn".into());
         }
         fn store(&mut self, view: &View<'_, '_, f32>, place: crate::ir::Value, _: crate::ir::Value) {

@@ -34,7 +34,7 @@ pub trait World {
     /// Returns whether a read without an explicit level uses one level for all four pixels of a quad, from the
     /// differences along its first row and its first column. GLSL ES 3.00 does not define this (section 8.8); otherwise
     /// each pixel has its own.
-    fn has_one_level_a_quad(&self, _channel: u8) -> bool {
+    fn has_one_level_per_quad(&self, _channel: u8) -> bool {
         false
     }
     /// Returns a filtered read. `offset` is in texels.

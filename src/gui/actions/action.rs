@@ -3,7 +3,7 @@
 //! Actions of one part of the window have an enum of their own.
 
 use crate::{
-    debugger::trace::travel::{Direction, Stride},
+    debugger::trace::travel::{Direction, StepKind},
     gui::{dock::Side, editor::EditorAction, geometry::Shape, panels::Panel, settings::Theme},
 };
 
@@ -134,7 +134,7 @@ pub(crate) enum TimeAction {
 /// Actions of the debugger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TraceAction {
-    Go(Stride, Direction),
+    Go(StepKind, Direction),
     /// Continues to the next breakpoint.
     Continue(Direction),
     /// Runs to the line of the caret.

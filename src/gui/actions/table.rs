@@ -7,7 +7,7 @@ use super::{
 use crate::{
     debugger::trace::travel::{
         Direction::{self, Back, Forward},
-        Stride,
+        StepKind,
     },
     gui::{
         dock::Side,
@@ -40,7 +40,7 @@ const fn code(action: Code, name: &'static str, title: &'static str, keys: &'sta
 }
 
 const fn go_on(
-    stride: Stride,
+    stride: StepKind,
     way: Direction,
     name: &'static str,
     title: &'static str,
@@ -292,12 +292,12 @@ const OWN: &[Entry] = &[
     trace(TraceAction::Continue(Forward), "continue", "Continue to the next breakpoint", &["F5"])
         .found_by("debug run resume"),
     trace(TraceAction::Continue(Back), "continue-back", "Continue back to the previous breakpoint", &["Alt+F5"]),
-    go_on(Stride::Over, Forward, "step-over", "Step over", &["F10"]),
-    go_on(Stride::Over, Back, "step-over-back", "Step back over", &["Alt+F10"]),
-    go_on(Stride::Into, Forward, "step-into", "Step into", &["F11"]),
-    go_on(Stride::Into, Back, "step-into-back", "Step back into", &["Alt+F11"]),
-    go_on(Stride::Out, Forward, "step-out", "Step out", &["Shift+F11"]),
-    go_on(Stride::Out, Back, "step-out-back", "Step back out", &["Shift+Alt+F11"]),
+    go_on(StepKind::Over, Forward, "step-over", "Step over", &["F10"]),
+    go_on(StepKind::Over, Back, "step-over-back", "Step back over", &["Alt+F10"]),
+    go_on(StepKind::Into, Forward, "step-into", "Step into", &["F11"]),
+    go_on(StepKind::Into, Back, "step-into-back", "Step back into", &["Alt+F11"]),
+    go_on(StepKind::Out, Forward, "step-out", "Step out", &["Shift+F11"]),
+    go_on(StepKind::Out, Back, "step-out-back", "Step back out", &["Shift+Alt+F11"]),
     trace(TraceAction::ToCursor(Forward), "run-to-cursor", "Run to caret", &["Ctrl+F10"]),
     trace(TraceAction::ToCursor(Back), "run-to-cursor-back", "Run back to caret", &["Ctrl+Alt+F10"]),
     trace(TraceAction::End(Back), "trace-begin", "Go to the start of the trace", &["Ctrl+Alt+Home"]),

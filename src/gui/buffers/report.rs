@@ -48,9 +48,9 @@ pub(super) fn report(state: &Buffers, session: &Session) -> Value {
             "texel": [found.texel.0, found.texel.1],
             "texels": found.texels,
             "older": found.is_older,
-            "line": found.born.as_ref().and_then(|born| Some(born.place.as_ref()?.line)),
-            "tab": found.born.as_ref().and_then(|born| Some(born.place.as_ref()?.title())),
-            "text": found.born.as_ref().map(|born| &born.text),
+            "line": found.origin.as_ref().and_then(|origin| Some(origin.place.as_ref()?.line)),
+            "tab": found.origin.as_ref().and_then(|origin| Some(origin.place.as_ref()?.title())),
+            "text": found.origin.as_ref().map(|origin| &origin.text),
         }),
     });
     let is_nonfinite = |target: &Target| {

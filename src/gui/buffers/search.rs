@@ -76,7 +76,7 @@ fn first(state: &mut Buffers, ui: &mut Ui, found: &FirstNonfinite, out: &mut UiO
     };
     let label = ui.add(Label::new(RichText::new(head).color(p.error)).wrap());
     out.place("buffers:found", label.rect);
-    if let Some(NonfiniteOperation { message, place, text, numbers }) = &found.born {
+    if let Some(NonfiniteOperation { message, place, text, numbers }) = &found.origin {
         let of = if numbers.is_empty() { String::new() } else { format!(" of {numbers}") };
         let words = match place {
             Some(place) => format!("{} line {}: {message}: {text}{of}", place.title(), place.line),

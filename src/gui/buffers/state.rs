@@ -5,7 +5,7 @@ use super::{
     zoom::{self, Zoom},
 };
 use crate::{
-    debugger::nonfinite::drawn,
+    debugger::nonfinite::drawn_passes,
     engine::TexelAt,
     project::{PassName, Project},
     session::{
@@ -91,7 +91,10 @@ impl Buffers {
     /// Returns every target of the project's passes, in drawing order.
     pub(super) fn targets(project: &Project) -> Vec<Target> {
         let count = |pass: &PassName| project.pass(pass).map_or(1, |p| p.layers().max(1));
-        drawn(project).into_iter().flat_map(|pass| (0..count(&pass)).map(move |index| (pass.clone(), index))).collect()
+        drawn_passes(project)
+            .into_iter()
+            .flat_map(|pass| (0..count(&pass)).map(move |index| (pass.clone(), index)))
+            .collect()
     }
 
     /// Returns the selected target.

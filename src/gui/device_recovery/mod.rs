@@ -35,7 +35,7 @@ impl DeviceLosses {
         now: Instant,
         reopen_device: impl FnOnce(&mut Session) -> Result<(), GuiError>,
     ) -> Result<(), GuiError> {
-        let reason = match gpu.take_trouble("the window") {
+        let reason = match gpu.take_error("the window") {
             Ok(()) => return Ok(()),
             Err(reason @ GpuError::Lost(_)) => reason,
             Err(refused) => {

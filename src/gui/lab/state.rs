@@ -176,7 +176,7 @@ impl Lab {
             self.update_plot();
         }
         let adapter = self.adapter.clone();
-        let open = move || Gpu::another(&adapter, &GpuOptions::default());
+        let open = move || Gpu::on_adapter(&adapter, &GpuOptions::default());
         let options = Options { out, extent, repeats: cost::MIN_REPEATS, shard: Shard::WHOLE };
         let background = BackgroundRun::start(open, vec![study], options, self.wake.clone());
         let background = background.map_err(|e| format!("cannot start a thread for the lab: {e}"))?;

@@ -164,7 +164,7 @@ fn draw(
     let gpu = match device {
         Some(gpu) => gpu,
         None => {
-            let gpu = Gpu::another(&window.info, &GpuOptions::default()).map_err(|e| e.to_string())?;
+            let gpu = Gpu::on_adapter(&window.info, &GpuOptions::default()).map_err(|e| e.to_string())?;
             device.insert(gpu)
         }
     };

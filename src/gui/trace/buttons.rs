@@ -1,7 +1,7 @@
 //! The buttons that step through a trace.
 
 use crate::{
-    debugger::trace::travel::{Direction, Stride},
+    debugger::trace::travel::{Direction, StepKind},
     gui::{
         actions::{Action, TraceAction},
         theme,
@@ -11,9 +11,9 @@ use crate::{
 use egui::{Color32, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 
 const FORWARD: [TraceAction; 5] = [
-    TraceAction::Go(Stride::Into, Direction::Forward),
-    TraceAction::Go(Stride::Over, Direction::Forward),
-    TraceAction::Go(Stride::Out, Direction::Forward),
+    TraceAction::Go(StepKind::Into, Direction::Forward),
+    TraceAction::Go(StepKind::Over, Direction::Forward),
+    TraceAction::Go(StepKind::Out, Direction::Forward),
     TraceAction::Continue(Direction::Forward),
     TraceAction::End(Direction::Forward),
 ];
@@ -21,9 +21,9 @@ const FORWARD: [TraceAction; 5] = [
 const BACK: [TraceAction; 5] = [
     TraceAction::End(Direction::Back),
     TraceAction::Continue(Direction::Back),
-    TraceAction::Go(Stride::Out, Direction::Back),
-    TraceAction::Go(Stride::Over, Direction::Back),
-    TraceAction::Go(Stride::Into, Direction::Back),
+    TraceAction::Go(StepKind::Out, Direction::Back),
+    TraceAction::Go(StepKind::Over, Direction::Back),
+    TraceAction::Go(StepKind::Into, Direction::Back),
 ];
 
 /// Shows the buttons for going back, then those for going forward.
@@ -57,12 +57,12 @@ fn button(ui: &mut Ui, action: TraceAction, is_on: bool, out: &mut UiOutput) {
 /// Returns the name of a button, for scripts.
 fn name(action: TraceAction) -> &'static str {
     match action {
-        TraceAction::Go(Stride::Into, Direction::Forward) => "into",
-        TraceAction::Go(Stride::Over, Direction::Forward) => "over",
-        TraceAction::Go(Stride::Out, Direction::Forward) => "out",
-        TraceAction::Go(Stride::Into, Direction::Back) => "into-back",
-        TraceAction::Go(Stride::Over, Direction::Back) => "over-back",
-        TraceAction::Go(Stride::Out, Direction::Back) => "out-back",
+        TraceAction::Go(StepKind::Into, Direction::Forward) => "into",
+        TraceAction::Go(StepKind::Over, Direction::Forward) => "over",
+        TraceAction::Go(StepKind::Out, Direction::Forward) => "out",
+        TraceAction::Go(StepKind::Into, Direction::Back) => "into-back",
+        TraceAction::Go(StepKind::Over, Direction::Back) => "over-back",
+        TraceAction::Go(StepKind::Out, Direction::Back) => "out-back",
         TraceAction::Continue(Direction::Forward) => "continue",
         TraceAction::Continue(Direction::Back) => "continue-back",
         TraceAction::ToCursor(_) => "to-cursor",
@@ -89,7 +89,7 @@ fn paint(ui: &Ui, rect: Rect, action: TraceAction, color: Color32) {
         painter.add(Shape::convex_polygon(vec![tip, tip - by + across, tip - by - across], color, Stroke::NONE));
     };
     match action {
-        TraceAction::Go(Stride::Over, _) => {
+        TraceAction::Go(StepKind::Over, _) => {
             let arc: Vec<Pos2> = (0..=12)
                 .map(|i| {
                     let angle = std::f32::consts::PI * (1.0 - i as f32 / 12.0);
@@ -100,13 +100,13 @@ fn paint(ui: &Ui, rect: Rect, action: TraceAction, color: Color32) {
             head(at(7.0, 4.5), vec2(0.0, 4.5));
             painter.circle_filled(at(0.0, 4.0), 2.0, color);
         }
-        TraceAction::Go(Stride::Into, _) => {
+        TraceAction::Go(StepKind::Into, _) => {
             painter.line_segment([at(-5.0, -6.0), at(-5.0, 0.0)], line);
             painter.line_segment([at(-5.0, 0.0), at(2.0, 0.0)], line);
             head(at(5.0, 0.0), vec2(side * 4.5, 0.0));
             painter.circle_filled(at(5.0, 5.0), 2.0, color);
         }
-        TraceAction::Go(Stride::Out, _) => {
+        TraceAction::Go(StepKind::Out, _) => {
             painter.circle_filled(at(-5.0, 5.0), 2.0, color);
             painter.line_segment([at(-5.0, 1.5), at(-5.0, -3.0)], line);
             painter.line_segment([at(-5.0, -3.0), at(2.0, -3.0)], line);

@@ -148,7 +148,7 @@ impl Debugger {
         let found = match action {
             TraceAction::Go(stride, direction) => travel::step(&traced.history, self.at, stride, direction),
             TraceAction::Continue(direction) => {
-                examiner.go_on(self.at, &self.breakpoints, direction).or_else(|| end(direction))
+                examiner.continue_to_breakpoint(self.at, &self.breakpoints, direction).or_else(|| end(direction))
             }
             TraceAction::ToCursor(direction) => {
                 caret.and_then(|(tab, line)| examiner.run_to(self.at, (&tab, line), direction))

@@ -76,11 +76,11 @@ impl MomentState {
         let conditions = breakpoints.iter().map(|breakpoint| {
             let here = place.as_ref().is_some_and(|(tab, line)| *tab == breakpoint.tab && *line == breakpoint.line);
             let condition = breakpoint.condition.trim();
-            (here && !condition.is_empty()).then(|| examiner.holds(at, condition).err()).flatten()
+            (here && !condition.is_empty()).then(|| examiner.is_true_at(at, condition).err()).flatten()
         });
         let conditions = conditions.collect();
         let stack = history.stack(at).into_iter().map(|(call, at)| (call.name.clone(), at)).collect();
-        let iterations = history.turns(at);
+        let iterations = history.iterations(at);
         let is_cut = iterations.len() > MAX_ITERATIONS;
         let current = iterations.iter().position(|turn| (turn.first..=turn.end).contains(&at));
         let first = iterations.first().map(|turn| turn.first);
@@ -88,7 +88,11 @@ impl MomentState {
         let rows = match known {
             Some(rows) if rows.first() == first => rows,
             _ => table(
-                iterations.into_iter().take(MAX_ITERATIONS).map(|turn| (turn, history.turn_values(&turn))).collect(),
+                iterations
+                    .into_iter()
+                    .take(MAX_ITERATIONS)
+                    .map(|turn| (turn, history.iteration_values(&turn)))
+                    .collect(),
             ),
         };
         MomentState {

@@ -44,7 +44,7 @@ impl<'s> Driver<'s> {
         wanted.sort();
         wanted.dedup();
         let mut engine = Engine::new(gpu.clone(), size.0, size.1)?;
-        let options = BuildOptions { wanted, skip: true, ..BuildOptions::default() };
+        let options = BuildOptions { requested: wanted, skip: true, ..BuildOptions::default() };
         let built = Program::build(gpu, &subject.project, &subject.media, &options);
         engine.set_program(built.map_err(|e| LabError::build(&subject.name, e))?.program)?;
         Ok(Driver { subject, engine, state: subject.stateful().into_iter().collect(), calm: BTreeMap::new() })

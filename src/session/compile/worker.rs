@@ -10,7 +10,7 @@ use crate::{
 };
 use eddy_background::{Background, Control, Wake};
 use eddy_diag::{self as diag, Diagnostic};
-use eddy_engine::{BuildError, BuildOptions, Builder, EngineError, KeptStages, Program, Sources};
+use eddy_engine::{BuildError, BuildOptions, Builder, DiagnosticsCache, EngineError, Program, Sources};
 use eddy_media::{self as media, ChannelSound, MediaSet, sounds};
 use eddy_project::{self as project, Bindings, Included, MeshSource, Normals, Pass, PassName, Project};
 use eddy_video::{Camera, Pace};
@@ -154,7 +154,7 @@ fn work(
     let trial = options.trials.as_ref().map(|trials| trials.trial(media_dir.clone(), jobs));
     let mut media = Media { dir: media_dir, ..Media::default() };
     let mut builder: Option<Builder> = None;
-    let mut kept = KeptStages::default();
+    let mut kept = DiagnosticsCache::default();
     let mut build = move |project: &Project, media: &MediaSet, options: &BuildOptions| {
         let builder = match &mut builder {
             Some(builder) => builder,
@@ -173,7 +173,7 @@ fn work(
         }
         let mut found = media.update(&job, named);
         let trial = trial.clone();
-        let mut options = BuildOptions { wanted: wanted(&job), skip: true, trial, ..BuildOptions::default() };
+        let mut options = BuildOptions { requested: wanted(&job), skip: true, trial, ..BuildOptions::default() };
         let asked = job.probe.as_ref().map(|order| probe::options(&job.project, &job.shown, order));
         let probe = asked.map(|asked| asked.map(|(probing, value)| (options = probing, value).1));
         if job.project.has_channels_in_texts() {
@@ -213,7 +213,7 @@ fn work(
 
 /// Returns the diagnostics of texts that are not part of the picture's program: what Shadertoy would reject in Common,
 /// and the sound pass; and whether the sound pass compiles, if there is one.
-fn not_built(kept: &mut KeptStages, project: &Project) -> (Vec<Diagnostic>, Option<bool>) {
+fn not_built(kept: &mut DiagnosticsCache, project: &Project) -> (Vec<Diagnostic>, Option<bool>) {
     let texts = Sources::new(project);
     let mut found = texts.check_common();
     let Some(index) = project.passes.iter().position(|pass| pass.id.is_sound()) else { return (found, None) };

@@ -27,7 +27,7 @@ pub(crate) type Open = Arc<dyn Fn() -> Result<Gpu, GpuError> + Send + Sync>;
 /// blocks the window's painting.
 pub(crate) fn beside(window: Gpu) -> Open {
     Arc::new(move || {
-        Gpu::another(&window.info, &GpuOptions::default()).or_else(|e| {
+        Gpu::on_adapter(&window.info, &GpuOptions::default()).or_else(|e| {
             log::warn!("frames are drawn on the window's own GPU device, as a second one could not be opened: {e}");
             Ok(window.clone())
         })

@@ -81,7 +81,7 @@ impl LateSound {
     ) -> Result<Option<Vec<[i16; 2]>>, Stopped> {
         let Self { gpu, trial, heard } = self;
         let open = |pass: &FilmSoundPass| {
-            let gpu = Gpu::another(&gpu.info, &GpuOptions::default()).unwrap_or_else(|_| gpu.clone());
+            let gpu = Gpu::on_adapter(&gpu.info, &GpuOptions::default()).unwrap_or_else(|_| gpu.clone());
             let mut offline = Offline::new(&gpu, (16, 16), ScriptedInputs::new(60.0)).map_err(OfflineError::from)?;
             offline.set_sound_date(pass.date);
             let options = BuildOptions { trial: trial.clone(), ..BuildOptions::sound() };
@@ -199,7 +199,7 @@ impl Drawing<'_> {
         check_tools(&order.encoding, order.size, &Tools::default()).map_err(|error| error.to_string())?;
         // A project that has never been drawn at this size may lose its device: use a separate one from the picture's,
         // if possible.
-        let gpu = Gpu::another(&self.job.gpu.info, &GpuOptions::default()).unwrap_or_else(|_| self.job.gpu.clone());
+        let gpu = Gpu::on_adapter(&self.job.gpu.info, &GpuOptions::default()).unwrap_or_else(|_| self.job.gpu.clone());
         let (media, _) = media::gather(&self.job.project, self.job.media_dir.as_deref());
         let mut offline = self.open(&gpu, &media, self.job.pass.clone())?;
         let has_state = offline.has_state().map_err(OfflineError::from)?;
@@ -267,7 +267,7 @@ impl Drawing<'_> {
         let RangeJob { project, order, trial, .. } = &self.job;
         let inputs = ScriptedInputs::new(order.fps);
         let mut offline = Offline::new(gpu, order.size, inputs).map_err(OfflineError::from)?;
-        let options = BuildOptions { wanted: vec![pass], trial: trial.clone(), ..BuildOptions::default() };
+        let options = BuildOptions { requested: vec![pass], trial: trial.clone(), ..BuildOptions::default() };
         offline.build(project, media, &options).map_err(|error| Stopped(first_error(&error)))?;
         Ok(offline)
     }

@@ -113,7 +113,7 @@ fn lost_device_is_replaced_unless_lost_again_at_once() {
     testing::lose(&first);
     tick_until(&mut session, "the loss to be told of", |s| s.notices().iter().any(|n| n.text.contains("lost")));
     tick_until(&mut session, "frames of the fresh device", |s| s.open.engine.has_program() && s.transport().frame > 2);
-    assert!(session.services.drawing.device().wait().unwrap().take_trouble("it").is_ok());
+    assert!(session.services.drawing.device().wait().unwrap().take_error("it").is_ok());
     assert!(session.transport().playing && matches!(session.compile_state().last, Some(Outcome::Ok { .. })));
 
     testing::lose(&session.services.drawing.device().wait().unwrap());

@@ -287,7 +287,7 @@ pub(super) fn options(
     };
     let mut wanted = vec![BuildOptions::probed()];
     wanted.extend(needed(project, &pass));
-    Ok((BuildOptions { wanted, probe: Some((pass, probe)), ..BuildOptions::default() }, value))
+    Ok((BuildOptions { requested: wanted, probe: Some((pass, probe)), ..BuildOptions::default() }, value))
 }
 
 /// Returns the buffers that Image and the probed pass read, and those that these read in turn.

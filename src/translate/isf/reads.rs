@@ -36,9 +36,9 @@ impl<'t> Reads<'t> {
     /// Returns the word at a position of the code, if one starts there.
     fn word_at(&self, at: usize) -> Option<Range<usize>> {
         let is_letter = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
-        let begins = is_letter(*self.code.get(at)?) && (at == 0 || !is_letter(self.code[at - 1]));
+        let is_start = is_letter(*self.code.get(at)?) && (at == 0 || !is_letter(self.code[at - 1]));
         let end = (at..self.code.len()).find(|&i| !is_letter(self.code[i])).unwrap_or(self.code.len());
-        begins.then_some(at..end)
+        is_start.then_some(at..end)
     }
 
     fn part(&mut self, range: Range<usize>) -> String {

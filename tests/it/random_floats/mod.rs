@@ -31,7 +31,7 @@ fn run_both(gpu: &Gpu, code: &str, is_walked: bool) -> (Texels, Texels) {
         pass(buffer("A"), code, Default::default()),
         image("void mainImage(out vec4 o, in vec2 p) { o = vec4(0); }", Default::default()),
     ]);
-    let options = BuildOptions { wanted: vec![buffer("A")], ..BuildOptions::default() };
+    let options = BuildOptions { requested: vec![buffer("A")], ..BuildOptions::default() };
     let mut engine = engine_with(gpu, &project, &MediaSet::new(), &options, (SIDE, SIDE));
     run(&mut engine, 0, 1);
     let drawn = engine.read(&buffer("A")).unwrap().texels;

@@ -92,7 +92,7 @@ impl Case {
         let mut passes: Vec<_> = passes.collect();
         passes.push(image("void mainImage(out vec4 o, in vec2 p) { o = vec4(0); }", Default::default()));
         let wanted: Vec<_> = NAMES[..self.passes.len()].iter().map(|name| buffer(name)).collect();
-        let options = BuildOptions { wanted: wanted.clone(), ..Default::default() };
+        let options = BuildOptions { requested: wanted.clone(), ..Default::default() };
         let project = project(passes);
         let built = match Built::build(gpu, &project, &Default::default(), &options) {
             Ok(built) => built,

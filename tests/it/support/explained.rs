@@ -3,7 +3,7 @@
 use super::walked::{all_pixels, is_same};
 use eddy::{
     debugger::{
-        audit::{Class, audit, jittered},
+        audit::{Class, add_jitter, audit},
         trace::{Extent, Tracer},
     },
     engine::{LevelBy, PassInputs, Sources, TextureCopy},
@@ -108,7 +108,7 @@ impl Explained<'_> {
                 !is_same(a, b) && (distance >= difference / 4.0 || distance.is_nan())
             })
         };
-        let jittered = |seed| jittered(self.sources, self.index, self.read, pixel, (STATEMENTS, seed)).ok();
+        let jittered = |seed| add_jitter(self.sources, self.index, self.read, pixel, (STATEMENTS, seed)).ok();
         let moved = |by: i32| {
             let moved = |x: f32| f32::from_bits(x.to_bits().wrapping_add_signed(by));
             let mut read = self.read.clone();

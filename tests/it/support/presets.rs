@@ -108,7 +108,7 @@ pub(crate) fn whole(gpu: &Gpu, project: &Project, skip: bool, size: (u32, u32)) 
 
 impl Engines {
     pub(crate) fn whole(&mut self, project: &Project, skip: bool, size: (u32, u32)) -> Engine {
-        let options = BuildOptions { wanted: buffers(project).cloned().collect(), skip, ..BuildOptions::default() };
+        let options = BuildOptions { requested: buffers(project).cloned().collect(), skip, ..BuildOptions::default() };
         self.with(project, &MediaSet::new(), &options, size)
     }
 }

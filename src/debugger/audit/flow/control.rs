@@ -17,7 +17,7 @@ struct Open {
     /// The values that decided it, or decided a jump out of it.
     own: Set,
     /// For a loop: the values that decided a `continue` of the current iteration.
-    turn: Set,
+    iteration: Set,
     /// The union with those of all enclosing ones.
     total: Set,
 }
@@ -37,7 +37,7 @@ impl Control {
 
     pub(super) fn push(&mut self, kind: Kind) {
         let total = self.total();
-        self.open.push(Open { kind, own: Set::EMPTY, turn: Set::EMPTY, total });
+        self.open.push(Open { kind, own: Set::EMPTY, iteration: Set::EMPTY, total });
     }
 
     pub(super) fn pop(&mut self) {
@@ -61,9 +61,9 @@ impl Control {
         }
     }
 
-    pub(super) fn add_turn(&mut self, set: Set, sets: &mut Sets) {
+    pub(super) fn add_to_iteration(&mut self, set: Set, sets: &mut Sets) {
         if let Some(at) = self.open.iter().rposition(|open| matches!(open.kind, Kind::Loop { .. })) {
-            self.open[at].turn = sets.union(self.open[at].turn, set);
+            self.open[at].iteration = sets.union(self.open[at].iteration, set);
             self.refresh(at, sets);
         }
     }
@@ -74,11 +74,11 @@ impl Control {
     }
 
     /// Called when the iteration of the innermost loop reaches its `continuing` part, or the next iteration.
-    pub(super) fn end_turn(&mut self, sets: &mut Sets) {
+    pub(super) fn end_iteration(&mut self, sets: &mut Sets) {
         if let Some(at) = self.open.len().checked_sub(1)
-            && !self.open[at].turn.is_empty()
+            && !self.open[at].iteration.is_empty()
         {
-            self.open[at].turn = Set::EMPTY;
+            self.open[at].iteration = Set::EMPTY;
             self.refresh(at, sets);
         }
     }
@@ -89,7 +89,7 @@ impl Control {
             None => self.discard,
         };
         for open in &mut self.open[from..] {
-            let own = sets.union(open.own, open.turn);
+            let own = sets.union(open.own, open.iteration);
             before = sets.union(before, own);
             open.total = before;
         }

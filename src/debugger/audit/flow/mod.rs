@@ -39,7 +39,7 @@ pub(super) struct Origin {
 
 impl Origin {
     /// Returns whether it is the same declaration: a function that is compiled several times has several copies.
-    pub(super) fn is_like(&self, other: &Origin) -> bool {
+    pub(super) fn is_same_declaration(&self, other: &Origin) -> bool {
         (self.kind, self.span, &self.name) == (other.kind, other.span, &other.name)
     }
 }
@@ -112,7 +112,7 @@ impl<'w> Flow<'w> {
         let mut all: Vec<Shown> = Vec::new();
         for scalar in self.sets.of(self.drawn) {
             let origin = &self.origins[scalar.origin as usize];
-            match all.iter_mut().find(|shown| shown.origin.is_like(origin)) {
+            match all.iter_mut().find(|shown| shown.origin.is_same_declaration(origin)) {
                 Some(shown) => _ = shown.cells.insert(scalar.cell),
                 None => all.push(Shown { origin: origin.clone(), cells: [scalar.cell].into() }),
             }
@@ -281,7 +281,7 @@ impl<'w> Flow<'w> {
     }
 
     pub(super) fn turn(&mut self) {
-        self.control.end_turn(&mut self.sets);
+        self.control.end_iteration(&mut self.sets);
     }
 
     /// Called for a deciding value; the test after an iteration of a loop is only reported here.
@@ -304,7 +304,7 @@ impl<'w> Flow<'w> {
             self.control.add(set, is_left, &mut self.sets);
         }
         if jumps.continues {
-            self.control.add_turn(set, &mut self.sets);
+            self.control.add_to_iteration(set, &mut self.sets);
         }
         if jumps.returns {
             self.control.add(set, |kind| kind == Kind::Function, &mut self.sets);

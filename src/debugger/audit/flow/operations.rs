@@ -101,7 +101,7 @@ impl Flow<'_> {
             Op::Unary { .. } | Op::Binary { .. } | Op::Convert { .. } | Op::Bitcast { .. } | Op::Derivative { .. } => {
                 by_component(view, op, out, cells, sets);
             }
-            Op::Math { fun, .. } if fun.is_by_component() => by_component(view, op, out, cells, sets),
+            Op::Math { fun, .. } if fun.is_componentwise() => by_component(view, op, out, cells, sets),
             // Each scalar of the result depends on all operands.
             _ => {
                 let mut read = Set::EMPTY;

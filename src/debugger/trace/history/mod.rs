@@ -4,10 +4,10 @@
 //! between them: the value of a variable at any moment is reconstructed from these. Stepping is implemented in
 //! `travel`.
 
+mod iterations;
 mod places;
 mod record;
 mod recorder;
-mod turns;
 mod values;
 
 pub use record::{Call, History, Iteration, Moment, MomentKind, NamedValue, Value};

@@ -24,7 +24,7 @@ impl History {
         let Some(statement) = self.walkable.statements().get(moment.statement) else { return false };
         match moment.kind {
             MomentKind::Statement => !statement.is_init,
-            MomentKind::Iteration(turn) => turn > 1 && statement.tests_first,
+            MomentKind::Iteration(number) => number > 1 && statement.tests_first,
             MomentKind::Test | MomentKind::Return => true,
             MomentKind::Step => false,
         }
@@ -37,13 +37,13 @@ impl History {
     /// Returns the statement for a line: the first that starts in it or below it, in a text.
     pub(in crate::trace) fn statement_from(&self, source: SourceId, from: u32) -> Option<u32> {
         let statements = self.walkable.statements().list.iter().enumerate();
-        let begins = statements.filter_map(|(index, statement)| {
+        let starts = statements.filter_map(|(index, statement)| {
             let statement = statement.as_ref()?;
             let is_block = statement.head == statement.whole && self.is_block(index as u32);
             let is_there = statement.head.source == source && statement.head.start >= from;
             (is_there && !statement.is_init && !is_block).then_some((statement.head.start, index as u32))
         });
-        begins.min().map(|(_, index)| index)
+        starts.min().map(|(_, index)| index)
     }
 
     /// Returns whether a statement is a block, which only groups others.
@@ -63,7 +63,7 @@ impl History {
 
     /// Returns the moments at which a comment at a byte of a text is reached: after the statement that ends before it
     /// in the same block or, if there is none, before the first one of the block.
-    pub(in crate::trace) fn turns_of_comment(&self, source: SourceId, text: &str, byte: u32) -> Vec<usize> {
+    pub(in crate::trace) fn moments_of_comment(&self, source: SourceId, text: &str, byte: u32) -> Vec<usize> {
         let statements = self.walkable.statements();
         let holds = |span: &Span| span.source == source && span.start <= byte && byte < span.end;
         let Some(function) = statements.functions.iter().position(holds) else { return Vec::new() };
@@ -81,13 +81,13 @@ impl History {
             |s: &Statement| text.get(s.whole.end as usize..byte as usize).is_none_or(|between| !between.contains('}'));
         let before = siblings().filter(|(_, s)| s.whole.end <= byte && is_near(s)).max_by_key(|(_, s)| s.whole.end);
         let after = siblings().filter(|(_, s)| s.whole.start >= byte).min_by_key(|(_, s)| s.whole.start);
-        let begins = |of: u32| {
+        let starts = |of: u32| {
             let is_it = move |moment: &Moment| moment.statement == of && moment.kind == MomentKind::Statement;
             self.moments.iter().enumerate().filter(move |(_, moment)| is_it(moment)).map(|(at, _)| at)
         };
         match (before, after) {
-            (Some((index, _)), _) => begins(index).filter_map(|at| self.end_of_statement(at)).collect(),
-            (None, Some((index, _))) => begins(index).collect(),
+            (Some((index, _)), _) => starts(index).filter_map(|at| self.end_of_statement(at)).collect(),
+            (None, Some((index, _))) => starts(index).collect(),
             (None, None) => Vec::new(),
         }
     }

@@ -4,7 +4,7 @@ use super::record::{Call, History, Moment, MomentKind, NONE, Variable, Write};
 use eddy_glsl::{
     ir::{Block, FuncId, GlobalId, GlobalKind, Op, Stmt, Value},
     types::TypeId,
-    walk::{Cell, Observer, Real, View},
+    walk::{Cell, Float, Observer, View},
     walkable::{StatementEvent, Walkable},
 };
 use std::collections::HashMap;
@@ -52,7 +52,7 @@ pub(crate) struct HistoryRecorder<'w> {
     functions: Vec<Function>,
     ids: Vec<GlobalId>,
     active: Vec<Active>,
-    has_begun: bool,
+    has_started: bool,
     walkable: &'w Walkable,
 }
 
@@ -72,7 +72,7 @@ impl<'w> HistoryRecorder<'w> {
             functions: Vec::new(),
             ids,
             active: Vec::new(),
-            has_begun: false,
+            has_started: false,
             walkable,
         };
         (0..program.functions.len()).for_each(|index| recorder.add_function(FuncId::new(index)));
@@ -185,7 +185,7 @@ impl<'w> HistoryRecorder<'w> {
         self.out.moments.push(Moment { kind, statement, call, writes: self.out.writes.len() as u32 });
     }
 
-    fn write<R: Real>(&mut self, slot: usize, offset: usize, cells: &[Cell<R>]) {
+    fn write<R: Float>(&mut self, slot: usize, offset: usize, cells: &[Cell<R>]) {
         if self.out.is_cut {
             return;
         }
@@ -198,22 +198,22 @@ impl<'w> HistoryRecorder<'w> {
     fn event(&mut self, event: StatementEvent) {
         let Some(active) = self.active.last_mut() else { return };
         let (kind, statement) = match event {
-            StatementEvent::Begin(statement) => {
+            StatementEvent::Start(statement) => {
                 active.loops.retain(|(of, _)| *of != statement);
                 (MomentKind::Statement, statement)
             }
             StatementEvent::Iteration(statement) => {
-                let turn = match active.loops.iter_mut().find(|(of, _)| *of == statement) {
-                    Some((_, turns)) => {
-                        *turns += 1;
-                        *turns
+                let iteration = match active.loops.iter_mut().find(|(of, _)| *of == statement) {
+                    Some((_, iterations)) => {
+                        *iterations += 1;
+                        *iterations
                     }
                     None => {
                         active.loops.push((statement, 1));
                         1
                     }
                 };
-                (MomentKind::Iteration(turn), statement)
+                (MomentKind::Iteration(iteration), statement)
             }
             StatementEvent::Test(statement) => (MomentKind::Test, statement),
             StatementEvent::Step(statement) => (MomentKind::Step, statement),
@@ -222,7 +222,7 @@ impl<'w> HistoryRecorder<'w> {
     }
 
     /// Records the contents of a place of the current function, as a write to its variable.
-    fn record_place<R: Real>(&mut self, view: &View<'_, '_, R>, place: Value) {
+    fn record_place<R: Float>(&mut self, view: &View<'_, '_, R>, place: Value) {
         let (root, offset) = view.root(place);
         let Some(role) = self.role(view.function_id(), root) else { return };
         let (variable, global) = (role.variables.first().copied(), role.global);
@@ -268,9 +268,9 @@ impl Recorded {
     }
 }
 
-impl<R: Real> Observer<R> for HistoryRecorder<'_> {
+impl<R: Float> Observer<R> for HistoryRecorder<'_> {
     fn enter(&mut self, view: &View<'_, '_, R>) {
-        if !std::mem::replace(&mut self.has_begun, true) {
+        if !std::mem::replace(&mut self.has_started, true) {
             for slot in 0..self.ids.len() {
                 self.write(slot, 0, view.global(self.ids[slot]));
             }

@@ -90,13 +90,13 @@ impl History {
             Some((variable, slot)) => (variable, self.calls[self.moments[at].call as usize].slots as usize + slot?),
             None => self.global(name)?,
         };
-        Some(self.of(variable.ty, self.held(at, variable, slot)))
+        Some(self.of(variable.ty, self.words_at(at, variable, slot)))
     }
 
     /// Returns the value of a variable of the module, even if a local hides it.
     pub(in crate::trace) fn global_words(&self, at: usize, name: &str) -> Option<Vec<u32>> {
         let (variable, slot) = self.global(name)?;
-        Some(self.held(at, variable, slot))
+        Some(self.words_at(at, variable, slot))
     }
 
     fn global(&self, name: &str) -> Option<(&Variable, usize)> {
@@ -112,12 +112,13 @@ impl History {
         // The result is the only variable that is not the author's.
         let slot = variables.iter().position(|variable| variable.local.is_none())?;
         let variable = &variables[slot];
-        (variable.ty != TypeId::VOID).then(|| self.of(variable.ty, self.held(at, variable, call.slots as usize + slot)))
+        (variable.ty != TypeId::VOID)
+            .then(|| self.of(variable.ty, self.words_at(at, variable, call.slots as usize + slot)))
     }
 
     /// Returns the words of a variable at a moment: its writes before that, the newest first, until all words are
     /// known. Words that were never written are zero, as defined here.
-    pub(super) fn held(&self, at: usize, variable: &Variable, slot: usize) -> Vec<u32> {
+    pub(super) fn words_at(&self, at: usize, variable: &Variable, slot: usize) -> Vec<u32> {
         if let Some(constant) = &variable.constant {
             return constant.clone();
         }

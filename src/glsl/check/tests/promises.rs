@@ -16,7 +16,7 @@ pub(super) fn assert_kept(module: &Module) {
     for &id in &module.call_order {
         let func = &module[id];
         assert!(func.used);
-        assert!(func.calls.iter().all(|callee| done[callee.index()]), "a callee stands behind its caller");
+        assert!(func.calls.iter().all(|callee| done[callee.index()]), "a callee comes after its caller");
         done[id.index()] = true;
         let (start, end) = (func.locals.start, func.locals.end);
         assert!(func.param_count <= end - start);
@@ -120,7 +120,7 @@ impl Walk<'_> {
         while let Some(id) = stack.pop() {
             assert!(!std::mem::replace(&mut self.parents[id.index()], true), "{id:?} has two parents");
             let children = self.node(id, &locals);
-            assert!(children.iter().all(|child| child.index() < id.index()), "{id:?} stands before a child");
+            assert!(children.iter().all(|child| child.index() < id.index()), "{id:?} comes before a child");
             stack.extend(children);
         }
         self.module[root].ty

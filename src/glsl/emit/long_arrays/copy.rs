@@ -8,11 +8,11 @@ use naga::{
     TypeInner,
 };
 
-use super::writer::{LEAST_ARRAY, Value, Writer};
+use super::writer::{MIN_ARRAY, Value, Writer};
 
 /// The number of scalars from which on an array, and a constant, is copied by a loop. lavapipe stores to an element
 /// with a loop index lane by lane, which takes up to twice as long.
-pub(crate) const LEAST_COPY: u32 = 128;
+pub(crate) const MIN_COPY: u32 = 128;
 
 /// Loads whose memory has not been written since, each with its pointer's root.
 #[derive(Default)]
@@ -20,7 +20,7 @@ pub(super) struct Loads(Vec<(Value, Value)>);
 
 impl Loads {
     /// Adds the loads among expressions that are computed now.
-    pub(super) fn note(&mut self, range: Range<Expression>, function: &Function) {
+    pub(super) fn record(&mut self, range: Range<Expression>, function: &Function) {
         self.0.extend(range.filter_map(|value| match function.expressions[value] {
             Expression::Load { pointer } => Some((value, root(function, pointer))),
             _ => None,
@@ -28,12 +28,12 @@ impl Loads {
     }
 
     /// Removes the loads of memory that is stored to by this pointer.
-    pub(super) fn forget(&mut self, pointer: Value, function: &Function) {
+    pub(super) fn invalidate(&mut self, pointer: Value, function: &Function) {
         let written = root(function, pointer);
-        self.0.retain(|&(_, read)| are_apart(function, written, read));
+        self.0.retain(|&(_, read)| are_disjoint(function, written, read));
     }
 
-    pub(super) fn forget_all(&mut self) {
+    pub(super) fn invalidate_all(&mut self) {
         self.0.clear();
     }
 }
@@ -47,7 +47,7 @@ fn root(function: &Function, mut pointer: Value) -> Value {
 }
 
 /// Returns whether two roots are certainly different memory. A pointer argument may point to any variable.
-fn are_apart(function: &Function, a: Value, b: Value) -> bool {
+fn are_disjoint(function: &Function, a: Value, b: Value) -> bool {
     use Expression::{GlobalVariable, LocalVariable};
     match (&function.expressions[a], &function.expressions[b]) {
         (LocalVariable(a), LocalVariable(b)) => a != b,
@@ -61,7 +61,7 @@ impl Writer<'_> {
     /// Stores a value by loops; returns `false` if the original store must be kept.
     pub(super) fn store_long(&mut self, pointer: Value, value: Value, loads: &Loads, block: &mut Block) -> bool {
         let Some(ty) = self.pointee(pointer) else { return false };
-        if self.sizes.longest(ty) < LEAST_ARRAY {
+        if self.sizes.longest(ty) < MIN_ARRAY {
             return false;
         }
         if let Expression::ZeroValue(_) = self.function.expressions[value] {
@@ -85,7 +85,7 @@ impl Writer<'_> {
 
     /// Returns whether storing this value by loops is possible and better.
     fn should_use_loops(&self, ty: Handle<Type>, value: Value, loads: &Loads) -> bool {
-        let is_long = self.sizes.longest(ty) >= LEAST_COPY;
+        let is_long = self.sizes.longest(ty) >= MIN_COPY;
         is_long
             && match self.function.expressions[value] {
                 Expression::Load { pointer } => {
@@ -107,8 +107,8 @@ impl Writer<'_> {
     fn reads(&self, value: Value, target: Value) -> bool {
         match &self.function.expressions[value] {
             Expression::Load { pointer } => {
-                let is_long = self.pointee(*pointer).is_some_and(|ty| self.sizes.longest(ty) >= LEAST_COPY);
-                is_long && !are_apart(self.function, root(self.function, *pointer), target)
+                let is_long = self.pointee(*pointer).is_some_and(|ty| self.sizes.longest(ty) >= MIN_COPY);
+                is_long && !are_disjoint(self.function, root(self.function, *pointer), target)
             }
             Expression::Compose { components, .. } => components.iter().any(|&part| self.reads(part, target)),
             _ => false,
@@ -126,7 +126,7 @@ impl Writer<'_> {
         };
         let parts: Vec<_> = match self.types[ty].inner {
             TypeInner::Struct { ref members, .. } => members.iter().map(|member| member.ty).collect(),
-            TypeInner::Array { base, .. } if self.sizes.longest(base) >= LEAST_COPY => vec![base; components.len()],
+            TypeInner::Array { base, .. } if self.sizes.longest(base) >= MIN_COPY => vec![base; components.len()],
             _ => return block.push(Statement::Store { pointer, value }, Span::UNDEFINED),
         };
         for ((index, ty), value) in (0..).zip(parts).zip(components) {
@@ -138,14 +138,14 @@ impl Writer<'_> {
     /// Copies the value that `from` points to.
     fn copy(&mut self, to: Value, from: Value, ty: Handle<Type>, block: &mut Block) {
         match self.types[ty].inner {
-            TypeInner::Array { base, size: ArraySize::Constant(len), .. } if self.sizes.scalars(ty) >= LEAST_ARRAY => {
+            TypeInner::Array { base, size: ArraySize::Constant(len), .. } if self.sizes.scalars(ty) >= MIN_ARRAY => {
                 let len = self.unknown(len.get(), block);
                 self.count(len, block, |writer, index, body| {
                     let [to, from] = [to, from].map(|base| writer.emit(Expression::Access { base, index }, body));
                     writer.copy(to, from, base, body);
                 });
             }
-            TypeInner::Struct { ref members, .. } if self.sizes.longest(ty) >= LEAST_ARRAY => {
+            TypeInner::Struct { ref members, .. } if self.sizes.longest(ty) >= MIN_ARRAY => {
                 let members: Vec<_> = members.iter().map(|member| member.ty).collect();
                 for (index, member) in (0..).zip(members) {
                     let parts = [to, from].map(|base| self.emit(Expression::AccessIndex { base, index }, block));

@@ -9,7 +9,7 @@ use naga::{
 
 use super::{
     copy::Loads,
-    writer::{LEAST_ARRAY, Value, Writer},
+    writer::{MIN_ARRAY, Value, Writer},
 };
 
 /// The number of scalars that one block of zeros writes.
@@ -39,7 +39,7 @@ impl Writer<'_> {
         mut block: Block,
     ) {
         let locals = self.function.local_variables.iter();
-        let is_long = |v: &LocalVariable| v.init.is_none() && self.sizes.longest(v.ty) >= LEAST_ARRAY;
+        let is_long = |v: &LocalVariable| v.init.is_none() && self.sizes.longest(v.ty) >= MIN_ARRAY;
         let locals = locals.filter(|(handle, v)| is_long(v) && !written_first.contains(handle));
         let locals: Vec<_> = locals.map(|(handle, v)| (handle, v.ty)).collect();
         let body = std::mem::take(&mut self.function.body);
@@ -60,11 +60,11 @@ impl Writer<'_> {
         let mut loads = Loads::default();
         for (mut statement, span) in block.span_into_iter() {
             match &mut statement {
-                Statement::Emit(range) => loads.note(range.clone(), self.function),
+                Statement::Emit(range) => loads.record(range.clone(), self.function),
                 Statement::Store { pointer, value } => {
                     let (pointer, value) = (*pointer, *value);
                     let stored = self.store_long(pointer, value, &loads, &mut out);
-                    loads.forget(pointer, self.function);
+                    loads.invalidate(pointer, self.function);
                     if stored {
                         continue;
                     }
@@ -82,7 +82,7 @@ impl Writer<'_> {
                 _ => {}
             }
             if !matches!(statement, Statement::Emit(_) | Statement::Store { .. }) {
-                loads.forget_all();
+                loads.invalidate_all();
             }
             out.push(statement, span);
         }
@@ -97,7 +97,7 @@ impl Writer<'_> {
     /// Writes zeros to all of the memory that `pointer` points to.
     pub(super) fn fill(&mut self, pointer: Value, ty: Handle<Type>, block: &mut Block) {
         match self.types[ty].inner {
-            TypeInner::Array { base, size: ArraySize::Constant(len), .. } if self.sizes.scalars(ty) >= LEAST_ARRAY => {
+            TypeInner::Array { base, size: ArraySize::Constant(len), .. } if self.sizes.scalars(ty) >= MIN_ARRAY => {
                 let opaque = self.opaque.filter(|_| self.in_blocks && self.sizes.scalars(base) <= BLOCK);
                 match opaque {
                     Some(opaque) => self.fill_by_blocks(opaque, pointer, base, len.get(), block),
@@ -110,7 +110,7 @@ impl Writer<'_> {
                     }
                 }
             }
-            TypeInner::Struct { ref members, .. } if self.sizes.longest(ty) >= LEAST_ARRAY => {
+            TypeInner::Struct { ref members, .. } if self.sizes.longest(ty) >= MIN_ARRAY => {
                 let members: Vec<_> = members.iter().map(|member| member.ty).collect();
                 for (index, member) in (0..).zip(members) {
                     let part = self.emit(Expression::AccessIndex { base: pointer, index }, block);

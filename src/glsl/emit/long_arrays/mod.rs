@@ -22,9 +22,9 @@ use naga::{
     MemoryDecorations, Module, Scalar, Span, Type, TypeInner,
 };
 
-pub(crate) use copy::LEAST_COPY;
+pub(crate) use copy::MIN_COPY;
 use sizes::Sizes;
-use writer::{LEAST_ARRAY, Writer};
+use writer::{MIN_ARRAY, Writer};
 
 /// The total number of scalars in a program's uninitialised arrays from which on the program is changed at all. 100
 /// zeros take lavapipe 0.4 s, 160 take 1.5 s, 256 take 6 s.
@@ -50,12 +50,12 @@ pub(super) fn write(
     let globals: Vec<_> = module
         .global_variables
         .iter()
-        .filter(|(_, v)| v.space == AddressSpace::Private && v.init.is_none() && sizes.longest(v.ty) >= LEAST_ARRAY)
+        .filter(|(_, v)| v.space == AddressSpace::Private && v.init.is_none() && sizes.longest(v.ty) >= MIN_ARRAY)
         .map(|(handle, v)| (handle, v.ty))
         .collect();
     let functions = module.functions.iter().map(|(_, f)| f).chain(module.entry_points.iter().map(|e| &e.function));
     let locals = functions.flat_map(|f| f.local_variables.iter().filter(|(_, v)| v.init.is_none()).map(|(_, v)| v.ty));
-    let long = globals.iter().map(|(_, ty)| *ty).chain(locals.filter(|ty| sizes.longest(*ty) >= LEAST_ARRAY));
+    let long = globals.iter().map(|(_, ty)| *ty).chain(locals.filter(|ty| sizes.longest(*ty) >= MIN_ARRAY));
     let scalars = long.fold(0u32, |sum, ty| sum.saturating_add(sizes.scalars(ty)));
     if scalars < MIN_SCALARS {
         return None;
@@ -88,7 +88,7 @@ pub(super) fn write(
         let bit = never_negative(entry);
         write(&mut entry.function, bit, &globals);
     }
-    Some(LEAST_ARRAY)
+    Some(MIN_ARRAY)
 }
 
 /// Removes initialisers that are a single zero value: naga writes zeros without them.

@@ -12,7 +12,7 @@ pub(super) type Value = Handle<Expression>;
 
 /// The number of scalars from which on an array of a program with long arrays is zeroed by a loop. A loop also costs a
 /// driver time.
-pub(super) const LEAST_ARRAY: u32 = 16;
+pub(super) const MIN_ARRAY: u32 = 16;
 
 /// Writes loops into one function.
 pub(super) struct Writer<'a> {

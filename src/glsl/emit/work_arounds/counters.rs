@@ -37,7 +37,7 @@ impl Rule for Counters {
         Some(r.add_typed(Op::Element { base, index }, r.f.ty(value)))
     }
 
-    fn begin_body(&mut self, _: &mut Rewriter<'_>, _: &Block) {
+    fn start_body(&mut self, _: &mut Rewriter<'_>, _: &Block) {
         self.depth += 1;
     }
 

@@ -45,14 +45,10 @@ fn discards(program: &Module) -> Vec<bool> {
 
 /// Returns whether a block may discard; `discards` are the functions that do.
 fn may_discard(f: &Function, block: &Block, discards: &[bool]) -> bool {
-    block.iter().any(|stmt| {
-        let mut may = match stmt {
-            Stmt::Discard => true,
-            Stmt::Let(value) => matches!(f[*value], Op::Call { function, .. } if discards[function.index()]),
-            _ => false,
-        };
-        stmt.blocks(|block| may |= may_discard(f, block, discards));
-        may
+    block.iter().any(|stmt| match stmt {
+        Stmt::Discard => true,
+        Stmt::Let(value) => matches!(f[*value], Op::Call { function, .. } if discards[function.index()]),
+        other => other.any_block(|block| may_discard(f, block, discards)),
     })
 }
 
@@ -125,7 +121,7 @@ struct Exits {
 }
 
 impl Rule for Exits {
-    fn begin_body(&mut self, r: &mut Rewriter<'_>, _: &Block) {
+    fn start_body(&mut self, r: &mut Rewriter<'_>, _: &Block) {
         if self.loops.next() == Some(true) {
             let place = r.f.append(Op::Global(self.flag), TypeId::BOOL, Loc::default());
             let condition = r.add(Op::Load { place });

@@ -11,13 +11,13 @@ use crate::ir::{
 
 pub(super) fn run(program: &mut Module) {
     let entry = program.functions.len() - 1;
-    rewrite::function(program, entry, &mut SeemToDiscard);
+    rewrite::function(program, entry, &mut MayDiscard);
 }
 
-struct SeemToDiscard;
+struct MayDiscard;
 
-impl Rule for SeemToDiscard {
-    fn begin(&mut self, r: &mut Rewriter<'_>) {
-        r.seem_to(Stmt::Discard);
+impl Rule for MayDiscard {
+    fn start(&mut self, r: &mut Rewriter<'_>) {
+        r.push_untaken_jump(Stmt::Discard);
     }
 }

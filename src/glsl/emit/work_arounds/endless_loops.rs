@@ -12,39 +12,39 @@ use crate::{
     types::{Scalar, TypeId},
 };
 
-pub(super) fn run(program: &mut Module, most: u32) {
-    let mut rounds = None;
+pub(super) fn run(program: &mut Module, limit: u32) {
+    let mut iterations = None;
     for index in 0..program.functions.len() {
         let mut f = std::mem::take(&mut program.functions[index]);
         let mut body = std::mem::take(&mut f.body);
-        block(program, &mut f, &mut body, (&mut rounds, most));
+        block(program, &mut f, &mut body, (&mut iterations, limit));
         f.body = body;
         program.functions[index] = f;
     }
 }
 
-fn block(program: &mut Module, f: &mut Function, stmts: &mut Block, (rounds, most): (&mut Option<GlobalId>, u32)) {
+fn block(program: &mut Module, f: &mut Function, stmts: &mut Block, (iterations, limit): (&mut Option<GlobalId>, u32)) {
     for stmt in stmts {
-        stmt.blocks_mut(|inner| block(program, f, inner, (&mut *rounds, most)));
+        stmt.blocks_mut(|inner| block(program, f, inner, (&mut *iterations, limit)));
         if let Stmt::Loop { body, continuing, break_if } = stmt
             && !analysis::ends(&program.globals, f, body, continuing, *break_if)
         {
             let new = || program.add_global(TypeId::UINT, GlobalKind::Private(None));
-            let counted = counted(f, *rounds.get_or_insert_with(new), most);
+            let counted = counted(f, *iterations.get_or_insert_with(new), limit);
             body.splice(0..0, counted);
         }
     }
 }
 
 /// Returns statements that count an iteration, and leave the loop when the limit is reached.
-fn counted(f: &mut Function, rounds: GlobalId, most: u32) -> [Stmt; 5] {
+fn counted(f: &mut Function, iterations: GlobalId, limit: u32) -> [Stmt; 5] {
     let mut add = |op, ty| f.append(op, ty, Loc::default());
-    let place = add(Op::Global(rounds), TypeId::UINT);
+    let place = add(Op::Global(iterations), TypeId::UINT);
     let before = add(Op::Load { place }, TypeId::UINT);
     let one = add(Op::Literal(Scalar::Uint, 1), TypeId::UINT);
     let after = add(Op::Binary { op: Binary::Add, left: before, right: one }, TypeId::UINT);
-    let most = add(Op::Literal(Scalar::Uint, most), TypeId::UINT);
-    let condition = add(Op::Binary { op: Binary::GreaterEqual, left: before, right: most }, TypeId::BOOL);
+    let limit = add(Op::Literal(Scalar::Uint, limit), TypeId::UINT);
+    let condition = add(Op::Binary { op: Binary::GreaterEqual, left: before, right: limit }, TypeId::BOOL);
     [
         Stmt::Let(before),
         Stmt::Let(after),
@@ -65,7 +65,7 @@ mod tests {
                 "int g; void f() {{ g--; }} void mainImage(out vec4 o, in vec2 p) {{ o = vec4(0); int m = int(p.x), n = 4; \
                  float t = 0.0; if (p.y > 9.0) n = 5; g = m; {body} }}"
             );
-            let driver = Driver { most_rounds: bounded.then_some(1 << 22), ..Driver::default() };
+            let driver = Driver { max_loop_iterations: bounded.then_some(1 << 22), ..Driver::default() };
             let compiled = crate::compile(&PassSource { driver, ..PassSource::image(&code) });
             format!("{:?}", compiled.unwrap_or_else(|errors| panic!("{code}: {errors:?}")).module)
         };

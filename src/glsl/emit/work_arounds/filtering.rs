@@ -1,10 +1,10 @@
-//! Manual filtering, for channels whose texture the device cannot filter ([`PassSource::bilinear_by_hand`]).
+//! Manual filtering, for channels whose texture the device cannot filter ([`PassSource::bilinear_in_shader`]).
 //!
 //! Four reads at texel centres with the channel's own (nearest) sampler, which applies its wrap mode, and a mix with
 //! the weights of section 8.13 (equation 3.25 there) of the OpenGL ES 3.0 specification. Between two mip levels, the
 //! same is done in both.
 //!
-//! [`PassSource::bilinear_by_hand`]: crate::PassSource::bilinear_by_hand
+//! [`PassSource::bilinear_in_shader`]: crate::PassSource::bilinear_in_shader
 
 use crate::{
     ir::{
@@ -17,13 +17,13 @@ use crate::{
 
 /// Expands every filtered read of these channels. Only reads of 2D textures are filtered.
 pub(super) fn run(program: &mut Module, channels: [bool; SLOTS]) {
-    rewrite::each_function(program, || ByHand(channels));
+    rewrite::each_function(program, || BilinearInShader(channels));
 }
 
 /// The channels that are filtered manually.
-struct ByHand([bool; SLOTS]);
+struct BilinearInShader([bool; SLOTS]);
 
-impl Rule for ByHand {
+impl Rule for BilinearInShader {
     fn operation(&mut self, r: &mut Rewriter<'_>, _: Value, op: &Op) -> Option<Value> {
         let Op::Sample { channel, coordinate, level, offset } = *op else { return None };
         if !self.0.get(usize::from(channel)).is_some_and(|by_hand| *by_hand) || r.f.ty(coordinate) != TypeId::VEC2 {

@@ -155,10 +155,9 @@ impl Written {
 }
 
 fn has_call(f: &Function, block: &Block) -> bool {
-    block.iter().any(|stmt| {
-        let mut found = matches!(stmt, Stmt::Let(value) if matches!(f[*value], Op::Call { .. }));
-        stmt.blocks(|block| found |= has_call(f, block));
-        found
+    block.iter().any(|stmt| match stmt {
+        Stmt::Let(value) => matches!(f[*value], Op::Call { .. }),
+        other => other.any_block(|block| has_call(f, block)),
     })
 }
 

@@ -16,9 +16,9 @@ pub(super) fn run(program: &mut Module) {
 struct LoopExits;
 
 impl Rule for LoopExits {
-    fn begin_body(&mut self, r: &mut Rewriter<'_>, body: &Block) {
+    fn start_body(&mut self, r: &mut Rewriter<'_>, body: &Block) {
         if !starts_with_exit(&r.f, body) {
-            r.seem_to(Stmt::Break);
+            r.push_untaken_jump(Stmt::Break);
         }
     }
 }

@@ -5,7 +5,10 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::ir::{Block, Function, Module, Op, Stmt, Value, analysis::leaves};
+use crate::ir::{
+    Block, Function, Module, Op, Stmt, Value,
+    analysis::{continues, leaves},
+};
 
 /// The maximum number of statements of a step that is repeated.
 const MAX_STATEMENTS: usize = 16;
@@ -23,7 +26,7 @@ fn block(f: &mut Function, stmts: &mut Block) {
         stmt.blocks_mut(|inner| block(f, inner));
         if let Stmt::Loop { body, continuing, break_if: None } = stmt
             && !continuing.is_empty()
-            && (!continues(body) || is_short(f, continuing))
+            && (!body.iter().any(continues) || is_short(f, continuing))
         {
             let step = std::mem::take(continuing);
             before_continues(f, body, &step);
@@ -32,16 +35,6 @@ fn block(f: &mut Function, stmts: &mut Block) {
             }
         }
     }
-}
-
-/// Returns whether an iteration of the enclosing loop may end in a block.
-fn continues(block: &Block) -> bool {
-    block.iter().any(|stmt| match stmt {
-        Stmt::Continue => true,
-        Stmt::If { accept, reject, .. } => continues(accept) || continues(reject),
-        Stmt::Switch { cases, .. } => cases.iter().any(|case| continues(&case.body)),
-        _ => false,
-    })
 }
 
 fn is_short(f: &Function, step: &Block) -> bool {

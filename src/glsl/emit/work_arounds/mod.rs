@@ -19,20 +19,20 @@ use crate::{PassKind, PassSource, ir::Module};
 
 /// Applies the work-arounds that a device and its driver need.
 pub(crate) fn apply(program: &mut Module, source: &PassSource<'_>) {
-    let &PassSource { kind, driver, bilinear_by_hand, .. } = source;
+    let &PassSource { kind, driver, bilinear_in_shader, .. } = source;
     if driver.small_arrays {
         small_arrays::run(program);
     }
-    if let Some(most) = driver.most_rounds {
-        endless_loops::run(program, most);
+    if let Some(limit) = driver.max_loop_iterations {
+        endless_loops::run(program, limit);
     }
     loop_steps::run(program);
     zero_divisors::run(program);
     if driver.nan_angle {
         angles::run(program);
     }
-    if bilinear_by_hand.contains(&true) {
-        filtering::run(program, bilinear_by_hand);
+    if bilinear_in_shader.contains(&true) {
+        filtering::run(program, bilinear_in_shader);
     }
     if driver.opaque_limits {
         limits::run(program);

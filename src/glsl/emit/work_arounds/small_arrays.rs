@@ -41,7 +41,7 @@ struct Array {
     elements: Option<Box<[Value]>>,
     reads: usize,
     /// The array is used in another way, or may be read before it is filled.
-    is_bad: bool,
+    is_disqualified: bool,
 }
 
 struct Arrays<'a> {
@@ -68,8 +68,9 @@ impl Arrays<'_> {
         }
         let mut walk = Arrays { f, arrays, filled: Vec::new() };
         walk.block(&f.body);
-        let is_worth =
-            |array: &Array, len: usize| !array.is_bad && array.reads > 0 && array.reads * (len - 1) <= MAX_SELECTS;
+        let is_worth = |array: &Array, len: usize| {
+            !array.is_disqualified && array.reads > 0 && array.reads * (len - 1) <= MAX_SELECTS
+        };
         let arrays = walk.arrays.into_iter();
         arrays
             .filter_map(|(var, array)| {
@@ -84,7 +85,7 @@ impl Arrays<'_> {
             match stmt {
                 Stmt::Let(value) => match &self.f[*value] {
                     Op::Load { place } => self.load(*place),
-                    Op::Call { args, .. } => args.iter().for_each(|&arg| self.spoil(arg)),
+                    Op::Call { args, .. } => args.iter().for_each(|&arg| self.disqualify(arg)),
                     _ => {}
                 },
                 Stmt::Store { place, value } => self.store(*place, *value),
@@ -101,9 +102,9 @@ impl Arrays<'_> {
         }
     }
 
-    fn spoil(&mut self, place: Value) {
+    fn disqualify(&mut self, place: Value) {
         if let Some((_, array)) = self.array(place) {
-            array.is_bad = true;
+            array.is_disqualified = true;
         }
     }
 
@@ -115,7 +116,7 @@ impl Arrays<'_> {
                 array.elements = Some(parts.clone());
                 self.filled.push(var);
             }
-            _ => array.is_bad = true,
+            _ => array.is_disqualified = true,
         }
     }
 
@@ -123,7 +124,7 @@ impl Arrays<'_> {
         let is_element = element(self.f, place).is_some();
         let filled = std::mem::take(&mut self.filled);
         if let Some((var, array)) = self.array(place) {
-            array.is_bad |= !is_element || !filled.contains(&var);
+            array.is_disqualified |= !is_element || !filled.contains(&var);
             array.reads += 1;
         }
         self.filled = filled;

@@ -138,7 +138,7 @@ impl Walk<'_> {
 
     fn store(&mut self, place: Value, value: Value) {
         let Some(var) = self.var(place) else { return };
-        let block = *self.open.last().expect("a statement stands in a block");
+        let block = *self.open.last().expect("a statement is in a block");
         let var = &mut self.vars[var];
         let is_first = var.first.is_none();
         let is_after = var.first.is_some_and(|block| self.open.contains(&block));

@@ -17,6 +17,15 @@ pub fn stores(f: &Function, stmts: &[Stmt], visit: &mut impl FnMut(Value)) {
     }
 }
 
+/// Returns whether a statement may end an iteration of the enclosing loop.
+pub fn continues(stmt: &Stmt) -> bool {
+    match stmt {
+        Stmt::Continue => true,
+        Stmt::Loop { .. } => false,
+        other => other.any_block(|block| block.iter().any(continues)),
+    }
+}
+
 /// Returns whether control flow never continues after a block.
 pub fn leaves(block: &Block) -> bool {
     matches!(block.last(), Some(Stmt::Break | Stmt::Continue | Stmt::Return(_) | Stmt::Discard))

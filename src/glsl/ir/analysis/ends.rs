@@ -3,6 +3,7 @@
 use rustc_hash::FxHashSet;
 
 use super::{
+    continues,
     counters::{holding, mirrored},
     leaves, stores,
 };
@@ -54,17 +55,6 @@ fn leaves_loop(block: &Block) -> bool {
     leaves(block) && !matches!(block.last(), Some(Stmt::Continue))
 }
 
-/// Returns whether a statement may end an iteration of the enclosing loop.
-fn continues(stmt: &Stmt) -> bool {
-    let any = |block: &Block| block.iter().any(continues);
-    match stmt {
-        Stmt::Continue => true,
-        Stmt::If { accept, reject, .. } => any(accept) || any(reject),
-        Stmt::Switch { cases, .. } => cases.iter().any(|case| any(&case.body)),
-        _ => false,
-    }
-}
-
 /// The iterations of a loop.
 struct Iterations<'a> {
     globals: &'a [Global],
@@ -96,7 +86,7 @@ impl Iterations<'_> {
         let Some(var) = self.loaded_from(counter).or_else(|| self.stored_to(counter)) else { return false };
         let Some(by) = self.step(var) else { return false };
         // Numbers wrap: if no number is beyond the limit, or the counter can step over it, the loop may never end.
-        let (least, most) = match self.f.ty(counter) {
+        let (min, max) = match self.f.ty(counter) {
             TypeId::INT => (i64::from(i32::MIN), i64::from(i32::MAX)),
             _ => (0, i64::from(u32::MAX)),
         };
@@ -107,7 +97,7 @@ impl Iterations<'_> {
                 Op::Zero(_) => 0,
                 _ => return false,
             };
-            (least..=most).contains(&(limit + beyond))
+            (min..=max).contains(&(limit + beyond))
         };
         let counts = match op {
             Binary::Less => by == 1 || (by > 0 && has_room(by - 1)),

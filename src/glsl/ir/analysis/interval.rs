@@ -8,28 +8,28 @@ use crate::{
 /// The interval that contains a value, or all its components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
-    pub least: f64,
-    pub most: f64,
+    pub min: f64,
+    pub max: f64,
     /// The value may be zero. Never true if the interval excludes 0, but not always true if it includes 0.
     pub zero: bool,
 }
 
 impl Interval {
     /// Any number.
-    pub const ANY: Interval = Interval { least: f64::NEG_INFINITY, most: f64::INFINITY, zero: true };
-    pub const ZERO: Interval = Interval { least: 0.0, most: 0.0, zero: true };
-    pub const BOOL: Interval = Interval { least: 0.0, most: 1.0, zero: true };
+    pub const ANY: Interval = Interval { min: f64::NEG_INFINITY, max: f64::INFINITY, zero: true };
+    pub const ZERO: Interval = Interval { min: 0.0, max: 0.0, zero: true };
+    pub const BOOL: Interval = Interval { min: 0.0, max: 1.0, zero: true };
 
     fn exact(number: f64) -> Interval {
         Interval::between(number, number)
     }
 
     /// Returns all numbers of an interval; any number if a bound is NaN.
-    pub fn between(least: f64, most: f64) -> Interval {
-        if least.is_nan() || most.is_nan() {
+    pub fn between(min: f64, max: f64) -> Interval {
+        if min.is_nan() || max.is_nan() {
             return Interval::ANY;
         }
-        Interval { least, most, zero: least <= 0.0 && most >= 0.0 }
+        Interval { min, max, zero: min <= 0.0 && max >= 0.0 }
     }
 
     /// Returns the interval of a scalar, given its bits.
@@ -56,29 +56,29 @@ impl Interval {
     }
 
     pub fn or(self, other: Interval) -> Interval {
-        Interval { least: self.least.min(other.least), most: self.most.max(other.most), zero: self.zero || other.zero }
+        Interval { min: self.min.min(other.min), max: self.max.max(other.max), zero: self.zero || other.zero }
     }
 
     /// Returns `self`, the successor of `before`, with the bounds that have grown widened to infinity.
     pub fn widened(self, before: Interval) -> Interval {
-        let least = if self.least < before.least { f64::NEG_INFINITY } else { self.least };
-        let most = if self.most > before.most { f64::INFINITY } else { self.most };
-        Interval { least, most, zero: self.zero }
+        let min = if self.min < before.min { f64::NEG_INFINITY } else { self.min };
+        let max = if self.max > before.max { f64::INFINITY } else { self.max };
+        Interval { min, max, zero: self.zero }
     }
 
     /// Returns the intersection with an overlapping interval.
     pub fn within(self, other: Interval) -> Interval {
-        Interval { least: self.least.max(other.least), most: self.most.min(other.most), zero: self.zero && other.zero }
+        Interval { min: self.min.max(other.min), max: self.max.min(other.max), zero: self.zero && other.zero }
     }
 
     pub fn is_exact(self) -> bool {
-        self.least == self.most
+        self.min == self.max
     }
 
     /// Returns the smallest interval around `f` of the bounds of both, for an `f` that is monotonic in each argument.
     fn corners(self, other: Interval, f: impl Fn(f64, f64) -> f64) -> Interval {
         let (l, r) = (self, other);
-        let all = [f(l.least, r.least), f(l.least, r.most), f(l.most, r.least), f(l.most, r.most)];
+        let all = [f(l.min, r.min), f(l.min, r.max), f(l.max, r.min), f(l.max, r.max)];
         if all.iter().any(|number| number.is_nan()) {
             return Interval::ANY;
         }
@@ -90,24 +90,24 @@ impl Interval {
 
     /// Returns what the device computes in this type: floats are rounded, and integers wrap.
     fn as_type(self, scalar: Scalar) -> Interval {
-        let (least, most) = match scalar {
+        let (min, max) = match scalar {
             // Equal to a single rounding: a double has more than twice the bits of a float.
             Scalar::Float => {
-                let (least, most) = (f64::from(self.least as f32), f64::from(self.most as f32));
-                return Interval { least, most, zero: self.zero || (self.is_exact() && least == 0.0) };
+                let (min, max) = (f64::from(self.min as f32), f64::from(self.max as f32));
+                return Interval { min, max, zero: self.zero || (self.is_exact() && min == 0.0) };
             }
             Scalar::Int => (i32::MIN.into(), i32::MAX.into()),
             Scalar::Uint => (0.0, u32::MAX.into()),
             Scalar::Bool => (0.0, 1.0),
         };
         // No loop is unrolled until its counter wraps: a bound that was widened to infinity stays there.
-        let wraps = |bound: f64| bound.is_finite() && !(least..=most).contains(&bound);
-        if wraps(self.least) || wraps(self.most) { Interval::between(least, most) } else { self }
+        let wraps = |bound: f64| bound.is_finite() && !(min..=max).contains(&bound);
+        if wraps(self.min) || wraps(self.max) { Interval::between(min, max) } else { self }
     }
 
     pub fn unary(self, op: Unary, scalar: Scalar) -> Interval {
         match op {
-            Unary::Negate => Interval { least: -self.most, most: -self.least, zero: self.zero }.as_type(scalar),
+            Unary::Negate => Interval { min: -self.max, max: -self.min, zero: self.zero }.as_type(scalar),
             Unary::LogicalNot => Interval::BOOL,
             Unary::BitwiseNot => Interval::ANY,
         }
@@ -123,20 +123,20 @@ impl Interval {
             Binary::Add => l.corners(r, |l, r| l + r),
             Binary::Subtract => l.corners(r, |l, r| l - r),
             Binary::Multiply => with_zero(l.corners(r, |l, r| l * r), l.zero || r.zero),
-            Binary::Divide if r.least > 0.0 || r.most < 0.0 => match scalar {
+            Binary::Divide if r.min > 0.0 || r.max < 0.0 => match scalar {
                 Scalar::Float => with_zero(l.corners(r, |l, r| l / r), l.zero),
                 _ => l.corners(r, |l, r| (l / r).trunc()),
             },
-            Binary::And if l.least >= 0.0 || r.least >= 0.0 => {
+            Binary::And if l.min >= 0.0 || r.min >= 0.0 => {
                 // Any bit of a negative number may be set.
-                let most = |side: Interval| if side.least >= 0.0 { side.most } else { f64::INFINITY };
-                Interval::between(0.0, most(l).min(most(r)))
+                let max = |side: Interval| if side.min >= 0.0 { side.max } else { f64::INFINITY };
+                Interval::between(0.0, max(l).min(max(r)))
             }
             // The result has the divisor's sign.
-            Binary::Modulo if r.least > 0.0 => Interval::between(0.0, r.most - 1.0),
-            Binary::ShiftRight if r.is_exact() && (0.0..32.0).contains(&r.least) => {
-                let shifted = |number: f64| (number / r.least.exp2()).floor();
-                Interval::between(shifted(l.least), shifted(l.most))
+            Binary::Modulo if r.min > 0.0 => Interval::between(0.0, r.max - 1.0),
+            Binary::ShiftRight if r.is_exact() && (0.0..32.0).contains(&r.min) => {
+                let shifted = |number: f64| (number / r.min.exp2()).floor();
+                Interval::between(shifted(l.min), shifted(l.max))
             }
             _ if op.is_comparison() => return Interval::BOOL,
             _ => return Interval::ANY,
@@ -147,13 +147,13 @@ impl Interval {
     /// Returns the result of a comparison, if it is the same for all numbers of both.
     pub fn compare(self, op: Binary, other: Interval) -> Option<bool> {
         let (l, r) = (self, other);
-        let (is_below, is_above) = (l.most < r.least, l.least > r.most);
-        let is_same = l.is_exact() && l.least == r.least && l.most == r.most;
+        let (is_below, is_above) = (l.max < r.min, l.min > r.max);
+        let is_same = l.is_exact() && l.min == r.min && l.max == r.max;
         let (all, none) = match op {
-            Binary::Less => (is_below, l.least >= r.most),
-            Binary::LessEqual => (l.most <= r.least, is_above),
-            Binary::Greater => (is_above, l.most <= r.least),
-            Binary::GreaterEqual => (l.least >= r.most, is_below),
+            Binary::Less => (is_below, l.min >= r.max),
+            Binary::LessEqual => (l.max <= r.min, is_above),
+            Binary::Greater => (is_above, l.max <= r.min),
+            Binary::GreaterEqual => (l.min >= r.max, is_below),
             Binary::Equal => (is_same, is_below || is_above),
             Binary::NotEqual => (is_below || is_above, is_same),
             _ => return None,
@@ -165,34 +165,26 @@ impl Interval {
     /// interval.
     pub fn function(self, fun: Math, other: Option<Interval>, scalar: Scalar) -> Interval {
         let x = self;
-        if let (true, Some(y)) = (x.is_exact(), other.map_or(Some(0.0), |y| y.is_exact().then_some(y.least)))
-            && let Some(result) = std_function(fun, x.least, y)
+        if let (true, Some(y)) = (x.is_exact(), other.map_or(Some(0.0), |y| y.is_exact().then_some(y.min)))
+            && let Some(result) = std_function(fun, x.min, y)
         {
             return Interval::exact(result).as_type(scalar);
         }
         let both = |f: fn(f64, f64) -> f64, y: Interval| {
-            let (least, most) = (f(x.least, y.least), f(x.most, y.most));
-            Interval { least, most, zero: least <= 0.0 && most >= 0.0 && (x.zero || y.zero) }
+            let (min, max) = (f(x.min, y.min), f(x.max, y.max));
+            Interval { min, max, zero: min <= 0.0 && max >= 0.0 && (x.zero || y.zero) }
         };
         let result = match (fun, other) {
             (Math::Abs, None) => {
-                let (least, most) = (x.least.abs(), x.most.abs());
-                let has_both_signs = x.least < 0.0 && x.most > 0.0;
-                Interval {
-                    least: if has_both_signs { 0.0 } else { least.min(most) },
-                    most: least.max(most),
-                    zero: x.zero,
-                }
+                let (min, max) = (x.min.abs(), x.max.abs());
+                let has_both_signs = x.min < 0.0 && x.max > 0.0;
+                Interval { min: if has_both_signs { 0.0 } else { min.min(max) }, max: min.max(max), zero: x.zero }
             }
             (Math::Min, Some(y)) => both(f64::min, y),
             (Math::Max, Some(y)) => both(f64::max, y),
-            (Math::Sqrt, None) if x.least >= 0.0 => {
-                Interval { least: x.least.sqrt(), most: x.most.sqrt(), zero: x.zero }
-            }
+            (Math::Sqrt, None) if x.min >= 0.0 => Interval { min: x.min.sqrt(), max: x.max.sqrt(), zero: x.zero },
             // Smaller values would underflow.
-            (Math::Exp | Math::Exp2, None) if x.least > -80.0 => {
-                Interval { least: 0.0, most: f64::INFINITY, zero: false }
-            }
+            (Math::Exp | Math::Exp2, None) if x.min > -80.0 => Interval { min: 0.0, max: f64::INFINITY, zero: false },
             _ => return Interval::ANY,
         };
         result.as_type(scalar)
@@ -202,7 +194,7 @@ impl Interval {
     pub fn converted(self, to: Scalar) -> Interval {
         match to {
             Scalar::Float => self.as_type(to),
-            Scalar::Int | Scalar::Uint => Interval::between(self.least.trunc(), self.most.trunc()).as_type(to),
+            Scalar::Int | Scalar::Uint => Interval::between(self.min.trunc(), self.max.trunc()).as_type(to),
             Scalar::Bool => Interval::BOOL,
         }
     }
@@ -284,8 +276,8 @@ mod tests {
 
     #[test]
     fn integers_wrap_and_are_cut_off() {
-        let most = Interval::literal(Scalar::Int, i32::MAX as u32);
-        assert!(most.binary(Binary::Add, Interval::literal(Scalar::Int, 1), Scalar::Int).zero);
+        let max = Interval::literal(Scalar::Int, i32::MAX as u32);
+        assert!(max.binary(Binary::Add, Interval::literal(Scalar::Int, 1), Scalar::Int).zero);
         assert!(float(0.7).converted(Scalar::Int).zero);
         assert!(!float(-1.2).converted(Scalar::Int).zero);
     }
@@ -294,7 +286,7 @@ mod tests {
     fn bits_and_remainders_are_bounded() {
         let int = Interval::of_type(TypeId::INT).unwrap();
         let number = |number: i32| Interval::literal(Scalar::Int, number as u32);
-        let bounds = |interval: Interval| (interval.least, interval.most);
+        let bounds = |interval: Interval| (interval.min, interval.max);
         assert_eq!(bounds(int.binary(Binary::And, number(7), Scalar::Int)), (0.0, 7.0));
         assert_eq!(int.binary(Binary::And, number(-2), Scalar::Int), Interval::ANY);
         assert_eq!(bounds(int.binary(Binary::Modulo, number(5), Scalar::Int)), (0.0, 4.0));

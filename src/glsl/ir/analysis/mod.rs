@@ -12,7 +12,7 @@ mod exposed;
 mod interval;
 
 pub use counters::{Counters, Definition, Step};
-pub use effects::{leaves, stores};
+pub use effects::{continues, leaves, stores};
 pub use ends::ends;
 pub use exposed::exposed;
 pub use interval::Interval;

@@ -26,7 +26,7 @@ impl Builder<'_, '_> {
         if let Some(&value) = self.literals.get(&key) {
             return value;
         }
-        let value = self.free(Op::Literal(scalar, bits));
+        let value = self.add_before(Op::Literal(scalar, bits));
         self.literals.insert(key, value);
         value
     }
@@ -58,7 +58,7 @@ impl Builder<'_, '_> {
         if let Some(&value) = self.zeros.get(&ty) {
             return value;
         }
-        let value = self.free(Op::Zero(ty));
+        let value = self.add_before(Op::Zero(ty));
         self.zeros.insert(ty, value);
         value
     }
@@ -69,7 +69,7 @@ impl Builder<'_, '_> {
         if !self.cx.marks.undefined {
             return self.zero(ty);
         }
-        let value = self.free(Op::Zero(ty));
+        let value = self.add_before(Op::Zero(ty));
         self.undefined.push(Unset { value, kind, name: name.symbol, loc: name.loc() });
         value
     }
@@ -101,7 +101,7 @@ impl Builder<'_, '_> {
         if let Some(&value) = self.constants.get(&key) {
             return value;
         }
-        let value = self.free(Op::Const(id));
+        let value = self.add_before(Op::Const(id));
         self.constants.insert(key, value);
         value
     }
@@ -111,7 +111,7 @@ impl Builder<'_, '_> {
         let constant = &self.cx.out[const_id(id)];
         let ty = constant.ty;
         let is_number = |bits: &u32| f32::from_bits(*bits).is_finite();
-        (constant.words.iter().all(is_number) || !self.cx.out.holds_floats(ty)) && !self.cx.is_long(ty)
+        (constant.words.iter().all(is_number) || !self.cx.out.contains_floats(ty)) && !self.cx.is_long(ty)
     }
 
     pub(crate) fn compose(&mut self, ty: TypeId, parts: Vec<Value>) -> Value {
@@ -123,7 +123,7 @@ impl Builder<'_, '_> {
         if let Some(&value) = self.globals.get(&global) {
             return value;
         }
-        let value = self.free(Op::Global(global));
+        let value = self.add_before(Op::Global(global));
         self.globals.insert(global, value);
         value
     }

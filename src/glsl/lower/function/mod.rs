@@ -79,7 +79,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> (ir::Function
     builder.parameters(instance.func, |b, param| {
         let index = b.f.params.len() as u32;
         b.f.params.push(param);
-        b.free(Op::Param(index))
+        b.add_before(Op::Param(index))
     });
     builder.statements(function.body.unwrap_or(List::EMPTY));
     if !builder.ended && function.result != TypeId::VOID {
@@ -172,7 +172,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     /// Records a precondition of an operation, if preconditions are requested.
-    pub(super) fn note(&mut self, value: Value, precondition: impl FnOnce() -> Precondition) {
+    pub(super) fn record_precondition(&mut self, value: Value, precondition: impl FnOnce() -> Precondition) {
         if self.cx.marks.undefined {
             let function = ir::FuncId::new(self.cx.out.functions.len());
             self.cx.names.preconditions.insert((function, value), precondition());
@@ -180,7 +180,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     /// Marks that control reaches a part of the text, if statements are marked.
-    pub(super) fn mark(&mut self, event: fn(u32) -> StatementEvent, stmt: StmtId) {
+    pub(super) fn mark_statement(&mut self, event: fn(u32) -> StatementEvent, stmt: StmtId) {
         if self.cx.marks.statements {
             let value = self.add(Op::OpaqueZero);
             self.marks.push((value, event(stmt.index() as u32)));
@@ -188,7 +188,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     /// Adds a free operation, which no statement computes.
-    pub(super) fn free(&mut self, op: Op) -> Value {
+    pub(super) fn add_before(&mut self, op: Op) -> Value {
         debug_assert!(op.is_free());
         let ty = ir::infer::ty(&self.cx.out, &self.f, &op);
         self.f.append(op, ty, self.loc)

@@ -53,7 +53,7 @@ impl Builder<'_, '_> {
         let pointer = self.temporary(ty);
         if self.is_forced(local) {
             let zero = self.zero(ty);
-            self.begin_with(pointer, zero);
+            self.set_initializer(pointer, zero);
             if let (true, Some(name)) = (self.cx.marks.undefined, self.cx.hir[local].name) {
                 let unset = Unset { value: pointer, kind: UnsetKind::Variable, name: name.symbol, loc: name.loc() };
                 self.undefined.push(unset);
@@ -64,7 +64,7 @@ impl Builder<'_, '_> {
     }
 
     /// Initialises a variable of the function with a constant.
-    pub(crate) fn begin_with(&mut self, variable: Value, value: Value) {
+    pub(crate) fn set_initializer(&mut self, variable: Value, value: Value) {
         if let Op::Var(id) = self.f[variable] {
             self.f.vars[id.index()].init = Some(value);
         }
@@ -73,7 +73,7 @@ impl Builder<'_, '_> {
     /// Adds a variable to this function.
     pub(crate) fn temporary(&mut self, ty: TypeId) -> Value {
         let variable = self.f.add_var(ty);
-        self.free(Op::Var(variable))
+        self.add_before(Op::Var(variable))
     }
 
     pub(crate) fn is_vector_or_scalar(&self, ty: TypeId) -> bool {

@@ -88,14 +88,7 @@ pub(super) fn inlined(module: &Module) -> Vec<bool> {
 
 /// Returns whether a statement may return from its function.
 pub(super) fn returns(stmt: &Stmt) -> bool {
-    let any = |block: &Block| block.iter().any(returns);
-    match stmt {
-        Stmt::Return(_) => true,
-        Stmt::If { accept, reject, .. } => any(accept) || any(reject),
-        Stmt::Loop { body, .. } => any(body),
-        Stmt::Switch { cases, .. } => cases.iter().any(|case| any(&case.body)),
-        _ => false,
-    }
+    matches!(stmt, Stmt::Return(_)) || stmt.any_block(|block| block.iter().any(returns))
 }
 
 /// Returns whether control cannot reach the end of a block, outside of loops and switches.

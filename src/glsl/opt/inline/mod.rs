@@ -13,7 +13,7 @@ mod choose;
 
 use crate::{
     ast::Loc,
-    ir::{Block, Case, Function, Module, Op, Stmt, Value, Var, VarId},
+    ir::{Block, Function, Module, Op, Stmt, Value, Var, VarId},
     types::{Scalar, TypeId},
 };
 use choose::{always_leaves, needs_flag, returns};
@@ -257,28 +257,14 @@ impl Inliner<'_> {
     fn statement(&mut self, site: &mut Site<'_>, stmt: &Stmt) {
         let copy = match stmt {
             Stmt::Let(value) => Stmt::Let(site.value(*value)),
-            Stmt::If { condition, accept, reject } => {
-                let condition = site.value(*condition);
-                Stmt::If { condition, accept: self.copy(site, accept), reject: self.copy(site, reject) }
-            }
-            Stmt::Loop { body, continuing, break_if } => {
-                site.breakable += 1;
-                self.loops += 1;
-                let (body, continuing) = (self.copy(site, body), self.copy(site, continuing));
-                self.loops -= 1;
-                site.breakable -= 1;
-                Stmt::Loop { body, continuing, break_if: break_if.map(|value| site.value(value)) }
-            }
-            Stmt::Switch { selector, cases } => {
-                let selector = site.value(*selector);
-                site.breakable += 1;
-                let cases = cases.iter().map(|case| Case { body: self.copy(site, &case.body), ..*case }).collect();
-                site.breakable -= 1;
-                Stmt::Switch { selector, cases }
-            }
             Stmt::Return(value) => return self.leave(site, *value),
             other => {
-                let mut copy = other.clone();
+                let (is_loop, is_switch) = (matches!(other, Stmt::Loop { .. }), matches!(other, Stmt::Switch { .. }));
+                self.loops += usize::from(is_loop);
+                site.breakable += usize::from(is_loop || is_switch);
+                let mut copy = other.with_blocks(|block| self.copy(site, block));
+                self.loops -= usize::from(is_loop);
+                site.breakable -= usize::from(is_loop || is_switch);
                 copy.operands_mut(|operand| *operand = site.value(*operand));
                 copy
             }

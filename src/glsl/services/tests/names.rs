@@ -189,7 +189,7 @@ fn uses_are_the_same_from_every_place() {
     assert_eq!(all.len(), 4);
     for &span in &all {
         assert_eq!(analysis.uses(span.source, span.start as usize), all);
-        assert_eq!(analysis.uses(span.source, span.end as usize), all, "behind the word");
+        assert_eq!(analysis.uses(span.source, span.end as usize), all, "after the word");
     }
 }
 

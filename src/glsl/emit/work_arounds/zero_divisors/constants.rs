@@ -117,7 +117,7 @@ impl Constants {
 
     /// Removes the divisions of a function, by [`Value::index`], whose divisor is not zero in any of its calls: the
     /// arguments of each call are analysed separately, as in a driver that inlines the function.
-    pub(super) fn look_at_each_call(&mut self, program: &Module, function: usize, divisions: &mut [bool]) {
+    pub(super) fn analyse_call_sites(&mut self, program: &Module, function: usize, divisions: &mut [bool]) {
         let differs = |held: &Merged| matches!(held.state, State::Range(known) if !known.is_exact());
         if !self.is_found || !self.params[function].iter().any(differs) {
             return;

@@ -39,7 +39,7 @@ pub(super) fn run(program: &mut Module) {
             |division| divisor(program, f, division).is_some_and(|it| constants.may_be_zero(program, index, it));
         let mut divisions: Vec<bool> = f.values().map(hides).collect();
         if divisions.contains(&true) {
-            constants.look_at_each_call(program, index, &mut divisions);
+            constants.analyse_call_sites(program, index, &mut divisions);
         }
         let is_width = |division| divisor(program, f, division).is_some() && is_of_smoothstep(f, division.0);
         divisions.iter_mut().zip(f.values()).for_each(|(hides, division)| *hides |= is_width(division));

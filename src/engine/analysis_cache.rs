@@ -2,8 +2,8 @@
 
 use super::{
     Sources,
-    preamble::KeptPreamble,
-    stage_cache::{CacheMiss, KeptStages},
+    preamble::PreambleCache,
+    stage_cache::{CacheMiss, DiagnosticsCache},
 };
 use eddy_diag::{self as diag, Diagnostic};
 use eddy_glsl::{Driver, Link, services::Analysis};
@@ -21,17 +21,17 @@ pub struct StageAnalysis {
 
 /// The analyses of every stage of a project, for callers that repeat them after each edit.
 #[derive(Default)]
-pub struct KeptAnalyses {
+pub struct AnalysisCache {
     kept: Vec<(CacheMiss, Arc<Analysis>)>,
-    preamble: KeptPreamble,
+    preamble: PreambleCache,
     /// The stages of passes that draw meshes: the outputs of a vertex stage are known only after compiling it.
-    stages: KeptStages,
+    stages: DiagnosticsCache,
 }
 
-impl KeptAnalyses {
+impl AnalysisCache {
     /// Analyses every stage of every pass, except those that have not changed since the last call.
     pub fn analyse(&mut self, project: &Project, texts: &Sources<'_>) -> Vec<StageAnalysis> {
-        self.preamble.lend(texts);
+        self.preamble.provide_to(texts);
         let before = std::mem::take(&mut self.kept);
         let mut found = Vec::new();
         for (index, pass) in project.passes.iter().enumerate() {
@@ -45,7 +45,7 @@ impl KeptAnalyses {
                 found.push(StageAnalysis { index, stage, analysis });
             }
         }
-        self.preamble.keep(texts);
+        self.preamble.update_from(texts);
         found
     }
 

@@ -9,18 +9,18 @@ use crate::{
 
 impl Checker<'_> {
     /// Returns the type of a name that the header declares, and the target of its uses.
-    fn given(&mut self, name: Ident) -> Option<(TypeId, DeclRef)> {
+    fn predefined(&mut self, name: Ident) -> Option<(TypeId, DeclRef)> {
         let loc = Loc::from(name);
         Some(match self.scopes.get(name.symbol) {
             Binding::Uniform(uniform) => (self.uniform_type(uniform, loc), DeclRef::Uniform(uniform)),
-            Binding::OldTime => (TypeId::FLOAT, DeclRef::Uniform(Uniform::Time)),
+            Binding::DeprecatedTime => (TypeId::FLOAT, DeclRef::Uniform(Uniform::Time)),
             Binding::Channel(channel) => (self.channel_type(channel), DeclRef::Channel(channel)),
             _ => return None,
         })
     }
 
     /// Checks a redeclaration of an existing uniform: with the same type it has no effect. Returns whether it was one.
-    pub(super) fn uniform_again(
+    pub(super) fn redeclared_uniform(
         &mut self,
         quals: &Qualifiers,
         base: TypeId,
@@ -31,7 +31,7 @@ impl Checker<'_> {
         if !quals.is(Q::Uniform) {
             return false;
         }
-        let Some((given, target)) = self.given(name) else { return false };
+        let Some((given, target)) = self.predefined(name) else { return false };
         let (ty, init) = self.variable_type(base, spec, declarator);
         let text = self.name(name.symbol);
         if let Some(init) = init {
@@ -39,19 +39,19 @@ impl Checker<'_> {
             self.error(at, format!("`{text}` is an interface variable and cannot have an initialiser"));
             return true;
         }
-        self.uses(name.token, target);
-        self.take_again(name, ty, given);
+        self.record_use(name.token, target);
+        self.check_redeclaration(name, ty, given);
         true
     }
 
     /// Reports a redeclaration of a uniform that has the type `given`.
-    fn take_again(&mut self, name: Ident, ty: TypeId, given: TypeId) {
+    fn check_redeclaration(&mut self, name: Ident, ty: TypeId, given: TypeId) {
         let text = self.name(name.symbol);
         if ty == given {
             self.warning(name, format!("`{text}` is already declared: Shadertoy rejects a second declaration"));
             self.hint("remove the declaration, which changes nothing here");
         } else if ty != TypeId::ERROR {
-            let (wrong, right) = (self.a(ty), self.a(given));
+            let (wrong, right) = (self.with_article(ty), self.with_article(given));
             let is_channel = matches!(self.scopes.get(name.symbol), Binding::Channel(_));
             let here = if is_channel { ", because of the input of the channel" } else { "" };
             self.error(name, format!("`{text}` is {right}{here}, but this declares {wrong}"));
@@ -62,17 +62,17 @@ impl Checker<'_> {
         }
     }
 
-    /// As [`Checker::uniform_again`], for a member of an unnamed block, which is a uniform of its own.
-    pub(super) fn member_again(&mut self, name: Ident, ty: TypeId) -> bool {
-        let Some((given, target)) = self.given(name) else { return false };
-        self.uses(name.token, target);
-        self.take_again(name, ty, given);
+    /// As [`Checker::redeclared_uniform`], for a member of an unnamed block, which is a uniform of its own.
+    pub(super) fn redeclared_member(&mut self, name: Ident, ty: TypeId) -> bool {
+        let Some((given, target)) = self.predefined(name) else { return false };
+        self.record_use(name.token, target);
+        self.check_redeclaration(name, ty, given);
         true
     }
 
     /// Reports an interface variable whose name is taken, before other checks. Returns whether it is taken.
     pub(super) fn is_taken(&mut self, name: Ident) -> bool {
-        let is_taken = self.scopes.here(name.symbol).is_some_and(|previous| previous != Binding::Poison);
+        let is_taken = self.scopes.get_innermost(name.symbol).is_some_and(|previous| previous != Binding::Poison);
         if is_taken {
             self.declare(name, Binding::Poison);
         }

@@ -9,14 +9,14 @@ use glam::{Mat3, Mat4, Quat, Vec3, camera::rh};
 use std::sync::Arc;
 
 /// A mesh with its transform.
-pub(super) struct PlacedMesh {
+pub(super) struct MeshInstance {
     /// The contents of the buffers, for reading back the inputs of a draw.
     pub mesh: Arc<Mesh>,
     pub buffers: Arc<MeshBuffers>,
     model: Mat4,
 }
 
-impl PlacedMesh {
+impl MeshInstance {
     pub(crate) fn new(mesh: Arc<Mesh>, buffers: Arc<MeshBuffers>, draw: &MeshDraw) -> Self {
         Self { mesh, buffers, model: model(draw) }
     }

@@ -23,14 +23,14 @@ impl History {
     }
 
     /// Returns the iterations of the innermost loop around a moment. Empty outside of loops.
-    pub fn turns(&self, at: usize) -> Vec<Iteration> {
+    pub fn iterations(&self, at: usize) -> Vec<Iteration> {
         let Some(moment) = self.moments.get(at) else { return Vec::new() };
         let Some(of) = self.loop_of(moment) else { return Vec::new() };
         let statements = self.walkable.statements();
         let mine = |other: &Moment| other.call == moment.call;
-        let begins =
+        let starts_loop =
             |other: &Moment| mine(other) && other.statement == of && matches!(other.kind, MomentKind::Statement);
-        let start = self.moments[..=at].iter().rposition(begins).unwrap_or(0);
+        let start = self.moments[..=at].iter().rposition(starts_loop).unwrap_or(0);
         let mut found: Vec<Iteration> = Vec::new();
         // The current iteration: its first moment, and its last statement.
         let (mut first, mut last) = (start + 1, None);
@@ -57,13 +57,13 @@ impl History {
     }
 
     /// Returns the values of the function's variables at the end of an iteration, including those of the loop's body.
-    pub fn turn_values(&self, turn: &Iteration) -> Vec<NamedValue> {
-        let moment = &self.moments[turn.last];
+    pub fn iteration_values(&self, iteration: &Iteration) -> Vec<NamedValue> {
+        let moment = &self.moments[iteration.last];
         let slots = self.calls[moment.call as usize].slots as usize;
         let mut found: Vec<NamedValue> = Vec::new();
         for (variable, slot) in self.locals_when(moment, StatementPoint::After).into_iter().rev() {
             if found.iter().all(|shown| shown.name != variable.name) {
-                let words = self.held(turn.end, variable, slots + slot.unwrap_or_default());
+                let words = self.words_at(iteration.end, variable, slots + slot.unwrap_or_default());
                 found.push(NamedValue { name: variable.name.clone(), value: self.of(variable.ty, words) });
             }
         }
