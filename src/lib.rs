@@ -1,11 +1,11 @@
 //! Eddy: a desktop shader playground.
 //!
 //! One engine, two front ends: this package is the two, [`cli`] and [`gui`], which never import each other. The engine and
-//! what it stands on are packages in the folders beside this file, offered here under their short names; the diagram in
+//! the layers below are packages in the folders beside this file, offered here under their short names; the diagram in
 //! `docs/architecture.md` shows who depends on whom.
 //!
 //! Invariants: a plan is data and needs no device; time is an argument; row 0 of every texture is the bottom; skipping
-//! what nobody reads changes no pixel; a `Diagnostic` is the author's to mend, an `...Error` the machine's or ours.
+//! what is not read changes no pixel; a `Diagnostic` is for the author to fix, an `...Error` is the machine's or ours.
 //! Deliberately absent: process-wide state, a clock anywhere but in `session` (`lab` measures durations, and knows no
 //! time of day).
 

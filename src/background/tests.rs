@@ -26,10 +26,10 @@ where
 
 #[test]
 fn the_newest_job_wins_and_superseded_ones_are_not_started() {
-    let (begun, log) = mpsc::channel();
+    let (started, log) = mpsc::channel();
     let (go, gate) = mpsc::channel::<()>();
     let mut b = background(move |n: u32| {
-        begun.send(n).unwrap();
+        started.send(n).unwrap();
         gate.recv().unwrap();
         n * 10
     });

@@ -21,7 +21,7 @@ use std::fmt::Write;
 
 /// The first such texel.
 #[derive(Debug, Serialize)]
-pub(super) struct Begin {
+pub(super) struct FirstNonfinite {
     pass: String,
     frame: u32,
     texel: [u32; 2],
@@ -30,8 +30,8 @@ pub(super) struct Begin {
     /// The number of such texels of the pass in that frame.
     texels: usize,
     /// The operation; none if only the storage of the pass or a texel that it reads can have produced it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    born: Option<NonfiniteOrigin>,
+    #[serde(rename = "born", skip_serializing_if = "Option::is_none")]
+    origin: Option<NonfiniteOrigin>,
 }
 
 #[derive(Debug, Serialize)]
@@ -49,7 +49,7 @@ pub(super) fn first(
     args: &TraceArgs,
     spec: &str,
     inputs: &ScriptedInputs,
-) -> Result<Option<Begin>, RunError> {
+) -> Result<Option<FirstNonfinite>, RunError> {
     let (project, mut offline) = start(machine, report, args, spec, inputs)?;
     let passes = nonfinite::drawn_passes(&project);
     let mut found = None;
@@ -68,14 +68,14 @@ pub(super) fn first(
     }
     let Some((pass, frame, texel, texels, pixels)) = found else { return Ok(None) };
     let value = pixels.texels[(texel.1 * pixels.width + texel.0) as usize];
-    let born = born(machine, args, spec, inputs, (&pass, frame, texel))?;
-    Ok(Some(Begin {
+    let origin = origin(machine, args, spec, inputs, (&pass, frame, texel))?;
+    Ok(Some(FirstNonfinite {
         pass: pass.key().to_owned(),
         frame,
         texel: [texel.0, texel.1],
         value: value.map(|x| crate::lab::Number(x.into())),
         texels,
-        born,
+        origin,
     }))
 }
 
@@ -92,7 +92,7 @@ fn start(
 }
 
 /// Redraws everything up to that frame and walks the pass for that texel.
-fn born(
+fn origin(
     machine: &mut Machine,
     args: &TraceArgs,
     spec: &str,
@@ -104,26 +104,26 @@ fn born(
         offline.draw()?;
     }
     let read = offline.draw_inspected(pass)?;
-    let born = match nonfinite::find_origin(&project, pass, &read, texel, args.max_statements) {
+    let origin = match nonfinite::find_origin(&project, pass, &read, texel, args.max_statements) {
         Err(TraceError::Diagnostics(found)) => return Err(RunError::Diagnostics(found, project.sources())),
         other => other.map_err(anyhow::Error::from)?,
     };
-    Ok(born.map(|finding| NonfiniteOrigin {
+    Ok(origin.map(|finding| NonfiniteOrigin {
         message: finding.kind.message(),
         written: SourceExcerpt::at(&project, finding.span),
         numbers: finding.numbers.clone(),
     }))
 }
 
-pub(super) fn words(spec: &str, frames: u32, first: Option<&Begin>) -> String {
+pub(super) fn words(spec: &str, frames: u32, first: Option<&FirstNonfinite>) -> String {
     let spec = one_line(spec);
-    let Some(Begin { pass, frame, texel: [x, y], texels, born, .. }) = first else {
+    let Some(FirstNonfinite { pass, frame, texel: [x, y], texels, origin, .. }) = first else {
         return format!("{spec}: all texels of all passes are finite in {frames} frames");
     };
     let mut out = format!(
         "{spec}: the first NaN or infinity is in {pass}, frame {frame}, texel {x},{y} ({texels} in that frame)\n"
     );
-    let place = born.as_ref().and_then(|born| Some((born, born.written.place()?)));
+    let place = origin.as_ref().and_then(|origin| Some((origin, origin.written.place()?)));
     let _ = match place {
         Some((NonfiniteOrigin { message, written, numbers }, place)) => {
             writeln!(out, "  {place}: {message}\n      {}    of {numbers}", written.text)

@@ -5,7 +5,7 @@ use super::{
     command::{CommandError, Run},
     divergence::{self, DivergenceReport},
     machine::{Machine, RunError, pass_over},
-    nonfinite::{self, Begin},
+    nonfinite::{self, FirstNonfinite},
     opening::{Opened, Opening},
     printed::{self, Printed},
     report::{Printer, Report},
@@ -37,7 +37,7 @@ struct JsonLine<'a> {
 struct NonfiniteReport<'a> {
     #[serde(flatten)]
     report: &'a Report,
-    nonfinite: Option<Begin>,
+    nonfinite: Option<FirstNonfinite>,
 }
 
 #[derive(Serialize)]

@@ -96,6 +96,6 @@ fn renamed(before: &str, after: &str) -> Vec<(String, String)> {
 
 /// Returns the text before and after a name in its line.
 fn around(text: &str, name: Span) -> (&str, &str) {
-    let (before, behind) = (&text[..name.range().start], &text[name.range().end..]);
-    (before.rsplit('\n').next().unwrap_or_default(), behind.lines().next().unwrap_or_default())
+    let (before, after) = (&text[..name.range().start], &text[name.range().end..]);
+    (before.rsplit('\n').next().unwrap_or_default(), after.lines().next().unwrap_or_default())
 }

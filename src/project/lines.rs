@@ -26,7 +26,7 @@ pub(super) fn hash_lines(text: &str) -> Vec<HashLine<'_>> {
         // comment starts or ends.
         let next = match in_comment {
             true => comment_end.from(start),
-            false => hash.from(start).map(|hash| comment_start.from(start).map_or(hash, |begin| begin.min(hash))),
+            false => hash.from(start).map(|hash| comment_start.from(start).map_or(hash, |comment| comment.min(hash))),
         };
         let Some(next) = next else { break };
         start = line_start(text, start, next);
@@ -83,15 +83,15 @@ pub(super) fn trim_start(text: &str) -> &str {
 /// Returns the start of the line that contains `at`, including the lines joined to it. It is not before `least`, which
 /// is the start of a line.
 fn line_start(text: &str, least: usize, at: usize) -> usize {
-    let mut begin = at;
+    let mut first = at;
     loop {
-        begin = text[least..begin].rfind('\n').map_or(least, |i| least + i + 1);
-        let before = &text[least..begin];
-        let Some(before) = before.strip_suffix('\n') else { return begin };
+        first = text[least..first].rfind('\n').map_or(least, |i| least + i + 1);
+        let before = &text[least..first];
+        let Some(before) = before.strip_suffix('\n') else { return first };
         if !before.strip_suffix('\r').unwrap_or(before).ends_with('\\') {
-            return begin;
+            return first;
         }
-        begin -= 1;
+        first -= 1;
     }
 }
 

@@ -1,4 +1,4 @@
-//! The open project: everything that belongs to it, and is built anew with each project that is opened.
+//! The open project: everything that belongs to it, and is rebuilt with each project that is opened.
 //!
 //! State that outlives a project is in [`Services`](super::services::Services). What a project has from the previous
 //! one, such as the user's settings for all projects, is listed in [`OpenProject::successor`], so that opening a project

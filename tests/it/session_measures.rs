@@ -63,7 +63,7 @@ fn values_are_measured_each_frame_while_watched() {
     // A measure without a value states the reason and the fix.
     let why = |stage: &Stage, text: &str| {
         let unmeasured = stage.session.unmeasured(measure(&stage.session, text)).map(|why| why.into_owned());
-        unmeasured.map(|unmeasured| (unmeasured.why, unmeasured.mend))
+        unmeasured.map(|unmeasured| (unmeasured.why, unmeasured.hint))
     };
     stage.act(Command::View(ViewCommand::WatchCosts(true)));
     let (undrawn, fix) = why(&stage, "sum(buffer_b)").unwrap();

@@ -200,15 +200,15 @@ fn every_depth_test_matches_the_device() {
         let again = MeshDraw { depth, ..second.clone() };
         assert_agrees(&gpu, &what, scene(&red, &stages, 1, camera(), vec![draw("builtin:sphere"), again]), 1);
         let stepped = MeshDraw { fragment: Stage::File(2), ..first.clone() };
-        let behind = MeshDraw { fragment: Stage::File(2), ..second };
+        let farther = MeshDraw { fragment: Stage::File(2), ..second };
         // A step may be within the last bits of a depth.
-        assert_agrees(&gpu, &what, scene(&red, &stages, 1, camera(), vec![stepped, behind]), 3);
+        assert_agrees(&gpu, &what, scene(&red, &stages, 1, camera(), vec![stepped, farther]), 3);
     }
     let quiet = MeshDraw { color_write: false, ..rotated("builtin:cube") };
-    let behind = MeshDraw { fragment: Stage::File(1), scale: 1.4, ..rotated("builtin:sphere") };
-    assert_agrees(&gpu, "depth alone", scene(&red, &stages, 1, camera(), vec![quiet, behind.clone()]), 1);
+    let farther = MeshDraw { fragment: Stage::File(1), scale: 1.4, ..rotated("builtin:sphere") };
+    assert_agrees(&gpu, "depth alone", scene(&red, &stages, 1, camera(), vec![quiet, farther.clone()]), 1);
     let open = MeshDraw { depth_write: false, ..rotated("builtin:cube") };
-    assert_agrees(&gpu, "no depth", scene(&red, &stages, 1, camera(), vec![open, behind]), 1);
+    assert_agrees(&gpu, "no depth", scene(&red, &stages, 1, camera(), vec![open, farther]), 1);
 }
 
 /// Passes that draw meshes do not blend: a colour with alpha replaces the previous one.

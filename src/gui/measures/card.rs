@@ -45,10 +45,10 @@ pub(super) fn show(
                     ui.add_space(plot::HEIGHT);
                 }
             }
-            Some(Unmeasured { why, mend }) => {
+            Some(Unmeasured { why, hint }) => {
                 let text = RichText::new(format!("Not measured: {why}")).color(p.warning);
                 ui.add(Label::new(text).wrap());
-                ui.add(Label::new(RichText::new(mend).color(p.weak)).wrap());
+                ui.add(Label::new(RichText::new(hint).color(p.weak)).wrap());
             }
         }
     });

@@ -19,7 +19,7 @@ pub(super) fn report(state: &Measurements, session: &Session) -> Value {
             "range": record.extremes().map(|(low, high)| [low, high]),
             "first": record.samples().next().map(|first| first.frame),
             "why": trouble.as_ref().map(|trouble| &trouble.why),
-            "mend": trouble.as_ref().map(|trouble| &trouble.mend),
+            "mend": trouble.as_ref().map(|trouble| &trouble.hint),
         })
     });
     json!({ "axis": state.axis.name(), "frames": session.measured_frames(), "cards": cards.collect::<Vec<_>>() })

@@ -255,9 +255,9 @@ mod tests {
     #[test]
     fn occluded_points_are_hidden() {
         let [sphere, ..] = each();
-        let behind = PlacedShape { centre: [0.4, -0.2, -10.0], ..sphere };
-        let hidden = |p: &LinePoint| !is_seen(&[sphere, behind], [0.0; 3], *p);
-        assert!(behind.lines([0.0; 3], 30).iter().all(hidden));
+        let farther = PlacedShape { centre: [0.4, -0.2, -10.0], ..sphere };
+        let hidden = |p: &LinePoint| !is_seen(&[sphere, farther], [0.0; 3], *p);
+        assert!(farther.lines([0.0; 3], 30).iter().all(hidden));
         assert!(!sphere.lines([0.0; 3], 30).iter().any(hidden));
     }
 

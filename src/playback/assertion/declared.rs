@@ -8,7 +8,7 @@ use eddy_project::{self as project, PassName, Project, inspect_comments};
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unmeasured {
     pub why: String,
-    pub mend: String,
+    pub hint: String,
 }
 
 /// A measuring comment, such as `//@probe sum(buffer_a.x)`.
@@ -22,7 +22,7 @@ pub struct Declared {
 
 impl Unmeasured {
     pub fn diagnostic(&self, span: Span) -> Diagnostic {
-        Diagnostic::warning(span, format!("not measured: {}", self.why)).hint(self.mend.as_str())
+        Diagnostic::warning(span, format!("not measured: {}", self.why)).hint(self.hint.as_str())
     }
 }
 
@@ -42,28 +42,28 @@ pub fn declared(project: &Project) -> Vec<Declared> {
 fn quantity(project: &Project, text: &str) -> Result<Quantity, Unmeasured> {
     let quantity = Quantity::parse(text).map_err(|why| Unmeasured {
         why,
-        mend: "the form is //@probe sum(buffer_a.x), with sum, min, max, mean, rms, nonfinite, energy or roughness"
+        hint: "the form is //@probe sum(buffer_a.x), with sum, min, max, mean, rms, nonfinite, energy or roughness"
             .into(),
     })?;
     let key = quantity.pass.key();
     let Some(pass) = project.pass(&quantity.pass) else {
         let keys: Vec<&str> = project.passes.iter().map(|pass| pass.id.key()).collect();
-        let mend = format!("the project's passes are {}", project::listed(&keys));
-        return Err(Unmeasured { why: format!("there is no pass {key}"), mend });
+        let hint = format!("the project's passes are {}", project::listed(&keys));
+        return Err(Unmeasured { why: format!("there is no pass {key}"), hint });
     };
     let formats = pass.formats();
     let Some(format) = formats.get(quantity.target) else {
         let why = format!("{key} has no target {}", quantity.target);
-        let mend = match formats.len() {
+        let hint = match formats.len() {
             1 => format!("it has one target, written {key}"),
             count => format!("it has {count} targets, numbered from 0"),
         };
-        return Err(Unmeasured { why, mend });
+        return Err(Unmeasured { why, hint });
     };
     match quantity.components.iter().copied().find(|component| *component >= format.components()) {
         Some(component) => Err(Unmeasured {
             why: format!("{key} does not store {}", ["x", "y", "z", "w"][component]),
-            mend: format!("its format {} has {} of the four components", format.name(), format.components()),
+            hint: format!("its format {} has {} of the four components", format.name(), format.components()),
         }),
         None => Ok(quantity),
     }

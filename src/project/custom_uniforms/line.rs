@@ -5,7 +5,7 @@
 //! #iUniform float dent = 1.0 in { 0.0, 5.0 } step 0.2     // one that moves by steps
 //! #iUniform int rings = 5                                 // a number without limits
 //! #iUniform color3 tint = color3(1.0, 0.5, 0.0)           // a colour; a vec3 in GLSL
-//! #iUniform vec4 gains = vec4(1.0) in { 0.0, 1.0 }        // four sliders; one number stands for all components
+//! #iUniform vec4 gains = vec4(1.0) in { 0.0, 1.0 }        // four sliders; one number is used for all components
 //! #iUniform bool wrapped = true                           // this type the extension does not have
 //! ```
 //!

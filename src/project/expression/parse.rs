@@ -142,7 +142,7 @@ impl<'t> Parser<'t> {
     /// Parses signs and parenthesised expressions.
     fn signed(&mut self) -> Result<Term, ExpressionError> {
         self.skip_blanks();
-        let begin = self.at;
+        let from = self.at;
         if self.takes("!") {
             Ok(Term::Not(Box::new(self.nested(Self::signed)?)))
         } else if self.takes("-") {
@@ -151,7 +151,7 @@ impl<'t> Parser<'t> {
             self.nested(Self::signed)
         } else if self.takes("(") {
             let inner = self.choice()?;
-            self.close(begin)?;
+            self.close(from)?;
             Ok(inner)
         } else {
             self.value()
@@ -167,10 +167,10 @@ impl<'t> Parser<'t> {
     }
 
     fn value(&mut self) -> Result<Term, ExpressionError> {
-        let (begin, rest) = (self.at, self.rest());
+        let (from, rest) = (self.at, self.rest());
         let Some(first) = rest.chars().next() else {
             let message = format!("the {} ends where a value must follow", self.syntax.noun());
-            return Err(error(begin..begin, message, "write a number or the name of a uniform after it"));
+            return Err(error(from..from, message, "write a number or the name of a uniform after it"));
         };
         if first.is_ascii_digit() || first == '.' {
             return self.number();
@@ -183,9 +183,9 @@ impl<'t> Parser<'t> {
         match &rest[..end] {
             "true" => Ok(Term::Number(1.0)),
             "false" => Ok(Term::Number(0.0)),
-            name if self.syntax.computes() && self.takes("(") => self.call(name, begin..begin + end),
+            name if self.syntax.computes() && self.takes("(") => self.call(name, from..from + end),
             name => {
-                self.names.push((name.to_owned(), begin..self.at));
+                self.names.push((name.to_owned(), from..self.at));
                 Ok(Term::Name(name.to_owned()))
             }
         }
@@ -212,7 +212,7 @@ impl<'t> Parser<'t> {
     }
 
     fn number(&mut self) -> Result<Term, ExpressionError> {
-        let (begin, rest) = (self.at, self.rest());
+        let (from, rest) = (self.at, self.rest());
         let mut end = 0;
         for (at, c) in rest.char_indices() {
             let is_sign_of_exponent = matches!(c, '+' | '-') && rest[..at].ends_with(['e', 'E']);
@@ -229,7 +229,7 @@ impl<'t> Parser<'t> {
         let Some(number) = number.filter(|_| !digits.contains(|c: char| c.is_ascii_alphabetic() && !"eE".contains(c)))
         else {
             let message = format!("{written} is not a number");
-            return Err(error(begin..self.at, message, "write for example 3, 0.5 or 1e-4"));
+            return Err(error(from..self.at, message, "write for example 3, 0.5 or 1e-4"));
         };
         // An integer may be compared with an int, which single precision cannot represent exactly.
         let is_exact = self.syntax.computes() || number.fract() == 0.0;
@@ -237,9 +237,9 @@ impl<'t> Parser<'t> {
     }
 
     fn unexpected(&self, c: char) -> ExpressionError {
-        let (begin, rest) = (self.at, self.rest());
+        let (from, rest) = (self.at, self.rest());
         let word = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(rest.len());
-        let range = begin..begin + word.max(c.len_utf8());
+        let range = from..from + word.max(c.len_utf8());
         let hint = match &rest[..word.max(c.len_utf8())] {
             "=" => "write == to compare",
             "&" | "and" => "write && for and",

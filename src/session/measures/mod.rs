@@ -31,8 +31,8 @@ impl OpenProject {
             return None;
         }
         let known = reason(pass, self.engine.costs()).unwrap_or_else(|| "not drawn".to_owned());
-        let mend = format!("let a drawn pass read it, or show {} as the picture", pass.title());
-        Some(Cow::Owned(Unmeasured { why: format!("{} is {known}", pass.title()), mend }))
+        let hint = format!("let a drawn pass read it, or show {} as the picture", pass.title());
+        Some(Cow::Owned(Unmeasured { why: format!("{} is {known}", pass.title()), hint }))
     }
 
     /// Every measuring comment of the project, with its samples while it was watched

@@ -182,8 +182,8 @@ fn unmeasurable_comments_have_a_reason_and_are_not_requested() {
     let text = "//@probe total(image)\n//@probe sum(buffer_q)\n//@probe max(image:2)\n//@probe max(image)\n";
     measuring.follow(&project(text), (1, 1));
     let why = |at: usize| measuring.measures()[at].quantity.clone().unwrap_err();
-    assert!(why(0).why.contains("not `total`") && why(0).mend.contains("the form is"), "{:?}", why(0));
-    assert!(why(1).why.contains("no pass buffer_q") && why(1).mend.contains("are image"), "{:?}", why(1));
+    assert!(why(0).why.contains("not `total`") && why(0).hint.contains("the form is"), "{:?}", why(0));
+    assert!(why(1).why.contains("no pass buffer_q") && why(1).hint.contains("are image"), "{:?}", why(1));
     assert!(why(2).why.contains("no target 2"), "{:?}", why(2));
     measuring.watch(vec![1, 2, 3, 4]);
     assert_eq!(measuring.due(now, false, false).map(|wanted| wanted.0.len()), Some(1));
