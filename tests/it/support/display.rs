@@ -54,9 +54,19 @@ impl Display {
             missing(tool);
             return None;
         }
-        // The server picks a free number and prints it.
+        // The server picks a free number and prints it. -r: keys do not repeat, however late they are released.
         let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-noreset", "-screen", "0", &format!("{width}x{height}x24"), "-nolisten", "tcp"])
+            .args([
+                "-displayfd",
+                "1",
+                "-noreset",
+                "-r",
+                "-screen",
+                "0",
+                &format!("{width}x{height}x24"),
+                "-nolisten",
+                "tcp",
+            ])
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
