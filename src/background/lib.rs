@@ -7,6 +7,8 @@
 //! A job's progress is a value that it replaces ([`Control::report`]) or adds to ([`Control::update`]). Where every event
 //! counts, it is a list of events, which [`Background::take_progress`] empties.
 
+#![warn(missing_docs)]
+
 use std::{
     any::Any,
     mem,
@@ -63,14 +65,18 @@ enum Input {
 /// The state of the work, as shown by a front end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Status<'w, Progress, Out> {
+    /// It was requested or is running, with its progress.
     UnderWay(Progress),
+    /// Its result, or the reason why there is none.
     Ended(Result<&'w Out, &'w str>),
 }
 
 /// Progress as a number of items out of a total.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
+    /// The number of items that are done.
     pub done: usize,
+    /// The total.
     pub of: usize,
 }
 

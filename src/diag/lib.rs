@@ -5,6 +5,8 @@
 //! ([`escape_text`]). Knows nothing of GLSL: a span may refer to a shader, an `eddy.toml` or a JSON file. Failures of
 //! the machine or of Eddy are error types of their layers, never a `Diagnostic`.
 
+#![warn(missing_docs)]
+
 mod caret;
 mod follow;
 mod terminal_text;
@@ -31,12 +33,16 @@ impl SourceId {
 /// A half-open range of bytes `[start, end)` in one source text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Span {
+    /// The text.
     pub source: SourceId,
+    /// The first byte.
     pub start: u32,
+    /// The byte after the last one.
     pub end: u32,
 }
 
 impl Span {
+    /// Returns the span of a range of bytes of a text.
     pub fn new(source: SourceId, range: Range<usize>) -> Self {
         Self { source, start: range.start as u32, end: range.end as u32 }
     }
@@ -54,6 +60,7 @@ impl Span {
         Span { end: end.end, ..self }
     }
 
+    /// Returns its range of bytes.
     pub fn range(self) -> Range<usize> {
         self.start as usize..self.end as usize
     }
@@ -62,12 +69,16 @@ impl Span {
 /// The severity of a diagnostic. Only an error prevents a program from running.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Severity {
+    /// An explanation that needs no action.
     Note,
+    /// Something that is probably wrong.
     Warning,
+    /// A mistake because of which there is no program.
     Error,
 }
 
 impl Severity {
+    /// Returns the name in messages: `note`, `warning` or `error`.
     pub fn name(self) -> &'static str {
         match self {
             Severity::Note => "note",
@@ -80,14 +91,18 @@ impl Severity {
 /// A secondary place: the earlier declaration, the macro's definition.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
+    /// The place.
     pub span: Span,
+    /// The reason why the place matters, in one sentence without a full stop.
     pub message: String,
 }
 
 /// A range of a text, and its replacement.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
+    /// The bytes that are replaced.
     pub span: Span,
+    /// The text in their place.
     pub text: String,
 }
 
@@ -96,10 +111,12 @@ pub struct Edit {
 pub struct Fix {
     /// Its description, for a menu: "Replace with `texture`".
     pub title: String,
+    /// The edits, in any order.
     pub edits: Vec<Edit>,
 }
 
 impl Fix {
+    /// Returns a fix with this title.
     pub fn new(title: impl Into<String>, edits: Vec<Edit>) -> Self {
         Self { title: title.into(), edits }
     }
@@ -133,6 +150,7 @@ impl Fix {
 /// A problem that the author must fix, or should know.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
+    /// Its severity.
     pub severity: Severity,
     /// The place, or `None` for a problem that is not in any text (a missing pass).
     pub span: Option<Span>,
@@ -147,6 +165,7 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
+    /// Returns a diagnostic without labels, hints and fixes. A long message is shortened.
     pub fn new(severity: Severity, span: impl Into<Option<Span>>, message: impl Into<String>) -> Self {
         Self {
             severity,
@@ -158,32 +177,38 @@ impl Diagnostic {
         }
     }
 
+    /// Returns an error.
     pub fn error(span: impl Into<Option<Span>>, message: impl Into<String>) -> Self {
         Self::new(Severity::Error, span, message)
     }
 
+    /// Returns a warning.
     pub fn warning(span: impl Into<Option<Span>>, message: impl Into<String>) -> Self {
         Self::new(Severity::Warning, span, message)
     }
 
+    /// Adds a secondary place.
     #[must_use]
     pub fn label(mut self, span: Span, message: impl Into<String>) -> Self {
         self.labels.push(Label { span, message: shortened(message) });
         self
     }
 
+    /// Adds a suggested fix.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hints.push(shortened(hint));
         self
     }
 
+    /// Adds a fix that an editor can apply.
     #[must_use]
     pub fn fix(mut self, fix: Fix) -> Self {
         self.fixes.push(fix);
         self
     }
 
+    /// Returns whether it prevents a program from running.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
@@ -241,6 +266,7 @@ pub fn append(all: &mut Vec<Diagnostic>, found: impl IntoIterator<Item = Diagnos
 pub struct SourceText {
     /// The name that the author knows: `buffer_a.glsl`, `Image`, `eddy.toml`.
     pub name: String,
+    /// The whole text.
     pub text: Arc<str>,
     lines: OnceLock<LineIndex>,
 }
@@ -297,7 +323,9 @@ fn characters(bytes: &[u8]) -> u32 {
 /// A line and column, both counted from 1, as editors show them. Columns count characters, not bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LineColumn {
+    /// The line, from 1.
     pub line: usize,
+    /// The column, from 1.
     pub column: usize,
 }
 
@@ -308,16 +336,19 @@ pub struct SourceMap {
 }
 
 impl SourceMap {
+    /// Adds a text, and returns its id. Panics if there are 65,536 texts already.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> SourceId {
         let id = SourceId(u16::try_from(self.sources.len()).expect("fewer than 65,536 sources in one compile"));
         self.sources.push(SourceText { name: name.into(), text: text.into(), lines: OnceLock::new() });
         id
     }
 
+    /// Returns a text; `None` for an unknown id.
     pub fn get(&self, id: SourceId) -> Option<&SourceText> {
         self.sources.get(usize::from(id.0))
     }
 
+    /// Returns all texts with their ids, in the order in which they were added.
     pub fn iter(&self) -> impl Iterator<Item = (SourceId, &SourceText)> {
         self.sources.iter().enumerate().map(|(i, s)| (SourceId(i as u16), s))
     }

@@ -7,6 +7,8 @@
 //! Knows neither GLSL nor wgpu: what a pass actually reads is passed in as [`PassFacts`], and a plan is data that an
 //! engine executes in a loop.
 
+#![warn(missing_docs)]
+
 mod carried;
 mod changes;
 mod plan;

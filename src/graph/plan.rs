@@ -19,6 +19,7 @@ pub struct ChannelFacts {
 /// The facts about a compiled pass that the planner needs. Conservative: whatever may happen is assumed to happen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PassFacts {
+    /// The facts about each channel.
     pub channels: [ChannelFacts; SLOTS],
     /// `discard` is reachable, so the previous content of the target can stay visible.
     pub discards: bool,
@@ -43,8 +44,13 @@ pub enum ReadTiming {
 /// The source of a channel's texels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TexelSource {
-    /// An index into [`FramePlan::targets`].
-    Target { index: usize, when: ReadTiming },
+    /// A target of a pass.
+    Target {
+        /// An index into [`FramePlan::targets`].
+        index: usize,
+        /// The frame whose texels are read.
+        when: ReadTiming,
+    },
     /// A texture that is not filled by a pass.
     External,
     /// No input, or one whose texture is unavailable: opaque black, of size 0.
@@ -54,7 +60,9 @@ pub enum TexelSource {
 /// A channel of a draw: its source and sampler.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Read {
+    /// The source of the texels.
     pub source: TexelSource,
+    /// The sampler that reads them.
     pub sampler: Sampler,
     /// Levels beyond 0 may be sampled: the sampler uses them and the source has them.
     pub mips: bool,
@@ -63,11 +71,15 @@ pub struct Read {
 /// A texture, or a pair of them, that passes draw into or read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
+    /// The pass that draws it.
     pub id: PassName,
     /// The index among the pass's targets, from 0.
     pub index: usize,
+    /// The kind of texture.
     pub dimension: Dimension,
+    /// Its size in relation to the canvas.
     pub size: PassSize,
+    /// The format of its texels.
     pub format: TexelFormat,
     /// Two alternating textures: the last frame's picture is read, or a `discard` can show the previous one.
     pub doubled: bool,
@@ -133,6 +145,7 @@ pub struct Run {
 /// Everything about a frame that can be determined before it is drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FramePlan {
+    /// The textures that passes draw into.
     pub targets: Vec<Target>,
     /// In drawing order.
     pub draws: Vec<Draw>,

@@ -18,17 +18,27 @@ pub struct TiledDraw {
 /// The reason why a pass cannot be drawn in tiles. Its text includes the fix.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TilingError {
+    /// It draws meshes.
     Meshes,
+    /// It draws a cube.
     Cube,
+    /// It has several targets.
     Targets,
     /// The pass with this title reads it.
     Read(String),
+    /// It reads its own last frame.
     Itself,
+    /// It discards pixels.
     Discards,
+    /// It draws only a region.
     Region,
+    /// It leaves the boundary unchanged.
     Boundary,
+    /// It starts from initial texels.
     Initial,
+    /// It is drawn under a condition.
     Condition,
+    /// It is drawn several times a frame.
     Steps,
 }
 

@@ -3,6 +3,8 @@
 //! These libraries are generic, so their code is compiled in each package that uses it, for up to a minute. Here it is
 //! compiled once: the public items of this package have no type parameters.
 
+#![warn(missing_docs)]
+
 pub use realfft::{RealToComplex, num_complex::Complex};
 pub use rustfft::Fft;
 

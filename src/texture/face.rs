@@ -3,11 +3,17 @@
 /// A face of a cube. Its first row is at t = -1; seen from inside the cube the sides are upright.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Face {
+    /// +x, layer 0.
     PlusX,
+    /// -x, layer 1.
     MinusX,
+    /// +y, layer 2.
     PlusY,
+    /// -y, layer 3.
     MinusY,
+    /// +z, layer 4.
     PlusZ,
+    /// -z, layer 5.
     MinusZ,
 }
 

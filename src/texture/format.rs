@@ -4,19 +4,29 @@
 /// sRGB decoding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum TexelFormat {
+    /// One byte.
     R8,
+    /// Two bytes.
     Rg8,
+    /// Four bytes.
     Rgba8,
+    /// One half-precision float.
     R16f,
+    /// Two half-precision floats.
     Rg16f,
+    /// Four half-precision floats.
     Rgba16f,
+    /// One single-precision float.
     R32f,
+    /// Two single-precision floats.
     Rg32f,
+    /// Four single-precision floats.
     #[default]
     Rgba32f,
 }
 
 impl TexelFormat {
+    /// All formats, those with more components first.
     pub const ALL: [TexelFormat; 9] = [
         TexelFormat::Rgba32f,
         TexelFormat::Rgba16f,

@@ -3,6 +3,8 @@
 //! Owns [`TextureShape`] and its parts. A separate package, because its users do not depend on each other: `gpu` knows
 //! no project, and `graph` neither pictures nor a device. Contains no texels and accesses no device.
 
+#![warn(missing_docs)]
+
 mod face;
 mod format;
 mod shape;

@@ -27,14 +27,17 @@ impl Dimension {
 /// The description of a texture without its texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TextureShape {
+    /// The kind of texture.
     pub dimension: Dimension,
-    /// The size of level 0 in texels; of each face for a cube.
+    /// The width of level 0 in texels; of each face for a cube.
     pub width: u32,
+    /// The height of level 0 in texels.
     pub height: u32,
     /// The depth of level 0 of a 3D texture in texels; otherwise 1.
     pub depth: u32,
     /// The number of levels in the mip chain, at least 1.
     pub levels: u32,
+    /// The format of its texels.
     pub format: TexelFormat,
 }
 

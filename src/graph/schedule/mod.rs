@@ -26,15 +26,33 @@ pub enum FrameOp {
     /// Starts the device's timestamps of the draws.
     StartTimestamps,
     /// Encodes one layer of a draw.
-    Encode { draw: usize, layer: u32 },
+    Encode {
+        /// An index into [`FramePlan::draws`].
+        draw: usize,
+        /// The face of a cube; otherwise 0.
+        layer: u32,
+    },
     /// Encodes `area` of a draw, in parts of as many rows as the caller returns, rounded up to a multiple of `align`.
     /// Each part but the last is submitted and waited for. The caller is asked before each part, and may stop there;
     /// the frame can be continued later.
-    EncodeRows { draw: usize, area: Region, align: u32 },
+    EncodeRows {
+        /// An index into [`FramePlan::draws`].
+        draw: usize,
+        /// The texels that are drawn.
+        area: Region,
+        /// The number of rows of a part is a multiple of this.
+        align: u32,
+    },
     /// The texels of a draw become visible to readers: double buffers are swapped, mip levels are built.
-    Publish { draw: usize },
+    Publish {
+        /// An index into [`FramePlan::draws`].
+        draw: usize,
+    },
     /// Reads back everything that a draw is about to read.
-    Capture { draw: usize },
+    Capture {
+        /// An index into [`FramePlan::draws`].
+        draw: usize,
+    },
     /// Reads the caller's clock.
     Clock(Lap),
     /// Draws the shown pass into the display's texture.
@@ -74,15 +92,16 @@ pub struct FrameState<'a> {
 /// The operations of a frame in order, with their counts.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Schedule {
+    /// The operations.
     pub ops: Vec<FrameOp>,
     /// For each draw, how often it is executed.
     pub steps: Vec<u32>,
     /// The number of draws in the frame, counting each step of a group. A draw in tiles is counted, though its tiles
     /// are scheduled by [`FramePlan::schedule_tile`].
     pub drawn: u64,
-    /// The number of draws skipped because their inputs have not changed, and the bytes of texels that are therefore
-    /// not written.
+    /// The number of draws skipped because their inputs have not changed.
     pub cached: u64,
+    /// The bytes of texels that are therefore not written.
     pub cached_bytes: u64,
 }
 
