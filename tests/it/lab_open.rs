@@ -61,7 +61,8 @@ fn every_method_saved_as_a_project_draws_the_measured_texels() {
             let setup = (study.setup)(point);
             let Opened { project: opened, size, pass } = open::project(study, point).unwrap();
             assert_eq!((size, &opened.origin), (setup.size(), &Origin::Unsaved), "{point:?}");
-            in_memory += opened.fills().filter(|(.., f)| matches!(f.value, FillValue::InMemory { .. })).count();
+            let fills = opened.fills().filter(|(.., f)| matches!(f.value, FillValue::InMemory { .. })).count();
+            in_memory += fills;
             let folder = tempfile::tempdir().unwrap();
             let saved = project::save(&opened, &folder.path().join("saved"), Overwrite::Refuse);
             let saved = saved.unwrap_or_else(|e| panic!("{point:?}: {e}"));
@@ -73,7 +74,10 @@ fn every_method_saved_as_a_project_draws_the_measured_texels() {
             let name = pass.key();
             let measured = running.read(name.strip_prefix("buffer_").unwrap_or(name)).unwrap().texels().to_vec();
             let bits = |texels: &[[f32; 4]]| -> Vec<u32> { texels.iter().flatten().map(|v| v.to_bits()).collect() };
-            assert!(bits(&draw(&mut engines, &opened, size, &pass)) == bits(&measured), "as opened: {point:?}");
+            // Saving changes nothing else than texels that are in memory.
+            if fills > 0 || method.name == study.methods[0].name {
+                assert!(bits(&draw(&mut engines, &opened, size, &pass)) == bits(&measured), "as opened: {point:?}");
+            }
             assert!(bits(&draw(&mut engines, &loaded.project, size, &pass)) == bits(&measured), "as saved: {point:?}");
             // Identical texels would prove nothing.
             assert!(measured.iter().any(|t| t != &measured[0]), "{point:?}");
