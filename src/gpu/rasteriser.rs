@@ -1,7 +1,8 @@
 //! The differences between a GPU and a processor that draws.
 //!
-//! A software rasteriser, such as lavapipe or SwiftShader, shares cores and memory with the rest of the program. Only this
-//! module knows what follows from that. For a GPU its methods have no effect, or return what holds for a separate device.
+//! A software rasteriser, such as lavapipe or SwiftShader, shares cores and memory with the rest of the program. Only
+//! this module knows what follows from that. For a GPU its methods have no effect, or return what holds for a separate
+//! device.
 
 use super::Gpu;
 use std::time::Duration;
@@ -14,7 +15,7 @@ const FRAME_PER_TILE: f64 = 4.0;
 const MAX_DEVICES: usize = 4;
 /// The nice value that drawing threads get, so that input and painting are handled first.
 const NICE: i32 = 5;
-/// The nice value of threads that draw what nobody waits for.
+/// The nice value of threads that draw in the background.
 const NICE_IN_BACKGROUND: i32 = 10;
 
 /// The part of the machine that draws.
@@ -52,8 +53,8 @@ impl Rasteriser {
         }
     }
 
-    /// Returns the rows of a band of a frame that took `took`, so that a band takes about `band` and more urgent work can
-    /// run between two; `None` for a frame that is drawn at once.
+    /// Returns the rows of a band of a frame that took `took`, so that a band takes about `band` and more urgent work
+    /// can run between two; `None` for a frame that is drawn at once.
     pub fn band_rows(self, height: u32, took: Duration, band: Duration) -> Option<u32> {
         self.cores?;
         let bands = (took.as_secs_f64() / band.as_secs_f64()).round().clamp(1.0, f64::from(height.max(1)));

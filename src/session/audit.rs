@@ -96,8 +96,8 @@ impl PictureAudit {
 }
 
 impl OpenProject {
-    /// Returns the errors of the audited pixels ([`ToolCommand::Audit`](super::ToolCommand::Audit)) while its findings are
-    /// listed.
+    /// Returns the errors of the audited pixels ([`ToolCommand::Audit`](super::ToolCommand::Audit)) while its findings
+    /// are listed.
     pub(crate) fn audit_map(&self) -> Option<&AuditMap> {
         self.audit.map.as_ref()
     }

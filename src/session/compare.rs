@@ -48,7 +48,8 @@ impl OpenProject {
         matches!(self.comparison(), Some(Status::Ended(Ok(done))) if done.revision != self.documents.revision())
     }
 
-    /// The comparison with another project ([`ToolCommand::Compare`](super::ToolCommand::Compare)), which counts frames.
+    /// The comparison with another project ([`ToolCommand::Compare`](super::ToolCommand::Compare)), which counts
+    /// frames.
     pub(crate) fn comparison(&self) -> Option<Status<'_, Count, Arc<Comparison>>> {
         self.comparison.background.status()
     }

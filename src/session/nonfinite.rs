@@ -38,7 +38,8 @@ impl NanSearch {
 }
 
 impl OpenProject {
-    /// The search for the first NaN ([`ToolCommand::FindNonfinite`](super::ToolCommand::FindNonfinite)), which counts frames.
+    /// The search for the first NaN ([`ToolCommand::FindNonfinite`](super::ToolCommand::FindNonfinite)), which counts
+    /// frames.
     pub(crate) fn search(&self) -> Option<Status<'_, Count, SearchEnd>> {
         self.nan_search.background.status()
     }

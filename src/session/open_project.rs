@@ -1,8 +1,7 @@
 //! The open project: everything that belongs to it, and is rebuilt with each project that is opened.
 //!
-//! State that outlives a project is in [`Services`](super::services::Services). What a project has from the previous
-//! one, such as the user's settings for all projects, is listed in [`OpenProject::successor`], so that opening a project
-//! cannot leave anything else behind.
+//! State that outlives a project is in [`Services`](super::services::Services). [`OpenProject::successor`] lists what a
+//! project takes over from the previous one, such as the user's settings for all projects. Nothing else remains.
 
 use super::{
     audit::PictureAudit,

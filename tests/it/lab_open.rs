@@ -74,7 +74,7 @@ fn every_method_saved_as_a_project_draws_the_measured_texels() {
             let name = pass.key();
             let measured = running.read(name.strip_prefix("buffer_").unwrap_or(name)).unwrap().texels().to_vec();
             let bits = |texels: &[[f32; 4]]| -> Vec<u32> { texels.iter().flatten().map(|v| v.to_bits()).collect() };
-            // Saving changes nothing else than texels that are in memory.
+            // Saving changes only texels that are in memory.
             if fills > 0 || method.name == study.methods[0].name {
                 assert!(bits(&draw(&mut engines, &opened, size, &pass)) == bits(&measured), "as opened: {point:?}");
             }

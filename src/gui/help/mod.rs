@@ -203,6 +203,6 @@ mod tests {
         let keys_in_text = texts.flat_map(|text| text.split([' ', ',', '.', ';', ':', '(', ')']));
         let keys_in_text: Vec<&str> = keys_in_text.filter(|word| is_key(word)).collect();
         assert!(keys_in_text.contains(&"F6"), "{keys_in_text:?}");
-        keys_in_text.iter().for_each(|key| assert!(keys.contains(key), "{key} is no key of the table"));
+        keys_in_text.iter().for_each(|key| assert!(keys.contains(key), "the table has no key {key}"));
     }
 }

@@ -223,5 +223,5 @@ fn first_frame_and_paused_frames_do_not_wait() {
     assert!(!session.open.frame_may_be_dropped(), "a change goes with it");
     session.open.changes.reset = false;
     session.apply(TransportCommand::Pause);
-    assert!(!session.open.frame_may_be_dropped(), "time stands");
+    assert!(!session.open.frame_may_be_dropped(), "time is paused");
 }
