@@ -102,7 +102,7 @@ fn measure(spec: &str, project: &Project, index: usize) -> Row {
     let source = PassSource {
         common: common.as_deref().map(|text| Text { id: SourceId(0), text }),
         channels: channel_kinds(pass),
-        ..PassSource::new(pass_kind(&pass.id), Text { id: SourceId(1), text: &code })
+        ..PassSource::new(pass_kind(project, pass), Text { id: SourceId(1), text: &code })
     };
     let analysis = Analysis::new(&source);
     let last_line = code.trim_end().trim_end_matches('}').len();

@@ -47,9 +47,9 @@ fn loads(module: &Module, function: &Function) -> (usize, Vec<Load>) {
 #[test]
 fn opaque_uniforms_hide_every_uniform_load() {
     let custom_uniforms = [
-        CustomUniform { name: "level", kind: CustomUniformKind::Float, slot: 0 },
-        CustomUniform { name: "many", kind: CustomUniformKind::Int, slot: 1 },
-        CustomUniform { name: "on", kind: CustomUniformKind::Bool, slot: 2 },
+        CustomUniform::new("level", CustomUniformKind::Float, 0),
+        CustomUniform::new("many", CustomUniformKind::Int, 1),
+        CustomUniform::new("on", CustomUniformKind::Bool, 2),
     ];
     let programs = [
         (

@@ -84,11 +84,14 @@ fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String)
 
 /// Returns the compiler's diagnostics for a plain shader, like the language server; `None` for other files.
 fn check_plain(project: &Project) -> Option<Vec<Diagnostic>> {
-    let (Origin::File(path), [pass]) = (&project.origin, project.passes.as_slice()) else { return None };
+    // The texts around a file of another program are generated.
+    let is_alone = project.dialect == Dialect::Shadertoy;
+    let (true, Origin::File(path), [pass]) = (is_alone, &project.origin, project.passes.as_slice()) else {
+        return None;
+    };
     let kind = match ShaderForm::of(path, &pass.source.text) {
         ShaderForm::PlainVertex => PassKind::PlainVertex,
-        ShaderForm::PlainFragment => PassKind::PlainFragment,
-        ShaderForm::Shadertoy | ShaderForm::Isf => return None,
+        ShaderForm::Program(_) => return None,
     };
     let text = Text { id: Project::pass_id(0), text: &pass.source.text };
     Some(Analysis::new(&PassSource::new(kind, text)).diagnostics().to_vec())

@@ -3,7 +3,7 @@
 use super::{
     Sources,
     compile::PassOptions,
-    sources,
+    host,
     stage_cache::{self, CacheMiss, Outcome, StageCache},
 };
 use eddy_glsl::{Link, PassSource};
@@ -88,7 +88,7 @@ impl Sources<'_> {
 
     /// Calls `work` with the compiler input for `project.passes[index]`, which draws the whole target.
     fn with_screen<T>(&self, index: usize, options: PassOptions, work: impl FnOnce(&PassSource<'_>) -> T) -> T {
-        let kind = sources::pass_kind(&self.project.passes[index].id);
+        let kind = host::pass_kind(self.project, &self.project.passes[index]);
         let PassOptions { bilinear_in_shader, driver, probe, tiled } = options;
         self.with_source(index, self.stage_id(index, Stage::Own), kind, |source| {
             work(&PassSource { bilinear_in_shader, driver, probe, tiled, ..*source })

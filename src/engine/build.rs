@@ -262,7 +262,7 @@ impl Builder {
             let fills = FillKind::ALL.map(|kind| {
                 let texels = pass.fill(kind).and_then(|fill| media.fill(fill.value.path()?));
                 let by_hand = texels.is_some_and(|t| filter_mode_of_fill(&self.gpu, t) == FilterMode::Shader);
-                let bilinear_in_shader = [by_hand, false, false, false];
+                let bilinear_in_shader = std::array::from_fn(|channel| channel == 0 && by_hand);
                 let options = PassOptions { bilinear_in_shader, probe: None, tiled: false, ..options };
                 match texts.compile_fill_with(&mut self.stages, index, kind, options)? {
                     Ok(mut fill) => {

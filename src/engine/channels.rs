@@ -5,7 +5,7 @@ use super::{
     program::{BoundChannel, BoundExternal, FilterMode},
     uploads::Uploads,
 };
-use eddy_glsl::{ChannelUse, SLOTS, interface};
+use eddy_glsl::{ChannelUse, MAX_CHANNELS, interface};
 use eddy_gpu::{Binding, Gpu, GpuError};
 use eddy_graph::effective_sampler;
 use eddy_media::{MediaKey, MediaSet, Texels};
@@ -14,7 +14,7 @@ use eddy_texture::{Dimension, TexelFormat, TextureShape};
 use std::{path::Path, sync::Arc};
 
 /// Returns the filtering of each channel of `project.passes[pass]` on a device: the one place that decides it.
-pub(super) fn filter_mode(gpu: &Gpu, project: &Project, media: &MediaSet, pass: usize) -> [FilterMode; SLOTS] {
+pub(super) fn filter_mode(gpu: &Gpu, project: &Project, media: &MediaSet, pass: usize) -> [FilterMode; MAX_CHANNELS] {
     std::array::from_fn(|index| {
         let Some(sampler) = effective_sampler(project, pass, index) else { return FilterMode::Nearest };
         let channel = project.passes[pass].bindings.get(index);
@@ -132,7 +132,7 @@ fn target_of(project: &Project, channel: &Channel) -> Option<(PassSize, TexelFor
 }
 
 /// Returns the bind group layout of a draw's channels.
-pub(super) fn channel_bindings(channels: &[BoundChannel; SLOTS]) -> Vec<(u32, Binding)> {
+pub(super) fn channel_bindings(channels: &[BoundChannel; MAX_CHANNELS]) -> Vec<(u32, Binding)> {
     let mut bindings = Vec::new();
     for (index, channel) in channels.iter().enumerate() {
         let dimension = eddy_gpu::view_dimension(channel.dimension);

@@ -3,12 +3,12 @@
 use super::{
     Sources,
     compiled::CompiledPass,
-    fill_text, sources,
+    fill_text,
     stage_cache::{self, StageCache},
 };
 use eddy_diag::{Diagnostic, Span};
-use eddy_glsl::{self as glsl, Compiled, Driver, Link, PassKind, PassSource, Probe, Reflection, SLOTS};
-use eddy_project::{Body, FillKind, Geometry, PassName, Stage};
+use eddy_glsl::{self as glsl, Compiled, Driver, Link, MAX_CHANNELS, PassKind, PassSource, Probe, Reflection};
+use eddy_project::{Body, FillKind, Geometry, Stage};
 use std::sync::Arc;
 
 type Result<T> = std::result::Result<T, Vec<Diagnostic>>;
@@ -16,7 +16,7 @@ type Result<T> = std::result::Result<T, Vec<Diagnostic>>;
 /// The settings of a pass that its texts do not contain.
 #[derive(Clone, Copy, Default)]
 pub(super) struct PassOptions {
-    pub bilinear_in_shader: [bool; SLOTS],
+    pub bilinear_in_shader: [bool; MAX_CHANNELS],
     pub driver: Driver,
     /// A value that the pass draws too.
     pub probe: Option<Probe>,
@@ -25,18 +25,13 @@ pub(super) struct PassOptions {
 }
 
 impl Sources<'_> {
-    /// Compiles `project.passes[index]`, whatever its kind and whether or not it is needed. Needs no device, but the
-    /// channels that the device cannot filter, and the properties of its driver.
+    /// Compiles `project.passes[index]`, whatever its kind and whether or not it is needed, for a device that filters
+    /// every channel. Needs no device, but the properties of its driver.
     ///
     /// # Panics
     /// If there is no such pass.
-    pub fn compile_pass(
-        &self,
-        index: usize,
-        bilinear_in_shader: [bool; SLOTS],
-        driver: Driver,
-    ) -> Result<CompiledPass> {
-        let options = PassOptions { bilinear_in_shader, driver, ..PassOptions::default() };
+    pub fn compile_pass(&self, index: usize, driver: Driver) -> Result<CompiledPass> {
+        let options = PassOptions { driver, ..PassOptions::default() };
         self.compile_pass_with(&mut StageCache::default(), index, options)
     }
 
@@ -49,7 +44,7 @@ impl Sources<'_> {
         bilinear_in_shader: bool,
         driver: Driver,
     ) -> Option<Result<CompiledPass>> {
-        let bilinear_in_shader = [bilinear_in_shader, false, false, false];
+        let bilinear_in_shader = std::array::from_fn(|channel| channel == 0 && bilinear_in_shader);
         let options = PassOptions { bilinear_in_shader, driver, ..PassOptions::default() };
         self.compile_fill_with(&mut StageCache::default(), index, kind, options)
     }
@@ -79,19 +74,13 @@ impl Sources<'_> {
     ) -> Result<CompiledPass> {
         let pass = &self.project.passes[index];
         match &pass.body {
-            Body::Screen => self.compile_screen(cache, index, &pass.id, options),
+            Body::Screen => self.compile_screen(cache, index, options),
             Body::Meshes(geometry) => self.compile_meshes(cache, index, geometry, options),
         }
     }
 
-    fn compile_screen(
-        &self,
-        cache: &mut StageCache,
-        index: usize,
-        id: &PassName,
-        options: PassOptions,
-    ) -> Result<CompiledPass> {
-        let (id, kind) = (self.stage_id(index, Stage::Own), sources::pass_kind(id));
+    fn compile_screen(&self, cache: &mut StageCache, index: usize, options: PassOptions) -> Result<CompiledPass> {
+        let (id, kind) = (self.stage_id(index, Stage::Own), self.own_kind(index));
         let link = Link::default();
         let (fragment, said) = self.with_source(index, id, kind, |source| self.compile(cache, source, &link, options));
         CompiledPass::screen(fragment, said)
@@ -102,7 +91,7 @@ impl Sources<'_> {
     pub(super) fn largest_function(&self, index: usize) -> Option<Span> {
         let pass = &self.project.passes[index];
         let (stage, kind) = match &pass.body {
-            Body::Screen => (Stage::Own, sources::pass_kind(&pass.id)),
+            Body::Screen => (Stage::Own, self.own_kind(index)),
             Body::Meshes(geometry) => (geometry.draws.first()?.fragment, PassKind::Fragment),
         };
         self.with_source(index, self.stage_id(index, stage), kind, glsl::largest_function)

@@ -3,7 +3,8 @@
 use eddy_diag::{Diagnostic, SourceId};
 use eddy_glsl::{self as glsl, CustomUniformKind, UniformValue, UntypedValue, interface::CUSTOM_UNIFORM_BYTES};
 use eddy_project::{
-    CustomUniform, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms, IncludeLines, Project,
+    CustomUniform, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms, Dialect, IncludeLines,
+    Project,
 };
 
 /// The slots in 64 KiB, the size of a uniform buffer that every device supports.
@@ -14,7 +15,7 @@ const MAX_CUSTOM_UNIFORMS: usize = (64 << 10) / CUSTOM_UNIFORM_BYTES as usize;
 pub(super) fn custom_uniforms(project: &Project) -> CustomUniforms {
     let mut custom_uniforms = project.custom_uniforms();
     for custom_uniform in &custom_uniforms.list {
-        if let Some(why) = glsl::taken(&custom_uniform.name) {
+        if let Some(why) = taken(project.dialect, &custom_uniform.name) {
             custom_uniforms.diagnostics.push(
                 Diagnostic::error(
                     custom_uniform.span,
@@ -41,9 +42,15 @@ pub(super) fn custom_uniforms(project: &Project) -> CustomUniforms {
     custom_uniforms
 }
 
+/// Returns the reason that a uniform cannot have a name. A program with `void main()` has none of Shadertoy's names, and
+/// its uniforms hide functions of the language, as any declaration does.
+fn taken(dialect: Dialect, name: &str) -> Option<&'static str> {
+    if dialect.has_main() { glsl::keyword(name) } else { glsl::taken(name) }
+}
+
 /// Returns those in the scope of a pass's texts: its own, Common's, and those of included files. `None`: Common alone.
 pub(super) fn in_scope<'k>(
-    custom_uniforms: &'k CustomUniforms,
+    (dialect, custom_uniforms): (Dialect, &'k CustomUniforms),
     lines: &IncludeLines,
     pass: Option<SourceId>,
 ) -> Vec<glsl::CustomUniform<'k>> {
@@ -55,11 +62,10 @@ pub(super) fn in_scope<'k>(
         .iter()
         .enumerate()
         .take(MAX_CUSTOM_UNIFORMS)
-        .filter(|(_, custom_uniform)| is_there(custom_uniform) && glsl::taken(&custom_uniform.name).is_none())
+        .filter(|(_, custom_uniform)| is_there(custom_uniform) && taken(dialect, &custom_uniform.name).is_none())
         .map(|(slot, custom_uniform)| glsl::CustomUniform {
-            name: &custom_uniform.name,
-            kind: kind(custom_uniform.ty),
-            slot: slot as u16,
+            is_declared: custom_uniform.is_declared,
+            ..glsl::CustomUniform::new(&custom_uniform.name, kind(custom_uniform.ty), slot as u16)
         })
         .collect()
 }

@@ -8,7 +8,7 @@ use super::{
     pipelines::{MeshState, PipelineOrder, StagePipeline},
     program::{BoundChannel, CompiledDraw, DrawBody, FillProgram, FilterMode, Meshes},
 };
-use eddy_glsl::{Reflection, SLOTS, interface};
+use eddy_glsl::{MAX_CHANNELS, Reflection, interface};
 use eddy_gpu::Binding;
 use eddy_graph::{Draw, FramePlan};
 use eddy_project::{Body, Camera, FillKind, Pass};
@@ -19,9 +19,9 @@ use std::sync::Arc;
 pub(super) struct CompiledParts {
     pub compiled: CompiledPass,
     pub fills: [Option<CompiledPass>; 2],
-    pub filter_mode: [FilterMode; SLOTS],
+    pub filter_mode: [FilterMode; MAX_CHANNELS],
     /// The declared dimensions of its channels.
-    pub dimensions: [Dimension; SLOTS],
+    pub dimensions: [Dimension; MAX_CHANNELS],
 }
 
 /// A draw that waits for its pipelines.
@@ -40,7 +40,7 @@ impl DrawDraft {
     ) -> Result<Self, EngineError> {
         let pass = &binder.project.passes[draw.pass];
         let CompiledParts { compiled, fills, filter_mode, dimensions } = parts;
-        let mut channels: [BoundChannel; SLOTS] = Default::default();
+        let mut channels: [BoundChannel; MAX_CHANNELS] = Default::default();
         for (index, bound) in channels.iter_mut().enumerate() {
             let mips = draw.reads[index].as_ref().is_some_and(|r| r.mips);
             let (channel, used) = (pass.bindings.get(index), compiled.reflection.channels[index]);
@@ -59,7 +59,7 @@ impl DrawDraft {
         let mut drafted = [None, None];
         for ((drafted, compiled), kind) in drafted.iter_mut().zip(fills).zip(FillKind::ALL) {
             let (Some(compiled), Some(fill)) = (compiled, pass.fill(kind)) else { continue };
-            let mut channels: [BoundChannel; SLOTS] = Default::default();
+            let mut channels: [BoundChannel; MAX_CHANNELS] = Default::default();
             let picture = fill.value.path().and_then(|path| Some((path, binder.media.fill(path)?)));
             if let Some((path, texels)) = picture {
                 channels[0] = binder.bind_fill(path, texels, compiled.reflection.channels[0])?;
@@ -104,7 +104,7 @@ enum BodyDraft {
 struct ProgramDraft {
     pass: eddy_project::PassName,
     reflection: Reflection,
-    channels: [BoundChannel; SLOTS],
+    channels: [BoundChannel; MAX_CHANNELS],
     body: BodyDraft,
     orders: Vec<PipelineOrder>,
 }
@@ -113,7 +113,7 @@ impl ProgramDraft {
     fn new(
         pass: &Pass,
         compiled: CompiledPass,
-        channels: [BoundChannel; SLOTS],
+        channels: [BoundChannel; MAX_CHANNELS],
         formats: &[TexelFormat],
         body: BodyDraft,
     ) -> Self {

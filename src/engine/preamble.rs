@@ -84,7 +84,7 @@ mod tests {
         let texts = Sources::new(&project);
         kept.provide_to(&texts);
         let is_lent = texts.preamble.get().is_some();
-        texts.compile_pass(0, [false; 4], Driver::default()).map(drop).expect("a program without errors");
+        texts.compile_pass(0, Driver::default()).map(drop).expect("a program without errors");
         kept.update_from(&texts);
         !is_lent
     }

@@ -5,7 +5,7 @@ use super::{
     mesh_instance::MeshInstance,
     pipelines::StagePipeline,
 };
-use eddy_glsl::{CustomUniformSet, SLOTS, UniformSet};
+use eddy_glsl::{CustomUniformSet, MAX_CHANNELS, UniformSet};
 use eddy_gpu::Texture;
 use eddy_graph::{Draw, FramePlan};
 use eddy_project::{Camera, CustomUniform, CustomUniformValues, Dialect, PassName, PassSize};
@@ -34,7 +34,7 @@ pub(super) struct CompiledDraw {
     pub body: DrawBody,
     /// True if a program reads the geometry uniforms of meshes.
     pub reads_geometry: bool,
-    pub channels: [BoundChannel; SLOTS],
+    pub channels: [BoundChannel; MAX_CHANNELS],
     /// Draws the contents of its target before frame 0.
     pub initial: Option<Box<FillProgram>>,
     /// Draws its outermost texels.

@@ -3,8 +3,8 @@
 use super::{custom_uniforms, fill_text::FillSource, host};
 use eddy_diag::{Diagnostic, SourceId, Span};
 use eddy_glsl::{
-    self as glsl, ChannelKind, Dialect, Driver, Include, Link, PassKind, PassSource, Preamble, Probe, ProbedExpression,
-    SLOTS, Text, UniformValue, Varying,
+    self as glsl, ChannelKind, CustomUniformKind, Dialect, Driver, Include, Link, MAX_CHANNELS, NamedSampler, PassKind,
+    PassSource, Preamble, Probe, ProbedExpression, SLOTS, Text, UniformSource, UniformValue, Varying,
     cancel::Cancel,
     services::Analysis,
     walkable::{Detail, Walkable},
@@ -27,6 +27,8 @@ pub struct Sources<'p> {
     texts: Vec<Arc<str>>,
     lines: IncludeLines,
     custom_uniforms: CustomUniforms,
+    /// The names of the uniforms with the sizes of named channels, by pass, each with its slot.
+    size_names: Vec<Vec<(usize, String)>>,
     /// The values of uniforms that are not custom uniforms.
     pub(super) values: Vec<UniformValue>,
     dialect: Dialect,
@@ -55,10 +57,29 @@ impl<'p> Sources<'p> {
             lines.diagnostics.iter().chain(&custom_uniforms.diagnostics).cloned().collect();
         diagnostics.extend(project.passes.iter().flat_map(slots_beyond_language));
         diagnostics.extend(ignored_channel_lines(project));
-        let values = custom_uniforms::uniform_values(&custom_uniforms, &project.custom_uniform_values);
-        let dialect = host::dialect(project.dialect);
+        let mut values = custom_uniforms::uniform_values(&custom_uniforms, &project.custom_uniform_values);
+        values.extend(host::identities(project.dialect));
+        let dialect = host::dialect(project);
+        let (prefix, suffix) = project.dialect.row().texture_size;
+        let size_names = project
+            .passes
+            .iter()
+            .map(|pass| pass.bindings.names().map(|(slot, name)| (slot, format!("{prefix}{name}{suffix}"))).collect());
+        let size_names = size_names.collect();
         let (preamble, cancel) = (OnceLock::new(), None);
-        Self { project, dialect, cancel, texts, lines, custom_uniforms, values, preamble, fills, diagnostics }
+        Self {
+            project,
+            dialect,
+            cancel,
+            texts,
+            lines,
+            custom_uniforms,
+            size_names,
+            values,
+            preamble,
+            fills,
+            diagnostics,
+        }
     }
 
     /// Returns the same texts, whose compilation stops when the flag is set: see [`glsl::cancel`].
@@ -107,7 +128,7 @@ impl<'p> Sources<'p> {
             dialect: self.dialect,
             common,
             includes: &includes,
-            custom_uniforms: &self.uniforms_in_scope(None),
+            custom_uniforms: &self.uniforms_in_scope(None, None),
             values: &self.values,
             cancel: self.cancel(),
             ..PassSource::new(PassKind::Buffer, code)
@@ -128,7 +149,8 @@ impl<'p> Sources<'p> {
             common,
             includes: &self.includes(common.map(|c| c.id).into_iter().chain([id])),
             channels: channel_kinds(&self.project.passes[index]),
-            custom_uniforms: &self.uniforms_in_scope(Some(id)),
+            custom_uniforms: &self.uniforms_in_scope(Some(id), Some(index)),
+            samplers: &self.named_samplers(index),
             values: &self.values,
             cancel: self.cancel(),
             ..PassSource::new(kind, self.text(id))
@@ -137,10 +159,24 @@ impl<'p> Sources<'p> {
 
     /// Returns the uniforms in scope of a pass besides Shadertoy's: the author's own, followed by those of the program
     /// that the texts are written for. `None`: Common alone.
-    fn uniforms_in_scope(&self, pass: Option<SourceId>) -> Vec<glsl::CustomUniform<'_>> {
-        let mut all = custom_uniforms::in_scope(&self.custom_uniforms, &self.lines, pass);
+    fn uniforms_in_scope(&self, pass: Option<SourceId>, index: Option<usize>) -> Vec<glsl::CustomUniform<'_>> {
+        let mut all = custom_uniforms::in_scope((self.project.dialect, &self.custom_uniforms), &self.lines, pass);
         all.extend(host::in_scope(self.project.dialect, self.custom_uniforms.list.len()));
+        let names = index.map_or(&[][..], |index| &self.size_names[index]);
+        all.extend(names.iter().map(|(slot, name)| glsl::CustomUniform {
+            name,
+            kind: CustomUniformKind::Vec2,
+            source: UniformSource::ChannelSize(*slot as u8),
+            is_declared: self.project.dialect.row().has_declarations,
+        }));
         all
+    }
+
+    /// Returns the samplers of a pass that have names of their own.
+    fn named_samplers(&self, index: usize) -> Vec<NamedSampler<'_>> {
+        let is_declared = self.project.dialect.row().has_declarations;
+        let sampler = |(slot, name)| NamedSampler { name, channel: slot as u8, is_declared };
+        self.project.passes[index].bindings.names().filter(|(slot, _)| *slot < MAX_CHANNELS).map(sampler).collect()
     }
 
     pub(super) fn stage_id(&self, index: usize, stage: Stage) -> SourceId {
@@ -159,7 +195,7 @@ impl<'p> Sources<'p> {
                 glsl::dump_ir(&PassSource { driver, ..*source }, &Link::default(), self.preamble(), pass)
             })
         };
-        own.body.drawn_stages().into_iter().map(|stage| dump(stage, stage_kind(own, stage))).collect()
+        own.body.drawn_stages().into_iter().map(|stage| dump(stage, stage_kind(self.project, own, stage))).collect()
     }
 
     /// The pass in the author's project.
@@ -257,8 +293,8 @@ impl<'p> Sources<'p> {
         Some(lowered.map_err(|said| text.relocated(said)))
     }
 
-    fn own_kind(&self, index: usize) -> PassKind {
-        pass_kind(&self.pass(index).id)
+    pub(super) fn own_kind(&self, index: usize) -> PassKind {
+        host::pass_kind(self.project, self.pass(index))
     }
 
     fn lower_stage<T>(
@@ -312,7 +348,7 @@ impl<'p> Sources<'p> {
     /// Calls `work` with the compiler input for a stage of `project.passes[index]`.
     pub(super) fn with_stage<T>(&self, index: usize, stage: Stage, work: impl FnOnce(&PassSource<'_>) -> T) -> T {
         let pass = &self.project.passes[index];
-        self.with_source(index, self.stage_id(index, stage), stage_kind(pass, stage), work)
+        self.with_source(index, self.stage_id(index, stage), stage_kind(self.project, pass, stage), work)
     }
 
     /// Returns what Shadertoy would reject in Common; see [`glsl::check_common`].
@@ -320,7 +356,8 @@ impl<'p> Sources<'p> {
         if self.dialect != Dialect::Shadertoy {
             return Vec::new();
         }
-        let custom_uniforms = custom_uniforms::in_scope(&self.custom_uniforms, &self.lines, None);
+        let custom_uniforms =
+            custom_uniforms::in_scope((self.project.dialect, &self.custom_uniforms), &self.lines, None);
         match (self.preamble(), self.common()) {
             (Some(preamble), _) => preamble.check_common(&custom_uniforms),
             (None, Some(common)) => glsl::check_common(common, &self.includes([common.id]), &custom_uniforms),
@@ -377,16 +414,16 @@ fn stage_text(source: &Source) -> Arc<str> {
 }
 
 /// Returns the compiler's kind of a text of a pass: for meshes a vertex stage if some draw uses it as one.
-fn stage_kind(pass: &Pass, stage: Stage) -> PassKind {
+fn stage_kind(project: &Project, pass: &Pass, stage: Stage) -> PassKind {
     match &pass.body {
-        Body::Screen => pass_kind(&pass.id),
+        Body::Screen => host::pass_kind(project, pass),
         Body::Meshes(geometry) if geometry.draws.iter().any(|draw| draw.vertex == stage) => PassKind::Vertex,
         Body::Meshes(_) => PassKind::Fragment,
     }
 }
 
-/// Returns the compiler's kind of a pass.
-pub fn pass_kind(id: &PassName) -> PassKind {
+/// Returns the compiler's kind of a pass of Shadertoy's.
+pub(super) fn shadertoy_kind(id: &PassName) -> PassKind {
     match id.role() {
         Role::Image => PassKind::Image,
         Role::Buffer => PassKind::Buffer,
@@ -397,14 +434,15 @@ pub fn pass_kind(id: &PassName) -> PassKind {
 
 /// Returns an error for each channel of a pass in a slot that the language cannot name.
 fn slots_beyond_language(pass: &Pass) -> impl Iterator<Item = Diagnostic> {
-    pass.bindings.iter().filter(|(slot, _)| *slot >= SLOTS).map(|(slot, _)| {
+    let names = |slot| pass.bindings.name(slot).is_some() && slot < MAX_CHANNELS;
+    pass.bindings.iter().filter(move |(slot, _)| *slot >= SLOTS && !names(*slot)).map(|(slot, _)| {
         let message = format!("{} has an input for iChannel{slot}, which its language does not have", pass.id.title());
         Diagnostic::error(None, message).hint(format!("use iChannel0 to iChannel{}", SLOTS - 1))
     })
 }
 
 /// Returns the declared types of `iChannel0..3` of a pass.
-pub fn channel_kinds(pass: &Pass) -> [ChannelKind; SLOTS] {
+pub fn channel_kinds(pass: &Pass) -> [ChannelKind; MAX_CHANNELS] {
     declared_dimensions(pass).map(|dimension| match dimension {
         Dimension::D2 => ChannelKind::Sampler2D,
         Dimension::D3 => ChannelKind::Sampler3D,
@@ -414,7 +452,7 @@ pub fn channel_kinds(pass: &Pass) -> [ChannelKind; SLOTS] {
 
 /// Returns the declared dimension of each channel of a pass. As on Shadertoy, a sound pass has no `sampler3D`: there a
 /// volume is a `sampler2D`, which reads black.
-pub(super) fn declared_dimensions(pass: &Pass) -> [Dimension; SLOTS] {
+pub(super) fn declared_dimensions(pass: &Pass) -> [Dimension; MAX_CHANNELS] {
     std::array::from_fn(|slot| {
         let dimension = pass.bindings.get(slot).map_or(Dimension::D2, |channel| channel.input.row().dimension);
         if pass.id.is_sound() && dimension == Dimension::D3 { Dimension::D2 } else { dimension }

@@ -3,8 +3,8 @@
 use super::{Sources, cache::Cache, compile::PassOptions, compiled::CompiledPass};
 use eddy_diag::{Diagnostic, Severity, SourceId, Span};
 use eddy_glsl::{
-    self as glsl, ChannelKind, Compiled, CustomUniformKind, Dialect, Driver, Link, PassKind, PassSource, PlainOptions,
-    Preamble, Probe, SLOTS, Text, UntypedValue, Varying,
+    self as glsl, ChannelKind, Compiled, CustomUniformKind, Dialect, Driver, Link, MAX_CHANNELS, PassKind, PassSource,
+    PlainOptions, Preamble, Probe, Text, UniformSource, UntypedValue, Varying,
 };
 use std::{
     cell::OnceCell,
@@ -114,10 +114,11 @@ struct StageKey {
     common: Option<(usize, Arc<str>)>,
     code: (usize, Arc<str>),
     includes: Vec<IncludeKey>,
-    channels: [ChannelKind; SLOTS],
-    custom_uniforms: Vec<(String, CustomUniformKind, u16)>,
+    channels: [ChannelKind; MAX_CHANNELS],
+    custom_uniforms: Vec<(String, CustomUniformKind, UniformSource, bool)>,
+    samplers: Vec<(String, u8, bool)>,
     values: Vec<(String, Vec<u64>)>,
-    bilinear_in_shader: [bool; SLOTS],
+    bilinear_in_shader: [bool; MAX_CHANNELS],
     driver: Driver,
     tiled: bool,
     plain: PlainOptions,
@@ -156,6 +157,7 @@ impl StageKey {
             includes,
             channels,
             custom_uniforms,
+            samplers,
             values,
             bilinear_in_shader,
             driver,
@@ -180,7 +182,11 @@ impl StageKey {
                 })
                 .collect(),
             channels,
-            custom_uniforms: custom_uniforms.iter().map(|k| (k.name.to_owned(), k.kind, k.slot)).collect(),
+            custom_uniforms: custom_uniforms
+                .iter()
+                .map(|k| (k.name.to_owned(), k.kind, k.source, k.is_declared))
+                .collect(),
+            samplers: samplers.iter().map(|s| (s.name.to_owned(), s.channel, s.is_declared)).collect(),
             values: values.iter().map(|v| (v.name.clone(), bit_words(&v.value))).collect(),
             bilinear_in_shader,
             driver,

@@ -5,7 +5,7 @@ use super::{
     program::{BoundChannel, CompiledDraw, Program},
 };
 use eddy_glsl::{
-    SLOTS, UniformSet,
+    MAX_CHANNELS, UniformSet,
     interface::{CUSTOM_UNIFORM_BYTES, GeometryBlock, UniformBlock},
 };
 use eddy_gpu::Gpu;
@@ -185,7 +185,7 @@ pub(super) fn block(
     inputs: &FrameInputs,
     own: (u32, u32),
     canvas: (u32, u32),
-    channels: &[BoundChannel; SLOTS],
+    channels: &[BoundChannel; MAX_CHANNELS],
 ) -> UniformBlock {
     let vec3 = |(width, height): (u32, u32)| [width as f32, height as f32, 1.0];
     let resolution = |c: &BoundChannel| c.buffer.map_or(c.resolution, |size| vec3(size.of(canvas)));
@@ -198,7 +198,7 @@ pub(super) fn block(
         frame_rate: inputs.frame_rate,
         sample_rate: 44100.0,
         frame: inputs.frame,
-        channel_time: channels.each_ref().map(|channel| [channel.clock.at(inputs), 0.0, 0.0, 0.0]),
+        channel_time: std::array::from_fn(|i| [channels[i].clock.at(inputs), 0.0, 0.0, 0.0]),
         channel_resolution: std::array::from_fn(|i| {
             let [x, y, z] = resolution(&channels[i]);
             [x, y, z, 0.0]

@@ -243,6 +243,7 @@ const GHOSTTY: [&str; 20] = [
 /// text.
 pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diagnostic> {
     let entry = match source.kind {
+        PassKind::Main(_) => "main",
         PassKind::Image | PassKind::Buffer => "mainImage",
         PassKind::Cubemap => "mainCubemap",
         PassKind::Sound => "mainSound",

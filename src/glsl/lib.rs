@@ -144,7 +144,7 @@ pub use eddy_diag::{
 };
 pub use naga;
 
-pub use check::taken;
+pub use check::{keyword, taken};
 pub use compile::Compiled;
 #[doc(hidden)]
 pub use compile::dump_ir;
@@ -158,7 +158,7 @@ pub use preamble::Preamble;
 pub use probe::{Probe, ProbedExpression, probe_places, probed};
 pub use reflection::{ChannelUse, CustomUniformSet, Reflection, UniformSet};
 pub use source::{
-    ChannelKind, CustomUniform, CustomUniformKind, Dialect, Include, PassKind, PassSource, SLOTS, Text, UniformValue,
-    UntypedValue,
+    Alpha, ChannelKind, CustomUniform, CustomUniformKind, Dialect, Include, MAX_CHANNELS, NamedSampler, PassKind,
+    PassSource, SLOTS, Text, UniformSource, UniformValue, UntypedValue, Version,
 };
 pub use stages::{Attribute, Link, Varying};

@@ -1,6 +1,6 @@
 //! The resources that a pass reads from its entry point. `graph` plans with it: what is not read need not be produced.
 
-use crate::source::SLOTS;
+use crate::source::MAX_CHANNELS;
 
 bitflags::bitflags! {
     /// A set of Shadertoy's uniforms, in the order of the uniform block.
@@ -50,7 +50,7 @@ impl ChannelUse {
 pub struct Reflection {
     pub uniforms: UniformSet,
     pub custom_uniforms: CustomUniformSet,
-    pub channels: [ChannelUse; SLOTS],
+    pub channels: [ChannelUse; MAX_CHANNELS],
     /// `discard` is reachable: texels may keep their old value, so the planner must not assume that the target is
     /// overwritten.
     pub discards: bool,

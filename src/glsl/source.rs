@@ -14,6 +14,9 @@ pub enum PassKind {
     Cubemap,
     /// `vec2 mainSound(int, float)`.
     Sound,
+    /// `void main()` of a complete fragment shader ([`Dialect::Any`]), once per pixel: its output is `gl_FragColor`, an
+    /// element of `gl_FragData`, or an `out` variable.
+    Main(Alpha),
     /// `void main()` that sets `gl_Position`, once for each vertex of a mesh; see [`super::stages`].
     Vertex,
     /// `void main()` that sets `out` variables, once for each fragment of a mesh.
@@ -22,6 +25,17 @@ pub enum PassKind {
     PlainVertex,
     /// A fragment shader of GLSL ES 3.00 with its own uniforms; see [`super::plain`].
     PlainFragment,
+}
+
+/// What becomes of the alpha that a fragment shader outputs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Alpha {
+    /// It is stored.
+    Stored,
+    /// The target is opaque.
+    Opaque,
+    /// The colour is blended over black: it is multiplied by alpha.
+    OverBlack,
 }
 
 impl PassKind {
@@ -40,9 +54,45 @@ impl PassKind {
         matches!(self, PassKind::PlainVertex | PassKind::PlainFragment)
     }
 
+    /// Returns whether Shadertoy's uniforms do not exist: a text has only those of its own program.
+    pub fn declares_inputs(self) -> bool {
+        self.is_plain() || matches!(self, PassKind::Main(_))
+    }
+
     /// Returns whether the entry point is called once per pixel.
     pub fn draws_pixels(self) -> bool {
-        matches!(self, PassKind::Image | PassKind::Buffer | PassKind::Cubemap)
+        matches!(self, PassKind::Image | PassKind::Buffer | PassKind::Cubemap | PassKind::Main(_))
+    }
+}
+
+/// A version of GLSL.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Version {
+    /// The number as in `#version`: 100, 120, 300, 430.
+    pub number: u16,
+    /// It is a version of GLSL ES.
+    pub is_es: bool,
+}
+
+impl Version {
+    /// Returns the version that a text declares in its `#version` line, which only comments and empty lines may precede
+    /// (GLSL 4.60, section 3.3). Versions 100 and those marked `es` are of GLSL ES.
+    pub fn of(text: &str) -> Option<Version> {
+        let mut left = text.trim_start_matches('\u{feff}').trim_start();
+        loop {
+            if let Some(comment) = left.strip_prefix("//") {
+                left = comment.split_once('\n')?.1.trim_start();
+            } else if let Some(comment) = left.strip_prefix("/*") {
+                left = comment.split_once("*/")?.1.trim_start();
+            } else {
+                break;
+            }
+        }
+        let line = left.strip_prefix('#')?.lines().next()?.trim_start().strip_prefix("version")?;
+        let line = line.split("//").next()?;
+        let mut words = line.split_whitespace();
+        let number = words.next()?.parse().ok()?;
+        Some(Version { number, is_es: number == 100 || words.next() == Some("es") })
     }
 }
 
@@ -56,11 +106,18 @@ pub enum Dialect {
     /// Custom shaders of the terminal Ghostty: GLSL 4.30 by glslang's rules for Vulkan, with one channel. The uniforms
     /// that the terminal adds are in [`PassSource::custom_uniforms`].
     Ghostty,
-    /// Interactive Shader Format: desktop GLSL from version 1.20 on.
-    Isf,
+    /// Complete fragment shaders with `void main()` ([`PassKind::Main`]), and passes around them. The rules are those of
+    /// all versions of GLSL together, so that a program of any version compiles; the version only determines the
+    /// predefined macros.
+    Any(Version),
 }
 
 impl Dialect {
+    /// Returns whether texts are complete fragment shaders of any version of GLSL.
+    pub(crate) fn is_any(self) -> bool {
+        matches!(self, Dialect::Any(_))
+    }
+
     /// Returns whether `int` is converted to `float` implicitly (GLSL 1.20 and 4.30, section 4.1.10), as well as `uint`
     /// to `float` and `int` to `uint`.
     pub(crate) fn converts(self) -> bool {
@@ -76,17 +133,17 @@ impl Dialect {
     /// Returns whether the texts of a vertex and a fragment shader follow each other, both of which declare the
     /// variables that pass from one to the other.
     pub(crate) fn joins_stages(self) -> bool {
-        self == Dialect::Isf
+        self.is_any()
     }
 
-    /// Returns whether lists in braces initialise variables (GLSL 4.30, section 4.1.11).
+    /// Returns whether lists in braces initialise variables (GLSL 4.20, section 4.1.11).
     pub(crate) fn has_lists(self) -> bool {
-        self == Dialect::Ghostty
+        self != Dialect::Shadertoy
     }
 
     /// Returns the number of `iChannelN`.
     pub(crate) fn channels(self) -> usize {
-        if self == Dialect::Ghostty { 1 } else { 4 }
+        if self == Dialect::Ghostty { 1 } else { SLOTS }
     }
 
     /// Returns whether a text may declare uniforms outside blocks. For Vulkan it may not (`GL_KHR_vulkan_glsl`).
@@ -100,16 +157,10 @@ impl Dialect {
         self != Dialect::Shadertoy
     }
 
-    /// Returns whether a text may declare its own variables with the names of Shadertoy's uniforms, which its program
-    /// does not have.
-    pub(crate) fn frees_uniforms(self) -> bool {
-        self == Dialect::Isf
-    }
-
     /// Returns whether `#version` and `#extension` may come after the text that the host prepends, and are ignored
     /// there. GLSL ES 1.00 requires extensions first (section 3.4), and browsers warn otherwise.
     pub(crate) fn ignores_late_directives(self) -> bool {
-        self == Dialect::Isf
+        self.is_any()
     }
 
     /// Returns whether `#extension` may come after declarations: GLSL 4.30 (section 3.3) requires it first only where
@@ -123,7 +174,7 @@ impl Dialect {
         match self {
             Dialect::Shadertoy => "Shadertoy's header",
             Dialect::Ghostty => "Ghostty's prefix",
-            Dialect::Isf => "the ISF host's header",
+            Dialect::Any(_) => "the host's header",
         }
     }
 
@@ -132,7 +183,7 @@ impl Dialect {
         match self {
             Dialect::Shadertoy => "GLSL ES 3.00",
             Dialect::Ghostty => "GLSL 4.30",
-            Dialect::Isf => "the host's GLSL, from 1.20 on",
+            Dialect::Any(_) => "that of the host",
         }
     }
 
@@ -149,6 +200,9 @@ pub enum ChannelKind {
     Sampler2D,
     Sampler3D,
     SamplerCube,
+    /// A 2D texture whose first row is read. A text that declares a `sampler2D` of the program that it is written for as
+    /// a `sampler1D` gets this.
+    Sampler1D,
 }
 
 /// A text, and the id that its diagnostics refer to it by.
@@ -167,15 +221,49 @@ pub struct Include<'a> {
     pub text: Result<Text<'a>, &'a Diagnostic>,
 }
 
-/// A uniform that the author declares in an `#iUniform` line, outside the language. It is in scope everywhere in the
-/// texts of the pass, as Shadertoy's own uniforms are.
+/// A uniform besides Shadertoy's: of an `#iUniform` line, or of the program that the texts are written for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CustomUniform<'a> {
     pub name: &'a str,
     pub kind: CustomUniformKind,
+    pub source: UniformSource,
+    /// True if a text that uses it declares it, as a `uniform`, `in` or `varying` of this type. Otherwise it is in scope
+    /// everywhere in the texts of the pass, as Shadertoy's own uniforms are.
+    pub is_declared: bool,
+}
+
+impl<'a> CustomUniform<'a> {
+    /// Returns a uniform that is in scope everywhere, with its value in a slot.
+    pub fn new(name: &'a str, kind: CustomUniformKind, slot: u16) -> Self {
+        Self { name, kind, source: UniformSource::Slot(slot), is_declared: false }
+    }
+}
+
+/// The origin of the value of a [`CustomUniform`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum UniformSource {
     /// The position of its value in the block at [`super::interface::CUSTOM_UNIFORM_BINDING`], in slots of
     /// [`super::interface::CUSTOM_UNIFORM_BYTES`].
-    pub slot: u16,
+    Slot(u16),
+    /// The size in pixels of the target that the pass draws, a `vec2`.
+    Resolution,
+    /// The size in texels of the texture of a channel, a `vec2`.
+    ChannelSize(u8),
+    /// The position of the pixel in the target, from 0 to 1 and from the bottom left, a `vec2`.
+    UnitPosition,
+    /// The same in units of the height, with (0, 0) in the centre, a `vec2`.
+    CentredPosition,
+    /// The same as the vertex shader outputs it, from -1 to 1, with z = 0 and w = 1, a `vec4`.
+    ClipPosition,
+}
+
+/// A sampler of the program that the texts are written for, which reads a channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NamedSampler<'a> {
+    pub name: &'a str,
+    pub channel: u8,
+    /// See [`CustomUniform::is_declared`].
+    pub is_declared: bool,
 }
 
 /// The GLSL type of a [`CustomUniform`].
@@ -208,6 +296,10 @@ pub enum UntypedValue {
 /// The channels that Shadertoy's language has: `iChannel0` to `iChannel3`. The uniform block has room for as many.
 pub const SLOTS: usize = 4;
 
+/// The channels that a pass can read in any dialect: the sampled textures that every device offers to a stage (WebGPU,
+/// limit `maxSampledTexturesPerShaderStage`).
+pub const MAX_CHANNELS: usize = 16;
+
 /// The complete input of the front end for a pass.
 #[derive(Clone, Copy, Debug)]
 pub struct PassSource<'a> {
@@ -217,15 +309,17 @@ pub struct PassSource<'a> {
     pub code: Text<'a>,
     /// The includes of all texts of the pass, including nested ones; no text includes itself.
     pub includes: &'a [Include<'a>],
-    pub channels: [ChannelKind; SLOTS],
+    pub channels: [ChannelKind; MAX_CHANNELS],
     /// The custom uniforms of all texts of the pass, each name once.
     pub custom_uniforms: &'a [CustomUniform<'a>],
+    /// The samplers besides `iChannelN`, each name once.
+    pub samplers: &'a [NamedSampler<'a>],
     /// The values of uniforms that a text of the pass may declare, each name once; values of undeclared uniforms are
     /// ignored.
     pub values: &'a [UniformValue],
     /// Channels whose texture this device cannot filter although the project requests it: every filtered read of them
     /// is written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification defines the weights).
-    pub bilinear_in_shader: [bool; SLOTS],
+    pub bilinear_in_shader: [bool; MAX_CHANNELS],
     pub driver: Driver,
     /// The pass is drawn in tiles, each into its own target: a pixel's position is that in the whole picture, offset by
     /// the uniform block's `tile_origin`. Only in Image and buffers.
@@ -248,10 +342,11 @@ impl<'a> PassSource<'a> {
             common: None,
             code,
             includes: &[],
-            channels: [ChannelKind::Sampler2D; SLOTS],
+            channels: [ChannelKind::Sampler2D; MAX_CHANNELS],
             custom_uniforms: &[],
+            samplers: &[],
             values: &[],
-            bilinear_in_shader: [false; 4],
+            bilinear_in_shader: [false; MAX_CHANNELS],
             driver: Driver::default(),
             tiled: false,
             plain: PlainOptions::of(kind),
@@ -263,6 +358,11 @@ impl<'a> PassSource<'a> {
     /// Returns an Image pass that consists of this text. Diagnostics refer to `SourceId(0)`.
     pub fn image(text: &'a str) -> Self {
         Self::alone(PassKind::Image, text)
+    }
+
+    /// Returns the kinds of all channels, of which the first ones are these.
+    pub fn channel_kinds(first: [ChannelKind; SLOTS]) -> [ChannelKind; MAX_CHANNELS] {
+        std::array::from_fn(|channel| first.get(channel).copied().unwrap_or_default())
     }
 
     /// Returns a plain vertex shader: `void main()` with its own attributes and uniforms.

@@ -103,7 +103,9 @@ pub(crate) fn interface(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Interface {
     let is_plain = source.kind.is_plain();
-    let mut linker = Linker { module, names, origins, link, is_plain, diagnostics, made: Interface::default() };
+    let is_main = matches!(source.kind, PassKind::Main(_));
+    let mut linker =
+        Linker { module, names, origins, link, is_plain, is_main, diagnostics, made: Interface::default() };
     let of = |storage: GlobalStorage| {
         let all = module.globals.iter().enumerate().filter(move |(_, g)| g.storage == storage && g.ty != TypeId::ERROR);
         all.map(|(i, _)| GlobalId::new(i)).collect::<Vec<_>>()
@@ -121,6 +123,7 @@ pub(crate) fn interface(
             linker.inputs_of_fragments(&of(GlobalStorage::In));
             linker.colours(&of(GlobalStorage::Out));
         }
+        PassKind::Main(_) => linker.colours(&of(GlobalStorage::Out)),
         PassKind::Image | PassKind::Buffer | PassKind::Cubemap | PassKind::Sound => {}
     }
     let mut made = linker.made;
@@ -140,7 +143,7 @@ fn channels(source: &PassSource<'_>) -> Vec<Texture> {
     let texture = |(i, kind): (usize, ChannelKind)| Texture {
         name: String::new(),
         dim: match kind {
-            ChannelKind::Sampler2D => SamplerDim::D2,
+            ChannelKind::Sampler1D | ChannelKind::Sampler2D => SamplerDim::D2,
             ChannelKind::Sampler3D => SamplerDim::D3,
             ChannelKind::SamplerCube => SamplerDim::Cube,
         },
@@ -175,6 +178,7 @@ struct Linker<'a> {
     origins: &'a Origins,
     link: &'a Link<'a>,
     is_plain: bool,
+    is_main: bool,
     diagnostics: &'a mut Vec<Diagnostic>,
     made: Interface,
 }
@@ -342,7 +346,8 @@ impl Linker<'_> {
             }
             let location = match global.location {
                 Some(location) => location,
-                None if all.len() == 1 => 0,
+                // Hosts that draw one target leave the locations to the driver, which assigns them in text order.
+                None if all.len() == 1 || self.is_main => taken.len() as u32,
                 None => {
                     let hint = format!("write `layout(location = 0) out vec4 {name};`, with a number for each");
                     self.error(&global, format!("with several outputs, `{name}` needs a target number"), hint);

@@ -65,6 +65,8 @@ pub enum Scalar {
 /// The dimensionality of a sampler's texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SamplerDim {
+    /// A row of texels, only in complete fragment shaders ([`crate::Dialect::Any`]): WebGPU has it as a 2D texture.
+    D1,
     D2,
     D3,
     Cube,
@@ -75,6 +77,7 @@ impl SamplerDim {
     /// Returns the part after `sampler` in the names of such types.
     pub fn name(self) -> &'static str {
         match self {
+            SamplerDim::D1 => "1D",
             SamplerDim::D2 => "2D",
             SamplerDim::D3 => "3D",
             SamplerDim::Cube => "Cube",
@@ -208,6 +211,7 @@ fn basic_type(basic: BasicType) -> Type {
         B::Mat4x2 => matrix(4, 2),
         B::Mat4x3 => matrix(4, 3),
         B::Mat4x4 => matrix(4, 4),
+        B::Sampler1D => sampler(SamplerDim::D1, Scalar::Float, false),
         B::Sampler2D => sampler(SamplerDim::D2, Scalar::Float, false),
         B::Sampler3D => sampler(SamplerDim::D3, Scalar::Float, false),
         B::SamplerCube => sampler(SamplerDim::Cube, Scalar::Float, false),

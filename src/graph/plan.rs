@@ -2,7 +2,7 @@
 
 use super::tiles::TiledDraw;
 use eddy_project::{
-    Condition, Filter, Input, Pass, PassName, PassSize, Project, Region, SLOTS, Sampler, SamplerRules, Wrap,
+    Condition, Filter, Input, MAX_CHANNELS, Pass, PassName, PassSize, Project, Region, Sampler, SamplerRules, Wrap,
 };
 use eddy_texture::{Dimension, TexelFormat};
 use std::{collections::BTreeSet, ops::Range};
@@ -20,7 +20,7 @@ pub struct ChannelFacts {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PassFacts {
     /// The facts about each channel.
-    pub channels: [ChannelFacts; SLOTS],
+    pub channels: [ChannelFacts; MAX_CHANNELS],
     /// `discard` is reachable, so the previous content of the target can stay visible.
     pub discards: bool,
 }
@@ -28,7 +28,7 @@ pub struct PassFacts {
 impl PassFacts {
     /// Reads every channel at every level and discards: the assumption for an unknown pass.
     pub const ANYTHING: PassFacts =
-        PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; SLOTS], discards: true };
+        PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; MAX_CHANNELS], discards: true };
 }
 
 /// The frame whose picture of a target a read sees.
@@ -97,7 +97,7 @@ pub struct Draw {
     /// The index of an additional target, after these, for [`FramePlan::add_extra_target`].
     pub extra_target: Option<usize>,
     /// `None` if the compiled pass does not read the channel.
-    pub reads: [Option<Read>; SLOTS],
+    pub reads: [Option<Read>; MAX_CHANNELS],
     /// It rasterizes meshes into targets that are cleared first.
     pub draws_meshes: bool,
     /// The pass starts with the previous texels of the target.
@@ -129,7 +129,9 @@ impl Draw {
     /// one.
     pub fn of_fill(&self, is_picture: bool) -> Draw {
         let read = is_picture.then_some(Read { source: TexelSource::External, sampler: FILL_SAMPLER, mips: false });
-        Draw { reads: [read, None, None, None], keeps_content: true, is_cacheable: false, ..self.clone() }
+        let mut reads = [const { None }; MAX_CHANNELS];
+        reads[0] = read;
+        Draw { reads, keeps_content: true, is_cacheable: false, ..self.clone() }
     }
 }
 
@@ -336,7 +338,7 @@ impl FramePlan {
             let doubled = takes_turns && (!skip || discards || !reads_of(Some(ReadTiming::LastFrame)).is_empty());
             // Shadertoy considers every pass of the project, including those that are not shown.
             let sampler_asks = (0..project.passes.len()).any(|p| {
-                (0..SLOTS).any(|c| {
+                (0..MAX_CHANNELS).any(|c| {
                     project.passes[p].bindings.get(c).is_some_and(|ch| ch.input.target() == Some((&id, own_index)))
                         && effective_sampler(project, p, c).is_some_and(|s| s.filter == Filter::Mipmap)
                 })

@@ -73,6 +73,7 @@ fn how_to_declare(dialect: Dialect) -> (&'static str, &'static str) {
             "Add a line like this to INPUTS, and save, to get a slider:",
             r#"{ "NAME": "speed", "TYPE": "float", "DEFAULT": 1.0, "MIN": 0.0, "MAX": 4.0 }"#,
         ),
+        _ => ("Add a line like this to get a slider:", "uniform float speed;"),
     }
 }
 

@@ -7,55 +7,78 @@ use std::collections::BTreeMap;
 /// [`Bindings`] itself has no limit.
 pub const SLOTS: usize = 4;
 
+/// The number of slots of a pass in any dialect: the sampled textures that every device offers to a stage (WebGPU,
+/// limit `maxSampledTexturesPerShaderStage`).
+pub const MAX_CHANNELS: usize = 16;
+
 /// The channels of a pass by slot: slot n is `iChannelN`. A slot without a channel reads as an opaque black 2D texture
 /// of size 0.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Bindings(BTreeMap<usize, Channel>);
+pub struct Bindings {
+    channels: BTreeMap<usize, Channel>,
+    /// The names of samplers that are not called `iChannelN`.
+    names: BTreeMap<usize, String>,
+}
 
 impl Bindings {
     pub fn get(&self, slot: usize) -> Option<&Channel> {
-        self.0.get(&slot)
+        self.channels.get(&slot)
     }
 
     pub fn get_mut(&mut self, slot: usize) -> Option<&mut Channel> {
-        self.0.get_mut(&slot)
+        self.channels.get_mut(&slot)
     }
 
     /// Binds a channel to a slot; `None` empties it.
     pub fn set(&mut self, slot: usize, channel: Option<Channel>) {
         match channel {
-            Some(channel) => drop(self.0.insert(slot, channel)),
-            None => drop(self.0.remove(&slot)),
+            Some(channel) => drop(self.channels.insert(slot, channel)),
+            None => drop(self.channels.remove(&slot)),
         }
+    }
+
+    /// Returns the name of the sampler of a slot, if the text calls it other than `iChannelN`.
+    pub fn name(&self, slot: usize) -> Option<&str> {
+        self.names.get(&slot).map(String::as_str)
+    }
+
+    /// Sets the name of the sampler of a slot. A slot keeps it while no channel is bound to it.
+    pub fn set_name(&mut self, slot: usize, name: &str) {
+        self.names.insert(slot, name.to_owned());
+    }
+
+    /// The names of samplers, in slot order.
+    pub fn names(&self) -> impl Iterator<Item = (usize, &str)> {
+        self.names.iter().map(|(slot, name)| (*slot, name.as_str()))
     }
 
     /// Removes the channels for which `is_kept` returns false.
     pub fn retain(&mut self, is_kept: impl Fn(&Channel) -> bool) {
-        self.0.retain(|_, channel| is_kept(channel));
+        self.channels.retain(|_, channel| is_kept(channel));
     }
 
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.channels.is_empty()
     }
 
     /// Every channel with its slot, in slot order.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = (usize, &Channel)> {
-        self.0.iter().map(|(slot, channel)| (*slot, channel))
+        self.channels.iter().map(|(slot, channel)| (*slot, channel))
     }
 
     /// Every channel, in slot order.
     pub fn channels(&self) -> impl DoubleEndedIterator<Item = &Channel> {
-        self.0.values()
+        self.channels.values()
     }
 
     pub fn channels_mut(&mut self) -> impl DoubleEndedIterator<Item = &mut Channel> {
-        self.0.values_mut()
+        self.channels.values_mut()
     }
 }
 
 impl FromIterator<(usize, Channel)> for Bindings {
     fn from_iter<T: IntoIterator<Item = (usize, Channel)>>(channels: T) -> Self {
-        Self(channels.into_iter().collect())
+        Self { channels: channels.into_iter().collect(), names: BTreeMap::new() }
     }
 }
 

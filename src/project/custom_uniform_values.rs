@@ -2,15 +2,22 @@
 
 use super::{
     custom_uniforms::{self, CustomUniform, CustomUniformValue, CustomUniforms},
+    dialect::declared_sliders,
     model::Project,
 };
 use eddy_diag::{SourceId, Span};
 
 impl Project {
-    /// Returns the uniforms that the texts declare in `#iUniform` lines. Spans point into [`Project::sources`].
+    /// Returns the uniforms that the user sets: those that the texts declare in `#iUniform` lines, and those that a
+    /// complete fragment shader declares in GLSL and its program does not set. Spans point into [`Project::sources`].
     pub fn custom_uniforms(&self) -> CustomUniforms {
         let sources = self.texts();
-        CustomUniforms::read(sources.iter().map(|(id, source)| (id, &*source.text)))
+        let mut found = CustomUniforms::read(sources.iter().map(|(id, source)| (id, &*source.text)));
+        let declared = declared_sliders(self);
+        let is_new = |uniform: &CustomUniform| found.get(&uniform.name).is_none();
+        let declared: Vec<CustomUniform> = declared.into_iter().filter(is_new).collect();
+        found.list.extend(declared);
+        found
     }
 
     /// Returns the names that `#iUniform` lines declare, one for each line, with their spans in [`Project::sources`].

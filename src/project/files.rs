@@ -3,6 +3,7 @@
 use super::{
     FileError, ProjectError,
     confine::{self, Reason},
+    include_folders,
     limits::{self, Limit},
 };
 use eddy_diag::{Diagnostic, SourceMap, Span};
@@ -127,9 +128,13 @@ impl<'a> Files<'a> {
             Storage::Disk(folder) => {
                 let left = Limit { bytes: self.left.get(), ..limits::ALL_TEXTS };
                 let smaller = if left.bytes < limit.bytes { left } else { limit };
-                match confine::read(folder, name, smaller) {
+                match confine::read_included(folder, name, smaller) {
                     Ok(bytes) => bytes,
-                    Err(e) if e.is_missing() => return Read::Missing,
+                    Err(e) if e.is_missing() => match in_library(name).map(|found| confine::read(found, name, smaller))
+                    {
+                        Some(Ok(bytes)) => bytes,
+                        _ => return Read::Missing,
+                    },
                     Err(FileError { file, reason: Reason::TooLarge(l) }) if l.of == left.of => {
                         let reason = Reason::TooMuch(limits::ALL_TEXTS);
                         return Read::Refused(FileError { file, reason });
@@ -152,6 +157,16 @@ impl<'a> Files<'a> {
         decode(bytes)
     }
 
+    /// Returns whether a file exists, perhaps in a folder of libraries.
+    pub(crate) fn can_read(&self, name: &str) -> bool {
+        match self.place {
+            Storage::Disk(_) if self.in_editor(name).is_some() => true,
+            Storage::Disk(folder) => folder.join(name).is_file() || in_library(name).is_some(),
+            Storage::Embedded(ref folders) => folders.iter().any(|dir| dir.get_file(dir.path().join(name)).is_some()),
+            Storage::Memory(files) => files.contains_key(name),
+        }
+    }
+
     /// Returns whether an entry other than a folder has this name directly in the folder, even an unusable one: reading
     /// reports the reason.
     pub(crate) fn exists(&self, name: &str) -> bool {
@@ -168,10 +183,19 @@ impl<'a> Files<'a> {
     /// The path of a file, if it is on disk.
     pub(crate) fn path(&self, name: &str) -> Option<PathBuf> {
         match self.place {
-            Storage::Disk(folder) => Some(folder.join(name)),
+            Storage::Disk(folder) => {
+                let own = folder.join(name);
+                let library = in_library(name).filter(|_| !own.exists());
+                Some(library.map_or(own, |library| library.join(name)))
+            }
             Storage::Embedded(_) | Storage::Memory(_) => None,
         }
     }
+}
+
+/// Returns the first of the [`include_folders`] that has a file.
+fn in_library(name: &str) -> Option<&'static Path> {
+    include_folders::all().iter().map(PathBuf::as_path).find(|folder| confine::resolve(folder, name).is_ok())
 }
 
 pub(super) fn decode(bytes: Vec<u8>) -> Read {

@@ -1,6 +1,6 @@
 //! A hash that identifies a measured project: measurements of other texts do not apply to it.
 
-use super::{Body, Channel, Dialect, Group, Input, InputKind, PassName, PassSettings, Project, SLOTS};
+use super::{Body, Channel, Group, Input, InputKind, PassName, PassSettings, Project, SLOTS};
 use std::fmt;
 
 /// 64-bit FNV-1a (G. Fowler, L. Noll, K.-P. Vo).
@@ -12,9 +12,9 @@ impl Fingerprint {
         let mut print = Fingerprint(0xcbf2_9ce4_8422_2325);
         // Conditions are hashed with the settings below; the rest of the file that contains them is not.
         let counted = project.sources().iter().count() - project.conditions().count();
-        // Eddy generates the texts around an ISF file, and the next version may generate different ones.
-        let made = if project.dialect == Dialect::Isf { 1 + project.passes.len() } else { 0 };
-        for (_, source) in project.sources().iter().take(counted).skip(made) {
+        // Eddy generates the texts around a file with `void main()`, and the next version may generate different ones.
+        let generated = if project.dialect.has_main() { 1 + project.passes.len() } else { 0 };
+        for (_, source) in project.sources().iter().take(counted).skip(generated) {
             print.eat(source.text.as_bytes());
         }
         let groups: Vec<String> = project.groups.iter().map(group_text).collect();

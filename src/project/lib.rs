@@ -26,6 +26,7 @@ mod folder;
 mod geometry;
 pub mod ghostty;
 mod imports;
+mod include_folders;
 mod includes;
 mod input;
 mod inspect_comments;
@@ -57,7 +58,7 @@ pub mod xscreensaver;
 
 pub use advice::{advice, missing_pass};
 pub use atomic::{Staged, rename_temporary, write_with};
-pub use bindings::{Bindings, SLOTS};
+pub use bindings::{Bindings, MAX_CHANNELS, SLOTS};
 pub use body::Body;
 pub use condition::Condition;
 pub use confine::FileError;
@@ -65,7 +66,10 @@ pub use controls::{ControlAddress, ControlBindings, ControlTarget, is_osc_path};
 pub use custom_uniforms::{
     CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms,
 };
-pub use dialect::{Dialect, ShaderForm};
+pub use dialect::{
+    AlphaRule, Dialect, DialectRow, EntryPoint, HostTexture, HostUniform, HostValue, MouseUnit, ShaderForm,
+    SoundTexture,
+};
 pub use directives::ignored_channel_lines;
 pub use eddy_texture::{Dimension, TexelFormat};
 pub use error::ProjectError;
@@ -83,6 +87,7 @@ pub use imports::{
     FileKind, Fit, ImportError, MODELS, PICTURES, RECORDING, SOUNDS, TextImport, VIDEOS, folder_of_parts,
     import_of_text, kind_of_file, new_for,
 };
+pub use include_folders::set_include_folders;
 pub use includes::{IncludeLines, include_names};
 pub use input::{Input, InputKind, InputRow, InputSource};
 pub use inspect_comments::{InspectComment, inspect_comments};
@@ -101,7 +106,7 @@ pub use pass_name::PassName;
 pub use picked::{at_home, bring_home};
 pub use role::{Role, RoleRow};
 pub use save::{name_at, remove_renamed, save};
-pub use settings::{Group, PassSettings, PassSize, Region};
+pub use settings::{Group, PassSettings, PassSize, Region, Side};
 pub use snapshot::{SnapshotError, read_snapshot, write_snapshot};
 pub use source::{Included, Source};
 pub use source_ids::TextLocation;

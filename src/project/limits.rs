@@ -142,6 +142,8 @@ pub const PASSES: usize = 1_000;
 pub const TEXTS: usize = 10_000;
 /// Files that a text has in it, each counted as often as it is included.
 pub const INCLUDED: u64 = 10_000;
+/// Folders above its own in which a single complete fragment shader may include a GLSL file.
+pub const FOLDERS_ABOVE: usize = 4;
 /// Files directly in a project's folder.
 pub const FILES: usize = 50_000;
 /// Folders above a file in which the language server looks for the project that it belongs to.

@@ -1,9 +1,9 @@
 //! Loads files as a [`Project`].
 
 use super::{
-    Origin, Pass, PassName, Project, ProjectError, Source,
+    Dialect, Origin, Pass, PassName, Project, ProjectError, ShaderForm, Source,
     atomic::sweep,
-    confine, file_names,
+    confine, dialect, file_names,
     files::{self, EditedTexts, Files, MANIFEST, Read},
     folder, includes, isf, json,
     limits::{self, Limit},
@@ -114,6 +114,9 @@ pub(super) fn load_glsl(path: &Path, edited: &EditedTexts) -> Result<Loaded, Pro
     };
     let folder = path.parent().unwrap_or(Path::new(""));
     let files = Files::edited(folder, edited);
+    if let Some(dialect) = ShaderForm::of(path, &text).main_dialect().filter(|dialect| *dialect != Dialect::Isf) {
+        return dialect::load(path, (&name, &text), &files, dialect);
+    }
     if let Some(isf) = isf::load(path, (&name, &text), &files) {
         return isf;
     }

@@ -475,11 +475,10 @@ impl Project {
         tabs
     }
 
-    /// Returns the editor's initial tab: Image, or the file of an ISF project, since the texts of its passes are
-    /// generated.
+    /// Returns the editor's initial tab: Image, or the file of a project whose passes are generated around it.
     pub fn main_tab(&self) -> Tab {
         let file = match (&self.origin, self.dialect) {
-            (Origin::File(path), Dialect::Isf) => path.file_name(),
+            (Origin::File(path), dialect) if dialect.has_main() => path.file_name(),
             _ => None,
         };
         let own = self.readable_includes().find(|s| file.is_some_and(|name| name == s.name.as_str()));

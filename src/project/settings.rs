@@ -27,17 +27,46 @@ pub enum PassSize {
     Scale(f64),
     /// Width and height in texels, whatever the canvas.
     Fixed(u32, u32),
+    /// Width and height, each with a rule of its own: a row of the canvas, for example.
+    Sides(Side, Side),
+}
+
+/// The rule for a side of a pass's picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Side {
+    /// The canvas's side scaled by this factor, rounded, at least one texel.
+    Scale(f64),
+    /// Texels, whatever the canvas.
+    Fixed(u32),
+}
+
+impl Side {
+    /// Returns the texels for a side of a canvas.
+    pub fn of(self, canvas: u32) -> u32 {
+        match self {
+            // `as` saturates at u32; creating the texture fails for a size that no device supports.
+            Side::Scale(by) => ((f64::from(canvas) * by).round() as u32).max(1),
+            Side::Fixed(texels) => texels,
+        }
+    }
+
+    /// Returns whether it is at least one texel for some canvas.
+    pub fn is_valid(self) -> bool {
+        match self {
+            Side::Scale(by) => by.is_finite() && by > 0.0,
+            Side::Fixed(texels) => texels > 0,
+        }
+    }
 }
 
 impl PassSize {
     /// Returns the width and height in texels for a canvas.
     pub fn of(self, (width, height): (u32, u32)) -> (u32, u32) {
-        // `as` saturates at u32; creating the texture fails for a size that no device supports.
-        let scaled = |v: u32, by: f64| ((f64::from(v) * by).round() as u32).max(1);
         match self {
             PassSize::Canvas => (width, height),
-            PassSize::Scale(by) => (scaled(width, by), scaled(height, by)),
+            PassSize::Scale(by) => (Side::Scale(by).of(width), Side::Scale(by).of(height)),
             PassSize::Fixed(width, height) => (width, height),
+            PassSize::Sides(x, y) => (x.of(width), y.of(height)),
         }
     }
 }

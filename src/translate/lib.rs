@@ -25,7 +25,7 @@ pub use isf::{IsfFile, isf};
 pub use language::{GlslVersion, Language};
 pub use manifest::{
     CameraInfo, ChannelInfo, CustomUniformInfo, EntryPoint, FillInfo, Manifest, MeshInfo, PassInfo, ProgramInfo,
-    ReadFrom, RegionInfo, RunInfo, SizeInfo, StageInfo, TargetInfo, VertexInput,
+    ReadFrom, RegionInfo, RunInfo, SideInfo, SizeInfo, StageInfo, TargetInfo, VertexInput,
 };
 
 use eddy_diag::Diagnostic;

@@ -78,6 +78,18 @@ pub enum SizeInfo {
         width: u32,
         height: u32,
     },
+    Sides {
+        width: SideInfo,
+        height: SideInfo,
+    },
+}
+
+/// A side of a target, as in [`SizeInfo`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum SideInfo {
+    Canvas { canvas: f64 },
+    Fixed { texels: u32 },
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -7,7 +7,7 @@ use eddy_engine::{CompiledPass, CompiledProgram, Sources};
 use eddy_glsl::{ClipSpace, Compiled, PassSource, PlainOptions, interface};
 use eddy_graph::{Draw, FramePlan, PassFacts, Read, ReadTiming, Target, TexelSource};
 use eddy_project::{
-    Channel, CustomUniformValue, FillKind, Filter, Input, Media, Pass, PassName, PassSize, Project, Tab, Wrap,
+    Channel, CustomUniformValue, FillKind, Filter, Input, Media, Pass, PassName, PassSize, Project, Side, Tab, Wrap,
 };
 use eddy_texture::Dimension;
 
@@ -34,7 +34,7 @@ pub(crate) fn translate(project: &Project, language: Language) -> Result<Transla
     let mut found = texts.diagnostics.clone();
     let (mut pictures, mut sounds) = (Compilation::of(project), Compilation::of(project));
     for (index, pass) in project.passes.iter().enumerate() {
-        let outcome = texts.compile_pass(index, [false; 4], language.driver());
+        let outcome = texts.compile_pass(index, language.driver());
         let fills = FillKind::ALL.map(|kind| texts.compile_fill(index, kind, false, language.driver()));
         let to = if pass.id.is_picture() { &mut pictures } else { &mut sounds };
         let mut kept: [Option<CompiledPass>; 2] = [None, None];
@@ -299,6 +299,13 @@ fn target(target: &Target) -> TargetInfo {
             PassSize::Canvas => SizeInfo::Canvas { canvas: 1.0 },
             PassSize::Scale(by) => SizeInfo::Canvas { canvas: by },
             PassSize::Fixed(width, height) => SizeInfo::Fixed { width, height },
+            PassSize::Sides(width, height) => {
+                let side = |side| match side {
+                    Side::Scale(canvas) => SideInfo::Canvas { canvas },
+                    Side::Fixed(texels) => SideInfo::Fixed { texels },
+                };
+                SizeInfo::Sides { width: side(width), height: side(height) }
+            }
         },
         format: target.format.name(),
         doubled: target.doubled,

@@ -96,6 +96,15 @@ pub(crate) struct PassData {
 pub(crate) enum SizeData {
     Canvas(f64),
     Fixed([u32; 2]),
+    Sides([SideData; 2]),
+}
+
+/// A side in texels, or as a fraction of the picture's, which the page reads from a string.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(crate) enum SideData {
+    Canvas(String),
+    Fixed(u32),
 }
 
 #[derive(Serialize)]

@@ -1,7 +1,9 @@
 //! Builds the player's description of a project: the draws, their order, and their inputs.
 
 use crate::{
-    data::{CameraData, ChannelData, DrawData, FillData, PassData, ProjectData, RunData, SizeData, UniformData},
+    data::{
+        CameraData, ChannelData, DrawData, FillData, PassData, ProjectData, RunData, SideData, SizeData, UniformData,
+    },
     inline::Inlined,
     texts::Texts,
 };
@@ -10,8 +12,8 @@ use eddy_engine::{CompiledPass, Sources, channel_kinds};
 use eddy_glsl::{ChannelKind, taken};
 use eddy_graph::{FramePlan, PassFacts, effective_sampler};
 use eddy_project::{
-    CustomUniform, CustomUniformRange, FillKind, Filter, Input, InputKind, Media, PassSize, Project, Sampler, Stage,
-    Term, Wrap,
+    CustomUniform, CustomUniformRange, FillKind, Filter, Input, InputKind, Media, PassSize, Project, Sampler, Side,
+    Stage, Term, Wrap,
 };
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -104,6 +106,10 @@ impl Description<'_> {
                 PassSize::Canvas => SizeData::Canvas(1.0),
                 PassSize::Scale(by) => SizeData::Canvas(by),
                 PassSize::Fixed(width, height) => SizeData::Fixed([width, height]),
+                PassSize::Sides(width, height) => SizeData::Sides([width, height].map(|side| match side {
+                    Side::Scale(by) => SideData::Canvas(by.to_string()),
+                    Side::Fixed(texels) => SideData::Fixed(texels),
+                })),
             },
             formats: if is_target { pass.formats().iter().map(|format| format.name()).collect() } else { Vec::new() },
             mips: if is_target { targets.iter().map(|target| target.mips).collect() } else { Vec::new() },
@@ -174,7 +180,7 @@ impl Description<'_> {
                 Wrap::Repeat => "repeat",
             },
             dim: match channel_kinds(pass)[number] {
-                ChannelKind::Sampler2D => None,
+                ChannelKind::Sampler1D | ChannelKind::Sampler2D => None,
                 ChannelKind::Sampler3D => Some("3d"),
                 ChannelKind::SamplerCube => Some("cube"),
             },

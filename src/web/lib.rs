@@ -55,7 +55,7 @@ pub fn export(project: &Project, media_dir: Option<&Path>) -> Result<Page, Vec<D
                 None => {}
             }
         }
-        match texts.compile_pass(index, [false; 4], Driver::default()) {
+        match texts.compile_pass(index, Driver::default()) {
             Ok(mut compiled) => {
                 diag::append(&mut found, compiled.diagnostics.drain(..));
                 passes.push(compiled);

@@ -172,7 +172,7 @@ fn open(path: &Path, gpu: Option<&Gpu>, tally: &mut Tally) {
     let texts = engine::Sources::new(project);
     let _ = texts.check_common();
     for index in 0..project.passes.len() {
-        let _ = texts.compile_pass(index, [false; 4], Driver::default());
+        let _ = texts.compile_pass(index, Driver::default());
     }
     let mut meshes = MediaSet::new();
     media::meshes(project, &mut meshes);

@@ -9,7 +9,7 @@ use eddy::{
 
 fn errors_of(text: &str) -> (Project, Vec<Diagnostic>) {
     let project = Project::of_image("fixes".into(), text.into());
-    let compiled = Sources::new(&project).compile_pass(0, [false; 4], Driver::default());
+    let compiled = Sources::new(&project).compile_pass(0, Driver::default());
     let found = compiled.map_or_else(|errors| errors, |pass| pass.diagnostics);
     (project, found.into_iter().filter(Diagnostic::is_error).collect())
 }

@@ -11,7 +11,7 @@ use eddy::{
 
 fn compile(text: &str) -> (Project, Vec<Diagnostic>) {
     let project = Project::of_image("hashes".into(), text.into());
-    let pass = Sources::new(&project).compile_pass(0, [false; 4], Driver::default());
+    let pass = Sources::new(&project).compile_pass(0, Driver::default());
     let found = pass.map_or_else(|errors| errors, |pass| pass.diagnostics);
     (project, found)
 }

@@ -5,7 +5,7 @@ use crate::{
     EngineError, external::External, mesh_instance::MeshInstance, program::CompiledDraw, running::Running,
     shared::Shared,
 };
-use eddy_glsl::SLOTS;
+use eddy_glsl::MAX_CHANNELS;
 use eddy_gpu::{FloatConverter, Gpu, Readback, Texture};
 use eddy_graph::{ReadTiming, TexelSource};
 use eddy_media::Texels;
@@ -35,7 +35,7 @@ impl<'a> Capture<'a> {
     /// Reads all inputs of a draw. Previously encoded commands have been submitted.
     pub(crate) fn take(&mut self, running: &Running, shared: &Shared, index: usize) -> Result<(), EngineError> {
         let (compiled, draw) = (&running.program.draws[index], &running.program.plan.draws[index]);
-        let mut channels = [const { None }; SLOTS];
+        let mut channels = [const { None }; MAX_CHANNELS];
         for (channel, copy) in channels.iter_mut().enumerate() {
             *copy = Some(self.channel(running, shared, (compiled, index), channel)?);
         }

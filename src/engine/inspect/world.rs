@@ -2,7 +2,7 @@
 
 use super::texture::{LevelBy, TextureCopy};
 use eddy_glsl::{
-    SLOTS,
+    MAX_CHANNELS,
     interface::{GeometryBlock, UniformBlock},
     walk::{Lod, World},
 };
@@ -16,7 +16,7 @@ pub struct PassInputs {
     pub uniforms: UniformBlock,
     /// The author's own, in slot order.
     pub custom_uniforms: Vec<[u32; 4]>,
-    pub channels: [TextureCopy; SLOTS],
+    pub channels: [TextureCopy; MAX_CHANNELS],
     /// The drawn texels, across and up.
     pub size: (u32, u32),
     /// The selected face of a cubemap, in the order of [`eddy_texture::Face::ALL`]; 0 for any other pass.

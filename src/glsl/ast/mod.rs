@@ -584,6 +584,7 @@ basic_types! {
     Usampler3D = "usampler3D";
     UsamplerCube = "usamplerCube";
     Usampler2DArray = "usampler2DArray";
+    Sampler1D = "sampler1D";
 }
 
 const _: () = assert!(size_of::<Expr>() <= 24 && size_of::<Stmt>() <= 32 && size_of::<Origin>() == 16);

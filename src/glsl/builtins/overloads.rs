@@ -63,6 +63,7 @@ pub(super) mod patterns {
     pub(crate) const I2: Pattern = Pattern::Exactly(TypeId::vector(Scalar::Int, 2));
     pub(crate) const I3: Pattern = Pattern::Exactly(TypeId::vector(Scalar::Int, 3));
     pub(crate) const U1: Pattern = Pattern::Exactly(TypeId::UINT);
+    pub(crate) const S1: Pattern = Pattern::Sampler(SamplerDim::D1, false);
     pub(crate) const S2: Pattern = Pattern::Sampler(SamplerDim::D2, false);
     pub(crate) const S3: Pattern = Pattern::Sampler(SamplerDim::D3, false);
     pub(crate) const SC: Pattern = Pattern::Sampler(SamplerDim::Cube, false);
@@ -98,6 +99,11 @@ impl Overload {
         let mut bound = Bound { size: 0, matrix: TypeId::ERROR, texel: Scalar::Float };
         let fits = self.params.iter().zip(args).all(|(&pattern, &arg)| bind(pattern, arg, &mut bound, types));
         fits.then(|| instance(self.result, bound, types))
+    }
+
+    /// Returns whether it reads a row of texels, which GLSL ES and Shadertoy do not have.
+    pub fn is_one_dimensional(&self) -> bool {
+        self.params.first() == Some(&Pattern::Sampler(SamplerDim::D1, false))
     }
 
     /// Returns whether these can be the first arguments.

@@ -13,7 +13,7 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: "textureSize", params: "sampler, lod",
         overloads: &[
             sig(I2, &[S2, I1]), sig(I3, &[S3, I1]), sig(I2, &[SC, I1]), sig(I3, &[SA, I1]), sig(I2, &[D2, I1]),
-            sig(I2, &[DC, I1]), sig(I3, &[DA, I1]),
+            sig(I2, &[DC, I1]), sig(I3, &[DA, I1]), sig(I1, &[S1, I1]),
         ],
         operation: TextureSize, may_be_overloaded: true,
         text: "Width and height (and depth, or number of layers) in texels of level lod; 0 is full size. Undefined \
@@ -22,7 +22,8 @@ pub(super) const ROWS: &[Row] = &[
         overloads: &[
             sig(G4, &[S2, F2]), sig(G4, &[S2, F2, F1]), sig(G4, &[S3, F3]), sig(G4, &[S3, F3, F1]), sig(G4, &[SC, F3]),
             sig(G4, &[SC, F3, F1]), sig(G4, &[SA, F3]), sig(G4, &[SA, F3, F1]), sig(F1, &[D2, F3]),
-            sig(F1, &[D2, F3, F1]), sig(F1, &[DC, F4]), sig(F1, &[DC, F4, F1]), sig(F1, &[DA, F4]),
+            sig(F1, &[D2, F3, F1]), sig(F1, &[DC, F4]), sig(F1, &[DC, F4, F1]), sig(F1, &[DA, F4]), sig(G4, &[S1, F1]),
+            sig(G4, &[S1, F1, F1]),
         ],
         operation: Sample(Form { is_projected: false, lod: Lod::Implicit, offset: None }), may_be_overloaded: true,
         text: "Filtered read at P, 0 to 1 across the texture (a direction for a cube). The level follows from how \
@@ -38,7 +39,7 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: "textureLod", params: "sampler, P, lod",
         overloads: &[
             sig(G4, &[S2, F2, F1]), sig(G4, &[S3, F3, F1]), sig(G4, &[SC, F3, F1]), sig(G4, &[SA, F3, F1]),
-            sig(F1, &[D2, F3, F1]),
+            sig(F1, &[D2, F3, F1]), sig(G4, &[S1, F1, F1]),
         ],
         operation: Sample(Form { is_projected: false, lod: Lod::Exact, offset: None }), may_be_overloaded: true,
         text: "Filtered read at P of the given level: 0 is full size, each level halves it. Works in any branch or \
@@ -51,7 +52,9 @@ pub(super) const ROWS: &[Row] = &[
         operation: Sample(Form { is_projected: false, lod: Lod::Implicit, offset: Some(2) }),
         text: "As `texture`, moved by a constant number of texels, -8 to 7.", ..ROW },
     Row { name: "texelFetch", params: "sampler, P, lod",
-        overloads: &[sig(G4, &[S2, I2, I1]), sig(G4, &[S3, I3, I1]), sig(G4, &[SA, I3, I1])],
+        overloads: &[
+            sig(G4, &[S2, I2, I1]), sig(G4, &[S3, I3, I1]), sig(G4, &[SA, I3, I1]), sig(G4, &[S1, I1, I1]),
+        ],
         operation: Fetch { offset: None }, may_be_overloaded: true,
         text: "One texel, not filtered: P counts texels from (0, 0) at the bottom left. Outside the texture it gives \
                zeros, as WebGL does.", ..ROW },

@@ -22,6 +22,9 @@ impl Checker<'_> {
             }
             Binding::Poison => self.error_expr(loc),
             Binding::None => {
+                if let Some(builtin) = self.earlier_texture_function(name) {
+                    return self.builtin_call(builtin, args, loc);
+                }
                 if let Some(ty) = foreign_type(self.name(name)) {
                     return self.foreign_constructor(name, ty, args, loc);
                 }
@@ -39,6 +42,28 @@ impl Checker<'_> {
                 self.error_expr(loc)
             }
         }
+    }
+
+    /// Returns the function that replaces a texture function of an earlier version of GLSL (1.20, section 8.7) or of its
+    /// extensions; GLSL 1.30 deprecates these names (section 1.5.1).
+    fn earlier_texture_function(&self, name: Symbol) -> Option<Builtin> {
+        if !self.settings.dialect.is_any() {
+            return None;
+        }
+        let text = self.name(name);
+        let rest =
+            ["texture1D", "texture2D", "texture3D", "textureCube"].iter().find_map(|of| text.strip_prefix(of))?;
+        let rest = rest.strip_suffix("EXT").or_else(|| rest.strip_suffix("ARB")).unwrap_or(rest);
+        let now = match rest {
+            "" => "texture",
+            "Proj" => "textureProj",
+            "Lod" => "textureLod",
+            "ProjLod" => "textureProjLod",
+            "Grad" => "textureGrad",
+            "ProjGrad" => "textureProjGrad",
+            _ => return None,
+        };
+        Builtin::all().find(|builtin| builtin.name == now)
     }
 
     /// Reports `float3(..)` and the like once, and checks it as the type that was meant.

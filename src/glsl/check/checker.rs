@@ -13,7 +13,7 @@ use crate::{
     hir::{self, FuncId, Module, TypeId},
     near::Budget,
     report::MAX_ERRORS,
-    source::{ChannelKind, CustomUniform, Dialect, SLOTS, UniformValue},
+    source::{ChannelKind, CustomUniform, Dialect, MAX_CHANNELS, NamedSampler, UniformValue},
 };
 use eddy_diag::{Diagnostic, Fix, SourceId, Span};
 use rustc_hash::FxHashMap;
@@ -31,8 +31,9 @@ pub(super) struct Switch {
 #[derive(Clone, Copy, Default)]
 pub(super) struct Settings<'a> {
     pub dialect: Dialect,
-    pub channels: [ChannelKind; SLOTS],
+    pub channels: [ChannelKind; MAX_CHANNELS],
     pub custom_uniforms: &'a [CustomUniform<'a>],
+    pub samplers: &'a [NamedSampler<'a>],
     pub values: &'a [UniformValue],
     /// The text that is shared with other stages.
     pub common: Option<SourceId>,
@@ -95,6 +96,8 @@ pub(super) struct Checker<'a> {
     pub reported_too_deep: bool,
     /// Outputs at file scope of a pass that is not a stage.
     pub outputs: Vec<hir::GlobalId>,
+    /// Variables that an earlier stage would set, in a complete fragment shader.
+    pub inputs: Vec<hir::GlobalId>,
     /// The struct of `gl_DepthRange`, once it was named.
     pub depth_range: Option<hir::ConstId>,
     pub entry_symbol: Option<Symbol>,
@@ -160,6 +163,7 @@ impl<'a> Checker<'a> {
             reported_unknown: Vec::new(),
             suggestions: Budget::default(),
             outputs: Vec::new(),
+            inputs: Vec::new(),
             reported_too_deep: false,
             depth_range: checkpoint.depth_range,
             entry_symbol: None,
@@ -185,6 +189,7 @@ impl<'a> Checker<'a> {
         self.declare_pass();
         self.declarations();
         self.finish_outputs();
+        self.finish_inputs();
         self.finish_entry();
         self.finish_calls();
         if self.errors == 0 && !self.broken_tree && self.module.entry.is_some() {

@@ -24,6 +24,8 @@ impl Checker<'_> {
         let ast::Decl { kind, loc } = self.ast[id];
         match kind {
             DeclKind::Error => {}
+            // GLSL 4.60 allows it (section 9, `external_declaration`), and so do drivers in all versions.
+            DeclKind::Empty if self.settings.dialect.is_any() => {}
             DeclKind::Empty => {
                 self.error(loc, "a `;` without a declaration");
                 self.hint("remove it");
@@ -215,19 +217,24 @@ impl Checker<'_> {
     ) {
         let name = declarator.name;
         let text = self.name(name.symbol);
-        if self.redeclared_uniform(quals, base, spec, declarator) || quals.storage.is_some() && self.is_taken(name) {
+        if self.redeclared_uniform(quals, base, spec, declarator) {
+            return;
+        }
+        if quals.storage.is_some() && !self.env.is_main() && self.is_taken(name) {
             return;
         }
         let (ty, init) = self.variable_type(base, spec, declarator);
-        if self.is_of_other_stage(name, ty, init) {
+        if self.is_of_other_stage(name, ty, init) || self.is_of_host(quals, name, ty) {
             return;
         }
         self.check_interface(quals, ty, self.ast[spec].loc);
         let init = init.zip(declarator.init);
         let mut storage = match quals.storage {
             Some((Q::Uniform, _)) => GlobalStorage::Uniform,
+            // A vertex shader whose text precedes this one may write it.
+            Some((Q::In, _)) if self.env.is_main() => GlobalStorage::Private,
             Some((Q::In, _)) => GlobalStorage::In,
-            Some((Q::Out, _)) if self.env.is_stage() => GlobalStorage::Out,
+            Some((Q::Out, _)) if self.env.has_main() => GlobalStorage::Out,
             // The pass already has an output: this is an ordinary variable, reported at the end if it is used.
             Some((Q::Out, _)) => GlobalStorage::Private,
             _ if quals.constant.is_some() => GlobalStorage::Const,
@@ -258,10 +265,12 @@ impl Checker<'_> {
         let is_set = outer.is_some() || self.env.is_plain() || storage == GlobalStorage::In && self.env.is_stage();
         if matches!(storage, GlobalStorage::Uniform | GlobalStorage::In) && !is_set {
             self.warning(name, format!("`{text}` has no value (0)"));
-            self.hint(shadertoy_input(text).unwrap_or(
-                "Shadertoy's inputs are iTime, iResolution, iMouse and so on; for other values use a `const` or a \
+            if !self.env.is_main() {
+                self.hint(shadertoy_input(text).unwrap_or(
+                    "Shadertoy's inputs are iTime, iResolution, iMouse and so on; for other values use a `const` or a \
                  #define",
-            ));
+                ));
+            }
             if storage == GlobalStorage::Uniform && !self.facts(ty).opaque {
                 self.hint(format!("or set its value in eddy.toml: [uniforms], {text} = .."));
             }
@@ -295,8 +304,11 @@ impl Checker<'_> {
         if self.env.is_plain() && storage == GlobalStorage::Uniform {
             self.plain_uniform(id, self.ast[spec].loc);
         }
-        if quals.is(Q::Out) && !self.env.is_stage() {
+        if quals.is(Q::Out) && !self.env.has_main() {
             self.outputs.push(id);
+        }
+        if quals.is(Q::In) && self.env.is_main() {
+            self.inputs.push(id);
         }
         let location = self.location(quals);
         let global = &mut self.module[id];

@@ -24,7 +24,7 @@ impl Env {
                 uniform,
                 U::ChannelTime | U::TimeOffset | U::SampleOffset | U::Date | U::SampleRate | U::ChannelResolution
             ),
-            Env::Pass(kind) if kind.is_plain() => false,
+            Env::Pass(kind) if kind.declares_inputs() => false,
             Env::Pass(kind) => {
                 !matches!(uniform, U::TimeOffset | U::SampleOffset | U::ChannelLoaded)
                     && (kind.is_stage() || uniform.geometry_member().is_none())
@@ -45,6 +45,21 @@ impl Env {
     /// Returns whether the entry point is called once per vertex.
     pub(crate) fn is_vertex(self) -> bool {
         matches!(self, Env::Pass(kind) if kind.is_vertex())
+    }
+
+    /// Returns whether Shadertoy's uniforms do not exist.
+    pub(crate) fn declares_inputs(self) -> bool {
+        matches!(self, Env::Pass(kind) if kind.declares_inputs())
+    }
+
+    /// Returns whether the entry point is `void main()`.
+    pub(crate) fn has_main(self) -> bool {
+        matches!(self, Env::Pass(kind) if kind.is_stage() || matches!(kind, PassKind::Main(_)))
+    }
+
+    /// Returns whether the text is a complete fragment shader of a pass.
+    pub(crate) fn is_main(self) -> bool {
+        matches!(self, Env::Pass(PassKind::Main(_)))
     }
 
     /// Returns whether the text declares all its inputs itself.
@@ -141,7 +156,7 @@ pub(crate) fn entry(kind: PassKind) -> Entry {
             params: &[(In, TypeId::INT), (In, TypeId::FLOAT)],
             usage: "vec2 mainSound(int samp, float time) { .. }",
         },
-        PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment => {
+        PassKind::Main(_) | PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment => {
             Entry { name: "main", result: TypeId::VOID, params: &[], usage: "void main() { .. }" }
         }
     }
@@ -168,9 +183,17 @@ pub fn taken(name: &str) -> Option<&'static str> {
         Some("it is the name of an entry point")
     } else if Builtin::all().any(|builtin| builtin.name == name) {
         Some("GLSL has a function of this name")
-    } else if name.starts_with("gl_") || name.contains("__") {
+    } else {
+        keyword(name)
+    }
+}
+
+/// Returns the reason that nothing can be declared as `name`, if the grammar is one.
+pub fn keyword(name: &str) -> Option<&'static str> {
+    use crate::lex::words::{Meaning, is_word, meaning};
+    if name.starts_with("gl_") || name.contains("__") {
         Some("GLSL reserves names that start with `gl_` or contain `__`")
-    } else if crate::lex::words::is_word(name) {
+    } else if is_word(name) && matches!(meaning(name), Some(Meaning::Type | Meaning::Keyword)) {
         Some("it is a GLSL keyword")
     } else {
         None

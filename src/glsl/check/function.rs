@@ -107,7 +107,7 @@ impl Checker<'_> {
             self.error(name, format!("`{text}` is a built-in function and cannot be declared again"));
             self.hint(format!("choose another name, `my_{text}` for instance, or remove this to use the built-in"));
             self.add_unnamed_function(&sign, decl.header, loc)
-        } else if text == "main" && matches!(self.env, Env::Pass(kind) if !kind.is_stage()) {
+        } else if text == "main" && !self.env.has_main() && self.env != Env::Common {
             let header = self.settings.dialect.header();
             self.error(name, format!("{header} already has `main`; a pass defines its own entry point"));
             if let Env::Pass(kind) = self.env {

@@ -7,8 +7,9 @@ use super::{
     scope::{self, Binding},
 };
 use crate::{
-    ast::{BasicType, Loc, Symbol, TokenId},
-    hir::{Builtin, DeclRef, TypeId, Uniform},
+    ast::{BasicType, Ident, Loc, Symbol, TokenId},
+    hir::{Builtin, DeclRef, Global, GlobalId, GlobalStorage, TypeId, Uniform, VarFlags},
+    interface::MAX_TARGETS,
     source::PassKind,
 };
 
@@ -27,7 +28,7 @@ impl Checker<'_> {
         for (symbol, binding) in builtins.chain(named).filter(|(symbol, _)| *symbol >= from) {
             self.scopes.define(symbol, binding, scope::LANGUAGE);
         }
-        let everywhere = if self.env.is_plain() { &[][..] } else { &env::EVERYWHERE[..] };
+        let everywhere = if self.env.declares_inputs() { &[][..] } else { &env::EVERYWHERE[..] };
         for &uniform in everywhere.iter().filter(|uniform| uniform.symbol() >= from) {
             self.scopes.define(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
         }
@@ -52,7 +53,7 @@ impl Checker<'_> {
         if self.env.has(Uniform::Time) && dialect.has_extras() {
             self.define_name("iGlobalTime", Binding::DeprecatedTime, scope::LANGUAGE);
         }
-        if !self.env.is_plain() {
+        if !self.env.declares_inputs() {
             for (i, name) in CHANNELS.into_iter().enumerate().take(dialect.channels()) {
                 self.define_name(name, Binding::Channel(i as u8), scope::FILE);
             }
@@ -76,10 +77,43 @@ impl Checker<'_> {
                 ));
             }
         }
+        if self.env.is_main() {
+            self.module.frag_color = self.declare_output("gl_FragColor", TypeId::VEC4);
+            let nowhere = Loc::from(TokenId(self.origins.tokens.len() as u32 - 1));
+            let outputs = self.array_type(TypeId::VEC4, MAX_TARGETS as u32, nowhere);
+            self.module.frag_data = self.declare_output("gl_FragData", outputs);
+        }
         // A custom uniform hides names of the language, as a global would.
-        for (i, custom_uniform) in self.settings.custom_uniforms.iter().enumerate() {
+        let settings = self.settings;
+        for (i, custom_uniform) in
+            settings.custom_uniforms.iter().enumerate().filter(|(_, uniform)| !uniform.is_declared)
+        {
             self.define_name(custom_uniform.name, Binding::CustomUniform(i as u16), scope::FILE);
         }
+        for sampler in settings.samplers.iter().filter(|sampler| !sampler.is_declared) {
+            self.define_name(sampler.name, Binding::Channel(sampler.channel), scope::FILE);
+        }
+    }
+
+    /// Declares an output of the language (GLSL 1.20, section 7.2), if the text names it.
+    fn declare_output(&mut self, name: &str, ty: TypeId) -> Option<GlobalId> {
+        let symbol = self.names.find(name)?;
+        let token = TokenId(self.origins.tokens.len() as u32 - 1);
+        self.module.globals.push(Global {
+            name: Ident { symbol, token },
+            ty,
+            storage: GlobalStorage::Private,
+            init: None,
+            value: None,
+            loc: Loc::from(token),
+            flags: VarFlags::default(),
+            flat: false,
+            location: None,
+            block: None,
+        });
+        let id = GlobalId::new(self.module.globals.len() - 1);
+        self.scopes.define(symbol, Binding::Global(id), scope::LANGUAGE);
+        Some(id)
     }
 
     fn define_name(&mut self, name: &str, binding: Binding, depth: u32) {
@@ -92,6 +126,7 @@ impl Checker<'_> {
     pub(super) fn channel_type(&self, channel: u8) -> TypeId {
         use crate::ChannelKind as C;
         TypeId::basic(match self.settings.channels[usize::from(channel)] {
+            C::Sampler1D => BasicType::Sampler1D,
             C::Sampler2D => BasicType::Sampler2D,
             C::Sampler3D => BasicType::Sampler3D,
             C::SamplerCube => BasicType::SamplerCube,
@@ -110,7 +145,7 @@ impl Checker<'_> {
         }
         let name = match target {
             DeclRef::Uniform(uniform) => uniform.name(),
-            DeclRef::Channel(i) => CHANNELS[usize::from(i)],
+            DeclRef::Channel(i) => CHANNELS.get(usize::from(i)).copied().unwrap_or_default(),
             DeclRef::ChannelStruct(i) => CHANNEL_STRUCTS[usize::from(i)],
             _ => return,
         };

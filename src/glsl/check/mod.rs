@@ -44,7 +44,7 @@ mod tests;
 
 pub(crate) use checkpoint::Checkpoint;
 pub(crate) use env::custom_uniform_type;
-pub use env::taken;
+pub use env::{keyword, taken};
 pub(crate) use fault::Fault;
 
 use super::{
@@ -77,8 +77,9 @@ pub(crate) fn check(
     source: &PassSource<'_>,
     checkpoint: Option<&Checkpoint>,
 ) -> Checked {
-    let &PassSource { dialect, channels, custom_uniforms, values, common, cancel, .. } = source;
-    let settings = Settings { dialect, channels, custom_uniforms, values, common: common.map(|text| text.id), cancel };
+    let &PassSource { dialect, channels, custom_uniforms, samplers, values, common, cancel, .. } = source;
+    let common = common.map(|text| text.id);
+    let settings = Settings { dialect, channels, custom_uniforms, samplers, values, common, cancel };
     let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), settings, checkpoint);
     on_deep_stack(|| checker.unit());
     let largest_function = checker.largest_function.map(|name| origins.span(name));

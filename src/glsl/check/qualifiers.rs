@@ -103,6 +103,8 @@ impl Checker<'_> {
             }
             if let Some(before) = last
                 && before.kind.rank() >= kind.rank()
+                // From GLSL 4.20 on they may have any order (section 4.9).
+                && !(self.settings.dialect.is_any() && before.kind.rank() > kind.rank())
             {
                 let (a, b) = (text(kind), text(before.kind));
                 if a == b {
@@ -170,7 +172,7 @@ impl Checker<'_> {
                 );
                 self.hint("remove it");
             }
-            None if sampler && self.default_precision(base).is_none() => {
+            None if sampler && self.default_precision(base).is_none() && !self.settings.dialect.is_any() => {
                 let name = self.type_name(base);
                 self.error(loc, format!("`{name}` has no default precision"));
                 self.hint(format!("write `highp {name}`"));
@@ -244,6 +246,18 @@ impl Checker<'_> {
         for item in &ast[items] {
             let name = self.name(item.name.symbol);
             let (fits, whose) = match name {
+                // Versions of desktop GLSL add layouts that change nothing here: `binding`, locations of uniforms.
+                "binding"
+                | "set"
+                | "location"
+                | "index"
+                | "component"
+                | "origin_upper_left"
+                | "pixel_center_integer"
+                    if self.settings.dialect.is_any() =>
+                {
+                    continue;
+                }
                 "location" if self.env.is_vertex() => (of == LayoutOf::Output, "inputs"),
                 "location" => (of == LayoutOf::Output, "outputs"),
                 "row_major" | "column_major" => {

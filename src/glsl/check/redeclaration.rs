@@ -1,9 +1,15 @@
 //! Declarations of names that already exist: Shadertoy's uniforms, which GLSL of other tools declares itself, and the
 //! pass's output.
 
-use super::{checker::Checker, qualifiers::Qualifiers, scope::Binding};
+use super::{
+    checker::Checker,
+    env::custom_uniform_type,
+    qualifiers::Qualifiers,
+    scope::{self, Binding},
+};
 use crate::{
-    ast::{Declarator, Ident, Loc, QualifierKind as Q, TypeSpecId},
+    ChannelKind,
+    ast::{BasicType, Declarator, Ident, Loc, QualifierKind as Q, TypeSpecId},
     hir::{DeclRef, TypeId, Uniform, VarFlags},
 };
 
@@ -59,6 +65,51 @@ impl Checker<'_> {
             self.scopes.declare(name.symbol, Binding::Poison);
         } else {
             self.scopes.declare(name.symbol, Binding::Poison);
+        }
+    }
+
+    /// Returns whether an interface variable that a text declares is one of the program that it is written for, with the
+    /// same type: its uses then refer to that program's. A variable of another type is an ordinary one without a value.
+    pub(super) fn is_of_host(&mut self, quals: &Qualifiers, name: Ident, ty: TypeId) -> bool {
+        if !self.env.is_main() || !(quals.is(Q::Uniform) || quals.is(Q::In)) {
+            return false;
+        }
+        let (text, settings) = (self.name(name.symbol), self.settings);
+        let uniform = settings.custom_uniforms.iter().position(|uniform| uniform.name == text);
+        let sampler = settings.samplers.iter().find(|sampler| sampler.name == text).map(|sampler| sampler.channel);
+        let (given, binding) = match (uniform, sampler) {
+            (Some(i), _) => (custom_uniform_type(settings.custom_uniforms[i].kind), Binding::CustomUniform(i as u16)),
+            (None, Some(channel)) => (self.channel_type(channel), Binding::Channel(channel)),
+            (None, None) => return false,
+        };
+        let one_dimensional = TypeId::basic(BasicType::Sampler1D);
+        if let Binding::Channel(channel) = binding
+            && (given, ty) == (TypeId::basic(BasicType::Sampler2D), one_dimensional)
+        {
+            self.settings.channels[usize::from(channel)] = ChannelKind::Sampler1D;
+        } else if given != ty {
+            if ty != TypeId::ERROR {
+                let right = self.with_article(given);
+                self.warning(
+                    name,
+                    format!("`{text}` is {right} in the program that this is written for: here it is 0"),
+                );
+                self.hint(format!("declare it as {right}"));
+            }
+            return false;
+        }
+        self.scopes.define(name.symbol, binding, scope::FILE);
+        true
+    }
+
+    /// Reports variables of an earlier stage that nothing sets.
+    pub(super) fn finish_inputs(&mut self) {
+        for id in std::mem::take(&mut self.inputs) {
+            let (name, flags) = (self.module[id].name, self.module[id].flags);
+            if flags.contains(VarFlags::USED) && !flags.contains(VarFlags::WRITTEN) {
+                let text = self.name(name.symbol);
+                self.warning(name, format!("`{text}` has no value (0): no vertex shader sets it"));
+            }
         }
     }
 

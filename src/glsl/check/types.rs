@@ -263,10 +263,12 @@ impl<'a> Checker<'a> {
 
     /// Declares a name, or reports that it already exists in this scope.
     pub(super) fn declare(&mut self, name: ast::Ident, binding: Binding) -> bool {
+        // A text may declare its own variables with the names of the program that it is not written for.
         let is_given = |previous: &Binding| {
-            matches!(previous, Binding::Uniform(_) | Binding::Channel(_) | Binding::ChannelStruct(_))
+            use Binding as B;
+            matches!(previous, B::Uniform(_) | B::Channel(_) | B::ChannelStruct(_) | B::CustomUniform(_))
         };
-        let is_free = |previous: &Binding| self.settings.dialect.frees_uniforms() && is_given(previous);
+        let is_free = |previous: &Binding| self.settings.dialect.is_any() && is_given(previous);
         if let Some(previous) = self.scopes.get_innermost(name.symbol).filter(|previous| !is_free(previous)) {
             if previous != Binding::Poison {
                 self.redeclared(name, previous);
@@ -289,7 +291,7 @@ impl<'a> Checker<'a> {
             let by = match self.settings.dialect {
                 Dialect::Shadertoy => "by an #iUniform line",
                 Dialect::Ghostty => "by Ghostty's prefix or an #iUniform line",
-                Dialect::Isf => "as an input of the ISF file",
+                Dialect::Any(_) => "by the host",
             };
             self.error(name, format!("`{text}` is already declared {by}"));
             self.hint("remove this declaration, or choose another name");

@@ -147,7 +147,7 @@ impl Builder<'_, '_> {
     /// Splits the coordinate of a sample: in GLSL its last components are the layer and the reference value.
     fn coordinate(&mut self, whole: Handle<Expression>, dim: SamplerDim, shadow: bool) -> Coordinate {
         let size = match dim {
-            SamplerDim::D2 | SamplerDim::D2Array => 2,
+            SamplerDim::D1 | SamplerDim::D2 | SamplerDim::D2Array => 2,
             SamplerDim::D3 | SamplerDim::Cube => 3,
         };
         let is_array = dim == SamplerDim::D2Array;

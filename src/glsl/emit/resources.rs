@@ -11,7 +11,7 @@ use naga::{
 
 use super::context::Emitter;
 use crate::{
-    UniformSet,
+    CustomUniform, UniformSet, UniformSource,
     builtins::Uniform,
     interface::{self, GeometryBlock, UniformBlock},
     ir::{GlobalId, GlobalKind},
@@ -169,7 +169,11 @@ impl Emitter<'_> {
 
     /// Returns the number of slots up to the last that the pass may name.
     pub(super) fn custom_uniform_slots(&self) -> u32 {
-        self.source.custom_uniforms.iter().map(|k| u32::from(k.slot) + 1).max().unwrap_or(0)
+        let slot = |uniform: &CustomUniform<'_>| match uniform.source {
+            UniformSource::Slot(slot) => Some(u32::from(slot) + 1),
+            _ => None,
+        };
+        self.source.custom_uniforms.iter().filter_map(slot).max().unwrap_or(0)
     }
 
     /// Returns the custom uniforms: an array of slots, because every backend uses the same layout for that.
@@ -193,7 +197,7 @@ impl Emitter<'_> {
         }
         let texture = &self.ir.textures[usize::from(channel)];
         let dim = match texture.dim {
-            SamplerDim::D2 | SamplerDim::D2Array => ImageDimension::D2,
+            SamplerDim::D1 | SamplerDim::D2 | SamplerDim::D2Array => ImageDimension::D2,
             SamplerDim::D3 => ImageDimension::D3,
             SamplerDim::Cube => ImageDimension::Cube,
         };

@@ -42,6 +42,9 @@ pub struct Module {
     pub globals: Vec<Global>,
     /// The samplers that a plain shader declares, in text order.
     pub samplers: Vec<GlobalId>,
+    /// `gl_FragColor` and `gl_FragData`, if the text of a [`crate::PassKind::Main`] names them.
+    pub frag_color: Option<GlobalId>,
+    pub frag_data: Option<GlobalId>,
     /// One entry per signature; prototypes and definition share it.
     pub functions: Vec<Function>,
     pub exprs: Vec<Expr>,
@@ -73,6 +76,8 @@ impl Clone for Module {
             structs: self.structs.clone(),
             globals: self.globals.clone(),
             samplers: self.samplers.clone(),
+            frag_color: self.frag_color,
+            frag_data: self.frag_data,
             functions: self.functions.clone(),
             exprs: ast::with_room(&self.exprs),
             stmts: ast::with_room(&self.stmts),

@@ -62,11 +62,21 @@ const RESERVED: &[&str] = &[
     "dvec2", "dvec3", "dvec4", "fvec2", "fvec3", "fvec4", "sampler3DRect", "filter", "image1D", "image2D", "image3D",
     "imageCube", "iimage1D", "iimage2D", "iimage3D", "iimageCube", "uimage1D", "uimage2D", "uimage3D", "uimageCube",
     "image1DArray", "image2DArray", "iimage1DArray", "iimage2DArray", "uimage1DArray", "uimage2DArray", "imageBuffer",
-    "iimageBuffer", "uimageBuffer", "sampler1D", "sampler1DShadow", "sampler1DArray", "sampler1DArrayShadow",
+    "iimageBuffer", "uimageBuffer", "sampler1DShadow", "sampler1DArray", "sampler1DArrayShadow",
     "isampler1D", "isampler1DArray", "usampler1D", "usampler1DArray", "sampler2DRect", "sampler2DRectShadow",
     "isampler2DRect", "usampler2DRect", "samplerBuffer", "isamplerBuffer", "usamplerBuffer", "sampler2DMS",
     "isampler2DMS", "usampler2DMS", "sampler2DMSArray", "isampler2DMSArray", "usampler2DMSArray", "image1DShadow",
     "image2DShadow", "image1DArrayShadow", "image2DArrayShadow", "sizeof", "cast", "namespace", "using",
+];
+
+/// Words of [`RESERVED`] that GLSL 1.20 and GLSL ES 1.00 (section 3.6 of both) reserve, too: no version accepts them as
+/// names.
+#[rustfmt::skip]
+const RESERVED_IN_ALL: &[&str] = &[
+    "asm", "class", "union", "enum", "typedef", "template", "this", "goto", "inline", "noinline", "volatile", "public",
+    "static", "extern", "external", "interface", "long", "short", "double", "half", "fixed", "unsigned", "input",
+    "output", "hvec2", "hvec3", "hvec4", "dvec2", "dvec3", "dvec4", "fvec2", "fvec3", "fvec4", "sampler2DRect",
+    "sampler3DRect", "sampler2DRectShadow", "sizeof", "cast", "namespace", "using",
 ];
 
 /// Returns whether the word belongs to the language, as a keyword, a type or otherwise.
@@ -95,6 +105,7 @@ pub(crate) fn meaning(name: &str) -> Option<Meaning> {
     Some(match symbol {
         _ if symbol < Builtin::COUNT as u32 => Meaning::Builtin,
         _ if symbol < FIRST_TYPE => Meaning::Uniform,
+        SAMPLER_1D => Meaning::Keyword,
         _ if symbol < FIRST_KEYWORD => Meaning::Type,
         _ => Meaning::Keyword,
     })
@@ -120,18 +131,37 @@ fn seeded() -> &'static Interner {
     &SEEDED
 }
 
+/// The symbol of `sampler1D`, which GLSL ES reserves.
+const SAMPLER_1D: u32 = FIRST_TYPE + BasicType::Sampler1D as u32;
+
 /// Returns `Ident`, or the keyword that a name is.
 #[inline]
 pub(crate) fn kind(symbol: u32) -> Kind {
     // A single comparison for the author's names, which come after the seed.
     if !(FIRST_TYPE..END).contains(&symbol) {
         Kind::Ident
+    } else if symbol == SAMPLER_1D {
+        Kind::Reserved
     } else if symbol < FIRST_KEYWORD {
         Kind::Type
     } else if symbol < FIRST_RESERVED {
         KEYWORDS[(symbol - FIRST_KEYWORD) as usize].1
     } else {
         Kind::Reserved
+    }
+}
+
+/// Does the same for texts of any version of GLSL: words that some version accepts as names are names, and `attribute`
+/// and `varying` are the earlier names of `in` (GLSL 1.30, section 1.5.1).
+pub(crate) fn kind_in_any_version(symbol: u32) -> Kind {
+    match kind(symbol) {
+        Kind::Reserved if symbol == SAMPLER_1D => Kind::Type,
+        Kind::Reserved => match RESERVED[(symbol - FIRST_RESERVED) as usize] {
+            "attribute" | "varying" => Kind::In,
+            word if RESERVED_IN_ALL.contains(&word) => Kind::Reserved,
+            _ => Kind::Ident,
+        },
+        kind => kind,
     }
 }
 

@@ -7,7 +7,8 @@ use super::{
     names::{Precondition, UnsetKind},
 };
 use crate::{
-    hir::{BuiltinVar, ExprId, ExprKind, GlobalStorage, LocalId, Scalar, Swizzle, Type, TypeId, VarFlags},
+    UniformSource,
+    hir::{BuiltinVar, ExprId, ExprKind, GlobalStorage, LocalId, Scalar, Swizzle, Type, TypeId, Uniform, VarFlags},
     ir::{Binary, Math, Op, Value},
 };
 
@@ -178,9 +179,60 @@ impl Builder<'_, '_> {
         Some(Place::of(self.global(global), ty))
     }
 
-    /// Returns the value of a custom uniform: the words of its slot, converted to its type.
+    /// Returns the value of a custom uniform.
     fn custom_uniform(&mut self, index: u16, ty: TypeId) -> Value {
-        let slot = self.cx.source.custom_uniforms[usize::from(index)].slot;
+        match self.cx.source.custom_uniforms[usize::from(index)].source {
+            UniformSource::Slot(slot) => self.uniform_in_slot(slot, ty),
+            UniformSource::Resolution => self.resolution(),
+            UniformSource::ChannelSize(channel) => self.channel_size(channel),
+            UniformSource::UnitPosition => {
+                let (at, size) = (self.pixel_position(), self.resolution());
+                self.op(Binary::Divide, at, size)
+            }
+            UniformSource::CentredPosition => {
+                let (at, size) = (self.pixel_position(), self.resolution());
+                let half = self.float_of(TypeId::VEC2, 0.5);
+                let centre = self.op(Binary::Multiply, size, half);
+                let from_centre = self.op(Binary::Subtract, at, centre);
+                let height = self.swizzle(size, TypeId::VEC2, Swizzle::new(&[1, 1]));
+                self.op(Binary::Divide, from_centre, height)
+            }
+            UniformSource::ClipPosition => {
+                let (at, size) = (self.pixel_position(), self.resolution());
+                let unit = self.op(Binary::Divide, at, size);
+                let (two, one) = (self.float_of(TypeId::VEC2, 2.0), self.float_of(TypeId::VEC2, 1.0));
+                let twice = self.op(Binary::Multiply, unit, two);
+                let clip = self.op(Binary::Subtract, twice, one);
+                let (depth, w) = (self.float(0.0), self.float(1.0));
+                self.compose(TypeId::VEC4, vec![clip, depth, w])
+            }
+        }
+    }
+
+    /// Returns the size in texels of the texture of a channel.
+    fn channel_size(&mut self, channel: u8) -> Value {
+        let size = self.add_typed(Op::TextureSize { channel, level: None }, TypeId::vector(Scalar::Int, 2));
+        self.add(Op::Convert { value: size, to: Scalar::Float })
+    }
+
+    /// Returns the size in pixels of the target that the pass draws.
+    fn resolution(&mut self) -> Value {
+        let resolution = self.cx.uniform(Uniform::Resolution);
+        let pointer = self.global(resolution);
+        let resolution = self.load(pointer);
+        self.swizzle(resolution, TypeId::VEC3, Swizzle::new(&[0, 1]))
+    }
+
+    /// Returns the position of the pixel from the bottom left corner of the target, in pixels.
+    fn pixel_position(&mut self) -> Value {
+        let position = self.cx.frag_coord();
+        let pointer = self.global(position);
+        let position = self.load(pointer);
+        self.swizzle(position, TypeId::VEC4, Swizzle::new(&[0, 1]))
+    }
+
+    /// Returns the words of a slot, converted to a type.
+    fn uniform_in_slot(&mut self, slot: u16, ty: TypeId) -> Value {
         let block = self.cx.custom_uniform(slot);
         let pointer = self.global(block);
         let words = self.load(pointer);

@@ -2,8 +2,8 @@
 
 use super::{context::Lowering, function::Builder, reachable::Reachable};
 use crate::{
-    PassKind,
-    hir::{GlobalId, GlobalStorage, Scalar, Swizzle, TypeId, Uniform},
+    Alpha, PassKind,
+    hir::{GlobalId, GlobalStorage, Scalar, Swizzle, TypeId, Uniform, VarFlags},
     ir::{self, Binary, Block, Case, Input, Math, Op, Output, Stmt, Value},
 };
 
@@ -42,6 +42,17 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Functio
             colour
         }
         PassKind::Sound => b.sound(author, position),
+        PassKind::Main(alpha) => {
+            b.push_call(author, Vec::new());
+            let colour = b.main_output();
+            match b.probed_value() {
+                Some(value) if alpha != Alpha::Stored => value,
+                value => {
+                    beside = value;
+                    b.with_alpha(colour, alpha)
+                }
+            }
+        }
         PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment => {
             unreachable!("stages have an entry point of their own")
         }
@@ -97,6 +108,45 @@ impl Builder<'_, '_> {
         arguments.extend(rest);
         self.push_call(function, arguments);
         self.load(colour)
+    }
+
+    /// Returns the first output of a complete fragment shader, black and transparent if it has none.
+    fn main_output(&mut self) -> Value {
+        let declared = self.cx.interface.outputs.iter().find(|(_, location)| *location == 0).copied();
+        if let Some((id, _)) = declared {
+            return self.output_of(id);
+        }
+        let hir = self.cx.hir;
+        let is_written = |id: &GlobalId| hir[*id].flags.contains(VarFlags::WRITTEN);
+        if let Some(id) = hir.frag_color.filter(is_written) {
+            return self.output_of(id);
+        }
+        match hir.frag_data {
+            Some(id) => {
+                let memory = self.cx.global(id);
+                let pointer = self.global(memory);
+                let first = self.add(Op::Part { base: pointer, index: 0 });
+                self.load(first)
+            }
+            None => self.zero(TypeId::VEC4),
+        }
+    }
+
+    fn with_alpha(&mut self, colour: Value, alpha: Alpha) -> Value {
+        if alpha == Alpha::Stored {
+            return colour;
+        }
+        let mut rgb = self.swizzle(colour, TypeId::VEC4, Swizzle::new(&[0, 1, 2]));
+        if alpha == Alpha::OverBlack {
+            // Blending limits the factor to 0..1 (OpenGL ES 3.0, section 4.1.7).
+            let a = self.add(Op::Part { base: colour, index: 3 });
+            let (zero, one) = (self.float(0.0), self.float(1.0));
+            let a = self.math3(Math::Clamp, a, zero, one);
+            let factor = self.compose(TypeId::VEC3, vec![a, a, a]);
+            rgb = self.op(Binary::Multiply, rgb, factor);
+        }
+        let one = self.float(1.0);
+        self.compose(TypeId::VEC4, vec![rgb, one])
     }
 
     /// Sets alpha to one; a failed assertion paints red, green, blue or yellow, by the last of the numbers that failed.

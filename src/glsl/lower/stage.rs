@@ -162,25 +162,7 @@ impl Builder<'_, '_> {
         let mut parts = Vec::new();
         for (id, location) in self.cx.interface.outputs.clone() {
             self.cx.reflection.outputs[location as usize] = true;
-            let ty = self.cx.hir[id].ty;
-            let scalar = self.cx.hir.types.scalar(ty).unwrap_or(Scalar::Float);
-            let one = if scalar == Scalar::Float { 1.0f32.to_bits() } else { 1 };
-            let memory = self.cx.global(id);
-            let pointer = self.global(memory);
-            let written = self.load(pointer);
-            let value = match self.cx.hir.types.components(ty).unwrap_or(1) as usize {
-                4 => written,
-                size => {
-                    // Missing components are those that a texture format returns.
-                    let mut components = vec![match size {
-                        1 => written,
-                        _ => self.swizzle(written, ty, Swizzle::new(&[0, 1, 2][..size])),
-                    }];
-                    components.extend((size..3).map(|_| self.literal(scalar, 0)));
-                    components.push(self.literal(scalar, one));
-                    self.compose(TypeId::vector(scalar, 4), components)
-                }
-            };
+            let value = self.output_of(id);
             parts.push((Output::Target(location), value));
         }
         if let Some(depth) = self.cx.resources.frag_depth {
@@ -189,5 +171,28 @@ impl Builder<'_, '_> {
             parts.push((Output::Depth, value));
         }
         parts
+    }
+
+    /// Returns the value of an output as a vector of four components.
+    pub(super) fn output_of(&mut self, id: GlobalId) -> Value {
+        let ty = self.cx.hir[id].ty;
+        let scalar = self.cx.hir.types.scalar(ty).unwrap_or(Scalar::Float);
+        let one = if scalar == Scalar::Float { 1.0f32.to_bits() } else { 1 };
+        let memory = self.cx.global(id);
+        let pointer = self.global(memory);
+        let written = self.load(pointer);
+        match self.cx.hir.types.components(ty).unwrap_or(1) as usize {
+            4 => written,
+            size => {
+                // Missing components are those that a texture format returns.
+                let mut components = vec![match size {
+                    1 => written,
+                    _ => self.swizzle(written, ty, Swizzle::new(&[0, 1, 2][..size])),
+                }];
+                components.extend((size..3).map(|_| self.literal(scalar, 0)));
+                components.push(self.literal(scalar, one));
+                self.compose(TypeId::vector(scalar, 4), components)
+            }
+        }
     }
 }

@@ -25,7 +25,7 @@ impl Builder<'_, '_> {
     /// Returns the number of components of a coordinate of the channel, including the reference value of a comparison.
     fn dimensions(&self, channel: u8) -> u8 {
         let dimensions = match self.kind(channel) {
-            SamplerDim::D2 => 2,
+            SamplerDim::D1 | SamplerDim::D2 => 2,
             SamplerDim::D3 | SamplerDim::Cube | SamplerDim::D2Array => 3,
         };
         dimensions + u8::from(self.cx.out.textures[usize::from(channel)].shadow)
@@ -41,16 +41,34 @@ impl Builder<'_, '_> {
         };
         debug_assert_eq!(self.cx.hir.types.scalar(ty), Some(Scalar::Int));
         let size = match self.kind(channel) {
-            SamplerDim::D2 | SamplerDim::Cube => 2,
+            SamplerDim::D1 | SamplerDim::D2 | SamplerDim::Cube => 2,
             SamplerDim::D3 | SamplerDim::D2Array => 3,
         };
-        self.add_typed(Op::TextureSize { channel, level }, TypeId::vector(Scalar::Int, size))
+        let all = self.add_typed(Op::TextureSize { channel, level }, TypeId::vector(Scalar::Int, size));
+        if ty == TypeId::INT { self.add(Op::Part { base: all, index: 0 }) } else { all }
+    }
+
+    /// Returns a coordinate as an operation on the texture takes it: for a row of texels with the second component of
+    /// its centre.
+    fn coordinate(&mut self, coordinate: ExprId) -> Value {
+        let value = self.value(coordinate);
+        match self.cx.hir[coordinate].ty {
+            TypeId::FLOAT => {
+                let middle = self.float(0.5);
+                self.compose(TypeId::VEC2, vec![value, middle])
+            }
+            TypeId::INT => {
+                let row = self.literal(Scalar::Int, 0);
+                self.compose(TypeId::vector(Scalar::Int, 2), vec![value, row])
+            }
+            _ => value,
+        }
     }
 
     /// Lowers `texelFetch(sampler, coordinate, level[, offset])`. Outside the texture it returns zeros: the driver
     /// ensures that.
     fn texel_fetch(&mut self, channel: u8, args: &[ExprId]) -> Value {
-        let mut coordinate = self.value(args[1]);
+        let mut coordinate = self.coordinate(args[1]);
         let level = self.value(args[2]);
         if self.literal_bits(args[2]) != Some(0) {
             self.cx.reflection.channel(channel).mips = true;
@@ -70,7 +88,7 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         let mut rest = args[2..].iter().copied();
         let mut next = || rest.next();
-        let mut coordinate = self.value(args[1]);
+        let mut coordinate = self.coordinate(args[1]);
         let mut level = match form.lod {
             Lod::Implicit => Level::Auto,
             Lod::Exact => {

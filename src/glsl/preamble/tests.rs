@@ -43,7 +43,7 @@ impl<'a> Case<'a> {
             includes: self.includes,
             custom_uniforms: self.custom_uniforms,
             values: self.values,
-            channels: self.channels,
+            channels: PassSource::channel_kinds(self.channels),
             ..PassSource::new(self.kind, Text { id: CODE, text: self.code })
         }
     }
@@ -269,7 +269,7 @@ fn every_kind_of_pass_continues_from_the_same_preamble() {
 
 #[test]
 fn custom_uniforms_are_checked_with_each_pass_that_has_them() {
-    let custom_uniforms = [CustomUniform { name: "speed", kind: CustomUniformKind::Float, slot: 0 }];
+    let custom_uniforms = [CustomUniform::new("speed", CustomUniformKind::Float, 0)];
     let mut case = Case::new("float f(float x) { return x * speed; }", IMAGE);
     case.custom_uniforms = &custom_uniforms;
     case.assert_kept(Kept::Tree, &[]);

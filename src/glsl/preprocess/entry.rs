@@ -36,8 +36,10 @@ fn wrapper(kind: PassKind) -> Option<Wrapper> {
             head: "vec2 mainSound(in int entry_sample, in float entry_time) {",
             body: "return mainSound(entry_sample, entry_time); }",
         },
-        // A stage is a whole program: its `main` is not called by a wrapper.
-        PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment => return None,
+        // A whole program's `main` is not called by a wrapper.
+        PassKind::Main(_) | PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment => {
+            return None;
+        }
     })
 }
 

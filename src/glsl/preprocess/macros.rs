@@ -1,6 +1,10 @@
 //! The defined macros: the state that a text passes on to those that follow it.
 
-use crate::{ast::ExpansionId, lex::Token, source::Dialect};
+use crate::{
+    ast::ExpansionId,
+    lex::Token,
+    source::{Dialect, Version},
+};
 
 /// Every macro so far. Names and places of definition are in `Origins::macros`, at the same index.
 #[derive(Clone, Debug, Default)]
@@ -58,7 +62,16 @@ impl MacroOrigin {
             Dialect::Ghostty => {
                 vec![("__VERSION__", Language(430)), ("GL_core_profile", Language(1)), ("VULKAN", Language(100))]
             }
-            Dialect::Isf => vec![("__VERSION__", Language(120))],
+            Dialect::Any(Version { number, is_es }) => {
+                let es: &[&str] = match (is_es, number) {
+                    // Of the extensions of WebGL 1, the one that adds `dFdx`.
+                    (true, 100) => &["GL_ES", "GL_FRAGMENT_PRECISION_HIGH", "GL_OES_standard_derivatives"],
+                    (true, _) => &["GL_ES", "GL_FRAGMENT_PRECISION_HIGH"],
+                    (false, _) => &[],
+                };
+                let es = es.iter().map(|&name| (name, Language(1)));
+                [("__VERSION__", Language(number.into()))].into_iter().chain(es).collect()
+            }
         });
         all
     }

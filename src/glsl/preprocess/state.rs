@@ -155,15 +155,34 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             self.tokens.truncate(self.earlier);
             self.origins.tokens.truncate(self.earlier);
         }
+        if self.dialect.is_any() {
+            self.free_later_keywords();
+        }
         let last = self.pieces.last().map_or(Span::at(SourceId(0), 0), |p| Span::at(p.text.id, p.text.text.len()));
         self.tokens.push(Tok { kind: Kind::Eof, value: 0 });
         self.origins.tokens.push(Origin { spelled: last, expansion: None });
+    }
+
+    /// Turns keywords that GLSL 1.30 and later versions add into names where they cannot be keywords: an interpolation
+    /// qualifier comes before other qualifiers.
+    fn free_later_keywords(&mut self) {
+        for i in self.earlier..self.tokens.len() {
+            let next = self.tokens.get(i + 1).map_or(Kind::Eof, |token| token.kind);
+            let is_keyword = match self.tokens[i].kind {
+                Kind::Flat | Kind::Smooth | Kind::Centroid => next.is_qualifier(),
+                _ => true,
+            };
+            if !is_keyword {
+                self.tokens[i].kind = Kind::Ident;
+            }
+        }
     }
 
     /// Passes a token to the parser.
     #[inline]
     pub(super) fn emit(&mut self, token: Token) {
         let (kind, value) = match token.kind {
+            Kind::Ident if self.dialect.is_any() => (words::kind_in_any_version(token.value), token.value),
             Kind::Ident => (words::kind(token.value), token.value),
             Kind::BadNumber
             | Kind::BadChar

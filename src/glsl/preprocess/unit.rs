@@ -19,7 +19,13 @@ impl Unit {
             Unit::Pass(PassKind::Cubemap) => 30,
             Unit::Pass(PassKind::Sound) => 20,
             // Shadertoy has no such stages.
-            Unit::Pass(PassKind::Vertex | PassKind::Fragment | PassKind::PlainVertex | PassKind::PlainFragment) => 0,
+            Unit::Pass(
+                PassKind::Main(_)
+                | PassKind::Vertex
+                | PassKind::Fragment
+                | PassKind::PlainVertex
+                | PassKind::PlainFragment,
+            ) => 0,
             Unit::CommonAlone => 11,
         }
     }

@@ -7,7 +7,7 @@ use crate::{
     front_end::FrontEnd,
     hir::{Module, TypeId, Uniform},
     preamble::Preamble,
-    source::{ChannelKind, PassKind, PassSource, SLOTS},
+    source::{ChannelKind, MAX_CHANNELS, PassKind, PassSource},
     stages::Link,
 };
 use eddy_diag::{Diagnostic, SourceId, Span};
@@ -19,7 +19,7 @@ pub(super) type Position = (usize, u32);
 /// is neither has no answers. Cheap enough to rebuild for each text: about a millisecond for a thousand lines.
 pub struct Analysis {
     pub(super) kind: PassKind,
-    pub(super) channels: [ChannelKind; SLOTS],
+    pub(super) channels: [ChannelKind; MAX_CHANNELS],
     /// Common, if there is one, the included texts, then the pass's text: later texts may use names of earlier ones.
     pub(super) sources: Vec<Source>,
     /// The index of the first included text.
@@ -34,6 +34,8 @@ pub struct Analysis {
     pub(super) uniform_types: Vec<TypeId>,
     /// Names and types of the custom uniforms.
     pub(super) custom_uniforms: Vec<(String, TypeId)>,
+    /// The samplers besides `iChannelN`, and their channels.
+    pub(super) samplers: Vec<(String, u8)>,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -61,6 +63,7 @@ impl Analysis {
         }
         let custom_uniforms =
             source.custom_uniforms.iter().map(|k| (k.name.to_owned(), custom_uniform_type(k.kind))).collect();
+        let samplers = source.samplers.iter().map(|sampler| (sampler.name.to_owned(), sampler.channel)).collect();
         let lines = source.includes.iter().filter(|include| include.line.source == source.code.id);
         let first_include = lines.map(|include| include.line.start).min();
         let sources = texts.into_iter().map(|text| Source::new(text, &origins, &mut names)).collect();
@@ -76,6 +79,7 @@ impl Analysis {
             symbols: Symbols::default(),
             uniform_types,
             custom_uniforms,
+            samplers,
             diagnostics,
         };
         analysis.symbols = analysis.occurrences();

@@ -104,7 +104,7 @@ impl Analysis {
         if Builtin::from_symbol(token.symbol()).is_some() && text.kind(i + 1) == Kind::LParen {
             return Some(Class::Builtin);
         }
-        if Uniform::from_symbol(token.symbol()).is_some() && !self.kind.is_plain() {
+        if Uniform::from_symbol(token.symbol()).is_some() && !self.kind.declares_inputs() {
             return Some(Class::Uniform);
         }
         if token.directive == Directive::Body {

@@ -231,10 +231,13 @@ impl Analysis {
             add(uniform.name(), CompletionKind::Uniform, line(DeclRef::Uniform(uniform)), doc, 1_500);
         }
         for (i, (name, _)) in self.custom_uniforms.iter().enumerate() {
-            let doc = "Declared by an `#iUniform` line.";
+            let doc = if self.kind.declares_inputs() { "" } else { "Declared by an `#iUniform` line." };
             add(name, CompletionKind::Uniform, line(DeclRef::CustomUniform(i as u16)), doc, 1_100);
         }
-        let channels = env::CHANNELS.into_iter().enumerate().filter(|_| !self.kind.is_plain());
+        for (name, channel) in &self.samplers {
+            add(name, CompletionKind::Uniform, line(DeclRef::Channel(*channel)), "", 1_100);
+        }
+        let channels = env::CHANNELS.into_iter().enumerate().filter(|_| !self.kind.declares_inputs());
         for (i, name) in channels {
             let doc = docs::variable(name).unwrap_or_default();
             add(name, CompletionKind::Uniform, line(DeclRef::Channel(i as u8)), doc, 1_499);
@@ -245,7 +248,8 @@ impl Analysis {
             more_overloads(&mut detail, texts.len().saturating_sub(1));
             add(builtin.name, CompletionKind::Builtin, detail, builtin.text, 2_000);
         }
-        for &ty in BasicType::ALL {
+        let is_known = |ty: &&BasicType| **ty != BasicType::Sampler1D || self.kind.declares_inputs();
+        for &ty in BasicType::ALL.iter().filter(is_known) {
             let is_plain =
                 !ty.name().contains("ampler") || matches!(ty.name(), "sampler2D" | "sampler3D" | "samplerCube");
             add(ty.name(), CompletionKind::Type, String::new(), "", if is_plain { 2_100 } else { 2_900 });

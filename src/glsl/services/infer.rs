@@ -307,7 +307,8 @@ impl Analysis {
     /// Returns the type of `iChannelN`.
     pub(super) fn channel_type(&self, channel: u8) -> TypeId {
         use crate::ChannelKind as C;
-        TypeId::basic(match self.channels[usize::from(channel) & 3] {
+        TypeId::basic(match self.channels[usize::from(channel)] {
+            C::Sampler1D => BasicType::Sampler1D,
             C::Sampler2D => BasicType::Sampler2D,
             C::Sampler3D => BasicType::Sampler3D,
             C::SamplerCube => BasicType::SamplerCube,

@@ -140,7 +140,10 @@ impl Analysis {
         if let Some(i) = self.custom_uniforms.iter().position(|k| k.0 == name) {
             return Some(DeclRef::CustomUniform(i as u16));
         }
-        if !self.kind.is_plain()
+        if let Some((_, channel)) = self.samplers.iter().find(|(known, _)| known == name) {
+            return Some(DeclRef::Channel(*channel));
+        }
+        if !self.kind.declares_inputs()
             && let Some(i) = env::CHANNELS.iter().position(|c| *c == name)
         {
             return Some(DeclRef::Channel(i as u8));

@@ -74,7 +74,11 @@ impl Analysis {
                     let of = self.custom_uniforms.get(usize::from(i));
                     of.map_or(Vec::new(), |(name, ty)| one(format!("uniform {} {name}", self.type_name(*ty))))
                 }
-                DeclRef::Channel(i) => one(format!("uniform {} iChannel{i}", self.type_name(self.channel_type(i)))),
+                DeclRef::Channel(i) => {
+                    let named = self.samplers.iter().find(|(_, channel)| *channel == i).map(|(name, _)| name.clone());
+                    let name = named.unwrap_or_else(|| format!("iChannel{i}"));
+                    one(format!("uniform {} {name}", self.type_name(self.channel_type(i))))
+                }
                 DeclRef::ChannelStruct(i) => {
                     let sampler = self.type_name(self.channel_type(i));
                     one(format!("uniform struct {{ {sampler} sampler; vec3 size; float time; int loaded; }} iCh{i}"))
@@ -197,7 +201,7 @@ pub(super) fn call_text(head: &str, params: &[String]) -> (String, Vec<Range<usi
 
 /// Returns every overload of a built-in, as the specification writes them.
 pub(super) fn builtin_texts(builtin: Builtin) -> Vec<String> {
-    builtin.overloads.iter().map(|o| overload_text(builtin, o).0).collect()
+    builtin.overloads.iter().filter(|o| !o.is_one_dimensional()).map(|o| overload_text(builtin, o).0).collect()
 }
 
 pub(super) fn overload_text(builtin: Builtin, overload: &Overload) -> (String, Vec<Range<usize>>) {

@@ -217,6 +217,7 @@ fn size(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut UiOutput) {
             PassSize::Canvas => "picture size",
             PassSize::Scale(_) => "scaled",
             PassSize::Fixed(..) => "fixed",
+            PassSize::Sides(..) => "by side",
         };
         let combo = ComboBox::from_id_salt("size").width(104.0).selected_text(label).show_ui(ui, |ui| {
             let (width, height) = now.of(canvas);
@@ -237,7 +238,7 @@ fn size(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut UiOutput) {
         });
         combo_box(&combo.response, "size", out);
         match now {
-            PassSize::Canvas => {}
+            PassSize::Canvas | PassSize::Sides(..) => {}
             PassSize::Scale(by) => {
                 let mut value = by;
                 let drag = DragValue::new(&mut value).speed(0.005).range(0.001..=64.0).max_decimals(4);

@@ -7,7 +7,7 @@ use crate::{
         theme,
         ui_output::UiOutput,
     },
-    project::{Group, Pass, PassEdit, PassName, PassSize, Project, Tab},
+    project::{Group, Pass, PassEdit, PassName, PassSize, Project, Side, Tab},
     session::{Command, EditCommand, Session},
 };
 use egui::{Align2, FontId, Id, Rect, Response, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
@@ -130,13 +130,21 @@ fn steps(ui: &Ui, rect: Rect, group: &Group, pass: &Pass, right: f32) -> f32 {
     ui.painter().text(at, Align2::RIGHT_CENTER, text, font, theme::of(ui).accent).left() - 6.0
 }
 
+fn side(side: Side) -> String {
+    match side {
+        Side::Scale(by) => format!("{by:.3}").trim_end_matches('0').trim_end_matches('.').to_owned(),
+        Side::Fixed(texels) => texels.to_string(),
+    }
+}
+
 /// Returns what differs from Shadertoy, abbreviated.
 fn note(pass: &Pass) -> String {
     let mut parts = Vec::new();
     match pass.settings.size {
         PassSize::Canvas => {}
-        PassSize::Scale(by) => parts.push(format!("{by:.3}").trim_end_matches('0').trim_end_matches('.').to_owned()),
+        PassSize::Scale(by) => parts.push(side(Side::Scale(by))),
         PassSize::Fixed(width, height) => parts.push(format!("{width}×{height}")),
+        PassSize::Sides(width, height) => parts.push(format!("{}×{}", side(width), side(height))),
     }
     match pass.formats().as_slice() {
         [one] if *one == Default::default() => {}

@@ -115,6 +115,7 @@ mod tests {
             group: String::new(),
             span: Span::new(SourceId::NONE, 0..0),
             declared_in: Vec::new(),
+            is_declared: false,
         };
         let mut output = Context::default().run_ui(RawInput::default(), |ui| {
             let place = Rect::from_min_size(pos2(10.0, 10.0), vec2(width, HEIGHT));

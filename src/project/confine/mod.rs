@@ -8,7 +8,10 @@
 //! [`relative`] checks the name alone, [`resolve`] checks the disk, and [`read`] reads. [`read_own`] is for a path that
 //! the user gives, who may name any regular file.
 
-use super::limits::{self, Limit};
+use super::{
+    file_names::is_glsl_extension,
+    limits::{self, Limit},
+};
 use std::{
     fs::{self, File},
     io::{self, Read},
@@ -123,6 +126,32 @@ impl FileError {
 /// The name, from the project's folder and with `/`, of the file that the project's file `from` calls `name`. `from` is
 /// itself a name from the folder; an empty one means a file directly in it. Checks only the text of the names.
 pub fn relative(from: &str, name: &str) -> Result<String, FileError> {
+    relative_above(from, name, 0)
+}
+
+/// Does the same for a GLSL file that a complete fragment shader includes, which may be in a folder at most
+/// [`limits::FOLDERS_ABOVE`] above the project's: the name then starts with `../`.
+pub(super) fn included(from: &str, name: &str) -> Result<String, FileError> {
+    let is_glsl = Path::new(name).extension().is_some_and(is_glsl_extension);
+    relative_above(from, name, if is_glsl { limits::FOLDERS_ABOVE } else { 0 })
+}
+
+/// Reads a file whose name may start with `../`. Links are resolved: the file is within the folder that the name leads
+/// to.
+pub(super) fn read_included(folder: &Path, name: &str, limit: Limit) -> Result<Vec<u8>, FileError> {
+    let above = name.split('/').take_while(|part| *part == "..").count();
+    if above == 0 {
+        return read(folder, name, limit);
+    }
+    let start = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let real = start.canonicalize().map_err(|error| FileError::io(start, &error))?;
+    let refuse = || FileError::new(name, Reason::Above);
+    let base = real.ancestors().nth(above).ok_or_else(refuse)?;
+    read(base, name.trim_start_matches("../"), limit)
+}
+
+/// The names of [`relative`], which may lead this number of folders above the project's.
+fn relative_above(from: &str, name: &str, above: usize) -> Result<String, FileError> {
     let refuse = |reason| Err(FileError::new(name, reason));
     let bytes = name.as_bytes();
     if name.trim().is_empty() {
@@ -147,7 +176,11 @@ pub fn relative(from: &str, name: &str) -> Result<String, FileError> {
         match part {
             "" | "." => {}
             ".." => {
-                if parts.pop().is_none() {
+                if parts.last().is_some_and(|last| *last != "..") {
+                    parts.pop();
+                } else if parts.len() < above {
+                    parts.push("..");
+                } else {
                     return refuse(Reason::Above);
                 }
             }

@@ -67,6 +67,7 @@ impl Declaration {
             group: self.group.clone(),
             span: self.span,
             declared_in: vec![source],
+            is_declared: false,
         }
     }
 

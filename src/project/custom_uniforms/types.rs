@@ -135,6 +135,8 @@ pub struct CustomUniform {
     pub span: Span,
     /// The texts that declare it.
     pub declared_in: Vec<SourceId>,
+    /// True if these declare it in GLSL; false for `#iUniform` lines.
+    pub is_declared: bool,
 }
 
 impl CustomUniform {

@@ -20,7 +20,8 @@ mod uniforms;
 mod tests;
 
 pub use advice::advice;
-pub use uniforms::{HostUniform, uniforms, values};
+pub use uniforms::values;
+pub(crate) use uniforms::{UNIFORMS, about};
 
 use super::{Channel, Dialect, Filter, Input, Pass, PassName, Project, Sampler, Source, TexelFormat, Wrap};
 

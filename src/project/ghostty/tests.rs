@@ -1,7 +1,7 @@
 use super::{
-    font, prelude,
+    UNIFORMS, font, prelude,
     script::{self, Grid, SPANS, Style},
-    uniforms, values,
+    values,
 };
 use crate::{Dialect, Input, Origin, Overwrite, Pass, PassName, Project, ProjectError, Source, load, manifest, save};
 use std::fs;
@@ -57,7 +57,7 @@ fn cursor_positions_are_the_left_and_upper_edge() {
     let cursor = script::at(0.0).cursor;
     assert_eq!(Grid::of(360).dot, 2);
     assert_eq!(Grid::of(360).rectangle(&cursor, 360), [140.0, 352.0, 12.0, 24.0]);
-    let at = |name: &str, secs| values(secs, 360)[uniforms().iter().position(|row| row.name == name).unwrap()];
+    let at = |name: &str, secs| values(secs, 360)[UNIFORMS.iter().position(|row| row.name == name).unwrap()];
     assert_eq!(at("iCurrentCursor", 0.0), [140.0, 352.0, 12.0, 24.0]);
     assert_eq!(at("iCurrentCursorStyle", 10.9)[0], 3.0);
     // An underline is one dot high, at the bottom of its cell.

@@ -9,7 +9,7 @@
 //! the resulting text ([`Project::inlined`]).
 
 use super::{
-    Included, Project, Source, Tab,
+    FileError, Included, Origin, Project, Source, Tab,
     confine::{self, Reason},
     embedded,
     files::{Files, Read},
@@ -62,8 +62,9 @@ fn named<'t>(line: &HashLine<'t>) -> Option<&'t str> {
     let rest = line.body.strip_prefix("include")?.trim_start().strip_prefix('"')?;
     let (path, after) = rest.split_once('"')?;
     let after = after.trim_start();
-    (!path.trim().is_empty() && (after.is_empty() || after.starts_with("//") || after.starts_with("/*")))
-        .then_some(path)
+    // glslViewer accepts a semicolon.
+    let is_end = after.is_empty() || ["//", "/*", ";"].iter().any(|end| after.starts_with(end));
+    (!path.trim().is_empty() && is_end).then_some(path)
 }
 
 /// Returns the paths that the `#include` lines of a text name, in their order and as they are written.
@@ -72,6 +73,20 @@ pub fn include_names(text: &str) -> Vec<&str> {
         return Vec::new();
     }
     hash_lines(text).iter().filter(|l| is_include(l)).filter_map(named).map(str::trim).collect()
+}
+
+/// Returns the names that a line may mean, the first choice first. Complete fragment shaders may include files above
+/// their folder, and files of libraries from anywhere in it.
+fn candidates(project: &Project, from: &str, path: &str) -> Result<Vec<String>, FileError> {
+    if !project.dialect.has_main() {
+        return Ok(vec![confine::relative(from, path)?]);
+    }
+    let beside = match &project.origin {
+        Origin::File(_) => confine::included(from, path)?,
+        _ => confine::relative(from, path)?,
+    };
+    let from_root = confine::relative("", path).ok().filter(|name| *name != beside);
+    Ok([beside].into_iter().chain(from_root).collect())
 }
 
 /// Reads every file that texts of the project include, and those that these include.
@@ -86,7 +101,10 @@ pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
         project.includes.iter().filter(|i| i.is_edited).map(|i| (i.source.name.clone(), i.source.clone())).collect();
     'texts: while let Some((from, text)) = queue.pop_front() {
         for line in hash_lines(&text).iter().filter(|l| is_include(l)) {
-            let Some(name) = named(line).and_then(|path| confine::relative(&from, path.trim()).ok()) else { continue };
+            let Some(path) = named(line) else { continue };
+            let names = candidates(project, &from, path.trim()).unwrap_or_default();
+            let is_present = |name: &&String| known.contains(*name) || files.is_some_and(|files| files.can_read(name));
+            let Some(name) = names.iter().find(is_present).or(names.first()).cloned() else { continue };
             if !known.insert(name.clone()) {
                 continue;
             }
@@ -204,8 +222,15 @@ impl Project {
             for line in hash_lines(&source.text).iter().filter(|l| is_include(l)) {
                 let span = Span::new(id, line.range.clone());
                 let Some(path) = named(line) else { continue };
-                let name = match confine::relative(&source.name, path.trim()) {
-                    Ok(name) => name,
+                let is_readable = |name: &&String| {
+                    let target = ids.get(name.as_str());
+                    target.is_some_and(|id| self.included(*id).is_none_or(|included| included.trouble.is_none()))
+                };
+                let name = match candidates(self, &source.name, path.trim()) {
+                    Ok(names) => match names.iter().find(is_readable).or(names.first()) {
+                        Some(name) => name.clone(),
+                        None => continue,
+                    },
                     Err(e) => {
                         let message = format!("#include \"{path}\": {e}");
                         found.missing.push(Diagnostic::error(span, message).hint(e.hint()));
@@ -320,8 +345,10 @@ impl Project {
         let text = &self.source(tab)?.text;
         let line =
             hash_lines(text).into_iter().find(|l| is_include(l) && (l.range.start..=l.range.end).contains(&at))?;
-        let name = confine::relative(&self.source(tab)?.name, named(&line)?.trim()).ok()?;
-        self.tabs().into_iter().find(|tab| self.source(tab).is_some_and(|s| s.name == name))
+        let names = candidates(self, &self.source(tab)?.name, named(&line)?.trim()).ok()?;
+        let of_name =
+            |name: &String| self.tabs().into_iter().find(|tab| self.source(tab).is_some_and(|s| s.name == *name));
+        names.iter().find_map(of_name)
     }
 
     /// A text with every `#include` line replaced by the included file.

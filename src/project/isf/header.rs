@@ -39,26 +39,30 @@ pub(super) enum Kind {
     Point2D,
     Color,
     Image,
+    Cube,
     Audio,
     AudioFft,
 }
 
 impl Kind {
-    pub(super) const ALL: [(&str, Kind); 9] = [
+    /// The names of types. `cube` is of hosts by Vidvox, `int` of MadMapper.
+    pub(super) const ALL: [(&str, Kind); 11] = [
         ("event", Kind::Event),
         ("bool", Kind::Bool),
         ("long", Kind::Long),
         ("float", Kind::Float),
         ("point2D", Kind::Point2D),
         ("color", Kind::Color),
+        ("int", Kind::Long),
         ("image", Kind::Image),
+        ("cube", Kind::Cube),
         ("audio", Kind::Audio),
         ("audioFFT", Kind::AudioFft),
     ];
 
     /// Returns whether it is a picture rather than a uniform.
     pub(super) fn is_image(self) -> bool {
-        matches!(self, Kind::Image | Kind::Audio | Kind::AudioFft)
+        matches!(self, Kind::Image | Kind::Cube | Kind::Audio | Kind::AudioFft)
     }
 }
 
@@ -74,7 +78,10 @@ pub(super) struct IsfPass {
 #[derive(Debug)]
 pub(super) struct Imported {
     pub name: String,
-    pub path: String,
+    /// The file; `None` if a built-in texture replaces it.
+    pub path: Option<String>,
+    /// It is a cubemap of six files.
+    pub is_cube: bool,
 }
 
 /// Parses the header, whose byte 0 is at `start` of a text. Returns the errors, each with its span.
@@ -118,7 +125,11 @@ pub(super) fn parse(json: &str, (id, start): (SourceId, usize)) -> Result<Header
             reader.found.push(Diagnostic::error(whole, message).hint("remove some of them"));
         }
     }
-    if reader.found.iter().any(Diagnostic::is_error) { Err(reader.found) } else { Ok(header) }
+    if reader.found.iter().any(Diagnostic::is_error) {
+        return Err(reader.found);
+    }
+    header.warnings.append(&mut reader.found);
+    Ok(header)
 }
 
 /// Returns the offsets of trailing commas outside strings, before the end of an object or a list.
@@ -182,13 +193,21 @@ impl Reader<'_> {
     }
 
     fn error(&mut self, at: &str, message: String, hint: impl Into<String>) {
-        // Each error searches the header.
+        self.report(at, |span| Diagnostic::error(span, message).hint(hint));
+    }
+
+    fn warning(&mut self, at: &str, message: String, hint: impl Into<String>) {
+        self.report(at, |span| Diagnostic::warning(span, message).hint(hint));
+    }
+
+    fn report(&mut self, at: &str, diagnostic: impl FnOnce(Span) -> Diagnostic) {
+        // Each report searches the header.
         if self.found.len() >= ERRORS {
             return;
         }
         let place = self.json.find(&format!("\"{at}\"")).map_or(0..0, |i| i..i + at.len() + 2);
         let span = Span::new(self.id, self.start + place.start..self.start + place.end);
-        self.found.push(Diagnostic::error(span, message).hint(hint));
+        self.found.push(diagnostic(span));
     }
 
     fn input(&mut self, input: &Map<String, Value>) -> Option<IsfInput> {
@@ -227,13 +246,16 @@ impl Reader<'_> {
             if !is_name(&name) {
                 reader.error(&name, format!("\"{name}\" is not a name of an image"), "use letters, digits and _");
             } else if let Some(path) = path.as_str() {
-                all.push(Imported { name, path: path.to_owned() });
-            } else if path.is_null() {
-                let message = format!("the import \"{name}\" has no PATH");
-                reader.error(&name, message, "give the PATH of an image file; a TARGET needs no import");
+                all.push(Imported { name, path: Some(path.to_owned()), is_cube: false });
             } else {
-                let message = format!("the imported image \"{name}\" is a cubemap, which ISF does not have");
-                reader.error(&name, message, "give one PATH, of an image file");
+                let is_cube = path.is_array();
+                let (message, hint) = match is_cube {
+                    true => ("is a cubemap of several files", "choose a cubemap for it in the channels of the window"),
+                    false => ("has no PATH", "give the PATH of an image file; a TARGET needs no import"),
+                };
+                let message = format!("the imported image \"{name}\" {message}: a built-in one replaces it");
+                reader.warning(&name, message, hint);
+                all.push(Imported { name, path: None, is_cube });
             }
         };
         match value {

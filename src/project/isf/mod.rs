@@ -13,7 +13,7 @@ mod texts;
 #[cfg(test)]
 mod tests;
 
-pub(super) use read::{load, save};
+pub(super) use read::load;
 
 use super::{
     files::{EditedTexts, Files, Read},

@@ -7,20 +7,18 @@ use super::{
     texts,
 };
 use crate::{
-    Channel, Dialect, Filter, Info, Input, InputKind, Loaded, Media, Origin, Overwrite, Pass, PassName, PassSize,
-    Project, ProjectError, SLOTS, Sampler, Source, TexelFormat, Wrap, atomic::Content, confine, files::Files, includes,
-    writes::Writes,
+    Channel, Dialect, Filter, Info, Input, InputKind, Loaded, MAX_CHANNELS, Media, Origin, Pass, PassName, PassSize,
+    Project, ProjectError, Sampler, Source, TexelFormat, Wrap, confine, files::Files, includes, words::all_words,
 };
 use eddy_diag::{Diagnostic, SourceMap, Span};
-use std::{
-    collections::{BTreeSet, HashSet},
-    path::Path,
-};
+use std::{collections::HashSet, path::Path};
 
 /// The number of images that a message lists at most.
 const SHOWN: usize = 12;
 /// Built-in textures that replace images until the user chooses others, in rotation.
 const STAND_INS: [&str; 4] = ["street", "marble", "coral", "pebbles"];
+/// The built-in cubemap that replaces others.
+const CUBEMAP: &str = "forest";
 
 /// Returns the project of a file's text if it is an ISF file, or the errors in its header.
 pub(crate) fn load(path: &Path, (name, text): (&str, &str), files: &Files<'_>) -> Option<Result<Loaded, ProjectError>> {
@@ -34,14 +32,8 @@ pub(crate) fn load(path: &Path, (name, text): (&str, &str), files: &Files<'_>) -
         Err(found) => return Some(refuse(found, sources)),
     };
     let found = std::mem::take(&mut header.warnings);
-    let mut maker = Maker {
-        header,
-        name,
-        text,
-        words: texts::TextWords::of(text),
-        at: Span::new(id, start..start + json.len()),
-        found,
-    };
+    let mut maker =
+        Maker { header, name, text, words: all_words(text), at: Span::new(id, start..start + json.len()), found };
     let vertex = path.with_extension("vs").file_name().map(|n| n.to_string_lossy().into_owned());
     let vertex = vertex.filter(|vertex| files.exists(vertex));
     let mut project = maker.project(path, vertex.as_deref());
@@ -61,7 +53,7 @@ struct Maker<'t> {
     header: Header,
     name: &'t str,
     text: &'t str,
-    words: texts::TextWords<'t>,
+    words: HashSet<&'t str>,
     /// The span of the header.
     at: Span,
     found: Vec<Diagnostic>,
@@ -113,6 +105,7 @@ impl Maker<'_> {
                     false => self.channel(name, &targets),
                 };
                 pass.bindings.set(slot, Some(channel));
+                pass.bindings.set_name(slot, name);
             }
             passes.push(pass);
             if is_last && let Some(target) = target {
@@ -159,7 +152,7 @@ impl Maker<'_> {
         let inputs = self.header.inputs.iter().filter(|input| input.kind.is_image()).map(|input| &input.name);
         let imported = self.header.imported.iter().map(|image| &image.name);
         let all: Vec<&String> = inputs.chain(imported).chain(targets).collect();
-        let is_read = |name: &String| vertex.is_some() || self.words.words.contains(name.as_str());
+        let is_read = |name: &String| vertex.is_some() || self.words.contains(name.as_str());
         let mut read: Vec<String> = Vec::new();
         let mut seen: HashSet<&String> = HashSet::new();
         for name in all.into_iter().filter(|name| is_read(name)) {
@@ -167,22 +160,15 @@ impl Maker<'_> {
                 read.push(name.clone());
             }
         }
-        if read.len() > SLOTS {
+        if read.len() > MAX_CHANNELS {
             let message = format!(
-                "the shader reads {} images, and a pass of Eddy has {SLOTS} channels: {}",
+                "the shader reads {} images, and a pass of Eddy has {MAX_CHANNELS} channels: {}",
                 read.len(),
                 read[..read.len().min(SHOWN)].join(", ")
             );
-            self.error(message, "read at most four images, buffers among them");
+            self.error(message, "read fewer images, buffers among them");
         }
-        // An image may have the name of a channel, and then gets that channel.
-        for n in 0..read.len().min(SLOTS) {
-            let own = read.iter().position(|name| *name == format!("iChannel{n}"));
-            if let Some(own) = own {
-                read.swap(n, own);
-            }
-        }
-        read.truncate(SLOTS);
+        read.truncate(MAX_CHANNELS);
         read
     }
 
@@ -191,8 +177,19 @@ impl Maker<'_> {
             return linear(Input::buffer(buffer_name(name)));
         }
         if let Some(image) = self.header.imported.iter().find(|image| image.name == name) {
-            let file = confine::relative("", &image.path).unwrap_or_else(|_| image.path.clone());
-            return linear(Input::texture(Media::File(file.into())));
+            let built_in = |kind, name: &str| linear(Input::Media { kind, media: Media::Builtin(name.to_owned()) });
+            return match &image.path {
+                Some(path) => {
+                    let file = confine::relative("", path).unwrap_or_else(|_| path.clone());
+                    linear(Input::texture(Media::File(file.into())))
+                }
+                None if image.is_cube => built_in(InputKind::Cubemap, CUBEMAP),
+                None => built_in(InputKind::Texture, STAND_INS[0]),
+            };
+        }
+        if self.header.inputs.iter().any(|input| input.kind == Kind::Cube && input.name == name) {
+            let media = Media::Builtin(CUBEMAP.to_owned());
+            return linear(Input::Media { kind: InputKind::Cubemap, media });
         }
         let images = self.header.inputs.iter().filter(|input| input.kind == Kind::Image);
         let place = images.clone().position(|input| input.name == name);
@@ -209,7 +206,7 @@ impl Maker<'_> {
         let reads = ["IMG_PIXEL", "IMG_SIZE", "texture2DRect"];
         let has_pixels = |name: &str| {
             vertex.is_some()
-                || reads.iter().any(|word| self.words.words.contains(word))
+                || reads.iter().any(|word| self.words.contains(word))
                 || self.text.contains(&format!("_{name}_img"))
         };
         let is_free = |name: &str| targets.iter().all(|target| buffer_name(target) != buffer_name(name));
@@ -246,10 +243,7 @@ impl Maker<'_> {
             .collect();
         let is_moved = inputs.iter().any(|input| named.contains(input.name.as_str()));
         match size((expressions[0].as_deref(), expressions[1].as_deref()), &input) {
-            Ok((size, said)) => {
-                if let Some(said) = said {
-                    self.found.push(Diagnostic::warning(self.at, format!("the size of pass {index}: {said}")));
-                }
+            Ok(size) => {
                 if is_moved {
                     let message =
                         format!("the size of pass {index} depends on an input: it stays as its default makes it");
@@ -258,8 +252,8 @@ impl Maker<'_> {
                 size
             }
             Err(why) => {
-                let hint = "give a fixed width and height, or the same part of $WIDTH and $HEIGHT";
-                self.error(format!("the size of pass {index} cannot be had: {why}"), hint);
+                let hint = "give a number of texels, or a part of $WIDTH or $HEIGHT";
+                self.error(format!("the size of pass {index} is not supported: {why}"), hint);
                 PassSize::Canvas
             }
         }
@@ -278,35 +272,4 @@ fn buffer_name(target: &str) -> String {
 
 fn linear(input: Input) -> Channel {
     Channel { input, sampler: Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true } }
-}
-
-/// Saves the edits of an ISF file and of the files that it includes; Eddy generates the texts around it.
-pub(crate) fn save(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {
-    let fresh = load_again(target)?;
-    let is_drawn_the_same = |a: &Pass, b: &Pass| a.settings == b.settings && a.body == b.body;
-    let is_same = |a: &Pass, b: &Pass| a.id == b.id && a.source.text == b.source.text && is_drawn_the_same(a, b);
-    let passes = project.passes.len() == fresh.passes.len()
-        && project.passes.iter().zip(&fresh.passes).all(|(a, b)| is_same(a, b) && a.bindings == b.bindings);
-    let text = |project: &Project| project.common.as_ref().map(|common| common.text.clone());
-    let others = text(project) == text(&fresh)
-        && project.info == fresh.info
-        && project.custom_uniform_values == fresh.custom_uniform_values;
-    if !passes || !others || !project.controls.is_empty() {
-        let what =
-            "more than the text of an ISF file, such as values of sliders, a description, Common or further passes"
-                .into();
-        return Err(ProjectError::CannotHold { path: target.to_owned(), what });
-    }
-    let edited: Vec<_> = project.includes.iter().filter(|included| included.is_edited).collect();
-    let owned: BTreeSet<String> = edited.iter().map(|included| included.source.name.clone()).collect();
-    let mut writes = Writes::into(target.parent().unwrap_or(Path::new("")), owned);
-    for included in edited {
-        writes.add(&included.source.name, Content::Bytes(included.source.text.as_bytes().to_vec()))?;
-    }
-    writes.write(overwrite)?;
-    load_again(target)
-}
-
-fn load_again(path: &Path) -> Result<Project, ProjectError> {
-    Ok(crate::load(&path.display().to_string())?.project)
 }

@@ -1,6 +1,6 @@
 //! Widths and heights of passes: expressions of `$WIDTH`, `$HEIGHT` and inputs.
 
-use crate::{Expression, PassSize, Syntax};
+use crate::{Expression, PassSize, Side, Syntax};
 
 /// Evaluates an expression of numbers and `$NAME`, which `value` looks up. Returns an error for invalid syntax.
 pub(super) fn evaluate(text: &str, value: &dyn Fn(&str) -> Option<f64>) -> Result<f64, String> {
@@ -12,12 +12,12 @@ pub(super) fn evaluate(text: &str, value: &dyn Fn(&str) -> Option<f64>) -> Resul
     }
 }
 
-/// Returns the size of a pass from its expressions, where `None` is the size of the picture, and a warning if there is
-/// one. Fails if the size depends on that of the picture in a way that Eddy does not support.
+/// Returns the size of a pass from its expressions, where `None` is the size of the picture. Fails if the size depends on
+/// that of the picture in a way that Eddy does not support.
 pub(super) fn size(
     (width, height): (Option<&str>, Option<&str>),
     input: &dyn Fn(&str) -> Option<f64>,
-) -> Result<(PassSize, Option<String>), String> {
+) -> Result<PassSize, String> {
     let at = |canvas: (f64, f64)| -> Result<(f64, f64), String> {
         let value = |name: &str| match name {
             "WIDTH" => Some(canvas.0),
@@ -34,22 +34,26 @@ pub(super) fn size(
     let sizes = CANVASES.iter().map(|canvas| at(*canvas)).collect::<Result<Vec<_>, _>>()?;
     let first = sizes[0];
     if sizes.iter().all(|size| *size == first) {
-        return Ok((PassSize::Fixed(first.0 as u32, first.1 as u32), None));
+        return Ok(PassSize::Fixed(first.0 as u32, first.1 as u32));
     }
-    let (x, y) = (sizes[2].0 / CANVASES[2].0, sizes[2].1 / CANVASES[2].1);
-    let is_scaled = |(size, canvas): (&(f64, f64), &(f64, f64))| {
-        (size.0 - canvas.0 * x).abs() <= 2.0 && (size.1 - canvas.1 * y).abs() <= 2.0
-    };
-    let is_row = sizes.iter().all(|size| size.0 == first.0) || sizes.iter().all(|size| size.1 == first.1);
-    if is_row || !sizes.iter().zip(&CANVASES).all(is_scaled) {
-        return Err("it is neither fixed nor a part of the resolution in both directions".to_owned());
+    let widths: Vec<(f64, f64)> = sizes.iter().zip(&CANVASES).map(|(size, canvas)| (size.0, canvas.0)).collect();
+    let heights: Vec<(f64, f64)> = sizes.iter().zip(&CANVASES).map(|(size, canvas)| (size.1, canvas.1)).collect();
+    let why = || "it is neither fixed nor a part of the picture's width and height".to_owned();
+    match (side(&widths).ok_or_else(why)?, side(&heights).ok_or_else(why)?) {
+        (Side::Scale(x), Side::Scale(y)) if x == y => Ok(if x == 1.0 { PassSize::Canvas } else { PassSize::Scale(x) }),
+        (x, y) => Ok(PassSize::Sides(x, y)),
     }
+}
+
+/// Returns the rule by which a side follows from that of the picture, in pairs of both.
+fn side(sides: &[(f64, f64)]) -> Option<Side> {
+    let (first, _) = sides[0];
+    if sides.iter().all(|(side, _)| *side == first) {
+        return Some(Side::Fixed(first as u32));
+    }
+    let by = sides[2].0 / sides[2].1;
     // Rounding down makes the last digits inexact.
-    let (x, y) = (tidy(x), tidy(y));
-    let by = x.max(y);
-    let said =
-        (x != y).then(|| format!("Eddy scales both sides alike, by {by:.3}: the file asks for {x:.3} by {y:.3}"));
-    Ok((if by == 1.0 { PassSize::Canvas } else { PassSize::Scale(by) }, said))
+    sides.iter().all(|(side, canvas)| (side - canvas * by).abs() <= 2.0).then(|| Side::Scale(tidy(by)))
 }
 
 /// Returns the fraction of small integers that most likely equals a factor, else the factor.
@@ -84,13 +88,15 @@ mod tests {
     #[test]
     fn sizes_are_fixed_or_fractions_of_the_picture() {
         let of = |w, h| size((w, h), &|name| (name == "quality").then_some(0.25));
-        assert_eq!(of(None, None), Ok((PassSize::Canvas, None)));
-        assert_eq!(of(Some("floor($WIDTH/3.0)"), Some("floor($HEIGHT/3.0)")), Ok((PassSize::Scale(1.0 / 3.0), None)));
-        assert_eq!(of(Some("max($WIDTH*$quality,1.0)"), Some("$HEIGHT*$quality")), Ok((PassSize::Scale(0.25), None)));
-        assert_eq!(of(Some("2"), Some("1.0")), Ok((PassSize::Fixed(2, 1), None)));
-        let (scaled, said) = of(Some("$WIDTH/4.0"), Some("$HEIGHT/2.0")).unwrap();
-        assert!(scaled == PassSize::Scale(0.5) && said.is_some());
-        assert!(of(Some("$WIDTH"), Some("1")).is_err());
+        assert_eq!(of(None, None), Ok(PassSize::Canvas));
+        assert_eq!(of(Some("floor($WIDTH/3.0)"), Some("floor($HEIGHT/3.0)")), Ok(PassSize::Scale(1.0 / 3.0)));
+        assert_eq!(of(Some("max($WIDTH*$quality,1.0)"), Some("$HEIGHT*$quality")), Ok(PassSize::Scale(0.25)));
+        assert_eq!(of(Some("2"), Some("1.0")), Ok(PassSize::Fixed(2, 1)));
+        let (quarter, half) = (Side::Scale(0.25), Side::Scale(0.5));
+        assert_eq!(of(Some("$WIDTH/4.0"), Some("$HEIGHT/2.0")), Ok(PassSize::Sides(quarter, half)));
+        assert_eq!(of(Some("$WIDTH"), Some("1")), Ok(PassSize::Sides(Side::Scale(1.0), Side::Fixed(1))));
+        assert_eq!(of(Some("16"), None), Ok(PassSize::Sides(Side::Fixed(16), Side::Scale(1.0))));
+        assert!(of(Some("$WIDTH*$HEIGHT"), Some("1")).is_err());
         assert!(of(Some("0 - 5"), Some("1")).is_err());
     }
 }

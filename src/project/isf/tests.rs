@@ -220,10 +220,16 @@ fn texts_with_other_comments_are_not_isf() {
 fn an_empty_header_needs_the_isf_extension() {
     let of = |name: &str, text: &str| ShaderForm::of(Path::new(name), text);
     let text = "/* { } */\nvoid main() { gl_FragColor = vec4(1.0); }";
-    assert_eq!((of("a.fs", text), of("a.glsl", text)), (ShaderForm::Isf, ShaderForm::Shadertoy));
+    assert_eq!(
+        (of("a.fs", text), of("a.glsl", text)),
+        (ShaderForm::Program(Dialect::Isf), ShaderForm::Program(Dialect::Plain))
+    );
     assert_eq!(project(text).dialect, Dialect::Isf);
-    assert_eq!(of("a.glsl", &text.replace("{ }", "{\"CREDIT\": \"\"}")), ShaderForm::Isf);
-    assert_eq!(of("a.fs", "/* { a } */\nvoid main() { gl_FragColor = vec4(1.0); }"), ShaderForm::Shadertoy);
+    assert_eq!(of("a.glsl", &text.replace("{ }", "{\"CREDIT\": \"\"}")), ShaderForm::Program(Dialect::Isf));
+    assert_eq!(
+        of("a.fs", "/* { a } */\nvoid main() { gl_FragColor = vec4(1.0); }"),
+        ShaderForm::Program(Dialect::Plain)
+    );
 }
 
 #[test]

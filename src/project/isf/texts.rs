@@ -1,68 +1,14 @@
 //! The GLSL around the text of an ISF file: the declarations of an ISF host, in terms of Shadertoy's.
 
 use super::header::{Header, IsfInput, Kind};
-use crate::words::all_words;
 use std::{collections::HashSet, fmt::Write};
 
-/// Names that Eddy or GLSL ES reserves, but that an ISF input may have.
-const TAKEN: [&str; 52] = [
-    "iResolution",
-    "iTime",
-    "iTimeDelta",
-    "iFrame",
-    "iFrameRate",
-    "iMouse",
-    "iDate",
-    "iSampleRate",
-    "iChannelTime",
-    "iChannelResolution",
-    "iChannel0",
-    "iChannel1",
-    "iChannel2",
-    "iChannel3",
-    "iGlobalTime",
-    "mix",
-    "step",
-    "distance",
-    "length",
-    "radians",
-    "degrees",
-    "sign",
-    "smooth",
-    "flat",
-    "inverse",
-    "round",
-    "min",
-    "max",
-    "abs",
-    "floor",
-    "ceil",
-    "fract",
-    "mod",
-    "clamp",
-    "pow",
-    "exp",
-    "log",
-    "sqrt",
-    "sin",
-    "cos",
-    "tan",
-    "dot",
-    "cross",
-    "normalize",
-    "reflect",
-    "refract",
-    "smoothstep",
-    "any",
-    "all",
-    "not",
-    "transpose",
-    "trunc",
-];
+/// Keywords of later versions of GLSL, which an ISF input may have as its name.
+const KEYWORDS: [&str; 4] = ["smooth", "flat", "centroid", "layout"];
 
 /// Returns the uniform name of an input.
 fn uniform_name(name: &str) -> String {
-    if TAKEN.contains(&name) { format!("isf_{name}") } else { name.to_owned() }
+    if KEYWORDS.contains(&name) { format!("isf_{name}") } else { name.to_owned() }
 }
 
 /// Returns Common: the built-ins of ISF, and the inputs as sliders.
@@ -136,80 +82,53 @@ fn declaration(name: &str, input: &IsfInput) -> String {
             let clamped: Vec<f64> = values.iter().map(|x| x.clamp(0.0, 1.0)).collect();
             format!("#iUniform vec4 {name} = {} in {{ 0.0, 1.0 }}{about}", vector("vec4", 4, &clamped, missing))
         }
-        Kind::Image | Kind::Audio | Kind::AudioFft => String::new(),
+        Kind::Image | Kind::Cube | Kind::Audio | Kind::AudioFft => String::new(),
     }
 }
 
-/// Properties of a text that all its passes need, computed once.
-pub(super) struct TextWords<'t> {
-    pub words: HashSet<&'t str>,
-    /// The text has an entry point of Shadertoy's that it calls itself. If a macro renames it, as in exported files, it
-    /// needs no other name.
-    has_main_image: bool,
-}
-
-impl<'t> TextWords<'t> {
-    pub(super) fn of(text: &'t str) -> Self {
-        let words = all_words(text);
-        let defines = |line: &str| {
-            line.trim_start().strip_prefix("#define").is_some_and(|rest| rest.trim_start().starts_with("mainImage"))
-        };
-        let has_main_image = words.contains("mainImage") && !text.lines().any(defines);
-        Self { words, has_main_image }
-    }
-}
-
-/// Returns the text of a pass: binds `images` to channels and includes the files; `of` describes the fragment shader's
-/// text.
+/// Returns the text of a pass, which includes the files; `fragment` is the fragment shader's name, `words` are those of
+/// its text.
 pub(super) fn pass(
     index: usize,
     images: &[String],
-    (fragment, of): (&str, &TextWords<'_>),
+    (fragment, words): (&str, &HashSet<&str>),
     vertex: Option<&str>,
 ) -> String {
     let mut out = format!("// Pass {index} of {fragment}, as Eddy draws it: the text of the file is included below.\n");
     let _ = writeln!(out, "const int PASSINDEX = {index};");
-    for (channel, name) in images.iter().enumerate().filter(|(n, name)| **name != format!("iChannel{n}")) {
-        let _ = writeln!(out, "#define {name} iChannel{channel}");
-    }
-    // Uniforms that hosts set for each image: its rectangle in its texture in texels, its size, and whether it is
-    // flipped.
-    for (channel, name) in images.iter().enumerate() {
-        for (ending, value) in [
-            ("imgRect", format!("vec4(vec2(0.0), IMG_SIZE(iChannel{channel}))")),
-            ("imgSize", format!("IMG_SIZE(iChannel{channel})")),
-            ("flip", "false".to_owned()),
-        ] {
+    // Uniforms that hosts set for each image: its rectangle in its texture in texels, and whether it is flipped.
+    for name in images {
+        for (ending, ty, value) in
+            [("imgRect", "vec4", format!("vec4(vec2(0.0), IMG_SIZE({name}))")), ("flip", "bool", "false".to_owned())]
+        {
             let uniform = format!("_{name}_{ending}");
-            if of.words.contains(uniform.as_str()) {
-                let _ = writeln!(out, "#define {uniform} {value}");
+            if vertex.is_some() || words.contains(uniform.as_str()) {
+                let _ = writeln!(out, "{ty} {uniform} = {value};");
             }
         }
     }
-    // The output array is the older form of the single colour (GLSL 1.20, section 7.2).
-    let has_outputs = of.words.contains("gl_FragData");
-    if has_outputs {
-        out.push_str("vec4 isf_FragData[1];\n#define gl_FragData isf_FragData\n");
+    match vertex {
+        // The vertex shader is called for each pixel.
+        Some(vertex) => {
+            let _ = write!(
+                out,
+                "\nvec4 isf_position;\n#define gl_Position isf_position\n{VERTEX}#define main isf_vertexMain\n\
+                 #include \"{vertex}\"\n#undef main\n\n#define main isf_main\n#include \"{fragment}\"\n#undef main\n\n\
+                 void main() {{\n    isf_vertexMain();\n    isf_main();\n}}\n"
+            );
+        }
+        None => {
+            let _ = write!(out, "\n#include \"{fragment}\"\n");
+        }
     }
-    // A function of the text may have the same name as the entry point below.
-    if of.has_main_image {
-        out.push_str("#define mainImage isf_mainImage\n");
-    }
-    if let Some(vertex) = vertex {
-        let _ = write!(out, "\n#define main isf_vertexMain\n#include \"{vertex}\"\n#undef main\n");
-    }
-    let _ = write!(out, "\n#define main isf_main\n#include \"{fragment}\"\n#undef main\n\n");
-    if of.has_main_image {
-        out.push_str("#undef mainImage\n");
-    }
-    out.push_str("void mainImage(out vec4 isf_color, in vec2 isf_at) {\n");
-    if vertex.is_some() {
-        out.push_str("    isf_vertexMain();\n");
-    }
-    let color = if has_outputs { "isf_FragData[0]" } else { "isf_FragColor" };
-    let _ = write!(out, "    isf_main();\n    isf_color = {color};\n}}\n");
     out
 }
+
+/// The function that an ISF vertex shader calls first.
+const VERTEX: &str = "\
+void isf_vertShaderInit() { isf_position = vec4(2.0 * isf_FragNormCoord - 1.0, 0.0, 1.0); }
+#define vv_vertShaderInit isf_vertShaderInit
+";
 
 /// Returns the text of a buffer that converts the sound texture in channel 0 to the image of an audio input:
 /// Shadertoy's texture has the spectrum in its lower row and the wave in its upper one.
@@ -239,39 +158,16 @@ void mainImage(out vec4 color, in vec2 at) {
 ";
 
 const BUILT_INS: &str = "\
-// What an ISF host puts before a shader, in terms of Shadertoy's uniforms.
-// Variables, so that macros, parameters and members may have their names.
-float TIME = iTime;
-float TIMEDELTA = iTimeDelta;
-int FRAMEINDEX = iFrame;
-vec4 DATE = vec4(iDate.x, iDate.y + 1.0, iDate.zw);
-vec2 RENDERSIZE = iResolution.xy;
-vec2 isf_FragNormCoord = gl_FragCoord.xy / iResolution.xy;
-#define vv_FragNormCoord isf_FragNormCoord
+// The functions of an ISF host.
 #define IMG_SIZE(image) vec2(textureSize(image, 0))
-#define IMG_NORM_PIXEL texture
+vec4 IMG_NORM_PIXEL(sampler2D image, vec2 at) { return texture(image, at); }
+vec4 IMG_NORM_PIXEL(sampler2D image, vec2 at, float bias) { return texture(image, at, bias); }
+vec4 IMG_NORM_PIXEL(samplerCube image, vec3 at) { return texture(image, at); }
 vec4 IMG_PIXEL(sampler2D image, vec2 at) { return texture(image, at / IMG_SIZE(image)); }
 vec4 IMG_PIXEL(sampler2D image, vec2 at, float bias) { return texture(image, at / IMG_SIZE(image), bias); }
 #define IMG_THIS_PIXEL(image) texture(image, isf_FragNormCoord)
 #define IMG_THIS_NORM_PIXEL(image) texture(image, isf_FragNormCoord)
 #define IMG_NORM_THIS_PIXEL(image) texture(image, isf_FragNormCoord)
-#define texture2D texture
-#define texture2DProj textureProj
-#define texture2DLod textureLod
-#define texture2DLodEXT textureLod
-#define texture2DProjLod textureProjLod
-#define texture2DProjLodEXT textureProjLod
-#define texture2DGradEXT textureGrad
-#define texture2DProjGradEXT textureProjGrad
 #define texture2DRect(image, at) IMG_PIXEL(image, at)
-vec4 isf_FragColor;
-#define gl_FragColor isf_FragColor
-
-// Of its vertex shader, which is called for each pixel.
-#define varying
-vec4 isf_position;
-#define gl_Position isf_position
-void isf_vertShaderInit() { isf_position = vec4(2.0 * isf_FragNormCoord - 1.0, 0.0, 1.0); }
-#define vv_vertShaderInit isf_vertShaderInit
 
 ";

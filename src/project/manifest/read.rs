@@ -6,7 +6,7 @@ use super::{
     settings,
 };
 use crate::{
-    Bindings, Body, Channel, Dialect, Filter, Info, Input, InputKind, InputSource, Loaded, MAX_TARGETS, Media, Origin,
+    Bindings, Body, Channel, Dialect, Filter, Info, Input, InputKind, InputSource, Loaded, MAX_CHANNELS, MAX_TARGETS, Media, Origin,
     Pass, PassName, Project, ProjectError, Role, SLOTS, SamplerRules, Source, Wrap,
     file_names::{self, FileRole},
     files::{Files, MANIFEST},
@@ -290,10 +290,17 @@ impl Reader<'_> {
         let Some(table) = pass.get("channels").and_then(|item| self.table("channels", item)) else { return channels };
         for (number, item) in table.iter() {
             match number.parse::<usize>() {
-                Ok(n) if n < SLOTS && number.len() == 1 => channels.set(n, self.channel(n, item)),
+                Ok(n) if n.to_string() == number && (n < SLOTS || n < MAX_CHANNELS && has_name(item)) => {
+                    channels.set(n, self.channel(n, item));
+                    let name = item.as_table_like().filter(|_| has_name(item)).and_then(|table| self.string(table, NAME));
+                    if let Some(name) = name {
+                        channels.set_name(n, &name);
+                    }
+                }
                 _ => {
                     let at = table.key(number).and_then(toml_edit::Key::span).or_else(|| item.span());
-                    self.error(at, format!("there is no channel {number}"), "a pass has channels 0 to 3");
+                    let hint = "a pass has channels 0 to 3, and with the names of samplers channels 0 to 15";
+                    self.error(at, format!("there is no channel {number}"), hint);
                 }
             }
         }
@@ -303,7 +310,7 @@ impl Reader<'_> {
     fn channel(&mut self, n: usize, item: &Item) -> Option<Channel> {
         let table = self.table(&format!("channels.{n}"), item)?;
         let inputs: Vec<&str> = InputKind::all().map(|kind| kind.row().key).chain(PLACES).collect();
-        self.check_keys(&format!("channel {n}"), table, &[&inputs, &SETTINGS]);
+        self.check_keys(&format!("channel {n}"), table, &[&inputs, &SETTINGS, &[NAME]]);
         let named: Vec<&str> = table.iter().map(|(k, _)| k).filter(|k| inputs.contains(k)).collect();
         let &[key] = named.as_slice() else {
             let message = if named.is_empty() {
@@ -415,4 +422,11 @@ impl Reader<'_> {
 /// The channel of an entry of `channels`, if the entry is valid.
 pub(super) fn channel(item: &Item) -> Option<Channel> {
     silent(|reader| reader.channel(0, item)).flatten()
+}
+
+/// The key of a channel with the name that the text gives its sampler.
+pub(super) const NAME: &str = "name";
+
+fn has_name(item: &Item) -> bool {
+    item.get(NAME).is_some()
 }

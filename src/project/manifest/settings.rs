@@ -6,7 +6,7 @@ use super::{
     reader::{Reader, number},
 };
 use crate::{
-    Condition, Group, Pass, PassName, PassSettings, PassSize, Project, Region, TexelFormat, Written, file_names,
+    Condition, Group, Pass, PassName, PassSettings, PassSize, Project, Region, Side, TexelFormat, Written, file_names,
     limits, listed, nearest, settings::draws,
 };
 use toml_edit::{Item, Table, TableLike, Value};
@@ -185,14 +185,21 @@ fn table_span(item: &Item) -> Option<std::ops::Range<usize>> {
 fn size(item: &Item) -> Option<PassSize> {
     let value = item.as_value()?;
     if let Some(all) = value.as_array() {
-        let all: Vec<u32> = all.iter().map(whole).collect::<Option<_>>()?;
-        return match all[..] {
-            [width, height] if width > 0 && height > 0 => Some(PassSize::Fixed(width, height)),
+        let sides: Vec<Side> = all.iter().map(side).collect::<Option<_>>()?;
+        return match sides[..] {
+            [Side::Fixed(width), Side::Fixed(height)] => Some(PassSize::Fixed(width, height)),
+            [width, height] => Some(PassSize::Sides(width, height)),
             _ => None,
         };
     }
     let factor = number(value)?;
     (factor > 0.0).then_some(if factor == 1.0 { PassSize::Canvas } else { PassSize::Scale(factor) })
+}
+
+/// Returns a side: a whole number is one of texels, one with a point a part of the canvas.
+fn side(value: &Value) -> Option<Side> {
+    let side = if value.is_float() { Side::Scale(number(value)?) } else { Side::Fixed(whole(value)?) };
+    Some(side).filter(|side| side.is_valid())
 }
 
 fn region(item: &Item) -> Option<Region> {
@@ -213,6 +220,13 @@ pub(super) fn write_settings(table: &mut dyn TableLike, pass: &Pass) {
                 PassSize::Canvas => None,
                 PassSize::Scale(by) => Some(by.into()),
                 PassSize::Fixed(w, h) => Some([w, h].into_iter().map(i64::from).collect()),
+                PassSize::Sides(w, h) => {
+                    let side = |side| match side {
+                        Side::Scale(by) => Value::from(by),
+                        Side::Fixed(texels) => Value::from(i64::from(texels)),
+                    };
+                    Some([w, h].into_iter().map(side).collect())
+                }
             },
         );
     }

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     Bindings, Channel, CustomUniformValue, Dialect, Filter, Input, InputKind, InputRow, Media, PassName, Project,
-    SLOTS, SamplerRules, Wrap,
+    MAX_CHANNELS, SamplerRules, Wrap,
     file_names::{FileRole, pass_of_stem, role_of_file},
 };
 use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
@@ -176,15 +176,21 @@ fn channels(pass: &mut dyn TableLike, channels: &Bindings) {
         pass.insert("channels", Item::Table(dotted));
     }
     let Some(table) = pass.get_mut("channels").and_then(Item::as_table_like_mut) else { return };
-    for n in 0..SLOTS {
+    for n in 0..MAX_CHANNELS {
         let key = n.to_string();
+        let name = channels.name(n);
+        let is_named_so = |item: &Item| item.get(read::NAME).and_then(Item::as_str) == name;
         match (channels.get(n), table.get(&key)) {
             (None, _) => {
                 table.remove(&key);
             }
-            (Some(channel), Some(item)) if read::channel(item).as_ref() == Some(channel) => {}
+            (Some(channel), Some(item)) if read::channel(item).as_ref() == Some(channel) && is_named_so(item) => {}
             (Some(channel), old) => {
-                let mut value = Value::InlineTable(entry(channel));
+                let mut entry = entry(channel);
+                if let Some(name) = name {
+                    entry.insert(read::NAME, name.into());
+                }
+                let mut value = Value::InlineTable(entry);
                 let decor = match old {
                     Some(Item::Value(old)) => Some(old.decor().clone()),
                     _ => None,

@@ -149,6 +149,7 @@ impl Project {
                     PassSize::Canvas => true,
                     PassSize::Scale(by) => by.is_finite() && by > 0.0,
                     PassSize::Fixed(width, height) => width > 0 && height > 0,
+                    PassSize::Sides(width, height) => width.is_valid() && height.is_valid(),
                 };
                 if !is_size {
                     return Err(PassEditError::BadSize);

@@ -5,9 +5,9 @@
 use super::{
     Dialect, FillValue, Media, MeshSource, Origin, Pass, Project, ProjectError, SamplerRules, Source,
     atomic::Content,
-    confine, file_names,
+    confine, dialect, file_names,
     files::{Files, MANIFEST},
-    files_beside, folder, ghostty, isf, json, limits,
+    files_beside, folder, ghostty, json, limits,
     load::folder_name,
     manifest, media_files, picked,
     writes::{self, Overwrite, Writes},
@@ -25,8 +25,8 @@ use std::{
 /// are not touched.
 pub fn save(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {
     let extension = target.extension().unwrap_or_default();
-    if project.dialect == Dialect::Isf && matches!(&project.origin, Origin::File(path) if is_same(path, target)) {
-        return isf::save(project, target, overwrite);
+    if project.dialect.has_main() && matches!(&project.origin, Origin::File(path) if is_same(path, target)) {
+        return dialect::save(project, target, overwrite);
     }
     if target.is_dir() {
         save_folder(project, target, overwrite)

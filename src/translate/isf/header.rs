@@ -2,7 +2,7 @@
 
 use super::{Image, Images, SlotImages};
 use eddy_engine::Sources;
-use eddy_project::{CustomUniform, CustomUniformType, PassSize, Project, TexelFormat};
+use eddy_project::{CustomUniform, CustomUniformType, PassSize, Project, Side, TexelFormat};
 use serde_json::{Map, Value, json};
 
 /// The limit of values for an `int` slider to become a menu.
@@ -59,10 +59,9 @@ fn pass(pass: &eddy_project::Pass, project: &Project) -> Value {
     }
     let size = match pass.settings.size {
         PassSize::Canvas => None,
-        PassSize::Scale(by) => {
-            Some([format!("max(floor($WIDTH*{by:?}+0.5),1.0)"), format!("max(floor($HEIGHT*{by:?}+0.5),1.0)")])
-        }
+        PassSize::Scale(by) => Some(sides([Side::Scale(by); 2])),
         PassSize::Fixed(width, height) => Some([width.to_string(), height.to_string()]),
+        PassSize::Sides(width, height) => Some(sides([width, height])),
     };
     if let Some([width, height]) = size {
         of.insert("WIDTH".into(), json!(width));
@@ -138,4 +137,13 @@ fn inputs(uniform: &CustomUniform, project: &Project) -> Vec<Value> {
         }
         _ => float(name, 0),
     }]
+}
+
+/// Returns the expressions of ISF for two sides.
+fn sides(sides: [Side; 2]) -> [String; 2] {
+    let [width, height] = sides;
+    [("$WIDTH", width), ("$HEIGHT", height)].map(|(canvas, side)| match side {
+        Side::Scale(by) => format!("max(floor({canvas}*{by:?}+0.5),1.0)"),
+        Side::Fixed(texels) => texels.to_string(),
+    })
 }

@@ -47,7 +47,7 @@ pub fn isf(project: &Project) -> Result<IsfFile, Vec<Diagnostic>> {
 fn compile(sources: &Sources<'_>, project: &Project) -> Vec<Diagnostic> {
     let mut found = sources.diagnostics.clone();
     for index in (0..project.passes.len()).filter(|index| project.passes[*index].id.is_picture()) {
-        if let Err(errors) = sources.compile_pass(index, [false; 4], Driver::default()) {
+        if let Err(errors) = sources.compile_pass(index, Driver::default()) {
             diag::append(&mut found, errors);
         }
     }

@@ -7,7 +7,7 @@ let W = 1, H = 1;
 const empty = gl.createVertexArray();
 
 function sizeOf(p) {
-  if (Array.isArray(p.size)) return p.size;
+  if (Array.isArray(p.size)) return p.size.map((side, i) => typeof side === 'string' ? Math.max(1, Math.round([W, H][i] * side)) : side);
   return [W, H].map(side => Math.max(1, Math.round(side * (p.size || 1))));
 }
 // Devices that cannot draw or filter 32-bit floats use 16 bits.

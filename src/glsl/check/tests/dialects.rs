@@ -1,7 +1,10 @@
 //! Texts for other programs: the extensions of GLSL ES 3.00 they may use, and the names they may not.
 
-use crate::{Dialect, PassKind, PassSource, Text, compile, diagnose};
+use crate::{Dialect, PassKind, PassSource, Text, Version, compile, diagnose};
 use eddy_diag::SourceId;
+
+/// The dialect of an ISF file without a `#version` line.
+const ISF: Dialect = Dialect::Any(Version { number: 120, is_es: false });
 
 fn source(dialect: Dialect, text: &str) -> PassSource<'_> {
     PassSource { dialect, ..PassSource::new(PassKind::Image, Text { id: SourceId(0), text }) }
@@ -38,7 +41,7 @@ fn numbers_are_converted_implicitly() {
     for statements in CONVERTED {
         let text = body(statements);
         assert!(!errors(Dialect::Shadertoy, &text).is_empty(), "{statements}");
-        for dialect in [Dialect::Ghostty, Dialect::Isf] {
+        for dialect in [Dialect::Ghostty, ISF] {
             assert_eq!(errors(dialect, &text), [""; 0], "{statements}");
             compile(&source(dialect, &text)).unwrap_or_else(|found| panic!("{statements}: {found:?}"));
         }
@@ -96,8 +99,8 @@ fn lists_in_braces_are_constructors() {
 #[test]
 fn non_constant_global_initialisers_are_accepted() {
     let text = "float at = sin(iTime) + iResolution.x;\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(at); }";
-    assert_eq!(errors(Dialect::Isf, text), [""; 0]);
-    compile(&source(Dialect::Isf, text)).unwrap();
+    assert_eq!(errors(ISF, text), [""; 0]);
+    compile(&source(ISF, text)).unwrap();
     assert_eq!(errors(Dialect::Shadertoy, text).len(), 1);
 }
 
@@ -116,7 +119,7 @@ fn ghostty_has_one_channel_and_no_author_uniforms() {
 
 #[test]
 fn version_macro_matches_the_language() {
-    for (dialect, version) in [(Dialect::Shadertoy, 300), (Dialect::Ghostty, 430), (Dialect::Isf, 120)] {
+    for (dialect, version) in [(Dialect::Shadertoy, 300), (Dialect::Ghostty, 430), (ISF, 120)] {
         let text = format!(
             "#if __VERSION__ != {version}\n#error other\n#endif\n{}",
             body("c = vec4(p, p);").replace("/ 2;", "/ 2.0;")
@@ -129,9 +132,9 @@ fn version_macro_matches_the_language() {
 fn variable_declared_in_both_stages_is_one_variable() {
     let text = "vec2 left;\nvoid before() { left = vec2(1.0); }\nvec2 left;\n\
                 void mainImage(out vec4 c, in vec2 p) { before(); c = vec4(left.xy, 0.0, 1.0); }";
-    assert_eq!(errors(Dialect::Isf, text), [""; 0]);
+    assert_eq!(errors(ISF, text), [""; 0]);
     assert_eq!(errors(Dialect::Ghostty, text).len(), 1);
-    assert_eq!(errors(Dialect::Isf, &text.replacen("vec2 left;", "vec3 left;", 1)).len(), 2);
+    assert_eq!(errors(ISF, &text.replacen("vec2 left;", "vec3 left;", 1)).len(), 2);
 }
 
 #[test]
@@ -141,7 +144,7 @@ fn builtin_functions_can_be_replaced() {
                 void mainImage(out vec4 c, in vec2 p) { float one = round(0.75); int three = sign(p, p); \
                 c = vec4(one, three, sign(-2.0), normalize(p, 2.0).x); c.xyz = normalize(c.xyz) + round(c.xyz); }";
     assert_eq!(errors(Dialect::Shadertoy, text).iter().filter(|e| e.contains("cannot be declared again")).count(), 3);
-    for dialect in [Dialect::Ghostty, Dialect::Isf] {
+    for dialect in [Dialect::Ghostty, ISF] {
         assert_eq!(errors(dialect, text), [""; 0]);
         let said = diagnose(&source(dialect, text));
         assert!(said.is_empty(), "{said:?}");
@@ -161,8 +164,8 @@ fn exact_builtin_overload_precedes_conversions() {
 fn isf_shaders_can_redefine_shadertoy_uniforms() {
     let text = "vec2 size() { return iResolution.xy; }\nvec3 iResolution = vec3(size(), 1.0);\nconst float iTime = 2.0;\n\
                 void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, iTime, 1.0); }";
-    assert_eq!(errors(Dialect::Isf, text), [""; 0]);
-    compile(&source(Dialect::Isf, text)).unwrap();
+    assert_eq!(errors(ISF, text), [""; 0]);
+    compile(&source(ISF, text)).unwrap();
     let said = errors(Dialect::Ghostty, text);
     assert!(said.iter().any(|e| e == "`iResolution` is already declared by Ghostty's prefix"), "{said:?}");
 }
@@ -173,14 +176,12 @@ fn messages_name_the_host_program() {
         errors(dialect, "#version 330\nvoid main() {}\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }")
             .join("\n")
     };
-    for (dialect, header) in [
-        (Dialect::Shadertoy, "Shadertoy's header"),
-        (Dialect::Ghostty, "Ghostty's prefix"),
-        (Dialect::Isf, "the ISF host's header"),
-    ] {
+    for (dialect, header) in
+        [(Dialect::Shadertoy, "Shadertoy's header"), (Dialect::Ghostty, "Ghostty's prefix"), (ISF, "the host's header")]
+    {
         let said = said(dialect);
         // ISF ignores versions.
-        let count = if dialect == Dialect::Isf { 1 } else { 2 };
+        let count = if dialect == ISF { 1 } else { 2 };
         assert_eq!(said.matches(header).count(), count, "{said}");
         assert_eq!(said.contains("Shadertoy"), dialect == Dialect::Shadertoy, "{said}");
     }
@@ -192,7 +193,7 @@ fn version_and_extension_directives_follow_the_host() {
     let extension =
         |behaviour: &str| format!("float a = 1.0;\n#extension GL_OES_standard_derivatives : {behaviour}\n{main}");
     for text in [extension("enable"), extension("require"), format!("#version 150\n{main}")] {
-        assert_eq!(errors(Dialect::Isf, &text), [""; 0], "{text}");
+        assert_eq!(errors(ISF, &text), [""; 0], "{text}");
         assert_eq!(errors(Dialect::Shadertoy, &text).len(), 1, "{text}");
     }
     assert_eq!(errors(Dialect::Ghostty, &extension("enable")), [""; 0]);

@@ -19,6 +19,7 @@ fn checked(kind: PassKind, channels: [ChannelKind; 4], common: Option<&str>, cod
     let mut sources = SourceMap::default();
     let common = common.map(|text| Text { id: sources.add("common.glsl", text), text });
     let id: SourceId = sources.add("image.glsl", code);
+    let channels = PassSource::channel_kinds(channels);
     let source = PassSource { common, channels, ..PassSource::new(kind, Text { id, text: code }) };
     let parsed = parse::parse(&source, None);
     let checked = check(&parsed.ast, &parsed.origins, &parsed.names, &source, None);

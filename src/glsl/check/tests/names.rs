@@ -1,7 +1,10 @@
 //! Tests the side table for editors: every use of a name and its target.
 
 use super::checked;
-use crate::hir::{BuiltinVar, DeclRef, Uniform};
+use crate::{
+    ChannelKind,
+    hir::{BuiltinVar, DeclRef, Uniform},
+};
 
 const CODE: &str = "struct S { float a; vec2 b; };
 const float K = 2.0;
@@ -18,7 +21,7 @@ void mainImage(out vec4 c, in vec2 f) {
 fn uses_refer_to_their_declarations() {
     let source = crate::PassSource::image(CODE);
     let parsed = crate::parse::parse(&source, None);
-    let (checked, failed, _) = checked(source.kind, source.channels, None, CODE);
+    let (checked, failed, _) = checked(source.kind, [ChannelKind::Sampler2D; 4], None, CODE);
     assert!(failed, "`unknown` is not declared; the rest must be known all the same");
     let module = &checked.module;
     let mut found: Vec<(usize, &str, String)> = module

@@ -11,17 +11,17 @@ use crate::{
         Axis, Binary, Level, Math, Module, Op, Value,
         rewrite::{self, Rewriter, Rule},
     },
-    source::SLOTS,
+    source::MAX_CHANNELS,
     types::{Scalar, TypeId},
 };
 
 /// Expands every filtered read of these channels. Only reads of 2D textures are filtered.
-pub(super) fn run(program: &mut Module, channels: [bool; SLOTS]) {
+pub(super) fn run(program: &mut Module, channels: [bool; MAX_CHANNELS]) {
     rewrite::each_function(program, || BilinearInShader(channels));
 }
 
 /// The channels that are filtered manually.
-struct BilinearInShader([bool; SLOTS]);
+struct BilinearInShader([bool; MAX_CHANNELS]);
 
 impl Rule for BilinearInShader {
     fn operation(&mut self, r: &mut Rewriter<'_>, _: Value, op: &Op) -> Option<Value> {

@@ -35,12 +35,12 @@ impl Marked {
     fn analysis(&self) -> Analysis {
         Analysis::new(&PassSource {
             common: Some(Text { id: COMMON, text: &self.common }),
-            channels: [
+            channels: PassSource::channel_kinds([
                 ChannelKind::Sampler2D,
                 ChannelKind::SamplerCube,
                 ChannelKind::Sampler3D,
                 ChannelKind::Sampler2D,
-            ],
+            ]),
             ..PassSource::new(PassKind::Image, Text { id: CODE, text: &self.code })
         })
     }

@@ -246,7 +246,7 @@ fn words_are_classified_by_meaning() {
 fn custom_uniform_is_resolved_in_all_texts() {
     let common = "float twice() { return 2.0 * speed; }\n#define HALF (0.5 * speed)\n#define NEVER 1\n";
     let code = "float f(float speed) { return speed; }\nfloat g() { return HALF + speed + nothing(speed);";
-    let custom_uniforms = [CustomUniform { name: "speed", kind: CustomUniformKind::Float, slot: 0 }];
+    let custom_uniforms = [CustomUniform::new("speed", CustomUniformKind::Float, 0)];
     let analysis = Analysis::new(&PassSource {
         common: Some(Text { id: COMMON, text: common }),
         custom_uniforms: &custom_uniforms,

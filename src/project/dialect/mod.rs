@@ -1,0 +1,69 @@
+//! The programs besides Shadertoy whose shaders Eddy draws unchanged: a table of their properties, the one place that
+//! selects a program for a file, and the project of a file with `void main()`.
+
+mod program;
+mod recognise;
+mod rows;
+mod samplers;
+mod sliders;
+mod textures;
+mod uniforms;
+
+pub use recognise::ShaderForm;
+pub use rows::{AlphaRule, DialectRow, EntryPoint};
+pub use textures::{HostTexture, SoundTexture};
+pub use uniforms::{HostUniform, HostValue, MouseUnit};
+
+pub(super) use program::{load, save};
+pub(super) use sliders::declared_sliders;
+
+/// The program that the texts of a project are written for. Its properties are in its [`DialectRow`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Dialect {
+    #[default]
+    Shadertoy,
+    /// Custom shaders of the terminal Ghostty ([`super::ghostty`]).
+    Ghostty,
+    /// Interactive Shader Format ([`super::isf`]).
+    Isf,
+    GlslViewer,
+    GlslSandbox,
+    Bonzomatic,
+    Twigl,
+    /// Complete fragment shaders that no other row recognises.
+    Plain,
+}
+
+impl Dialect {
+    pub const ALL: [Dialect; 8] = [
+        Dialect::Shadertoy,
+        Dialect::Ghostty,
+        Dialect::Isf,
+        Dialect::GlslViewer,
+        Dialect::GlslSandbox,
+        Dialect::Bonzomatic,
+        Dialect::Twigl,
+        Dialect::Plain,
+    ];
+
+    /// Returns its row of the table.
+    pub fn row(self) -> &'static DialectRow {
+        &rows::ROWS[self as usize]
+    }
+
+    /// The name in `eddy.toml` and on the command line.
+    pub fn name(self) -> &'static str {
+        self.row().name
+    }
+
+    /// Returns whether texts are complete fragment shaders with `void main()`, around which Eddy generates the passes of
+    /// a project.
+    pub fn has_main(self) -> bool {
+        self.row().entry == EntryPoint::Main
+    }
+
+    /// Returns the dialect with a name.
+    pub fn of(name: &str) -> Option<Dialect> {
+        Self::ALL.into_iter().find(|dialect| dialect.name().eq_ignore_ascii_case(name))
+    }
+}
