@@ -206,6 +206,34 @@ const DIALECTS: &[Dialect] = &[
     },
 ];
 
+/// Files that are recognised whatever entry point they have.
+const ANY_ENTRY: &[Dialect] = &[
+    Dialect {
+        is: "a pointer of Git LFS in place of the file",
+        any: &["version https://git-lfs.github.com"],
+        all: &[],
+        hints: &["fetch the file with `git lfs pull`"],
+    },
+    Dialect {
+        is: "a web page, not a shader",
+        any: &["<!DOCTYPE", "<!doctype", "<html", "<HTML", "<head>", "<body"],
+        all: &[],
+        hints: &["save the shader itself: copy its text from the page"],
+    },
+    Dialect {
+        is: "a shader of OBS Studio, in HLSL",
+        any: &["VertData", "textureSampler"],
+        all: &[],
+        hints: &[NOT_GLSL],
+    },
+    Dialect {
+        is: "a shader of KDE's wallpaper plugin that reads the windows",
+        any: &["iWindowCount", "iWindows"],
+        all: &[],
+        hints: &["declare `#iUniform int iWindowCount = 0 in { 0, 8 }` to draw it without windows"],
+    },
+];
+
 const ISF: &[&str] = &[
     "save it with the ending .fs, and open that: Eddy reads ISF",
     ENTRY,
@@ -243,7 +271,12 @@ const GHOSTTY: [&str; 20] = [
 /// text.
 pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diagnostic> {
     let entry = match source.kind {
-        PassKind::Main(_) => "main",
+        // The text of the file is included.
+        PassKind::Main(_) => {
+            let file = source.includes.iter().filter(|include| include.line.source == source.code.id);
+            let code = file.filter_map(|include| include.text.ok()).last().unwrap_or(source.code);
+            return name_of_main(code, found);
+        }
         PassKind::Image | PassKind::Buffer => "mainImage",
         PassKind::Cubemap => "mainCubemap",
         PassKind::Sound => "mainSound",
@@ -252,15 +285,10 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
     let first = found.iter().find(|d| d.is_error())?;
     let words = StrippedText::of(source.code.text);
     let span = |at: usize, len: usize| Span::new(source.code.id, at..at + len);
-    let named = |is: &str, span: Span, hints: &[&str]| {
-        let mut diagnostic = Diagnostic::error(span, format!("this is {is}"));
-        diagnostic.hints.extend(hints.iter().map(|&hint| hint.to_owned()));
-        // The first error that the compiler reported.
-        if let Some(at) = first.span.filter(|at| at.range() != span.range()) {
-            diagnostic = diagnostic.label(at, first.message.clone());
-        }
-        diagnostic
-    };
+    let named = |is: &str, span: Span, hints: &[&str]| message(is, span, hints, first);
+    if let Some((dialect, at)) = find(&words, ANY_ENTRY) {
+        return Some(named(dialect.is, span(at, 1), dialect.hints));
+    }
     if words.place(entry).is_some() {
         let unknown = |name: &&str| found.iter().any(|d| d.is_error() && d.message.contains(&format!("`{name}`")));
         let name = GHOSTTY.iter().copied().filter(unknown).min_by_key(|name| words.place(name))?;
@@ -280,17 +308,44 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
     if let Some(hook) = mpv_hook(source.code.text) {
         return Some(named("a shader of mpv", span(hook.start, hook.len()), &[ENTRY, PICTURE]).hint(SLIDER));
     }
-    let dialect = DIALECTS.iter().find_map(|dialect| {
-        let at = dialect.any.iter().filter_map(|word| Some((words.place(word)?, word.len()))).min()?;
-        dialect.all.iter().all(|word| words.place(word).is_some()).then_some((dialect, at))
-    });
-    let (dialect, (at, len)) = dialect?;
+    let (dialect, at) = find(&words, DIALECTS)?;
+    let len = dialect.any.iter().filter(|word| words.place(word) == Some(at)).map(|word| word.len()).max()?;
     // Shaders that are ported by their entry point also need sliders for their inputs; WGSL and the like get one hint.
     let mut named = named(dialect.is, span(at, len), dialect.hints);
     if dialect.hints.contains(&ENTRY) {
         named = named.hint(SLIDER);
     }
     Some(named)
+}
+
+/// Does the same for a complete fragment shader, which may be of a tool whose textures and stages Eddy does not have.
+fn name_of_main(code: Text<'_>, found: &[Diagnostic]) -> Option<Diagnostic> {
+    let first = found.iter().find(|d| d.is_error())?;
+    let words = StrippedText::of(code.text);
+    let drawn = ["glslViewer", "GLSL Sandbox", "Bonzomatic", "twigl", "ISF", "plain"];
+    let (dialect, at) = find(&words, ANY_ENTRY)
+        .or_else(|| find(&words, DIALECTS))
+        .filter(|(dialect, _)| !drawn.iter().any(|name| dialect.is.contains(name)))?;
+    let hints: Vec<&str> = dialect.hints.iter().copied().filter(|hint| *hint != ENTRY).collect();
+    Some(message(dialect.is, Span::new(code.id, at..at + 1), &hints, first))
+}
+
+/// Returns the message that names a tool, with the first error that the compiler reported.
+fn message(is: &str, span: Span, hints: &[&str], first: &Diagnostic) -> Diagnostic {
+    let mut diagnostic = Diagnostic::error(span, format!("this is {is}"));
+    diagnostic.hints.extend(hints.iter().map(|&hint| hint.to_owned()));
+    if let Some(at) = first.span.filter(|at| at.range() != span.range()) {
+        diagnostic = diagnostic.label(at, first.message.clone());
+    }
+    diagnostic
+}
+
+/// Returns the first tool of a table whose words are in a text, and the place of the first of them.
+fn find<'t>(words: &StrippedText, table: &'t [Dialect]) -> Option<(&'t Dialect, usize)> {
+    table.iter().find_map(|dialect| {
+        let at = dialect.any.iter().filter_map(|word| words.place(word)).min()?;
+        dialect.all.iter().all(|word| words.place(word).is_some()).then_some((dialect, at))
+    })
 }
 
 /// Returns the range of the first line of an ISF shader's JSON header, the comment at the start of its text.

@@ -5,7 +5,7 @@ use super::{
     effective_sampler,
 };
 use eddy_project::{
-    Body, Channel, Filter, Group, Input, Origin, Pass, PassName, PassSize, Project, Region, MAX_CHANNELS, Sampler,
+    Body, Channel, Filter, Group, Input, MAX_CHANNELS, Origin, Pass, PassName, PassSize, Project, Region, Sampler,
     SamplerRules, Wrap,
 };
 use eddy_texture::{Dimension, TexelFormat};

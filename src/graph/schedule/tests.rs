@@ -3,7 +3,7 @@
 use super::*;
 use crate::{ChannelFacts, PassFacts};
 use eddy_project::{
-    Channel, Filter, Group, Input, Origin, Pass, PassName, PassSettings, Project, MAX_CHANNELS, Sampler, Source, Wrap,
+    Channel, Filter, Group, Input, MAX_CHANNELS, Origin, Pass, PassName, PassSettings, Project, Sampler, Source, Wrap,
 };
 
 /// A buffer A that reads itself and B, a buffer B that reads nothing, and Image that reads A.
@@ -23,7 +23,8 @@ fn project() -> Project {
 }
 
 fn plan(project: &Project) -> FramePlan {
-    let reads = PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: false }; MAX_CHANNELS], discards: false };
+    let reads =
+        PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: false }; MAX_CHANNELS], discards: false };
     FramePlan::new(project, &vec![reads; project.passes.len()], &[], true)
 }
 

@@ -7,6 +7,7 @@ mod rows;
 mod samplers;
 mod sliders;
 mod textures;
+mod twigl;
 mod uniforms;
 
 pub use recognise::ShaderForm;

@@ -3,6 +3,7 @@
 use super::{
     Dialect, HostTexture, SoundTexture,
     samplers::{DeclaredUniform, declared_uniforms},
+    twigl,
 };
 use crate::{
     Channel, Input, InputKind, Loaded, MAX_CHANNELS, Media, Origin, Overwrite, Pass, PassName, PassSize, Project,
@@ -31,7 +32,11 @@ pub(crate) fn load(
     files: &Files<'_>,
     dialect: Dialect,
 ) -> Result<Loaded, ProjectError> {
-    let maker = Maker { dialect, name, text, uniforms: declared_uniforms(text), files };
+    let mut uniforms = declared_uniforms(text);
+    if dialect == Dialect::Twigl {
+        uniforms.extend(twigl::implied_samplers(text, &uniforms));
+    }
+    let maker = Maker { dialect, name, text, uniforms, files };
     let found = maker.problems();
     if !found.is_empty() {
         let mut sources = SourceMap::default();
@@ -161,7 +166,11 @@ impl Maker<'_> {
             text.push_str("#define GLSLVIEWER 340\n#define MODEL_VERTEX_TEXCOORD v_texcoord\n");
         }
         defines.iter().for_each(|define| text.push_str(&format!("#define {define}\n")));
-        text.push_str(&format!("#include \"{}\"\n", self.name));
+        let include = format!("#include \"{}\"\n", self.name);
+        match self.dialect {
+            Dialect::Twigl => text.push_str(&twigl::text(self.text, &self.uniforms, &include)),
+            _ => text.push_str(&include),
+        }
         let mut pass = Pass::new(id.clone(), generated(&id.title(), text));
         for (slot, sampler) in self.samplers().take(MAX_CHANNELS).enumerate() {
             pass.bindings.set(slot, Some(self.channel(slot, sampler)));

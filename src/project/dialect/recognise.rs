@@ -85,6 +85,11 @@ impl ShaderForm {
 
 /// Returns the dialect of a text with `void main()`.
 fn of_main(text: &str, words: &HashSet<&str>) -> Dialect {
+    let has = |word: &str| words.contains(word);
+    let has_short_names = has("r") && ["t", "m", "f", "s", "b"].into_iter().any(has);
+    if !has("uniform") && has_short_names && ["FC", "gl_FragCoord"].into_iter().any(has) {
+        return Dialect::Twigl;
+    }
     let certain = MARKS.iter().find(|marks| marks.certain.iter().any(|word| words.contains(word)));
     if let Some(marks) = certain {
         return marks.dialect;

@@ -6,8 +6,8 @@ use super::{
     settings,
 };
 use crate::{
-    Bindings, Body, Channel, Dialect, Filter, Info, Input, InputKind, InputSource, Loaded, MAX_CHANNELS, MAX_TARGETS, Media, Origin,
-    Pass, PassName, Project, ProjectError, Role, SLOTS, SamplerRules, Source, Wrap,
+    Bindings, Body, Channel, Dialect, Filter, Info, Input, InputKind, InputSource, Loaded, MAX_CHANNELS, MAX_TARGETS,
+    Media, Origin, Pass, PassName, Project, ProjectError, Role, SLOTS, SamplerRules, Source, Wrap,
     file_names::{self, FileRole},
     files::{Files, MANIFEST},
     includes, limits, listed, nearest,
@@ -292,7 +292,8 @@ impl Reader<'_> {
             match number.parse::<usize>() {
                 Ok(n) if n.to_string() == number && (n < SLOTS || n < MAX_CHANNELS && has_name(item)) => {
                     channels.set(n, self.channel(n, item));
-                    let name = item.as_table_like().filter(|_| has_name(item)).and_then(|table| self.string(table, NAME));
+                    let name =
+                        item.as_table_like().filter(|_| has_name(item)).and_then(|table| self.string(table, NAME));
                     if let Some(name) = name {
                         channels.set_name(n, &name);
                     }

@@ -8,8 +8,8 @@ use super::{
     settings, uniforms,
 };
 use crate::{
-    Bindings, Channel, CustomUniformValue, Dialect, Filter, Input, InputKind, InputRow, Media, PassName, Project,
-    MAX_CHANNELS, SamplerRules, Wrap,
+    Bindings, Channel, CustomUniformValue, Dialect, Filter, Input, InputKind, InputRow, MAX_CHANNELS, Media, PassName,
+    Project, SamplerRules, Wrap,
     file_names::{FileRole, pass_of_stem, role_of_file},
 };
 use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
