@@ -6,6 +6,7 @@ use super::{
         CameraCommand, CanvasCommand, CaptureCommand, Command, EditCommand, FilmCommand, HaltCommand, InputCommand,
         NoticeCommand, ToolCommand, ViewCommand,
     },
+    drawing::Change,
     open_project::OpenProject,
     trace::TracedPixel,
     view::{About, Level},
@@ -130,7 +131,11 @@ impl OpenProject {
             }
             ViewCommand::WatchCosts(on) => {
                 self.read_backs.costs.watch(on);
-                self.changes.costs = on;
+                if on {
+                    self.changes.set(Change::Costs);
+                } else {
+                    self.changes.withdraw(|change| matches!(change, Change::Costs));
+                }
             }
             ViewCommand::WatchTargets(targets) => self.read_backs.miniatures.watch(targets),
             ViewCommand::WatchBuffers(watch) => self.read_backs.buffers.watch(watch),
@@ -241,7 +246,7 @@ impl OpenProject {
             // The program does not draw the pass that is shown now.
             return self.compile_soon();
         }
-        self.changes.shown = Some(pass);
+        self.changes.set(Change::Show(pass));
         if !is_drawn {
             // A pass that nothing reads is in the program only while it is shown.
             self.compile_soon();

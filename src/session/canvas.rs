@@ -2,6 +2,7 @@
 
 use super::{
     command::CanvasCommand,
+    drawing::Change,
     open_project::OpenProject,
     view::{About, Level},
 };
@@ -106,10 +107,21 @@ impl OpenProject {
     pub(super) fn fit_canvas(&mut self) {
         let Some(size) = self.canvas.size() else { return };
         let is_new = size != self.engine.coming_size() && self.canvas.refused != Some(size);
-        self.changes.size = is_new.then_some(size);
-        if !is_new && self.canvas.refused.is_none() {
-            self.dismiss_notices(About::CanvasSize);
+        if is_new {
+            self.changes.set(Change::Resize(size));
+        } else {
+            self.changes.withdraw(|change| matches!(change, Change::Resize(_)));
+            if self.canvas.refused.is_none() {
+                self.dismiss_notices(About::CanvasSize);
+            }
         }
+    }
+
+    /// The engine draws on a canvas of another size.
+    pub(super) fn on_resized(&mut self) {
+        self.dismiss_notices(About::CanvasSize);
+        self.halt.reset_pace();
+        self.host.changed = true;
     }
 
     /// Handles a canvas size that the device does not accept.

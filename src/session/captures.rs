@@ -2,7 +2,7 @@
 
 use super::{
     Session,
-    drawing::{RenderTask, Renderer, Tasks, Ticket},
+    drawing::{Draw, RenderTask, Renderer, Tasks, Ticket},
     open_project::OpenProject,
     scene::PictureSource,
     view::{About, Level},
@@ -86,7 +86,7 @@ impl Session {
         if !self.services.drawing.is_on_thread() {
             let mut tasks = Tasks::default();
             self.services.captures.request(&mut tasks);
-            self.submit_frame(None, false, tasks);
+            self.submit_frame(Draw::Nothing, tasks);
             self.take_drawn(false);
         }
     }

@@ -2,36 +2,45 @@
 
 use super::{
     Session,
-    drawing::{DrawnFrame, Job, JobResult, Tasks, TileLimit, beside},
+    drawing::{Change, Draw, DrawnFrame, Event, Job, JobResult, Tasks, TileLimit, beside},
     open_project::OpenProject,
     view::{About, Level},
 };
-use eddy_engine::{EngineError, FrameInputs};
+use eddy_engine::{EngineError, FrameInputs, Picture};
 use eddy_gpu::{Gpu, GpuError};
-use std::time::Duration;
+use std::{mem::take, time::Duration};
 
 impl Session {
     /// Takes the engine's result, if there is one. Returns whether a frame was drawn.
     pub(super) fn take_drawn(&mut self, was_just_submitted: bool) -> bool {
-        self.take_result(was_just_submitted).is_some_and(|done| self.take_done(done))
+        let Some(done) = self.take_result(was_just_submitted) else { return false };
+        self.write_captures();
+        match done {
+            Ok(done) => self.take_done(done),
+            Err(why) => {
+                self.on_device_lost(&why);
+                false
+            }
+        }
     }
 
-    /// Submits a job with all pending changes and what `fill` adds.
-    pub(super) fn submit(&mut self, may_wait: bool, fill: impl FnOnce(&mut Job)) {
-        let mut job = self.open.next_job();
-        fill(&mut job);
+    /// Submits a job with all pending changes.
+    pub(super) fn submit(&mut self, may_wait: bool, mut job: Job) {
+        job.changes = self.open.take_changes();
         self.services.drawing.submit(self.open.host.now, may_wait, job);
     }
 
-    /// Takes the result of the job in flight, and records what it says of the engine.
-    pub(super) fn take_result(&mut self, was_just_submitted: bool) -> Option<JobResult> {
+    /// Takes the result of the job in flight, and records what it says of the engine. `Err`: the engine's thread has
+    /// ended.
+    pub(super) fn take_result(&mut self, was_just_submitted: bool) -> Option<Result<JobResult, String>> {
         let (mut done, is_of_project) = self.services.drawing.take(was_just_submitted)?;
+        let events = done.as_mut().map_or(&mut [][..], |done| &mut done.events);
         if is_of_project {
-            self.open.engine.finish(&mut done);
+            self.open.engine.finish(events);
             return Some(done);
         }
-        self.open.engine.take_size(&done);
-        Some(JobResult { thread_error: done.thread_error, ..JobResult::default() })
+        self.open.engine.take_size(events);
+        Some(done.map(|_| JobResult::default()))
     }
 
     /// Submits pending changes and due frames, one job after the other, as long as the engine accepts them: while
@@ -49,15 +58,21 @@ impl Session {
                 continue;
             }
             let frame = self.next_frame(&mut has_run);
-            let again = frame.is_none() && self.open.take_redraw();
-            let mut tasks = self.due_tasks(frame.is_some() || again);
-            if frame.is_some() {
+            let is_new = frame.is_some();
+            let draw = match frame {
+                Some(inputs) => Draw::Next(inputs),
+                None if self.open.take_redraw() => Draw::Again,
+                None => Draw::Nothing,
+            };
+            let is_idle = matches!(draw, Draw::Nothing);
+            let mut tasks = self.due_tasks(!is_idle);
+            if is_new {
                 self.request_film_frame(&mut tasks);
             }
-            if frame.is_none() && !again && tasks.is_empty() && self.open.changes.is_empty() {
+            if is_idle && tasks.is_empty() && self.open.changes.is_empty() {
                 break;
             }
-            self.submit_frame(frame, again, tasks);
+            self.submit_frame(draw, tasks);
             is_drawn |= self.take_drawn(true);
         }
         is_drawn
@@ -65,9 +80,7 @@ impl Session {
 
     /// Returns the frame that is due now. A new program, or a new project's engine, is submitted before its first one.
     fn next_frame(&mut self, has_run: &mut bool) -> Option<FrameInputs> {
-        let wanted = &self.open.changes;
-        let is_other_coming = wanted.restart || wanted.program.is_some();
-        if is_other_coming || !self.open.engine.has_program() || self.open.halt.is_halted() {
+        if self.open.changes.has_other_program() || !self.open.engine.has_program() || self.open.halt.is_halted() {
             return None;
         }
         let is_step = self.services.films.has_room() && self.open.playback.take_step();
@@ -90,100 +103,83 @@ impl Session {
         Some(inputs)
     }
 
-    /// `again`: the shown frame is drawn again.
-    pub(super) fn submit_frame(&mut self, frame: Option<FrameInputs>, again: bool, tasks: Tasks) {
-        let stays = self.open.stays() && !std::mem::take(&mut self.open.playback.replay.follows);
+    /// Submits a frame with all pending changes.
+    pub(super) fn submit_frame(&mut self, draw: Draw, tasks: Tasks) {
+        let stays = self.open.stays() && !take(&mut self.open.playback.replay.follows);
         // Before a new frame the shown one is drawn again, with what was changed meanwhile.
-        self.open.note_job(frame.as_ref(), again || (stays && frame.is_some()));
-        if let Some(frame) = &frame {
-            self.open.read_backs.measurements.start_frame(frame.frame);
-        } else if again {
-            self.open.read_backs.measurements.redraw(self.open.playback.frame());
+        self.open.note_job(&draw, stays);
+        match &draw {
+            Draw::Next(frame) => self.open.read_backs.measurements.start_frame(frame.frame),
+            Draw::Again => self.open.read_backs.measurements.redraw(self.open.playback.frame()),
+            Draw::Nothing | Draw::Seek(_) => {}
         }
         let costs_of = self.open.read_backs.costs.is_watched().then(|| self.open.documents.current().clone());
         let tile_limit = self.tile_limit();
         let may_wait = self.open.frame_may_be_dropped() && tasks.is_empty() && costs_of.is_none();
-        if self.open.changes.program.is_some() {
+        if self.open.changes.has_program() {
             self.open.mark_new_code();
         }
-        self.submit(may_wait, |job| {
-            (job.frame, job.stays, job.again, job.tasks) = (frame, stays, again, tasks);
-            (job.costs_of, job.tile_limit) = (costs_of, tile_limit);
-        });
+        self.submit(may_wait, Job { draw, stays, tasks, costs_of, tile_limit, ..Job::default() });
     }
 
     fn tile_limit(&self) -> Option<TileLimit> {
         self.services.drawing.is_on_thread().then(|| TileLimit { frame: self.open.halt.limit() })
     }
 
+    /// Applies the result of a job. Returns whether a frame was drawn.
     fn take_done(&mut self, done: JobResult) -> bool {
-        self.write_captures();
-        if let Some(why) = done.thread_error {
-            self.on_device_lost(&why);
-            return false;
-        }
         if let Some(Ok(picture)) = self.services.last_pictures.ticket.take().map(|read| read.output) {
             self.picture_is_read(&picture);
         }
-        self.services.display.generation += u64::from(done.is_display_new && !self.services.drawing.is_on_thread());
-        // An engine on the session's own thread draws into the display itself.
-        self.services.display.shown_count += u64::from(done.picture.is_some() || !self.services.drawing.is_on_thread());
-        self.services.display.is_new |= done.picture.is_some();
-        if let Some(Err(e)) = done.restarted {
-            self.stop_drawing(&e);
-            return false;
+        if !self.services.drawing.is_on_thread() {
+            // The engine draws into the display itself.
+            self.services.display.generation += u64::from(done.is_display_new);
+            self.services.display.shown_count += 1;
         }
-        if done.cannot_redraw {
-            self.open.on_redraw_impossible();
-        }
-        let has_frame = done.frame.is_some() || matches!(done.travelled, Some(Some(Ok(_))));
-        if let Some(travelled) = done.travelled {
-            self.travelled(travelled);
-        }
+        let has_frame = done.has_frame();
         self.take_outputs(has_frame);
         self.feed_film();
-        match done.resized {
-            Some((_, Ok(()))) => {
-                self.open.dismiss_notices(About::CanvasSize);
-                self.open.halt.reset_pace();
-                self.open.playback.is_redraw_due |= !has_frame;
-                self.open.host.changed = true;
-            }
-            Some((size, Err(e))) => self.open.on_size_rejected(size, &e),
-            None => {}
-        }
-        match done.program {
-            Some(Ok(())) => self.on_program_installed(done.forecast),
-            Some(Err(e)) => {
-                self.refused(&e);
-                return false;
-            }
-            None => {}
-        }
-        self.open.playback.is_redraw_due |= done.custom_uniforms_changed && !has_frame;
-        // While the picture runs, the next frame shows it.
-        self.open.playback.is_redraw_due |= done.is_late && has_frame && !self.open.playback.is_running();
         self.open.host.changed |= self.open.read_backs.costs.is_watched();
-        match done.frame.transpose().and_then(|frame| Ok((frame, done.picture.transpose()?))) {
-            Ok((frame, picture)) => {
-                if let Some(picture) = picture {
-                    // Also without a frame, if the display mode has changed.
-                    self.open.host.changed |= frame.is_none();
-                    match self.services.drawing.show(&picture) {
-                        Ok(is_new) => self.services.display.generation += u64::from(is_new),
-                        Err(e) => self.report_gpu_error(&e),
-                    }
+        let mut is_drawn = false;
+        for event in done.events {
+            match event {
+                Event::Resized(_, Ok(())) => self.open.on_resized(),
+                Event::Resized(size, Err(e)) => self.open.on_size_rejected(size, &e),
+                Event::ProgramSet(Ok(forecast)) => self.on_program_installed(forecast),
+                Event::ProgramSet(Err(e)) => {
+                    self.refused(&e);
+                    return false;
                 }
-                let is_drawn = frame.is_some();
-                if let Some(frame) = frame {
+                Event::CannotRedraw => self.open.on_redraw_impossible(),
+                Event::Travelled(travelled) => self.travelled(travelled),
+                Event::Outdated => self.open.playback.is_redraw_due = true,
+                // While the picture runs, the next frame shows it.
+                Event::Late => self.open.playback.is_redraw_due |= !self.open.playback.is_running(),
+                Event::Picture(picture) => self.show_picture(&picture, has_frame),
+                Event::Drawn(frame) => {
                     self.frame_is_drawn(frame);
+                    is_drawn = true;
                 }
-                is_drawn
+                Event::Failed(e) => {
+                    self.stop_drawing(&e);
+                    return false;
+                }
+                // The status of the engine has them.
+                Event::Reach(_) | Event::Clock(_) | Event::Costs(_) => {}
             }
-            Err(e) => {
-                self.stop_drawing(&e);
-                false
-            }
+        }
+        is_drawn
+    }
+
+    /// Shows a picture that was drawn on another device.
+    fn show_picture(&mut self, picture: &Picture, has_frame: bool) {
+        self.services.display.shown_count += 1;
+        self.services.display.is_new = true;
+        // Also without a frame, if the display mode has changed.
+        self.open.host.changed |= !has_frame;
+        match self.services.drawing.show(picture) {
+            Ok(is_new) => self.services.display.generation += u64::from(is_new),
+            Err(e) => self.report_gpu_error(&e),
         }
     }
 
@@ -195,7 +191,7 @@ impl Session {
         if let Some(times) = times {
             self.open.read_backs.costs.add(times, self.open.engine.clock());
         }
-        if std::mem::take(&mut self.open.picture.is_program_new) && self.open.engine.is_newest_program() {
+        if take(&mut self.open.picture.is_program_new) && self.open.engine.is_newest_program() {
             self.services.display.programs_drawn += 1;
         }
         self.open.host.changed |= self.open.playback.frame_is_drawn(self.open.host.now);
@@ -213,7 +209,7 @@ impl Session {
         if let Some(millis) = self.open.engine.new_program_millis() {
             self.open.dismiss_code_notices();
             self.open.compile.succeed(millis);
-            if std::mem::take(&mut self.open.compile.resets) {
+            if take(&mut self.open.compile.resets) {
                 self.open.reset();
             } else {
                 self.open.keep_inputs();
@@ -251,7 +247,7 @@ impl Session {
         self.services.drawing.show_on(window.clone())?;
         self.services.sound_pass.change_device(beside(window));
         // Request it again, also while paused.
-        self.open.changes.shown = Some(self.open.pictured());
+        self.open.changes.set(Change::Show(self.open.pictured()));
         self.services.display.generation += 1;
         self.services.display.shown_count += 1;
         self.open.host.changed = true;
@@ -269,7 +265,7 @@ impl OpenProject {
     /// Tells the engine how to display a probe, if that has changed.
     pub(super) fn update_probe_display(&mut self) {
         if let Some(look) = self.read_backs.probe.take_look(false) {
-            self.changes.look = Some(look);
+            self.changes.set(Change::Look(look));
         }
     }
 }

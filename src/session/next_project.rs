@@ -1,6 +1,10 @@
 //! Replacement of the open project by another.
 
-use super::{Session, documents::Documents, drawing::Ticket};
+use super::{
+    Session,
+    documents::Documents,
+    drawing::{Change, Ticket},
+};
 use std::mem::replace;
 
 impl Session {
@@ -13,7 +17,9 @@ impl Session {
         let next = self.open.successor(documents, is_overdue);
         let previous = replace(&mut self.open, next);
         self.services.closing.add(previous.close());
-        self.open.changes.restart = self.services.drawing.switch_project(self.open.host.serial);
+        if self.services.drawing.switch_project(self.open.host.serial) {
+            self.open.changes.set(Change::Restart);
+        }
         self.services.compiler.cancel();
         self.services.audio.close_project();
         self.services.controls.close_project();

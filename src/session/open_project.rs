@@ -11,7 +11,7 @@ use super::{
     devices::Devices,
     disk::DiskSync,
     documents::Documents,
-    drawing::{EngineStatus, Job, PendingChanges},
+    drawing::{EngineStatus, PendingChanges},
     halt::HaltControl,
     host::Host,
     nonfinite::NanSearch,
@@ -107,15 +107,14 @@ impl OpenProject {
         trace.close().into_iter().chain(others).flatten()
     }
 
-    /// Returns a job with all pending changes, which is about to be submitted.
-    pub(super) fn next_job(&mut self) -> Job {
-        let mut job = Job { changes: take(&mut self.changes), ..Job::default() };
-        self.engine.submit(&mut job);
-        job
+    /// Returns all pending changes, which are about to be submitted.
+    pub(super) fn take_changes(&mut self) -> PendingChanges {
+        self.engine.submit(&mut self.changes);
+        take(&mut self.changes)
     }
 
     /// Returns whether a program is pending or in flight.
     pub(super) fn is_program_coming(&self) -> bool {
-        self.changes.program.is_some() || self.engine.is_program_coming()
+        self.changes.has_program() || self.engine.is_program_coming()
     }
 }

@@ -73,11 +73,11 @@ impl Session {
         let is_there = self.open.engine.has_program() && !self.open.is_program_coming();
         let mut tasks = Tasks::default();
         // During a resize there is no valid picture.
-        let is_between = self.open.changes.size.is_some() || self.open.playback.is_redraw_due;
+        let is_between = self.open.changes.size().is_some() || self.open.playback.is_redraw_due;
         if is_between && !has_frame && is_there && !self.open.halt.is_halted() {
             return tasks;
         }
-        if has_frame || is_there || self.open.changes.restart {
+        if has_frame || is_there || self.open.changes.has_restart() {
             self.request_pictures(has_frame, is_playing, &mut tasks);
         }
         if is_there && !self.open.is_compile_under_way() {

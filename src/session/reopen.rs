@@ -9,7 +9,7 @@
 use super::{
     Session,
     canvas::CanvasSize,
-    drawing::{Job, RenderTask, Tasks},
+    drawing::{Change, Job, RenderTask, Tasks},
     kept_files,
     open_project::OpenProject,
     playback::{SeekTarget, clock::Clock},
@@ -152,7 +152,7 @@ impl Session {
         let Some(frames) = paused.then(|| self.services.runs.of(origin)).flatten() else { return };
         self.open.playback.seeking.goal = frames.len().checked_sub(1).map(|last| SeekTarget::Redraw(last as u64));
         (self.open.playback.seeking.awaits_program, self.open.playback.seeking.is_restoring) = (true, true);
-        self.open.changes.run = Some(frames);
+        self.open.changes.set(Change::Run(frames));
     }
 }
 

@@ -4,7 +4,7 @@ use super::{
     Session,
     command::PendingAction,
     documents::Documents,
-    drawing::Renderer,
+    drawing::{Change, Renderer},
     playback::{SeekTarget, clock::Clock},
     view::{About, Level},
 };
@@ -94,7 +94,7 @@ impl Session {
         if is_whole {
             self.open.playback.seeking.goal = Some(SeekTarget::Redraw(frames.len() as u64 - 1));
             (self.open.playback.seeking.awaits_program, self.open.playback.seeking.is_restoring) = (true, true);
-            self.open.changes.run = Some(frames);
+            self.open.changes.set(Change::Run(frames));
             self.open.notice(Level::Info, format!("opened from the image, paused at frame {frame}"));
         } else {
             let text = format!("opened from the image, paused at frame 0: the way to frame {frame} is not in it");

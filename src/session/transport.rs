@@ -4,7 +4,7 @@
 use super::{
     Session,
     command::TransportCommand,
-    drawing::SeekProgress,
+    drawing::{Change, Draw, Job, SeekProgress},
     open_project::OpenProject,
     playback::{Reach, Reading, Recorder, ReplayView, ReplayedFrame, TimeRange, name},
     view::{About, Level},
@@ -20,13 +20,13 @@ impl Session {
         if seeking.goal.is_none() || self.open.is_program_coming() || seeking.awaits_program {
             return false;
         }
-        if !self.open.engine.has_program() || self.open.changes.restart {
+        if !self.open.engine.has_program() || self.open.changes.has_restart() {
             self.open.playback.seeking.cancel();
             return false;
         }
         self.open.end_recording();
-        let goal = self.open.playback.take_goal();
-        self.submit(false, |job| job.travel = goal);
+        let Some(goal) = self.open.playback.take_goal() else { return false };
+        self.submit(false, Job { draw: Draw::Seek(goal), ..Job::default() });
         true
     }
 
@@ -158,7 +158,7 @@ impl OpenProject {
         self.end_replay("the picture was reset");
         self.canvas.replayed = None;
         self.restore_values();
-        self.changes.reset = true;
+        self.changes.set(Change::Reset);
     }
 
     /// Shows the frame that is this number of frames before the shown one, and pauses.
@@ -223,7 +223,7 @@ impl OpenProject {
     /// Returns whether a pending program draws all frames since the reset again.
     pub(super) fn redraws_run(&self) -> bool {
         let reach = self.engine.reach();
-        self.changes.program.is_some() && reach.is_whole && self.keeps_inputs_of(reach)
+        self.changes.has_program() && reach.is_whole && self.keeps_inputs_of(reach)
     }
 
     pub(super) fn has_state(&self) -> bool {
@@ -238,16 +238,15 @@ impl OpenProject {
 
     /// Returns whether the shown frame is to be drawn again now, once: no other is due.
     pub(super) fn take_redraw(&mut self) -> bool {
-        let wanted = &self.changes;
-        let is_other_coming = wanted.restart || wanted.program.is_some() || wanted.size.is_some();
+        let is_other_coming = self.changes.has_other_program() || self.changes.size().is_some();
         let is_ready = self.engine.has_program() && !is_other_coming && !self.halt.is_halted();
         is_ready && self.playback.take_redraw()
     }
 
     /// Returns whether a change of the program or the canvas is followed by the shown frame only.
     pub(super) fn stays(&self) -> bool {
-        let wanted = &self.changes;
-        let restarts = wanted.restart || wanted.reset || self.compile.resets || self.redraws_run();
+        let restarts =
+            self.changes.has_restart() || self.changes.has_reset() || self.compile.resets || self.redraws_run();
         self.playback.is_still() && !restarts
     }
 
@@ -297,10 +296,10 @@ impl OpenProject {
     }
 
     /// Records a job before it is submitted.
-    pub(super) fn note_job(&mut self, frame: Option<&FrameInputs>, again: bool) {
-        let size = self.changes.size.unwrap_or_else(|| self.engine.coming_size());
+    pub(super) fn note_job(&mut self, draw: &Draw, stays: bool) {
+        let size = self.changes.size().unwrap_or_else(|| self.engine.coming_size());
         if let Some(recorder) = &mut self.playback.recorder {
-            recorder.note(&self.changes, size, frame, again);
+            recorder.note(&self.changes, size, draw, stays);
         }
     }
 
@@ -334,10 +333,12 @@ impl OpenProject {
             self.fit_canvas();
         }
         if let Some(values) = change.values {
-            self.changes.custom_uniforms = Some(values);
+            self.changes.set(Change::CustomUniforms(values));
             self.playback.replay.has_values = true;
         }
-        self.changes.reset |= change.reset;
+        if change.reset {
+            self.changes.set(Change::Reset);
+        }
         self.host.changed = true;
         if is_last && let Some(ReplayView { file, frames, .. }) = self.playback.finish_replay() {
             let text = format!(

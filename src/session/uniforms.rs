@@ -2,7 +2,7 @@
 //!
 //! Values and undo steps use the names in the texts.
 
-use super::open_project::OpenProject;
+use super::{drawing::Change, open_project::OpenProject};
 use eddy_project::{CustomUniform, CustomUniformValue, CustomUniformValues, Project};
 
 /// Old and new names, in the order of the renames.
@@ -117,7 +117,7 @@ impl OpenProject {
         let mut values = played.unwrap_or(&self.documents.current().custom_uniform_values).clone();
         self.add_old_names(&mut values);
         self.uniforms.for_sound = Some(values.clone());
-        self.changes.custom_uniforms = Some(values);
+        self.changes.set(Change::CustomUniforms(values));
     }
 }
 

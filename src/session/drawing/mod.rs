@@ -4,6 +4,7 @@
 //! Requests that arrive meanwhile wait here, and a newer one of a kind replaces the older: no queue builds up, and
 //! nothing blocks on a frame. Knows nothing of texts, time or messages to the user.
 
+mod changes;
 mod gate;
 mod history;
 mod job;
@@ -12,9 +13,10 @@ mod renderer;
 mod status;
 mod task;
 
+pub(super) use changes::{Change, PendingChanges, PendingProgram, ProgramOrigin};
 pub(super) use gate::FrameControl;
 pub(super) use history::SeekProgress;
-pub(super) use job::{DrawnFrame, Job, JobResult, PendingChanges, PendingProgram, ProgramOrigin, TileLimit};
+pub(super) use job::{Draw, DrawnFrame, Event, Job, JobResult, TileLimit};
 pub(super) use render_thread::{Device, Open, beside};
 pub(super) use renderer::Renderer;
 pub(super) use status::EngineStatus;
@@ -53,7 +55,7 @@ struct InFlight {
 }
 
 enum Backend {
-    Inline { renderer: Box<Renderer>, device: Device, done: Option<Box<JobResult>> },
+    Inline { renderer: Box<Renderer>, device: Device, done: Option<JobResult> },
     RenderThread(Box<ThreadBackend>),
 }
 
@@ -179,28 +181,30 @@ impl Drawing {
         }
         self.in_flight = Some(InFlight { since: now, serial: self.serial, is_opening: false });
         match &mut self.backend {
-            Backend::Inline { renderer, done, .. } => *done = Some(Box::new(renderer.work(job))),
+            Backend::Inline { renderer, done, .. } => *done = Some(renderer.work(job)),
             Backend::RenderThread(remote) => remote.thread.submit(job),
         }
     }
 
-    /// Returns the result of the job, once, and whether that is of the open project. Waits for a moment if the last job
-    /// was that fast.
-    pub(crate) fn take(&mut self, was_just_submitted: bool) -> Option<(JobResult, bool)> {
+    /// Returns the result of the job, once, or the reason why the engine's thread has ended, and whether that is of the
+    /// open project. Waits for a moment if the last job was that fast.
+    pub(crate) fn take(&mut self, was_just_submitted: bool) -> Option<(Result<JobResult, String>, bool)> {
         self.in_flight.as_ref()?;
         let mut done = match &mut self.backend {
-            Backend::Inline { done, .. } => done.take().map(|done| *done),
+            Backend::Inline { done, .. } => done.take().map(Ok),
             Backend::RenderThread(remote) => {
                 let waits = was_just_submitted && remote.took < FAST_JOB;
                 remote.thread.take(if waits { FAST_JOB } else { Duration::ZERO })
             }
         }?;
         let job = self.in_flight.take()?;
-        if let Backend::RenderThread(remote) = &mut self.backend {
-            remote.took = done.took;
+        if let Ok(done) = &mut done {
+            if let Backend::RenderThread(remote) = &mut self.backend {
+                remote.took = done.took;
+            }
+            // Outputs for a project that was closed have no ticket any longer.
+            done.outputs.drain(..).for_each(|deliver| deliver());
         }
-        // Outputs for a project that was closed have no ticket any longer.
-        done.outputs.drain(..).for_each(|deliver| deliver());
         Some((done, job.serial == self.serial))
     }
 

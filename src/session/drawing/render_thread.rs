@@ -38,7 +38,8 @@ pub(crate) fn beside(window: Gpu) -> Open {
 pub(super) struct RenderThread {
     /// `None` after the last job.
     jobs: Option<Sender<Job>>,
-    results: Receiver<JobResult>,
+    /// The results of jobs, or the reason why the thread ends.
+    results: Receiver<Result<JobResult, String>>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -53,7 +54,7 @@ impl RenderThread {
     ) -> std::io::Result<RenderThread> {
         let (jobs, queue) = channel::<Job>();
         let (sender, results) = channel();
-        let tell = move |done: JobResult| {
+        let tell = move |done| {
             let is_heard = sender.send(done).is_ok();
             wake();
             is_heard
@@ -68,22 +69,18 @@ impl RenderThread {
             let mut renderer = match renderer {
                 Ok(renderer) => renderer,
                 Err(why) => {
-                    tell(JobResult { thread_error: Some(why), ..JobResult::default() });
+                    tell(Err(why));
                     return;
                 }
             };
-            if !tell(JobResult { restarted: Some(Ok(())), ..JobResult::default() }) {
+            if !tell(Ok(JobResult::default())) {
                 return;
             }
             while let Ok(job) = queue.recv() {
                 let began = Instant::now();
                 let done = caught(|| renderer.work(job)).map(|done| JobResult { took: began.elapsed(), ..done });
                 let is_over = done.is_err();
-                let done = done.unwrap_or_else(|why| JobResult {
-                    thread_error: Some(format!("this is a bug in Eddy: {why}")),
-                    ..JobResult::default()
-                });
-                if !tell(done) || is_over {
+                if !tell(done.map_err(|why| format!("this is a bug in Eddy: {why}"))) || is_over {
                     return;
                 }
             }
@@ -101,9 +98,8 @@ impl RenderThread {
     }
 
     /// Returns the answer to the submitted job, if it arrives within a time.
-    pub(super) fn take(&self, within: Duration) -> Option<JobResult> {
-        let ended =
-            || Some(JobResult { thread_error: Some("the drawing thread has ended".into()), ..JobResult::default() });
+    pub(super) fn take(&self, within: Duration) -> Option<Result<JobResult, String>> {
+        let ended = || Some(Err("the drawing thread has ended".into()));
         if within.is_zero() {
             return match self.results.try_recv() {
                 Ok(done) => Some(done),

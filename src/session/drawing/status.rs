@@ -1,6 +1,6 @@
 //! The state of the engine for the open project, as its last result reported it.
 
-use super::{Job, JobResult, ProgramOrigin};
+use super::{Change, Event, PendingChanges, ProgramOrigin};
 use crate::playback::Reach;
 use eddy_engine::{CostClock, PassCost};
 use eddy_gpu::Gpu;
@@ -104,30 +104,38 @@ impl EngineStatus {
         (self.program, self.submitted.program) = (None, None);
     }
 
-    /// Records a job that is about to be submitted. The engine gets the program, and its origin stays here.
-    pub(crate) fn submit(&mut self, job: &mut Job) {
-        let program = job.changes.program.as_mut().and_then(|coming| coming.origin.take());
-        self.submitted = Submitted { size: job.changes.size, program };
+    /// Records the changes of a job that is about to be submitted. The engine gets the program, and its origin stays here.
+    pub(crate) fn submit(&mut self, changes: &mut PendingChanges) {
+        self.submitted = Submitted { size: changes.size(), ..Submitted::default() };
+        for change in changes.iter_mut() {
+            if let Change::Program(coming) = change {
+                self.submitted.program = coming.origin.take();
+            }
+        }
     }
 
-    /// Records the result of that job.
-    pub(crate) fn finish(&mut self, done: &mut JobResult) {
-        let Submitted { program, .. } = take(&mut self.submitted);
-        self.take_size(done);
-        if let Some(Ok(())) = &done.program {
-            self.program = program;
-        }
-        self.reach = done.reach;
-        self.clock = done.clock.unwrap_or(self.clock);
-        if let Some(costs) = done.costs.take() {
-            self.costs = costs;
+    /// Records the events of that job.
+    pub(crate) fn finish(&mut self, events: &mut [Event]) {
+        let Submitted { mut program, .. } = take(&mut self.submitted);
+        self.reach = Reach::default();
+        self.take_size(events);
+        for event in events {
+            match event {
+                Event::ProgramSet(Ok(_)) => self.program = program.take(),
+                Event::Reach(reach) => self.reach = *reach,
+                Event::Clock(clock) => self.clock = *clock,
+                Event::Costs(costs) => self.costs = take(costs),
+                _ => {}
+            }
         }
     }
 
     /// Records the size of the picture after a job, which may be of the previous project.
-    pub(crate) fn take_size(&mut self, done: &JobResult) {
-        if let Some((size, Ok(()))) = &done.resized {
-            self.size = *size;
+    pub(crate) fn take_size(&mut self, events: &[Event]) {
+        for event in events {
+            if let Event::Resized(size, Ok(())) = event {
+                self.size = *size;
+            }
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::{
     Session,
     compile::{CompileResult, Compiled, Source},
-    drawing::{FrameControl, PendingProgram},
+    drawing::{Change, FrameControl, PendingProgram},
     open_project::OpenProject,
     view::{About, Level, Tick},
 };
@@ -58,7 +58,7 @@ impl Session {
         self.services.display.has_drawn |= self.take_drawn(false);
         self.take_compiled();
         self.update_frame_control();
-        if self.open.changes.program.is_some() || self.open.picture.is_program_new {
+        if self.open.changes.has_program() || self.open.picture.is_program_new {
             self.open.fit_canvas();
             self.services.display.has_drawn |= self.draw_due_frames(false);
         }
@@ -75,7 +75,7 @@ impl Session {
     /// Makes the frame that is being drawn wait for the newest text, and abandons it for that text's program.
     fn update_frame_control(&self) {
         self.services.drawing.set_frame_control(match self.open.compile_wait_end() {
-            _ if self.open.changes.program.is_some() => FrameControl::Abandon,
+            _ if self.open.changes.has_program() => FrameControl::Abandon,
             Some(until) => FrameControl::WaitUntil(until),
             None => FrameControl::Continue,
         });
@@ -193,12 +193,14 @@ impl Session {
         }
         self.services.audio.expect(sounds);
         self.open.forget_old_names(&project);
-        self.open.changes.program = Some(PendingProgram::new(program, project, millis));
+        self.open.changes.set(Change::Program(Box::new(PendingProgram::new(program, project, millis))));
         // They may have been set while it was being compiled.
         self.open.custom_uniforms_changed();
         self.open.read_backs.probe.built(probe);
-        self.open.changes.shown = Some(self.open.pictured());
-        self.open.changes.look = self.open.read_backs.probe.take_look(true);
+        self.open.changes.set(Change::Show(self.open.pictured()));
+        if let Some(look) = self.open.read_backs.probe.take_look(true) {
+            self.open.changes.set(Change::Look(look));
+        }
         self.open.compile.set_compiling(self.open.is_compile_under_way());
     }
 

@@ -180,8 +180,7 @@ impl Session {
 impl OpenProject {
     /// Returns whether something newer than the engine's current work is to be drawn.
     fn is_newer_wanted(&self) -> bool {
-        let wanted = &self.changes;
-        wanted.restart || wanted.program.is_some() || self.compile.is_newer_wanted(self.host.now)
+        self.changes.has_other_program() || self.compile.is_newer_wanted(self.host.now)
     }
 
     fn halt_with(&mut self, halt: Halt) {
@@ -241,7 +240,7 @@ impl OpenProject {
 
     /// New code is about to be submitted to the device.
     pub(crate) fn mark_new_code(&mut self) {
-        let origin = self.changes.program.as_ref().and_then(|coming| coming.origin.as_ref());
+        let origin = self.changes.program().and_then(|coming| coming.origin.as_ref());
         let newest = origin.filter(|origin| origin.millis.is_some()).map(|ProgramOrigin { project, .. }| project);
         self.halt.on_new_code(newest);
     }

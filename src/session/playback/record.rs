@@ -1,7 +1,6 @@
 //! Records the inputs of drawn frames.
 
-use crate::drawing::PendingChanges;
-use eddy_engine::FrameInputs;
+use crate::drawing::{Change, Draw, PendingChanges};
 use eddy_playback::recording::{RecordedFrame, Recording};
 use eddy_project::CustomUniformValues;
 
@@ -20,23 +19,21 @@ impl Recorder {
         Self { recording: Recording { project, frames: Vec::new() }, values, is_reset: false }
     }
 
-    /// Records a job for the engine: its changes, the resulting canvas size, and its frame, or that it draws the last
-    /// one again.
-    pub(crate) fn note(
-        &mut self,
-        changes: &PendingChanges,
-        size: (u32, u32),
-        frame: Option<&FrameInputs>,
-        again: bool,
-    ) {
-        self.is_reset |= changes.reset;
-        if let Some(values) = &changes.custom_uniforms {
-            self.values.clone_from(values);
+    /// Records a job for the engine: its changes, the resulting canvas size, and its frame. `stays`: before a new frame
+    /// the last one is drawn again, with the changes.
+    pub(crate) fn note(&mut self, changes: &PendingChanges, size: (u32, u32), draw: &Draw, stays: bool) {
+        for change in changes.iter() {
+            match change {
+                Change::Reset => self.is_reset = true,
+                Change::CustomUniforms(values) => self.values.clone_from(values),
+                _ => {}
+            }
         }
+        let again = matches!(draw, Draw::Again) || (stays && matches!(draw, Draw::Next(_)));
         if let Some(last) = self.recording.frames.last_mut().filter(|_| again) {
             (last.size, last.values) = (size, self.values.clone());
         }
-        if let Some(inputs) = frame {
+        if let Draw::Next(inputs) = draw {
             let (inputs, values) = (inputs.clone(), self.values.clone());
             let reset = std::mem::take(&mut self.is_reset);
             self.recording.frames.push(RecordedFrame { inputs, size, values, reset });

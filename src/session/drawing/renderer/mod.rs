@@ -1,10 +1,12 @@
 //! The engine's side of drawing: executes one job after the other.
 
 use super::{
+    changes::{Change, PendingChanges},
     gate::Gate,
     history::History,
-    job::{DrawnFrame, Job, JobResult, PendingChanges, TileLimit},
+    job::{Draw, DrawnFrame, Event, Job, JobResult, TileLimit},
 };
+use crate::playback::SeekTarget;
 use eddy_engine::{CostClock, DrawFor, Engine, EngineError, FrameInputs, PassTime, Program};
 use eddy_gpu::Gpu;
 use std::time::{Duration, Instant};
@@ -57,58 +59,61 @@ impl Renderer {
     }
 
     pub(crate) fn work(&mut self, job: Job) -> JobResult {
-        let Job { changes, frame, travel, stays, again, tasks, costs_of, tile_limit, gate } = job;
+        let Job { changes, draw, stays, tasks, costs_of, tile_limit, gate } = job;
         let mut done = JobResult::default();
         // A new program draws its own frame.
-        if changes.program.is_none() || !tasks.is_empty() {
+        if !changes.has_program() || !tasks.is_empty() {
             done.is_display_new |= self.finish();
         }
-        let first_inputs = frame.clone().unwrap_or_else(|| FrameInputs::at_fixed_step(0, 60.0));
-        let canvas = self.engine.size();
+        let (canvas, restarts) = (self.engine.size(), changes.has_restart());
         if stays && changes.touches_targets(canvas) {
-            self.rewind(changes.size.is_some());
+            self.rewind(changes.size().is_some());
         }
-        self.change(changes, canvas, tile_limit, &first_inputs, &mut done);
-        // Before a new frame, the shown one is drawn with the values that were set meanwhile.
-        if stays && frame.is_some() && done.custom_uniforms_changed {
-            self.rewind(false);
-        }
-        if again {
-            self.redraw(costs_of.is_some(), &mut done);
-        }
-        if let Some(goal) = travel {
-            let travelled = self.history.travel(&mut self.engine, goal, SEEK_SLICE);
-            done.is_display_new |= travelled.as_ref().is_some_and(|t| t.as_ref().is_ok_and(|t| t.is_display_new));
-            if let Some(Ok(travelled)) = &travelled {
-                self.shown = Some((travelled.inputs.frame, travelled.inputs.time_secs));
+        let first_inputs = match &draw {
+            Draw::Next(inputs) => inputs.clone(),
+            _ => FrameInputs::at_fixed_step(0, 60.0),
+        };
+        let has_new_values = self.change(changes, canvas, tile_limit, &first_inputs, &mut done);
+        let is_resized = done.events.iter().any(|event| matches!(event, Event::Resized(_, Ok(()))));
+        let is_other = is_resized || done.events.iter().any(|event| matches!(event, Event::ProgramSet(Ok(_))));
+        let (is_seek, is_watched) = (matches!(draw, Draw::Seek(_)), costs_of.is_some());
+        let drawn = match draw {
+            Draw::Nothing => None,
+            Draw::Next(inputs) => {
+                // Before a new frame, the shown one is drawn with the values that were set meanwhile.
+                if stays && has_new_values {
+                    self.rewind(false);
+                }
+                Some(self.draw_next(inputs, is_watched, gate.as_ref(), &mut done))
             }
-            done.travelled = Some(travelled);
-        }
-        if let Some(inputs) = frame {
-            let size = self.engine.size();
-            self.shown = Some((inputs.frame, inputs.time_secs));
-            let is_ready = self.history.before_frame(&mut self.engine);
-            done.is_display_new |= self.engine.size() != size;
-            let drawn = is_ready.and_then(|()| self.draw(&inputs, costs_of.is_some(), gate.as_ref()));
-            match &drawn {
-                Ok(drawn) => self.history.frame_drawn(inputs, self.engine.size(), drawn.took),
-                Err(_) => self.history.restart(false),
+            Draw::Again => self.redraw(is_watched, &mut done),
+            Draw::Seek(goal) => {
+                self.travel(goal, &mut done);
+                None
             }
-            done.frame = Some(drawn);
+        };
+        let has_frame = drawn.is_some() || done.has_frame();
+        if !has_frame && (is_resized || has_new_values) {
+            done.events.push(Event::Outdated);
+        } else if has_frame && self.engine.is_late() {
+            done.events.push(Event::Late);
         }
-        done.is_late = self.engine.is_late();
-        done.reach = self.history.reach();
-        let has_drawn = done.frame.is_some() || done.travelled.is_some();
         // The canvas after a resize or a change of program has no valid picture until the next frame.
-        let is_other = matches!(done.resized, Some((_, Ok(())))) || matches!(done.program, Some(Ok(())));
-        let is_between = !has_drawn && is_other && done.restarted.is_none() && self.engine.program().is_some();
-        let is_whole = !self.is_abandoned;
-        if self.delivers_pictures && (done.is_display_new || has_drawn) && is_whole && !is_between {
-            done.picture = Some(self.engine.picture());
+        let has_drawn = drawn.is_some() || is_seek;
+        let is_between = !has_drawn && is_other && !restarts && self.engine.program().is_some();
+        let is_due = self.delivers_pictures && (done.is_display_new || has_drawn);
+        let picture = (is_due && !self.is_abandoned && !is_between).then(|| self.engine.picture());
+        match drawn.transpose().and_then(|frame| Ok((frame, picture.transpose()?))) {
+            Ok((frame, picture)) => {
+                done.events.extend(picture.map(Event::Picture));
+                done.events.extend(frame.map(Event::Drawn));
+            }
+            Err(error) => done.events.push(Event::Failed(error)),
         }
         done.outputs = tasks.run(self);
-        done.costs = costs_of.map(|project| self.engine.pass_costs(&project));
-        done.clock = Some(self.engine.cost_clock());
+        done.events.push(Event::Reach(self.history.reach()));
+        done.events.extend(costs_of.map(|project| Event::Costs(self.engine.pass_costs(&project))));
+        done.events.push(Event::Clock(self.engine.cost_clock()));
         done
     }
 
@@ -120,8 +125,27 @@ impl Renderer {
         }
     }
 
-    /// Draws the shown frame again.
-    fn redraw(&mut self, is_watched: bool, done: &mut JobResult) {
+    fn draw_next(
+        &mut self,
+        inputs: FrameInputs,
+        is_watched: bool,
+        gate: Option<&Gate>,
+        done: &mut JobResult,
+    ) -> Result<DrawnFrame, EngineError> {
+        let size = self.engine.size();
+        self.shown = Some((inputs.frame, inputs.time_secs));
+        let is_ready = self.history.before_frame(&mut self.engine);
+        done.is_display_new |= self.engine.size() != size;
+        let drawn = is_ready.and_then(|()| self.draw(&inputs, is_watched, gate));
+        match &drawn {
+            Ok(drawn) => self.history.frame_drawn(inputs, self.engine.size(), drawn.took),
+            Err(_) => self.history.restart(false),
+        }
+        drawn
+    }
+
+    /// Draws the shown frame again, if its inputs are kept.
+    fn redraw(&mut self, is_watched: bool, done: &mut JobResult) -> Option<Result<DrawnFrame, EngineError>> {
         let size = self.engine.size();
         let drawn = match self.history.prepare_redraw(&mut self.engine) {
             Ok(Some(inputs)) => {
@@ -129,8 +153,8 @@ impl Renderer {
                 self.draw(&inputs, is_watched, None)
             }
             Ok(None) => {
-                done.cannot_redraw = true;
-                return;
+                done.events.push(Event::CannotRedraw);
+                return None;
             }
             Err(error) => Err(error),
         };
@@ -139,10 +163,21 @@ impl Renderer {
             Ok(drawn) => self.history.frame_redrawn(drawn.took),
             Err(_) => self.history.restart(false),
         }
-        done.frame = Some(drawn);
+        Some(drawn)
     }
 
-    /// `canvas`: the size of the picture so far.
+    /// Shows another frame of the run.
+    fn travel(&mut self, goal: SeekTarget, done: &mut JobResult) {
+        let travelled = self.history.travel(&mut self.engine, goal, SEEK_SLICE);
+        if let Some(Ok(travelled)) = &travelled {
+            done.is_display_new |= travelled.is_display_new;
+            self.shown = Some((travelled.inputs.frame, travelled.inputs.time_secs));
+        }
+        done.events.push(Event::Travelled(travelled));
+    }
+
+    /// Applies changes. `canvas`: the size of the picture so far. Returns whether the author's own uniforms have new
+    /// values.
     fn change(
         &mut self,
         changes: PendingChanges,
@@ -150,56 +185,70 @@ impl Renderer {
         tile_limit: Option<TileLimit>,
         inputs: &FrameInputs,
         done: &mut JobResult,
-    ) {
-        let PendingChanges { restart, size, program, custom_uniforms, shown, look, reset, run, costs: _ } = changes;
-        if restart {
-            let made = Renderer::new(self.engine.gpu().clone(), self.engine.size(), self.delivers_pictures);
-            done.restarted = Some(made.map(|renderer| *self = renderer));
-            done.is_display_new = true;
-        }
-        if let Some(size) = size {
-            self.resize(size, canvas, done);
-        }
-        if let Some(coming) = program {
-            let tried = match tile_limit {
-                Some(limit) => self.try_tiles(coming.program, limit, inputs, done),
-                None => Ok(coming.program),
-            };
-            if done.forecast.is_some() {
-                // The new program is not drawn for now: finish the frame, so that a whole picture is shown until then.
-                self.finish();
+    ) -> bool {
+        let mut has_new_values = false;
+        for change in changes {
+            match change {
+                Change::Restart => {
+                    match Renderer::new(self.engine.gpu().clone(), self.engine.size(), self.delivers_pictures) {
+                        Ok(renderer) => *self = renderer,
+                        Err(error) => done.events.push(Event::Failed(error)),
+                    }
+                    done.is_display_new = true;
+                }
+                Change::Resize(size) => self.resize(size, canvas, done),
+                Change::Program(coming) => self.set_program(coming.program, tile_limit, inputs, done),
+                Change::CustomUniforms(values) => {
+                    has_new_values = self.engine.set_custom_uniforms(&values);
+                    self.history.set_values(&values);
+                }
+                Change::Show(pass) => {
+                    self.engine.show(pass);
+                    done.is_display_new = true;
+                }
+                Change::Look(look) => {
+                    self.engine.show_values(look);
+                    done.is_display_new = true;
+                }
+                Change::Reset => {
+                    self.engine.reset();
+                    self.history.restart(true);
+                    self.shown = None;
+                }
+                Change::Run(frames) => self.history.load_run(frames),
+                // Read after the frame.
+                Change::Costs => {}
             }
-            done.program = Some(tried.and_then(|program| self.engine.set_program(program)));
-            self.is_abandoned &= !matches!(done.program, Some(Ok(())));
-            self.history.change_program();
-            done.is_display_new = true;
         }
-        if let Some(values) = custom_uniforms {
-            done.custom_uniforms_changed = self.engine.set_custom_uniforms(&values);
-            self.history.set_values(&values);
+        has_new_values
+    }
+
+    fn set_program(
+        &mut self,
+        program: Program,
+        tile_limit: Option<TileLimit>,
+        inputs: &FrameInputs,
+        done: &mut JobResult,
+    ) {
+        let tried = match tile_limit {
+            Some(limit) => self.try_tiles(program, limit, inputs),
+            None => Ok((program, None)),
+        };
+        if matches!(tried, Ok((_, Some(_)))) {
+            // The new program is not drawn for now: finish the frame, so that a whole picture is shown until then.
+            self.finish();
         }
-        if let Some(pass) = shown {
-            self.engine.show(pass);
-            done.is_display_new = true;
-        }
-        if let Some(look) = look {
-            self.engine.show_values(look);
-            done.is_display_new = true;
-        }
-        if reset {
-            self.engine.reset();
-            self.history.restart(true);
-            self.shown = None;
-        }
-        if let Some(frames) = run {
-            self.history.load_run(frames);
-        }
+        let set = tried.and_then(|(program, forecast)| self.engine.set_program(program).map(|()| forecast));
+        self.is_abandoned &= set.is_err();
+        done.events.push(Event::ProgramSet(set));
+        self.history.change_program();
+        done.is_display_new = true;
     }
 
     /// `canvas`: the size of the picture so far.
     fn resize(&mut self, (width, height): (u32, u32), canvas: (u32, u32), done: &mut JobResult) {
         if self.history.resize_before_frame((width, height)) {
-            done.resized = Some(((width, height), Ok(())));
+            done.events.push(Event::Resized((width, height), Ok(())));
             return;
         }
         if (width, height) == canvas {
@@ -210,21 +259,20 @@ impl Renderer {
             // It has been rewound on another canvas.
             let _ = self.engine.resize(canvas.0, canvas.1);
         }
-        done.resized = Some(((width, height), resized));
+        done.events.push(Event::Resized((width, height), resized));
         self.history.resize();
         self.shown = None;
         done.is_display_new = true;
     }
 
-    /// Draws a new program on a canvas of a few pixels, then on larger ones until the time is significant, and returns
-    /// the estimated time of a whole frame if that is too long.
+    /// Draws a new program on a canvas of a few pixels, then on larger ones until the time is significant. Returns it
+    /// with the estimated time of a whole frame if that is too long.
     fn try_tiles(
         &mut self,
         mut program: Program,
         limit: TileLimit,
         inputs: &FrameInputs,
-        done: &mut JobResult,
-    ) -> Result<Program, EngineError> {
+    ) -> Result<(Program, Option<Duration>), EngineError> {
         let canvas = self.engine.size();
         let significant = limit.frame / SIGNIFICANT;
         for tile in tiles(canvas) {
@@ -240,11 +288,10 @@ impl Renderer {
             }
             if took >= significant {
                 let whole = took.mul_f64(self.engine.gpu().rasteriser().frame_per_tile(tile, canvas));
-                done.forecast = (whole > limit.frame).then_some(whole);
-                break;
+                return Ok((program, (whole > limit.frame).then_some(whole)));
             }
         }
-        Ok(program)
+        Ok((program, None))
     }
 
     /// Draws the rest of an abandoned frame. Returns whether there was any.

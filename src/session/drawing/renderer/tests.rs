@@ -2,13 +2,33 @@
 
 use super::*;
 use crate::{
-    drawing::{Tasks, gate::FrameControl, job::PendingProgram},
+    drawing::{PendingProgram, Tasks, gate::FrameControl},
     read_back::ReadPicture,
 };
-use eddy_engine::BuildOptions;
+use eddy_engine::{BuildOptions, Picture};
 use eddy_gpu::testing;
 use eddy_media as media;
 use eddy_project::{PassName, presets};
+
+/// Returns changes from a list.
+fn changes(list: impl IntoIterator<Item = Change>) -> PendingChanges {
+    let mut changes = PendingChanges::default();
+    list.into_iter().for_each(|change| changes.set(change));
+    changes
+}
+
+/// Returns the change to a program, which no session keeps.
+fn program(program: Program) -> Change {
+    Change::Program(Box::new(PendingProgram { program, origin: None }))
+}
+
+fn picture(done: JobResult) -> Option<Picture> {
+    done.events.into_iter().find_map(|event| match event {
+        Event::Picture(picture) => Some(picture),
+        Event::Failed(error) => panic!("{error}"),
+        _ => None,
+    })
+}
 
 #[test]
 fn resize_or_new_program_is_shown_with_its_first_frame() {
@@ -16,31 +36,28 @@ fn resize_or_new_program_is_shown_with_its_first_frame() {
     let project = presets::load("feedback").unwrap().project;
     let (media, _) = media::gather(&project, None);
     let build = |gpu: &Gpu| Program::build(gpu, &project, &media, &BuildOptions::default()).unwrap().program;
-    let (program, other) = (build(&gpu), build(&gpu));
+    let (first, other) = (build(&gpu), build(&gpu));
     let mut renderer = Renderer::new(gpu, (16, 9), true).unwrap();
-    let mut sizes = |changes: PendingChanges, frame: Option<i32>| {
-        let frame = frame.map(|frame| FrameInputs::at_fixed_step(frame, 60.0));
-        let done = renderer.work(Job { changes, frame, ..Job::default() });
-        done.picture.map(|picture| picture.unwrap()).map(|picture| (picture.width, picture.height))
+    let mut sizes = |list: Vec<Change>, frame: Option<i32>| {
+        let draw = frame.map_or(Draw::Nothing, |frame| Draw::Next(FrameInputs::at_fixed_step(frame, 60.0)));
+        let done = renderer.work(Job { changes: changes(list), draw, ..Job::default() });
+        picture(done).map(|picture| (picture.width, picture.height))
     };
-    let resize = |size| PendingChanges { size: Some(size), ..PendingChanges::default() };
+    let resize = |size| vec![Change::Resize(size)];
     assert_eq!(sizes(resize((32, 18)), None), Some((32, 18)), "without a program it is black");
-    let program = Some(PendingProgram { program, origin: None });
-    let shown = Some(PassName::image());
-    assert_eq!(sizes(PendingChanges { program, shown, ..PendingChanges::default() }, Some(0)), Some((32, 18)));
+    assert_eq!(sizes(vec![program(first), Change::Show(PassName::image())], Some(0)), Some((32, 18)));
     assert_eq!(sizes(resize((64, 36)), None), None);
-    assert_eq!(sizes(PendingChanges::default(), Some(1)), Some((64, 36)));
+    assert_eq!(sizes(vec![], Some(1)), Some((64, 36)));
     assert_eq!(sizes(resize((32, 18)), Some(2)), Some((32, 18)));
-    let program = Some(PendingProgram { program: other, origin: None });
-    assert_eq!(sizes(PendingChanges { program, ..PendingChanges::default() }, None), None);
-    assert_eq!(sizes(PendingChanges::default(), Some(3)), Some((32, 18)));
+    assert_eq!(sizes(vec![program(other)], None), None);
+    assert_eq!(sizes(vec![], Some(3)), Some((32, 18)));
 }
 
 /// Draws a frame that may wait, with the rest of a job.
 fn frame(renderer: &mut Renderer, n: i32, gate: Option<Gate>, job: Job) -> JobResult {
     // The last frame was slow enough for three bands.
     renderer.whole_took = BAND * 3;
-    renderer.work(Job { frame: Some(FrameInputs::at_fixed_step(n, 60.0)), gate, ..job })
+    renderer.work(Job { draw: Draw::Next(FrameInputs::at_fixed_step(n, 60.0)), gate, ..job })
 }
 
 #[test]
@@ -54,28 +71,26 @@ fn abandoned_frame_is_not_delivered_and_is_finished_before_reads() {
     let build = || Program::build(&gpu, &project, &media, &BuildOptions::default()).unwrap().program;
     let start = || {
         let mut renderer = Renderer::new(gpu.clone(), (64, 192), true).unwrap();
-        let program = Some(PendingProgram { program: build(), origin: None });
-        let shown = Some(PassName::image());
-        renderer
-            .work(Job { changes: PendingChanges { program, shown, ..PendingChanges::default() }, ..Job::default() });
+        let changes = changes([program(build()), Change::Show(PassName::image())]);
+        renderer.work(Job { changes, ..Job::default() });
         renderer
     };
-    let picture = |done: JobResult| done.picture.map(|picture| picture.unwrap().bytes);
+    let picture = |done: JobResult| picture(done).map(|picture| picture.bytes);
     let (gate, other) = (Gate::default(), Gate::default());
     gate.set(FrameControl::Abandon);
     let (mut whole, mut given_up) = (start(), start());
     for n in 0..3 {
         let expected = picture(frame(&mut whole, n, Some(other.clone()), Job::default()));
         let done = frame(&mut given_up, n, Some(gate.clone()), Job::default());
-        assert!(matches!(done.frame, Some(Ok(_))) && done.picture.is_none(), "frame {n} counts, and is not shown");
+        assert!(done.events.iter().any(|event| matches!(event, Event::Drawn(_))), "frame {n} counts");
+        assert_eq!(picture(done), None, "frame {n} is not shown");
         let expected = expected.unwrap();
         match n {
             // Another request: the frame is finished first.
             0 => assert_eq!(picture(given_up.work(Job::default())), Some(expected)),
             1 => {
-                let read = |renderer: &mut Renderer, program: Option<Program>| {
-                    let program = program.map(|program| PendingProgram { program, origin: None });
-                    let changes = PendingChanges { program, ..PendingChanges::default() };
+                let read = |renderer: &mut Renderer, other: Option<Program>| {
+                    let changes = changes(other.map(program));
                     let mut tasks = Tasks::default();
                     let mut ticket = tasks.add(ReadPicture);
                     let done = renderer.work(Job { changes, tasks, ..Job::default() });
@@ -86,11 +101,11 @@ fn abandoned_frame_is_not_delivered_and_is_finished_before_reads() {
             }
             // A program that is too slow to be drawn.
             _ => {
-                let program = Some(PendingProgram { program: build(), origin: None });
-                let changes = PendingChanges { program, ..PendingChanges::default() };
+                let changes = changes([program(build())]);
                 let tile_limit = Some(TileLimit { frame: Duration::from_nanos(20) });
                 let done = given_up.work(Job { changes, tile_limit, ..Job::default() });
-                assert!(done.forecast.is_some() && done.picture.is_none());
+                let is_forecast = |event: &Event| matches!(event, Event::ProgramSet(Ok(Some(_))));
+                assert!(done.events.iter().any(is_forecast) && picture(done).is_none());
                 assert_eq!(given_up.engine.picture().unwrap().bytes, expected);
             }
         }
@@ -100,8 +115,7 @@ fn abandoned_frame_is_not_delivered_and_is_finished_before_reads() {
     assert_eq!(picture(frame(&mut given_up, 3, None, Job::default())), next);
     // Only the other program's frame is drawn.
     frame(&mut given_up, 4, Some(gate), Job::default());
-    let program = Some(PendingProgram { program: build(), origin: None });
-    let changes = PendingChanges { program, ..PendingChanges::default() };
+    let changes = changes([program(build())]);
     let done = frame(&mut given_up, 5, None, Job { changes, ..Job::default() });
     frame(&mut whole, 4, None, Job::default());
     assert_eq!(picture(done), picture(frame(&mut whole, 5, None, Job::default())));
