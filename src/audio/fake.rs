@@ -9,7 +9,9 @@ use std::{
 /// The output and the input of a simulated machine.
 #[derive(Clone, Debug, Default)]
 pub struct FakeHost {
+    /// The loudspeakers.
     pub out: FakeOut,
+    /// The microphone, which is not plugged in at first.
     pub input: FakeIn,
 }
 
@@ -88,6 +90,7 @@ impl FakeOut {
         }
     }
 
+    /// Returns whether a device of the output is open.
     pub fn is_open(&self) -> bool {
         self.lock().open.is_some()
     }
@@ -196,6 +199,7 @@ impl FakeIn {
         self.lock().is_there = true;
     }
 
+    /// Returns whether the microphone is open.
     pub fn is_open(&self) -> bool {
         self.lock().take.is_some()
     }

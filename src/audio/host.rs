@@ -12,7 +12,9 @@ use std::{
 
 /// The audio devices of a machine.
 pub trait AudioHost: Send + Sync + Debug {
+    /// Returns the outputs, none of which is open yet.
     fn output(&self) -> Box<dyn AudioOut>;
+    /// Returns the inputs, none of which is open yet.
     fn input(&self) -> Box<dyn AudioIn>;
 }
 
@@ -21,6 +23,7 @@ pub trait AudioHost: Send + Sync + Debug {
 pub struct Format {
     /// Samples per second.
     pub rate: u32,
+    /// Samples per frame.
     pub channels: usize,
 }
 
@@ -35,7 +38,9 @@ pub type Take = Box<dyn FnMut(&[f32]) + Send>;
 pub struct Opened {
     /// The device's name.
     pub name: String,
+    /// The device's own format, in which `fill` or `take` gets its buffers.
     pub format: Format,
+    /// Closes the device when it is dropped.
     pub stream: Box<dyn Any + Send>,
 }
 
@@ -71,12 +76,20 @@ pub trait AudioIn: Send {
 /// The reason why a device cannot be opened, as shown to users.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DeviceError {
+    /// The system has no default device; contains "input" or "output".
     #[error("this machine has no {0} device")]
     None(&'static str),
+    /// No device has this name.
     #[error("there is no device \"{0}\"")]
     Unknown(String),
+    /// The device is there and does not open, for instance while another program uses it.
     #[error("{name} {why}")]
-    Refused { name: String, why: String },
+    Refused {
+        /// The device's name.
+        name: String,
+        /// The rest of the sentence, which says why.
+        why: String,
+    },
 }
 
 /// Callbacks for the events of an open device. A device that vanishes is reported once.

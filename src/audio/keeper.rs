@@ -24,8 +24,11 @@ pub enum DeviceState {
     /// No device is needed.
     #[default]
     Closed,
+    /// It plays or records.
     Open {
+        /// The device's name.
         name: String,
+        /// Samples per second of the device.
         rate: u32,
     },
     /// It could not be opened, or has vanished. Opening is retried.

@@ -4,9 +4,11 @@
 //! Input is bytes, and time is a number of samples. Browsers smooth a spectrum once for each frame that requests it;
 //! here the previous frames are taken at fixed steps, so that a frame does not depend on how it was reached.
 //!
-//! [`mixer`] mixes the output; it knows no device and is passed the time. Only [`player`] and [`microphone`] open
+//! `mixer` mixes the output; it knows no device and is passed the time. Only [`player`] and [`microphone`] open
 //! devices, on threads of their own, through the traits of [`host`]; `device` implements those for the machine and
 //! [`fake`] for tests.
+
+#![warn(missing_docs)]
 
 mod analyser;
 mod decode;
@@ -18,7 +20,7 @@ pub mod host;
 mod keeper;
 mod kernel;
 pub mod microphone;
-pub mod mixer;
+mod mixer;
 mod peaks;
 pub mod player;
 mod scene;
@@ -31,6 +33,7 @@ pub use analyser::{Analyser, BINS, Spectrum};
 pub use decode::{AudioError, Limits, decode};
 pub use flac::flac;
 pub use keeper::DeviceState;
+pub use mixer::MixerState;
 pub use peaks::{Peak, Peaks};
 pub use scene::{MOST_SOURCES, OutputState, Resampler, Scene, Source, Timeline};
 pub use spectrum::TrackSpectrum;
@@ -44,6 +47,7 @@ pub const SAMPLE_RATE: u32 = 44_100;
 /// A decoded file: stereo frames at [`SAMPLE_RATE`], in -1 to 1 unless the file exceeds that.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sound {
+    /// Left and right of each frame.
     pub frames: Vec<[f32; 2]>,
     /// The file is longer than [`Limits::seconds`], and the rest was dropped.
     pub truncated: bool,

@@ -69,6 +69,7 @@ impl Microphone {
         self.keeper.names()
     }
 
+    /// Returns the state of the device; a change of it calls `wake`.
     pub fn state(&self) -> DeviceState {
         self.keeper.state()
     }
@@ -97,7 +98,7 @@ impl Microphone {
 
 /// Recorded samples, and the frames that analysed them.
 #[derive(Default)]
-pub struct RecordedSamples {
+struct RecordedSamples {
     kernel: Kernel,
     /// Samples of the device that are not resampled yet, and the position of the next output sample among them.
     raw: VecDeque<f32>,
@@ -113,7 +114,7 @@ pub struct RecordedSamples {
 
 impl RecordedSamples {
     /// Adds a sample of a device with `ratio` samples per output sample.
-    pub fn add(&mut self, sample: f32, ratio: f64) {
+    fn add(&mut self, sample: f32, ratio: f64) {
         let sample = if sample.is_finite() { sample } else { 0.0 };
         if ratio == 1.0 {
             return self.keep(sample);
@@ -146,7 +147,7 @@ impl RecordedSamples {
     }
 
     /// Calls the analyser if there are new samples.
-    pub fn frame(&mut self) -> Option<Arc<Spectrum>> {
+    fn frame(&mut self) -> Option<Arc<Spectrum>> {
         let now = self.forgotten + self.samples.len() as i64;
         if now == 0 {
             return None;

@@ -9,7 +9,9 @@ const FINEST: u32 = 8;
 /// The minimum and maximum sample of an interval, left and right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Peak {
+    /// The lowest sample of each channel.
     pub low: [i16; 2],
+    /// The highest sample of each channel.
     pub high: [i16; 2],
 }
 
@@ -54,6 +56,7 @@ impl Peaks {
         peaks
     }
 
+    /// Returns the track that it outlines.
     pub fn track(&self) -> &Arc<Track> {
         &self.track
     }

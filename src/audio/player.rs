@@ -55,6 +55,7 @@ impl Player {
         self.keeper.step(now);
     }
 
+    /// Returns the state of the device; a change of it calls `wake`.
     pub fn state(&self) -> DeviceState {
         self.keeper.state()
     }

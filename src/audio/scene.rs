@@ -43,6 +43,7 @@ fn finite(sample: f32) -> f32 {
 /// Sources that are played together. The first [`MOST_SOURCES`] are mixed.
 #[derive(Clone, Default)]
 pub struct Scene {
+    /// Each at full volume, and in time with the others.
     pub sources: Vec<Source>,
 }
 
@@ -99,14 +100,16 @@ impl Resampler {
 /// A time that runs at a constant speed: `secs` at the moment `at`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timeline {
+    /// The moment at which `iTime` is `secs`.
     pub at: Instant,
-    /// `iTime`, in seconds.
+    /// `iTime` at that moment, in seconds.
     pub secs: f64,
     /// Seconds of `iTime` per second, above 0.
     pub speed: f64,
 }
 
 impl Timeline {
+    /// Returns `iTime` in seconds at a moment, which may also be before `at`.
     pub fn secs_at(&self, at: Instant) -> f64 {
         let since = at.saturating_duration_since(self.at).as_secs_f64();
         let before = self.at.saturating_duration_since(at).as_secs_f64();
@@ -122,6 +125,7 @@ impl Timeline {
 /// The complete desired output of a device.
 #[derive(Clone)]
 pub struct OutputState {
+    /// The sources to play.
     pub scene: Arc<Scene>,
     /// The course of time; `None` while paused.
     pub line: Option<Timeline>,

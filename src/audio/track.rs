@@ -26,6 +26,7 @@ impl Track {
         self.frames
     }
 
+    /// Returns the number of blocks, of which the last may be shorter.
     pub fn blocks(&self) -> usize {
         self.blocks.len()
     }

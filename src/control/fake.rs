@@ -28,14 +28,17 @@ impl FakeMidi {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Connects a device; one that is connected already stays open.
     pub fn plug_in(&self, name: &str) {
         self.lock().entry(name.to_owned()).or_default();
     }
 
+    /// Disconnects a device, and drops the callback that was passed to `open`.
     pub fn unplug(&self, name: &str) {
         self.lock().remove(name);
     }
 
+    /// Returns whether a device is connected and open.
     pub fn is_open(&self, name: &str) -> bool {
         self.lock().get(name).is_some_and(Option::is_some)
     }

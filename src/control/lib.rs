@@ -8,6 +8,8 @@
 //! MIDI devices are opened through the traits of [`midi::host`]: `midi::machine` (feature `midi`) implements them for
 //! the machine, and [`fake`] for tests. Likewise gamepads through those of [`pads`] (feature `gamepad`).
 
+#![warn(missing_docs)]
+
 pub mod fake;
 pub mod midi;
 pub mod osc;
@@ -29,6 +31,7 @@ pub type Wake = Arc<dyn Fn() + Send + Sync>;
 /// A movement of a control.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ControlEvent {
+    /// The control that moved.
     pub source: ControlAddress,
     /// The position, from 0 to 1, of a control of MIDI or a gamepad. For OSC the number of the argument unchanged,
     /// never NaN or infinite: true is 1 and false is 0.

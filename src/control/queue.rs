@@ -20,6 +20,7 @@ impl ControlQueue {
         Self { waiting: Arc::default(), wake }
     }
 
+    /// Appends movements, at most [`limits::CONTROL_EVENTS`] of which wait, and wakes the reader of an empty queue.
     pub fn push(&self, events: impl IntoIterator<Item = ControlEvent>) {
         let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
         let was_empty = waiting.is_empty();

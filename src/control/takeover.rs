@@ -20,6 +20,7 @@ pub struct Movement {
     pub knob: f64,
     /// The position of the value in the range of its slider, from 0 to 1.
     pub slider: f64,
+    /// The current value, in units of the slider.
     pub value: f64,
     /// The value at the knob's position.
     pub target: f64,

@@ -12,7 +12,9 @@ const INT_WITHOUT_RANGE: f64 = 127.0;
 /// A uniform that an OSC address names, and the index of its component.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Moved<'a> {
+    /// The name in the shader.
     pub uniform: &'a str,
+    /// 0 for the first component, or for a number alone.
     pub index: usize,
 }
 

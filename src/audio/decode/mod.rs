@@ -30,6 +30,7 @@ use wave::{Format, Wave};
 pub struct Limits {
     /// The length that is decoded; the rest of a longer file is dropped.
     pub seconds: u32,
+    /// The largest number of channels; all are mixed to two.
     pub channels: usize,
     /// The lowest and highest number of samples per second.
     pub rate: (u32, u32),
@@ -46,21 +47,28 @@ impl Default for Limits {
 /// The reason why a file cannot be decoded.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AudioError {
+    /// The content is of no known format or codec; contains the reason.
     #[error("no sound file that Eddy reads ({0})")]
     Unknown(String),
     /// A valid file of a format that is not read here. ffmpeg may read it.
     #[error("{0} are not supported")]
     Unsupported(String),
+    /// A file of a known format without sound, such as a silent video.
     #[error("no sound in the file")]
     NoTrack,
+    /// The file's number of channels, and [`Limits::channels`].
     #[error("{0} channels; at most {1} are read")]
     Channels(usize, usize),
+    /// The file's samples per second, and the ends of [`Limits::rate`].
     #[error("{0} samples a second; {1} to {2} are read")]
     Rate(u32, u32, u32),
+    /// The file breaks the rules of its format; contains the place or the reason.
     #[error("damaged: {0}")]
     Damaged(String),
+    /// Decoding took longer than [`Limits::patience`].
     #[error("it was not decoded within {} s", .0.as_secs_f32())]
     Late(Duration),
+    /// The decoder panicked, or has no thread.
     #[error("decoding failed: {0}")]
     Failed(String),
 }

@@ -42,7 +42,7 @@ const ORDERS: usize = 16;
 const FREED: usize = 64;
 
 /// Mixes the desired output into the buffers of one device.
-pub struct Mixer {
+pub(crate) struct Mixer {
     rate: f64,
     orders: Consumer<OutputState>,
     freed: Producer<Arc<Scene>>,
@@ -58,7 +58,7 @@ pub struct Mixer {
 }
 
 /// The controlling end of a mixer.
-pub struct Remote {
+pub(crate) struct Remote {
     orders: Producer<OutputState>,
     freed: Consumer<Arc<Scene>>,
     pub state: Arc<MixerState>,
@@ -90,7 +90,7 @@ impl MixerState {
 }
 
 /// Creates a mixer for a device of `rate` samples per second, which initially plays nothing.
-pub fn mixer(rate: u32) -> (Mixer, Remote) {
+pub(crate) fn mixer(rate: u32) -> (Mixer, Remote) {
     let (to, orders) = RingBuffer::new(ORDERS);
     let (freed, back) = RingBuffer::new(FREED);
     let state = Arc::new(MixerState::default());
@@ -112,13 +112,13 @@ pub fn mixer(rate: u32) -> (Mixer, Remote) {
 impl Remote {
     /// Sets what is played from the next buffer on. Returns false if the mixer cannot take an order now; the caller
     /// retries.
-    pub fn send(&mut self, desired: &OutputState) -> bool {
+    pub(crate) fn send(&mut self, desired: &OutputState) -> bool {
         self.free();
         self.orders.push(desired.clone()).is_ok()
     }
 
     /// Frees scenes that the mixer no longer plays.
-    pub fn free(&mut self) {
+    pub(crate) fn free(&mut self) {
         while self.freed.pop().is_ok() {}
     }
 }
@@ -126,7 +126,7 @@ impl Remote {
 impl Mixer {
     /// Fills a buffer of interleaved frames, the first of which is heard at a moment. The first two channels are left
     /// and right, a single channel is the mean of both, and further ones are silent.
-    pub fn fill(&mut self, out: &mut [f32], channels: usize, heard_at: Instant) {
+    pub(crate) fn fill(&mut self, out: &mut [f32], channels: usize, heard_at: Instant) {
         let channels = channels.max(1);
         let frames = out.len() / channels;
         self.take_orders();

@@ -4,6 +4,7 @@ use std::{any::Any, fmt::Debug};
 
 /// The MIDI devices of a machine.
 pub trait MidiHost: Send + Sync + Debug {
+    /// Returns the inputs, none of which is open yet.
     fn input(&self) -> Box<dyn MidiIn>;
 }
 
@@ -25,10 +26,18 @@ pub trait MidiIn: Send {
 /// The reason why a device cannot be opened, as shown to users.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MidiError {
+    /// The system has no MIDI service.
     #[error("this machine has no MIDI")]
     NoMidi,
+    /// No connected device has this name.
     #[error("there is no device \"{0}\"")]
     Unknown(String),
+    /// The device is connected and does not open, for instance while another program uses it.
     #[error("{name}: {why}")]
-    Refused { name: String, why: String },
+    Refused {
+        /// The device's name.
+        name: String,
+        /// The reason, as the system gives it.
+        why: String,
+    },
 }

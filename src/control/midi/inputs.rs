@@ -22,8 +22,10 @@ const LOOK: Duration = Duration::from_secs(2);
 /// The selection of devices.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum MidiChoice {
+    /// No device is opened.
     #[default]
     Off,
+    /// Every connected device, up to [`limits::MIDI_PORTS`].
     All,
     /// The device of this name.
     Named(String),
@@ -78,6 +80,7 @@ impl MidiInputs {
         Self { link: Link::Here(worker), state }
     }
 
+    /// Selects the devices to listen to. Those of an earlier selection are closed.
     pub fn choose(&mut self, choice: MidiChoice) {
         self.send(Message::Choose(choice));
     }
@@ -87,6 +90,7 @@ impl MidiInputs {
         self.send(Message::Names);
     }
 
+    /// Returns the state of the devices, as of the last poll.
     pub fn state(&self) -> MidiState {
         self.state.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

@@ -12,12 +12,16 @@ const TIME_TAG: usize = 8;
 /// The error of an unreadable packet. Events before the damage are discarded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum OscError {
+    /// It is not a packet of OSC 1.0, or is cut off.
     #[error("the packet is damaged")]
     Damaged,
+    /// It is longer than [`limits::OSC_PACKET`].
     #[error("the packet is larger than {}", limits::OSC_PACKET)]
     Large,
+    /// Its bundles contain more than [`limits::OSC_MESSAGES`] messages.
     #[error("the packet has more than {} messages", limits::OSC_MESSAGES)]
     ManyMessages,
+    /// Its bundles are nested deeper than [`limits::OSC_DEPTH`].
     #[error("bundles are nested more than {} deep", limits::OSC_DEPTH)]
     Deep,
 }

@@ -35,7 +35,9 @@ pub fn is_pattern(address: &str) -> bool {
 /// An OSC address that moves something, with the number of its arguments that do.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Listener {
+    /// The address, which starts with a slash and is not a pattern.
     pub path: String,
+    /// Arguments from the first one on; later ones move nothing.
     pub arguments: usize,
 }
 

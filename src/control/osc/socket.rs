@@ -22,8 +22,10 @@ const RETRY: Duration = Duration::from_secs(3);
 /// The state of the socket.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum OscState {
+    /// The port is not bound yet.
     #[default]
     Starting,
+    /// It listens at this address, with the port that the system chose if port 0 was requested.
     Listening(SocketAddr),
     /// It cannot listen; contains the reason as shown to users. Binding is retried.
     Missing(String),
@@ -53,6 +55,7 @@ impl OscInput {
         self.asked
     }
 
+    /// Returns the current state; a change of it calls `wake`.
     pub fn state(&self) -> OscState {
         self.state.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

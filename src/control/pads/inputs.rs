@@ -50,6 +50,7 @@ impl PadInputs {
         Ok(Self { shared, is_over, thread: Some(thread) })
     }
 
+    /// Returns the connected gamepads, or the reason why none can be read.
     pub fn state(&self) -> PadState {
         lock(&self.shared).state.clone()
     }

@@ -25,17 +25,25 @@ pub trait PadIn {
 /// An event of a gamepad. Pads are numbered from 0, and a pad that is plugged in again keeps its number.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PadEvent {
+    /// A pad was plugged in, or was found when listening started.
     Connected {
+        /// The number of the pad.
         pad: usize,
+        /// The model, as the system names it.
         name: String,
     },
+    /// A pad was unplugged; its number stays reserved for it while others are free.
     Disconnected {
+        /// The number of the pad.
         pad: usize,
     },
-    /// Axes go from -1 to 1, to the right and up; buttons from 0 to 1.
+    /// An axis or a button has another position.
     Moved {
+        /// The number of the pad.
         pad: usize,
+        /// The axis or button.
         part: PadPart,
+        /// Axes go from -1 to 1, to the right and up; buttons from 0 to 1.
         value: f32,
     },
 }
