@@ -131,11 +131,7 @@ impl OpenProject {
             }
             ViewCommand::WatchCosts(on) => {
                 self.read_backs.costs.watch(on);
-                if on {
-                    self.changes.set(Change::Costs);
-                } else {
-                    self.changes.withdraw(|change| matches!(change, Change::Costs));
-                }
+                self.changes.set_if(on, Change::Costs);
             }
             ViewCommand::WatchTargets(targets) => self.read_backs.miniatures.watch(targets),
             ViewCommand::WatchBuffers(watch) => self.read_backs.buffers.watch(watch),

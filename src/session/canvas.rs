@@ -107,13 +107,9 @@ impl OpenProject {
     pub(super) fn fit_canvas(&mut self) {
         let Some(size) = self.canvas.size() else { return };
         let is_new = size != self.engine.coming_size() && self.canvas.refused != Some(size);
-        if is_new {
-            self.changes.set(Change::Resize(size));
-        } else {
-            self.changes.withdraw(|change| matches!(change, Change::Resize(_)));
-            if self.canvas.refused.is_none() {
-                self.dismiss_notices(About::CanvasSize);
-            }
+        self.changes.set_if(is_new, Change::Resize(size));
+        if !is_new && self.canvas.refused.is_none() {
+            self.dismiss_notices(About::CanvasSize);
         }
     }
 

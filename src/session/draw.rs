@@ -35,12 +35,8 @@ impl Session {
     pub(super) fn take_result(&mut self, was_just_submitted: bool) -> Option<Result<JobResult, String>> {
         let (mut done, is_of_project) = self.services.drawing.take(was_just_submitted)?;
         let events = done.as_mut().map_or(&mut [][..], |done| &mut done.events);
-        if is_of_project {
-            self.open.engine.finish(events);
-            return Some(done);
-        }
-        self.open.engine.take_size(events);
-        Some(done.map(|_| JobResult::default()))
+        self.open.engine.finish(events, is_of_project);
+        Some(done.map(|done| if is_of_project { done } else { JobResult::default() }))
     }
 
     /// Submits pending changes and due frames, one job after the other, as long as the engine accepts them: while
@@ -50,9 +46,7 @@ impl Session {
     pub(super) fn draw_due_frames(&mut self, runs: bool) -> bool {
         let (mut is_drawn, mut has_run) = (false, !runs);
         while !self.services.drawing.is_busy() && !self.open.halt.is_held() && !self.open.halt.is_device_gone() {
-            if !self.open.playback.is_replaying() {
-                self.open.loop_range();
-            }
+            self.open.loop_range();
             if self.travel() {
                 is_drawn |= self.take_drawn(true);
                 continue;
@@ -91,8 +85,9 @@ impl Session {
         let may_run = (!*has_run || self.open.picture.is_program_new)
             && !self.open.is_waiting_for_compile()
             && self.services.films.may_draw(self.open.host.now);
-        *has_run |= !is_step && self.open.playback.is_running();
-        let is_new = is_step || self.open.playback.is_running();
+        let is_running = self.open.playback.is_running();
+        *has_run |= is_running && !is_step;
+        let is_new = is_running || is_step;
         let mut inputs = self.open.playback.next_frame(self.open.host.now, is_step, may_run)?;
         inputs.microphone = self.services.audio.spectrum(is_new);
         self.services.films.note_frame(is_new, self.open.host.now);
@@ -116,7 +111,7 @@ impl Session {
         let costs_of = self.open.read_backs.costs.is_watched().then(|| self.open.documents.current().clone());
         let tile_limit = self.tile_limit();
         let may_wait = self.open.frame_may_be_dropped() && tasks.is_empty() && costs_of.is_none();
-        if self.open.changes.has_program() {
+        if self.open.changes.program().is_some() {
             self.open.mark_new_code();
         }
         self.submit(may_wait, Job { draw, stays, tasks, costs_of, tile_limit, ..Job::default() });
@@ -200,9 +195,8 @@ impl Session {
 
     /// The newest program draws from now on.
     fn on_program_installed(&mut self, forecast: Option<Duration>) {
-        self.open.playback.is_redraw_due = true;
+        self.open.playback.on_program_installed();
         self.services.audio.on_program_installed();
-        self.open.playback.seeking.awaits_program = false;
         self.open.picture.is_program_new = true;
         self.open.host.changed = true;
         self.open.compile.set_compiling(self.open.is_compile_under_way());
@@ -228,9 +222,8 @@ impl Session {
             self.on_device_lost(&error.to_string());
             return;
         }
-        self.open.playback.clock.pause();
+        self.open.playback.stop();
         self.open.end_replay("a frame could not be drawn");
-        self.open.playback.forget_due_frames();
         if !is_lost {
             self.open.notice_about(About::Drawing, Level::Error, format!("{error}; the picture is paused"));
         } else if self.open.halt.lose_device() {

@@ -17,9 +17,8 @@ impl Session {
         let next = self.open.successor(documents, is_overdue);
         let previous = replace(&mut self.open, next);
         self.services.closing.add(previous.close());
-        if self.services.drawing.switch_project(self.open.host.serial) {
-            self.open.changes.set(Change::Restart);
-        }
+        let is_other_engine = self.services.drawing.switch_project(self.open.host.serial);
+        self.open.changes.set_if(is_other_engine, Change::Restart);
         self.services.compiler.cancel();
         self.services.audio.close_project();
         self.services.controls.close_project();

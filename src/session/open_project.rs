@@ -115,6 +115,6 @@ impl OpenProject {
 
     /// Returns whether a program is pending or in flight.
     pub(super) fn is_program_coming(&self) -> bool {
-        self.changes.has_program() || self.engine.is_program_coming()
+        self.changes.program().is_some() || self.engine.is_program_coming()
     }
 }

@@ -6,7 +6,7 @@ use super::{
     Session,
     buffers::BufferReads,
     costs::Costs,
-    drawing::{RenderTask, Renderer, Tasks},
+    drawing::{Change, RenderTask, Renderer, Tasks},
     measures::Measurements,
     miniatures::Miniatures,
     open_project::OpenProject,
@@ -68,7 +68,6 @@ impl ReadBacks {
 impl Session {
     /// Returns the tasks that are due now, after the frame that is due if there is one.
     pub(super) fn due_tasks(&mut self, has_frame: bool) -> Tasks {
-        let is_playing = self.open.playback.is_running();
         // The engine of another project reports that it has no program.
         let is_there = self.open.engine.has_program() && !self.open.is_program_coming();
         let mut tasks = Tasks::default();
@@ -77,8 +76,8 @@ impl Session {
         if is_between && !has_frame && is_there && !self.open.halt.is_halted() {
             return tasks;
         }
-        if has_frame || is_there || self.open.changes.has_restart() {
-            self.request_pictures(has_frame, is_playing, &mut tasks);
+        if has_frame || is_there || self.open.changes.has(&Change::Restart) {
+            self.request_pictures(has_frame, &mut tasks);
         }
         if is_there && !self.open.is_compile_under_way() {
             self.open.request_inputs(&mut tasks);
@@ -87,11 +86,13 @@ impl Session {
     }
 
     /// Requests pictures and numbers of the newest program, after the frame that is due.
-    fn request_pictures(&mut self, has_frame: bool, is_playing: bool, tasks: &mut Tasks) {
+    fn request_pictures(&mut self, has_frame: bool, tasks: &mut Tasks) {
         self.services.captures.request(tasks);
         let is_of_project = self.open.is_picture_of_project();
         self.services.last_pictures.request(is_of_project, tasks);
-        let at = Moment { now: self.open.host.now, has_frame, is_playing, is_seeking: self.open.playback.is_seeking() };
+        let playback = &self.open.playback;
+        let (is_playing, is_seeking) = (playback.is_running(), playback.is_seeking());
+        let at = Moment { now: self.open.host.now, has_frame, is_playing, is_seeking };
         self.open.read_backs.read_backs().into_iter().for_each(|read_back| read_back.request(&at, tasks));
     }
 

@@ -12,13 +12,12 @@ use super::{
     drawing::{Change, Job, RenderTask, Tasks},
     kept_files,
     open_project::OpenProject,
-    playback::{SeekTarget, clock::Clock},
     read_back::{ReadPicture, TakeRun},
     recent::{Left, RecentProject},
     view::{About, Level},
 };
 use eddy_engine::Picture;
-use eddy_playback::run::Run;
+use eddy_playback::run::{Frame, Run};
 use std::{
     path::Path,
     time::{Duration, Instant},
@@ -143,20 +142,26 @@ impl Session {
         self.open.restore_size(size, scale);
         let is_playing = !paused;
         if !self.open.has_state() {
-            self.open.playback.clock = Clock::at(time_secs, frame, is_playing);
-            self.open.playback.is_frame_due = true;
+            self.open.playback.start_at(time_secs, frame, is_playing);
             return;
         }
-        self.open.playback.clock = Clock::at(0.0, None, is_playing);
+        self.open.playback.start(is_playing);
         let origin = &self.open.documents.current().origin;
-        let Some(frames) = paused.then(|| self.services.runs.of(origin)).flatten() else { return };
-        self.open.playback.seeking.goal = frames.len().checked_sub(1).map(|last| SeekTarget::Redraw(last as u64));
-        (self.open.playback.seeking.awaits_program, self.open.playback.seeking.is_restoring) = (true, true);
-        self.open.changes.set(Change::Run(frames));
+        if let Some(frames) = paused.then(|| self.services.runs.of(origin)).flatten() {
+            self.open.restore_frames(frames);
+        }
     }
 }
 
 impl OpenProject {
+    /// The first program draws the frames of an earlier run again, and shows the last one.
+    pub(super) fn restore_frames(&mut self, frames: Vec<Frame>) {
+        if let Some(last) = frames.len().checked_sub(1) {
+            self.playback.restore_run(last as u64);
+            self.changes.set(Change::Run(frames));
+        }
+    }
+
     /// Returns whether the picture is the project's own: not that of the previous project, a probe, or a frame on the
     /// way of a seek.
     pub(super) fn is_picture_of_project(&self) -> bool {

@@ -4,8 +4,7 @@ use super::{
     Session,
     command::PendingAction,
     documents::Documents,
-    drawing::{Change, Renderer},
-    playback::{SeekTarget, clock::Clock},
+    drawing::Renderer,
     view::{About, Level},
 };
 use eddy_playback::{
@@ -90,11 +89,9 @@ impl Session {
         let is_whole = !has_state || frames.len() > 1 || last.inputs.frame == 0;
         let frame = last.inputs.frame;
         self.open.playback.mouse.follow(last.inputs.mouse, last.inputs.drag);
-        self.open.playback.clock = Clock::at(0.0, None, false);
+        self.open.playback.start(false);
         if is_whole {
-            self.open.playback.seeking.goal = Some(SeekTarget::Redraw(frames.len() as u64 - 1));
-            (self.open.playback.seeking.awaits_program, self.open.playback.seeking.is_restoring) = (true, true);
-            self.open.changes.set(Change::Run(frames));
+            self.open.restore_frames(frames);
             self.open.notice(Level::Info, format!("opened from the image, paused at frame {frame}"));
         } else {
             let text = format!("opened from the image, paused at frame 0: the way to frame {frame} is not in it");

@@ -6,7 +6,7 @@ use super::{
     command::TransportCommand,
     drawing::{Change, Draw, Job, SeekProgress},
     open_project::OpenProject,
-    playback::{Reach, Reading, Recorder, ReplayView, ReplayedFrame, TimeRange, name},
+    playback::{Reach, Recorder, ReplayView, ReplayedFrame, TimeRange, name},
     view::{About, Level},
 };
 use eddy_engine::{EngineError, FrameInputs};
@@ -16,11 +16,10 @@ use std::path::PathBuf;
 impl Session {
     /// Submits the seek. Returns false if there is none, or no program to draw it.
     pub(super) fn travel(&mut self) -> bool {
-        let seeking = &self.open.playback.seeking;
-        if seeking.goal.is_none() || self.open.is_program_coming() || seeking.awaits_program {
+        if !self.open.playback.is_goal_due() || self.open.is_program_coming() {
             return false;
         }
-        if !self.open.engine.has_program() || self.open.changes.has_restart() {
+        if !self.open.engine.has_program() || self.open.changes.has(&Change::Restart) {
             self.open.playback.seeking.cancel();
             return false;
         }
@@ -46,8 +45,7 @@ impl Session {
                 self.stop_drawing(&error);
             }
             None => {
-                self.open.playback.seeking.cancel();
-                self.open.playback.forget_due_frames();
+                self.open.playback.abandon_seek();
                 let text = match reach.back {
                     0 => "there is no earlier frame: an edit, a reset or a change of resolution restarts at frame 0"
                         .to_owned(),
@@ -85,8 +83,7 @@ impl Session {
 
     /// Starts a replay of a recording that was loaded.
     pub(super) fn take_recording(&mut self) {
-        let Some(read) = self.open.playback.replay.reading.as_mut().and_then(Reading::take) else { return };
-        let Some(Reading { file, .. }) = self.open.playback.replay.reading.take() else { return };
+        let Some((file, read)) = self.open.playback.take_recording() else { return };
         let recording = match read {
             Ok(recording) => recording,
             Err(error) => {
@@ -184,10 +181,7 @@ impl OpenProject {
         self.override_halt();
         // A recording must be a continuous run.
         self.end_recording();
-        let reach = self.engine.reach();
-        if self.playback.is_replaying() {
-            self.playback.seek_in_replay(secs, reach);
-        } else if self.playback.seek(secs, reach, self.has_state()) {
+        if self.playback.seek(secs, self.engine.reach(), self.has_state()) {
             self.reset_buffers();
         }
     }
@@ -223,7 +217,7 @@ impl OpenProject {
     /// Returns whether a pending program draws all frames since the reset again.
     pub(super) fn redraws_run(&self) -> bool {
         let reach = self.engine.reach();
-        self.changes.has_program() && reach.is_whole && self.keeps_inputs_of(reach)
+        self.changes.program().is_some() && reach.is_whole && self.keeps_inputs_of(reach)
     }
 
     pub(super) fn has_state(&self) -> bool {
@@ -245,8 +239,10 @@ impl OpenProject {
 
     /// Returns whether a change of the program or the canvas is followed by the shown frame only.
     pub(super) fn stays(&self) -> bool {
-        let restarts =
-            self.changes.has_restart() || self.changes.has_reset() || self.compile.resets || self.redraws_run();
+        let restarts = self.changes.has(&Change::Restart)
+            || self.changes.has(&Change::Reset)
+            || self.compile.resets
+            || self.redraws_run();
         self.playback.is_still() && !restarts
     }
 
@@ -307,11 +303,8 @@ impl OpenProject {
     pub(super) fn play_recording(&mut self, file: PathBuf) {
         self.dismiss_notices(About::Replay);
         let file = std::path::absolute(&file).unwrap_or(file);
-        match Reading::start(file, self.host.wake.clone()) {
-            Ok(reading) => self.playback.replay.reading = Some(reading),
-            Err(e) => {
-                self.notice_about(About::Replay, Level::Error, format!("cannot start a thread for reading: {e}"));
-            }
+        if let Err(e) = self.playback.read_recording(file, self.host.wake.clone()) {
+            self.notice_about(About::Replay, Level::Error, format!("cannot start a thread for reading: {e}"));
         }
     }
 
@@ -334,7 +327,6 @@ impl OpenProject {
         }
         if let Some(values) = change.values {
             self.changes.set(Change::CustomUniforms(values));
-            self.playback.replay.has_values = true;
         }
         if change.reset {
             self.changes.set(Change::Reset);
@@ -352,9 +344,8 @@ impl OpenProject {
 
     /// Gives the engine the project's own values again, before a frame that is not the recording's.
     pub(super) fn restore_values(&mut self) {
-        if self.playback.replay.has_values && !self.playback.is_replaying() {
+        if self.playback.drop_replayed_values() {
             self.custom_uniforms_changed();
-            self.playback.replay.follows = true;
         }
     }
 }

@@ -112,9 +112,8 @@ impl OpenProject {
 
     /// Submits the values to the running program; while paused, one frame shows them.
     pub(super) fn custom_uniforms_changed(&mut self) {
-        let played = self.playback.replay.playing.as_ref().and_then(|playing| playing.values());
-        self.playback.replay.has_values = played.is_some();
-        let mut values = played.unwrap_or(&self.documents.current().custom_uniform_values).clone();
+        let replayed = self.playback.replayed_values();
+        let mut values = replayed.unwrap_or(&self.documents.current().custom_uniform_values).clone();
         self.add_old_names(&mut values);
         self.uniforms.for_sound = Some(values.clone());
         self.changes.set(Change::CustomUniforms(values));

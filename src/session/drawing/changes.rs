@@ -43,20 +43,20 @@ impl Change {
 
 /// The pending changes, at most one of a kind, in the order in which the engine applies them.
 #[derive(Default)]
-pub(crate) struct PendingChanges(Vec<Change>);
+pub(crate) struct PendingChanges(pub(super) Vec<Change>);
 
 impl PendingChanges {
     /// Adds a change, in place of an older one of its kind.
     pub(crate) fn set(&mut self, change: Change) {
-        match self.0.binary_search_by_key(&change.rank(), Change::rank) {
-            Ok(at) => self.0[at] = change,
-            Err(at) => self.0.insert(at, change),
-        }
+        self.set_if(true, change);
     }
 
-    /// Drops the changes that are no longer wanted.
-    pub(crate) fn withdraw(&mut self, is_unwanted: impl Fn(&Change) -> bool) {
-        self.0.retain(|change| !is_unwanted(change));
+    /// Adds a change, in place of an older one of its kind, which is dropped also if the change is not wanted.
+    pub(crate) fn set_if(&mut self, is_wanted: bool, change: Change) {
+        self.0.retain(|older| older.rank() != change.rank());
+        if is_wanted {
+            self.0.insert(self.0.partition_point(|other| other.rank() < change.rank()), change);
+        }
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -67,25 +67,14 @@ impl PendingChanges {
         self.0.iter()
     }
 
-    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Change> {
-        self.0.iter_mut()
-    }
-
-    pub(crate) fn has_restart(&self) -> bool {
-        self.iter().any(|change| matches!(change, Change::Restart))
-    }
-
-    pub(crate) fn has_reset(&self) -> bool {
-        self.iter().any(|change| matches!(change, Change::Reset))
+    /// Returns whether there is a change of the same kind.
+    pub(crate) fn has(&self, kind: &Change) -> bool {
+        self.iter().any(|change| change.rank() == kind.rank())
     }
 
     /// Returns whether another program is to draw.
     pub(crate) fn has_other_program(&self) -> bool {
-        self.has_restart() || self.has_program()
-    }
-
-    pub(crate) fn has_program(&self) -> bool {
-        self.program().is_some()
+        self.has(&Change::Restart) || self.program().is_some()
     }
 
     pub(crate) fn program(&self) -> Option<&PendingProgram> {
@@ -99,16 +88,7 @@ impl PendingChanges {
 
     /// Returns whether applying the changes alters the targets, given the canvas size.
     pub(crate) fn touches_targets(&self, canvas: (u32, u32)) -> bool {
-        self.has_program() || self.size().is_some_and(|size| size != canvas)
-    }
-}
-
-impl IntoIterator for PendingChanges {
-    type Item = Change;
-    type IntoIter = std::vec::IntoIter<Change>;
-
-    fn into_iter(self) -> Self::IntoIter {
-        self.0.into_iter()
+        self.program().is_some() || self.size().is_some_and(|size| size != canvas)
     }
 }
 
@@ -151,11 +131,11 @@ mod tests {
     fn newer_change_of_a_kind_replaces_the_older() {
         let mut changes = PendingChanges::default();
         changes.set(Change::Resize((4, 4)));
-        changes.set(Change::Show(PassName::image()));
+        changes.set(Change::Show(PassName::default()));
         changes.set(Change::Resize((8, 2)));
         assert_eq!(changes.size(), Some((8, 2)));
         assert_eq!(ranks(&changes), [1, 4]);
-        changes.withdraw(|change| matches!(change, Change::Resize(_)));
+        changes.set_if(false, Change::Resize((8, 2)));
         assert_eq!((changes.size(), ranks(&changes)), (None, vec![4]));
     }
 
@@ -167,7 +147,7 @@ mod tests {
                 Change::Restart,
                 Change::Resize((1, 1)),
                 Change::CustomUniforms(CustomUniformValues::new()),
-                Change::Show(PassName::image()),
+                Change::Show(PassName::default()),
                 Change::Look(None),
                 Change::Reset,
                 Change::Run(Vec::new()),
@@ -179,7 +159,7 @@ mod tests {
             let mut made = all();
             made.rotate_left(start);
             made.into_iter().rev().for_each(|change| changes.set(change));
-            let mut applied = changes.into_iter();
+            let mut applied = changes.0.into_iter();
             for expected in all() {
                 let change = applied.next().unwrap();
                 assert_eq!(std::mem::discriminant(&change), std::mem::discriminant(&expected), "from {start}");

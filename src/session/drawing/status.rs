@@ -107,34 +107,26 @@ impl EngineStatus {
     /// Records the changes of a job that is about to be submitted. The engine gets the program, and its origin stays here.
     pub(crate) fn submit(&mut self, changes: &mut PendingChanges) {
         self.submitted = Submitted { size: changes.size(), ..Submitted::default() };
-        for change in changes.iter_mut() {
+        for change in &mut changes.0 {
             if let Change::Program(coming) = change {
                 self.submitted.program = coming.origin.take();
             }
         }
     }
 
-    /// Records the events of that job.
-    pub(crate) fn finish(&mut self, events: &mut [Event]) {
+    /// Records the events of that job. Of one for the previous project only the size of the picture counts.
+    pub(crate) fn finish(&mut self, events: &mut [Event], is_of_project: bool) {
         let Submitted { mut program, .. } = take(&mut self.submitted);
         self.reach = Reach::default();
-        self.take_size(events);
         for event in events {
             match event {
+                Event::Resized(size, Ok(())) => self.size = *size,
+                _ if !is_of_project => {}
                 Event::ProgramSet(Ok(_)) => self.program = program.take(),
                 Event::Reach(reach) => self.reach = *reach,
                 Event::Clock(clock) => self.clock = *clock,
                 Event::Costs(costs) => self.costs = take(costs),
                 _ => {}
-            }
-        }
-    }
-
-    /// Records the size of the picture after a job, which may be of the previous project.
-    pub(crate) fn take_size(&mut self, events: &[Event]) {
-        for event in events {
-            if let Event::Resized(size, Ok(())) = event {
-                self.size = *size;
             }
         }
     }

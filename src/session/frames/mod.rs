@@ -58,7 +58,7 @@ impl Session {
         self.services.display.has_drawn |= self.take_drawn(false);
         self.take_compiled();
         self.update_frame_control();
-        if self.open.changes.has_program() || self.open.picture.is_program_new {
+        if self.open.changes.program().is_some() || self.open.picture.is_program_new {
             self.open.fit_canvas();
             self.services.display.has_drawn |= self.draw_due_frames(false);
         }
@@ -75,7 +75,7 @@ impl Session {
     /// Makes the frame that is being drawn wait for the newest text, and abandons it for that text's program.
     fn update_frame_control(&self) {
         self.services.drawing.set_frame_control(match self.open.compile_wait_end() {
-            _ if self.open.changes.has_program() => FrameControl::Abandon,
+            _ if self.open.changes.program().is_some() => FrameControl::Abandon,
             Some(until) => FrameControl::WaitUntil(until),
             None => FrameControl::Continue,
         });

@@ -198,7 +198,7 @@ fn frame_waits_for_newest_text_and_is_abandoned_for_its_program() {
     let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
     session.apply(EditCommand::EditText { tab, text: text.into() });
     let end = now + Duration::from_secs(120);
-    while !session.open.changes.has_program() {
+    while session.open.changes.program().is_none() {
         assert!(Instant::now() < end, "there is no program");
         session.open.host.now = Instant::now();
         session.start_compile();
@@ -221,7 +221,7 @@ fn first_frame_and_paused_frames_do_not_wait() {
     assert!(session.open.frame_may_be_dropped());
     session.open.changes.set(Change::Reset);
     assert!(!session.open.frame_may_be_dropped(), "a change goes with it");
-    session.open.changes.withdraw(|change| matches!(change, Change::Reset));
+    session.open.changes.set_if(false, Change::Reset);
     session.apply(TransportCommand::Pause);
     assert!(!session.open.frame_may_be_dropped(), "time is paused");
 }

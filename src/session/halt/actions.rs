@@ -184,8 +184,7 @@ impl OpenProject {
     }
 
     fn halt_with(&mut self, halt: Halt) {
-        self.halt.start(halt, self.playback.clock.is_playing(), self.engine.project());
-        self.playback.clock.pause();
+        self.halt.start(halt, self.playback.hold(), self.engine.project());
         self.host.changed = true;
     }
 
@@ -266,8 +265,7 @@ impl OpenProject {
     }
 
     fn hold_after(&mut self, after_trouble: bool) {
-        self.halt.hold(self.playback.clock.is_playing(), after_trouble);
-        self.playback.clock.pause();
+        self.halt.hold(self.playback.hold(), after_trouble);
         self.host.changed = true;
     }
 }

@@ -11,7 +11,7 @@ mod seek;
 
 pub(crate) use record::Recorder;
 pub use replay::ReplayView;
-pub(crate) use replay::{Reading, Replay, ReplayedFrame, name};
+pub(crate) use replay::{Replay, ReplayedFrame, name};
 pub use seek::{Reach, TimeRange};
 pub(crate) use seek::{SeekTarget, Seeking};
 
@@ -138,6 +138,36 @@ impl Playback {
         self.fps.restart();
         self.steps = 0;
         self.is_frame_due = true;
+    }
+
+    /// Starts at frame 0 of a project that was just opened.
+    pub(crate) fn start(&mut self, is_playing: bool) {
+        self.clock = Clock::at(0.0, None, is_playing);
+    }
+
+    /// Starts at the time and the frame where a project was closed, which is due.
+    pub(crate) fn start_at(&mut self, time_secs: f64, frame: Option<i32>, is_playing: bool) {
+        self.clock = Clock::at(time_secs, frame, is_playing);
+        self.is_frame_due = true;
+    }
+
+    /// Stops time; a seek continues. Returns whether time was running.
+    pub(crate) fn hold(&mut self) -> bool {
+        let was_playing = self.clock.is_playing();
+        self.clock.pause();
+        was_playing
+    }
+
+    /// Stops time, and draws nothing that was due.
+    pub(crate) fn stop(&mut self) {
+        self.clock.pause();
+        self.forget_due_frames();
+    }
+
+    /// A new program draws the shown frame again, and a seek that waited for it starts.
+    pub(crate) fn on_program_installed(&mut self) {
+        self.is_redraw_due = true;
+        self.seeking.awaits_program = false;
     }
 
     /// Continues with the buffers of a device that has drawn nothing.

@@ -17,6 +17,7 @@ use eddy_project::CustomUniformValues;
 use std::{
     fs::File,
     io::BufReader,
+    mem::take,
     path::{Path, PathBuf},
     sync::Arc,
     time::{Duration, Instant},
@@ -39,23 +40,23 @@ const EARLY: Duration = Duration::from_millis(4);
 /// The state of the recording that is being played, or was played last.
 #[derive(Default)]
 pub(crate) struct Replay {
-    pub reading: Option<Reading>,
+    reading: Option<Reading>,
     pub playing: Option<Playing>,
     /// The engine has the recording's values of uniforms, not the project's.
-    pub has_values: bool,
+    has_values: bool,
     /// The next job's frame follows the previous one with the state in which that was drawn.
     pub follows: bool,
 }
 
 /// A file that is being read.
-pub(crate) struct Reading {
-    pub file: PathBuf,
+struct Reading {
+    file: PathBuf,
     result: Background<(), (), Result<Recording, ReadError>>,
 }
 
 impl Reading {
     /// Starts reading on a thread of its own: a long recording takes seconds. `wake` is called when it is done.
-    pub(crate) fn start(file: PathBuf, wake: Wake) -> std::io::Result<Self> {
+    fn start(file: PathBuf, wake: Wake) -> std::io::Result<Self> {
         let path = file.clone();
         let read = move |_: &Control<()>| {
             let read = |file| Recording::read(BufReader::new(file));
@@ -66,7 +67,7 @@ impl Reading {
     }
 
     /// Returns the result once reading is done.
-    pub(crate) fn take(&mut self) -> Option<Result<Recording, ReadError>> {
+    fn take(&mut self) -> Option<Result<Recording, ReadError>> {
         let read = self.result.take()?;
         Some(read.unwrap_or_else(|why| Err(ReadError::Io(std::io::Error::other(why)))))
     }
@@ -207,6 +208,33 @@ impl Playback {
         Some(self.replay.playing.as_ref()?.due_at(now, self.clock.speed()))
     }
 
+    /// Starts reading a recording on a thread of its own. `wake` is called when it is done.
+    pub(crate) fn read_recording(&mut self, file: PathBuf, wake: Wake) -> std::io::Result<()> {
+        self.replay.reading = Some(Reading::start(file, wake)?);
+        Ok(())
+    }
+
+    /// Returns the file and the recording in it once it is read.
+    pub(crate) fn take_recording(&mut self) -> Option<(PathBuf, Result<Recording, ReadError>)> {
+        let read = self.replay.reading.as_mut()?.take()?;
+        Some((self.replay.reading.take()?.file, read))
+    }
+
+    /// Returns the values of uniforms that the engine gets instead of the project's: those of the recording that plays.
+    pub(crate) fn replayed_values(&mut self) -> Option<&CustomUniformValues> {
+        let values = self.replay.playing.as_ref().and_then(Playing::values);
+        self.replay.has_values = values.is_some();
+        values
+    }
+
+    /// Returns whether the engine has the values of a replay that has ended, once. The next frame follows the last one
+    /// with the state in which that was drawn.
+    pub(crate) fn drop_replayed_values(&mut self) -> bool {
+        let is_over = !self.is_replaying() && take(&mut self.replay.has_values);
+        self.replay.follows |= is_over;
+        is_over
+    }
+
     /// Starts a replay.
     pub(crate) fn start_replay(&mut self, file: PathBuf, recording: Recording) {
         self.release_inputs();
@@ -267,6 +295,7 @@ impl Playback {
         let (frame, change) = playing.take(now)?;
         let is_last = playing.is_over();
         self.replay.follows = true;
+        self.replay.has_values |= change.values.is_some();
         self.is_redraw_due = false;
         let inputs = &frame.inputs;
         self.clock.draw(inputs.frame, inputs.time_secs, inputs.frame_rate);
@@ -274,7 +303,7 @@ impl Playback {
     }
 
     /// Seeks in the recording.
-    pub(crate) fn seek_in_replay(&mut self, secs: f64, reach: Reach) {
+    pub(super) fn seek_in_replay(&mut self, secs: f64, reach: Reach) {
         let resumes = self.is_playing();
         let is_at_start = self.replay.playing.as_ref().is_some_and(Playing::is_at_start);
         self.seeking.cancel();

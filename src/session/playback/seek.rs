@@ -111,9 +111,13 @@ impl Playback {
         if let Some(SeekTarget::By(frames)) = goal { frames } else { 0 }
     }
 
-    /// Shows the picture at a time. Playing or paused is unchanged. Returns whether frames are drawn from the start,
-    /// which requires a reset of the buffers.
+    /// Shows the picture, or the recording that plays, at a time. Playing or paused is unchanged. Returns whether frames
+    /// are drawn from the start, which requires a reset of the buffers.
     pub(crate) fn seek(&mut self, secs: f64, reach: Reach, has_state: bool) -> bool {
+        if self.is_replaying() {
+            self.seek_in_replay(secs, reach);
+            return false;
+        }
         let resumes = self.is_playing();
         self.seeking.cancel();
         self.steps = 0;
@@ -138,16 +142,26 @@ impl Playback {
     pub(crate) fn redraw_run(&mut self, shown: u64) {
         let resumes = self.is_playing();
         self.seeking.cancel();
-        self.clock.pause();
-        self.forget_due_frames();
+        self.stop();
         self.seeking.goal = Some(SeekTarget::Redraw(shown));
         self.seeking.resumes = resumes;
     }
 
-    /// Returns the start of the looped range if the next frame would not be before its end.
+    /// The first program draws the frames of an earlier run, up to the one with this number.
+    pub(crate) fn restore_run(&mut self, last: u64) {
+        self.seeking.goal = Some(SeekTarget::Redraw(last));
+        (self.seeking.awaits_program, self.seeking.is_restoring) = (true, true);
+    }
+
+    /// Returns the start of the looped range if the next frame would not be before its end. A recording is not looped.
     pub(crate) fn loop_start(&self, now: Instant) -> Option<f64> {
-        let range = self.seeking.range?;
+        let range = self.seeking.range.filter(|_| !self.is_replaying())?;
         (self.is_running() && self.clock.running_time(now) >= range.to).then_some(range.from)
+    }
+
+    /// Returns whether there is a frame to request from the engine now.
+    pub(crate) fn is_goal_due(&self) -> bool {
+        self.seeking.goal.is_some() && !self.seeking.awaits_program
     }
 
     /// Returns the frame to request from the engine, once.
@@ -176,6 +190,12 @@ impl Playback {
         self.is_redraw_due = travelled.is_display_new;
         self.arrive();
         true
+    }
+
+    /// The goal is out of reach: the shown frame stays.
+    pub(crate) fn abandon_seek(&mut self) {
+        self.seeking.cancel();
+        self.forget_due_frames();
     }
 
     /// Returns whether a frame at a fixed step is due: a single step, or one before the goal of a seek.
@@ -240,6 +260,16 @@ mod tests {
         let (mut playback, reach) = paused_at(9);
         playback.step_forward(reach.ahead);
         assert!(playback.take_goal().is_none() && playback.take_step() && !playback.take_step());
+    }
+
+    #[test]
+    fn restored_run_waits_for_the_first_program() {
+        let mut playback = Playback::default();
+        playback.restore_run(41);
+        assert!(playback.is_seeking() && !playback.is_goal_due());
+        playback.on_program_installed();
+        assert!(playback.is_goal_due());
+        assert_eq!(playback.take_goal(), Some(SeekTarget::Redraw(41)));
     }
 
     #[test]

@@ -62,10 +62,10 @@ impl Renderer {
         let Job { changes, draw, stays, tasks, costs_of, tile_limit, gate } = job;
         let mut done = JobResult::default();
         // A new program draws its own frame.
-        if !changes.has_program() || !tasks.is_empty() {
+        if changes.program().is_none() || !tasks.is_empty() {
             done.is_display_new |= self.finish();
         }
-        let (canvas, restarts) = (self.engine.size(), changes.has_restart());
+        let (canvas, restarts) = (self.engine.size(), changes.has(&Change::Restart));
         if stays && changes.touches_targets(canvas) {
             self.rewind(changes.size().is_some());
         }
@@ -187,29 +187,37 @@ impl Renderer {
         done: &mut JobResult,
     ) -> bool {
         let mut has_new_values = false;
-        for change in changes {
+        for change in changes.0 {
+            done.is_display_new |=
+                matches!(change, Change::Restart | Change::Program(_) | Change::Show(_) | Change::Look(_));
             match change {
                 Change::Restart => {
                     match Renderer::new(self.engine.gpu().clone(), self.engine.size(), self.delivers_pictures) {
                         Ok(renderer) => *self = renderer,
                         Err(error) => done.events.push(Event::Failed(error)),
                     }
-                    done.is_display_new = true;
                 }
                 Change::Resize(size) => self.resize(size, canvas, done),
-                Change::Program(coming) => self.set_program(coming.program, tile_limit, inputs, done),
+                Change::Program(coming) => {
+                    let tried = match tile_limit {
+                        Some(limit) => self.try_tiles(coming.program, limit, inputs),
+                        None => Ok((coming.program, None)),
+                    };
+                    if matches!(tried, Ok((_, Some(_)))) {
+                        // It is not drawn for now: finish the frame, so that a whole picture is shown until then.
+                        self.finish();
+                    }
+                    let set = tried.and_then(|(program, forecast)| self.engine.set_program(program).map(|()| forecast));
+                    self.is_abandoned &= set.is_err();
+                    done.events.push(Event::ProgramSet(set));
+                    self.history.change_program();
+                }
                 Change::CustomUniforms(values) => {
                     has_new_values = self.engine.set_custom_uniforms(&values);
                     self.history.set_values(&values);
                 }
-                Change::Show(pass) => {
-                    self.engine.show(pass);
-                    done.is_display_new = true;
-                }
-                Change::Look(look) => {
-                    self.engine.show_values(look);
-                    done.is_display_new = true;
-                }
+                Change::Show(pass) => self.engine.show(pass),
+                Change::Look(look) => self.engine.show_values(look),
                 Change::Reset => {
                     self.engine.reset();
                     self.history.restart(true);
@@ -221,28 +229,6 @@ impl Renderer {
             }
         }
         has_new_values
-    }
-
-    fn set_program(
-        &mut self,
-        program: Program,
-        tile_limit: Option<TileLimit>,
-        inputs: &FrameInputs,
-        done: &mut JobResult,
-    ) {
-        let tried = match tile_limit {
-            Some(limit) => self.try_tiles(program, limit, inputs),
-            None => Ok((program, None)),
-        };
-        if matches!(tried, Ok((_, Some(_)))) {
-            // The new program is not drawn for now: finish the frame, so that a whole picture is shown until then.
-            self.finish();
-        }
-        let set = tried.and_then(|(program, forecast)| self.engine.set_program(program).map(|()| forecast));
-        self.is_abandoned &= set.is_err();
-        done.events.push(Event::ProgramSet(set));
-        self.history.change_program();
-        done.is_display_new = true;
     }
 
     /// `canvas`: the size of the picture so far.
