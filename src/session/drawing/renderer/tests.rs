@@ -53,6 +53,31 @@ fn resize_or_new_program_is_shown_with_its_first_frame() {
     assert_eq!(sizes(vec![], Some(3)), Some((32, 18)));
 }
 
+#[test]
+fn resize_without_a_frame_is_reported_as_outdated() {
+    let Some(gpu) = testing::gpu() else { return };
+    let mut renderer = Renderer::new(gpu, (16, 9), true).unwrap();
+    let mut events = |list: Vec<Change>, draw: Draw| {
+        let done = renderer.work(Job { changes: changes(list), draw, ..Job::default() });
+        let name = |event: &Event| match event {
+            Event::Resized(_, Ok(())) => Some("resized"),
+            Event::Outdated => Some("outdated"),
+            Event::Travelled(None) => Some("out of reach"),
+            Event::CannotRedraw => Some("cannot redraw"),
+            Event::Picture(_) => Some("picture"),
+            _ => None,
+        };
+        done.events.iter().filter_map(name).collect::<Vec<_>>()
+    };
+    let resize = |size| vec![Change::Resize(size)];
+    assert_eq!(events(resize((16, 9)), Draw::Nothing), [""; 0], "it has that size");
+    assert_eq!(events(resize((32, 18)), Draw::Nothing), ["resized", "outdated", "picture"]);
+    assert_eq!(events(vec![], Draw::Again), ["cannot redraw"], "no frame was drawn");
+    // The order matters: the session forgets due frames when a goal is out of reach, but not this one.
+    let seek = Draw::Seek(SeekTarget::Frame(7));
+    assert_eq!(events(resize((8, 4)), seek), ["resized", "out of reach", "outdated", "picture"]);
+}
+
 /// Draws a frame that may wait, with the rest of a job.
 fn frame(renderer: &mut Renderer, n: i32, gate: Option<Gate>, job: Job) -> JobResult {
     // The last frame was slow enough for three bands.
