@@ -45,7 +45,7 @@ pub(super) fn custom_uniforms(project: &Project) -> CustomUniforms {
 /// Returns the reason that a uniform cannot have a name. A program with `void main()` has none of Shadertoy's names, and
 /// its uniforms hide functions of the language, as any declaration does.
 fn taken(dialect: Dialect, name: &str) -> Option<&'static str> {
-    if dialect.has_main() { glsl::keyword(name) } else { glsl::taken(name) }
+    if dialect.has_main() { glsl::keyword_in_any_version(name) } else { glsl::taken(name) }
 }
 
 /// Returns those in the scope of a pass's texts: its own, Common's, and those of included files. `None`: Common alone.

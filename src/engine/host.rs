@@ -33,12 +33,15 @@ pub fn pass_kind(project: &Project, pass: &Pass) -> PassKind {
     let is_main = row.entry == EntryPoint::Main
         && matches!(kind, PassKind::Image | PassKind::Buffer)
         && !names_word(&pass.source.text, "mainImage");
-    match (is_main, kind, row.alpha) {
-        (false, kind, _) => kind,
-        (true, PassKind::Image, AlphaRule::Opaque) => PassKind::Main(Alpha::Opaque),
-        (true, PassKind::Image, AlphaRule::OverBlack) => PassKind::Main(Alpha::OverBlack),
-        (true, _, _) => PassKind::Main(Alpha::Stored),
+    if !is_main {
+        return kind;
     }
+    PassKind::Main(match project.dialect.alpha(pass) {
+        AlphaRule::Stored => Alpha::Stored,
+        AlphaRule::Opaque => Alpha::Opaque,
+        AlphaRule::OverBlack => Alpha::OverBlack,
+        AlphaRule::OverTransparent => Alpha::OverTransparent,
+    })
 }
 
 /// Returns the number of slots of the program's uniforms.
@@ -82,7 +85,8 @@ pub(super) fn values(dialect: Dialect, inputs: &FrameInputs, canvas: (u32, u32))
     let words = |row: &eddy_project::HostUniform| {
         let value = match row.value {
             HostValue::Time => all(inputs.time_secs as f32),
-            HostValue::TimeDelta => all(inputs.time_delta_secs),
+            HostValue::TimeDeltaFromZero if inputs.frame == 0 => all(0.0),
+            HostValue::TimeDelta | HostValue::TimeDeltaFromZero => all(inputs.time_delta_secs),
             HostValue::Frame(first) => all(inputs.frame.saturating_add(first) as f32),
             HostValue::Date(january) => {
                 let [year, month, day, secs] = inputs.date;
@@ -92,8 +96,14 @@ pub(super) fn values(dialect: Dialect, inputs: &FrameInputs, canvas: (u32, u32))
                 let secs = inputs.date[3];
                 [(secs / 3600.0).floor(), (secs / 60.0).floor() % 60.0, secs % 60.0, 0.0]
             }
-            HostValue::Mouse(MouseUnit::Pixels) => inputs.mouse,
-            HostValue::Mouse(MouseUnit::Unit) => [inputs.mouse[0] / size[0], inputs.mouse[1] / size[1], 0.0, 0.0],
+            HostValue::Mouse(unit, start) => {
+                let start = || std::array::from_fn(|i| start[i] * size[i]);
+                let [x, y]: [f32; 2] = inputs.pointer.unwrap_or_else(start);
+                match unit {
+                    MouseUnit::Pixels => [x, y, inputs.mouse[2], inputs.mouse[3]],
+                    MouseUnit::Unit => [x / size[0], y / size[1], 0.0, 0.0],
+                }
+            }
             HostValue::SurfaceSize => [size[0] / size[1], 1.0, 0.0, 0.0],
             HostValue::Constant(value) => value,
             HostValue::Terminal(row) => terminal.get(usize::from(row)).copied().unwrap_or_default(),
@@ -145,7 +155,7 @@ mod tests {
     #[test]
     fn each_program_has_its_own_units() {
         let mut inputs = FrameInputs::at_fixed_step(90, 60.0);
-        inputs.mouse = [160.0, 45.0, 0.0, 0.0];
+        inputs.pointer = Some([160.0, 45.0]);
         inputs.date = [2026.0, 0.0, 31.0, 3723.0];
         let value = |dialect, name: &str| {
             let of = in_scope(dialect, 0).iter().position(|uniform| uniform.name == name).unwrap();

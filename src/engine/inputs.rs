@@ -18,6 +18,9 @@ pub struct FrameInputs {
     pub frame_rate: f32,
     /// `iMouse`, canvas pixels from the bottom left.
     pub mouse: [f32; 4],
+    /// The position of the pointer in canvas pixels from the bottom left, whether or not a button is down; `None` before
+    /// it first moves. Programs other than Shadertoy read it.
+    pub pointer: Option<[f32; 2]>,
     /// The total distance in canvas pixels that the mouse was dragged, to the right and up: it rotates cameras.
     pub drag: [f32; 2],
     /// `iDate`: year, month 0-11, day 1-31, seconds since local midnight.
@@ -37,6 +40,7 @@ impl FrameInputs {
             time_delta_secs: (1.0 / fps) as f32,
             frame_rate: fps as f32,
             mouse: [0.0; 4],
+            pointer: None,
             drag: [0.0; 2],
             date: [0.0; 4],
             keyboard: Keyboard::default(),

@@ -144,7 +144,7 @@ pub use eddy_diag::{
 };
 pub use naga;
 
-pub use check::{keyword, taken};
+pub use check::{keyword_in_any_version, taken};
 pub use compile::Compiled;
 #[doc(hidden)]
 pub use compile::dump_ir;

@@ -34,8 +34,10 @@ pub enum Alpha {
     Stored,
     /// The target is opaque.
     Opaque,
-    /// The colour is blended over black: it is multiplied by alpha.
+    /// The colour is blended over opaque black: it is multiplied by alpha.
     OverBlack,
+    /// The colour is blended over transparent black: it and alpha are multiplied by alpha.
+    OverTransparent,
 }
 
 impl PassKind {

@@ -151,7 +151,8 @@ impl Viewport {
         accessible::name(&response, egui::Role::Canvas, format!("Picture of {}", session.shown_pass().title()));
         out.home("picture", ui, Self::id());
         out.place("picture", rect);
-        self.mouse(ui, &response, &letterbox, out);
+        let reads_pointer = session.project().dialect.row().reads_pointer();
+        self.mouse(ui, &response, (&letterbox, reads_pointer), out);
         error_map::paint(ui, session, picture);
         traced(ui, session, picture);
         let scale = ui.pixels_per_point();
@@ -184,7 +185,13 @@ impl Viewport {
     }
 
     /// Sends mouse events in order: both a press and a release between two frames are sent.
-    fn mouse(&mut self, ui: &Ui, response: &egui::Response, letterbox: &Letterbox, out: &mut UiOutput) {
+    fn mouse(
+        &mut self,
+        ui: &Ui,
+        response: &egui::Response,
+        (letterbox, reads_pointer): (&Letterbox, bool),
+        out: &mut UiOutput,
+    ) {
         let scale = ui.pixels_per_point();
         // Points are pixels divided by the scale; rounding on the way back must not move to the neighbouring pixel.
         let pixels = |p: Pos2| ((p.x * scale * 256.0).round() / 256.0, (p.y * scale * 256.0).round() / 256.0);
@@ -211,7 +218,9 @@ impl Viewport {
                         }
                     }
                 }
-                egui::Event::PointerMoved(pos) if self.mouse_is_down => {
+                egui::Event::PointerMoved(pos)
+                    if self.mouse_is_down || reads_pointer && response.rect.contains(pos) && on_top(pos) =>
+                {
                     let (x, y) = pixels(pos);
                     let (x, y) = letterbox.canvas_from_window(x, y);
                     out.ask(InputCommand::MouseMove { x, y });

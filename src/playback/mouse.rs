@@ -10,20 +10,24 @@ pub struct Mouse {
     is_fresh: bool,
     /// The sum of all drags.
     dragged: [f32; 2],
+    /// The position of the pointer, whether or not the button is down; `None` before it first moves.
+    pointer: Option<[f32; 2]>,
 }
 
 impl Mouse {
     pub fn press(&mut self, x: f32, y: f32) {
         self.at = whole(x, y);
+        self.pointer = Some(self.at);
         self.pressed_at = self.at;
         self.is_down = true;
         self.is_fresh = true;
     }
 
-    /// Has an effect only while the button is down.
+    /// Moves the pointer, and while the button is down Shadertoy's mouse.
     pub fn move_to(&mut self, x: f32, y: f32) {
+        let to = whole(x, y);
+        self.pointer = Some(to);
         if self.is_down {
-            let to = whole(x, y);
             for (sum, (to, from)) in self.dragged.iter_mut().zip(to.into_iter().zip(self.at)) {
                 *sum += to - from;
             }
@@ -36,9 +40,14 @@ impl Mouse {
     }
 
     /// Continues from the state of a recorded mouse, with the button released.
-    pub fn follow(&mut self, imouse: [f32; 4], dragged: [f32; 2]) {
+    pub fn follow(&mut self, imouse: [f32; 4], dragged: [f32; 2], pointer: Option<[f32; 2]>) {
         let [x, y, z, w] = imouse;
-        *self = Self { at: [x, y], pressed_at: [z.abs(), w.abs()], is_down: false, is_fresh: false, dragged };
+        *self = Self { at: [x, y], pressed_at: [z.abs(), w.abs()], is_down: false, is_fresh: false, dragged, pointer };
+    }
+
+    /// Returns the position of the pointer, in whole pixels from the bottom left; `None` before it first moves.
+    pub fn pointer(&self) -> Option<[f32; 2]> {
+        self.pointer
     }
 
     pub fn is_down(&self) -> bool {

@@ -114,6 +114,27 @@ impl<'a> Files<'a> {
 
     /// Reads a text of at most `limit` bytes. One `Files` reads at most [`limits::ALL_TEXTS`] in total.
     pub(crate) fn read(&self, name: &str, limit: Limit) -> Read {
+        self.read_by(name, limit, |folder, name, limit| confine::read(folder, name, limit))
+    }
+
+    /// Reads a text that an `#include` line names, which may be above the folder ([`confine::included`]) or in a folder
+    /// of libraries.
+    pub(crate) fn read_included(&self, name: &str, limit: Limit) -> Read {
+        self.read_by(name, limit, |folder, name, limit| match confine::read_included(folder, name, limit) {
+            Err(missing) if missing.is_missing() => match in_library(name) {
+                Some(library) => confine::read(library, name, limit),
+                None => Err(missing),
+            },
+            read => read,
+        })
+    }
+
+    fn read_by(
+        &self,
+        name: &str,
+        limit: Limit,
+        read: impl Fn(&Path, &str, Limit) -> Result<Vec<u8>, FileError>,
+    ) -> Read {
         if let Some(text) = self.in_editor(name) {
             let smaller = limit.bytes.min(self.left.get());
             return match text.len() as u64 > smaller {
@@ -128,13 +149,9 @@ impl<'a> Files<'a> {
             Storage::Disk(folder) => {
                 let left = Limit { bytes: self.left.get(), ..limits::ALL_TEXTS };
                 let smaller = if left.bytes < limit.bytes { left } else { limit };
-                match confine::read_included(folder, name, smaller) {
+                match read(folder, name, smaller) {
                     Ok(bytes) => bytes,
-                    Err(e) if e.is_missing() => match in_library(name).map(|found| confine::read(found, name, smaller))
-                    {
-                        Some(Ok(bytes)) => bytes,
-                        _ => return Read::Missing,
-                    },
+                    Err(e) if e.is_missing() => return Read::Missing,
                     Err(FileError { file, reason: Reason::TooLarge(l) }) if l.of == left.of => {
                         let reason = Reason::TooMuch(limits::ALL_TEXTS);
                         return Read::Refused(FileError { file, reason });

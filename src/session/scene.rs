@@ -88,7 +88,7 @@ impl Session {
         let Some(last) = frames.last() else { return };
         let is_whole = !has_state || frames.len() > 1 || last.inputs.frame == 0;
         let frame = last.inputs.frame;
-        self.open.playback.mouse.follow(last.inputs.mouse, last.inputs.drag);
+        self.open.playback.mouse.follow(last.inputs.mouse, last.inputs.drag, last.inputs.pointer);
         self.open.playback.start(false);
         if is_whole {
             self.open.restore_frames(frames);

@@ -88,14 +88,16 @@ fn the_language_server_and_check_agree_on_every_kind_of_file() {
         ("i.frag", plain("out vec4 c;\nvoid main() { c = tint; }"), 1),
         ("j.vert", plain("in vec3 p;\nvoid main() { gl_Position = vec4(p, 1.0); }"), 0),
         ("k.glsl", plain("in vec3 p;\nvoid main() { gl_Position = vec4(p, 1); }"), 0),
-        ("l.frag", "#version 410 core\nout vec4 c;\nvoid main() { c = vec4(1.0); }".to_owned(), 1),
+        ("l.frag", "#version 410 core\nout vec4 c;\nvoid main() { c = vec4(1.0); }".to_owned(), 0),
         (
             "m.frag",
             "uniform vec2 u_resolution;\nvoid main() { gl_FragColor = vec4(u_resolution, 0, 1); }".to_owned(),
-            1,
+            0,
         ),
         ("n.glsl", "//!HOOK MAIN\n//!BIND MAIN\nvec4 hook() { return MAIN_texOff(vec2(0.0)); }".to_owned(), 1),
-        ("o.glsl", "void main() { gl_FragColor = vec4(1.0); }".to_owned(), 1),
+        ("o.glsl", "void main() { gl_FragColor = vec4(1.0); }".to_owned(), 0),
+        ("p.frag", "varying vec2 v_texcoord;\nvoid main() { gl_FragColor = vec4(v_texcoords, 0, 1); }".to_owned(), 1),
+        ("q.glsl", "o = vec4(FC.xy / r, fract(t), 1);".to_owned(), 0),
     ] {
         b.write(name, &text);
         let (checked, diagnostics) = (check_diagnostics(&b, name), Editor::open(&b, name).diagnostics());

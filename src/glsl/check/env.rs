@@ -188,8 +188,13 @@ pub fn taken(name: &str) -> Option<&'static str> {
     }
 }
 
+/// Returns the reason that a text of any version of GLSL cannot declare `name`, if there is one.
+pub fn keyword_in_any_version(name: &str) -> Option<&'static str> {
+    keyword(name).filter(|_| !crate::lex::words::is_name_in_some_version(name))
+}
+
 /// Returns the reason that nothing can be declared as `name`, if the grammar is one.
-pub fn keyword(name: &str) -> Option<&'static str> {
+fn keyword(name: &str) -> Option<&'static str> {
     use crate::lex::words::{Meaning, is_word, meaning};
     if name.starts_with("gl_") || name.contains("__") {
         Some("GLSL reserves names that start with `gl_` or contain `__`")

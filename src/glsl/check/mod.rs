@@ -44,7 +44,7 @@ mod tests;
 
 pub(crate) use checkpoint::Checkpoint;
 pub(crate) use env::custom_uniform_type;
-pub use env::{keyword, taken};
+pub use env::{keyword_in_any_version, taken};
 pub(crate) use fault::Fault;
 
 use super::{

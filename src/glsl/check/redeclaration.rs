@@ -8,7 +8,7 @@ use super::{
     scope::{self, Binding},
 };
 use crate::{
-    ChannelKind,
+    ChannelKind, CustomUniform,
     ast::{BasicType, Declarator, Ident, Loc, QualifierKind as Q, TypeSpecId},
     hir::{DeclRef, TypeId, Uniform, VarFlags},
 };
@@ -75,7 +75,11 @@ impl Checker<'_> {
             return false;
         }
         let (text, settings) = (self.name(name.symbol), self.settings);
-        let uniform = settings.custom_uniforms.iter().position(|uniform| uniform.name == text);
+        let uniforms = settings.custom_uniforms;
+        let named = |uniform: &CustomUniform<'_>| uniform.name == text;
+        // A program may have one name for several types, of which a text declares one.
+        let exact = uniforms.iter().position(|uniform| named(uniform) && custom_uniform_type(uniform.kind) == ty);
+        let uniform = exact.or_else(|| uniforms.iter().position(named));
         let sampler = settings.samplers.iter().find(|sampler| sampler.name == text).map(|sampler| sampler.channel);
         let (given, binding) = match (uniform, sampler) {
             (Some(i), _) => (custom_uniform_type(settings.custom_uniforms[i].kind), Binding::CustomUniform(i as u16)),

@@ -165,6 +165,11 @@ pub(crate) fn kind_in_any_version(symbol: u32) -> Kind {
     }
 }
 
+/// Returns whether a word of the language is a name in texts of any version of GLSL.
+pub(crate) fn is_name_in_some_version(name: &str) -> bool {
+    seeded().find(name).is_some_and(|symbol| kind_in_any_version(symbol.0) == Kind::Ident)
+}
+
 /// Returns the type of a `Kind::Type` token's symbol.
 pub(crate) fn basic_type(symbol: u32) -> BasicType {
     let i = (symbol - FIRST_TYPE) as usize;

@@ -137,13 +137,17 @@ impl Builder<'_, '_> {
             return colour;
         }
         let mut rgb = self.swizzle(colour, TypeId::VEC4, Swizzle::new(&[0, 1, 2]));
-        if alpha == Alpha::OverBlack {
+        if alpha != Alpha::Opaque {
             // Blending limits the factor to 0..1 (OpenGL ES 3.0, section 4.1.7).
             let a = self.add(Op::Part { base: colour, index: 3 });
             let (zero, one) = (self.float(0.0), self.float(1.0));
             let a = self.math3(Math::Clamp, a, zero, one);
             let factor = self.compose(TypeId::VEC3, vec![a, a, a]);
             rgb = self.op(Binary::Multiply, rgb, factor);
+            if alpha == Alpha::OverTransparent {
+                let a = self.op(Binary::Multiply, a, a);
+                return self.compose(TypeId::VEC4, vec![rgb, a]);
+            }
         }
         let one = self.float(1.0);
         self.compose(TypeId::VEC4, vec![rgb, one])

@@ -59,6 +59,8 @@ struct FileLine {
     #[serde(skip_serializing_if = "Option::is_none")]
     mouse: Option<[f64; 4]>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pointer: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     drag: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     date: Option<[f64; 4]>,
@@ -210,6 +212,11 @@ impl FileLine {
             reset: now.reset,
             size: new(before.map(|before| before.size), now.size),
             mouse: new(earlier.map(mouse), mouse(inputs)).map(|bits| bits.map(|bits| f32::from_bits(bits).into())),
+            // A pointer does not return to where it has never been.
+            pointer: inputs
+                .pointer
+                .filter(|_| earlier.map(|i| i.pointer) != Some(inputs.pointer))
+                .map(|p| p.map(f64::from)),
             drag: new(earlier.map(|i| i.drag), inputs.drag).map(|drag| drag.map(f64::from)),
             date: new(earlier.map(|i| i.date), inputs.date).map(|date| date.map(f64::from)),
             held: keys(0),
@@ -238,6 +245,7 @@ impl FileLine {
         inputs.time_delta_secs = self.delta.map_or(inputs.time_delta_secs, single);
         inputs.frame_rate = self.rate.map_or(inputs.frame_rate, single);
         inputs.mouse = self.mouse.map_or(inputs.mouse, |mouse| mouse.map(single));
+        inputs.pointer = self.pointer.map(|pointer| pointer.map(single)).or(inputs.pointer);
         inputs.drag = self.drag.map_or(inputs.drag, |drag| drag.map(single));
         inputs.date = self.date.map_or(inputs.date, |date| date.map(single));
         for (row, codes) in [self.held, self.pressed, self.toggled].into_iter().enumerate() {

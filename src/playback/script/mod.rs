@@ -380,6 +380,7 @@ impl ScriptedInputs {
         }
         let mut inputs = FrameInputs {
             mouse: self.mouse.next_frame(),
+            pointer: self.mouse.pointer(),
             drag: self.mouse.dragged(),
             keyboard: self.keyboard.clone(),
             ..FrameInputs::at_fixed_step(frame, self.fps)

@@ -103,8 +103,11 @@ impl CustomUniforms {
         declared.filter_map(|line| line::parse(line, source, "").ok()).map(|line| (line.name, line.span)).collect()
     }
 
+    /// Returns the uniform with a name. Earlier versions gave inputs of ISF files that are called like functions of GLSL
+    /// the prefix `isf_`, which scripts and recordings may still use.
     pub fn get(&self, name: &str) -> Option<&CustomUniform> {
-        self.list.iter().find(|k| k.name == name)
+        let find = |name: &str| self.list.iter().find(|k| k.name == name);
+        find(name).or_else(|| find(name.strip_prefix("isf_")?))
     }
 
     /// Returns the error for a `name` that is neither a custom uniform of this project nor one of `others`, with a

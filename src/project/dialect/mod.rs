@@ -1,6 +1,10 @@
 //! The programs besides Shadertoy whose shaders Eddy draws unchanged: a table of their properties, the one place that
 //! selects a program for a file, and the project of a file with `void main()`.
 
+use super::Pass;
+
+#[cfg(test)]
+mod docs;
 mod program;
 mod recognise;
 mod rows;
@@ -15,6 +19,7 @@ pub use rows::{AlphaRule, DialectRow, EntryPoint};
 pub use textures::{HostTexture, SoundTexture};
 pub use uniforms::{HostUniform, HostValue, MouseUnit};
 
+use program::alpha;
 pub(super) use program::{load, save};
 pub(super) use sliders::declared_sliders;
 
@@ -61,6 +66,11 @@ impl Dialect {
     /// a project.
     pub fn has_main(self) -> bool {
         self.row().entry == EntryPoint::Main
+    }
+
+    /// Returns what becomes of the alpha that a pass of a project outputs.
+    pub fn alpha(self, pass: &Pass) -> AlphaRule {
+        alpha(self, pass)
     }
 
     /// Returns the dialect with a name.

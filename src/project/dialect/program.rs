@@ -1,14 +1,20 @@
 //! The project of a complete fragment shader: passes that include the file, which Eddy generates around it.
 
 use super::{
-    Dialect, HostTexture, SoundTexture,
+    AlphaRule, Dialect, HostTexture, SoundTexture,
     samplers::{DeclaredUniform, declared_uniforms},
     twigl,
 };
 use crate::{
     Channel, Input, InputKind, Loaded, MAX_CHANNELS, Media, Origin, Overwrite, Pass, PassName, PassSize, Project,
-    ProjectError, Sampler, Source, TexelFormat, atomic::Content, confine, files::Files, includes, lines::hash_lines,
-    words::find_word, writes::Writes,
+    ProjectError, Sampler, Source, TexelFormat,
+    atomic::Content,
+    confine,
+    files::Files,
+    includes,
+    lines::hash_lines,
+    words::{find_word, names_word},
+    writes::Writes,
 };
 use eddy_diag::{Diagnostic, SourceMap, Span};
 use eddy_texture::Dimension;
@@ -20,8 +26,12 @@ use std::{
 /// Built-in textures that replace pictures until the user chooses others, in rotation.
 const STAND_INS: [&str; 4] = ["street", "marble", "coral", "pebbles"];
 
-/// The buffer that contains the previous frame's picture.
-const PREVIOUS: &str = "previous";
+/// The buffers that contain the outputs of the previous frame.
+const PREVIOUS: [&str; 2] = ["previous", "previous1"];
+/// The buffer that keeps the first of several outputs of the previous frame while the others are drawn.
+const HELD: &str = "held";
+/// The macro that selects the pass after the scene in glslViewer.
+const POSTPROCESSING: &str = "POSTPROCESSING";
 /// The buffer that contains the picture before `POSTPROCESSING`.
 const SCENE: &str = "scene";
 
@@ -106,7 +116,7 @@ impl Maker<'_> {
     }
 
     fn has_postprocessing(&self) -> bool {
-        hash_lines(self.text).iter().any(|line| tested_macro(line.body) == Some("POSTPROCESSING"))
+        hash_lines(self.text).iter().any(|line| tested_macro(line.body) == Some(POSTPROCESSING))
     }
 
     fn reads(&self, texture: HostTexture) -> bool {
@@ -132,17 +142,35 @@ impl Maker<'_> {
                 let mut scene = self.pass(PassName::buffer(SCENE), &[]);
                 scene.settings.format = TexelFormat::Rgba8;
                 passes.push(scene);
-                passes.push(self.pass(PassName::image(), &["POSTPROCESSING"]));
+                passes.push(self.pass(PassName::image(), &[POSTPROCESSING]));
                 return passes;
             }
         }
-        if self.reads(HostTexture::Previous) {
-            let mut previous = self.pass(PassName::buffer(PREVIOUS), &[]);
+        let second = self.reads(HostTexture::Previous(1));
+        if second || self.reads(HostTexture::Previous(0)) {
+            let mut previous = self.pass(PassName::buffer(PREVIOUS[0]), &[]);
             previous.settings.format = self.dialect.row().previous.0;
-            let mut image = Pass::new(PassName::image(), generated("Image", SHOW.to_owned()));
-            let channel = Channel { input: Input::buffer(PREVIOUS), sampler: self.dialect.row().previous.1 };
-            image.bindings.set(0, Some(channel));
-            passes.extend([previous, image]);
+            let show = |id: PassName| {
+                let mut pass = Pass::new(id.clone(), generated(&id.title(), SHOW.to_owned()));
+                let channel = Channel { input: Input::buffer(PREVIOUS[0]), sampler: self.dialect.row().previous.1 };
+                pass.bindings.set(0, Some(channel));
+                pass
+            };
+            if second {
+                // The first output of the previous frame, when the new one is already drawn.
+                let mut held = show(PassName::buffer(HELD));
+                held.settings.format = previous.settings.format;
+                let mut other = self.pass_of_output(PassName::buffer(PREVIOUS[1]), &[], 1);
+                other.settings.format = previous.settings.format;
+                let first = Input::buffer(PREVIOUS[0]);
+                other.bindings.channels_mut().filter(|channel| channel.input == first).for_each(|channel| {
+                    channel.input = Input::buffer(HELD);
+                });
+                passes.extend([held, previous, other]);
+            } else {
+                passes.push(previous);
+            }
+            passes.push(show(PassName::image()));
             return passes;
         }
         passes.push(self.pass(PassName::image(), &[]));
@@ -160,6 +188,11 @@ impl Maker<'_> {
 
     /// Returns a pass that draws the file with these macros.
     fn pass(&self, id: PassName, defines: &[&str]) -> Pass {
+        self.pass_of_output(id, defines, 0)
+    }
+
+    /// Does the same for one of several outputs of the file.
+    fn pass_of_output(&self, id: PassName, defines: &[&str], output: usize) -> Pass {
         let mut text =
             format!("// {} of {}: Eddy generates this text, and includes the file.\n", id.title(), self.name);
         if self.dialect == Dialect::GlslViewer {
@@ -168,7 +201,7 @@ impl Maker<'_> {
         defines.iter().for_each(|define| text.push_str(&format!("#define {define}\n")));
         let include = format!("#include \"{}\"\n", self.name);
         match self.dialect {
-            Dialect::Twigl => text.push_str(&twigl::text(self.text, &self.uniforms, &include)),
+            Dialect::Twigl => text.push_str(&twigl::text(self.text, &self.uniforms, &include, output)),
             _ => text.push_str(&include),
         }
         let mut pass = Pass::new(id.clone(), generated(&id.title(), text));
@@ -186,7 +219,9 @@ impl Maker<'_> {
             Some(HostTexture::Buffer(number)) => buffer(number.to_string()),
             Some(HostTexture::DoubleBuffer(number)) => buffer(format!("double{number}")),
             Some(HostTexture::Scene) => buffer(SCENE.to_owned()),
-            Some(HostTexture::Previous) => Channel { input: Input::buffer(PREVIOUS), sampler: row.previous.1 },
+            Some(HostTexture::Previous(output)) => {
+                Channel { input: Input::buffer(PREVIOUS[output.min(1)]), sampler: row.previous.1 }
+            }
             Some(HostTexture::Sound(sound)) => buffer(sound.buffer().to_owned()),
             Some(HostTexture::Picture(number)) => self.picture(number, sampler),
             None => self.picture(slot, sampler),
@@ -221,7 +256,7 @@ impl Maker<'_> {
             let id = PassName::buffer(sound.buffer());
             let mut pass = Pass::new(id.clone(), generated(&id.title(), sound.text()));
             pass.settings.size = PassSize::Fixed(1024, 1);
-            pass.settings.format = TexelFormat::R32f;
+            pass.settings.format = TexelFormat::Rgba32f;
             pass.bindings.set(0, Some(Channel::new(Input::Device(InputKind::Microphone))));
             pass.bindings.set(1, Some(Channel { input: Input::buffer(sound.buffer()), sampler: Sampler::BUFFER }));
             pass
@@ -244,17 +279,23 @@ impl SoundTexture {
     /// is 4 times the magnitude that the Web Audio API defines ("FFT windowing and smoothing over time"), divided by the
     /// mean 0.42 of its Blackman window. Shadertoy's texture contains the lower 512 bins, from -100 to -30 dB.
     fn text(self) -> String {
+        // `before` is the texel of the previous frame, at first 0. The sum is of a smoothed spectrum, in g.
         let value = match self {
             SoundTexture::Spectrum => "x",
-            SoundTexture::Smoothed => "mix(x, texelFetch(iChannel1, ivec2(at), 0).r, iFrame > 0 ? 0.9 : 0.0)",
-            SoundTexture::Integrated => "mod(texelFetch(iChannel1, ivec2(at), 0).r + x, 1024.0)",
+            SoundTexture::Smoothed => "mix(x, before.r, 0.9)",
+            SoundTexture::Integrated => "before.r, mix(x, before.g, 0.6), 0.0, 1.0",
+        };
+        let sum = match self {
+            SoundTexture::Integrated => "    color.r += color.g;\n    if (color.r > 1024.0) color.r -= 1024.0;\n",
+            _ => "",
         };
         format!(
             "// The spectrum of the sound in iChannel0, with the scale of Bonzomatic.\n\
              void mainImage(out vec4 color, in vec2 at) {{\n\
              \x20   float level = at.x < 512.0 ? texelFetch(iChannel0, ivec2(at.x, 0), 0).r : 0.0;\n\
              \x20   float x = level > 0.0 ? 4.0 / 0.42 * pow(10.0, (70.0 * level - 100.0) / 20.0) : 0.0;\n\
-             \x20   color = vec4({value});\n}}\n"
+             \x20   vec4 before = texelFetch(iChannel1, ivec2(at), 0);\n\
+             \x20   color = vec4({value});\n{sum}}}\n"
         )
     }
 }
@@ -266,6 +307,20 @@ void mainImage(out vec4 color, in vec2 at) {
     color = texelFetch(iChannel0, ivec2(at), 0);
 }
 ";
+
+/// Returns what becomes of the alpha that a pass of a complete fragment shader outputs.
+pub(crate) fn alpha(dialect: Dialect, pass: &Pass) -> AlphaRule {
+    let is = |name: &str| pass.id == PassName::buffer(name);
+    match dialect {
+        // Blending is off for the pass after the scene.
+        Dialect::GlslViewer if pass.id.is_image() && names_word(&pass.source.text, POSTPROCESSING) => AlphaRule::Opaque,
+        Dialect::GlslViewer if is(SCENE) => AlphaRule::OverTransparent,
+        // The copy of the previous frame has no alpha.
+        Dialect::Bonzomatic if is(PREVIOUS[0]) => AlphaRule::Opaque,
+        _ if pass.id.is_image() => dialect.row().alpha,
+        _ => AlphaRule::Stored,
+    }
+}
 
 fn generated(name: &str, text: String) -> Source {
     Source { name: name.to_owned(), path: None, text: text.into() }

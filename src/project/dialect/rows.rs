@@ -4,10 +4,10 @@ use super::{
     Dialect,
     textures::{HostTexture, SoundTexture},
     uniforms::{
-        HostUniform,
+        HostUniform, HostValue,
         HostValue::{
             CentredPosition, ClipPosition, Constant, Date, Frame, Mouse, Resolution, SurfaceSize, Time, TimeDelta,
-            TimeOfDay, UnitPosition,
+            TimeDeltaFromZero, TimeOfDay, UnitPosition,
         },
         MouseUnit::{Pixels, Unit},
         uniform,
@@ -59,12 +59,23 @@ pub enum EntryPoint {
     Main,
 }
 
-/// What becomes of the alpha of the picture.
+/// What becomes of the alpha that a pass outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AlphaRule {
+    /// It is stored.
+    Stored,
     Opaque,
-    /// The picture is blended over black.
+    /// The colour is blended over opaque black.
     OverBlack,
+    /// The colour is blended over transparent black.
+    OverTransparent,
+}
+
+impl DialectRow {
+    /// Returns whether the program has a uniform with the position of the pointer.
+    pub fn reads_pointer(&self) -> bool {
+        self.uniforms.iter().any(|uniform| matches!(uniform.value, HostValue::Mouse(..)))
+    }
 }
 
 const NEAREST_CLAMP: Sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true };
@@ -114,7 +125,7 @@ pub(super) static ROWS: [DialectRow; Dialect::ALL.len()] = [
         version: "120",
         uniforms: &[
             uniform("TIME", Float, Time),
-            uniform("TIMEDELTA", Float, TimeDelta),
+            uniform("TIMEDELTA", Float, TimeDeltaFromZero),
             uniform("DATE", Vec4, Date(1)),
             uniform("FRAMEINDEX", Int, Frame(0)),
             uniform("RENDERSIZE", Vec2, Resolution),
@@ -139,7 +150,7 @@ pub(super) static ROWS: [DialectRow; Dialect::ALL.len()] = [
             uniform("u_frame", Int, Frame(1)),
             uniform("u_date", Vec4, Date(0)),
             uniform("u_resolution", Vec2, Resolution),
-            uniform("u_mouse", Vec2, Mouse(Pixels)),
+            uniform("u_mouse", Vec2, Mouse(Pixels, [0.0; 2])),
             uniform("u_play", Int, Constant([1.0; 4])),
             uniform("u_pixelDensity", Float, Constant([1.0; 4])),
             uniform("u_resolutionChange", Bool, Constant([0.0; 4])),
@@ -180,13 +191,13 @@ pub(super) static ROWS: [DialectRow; Dialect::ALL.len()] = [
         version: "100",
         uniforms: &[
             uniform("time", Float, Time),
-            uniform("mouse", Vec2, Mouse(Unit)),
+            uniform("mouse", Vec2, Mouse(Unit, [0.5; 2])),
             uniform("resolution", Vec2, Resolution),
             uniform("surfaceSize", Vec2, SurfaceSize),
             uniform("surfacePosition", Vec2, CentredPosition),
         ],
         texture: |name| match name {
-            "backbuffer" | "bb" | "buffer" => Some(HostTexture::Previous),
+            "backbuffer" | "bb" | "buffer" => Some(HostTexture::Previous(0)),
             _ => None,
         },
         ..ROW
@@ -204,7 +215,7 @@ pub(super) static ROWS: [DialectRow; Dialect::ALL.len()] = [
             uniform("out_texcoord", Vec2, UnitPosition),
         ],
         texture: |name| match name {
-            "texPreviousFrame" => Some(HostTexture::Previous),
+            "texPreviousFrame" => Some(HostTexture::Previous(0)),
             "texFFT" => Some(HostTexture::Sound(SoundTexture::Spectrum)),
             "texFFTSmoothed" => Some(HostTexture::Sound(SoundTexture::Smoothed)),
             "texFFTIntegrated" => Some(HostTexture::Sound(SoundTexture::Integrated)),
@@ -223,17 +234,21 @@ pub(super) static ROWS: [DialectRow; Dialect::ALL.len()] = [
         version: "300 es",
         uniforms: &[
             uniform("resolution", Vec2, Resolution),
-            uniform("mouse", Vec2, Mouse(Unit)),
+            uniform("mouse", Vec2, Mouse(Unit, [0.0; 2])),
             uniform("time", Float, Time),
             uniform("frame", Float, Frame(1)),
             uniform("sound", Float, Constant([0.0; 4])),
             uniform("r", Vec2, Resolution),
-            uniform("m", Vec2, Mouse(Unit)),
+            uniform("m", Vec2, Mouse(Unit, [0.0; 2])),
             uniform("t", Float, Time),
             uniform("f", Float, Frame(1)),
             uniform("s", Float, Constant([0.0; 4])),
         ],
-        texture: |name| matches!(name, "backbuffer" | "b" | "backbuffer0" | "b0").then_some(HostTexture::Previous),
+        texture: |name| match name {
+            "backbuffer" | "b" | "backbuffer0" | "b0" => Some(HostTexture::Previous(0)),
+            "backbuffer1" | "b1" => Some(HostTexture::Previous(1)),
+            _ => None,
+        },
         previous: (TexelFormat::Rgba32f, LINEAR_CLAMP),
         notes: "The modes geeker and geekest need no declarations.",
         ..ROW
@@ -258,10 +273,10 @@ pub(super) static ROWS: [DialectRow; Dialect::ALL.len()] = [
             uniform("resolution", Vec3, Resolution),
             uniform("uResolution", Vec3, Resolution),
             uniform("iResolution", Vec3, Resolution),
-            uniform("mouse", Vec2, Mouse(Pixels)),
-            uniform("uMouse", Vec2, Mouse(Pixels)),
-            uniform("iMouse", Vec2, Mouse(Pixels)),
-            uniform("iMouse", Vec4, Mouse(Pixels)),
+            uniform("mouse", Vec2, Mouse(Pixels, [0.0; 2])),
+            uniform("uMouse", Vec2, Mouse(Pixels, [0.0; 2])),
+            uniform("iMouse", Vec2, Mouse(Pixels, [0.0; 2])),
+            uniform("iMouse", Vec4, Mouse(Pixels, [0.0; 2])),
             uniform("iDate", Vec4, Date(0)),
             uniform("daytime", Vec3, TimeOfDay),
             uniform("vUv", Vec2, UnitPosition),

@@ -36,7 +36,7 @@ pub(crate) fn declared_uniforms(text: &str) -> Vec<DeclaredUniform> {
             continue;
         }
         let mut ty = None;
-        let mut declared = Vec::new();
+        let mut declared: Vec<(&str, &str, usize, bool)> = Vec::new();
         let mut is_named = false;
         while let Some((at, word)) = words.next() {
             match (word, ty) {

@@ -11,8 +11,8 @@ pub enum HostTexture {
     DoubleBuffer(usize),
     /// The picture before the pass that `POSTPROCESSING` selects.
     Scene,
-    /// The picture of the previous frame.
-    Previous,
+    /// An output of the previous frame; output 0 is the picture.
+    Previous(usize),
     /// The spectrum of a sound.
     Sound(SoundTexture),
 }

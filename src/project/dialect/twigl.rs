@@ -16,8 +16,8 @@ const SAMPLERS: [&str; 3] = ["b", "b0", "b1"];
 /// The outputs that they declare for GLSL ES 3.00, with their locations.
 const OUTPUTS: [(&str, u32); 3] = [("o", 0), ("o0", 0), ("o1", 1)];
 
-/// Returns the text of a pass that includes a file.
-pub(super) fn text(file: &str, uniforms: &[DeclaredUniform], include: &str) -> String {
+/// Returns the text of a pass that includes a file and draws one of its outputs.
+pub(super) fn text(file: &str, uniforms: &[DeclaredUniform], include: &str, output: usize) -> String {
     let words = all_words(file);
     let mut text = String::new();
     for (ty, name) in UNIFORMS.into_iter().filter(|(_, name)| is_implied(name, &words, uniforms)) {
@@ -29,13 +29,51 @@ pub(super) fn text(file: &str, uniforms: &[DeclaredUniform], include: &str) -> S
     for (name, location) in OUTPUTS.into_iter().filter(|(name, _)| words.contains(name) && !is_declared(name)) {
         text.push_str(&format!("layout(location = {location}) out vec4 {name};\n"));
     }
-    if words.contains("main") {
-        text.push_str(include);
-    } else {
+    let has_main = words.contains("main");
+    if !has_main || NAMES.into_iter().any(|name| is_implied(name, &words, uniforms) && !defines(file, name)) {
         text.push_str(GEEKEST);
-        text.push_str(&format!("void main() {{\n{include}}}\n"));
     }
-    text
+    let call = match (has_main, output) {
+        (true, 0) => return text + include,
+        (true, _) => {
+            text.push_str(&format!("#define main twigl_main\n{include}#undef main\n"));
+            "    twigl_main();\n"
+        }
+        (false, _) => include,
+    };
+    let outputs = ["o", "outColor"].into_iter().find(|name| words.contains(&*format!("{name}{output}")));
+    let shown = outputs.filter(|_| output > 0).map_or(String::new(), |name| format!("    {name}0 = {name}{output};\n"));
+    text + &format!("void main() {{\n{call}{shown}}}\n")
+}
+
+/// The names of [`GEEKEST`] that texts use.
+const NAMES: [&str; 14] = [
+    "FC",
+    "F4",
+    "PI",
+    "PI2",
+    "rotate2D",
+    "rotate3D",
+    "hsv",
+    "snoise2D",
+    "snoise3D",
+    "snoise4D",
+    "fsnoise",
+    "fsnoiseDigits",
+    "permute",
+    "mod289",
+];
+
+/// Returns whether a text defines a name as a macro, a function or a constant.
+fn defines(file: &str, name: &str) -> bool {
+    let mut words = file.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty());
+    let mut before = "";
+    words.any(|word| {
+        let is_definition =
+            word == name && ["define", "float", "vec2", "vec3", "vec4", "mat2", "mat3"].contains(&before);
+        before = word;
+        is_definition
+    })
 }
 
 /// Returns the samplers that a text reads without declaring them.
@@ -82,7 +120,7 @@ mod tests {
 
     #[test]
     fn each_mode_gets_what_it_does_not_declare() {
-        let of = |file: &str| text(file, &declared_uniforms(file), "#include \"a\"\n");
+        let of = |file: &str| text(file, &declared_uniforms(file), "#include \"a\"\n", 0);
         let geek = "uniform vec2 r; uniform float t; out vec4 o; void main() { o = vec4(t); }";
         assert_eq!(of(geek), "#include \"a\"\n");
         let geeker = "void main() { gl_FragColor = vec4(gl_FragCoord.xy / r, t, 1.0) + texture2D(b, m); }";

@@ -17,14 +17,17 @@ pub enum HostValue {
     Time,
     /// Seconds since the previous frame.
     TimeDelta,
+    /// The same, and 0 in frame 0.
+    TimeDeltaFromZero,
     /// The number of the frame, where frame 0 has this number.
     Frame(i32),
     /// Year, month, day from 1 and seconds since midnight, where January has this number.
     Date(u8),
     /// Hours, minutes and seconds of the day.
     TimeOfDay,
-    /// The position of the pointer.
-    Mouse(MouseUnit),
+    /// The position of the pointer, whether or not a button is down. Before it first moves it is at this part of the
+    /// width and the height.
+    Mouse(MouseUnit, [f32; 2]),
     /// The size of the target that the pass draws; the third component of a `vec3` is 1.
     Resolution,
     /// The position of the pixel in the target from 0 to 1, from the bottom left.
@@ -54,13 +57,13 @@ impl HostValue {
     pub fn about(self) -> String {
         match self {
             HostValue::Time => "time in seconds".into(),
-            HostValue::TimeDelta => "duration of the last frame in seconds".into(),
+            HostValue::TimeDelta | HostValue::TimeDeltaFromZero => "duration of the last frame in seconds".into(),
             HostValue::Frame(first) => format!("number of the frame, from {first}"),
             HostValue::Date(0) => "year, month (0 to 11), day, seconds since midnight".into(),
             HostValue::Date(_) => "year, month (1 to 12), day, seconds since midnight".into(),
             HostValue::TimeOfDay => "hours, minutes, seconds".into(),
-            HostValue::Mouse(MouseUnit::Pixels) => "pointer in pixels from the bottom left".into(),
-            HostValue::Mouse(MouseUnit::Unit) => "pointer from 0 to 1, from the bottom left".into(),
+            HostValue::Mouse(MouseUnit::Pixels, _) => "pointer in pixels from the bottom left".into(),
+            HostValue::Mouse(MouseUnit::Unit, _) => "pointer from 0 to 1, from the bottom left".into(),
             HostValue::Resolution => "size in pixels of the target".into(),
             HostValue::UnitPosition => "position of the pixel from 0 to 1".into(),
             HostValue::CentredPosition => "position of the pixel from the centre, in heights".into(),

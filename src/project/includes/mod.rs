@@ -150,7 +150,7 @@ fn content(files: Option<&Files<'_>>, name: &str, with_hint: bool) -> Result<Str
     let Some(files) = files else {
         return Err(format!("{name} cannot be found: the project has no folder yet; save it first").into());
     };
-    match files.read(name, limits::GLSL_TEXT) {
+    match files.read_included(name, limits::GLSL_TEXT) {
         Read::Text(text) => Ok(text),
         Read::NotUtf8(at, _) => {
             Err(format!("{name} is not UTF-8 text (byte {at}); save it as UTF-8 in your editor").into())

@@ -1,7 +1,7 @@
 use super::json_of;
 use crate::{
-    CustomUniformType, Dialect, Input, Loaded, Media, Overwrite, PassName, PassSize, Project, ProjectError, ShaderForm,
-    Tab, TexelFormat, load, save,
+    CustomUniformType, Dialect, Input, InputKind, Loaded, Media, Overwrite, PassName, PassSize, Project, ProjectError,
+    ShaderForm, Tab, TexelFormat, load, save,
 };
 use std::{fs, path::Path};
 
@@ -75,9 +75,9 @@ fn passes_become_buffers_and_inputs_sliders() {
     assert_eq!(of("inverted").default.components(), [1.0]);
     assert_eq!(of("center").default.components(), [0.5, 0.25]);
     assert_eq!(of("tint").default.components(), [1.0, 0.5, 0.0, 1.0]);
-    // A GLSL name is mapped to another one, and a default widens the range.
-    assert_eq!(of("isf_mix").default.components(), [2.0]);
-    assert!(project.common.as_ref().unwrap().text.contains("#define mix isf_mix"));
+    // A default widens the range.
+    assert_eq!(of("mix").default.components(), [2.0]);
+    assert_eq!(image.names().collect::<Vec<_>>(), [(0, "inputImage"), (1, "trail_1"), (2, "small")]);
     let included: Vec<&str> = project.includes.iter().map(|i| &*i.source.name).collect();
     assert_eq!(included, ["a.fs"]);
     assert_eq!(project.include_lines().missing, []);
@@ -158,7 +158,7 @@ fn images_read_by_pixel_have_the_resolution_of_the_picture() {
 }
 
 #[test]
-fn image_uniforms_and_shadertoy_names_are_defined() {
+fn image_uniforms_are_declared_and_keywords_renamed() {
     let project = project(
         "/*{\"INPUTS\": [{\"NAME\": \"left\", \"TYPE\": \"image\"}, {\"NAME\": \"smooth\", \"TYPE\": \"float\"}]}*/\n\
          void mainImage(out vec4 c) { c = IMG_NORM_PIXEL(left, _left_imgRect.zw / _left_imgSize); }\n\
@@ -166,14 +166,8 @@ fn image_uniforms_and_shadertoy_names_are_defined() {
     );
     let image = project.image().unwrap();
     let text = &*image.source.text;
-    for line in [
-        "#define _left_imgRect vec4(vec2(0.0), IMG_SIZE(iChannel0))",
-        "#define _left_imgSize IMG_SIZE(iChannel0)",
-        "#define mainImage isf_mainImage",
-        "#undef mainImage",
-    ] {
-        assert!(text.lines().any(|known| known == line), "{line}\n{text}");
-    }
+    let line = "vec4 _left_imgRect = vec4(vec2(0.0), IMG_SIZE(left));";
+    assert!(text.lines().any(|known| known == line), "{text}");
     assert!(!text.contains("_left_flip"));
     assert!(project.custom_uniforms().get("isf_smooth").is_some());
 }
@@ -190,17 +184,19 @@ fn header_errors_have_a_span() {
     assert!(said[0].0.contains("not a name"), "{said:?}");
     let said = wrong(&file("{\"PASSES\": [{\"TARGET\": \"a_b\"}, {\"TARGET\": \"ab\"}, {}]}"));
     assert!(said[0].0.contains("two passes draw"), "{said:?}");
-    let said = wrong(&file("{\"PASSES\": [{\"TARGET\": \"row\", \"WIDTH\": \"$WIDTH\", \"HEIGHT\": \"1\"}, {}]}"));
-    assert!(said[0].0.contains("the size of pass 0 cannot be had"), "{said:?}");
-    let said = wrong(&file("{\"IMPORTED\": {\"a\": {\"PATH\": [\"x\", \"y\"]}}}"));
-    assert!(said[0].0.contains("cubemap"), "{said:?}");
-    let inputs: Vec<String> = (0..5).map(|n| format!("{{\"NAME\": \"a{n}\", \"TYPE\": \"image\"}}")).collect();
+    let size = "\"WIDTH\": \"$WIDTH*$HEIGHT\", \"HEIGHT\": \"1\"";
+    let said = wrong(&file(&format!("{{\"PASSES\": [{{\"TARGET\": \"row\", {size}}}, {{}}]}}")));
+    assert!(said[0].0.contains("the size of pass 0 is not supported"), "{said:?}");
+    let inputs: Vec<String> = (0..17).map(|n| format!("{{\"NAME\": \"a{n}\", \"TYPE\": \"image\"}}")).collect();
     let reads = "/*{\"INPUTS\": [".to_owned()
         + &inputs.join(", ")
-        + "]}*/\nvoid main() { gl_FragColor = IMG_THIS_PIXEL(a0) + IMG_THIS_PIXEL(a1) + IMG_THIS_PIXEL(a2) + IMG_THIS_PIXEL(a3) + IMG_THIS_PIXEL(a4); }";
-    assert!(wrong(&reads)[0].0.contains("reads 5 images"));
+        + "]}*/\nvoid main() { gl_FragColor = vec4(0.0)"
+        + &(0..17).map(|n| format!(" + IMG_THIS_PIXEL(a{n})")).collect::<String>()
+        + "; }";
+    assert!(wrong(&reads)[0].0.contains("reads 17 images"));
     // Images that the text does not read use no channel.
-    assert!(project(&reads.replace(" + IMG_THIS_PIXEL(a4)", "")).image().is_some());
+    let sixteen = project(&reads.replace(" + IMG_THIS_PIXEL(a16)", ""));
+    assert_eq!(sixteen.image().unwrap().bindings.iter().count(), 16);
 }
 
 #[test]
@@ -234,13 +230,22 @@ fn an_empty_header_needs_the_isf_extension() {
 
 #[test]
 fn an_import_without_a_path_is_not_a_cubemap() {
-    let said = |import: &str| {
-        let text = format!("/*{{\"IMPORTED\": {{\"buf\": {import}}}}}*/\nvoid main() {{ gl_FragColor = vec4(1.0); }}");
-        let dir = tempfile::tempdir().unwrap();
-        format!("{:?}", open(dir.path(), "a.fs", &text).unwrap_err())
+    let loaded = |import: &str| {
+        let text = format!(
+            "/*{{\"IMPORTED\": {{\"buf\": {import}}}}}*/\nvoid main() {{ gl_FragColor = vec4(textureSize(buf, 0), 0, 1); }}"
+        );
+        open(tempfile::tempdir().unwrap().path(), "a.fs", &text).unwrap()
     };
-    assert!(said("{\"PASSINDEX\": 0}").contains("the import \\\"buf\\\" has no PATH"));
-    assert!(said("{\"PATH\": [\"a.png\"]}").contains("is a cubemap"));
+    for (import, said, kind) in [
+        ("{\"PASSINDEX\": 0}", "the imported image \"buf\" has no PATH", InputKind::Texture),
+        ("{\"PATH\": [\"a.png\"]}", "is a cubemap of several files", InputKind::Cubemap),
+    ] {
+        let loaded = loaded(import);
+        let [warning] = &loaded.warnings[..] else { panic!("{:?}", loaded.warnings) };
+        assert!(!warning.is_error() && warning.message.contains(said), "{warning:?}");
+        let channel = loaded.project.image().unwrap().bindings.get(0).unwrap().clone();
+        assert_eq!(channel.input.row().kind, kind);
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::header::{Header, IsfInput, Kind};
 use std::{collections::HashSet, fmt::Write};
 
 /// Keywords of later versions of GLSL, which an ISF input may have as its name.
-const KEYWORDS: [&str; 4] = ["smooth", "flat", "centroid", "layout"];
+const KEYWORDS: [&str; 9] = ["smooth", "flat", "centroid", "layout", "case", "uint", "uvec2", "uvec3", "uvec4"];
 
 /// Returns the uniform name of an input.
 fn uniform_name(name: &str) -> String {
@@ -158,16 +158,16 @@ void mainImage(out vec4 color, in vec2 at) {
 ";
 
 const BUILT_INS: &str = "\
-// The functions of an ISF host.
+// The functions of an ISF host. `texture` may be the name of an image.
 #define IMG_SIZE(image) vec2(textureSize(image, 0))
-vec4 IMG_NORM_PIXEL(sampler2D image, vec2 at) { return texture(image, at); }
-vec4 IMG_NORM_PIXEL(sampler2D image, vec2 at, float bias) { return texture(image, at, bias); }
-vec4 IMG_NORM_PIXEL(samplerCube image, vec3 at) { return texture(image, at); }
-vec4 IMG_PIXEL(sampler2D image, vec2 at) { return texture(image, at / IMG_SIZE(image)); }
-vec4 IMG_PIXEL(sampler2D image, vec2 at, float bias) { return texture(image, at / IMG_SIZE(image), bias); }
-#define IMG_THIS_PIXEL(image) texture(image, isf_FragNormCoord)
-#define IMG_THIS_NORM_PIXEL(image) texture(image, isf_FragNormCoord)
-#define IMG_NORM_THIS_PIXEL(image) texture(image, isf_FragNormCoord)
+vec4 IMG_NORM_PIXEL(sampler2D image, vec2 at) { return texture2D(image, at); }
+vec4 IMG_NORM_PIXEL(sampler2D image, vec2 at, float bias) { return texture2D(image, at, bias); }
+vec4 IMG_NORM_PIXEL(samplerCube image, vec3 at) { return textureCube(image, at); }
+vec4 IMG_PIXEL(sampler2D image, vec2 at) { return texture2D(image, at / IMG_SIZE(image)); }
+vec4 IMG_PIXEL(sampler2D image, vec2 at, float bias) { return texture2D(image, at / IMG_SIZE(image), bias); }
+#define IMG_THIS_PIXEL(image) texture2D(image, isf_FragNormCoord)
+#define IMG_THIS_NORM_PIXEL(image) texture2D(image, isf_FragNormCoord)
+#define IMG_NORM_THIS_PIXEL(image) texture2D(image, isf_FragNormCoord)
 #define texture2DRect(image, at) IMG_PIXEL(image, at)
 
 ";

@@ -55,8 +55,8 @@ impl Playback {
             // While a recording plays, its mouse is drawn.
             _ if self.is_replaying() => {}
             InputCommand::MouseDown { x, y } => self.move_mouse(|mouse| mouse.press(x, y)),
-            InputCommand::MouseMove { x, y } if self.mouse.is_down() => self.move_mouse(|mouse| mouse.move_to(x, y)),
-            InputCommand::MouseMove { .. } => {}
+            // A window sends it without a button only if the project reads the pointer.
+            InputCommand::MouseMove { x, y } => self.move_mouse(|mouse| mouse.move_to(x, y)),
             InputCommand::MouseUp => self.move_mouse(Mouse::release),
             InputCommand::KeyDown(code) if self.keyboard.is_held(code) => {}
             InputCommand::KeyDown(code) => self.press_key(code, |keyboard| keyboard.press(code)),
@@ -246,6 +246,7 @@ impl Playback {
             time_delta_secs: time.time_delta_secs,
             frame_rate: time.frame_rate,
             mouse: self.mouse.next_frame(),
+            pointer: self.mouse.pointer(),
             drag: self.mouse.dragged(),
             date: date::i_date(date::now()),
             keyboard: self.keyboard.clone(),

@@ -254,7 +254,7 @@ impl Playback {
         let view = playing.view();
         if let Some(frame) = playing.newest().filter(|_| view.drawn > 0) {
             // Live input continues from the recorded state.
-            self.mouse.follow(frame.inputs.mouse, frame.inputs.drag);
+            self.mouse.follow(frame.inputs.mouse, frame.inputs.drag, frame.inputs.pointer);
             self.keyboard = frame.inputs.keyboard.clone();
             self.release_inputs();
         }
