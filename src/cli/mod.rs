@@ -62,9 +62,6 @@ use std::{
 /// nest deeply; unused pages cost nothing.
 const STACK_BYTES: usize = 256 << 20;
 
-/// The environment variable with the folders of libraries that shaders include, separated as in `PATH`.
-const INCLUDE: &str = "EDDY_INCLUDE";
-
 /// The action of the binary after [`main`].
 pub enum Next {
     /// Exit with a code.
@@ -75,9 +72,6 @@ pub enum Next {
 /// Parses and executes the command line. Usage errors, `--help` and `--version` end the process.
 pub fn main() -> Next {
     let Cli { window, command } = parse().with_guests();
-    if let Some(folders) = env::var_os(INCLUDE) {
-        eddy_project::set_include_folders(env::split_paths(&folders).collect());
-    }
     let Some(mut command) = command else { return Next::Window(window.with_project_of_file()) };
     if command.opens_device() {
         quiet::ask_for_no_wayland();

@@ -12,14 +12,15 @@ use eddy_glsl::interface;
 use eddy_gpu::{Address, Filtering, Gpu};
 use eddy_graph::{Draw, Read, TexelSource};
 use eddy_project::{Filter, Wrap};
+use std::collections::BTreeMap;
 
 /// The bind groups of one draw.
 pub(super) struct DrawBindings {
     /// One per program; for a cubemap pass, which has one program, one per face.
     uniforms: Vec<wgpu::BindGroup>,
     /// One per selection of textures: bit i selects which of its two textures the target of channel i reads. Created
-    /// when first needed.
-    channels: [Option<wgpu::BindGroup>; 16],
+    /// when first needed. Few selections occur: targets that alternate do so together.
+    channels: BTreeMap<u16, wgpu::BindGroup>,
 }
 
 impl DrawBindings {
@@ -44,9 +45,9 @@ impl DrawBindings {
             Some(TexelSource::Target { index, .. }) => targets[*index].front,
             _ => 0,
         };
-        let key = draw.reads.iter().enumerate().fold(0, |key, (i, read)| key | front(read) << i);
+        let key = draw.reads.iter().enumerate().fold(0, |key, (i, read)| key | (front(read) as u16) << i);
         let make = || channel_group(shared, compiled, draw, targets);
-        (&self.uniforms, self.channels[key].get_or_insert_with(make))
+        (&self.uniforms, self.channels.entry(key).or_insert_with(make))
     }
 }
 

@@ -32,7 +32,8 @@ impl Running {
                 // Discarded pixels, and those outside the region, have no value.
                 Some(beside) if beside == index && draw.keeps_content => wgpu::LoadOp::Clear(NO_VALUE),
                 Some(beside) if beside == index => shared.gpu.load_op_dont_care(),
-                _ if part.is_some() => wgpu::LoadOp::Load,
+                // The first part clears the whole target.
+                _ if part.is_some_and(|part| draw.clear.is_none() || (part.x, part.y) != (0, 0)) => wgpu::LoadOp::Load,
                 _ => load_op(&shared.gpu, draw),
             };
             Some(targets[index].textures[targets[index].back()].layer_attachment(layer, load))
@@ -92,8 +93,9 @@ impl Running {
 fn load_op(gpu: &Gpu, draw: &Draw) -> wgpu::LoadOp<wgpu::Color> {
     if draw.keeps_content {
         wgpu::LoadOp::Load
-    } else if draw.draws_meshes {
-        wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)
+    } else if let Some(colour) = draw.clear {
+        let [r, g, b, a] = colour.map(f64::from);
+        wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a })
     } else {
         // The triangle covers every texel, and none is discarded.
         gpu.load_op_dont_care()

@@ -27,7 +27,7 @@ pub enum PassKind {
     PlainFragment,
 }
 
-/// What becomes of the alpha that a fragment shader outputs.
+/// The treatment of the alpha that a fragment shader outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Alpha {
     /// It is stored.
@@ -247,7 +247,7 @@ pub enum UniformSource {
     /// The position of its value in the block at [`super::interface::CUSTOM_UNIFORM_BINDING`], in slots of
     /// [`super::interface::CUSTOM_UNIFORM_BYTES`].
     Slot(u16),
-    /// The size in pixels of the target that the pass draws, a `vec2`.
+    /// The size in pixels of the target that the pass draws, a `vec2`, or a `vec3` whose third component is 1.
     Resolution,
     /// The size in texels of the texture of a channel, a `vec2`.
     ChannelSize(u8),

@@ -88,7 +88,7 @@ pub struct Target {
 }
 
 /// One pass of a frame.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Draw {
     /// Index into [`Project::passes`].
     pub pass: usize,
@@ -100,6 +100,8 @@ pub struct Draw {
     pub reads: [Option<Read>; MAX_CHANNELS],
     /// It rasterizes meshes into targets that are cleared first.
     pub draws_meshes: bool,
+    /// The colour with which the targets are cleared first, if any of their texels can show it.
+    pub clear: Option<[f32; 4]>,
     /// The pass starts with the previous texels of the target.
     pub keeps_content: bool,
     /// Only these texels are drawn; the others are kept.
@@ -131,7 +133,7 @@ impl Draw {
         let read = is_picture.then_some(Read { source: TexelSource::External, sampler: FILL_SAMPLER, mips: false });
         let mut reads = [const { None }; MAX_CHANNELS];
         reads[0] = read;
-        Draw { reads, keeps_content: true, is_cacheable: false, ..self.clone() }
+        Draw { reads, clear: None, keeps_content: true, is_cacheable: false, ..self.clone() }
     }
 }
 
@@ -215,14 +217,15 @@ impl FramePlan {
             });
             let region = project.passes[pass].settings.region;
             // Targets of meshes are always cleared first, with any rules.
-            let is_cleared = project.passes[pass].body.is_cleared();
+            let clear = project.dialect.clear_colour(&project.passes[pass]);
             plan.draws.push(Draw {
                 pass,
                 targets,
                 extra_target: None,
                 reads,
-                draws_meshes: is_cleared,
-                keeps_content: !is_cleared && (facts[pass].discards || region.is_some() || !skip),
+                draws_meshes: project.passes[pass].body.is_cleared(),
+                clear: clear.filter(|_| facts[pass].discards || project.passes[pass].body.is_cleared()),
+                keeps_content: clear.is_none() && (facts[pass].discards || region.is_some() || !skip),
                 region,
                 has_initial: project.passes[pass].settings.initial.is_some(),
                 boundary: project.passes[pass].settings.boundary.as_ref().map(|b| b.width),
@@ -331,7 +334,7 @@ impl FramePlan {
             };
             let drawn_by = self.draws.iter().find(|d| d.targets.contains(&index)).map(|d| d.pass);
             // The previous content of a cleared target cannot be visible.
-            let is_cleared = |p: usize| project.passes[p].body.is_cleared();
+            let is_cleared = |p: usize| project.dialect.clear_colour(&project.passes[p]).is_some();
             let discards = drawn_by.is_some_and(|p| facts[p].discards && !is_cleared(p));
             // Image keeps the canvas of the previous frame, and Sound its previous block; only buffers alternate.
             let takes_turns = id.is_readable() && drawn_by.is_some();
@@ -355,7 +358,8 @@ impl FramePlan {
                 .iter()
                 .flatten()
                 .any(|r| matches!(r.source, TexelSource::Target { index, .. } if own.contains(&index)));
-            let shows_before = facts[draw.pass].discards && !project.passes[draw.pass].body.is_cleared();
+            let is_cleared = project.dialect.clear_colour(&project.passes[draw.pass]).is_some();
+            let shows_before = facts[draw.pass].discards && !is_cleared;
             draw.is_cacheable = skip && !shows_before && !reads_itself;
             for read in draw.reads.iter_mut().flatten() {
                 read.mips = read.sampler.filter == Filter::Mipmap

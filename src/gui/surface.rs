@@ -269,6 +269,11 @@ impl Surface {
         };
         commands.push(encoder.finish());
         queue.submit(commands);
+        if self.gpu.is_lost() {
+            // wgpu neither presents nor discards the texture of a lost device, and the surface cannot be dropped before
+            // the texture is. Unwinding releases it (https://github.com/gfx-rs/wgpu/issues/8243); `paint` ends it.
+            resume_unwind(Box::new("the device was lost"));
+        }
         window.pre_present_notify();
         queue.present(frame);
         Presented::Shown

@@ -122,7 +122,7 @@ impl<'a> Files<'a> {
     pub(crate) fn read_included(&self, name: &str, limit: Limit) -> Read {
         self.read_by(name, limit, |folder, name, limit| match confine::read_included(folder, name, limit) {
             Err(missing) if missing.is_missing() => match in_library(name) {
-                Some(library) => confine::read(library, name, limit),
+                Some(library) => confine::read(&library, name, limit),
                 None => Err(missing),
             },
             read => read,
@@ -211,8 +211,8 @@ impl<'a> Files<'a> {
 }
 
 /// Returns the first of the [`include_folders`] that has a file.
-fn in_library(name: &str) -> Option<&'static Path> {
-    include_folders::all().iter().map(PathBuf::as_path).find(|folder| confine::resolve(folder, name).is_ok())
+fn in_library(name: &str) -> Option<PathBuf> {
+    include_folders::all().into_iter().find(|folder| confine::resolve(folder, name).is_ok())
 }
 
 pub(super) fn decode(bytes: Vec<u8>) -> Read {

@@ -1,16 +1,11 @@
 //! Folders of libraries, such as lygia, in which included files are found that the project's own folder lacks.
 
-use std::{path::PathBuf, sync::OnceLock};
+use std::{env, path::PathBuf};
 
-static FOLDERS: OnceLock<Vec<PathBuf>> = OnceLock::new();
-
-/// Sets the folders, once for the process: from then on they do not change, so that every reading of a project finds the
-/// same files. Later calls have no effect.
-pub fn set_include_folders(folders: Vec<PathBuf>) {
-    let _ = FOLDERS.set(folders);
-}
+/// The environment variable with these folders, separated as in `PATH`.
+pub const INCLUDE_VARIABLE: &str = "EDDY_INCLUDE";
 
 /// Returns the folders in the order in which they are searched.
-pub(super) fn all() -> &'static [PathBuf] {
-    FOLDERS.get().map_or(&[], Vec::as_slice)
+pub(super) fn all() -> Vec<PathBuf> {
+    env::var_os(INCLUDE_VARIABLE).map_or_else(Vec::new, |folders| env::split_paths(&folders).collect())
 }

@@ -87,7 +87,7 @@ pub use imports::{
     FileKind, Fit, ImportError, MODELS, PICTURES, RECORDING, SOUNDS, TextImport, VIDEOS, folder_of_parts,
     import_of_text, kind_of_file, new_for,
 };
-pub use include_folders::set_include_folders;
+pub use include_folders::INCLUDE_VARIABLE;
 pub use includes::{IncludeLines, include_names};
 pub use input::{Input, InputKind, InputRow, InputSource};
 pub use inspect_comments::{InspectComment, inspect_comments};

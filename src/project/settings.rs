@@ -36,6 +36,8 @@ pub enum PassSize {
 pub enum Side {
     /// The canvas's side scaled by this factor, rounded, at least one texel.
     Scale(f64),
+    /// The same, rounded down.
+    Floor(f64),
     /// Texels, whatever the canvas.
     Fixed(u32),
 }
@@ -46,6 +48,8 @@ impl Side {
         match self {
             // `as` saturates at u32; creating the texture fails for a size that no device supports.
             Side::Scale(by) => ((f64::from(canvas) * by).round() as u32).max(1),
+            // A factor such as 1/3 is not exact: a side of 3 must give 1.
+            Side::Floor(by) => ((f64::from(canvas) * by + 1e-6).floor() as u32).max(1),
             Side::Fixed(texels) => texels,
         }
     }
@@ -53,7 +57,7 @@ impl Side {
     /// Returns whether it is at least one texel for some canvas.
     pub fn is_valid(self) -> bool {
         match self {
-            Side::Scale(by) => by.is_finite() && by > 0.0,
+            Side::Scale(by) | Side::Floor(by) => by.is_finite() && by > 0.0,
             Side::Fixed(texels) => texels > 0,
         }
     }

@@ -49,6 +49,9 @@ pub struct CustomUniformInfo {
     pub offset: u32,
     /// The value set by the project, a number for each component.
     pub value: Vec<f64>,
+    /// What the caller sets in each frame, for a uniform of the program that the texts are written for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub meaning: Option<String>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -88,8 +91,16 @@ pub enum SizeInfo {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum SideInfo {
-    Canvas { canvas: f64 },
-    Fixed { texels: u32 },
+    Canvas {
+        canvas: f64,
+    },
+    /// The resolution times this factor, rounded down, at least 1.
+    Floor {
+        floor: f64,
+    },
+    Fixed {
+        texels: u32,
+    },
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]

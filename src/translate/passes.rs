@@ -286,8 +286,18 @@ fn custom_uniforms(texts: &Sources<'_>, project: &Project) -> Vec<CustomUniformI
             CustomUniformValue::Vector(all) => all,
             CustomUniformValue::List(_) => Vec::new(),
         },
+        meaning: None,
     };
-    texts.custom_uniforms().list.iter().enumerate().map(info).collect()
+    let own = &texts.custom_uniforms().list;
+    let of_host = |(n, uniform): (usize, &eddy_project::HostUniform)| CustomUniformInfo {
+        name: uniform.name.to_owned(),
+        ty: uniform.ty.name(),
+        offset: (own.len() + n) as u32 * interface::CUSTOM_UNIFORM_BYTES as u32,
+        value: vec![0.0; uniform.ty.components()],
+        meaning: Some(uniform.value.about()),
+    };
+    let host = project.dialect.row().uniforms.iter().enumerate().filter(|(_, uniform)| uniform.value.has_slot());
+    own.iter().enumerate().map(info).chain(host.map(of_host)).collect()
 }
 
 fn target(target: &Target) -> TargetInfo {
@@ -302,6 +312,7 @@ fn target(target: &Target) -> TargetInfo {
             PassSize::Sides(width, height) => {
                 let side = |side| match side {
                     Side::Scale(canvas) => SideInfo::Canvas { canvas },
+                    Side::Floor(floor) => SideInfo::Floor { floor },
                     Side::Fixed(texels) => SideInfo::Fixed { texels },
                 };
                 SizeInfo::Sides { width: side(width), height: side(height) }

@@ -107,7 +107,7 @@ impl Description<'_> {
                 PassSize::Scale(by) => SizeData::Canvas(by),
                 PassSize::Fixed(width, height) => SizeData::Fixed([width, height]),
                 PassSize::Sides(width, height) => SizeData::Sides([width, height].map(|side| match side {
-                    Side::Scale(by) => SideData::Canvas(by.to_string()),
+                    Side::Scale(by) | Side::Floor(by) => SideData::Canvas(by.to_string()),
                     Side::Fixed(texels) => SideData::Fixed(texels),
                 })),
             },

@@ -16,10 +16,10 @@ mod tests;
 mod texts;
 
 use eddy_diag::{self as diag, Diagnostic};
-use eddy_engine::{CompiledPass, Sources};
-use eddy_glsl::Driver;
+use eddy_engine::{CompiledPass, Sources, pass_kind};
+use eddy_glsl::{Driver, PassKind};
 use eddy_media::{MediaSet, gather};
-use eddy_project::{Dialect, FillKind, Project};
+use eddy_project::{Dialect, FillKind, Pass, Project};
 use std::path::Path;
 
 /// The size limit of the page without texts, meshes and media.
@@ -43,6 +43,13 @@ pub fn export(project: &Project, media_dir: Option<&Path>) -> Result<Page, Vec<D
         return Err(vec![
             Diagnostic::error(None, message).hint("render a film in its place: eddy render --as ghostty"),
         ]);
+    }
+    let is_main = |pass: &Pass| matches!(pass_kind(project, pass), PassKind::Main(_));
+    if project.passes.iter().any(is_main) {
+        let title = project.dialect.row().title;
+        let message = format!("the page runs the GLSL of Shadertoy, and this is a shader of {title}");
+        let hint = "translate it with `eddy translate --to glsl`, or render a film with `eddy render`";
+        return Err(vec![Diagnostic::error(None, message).hint(hint)]);
     }
     let texts = Sources::new(project);
     let mut found = texts.diagnostics.clone();

@@ -183,6 +183,11 @@ impl Builder<'_, '_> {
     fn custom_uniform(&mut self, index: u16, ty: TypeId) -> Value {
         match self.cx.source.custom_uniforms[usize::from(index)].source {
             UniformSource::Slot(slot) => self.uniform_in_slot(slot, ty),
+            UniformSource::Resolution if ty == TypeId::VEC3 => {
+                let resolution = self.cx.uniform(Uniform::Resolution);
+                let pointer = self.global(resolution);
+                self.load(pointer)
+            }
             UniformSource::Resolution => self.resolution(),
             UniformSource::ChannelSize(channel) => self.channel_size(channel),
             UniformSource::UnitPosition => {

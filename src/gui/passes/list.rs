@@ -132,7 +132,7 @@ fn steps(ui: &Ui, rect: Rect, group: &Group, pass: &Pass, right: f32) -> f32 {
 
 fn side(side: Side) -> String {
     match side {
-        Side::Scale(by) => format!("{by:.3}").trim_end_matches('0').trim_end_matches('.').to_owned(),
+        Side::Scale(by) | Side::Floor(by) => format!("{by:.3}").trim_end_matches('0').trim_end_matches('.').to_owned(),
         Side::Fixed(texels) => texels.to_string(),
     }
 }

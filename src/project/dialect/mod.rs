@@ -1,7 +1,7 @@
 //! The programs besides Shadertoy whose shaders Eddy draws unchanged: a table of their properties, the one place that
 //! selects a program for a file, and the project of a file with `void main()`.
 
-use super::Pass;
+use super::{Pass, words::names_word};
 
 #[cfg(test)]
 mod docs;
@@ -10,6 +10,8 @@ mod recognise;
 mod rows;
 mod samplers;
 mod sliders;
+#[cfg(test)]
+mod tests;
 mod textures;
 mod twigl;
 mod uniforms;
@@ -68,9 +70,17 @@ impl Dialect {
         self.row().entry == EntryPoint::Main
     }
 
-    /// Returns what becomes of the alpha that a pass of a project outputs.
+    /// Returns the treatment of the alpha that a pass of a project outputs.
     pub fn alpha(self, pass: &Pass) -> AlphaRule {
         alpha(self, pass)
+    }
+
+    /// Returns the colour with which the targets of a pass are cleared before it is drawn; `None` if they are not.
+    pub fn clear_colour(self, pass: &Pass) -> Option<[f32; 4]> {
+        if pass.body.is_cleared() {
+            return Some([0.0; 4]);
+        }
+        self.row().clear.filter(|_| !names_word(&pass.source.text, "mainImage"))
     }
 
     /// Returns the dialect with a name.

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     Channel, Input, InputKind, Loaded, MAX_CHANNELS, Media, Origin, Overwrite, Pass, PassName, PassSize, Project,
-    ProjectError, Sampler, Source, TexelFormat,
+    ProjectError, Sampler, Side, Source, TexelFormat,
     atomic::Content,
     confine,
     files::Files,
@@ -196,7 +196,7 @@ impl Maker<'_> {
         let mut text =
             format!("// {} of {}: Eddy generates this text, and includes the file.\n", id.title(), self.name);
         if self.dialect == Dialect::GlslViewer {
-            text.push_str("#define GLSLVIEWER 340\n#define MODEL_VERTEX_TEXCOORD v_texcoord\n");
+            text.push_str("#define GLSLVIEWER 340\n#define PLATFORM_LINUX\n#define MODEL_VERTEX_TEXCOORD v_texcoord\n");
         }
         defines.iter().for_each(|define| text.push_str(&format!("#define {define}\n")));
         let include = format!("#include \"{}\"\n", self.name);
@@ -308,7 +308,7 @@ void mainImage(out vec4 color, in vec2 at) {
 }
 ";
 
-/// Returns what becomes of the alpha that a pass of a complete fragment shader outputs.
+/// Returns the treatment of the alpha that a pass of a complete fragment shader outputs.
 pub(crate) fn alpha(dialect: Dialect, pass: &Pass) -> AlphaRule {
     let is = |name: &str| pass.id == PassName::buffer(name);
     match dialect {
@@ -349,7 +349,7 @@ fn size_of(comment: &str) -> Option<PassSize> {
         return (width > 0 && height > 0).then_some(PassSize::Fixed(width, height));
     }
     let scale: f64 = first.parse().ok().filter(|scale| *scale > 0.0)?;
-    Some(if scale == 1.0 { PassSize::Canvas } else { PassSize::Scale(scale) })
+    Some(if scale == 1.0 { PassSize::Canvas } else { PassSize::Sides(Side::Floor(scale), Side::Floor(scale)) })
 }
 
 fn is_picture(file: &str) -> bool {

@@ -27,7 +27,7 @@ pub struct DialectRow {
     pub name: &'static str,
     /// The programs, for users.
     pub title: &'static str,
-    /// Where their behaviour is described.
+    /// The source that describes their behaviour.
     pub source: &'static str,
     pub entry: EntryPoint,
     /// The version of GLSL for a text without a `#version` line, as it would be written there.
@@ -46,6 +46,9 @@ pub struct DialectRow {
     /// The format and the sampler of the previous frame's picture, if texts can read it.
     pub previous: (TexelFormat, Sampler),
     pub alpha: AlphaRule,
+    /// The colour with which targets are cleared before each pass. `None`: a pixel that is discarded keeps its content,
+    /// as on Shadertoy.
+    pub clear: Option<[f32; 4]>,
     /// Other facts for the documentation.
     pub notes: &'static str,
 }
@@ -59,7 +62,7 @@ pub enum EntryPoint {
     Main,
 }
 
-/// What becomes of the alpha that a pass outputs.
+/// The treatment of the alpha that a pass outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AlphaRule {
     /// It is stored.
@@ -82,7 +85,7 @@ const NEAREST_CLAMP: Sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Cl
 const LINEAR_CLAMP: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
 const LINEAR_REPEAT: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Repeat, vflip: true };
 
-/// What most rows have in common.
+/// The properties that most rows share.
 const ROW: DialectRow = DialectRow {
     dialect: Dialect::Shadertoy,
     name: "shadertoy",
@@ -98,6 +101,7 @@ const ROW: DialectRow = DialectRow {
     identities: &[],
     previous: (TexelFormat::Rgba8, NEAREST_CLAMP),
     alpha: AlphaRule::Opaque,
+    clear: None,
     notes: "",
 };
 
@@ -180,6 +184,7 @@ pub(super) static ROWS: [DialectRow; Dialect::ALL.len()] = [
             ("u_view2d", 3),
         ],
         alpha: AlphaRule::OverBlack,
+        clear: Some([0.0; 4]),
         notes: "`BUFFER_n`, `DOUBLE_BUFFER_n` and `POSTPROCESSING` make passes of the same text.",
         ..ROW
     },
@@ -200,6 +205,7 @@ pub(super) static ROWS: [DialectRow; Dialect::ALL.len()] = [
             "backbuffer" | "bb" | "buffer" => Some(HostTexture::Previous(0)),
             _ => None,
         },
+        clear: Some([0.0; 4]),
         ..ROW
     },
     DialectRow {
@@ -223,6 +229,7 @@ pub(super) static ROWS: [DialectRow; Dialect::ALL.len()] = [
         },
         picture: Sampler { vflip: false, ..LINEAR_REPEAT },
         previous: (TexelFormat::Rgba8, LINEAR_REPEAT),
+        clear: Some([0.08, 0.18, 0.18, 1.0]),
         notes: "The sound of `texFFT` is the microphone, or a music file of the channel.",
         ..ROW
     },
@@ -250,6 +257,7 @@ pub(super) static ROWS: [DialectRow; Dialect::ALL.len()] = [
             _ => None,
         },
         previous: (TexelFormat::Rgba32f, LINEAR_CLAMP),
+        clear: Some([0.0, 0.0, 0.0, 1.0]),
         notes: "The modes geeker and geekest need no declarations.",
         ..ROW
     },
@@ -290,6 +298,7 @@ pub(super) static ROWS: [DialectRow; Dialect::ALL.len()] = [
             uniform("texCoord", Vec2, UnitPosition),
         ],
         picture: LINEAR_CLAMP,
+        clear: Some([0.0; 4]),
         notes: "Any version of GLSL. Uniforms with the usual names for time, size and pointer get their values, others \
                 are sliders.",
         ..ROW

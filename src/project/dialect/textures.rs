@@ -17,7 +17,7 @@ pub enum HostTexture {
     Sound(SoundTexture),
 }
 
-/// How a texture contains the spectrum of a sound.
+/// The form in which a texture contains the spectrum of a sound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SoundTexture {
     Spectrum,

@@ -53,6 +53,13 @@ pub enum MouseUnit {
 }
 
 impl HostValue {
+    /// Returns whether it is a value for all passes of a frame, in a slot of the block of uniforms. The others follow
+    /// from the target and the position of the pixel.
+    pub fn has_slot(self) -> bool {
+        use HostValue as V;
+        !matches!(self, V::Resolution | V::UnitPosition | V::CentredPosition | V::ClipPosition)
+    }
+
     /// Returns a sentence part for documentation and the editor.
     pub fn about(self) -> String {
         match self {

@@ -40,7 +40,8 @@ pub(super) fn size(
     let heights: Vec<(f64, f64)> = sizes.iter().zip(&CANVASES).map(|(size, canvas)| (size.1, canvas.1)).collect();
     let why = || "it is neither fixed nor a part of the picture's width and height".to_owned();
     match (side(&widths).ok_or_else(why)?, side(&heights).ok_or_else(why)?) {
-        (Side::Scale(x), Side::Scale(y)) if x == y => Ok(if x == 1.0 { PassSize::Canvas } else { PassSize::Scale(x) }),
+        (Side::Scale(1.0), Side::Scale(1.0)) => Ok(PassSize::Canvas),
+        (Side::Scale(x), Side::Scale(y)) if x == y => Ok(PassSize::Scale(x)),
         (x, y) => Ok(PassSize::Sides(x, y)),
     }
 }
@@ -51,9 +52,16 @@ fn side(sides: &[(f64, f64)]) -> Option<Side> {
     if sides.iter().all(|(side, _)| *side == first) {
         return Some(Side::Fixed(first as u32));
     }
-    let by = sides[2].0 / sides[2].1;
-    // Rounding down makes the last digits inexact.
-    sides.iter().all(|(side, canvas)| (side - canvas * by).abs() <= 2.0).then(|| Side::Scale(tidy(by)))
+    let by = tidy(sides[2].0 / sides[2].1);
+    let is = |round: fn(f64) -> f64| sides.iter().all(|(side, canvas)| *side == round(canvas * by + 1e-6).max(1.0));
+    // An expression that does not round gives a number of texels that is rounded down (VVISF converts it to an integer).
+    let is_exact = sides.iter().all(|(side, canvas)| (side - canvas * by).abs() < 1e-3);
+    let is_whole = sides.iter().all(|(side, _)| side.fract() == 0.0);
+    match () {
+        () if by == 1.0 => Some(Side::Scale(1.0)),
+        () if is_exact && !is_whole || is(f64::floor) => Some(Side::Floor(by)),
+        () => sides.iter().all(|(side, canvas)| (side - canvas * by).abs() <= 2.0).then_some(Side::Scale(by)),
+    }
 }
 
 /// Returns the fraction of small integers that most likely equals a factor, else the factor.
@@ -88,11 +96,16 @@ mod tests {
     #[test]
     fn sizes_are_fixed_or_fractions_of_the_picture() {
         let of = |w, h| size((w, h), &|name| (name == "quality").then_some(0.25));
+        let third = PassSize::Sides(Side::Floor(1.0 / 3.0), Side::Floor(1.0 / 3.0));
+        assert_eq!(third.of((32, 3)), (10, 1));
+        let [quarter, half] = [0.25, 0.5].map(Side::Floor);
         assert_eq!(of(None, None), Ok(PassSize::Canvas));
-        assert_eq!(of(Some("floor($WIDTH/3.0)"), Some("floor($HEIGHT/3.0)")), Ok(PassSize::Scale(1.0 / 3.0)));
-        assert_eq!(of(Some("max($WIDTH*$quality,1.0)"), Some("$HEIGHT*$quality")), Ok(PassSize::Scale(0.25)));
+        assert_eq!(of(Some("floor($WIDTH/3.0)"), Some("floor($HEIGHT/3.0)")), Ok(third));
+        assert_eq!(
+            of(Some("max($WIDTH*$quality,1.0)"), Some("$HEIGHT*$quality")),
+            Ok(PassSize::Sides(quarter, quarter))
+        );
         assert_eq!(of(Some("2"), Some("1.0")), Ok(PassSize::Fixed(2, 1)));
-        let (quarter, half) = (Side::Scale(0.25), Side::Scale(0.5));
         assert_eq!(of(Some("$WIDTH/4.0"), Some("$HEIGHT/2.0")), Ok(PassSize::Sides(quarter, half)));
         assert_eq!(of(Some("$WIDTH"), Some("1")), Ok(PassSize::Sides(Side::Scale(1.0), Side::Fixed(1))));
         assert_eq!(of(Some("16"), None), Ok(PassSize::Sides(Side::Fixed(16), Side::Scale(1.0))));

@@ -1,7 +1,7 @@
 use super::json_of;
 use crate::{
     CustomUniformType, Dialect, Input, InputKind, Loaded, Media, Overwrite, PassName, PassSize, Project, ProjectError,
-    ShaderForm, Tab, TexelFormat, load, save,
+    ShaderForm, Side, Tab, TexelFormat, load, save,
 };
 use std::{fs, path::Path};
 
@@ -61,7 +61,7 @@ fn passes_become_buffers_and_inputs_sliders() {
     assert_eq!(project.passes[0].settings.format, TexelFormat::Rgba32f);
     assert_eq!(
         (project.passes[1].settings.format, project.passes[1].settings.size),
-        (TexelFormat::Rgba8, PassSize::Scale(0.5))
+        (TexelFormat::Rgba8, PassSize::Sides(Side::Floor(0.5), Side::Floor(0.5)))
     );
     let image = &project.passes[2].bindings;
     let inputs: Vec<&Input> = image.channels().map(|channel| &channel.input).collect();

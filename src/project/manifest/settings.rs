@@ -196,8 +196,15 @@ fn size(item: &Item) -> Option<PassSize> {
     (factor > 0.0).then_some(if factor == 1.0 { PassSize::Canvas } else { PassSize::Scale(factor) })
 }
 
-/// Returns a side: a whole number is one of texels, one with a point a part of the canvas.
+/// The word before a part of the canvas that is rounded down.
+const FLOOR: &str = "floor ";
+
+/// Returns a side: a whole number is one of texels, one with a point a part of the canvas; `"floor 0.25"` rounds down.
 fn side(value: &Value) -> Option<Side> {
+    if let Some(text) = value.as_str() {
+        let by = text.strip_prefix(FLOOR)?.trim().parse().ok()?;
+        return Some(Side::Floor(by)).filter(|side| side.is_valid());
+    }
     let side = if value.is_float() { Side::Scale(number(value)?) } else { Side::Fixed(whole(value)?) };
     Some(side).filter(|side| side.is_valid())
 }
@@ -223,6 +230,7 @@ pub(super) fn write_settings(table: &mut dyn TableLike, pass: &Pass) {
                 PassSize::Sides(w, h) => {
                     let side = |side| match side {
                         Side::Scale(by) => Value::from(by),
+                        Side::Floor(by) => Value::from(format!("{FLOOR}{by:?}")),
                         Side::Fixed(texels) => Value::from(i64::from(texels)),
                     };
                     Some([w, h].into_iter().map(side).collect())

@@ -144,6 +144,7 @@ fn sides(sides: [Side; 2]) -> [String; 2] {
     let [width, height] = sides;
     [("$WIDTH", width), ("$HEIGHT", height)].map(|(canvas, side)| match side {
         Side::Scale(by) => format!("max(floor({canvas}*{by:?}+0.5),1.0)"),
+        Side::Floor(by) => format!("max(floor({canvas}*{by:?}),1.0)"),
         Side::Fixed(texels) => texels.to_string(),
     })
 }
