@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Draws the programs of this folder in Chromium's WebGL, and writes the pictures that `dialect_pictures.rs` compares with.
+"""Draws the programs of this folder in Chromium's WebGL, and writes the pictures for `tests/it/dialect_pictures.rs`.
 
-usage: chromium.py [--check] [ROW/NAME ...]      without names, all programs; --check writes nothing and lists differences
+usage: chromium.py [--check] [ROW/NAME ...]
+Without names it draws all programs. --check writes nothing, and lists the pictures that would change.
 
 The page sets the uniforms, textures and feedback of a program as the host of its row does, from the descriptions of the
 hosts and independently of Eddy's code. README.md lists the comments that a program may contain. Only the standard
@@ -11,21 +12,25 @@ import base64, html, json, math, pathlib, re, struct, subprocess, sys, tempfile,
 
 HERE = pathlib.Path(__file__).resolve().parent
 WIDTH, HEIGHT, FPS = 32, 18, 60
-FLAGS = ["--headless", "--no-sandbox", "--no-first-run", "--disable-background-networking", "--disable-sync", "--use-gl=angle",
-         "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-watchdog", "--timeout=240000", "--dump-dom"]
-ENDINGS = {"glslviewer": "frag", "glslsandbox": "frag", "bonzomatic": "glsl", "twigl": "frag", "isf": "fs", "plain": "frag"}
+FLAGS = ["--headless", "--no-sandbox", "--no-first-run", "--disable-background-networking", "--disable-sync",
+         "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-watchdog",
+         "--timeout=240000", "--virtual-time-budget=200000", "--dump-dom"]
+ENDINGS = {"glslviewer": "frag", "glslsandbox": "frag", "bonzomatic": "glsl", "twigl": "frag", "isf": "fs",
+           "plain": "frag"}
 
 # The meanings of uniforms are those of `value` in page.html. `frame:1` counts from 1, `date:0` has January as month 0.
 UNIFORMS = {
     "glslviewer": {"u_time": "time", "u_delta": "delta", "u_frame": "frame:1", "u_date": "date:0", "u_mouse": "mouse",
-        "u_resolution": "resolution", "u_play": [1], "u_pixelDensity": [1], "u_model": [1, 1, 1], "u_view2d": "identity:3",
+        "u_resolution": "resolution", "u_play": [1], "u_pixelDensity": [1], "u_model": [1, 1, 1],
+        "u_view2d": "identity:3",
         "u_normalMatrix": "identity:3", "u_modelMatrix": "identity:4", "u_viewMatrix": "identity:4",
         "u_projectionMatrix": "identity:4", "u_modelViewProjectionMatrix": "identity:4"},
     "glslsandbox": {"time": "time", "mouse": "unitmouse", "resolution": "resolution", "surfaceSize": "surface"},
     "bonzomatic": {"fGlobalTime": "time", "fFrameTime": "delta", "v2Resolution": "resolution"},
     "twigl": {"resolution": "resolution", "mouse": "unitmouse", "time": "time", "frame": "frame:1", "sound": [0],
         "r": "resolution", "m": "unitmouse", "t": "time", "f": "frame:1", "s": [0]},
-    "isf": {"TIME": "time", "TIMEDELTA": "delta0", "DATE": "date:1", "FRAMEINDEX": "frame:0", "RENDERSIZE": "resolution"},
+    "isf": {"TIME": "time", "TIMEDELTA": "delta0", "DATE": "date:1", "FRAMEINDEX": "frame:0",
+        "RENDERSIZE": "resolution"},
     "plain": {**{n: "time" for n in ("uTime", "iTime", "iGlobalTime")}, "iTimeDelta": "delta",
         **{n: "frame:0" for n in ("uFrame", "iFrame")}, **{n: "resolution" for n in ("uResolution", "iResolution")},
         **{n: "mouse" for n in ("uMouse", "iMouse")}, "iDate": "date:0", "daytime": "clock"},
@@ -80,20 +85,22 @@ def language(text, version):
     return PRECISION + body, number >= 130
 
 
-def vertex(fragment, is_300, always=()):
+def vertex(fragment, is_300):
     names = [n for n in VARYINGS if re.search(rf"\b(varying|in)\s+((high|medium|low)p\s+)?vec\d\s+{n}\s*;", fragment)]
     declared = [VARYINGS[n].format(n).split(" = ") for n in names]
     word = ("in", "out") if is_300 else ("attribute", "varying")
     out = ("#version 300 es\n" if is_300 else "") + "precision highp float;\n" + f"{word[0]} vec2 corner;\n"
     out += "".join(f"{word[1]} {name};\n" for name, _ in declared)
-    return out + "void main() {\n" + "".join(f"{d.split()[1]} = {v};\n" for d, v in declared) + "gl_Position = vec4(corner, 0.0, 1.0);\n}\n"
+    body = "".join(f"{name.split()[1]} = {value};\n" for name, value in declared)
+    return out + "void main() {\n" + body + "gl_Position = vec4(corner, 0.0, 1.0);\n}\n"
 
 
 def spectrum(comment):
-    """Returns the 1024 numbers of Bonzomatic's texFFT for the bytes of an analyser: `200,4` is max(0, 200 - n / 4) in bin n.
+    """Returns the 1024 numbers of Bonzomatic's texFFT for the bytes of an analyser.
 
-    An analyser (Web Audio API) has -100 to -30 dB in its bytes, of the magnitude divided by the number of samples, under
-    a window with the mean 0.42. Bonzomatic has no window, and divides twice the magnitude by half of that number.
+    The comment `200,4` is max(0, 200 - n / 4) in bin n. An analyser (Web Audio API) has -100 to -30 dB in its bytes, of
+    the magnitude divided by the number of samples, under a window with the mean 0.42. Bonzomatic has no window, and
+    divides twice the magnitude by half of that number.
     """
     level, bins = (int(x) for x in (comment or "0,1").split(","))
     of_byte = lambda b: 4 / 0.42 * 10 ** ((70 * b / 255 - 100) / 20) if b > 0 else 0.0
@@ -114,7 +121,8 @@ class Program:
         d = [int(x) for x in date.groups()] if date else None
         self.out = dict(context="webgl2", width=WIDTH, height=HEIGHT, fps=FPS, frame=int(note("frame") or 7),
             mouse=[float(x) for x in point.split(",")] if point else start,
-            spectrum=spectrum(note("spectrum")), date=d[:3] + [3600 * d[3] + 60 * d[4] + d[5]] if d else [0, 1, 0, 0], textures={}, targets=[], passes=[])
+            spectrum=spectrum(note("spectrum")), textures={}, targets=[], passes=[],
+            date=d[:3] + [3600 * d[3] + 60 * d[4] + d[5]] if d else [0, 1, 0, 0])
         self.uniforms = dict(UNIFORMS[self.row])
         getattr(self, self.row)()
 
@@ -122,8 +130,8 @@ class Program:
         if to["name"] not in [t["name"] for t in self.out["targets"]]:
             self.out["targets"].append(to)
         fragment = ("#version 300 es\n" if is_300 else "") + fragment
-        self.out["passes"].append(dict(fragment=fragment, vertex=vertex_text or vertex(fragment, is_300), target=to["name"],
-            blend=blend, clear=clear, uniformValues={**self.uniforms, **dict(uniforms)}))
+        self.out["passes"].append(dict(fragment=fragment, vertex=vertex_text or vertex(fragment, is_300),
+            target=to["name"], blend=blend, clear=clear, uniformValues={**self.uniforms, **dict(uniforms)}))
 
     def image(self, name, file, filter="linear", wrap="repeat", flip=True, linear=False):
         data = (self.path.parent / file).read_bytes()
@@ -165,7 +173,8 @@ class Program:
         for name, sound in (("texFFT", "spectrum"), ("texFFTSmoothed", "smoothed"), ("texFFTIntegrated", "integrated")):
             self.out["textures"][name] = dict(sound=sound, filter="linear", wrap="repeat")
         body, is_300 = language(self.drawn, (410, "core"))
-        self.add(body, target("screen", ["texPreviousFrame"], "rgb", "linear", "repeat"), is_300, clear=(0.08, 0.18, 0.18, 1))
+        screen = target("screen", ["texPreviousFrame"], "rgb", "linear", "repeat")
+        self.add(body, screen, is_300, clear=(0.08, 0.18, 0.18, 1))
 
     def twigl(self):
         """The mode is in a comment: classic, geek, geeker or geekest, with 300 for ES 3.00 and mrt for two targets."""
@@ -174,9 +183,10 @@ class Program:
         head = ""
         if kind in ("geeker", "geekest"):
             back = "uniform sampler2D b0;\nuniform sampler2D b1;\n" if is_mrt else "uniform sampler2D b;\n"
-            head = "precision highp float;\nuniform vec2 r;\nuniform vec2 m;\nuniform float t;\nuniform float f;\nuniform float s;\n" + back
-            outputs = "layout(location = 0) out vec4 o0;\nlayout(location = 1) out vec4 o1;\n" if is_mrt else "out vec4 o;\n"
-            head += outputs if is_300 else ""
+            head = "precision highp float;\nuniform vec2 r;\nuniform vec2 m;\n"
+            head += "uniform float t;\nuniform float f;\nuniform float s;\n" + back
+            two = "layout(location = 0) out vec4 o0;\nlayout(location = 1) out vec4 o1;\n"
+            head += (two if is_mrt else "out vec4 o;\n") if is_300 else ""
         body = self.drawn
         if kind == "geekest":
             head = "#define FC gl_FragCoord\n" + head + SNIPPETS
@@ -197,7 +207,8 @@ class Program:
     def isf(self):
         head = json.loads(re.search(r"/\*(.*?)\*/", self.drawn, re.S)[1])
         passes = head.get("PASSES") or [{}]
-        declared = "uniform int PASSINDEX;\nuniform vec2 RENDERSIZE;\nuniform float TIME;\nuniform float TIMEDELTA;\nuniform vec4 DATE;\nuniform int FRAMEINDEX;\n"
+        declared = "uniform int PASSINDEX, FRAMEINDEX;\nuniform float TIME, TIMEDELTA;\n"
+        declared += "uniform vec2 RENDERSIZE;\nuniform vec4 DATE;\n"
         types = {"event": "bool", "bool": "bool", "long": "int", "float": "float", "point2D": "vec2", "color": "vec4"}
         images, numbers = {}, {}
         for i in head.get("INPUTS", []):
@@ -216,7 +227,8 @@ class Program:
                 self.constant(name, (level, level, level, 255), images[name], wrap="clamp")
         for name, i in head.get("IMPORTED", {}).items():
             images[name] = self.image(name, i["PATH"], wrap="clamp")
-        scope = {"__builtins__": {}, "floor": math.floor, "max": max, "min": min, "WIDTH": WIDTH, "HEIGHT": HEIGHT, **numbers}
+        functions = {"__builtins__": {}, "floor": math.floor, "max": max, "min": min}
+        scope = {**functions, "WIDTH": WIDTH, "HEIGHT": HEIGHT, **numbers}
         side = lambda p, key, own: int(eval(str(p.get(key, own)).replace("$", ""), scope))
         targets = {}
         for p in passes:
@@ -227,11 +239,14 @@ class Program:
             declared += f"uniform sampler2D {name};\nuniform vec2 _{name}_imgSize;\n"
             self.uniforms[f"_{name}_imgSize"] = size
         common = PRECISION + declared + "varying vec2 isf_FragNormCoord;\n#define vv_FragNormCoord isf_FragNormCoord\n"
-        fragment, vs = (isf_functions(t) for t in (self.drawn, self.path.with_suffix(".vs").read_text() if self.path.with_suffix(".vs").exists() else "void main() { isf_vertShaderInit(); }\n"))
-        init = "attribute vec2 corner;\nvoid isf_vertShaderInit() {\n    gl_Position = vec4(corner, 0.0, 1.0);\n    isf_FragNormCoord = 0.5 + 0.5 * corner;\n}\n"
+        own = self.path.with_suffix(".vs")
+        vs = own.read_text() if own.exists() else "void main() { isf_vertShaderInit(); }\n"
+        init = "attribute vec2 corner;\nvoid isf_vertShaderInit() {\n    gl_Position = vec4(corner, 0.0, 1.0);\n"
+        init += "    isf_FragNormCoord = 0.5 + 0.5 * corner;\n}\n"
+        fragment, vs = common + isf_functions(self.drawn), common + init + isf_functions(vs)
         for n, p in enumerate(passes):
             to = targets[p["TARGET"]] if p.get("TARGET") else target("screen", [])
-            self.add(common + fragment, to, False, common + init + vs, uniforms=[("PASSINDEX", [n])])
+            self.add(fragment, to, False, vs, uniforms=[("PASSINDEX", [n])])
 
 
 def default_of(i):
@@ -249,8 +264,10 @@ def default_of(i):
 
 def isf_functions(text):
     for name, made in (
-        ("IMG_PIXEL", lambda i, at: f"texture2D({i}, ({at}) / _{i}_imgSize)"), ("IMG_NORM_PIXEL", lambda i, at: f"texture2D({i}, {at})"),
-        ("IMG_THIS_PIXEL", lambda i: f"texture2D({i}, isf_FragNormCoord)"), ("IMG_THIS_NORM_PIXEL", lambda i: f"texture2D({i}, isf_FragNormCoord)"),
+        ("IMG_PIXEL", lambda i, at: f"texture2D({i}, ({at}) / _{i}_imgSize)"),
+        ("IMG_NORM_PIXEL", lambda i, at: f"texture2D({i}, {at})"),
+        ("IMG_THIS_PIXEL", lambda i: f"texture2D({i}, isf_FragNormCoord)"),
+        ("IMG_THIS_NORM_PIXEL", lambda i: f"texture2D({i}, isf_FragNormCoord)"),
         ("IMG_SIZE", lambda i: f"_{i}_imgSize")):
         text = call(text, name, made)
     return text
@@ -275,8 +292,7 @@ def drawn(programs):
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "page.html"
         file.write_text(page.replace("/*PROGRAMS*/[]", data))
-        # Pictures decode in real time: the page is read when its title says that all is drawn.
-        command = ["chromium", *FLAGS, "--virtual-time-budget=200000", f"--user-data-dir={folder}/profile", f"file://{file}"]
+        command = ["chromium", *FLAGS, f"--user-data-dir={folder}/profile", f"file://{file}"]
         dom = subprocess.run(command, capture_output=True, text=True, timeout=300).stdout
     found = re.search(r'<pre id="out">(.*?)</pre>', dom, re.S)
     if not found or not found[1]:
@@ -288,7 +304,8 @@ def png(texels):
     rows = [b"".join(bytes(texels[4 * (y * WIDTH + x):][:3]) for x in range(WIDTH)) for y in reversed(range(HEIGHT))]
     chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     head = struct.pack(">IIBBBBB", WIDTH, HEIGHT, 8, 2, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(b"".join(b"\0" + r for r in rows), 9)) + chunk(b"IEND", b"")
+    data = zlib.compress(b"".join(b"\0" + row for row in rows), 9)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", data) + chunk(b"IEND", b"")
 
 
 def main():

@@ -30,6 +30,16 @@ const TOLERANCE: u8 = 2;
 /// A row with fewer programs has lost some.
 const PROGRAMS: usize = 10;
 
+/// The rows with programs, and the extensions of these.
+const ROWS: [(Dialect, &str); 6] = [
+    (Dialect::GlslViewer, "frag"),
+    (Dialect::GlslSandbox, "frag"),
+    (Dialect::Bonzomatic, "glsl"),
+    (Dialect::Twigl, "frag"),
+    (Dialect::Isf, "fs"),
+    (Dialect::Plain, "frag"),
+];
+
 /// Programs that Eddy draws differently, and why. Each must differ, so that the list stays true.
 const DIFFERENCES: &[(&str, &str)] = &[];
 
@@ -68,13 +78,20 @@ impl Inputs {
     /// Returns the texture of the microphone: a spectrum that falls by one every so many bins, and no wave.
     fn microphone(&self) -> Option<Arc<Spectrum>> {
         let (level, bins) = self.spectrum?;
-        let byte = |n: usize| if n < BINS { usize::from(level).saturating_sub(n / usize::from(bins)) as u8 } else { 128 };
+        let byte =
+            |n: usize| if n < BINS { usize::from(level).saturating_sub(n / usize::from(bins)) as u8 } else { 128 };
         Some(Arc::new(std::array::from_fn(byte)))
     }
 }
 
 fn folder(row: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/dialects").join(row)
+}
+
+/// Returns the files of a row with this extension.
+fn files_of(row: &str, extension: &str) -> BTreeSet<PathBuf> {
+    let paths = fs::read_dir(folder(row)).unwrap().map(|entry| entry.unwrap().path());
+    paths.filter(|path| path.extension().is_some_and(|e| e == extension)).collect()
 }
 
 /// Returns the program's picture as Eddy draws it.
@@ -126,14 +143,17 @@ fn check(gpu: &Gpu, path: &Path) -> Result<(), String> {
     }
 }
 
-fn check_row(dialect: Dialect, extension: &str) {
+fn check_row(dialect: Dialect) {
+    let (_, extension) = ROWS.into_iter().find(|(row, _)| *row == dialect).unwrap();
     let row = dialect.name();
-    let files: BTreeSet<PathBuf> = fs::read_dir(folder(row)).unwrap().map(|entry| entry.unwrap().path()).collect();
-    let with = |extension: &str| files.iter().filter(|path| path.extension().is_some_and(|e| e == extension)).cloned();
-    let programs: BTreeSet<PathBuf> = with(extension).collect();
+    let programs = files_of(row, extension);
     assert!(programs.len() >= PROGRAMS, "tests/dialects/{row} has {} programs, at least {PROGRAMS}", programs.len());
-    let unused = with("png").find(|picture| !programs.contains(&picture.with_extension(extension)));
-    assert_eq!(unused, None, "a picture without a program");
+    let pictures = files_of(row, "png");
+    let expected: BTreeSet<PathBuf> = programs.iter().map(|program| program.with_extension("png")).collect();
+    let missing: Vec<&PathBuf> = expected.difference(&pictures).collect();
+    assert!(missing.is_empty(), "draw these pictures with tests/dialects/chromium.py: {missing:?}");
+    let unused: Vec<&PathBuf> = pictures.difference(&expected).collect();
+    assert!(unused.is_empty(), "remove these pictures, which belong to no program: {unused:?}");
     let Some(gpu) = gpu() else { return };
     let mut problems = Vec::new();
     for path in &programs {
@@ -150,58 +170,48 @@ fn check_row(dialect: Dialect, extension: &str) {
 
 #[test]
 fn glslviewer_programs_are_drawn_as_in_webgl() {
-    check_row(Dialect::GlslViewer, "frag");
+    check_row(Dialect::GlslViewer);
 }
 
 #[test]
 fn glslsandbox_programs_are_drawn_as_in_webgl() {
-    check_row(Dialect::GlslSandbox, "frag");
+    check_row(Dialect::GlslSandbox);
 }
 
 #[test]
 fn bonzomatic_programs_are_drawn_as_in_webgl() {
-    check_row(Dialect::Bonzomatic, "glsl");
+    check_row(Dialect::Bonzomatic);
 }
 
 #[test]
 fn twigl_programs_are_drawn_as_in_webgl() {
-    check_row(Dialect::Twigl, "frag");
+    check_row(Dialect::Twigl);
 }
 
 #[test]
 fn isf_programs_are_drawn_as_in_webgl() {
-    check_row(Dialect::Isf, "fs");
+    check_row(Dialect::Isf);
 }
 
 #[test]
 fn plain_programs_are_drawn_as_in_webgl() {
-    check_row(Dialect::Plain, "frag");
+    check_row(Dialect::Plain);
 }
 
 #[test]
 fn every_program_is_recognised_as_one_of_its_row() {
-    let rows = [
-        (Dialect::GlslViewer, "frag"),
-        (Dialect::GlslSandbox, "frag"),
-        (Dialect::Bonzomatic, "glsl"),
-        (Dialect::Twigl, "frag"),
-        (Dialect::Isf, "fs"),
-        (Dialect::Plain, "frag"),
-    ];
-    for (dialect, extension) in rows {
-        for entry in fs::read_dir(folder(dialect.name())).unwrap() {
-            let path = entry.unwrap().path();
-            if path.extension().is_some_and(|e| e == extension) {
-                let text = fs::read_to_string(&path).unwrap();
-                assert_eq!(ShaderForm::of(&path, &text), ShaderForm::Program(dialect), "{}", path.display());
-            }
+    for (dialect, extension) in ROWS {
+        for path in files_of(dialect.name(), extension) {
+            let text = fs::read_to_string(&path).unwrap();
+            assert_eq!(ShaderForm::of(&path, &text), ShaderForm::Program(dialect), "{}", path.display());
         }
     }
 }
 
 #[test]
 fn comments_set_the_inputs_of_a_program() {
-    let text = "#version 330\n// mouse: 20,5\n// Not an input: text.\n// date: 2026-11-29T18:30:12\n// spectrum: 200,4\n";
+    let text =
+        "#version 330\n// mouse: 20,5\n// Not an input: text.\n// date: 2026-11-29T18:30:12\n// spectrum: 200,4\n";
     let inputs = Inputs::of(text).unwrap();
     let expected = Inputs {
         frame: FRAME,
