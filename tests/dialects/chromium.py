@@ -148,7 +148,10 @@ class Program:
 
     def glslviewer(self):
         self.pictures()
-        body, is_300 = language(self.drawn, (110, ""))
+        included = set()
+        once = lambda m: included.add(m[1]) or (self.path.parent / m[1]).read_text() if m[1] not in included else ""
+        text = re.sub(r'^#include "(.*\.glsl)"', once, self.drawn, flags=re.M)
+        body, is_300 = language(text, (110, ""))
         found = re.findall(r"^\s*#\s*(?:ifdef\s+|(?:el)?if\s+defined\s*\(\s*)(\w+)", self.text, re.M)
         macro = lambda define: f"#define GLSLVIEWER 340\n#define PLATFORM_LINUX\n{define}\n#line 1\n"
         for kind, sampler in (("BUFFER", "u_buffer"), ("DOUBLE_BUFFER", "u_doubleBuffer")):

@@ -7,6 +7,7 @@ layout(location = 0) out vec4 out_color;
 
 void main(void)
 {
-  if (out_texcoord.x > 0.5) discard;
+  float frame = floor(fGlobalTime * 60.0 + 0.5);
+  if (out_texcoord.x > 0.5 && mod(frame, 4.0) > 1.5) discard;
   out_color = vec4(out_texcoord, 0.5, 1.0);
 }
