@@ -151,6 +151,7 @@ impl<'p> Sources<'p> {
             channels: channel_kinds(&self.project.passes[index]),
             custom_uniforms: &self.uniforms_in_scope(Some(id), Some(index)),
             samplers: &self.named_samplers(index),
+            includes_once: self.project.dialect.row().includes_once,
             values: &self.values,
             cancel: self.cancel(),
             ..PassSource::new(kind, self.text(id))

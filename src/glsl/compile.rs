@@ -150,7 +150,7 @@ pub fn check_common(
     includes: &[Include<'_>],
     custom_uniforms: &[CustomUniform<'_>],
 ) -> Vec<Diagnostic> {
-    let parsed = parse::parse_common(&pieces::of(&[common], includes));
+    let parsed = parse::parse_common(&pieces::of(&[common], includes, false));
     // A Common that does not parse is reported with each pass; only errors of Common alone are reported here.
     if parsed.report.has_errors() {
         return Vec::new();

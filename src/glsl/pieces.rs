@@ -4,7 +4,8 @@ use super::{
     Include, Text,
     stack::{STACK_LEFT, STACK_MORE},
 };
-use eddy_diag::Diagnostic;
+use eddy_diag::{Diagnostic, SourceId};
+use rustc_hash::FxHashSet;
 use std::ops::Range;
 
 /// A range of a text.
@@ -18,30 +19,45 @@ pub(super) struct Piece<'a> {
     pub missing: Option<&'a Diagnostic>,
 }
 
-/// Returns the pieces of texts that follow each other.
-pub(super) fn of<'a>(texts: &[Text<'a>], includes: &[Include<'a>]) -> Vec<Piece<'a>> {
+/// Returns the pieces of texts that follow each other. With `once`, a file is inserted where it is first included.
+pub(super) fn of<'a>(texts: &[Text<'a>], includes: &[Include<'a>], once: bool) -> Vec<Piece<'a>> {
     let mut lines: Vec<&Include<'a>> = includes.iter().collect();
     lines.sort_by_key(|i| (i.line.source, i.line.start));
-    let mut pieces = Vec::new();
+    let mut pieces = Pieces { lines, once, inserted: FxHashSet::default(), made: Vec::new() };
     for text in texts {
-        let first = pieces.len();
-        add(*text, &lines, &mut pieces);
-        pieces[first].starts_text = true;
+        let first = pieces.made.len();
+        pieces.add(*text);
+        pieces.made[first].starts_text = true;
     }
-    pieces
+    pieces.made
 }
 
-fn add<'a>(text: Text<'a>, lines: &[&Include<'a>], pieces: &mut Vec<Piece<'a>>) {
-    let start = lines.partition_point(|i| i.line.source < text.id);
-    let (mut done, mut missing) = (0, None);
-    for include in lines[start..].iter().take_while(|i| i.line.source == text.id) {
-        pieces.push(Piece { text, range: done..include.line.range().start, starts_text: false, missing });
-        missing = include.text.err();
-        if let Ok(included) = include.text {
-            // Includes may be nested as deep as there are files.
-            stacker::maybe_grow(STACK_LEFT, STACK_MORE, || add(included, lines, pieces));
+struct Pieces<'a, 'i> {
+    /// The includes in the order of their places.
+    lines: Vec<&'i Include<'a>>,
+    once: bool,
+    /// The texts that are inserted already.
+    inserted: FxHashSet<SourceId>,
+    made: Vec<Piece<'a>>,
+}
+
+impl<'a> Pieces<'a, '_> {
+    fn add(&mut self, text: Text<'a>) {
+        let start = self.lines.partition_point(|i| i.line.source < text.id);
+        let (mut done, mut missing) = (0, None);
+        let mut at = start;
+        while let Some(&include) = self.lines.get(at).filter(|i| i.line.source == text.id) {
+            self.made.push(Piece { text, range: done..include.line.range().start, starts_text: false, missing });
+            missing = include.text.err();
+            if let Ok(included) = include.text
+                && (self.inserted.insert(included.id) || !self.once)
+            {
+                // Includes may be nested as deep as there are files.
+                stacker::maybe_grow(STACK_LEFT, STACK_MORE, || self.add(included));
+            }
+            done = include.line.range().end;
+            at += 1;
         }
-        done = include.line.range().end;
+        self.made.push(Piece { text, range: done..text.text.len(), starts_text: false, missing });
     }
-    pieces.push(Piece { text, range: done..text.text.len(), starts_text: false, missing });
 }

@@ -319,6 +319,8 @@ pub struct PassSource<'a> {
     /// The values of uniforms that a text of the pass may declare, each name once; values of undeclared uniforms are
     /// ignored.
     pub values: &'a [UniformValue],
+    /// A file that is included several times is inserted once, as glslViewer does.
+    pub includes_once: bool,
     /// Channels whose texture this device cannot filter although the project requests it: every filtered read of them
     /// is written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification defines the weights).
     pub bilinear_in_shader: [bool; MAX_CHANNELS],
@@ -348,6 +350,7 @@ impl<'a> PassSource<'a> {
             custom_uniforms: &[],
             samplers: &[],
             values: &[],
+            includes_once: false,
             bilinear_in_shader: [false; MAX_CHANNELS],
             driver: Driver::default(),
             tiled: false,

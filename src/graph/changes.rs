@@ -1,6 +1,7 @@
 //! Determines which draws of a frame may be skipped because nothing they read has changed.
 
 use super::{Draw, FramePlan, TexelSource};
+use eddy_project::MAX_CHANNELS;
 
 /// Tracks what has changed since each draw was executed. A counter increases with every drawing of a target, so that a
 /// change is noticed however many passes are in between; uniforms and keys are compared byte for byte.
@@ -15,7 +16,7 @@ pub struct Changes {
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct ReadVersions {
     /// The counter of each channel's target.
-    targets: [u64; 4],
+    targets: [u64; MAX_CHANNELS],
     inputs: Vec<u8>,
 }
 

@@ -12,7 +12,7 @@ use super::{
     view::{About, Level},
 };
 use eddy_playback::capture;
-use eddy_project::{self as project, Bindings, Channel, PassName, SLOTS, Tab, include_names};
+use eddy_project::{self as project, Bindings, Channel, Pass, PassName, SLOTS, Tab, include_names};
 
 impl Session {
     /// Executes a command of the user. Never fails: errors become notices.
@@ -167,7 +167,8 @@ impl OpenProject {
     pub(super) fn set_channel(&mut self, pass: &PassName, index: usize, channel: Option<Channel>) -> bool {
         let folder = capture::base_folder(self.project());
         let channel = channel.map(|c| Channel { input: project::at_home(c.input, folder.as_deref()), ..c });
-        let now = self.project().pass(pass).filter(|_| index < SLOTS).map(|p| p.bindings.get(index));
+        let exists = |p: &&Pass| index < SLOTS || p.bindings.name(index).is_some();
+        let now = self.project().pass(pass).filter(exists).map(|p| p.bindings.get(index));
         if now.is_none_or(|now| now == channel.as_ref()) {
             return false;
         }

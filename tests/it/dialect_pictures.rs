@@ -44,11 +44,8 @@ const ROWS: [(Dialect, &str); 6] = [
 const DIFFERENCES: &[(&str, &str)] = &[
     ("bonzomatic/texel", "Bonzomatic reads linear colours of its sRGB pictures, Eddy the colours in the file"),
     ("bonzomatic/texture", "the same"),
-    ("glslviewer/includes", "Eddy inserts a file at each `#include` of it"),
     ("isf/input_defaults", "Eddy accepts a default outside the range, and takes the minimum for a missing one"),
-    ("isf/many_targets", "a draw does not notice changes of the targets in its channels after the fourth"),
     ("isf/missing_bool", "a bool without a default is false"),
-    ("isf/vertex_corners", "Eddy calls the vertex shader for each pixel"),
     ("plain/upper_left", "`gl_FragCoord` cannot be declared again"),
 ];
 

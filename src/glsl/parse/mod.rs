@@ -101,7 +101,7 @@ impl Parsed {
 /// Preprocesses and parses a pass after its Common, which may have been parsed `already`. Every text results in a tree.
 pub(crate) fn parse(source: &PassSource<'_>, already: Option<&Parsed>) -> Parsed {
     let texts: Vec<_> = source.common.into_iter().chain([source.code]).collect();
-    let pieces = pieces::of(&texts, source.includes);
+    let pieces = pieces::of(&texts, source.includes, source.includes_once);
     let unit = (Unit::Pass(source.kind), source.dialect, source.cancel);
     read(&pieces, unit, already.map_or_else(Parsed::nothing, Parsed::clone))
 }

@@ -34,7 +34,7 @@ pub struct Preamble {
 impl Preamble {
     /// Parses Common for passes with these `values`. `None` if it must be parsed with each pass.
     pub fn new(common: Text<'_>, includes: &[Include<'_>], values: &[UniformValue]) -> Option<Self> {
-        let parsed = parse::parse_common(&pieces::of(&[common], includes));
+        let parsed = parse::parse_common(&pieces::of(&[common], includes, false));
         if !parsed.is_self_contained() {
             return None;
         }

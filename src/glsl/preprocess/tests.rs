@@ -29,7 +29,7 @@ fn run_texts(texts: &[&str]) -> (String, Vec<String>) {
     let mut names = words::interner();
     let mut report = Report::default();
     let done = preprocess(
-        &pieces::of(&texts, &includes),
+        &pieces::of(&texts, &includes, false),
         (Unit::CommonAlone, Dialect::default(), Cancel::default()),
         Preprocessed::default(),
         &mut names,
@@ -375,7 +375,7 @@ fn origins_map_back_to_the_text() {
     let texts = [Text { id: SourceId(0), text }];
     let (mut names, mut report) = (words::interner(), Report::default());
     let done = preprocess(
-        &pieces::of(&texts, &[]),
+        &pieces::of(&texts, &[], false),
         (Unit::CommonAlone, Dialect::default(), Cancel::default()),
         Preprocessed::default(),
         &mut names,

@@ -14,7 +14,9 @@ use super::{
     theme,
 };
 use crate::{
-    project::{self, Channel, Pass, SLOTS, Tab},
+    engine::pass_kind,
+    glsl::PassKind,
+    project::{self, Channel, Pass, Project, SLOTS, Tab},
     session::Session,
 };
 use egui::{
@@ -71,16 +73,24 @@ fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
         painter.text(rect.center(), Align2::CENTER_CENTER, text, font, theme::of(ui).weak);
         return;
     };
+    let slots = slots(session.project(), pass);
+    if slots == 0 {
+        let text = "This shader declares no textures. Add a line like this: uniform sampler2D u_tex0;";
+        let painter = ui.painter().with_clip_rect(rect);
+        painter.text(rect.center(), Align2::CENTER_CENTER, text, FontId::proportional(12.0), theme::of(ui).weak);
+        return;
+    }
     let inner = rect.shrink2(vec2(8.0, 0.0)).with_max_y(rect.bottom() - 8.0);
     let height = inner.height().clamp(24.0, MAX_HEIGHT);
-    let widths = widths(inner.width(), &std::array::from_fn(|slot| pass.bindings.get(slot).is_some()));
+    let is_read: Vec<bool> = (0..slots).map(|slot| pass.bindings.get(slot).is_some()).collect();
+    let widths = widths(inner.width(), &is_read);
     let mut left = inner.left();
     for (index, width) in widths.into_iter().enumerate() {
         let channel = pass.bindings.get(index);
         let card = Rect::from_min_size(pos2(left, inner.top()), vec2(width, height));
         left = card.right() + GAP;
         let response = match channel {
-            Some(channel) => show_card(ui, card, index, channel, &mut swatches),
+            Some(channel) => show_card(ui, card, (index, pass.bindings.name(index)), channel, &mut swatches),
             None => show_empty(ui, card, index),
         };
         out.place(format!("channel:{index}"), card);
@@ -92,13 +102,22 @@ fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     }
 }
 
+/// Returns the number of channels that a pass of a project offers: Shadertoy's, or those that the text declares.
+fn slots(project: &Project, pass: &Pass) -> usize {
+    let bound = pass.bindings.iter().map(|(slot, _)| slot + 1).max().unwrap_or_default();
+    let named = pass.bindings.names().map(|(slot, _)| slot + 1).max().unwrap_or_default();
+    let least = if matches!(pass_kind(project, pass), PassKind::Main(_)) { 0 } else { SLOTS };
+    bound.max(named).max(least)
+}
+
 /// Divides the width: channels with an input share what empty ones leave.
-fn widths(width: f32, is_read: &[bool; SLOTS]) -> [f32; SLOTS] {
+fn widths(width: f32, is_read: &[bool]) -> Vec<f32> {
+    let count = is_read.len() as f32;
     let empty = is_read.iter().filter(|read| !**read).count() as f32;
-    let room = width - 3.0 * GAP;
-    let least = EMPTY_WIDTH.min(room / 4.0);
-    let of_read = (room - empty * least) / (4.0 - empty).max(1.0);
-    is_read.map(|read| if read { of_read.clamp(0.0, 260.0) } else { least })
+    let room = width - (count - 1.0) * GAP;
+    let least = EMPTY_WIDTH.min(room / count);
+    let of_read = (room - empty * least) / (count - empty).max(1.0);
+    is_read.iter().map(|read| if *read { of_read.clamp(0.0, 260.0) } else { least }).collect()
 }
 
 /// Shows the card of an empty channel.
@@ -122,11 +141,19 @@ fn show_empty(ui: &Ui, card: Rect, index: usize) -> Response {
         .on_hover_cursor(egui::CursorIcon::PointingHand)
 }
 
-fn show_card(ui: &Ui, card: Rect, index: usize, channel: &Channel, swatches: &mut Swatches<'_>) -> Response {
+fn show_card(
+    ui: &Ui,
+    card: Rect,
+    (index, named): (usize, Option<&str>),
+    channel: &Channel,
+    swatches: &mut Swatches<'_>,
+) -> Response {
     let p = theme::of(ui);
+    let long = named.map_or_else(|| format!("iChannel{index}"), str::to_owned);
+    let short = named.map_or_else(|| index.to_string(), str::to_owned);
     let response = ui.interact(card, ui.scope_id().with(("channel", index)), Sense::click());
     let name = input_name(&channel.input);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("iChannel{index}: {name}")));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("{long}: {name}")));
     let painter = ui.painter().with_clip_rect(card);
     let is_hot = response.hovered() || response.has_focus();
     painter.rect_filled(card, 5.0, if is_hot { p.button } else { p.raised });
@@ -164,24 +191,24 @@ fn show_card(ui: &Ui, card: Rect, index: usize, channel: &Channel, swatches: &mu
     };
     let of_how = if missing.is_some() { p.warning } else { p.weak };
     if is_upright {
-        line(text.top() + 8.0, &format!("{index}  {name}"), 12.5, tint);
+        line(text.top() + 8.0, &format!("{short}  {name}"), 12.5, tint);
         line(text.top() + 24.0, &how, 11.0, of_how);
     } else if card.height() > 52.0 {
         let middle = card.center().y;
-        line(middle - 17.0, &format!("iChannel{index}"), 11.0, p.weak);
+        line(middle - 17.0, &long, 11.0, p.weak);
         line(middle, &name, 12.5, tint);
         // Omitted if it would be truncated: the tooltip has it too.
         if missing.is_some() || has_room(&how, 11.0) {
             line(middle + 17.0, &how, 11.0, of_how);
         }
     } else {
-        line(card.center().y, &format!("{index}  {name}"), 12.0, tint);
+        line(card.center().y, &format!("{short}  {name}"), 12.0, tint);
     }
     let more = match missing {
         Some(id) => format!("There is no {}; the channel reads zero", id.title()),
         None => sampler_name(channel),
     };
-    response.on_hover_text(format!("iChannel{index}: {name}\n{more}")).on_hover_cursor(egui::CursorIcon::PointingHand)
+    response.on_hover_text(format!("{long}: {name}\n{more}")).on_hover_cursor(egui::CursorIcon::PointingHand)
 }
 
 #[cfg(test)]
@@ -190,13 +217,15 @@ mod tests {
 
     #[test]
     fn empty_channels_are_narrow() {
-        let sum = |widths: [f32; 4]| widths.iter().sum::<f32>() + 3.0 * GAP;
+        let sum = |widths: &[f32]| widths.iter().sum::<f32>() + 3.0 * GAP;
         let all = widths(600.0, &[true; 4]);
-        assert!((sum(all) - 600.0).abs() < 0.1 && all[0] == all[3]);
+        assert!((sum(&all) - 600.0).abs() < 0.1 && all[0] == all[3]);
         let one = widths(600.0, &[false, true, false, false]);
         assert_eq!((one[0], one[1]), (EMPTY_WIDTH, 260.0));
         let none = widths(600.0, &[false; 4]);
         assert_eq!(none, [EMPTY_WIDTH; 4]);
-        assert!(sum(widths(120.0, &[true, false, true, false])) <= 120.1);
+        assert!(sum(&widths(120.0, &[true, false, true, false])) <= 120.1);
+        let sixteen = widths(600.0, &[true; 16]);
+        assert!((sixteen.iter().sum::<f32>() + 15.0 * GAP - 600.0).abs() < 0.1);
     }
 }

@@ -46,6 +46,8 @@ pub struct DialectRow {
     /// The format and the sampler of the previous frame's picture, if texts can read it.
     pub previous: (TexelFormat, Sampler),
     pub alpha: AlphaRule,
+    /// A file that is included several times is inserted once.
+    pub includes_once: bool,
     /// The colour with which targets are cleared before each pass. `None`: a pixel that is discarded keeps its content,
     /// as on Shadertoy.
     pub clear: Option<[f32; 4]>,
@@ -101,6 +103,7 @@ const ROW: DialectRow = DialectRow {
     identities: &[],
     previous: (TexelFormat::Rgba8, NEAREST_CLAMP),
     alpha: AlphaRule::Opaque,
+    includes_once: false,
     clear: None,
     notes: "",
 };
@@ -184,6 +187,7 @@ pub(super) static ROWS: [DialectRow; Dialect::ALL.len()] = [
             ("u_view2d", 3),
         ],
         alpha: AlphaRule::OverBlack,
+        includes_once: true,
         clear: Some([0.0; 4]),
         notes: "`BUFFER_n`, `DOUBLE_BUFFER_n` and `POSTPROCESSING` make passes of the same text.",
         ..ROW

@@ -8,7 +8,10 @@ use super::{
 };
 use crate::{
     Channel, Dialect, Filter, Info, Input, InputKind, Loaded, MAX_CHANNELS, Media, Origin, Pass, PassName, PassSize,
-    Project, ProjectError, Sampler, Source, TexelFormat, Wrap, confine, files::Files, includes, words::all_words,
+    Project, ProjectError, Sampler, Source, TexelFormat, Wrap, confine,
+    files::{Files, Read},
+    includes, limits,
+    words::all_words,
 };
 use eddy_diag::{Diagnostic, SourceMap, Span};
 use std::{collections::HashSet, path::Path};
@@ -36,7 +39,13 @@ pub(crate) fn load(path: &Path, (name, text): (&str, &str), files: &Files<'_>) -
         Maker { header, name, text, words: all_words(text), at: Span::new(id, start..start + json.len()), found };
     let vertex = path.with_extension("vs").file_name().map(|n| n.to_string_lossy().into_owned());
     let vertex = vertex.filter(|vertex| files.exists(vertex));
-    let mut project = maker.project(path, vertex.as_deref());
+    // A file that cannot be read is reported where it is included.
+    let vertex_text = vertex.as_deref().map(|vertex| match files.read(vertex, limits::GLSL_TEXT) {
+        Read::Text(text) => text,
+        _ => String::new(),
+    });
+    let vertex = vertex.as_deref().zip(vertex_text.as_deref());
+    let mut project = maker.project(path, vertex);
     if maker.found.iter().any(Diagnostic::is_error) {
         return Some(refuse(maker.found, sources));
     }
@@ -64,7 +73,7 @@ impl Maker<'_> {
         self.found.push(Diagnostic::error(self.at, message).hint(hint));
     }
 
-    fn project(&mut self, path: &Path, vertex: Option<&str>) -> Project {
+    fn project(&mut self, path: &Path, vertex: Option<(&str, &str)>) -> Project {
         let targets = self.targets();
         let images = self.images(&targets, vertex);
         let mut passes: Vec<Pass> = self.audio_passes(&images);
@@ -148,7 +157,7 @@ impl Maker<'_> {
     }
 
     /// The names of the images that the text reads, in channel order.
-    fn images(&mut self, targets: &[String], vertex: Option<&str>) -> Vec<String> {
+    fn images(&mut self, targets: &[String], vertex: Option<(&str, &str)>) -> Vec<String> {
         let inputs = self.header.inputs.iter().filter(|input| input.kind.is_image()).map(|input| &input.name);
         let imported = self.header.imported.iter().map(|image| &image.name);
         let all: Vec<&String> = inputs.chain(imported).chain(targets).collect();
@@ -202,7 +211,7 @@ impl Maker<'_> {
     /// The user's images that are first drawn at the resolution of the picture: hosts give a filter images of the size
     /// that it draws, so texts use pixel coordinates of one for the other. If a text reads no pixel by its coordinates,
     /// this makes no difference.
-    fn scaled(&self, images: &[String], targets: &[String], vertex: Option<&str>) -> Vec<String> {
+    fn scaled(&self, images: &[String], targets: &[String], vertex: Option<(&str, &str)>) -> Vec<String> {
         let reads = ["IMG_PIXEL", "IMG_SIZE", "texture2DRect"];
         let has_pixels = |name: &str| {
             vertex.is_some()

@@ -92,7 +92,7 @@ pub(super) fn pass(
     index: usize,
     images: &[String],
     (fragment, words): (&str, &HashSet<&str>),
-    vertex: Option<&str>,
+    vertex: Option<(&str, &str)>,
 ) -> String {
     let mut out = format!("// Pass {index} of {fragment}, as Eddy draws it: the text of the file is included below.\n");
     let _ = writeln!(out, "const int PASSINDEX = {index};");
@@ -108,15 +108,7 @@ pub(super) fn pass(
         }
     }
     match vertex {
-        // The vertex shader is called for each pixel.
-        Some(vertex) => {
-            let _ = write!(
-                out,
-                "\nvec4 isf_position;\n#define gl_Position isf_position\n{VERTEX}#define main isf_vertexMain\n\
-                 #include \"{vertex}\"\n#undef main\n\n#define main isf_main\n#include \"{fragment}\"\n#undef main\n\n\
-                 void main() {{\n    isf_vertexMain();\n    isf_main();\n}}\n"
-            );
-        }
+        Some((name, text)) => out.push_str(&with_vertex(name, text, fragment)),
         None => {
             let _ = write!(out, "\n#include \"{fragment}\"\n");
         }
@@ -124,11 +116,57 @@ pub(super) fn pass(
     out
 }
 
-/// The function that an ISF vertex shader calls first.
-const VERTEX: &str = "\
-void isf_vertShaderInit() { isf_position = vec4(2.0 * isf_FragNormCoord - 1.0, 0.0, 1.0); }
-#define vv_vertShaderInit isf_vertShaderInit
-";
+/// Returns the text that includes a vertex and a fragment shader. A pixel has the values that the vertex shader computes
+/// for the four corners of the picture, interpolated between them; `gl_Position` is ignored.
+fn with_vertex(name: &str, text: &str, fragment: &str) -> String {
+    let varyings = varyings(text);
+    let mut calls = String::new();
+    for (corner, at) in [("00", "0.0, 0.0"), ("10", "1.0, 0.0"), ("01", "0.0, 1.0"), ("11", "1.0, 1.0")] {
+        let _ = write!(calls, "    isf_corner = vec2({at});\n    isf_vertexMain();\n");
+        for (ty, name) in &varyings {
+            let _ = writeln!(calls, "    {ty} isf_{name}_{corner} = {name};");
+        }
+    }
+    let mut mixed = String::new();
+    for (_, name) in &varyings {
+        let _ = writeln!(
+            mixed,
+            "    {name} = mix(mix(isf_{name}_00, isf_{name}_10, isf_at.x), mix(isf_{name}_01, isf_{name}_11, isf_at.x), \
+             isf_at.y);"
+        );
+    }
+    format!(
+        "\nvec2 isf_corner;\nvec4 isf_position;\n#define gl_Position isf_position\n\
+         void isf_vertShaderInit() {{ isf_position = vec4(2.0 * isf_corner - 1.0, 0.0, 1.0); }}\n\
+         #define vv_vertShaderInit isf_vertShaderInit\n\
+         #define isf_FragNormCoord isf_corner\n#define vv_FragNormCoord isf_corner\n#define main isf_vertexMain\n\
+         #include \"{name}\"\n#undef main\n#undef isf_FragNormCoord\n#undef vv_FragNormCoord\n\n\
+         #define main isf_main\n#include \"{fragment}\"\n#undef main\n\n\
+         void main() {{\n    vec2 isf_at = isf_FragNormCoord;\n{calls}    isf_corner = isf_at;\n    isf_vertexMain();\n\
+         {mixed}    isf_main();\n}}\n"
+    )
+}
+
+/// Returns the types and names of the numbers and vectors that a vertex shader outputs. Others, such as arrays, are
+/// computed for the position of the pixel.
+fn varyings(text: &str) -> Vec<(&str, &str)> {
+    let mut found: Vec<(&str, &str)> = Vec::new();
+    for line in text.lines().map(|line| line.split("//").next().unwrap_or_default()) {
+        let mut words = line.split(|c: char| c.is_whitespace() || c == ';' || c == ',').filter(|word| !word.is_empty());
+        if !matches!(words.next(), Some("varying" | "out")) {
+            continue;
+        }
+        let mut words = words.skip_while(|word| matches!(*word, "highp" | "mediump" | "lowp" | "smooth"));
+        let Some(ty) = words.next().filter(|ty| matches!(*ty, "float" | "vec2" | "vec3" | "vec4")) else { continue };
+        let names = words.filter(|name| name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_'));
+        for name in names {
+            if !found.iter().any(|(_, known)| *known == name) {
+                found.push((ty, name));
+            }
+        }
+    }
+    found
+}
 
 /// Returns the text of a buffer that converts the sound texture in channel 0 to the image of an audio input:
 /// Shadertoy's texture has the spectrum in its lower row and the wave in its upper one.
