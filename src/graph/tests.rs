@@ -5,8 +5,8 @@ use super::{
     effective_sampler,
 };
 use eddy_project::{
-    Body, Channel, Filter, Group, Input, MAX_CHANNELS, Origin, Pass, PassName, PassSize, Project, Region, Sampler,
-    SamplerRules, Wrap,
+    Body, Channel, Dialect, Filter, Group, Input, MAX_CHANNELS, Origin, Pass, PassName, PassSize, Project, Region,
+    Sampler, SamplerRules, Wrap,
 };
 use eddy_texture::{Dimension, TexelFormat};
 
@@ -509,4 +509,42 @@ fn a_pass_whose_picture_would_differ_is_not_drawn_in_tiles() {
     assert_eq!(why(vec![a(), image()], reads_all(), 0), TilingError::Itself);
     assert_eq!(why(vec![Pass { settings: settings(region), ..image() }], reads_all(), 0), TilingError::Region);
     assert_eq!(why(vec![pass(PassName::cube(), Default::default()), image()], reads_all(), 0), TilingError::Cube);
+}
+
+#[test]
+fn readers_in_any_channel_follow_a_buffer_that_was_drawn() {
+    for slot in [3, 4, MAX_CHANNELS - 1] {
+        let mut image = pass(PassName::image(), [None, None, None, None]);
+        image.bindings.set(slot, buffer("A"));
+        let project = project(vec![pass(PassName::buffer("A"), [None, None, None, None]), image]);
+        let plan = plan(&project);
+        let mut changes = Changes::new(&plan);
+        let mut due = |key: &[u8]| -> Vec<bool> {
+            let inputs = [key, b""];
+            plan.draws.iter().enumerate().map(|(i, d)| changes.must_draw(i, d, inputs[i])).collect()
+        };
+        assert_eq!(due(b"up"), [true; 2]);
+        assert_eq!((due(b"up"), due(b"down")), (vec![false; 2], vec![true; 2]), "channel {slot}");
+    }
+}
+
+#[test]
+fn programs_that_clear_their_targets_show_no_earlier_texels() {
+    let mut project = project(vec![
+        pass(PassName::buffer("A"), [None, None, None, None]),
+        pass(PassName::image(), [None, None, None, None]),
+    ]);
+    let mut facts = vec![reads_all(); 2];
+    facts[0].discards = true;
+    let plan_of =
+        |project: &Project, facts: &[PassFacts]| FramePlan::new(project, facts, &[PassName::buffer("A")], true);
+    let kept = plan_of(&project, &facts);
+    assert!(kept.draws[0].keeps_content && kept.draws[0].clear.is_none() && !kept.draws[0].is_cacheable);
+    project.dialect = Dialect::Twigl;
+    let cleared = plan_of(&project, &facts);
+    assert_eq!(cleared.draws[0].clear, Some([0.0, 0.0, 0.0, 1.0]));
+    assert!(!cleared.draws[0].keeps_content && cleared.draws[0].is_cacheable);
+    // Where every texel is drawn, nothing need be cleared.
+    facts[0].discards = false;
+    assert_eq!(plan_of(&project, &facts).draws[0].clear, None);
 }

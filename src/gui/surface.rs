@@ -123,8 +123,12 @@ impl Surface {
         let (instance, surface, adapter) = open(window, &self.display)?;
         let gpu = loss::reopen(loss::RESET_TIMEOUT, || Gpu::from_adapter(&adapter, &GpuOptions::default()))?;
         self.config = config(&surface, &adapter, window.inner_size())?;
-        // A window has one swapchain: the old surface must be dropped before a new one is created.
-        self.surface = surface;
+        // A window has one swapchain: the old surface must be dropped before a new one is created. That panics if the
+        // device was lost while a frame was presented, which then still exists (see `present`).
+        let old = std::mem::replace(&mut self.surface, surface);
+        if catch_unwind(AssertUnwindSafe(|| drop(old))).is_err() {
+            log::warn!("the surface of the lost device could not be released");
+        }
         self.surface.configure(&gpu.device, &self.config);
         self.renderer = renderer(&gpu, &self.config);
         self.back_buffer = BackBuffer::default();

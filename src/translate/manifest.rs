@@ -49,7 +49,7 @@ pub struct CustomUniformInfo {
     pub offset: u32,
     /// The value set by the project, a number for each component.
     pub value: Vec<f64>,
-    /// What the caller sets in each frame, for a uniform of the program that the texts are written for.
+    /// The value that the caller sets in each frame, for a uniform of the program that the texts are written for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub meaning: Option<String>,
 }

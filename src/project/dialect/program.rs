@@ -11,7 +11,7 @@ use crate::{
     atomic::Content,
     confine,
     files::Files,
-    includes,
+    includes, limits,
     lines::hash_lines,
     words::{find_word, names_word},
     writes::Writes,
@@ -83,6 +83,11 @@ impl Maker<'_> {
                     break;
                 }
             }
+        }
+        let buffers = ["BUFFER", "DOUBLE_BUFFER"].map(|kind| self.selected(kind).len()).iter().sum::<usize>();
+        if buffers + 2 > limits::PASSES {
+            let message = format!("the file has {buffers} buffers, and a project at most {} passes", limits::PASSES);
+            found.push(error(0, 0, message, "remove some of them"));
         }
         if self.dialect == Dialect::Bonzomatic
             && let Some(at) = ["uimage2D", "image2D"].iter().find_map(|word| find_word(self.text, word))

@@ -26,7 +26,7 @@ struct Marks {
 }
 
 /// The dialects with marks; the more certain ones first.
-const MARKS: [Marks; 4] = [
+const MARKS: [Marks; 5] = [
     Marks {
         dialect: Dialect::Bonzomatic,
         certain: &["fGlobalTime", "v2Resolution", "texFFT", "texFFTSmoothed", "texFFTIntegrated", "texPreviousFrame"],
@@ -37,6 +37,8 @@ const MARKS: [Marks; 4] = [
         certain: &["u_resolution", "u_time", "u_mouse", "u_tex0", "u_buffer0", "u_doubleBuffer0", "u_scene", "u_frame"],
         likely: &["u_delta", "u_date", "u_pixelDensity"],
     },
+    // The inputs of shaders for compositors such as Hyprland, which may have a `time`, too.
+    Marks { dialect: Dialect::Plain, certain: &["v_texcoord", "v_texCoord", "vTexCoord"], likely: &[] },
     Marks {
         dialect: Dialect::Twigl,
         certain: &["outColor0", "backbuffer0", "backbuffer1"],
@@ -96,7 +98,11 @@ fn of_main(text: &str, words: &HashSet<&str>) -> Dialect {
     }
     let declared = declared_uniforms(text);
     let is_declared = |name: &&str| declared.iter().any(|uniform| uniform.name == **name);
-    let likely = MARKS.iter().find(|marks| marks.likely.iter().any(|name| is_declared(&name)));
+    // GLSL Sandbox runs WebGL 1.
+    let is_later = text.lines().any(|line| line.trim_start().starts_with("#version") && !line.contains("100"));
+    let is_possible = |marks: &&Marks| marks.dialect != Dialect::GlslSandbox || !is_later;
+    let mut possible = MARKS.iter().filter(is_possible);
+    let likely = possible.find(|marks| marks.likely.iter().any(|name| is_declared(&name)));
     likely.map_or(Dialect::Plain, |marks| marks.dialect)
 }
 

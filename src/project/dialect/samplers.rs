@@ -1,6 +1,7 @@
 //! Reads the uniforms that a text declares, without parsing its language: `uniform sampler2D u_tex0; // data/moon.jpg`.
 
 use eddy_texture::Dimension;
+use std::collections::HashSet;
 
 /// A uniform that a text declares at file scope.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +31,7 @@ impl DeclaredUniform {
 /// Returns the uniforms that a text declares outside comments, without duplicates. Lines of any conditional group count.
 pub(crate) fn declared_uniforms(text: &str) -> Vec<DeclaredUniform> {
     let mut found: Vec<DeclaredUniform> = Vec::new();
+    let mut seen: HashSet<&str> = HashSet::new();
     let mut words = Words { text, at: 0 };
     while let Some((_, word)) = words.next() {
         if word != "uniform" {
@@ -59,7 +61,7 @@ pub(crate) fn declared_uniforms(text: &str) -> Vec<DeclaredUniform> {
         let rest = text[words.at..].lines().next().unwrap_or_default();
         let comment = rest.split_once("//").map_or("", |(_, comment)| comment).trim();
         for (ty, name, at, is_array) in declared {
-            if !found.iter().any(|known| known.name == name) {
+            if seen.insert(name) {
                 let (ty, name, comment) = (ty.to_owned(), name.to_owned(), comment.to_owned());
                 found.push(DeclaredUniform { ty, name, is_array, comment, at });
             }

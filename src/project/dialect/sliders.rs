@@ -3,6 +3,7 @@
 use super::samplers::declared_uniforms;
 use crate::{CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, Project};
 use eddy_diag::{SourceId, Span};
+use std::collections::{HashMap, HashSet};
 
 /// Returns the uniforms of a project's texts that the user sets: 0 at first, and from 0 to 1 for numbers.
 pub(crate) fn declared_sliders(project: &Project) -> Vec<CustomUniform> {
@@ -11,20 +12,22 @@ pub(crate) fn declared_sliders(project: &Project) -> Vec<CustomUniform> {
         return Vec::new();
     }
     let (prefix, suffix) = row.texture_size;
-    let bindings = || project.passes.iter().flat_map(|pass| pass.bindings.names());
-    let is_of_host = |name: &str| {
-        row.uniforms.iter().any(|uniform| uniform.name == name)
-            || bindings().any(|(_, texture)| format!("{prefix}{texture}{suffix}") == name)
-    };
+    let textures = project.passes.iter().flat_map(|pass| pass.bindings.names());
+    let sizes = textures.map(|(_, texture)| format!("{prefix}{texture}{suffix}"));
+    let of_host: HashSet<String> = row.uniforms.iter().map(|uniform| uniform.name.to_owned()).chain(sizes).collect();
     let mut found: Vec<CustomUniform> = Vec::new();
+    let mut places: HashMap<String, usize> = HashMap::new();
     for (id, source) in project.texts().iter() {
         for declared in declared_uniforms(&source.text) {
-            let is_free = !declared.is_array && !is_of_host(&declared.name);
+            let is_free = !declared.is_array && !of_host.contains(&declared.name);
             let Some(ty) = slider_type(&declared.ty).filter(|_| is_free) else { continue };
-            match found.iter_mut().find(|known| known.name == declared.name) {
+            match places.get(&declared.name).map(|at| &mut found[*at]) {
                 Some(known) if known.declared_in.last() != Some(&id) => known.declared_in.push(id),
                 Some(_) => {}
-                None => found.push(slider((declared.name, declared.at), ty, declared.comment, id)),
+                None => {
+                    places.insert(declared.name.clone(), found.len());
+                    found.push(slider((declared.name, declared.at), ty, declared.comment, id));
+                }
             }
         }
     }

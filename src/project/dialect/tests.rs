@@ -36,6 +36,9 @@ fn programs_are_recognised_by_their_names() {
         (main(""), Dialect::Plain),
         (main("#version 300 es"), Dialect::Plain),
         (main("uniform float speed;"), Dialect::Plain),
+        (main("#version 300 es\nuniform float time;"), Dialect::Plain),
+        (main("varying vec2 v_texcoord; uniform sampler2D tex; uniform float time;"), Dialect::Plain),
+        (main("varying vec2 v_texcoord; uniform float u_time;"), Dialect::GlslViewer),
         // Names in comments do not count.
         (main("// u_resolution, fGlobalTime"), Dialect::Plain),
         (format!("// uniform vec2 u_resolution; void main()\n{image}"), Dialect::Shadertoy),
