@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     background::{Background, Control},
-    project::{RECORDING, SOUNDS},
+    project::{RECORDING, SOUNDS, expand_home},
 };
 use egui::{Align2, Area, Button, Frame, Id, Key, Modal, Order, RichText, TextEdit, Ui, Vec2, vec2};
 use std::{
@@ -136,6 +136,7 @@ impl Files {
             Pick::LabReport => ("Write lab report to folder", "Write"),
             Pick::Reference => ("Compare with project", "Compare"),
             Pick::CodeFont => ("Font file for code", "Use"),
+            Pick::LibraryFolder => ("Folder of shader libraries", "Use"),
             Pick::Picture { .. } => ("Image or video file for the channel", "Use"),
             Pick::Sound { .. } => ("Music for the channel", "Use"),
         };
@@ -234,17 +235,11 @@ fn help(pick: &Pick) -> &'static str {
         Pick::Reference => "A folder with eddy.toml, a folder of .glsl files, one .glsl file, or a Shadertoy .json",
         Pick::LabReport => "An empty or new folder for tables, plots and index.html",
         Pick::CodeFont => "A .ttf or .otf file",
+        Pick::LibraryFolder => "The folder that contains a library, such as the folder lygia",
         Pick::Picture { .. } => {
             "An image (png, jpg, webp, bmp, tga, gif, hdr, exr, ktx2, dds) or a video (mp4, webm, mkv, mov)"
         }
         Pick::Sound { .. } => "An mp3, ogg, wav, flac, m4a, aac or aiff file",
-    }
-}
-
-fn expand_home(path: &str) -> PathBuf {
-    match (path.strip_prefix("~/"), std::env::home_dir()) {
-        (Some(rest), Some(home)) => home.join(rest),
-        _ => PathBuf::from(path),
     }
 }
 
@@ -259,6 +254,7 @@ fn dialog(pick: &Pick, start: Option<PathBuf>) -> Dialog {
         Pick::LabReport => ("Write lab report to folder", Kind::OpenFolder),
         Pick::Reference => ("Compare with project folder", Kind::OpenFolder),
         Pick::SaveAs(name) => ("Save to folder", Kind::Save(name.clone())),
+        Pick::LibraryFolder => ("Folder of shader libraries", Kind::OpenFolder),
         Pick::CodeFont => ("Font file for code", Kind::OpenFile("Fonts", &["ttf", "otf"])),
         Pick::Picture { .. } => ("Image or video file for the channel", Kind::OpenFile("Images and videos", &SHOWN)),
         Pick::Sound { .. } => ("Music for the channel", Kind::OpenFile("Sound files", &SOUNDS)),

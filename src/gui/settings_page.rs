@@ -9,7 +9,10 @@ use super::{
     theme,
     ui_output::{Pick, ShellCommand, UiOutput},
 };
-use crate::session::{ControlCommand, Session, SoundCommand};
+use crate::{
+    project::expand_home,
+    session::{ControlCommand, Session, SoundCommand},
+};
 use egui::{
     Align, Button, ComboBox, DragValue, Frame, Id, Layout, Margin, Modal, RichText, Role, ScrollArea, TextEdit, Ui,
     vec2,
@@ -58,6 +61,9 @@ impl SettingsPage {
         let checked = kind.check(text).map_err(|why| format!("{} {why}", setting.row.title));
         let checked = checked.and_then(|()| match kind {
             Kind::FontFile if !text.is_empty() => fonts::check(text),
+            Kind::Folder if !text.is_empty() && !expand_home(text).is_dir() => {
+                Err(format!("{text} is not a folder: choose one that exists"))
+            }
             _ => Ok(()),
         });
         match checked {
@@ -180,7 +186,7 @@ impl SettingsPage {
                 (Kind::Switch, Plain::Switch(is_on)) => switch(ui, setting, *is_on, out),
                 (Kind::Choice(choices), Plain::Text(name)) => choice(ui, setting, (choices, name), self.is_new, out),
                 (Kind::Number(number), Plain::Number(now)) => self.number(ui, setting, number, *now, out),
-                (Kind::FontFile | Kind::Address, Plain::Text(now)) => self.text(ui, setting, now, out),
+                (Kind::FontFile | Kind::Folder | Kind::Address, Plain::Text(now)) => self.text(ui, setting, now, out),
                 (_, Plain::Text(now)) => combo(ui, setting, &devices(&setting.row.kind, session), now, out),
                 _ => None,
             };
@@ -247,12 +253,16 @@ impl SettingsPage {
 
     /// Shows a text field. The setting changes when the field loses the keyboard focus.
     fn text(&mut self, ui: &mut Ui, setting: &'static Setting, now: &str, out: &mut UiOutput) -> Option<Change> {
-        let is_font = matches!(setting.row.kind, Kind::FontFile);
+        let (hint, chooses) = match setting.row.kind {
+            Kind::FontFile => ("Built-in", Some(("Choose a font file", Pick::CodeFont))),
+            Kind::Folder => ("None", Some(("Choose a folder", Pick::LibraryFolder))),
+            _ => ("", None),
+        };
         let typed = self.typed.as_ref().filter(|(key, _)| *key == setting.key);
         let mut text = typed.map_or(now, |(_, text)| text).to_owned();
         let field = TextEdit::singleline(&mut text)
-            .hint_text(if is_font { "Built-in" } else { "" })
-            .desired_width(if is_font { 130.0 } else { 150.0 })
+            .hint_text(hint)
+            .desired_width(if chooses.is_some() { 130.0 } else { 150.0 })
             .background_color(theme::of(ui).button);
         let field = ui.add(field.margin(Margin::symmetric(6, 3)));
         accessible::name(&field, Role::TextInput, setting.row.title);
@@ -265,9 +275,9 @@ impl SettingsPage {
         let entered = self.typed.take_if(|(key, _)| *key == setting.key && field.lost_focus());
         let entered = entered.map(|(_, text)| text.trim().to_owned()).filter(|text| !is_cancelled && text != now);
         let change = entered.and_then(|text| self.enter(setting, &text));
-        if is_font {
-            let choose = ui.button("Choose…").on_hover_text("Choose a font file");
-            out.on_click(&format!("setting:{}:choose", setting.key), &choose, ShellCommand::Pick(Pick::CodeFont));
+        if let Some((tip, pick)) = chooses {
+            let choose = ui.button("Choose…").on_hover_text(tip);
+            out.on_click(&format!("setting:{}:choose", setting.key), &choose, ShellCommand::Pick(pick));
         }
         change
     }

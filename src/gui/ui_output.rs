@@ -37,6 +37,8 @@ pub(super) enum Pick {
     LabReport,
     /// The font of code.
     CodeFont,
+    /// The folder of libraries that texts include.
+    LibraryFolder,
     /// A picture for a channel of the selected pass.
     Picture { channel: usize },
     /// Music for a channel of the selected pass.

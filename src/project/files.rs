@@ -8,7 +8,7 @@ use super::{
 };
 use eddy_diag::{Diagnostic, SourceMap, Span};
 use std::{
-    cell::Cell,
+    cell::{Cell, OnceCell},
     collections::BTreeMap,
     ffi::OsStr,
     fs,
@@ -28,6 +28,8 @@ pub(super) struct Files<'a> {
     edited: Option<&'a EditedTexts>,
     /// The remaining budget of bytes to read: see [`limits::ALL_TEXTS`].
     left: Cell<u64>,
+    /// The [`include_folders`], once a file is looked for in them.
+    libraries: OnceCell<Vec<PathBuf>>,
 }
 
 enum Storage<'a> {
@@ -62,7 +64,7 @@ impl<'a> Files<'a> {
     }
 
     fn of(place: Storage<'a>) -> Self {
-        Self { place, edited: None, left: Cell::new(limits::ALL_TEXTS.bytes) }
+        Self { place, edited: None, left: Cell::new(limits::ALL_TEXTS.bytes), libraries: OnceCell::new() }
     }
 
     /// Reads a folder on disk; these texts override its files.
@@ -121,8 +123,8 @@ impl<'a> Files<'a> {
     /// of libraries.
     pub(crate) fn read_included(&self, name: &str, limit: Limit) -> Read {
         self.read_by(name, limit, |folder, name, limit| match confine::read_included(folder, name, limit) {
-            Err(missing) if missing.is_missing() => match in_library(name) {
-                Some(library) => confine::read(&library, name, limit),
+            Err(missing) if missing.is_missing() => match self.library_with(name) {
+                Some(library) => confine::read(library, name, limit),
                 None => Err(missing),
             },
             read => read,
@@ -178,7 +180,7 @@ impl<'a> Files<'a> {
     pub(crate) fn can_read(&self, name: &str) -> bool {
         match self.place {
             Storage::Disk(_) if self.in_editor(name).is_some() => true,
-            Storage::Disk(folder) => folder.join(name).is_file() || in_library(name).is_some(),
+            Storage::Disk(folder) => folder.join(name).is_file() || self.library_with(name).is_some(),
             Storage::Embedded(ref folders) => folders.iter().any(|dir| dir.get_file(dir.path().join(name)).is_some()),
             Storage::Memory(files) => files.contains_key(name),
         }
@@ -197,22 +199,23 @@ impl<'a> Files<'a> {
         }
     }
 
+    /// Returns the first of the [`include_folders`] that has a file.
+    fn library_with(&self, name: &str) -> Option<&PathBuf> {
+        let folders = self.libraries.get_or_init(include_folders::all);
+        folders.iter().find(|folder| confine::resolve(folder, name).is_ok())
+    }
+
     /// The path of a file, if it is on disk.
     pub(crate) fn path(&self, name: &str) -> Option<PathBuf> {
         match self.place {
             Storage::Disk(folder) => {
                 let own = folder.join(name);
-                let library = in_library(name).filter(|_| !own.exists());
+                let library = if own.exists() { None } else { self.library_with(name) };
                 Some(library.map_or(own, |library| library.join(name)))
             }
             Storage::Embedded(_) | Storage::Memory(_) => None,
         }
     }
-}
-
-/// Returns the first of the [`include_folders`] that has a file.
-fn in_library(name: &str) -> Option<PathBuf> {
-    include_folders::all().into_iter().find(|folder| confine::resolve(folder, name).is_ok())
 }
 
 pub(super) fn decode(bytes: Vec<u8>) -> Read {

@@ -68,7 +68,7 @@ pub use custom_uniforms::{
 };
 pub use dialect::{
     AlphaRule, Dialect, DialectRow, EntryPoint, HostTexture, HostUniform, HostValue, MouseUnit, ShaderForm,
-    SoundTexture,
+    SoundTexture, regenerated,
 };
 pub use directives::ignored_channel_lines;
 pub use eddy_texture::{Dimension, TexelFormat};
@@ -87,7 +87,7 @@ pub use imports::{
     FileKind, Fit, ImportError, MODELS, PICTURES, RECORDING, SOUNDS, TextImport, VIDEOS, folder_of_parts,
     import_of_text, kind_of_file, new_for,
 };
-pub use include_folders::INCLUDE_VARIABLE;
+pub use include_folders::{INCLUDE_SETTING, INCLUDE_VARIABLE, expand_home};
 pub use includes::{IncludeLines, include_names};
 pub use input::{Input, InputKind, InputRow, InputSource};
 pub use inspect_comments::{InspectComment, inspect_comments};

@@ -86,6 +86,10 @@ impl OpenProject {
             // The analysis of texts does it.
             EditCommand::BringToFront(_) => {}
             EditCommand::CompileNow => self.compile_soon(),
+            EditCommand::ReadIncludes => {
+                self.compile.include_edits += 1;
+                self.compile_soon();
+            }
             EditCommand::SetCompileOnSave(on) => self.compile.set_on_save(on),
             EditCommand::SetResetOnReload(on) => self.disk.reset_on_reload = on,
             EditCommand::SetChannel { pass, index, channel } => {

@@ -90,19 +90,81 @@ fn an_isf_file_has_sliders_for_its_inputs_and_is_saved_as_one() {
     window.save();
     let text = TRAILS.replace("1.0);\n", "1.0);\n    gl_FragColor.r = 1.0;\n");
     assert_eq!(fs::read_to_string(&file).unwrap(), text);
-    // The header is text like any other, and takes effect once it is saved.
+    // The header is text like any other, and takes effect while it is typed.
     window.keys(&["ctrl+Home", "Down", "Down", "Down", "End", "Return"]);
     window.type_text("{ \"NAME\": \"green\", \"TYPE\": \"float\", \"DEFAULT\": 0.0 },");
     window.keys(&["ctrl+End", "Up", "Up", "End", "Return"]);
     window.type_text("gl_FragColor.g = green;");
-    // Saves only after a compile without the input: the save itself has to compile again.
-    window.wait_until("the input to be missing", "compiled", |e| {
-        e["compiling"] == false && e["diagnostics"][0]["message"].as_str().is_some_and(|m| m.contains("`green`"))
-    });
-    window.save();
     window.wait_shown("uniform:green");
     wait_for_colour(&mut window, [255, 0, 0]);
     display.shot("isf-input.png");
+    window.save();
     let saved = fs::read_to_string(&file).unwrap();
     assert!(saved.contains("\"green\"") && saved.contains("gl_FragColor.g = green;"), "{saved}");
+}
+
+const MOON: &str = "uniform vec2 u_resolution;\n\nvoid main() {\n    gl_FragColor = vec4(0.0, 1.0, 0.0, 1.0);\n}\n";
+
+#[test]
+fn buffers_and_textures_of_a_glslviewer_file_appear_while_they_are_typed() {
+    let Some((display, home)) = Display::with_home() else { return };
+    let file = home.path().join("moon.frag");
+    fs::write(&file, MOON).unwrap();
+    let mut window = Window::open(&display, home.path(), &[file.to_str().unwrap()]);
+    window.resize(1000, 700);
+    window.wait_compiled();
+    wait_for_colour(&mut window, [0, 255, 0]);
+    window.click_on("editor");
+    window.keys(&["ctrl+Home", "End", "Return"]);
+    window.type_text("uniform sampler2D u_buffer0;");
+    window.wait_shown("channel:0");
+    window.keys(&["ctrl+End", "Return"]);
+    window.type_text("// The buffer.");
+    window.keys(&["ctrl+Home", "Down", "End", "Return"]);
+    for line in ["#ifdef BUFFER_0", "void main() { gl_FragColor = vec4(1.0, 0.0, 1.0, 1.0); }", "#else"] {
+        window.type_text(line);
+        window.keys(&["Return"]);
+    }
+    window.keys(&["Down", "Down", "Down", "End", "Return"]);
+    window.type_text("gl_FragColor = texture2D(u_buffer0, vec2(0.5));");
+    window.keys(&["ctrl+End", "Return"]);
+    window.type_text("#endif");
+    wait_for_colour(&mut window, [255, 0, 255]);
+    window.wait_shown("tab:Buffer 0");
+    display.shot("glslviewer-typed.png");
+    window.save();
+    let saved = fs::read_to_string(&file).unwrap();
+    assert!(saved.contains("#ifdef BUFFER_0") && saved.ends_with("#endif"), "{saved}");
+    // Nothing is left to save.
+    window.wait_until("the saved state", "dirty", |e| e["dirty"] == false);
+}
+
+#[test]
+fn a_library_is_found_in_the_folder_of_the_settings() {
+    let Some((display, home)) = Display::with_home() else { return };
+    let library = home.path().join("shaders/lib");
+    fs::create_dir_all(&library).unwrap();
+    fs::write(library.join("green.glsl"), "const vec4 GREEN = vec4(0.0, 1.0, 0.0, 1.0);\n").unwrap();
+    let work = home.path().join("work");
+    fs::create_dir(&work).unwrap();
+    let file = work.join("lawn.frag");
+    let text = "uniform float u_time;\n#include \"lib/green.glsl\"\nvoid main() { gl_FragColor = GREEN; }\n";
+    fs::write(&file, text).unwrap();
+    let mut window = Window::open(&display, &work, &[file.to_str().unwrap()]);
+    window.resize(1000, 900);
+    window.wait_until("the file to be missing", "compiled", |e| {
+        e["diagnostics"][0]["message"].as_str().is_some_and(|m| m.contains("green.glsl"))
+    });
+    window.keys(&["ctrl+comma"]);
+    window.click_on("setting:include-folder");
+    window.submit("/no/such/folder");
+    window.wait_shown("setting:include-folder:error");
+    window.click_on("setting:include-folder");
+    window.keys(&["ctrl+a"]);
+    window.submit(home.path().join("shaders").to_str().unwrap());
+    window.wait_hidden("setting:include-folder:error");
+    display.shot("settings-library.png");
+    window.keys(&["Escape"]);
+    window.wait_until("the program", "drawn", |e| e["programs"].as_u64() >= Some(1));
+    wait_for_colour(&mut window, [0, 255, 0]);
 }

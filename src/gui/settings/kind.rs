@@ -12,6 +12,8 @@ pub(crate) enum Kind {
     Choice(&'static [(&'static str, &'static str)]),
     Number(Number),
     FontFile,
+    /// The path of a folder.
+    Folder,
     /// A device that plays.
     SoundOutput,
     /// A device that records.
@@ -91,6 +93,7 @@ impl Kind {
             }
             Kind::Number(number) => return number.expected(),
             Kind::FontFile => "the path of a .ttf or .otf file, or \"\" for the built-in font",
+            Kind::Folder => "the path of a folder, or \"\" for none",
             Kind::SoundOutput | Kind::SoundInput => "the name of a device, or \"\" for the default of the system",
             Kind::Address => "an IP address of this computer, such as \"127.0.0.1\", or \"0.0.0.0\" for all of them",
             Kind::MidiDevices => "\"off\", \"all\" or the name of a device",
@@ -105,7 +108,7 @@ impl Kind {
         let is_valid = match self {
             Kind::Switch | Kind::Number(_) => false,
             Kind::Choice(choices) => choices.iter().any(|(name, _)| *name == text),
-            Kind::FontFile | Kind::SoundOutput | Kind::SoundInput => true,
+            Kind::FontFile | Kind::Folder | Kind::SoundOutput | Kind::SoundInput => true,
             Kind::Address => IpAddr::from_plain(&plain()).is_some(),
             Kind::MidiDevices => MidiChoice::from_plain(&plain()).is_some(),
             Kind::FilmOptions => return FilmForm::of_options(text).map(drop),

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::{
     control::{midi::MidiChoice, osc::OscState},
+    project::INCLUDE_SETTING,
     session::{CaptureCommand, Command, ControlCommand, EditCommand, FilmForm, HaltCommand, Session, SoundCommand},
 };
 use std::{
@@ -68,7 +69,7 @@ impl Row {
 }
 
 macro_rules! settings {
-    ($($(#[$doc:meta])* $variant:ident($field:ident: $type:ty = $default:expr), $key:literal => $row:expr;)*) => {
+    ($($(#[$doc:meta])* $variant:ident($field:ident: $type:ty = $default:expr), $key:expr => $row:expr;)*) => {
         #[derive(Clone, Debug, PartialEq)]
         pub(crate) struct Settings {
             $($(#[$doc])* pub $field: $type,)*
@@ -122,6 +123,14 @@ settings! {
     /// The font file for code; `None`: Eddy's own.
     CodeFont(code_font: Option<String> = None), "code-font" =>
         row("Code font", Kind::FontFile, "A .ttf or .otf file; leave it empty for the built-in font");
+    /// The folder of libraries of shaders.
+    IncludeFolder(include_folder: Option<String> = None), INCLUDE_SETTING =>
+        row(
+            "Library folder",
+            Kind::Folder,
+            "A folder of libraries such as lygia, where #include finds files that are not beside the shader",
+        )
+        .sends(|_| Command::Edit(EditCommand::ReadIncludes));
     WordWrap(word_wrap: bool = false), "word-wrap" =>
         row("Word wrap", Kind::Switch, "Wrap long lines of code");
     /// Edits are compiled when they are saved, not while typing.

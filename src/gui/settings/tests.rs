@@ -18,6 +18,7 @@ fn samples(kind: &Kind) -> Vec<Plain> {
         Kind::Switch => vec![Plain::Switch(true), Plain::Switch(false)],
         Kind::Choice(choices) => choices.iter().map(|(name, _)| Plain::Text((*name).to_owned())).collect(),
         Kind::Number(Number { least, most, .. }) => vec![Plain::Number(*least), Plain::Number(*most)],
+        Kind::Folder => texts(&["/a b/lib", ""]),
         Kind::FontFile => texts(&["/a b/\"c\".ttf", ""]),
         Kind::SoundOutput | Kind::SoundInput => texts(&["Loud \"speakers\" 5.1", ""]),
         Kind::Address => texts(&["0.0.0.0", "::1"]),
@@ -134,7 +135,7 @@ fn the_docs_list_every_setting() {
 fn settings_are_read_and_errors_have_their_line() {
     let (settings, errors) = file::read(
         "theme = \"light\"\nzoom = 2\ncode-size = 15.5\nword-wrap = true\nframe-timeout = 0.5\n\
-         code-font = \"/a/b.ttf\"\nproject-in-images = false\nvolume = 0.25\nmute = true\n\
+         code-font = \"/a/b.ttf\"\ninclude-folder = \"/lib\"\nproject-in-images = false\nvolume = 0.25\nmute = true\n\
          audio-output = \"Speakers\"\naudio-input = \"\"\n\
          osc = true\nosc-port = 8000\nosc-address = \"0.0.0.0\"\nmidi = \"Knobs\"\ngamepads = true\n\
          recorder = \"--frames 0-9 --format gif\"\n",
@@ -145,6 +146,7 @@ fn settings_are_read_and_errors_have_their_line() {
         zoom: 2.0,
         code_size: 15.5,
         code_font: Some("/a/b.ttf".into()),
+        include_folder: Some("/lib".into()),
         word_wrap: true,
         frame_timeout: Duration::from_millis(500),
         project_in_images: false,
@@ -164,8 +166,8 @@ fn settings_are_read_and_errors_have_their_line() {
     let (settings, errors) = file::read(text);
     assert_eq!(settings, Settings::default());
     let found: Vec<_> = errors.iter().map(|m| (m.line, m.text.as_str())).collect();
-    let all = "theme, zoom, code-size, code-font, word-wrap, compile-on-save, frame-timeout, project-in-images, \
-               volume, mute, audio-output, audio-input, osc, osc-port, osc-address, midi, gamepads, recorder";
+    let all = "theme, zoom, code-size, code-font, include-folder, word-wrap, compile-on-save, frame-timeout, \
+               project-in-images, volume, mute, audio-output, audio-input, osc, osc-port, osc-address, midi, gamepads, recorder";
     let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
     let wanted = [
         (2, "unknown setting \"them\"; did you mean \"theme\"?"),

@@ -29,7 +29,7 @@ use super::{
 };
 use crate::{
     gpu::Gpu,
-    project::Origin,
+    project::{INCLUDE_SETTING, Origin},
     session::{
         CanvasCommand, Command, ControlCommand, EditCommand, FileCommand, Level, NoticeCommand, Session, ToolCommand,
         TransportCommand, ViewCommand,
@@ -440,8 +440,9 @@ impl Shell {
             Pick::LabFolder => self.lab.set_results_folder(path),
             Pick::LabReport => self.lab.save_report(path),
             Pick::Reference => self.project_ui.compare.choose(&path),
-            Pick::CodeFont => {
-                let page = self.overlays.settings_page.as_mut().zip(Setting::named("code-font"));
+            Pick::CodeFont | Pick::LibraryFolder => {
+                let key = if pick == Pick::CodeFont { "code-font" } else { INCLUDE_SETTING };
+                let page = self.overlays.settings_page.as_mut().zip(Setting::named(key));
                 let change = page.and_then(|(page, setting)| page.enter(setting, &path.display().to_string()));
                 if let Some(change) = change {
                     self.change(change, out);

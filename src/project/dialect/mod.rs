@@ -7,6 +7,7 @@ use super::{Pass, words::names_word};
 mod docs;
 mod program;
 mod recognise;
+mod regenerate;
 mod rows;
 mod samplers;
 mod sliders;
@@ -17,6 +18,7 @@ mod twigl;
 mod uniforms;
 
 pub use recognise::ShaderForm;
+pub use regenerate::regenerated;
 pub use rows::{AlphaRule, DialectRow, EntryPoint};
 pub use textures::{HostTexture, SoundTexture};
 pub use uniforms::{HostUniform, HostValue, MouseUnit};

@@ -2,6 +2,8 @@
 
 use super::{
     AlphaRule, Dialect, HostTexture, SoundTexture,
+    recognise::is_sound,
+    regenerate::regenerated,
     samplers::{DeclaredUniform, declared_uniforms},
     twigl,
 };
@@ -129,6 +131,11 @@ impl Maker<'_> {
     }
 
     fn passes(&self) -> Vec<Pass> {
+        if self.dialect == Dialect::Twigl && is_sound(self.text) {
+            let image = Pass::new(PassName::image(), generated("Image", twigl::BLACK.to_owned()));
+            let text = twigl::sound_text(self.text, &format!("#include \"{}\"\n", self.name));
+            return vec![Pass::new(PassName::sound(), generated("Sound", text)), image];
+        }
         let mut passes = self.sound_passes();
         if self.dialect == Dialect::GlslViewer {
             // The buffers are numbered from 0 without gaps, however the text numbers them.
@@ -366,7 +373,8 @@ fn is_picture(file: &str) -> bool {
 
 /// Saves the edits of a file and of the files that it includes; Eddy generates the texts around it.
 pub(crate) fn save(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {
-    let fresh = load_again(target)?;
+    // As the text is now, or as it is on disk if nothing can be generated from it.
+    let fresh = regenerated(project).map_or_else(|| load_again(target), Ok)?;
     let is_drawn_the_same = |a: &Pass, b: &Pass| a.settings == b.settings && a.body == b.body;
     let is_same = |a: &Pass, b: &Pass| a.id == b.id && a.source.text == b.source.text && is_drawn_the_same(a, b);
     let passes = project.passes.len() == fresh.passes.len()

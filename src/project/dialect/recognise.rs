@@ -1,7 +1,11 @@
 //! Selects the program that a file is written for, by its text and its name.
 
 use super::{Dialect, EntryPoint, samplers::declared_uniforms};
-use crate::{file_names::is_vertex_extension, isf, words::all_words};
+use crate::{
+    file_names::is_vertex_extension,
+    isf,
+    words::{all_words, find_word},
+};
 use std::{collections::HashSet, ffi::OsStr, path::Path};
 
 /// The form of a GLSL file outside a project. All code that reads such files calls [`ShaderForm::of`], so that the
@@ -63,6 +67,9 @@ impl ShaderForm {
         }
         let words = all_words(text);
         let has = |word: &str| words.contains(word);
+        if !has("mainImage") && !has("main") && is_sound(text) {
+            return ShaderForm::Program(Dialect::Twigl);
+        }
         if ["mainImage", "mainSound", "mainCubemap"].into_iter().any(has) {
             return ShaderForm::Program(Dialect::Shadertoy);
         }
@@ -104,6 +111,14 @@ fn of_main(text: &str, words: &HashSet<&str>) -> Dialect {
     let mut possible = MARKS.iter().filter(is_possible);
     let likely = possible.find(|marks| marks.likely.iter().any(|name| is_declared(&name)));
     likely.map_or(Dialect::Plain, |marks| marks.dialect)
+}
+
+/// Returns whether a text is a sound shader of twigl: its entry point takes the time, and not the number of the sample.
+pub(super) fn is_sound(text: &str) -> bool {
+    let Some(at) = find_word(text, "mainSound") else { return false };
+    let rest = text[at + "mainSound".len()..].trim_start();
+    let parameters = rest.strip_prefix('(').and_then(|rest| rest.split_once(')')).map(|(parameters, _)| parameters);
+    parameters.is_some_and(|parameters| parameters.contains("float") && !parameters.contains(','))
 }
 
 /// Returns whether a text without `main` is the body of one, as in twigl's mode geekest: it writes the output, and reads

@@ -262,7 +262,7 @@ pub(super) static ROWS: [DialectRow; Dialect::ALL.len()] = [
         },
         previous: (TexelFormat::Rgba32f, LINEAR_CLAMP),
         clear: Some([0.0, 0.0, 0.0, 1.0]),
-        notes: "The modes geeker and geekest need no declarations.",
+        notes: "The modes geeker and geekest need no declarations. A file with `vec2 mainSound(float)` is a sound shader.",
         ..ROW
     },
     DialectRow {

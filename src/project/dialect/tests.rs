@@ -1,4 +1,4 @@
-use super::{Dialect, ShaderForm};
+use super::{Dialect, ShaderForm, regenerated};
 use crate::{
     Input, Media, Overwrite, PassName, PassSize, Project, ProjectError, Side, TexelFormat, limits, load, manifest, save,
 };
@@ -45,6 +45,10 @@ fn programs_are_recognised_by_their_names() {
     ] {
         assert_eq!(dialect("a.frag", &text), ShaderForm::Program(expected), "{text}");
     }
+    let sound = "vec2 mainSound(float time) { return vec2(sin(440.0 * 6.2831 * time)); }";
+    assert_eq!(dialect("a.glsl", sound), ShaderForm::Program(Dialect::Twigl));
+    let shadertoy = sound.replace("float time", "int samp, float time");
+    assert_eq!(dialect("a.glsl", &shadertoy), ShaderForm::Program(Dialect::Shadertoy));
     assert_eq!(dialect("a.glsl", "void main() { gl_Position = vec4(0); }"), ShaderForm::PlainVertex);
     assert_eq!(dialect("a.vert.glsl", ""), ShaderForm::PlainVertex);
     assert_eq!(dialect("a.fs", "/*{}*/ void main() {}"), ShaderForm::Program(Dialect::Isf));
@@ -171,4 +175,55 @@ fn a_folder_keeps_the_dialect_the_names_and_the_sizes() {
     assert_eq!(bindings.get(1).unwrap().input, picture);
     assert!(manifest::write(&saved, None, "folder", false).contains("name = \"u_tex0\""));
     assert!(saved.stateful_passes().contains(&PassName::buffer("double0")));
+}
+
+#[test]
+fn passes_follow_the_text_and_keep_what_the_user_changed() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("a.frag");
+    let text = "uniform vec2 u_resolution;\nuniform sampler2D u_tex0, u_tex1;\nuniform sampler2D u_buffer0; // 64x32\n\
+                #ifdef BUFFER_0\n#endif\nvoid main() {}\n";
+    fs::write(&file, text).unwrap();
+    let opened = load(file.to_str().unwrap()).unwrap().project;
+    let mut project = opened.clone();
+    let chosen = Input::texture(Media::Builtin("coral".into()));
+    project.passes[1].bindings.get_mut(1).unwrap().input = chosen.clone();
+    let edit = |project: &mut Project, from: &str, to: &str| {
+        let included = &mut project.includes[0];
+        assert!(included.source.text.contains(from));
+        included.source.text = included.source.text.replace(from, to).into();
+        included.is_edited = true;
+    };
+    // The chosen picture follows its sampler to another slot, a removed sampler has none, and the size changes.
+    edit(&mut project, "u_tex0, u_tex1", "u_tex1, u_tex7");
+    edit(&mut project, "64x32", "16x8");
+    edit(&mut project, "#ifdef BUFFER_0", "#ifdef BUFFER_0\n#elif defined(DOUBLE_BUFFER_0)");
+    let now = regenerated(&project).unwrap();
+    assert!(project.follow_generated(&opened, &now));
+    let ids: Vec<&str> = project.passes.iter().map(|pass| pass.id.key()).collect();
+    assert_eq!(ids, ["buffer_0", "buffer_double0", "image"]);
+    let image = &project.image().unwrap().bindings;
+    let names: Vec<_> = image.names().collect();
+    assert_eq!(names, [(0, "u_tex1"), (1, "u_tex7"), (2, "u_buffer0")]);
+    assert_eq!(image.get(0).map(|channel| &channel.input), Some(&chosen));
+    assert_eq!(project.passes[0].settings.size, PassSize::Fixed(16, 8));
+    assert!(!project.follow_generated(&now.clone(), &now));
+    // A text from which nothing can be generated changes nothing.
+    let mut broken = project.clone();
+    edit(&mut broken, "BUFFER_0", "PYRAMID_0");
+    assert!(regenerated(&broken).is_none());
+    // What the file holds is saved, a chosen picture is not.
+    assert!(save(&project, &file, Overwrite::Refuse).is_err());
+    project.passes[2].bindings = now.image().unwrap().bindings.clone();
+    let saved = save(&project, &file, Overwrite::Refuse).unwrap();
+    assert_eq!(saved.passes.len(), 3);
+    assert_eq!(regenerated(&opened).map(|project| project.passes.len()), Some(2));
+}
+
+#[test]
+fn a_sound_shader_has_a_sound_pass() {
+    let project = project("vec2 mainSound(float time) { return vec2(sin(sampleRate * time)); }\n");
+    let ids: Vec<&str> = project.passes.iter().map(|pass| pass.id.key()).collect();
+    assert_eq!(ids, ["sound", "image"]);
+    assert!(project.passes[0].source.text.contains("const float sampleRate = 44100.0;\n#define mainSound"));
 }

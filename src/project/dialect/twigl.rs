@@ -46,6 +46,28 @@ pub(super) fn text(file: &str, uniforms: &[DeclaredUniform], include: &str, outp
     text + &format!("void main() {{\n{call}{shown}}}\n")
 }
 
+/// Returns the text of a Sound pass that includes a sound shader. Sound is made at 44,100 samples a second, in one block.
+pub(super) fn sound_text(file: &str, include: &str) -> String {
+    let words = all_words(file);
+    let constants = [("sampleRate", "44100.0"), ("blockOffset", "0.0")];
+    let mut text = String::new();
+    for (name, value) in constants.into_iter().filter(|(name, _)| words.contains(name)) {
+        text.push_str(&format!("const float {name} = {value};\n"));
+    }
+    text + &format!(
+        "#define mainSound twigl_mainSound\n{include}#undef mainSound\n\n\
+         vec2 mainSound(int samp, float time) {{\n    return twigl_mainSound(time);\n}}\n"
+    )
+}
+
+/// The text of the Image pass beside a sound shader.
+pub(super) const BLACK: &str = "\
+// The file is a sound shader: it has no picture.
+void mainImage(out vec4 color, in vec2 at) {
+    color = vec4(0.0, 0.0, 0.0, 1.0);
+}
+";
+
 /// The names of [`GEEKEST`] that texts use.
 const NAMES: [&str; 14] = [
     "FC",

@@ -1,8 +1,8 @@
 //! Differences between Ghostty and Eddy for a custom shader that compiles: uniforms that Ghostty does not set, and
 //! lines that only Eddy reads.
 
-use crate::{Project, custom_uniforms, includes, lines::hash_lines, words::find_word};
-use eddy_diag::{Diagnostic, Severity, Span};
+use crate::{Pass, Project, custom_uniforms, includes, lines::hash_lines, words::find_word};
+use eddy_diag::{Diagnostic, Severity, SourceId, Span};
 
 /// Uniforms that Ghostty declares but does not set, with the value that they keep and what to use instead.
 const UNSET: [(&str, &str, &str); 6] = [
@@ -18,10 +18,14 @@ const UNSET: [(&str, &str, &str); 6] = [
     ),
 ];
 
-/// Returns diagnostics about the Image pass, whose text is the custom shader.
+/// Returns diagnostics about the passes whose texts are custom shaders.
 pub fn advice(project: &Project) -> Vec<Diagnostic> {
-    let Some(index) = project.image_index() else { return Vec::new() };
-    let (id, text) = (Project::pass_id(index), &*project.passes[index].source.text);
+    let is_shader = |pass: &Pass| pass.id.is_image() || pass.source.path.is_some();
+    let shaders = project.passes.iter().enumerate().filter(|(_, pass)| is_shader(pass));
+    shaders.flat_map(|(index, pass)| advice_about(Project::pass_id(index), &pass.source.text)).collect()
+}
+
+fn advice_about(id: SourceId, text: &str) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for line in hash_lines(text) {
         let said = if custom_uniforms::is_declaration(&line) {

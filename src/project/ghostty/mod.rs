@@ -10,6 +10,7 @@
 //! Positions are in pixels. y points up, as in Ghostty with OpenGL; with Metal, on macOS, it points down there.
 
 mod advice;
+mod config;
 mod font;
 mod prelude;
 mod screen;
@@ -20,6 +21,7 @@ mod uniforms;
 mod tests;
 
 pub use advice::advice;
+pub(super) use config::load as load_config;
 pub use uniforms::values;
 pub(crate) use uniforms::{UNIFORMS, about};
 
@@ -31,20 +33,24 @@ pub const TERMINAL: &str = "terminal";
 /// The prefix of a file's name that marks it as a custom shader of Ghostty.
 pub(super) const PREFIX: &str = "ghostty:";
 
-/// Turns the project of one GLSL file into that of a custom shader: adds the prelude that Ghostty puts before it as
-/// Common, and the simulated terminal as the buffer that it reads.
+/// Turns a project of GLSL files into one of custom shaders: adds the prelude that Ghostty puts before them as Common,
+/// and the simulated terminal as the buffer that the first of them reads. Each other one reads the picture of the one
+/// before it.
 pub(super) fn dress(project: &mut Project) {
     let generated = |name: &str, text: String| Source { name: name.into(), path: None, text: text.into() };
-    let terminal = PassName::buffer(TERMINAL);
-    let mut pass = Pass::new(terminal.clone(), generated("terminal", screen::text()));
-    pass.settings.format = TexelFormat::Rgba8;
-    project.passes.retain(|pass| pass.id.is_image());
-    for image in &mut project.passes {
+    let mut before = PassName::buffer(TERMINAL);
+    let mut terminal = Pass::new(before.clone(), generated("terminal", screen::text()));
+    terminal.settings.format = TexelFormat::Rgba8;
+    project.passes.retain(|pass| pass.id != before);
+    for pass in &mut project.passes {
         let sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
-        let channel = Channel { input: Input::pass(terminal.clone()), sampler };
-        image.bindings = [Some(channel)].into();
+        pass.bindings = [Some(Channel { input: Input::pass(before), sampler })].into();
+        before = pass.id.clone();
+        if !pass.id.is_image() {
+            pass.settings.format = TexelFormat::Rgba8;
+        }
     }
-    project.passes.insert(0, pass);
+    project.passes.insert(0, terminal);
     project.common = Some(generated("Ghostty", prelude::text()));
     project.dialect = Dialect::Ghostty;
 }

@@ -110,7 +110,7 @@ fn a_file_is_saved_only_if_nothing_is_lost() {
         project.passes.insert(1, Pass::new(PassName::buffer("B"), source));
     };
     let refused: [(&str, Change<'_>); 7] = [
-        ("more passes", &added),
+        ("other passes", &added),
         ("Common", &|project| project.common.as_mut().unwrap().text = "// mine".into()),
         ("Common", &|project| project.common = None),
         ("terminal", &|project| project.passes[0].source.text = "// mine".into()),

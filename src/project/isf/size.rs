@@ -52,22 +52,33 @@ fn side(sides: &[(f64, f64)]) -> Option<Side> {
     if sides.iter().all(|(side, _)| *side == first) {
         return Some(Side::Fixed(first as u32));
     }
-    let by = tidy(sides[2].0 / sides[2].1);
-    let is = |round: fn(f64) -> f64| sides.iter().all(|(side, canvas)| *side == round(canvas * by + 1e-6).max(1.0));
+    let is_positive = |by: &f64| *by > 0.0;
     // An expression that does not round gives a number of texels that is rounded down (VVISF converts it to an integer).
-    let is_exact = sides.iter().all(|(side, canvas)| (side - canvas * by).abs() < 1e-3);
+    let exact = sides[2].0 / sides[2].1;
+    let is_exact = sides.iter().all(|(side, canvas)| (side - canvas * exact).abs() < 1e-3);
     let is_whole = sides.iter().all(|(side, _)| side.fract() == 0.0);
-    match () {
-        () if by == 1.0 => Some(Side::Scale(1.0)),
-        () if is_exact && !is_whole || is(f64::floor) => Some(Side::Floor(by)),
-        () => sides.iter().all(|(side, canvas)| (side - canvas * by).abs() <= 2.0).then_some(Side::Scale(by)),
+    if is_exact && !is_whole {
+        return Some(Side::Floor(simplest(exact - 1e-8, exact + 1e-8)));
+    }
+    // The factors that lead to all sides: canvas * by is from side + low to side + high.
+    let factor = |low: f64, high: f64| {
+        let least = sides.iter().map(|(side, canvas)| (side + low) / canvas).fold(0.0, f64::max);
+        let most = sides.iter().map(|(side, canvas)| (side + high) / canvas).fold(f64::INFINITY, f64::min);
+        (least < most).then(|| simplest(least, most)).filter(is_positive)
+    };
+    match factor(0.0, 1.0) {
+        Some(1.0) => Some(Side::Scale(1.0)),
+        Some(by) => Some(Side::Floor(by)),
+        None => factor(-2.0, 2.0).map(Side::Scale),
     }
 }
 
-/// Returns the fraction of small integers that most likely equals a factor, else the factor.
-fn tidy(factor: f64) -> f64 {
-    let near = (1..=512).map(f64::from).map(|n| (factor * n).round() / n).find(|part| (part - factor).abs() < 1e-4);
-    near.filter(|part| *part > 0.0).unwrap_or(factor)
+/// Returns the fraction of integers with the smallest denominator that is at least `least` and less than `most`, else
+/// their mean.
+fn simplest(least: f64, most: f64) -> f64 {
+    // The bound of 1e-9 allows for the last bits of a quotient.
+    let near = (1..=512).map(f64::from).map(|n| (least * n - 1e-9).ceil() / n).find(|part| *part < most);
+    near.unwrap_or((least + most) / 2.0)
 }
 
 #[cfg(test)]
@@ -109,6 +120,16 @@ mod tests {
         assert_eq!(of(Some("$WIDTH/4.0"), Some("$HEIGHT/2.0")), Ok(PassSize::Sides(quarter, half)));
         assert_eq!(of(Some("$WIDTH"), Some("1")), Ok(PassSize::Sides(Side::Scale(1.0), Side::Fixed(1))));
         assert_eq!(of(Some("16"), None), Ok(PassSize::Sides(Side::Fixed(16), Side::Scale(1.0))));
+        // 8192 * 0.02 is 163.84: the quotient of whole sides is far from the factor.
+        let fiftieth = Side::Floor(0.02);
+        assert_eq!(
+            of(Some("max(floor($WIDTH*0.02),1.0)"), Some("max(floor($HEIGHT*0.02),1.0)")),
+            Ok(PassSize::Sides(fiftieth, fiftieth))
+        );
+        for size in 1..=400_u32 {
+            assert_eq!(fiftieth.of(size), (f64::from(size) * 0.02).floor().max(1.0) as u32, "{size}");
+        }
+        assert_eq!(of(Some("floor($WIDTH*0.37)"), None), Ok(PassSize::Sides(Side::Floor(0.37), Side::Scale(1.0))));
         assert!(of(Some("$WIDTH*$HEIGHT"), Some("1")).is_err());
         assert!(of(Some("0 - 5"), Some("1")).is_err());
     }

@@ -150,8 +150,11 @@ fn with_vertex(name: &str, text: &str, fragment: &str) -> String {
 /// The number of outputs that are interpolated: more than hosts have (`gl_MaxVaryingVectors` is 8 to 32).
 const MAX_VARYINGS: usize = 64;
 
-/// Returns the types and names of the numbers and vectors that a vertex shader outputs. Others, such as arrays, are
-/// computed for the position of the pixel.
+/// The position in the picture, which some vertex shaders declare as their output.
+const POSITIONS: [&str; 2] = ["isf_FragNormCoord", "vv_FragNormCoord"];
+
+/// Returns the types and names of the numbers and vectors that a vertex shader outputs, the position apart. Others, such
+/// as arrays, are computed for the position of the pixel.
 fn varyings(text: &str) -> Vec<(&str, &str)> {
     let mut found: Vec<(&str, &str)> = Vec::new();
     for line in text.lines().map(|line| line.split("//").next().unwrap_or_default()) {
@@ -163,7 +166,8 @@ fn varyings(text: &str) -> Vec<(&str, &str)> {
         let Some(ty) = words.next().filter(|ty| matches!(*ty, "float" | "vec2" | "vec3" | "vec4")) else { continue };
         let names = words.filter(|name| name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_'));
         for name in names {
-            if found.len() < MAX_VARYINGS && !found.iter().any(|(_, known)| *known == name) {
+            let is_new = !POSITIONS.contains(&name) && !found.iter().any(|(_, known)| *known == name);
+            if is_new && found.len() < MAX_VARYINGS {
                 found.push((ty, name));
             }
         }

@@ -16,7 +16,7 @@ use std::{
 /// directly: `eddy.toml`), one GLSL file, a Shadertoy JSON file, a preset's name. A path takes precedence over a
 /// preset, except that a bare preset's name does not resolve to a folder of that name without a project. In a JSON file
 /// with several shaders, `FILE.json#ID` selects one, by its id, its number from 1 or its name. `ghostty:FILE.glsl` is a
-/// custom shader of the terminal Ghostty.
+/// custom shader of the terminal Ghostty, and `ghostty:CONFIG` the chain of those that its configuration names.
 pub fn load(spec: &str) -> Result<Loaded, ProjectError> {
     if let Some(path) = of_ghostty(spec) {
         return load_ghostty(path);
@@ -34,14 +34,17 @@ fn of_ghostty(spec: &str) -> Option<&Path> {
     spec.strip_prefix(ghostty::PREFIX).filter(|_| !Path::new(spec).exists()).map(Path::new)
 }
 
-/// Loads a custom shader of Ghostty, and adds the terminal's prelude and picture.
+/// Loads a custom shader of Ghostty, or those that a configuration names, and adds the terminal's prelude and picture.
 fn load_ghostty(path: &Path) -> Result<Loaded, ProjectError> {
     if !path.exists() {
         let (spec, presets) = (path.display().to_string(), Vec::new());
         return Err(ProjectError::NotFound { spec, near: None, presets });
     }
-    if path.is_dir() || !file_names::is_glsl_extension(path.extension().unwrap_or_default()) {
+    if path.is_dir() {
         return Err(ProjectError::UnknownKind { path: path.to_owned() });
+    }
+    if !file_names::is_glsl_extension(path.extension().unwrap_or_default()) {
+        return ghostty::load_config(path);
     }
     let Loaded { mut project, .. } = load_glsl_alone(path)?;
     ghostty::dress(&mut project);

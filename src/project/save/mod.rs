@@ -28,6 +28,10 @@ pub fn save(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resul
     if project.dialect.has_main() && matches!(&project.origin, Origin::File(path) if is_same(path, target)) {
         return dialect::save(project, target, overwrite);
     }
+    let is_own_file = matches!(&project.origin, Origin::File(path) if is_same(path, target));
+    if project.dialect == Dialect::Ghostty && is_own_file && !file_names::is_glsl_extension(extension) {
+        return save_chain(project, target, overwrite);
+    }
     if target.is_dir() {
         save_folder(project, target, overwrite)
     } else if target.file_name().is_some_and(|n| n == MANIFEST) {
@@ -163,19 +167,10 @@ fn save_ghostty(
     let cannot = |what: &str| Err(ProjectError::CannotHold { path: target.to_owned(), what: what.into() });
     let Some(image) = project.image() else { return cannot("anything but Image") };
     let mut fresh = project.clone();
+    fresh.passes.retain(|pass| pass.id.is_image());
     ghostty::dress(&mut fresh);
-    if project.passes.iter().map(|pass| &pass.id).ne(fresh.passes.iter().map(|pass| &pass.id)) {
-        return cannot("more passes than Image");
-    }
-    let text = |source: Option<&Source>| source.map(|source| source.text.clone());
-    let is_drawn_the_same = |a: &Pass, b: &Pass| a.settings == b.settings && a.body == b.body;
-    let is_same = |a: &Pass, b: &Pass| a.id.is_image() || a.source.text == b.source.text && is_drawn_the_same(a, b);
-    let around = project.passes.iter().zip(&fresh.passes).all(|(a, b)| is_same(a, b));
-    if !around || text(project.common.as_ref()) != text(fresh.common.as_ref()) {
-        return cannot("changes of the terminal's picture or of Common");
-    }
-    if project.passes.iter().zip(&fresh.passes).any(|(a, b)| a.bindings != b.bindings) {
-        return cannot("other channels than the terminal's picture in iChannel0");
+    if let Some(what) = beside_shaders(project, &fresh) {
+        return cannot(what);
     }
     if let Some(what) = beside_texts(project, [image]) {
         return cannot(what);
@@ -189,6 +184,42 @@ fn save_ghostty(
         image.source.path = Some(target.to_owned());
     }
     Ok(saved)
+}
+
+/// Returns what the files of custom shaders cannot store of a project, if it has it. `fresh`: the project around the
+/// same shaders, as Eddy generates it.
+fn beside_shaders(project: &Project, fresh: &Project) -> Option<&'static str> {
+    if project.passes.iter().map(|pass| &pass.id).ne(fresh.passes.iter().map(|pass| &pass.id)) {
+        return Some("other passes than those of its shaders");
+    }
+    let text = |source: Option<&Source>| source.map(|source| source.text.clone());
+    let is_drawn_the_same = |a: &Pass, b: &Pass| a.settings == b.settings && a.body == b.body;
+    let is_shader = |pass: &Pass| pass.source.path.is_some() || pass.id.is_image();
+    let is_same = |a: &Pass, b: &Pass| is_shader(a) || a.source.text == b.source.text && is_drawn_the_same(a, b);
+    let around = project.passes.iter().zip(&fresh.passes).all(|(a, b)| is_same(a, b));
+    if !around || text(project.common.as_ref()) != text(fresh.common.as_ref()) {
+        return Some("changes of the terminal's picture or of Common");
+    }
+    let is_bound = project.passes.iter().zip(&fresh.passes).all(|(a, b)| a.bindings == b.bindings);
+    (!is_bound).then_some("other channels than the picture before it in iChannel0")
+}
+
+/// Saves the custom shaders that a Ghostty configuration names, each to its own file.
+fn save_chain(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {
+    let fresh = ghostty::load_config(target)?.project;
+    let settings = |project: &Project| project.passes.iter().map(|pass| pass.settings.clone()).collect::<Vec<_>>();
+    let what = beside_shaders(project, &fresh).or_else(|| beside_texts(project, []));
+    let what = what.or_else(|| (settings(project) != settings(&fresh)).then_some("how its passes are drawn"));
+    if let Some(what) = what {
+        return Err(ProjectError::CannotHold { path: target.to_owned(), what: what.into() });
+    }
+    for (pass, before) in project.passes.iter().zip(&fresh.passes) {
+        let Some(path) = before.source.path.as_deref().filter(|_| pass.source.text != before.source.text) else {
+            continue;
+        };
+        write_one(path, pass.source.text.as_bytes().to_vec(), true, overwrite)?;
+    }
+    Ok(ghostty::load_config(target)?.project)
 }
 
 fn save_folder(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {

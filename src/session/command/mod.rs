@@ -85,6 +85,8 @@ pub enum EditCommand {
     SetCompileOnSave(bool),
     /// Compiles at once.
     CompileNow,
+    /// Reads the included files again: the folders of libraries have changed.
+    ReadIncludes,
     /// Sets what `iChannel{index}` of a pass reads, with its sampler.
     SetChannel { pass: PassName, index: usize, channel: Option<Channel> },
     /// Sets one of the author's own uniforms, within its range; `None` is the default. Does not recompile.

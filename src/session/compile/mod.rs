@@ -61,6 +61,8 @@ pub(super) struct CompileControl {
 /// The documents and the view to compile.
 pub(super) struct Source<'s> {
     pub project: &'s Project,
+    /// See [`Documents::generated`](super::documents::Documents::generated).
+    pub generated: Option<&'s Project>,
     pub shown: &'s PassName,
     /// Counts the times that a project was opened or moved.
     pub opened: u64,
@@ -172,10 +174,11 @@ impl CompileControl {
         }
         self.is_submitted = true;
         let include_edit = self.unread_includes().filter(|_| is_compile && !is_fallback);
-        let Source { project, shown, opened, probe, camera } = source;
+        let Source { project, generated, shown, opened, probe, camera } = source;
+        let generated = generated.filter(|_| is_compile && !is_fallback).cloned();
         let (project, shown) = (fallback.unwrap_or_else(|| project.clone()), shown.clone());
         let is_check_only = !is_compile;
-        Some(Job { is_fallback, project, shown, opened, include_edit, probe, camera, is_check_only })
+        Some(Job { is_fallback, project, generated, shown, opened, include_edit, probe, camera, is_check_only })
     }
 
     /// Records the result of the newest job; `is_check`: it has only checked files.

@@ -28,6 +28,8 @@ use std::{
 /// One compile, or a check whether one is due.
 pub(crate) struct Job {
     pub project: Project,
+    /// The project as last generated from its texts.
+    pub generated: Option<Project>,
     /// The pass that is shown in addition to Image.
     pub shown: PassName,
     /// Counts the times that a project was opened or moved. This is a state, not an order, as jobs can be overtaken.
@@ -112,6 +114,8 @@ pub(crate) struct CompileResult {
     pub is_changed: bool,
     /// The included files, if the job had to read them, with [`Job::include_edit`].
     pub includes: Option<(u64, Vec<Included>)>,
+    /// The project as generated from its texts.
+    pub generated: Option<Project>,
     /// `None` for a check.
     pub compiled: Option<Compiled>,
 }
@@ -166,10 +170,17 @@ fn work(
         if job.include_edit.is_some() {
             job.project.read_includes();
         }
+        let generated = follow_texts(&mut job);
         let named = media.named(&job);
         let files = named.stamps.iter().map(|(path, _)| path.clone()).collect();
         if job.is_check_only {
-            return Ok(CompileResult { files, is_changed: media.of != Some(named), includes: None, compiled: None });
+            return Ok(CompileResult {
+                files,
+                is_changed: media.of != Some(named),
+                includes: None,
+                generated,
+                compiled: None,
+            });
         }
         let mut found = media.update(&job, named);
         let trial = trial.clone();
@@ -207,8 +218,18 @@ fn work(
         let Job { project, is_fallback, .. } = job;
         let sounds = sounds(&project, &media.set);
         let compiled = Compiled { project, is_fallback, program, diagnostics, took, probe, heard, sounds };
-        Ok(CompileResult { files, is_changed: false, includes, compiled: Some(compiled) })
+        Ok(CompileResult { files, is_changed: false, includes, generated, compiled: Some(compiled) })
     }
+}
+
+/// Generates the passes again from the text of their file, which may have been edited.
+fn follow_texts(job: &mut Job) -> Option<Project> {
+    if job.is_check_only || job.is_fallback {
+        return None;
+    }
+    let now = project::regenerated(&job.project)?;
+    job.project.follow_generated(job.generated.as_ref().unwrap_or(&now), &now);
+    Some(now)
 }
 
 /// Returns the diagnostics of texts that are not part of the picture's program: what Shadertoy would reject in Common,

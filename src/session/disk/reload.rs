@@ -8,7 +8,7 @@ use crate::{
     view::{About, Level},
 };
 use eddy_playback::capture;
-use eddy_project::{self as project, Included, Loaded, Tab};
+use eddy_project::{self as project, Included, Loaded, Project, Tab};
 use std::fs;
 
 impl OpenProject {
@@ -75,6 +75,18 @@ impl OpenProject {
     pub(crate) fn settle_includes(&mut self) {
         if self.compile.unread_includes().is_some() {
             self.read_includes();
+        }
+        if let Some(now) = project::regenerated(self.project()) {
+            self.follow_generated(now);
+        }
+    }
+
+    /// Takes the passes that were generated from the texts.
+    pub(crate) fn follow_generated(&mut self, now: Project) {
+        if self.documents.follow_generated(now) {
+            self.host.text_generation += 1;
+            self.host.changed = true;
+            self.show_image_if_gone();
         }
     }
 

@@ -17,6 +17,9 @@ pub(super) struct Documents {
     current: Project,
     /// The project on disk as far as is known; for one that is not stored, its initial state.
     saved: Project,
+    /// The project as last generated from the texts, if Eddy generates it: what differs from it was changed by the
+    /// user. `None` if that is not known.
+    generated: Option<Project>,
     /// Tabs whose files are missing on disk: unsaved, whatever their text.
     missing: BTreeSet<Tab>,
     revision: u64,
@@ -55,7 +58,8 @@ impl Merge {
 impl Documents {
     /// A project as it was read or created, with nothing unsaved.
     pub(crate) fn new(project: Project) -> Self {
-        Self { saved: project.clone(), current: project, missing: BTreeSet::new(), revision: 0 }
+        let generated = project.dialect.has_main().then(|| project.clone());
+        Self { saved: project.clone(), current: project, generated, missing: BTreeSet::new(), revision: 0 }
     }
 
     /// A project with unsaved work, and its version on disk.
@@ -73,7 +77,7 @@ impl Documents {
                 (mine.name, mine.path) = (theirs.name.clone(), theirs.path.clone());
             }
         }
-        let mut documents = Self { current, saved, missing: BTreeSet::new(), revision: 0 };
+        let mut documents = Self { current, saved, generated: None, missing: BTreeSet::new(), revision: 0 };
         documents.note_edited();
         documents
     }
@@ -95,6 +99,19 @@ impl Documents {
     pub(crate) fn current_mut(&mut self) -> &mut Project {
         self.revision += 1;
         &mut self.current
+    }
+
+    /// The project as last generated from the texts.
+    pub(crate) fn generated(&self) -> Option<&Project> {
+        self.generated.as_ref()
+    }
+
+    /// Takes the passes that were generated from the texts, with what the user has changed. Returns whether they differ.
+    pub(crate) fn follow_generated(&mut self, now: Project) -> bool {
+        let is_other = self.current.follow_generated(self.generated.as_ref().unwrap_or(&now), &now);
+        self.generated = Some(now);
+        self.revision += u64::from(is_other);
+        is_other
     }
 
     /// Replaces the text of a tab.
@@ -228,6 +245,7 @@ impl Documents {
         if !structure::is_same(&disk, &self.saved) {
             if !self.is_structure_dirty() {
                 self.take_structure(&disk);
+                self.generated = disk.dialect.has_main().then(|| disk.clone());
                 merge.took_structure = true;
             } else if !structure::is_same(&disk, &self.current) {
                 merge.structure_conflict = true;
@@ -267,6 +285,7 @@ impl Documents {
         self.revision += 1;
         let saved = self.saved.clone();
         self.take_structure(&saved);
+        self.generated = saved.dialect.has_main().then_some(saved);
     }
 
     /// Takes the tab's text from the disk.

@@ -122,6 +122,7 @@ impl Session {
         let source = Source {
             project,
             shown,
+            generated: self.open.documents.generated(),
             opened: self.open.disk.opened(),
             probe: self.open.read_backs.probe.order(),
             camera: self.open.devices.camera().cloned(),
@@ -136,7 +137,10 @@ impl Session {
         let Some(result) = self.services.compiler.take() else { return };
         self.open.compile.receive(matches!(result, Ok(CompileResult { compiled: None, .. })));
         let compiled = match result {
-            Ok(CompileResult { files, is_changed, includes, compiled }) => {
+            Ok(CompileResult { files, is_changed, includes, generated, compiled }) => {
+                if let Some(now) = generated {
+                    self.open.follow_generated(now);
+                }
                 let has_new_files = self.open.disk.set_media_files(files) | includes.is_some();
                 if let Some((edit, includes)) = includes {
                     self.open.take_includes(includes, edit);
