@@ -2,8 +2,8 @@
 //! the command's own file.
 
 use super::args::{
-    BenchArgs, CheckArgs, CompareArgs, CompletionsArgs, DoctorArgs, ExportArgs, HostProgram, ImportArgs, LabArgs,
-    ListArgs, LspArgs, ManArgs, ProbeArgs, RenderArgs, TraceArgs, TranslateArgs, TryCompileArgs,
+    BenchArgs, CheckArgs, CompareArgs, CompletionsArgs, ConvertArgs, DoctorArgs, ExportArgs, HostProgram, ImportArgs,
+    LabArgs, ListArgs, LspArgs, ManArgs, ProbeArgs, RenderArgs, TraceArgs, TranslateArgs, TryCompileArgs,
 };
 use crate::playback::trial;
 use clap::Subcommand;
@@ -92,6 +92,8 @@ commands! {
     Import(ImportArgs),
     /// Convert a project to a Shadertoy JSON file, to an HTML file that plays it, or to an ISF file
     Export(ExportArgs),
+    /// Convert a shader of another program to a project in Shadertoy's form
+    Convert(ConvertArgs),
     /// Write the passes of a project in another shading language, with a JSON file of bindings and uniforms
     Translate(TranslateArgs),
     /// Serve an editor over the Language Server Protocol, on standard input and output

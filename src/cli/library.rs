@@ -4,6 +4,7 @@
 use super::{
     args::{ExportArgs, ExportFormat, ImportArgs, ListArgs},
     command::{CommandError, Run},
+    convert,
     machine::{Machine, RunError},
     report::{Printer, Report},
     terminal::{self, one_line, shown_path},
@@ -80,14 +81,17 @@ fn export_json(args: &ExportArgs) -> io::Result<u8> {
         }
         let project = read(report, &args.project)?;
         check_directives(&project)?;
+        let (project, mut lost) = match project.dialect.has_main() {
+            true => convert::shadertoy(report, &project)?,
+            false => (project, Vec::new()),
+        };
         // An editor may overwrite a JSON project in place; an export must not.
         if !args.force && args.out.symlink_metadata().is_ok() {
             return Err(suggest_force(ProjectError::WouldOverwrite { paths: vec![args.out.clone()] }.into()));
         }
         save(&project, &args.out, args.force)?;
-        let lost: String =
-            project::json_losses(&project).iter().map(|lost| format!("\n  {}", one_line(lost))).collect();
-        Ok(format!("{}: exported to {to}{lost}", one_line(&args.project)))
+        lost.extend(project::json_losses(&project));
+        Ok(format!("{}: exported to {to}{}", one_line(&args.project), convert::listed(&lost)))
     })
 }
 
@@ -145,7 +149,7 @@ fn check_directives(project: &Project) -> Result<(), RunError> {
 }
 
 /// Processes one project and prints the result.
-fn one(spec: &str, work: impl FnOnce(&mut Report) -> Result<String, RunError>) -> io::Result<u8> {
+pub(super) fn one(spec: &str, work: impl FnOnce(&mut Report) -> Result<String, RunError>) -> io::Result<u8> {
     let mut report = Report::new(spec);
     let words = Machine::default().attempt(&mut report, |_, report| work(report));
     let mut printer = Printer::new(false);
@@ -153,13 +157,13 @@ fn one(spec: &str, work: impl FnOnce(&mut Report) -> Result<String, RunError>) -
     Ok(printer.exit_code())
 }
 
-fn read(report: &mut Report, spec: &str) -> Result<Project, RunError> {
+pub(super) fn read(report: &mut Report, spec: &str) -> Result<Project, RunError> {
     let loaded = project::load(spec)?;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(&loaded.project));
     Ok(loaded.project)
 }
 
-fn save(project: &Project, to: &Path, force: bool) -> Result<(), RunError> {
+pub(super) fn save(project: &Project, to: &Path, force: bool) -> Result<(), RunError> {
     let overwrite = if force { Overwrite::Allow } else { Overwrite::Refuse };
     project::save(project, to, overwrite).map(drop).map_err(RunError::from).map_err(suggest_force)
 }
@@ -174,6 +178,6 @@ pub(super) fn suggest_force(trouble: RunError) -> RunError {
     }
 }
 
-fn is_file_name(path: &Path) -> bool {
+pub(super) fn is_file_name(path: &Path) -> bool {
     path.extension().is_some_and(|e| ["json", "glsl", "frag"].iter().any(|known| e.eq_ignore_ascii_case(known)))
 }

@@ -10,6 +10,7 @@ mod check;
 mod checkpoints;
 mod command;
 mod compare;
+mod convert;
 mod divergence;
 mod doctor;
 mod failure;

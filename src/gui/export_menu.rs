@@ -22,6 +22,11 @@ const ROWS: &[Option<(&str, Action, &str)>] = &[
         "Save the project as a JSON file that Shadertoy's tools and Eddy read",
     )),
     Some((
+        "Convert to Shadertoy",
+        Action::Convert,
+        "Open this shader of another program as a new project with mainImage and iChannel0 to iChannel3",
+    )),
+    Some((
         "HTML page…",
         Action::ExportPage,
         "Save the project as one HTML file that plays it in a browser, with its images and sounds",
@@ -72,6 +77,9 @@ fn why_not(session: &Session, has_lab_results: bool, action: Action) -> Option<&
     match action {
         Action::SaveMeasures if !is_measured() => {
             Some("Nothing has been measured yet: add a //@probe comment and open the Measurements panel")
+        }
+        Action::Convert if !session.project().dialect.has_main() => {
+            Some("The project has Shadertoy's form already: this converts shaders with void main()")
         }
         Action::SaveSound => session.sound_unsaved(),
         Action::LabReport if !has_lab_results => Some("There are no results yet: start a study in the Lab panel"),

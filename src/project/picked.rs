@@ -24,6 +24,18 @@ pub fn at_home(mut input: Input, folder: Option<&Path>) -> Input {
     input
 }
 
+/// Replaces the names of image files in a folder by their paths, for a project that leaves the folder.
+pub fn leave_home(project: &mut Project, folder: &Path) {
+    let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+    for channel in project.passes.iter_mut().flat_map(|pass| pass.bindings.channels_mut()) {
+        if let Some(media) = channel.input.media_mut()
+            && let Media::File(name) = media
+        {
+            *media = Media::Picked(folder.join(&*name));
+        }
+    }
+}
+
 /// Applies [`at_home`] to every picked file of a project.
 pub fn bring_home(project: &mut Project, folder: Option<&Path>) {
     for pass in &mut project.passes {

@@ -10,8 +10,12 @@ use super::{
 use eddy_diag::{self as diag, Diagnostic, SourceMap};
 use eddy_engine as engine;
 use eddy_glsl::Driver;
-use eddy_project::{self as project, Project, ProjectError};
-use std::path::{Path, PathBuf};
+use eddy_project::{self as project, Project, ProjectError, convert::ConversionError};
+use eddy_translate as translate;
+use std::{
+    borrow::Cow,
+    path::{Path, PathBuf},
+};
 
 impl OpenProject {
     /// Writes the project to a JSON file if nothing is lost and the file does not exist; asks first otherwise. The
@@ -24,7 +28,10 @@ impl OpenProject {
             self.notice_about(About::Export, Level::Error, format!("not exported: {why}"));
             return;
         }
-        let lost = project::json_losses(self.project());
+        let (_, lost) = match self.exported() {
+            Ok(exported) => exported,
+            Err(why) => return self.notice_about(About::Export, Level::Error, format!("not exported: {why}")),
+        };
         let exists = file.symlink_metadata().is_ok();
         if exists || !lost.is_empty() {
             self.ask(Question::Export { file, exists, lost });
@@ -36,7 +43,11 @@ impl OpenProject {
     /// `replaces`: the user allows replacing the existing file.
     pub(super) fn write_json(&mut self, file: &Path, replaces: bool) {
         let replaced = if replaces { vec![file.to_owned()] } else { Vec::new() };
-        match save_over(self.project(), file, &replaced, self.host.options.recovery.as_deref()) {
+        let (project, lost) = match self.exported() {
+            Ok(exported) => exported,
+            Err(why) => return self.notice_about(About::Export, Level::Error, format!("not exported: {why}")),
+        };
+        match save_over(&project, file, &replaced, self.host.options.recovery.as_deref()) {
             Ok((_, kept)) => {
                 self.notice_with_path(
                     About::Export,
@@ -50,11 +61,25 @@ impl OpenProject {
             }
             // The file was created while the question was open.
             Err(ProjectError::WouldOverwrite { .. }) if !replaces => {
-                let lost = project::json_losses(self.project());
                 self.ask(Question::Export { file: file.to_owned(), exists: true, lost });
             }
             Err(e) => self.notice_about(About::Export, Level::Error, format!("not exported: {e}")),
         }
+    }
+}
+
+impl OpenProject {
+    /// Returns the project in Shadertoy's form, with a sentence for each thing that is lost.
+    fn exported(&self) -> Result<(Cow<'_, Project>, Vec<String>), ConversionError> {
+        let own = self.project();
+        if !own.dialect.has_main() {
+            return Ok((Cow::Borrowed(own), project::json_losses(own)));
+        }
+        let made = translate::shadertoy(own)?;
+        let mut lost = made.notes;
+        lost.extend(made.errors.first().map(|error| format!("The converted code has an error: {}.", error.message)));
+        lost.extend(project::json_losses(&made.project));
+        Ok((Cow::Owned(made.project), lost))
     }
 }
 

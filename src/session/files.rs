@@ -41,6 +41,7 @@ impl Session {
             }
             FileCommand::SaveAs(folder) => self.save_as(&folder, &[]),
             FileCommand::ExportJson(file) => self.open.export_json(&file),
+            FileCommand::Convert => self.convert(),
             FileCommand::ExportPage(file) => self.open.export_page(&file),
             FileCommand::SaveAsCancelled => self.open.host.dialog.after_save = None,
         }

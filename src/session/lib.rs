@@ -16,6 +16,7 @@ pub mod command;
 mod compare;
 mod compile;
 mod controls;
+mod conversion;
 mod costs;
 mod debounce;
 mod devices;

@@ -4,7 +4,8 @@
 //! Owns the settings of naga's writers ([`Language`]), the bindings of buffers, textures and samplers in each language,
 //! and the file that describes them ([`Manifest`]). The modules are those that Eddy draws with, without work-arounds
 //! for drivers. For Interactive Shader Format, which is also GLSL, it owns the conversion of a project to a single file
-//! ([`isf`]). Needs no device, and does not write files itself.
+//! ([`isf`]), and for projects of other programs the conversion to Shadertoy's form ([`shadertoy`]). Needs no device, and
+//! does not write files itself.
 
 mod bindings;
 mod glsl;
@@ -15,6 +16,7 @@ mod manifest;
 mod names;
 mod passes;
 mod refusals;
+mod shadertoy;
 #[cfg(test)]
 mod tests;
 mod wgsl;
@@ -27,6 +29,7 @@ pub use manifest::{
     CameraInfo, ChannelInfo, CustomUniformInfo, EntryPoint, FillInfo, Manifest, MeshInfo, PassInfo, ProgramInfo,
     ReadFrom, RegionInfo, RunInfo, SideInfo, SizeInfo, StageInfo, TargetInfo, VertexInput,
 };
+pub use shadertoy::{ShadertoyProject, shadertoy};
 
 use eddy_diag::Diagnostic;
 use eddy_project::{Dialect, Project};

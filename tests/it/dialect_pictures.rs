@@ -12,7 +12,7 @@ use eddy::{
         date,
         script::{ScriptedInputs, parse_mouse},
     },
-    project::{self, Dialect, ShaderForm},
+    project::{self, Dialect, Project, ShaderForm},
 };
 use image::RgbaImage;
 use std::{
@@ -31,7 +31,7 @@ const TOLERANCE: u8 = 2;
 const PROGRAMS: usize = 10;
 
 /// The rows with programs, and the extensions of these.
-const ROWS: [(Dialect, &str); 6] = [
+pub(crate) const ROWS: [(Dialect, &str); 6] = [
     (Dialect::GlslViewer, "frag"),
     (Dialect::GlslSandbox, "frag"),
     (Dialect::Bonzomatic, "glsl"),
@@ -51,7 +51,7 @@ const DIFFERENCES: &[(&str, &str)] = &[
 
 /// The inputs that the comments of a program set.
 #[derive(Debug, Default, PartialEq)]
-struct Inputs {
+pub(crate) struct Inputs {
     frame: i32,
     /// The same as `--mouse` and `--date` of `eddy render`.
     mouse: String,
@@ -60,7 +60,7 @@ struct Inputs {
 }
 
 impl Inputs {
-    fn of(text: &str) -> Result<Inputs, String> {
+    pub(crate) fn of(text: &str) -> Result<Inputs, String> {
         let mut inputs = Inputs { frame: FRAME, ..Inputs::default() };
         for line in text.lines().filter_map(|line| line.strip_prefix("// ")) {
             let Some((name, value)) = line.split_once(": ") else { continue };
@@ -81,6 +81,12 @@ impl Inputs {
         Ok(inputs)
     }
 
+    /// Returns them with the button pressed wherever the pointer moves.
+    pub(crate) fn pressed(mut self) -> Inputs {
+        self.mouse = self.mouse.replace("0:move", "0:down");
+        self
+    }
+
     /// Returns the texture of the microphone: a spectrum that falls by one every so many bins, and no wave.
     fn microphone(&self) -> Option<Arc<Spectrum>> {
         let (level, bins) = self.spectrum?;
@@ -95,7 +101,7 @@ fn folder(row: &str) -> PathBuf {
 }
 
 /// Returns the files of a row with this extension.
-fn files_of(row: &str, extension: &str) -> BTreeSet<PathBuf> {
+pub(crate) fn files_of(row: &str, extension: &str) -> BTreeSet<PathBuf> {
     let paths = fs::read_dir(folder(row)).unwrap().map(|entry| entry.unwrap().path());
     paths.filter(|path| path.extension().is_some_and(|e| e == extension)).collect()
 }
@@ -105,12 +111,17 @@ fn draw(gpu: &Gpu, path: &Path) -> Result<RgbaImage, String> {
     let text = fs::read_to_string(path).map_err(|e| e.to_string())?;
     let settings = Inputs::of(&text)?;
     let loaded = project::load(&path.display().to_string()).map_err(|e| e.to_string())?;
-    let (media, warnings) = media::gather(&loaded.project, None);
+    draw_project(gpu, &loaded.project, &settings)
+}
+
+/// Returns the picture of a project with these inputs.
+pub(crate) fn draw_project(gpu: &Gpu, project: &Project, settings: &Inputs) -> Result<RgbaImage, String> {
+    let (media, warnings) = media::gather(project, None);
     if let Some(warning) = warnings.first() {
         return Err(warning.message.clone());
     }
     let options = BuildOptions::default();
-    let built = Builder::new(gpu.clone()).build(&loaded.project, &media, &options);
+    let built = Builder::new(gpu.clone()).build(project, &media, &options);
     let mut engine = Engine::new(gpu.clone(), SIZE.0, SIZE.1).map_err(|e| e.to_string())?;
     engine.set_program(built.map_err(|e| format!("{e}: {e:?}"))?.program).map_err(|e| e.to_string())?;
     let date = Some(&settings.date).filter(|date| !date.is_empty()).map(|date| date::parse(date));

@@ -21,6 +21,7 @@ mod cli_render;
 mod compile_budget;
 mod conditions;
 mod cubemaps;
+mod dialect_conversions;
 mod dialect_pictures;
 mod directives;
 mod elsewhere;

@@ -167,6 +167,7 @@ fn calls<'a>(command: &str, good: &'a str, bad: &'a str, out: &'a str) -> Vec<Ve
         "list" => vec![vec!["list"]],
         "import" => vec![vec!["import", good, "--out", out], vec!["import", bad, "--out", good]],
         "export" => [good, bad].map(|p| vec!["export", p, "--out", "x.html", "--force"]).into(),
+        "convert" => [good, bad].map(|p| vec!["convert", p, "--out", out]).into(),
         "translate" => [good, bad].map(|p| vec!["translate", p, "--to", "wgsl", "--force"]).into(),
         "lsp" => vec![vec!["lsp"]],
         "doctor" => vec![vec!["doctor"], vec!["doctor", "--json"]],

@@ -164,6 +164,19 @@ pub(super) struct ImportArgs {
 }
 
 #[derive(Debug, Args)]
+pub(super) struct ConvertArgs {
+    /// Shader of another program, such as glslViewer, GLSL Sandbox, twigl or Bonzomatic, or an ISF file
+    #[arg(value_name = "FILE")]
+    pub file: String,
+    /// Project folder to create
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Overwrite an existing project
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
 pub(super) struct ExportArgs {
     pub project: String,

@@ -234,12 +234,24 @@ impl Checker<'_> {
             (false, true) if self.as_scalar(right.1, a).is_some() => false,
             _ => rank(a) < rank(b),
         };
-        let ((value, written), to) = if left_changes { (left, b) } else { (right, a) };
-        if let Some((_, n)) = self.vector_shape(self.ty(value))
-            && let Some(fix) = self.conversion_fix(value, written, TypeId::vector(to, n))
+        let (left, right) = ((left, b), (right, a));
+        let ((changed, to), other) = if left_changes { (left, right) } else { (right, left) };
+        let Some(fix) = self.side_fix(changed, to) else { return };
+        self.suggest_conversion(&fix, changed.1);
+        // Where a float would become a whole number, the other side can become a float instead.
+        let (other, wider) = other;
+        if rank(to) < rank(wider)
+            && let Some(fix) = self.side_fix(other, wider)
         {
-            self.suggest_conversion(&fix, written);
+            let edits = self.edits(&fix, other.1);
+            self.fix((!edits.is_empty()).then(|| Fix::new(fix.title(), edits)));
         }
+    }
+
+    /// Returns the fix that turns the scalars of a value into those of another type.
+    fn side_fix(&self, (value, written): (ExprId, ast::ExprId), to: Scalar) -> Option<ConversionFix> {
+        let (_, n) = self.vector_shape(self.ty(value))?;
+        self.conversion_fix(value, written, TypeId::vector(to, n))
     }
 
     fn size_hint(&mut self, l: TypeId, r: TypeId) {

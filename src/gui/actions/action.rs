@@ -39,6 +39,8 @@ pub(crate) enum Action {
     PlayRecording,
     StopReplay,
     ExportJson,
+    /// Opens a shader of another program as a new project in Shadertoy's form.
+    Convert,
     ExportPage,
     SaveMeasures,
     SaveSound,

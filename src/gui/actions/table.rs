@@ -110,6 +110,8 @@ const OWN: &[Entry] = &[
     row(Action::SaveAs, "save-as", "Save as", &["Ctrl+Shift+S"], Group::Project).found_by("export copy duplicate"),
     row(Action::ExportJson, "export-json", "Export to Shadertoy JSON", &[], Group::Project)
         .found_by("save share upload file"),
+    row(Action::Convert, "convert", "Convert to Shadertoy", &[], Group::Project)
+        .found_by("isf glslviewer twigl bonzomatic sandbox mainimage port translate"),
     row(Action::ExportPage, "export-html", "Export to HTML page for browsers", &[], Group::Project)
         .found_by("save share web browser webgl publish site"),
     row(Action::Bookmarklet, "bookmarklet", "Open Shadertoy bookmarklet page", &[], Group::Project)

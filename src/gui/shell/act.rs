@@ -82,6 +82,7 @@ impl Shell {
                 let name = format!("{}.json", file_stem(&session.project().name));
                 self.files.ask(Pick::Json(name), start_folder(session));
             }
+            Action::Convert => out.ask(FileCommand::Convert),
             Action::ExportPage => {
                 let name = format!("{}.html", file_stem(&session.project().name));
                 self.files.ask(Pick::Page(name), start_folder(session));

@@ -5,7 +5,7 @@
 use super::{
     Dialect, FillValue, Media, MeshSource, Origin, Pass, Project, ProjectError, SamplerRules, Source,
     atomic::Content,
-    confine, dialect, file_names,
+    confine, convert, dialect, file_names,
     files::{Files, MANIFEST},
     files_beside, folder, ghostty, json, limits,
     load::folder_name,
@@ -74,7 +74,14 @@ fn save_json(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Resu
         let what = format!("the image {}, which is in another folder", path.display());
         return Err(ProjectError::CannotHold { path: target.to_owned(), what });
     }
-    let text = json::export(project);
+    let converted = match project.dialect.has_main() {
+        true => Some(convert::to_shadertoy(project).map_err(|why| ProjectError::CannotHold {
+            path: target.to_owned(),
+            what: format!("a shader for {}: {why}", project.dialect.row().title),
+        })?),
+        false => None,
+    };
+    let text = json::export(converted.as_ref().map_or(project, |converted| &converted.project));
     let (mut saved, _) = json::import(&text, &target.display().to_string())?;
     write_one(target, text.into_bytes(), own, overwrite)?;
     saved.origin = Origin::Json(target.to_owned());

@@ -61,6 +61,8 @@ pub enum FileCommand {
     /// Writes the project as Shadertoy JSON; its origin stays. Features that JSON cannot express, or an existing file,
     /// lead to [`Question::Export`].
     ExportJson(PathBuf),
+    /// Opens a shader of another program as a new project in Shadertoy's form.
+    Convert,
     /// Writes the project as an HTML file that plays it in a browser; its origin stays. Features that the page cannot
     /// show, or an existing file, lead to [`Question::Export`].
     ExportPage(PathBuf),
