@@ -8,7 +8,7 @@ use eddy_project::{
     convert::{self, ConversionError},
 };
 
-/// How often the fixes of all errors are applied: a fix can lead to the next error, in the expression around it.
+/// The number of times that the fixes of all errors are applied: a fix can lead to the next error, in the expression around it.
 const ROUNDS: usize = 100;
 
 /// A project in Shadertoy's form.

@@ -168,3 +168,43 @@ fn a_library_is_found_in_the_folder_of_the_settings() {
     window.wait_until("the program", "drawn", |e| e["programs"].as_u64() >= Some(1));
     wait_for_colour(&mut window, [0, 255, 0]);
 }
+
+const TRAIL: &str = "uniform sampler2D u_buffer0;\nuniform vec2 u_resolution;\n#ifdef BUFFER_0\nvoid main() { gl_FragColor = \
+                     vec4(0.0, 1.0, 0.0, 1.0); }\n#else\nvoid main() {\n    gl_FragColor = texture2D(u_buffer0, \
+                     gl_FragCoord.xy / u_resolution);\n}\n#endif\n";
+
+#[test]
+fn a_shader_of_another_program_becomes_a_new_project_of_shadertoy() {
+    let Some((display, home)) = Display::with_home() else { return };
+    let file = home.path().join("trail.frag");
+    fs::write(&file, TRAIL).unwrap();
+    let mut window = Window::open(&display, home.path(), &[file.to_str().unwrap()]);
+    window.resize(1000, 700);
+    window.wait_compiled();
+    wait_for_colour(&mut window, [0, 255, 0]);
+    // The text in the window is converted, not the one on disk.
+    window.click_on("editor");
+    window.keys(&["ctrl+End", "Up", "Up", "Up", "End", "Return"]);
+    window.type_text("gl_FragColor.b = 1.0;");
+    wait_for_colour(&mut window, [0, 255, 255]);
+    window.click_on("button:export");
+    window.click_on("export:convert");
+    window.wait_until("the question", "question", |e| !e["kind"].is_null());
+    window.click_on("answer:discard");
+    window.wait_until("the new project", "opened", |e| e["origin"]["file"].is_null());
+    window.wait_compiled();
+    window.wait_shown("tab:Buffer A");
+    window.wait_shown("tab:Image");
+    wait_for_colour(&mut window, [0, 255, 255]);
+    display.shot("converted.png");
+    assert_eq!(fs::read_to_string(&file).unwrap(), TRAIL);
+    // It is saved as a folder of its own.
+    let folder = home.path().join("trail-converted");
+    window.keys(&["ctrl+s"]);
+    window.wait_shown("field:path");
+    window.submit(folder.to_str().unwrap());
+    window.wait_until("the saved project", "dirty", |e| e["dirty"] == false);
+    let image = fs::read_to_string(folder.join("image.glsl")).unwrap();
+    assert!(image.contains("mainImage") && image.contains("gl_FragColor.b = 1.0;"), "{image}");
+    assert!(folder.join("buffer_a.glsl").exists());
+}

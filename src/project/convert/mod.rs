@@ -2,9 +2,9 @@
 //!
 //! Each pass becomes one with `mainImage`, with the files that it includes. What the program sets is a variable that
 //! `mainImage` sets first, so that names keep their scopes; textures are renamed to `iChannel0` and so on. The text is
-//! changed by its words, without parsing: [`groups`] leaves out what other passes compile, [`tokens`] splits it, [`declarations`] finds what it declares at file scope,
-//! [`renames`] chooses new names, [`text`] writes a pass. Conversions of whole numbers to floats that GLSL ES does not
-//! have are left to the compiler's fixes.
+//! changed by its words, without parsing: [`groups`] leaves out what other passes compile, [`tokens`] splits it,
+//! [`declarations`] finds what it declares at file scope, [`renames`] chooses new names, [`text`] writes a pass.
+//! Conversions of whole numbers to floats that GLSL ES does not have are left to the compiler's fixes.
 
 mod declarations;
 mod groups;

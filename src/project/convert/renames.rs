@@ -1,4 +1,4 @@
-//! Which names of a text get other ones.
+//! The names of a text that get other ones.
 
 use super::{
     declarations::Declarations,

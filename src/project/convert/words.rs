@@ -43,7 +43,7 @@ const RESERVED: [&str; 55] = [
 
 /// Words that are qualifiers in GLSL ES 3.00 before one of [`QUALIFIED`], and names elsewhere in other versions.
 pub(super) const INTERPOLATION: [&str; 3] = ["flat", "smooth", "centroid"];
-/// What may follow a qualifier of the interpolation.
+/// Words that may follow a qualifier of the interpolation.
 pub(super) const QUALIFIED: [&str; 8] = ["in", "out", "varying", "uniform", "highp", "mediump", "lowp", "centroid"];
 
 /// The built-in functions of GLSL ES 3.00.

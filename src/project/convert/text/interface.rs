@@ -1,4 +1,4 @@
-//! What the program sets, and the outputs of the shader.
+//! The values that the program sets, and the outputs of the shader.
 
 use super::{
     super::{
