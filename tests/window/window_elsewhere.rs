@@ -202,9 +202,10 @@ fn a_shader_of_another_program_becomes_a_new_project_of_shadertoy() {
     let folder = home.path().join("trail-converted");
     window.keys(&["ctrl+s"]);
     window.wait_shown("field:path");
+    window.keys(&["ctrl+a"]);
     window.submit(folder.to_str().unwrap());
-    window.wait_until("the saved project", "dirty", |e| e["dirty"] == false);
+    window.wait_until("the saved project", "opened", |e| e["origin"]["folder"].is_string());
     let image = fs::read_to_string(folder.join("image.glsl")).unwrap();
-    assert!(image.contains("mainImage") && image.contains("gl_FragColor.b = 1.0;"), "{image}");
+    assert!(image.contains("mainImage") && image.contains("pixelColor.b = 1.0;"), "{image}");
     assert!(folder.join("buffer_a.glsl").exists());
 }

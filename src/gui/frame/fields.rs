@@ -7,7 +7,7 @@ use crate::{
     session::{Status, ToolCommand, ViewCommand, probe::ProbePlace},
 };
 use egui::{
-    Event, Id, Key, Modifiers, Pos2, Rect,
+    Event, Id, Key, LayerId, Modifiers, Pos2, Rect,
     accesskit::{Action, Role},
     pos2,
 };
@@ -39,12 +39,21 @@ fn widgets(stage: &Stage, roles: &[Role]) -> Vec<Widget> {
         let rect = Rect::from_min_max(pos2(b.x0 as f32, b.y0 as f32), pos2(b.x1 as f32, b.y1 as f32));
         let own = [node.label(), node.value(), data.placeholder().map(str::to_owned)];
         let name = own.into_iter().flatten().find(|name| !name.trim().is_empty()).unwrap_or_default();
-        let is_seen = stage.ctx.content_rect().shrink(2.0).contains_rect(rect);
+        let is_within = stage.ctx.content_rect().shrink(2.0).contains_rect(rect);
+        let is_seen = is_within && layer_of(stage, node.locate().0.0) == stage.ctx.layer_id_at(rect.center());
         if is_seen && rect.is_positive() {
             found.push(Widget { rect, name, id: node.locate().0.0 });
         }
     }
     found
+}
+
+/// Returns the layer that contains a widget. A click on a widget reaches it unless another layer covers it.
+fn layer_of(stage: &Stage, id: u64) -> Option<LayerId> {
+    stage.ctx.viewport(|viewport| {
+        let all = &viewport.prev_pass.widgets;
+        all.layer_ids().find(|&layer| all.get_layer(layer).any(|widget| widget.id.value() == id))
+    })
 }
 
 fn click_at(stage: &mut Stage, at: Pos2) {

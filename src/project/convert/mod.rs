@@ -111,9 +111,29 @@ fn inlined(project: &Project) -> Result<Vec<String>, ConversionError> {
         let mut text = String::new();
         let mut inserted = project.dialect.row().includes_once.then(BTreeSet::new);
         inline(id, &lines.lines, &sources, &mut inserted, &mut text)?;
-        all.push(if project.dialect == Dialect::GlslViewer { groups::of_pass(&text) } else { text });
+        let text = if project.dialect == Dialect::GlslViewer { groups::of_pass(&text) } else { text };
+        all.push(without_unused_macros(&text, &project.passes[index].source.text));
     }
     Ok(all)
+}
+
+/// Returns a text without the macros at its start that nothing names, of those that `generated`, the pass, defines
+/// before it includes a file.
+fn without_unused_macros(text: &str, generated: &str) -> String {
+    let name = |line: &str| line.strip_prefix("#define ")?.split_whitespace().next().map(str::to_owned);
+    let before = generated.split("#include").next().unwrap_or_default();
+    let own: BTreeSet<String> = before.lines().filter_map(name).collect();
+    let mut rest = text.trim_start_matches('\n');
+    let mut kept = String::new();
+    while let Some((line, after)) = rest.split_once('\n') {
+        let Some(name) = name(line).filter(|name| own.contains(name)) else { break };
+        if names_word(after, &name) {
+            kept.push_str(line);
+            kept.push('\n');
+        }
+        rest = after;
+    }
+    kept + rest
 }
 
 /// Adds a text with the files that it includes; a file whose id is `inserted` already is left out.

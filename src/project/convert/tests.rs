@@ -21,7 +21,7 @@ fn uniforms_are_set_before_the_text_runs() {
                 uniform vec2 u_mouse;\nout vec4 color;\nfloat half_of(float u_time) { return u_time * 0.5; }\n\
                 void main() {\n    color = vec4(gl_FragCoord.xy / u_resolution, half_of(u_time), 1.0);\n}\n";
     let expected = "\
-// Image of a.frag, which is written for glslViewer, The Book of Shaders, glslCanvas, glslEditor.
+// Image of a.frag, a shader for glslViewer, The Book of Shaders, glslCanvas, glslEditor.
 
 float u_time;
 vec2 u_resolution;
@@ -32,9 +32,6 @@ void setInputs() {
     u_resolution = iResolution.xy;
 }
 
-#define GLSLVIEWER 340
-#define PLATFORM_LINUX
-#define MODEL_VERTEX_TEXCOORD v_texcoord
 // #version 300 es
  // seconds
 float half_of(float u_time) { return u_time * 0.5; }

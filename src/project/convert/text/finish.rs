@@ -34,7 +34,7 @@ impl Writer<'_, '_> {
             _ => cx.project.name.clone(),
         };
         let file = file.replace(['\n', '\r', '\\'], " ");
-        let mut out = format!("// {} of {file}, which is written for {}.\n\n", pass.id.title(), cx.row.title);
+        let mut out = format!("// {} of {file}, a shader for {}.\n\n", pass.id.title(), cx.row.title);
         out.push_str(&self.before);
         if !self.inputs.is_empty() {
             let _ = writeln!(out, "\nvoid {set_inputs}() {{\n{}}}", self.inputs);
